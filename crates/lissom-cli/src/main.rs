@@ -1,0 +1,2 @@
+//! The command `lissom`.
+fn main() {}

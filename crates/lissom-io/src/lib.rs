@@ -1,0 +1,1 @@
+//! Reads measured logs and campaign descriptions; writes logs, models and results.

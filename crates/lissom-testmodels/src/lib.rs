@@ -1,0 +1,1 @@
+//! Analytic plants shared by tests, benches and examples.

@@ -1,0 +1,10 @@
+//! Flexible arms and drives whose joint has friction: models, exact simulation, identification.
+//!
+//! The way of the data, one direction only:
+//! [`beam`] and [`drive`] make an [`arm`]; the [`rig`] runs virtual experiments on it; a
+//! [`record`] holds logs, simulated or measured; [`spectrum`] turns them into phasors and
+//! responses; [`identify`] turns those into friction, parameters and a verdict.
+//!
+//! SI units and rad/s throughout; no files, no printing.
+
+pub mod record;

@@ -1,0 +1,42 @@
+//! Runs and campaigns in memory: uniformly sampled signals in SI units, with what is known of
+//! each channel (quantity, hold, calibration).
+
+mod channel;
+mod error;
+mod run;
+
+pub use channel::{Axis, Channels, Command, CommandQuantity, Hold, Tip, TipQuantity};
+pub use error::RecordError;
+pub use run::{Run, TimeBase};
+
+/// Several runs of one machine, all with the same channels.
+#[derive(Debug, Clone)]
+pub struct Campaign {
+    /// What each channel is.
+    pub channels: Channels,
+    /// The runs, in the order in which they were given. Sample times may differ between runs.
+    pub runs: Vec<Run>,
+}
+
+impl Campaign {
+    /// Checks that every run has the channels it should have.
+    ///
+    /// # Errors
+    /// [`RecordError::NoRuns`] without runs, [`RecordError::TipCount`] where a run has another
+    /// number of tips than `channels`.
+    pub fn new(channels: Channels, runs: Vec<Run>) -> Result<Self, RecordError> {
+        if runs.is_empty() {
+            return Err(RecordError::NoRuns);
+        }
+        for run in &runs {
+            if run.tips().len() != channels.tips.len() {
+                return Err(RecordError::TipCount {
+                    run: run.name().to_owned(),
+                    expected: channels.tips.len(),
+                    found: run.tips().len(),
+                });
+            }
+        }
+        Ok(Self { channels, runs })
+    }
+}
