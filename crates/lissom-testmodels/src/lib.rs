@@ -1,1 +1,5 @@
 //! Analytic plants shared by tests, benches and examples.
+
+mod report;
+
+pub use report::{report_arm, report_rig};

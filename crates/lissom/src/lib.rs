@@ -7,4 +7,8 @@
 //!
 //! SI units and rad/s throughout; no files, no printing.
 
+pub mod arm;
+pub mod beam;
+pub mod drive;
 pub mod record;
+pub mod rig;
