@@ -10,5 +10,7 @@
 pub mod arm;
 pub mod beam;
 pub mod drive;
+pub mod identify;
 pub mod record;
 pub mod rig;
+pub mod spectrum;

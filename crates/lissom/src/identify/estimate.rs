@@ -1,0 +1,41 @@
+//! A figure with its uncertainty.
+
+/// Two-sided 95 % quantile of the normal distribution.
+const NORMAL_95: f64 = 1.959_964;
+
+/// An estimated figure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// The figure, in the unit its name says.
+    pub value: f64,
+    /// Its standard deviation, in the same unit.
+    pub std: f64,
+}
+
+impl Estimate {
+    /// 95 % interval, `value ± 1.96·std`.
+    pub fn ci95(&self) -> [f64; 2] {
+        [
+            self.value - NORMAL_95 * self.std,
+            self.value + NORMAL_95 * self.std,
+        ]
+    }
+
+    /// The figure in a unit of which one is `factor` of the present one.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            value: self.value * factor,
+            std: self.std * factor.abs(),
+        }
+    }
+}
+
+/// A mode of the beam with the motor clamped.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModeEstimate {
+    /// Undamped natural frequency \[rad/s\].
+    pub natural_frequency_rad_s: Estimate,
+    /// Damping ratio ζ.
+    pub damping_ratio: Estimate,
+}

@@ -1,0 +1,228 @@
+//! The beam's own equation (13) on windows: natural frequencies and damping.
+
+use nalgebra::DMatrix;
+
+use super::normal::{Cluster, Term, solve};
+use super::scan::{Candidate, Scan, scan};
+use super::window::{Window, dot};
+use crate::identify::{Estimate, ModeEstimate};
+use crate::record::{Campaign, Run, TipQuantity};
+
+/// Windows overlap by all but this part of their length.
+const STEP: f64 = 0.25;
+/// Windows in a block that the covariance takes as one.
+const BLOCK: usize = 40;
+
+/// Figures of the beam's equation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BeamRegression {
+    /// Length of the window used for each tip \[s\].
+    pub window_s: Vec<f64>,
+    /// Lengths tried, by tip.
+    pub candidates: Vec<Vec<Candidate>>,
+    /// ‖y − X·q‖/‖y‖, by tip.
+    pub relative_residual: Vec<f64>,
+    /// Modes with the motor clamped, ascending.
+    pub modes: Vec<ModeEstimate>,
+}
+
+/// Fits `θ̈_i = Σ_j â_ij(θ_j − θ_m) − d_i·θ̇_i + const` for each tip over all runs, sticking or not,
+/// and takes the modes from Â.
+///
+/// As many modes as tips: `None` where a tip is no calibrated angle or deflection, where windows
+/// are too few, or where Â has no set of positive real natural frequencies.
+///
+/// # Source
+/// `[Feliu1989, eqs. (13), (17)]`, by parts as in the motor's regression; A·1 + B = 0 is built in.
+pub fn beam_regression(campaign: &Campaign) -> Option<BeamRegression> {
+    let tips = &campaign.channels.tips;
+    let n = tips.len();
+    if n == 0
+        || tips
+            .iter()
+            .any(|t| !t.calibrated || t.quantity == TipQuantity::Acceleration)
+    {
+        return None;
+    }
+    // Columns: ∫w(θ_m − θ_j) for each j, ∫ẇθ_i, ∫w, then the right side ∫ẅθ_i.
+    let terms: Vec<Term> = (0..n + 2).map(Term::Plain).collect();
+    let counts: Vec<bool> = (0..n + 2).map(|i| i < n).collect();
+    let sample_time = campaign
+        .runs
+        .iter()
+        .map(Run::sample_time_s)
+        .fold(0.0, f64::max);
+    let scans: Vec<Scan> = (0..n)
+        .map(|i| {
+            scan(sample_time, None, &counts, |length| {
+                solve(&clusters(campaign, i, length), &terms)
+            })
+        })
+        .collect::<Option<_>>()?;
+    let stiffness = DMatrix::from_fn(n, n, |i, j| scans[i].solution.value[j]);
+    let damping: Vec<f64> = scans.iter().map(|s| s.solution.value[n]).collect();
+    let modes = modes(&stiffness, &damping)?;
+    let std = deviations(&scans, &stiffness, &damping, &modes)?;
+    let chosen = |s: &Scan| s.candidates[s.chosen].clone();
+    Some(BeamRegression {
+        window_s: scans.iter().map(|s| chosen(s).window_s).collect(),
+        relative_residual: scans.iter().map(|s| chosen(s).relative_residual).collect(),
+        modes: modes
+            .iter()
+            .zip(std)
+            .map(|(m, s)| ModeEstimate {
+                natural_frequency_rad_s: Estimate {
+                    value: m.0,
+                    std: s.0,
+                },
+                damping_ratio: Estimate {
+                    value: m.1,
+                    std: s.1,
+                },
+            })
+            .collect(),
+        candidates: scans.into_iter().map(|s| s.candidates).collect(),
+    })
+}
+
+/// Natural frequency and damping ratio of each mode of `θ̈ = −K·δ − D·θ̇`, ascending.
+fn modes(stiffness: &DMatrix<f64>, damping: &[f64]) -> Option<Vec<(f64, f64)>> {
+    let n = stiffness.nrows();
+    // Undamped squares and damped poles both from eigenvalues: n is the number of tips.
+    let state = DMatrix::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+        (true, false) => f64::from(j - n == i),
+        (false, true) => -stiffness[(i - n, j)],
+        (false, false) if i == j => -damping[i - n],
+        _ => 0.0,
+    });
+    if state.iter().any(|v| !v.is_finite()) {
+        return None;
+    }
+    let mut poles: Vec<_> = state
+        .complex_eigenvalues()
+        .iter()
+        .copied()
+        .filter(|p| p.im > 0.0)
+        .collect();
+    if poles.len() != n {
+        return None;
+    }
+    poles.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+    Some(poles.iter().map(|p| (p.norm(), -p.re / p.norm())).collect())
+}
+
+/// First-order deviations of the modes from those of the regression, by finite differences.
+fn deviations(
+    scans: &[Scan],
+    stiffness: &DMatrix<f64>,
+    damping: &[f64],
+    at: &[(f64, f64)],
+) -> Option<Vec<(f64, f64)>> {
+    let n = scans.len();
+    let mut variance = vec![(0.0, 0.0); n];
+    for (i, scan) in scans.iter().enumerate() {
+        // Gradient of every mode with respect to row i's parameters â_i1..â_in, d_i.
+        let gradients: Vec<Vec<(f64, f64)>> = (0..=n)
+            .map(|j| {
+                let (mut k, mut d) = (stiffness.clone(), damping.to_vec());
+                let step = 1e-5 * stiffness[(i, i)].abs().max(1e-12);
+                let step = if j < n { step } else { step.sqrt() * 1e-2 };
+                if j < n {
+                    k[(i, j)] += step;
+                } else {
+                    d[i] += step;
+                }
+                let moved = modes(&k, &d)?;
+                Some(
+                    moved
+                        .iter()
+                        .zip(at)
+                        .map(|(m, a)| ((m.0 - a.0) / step, (m.1 - a.1) / step))
+                        .collect(),
+                )
+            })
+            .collect::<Option<_>>()?;
+        let covariance = &scan.solution.covariance;
+        for (mode, total) in variance.iter_mut().enumerate() {
+            let mut systematic = (0.0, 0.0);
+            for (a, ga) in gradients.iter().enumerate() {
+                systematic.0 += 0.25 * scan.change[a] * ga[mode].0;
+                systematic.1 += 0.25 * scan.change[a] * ga[mode].1;
+                for (b, gb) in gradients.iter().enumerate() {
+                    total.0 += ga[mode].0 * gb[mode].0 * covariance[(a, b)];
+                    total.1 += ga[mode].1 * gb[mode].1 * covariance[(a, b)];
+                }
+            }
+            total.0 += systematic.0 * systematic.0;
+            total.1 += systematic.1 * systematic.1;
+        }
+    }
+    Some(
+        variance
+            .iter()
+            .map(|v| (v.0.max(0.0).sqrt(), v.1.max(0.0).sqrt()))
+            .collect(),
+    )
+}
+
+/// Sums of blocks of windows over every run, for tip `i`.
+fn clusters(campaign: &Campaign, i: usize, length_s: f64) -> Vec<Cluster> {
+    let n = campaign.channels.tips.len();
+    let mut out = Vec::new();
+    for (index, run) in campaign.runs.iter().enumerate() {
+        let t = run.sample_time_s();
+        let len = (length_s / t).round() as usize;
+        if len < 4 || len >= run.len() {
+            continue;
+        }
+        let window = Window::new(len, t);
+        let step = ((len as f64 * STEP) as usize).max(1);
+        let starts: Vec<usize> = (0..run.len() - len).step_by(step).collect();
+        for block in starts.chunks(BLOCK) {
+            let mut cluster = Cluster::new(index, 0.0, n + 3);
+            block
+                .iter()
+                .for_each(|&k| cluster.add(&row(campaign, run, i, &window, k)));
+            out.push(cluster);
+        }
+    }
+    out
+}
+
+fn row(campaign: &Campaign, run: &Run, i: usize, window: &Window, k: usize) -> Vec<f64> {
+    let t = run.sample_time_s();
+    let span = k..=k + window.len();
+    let motor = &run.motor()[span.clone()];
+    // Angle of a point, from the motor's first: keeps ∫ẅ·const at rounding of small numbers.
+    let angle = |j: usize| -> Vec<f64> {
+        let tip = &run.tips()[j][span.clone()];
+        let deflection = campaign.channels.tips[j].quantity == TipQuantity::Deflection;
+        tip.iter()
+            .zip(motor)
+            .map(|(x, m)| {
+                if deflection {
+                    x + m - motor[0]
+                } else {
+                    x - motor[0]
+                }
+            })
+            .collect()
+    };
+    let mut row: Vec<f64> = (0..run.tips().len())
+        .map(|j| {
+            let difference: f64 = angle(j)
+                .iter()
+                .zip(motor)
+                .zip(&window.value)
+                .map(|((x, m), w)| w * (m - motor[0] - x))
+                .sum();
+            difference * t
+        })
+        .collect();
+    let own = angle(i);
+    row.push(dot(&window.first, &own) * t);
+    row.push(window.held.iter().sum());
+    row.push(dot(&window.second, &own) * t);
+    row.iter_mut().for_each(|v| *v *= window.row_scale);
+    row
+}

@@ -1,0 +1,13 @@
+//! Regression on slip phases: inertia, friction and coupling without differentiating a
+//! measurement.
+
+mod beam;
+mod motor;
+mod normal;
+mod phases;
+mod scan;
+mod window;
+
+pub use beam::{BeamRegression, beam_regression};
+pub use motor::{MotorRegression, motor_regression};
+pub use scan::Candidate;

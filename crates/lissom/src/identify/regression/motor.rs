@@ -1,0 +1,268 @@
+//! The motor's equation on slip phases.
+
+use super::normal::{Cluster, Solution, Term, solve};
+use super::phases::slip_phases;
+use super::scan::{Candidate, scan};
+use super::window::{Window, dot};
+use crate::identify::Estimate;
+use crate::record::{Campaign, Hold, Run, TipQuantity};
+
+/// Windows overlap by all but this part of their length.
+const STEP: f64 = 0.25;
+/// The velocity is smoothed over this part of the window's length…
+const SMOOTH: f64 = 1.0 / 3.0;
+/// …and at least over this many samples.
+const SMOOTH_SAMPLES: usize = 8;
+/// Directional viscous terms are reported when they differ by this many deviations…
+const DIRECTION_DEVIATIONS: f64 = 4.0;
+/// …and leave at most this share of the residual.
+const DIRECTION_RESIDUAL: f64 = 0.9;
+
+/// Columns of a row; tips follow after these.
+const INERTIA: usize = 0;
+const VISCOUS: usize = 1;
+const DRY: usize = 2;
+const TIPS: usize = 3;
+
+/// Figures of the motor's equation, in torque (or force) as the command's constant gives it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotorRegression {
+    /// Length of the window used \[s\].
+    pub window_s: f64,
+    /// Whether that length was given rather than chosen.
+    pub window_given: bool,
+    /// Lengths tried.
+    pub candidates: Vec<Candidate>,
+    /// Rows in the fit.
+    pub rows: usize,
+    /// Slip phases that hold at least one window.
+    pub phases: usize,
+    /// ‖y − X·q‖/‖y‖: part of the windowed torque that the model leaves.
+    pub relative_residual: f64,
+    /// Inertia J \[kg·m²\] or mass \[kg\].
+    pub inertia: Option<Estimate>,
+    /// Viscous friction V \[N·m·s/rad or N·s/m\], back-EMF taken out.
+    pub viscous: Option<Estimate>,
+    /// Coulomb friction, mean of both directions \[N·m or N\].
+    pub coulomb: Option<Estimate>,
+    /// (forward − backward)/2 \[N·m or N\].
+    pub offset: Option<Estimate>,
+    /// Friction while moving forward.
+    pub forward: Option<Estimate>,
+    /// Friction while moving backward.
+    pub backward: Option<Estimate>,
+    /// Coupling to each tip, κ_i = −h_i of (15) \[N·m/rad\]; empty without calibrated angles.
+    pub coupling: Vec<Option<Estimate>>,
+    /// Viscous friction by direction, where the data reject one constant.
+    pub viscous_by_direction: Option<ByDirection>,
+    parameters: Vec<f64>,
+}
+
+/// Viscous friction forward and backward, with what else they change.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ByDirection {
+    /// While moving forward.
+    pub forward: Estimate,
+    /// While moving backward.
+    pub backward: Estimate,
+    /// Offset that is left beside them.
+    pub offset: Estimate,
+    /// Residual beside that of one constant.
+    pub relative_residual: f64,
+}
+
+/// Fits `τ = J·θ̈ + V·θ̇ + Σκ_i(θ_m − θ_i) + CF·sgn θ̇ + offset` on the slip phases of all runs.
+///
+/// The equation is multiplied by `w = sin⁴` windows within each phase and integrated by parts:
+/// `∫w·τ = J∫ẅ·θ − V∫ẇ·θ + Σκ_i∫w(θ_m − θ_i) + (±CF + offset)∫w`. A held command enters by its
+/// exact integral. The covariance takes phases, and runs where there are several, as independent,
+/// and counts how much the figures move with the window's length.
+///
+/// `None` where no phase holds windows enough.
+pub fn motor_regression(campaign: &Campaign, window_s: Option<f64>) -> Option<MotorRegression> {
+    let tips = coupled_tips(campaign);
+    let mut terms = vec![
+        Term::Plain(INERTIA),
+        Term::Plain(VISCOUS),
+        Term::Signed(DRY),
+        Term::Plain(DRY),
+    ];
+    terms.extend((0..tips.len()).map(|i| Term::Plain(TIPS + i)));
+    // The offset is small by nature: it does not take part in the choice of the window.
+    let counts: Vec<bool> = (0..terms.len()).map(|i| i != 3).collect();
+    let sample_time = campaign
+        .runs
+        .iter()
+        .map(Run::sample_time_s)
+        .fold(0.0, f64::max);
+    let found = scan(sample_time, window_s, &counts, |length| {
+        solve(&clusters(campaign, &tips, length), &terms)
+    })?;
+    let chosen = &found.candidates[found.chosen];
+    let solution = &found.solution;
+    let figure = |i: usize| {
+        let systematic = 0.25 * found.change[i];
+        let std = (solution.covariance[(i, i)].max(0.0) + systematic * systematic).sqrt();
+        (!solution.inseparable[i]).then_some(Estimate {
+            value: solution.value[i],
+            std,
+        })
+    };
+    // A sum of CF and offset can be separable where each alone is not.
+    let direction = |sign: f64| {
+        let c = &solution.covariance;
+        let variance = c[(2, 2)] + c[(3, 3)] + 2.0 * sign * c[(2, 3)];
+        let systematic = 0.25 * (found.change[2] + sign * found.change[3]);
+        let std = (variance.max(0.0) + systematic * systematic).sqrt();
+        let value = solution.value[2] + sign * solution.value[3];
+        let separable = !solution.inseparable[2] && !solution.inseparable[3];
+        separable.then_some(Estimate { value, std })
+    };
+    let back_emf = campaign.channels.command.back_emf_viscous;
+    let viscous = |e: Estimate| Estimate {
+        value: e.value - back_emf,
+        std: e.std,
+    };
+    let by_direction = by_direction(
+        &clusters(campaign, &tips, chosen.window_s),
+        &terms,
+        solution,
+    );
+    Some(MotorRegression {
+        window_s: chosen.window_s,
+        window_given: window_s.is_some(),
+        rows: chosen.rows,
+        phases: chosen.clusters,
+        relative_residual: solution.relative_residual,
+        inertia: figure(0),
+        viscous: figure(1).map(viscous),
+        coulomb: figure(2),
+        offset: figure(3),
+        forward: direction(1.0),
+        backward: direction(-1.0),
+        coupling: (0..tips.len()).map(|i| figure(4 + i)).collect(),
+        viscous_by_direction: by_direction.map(|d| ByDirection {
+            forward: viscous(d.forward),
+            backward: viscous(d.backward),
+            ..d
+        }),
+        candidates: found.candidates,
+        parameters: solution.value.iter().copied().collect(),
+    })
+}
+
+impl MotorRegression {
+    /// Relative error with which these figures predict the windowed torque of other records:
+    /// ‖y − X·q‖/‖y‖ on their slip phases, at this fit's window. `None` where no phase holds one.
+    pub fn prediction_error(&self, campaign: &Campaign) -> Option<f64> {
+        let tips = coupled_tips(campaign);
+        if self.parameters.len() != 4 + tips.len() {
+            return None;
+        }
+        let (mut left, mut power) = (0.0, 0.0);
+        for c in clusters(campaign, &tips, self.window_s) {
+            let last = c.products.ncols() - 1;
+            let mut q = vec![self.parameters[0], self.parameters[1]];
+            q.push(c.sign * self.parameters[2] + self.parameters[3]);
+            q.extend(&self.parameters[4..]);
+            q.push(-1.0);
+            let q = nalgebra::DVector::from_vec(q);
+            left += q.dot(&(&c.products * &q));
+            power += c.products[(last, last)];
+        }
+        (power > 0.0).then(|| (left.max(0.0) / power).sqrt())
+    }
+}
+
+/// Tips whose angle from the motor's line is known.
+fn coupled_tips(campaign: &Campaign) -> Vec<usize> {
+    let tips = &campaign.channels.tips;
+    (0..tips.len())
+        .filter(|&i| tips[i].calibrated && tips[i].quantity != TipQuantity::Acceleration)
+        .collect()
+}
+
+/// Sums of every slip phase of every run, for one length of window.
+fn clusters(campaign: &Campaign, tips: &[usize], length_s: f64) -> Vec<Cluster> {
+    let mut out = Vec::new();
+    for (index, run) in campaign.runs.iter().enumerate() {
+        let t = run.sample_time_s();
+        let n = (length_s / t).round() as usize;
+        if n < 4 || n >= run.len() {
+            continue;
+        }
+        let window = Window::new(n, t);
+        let smooth = ((n as f64 * SMOOTH) as usize).max(SMOOTH_SAMPLES);
+        let step = ((n as f64 * STEP) as usize).max(1);
+        for phase in slip_phases(run.motor(), smooth, t) {
+            if phase.to - phase.from <= n {
+                continue;
+            }
+            let mut cluster = Cluster::new(index, phase.sign, TIPS + tips.len() + 1);
+            for k in (phase.from..phase.to - n).step_by(step) {
+                cluster.add(&row(campaign, run, tips, &window, k));
+            }
+            out.push(cluster);
+        }
+    }
+    out
+}
+
+/// One row: `[∫ẅθ, −∫ẇθ, ∫w, ∫w(θ_m − θ_i).., ∫wτ]`, scaled by the noise it carries.
+fn row(campaign: &Campaign, run: &Run, tips: &[usize], window: &Window, k: usize) -> Vec<f64> {
+    let t = run.sample_time_s();
+    let n = window.len();
+    let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
+    // Angles from the window's first: w̄ and ẅ integrate constants to zero only up to rounding.
+    let motor: Vec<f64> = run.motor()[k..=k + n]
+        .iter()
+        .map(|x| x - run.motor()[k])
+        .collect();
+    let mut row = Vec::with_capacity(TIPS + tips.len() + 1);
+    row.push(dot(&window.second, &motor) * t);
+    row.push(-dot(&window.first, &motor) * t);
+    row.push(window.held.iter().sum());
+    for &i in tips {
+        let tip = &run.tips()[i][k..=k + n];
+        let deflected = dot(&window.value, tip) * t;
+        row.push(match campaign.channels.tips[i].quantity {
+            TipQuantity::Deflection => -deflected,
+            _ => dot(&window.value, &run.motor()[k..=k + n]) * t - deflected,
+        });
+    }
+    row.push(
+        constant
+            * match campaign.channels.command.hold {
+                Hold::Sampled => dot(&window.held, &run.command()[k..k + n]),
+                Hold::Measured => dot(&window.value, &run.command()[k..=k + n]) * t,
+            },
+    );
+    row.iter_mut().for_each(|v| *v *= window.row_scale);
+    row
+}
+
+/// Viscous friction by direction, if the data call for it.
+fn by_direction(clusters: &[Cluster], terms: &[Term], one: &Solution) -> Option<ByDirection> {
+    let mut split = terms.to_vec();
+    split[1] = Term::Forward(VISCOUS);
+    split.insert(2, Term::Backward(VISCOUS));
+    let two = solve(clusters, &split)?;
+    if two.inseparable[1] || two.inseparable[2] || two.inseparable[4] {
+        return None;
+    }
+    let c = &two.covariance;
+    let difference = two.value[1] - two.value[2];
+    let deviation = (c[(1, 1)] + c[(2, 2)] - 2.0 * c[(1, 2)]).max(0.0).sqrt();
+    let called_for = difference.abs() > DIRECTION_DEVIATIONS * deviation
+        && two.relative_residual < DIRECTION_RESIDUAL * one.relative_residual;
+    let figure = |i: usize| Estimate {
+        value: two.value[i],
+        std: c[(i, i)].max(0.0).sqrt(),
+    };
+    called_for.then(|| ByDirection {
+        forward: figure(1),
+        backward: figure(2),
+        offset: figure(4),
+        relative_residual: two.relative_residual,
+    })
+}

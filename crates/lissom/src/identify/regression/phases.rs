@@ -1,0 +1,69 @@
+//! Phases in which the motor slips one way.
+
+use super::window::Window;
+
+/// Samples `from..to` in which the motor moves in the direction of `sign`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Phase {
+    /// First sample.
+    pub(crate) from: usize,
+    /// One past the last sample.
+    pub(crate) to: usize,
+    /// +1 or −1.
+    pub(crate) sign: f64,
+}
+
+/// Phases of one sign of the smoothed velocity.
+///
+/// The velocity is the angle's convolution with the derivative of a window of `smooth` samples:
+/// long enough that the sensor's steps do not reverse it, short against the phases.
+pub(crate) fn slip_phases(motor: &[f64], smooth: usize, sample_time_s: f64) -> Vec<Phase> {
+    let window = Window::new(smooth, sample_time_s);
+    let n = window.len();
+    let half = n / 2;
+    let mut phases: Vec<Phase> = Vec::new();
+    for k in half..motor.len().saturating_sub(n - half) {
+        // From the middle: a motor at rest then has a velocity of exactly zero.
+        let moved = motor[k - half..=k - half + n].iter().map(|x| x - motor[k]);
+        let velocity: f64 = -moved.zip(&window.first).map(|(x, w)| x * w).sum::<f64>();
+        if velocity == 0.0 {
+            continue;
+        }
+        let sign = velocity.signum();
+        match phases.last_mut() {
+            Some(last) if last.to == k && last.sign.total_cmp(&sign).is_eq() => last.to = k + 1,
+            _ => phases.push(Phase {
+                from: k,
+                to: k + 1,
+                sign,
+            }),
+        }
+    }
+    phases
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quantised_cosine_has_its_half_cycles() {
+        let t = 0.003;
+        let x: Vec<f64> = (0..4000)
+            .map(|k| ((2.0 * k as f64 * t).cos() / 0.0015).round() * 0.0015)
+            .collect();
+        let phases = slip_phases(&x, 30, t);
+        let long: Vec<_> = phases.iter().filter(|p| p.to - p.from > 100).collect();
+        assert_eq!(long.len(), 8);
+        for (k, p) in long.iter().enumerate() {
+            assert!((p.sign - if k % 2 == 0 { -1.0 } else { 1.0 }).abs() < 1e-9);
+            let half_cycle = std::f64::consts::PI / 2.0 / t;
+            assert!((p.to as f64 - (k as f64 + 1.0) * half_cycle).abs() < 16.0 || k == 7);
+        }
+    }
+
+    #[test]
+    fn a_motor_at_rest_has_none() {
+        assert!(slip_phases(&[1.0; 200], 20, 0.01).is_empty());
+    }
+}

@@ -1,0 +1,129 @@
+//! Choice of the window's length: the one about which the figures depend on it least.
+
+use super::normal::Solution;
+
+/// Fewest samples in a window.
+const LEAST_SAMPLES: f64 = 10.0;
+/// Ratio of one candidate's length to that before it.
+const RATIO: f64 = std::f64::consts::SQRT_2;
+/// Fewest clusters (phases, blocks) that a candidate must rest on.
+const LEAST_CLUSTERS: usize = 4;
+/// Most candidates: √2⁴⁰ is a factor of a million in length.
+const MOST_CANDIDATES: usize = 40;
+
+/// A window length that was tried.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Candidate {
+    /// Length of the window \[s\].
+    pub window_s: f64,
+    /// Rows it gave.
+    pub rows: usize,
+    /// Phases (or blocks) these came from.
+    pub clusters: usize,
+    /// ‖y − X·q‖/‖y‖.
+    pub relative_residual: f64,
+    /// Root mean square relative change of the figures from the next shorter to the next longer
+    /// window; infinite at the ends of the list.
+    pub sensitivity: f64,
+}
+
+/// The chosen candidate among all.
+#[derive(Debug, Clone)]
+pub(crate) struct Scan {
+    pub(crate) candidates: Vec<Candidate>,
+    pub(crate) chosen: usize,
+    pub(crate) solution: Solution,
+    /// Change of each figure from the next shorter to the next longer window.
+    pub(crate) change: Vec<f64>,
+}
+
+/// Tries windows from ten samples on, each √2 longer than the one before, until too few phases
+/// hold one; takes the one with the least sensitivity in the figures marked by `counts`.
+///
+/// With `given` a single length is used, and its neighbours for the sensitivity.
+pub(crate) fn scan(
+    sample_time_s: f64,
+    given: Option<f64>,
+    counts: &[bool],
+    solve: impl Fn(f64) -> Option<Solution>,
+) -> Option<Scan> {
+    let shortest = LEAST_SAMPLES * sample_time_s;
+    let lengths: Vec<f64> = match given {
+        Some(length) => vec![length / RATIO, length, length * RATIO],
+        None => (0..MOST_CANDIDATES as i32)
+            .map(|k| shortest * RATIO.powi(k))
+            .collect(),
+    };
+    let mut tried: Vec<(f64, Solution)> = Vec::new();
+    for length in lengths {
+        let solution = (length >= 0.5 * shortest).then(|| solve(length)).flatten();
+        let usable =
+            solution.filter(|s| s.clusters >= LEAST_CLUSTERS && s.rows >= 3 * s.value.len());
+        match usable {
+            Some(solution) => tried.push((length, solution)),
+            None if given.is_none() && !tried.is_empty() => break,
+            None => {}
+        }
+    }
+    let sensitivity = |k: usize| {
+        if k == 0 || k + 1 >= tried.len() {
+            return f64::INFINITY;
+        }
+        let (before, here, after) = (&tried[k - 1].1, &tried[k].1, &tried[k + 1].1);
+        let mut sum = 0.0;
+        let mut number = 0.0;
+        for (i, _) in counts.iter().enumerate().filter(|(_, c)| **c) {
+            // A figure that is zero within its scatter must not decide.
+            let size = here.value[i]
+                .abs()
+                .max(3.0 * here.covariance[(i, i)].max(0.0).sqrt());
+            if !here.inseparable[i] && size > 0.0 {
+                sum += ((after.value[i] - before.value[i]) / size).powi(2);
+                number += 1.0;
+            }
+        }
+        if number > 0.0 {
+            (sum / number).sqrt()
+        } else {
+            f64::INFINITY
+        }
+    };
+    let candidates: Vec<Candidate> = tried
+        .iter()
+        .enumerate()
+        .map(|(k, (window_s, s))| Candidate {
+            window_s: *window_s,
+            rows: s.rows,
+            clusters: s.clusters,
+            relative_residual: s.relative_residual,
+            sensitivity: sensitivity(k),
+        })
+        .collect();
+    let chosen = match given {
+        Some(length) => candidates
+            .iter()
+            .position(|c| (c.window_s - length).abs() < 1e-12 * length)?,
+        None => {
+            let least = candidates
+                .iter()
+                .enumerate()
+                .min_by(|a, b| a.1.sensitivity.total_cmp(&b.1.sensitivity));
+            least?.0
+        }
+    };
+    let solution = tried[chosen].1.clone();
+    let neighbours = (tried.get(chosen.wrapping_sub(1)), tried.get(chosen + 1));
+    let change = (0..solution.value.len())
+        .map(|i| match neighbours {
+            (Some(a), Some(b)) => b.1.value[i] - a.1.value[i],
+            (Some(a), None) | (None, Some(a)) => 2.0 * (a.1.value[i] - solution.value[i]),
+            (None, None) => 0.0,
+        })
+        .collect();
+    Some(Scan {
+        candidates,
+        chosen,
+        solution,
+        change,
+    })
+}

@@ -1,0 +1,151 @@
+//! Responses from records of any shape, by averaged cross-spectra.
+
+use num_complex::Complex64;
+use rustfft::FftPlanner;
+
+/// Bands per decade of frequency.
+const BANDS_PER_DECADE: f64 = 60.0;
+/// Fewest bins in a band: a variance needs more than one.
+const LEAST_BINS: usize = 4;
+/// Share of a record over which each end is tapered.
+const TAPER: f64 = 0.05;
+
+/// Response and coherence in a band of frequencies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Band {
+    /// Centre, weighted by the input's power \[rad/s\].
+    pub omega_rad_s: f64,
+    /// Output over input.
+    pub response: Complex64,
+    /// Standard deviation of the response, `|H|·√((1 − γ²)/(γ²·m))` for m independent bins.
+    pub std: f64,
+    /// Coherence γ², 0 to 1.
+    pub coherence: f64,
+    /// The input's mean power per bin, relative to its strongest band.
+    pub input_power: f64,
+}
+
+/// H1 estimate `S_yu/S_uu` of the response from `input` to `output` over one or more records with
+/// their sample times, in bands of logarithmic width.
+///
+/// # Source
+/// Cross-spectral averaging over neighbouring bins and records; Pintelon & Schoukens, *System
+/// Identification: A Frequency Domain Approach*, ch. 2 (`[Pintelon2012]`).
+pub fn broadband(records: &[(&[f64], &[f64], f64)]) -> Vec<Band> {
+    let mut bins = Vec::new();
+    let mut planner = FftPlanner::new();
+    let mut widest = 0.0_f64;
+    for &(input, output, sample_time) in records {
+        let n = input.len().min(output.len());
+        let fft = planner.plan_fft_forward(n);
+        let transform = |x: &[f64]| {
+            let mut z = tapered(&x[..n]);
+            fft.process(&mut z);
+            z
+        };
+        let (u, y) = (transform(input), transform(output));
+        let step = std::f64::consts::TAU / (n as f64 * sample_time);
+        widest = widest.max(step);
+        // Up to 0.8 of the Nyquist frequency: above it the samples say little of the signal.
+        bins.extend((2..n * 2 / 5).map(|k| (k as f64 * step, u[k], y[k])));
+    }
+    bins.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let ratio = 10_f64.powf(1.0 / BANDS_PER_DECADE);
+    let mut bands = Vec::new();
+    let mut from = 0;
+    while from < bins.len() {
+        let start = bins[from].0;
+        let to_omega = (start * ratio).max(start + widest * (LEAST_BINS as f64 - 0.5));
+        let to = from + bins[from..].partition_point(|b| b.0 < to_omega);
+        if to - from >= LEAST_BINS {
+            bands.extend(average(&bins[from..to]));
+        }
+        from = to.max(from + 1);
+    }
+    let strongest = bands
+        .iter()
+        .map(|b| b.input_power)
+        .fold(f64::MIN_POSITIVE, f64::max);
+    bands.iter_mut().for_each(|b| b.input_power /= strongest);
+    bands
+}
+
+fn average(bins: &[(f64, Complex64, Complex64)]) -> Option<Band> {
+    let (mut uu, mut yy, mut omega) = (0.0, 0.0, 0.0);
+    let mut yu = Complex64::ZERO;
+    for &(w, u, y) in bins {
+        uu += u.norm_sqr();
+        yy += y.norm_sqr();
+        yu += y * u.conj();
+        omega += w * u.norm_sqr();
+    }
+    if uu <= 0.0 || yy <= 0.0 {
+        return None;
+    }
+    let response = yu / uu;
+    let coherence = (yu.norm_sqr() / (uu * yy)).min(1.0);
+    let m = bins.len() as f64;
+    // m bins explain one complex response: m − 1 are left to estimate the scatter from.
+    let variance = (yy - yu.norm_sqr() / uu).max(0.0) / ((m - 1.0) * uu);
+    Some(Band {
+        omega_rad_s: omega / uu,
+        response,
+        std: variance.sqrt(),
+        coherence,
+        input_power: uu / m,
+    })
+}
+
+/// Mean and line through the ends taken out, ends tapered by half a cosine.
+fn tapered(x: &[f64]) -> Vec<Complex64> {
+    let n = x.len();
+    let (first, last) = (x[0], x[n - 1]);
+    let line = |k: usize| first + (last - first) * k as f64 / (n - 1) as f64;
+    let mean = x.iter().enumerate().map(|(k, v)| v - line(k)).sum::<f64>() / n as f64;
+    let edge = (TAPER * n as f64).max(1.0);
+    x.iter()
+        .enumerate()
+        .map(|(k, v)| {
+            let near = (k as f64).min((n - 1 - k) as f64) / edge;
+            let w = if near < 1.0 {
+                0.5 - 0.5 * (std::f64::consts::PI * near).cos()
+            } else {
+                1.0
+            };
+            Complex64::from(w * (v - line(k) - mean))
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn response_of_a_first_order_lag_from_a_sweep() {
+        let (t, n, pole) = (0.002, 30_000, 8.0);
+        let rate = 0.5 * 60.0 / (n as f64 * t);
+        let u: Vec<f64> = (0..n)
+            .map(|k| (rate * (k as f64 * t).powi(2)).sin())
+            .collect();
+        let a = (-pole * t as f64).exp();
+        let mut y = vec![0.0; n];
+        for k in 1..n {
+            y[k] = a * y[k - 1] + (1.0 - a) * u[k - 1];
+        }
+        let bands = broadband(&[(&u, &y, t)]);
+        let near = bands.iter().min_by(|p, q| {
+            (p.omega_rad_s - 20.0)
+                .abs()
+                .total_cmp(&(q.omega_rad_s - 20.0).abs())
+        });
+        let band = near.unwrap();
+        let z = Complex64::from_polar(1.0, band.omega_rad_s * t);
+        let expected = (1.0 - a) / (z - a);
+        assert!(
+            (band.response / expected - 1.0).norm() < 0.01,
+            "{band:?} {expected}"
+        );
+        assert!(band.coherence > 0.99);
+    }
+}

@@ -1,0 +1,11 @@
+//! From records to phasors and responses, Section 5.2, each with its covariance.
+
+mod broadband;
+mod frequency;
+mod harmonics;
+mod steady;
+
+pub use broadband::{Band, broadband};
+pub use frequency::find_frequency;
+pub use harmonics::{Harmonics, Phasor, hold_factor, least_squares};
+pub use steady::{Steady, SteadyError, steady_state};
