@@ -72,8 +72,7 @@ impl Arm {
         let n = self.beam.len();
         for i in 0..n {
             out[2 + i] = x[2 + n + i];
-            let elastic: f64 =
-                (0..n).map(|j| self.acceleration[(i, j)] * (x[2 + j] - x[0])).sum();
+            let elastic: f64 = (0..n).map(|j| self.acceleration[(i, j)] * (x[2 + j] - x[0])).sum();
             out[2 + n + i] = elastic - self.damping[i] * x[2 + n + i];
         }
     }
@@ -84,8 +83,8 @@ impl Arm {
         let stiffness = (0..n)
             .map(|i| self.acceleration.row(i).abs().sum() + self.acceleration_motor[i].abs())
             .fold(0.0, f64::max);
-        let coupling = (self.beam.h().abs().sum() + self.beam.h_motor().abs())
-            / self.motor.inertia_kg_m2;
+        let coupling =
+            (self.beam.h().abs().sum() + self.beam.h_motor().abs()) / self.motor.inertia_kg_m2;
         let rate = self.motor.viscous_nm_s_per_rad / self.motor.inertia_kg_m2;
         (stiffness + coupling).sqrt() + rate + self.damping.max()
     }

@@ -48,8 +48,10 @@ impl Motor {
         viscous_nm_s_per_rad: f64,
         torque_constant_nm_per_a: f64,
     ) -> Result<Self, DriveError> {
-        let positive =
-            [("inertia_kg_m2", inertia_kg_m2), ("torque_constant_nm_per_a", torque_constant_nm_per_a)];
+        let positive = [
+            ("inertia_kg_m2", inertia_kg_m2),
+            ("torque_constant_nm_per_a", torque_constant_nm_per_a),
+        ];
         for (quantity, found) in positive {
             if !(found > 0.0 && found.is_finite()) {
                 return Err(DriveError::NotPositive { quantity, found });

@@ -72,7 +72,9 @@ pub enum RecordError {
         after_s: f64,
     },
     /// The drive frequency is not a positive finite number below the Nyquist frequency.
-    #[error("run {run}: a drive frequency of {found_rad_s} rad/s is not between 0 and the Nyquist frequency {nyquist_rad_s} rad/s")]
+    #[error(
+        "run {run}: a drive frequency of {found_rad_s} rad/s is not between 0 and the Nyquist frequency {nyquist_rad_s} rad/s"
+    )]
     Omega {
         /// Name of the run.
         run: String,

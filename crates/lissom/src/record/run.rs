@@ -58,7 +58,11 @@ impl Run {
             return Err(RecordError::SampleTime { run: name, found_s: time.sample_time_s });
         }
         if motor.len() < LEAST_SAMPLES {
-            return Err(RecordError::TooShort { run: name, found: motor.len(), least: LEAST_SAMPLES });
+            return Err(RecordError::TooShort {
+                run: name,
+                found: motor.len(),
+                least: LEAST_SAMPLES,
+            });
         }
         let tip_names: Vec<String> = (1..=tips.len()).map(|i| format!("tip {i}")).collect();
         let channels = [("command", &command), ("motor", &motor)]
@@ -74,7 +78,11 @@ impl Run {
                 });
             }
             if let Some(sample) = samples.iter().position(|v| !v.is_finite()) {
-                return Err(RecordError::NotFinite { run: name, channel: channel.to_owned(), sample });
+                return Err(RecordError::NotFinite {
+                    run: name,
+                    channel: channel.to_owned(),
+                    sample,
+                });
             }
         }
         Ok(Self { name, time, command, motor, tips, omega_rad_s: None, notes: Vec::new() })
@@ -87,7 +95,11 @@ impl Run {
     pub fn with_omega(mut self, omega_rad_s: f64) -> Result<Self, RecordError> {
         let nyquist_rad_s = std::f64::consts::PI / self.time.sample_time_s;
         if !(omega_rad_s > 0.0 && omega_rad_s < nyquist_rad_s) {
-            return Err(RecordError::Omega { run: self.name, found_rad_s: omega_rad_s, nyquist_rad_s });
+            return Err(RecordError::Omega {
+                run: self.name,
+                found_rad_s: omega_rad_s,
+                nyquist_rad_s,
+            });
         }
         self.omega_rad_s = Some(omega_rad_s);
         Ok(self)
