@@ -1,2 +1,130 @@
-//! The project's recipes.
-fn main() {}
+//! The project's recipes, for people and CI alike: `cargo xtask RECIPE`.
+//!
+//! A recipe is a function and a row of [`RECIPES`]; what it runs goes through [`step`], which
+//! prints a title and a time.
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for a terminal")]
+
+mod deny;
+mod measured;
+mod step;
+
+use std::{
+    env,
+    path::{Path, PathBuf},
+    process::ExitCode,
+    time::Instant,
+};
+
+use step::{Failure, cargo, run};
+
+/// What `cargo xtask NAME` does.
+struct Recipe {
+    name: &'static str,
+    about: &'static str,
+    /// The flags it takes, with what each says.
+    flags: &'static [(&'static str, &'static str)],
+    run: fn(&Context) -> Result<(), Failure>,
+}
+
+/// Every recipe, in the order of the help.
+const RECIPES: &[Recipe] = &[
+    Recipe {
+        name: "test",
+        about: "every test of the workspace, doctests included",
+        flags: &[],
+        run: test,
+    },
+    Recipe {
+        name: "ci",
+        about: "fmt, clippy, rustdoc, cargo deny, then `test`",
+        flags: &[(SKIP_TESTS, "leave `test` out, where it has just run")],
+        run: ci,
+    },
+];
+
+const SKIP_TESTS: &str = "--skip-tests";
+
+/// Where a recipe runs, and with which flags.
+struct Context {
+    /// The workspace's folder.
+    root: PathBuf,
+    /// The flags given, each one that the recipe takes.
+    flags: Vec<String>,
+}
+
+fn main() -> ExitCode {
+    let mut args = env::args().skip(1);
+    let name = args.next().unwrap_or_default();
+    let flags: Vec<String> = args.collect();
+    if matches!(name.as_str(), "help" | "-h" | "--help") {
+        print!("{}", help());
+        return ExitCode::SUCCESS;
+    }
+    let Some(recipe) = RECIPES.iter().find(|recipe| recipe.name == name) else {
+        if !name.is_empty() {
+            eprintln!("xtask: there is no recipe `{name}`");
+        }
+        eprint!("{}", help());
+        return ExitCode::from(2);
+    };
+    if let Some(flag) = flags.iter().find(|flag| !recipe.flags.iter().any(|(f, _)| f == flag)) {
+        eprintln!("xtask: `{name}` does not take `{flag}`");
+        eprint!("{}", help());
+        return ExitCode::from(2);
+    }
+
+    let start = Instant::now();
+    let outcome = (recipe.run)(&Context { root: root(), flags });
+    let time_s = start.elapsed().as_secs_f64();
+    match outcome {
+        Ok(()) => {
+            println!("\nxtask {name}: done in {time_s:.1} s");
+            ExitCode::SUCCESS
+        }
+        Err(failure) => {
+            println!();
+            eprintln!("xtask {name}: stopped after {time_s:.1} s: {failure}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Every test with plain `cargo test`, so that a fresh machine needs nothing else, and how many
+/// tests of measured logs were among them.
+fn test(context: &Context) -> Result<(), Failure> {
+    let log = measured::Log::start(&context.root)?;
+    let mut command = cargo(&context.root, &["test", "--workspace", "--no-fail-fast"]);
+    log.pass_to(&mut command)?;
+    let outcome = run("tests and doctests", &mut command);
+    println!("{}", log.read()?);
+    outcome
+}
+
+/// What a change must pass: cheap checks first.
+fn ci(context: &Context) -> Result<(), Failure> {
+    let root = &context.root;
+    run("fmt", &mut cargo(root, &["fmt", "--all", "--check"]))?;
+    let clippy = ["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"];
+    run("clippy", &mut cargo(root, &clippy))?;
+    let mut rustdoc = cargo(root, &["doc", "--workspace", "--no-deps"]);
+    run("rustdoc", rustdoc.env("RUSTDOCFLAGS", "--deny warnings"))?;
+    deny::check(root)?;
+    if context.flags.iter().any(|flag| flag == SKIP_TESTS) { Ok(()) } else { test(context) }
+}
+
+/// The workspace's folder: cargo says at run time where this package is.
+fn root() -> PathBuf {
+    let package = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
+    package.as_deref().and_then(Path::parent).map_or_else(|| PathBuf::from("."), Path::to_owned)
+}
+
+fn help() -> String {
+    let mut lines = vec!["Usage: cargo xtask RECIPE".to_owned(), String::new()];
+    for recipe in RECIPES {
+        lines.push(format!("  {:<16} {}", recipe.name, recipe.about));
+        for (flag, about) in recipe.flags {
+            lines.push(format!("    {flag:<14} {about}"));
+        }
+    }
+    lines.join("\n") + "\n"
+}

@@ -44,11 +44,7 @@ pub fn report_rig(bits: Option<u32>) -> Rig {
     let sensor = bits.map(|b| Quantiser::new(b, turn).expect("1 to 32 bits"));
     Rig {
         arm: report_arm(),
-        controller: Pd {
-            proportional_a_per_rad: 8.0,
-            derivative_a_s_per_rad: 0.2,
-            limit_a: 4.12,
-        },
+        controller: Pd { proportional_a_per_rad: 8.0, derivative_a_s_per_rad: 0.2, limit_a: 4.12 },
         sample_time_s: 0.003,
         motor_sensor: sensor,
         tip_sensor: sensor,

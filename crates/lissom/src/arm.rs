@@ -33,14 +33,7 @@ impl Arm {
         let acceleration = DMatrix::from_fn(n, n, |i, j| beam.ei_a()[(i, j)] / mass(i));
         let acceleration_motor = DVector::from_fn(n, |i, _| beam.ei_b()[i] / mass(i));
         let damping = DVector::from_fn(n, |i, _| beam.spans()[i].damping_n_s_per_m / mass(i));
-        Self {
-            motor,
-            coulomb,
-            beam,
-            acceleration,
-            acceleration_motor,
-            damping,
-        }
+        Self { motor, coulomb, beam, acceleration, acceleration_motor, damping }
     }
 
     /// The beam.
@@ -57,12 +50,7 @@ impl Arm {
     pub fn coupling_torque(&self, x: &[f64]) -> f64 {
         let n = self.beam.len();
         // Differences from the motor's line: (15) with ΣH + h_m = 0, free of cancellation.
-        self.beam
-            .h()
-            .iter()
-            .zip(&x[2..2 + n])
-            .map(|(h, theta)| h * (theta - x[0]))
-            .sum()
+        self.beam.h().iter().zip(&x[2..2 + n]).map(|(h, theta)| h * (theta - x[0])).sum()
     }
 
     /// Homogeneous part of ẋ while the motor slips: friction and drive torque left out.
@@ -84,9 +72,7 @@ impl Arm {
         let n = self.beam.len();
         for i in 0..n {
             out[2 + i] = x[2 + n + i];
-            let elastic: f64 = (0..n)
-                .map(|j| self.acceleration[(i, j)] * (x[2 + j] - x[0]))
-                .sum();
+            let elastic: f64 = (0..n).map(|j| self.acceleration[(i, j)] * (x[2 + j] - x[0])).sum();
             out[2 + n + i] = elastic - self.damping[i] * x[2 + n + i];
         }
     }
@@ -110,11 +96,7 @@ impl Arm {
         let n = self.beam.len();
         let s = Complex64::new(0.0, omega_rad_s);
         let matrix = nalgebra::DMatrix::<nalgebra::Complex<f64>>::from_fn(n, n, |i, j| {
-            let inertial = if i == j {
-                s * s + s * self.damping[i]
-            } else {
-                Complex64::ZERO
-            };
+            let inertial = if i == j { s * s + s * self.damping[i] } else { Complex64::ZERO };
             inertial - self.acceleration[(i, j)]
         });
         let right = DVector::from_fn(n, |i, _| Complex64::from(self.acceleration_motor[i]));
@@ -126,13 +108,8 @@ impl Arm {
     /// friction is taken away.
     pub fn motor_response(&self, omega_rad_s: f64) -> Option<Complex64> {
         let tips = self.tip_response(omega_rad_s)?;
-        let coupling: Complex64 = self
-            .beam
-            .h()
-            .iter()
-            .zip(&tips)
-            .map(|(h, theta)| (theta - 1.0) * *h)
-            .sum();
+        let coupling: Complex64 =
+            self.beam.h().iter().zip(&tips).map(|(h, theta)| (theta - 1.0) * *h).sum();
         let s = Complex64::new(0.0, omega_rad_s);
         let inverse =
             s * s * self.motor.inertia_kg_m2 + s * self.motor.viscous_nm_s_per_rad + coupling;

@@ -103,14 +103,7 @@ impl LumpedBeam {
         if !(h_motor.is_finite() && ei_a.iter().all(|v| v.is_finite())) {
             return Err(BeamError::Singular);
         }
-        Ok(Self {
-            spans: spans.to_vec(),
-            position_m,
-            ei_a,
-            ei_b,
-            h,
-            h_motor,
-        })
+        Ok(Self { spans: spans.to_vec(), position_m, ei_a, ei_b, h, h_motor })
     }
 
     /// Number of masses n.
@@ -157,11 +150,8 @@ impl LumpedBeam {
             -self.ei_a[(i, j)] * self.position_m[i] * self.position_m[i] / (root(i) * root(j))
         });
         let symmetric = (&symmetric + symmetric.transpose()) * 0.5;
-        let mut omega: Vec<f64> = symmetric
-            .symmetric_eigenvalues()
-            .iter()
-            .map(|v| v.max(0.0).sqrt())
-            .collect();
+        let mut omega: Vec<f64> =
+            symmetric.symmetric_eigenvalues().iter().map(|v| v.max(0.0).sqrt()).collect();
         omega.sort_by(f64::total_cmp);
         omega
     }
@@ -172,10 +162,7 @@ fn check(spans: &[Span]) -> Result<(), BeamError> {
         return Err(BeamError::NoSpans);
     }
     if spans.len() > MOST_MASSES {
-        return Err(BeamError::TooManyMasses {
-            found: spans.len(),
-            most: MOST_MASSES,
-        });
+        return Err(BeamError::TooManyMasses { found: spans.len(), most: MOST_MASSES });
     }
     for (index, span) in spans.iter().enumerate() {
         let positive = [
@@ -185,18 +172,11 @@ fn check(spans: &[Span]) -> Result<(), BeamError> {
         ];
         for (quantity, found) in positive {
             if !(found > 0.0 && found.is_finite()) {
-                return Err(BeamError::NotPositive {
-                    span: index + 1,
-                    quantity,
-                    found,
-                });
+                return Err(BeamError::NotPositive { span: index + 1, quantity, found });
             }
         }
         if !(span.damping_n_s_per_m >= 0.0 && span.damping_n_s_per_m.is_finite()) {
-            return Err(BeamError::Damping {
-                span: index + 1,
-                found: span.damping_n_s_per_m,
-            });
+            return Err(BeamError::Damping { span: index + 1, found: span.damping_n_s_per_m });
         }
     }
     Ok(())
@@ -228,12 +208,7 @@ mod tests {
     const CLOSED_FORM: f64 = 1e-12;
 
     fn span(length_m: f64, ei: f64, mass_kg: f64) -> Span {
-        Span {
-            length_m,
-            flexural_rigidity_n_m2: ei,
-            mass_kg,
-            damping_n_s_per_m: 0.0,
-        }
+        Span { length_m, flexural_rigidity_n_m2: ei, mass_kg, damping_n_s_per_m: 0.0 }
     }
 
     fn close(found: f64, expected: f64, tolerance: f64) {
@@ -267,22 +242,10 @@ mod tests {
             -f * (6.0 * l1 + 6.0 * l2 + 2.0 * l2 * l2 / l1 + 2.0 * l1 * l1 / l2),
             CLOSED_FORM,
         );
-        close(
-            a[(0, 1)],
-            f * (l1 + l2) * (3.0 + 2.0 * l1 / l2),
-            CLOSED_FORM,
-        );
-        close(
-            a[(1, 0)],
-            f * (2.0 * l1 + 3.0 * l2) * l1 * l1 / (l2 * (l1 + l2)),
-            CLOSED_FORM,
-        );
+        close(a[(0, 1)], f * (l1 + l2) * (3.0 + 2.0 * l1 / l2), CLOSED_FORM);
+        close(a[(1, 0)], f * (2.0 * l1 + 3.0 * l2) * l1 * l1 / (l2 * (l1 + l2)), CLOSED_FORM);
         close(a[(1, 1)], -f * 2.0 * l1 * l1 / l2, CLOSED_FORM);
-        close(
-            beam.h_motor(),
-            12.0 * ei * (l1 + l2) / (l1 * d),
-            CLOSED_FORM,
-        );
+        close(beam.h_motor(), 12.0 * ei * (l1 + l2) / (l1 * d), CLOSED_FORM);
     }
 
     #[test]
@@ -292,9 +255,7 @@ mod tests {
         let ei =
             30e6 * lbf / (inch * inch) * std::f64::consts::PI * (0.047_f64 * inch).powi(4) / 64.0;
         let s = span(6.0 * inch, ei, 0.121 * lb);
-        let omega = LumpedBeam::new(&[s, s])
-            .unwrap()
-            .natural_frequencies_rad_s();
+        let omega = LumpedBeam::new(&[s, s]).unwrap().natural_frequencies_rad_s();
         // Section 6.3 prints 6.014 and 40.0116; errata: its unit conversion is good to 0.05 %.
         close(omega[0], 6.014, 5e-4);
         close(omega[1], 40.0116, 5e-4);
@@ -304,28 +265,16 @@ mod tests {
     fn bad_spans_are_refused() {
         assert_eq!(LumpedBeam::new(&[]).unwrap_err(), BeamError::NoSpans);
         let text = |s: Span| LumpedBeam::new(&[s]).unwrap_err().to_string();
-        assert_eq!(
-            text(span(-1.0, 1.0, 1.0)),
-            "span 1: length_m = -1 is not positive and finite"
-        );
+        assert_eq!(text(span(-1.0, 1.0, 1.0)), "span 1: length_m = -1 is not positive and finite");
         assert_eq!(
             text(span(1.0, 1.0, f64::NAN)),
             "span 1: mass_kg = NaN is not positive and finite"
         );
-        let damped = Span {
-            damping_n_s_per_m: -0.1,
-            ..span(1.0, 1.0, 1.0)
-        };
-        assert_eq!(
-            text(damped),
-            "span 1: damping_n_s_per_m = -0.1 is negative or not finite"
-        );
+        let damped = Span { damping_n_s_per_m: -0.1, ..span(1.0, 1.0, 1.0) };
+        assert_eq!(text(damped), "span 1: damping_n_s_per_m = -0.1 is negative or not finite");
         assert!(matches!(
             LumpedBeam::new(&vec![span(1.0, 1.0, 1.0); 201]).unwrap_err(),
-            BeamError::TooManyMasses {
-                found: 201,
-                most: 200
-            }
+            BeamError::TooManyMasses { found: 201, most: 200 }
         ));
     }
 }

@@ -42,10 +42,6 @@ impl Coulomb {
 
     /// Signed friction torque while slipping in the direction of `sign`.
     pub fn slipping(&self, sign: f64) -> f64 {
-        if sign > 0.0 {
-            self.forward
-        } else {
-            -self.backward
-        }
+        if sign > 0.0 { self.forward } else { -self.backward }
     }
 }

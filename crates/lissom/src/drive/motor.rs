@@ -63,10 +63,6 @@ impl Motor {
                 found: viscous_nm_s_per_rad,
             });
         }
-        Ok(Self {
-            inertia_kg_m2,
-            viscous_nm_s_per_rad,
-            torque_constant_nm_per_a,
-        })
+        Ok(Self { inertia_kg_m2, viscous_nm_s_per_rad, torque_constant_nm_per_a })
     }
 }

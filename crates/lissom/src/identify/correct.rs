@@ -21,10 +21,7 @@ pub fn ratio(output: Phasor, input: Phasor) -> Response {
     let value = output.value / input.value;
     let relative =
         (output.std / output.value.norm()).powi(2) + (input.std / input.value.norm()).powi(2);
-    Response {
-        value,
-        std: value.norm() * relative.sqrt(),
-    }
+    Response { value, std: value.norm() * relative.sqrt() }
 }
 
 /// `G(ω) = θ_m/(i − j·4c/π·e^{j∠θ_m})`, with c = CF/K in the command's unit.
@@ -39,13 +36,7 @@ pub fn corrected(motor: Phasor, command: Phasor, coulomb_command: Estimate) -> R
     let unit = Complex64::I * (4.0 / PI) * phase;
     let input = command.value - unit * coulomb_command.value;
     let spread = (command.std.powi(2) + (unit.norm() * coulomb_command.std).powi(2)).sqrt();
-    ratio(
-        motor,
-        Phasor {
-            value: input,
-            std: spread,
-        },
-    )
+    ratio(motor, Phasor { value: input, std: spread })
 }
 
 #[cfg(test)]
@@ -55,23 +46,10 @@ mod tests {
     #[test]
     fn takes_the_fundamental_of_a_square_wave_away() {
         let g = Complex64::new(-0.3, -0.2);
-        let motor = Phasor {
-            value: Complex64::from_polar(0.5, 0.7),
-            std: 0.0,
-        };
+        let motor = Phasor { value: Complex64::from_polar(0.5, 0.7), std: 0.0 };
         let friction = Complex64::I * (4.0 * 0.1 / PI) * Complex64::from_polar(1.0, 0.7);
-        let command = Phasor {
-            value: motor.value / g + friction,
-            std: 0.0,
-        };
-        let found = corrected(
-            motor,
-            command,
-            Estimate {
-                value: 0.1,
-                std: 0.0,
-            },
-        );
+        let command = Phasor { value: motor.value / g + friction, std: 0.0 };
+        let found = corrected(motor, command, Estimate { value: 0.1, std: 0.0 });
         assert!((found.value - g).norm() < 1e-14);
     }
 }

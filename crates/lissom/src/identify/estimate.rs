@@ -15,19 +15,13 @@ pub struct Estimate {
 impl Estimate {
     /// 95 % interval, `value ± 1.96·std`.
     pub fn ci95(&self) -> [f64; 2] {
-        [
-            self.value - NORMAL_95 * self.std,
-            self.value + NORMAL_95 * self.std,
-        ]
+        [self.value - NORMAL_95 * self.std, self.value + NORMAL_95 * self.std]
     }
 
     /// The figure in a unit of which one is `factor` of the present one.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
-        Self {
-            value: self.value * factor,
-            std: self.std * factor.abs(),
-        }
+        Self { value: self.value * factor, std: self.std * factor.abs() }
     }
 }
 

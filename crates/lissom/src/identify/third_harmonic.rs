@@ -78,11 +78,7 @@ pub fn pair_figure(
     if !(linear > 0.0 && linear.is_finite()) {
         return None;
     }
-    let problem = Cost {
-        alpha,
-        beta,
-        log_c: Vector1::new(linear.ln()),
-    };
+    let problem = Cost { alpha, beta, log_c: Vector1::new(linear.ln()) };
     let (solved, report) = LevenbergMarquardt::new().minimize(problem);
     let value = solved.log_c[0].exp();
     // First order in the phasors; half of a complex error's power lies along a real figure.
@@ -96,10 +92,7 @@ pub fn pair_figure(
         run,
         triple_run,
         omega_rad_s: low.omega_rad_s,
-        coulomb_command: Estimate {
-            value,
-            std: variance.sqrt(),
-        },
+        coulomb_command: Estimate { value, std: variance.sqrt() },
         complex_command,
         cost: 2.0 * report.objective_function,
         evaluations: report.number_of_evaluations,
@@ -116,15 +109,9 @@ pub fn mean_figure(pairs: &[PairFigure]) -> Option<Estimate> {
     if pairs.len() == 1 {
         return Some(first.coulomb_command);
     }
-    let scatter = pairs
-        .iter()
-        .map(|p| (p.coulomb_command.value - value).powi(2))
-        .sum::<f64>()
-        / (n - 1.0);
-    Some(Estimate {
-        value,
-        std: (scatter / n).sqrt(),
-    })
+    let scatter =
+        pairs.iter().map(|p| (p.coulomb_command.value - value).powi(2)).sum::<f64>() / (n - 1.0);
+    Some(Estimate { value, std: (scatter / n).sqrt() })
 }
 
 /// (29) as two residuals, `Re` and `Im` of `ln(c′/c)`, in the logarithm of c.
@@ -204,10 +191,7 @@ mod tests {
             for ripple in [0.0, 0.02] {
                 let (low, high) = ideal(delay, ripple);
                 let figure = pair_figure(0, 1, &low, &high).unwrap();
-                assert!(
-                    (figure.coulomb_command.value - 0.132).abs() < 1e-12,
-                    "{figure:?}"
-                );
+                assert!((figure.coulomb_command.value - 0.132).abs() < 1e-12, "{figure:?}");
                 assert!(figure.cost < 1e-20);
             }
         }

@@ -21,12 +21,7 @@ pub struct TimeBase {
 impl TimeBase {
     /// A perfectly uniform time base.
     pub fn uniform(start_s: f64, sample_time_s: f64) -> Self {
-        Self {
-            start_s,
-            sample_time_s,
-            jitter_max_s: 0.0,
-            jitter_rms_s: 0.0,
-        }
+        Self { start_s, sample_time_s, jitter_max_s: 0.0, jitter_rms_s: 0.0 }
     }
 }
 
@@ -60,10 +55,7 @@ impl Run {
     ) -> Result<Self, RecordError> {
         let name = name.into();
         if !(time.sample_time_s > 0.0 && time.sample_time_s.is_finite()) {
-            return Err(RecordError::SampleTime {
-                run: name,
-                found_s: time.sample_time_s,
-            });
+            return Err(RecordError::SampleTime { run: name, found_s: time.sample_time_s });
         }
         if motor.len() < LEAST_SAMPLES {
             return Err(RecordError::TooShort {
@@ -93,15 +85,7 @@ impl Run {
                 });
             }
         }
-        Ok(Self {
-            name,
-            time,
-            command,
-            motor,
-            tips,
-            omega_rad_s: None,
-            notes: Vec::new(),
-        })
+        Ok(Self { name, time, command, motor, tips, omega_rad_s: None, notes: Vec::new() })
     }
 
     /// States the frequency at which the run was driven.

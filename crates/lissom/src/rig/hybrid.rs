@@ -126,11 +126,7 @@ impl<'a> Hybrid<'a> {
     }
 
     fn step_slipping(&mut self, torque: f64, step: f64) -> f64 {
-        let sign = if self.mode == Mode::Forward {
-            1.0
-        } else {
-            -1.0
-        };
+        let sign = if self.mode == Mode::Forward { 1.0 } else { -1.0 };
         let friction = self.arm.coulomb.slipping(sign);
         let order = self.series(torque - friction);
         let mut velocity = [0.0; ORDER_MOST + 1];
@@ -203,10 +199,7 @@ impl<'a> Hybrid<'a> {
     fn series(&mut self, net_torque: f64) -> usize {
         self.terms[0].copy_from_slice(&self.state);
         let mut reach = 1.0;
-        let size = self
-            .state
-            .iter()
-            .fold(f64::MIN_POSITIVE, |m, v| m.max(v.abs()));
+        let size = self.state.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(v.abs()));
         for k in 0..ORDER_MOST {
             let (before, after) = self.terms.split_at_mut(k + 1);
             let (term, next) = (&before[k], &mut after[0]);

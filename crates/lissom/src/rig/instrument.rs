@@ -46,17 +46,12 @@ impl Quantiser {
     /// [`RigError`] unless the range is positive and there are 1 to 32 bits.
     pub fn new(bits: u32, range: f64) -> Result<Self, RigError> {
         if !(range > 0.0 && range.is_finite()) {
-            return Err(RigError::NotPositive {
-                quantity: "range of a sensor",
-                found: range,
-            });
+            return Err(RigError::NotPositive { quantity: "range of a sensor", found: range });
         }
         if !(1..=32).contains(&bits) {
             return Err(RigError::Bits { found: bits });
         }
-        Ok(Self {
-            step: range / (1_u64 << bits) as f64,
-        })
+        Ok(Self { step: range / (1_u64 << bits) as f64 })
     }
 
     /// The nearest step.

@@ -35,10 +35,7 @@ fn descend(c: &[f64], from: f64, to: f64, depth: u32) -> Option<f64> {
 fn positive_on(c: &[f64], middle: f64, radius: f64) -> bool {
     let mut shifted = [0.0; ORDER_MOST + 1];
     let shifted = shift(c, middle, &mut shifted);
-    let spread: f64 = shifted[1..]
-        .iter()
-        .rev()
-        .fold(0.0, |sum, a| (sum + a.abs()) * radius);
+    let spread: f64 = shifted[1..].iter().rev().fold(0.0, |sum, a| (sum + a.abs()) * radius);
     shifted[0] - spread > 0.0
 }
 
@@ -52,9 +49,7 @@ fn falling_on(c: &[f64], middle: f64, radius: f64) -> bool {
         .iter()
         .enumerate()
         .rev()
-        .fold(0.0, |sum, (k, a)| {
-            (sum + (k as f64 + 2.0) * a.abs()) * radius
-        });
+        .fold(0.0, |sum, (k, a)| (sum + (k as f64 + 2.0) * a.abs()) * radius);
     shifted[1] + spread < 0.0
 }
 
@@ -89,11 +84,7 @@ fn single_crossing(c: &[f64], from: f64, to: f64) -> f64 {
             high = t;
         }
         let newton = t - f / slope;
-        let next = if newton > low && newton < high {
-            newton
-        } else {
-            0.5 * (low + high)
-        };
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
         if (next - t).abs() <= f64::EPSILON * to {
             return next;
         }

@@ -72,15 +72,10 @@ impl Rig {
             let read = |sensor: Option<Quantiser>, v: f64| sensor.map_or(v, |s| s.read(v));
             let angle = read(self.motor_sensor, hybrid.state()[0]);
             if angle.abs() > RUN_AWAY * drive.amplitude_rad.max(0.1) {
-                return Err(RigError::Unstable {
-                    angle_rad: angle,
-                    time_s: time,
-                });
+                return Err(RigError::Unstable { angle_rad: angle, time_s: time });
             }
             let error = drive.amplitude_rad * (drive.omega_rad_s * time).sin() - angle;
-            let demand = self
-                .controller
-                .current_a(error, error_before.unwrap_or(error), t);
+            let demand = self.controller.current_a(error, error_before.unwrap_or(error), t);
             error_before = Some(error);
             let command = read(self.current_converter, demand);
             if k >= settle {

@@ -62,10 +62,7 @@ pub fn broadband(records: &[(&[f64], &[f64], f64)]) -> Vec<Band> {
         }
         from = to.max(from + 1);
     }
-    let strongest = bands
-        .iter()
-        .map(|b| b.input_power)
-        .fold(f64::MIN_POSITIVE, f64::max);
+    let strongest = bands.iter().map(|b| b.input_power).fold(f64::MIN_POSITIVE, f64::max);
     bands.iter_mut().for_each(|b| b.input_power /= strongest);
     bands
 }
@@ -107,11 +104,7 @@ fn tapered(x: &[f64]) -> Vec<Complex64> {
         .enumerate()
         .map(|(k, v)| {
             let near = (k as f64).min((n - 1 - k) as f64) / edge;
-            let w = if near < 1.0 {
-                0.5 - 0.5 * (std::f64::consts::PI * near).cos()
-            } else {
-                1.0
-            };
+            let w = if near < 1.0 { 0.5 - 0.5 * (std::f64::consts::PI * near).cos() } else { 1.0 };
             Complex64::from(w * (v - line(k) - mean))
         })
         .collect()
@@ -125,27 +118,20 @@ mod tests {
     fn response_of_a_first_order_lag_from_a_sweep() {
         let (t, n, pole) = (0.002, 30_000, 8.0);
         let rate = 0.5 * 60.0 / (n as f64 * t);
-        let u: Vec<f64> = (0..n)
-            .map(|k| (rate * (k as f64 * t).powi(2)).sin())
-            .collect();
+        let u: Vec<f64> = (0..n).map(|k| (rate * (k as f64 * t).powi(2)).sin()).collect();
         let a = (-pole * t as f64).exp();
         let mut y = vec![0.0; n];
         for k in 1..n {
             y[k] = a * y[k - 1] + (1.0 - a) * u[k - 1];
         }
         let bands = broadband(&[(&u, &y, t)]);
-        let near = bands.iter().min_by(|p, q| {
-            (p.omega_rad_s - 20.0)
-                .abs()
-                .total_cmp(&(q.omega_rad_s - 20.0).abs())
-        });
+        let near = bands
+            .iter()
+            .min_by(|p, q| (p.omega_rad_s - 20.0).abs().total_cmp(&(q.omega_rad_s - 20.0).abs()));
         let band = near.unwrap();
         let z = Complex64::from_polar(1.0, band.omega_rad_s * t);
         let expected = (1.0 - a) / (z - a);
-        assert!(
-            (band.response / expected - 1.0).norm() < 0.01,
-            "{band:?} {expected}"
-        );
+        assert!((band.response / expected - 1.0).norm() < 0.01, "{band:?} {expected}");
         assert!(band.coherence > 0.99);
     }
 }

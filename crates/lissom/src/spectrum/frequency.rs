@@ -64,9 +64,7 @@ mod tests {
     #[test]
     fn finds_a_frequency_between_bins() {
         let omega = 7.123_456;
-        let x: Vec<f64> = (0..3000)
-            .map(|k| (omega * k as f64 * 0.005 + 0.3).sin() + 2.0)
-            .collect();
+        let x: Vec<f64> = (0..3000).map(|k| (omega * k as f64 * 0.005 + 0.3).sin() + 2.0).collect();
         let found = find_frequency(&x, 0.005).unwrap();
         assert!((found / omega - 1.0).abs() < 1e-7, "{found}");
     }

@@ -92,11 +92,7 @@ pub fn least_squares(
     let mut blocks = 0;
     for (k, &x) in samples.iter().enumerate() {
         basis.row(k, &mut row);
-        let e = x - row
-            .iter()
-            .zip(solution.iter())
-            .map(|(a, b)| a * b)
-            .sum::<f64>();
+        let e = x - row.iter().zip(solution.iter()).map(|(a, b)| a * b).sum::<f64>();
         power += e * e;
         signal += (x - mean_signal).powi(2);
         block.iter_mut().zip(&row).for_each(|(b, a)| *b += a * e);
@@ -116,10 +112,7 @@ pub fn least_squares(
             let value = Complex64::new(solution[c], -solution[s]);
             let by_white = white * (inverse[(c, c)] + inverse[(s, s)]);
             let by_blocks = sandwich[(c, c)] + sandwich[(s, s)];
-            Phasor {
-                value,
-                std: by_white.max(by_blocks).sqrt(),
-            }
+            Phasor { value, std: by_white.max(by_blocks).sqrt() }
         })
         .collect();
     Some(Harmonics {
@@ -141,11 +134,7 @@ struct Basis {
 
 impl Basis {
     fn new(n: usize, omega: f64, sample_time: f64, count: usize) -> Self {
-        Self {
-            n,
-            phase_step: omega * sample_time,
-            count,
-        }
+        Self { n, phase_step: omega * sample_time, count }
     }
 
     fn row(&self, k: usize, out: &mut [f64]) {
@@ -177,10 +166,7 @@ mod tests {
             .collect();
         let fit = least_squares(&x, omega, t, 3).unwrap();
         let expect = |k: usize, z: Complex64| {
-            assert!(
-                (fit.get(k).unwrap().value - z).norm() < 1e-12,
-                "harmonic {k}"
-            );
+            assert!((fit.get(k).unwrap().value - z).norm() < 1e-12, "harmonic {k}");
         };
         expect(1, Complex64::from_polar(1.5, 0.4));
         expect(2, Complex64::ZERO);
@@ -195,18 +181,15 @@ mod tests {
         // A linear congruential generator: the test must not depend on a random seed.
         let mut state = 1_u64;
         let mut uniform = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
         };
         let (omega, t, truth) = (2.0, 0.01, Complex64::from_polar(1.0, 1.0));
         let trials = 300;
         let (mut error, mut claimed) = (0.0, 0.0);
         for _ in 0..trials {
-            let x: Vec<f64> = (0..2000)
-                .map(|k| (omega * k as f64 * t + 1.0).cos() + 0.3 * uniform())
-                .collect();
+            let x: Vec<f64> =
+                (0..2000).map(|k| (omega * k as f64 * t + 1.0).cos() + 0.3 * uniform()).collect();
             let p = least_squares(&x, omega, t, 1).unwrap().get(1).unwrap();
             error += (p.value - truth).norm_sqr();
             claimed += p.std * p.std;
@@ -220,9 +203,6 @@ mod tests {
     #[test]
     fn held_cosine_is_delayed_by_half_a_sample() {
         let f = hold_factor(20.0, 0.003);
-        assert!(
-            (f.arg().to_degrees() + 1.7).abs() < 0.02,
-            "errata 2: 1.7° at 20 rad/s and 3 ms"
-        );
+        assert!((f.arg().to_degrees() + 1.7).abs() < 0.02, "errata 2: 1.7° at 20 rad/s and 3 ms");
     }
 }

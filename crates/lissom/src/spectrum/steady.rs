@@ -63,10 +63,7 @@ pub fn steady_state(run: &Run, omega_rad_s: f64) -> Result<Steady, SteadyError> 
     let block = per_period * periods_a_block;
     let blocks = (run.len() as f64 / block + 1e-9).floor() as usize;
     if blocks < LEAST_BLOCKS {
-        return Err(SteadyError::TooFewPeriods {
-            found: blocks,
-            least: LEAST_BLOCKS,
-        });
+        return Err(SteadyError::TooFewPeriods { found: blocks, least: LEAST_BLOCKS });
     }
     // Blocks are aligned with the end: what is dropped is dropped from the beginning.
     let origin = run.len() as f64 - block * blocks as f64;
@@ -84,19 +81,13 @@ pub fn steady_state(run: &Run, omega_rad_s: f64) -> Result<Steady, SteadyError> 
                     let phase = -omega_rad_s * run.sample_time_s() * from as f64;
                     least_squares(&x[from..to], omega_rad_s, run.sample_time_s(), 3)
                         .and_then(|h| h.get(1))
-                        .map_or(Complex64::ZERO, |p| {
-                            p.value * Complex64::from_polar(1.0, phase)
-                        })
+                        .map_or(Complex64::ZERO, |p| p.value * Complex64::from_polar(1.0, phase))
                 })
                 .collect()
         })
         .collect();
     let half = blocks / 2;
-    let beyond = tracks
-        .iter()
-        .map(|t| first_settled(t, half))
-        .max()
-        .unwrap_or(0);
+    let beyond = tracks.iter().map(|t| first_settled(t, half)).max().unwrap_or(0);
     let settled_by_half = beyond <= half;
     let first_block = beyond.min(half);
     let changes: Vec<f64> = tracks.iter().map(|t| change(&t[first_block..])).collect();
@@ -120,10 +111,7 @@ fn first_settled(track: &[Complex64], half: usize) -> usize {
     let scatter =
         (later.iter().map(|z| (z - mean).norm_sqr()).sum::<f64>() / later.len() as f64).sqrt();
     let allowed = (SCATTER * scatter).max(SHARE * mean.norm());
-    track
-        .iter()
-        .rposition(|z| (z - mean).norm() > allowed)
-        .map_or(0, |last| last + 1)
+    track.iter().rposition(|z| (z - mean).norm() > allowed).map_or(0, |last| last + 1)
 }
 
 /// Change of the mean phasor from the first to the second half, in units of its amplitude.

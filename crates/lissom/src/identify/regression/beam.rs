@@ -37,26 +37,16 @@ pub struct BeamRegression {
 pub fn beam_regression(campaign: &Campaign) -> Option<BeamRegression> {
     let tips = &campaign.channels.tips;
     let n = tips.len();
-    if n == 0
-        || tips
-            .iter()
-            .any(|t| !t.calibrated || t.quantity == TipQuantity::Acceleration)
-    {
+    if n == 0 || tips.iter().any(|t| !t.calibrated || t.quantity == TipQuantity::Acceleration) {
         return None;
     }
     // Columns: ∫w(θ_m − θ_j) for each j, ∫ẇθ_i, ∫w, then the right side ∫ẅθ_i.
     let terms: Vec<Term> = (0..n + 2).map(Term::Plain).collect();
     let counts: Vec<bool> = (0..n + 2).map(|i| i < n).collect();
-    let sample_time = campaign
-        .runs
-        .iter()
-        .map(Run::sample_time_s)
-        .fold(0.0, f64::max);
+    let sample_time = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let scans: Vec<Scan> = (0..n)
         .map(|i| {
-            scan(sample_time, None, &counts, |length| {
-                solve(&clusters(campaign, i, length), &terms)
-            })
+            scan(sample_time, None, &counts, |length| solve(&clusters(campaign, i, length), &terms))
         })
         .collect::<Option<_>>()?;
     let stiffness = DMatrix::from_fn(n, n, |i, j| scans[i].solution.value[j]);
@@ -71,14 +61,8 @@ pub fn beam_regression(campaign: &Campaign) -> Option<BeamRegression> {
             .iter()
             .zip(std)
             .map(|(m, s)| ModeEstimate {
-                natural_frequency_rad_s: Estimate {
-                    value: m.0,
-                    std: s.0,
-                },
-                damping_ratio: Estimate {
-                    value: m.1,
-                    std: s.1,
-                },
+                natural_frequency_rad_s: Estimate { value: m.0, std: s.0 },
+                damping_ratio: Estimate { value: m.1, std: s.1 },
             })
             .collect(),
         candidates: scans.into_iter().map(|s| s.candidates).collect(),
@@ -98,12 +82,8 @@ fn modes(stiffness: &DMatrix<f64>, damping: &[f64]) -> Option<Vec<(f64, f64)>> {
     if state.iter().any(|v| !v.is_finite()) {
         return None;
     }
-    let mut poles: Vec<_> = state
-        .complex_eigenvalues()
-        .iter()
-        .copied()
-        .filter(|p| p.im > 0.0)
-        .collect();
+    let mut poles: Vec<_> =
+        state.complex_eigenvalues().iter().copied().filter(|p| p.im > 0.0).collect();
     if poles.len() != n {
         return None;
     }
@@ -157,12 +137,7 @@ fn deviations(
             total.1 += systematic.1 * systematic.1;
         }
     }
-    Some(
-        variance
-            .iter()
-            .map(|v| (v.0.max(0.0).sqrt(), v.1.max(0.0).sqrt()))
-            .collect(),
-    )
+    Some(variance.iter().map(|v| (v.0.max(0.0).sqrt(), v.1.max(0.0).sqrt())).collect())
 }
 
 /// Sums of blocks of windows over every run, for tip `i`.
@@ -180,9 +155,7 @@ fn clusters(campaign: &Campaign, i: usize, length_s: f64) -> Vec<Cluster> {
         let starts: Vec<usize> = (0..run.len() - len).step_by(step).collect();
         for block in starts.chunks(BLOCK) {
             let mut cluster = Cluster::new(index, 0.0, n + 3);
-            block
-                .iter()
-                .for_each(|&k| cluster.add(&row(campaign, run, i, &window, k)));
+            block.iter().for_each(|&k| cluster.add(&row(campaign, run, i, &window, k)));
             out.push(cluster);
         }
     }
@@ -199,13 +172,7 @@ fn row(campaign: &Campaign, run: &Run, i: usize, window: &Window, k: usize) -> V
         let deflection = campaign.channels.tips[j].quantity == TipQuantity::Deflection;
         tip.iter()
             .zip(motor)
-            .map(|(x, m)| {
-                if deflection {
-                    x + m - motor[0]
-                } else {
-                    x - motor[0]
-                }
-            })
+            .map(|(x, m)| if deflection { x + m - motor[0] } else { x - motor[0] })
             .collect()
     };
     let mut row: Vec<f64> = (0..run.tips().len())

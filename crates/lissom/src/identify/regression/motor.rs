@@ -81,20 +81,12 @@ pub struct ByDirection {
 /// `None` where no phase holds windows enough.
 pub fn motor_regression(campaign: &Campaign, window_s: Option<f64>) -> Option<MotorRegression> {
     let tips = coupled_tips(campaign);
-    let mut terms = vec![
-        Term::Plain(INERTIA),
-        Term::Plain(VISCOUS),
-        Term::Signed(DRY),
-        Term::Plain(DRY),
-    ];
+    let mut terms =
+        vec![Term::Plain(INERTIA), Term::Plain(VISCOUS), Term::Signed(DRY), Term::Plain(DRY)];
     terms.extend((0..tips.len()).map(|i| Term::Plain(TIPS + i)));
     // The offset is small by nature: it does not take part in the choice of the window.
     let counts: Vec<bool> = (0..terms.len()).map(|i| i != 3).collect();
-    let sample_time = campaign
-        .runs
-        .iter()
-        .map(Run::sample_time_s)
-        .fold(0.0, f64::max);
+    let sample_time = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let found = scan(sample_time, window_s, &counts, |length| {
         solve(&clusters(campaign, &tips, length), &terms)
     })?;
@@ -103,10 +95,7 @@ pub fn motor_regression(campaign: &Campaign, window_s: Option<f64>) -> Option<Mo
     let figure = |i: usize| {
         let systematic = 0.25 * found.change[i];
         let std = (solution.covariance[(i, i)].max(0.0) + systematic * systematic).sqrt();
-        (!solution.inseparable[i]).then_some(Estimate {
-            value: solution.value[i],
-            std,
-        })
+        (!solution.inseparable[i]).then_some(Estimate { value: solution.value[i], std })
     };
     // A sum of CF and offset can be separable where each alone is not.
     let direction = |sign: f64| {
@@ -119,15 +108,8 @@ pub fn motor_regression(campaign: &Campaign, window_s: Option<f64>) -> Option<Mo
         separable.then_some(Estimate { value, std })
     };
     let back_emf = campaign.channels.command.back_emf_viscous;
-    let viscous = |e: Estimate| Estimate {
-        value: e.value - back_emf,
-        std: e.std,
-    };
-    let by_direction = by_direction(
-        &clusters(campaign, &tips, chosen.window_s),
-        &terms,
-        solution,
-    );
+    let viscous = |e: Estimate| Estimate { value: e.value - back_emf, std: e.std };
+    let by_direction = by_direction(&clusters(campaign, &tips, chosen.window_s), &terms, solution);
     Some(MotorRegression {
         window_s: chosen.window_s,
         window_given: window_s.is_some(),
@@ -214,10 +196,7 @@ fn row(campaign: &Campaign, run: &Run, tips: &[usize], window: &Window, k: usize
     let n = window.len();
     let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
     // Angles from the window's first: w̄ and ẅ integrate constants to zero only up to rounding.
-    let motor: Vec<f64> = run.motor()[k..=k + n]
-        .iter()
-        .map(|x| x - run.motor()[k])
-        .collect();
+    let motor: Vec<f64> = run.motor()[k..=k + n].iter().map(|x| x - run.motor()[k]).collect();
     let mut row = Vec::with_capacity(TIPS + tips.len() + 1);
     row.push(dot(&window.second, &motor) * t);
     row.push(-dot(&window.first, &motor) * t);
@@ -255,10 +234,7 @@ fn by_direction(clusters: &[Cluster], terms: &[Term], one: &Solution) -> Option<
     let deviation = (c[(1, 1)] + c[(2, 2)] - 2.0 * c[(1, 2)]).max(0.0).sqrt();
     let called_for = difference.abs() > DIRECTION_DEVIATIONS * deviation
         && two.relative_residual < DIRECTION_RESIDUAL * one.relative_residual;
-    let figure = |i: usize| Estimate {
-        value: two.value[i],
-        std: c[(i, i)].max(0.0).sqrt(),
-    };
+    let figure = |i: usize| Estimate { value: two.value[i], std: c[(i, i)].max(0.0).sqrt() };
     called_for.then(|| ByDirection {
         forward: figure(1),
         backward: figure(2),

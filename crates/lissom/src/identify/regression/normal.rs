@@ -23,12 +23,7 @@ pub(crate) struct Cluster {
 
 impl Cluster {
     pub(crate) fn new(run: usize, sign: f64, columns: usize) -> Self {
-        Self {
-            run,
-            sign,
-            rows: 0,
-            products: DMatrix::zeros(columns, columns),
-        }
+        Self { run, sign, rows: 0, products: DMatrix::zeros(columns, columns) }
     }
 
     /// Adds one row, regressors first, right side last.
@@ -110,19 +105,12 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
         })
         .collect();
     let rows: usize = clusters.iter().map(|c| c.rows).sum();
-    let power: f64 = clusters
-        .iter()
-        .map(|c| c.products[(right_column, right_column)])
-        .sum();
+    let power: f64 = clusters.iter().map(|c| c.products[(right_column, right_column)]).sum();
     if rows == 0 || power <= 0.0 {
         return None;
     }
-    let normal = parts
-        .iter()
-        .fold(DMatrix::zeros(p, p), |sum, part| sum + &part.1);
-    let right = parts
-        .iter()
-        .fold(DVector::zeros(p), |sum, part| sum + &part.2);
+    let normal = parts.iter().fold(DMatrix::zeros(p, p), |sum, part| sum + &part.1);
+    let right = parts.iter().fold(DVector::zeros(p), |sum, part| sum + &part.2);
     let scale = DVector::from_fn(p, |i, _| normal[(i, i)].max(f64::MIN_POSITIVE).sqrt());
     let scaled = DMatrix::from_fn(p, p, |i, j| normal[(i, j)] / (scale[i] * scale[j]));
     let eigen = scaled.symmetric_eigen();
@@ -137,9 +125,7 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
         if lambda > RANK * largest {
             inverse += v * v.transpose() / lambda;
         } else {
-            (0..p)
-                .filter(|&i| v[i].abs() > SHARE)
-                .for_each(|i| inseparable[i] = true);
+            (0..p).filter(|&i| v[i].abs() > SHARE).for_each(|i| inseparable[i] = true);
         }
     }
     let inverse = DMatrix::from_fn(p, p, |i, j| inverse[(i, j)] / (scale[i] * scale[j]));
@@ -203,11 +189,7 @@ mod tests {
     fn clusters(both_directions: bool) -> Vec<Cluster> {
         (0..10)
             .map(|c| {
-                let sign = if both_directions && c % 2 == 1 {
-                    -1.0
-                } else {
-                    1.0
-                };
+                let sign = if both_directions && c % 2 == 1 { -1.0 } else { 1.0 };
                 let mut cluster = Cluster::new(0, sign, 3);
                 for r in 0..5 {
                     let x = f64::from(c * 5 + r).sin();

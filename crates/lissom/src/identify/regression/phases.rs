@@ -32,11 +32,7 @@ pub(crate) fn slip_phases(motor: &[f64], smooth: usize, sample_time_s: f64) -> V
         let sign = velocity.signum();
         match phases.last_mut() {
             Some(last) if last.to == k && last.sign.total_cmp(&sign).is_eq() => last.to = k + 1,
-            _ => phases.push(Phase {
-                from: k,
-                to: k + 1,
-                sign,
-            }),
+            _ => phases.push(Phase { from: k, to: k + 1, sign }),
         }
     }
     phases
@@ -49,9 +45,8 @@ mod tests {
     #[test]
     fn a_quantised_cosine_has_its_half_cycles() {
         let t = 0.003;
-        let x: Vec<f64> = (0..4000)
-            .map(|k| ((2.0 * k as f64 * t).cos() / 0.0015).round() * 0.0015)
-            .collect();
+        let x: Vec<f64> =
+            (0..4000).map(|k| ((2.0 * k as f64 * t).cos() / 0.0015).round() * 0.0015).collect();
         let phases = slip_phases(&x, 30, t);
         let long: Vec<_> = phases.iter().filter(|p| p.to - p.from > 100).collect();
         assert_eq!(long.len(), 8);

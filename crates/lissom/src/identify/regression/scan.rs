@@ -50,9 +50,7 @@ pub(crate) fn scan(
     let shortest = LEAST_SAMPLES * sample_time_s;
     let lengths: Vec<f64> = match given {
         Some(length) => vec![length / RATIO, length, length * RATIO],
-        None => (0..MOST_CANDIDATES as i32)
-            .map(|k| shortest * RATIO.powi(k))
-            .collect(),
+        None => (0..MOST_CANDIDATES as i32).map(|k| shortest * RATIO.powi(k)).collect(),
     };
     let mut tried: Vec<(f64, Solution)> = Vec::new();
     for length in lengths {
@@ -74,19 +72,13 @@ pub(crate) fn scan(
         let mut number = 0.0;
         for (i, _) in counts.iter().enumerate().filter(|(_, c)| **c) {
             // A figure that is zero within its scatter must not decide.
-            let size = here.value[i]
-                .abs()
-                .max(3.0 * here.covariance[(i, i)].max(0.0).sqrt());
+            let size = here.value[i].abs().max(3.0 * here.covariance[(i, i)].max(0.0).sqrt());
             if !here.inseparable[i] && size > 0.0 {
                 sum += ((after.value[i] - before.value[i]) / size).powi(2);
                 number += 1.0;
             }
         }
-        if number > 0.0 {
-            (sum / number).sqrt()
-        } else {
-            f64::INFINITY
-        }
+        if number > 0.0 { (sum / number).sqrt() } else { f64::INFINITY }
     };
     let candidates: Vec<Candidate> = tried
         .iter()
@@ -100,9 +92,9 @@ pub(crate) fn scan(
         })
         .collect();
     let chosen = match given {
-        Some(length) => candidates
-            .iter()
-            .position(|c| (c.window_s - length).abs() < 1e-12 * length)?,
+        Some(length) => {
+            candidates.iter().position(|c| (c.window_s - length).abs() < 1e-12 * length)?
+        }
         None => {
             let least = candidates
                 .iter()
@@ -120,10 +112,5 @@ pub(crate) fn scan(
             (None, None) => 0.0,
         })
         .collect();
-    Some(Scan {
-        candidates,
-        chosen,
-        solution,
-        change,
-    })
+    Some(Scan { candidates, chosen, solution, change })
 }

@@ -27,9 +27,7 @@ impl Window {
         let rate = PI / length;
         let at = |k: usize| (PI * k as f64 / n as f64).sin_cos();
         let value = (0..=n).map(|k| at(k).0.powi(4)).collect();
-        let first = (0..=n)
-            .map(|k| 4.0 * rate * at(k).0.powi(3) * at(k).1)
-            .collect();
+        let first = (0..=n).map(|k| 4.0 * rate * at(k).0.powi(3) * at(k).1).collect();
         let second: Vec<f64> = (0..=n)
             .map(|k| {
                 let (s, c) = at(k);
@@ -45,13 +43,7 @@ impl Window {
         };
         let held = (0..n).map(|k| integral(k + 1) - integral(k)).collect();
         let power: f64 = second.iter().map(|v| v * v).sum::<f64>() * sample_time_s;
-        Self {
-            value,
-            first,
-            second,
-            held,
-            row_scale: 1.0 / power.sqrt(),
-        }
+        Self { value, first, second, held, row_scale: 1.0 / power.sqrt() }
     }
 
     /// Sample intervals spanned.

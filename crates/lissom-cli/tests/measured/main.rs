@@ -1,0 +1,15 @@
+//! Tests on logs measured on real machines. The logs are no part of the project: the tests read
+//! them from the folder that `LISSOM_DATA` names, and say that they were skipped where it is unset.
+
+mod common;
+
+/// The folders that these tests read.
+const FOLDERS: [&str; 4] = ["emps", "krauss-slfr", "quanser-2dsfl", "cu-flexarm"];
+
+#[test]
+fn every_folder_says_where_its_logs_come_from() {
+    for name in FOLDERS {
+        let Some(folder) = common::data(name) else { return };
+        assert!(folder.join("PROVENANCE.md").is_file(), "{name} has no PROVENANCE.md");
+    }
+}

@@ -1,0 +1,72 @@
+//! One step of a recipe: a title, a command, its time.
+
+use std::{
+    env, fmt, io,
+    path::Path,
+    process::{Command, Stdio},
+    time::Instant,
+};
+
+/// Why a recipe stopped.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The command ran and said no.
+    Step { title: String, command: String, status: std::process::ExitStatus },
+    /// The command could not be started.
+    Start { command: String, source: io::Error },
+    /// A tool is missing; `install` gets it.
+    Missing { tool: &'static str, install: &'static str },
+    /// A file or folder of the recipe's own could not be used.
+    File { path: String, source: io::Error },
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Step { title, command, status } => {
+                write!(f, "the step `{title}` failed ({status})\n  command: {command}")
+            }
+            Self::Start { command, source } => write!(f, "cannot start `{command}`: {source}"),
+            Self::Missing { tool, install } => {
+                write!(f, "{tool} is not installed\n  hint: {install}")
+            }
+            Self::File { path, source } => write!(f, "cannot use {path}: {source}"),
+        }
+    }
+}
+
+/// The cargo that runs this program, in the workspace's folder, reading nothing.
+pub(crate) fn cargo(root: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.args(args).current_dir(root).stdin(Stdio::null());
+    command
+}
+
+/// Runs one step, its output passed through.
+pub(crate) fn run(title: &str, command: &mut Command) -> Result<(), Failure> {
+    println!("\n--- {title}");
+    let start = Instant::now();
+    let status =
+        command.status().map_err(|source| Failure::Start { command: shown(command), source })?;
+    println!("--- {title}: {:.1} s", start.elapsed().as_secs_f64());
+    if status.success() {
+        return Ok(());
+    }
+    Err(Failure::Step { title: title.to_owned(), command: shown(command), status })
+}
+
+/// Runs a command in silence: whether it succeeded, and what it said on its standard error.
+pub(crate) fn ask(command: &mut Command) -> Result<(bool, String), Failure> {
+    let output =
+        command.output().map_err(|source| Failure::Start { command: shown(command), source })?;
+    Ok((output.status.success(), String::from_utf8_lossy(&output.stderr).into_owned()))
+}
+
+/// The command as one would type it.
+fn shown(command: &Command) -> String {
+    let set = command.get_envs().filter_map(|(name, value)| {
+        Some(format!("{}='{}'", name.to_string_lossy(), value?.to_string_lossy()))
+    });
+    let args = command.get_args().map(|arg| arg.to_string_lossy().into_owned());
+    set.chain(["cargo".to_owned()]).chain(args).collect::<Vec<_>>().join(" ")
+}
