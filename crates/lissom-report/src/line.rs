@@ -1,0 +1,547 @@
+//! Plots over one pair of axes: friction against frequency, residuals, time traces.
+
+use crate::axis::{Ruler, Steps};
+use crate::bode::with_bars;
+use crate::canvas::{Anchor, Canvas, Rect, Stroke, TextStyle};
+use crate::error::FigureError;
+use crate::legend::{Entry, Sample, header, skipped_note};
+use crate::palette::{FAINT_INK, Role};
+use crate::panel::{Mark, Panel, TICK_SIZE, X_AXIS_HEIGHT};
+use crate::scale::{Scale, extent};
+use crate::text::{Weight, width};
+
+const SHEET_WIDTH: f64 = 760.0;
+const RIGHT_MARGIN: f64 = 24.0;
+const HEIGHT: f64 = 300.0;
+/// The part of the distance between neighbours that a column fills.
+const COLUMN_FILL: f64 = 0.7;
+/// The widest column.
+const MAX_COLUMN: f64 = 44.0;
+
+/// One axis.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Axis {
+    /// The quantity with its unit.
+    pub label: String,
+    /// Linear or logarithmic.
+    pub scale: Scale,
+    /// The ends of the axis; without them it shows all data.
+    pub range: Option<(f64, f64)>,
+}
+
+impl Axis {
+    /// A linear axis over all data.
+    pub fn linear(label: impl Into<String>) -> Self {
+        Self {
+            label: label.into(),
+            ..Self::default()
+        }
+    }
+
+    /// A logarithmic axis over all positive data.
+    pub fn log(label: impl Into<String>) -> Self {
+        Self {
+            label: label.into(),
+            scale: Scale::Log,
+            range: None,
+        }
+    }
+
+    /// Fixes the ends of the axis.
+    #[must_use]
+    pub fn range(mut self, low: f64, high: f64) -> Self {
+        self.range = Some((low, high));
+        self
+    }
+
+    fn fixed_range(&self) -> Result<Option<(f64, f64)>, FigureError> {
+        match self.range {
+            Some((low, high))
+                if !(self.scale.admits(low) && self.scale.admits(high) && low < high) =>
+            {
+                Err(FigureError::Range {
+                    axis: self.label.clone(),
+                    low,
+                    high,
+                })
+            }
+            Some((low, high)) => Ok(Some(self.scale.widened((low, high), 0.0))),
+            None => Ok(None),
+        }
+    }
+}
+
+/// How a trace is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum TraceStyle {
+    /// Straight lines from point to point, in the order given.
+    #[default]
+    Line,
+    /// Each value held until the next: a sampled command.
+    Steps,
+    /// Markers.
+    Points,
+    /// Markers with one standard deviation to both sides.
+    PointsWithBars,
+    /// Columns from zero (on a logarithmic axis, from the bottom), with one standard deviation where there is one.
+    Columns,
+}
+
+/// One trace.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trace {
+    /// The label in the legend; empty keeps the trace out of it.
+    pub label: String,
+    /// What it stands for, hence its colour and marker.
+    pub role: Role,
+    /// How it is drawn.
+    pub style: TraceStyle,
+    /// The abscissae.
+    pub x: Vec<f64>,
+    /// The ordinates.
+    pub y: Vec<f64>,
+    /// The standard deviation of each ordinate; a value that is not positive draws no bar.
+    pub std: Option<Vec<f64>>,
+    /// Points to draw grey and hollow, because something is wrong with them.
+    pub flagged: Option<Vec<bool>>,
+}
+
+impl Trace {
+    /// A trace without deviations or flags.
+    pub fn new(
+        label: impl Into<String>,
+        role: Role,
+        style: TraceStyle,
+        x: Vec<f64>,
+        y: Vec<f64>,
+    ) -> Self {
+        Self {
+            label: label.into(),
+            role,
+            style,
+            x,
+            y,
+            std: None,
+            flagged: None,
+        }
+    }
+
+    /// A line without deviations or flags.
+    pub fn line(label: impl Into<String>, role: Role, x: Vec<f64>, y: Vec<f64>) -> Self {
+        Self::new(label, role, TraceStyle::Line, x, y)
+    }
+
+    /// Markers with error bars.
+    pub fn points_with_bars(
+        label: impl Into<String>,
+        role: Role,
+        x: Vec<f64>,
+        y: Vec<f64>,
+        std: Vec<f64>,
+    ) -> Self {
+        Self {
+            std: Some(std),
+            ..Self::new(label, role, TraceStyle::PointsWithBars, x, y)
+        }
+    }
+
+    /// Adds flags.
+    #[must_use]
+    pub fn with_flags(mut self, flagged: Vec<bool>) -> Self {
+        self.flagged = Some(flagged);
+        self
+    }
+
+    /// The drawable points in the order given, and the count of the others.
+    fn marks(&self, axes: [Scale; 2]) -> Result<(Vec<Mark>, usize), FigureError> {
+        let lengths = [
+            ("y", Some(self.y.len())),
+            ("std", self.std.as_ref().map(Vec::len)),
+            ("flagged", self.flagged.as_ref().map(Vec::len)),
+        ];
+        let expected = self.x.len();
+        if let Some((field, found)) = lengths
+            .into_iter()
+            .find_map(|(field, n)| n.filter(|n| *n != expected).map(|n| (field, n)))
+        {
+            return Err(FigureError::Length {
+                series: self.label.clone(),
+                field,
+                expected,
+                found,
+            });
+        }
+        let barred = matches!(self.style, TraceStyle::PointsWithBars | TraceStyle::Columns);
+        let (mut marks, mut after_gap) = (Vec::with_capacity(expected), false);
+        for (k, (x, y)) in self
+            .x
+            .iter()
+            .copied()
+            .zip(self.y.iter().copied())
+            .enumerate()
+        {
+            if axes[0].admits(x) && axes[1].admits(y) {
+                let std = self
+                    .std
+                    .as_ref()
+                    .map(|s| s[k])
+                    .filter(|s| barred && *s > 0.0 && Scale::Linear.admits(*s));
+                let flagged = self.flagged.as_ref().is_some_and(|f| f[k]);
+                marks.push(Mark {
+                    x,
+                    y,
+                    bar: std.map(|s| (y - s, y + s)),
+                    flagged,
+                    after_gap,
+                });
+                after_gap = false;
+            } else {
+                after_gap = true;
+            }
+        }
+        let skipped = expected - marks.len();
+        Ok((marks, skipped))
+    }
+
+    fn sample(&self) -> Sample {
+        match self.style {
+            TraceStyle::Line | TraceStyle::Steps => Sample::Line(self.role),
+            TraceStyle::Points => Sample::Points(self.role),
+            TraceStyle::PointsWithBars => Sample::PointsWithBars(self.role),
+            TraceStyle::Columns => Sample::Column(self.role),
+        }
+    }
+}
+
+/// A horizontal band with a line at its middle value: an estimate and its interval.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Band {
+    /// The label in the legend; empty keeps the band out of it.
+    pub label: String,
+    /// What it stands for, hence its colour.
+    pub role: Role,
+    /// The value.
+    pub middle: f64,
+    /// The lower end.
+    pub low: f64,
+    /// The upper end.
+    pub high: f64,
+}
+
+impl Band {
+    /// A band from `low` to `high` with its line at `middle`.
+    pub fn new(label: impl Into<String>, role: Role, middle: f64, (low, high): (f64, f64)) -> Self {
+        Self {
+            label: label.into(),
+            role,
+            middle,
+            low,
+            high,
+        }
+    }
+}
+
+/// Traces and bands over one pair of axes.
+///
+/// Points that are not finite, or not positive on a logarithmic axis, are left out, and a note below the figure counts them;
+/// lines stop there. A band that cannot be drawn is left out of figure and legend.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LinePlot {
+    /// The title.
+    pub title: String,
+    /// A line below the title.
+    pub subtitle: Option<String>,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// The traces.
+    pub traces: Vec<Trace>,
+    /// The bands, below the traces.
+    pub bands: Vec<Band>,
+}
+
+impl LinePlot {
+    /// A plot without traces.
+    pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
+        Self {
+            title: title.into(),
+            x,
+            y,
+            ..Self::default()
+        }
+    }
+
+    /// Adds a line below the title.
+    #[must_use]
+    pub fn subtitle(mut self, subtitle: impl Into<String>) -> Self {
+        self.subtitle = Some(subtitle.into());
+        self
+    }
+
+    /// Adds a trace.
+    #[must_use]
+    pub fn trace(mut self, trace: Trace) -> Self {
+        self.traces.push(trace);
+        self
+    }
+
+    /// Adds a band.
+    #[must_use]
+    pub fn band(mut self, band: Band) -> Self {
+        self.bands.push(band);
+        self
+    }
+
+    fn drawable_bands(&self) -> impl Iterator<Item = &Band> {
+        let ordered = |b: &&Band| b.low <= b.middle && b.middle <= b.high;
+        self.bands
+            .iter()
+            .filter(|b| {
+                [b.low, b.middle, b.high]
+                    .iter()
+                    .all(|v| self.y.scale.admits(*v))
+            })
+            .filter(ordered)
+    }
+
+    fn entries(&self) -> Vec<Entry> {
+        let traces = self
+            .traces
+            .iter()
+            .filter(|t| !t.x.is_empty())
+            .map(|t| Entry {
+                sample: t.sample(),
+                label: t.label.clone(),
+            });
+        let bands = self.drawable_bands().map(|b| Entry {
+            sample: Sample::Band(b.role),
+            label: b.label.clone(),
+        });
+        let mut entries: Vec<Entry> = traces.chain(bands).collect();
+        if self
+            .traces
+            .iter()
+            .filter_map(|t| t.flagged.as_ref())
+            .flatten()
+            .any(|f| *f)
+        {
+            entries.push(Entry {
+                sample: Sample::Flagged,
+                label: "flagged".to_owned(),
+            });
+        }
+        entries
+    }
+
+    /// The vertical range: all points, their bars within reason, the bands, and zero where columns stand on it.
+    fn y_range(&self, marks: &[Vec<Mark>]) -> Option<(f64, f64)> {
+        let columns = self.traces.iter().any(|t| t.style == TraceStyle::Columns)
+            && self.y.scale == Scale::Linear;
+        let points = with_bars(&marks.iter().flatten().collect::<Vec<_>>());
+        let points = points.map(|(low, high)| {
+            if self.y.scale == Scale::Linear {
+                (low, high)
+            } else {
+                self.positive(marks, (low, high))
+            }
+        });
+        let ends = points.into_iter().flat_map(|(a, b)| [a, b]);
+        extent(
+            ends.chain(self.drawable_bands().flat_map(|b| [b.low, b.high]))
+                .chain(columns.then_some(0.0)),
+        )
+    }
+
+    /// A range for a logarithmic axis: error bars that reach zero do not count.
+    fn positive(&self, marks: &[Vec<Mark>], (low, high): (f64, f64)) -> (f64, f64) {
+        let lowest = extent(marks.iter().flatten().map(|m| m.y)).map_or(low, |(lowest, _)| lowest);
+        (
+            if low >= lowest / 3.0 && self.y.scale.admits(low) {
+                low
+            } else {
+                lowest
+            },
+            high,
+        )
+    }
+
+    /// The ends of both axes.
+    fn ranges(&self, marks: &[Vec<Mark>], skipped: usize) -> Result<[(f64, f64); 2], FigureError> {
+        let nothing = || FigureError::NothingToDraw {
+            title: self.title.clone(),
+            skipped,
+        };
+        let x = extent(marks.iter().flatten().map(|m| m.x)).ok_or_else(nothing)?;
+        let lines = self
+            .traces
+            .iter()
+            .all(|t| matches!(t.style, TraceStyle::Line | TraceStyle::Steps));
+        // Lines may run from edge to edge; markers want room.
+        let x = if lines && self.x.scale == Scale::Linear {
+            Scale::Linear.widened(x, 0.0)
+        } else {
+            self.x.scale.padded(x, 0.0)
+        };
+        let y = self
+            .y
+            .scale
+            .widened(self.y_range(marks).ok_or_else(nothing)?, 0.0);
+        Ok([
+            self.x.fixed_range()?.unwrap_or(x),
+            self.y.fixed_range()?.unwrap_or(y),
+        ])
+    }
+
+    fn draw_data(&self, canvas: &mut Canvas, panel: &Panel, marks: &[Vec<Mark>]) {
+        for band in self.drawable_bands() {
+            let ((_, top), (_, bottom), (_, y)) = (
+                panel.at(panel.x.low, band.high),
+                panel.at(panel.x.low, band.low),
+                panel.at(panel.x.low, band.middle),
+            );
+            canvas.rect(
+                Rect {
+                    left: panel.frame.left,
+                    top,
+                    width: panel.frame.width,
+                    height: bottom - top,
+                },
+                band.role.colour(),
+                0.16,
+            );
+            canvas.lines(
+                [[(panel.frame.left, y), (panel.frame.right(), y)]],
+                Stroke {
+                    colour: band.role.colour(),
+                    width: 1.5,
+                    dash: None,
+                },
+            );
+        }
+        let drawn = || self.traces.iter().zip(marks);
+        for (trace, marks) in drawn() {
+            match trace.style {
+                TraceStyle::Line => panel.curve(canvas, marks, trace.role, false),
+                TraceStyle::Steps => panel.curve(canvas, marks, trace.role, true),
+                TraceStyle::Columns => columns(canvas, panel, marks, trace.role),
+                TraceStyle::Points | TraceStyle::PointsWithBars => {}
+            }
+        }
+        for (trace, marks) in drawn() {
+            // On a column the bar must stand out from the fill.
+            panel.bars(
+                canvas,
+                marks,
+                if trace.style == TraceStyle::Columns {
+                    Role::Fitted
+                } else {
+                    trace.role
+                },
+            );
+            panel.points(
+                canvas,
+                marks,
+                trace.role,
+                matches!(trace.style, TraceStyle::Points | TraceStyle::PointsWithBars),
+            );
+        }
+    }
+}
+
+impl crate::Figure for LinePlot {
+    fn to_svg(&self) -> Result<String, FigureError> {
+        let (mut marks, mut skipped) = (Vec::new(), 0);
+        for trace in &self.traces {
+            let (drawable, left_out) = trace.marks([self.x.scale, self.y.scale])?;
+            skipped += left_out;
+            marks.push(drawable);
+        }
+        let [x_range, y_range] = self.ranges(&marks, skipped)?;
+        let y = match self.y.scale {
+            Scale::Linear => Ruler::linear(y_range, Steps::Decimal, 6.0, self.y.range.is_none()),
+            Scale::Log => Ruler::log(
+                if self.y.range.is_none() {
+                    Scale::Log.padded(y_range, 0.0)
+                } else {
+                    y_range
+                },
+                HEIGHT,
+            ),
+        };
+        let widest = y
+            .ticks
+            .iter()
+            .map(|t| width(&t.label, TICK_SIZE, Weight::Regular))
+            .fold(0.0, f64::max);
+        let left = 30.0 + widest + 14.0;
+        let wide = SHEET_WIDTH - RIGHT_MARGIN - left;
+        let x = match self.x.scale {
+            Scale::Linear => Ruler::linear(x_range, Steps::Decimal, 8.0, false),
+            Scale::Log => Ruler::log(x_range, wide),
+        };
+        let mut canvas = Canvas::default();
+        let top = header(
+            &mut canvas,
+            (left, SHEET_WIDTH - RIGHT_MARGIN),
+            &self.title,
+            self.subtitle.as_deref(),
+            &self.entries(),
+        );
+        let panel = Panel {
+            frame: Rect {
+                left,
+                top,
+                width: wide,
+                height: HEIGHT,
+            },
+            x,
+            y,
+        };
+        panel.grid(&mut canvas);
+        canvas.clipped(panel.frame, |canvas| self.draw_data(canvas, &panel, &marks));
+        panel.frame(&mut canvas);
+        panel.y_labels(&mut canvas, &self.y.label, 22.0);
+        panel.x_labels(&mut canvas, &self.x.label);
+        let mut bottom = panel.frame.bottom() + X_AXIS_HEIGHT;
+        if let Some(note) = skipped_note(skipped) {
+            let style = TextStyle {
+                colour: FAINT_INK,
+                ..TextStyle::new(12.0, Anchor::End)
+            };
+            canvas.text((SHEET_WIDTH - RIGHT_MARGIN, bottom + 8.0), &note, style);
+            bottom += 18.0;
+        }
+        Ok(canvas.finish(SHEET_WIDTH, bottom, &self.title))
+    }
+}
+
+/// Columns from zero, as wide as the closest neighbours allow.
+fn columns(canvas: &mut Canvas, panel: &Panel, marks: &[Mark], role: Role) {
+    let mut places: Vec<f64> = marks.iter().map(|m| panel.at(m.x, m.y).0).collect();
+    places.sort_by(f64::total_cmp);
+    let apart = places
+        .windows(2)
+        .map(|w| w[1] - w[0])
+        .filter(|d| *d > 0.0)
+        .fold(f64::INFINITY, f64::min);
+    let wide = (COLUMN_FILL * apart).clamp(1.0, MAX_COLUMN);
+    for mark in marks {
+        let ((x, y), (_, foot)) = (panel.at(mark.x, mark.y), panel.at(mark.x, 0.0));
+        let foot = foot.min(panel.frame.bottom());
+        canvas.rect(
+            Rect {
+                left: x - wide / 2.0,
+                top: y.min(foot),
+                width: wide,
+                height: (y - foot).abs(),
+            },
+            role.colour(),
+            0.75,
+        );
+    }
+}
+
+#[cfg(test)]
+#[path = "line_tests.rs"]
+mod tests;

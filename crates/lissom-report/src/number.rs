@@ -1,0 +1,132 @@
+//! Numbers as text.
+
+/// The largest count of decimals written.
+const MAX_DECIMALS: i32 = 15;
+
+/// `value` with `decimals` places and a true minus sign.
+pub(crate) fn fixed(value: f64, decimals: i32) -> String {
+    let places = usize::try_from(decimals.clamp(0, MAX_DECIMALS)).unwrap_or(0);
+    let text = format!("{value:.places$}");
+    let zero = text.bytes().all(|b| matches!(b, b'-' | b'0' | b'.'));
+    if zero {
+        text.trim_start_matches('-').to_owned()
+    } else {
+        text.replace('-', "−")
+    }
+}
+
+/// 10 to the power `exponent` in superscript digits.
+pub(crate) fn power_of_ten(exponent: i32) -> String {
+    let raise = |c: char| match c {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        d => d
+            .to_digit(10)
+            .and_then(|digit| char::from_u32(0x2070 + digit))
+            .unwrap_or(d),
+    };
+    format!(
+        "10{}",
+        exponent.to_string().chars().map(raise).collect::<String>()
+    )
+}
+
+/// The decimal exponent of the leading digit, 0 for zero and non-finite numbers.
+pub(crate) fn exponent(value: f64) -> i32 {
+    let log = value.abs().log10().floor();
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the exponent of a finite f64 lies between -324 and 308"
+    )]
+    if log.is_finite() { log as i32 } else { 0 }
+}
+
+/// `value` in four significant digits, in scientific form where it is very large or small.
+pub(crate) fn plain(value: f64) -> String {
+    significant(value, 4)
+}
+
+fn significant(value: f64, digits: usize) -> String {
+    if !value.is_finite() {
+        return "—".to_owned();
+    }
+    let places = digits.saturating_sub(1);
+    let rounded = format!("{value:.places$e}");
+    // The exponent after rounding: 9999.9 has five digits before the point once it has four in all.
+    let (mantissa, e) = rounded.split_once('e').unwrap_or((&rounded, "0"));
+    let e: i32 = e.parse().unwrap_or(0);
+    if (-4..6).contains(&e) {
+        return fixed(value, i32::try_from(places).unwrap_or(0) - e);
+    }
+    format!("{}×{}", mantissa.replace('-', "−"), power_of_ten(e))
+}
+
+/// `value` without its power of ten.
+fn mantissa(value: f64, e: i32) -> f64 {
+    // In two steps: 10^324 is no f64.
+    value / 10f64.powi(e / 2) / 10f64.powi(e - e / 2)
+}
+
+/// A value and its standard deviation, the deviation in two significant digits and the value to the same place.
+///
+/// Non-finite values become a dash; a deviation that is not finite and positive is left out.
+///
+/// ```
+/// use lissom_report::with_uncertainty;
+/// assert_eq!(with_uncertainty(0.131_972, 0.001_24), "0.1320 ± 0.0012");
+/// assert_eq!(with_uncertainty(-1.234e-9, 5e-12), "(−1.2340 ± 0.0050)×10⁻⁹");
+/// assert_eq!(with_uncertainty(f64::NAN, 1.0), "—");
+/// ```
+pub fn with_uncertainty(value: f64, std: f64) -> String {
+    if !value.is_finite() || !std.is_finite() || std <= 0.0 {
+        return plain(value);
+    }
+    // The place of the second digit of the deviation after rounding: 0.00996 is written 0.010.
+    let place = exponent(std * 1.005_000_001) - 1;
+    let e = exponent(value).max(exponent(std));
+    if (-4..6).contains(&e) && place < 1 {
+        return format!("{} ± {}", fixed(value, -place), fixed(std, -place));
+    }
+    let decimals = e - place;
+    format!(
+        "({} ± {})×{}",
+        fixed(mantissa(value, e), decimals),
+        fixed(mantissa(std, e), decimals),
+        power_of_ten(e)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn minus_signs_and_zeros() {
+        assert_eq!(fixed(-1.25, 1), "−1.2");
+        assert_eq!(fixed(-0.001, 1), "0.0");
+        assert_eq!(power_of_ten(-12), "10⁻¹²");
+        assert_eq!(power_of_ten(304), "10³⁰⁴");
+    }
+
+    #[test]
+    fn plain_numbers() {
+        assert_eq!(plain(std::f64::consts::PI), "3.142");
+        assert_eq!(plain(12_345.6), "12346");
+        assert_eq!(plain(0.0), "0.000");
+        assert_eq!(plain(9.99999), "10.00");
+        assert_eq!(plain(1e-320), "1.000×10⁻³²⁰");
+        assert_eq!(plain(-2.5e10), "−2.500×10¹⁰");
+        assert_eq!(plain(f64::INFINITY), "—");
+    }
+
+    #[test]
+    fn uncertainty_sets_the_place() {
+        assert_eq!(with_uncertainty(12.345, 0.0996), "12.35 ± 0.10");
+        assert_eq!(with_uncertainty(12.345, 0.0), "12.35");
+        assert_eq!(with_uncertainty(95.11, 12.0), "95 ± 12");
+        assert_eq!(with_uncertainty(951.1, 120.0), "(9.5 ± 1.2)×10²");
+        assert_eq!(with_uncertainty(0.0, 0.02), "0.000 ± 0.020");
+    }
+}

@@ -1,0 +1,121 @@
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use resvg::usvg::roxmltree::{Document, ParsingOptions};
+
+use super::*;
+use crate::{Axis, LinePlot, Role, Trace};
+
+const HOSTILE: &str = "<script>alert(\"x\")</script>&'\u{0}";
+
+fn plot() -> LinePlot {
+    LinePlot::new(HOSTILE, Axis::linear(HOSTILE), Axis::linear("y")).trace(Trace::line(
+        HOSTILE,
+        Role::Raw,
+        vec![0.0, 1.0],
+        vec![0.0, 1.0],
+    ))
+}
+
+fn full() -> String {
+    let finding = Finding {
+        run: Some(HOSTILE.to_owned()),
+        affects: vec![HOSTILE.to_owned()],
+        ..Finding::new(Severity::Info, HOSTILE, HOSTILE)
+    };
+    let figure = KeyFigure {
+        name: HOSTILE.to_owned(),
+        value: Some(0.131_97),
+        std: Some(0.0012),
+        ci95: Some([0.1296, 0.1344]),
+        unit: "A".to_owned(),
+        note: String::new(),
+    };
+    let refused = KeyFigure {
+        name: "viscous".to_owned(),
+        note: "too few runs".to_owned(),
+        ..KeyFigure::default()
+    };
+    Page::new(HOSTILE)
+        .summary(HOSTILE)
+        .heading(HOSTILE)
+        .paragraph(HOSTILE)
+        .key_figures(HOSTILE, &[figure, refused])
+        .table(
+            &Table::new("t", &[("a", Cells::Text), (HOSTILE, Cells::Numbers)])
+                .row([HOSTILE])
+                .row(["1", "2", "3"]),
+        )
+        .figure(&plot(), HOSTILE)
+        .figure(&plot(), "again")
+        .figure(&LinePlot::default(), "nothing")
+        .findings(&[
+            finding.hint(HOSTILE),
+            Finding::new(Severity::Refusal, "stuck", "No slip."),
+        ])
+        .details(HOSTILE, HOSTILE)
+        .footer(HOSTILE)
+        .to_html()
+}
+
+#[test]
+fn the_page_is_well_formed_and_nothing_breaks_out() {
+    let html = full();
+    // Written so that it is well-formed XML too, which a parser can check to the last tag.
+    let document = Document::parse_with_options(
+        &html,
+        ParsingOptions {
+            allow_dtd: true,
+            ..ParsingOptions::default()
+        },
+    )
+    .unwrap();
+    let names = |name: &'static str| {
+        document
+            .descendants()
+            .filter(move |n| n.tag_name().name() == name)
+    };
+    assert_eq!(names("script").count(), 0);
+    assert_eq!(names("figure").count(), 3);
+    assert_eq!(names("details").count(), 1);
+    assert_eq!(
+        names("h1").next().and_then(|n| n.text()).unwrap(),
+        HOSTILE.replace('\u{0}', "\u{fffd}")
+    );
+}
+
+#[test]
+fn nothing_is_loaded_and_no_id_clashes() {
+    let html = full();
+    for foreign in ["src=", "href=", "url(", "@import", " id="] {
+        assert!(!html.contains(foreign), "{foreign}");
+    }
+    let addresses = html.matches("http").count();
+    assert_eq!(
+        addresses,
+        html.matches("http-equiv").count()
+            + html.matches("xmlns=\"http://www.w3.org/2000/svg\"").count()
+    );
+}
+
+#[test]
+fn figures_findings_and_refusals_read_right() {
+    let html = full();
+    assert!(html.contains(
+        "<td class=\"n\">0.1320 ± 0.0012</td><td class=\"n\">0.1296 … 0.1344</td><td>A</td>"
+    ));
+    assert!(
+        html.contains("<td>viscous</td><td class=\"n\">refused</td>")
+            && html.contains("too few runs")
+    );
+    assert!(html.contains("Not drawn: figure &quot;&quot; has no point to draw"));
+    assert!(
+        html.find("stuck").unwrap() < html.find(">info<").unwrap(),
+        "refusals come first"
+    );
+    assert!(
+        Page::new("t")
+            .findings(&[])
+            .to_html()
+            .contains("No findings.")
+    );
+}

@@ -1,0 +1,344 @@
+//! One pair of axes: grid, frame, ticks, and the data drawn in it.
+
+use crate::axis::Ruler;
+use crate::canvas::{Anchor, Canvas, Rect, Stroke, TextStyle};
+use crate::number::power_of_ten;
+use crate::palette::{FLAGGED, GRID, INK, MINOR_GRID, Role};
+use crate::text::{Weight, shorten, width};
+
+/// The size of tick labels.
+pub(crate) const TICK_SIZE: f64 = 14.0;
+/// The size of axis labels and legends.
+pub(crate) const LABEL_SIZE: f64 = 15.0;
+/// The length of a tick.
+const TICK: f64 = 5.0;
+/// Half the width of the cap of an error bar.
+const CAP: f64 = 3.5;
+/// From the frame to the baseline of tick labels below it.
+const TICK_BASELINE: f64 = 20.0;
+/// From the frame to the baseline of the axis label below it.
+const LABEL_BASELINE: f64 = 44.0;
+/// The space a horizontal axis takes below its frame.
+pub(crate) const X_AXIS_HEIGHT: f64 = 54.0;
+/// Lines of data are this wide.
+pub(crate) const LINE_WIDTH: f64 = 2.0;
+
+/// One datum in the units of its axes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mark {
+    pub(crate) x: f64,
+    pub(crate) y: f64,
+    /// The ends of the error bar.
+    pub(crate) bar: Option<(f64, f64)>,
+    pub(crate) flagged: bool,
+    /// A point before this one could not be drawn: lines stop there.
+    pub(crate) after_gap: bool,
+}
+
+/// A frame with its two axes.
+#[derive(Debug)]
+pub(crate) struct Panel {
+    pub(crate) frame: Rect,
+    pub(crate) x: Ruler,
+    pub(crate) y: Ruler,
+}
+
+impl Panel {
+    /// The place of a datum on the sheet.
+    pub(crate) fn at(&self, x: f64, y: f64) -> (f64, f64) {
+        (
+            self.frame.left + self.frame.width * self.x.fraction(x),
+            self.frame.bottom() - self.frame.height * self.y.fraction(y),
+        )
+    }
+
+    fn grid_x(&self, places: impl Iterator<Item = f64>) -> Vec<[(f64, f64); 2]> {
+        let (top, bottom) = (self.frame.top, self.frame.bottom());
+        places
+            .map(|x| self.at(x, self.y.low).0)
+            .map(|x| [(x, top), (x, bottom)])
+            .collect()
+    }
+
+    fn grid_y(&self, places: impl Iterator<Item = f64>) -> Vec<[(f64, f64); 2]> {
+        let (left, right) = (self.frame.left, self.frame.right());
+        places
+            .map(|y| self.at(self.x.low, y).1)
+            .map(|y| [(left, y), (right, y)])
+            .collect()
+    }
+
+    /// The grid lines.
+    pub(crate) fn grid(&self, canvas: &mut Canvas) {
+        let minor = Stroke {
+            colour: MINOR_GRID,
+            width: 1.0,
+            dash: None,
+        };
+        let major = Stroke {
+            colour: GRID,
+            width: 1.0,
+            dash: None,
+        };
+        canvas.lines(self.grid_x(self.x.minor.iter().copied()), minor);
+        canvas.lines(self.grid_y(self.y.minor.iter().copied()), minor);
+        canvas.lines(self.grid_x(self.x.ticks.iter().map(|t| t.at)), major);
+        canvas.lines(self.grid_y(self.y.ticks.iter().map(|t| t.at)), major);
+    }
+
+    /// The frame with its ticks; it goes over the data.
+    pub(crate) fn frame(&self, canvas: &mut Canvas) {
+        let Rect { left, top, .. } = self.frame;
+        let (right, bottom) = (self.frame.right(), self.frame.bottom());
+        let ink = Stroke {
+            colour: INK,
+            width: 1.0,
+            dash: None,
+        };
+        canvas.polyline(
+            &[
+                (left, top),
+                (right, top),
+                (right, bottom),
+                (left, bottom),
+                (left, top),
+                (right, top),
+            ],
+            ink,
+        );
+        let across = self
+            .grid_y(self.y.ticks.iter().map(|t| t.at))
+            .into_iter()
+            .map(|[(x, y), _]| [(x, y), (x - TICK, y)]);
+        let down = self
+            .grid_x(self.x.ticks.iter().map(|t| t.at))
+            .into_iter()
+            .map(|[_, (x, y)]| [(x, y), (x, y + TICK)]);
+        canvas.lines(across.chain(down), ink);
+    }
+
+    /// The numbers and the label of the vertical axis, the label centred at `label_x`.
+    pub(crate) fn y_labels(&self, canvas: &mut Canvas, label: &str, label_x: f64) {
+        for tick in &self.y.ticks {
+            let (x, y) = self.at(self.x.low, tick.at);
+            canvas.text(
+                (x - TICK - 4.0, y + 0.35 * TICK_SIZE),
+                &tick.label,
+                TextStyle::new(TICK_SIZE, Anchor::End),
+            );
+        }
+        let style = TextStyle {
+            upward: true,
+            ..TextStyle::new(LABEL_SIZE, Anchor::Middle)
+        };
+        let middle = self.frame.top + self.frame.height / 2.0;
+        let label = labelled(label, self.y.factor);
+        canvas.text(
+            (label_x, middle),
+            &shorten(&label, LABEL_SIZE, Weight::Regular, self.frame.height * 1.1),
+            style,
+        );
+    }
+
+    /// The numbers and the label of the horizontal axis, below the frame.
+    pub(crate) fn x_labels(&self, canvas: &mut Canvas, label: &str) {
+        self.x_numbers(canvas, &self.x, self.frame.bottom() + TICK_BASELINE);
+        let middle = self.frame.left + self.frame.width / 2.0;
+        let label = shorten(
+            &labelled(label, self.x.factor),
+            LABEL_SIZE,
+            Weight::Regular,
+            self.frame.width,
+        );
+        canvas.text(
+            (middle, self.frame.bottom() + LABEL_BASELINE),
+            &label,
+            TextStyle::new(LABEL_SIZE, Anchor::Middle),
+        );
+    }
+
+    /// A second horizontal axis above the frame.
+    pub(crate) fn top_labels(&self, canvas: &mut Canvas, ruler: &Ruler, label: &str) {
+        let ink = Stroke {
+            colour: INK,
+            width: 1.0,
+            dash: None,
+        };
+        let places = ruler
+            .ticks
+            .iter()
+            .map(|t| self.frame.left + self.frame.width * ruler.fraction(t.at));
+        canvas.lines(
+            places.map(|x| [(x, self.frame.top), (x, self.frame.top - TICK)]),
+            ink,
+        );
+        self.x_numbers(canvas, ruler, self.frame.top - TICK - 5.0);
+        let middle = self.frame.left + self.frame.width / 2.0;
+        canvas.text(
+            (middle, self.frame.top - 28.0),
+            &labelled(label, ruler.factor),
+            TextStyle::new(LABEL_SIZE, Anchor::Middle),
+        );
+    }
+
+    fn x_numbers(&self, canvas: &mut Canvas, ruler: &Ruler, baseline: f64) {
+        let mut free = f64::NEG_INFINITY;
+        for tick in &ruler.ticks {
+            let x = self.frame.left + self.frame.width * ruler.fraction(tick.at);
+            let half = width(&tick.label, TICK_SIZE, Weight::Regular) / 2.0;
+            if x - half >= free {
+                canvas.text(
+                    (x, baseline),
+                    &tick.label,
+                    TextStyle::new(TICK_SIZE, Anchor::Middle),
+                );
+                free = x + half + 6.0;
+            }
+        }
+    }
+
+    /// A line through the marks, broken at gaps; a point with gaps on both sides becomes a dot.
+    pub(crate) fn curve(&self, canvas: &mut Canvas, marks: &[Mark], role: Role, steps: bool) {
+        let stroke = Stroke {
+            colour: role.colour(),
+            width: LINE_WIDTH,
+            dash: role.dash(),
+        };
+        for run in marks.chunk_by(|_, next| !next.after_gap) {
+            let mut path: Vec<(f64, f64)> = Vec::with_capacity(run.len());
+            for mark in run {
+                let (x, y) = self.at(mark.x, mark.y);
+                if let (true, Some((_, held))) = (steps, path.last().copied()) {
+                    path.push((x, held));
+                }
+                path.push((x, y));
+            }
+            match path.as_slice() {
+                [(x, y)] => canvas.rect(
+                    Rect {
+                        left: x - 2.0,
+                        top: y - 2.0,
+                        width: 4.0,
+                        height: 4.0,
+                    },
+                    role.colour(),
+                    1.0,
+                ),
+                path => canvas.polyline(&thinned(path), stroke),
+            }
+        }
+    }
+
+    /// The error bars of the marks that have one.
+    pub(crate) fn bars(&self, canvas: &mut Canvas, marks: &[Mark], role: Role) {
+        for (flagged, colour) in [(true, FLAGGED), (false, role.colour())] {
+            let ends = marks
+                .iter()
+                .filter(|m| m.flagged == flagged)
+                .filter_map(|m| Some((m.x, m.bar?)));
+            let lines = ends.flat_map(|(x, (low, high))| {
+                let ((x, bottom), (_, top)) = (self.at(x, low), self.at(x, high));
+                [
+                    [(x, bottom), (x, top)],
+                    [(x - CAP, bottom), (x + CAP, bottom)],
+                    [(x - CAP, top), (x + CAP, top)],
+                ]
+            });
+            canvas.lines(
+                lines.collect::<Vec<_>>(),
+                Stroke {
+                    colour,
+                    width: 1.3,
+                    dash: None,
+                },
+            );
+        }
+    }
+
+    /// The markers; flagged ones are grey and hollow and lie below the others. `all` draws those without flag too.
+    pub(crate) fn points(&self, canvas: &mut Canvas, marks: &[Mark], role: Role, all: bool) {
+        let places = |flagged| {
+            marks
+                .iter()
+                .filter(move |m| m.flagged == flagged)
+                .map(|m| self.at(m.x, m.y))
+        };
+        canvas.markers(
+            role.marker(),
+            places(true),
+            "#ffffff",
+            Stroke {
+                colour: FLAGGED,
+                width: 1.5,
+                dash: None,
+            },
+        );
+        if all {
+            canvas.markers(
+                role.marker(),
+                places(false),
+                role.colour(),
+                Stroke {
+                    colour: "#ffffff",
+                    width: 0.8,
+                    dash: None,
+                },
+            );
+        }
+    }
+}
+
+/// An axis label with the power of ten its numbers leave out.
+fn labelled(label: &str, factor: Option<i32>) -> String {
+    match factor {
+        Some(e) if label.is_empty() => format!("×{}", power_of_ten(e)),
+        Some(e) => format!("{label} × {}", power_of_ten(e)),
+        None => label.to_owned(),
+    }
+}
+
+/// The same picture of a long path with fewer points: of those in one half pixel column the first, extremes and last are kept.
+fn thinned(path: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    const SHORT: usize = 1500;
+    if path.len() <= SHORT {
+        return path.to_vec();
+    }
+    let column = |x: f64| (2.0 * x).round();
+    let mut kept = Vec::new();
+    for run in path.chunk_by(|a, b| (column(a.0) - column(b.0)).abs() < 0.5) {
+        let place = |best: fn(f64, f64) -> bool| {
+            (0..run.len()).fold(0, |k, j| if best(run[j].1, run[k].1) { j } else { k })
+        };
+        let mut places = [0, place(|a, b| a < b), place(|a, b| a > b), run.len() - 1];
+        places.sort_unstable();
+        kept.extend(
+            places
+                .iter()
+                .enumerate()
+                .filter(|(k, p)| *k == 0 || places[k - 1] != **p)
+                .map(|(_, p)| run[*p]),
+        );
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_paths_keep_their_extremes() {
+        let path: Vec<(f64, f64)> = (0..100_000)
+            .map(|k| {
+                (
+                    f64::from(k) / 200.0,
+                    if k == 51_234 { 9.0 } else { f64::from(k % 7) },
+                )
+            })
+            .collect();
+        let thin = thinned(&path);
+        assert!(thin.len() < 4100, "{}", thin.len());
+        assert!(thin.iter().any(|p| p.1 > 8.0));
+        assert_eq!((thin.first(), thin.last()), (path.first(), path.last()));
+    }
+}
