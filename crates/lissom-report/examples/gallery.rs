@@ -18,12 +18,8 @@ fn motor(w: f64) -> Complex64 {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = PathBuf::from(std::env::args().nth(1).ok_or("name a folder")?);
-    let dense: Vec<f64> = (0..800)
-        .map(|k| 10f64.powf(-0.1 + 2.3 * f64::from(k) / 799.0))
-        .collect();
-    let sparse: Vec<f64> = (0..34)
-        .map(|k| 10f64.powf(2.1 * f64::from(k) / 33.0))
-        .collect();
+    let dense: Vec<f64> = (0..800).map(|k| 10f64.powf(-0.1 + 2.3 * f64::from(k) / 799.0)).collect();
+    let sparse: Vec<f64> = (0..34).map(|k| 10f64.powf(2.1 * f64::from(k) / 33.0)).collect();
     let truth: Vec<Complex64> = dense.iter().map(|w| motor(*w)).collect();
     let fitted: Vec<Complex64> = dense.iter().map(|w| motor(w * 1.01)).collect();
     let noise = |k: usize| 0.06 * (12.9898 * k as f64).sin();
@@ -46,13 +42,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let bode = BodePlot::new("Motor angle per current", "rad/A")
         .subtitle("34 runs of a stepped sine; bars show one standard deviation")
         .frequency_axis(FrequencyAxis::Both)
-        .series(Series::new(
-            "raw",
-            Role::Raw,
-            Style::Points,
-            sparse.clone(),
-            raw,
-        ))
+        .series(Series::new("raw", Role::Raw, Style::Points, sparse.clone(), raw))
         .series(
             Series::new(
                 "corrected",
@@ -64,13 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             .with_std(std)
             .with_flags(flags),
         )
-        .series(Series::new(
-            "fitted",
-            Role::Fitted,
-            Style::Line,
-            dense.clone(),
-            fitted,
-        ))
+        .series(Series::new("fitted", Role::Fitted, Style::Line, dense.clone(), fitted))
         .series(Series::new("truth", Role::Truth, Style::Line, dense, truth));
     let estimates: Vec<f64> = (0..34).map(|k| 0.132 + 0.03 * noise(k)).collect();
     let friction = LinePlot::new(
@@ -78,12 +62,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         Axis::log("frequency (rad/s)"),
         Axis::linear("Coulomb friction (A)"),
     )
-    .band(Band::new(
-        "mean and 95 % interval",
-        Role::Other(2),
-        0.132,
-        (0.1312, 0.1328),
-    ))
+    .band(Band::new("mean and 95 % interval", Role::Other(2), 0.132, (0.1312, 0.1328)))
     .trace(Trace::points_with_bars(
         "third harmonic",
         Role::Corrected,
@@ -92,10 +71,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         vec![0.0012; 34],
     ));
     let time: Vec<f64> = (0..40_000).map(|k| 2e-4 * f64::from(k)).collect();
-    let angle = time
-        .iter()
-        .map(|t| 0.4 * (6.0 * t).sin() + 0.01 * (311.0 * t).sin())
-        .collect();
+    let angle = time.iter().map(|t| 0.4 * (6.0 * t).sin() + 0.01 * (311.0 * t).sin()).collect();
     let held: Vec<f64> = (0..81).map(|k| 0.1 * f64::from(k)).collect();
     let command = held.iter().map(|t| 0.5 * (6.0 * t).sin()).collect();
     let trace = LinePlot::new(
@@ -104,36 +80,20 @@ fn main() -> Result<(), Box<dyn Error>> {
         Axis::linear("angle (rad)"),
     )
     .trace(Trace::line("measured", Role::Corrected, time, angle))
-    .trace(Trace::new(
-        "command",
-        Role::Raw,
-        TraceStyle::Steps,
-        held,
-        command,
-    ));
+    .trace(Trace::new("command", Role::Raw, TraceStyle::Steps, held, command));
     let index: Vec<f64> = (1..=12).map(f64::from).collect();
     let size = index.iter().map(|k| 3e-5 * (1.3 * k).sin()).collect();
     let residual = Trace {
         std: Some(vec![5e-6; 12]),
         ..Trace::new("residual", Role::Other(1), TraceStyle::Columns, index, size)
     };
-    let residual = LinePlot::new(
-        "Residual torque by run",
-        Axis::linear("run"),
-        Axis::linear("torque (N·m)"),
-    )
-    .trace(residual);
+    let residual =
+        LinePlot::new("Residual torque by run", Axis::linear("run"), Axis::linear("torque (N·m)"))
+            .trace(residual);
 
     let figure = |name: &str, value, std, unit: &str, note: &str| {
         let ci95 = Option::zip(value, std).map(|(v, s): (f64, f64)| [v - 1.96 * s, v + 1.96 * s]);
-        KeyFigure {
-            name: name.into(),
-            value,
-            std,
-            ci95,
-            unit: unit.into(),
-            note: note.into(),
-        }
+        KeyFigure { name: name.into(), value, std, ci95, unit: unit.into(), note: note.into() }
     };
     let figures = [
         figure("Coulomb friction", Some(0.131_97), Some(0.000_41), "A", ""),
@@ -147,12 +107,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         ),
     ];
     let findings = [
-        Finding::new(
-            Severity::Warning,
-            "saturated",
-            "Run 4 saturates for 12 % of the cycle.",
-        )
-        .hint("Repeat it with half the amplitude."),
+        Finding::new(Severity::Warning, "saturated", "Run 4 saturates for 12 % of the cycle.")
+            .hint("Repeat it with half the amplitude."),
         Finding::new(
             Severity::Refusal,
             "viscous_unresolved",
@@ -199,10 +155,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("residual", residual.to_svg()?),
     ] {
         std::fs::write(folder.join(name).with_extension("svg"), &svg)?;
-        std::fs::write(
-            folder.join(name).with_extension("png"),
-            svg_to_png(&svg, 2.0)?,
-        )?;
+        std::fs::write(folder.join(name).with_extension("png"), svg_to_png(&svg, 2.0)?)?;
     }
     Ok(())
 }

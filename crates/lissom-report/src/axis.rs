@@ -90,21 +90,9 @@ impl Ruler {
         // In two steps: the divisor alone may not be representable.
         let unit = |v: f64| factor.map_or(v, |e| v / 10f64.powi(e / 2) / 10f64.powi(e - e / 2));
         let decimals = decimals(unit(step));
-        let ticks = places
-            .iter()
-            .map(|at| Tick {
-                at: *at,
-                label: fixed(unit(*at), decimals),
-            })
-            .collect();
-        Self {
-            scale: Scale::Linear,
-            low,
-            high,
-            ticks,
-            minor: Vec::new(),
-            factor,
-        }
+        let ticks =
+            places.iter().map(|at| Tick { at: *at, label: fixed(unit(*at), decimals) }).collect();
+        Self { scale: Scale::Linear, low, high, ticks, minor: Vec::new(), factor }
     }
 
     /// A logarithmic axis over `low..high` that is `length` pixels long.
@@ -116,10 +104,7 @@ impl Ruler {
             d if d >= ROOMY_DECADE => &[1.0, 2.0, 5.0],
             _ => &[1.0],
         };
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "at most 600 decades over a pixel"
-        )]
+        #[expect(clippy::cast_possible_truncation, reason = "at most 600 decades over a pixel")]
         let stride = (NARROW_DECADE / decade).ceil().max(1.0) as i32;
         let inside = |v: f64| v >= low * (1.0 - 1e-9) && v <= high * (1.0 + 1e-9);
         let plain = low >= 1e-3 && high <= 1e5 * (1.0 + 1e-9);
@@ -133,36 +118,18 @@ impl Ruler {
                 }
                 let on_stride = e.rem_euclid(stride) == 0;
                 if labelled.contains(&mantissa) && on_stride {
-                    ticks.push(Tick {
-                        at,
-                        label: log_label(m, e, plain),
-                    });
+                    ticks.push(Tick { at, label: log_label(m, e, plain) });
                 } else if (m == 1) || (stride == 1 && decade >= MINOR_DECADE) {
                     minor.push(at);
                 }
             }
         }
         if ticks.len() < 2 {
-            let linear = Self::linear(
-                (low, high),
-                Steps::Decimal,
-                (length / 110.0).max(2.0),
-                false,
-            );
-            return Self {
-                scale: Scale::Log,
-                minor,
-                ..linear
-            };
+            let linear =
+                Self::linear((low, high), Steps::Decimal, (length / 110.0).max(2.0), false);
+            return Self { scale: Scale::Log, minor, ..linear };
         }
-        Self {
-            scale: Scale::Log,
-            low,
-            high,
-            ticks,
-            minor,
-            factor: None,
-        }
+        Self { scale: Scale::Log, low, high, ticks, minor, factor: None }
     }
 
     /// The place of a value along the axis: 0 at the lower end, 1 at the upper.
@@ -224,10 +191,7 @@ mod tests {
     #[test]
     fn large_and_small_numbers_share_a_factor() {
         let ruler = Ruler::linear((0.0, 4.2e-5), Steps::Decimal, 5.0, true);
-        assert_eq!(
-            (ruler.factor, labels(&ruler)),
-            (Some(-5), vec!["0", "1", "2", "3", "4", "5"])
-        );
+        assert_eq!((ruler.factor, labels(&ruler)), (Some(-5), vec!["0", "1", "2", "3", "4", "5"]));
     }
 
     #[test]
@@ -240,10 +204,7 @@ mod tests {
             labels(&Ruler::log((0.9, 1.2e6), 600.0)),
             ["10⁰", "10¹", "10²", "10³", "10⁴", "10⁵", "10⁶"]
         );
-        assert_eq!(
-            labels(&Ruler::log((10.1, 10.9), 600.0)),
-            ["10.2", "10.4", "10.6", "10.8"]
-        );
+        assert_eq!(labels(&Ruler::log((10.1, 10.9), 600.0)), ["10.2", "10.4", "10.6", "10.8"]);
         let many = Ruler::log((1e-300, 1e300), 600.0);
         assert!(
             (2..20).contains(&many.ticks.len()) && many.minor.len() < 700,

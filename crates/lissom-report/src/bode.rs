@@ -79,15 +79,7 @@ impl Series {
         omega_rad_s: Vec<f64>,
         response: Vec<Complex64>,
     ) -> Self {
-        Self {
-            label: label.into(),
-            role,
-            style,
-            omega_rad_s,
-            response,
-            std: None,
-            flagged: None,
-        }
+        Self { label: label.into(), role, style, omega_rad_s, response, std: None, flagged: None }
     }
 
     /// Adds standard deviations.
@@ -115,12 +107,9 @@ impl Series {
             .into_iter()
             .find_map(|(field, n)| n.filter(|n| *n != expected).map(|n| (field, n)))
         {
-            Some((field, found)) => Err(FigureError::Length {
-                series: self.label.clone(),
-                field,
-                expected,
-                found,
-            }),
+            Some((field, found)) => {
+                Err(FigureError::Length { series: self.label.clone(), field, expected, found })
+            }
             None => Ok(()),
         }
     }
@@ -155,11 +144,7 @@ struct Prepared<'a> {
 impl BodePlot {
     /// A plot without series.
     pub fn new(title: impl Into<String>, unit: impl Into<String>) -> Self {
-        Self {
-            title: title.into(),
-            unit: unit.into(),
-            ..Self::default()
-        }
+        Self { title: title.into(), unit: unit.into(), ..Self::default() }
     }
 
     /// Adds a line below the title.
@@ -186,11 +171,7 @@ impl BodePlot {
     /// The drawable points of every series by frequency, and the count of the others.
     fn prepare(&self) -> Result<(Vec<Prepared<'_>>, usize), FigureError> {
         let (mut prepared, mut tracks, mut skipped) = (Vec::new(), Vec::new(), 0);
-        let per_unit = if self.frequency_axis == FrequencyAxis::Hertz {
-            TAU
-        } else {
-            1.0
-        };
+        let per_unit = if self.frequency_axis == FrequencyAxis::Hertz { TAU } else { 1.0 };
         for series in &self.series {
             series.check()?;
             let mut order: Vec<usize> = (0..series.response.len()).collect();
@@ -209,11 +190,7 @@ impl BodePlot {
                     (skipped, after_gap) = (skipped + 1, true);
                     continue;
                 }
-                let std = series
-                    .std
-                    .as_ref()
-                    .map(|s| s[k])
-                    .filter(|s| *s > 0.0 && s.is_finite());
+                let std = series.std.as_ref().map(|s| s[k]).filter(|s| *s > 0.0 && s.is_finite());
                 let std = std.filter(|_| series.style == Style::PointsWithBars);
                 let flagged = series.flagged.as_ref().is_some_and(|f| f[k]);
                 let (x, y) = (omega / per_unit, decibels(size));
@@ -226,23 +203,13 @@ impl BodePlot {
                 });
                 // The bar is relative until the branch is known.
                 let turn = std.map(|s| degree_bar(size, s)).map(|d| (-d, d));
-                phase.push(Mark {
-                    x,
-                    y: 0.0,
-                    bar: turn,
-                    flagged,
-                    after_gap,
-                });
+                phase.push(Mark { x, y: 0.0, bar: turn, flagged, after_gap });
                 track.x.push(omega.log10());
                 track.degrees.push(value.im.atan2(value.re).to_degrees());
                 track.doubtful.push(flagged);
                 after_gap = false;
             }
-            prepared.push(Prepared {
-                series,
-                magnitude,
-                phase,
-            });
+            prepared.push(Prepared { series, magnitude, phase });
             tracks.push(track);
         }
         unwrap_together(&mut tracks);
@@ -263,22 +230,10 @@ impl BodePlot {
                 Style::Points => Sample::Points(series.role),
                 Style::PointsWithBars => Sample::PointsWithBars(series.role),
             };
-            entries.push(Entry {
-                sample,
-                label: series.label.clone(),
-            });
+            entries.push(Entry { sample, label: series.label.clone() });
         }
-        if self
-            .series
-            .iter()
-            .filter_map(|s| s.flagged.as_ref())
-            .flatten()
-            .any(|f| *f)
-        {
-            entries.push(Entry {
-                sample: Sample::Flagged,
-                label: "flagged".to_owned(),
-            });
+        if self.series.iter().filter_map(|s| s.flagged.as_ref()).flatten().any(|f| *f) {
+            entries.push(Entry { sample: Sample::Flagged, label: "flagged".to_owned() });
         }
         entries
     }
@@ -311,40 +266,25 @@ impl BodePlot {
         top += if both { TOP_AXIS_HEIGHT } else { 0.0 };
         let x = Ruler::log(frequencies, wide);
         let upper = Panel {
-            frame: Rect {
-                left,
-                top,
-                width: wide,
-                height: MAGNITUDE_HEIGHT,
-            },
+            frame: Rect { left, top, width: wide, height: MAGNITUDE_HEIGHT },
             x: x.clone(),
             y: db,
         };
         let below = upper.frame.bottom() + PANEL_GAP;
         let lower = Panel {
-            frame: Rect {
-                left,
-                top: below,
-                width: wide,
-                height: PHASE_HEIGHT,
-            },
+            frame: Rect { left, top: below, width: wide, height: PHASE_HEIGHT },
             x,
             y: degrees,
         };
         let marks = [
-            (
-                &upper,
-                prepared.iter().map(|p| &p.magnitude).collect::<Vec<_>>(),
-            ),
+            (&upper, prepared.iter().map(|p| &p.magnitude).collect::<Vec<_>>()),
             (&lower, prepared.iter().map(|p| &p.phase).collect()),
         ];
         for (panel, marks) in marks {
             panel.grid(&mut canvas);
             canvas.clipped(panel.frame, |canvas| {
-                for (p, marks) in prepared
-                    .iter()
-                    .zip(&marks)
-                    .filter(|(p, _)| p.series.style == Style::Line)
+                for (p, marks) in
+                    prepared.iter().zip(&marks).filter(|(p, _)| p.series.style == Style::Line)
                 {
                     panel.curve(canvas, marks, p.series.role, false);
                 }
@@ -363,24 +303,14 @@ impl BodePlot {
         upper.y_labels(&mut canvas, &unit, 22.0);
         lower.y_labels(&mut canvas, "Phase (°)", 22.0);
         let hertz = self.frequency_axis == FrequencyAxis::Hertz;
-        lower.x_labels(
-            &mut canvas,
-            if hertz {
-                "Frequency (Hz)"
-            } else {
-                "Frequency (rad/s)"
-            },
-        );
+        lower.x_labels(&mut canvas, if hertz { "Frequency (Hz)" } else { "Frequency (rad/s)" });
         if both {
             let ruler = Ruler::log((frequencies.0 / TAU, frequencies.1 / TAU), wide);
             upper.top_labels(&mut canvas, &ruler, "Frequency (Hz)");
         }
         let mut bottom = lower.frame.bottom() + X_AXIS_HEIGHT;
         if let Some(note) = skipped_note(skipped) {
-            let style = TextStyle {
-                colour: FAINT_INK,
-                ..TextStyle::new(12.0, Anchor::End)
-            };
+            let style = TextStyle { colour: FAINT_INK, ..TextStyle::new(12.0, Anchor::End) };
             canvas.text((SHEET_WIDTH - RIGHT_MARGIN, bottom + 8.0), &note, style);
             bottom += 18.0;
         }
@@ -391,10 +321,7 @@ impl BodePlot {
 impl crate::Figure for BodePlot {
     fn to_svg(&self) -> Result<String, FigureError> {
         let (prepared, skipped) = self.prepare()?;
-        let nothing = || FigureError::NothingToDraw {
-            title: self.title.clone(),
-            skipped,
-        };
+        let nothing = || FigureError::NothingToDraw { title: self.title.clone(), skipped };
         let magnitude: Vec<&Mark> = prepared.iter().flat_map(|p| &p.magnitude).collect();
         let phase: Vec<&Mark> = prepared.iter().flat_map(|p| &p.phase).collect();
         let frequencies = extent(magnitude.iter().map(|m| m.x)).ok_or_else(nothing)?;
@@ -411,18 +338,13 @@ impl crate::Figure for BodePlot {
 pub(crate) fn with_bars(marks: &[&Mark]) -> Option<(f64, f64)> {
     let (low, high) = extent(marks.iter().map(|m| m.y))?;
     let sure = || marks.iter().filter(|m| !m.flagged).filter_map(|m| m.bar);
-    let mut sizes: Vec<f64> = sure()
-        .map(|(a, b)| (b - a) / 2.0)
-        .filter(|s| s.is_finite())
-        .collect();
+    let mut sizes: Vec<f64> =
+        sure().map(|(a, b)| (b - a) / 2.0).filter(|s| s.is_finite()).collect();
     sizes.sort_by(f64::total_cmp);
     let typical = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
     let stretch = (BAR_STRETCH * (high - low)).max(1.5 * typical);
     let (bottom, top) = extent(sure().flat_map(|(a, b)| [a, b])).unwrap_or((low, high));
-    Some((
-        low.min(bottom).max(low - stretch),
-        high.max(top).min(high + stretch),
-    ))
+    Some((low.min(bottom).max(low - stretch), high.max(top).min(high + stretch)))
 }
 
 /// A magnitude in dB.
@@ -437,11 +359,7 @@ fn decibel_bar(size: f64, std: f64) -> (f64, f64) {
 
 /// Half the angle in degrees under which the circle of one standard deviation appears from the origin; 180° from inside it.
 fn degree_bar(size: f64, std: f64) -> f64 {
-    if std < size {
-        (std / size).asin().to_degrees()
-    } else {
-        180.0
-    }
+    if std < size { (std / size).asin().to_degrees() } else { 180.0 }
 }
 
 #[cfg(test)]

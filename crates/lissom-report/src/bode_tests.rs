@@ -6,13 +6,10 @@ use super::*;
 use crate::{Figure, svg_to_png};
 
 fn lag(count: u32) -> (Vec<f64>, Vec<Complex64>) {
-    let omega: Vec<f64> = (0..count)
-        .map(|k| 10f64.powf(f64::from(k) / f64::from(count - 1) * 3.0 - 1.0))
-        .collect();
-    let response = omega
-        .iter()
-        .map(|w| Complex64::new(1.0, 0.0) / Complex64::new(-w * w, 0.4 * w))
-        .collect();
+    let omega: Vec<f64> =
+        (0..count).map(|k| 10f64.powf(f64::from(k) / f64::from(count - 1) * 3.0 - 1.0)).collect();
+    let response =
+        omega.iter().map(|w| Complex64::new(1.0, 0.0) / Complex64::new(-w * w, 0.4 * w)).collect();
     (omega, response)
 }
 
@@ -26,11 +23,7 @@ fn texts(svg: &str) -> Vec<String> {
 }
 
 fn has(svg: &str, label: &str) {
-    assert!(
-        texts(svg).iter().any(|t| t == label),
-        "{label} in {:?}",
-        texts(svg)
-    );
+    assert!(texts(svg).iter().any(|t| t == label), "{label} in {:?}", texts(svg));
 }
 
 #[test]
@@ -39,13 +32,7 @@ fn labels_are_there_and_the_document_is_well_formed() {
     let plot = BodePlot::new("Motor <θ/i> & \"friends\"", "rad/A")
         .subtitle("corrected")
         .frequency_axis(FrequencyAxis::Both)
-        .series(Series::new(
-            "fit",
-            Role::Fitted,
-            Style::Line,
-            omega.clone(),
-            response.clone(),
-        ))
+        .series(Series::new("fit", Role::Fitted, Style::Line, omega.clone(), response.clone()))
         .series(
             Series::new("raw", Role::Raw, Style::PointsWithBars, omega, response)
                 .with_std(vec![0.1; 50])
@@ -65,10 +52,7 @@ fn labels_are_there_and_the_document_is_well_formed() {
     for label in ["fit", "raw", "flagged", "−180", "−90", "100"] {
         has(&svg, label);
     }
-    assert!(
-        !svg.contains(" id=") && !svg.contains("href"),
-        "nothing that could clash or load"
-    );
+    assert!(!svg.contains(" id=") && !svg.contains("href"), "nothing that could clash or load");
     let hertz = plot.frequency_axis(FrequencyAxis::Hertz).to_svg().unwrap();
     has(&hertz, "Frequency (Hz)");
     assert!(!texts(&hertz).contains(&"Frequency (rad/s)".to_owned()));
@@ -78,28 +62,13 @@ fn labels_are_there_and_the_document_is_well_formed() {
 fn raster_has_the_size_of_the_sheet() {
     let (omega, response) = lag(20);
     let svg = BodePlot::new("t", "")
-        .series(Series::new(
-            "fit",
-            Role::Fitted,
-            Style::Line,
-            omega,
-            response,
-        ))
+        .series(Series::new("fit", Role::Fitted, Style::Line, omega, response))
         .to_svg()
         .unwrap();
     let root = Document::parse(&svg).unwrap();
-    let side = |name| {
-        root.root_element()
-            .attribute(name)
-            .unwrap()
-            .parse::<u32>()
-            .unwrap()
-    };
+    let side = |name| root.root_element().attribute(name).unwrap().parse::<u32>().unwrap();
     let picture = resvg::tiny_skia::Pixmap::decode_png(&svg_to_png(&svg, 2.0).unwrap()).unwrap();
-    assert_eq!(
-        (picture.width(), picture.height()),
-        (2 * side("width"), 2 * side("height"))
-    );
+    assert_eq!((picture.width(), picture.height()), (2 * side("width"), 2 * side("height")));
 }
 
 #[test]
@@ -125,15 +94,9 @@ fn wild_bars_do_not_rule_the_axis() {
     };
     let marks = [mark(0.0, 0.1), mark(10.0, f64::INFINITY), mark(4.0, 0.2)];
     let (low, high) = with_bars(&marks.iter().collect::<Vec<_>>()).unwrap();
-    assert!(
-        (-3.6..=0.0).contains(&low) && (10.0..=13.6).contains(&high),
-        "{low} {high}"
-    );
+    assert!((-3.6..=0.0).contains(&low) && (10.0..=13.6).contains(&high), "{low} {high}");
     let constant = [mark(5.0, 1.0), mark(5.0, 1.2)];
-    assert_eq!(
-        with_bars(&constant.iter().collect::<Vec<_>>()).unwrap(),
-        (3.8, 6.2)
-    );
+    assert_eq!(with_bars(&constant.iter().collect::<Vec<_>>()).unwrap(), (3.8, 6.2));
 }
 
 #[test]
@@ -187,36 +150,20 @@ fn extreme_and_empty_input_is_no_panic() {
         Err(FigureError::NothingToDraw { skipped: 0, .. })
     ));
     let zero = plot(series(vec![1.0], vec![Complex64::new(0.0, 0.0)]));
-    assert!(matches!(
-        zero.to_svg(),
-        Err(FigureError::NothingToDraw { skipped: 1, .. })
-    ));
+    assert!(matches!(zero.to_svg(), Err(FigureError::NothingToDraw { skipped: 1, .. })));
     let short = plot(series(vec![1.0, 2.0], vec![Complex64::new(1.0, 0.0)]));
     assert!(matches!(
         short.to_svg(),
-        Err(FigureError::Length {
-            field: "response",
-            expected: 2,
-            found: 1,
-            ..
-        })
+        Err(FigureError::Length { field: "response", expected: 2, found: 1, .. })
     ));
     for size in [1e-299, 1.0, 1e299] {
-        for omega in [
-            vec![1e-299],
-            vec![5.0, 5.0],
-            vec![1e-299, 1e299],
-            vec![1.0, 1.0 + 1e-14],
-        ] {
+        for omega in [vec![1e-299], vec![5.0, 5.0], vec![1e-299, 1e299], vec![1.0, 1.0 + 1e-14]] {
             for std in [0.0, f64::NAN, 1e-3, 1e300] {
                 let n = omega.len();
                 let wide = series(omega.clone(), vec![Complex64::new(-size, 0.0); n])
                     .with_std(vec![std; n]);
                 let svg = plot(wide).to_svg().unwrap();
-                assert!(
-                    !svg.contains("NaN") && !svg.contains("inf"),
-                    "{size} {omega:?} {std}"
-                );
+                assert!(!svg.contains("NaN") && !svg.contains("inf"), "{size} {omega:?} {std}");
                 svg_to_png(&svg, 0.2).unwrap();
             }
         }

@@ -53,13 +53,7 @@ pub(crate) struct TextStyle {
 
 impl TextStyle {
     pub(crate) fn new(size: f64, anchor: Anchor) -> Self {
-        Self {
-            size,
-            weight: Weight::Regular,
-            colour: INK,
-            anchor,
-            upward: false,
-        }
+        Self { size, weight: Weight::Regular, colour: INK, anchor, upward: false }
     }
 }
 
@@ -98,14 +92,8 @@ impl Canvas {
     ) {
         let mut path = String::new();
         for [(x1, y1), (x2, y2)] in lines {
-            let _ = write!(
-                path,
-                "M{:.2} {:.2}L{:.2} {:.2}",
-                near(x1),
-                near(y1),
-                near(x2),
-                near(y2)
-            );
+            let _ =
+                write!(path, "M{:.2} {:.2}L{:.2} {:.2}", near(x1), near(y1), near(x2), near(y2));
         }
         self.path(&path, stroke);
     }
@@ -114,13 +102,8 @@ impl Canvas {
     pub(crate) fn polyline(&mut self, points: &[(f64, f64)], stroke: Stroke) {
         let mut path = String::with_capacity(points.len() * 14);
         for (k, (x, y)) in points.iter().enumerate() {
-            let _ = write!(
-                path,
-                "{}{:.2} {:.2}",
-                if k == 0 { 'M' } else { 'L' },
-                near(*x),
-                near(*y)
-            );
+            let _ =
+                write!(path, "{}{:.2} {:.2}", if k == 0 { 'M' } else { 'L' }, near(*x), near(*y));
         }
         self.path(&path, stroke);
     }
@@ -129,11 +112,7 @@ impl Canvas {
         if path.is_empty() {
             return;
         }
-        let Stroke {
-            colour,
-            width,
-            dash,
-        } = stroke;
+        let Stroke { colour, width, dash } = stroke;
         self.put(format_args!(
             r#"<path d="{path}" fill="none" stroke="{colour}" stroke-width="{width}""#
         ));
@@ -164,13 +143,7 @@ impl Canvas {
                 ),
                 Marker::Square => {
                     let s = 0.88 * r;
-                    write!(
-                        path,
-                        "M{:.2} {:.2}h{d:.2}v{d:.2}h-{d:.2}z",
-                        x - s,
-                        y - s,
-                        d = 2.0 * s
-                    )
+                    write!(path, "M{:.2} {:.2}h{d:.2}v{d:.2}h-{d:.2}z", x - s, y - s, d = 2.0 * s)
                 }
                 Marker::Diamond => {
                     let s = 1.2 * r;
@@ -229,12 +202,7 @@ impl Canvas {
     ///
     /// A nested viewport clips without a clip path, which would need an id.
     pub(crate) fn clipped(&mut self, frame: Rect, draw: impl FnOnce(&mut Self)) {
-        let Rect {
-            left: x,
-            top: y,
-            width: w,
-            height: h,
-        } = frame;
+        let Rect { left: x, top: y, width: w, height: h } = frame;
         self.put(format_args!(r#"<svg x="{x:.2}" y="{y:.2}" width="{w:.2}" height="{h:.2}" viewBox="{x:.2} {y:.2} {w:.2} {h:.2}" overflow="hidden">"#));
         self.body.push('\n');
         draw(self);
@@ -254,9 +222,5 @@ impl Canvas {
 
 /// A coordinate kept where rasterisers can handle it.
 fn near(coordinate: f64) -> f64 {
-    if coordinate.is_nan() {
-        FAR
-    } else {
-        coordinate.clamp(-FAR, FAR)
-    }
+    if coordinate.is_nan() { FAR } else { coordinate.clamp(-FAR, FAR) }
 }

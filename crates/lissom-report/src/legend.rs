@@ -42,25 +42,13 @@ pub(crate) fn header(
     entries: &[Entry],
 ) -> f64 {
     let mut y = 12.0;
-    let bold = TextStyle {
-        weight: Weight::Bold,
-        ..TextStyle::new(TITLE_SIZE, Anchor::Start)
-    };
+    let bold = TextStyle { weight: Weight::Bold, ..TextStyle::new(TITLE_SIZE, Anchor::Start) };
     for line in wrap(title, TITLE_SIZE, Weight::Bold, right - left, 2) {
         y += TITLE_SIZE * 1.25;
         canvas.text((left, y - 0.3 * TITLE_SIZE), &line, bold);
     }
-    let faint = TextStyle {
-        colour: FAINT_INK,
-        ..TextStyle::new(SUBTITLE_SIZE, Anchor::Start)
-    };
-    for line in wrap(
-        subtitle.unwrap_or(""),
-        SUBTITLE_SIZE,
-        Weight::Regular,
-        right - left,
-        3,
-    ) {
+    let faint = TextStyle { colour: FAINT_INK, ..TextStyle::new(SUBTITLE_SIZE, Anchor::Start) };
+    for line in wrap(subtitle.unwrap_or(""), SUBTITLE_SIZE, Weight::Regular, right - left, 3) {
         y += SUBTITLE_SIZE * 1.4;
         canvas.text((left, y - 0.3 * SUBTITLE_SIZE), &line, faint);
     }
@@ -71,12 +59,8 @@ pub(crate) fn header(
     y += 4.0;
     let (mut x, mut baseline) = (left, y + ROW - 6.0);
     for entry in entries {
-        let label = shorten(
-            &entry.label,
-            LABEL_SIZE,
-            Weight::Regular,
-            right - left - SAMPLE - SAMPLE_GAP,
-        );
+        let label =
+            shorten(&entry.label, LABEL_SIZE, Weight::Regular, right - left - SAMPLE - SAMPLE_GAP);
         let needed = SAMPLE + SAMPLE_GAP + width(&label, LABEL_SIZE, Weight::Regular);
         if x > left && x + needed > right {
             (x, baseline) = (left, baseline + ROW);
@@ -95,11 +79,7 @@ pub(crate) fn header(
 impl Sample {
     fn draw(self, canvas: &mut Canvas, x: f64, y: f64) {
         let middle = x + SAMPLE / 2.0;
-        let white = Stroke {
-            colour: "#ffffff",
-            width: 0.8,
-            dash: None,
-        };
+        let white = Stroke { colour: "#ffffff", width: 0.8, dash: None };
         let box_of = |height: f64| Rect {
             left: x + 4.0,
             top: y - height / 2.0,
@@ -108,28 +88,17 @@ impl Sample {
         };
         match self {
             Self::Line(role) => {
-                let stroke = Stroke {
-                    colour: role.colour(),
-                    width: LINE_WIDTH,
-                    dash: role.dash(),
-                };
+                let stroke = Stroke { colour: role.colour(), width: LINE_WIDTH, dash: role.dash() };
                 canvas.lines([[(x, y), (x + SAMPLE, y)]], stroke);
             }
             Self::Points(role) => {
                 canvas.markers(role.marker(), [(middle, y)], role.colour(), white);
             }
             Self::PointsWithBars(role) => {
-                let stroke = Stroke {
-                    colour: role.colour(),
-                    width: 1.3,
-                    dash: None,
-                };
+                let stroke = Stroke { colour: role.colour(), width: 1.3, dash: None };
                 let (top, bottom, cap) = (y - 8.5, y + 8.5, 3.5);
                 let caps = [top, bottom].map(|y| [(middle - cap, y), (middle + cap, y)]);
-                canvas.lines(
-                    [[(middle, top), (middle, bottom)], caps[0], caps[1]],
-                    stroke,
-                );
+                canvas.lines([[(middle, top), (middle, bottom)], caps[0], caps[1]], stroke);
                 canvas.markers(role.marker(), [(middle, y)], role.colour(), white);
             }
             Self::Column(role) => canvas.rect(box_of(12.0), role.colour(), 0.75),
@@ -137,22 +106,14 @@ impl Sample {
                 canvas.rect(box_of(14.0), role.colour(), 0.16);
                 canvas.lines(
                     [[(x + 4.0, y), (x + SAMPLE - 4.0, y)]],
-                    Stroke {
-                        colour: role.colour(),
-                        width: 1.5,
-                        dash: None,
-                    },
+                    Stroke { colour: role.colour(), width: 1.5, dash: None },
                 );
             }
             Self::Flagged => canvas.markers(
                 Marker::Circle,
                 [(middle, y)],
                 "#ffffff",
-                Stroke {
-                    colour: FLAGGED,
-                    width: 1.5,
-                    dash: None,
-                },
+                Stroke { colour: FLAGGED, width: 1.5, dash: None },
             ),
         }
     }

@@ -32,19 +32,12 @@ pub struct Axis {
 impl Axis {
     /// A linear axis over all data.
     pub fn linear(label: impl Into<String>) -> Self {
-        Self {
-            label: label.into(),
-            ..Self::default()
-        }
+        Self { label: label.into(), ..Self::default() }
     }
 
     /// A logarithmic axis over all positive data.
     pub fn log(label: impl Into<String>) -> Self {
-        Self {
-            label: label.into(),
-            scale: Scale::Log,
-            range: None,
-        }
+        Self { label: label.into(), scale: Scale::Log, range: None }
     }
 
     /// Fixes the ends of the axis.
@@ -59,11 +52,7 @@ impl Axis {
             Some((low, high))
                 if !(self.scale.admits(low) && self.scale.admits(high) && low < high) =>
             {
-                Err(FigureError::Range {
-                    axis: self.label.clone(),
-                    low,
-                    high,
-                })
+                Err(FigureError::Range { axis: self.label.clone(), low, high })
             }
             Some((low, high)) => Ok(Some(self.scale.widened((low, high), 0.0))),
             None => Ok(None),
@@ -115,15 +104,7 @@ impl Trace {
         x: Vec<f64>,
         y: Vec<f64>,
     ) -> Self {
-        Self {
-            label: label.into(),
-            role,
-            style,
-            x,
-            y,
-            std: None,
-            flagged: None,
-        }
+        Self { label: label.into(), role, style, x, y, std: None, flagged: None }
     }
 
     /// A line without deviations or flags.
@@ -139,10 +120,7 @@ impl Trace {
         y: Vec<f64>,
         std: Vec<f64>,
     ) -> Self {
-        Self {
-            std: Some(std),
-            ..Self::new(label, role, TraceStyle::PointsWithBars, x, y)
-        }
+        Self { std: Some(std), ..Self::new(label, role, TraceStyle::PointsWithBars, x, y) }
     }
 
     /// Adds flags.
@@ -164,22 +142,11 @@ impl Trace {
             .into_iter()
             .find_map(|(field, n)| n.filter(|n| *n != expected).map(|n| (field, n)))
         {
-            return Err(FigureError::Length {
-                series: self.label.clone(),
-                field,
-                expected,
-                found,
-            });
+            return Err(FigureError::Length { series: self.label.clone(), field, expected, found });
         }
         let barred = matches!(self.style, TraceStyle::PointsWithBars | TraceStyle::Columns);
         let (mut marks, mut after_gap) = (Vec::with_capacity(expected), false);
-        for (k, (x, y)) in self
-            .x
-            .iter()
-            .copied()
-            .zip(self.y.iter().copied())
-            .enumerate()
-        {
+        for (k, (x, y)) in self.x.iter().copied().zip(self.y.iter().copied()).enumerate() {
             if axes[0].admits(x) && axes[1].admits(y) {
                 let std = self
                     .std
@@ -187,13 +154,7 @@ impl Trace {
                     .map(|s| s[k])
                     .filter(|s| barred && *s > 0.0 && Scale::Linear.admits(*s));
                 let flagged = self.flagged.as_ref().is_some_and(|f| f[k]);
-                marks.push(Mark {
-                    x,
-                    y,
-                    bar: std.map(|s| (y - s, y + s)),
-                    flagged,
-                    after_gap,
-                });
+                marks.push(Mark { x, y, bar: std.map(|s| (y - s, y + s)), flagged, after_gap });
                 after_gap = false;
             } else {
                 after_gap = true;
@@ -231,13 +192,7 @@ pub struct Band {
 impl Band {
     /// A band from `low` to `high` with its line at `middle`.
     pub fn new(label: impl Into<String>, role: Role, middle: f64, (low, high): (f64, f64)) -> Self {
-        Self {
-            label: label.into(),
-            role,
-            middle,
-            low,
-            high,
-        }
+        Self { label: label.into(), role, middle, low, high }
     }
 }
 
@@ -264,12 +219,7 @@ pub struct LinePlot {
 impl LinePlot {
     /// A plot without traces.
     pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
-        Self {
-            title: title.into(),
-            x,
-            y,
-            ..Self::default()
-        }
+        Self { title: title.into(), x, y, ..Self::default() }
     }
 
     /// Adds a line below the title.
@@ -297,11 +247,7 @@ impl LinePlot {
         let ordered = |b: &&Band| b.low <= b.middle && b.middle <= b.high;
         self.bands
             .iter()
-            .filter(|b| {
-                [b.low, b.middle, b.high]
-                    .iter()
-                    .all(|v| self.y.scale.admits(*v))
-            })
+            .filter(|b| [b.low, b.middle, b.high].iter().all(|v| self.y.scale.admits(*v)))
             .filter(ordered)
     }
 
@@ -310,26 +256,13 @@ impl LinePlot {
             .traces
             .iter()
             .filter(|t| !t.x.is_empty())
-            .map(|t| Entry {
-                sample: t.sample(),
-                label: t.label.clone(),
-            });
-        let bands = self.drawable_bands().map(|b| Entry {
-            sample: Sample::Band(b.role),
-            label: b.label.clone(),
-        });
+            .map(|t| Entry { sample: t.sample(), label: t.label.clone() });
+        let bands = self
+            .drawable_bands()
+            .map(|b| Entry { sample: Sample::Band(b.role), label: b.label.clone() });
         let mut entries: Vec<Entry> = traces.chain(bands).collect();
-        if self
-            .traces
-            .iter()
-            .filter_map(|t| t.flagged.as_ref())
-            .flatten()
-            .any(|f| *f)
-        {
-            entries.push(Entry {
-                sample: Sample::Flagged,
-                label: "flagged".to_owned(),
-            });
+        if self.traces.iter().filter_map(|t| t.flagged.as_ref()).flatten().any(|f| *f) {
+            entries.push(Entry { sample: Sample::Flagged, label: "flagged".to_owned() });
         }
         entries
     }
@@ -356,41 +289,23 @@ impl LinePlot {
     /// A range for a logarithmic axis: error bars that reach zero do not count.
     fn positive(&self, marks: &[Vec<Mark>], (low, high): (f64, f64)) -> (f64, f64) {
         let lowest = extent(marks.iter().flatten().map(|m| m.y)).map_or(low, |(lowest, _)| lowest);
-        (
-            if low >= lowest / 3.0 && self.y.scale.admits(low) {
-                low
-            } else {
-                lowest
-            },
-            high,
-        )
+        (if low >= lowest / 3.0 && self.y.scale.admits(low) { low } else { lowest }, high)
     }
 
     /// The ends of both axes.
     fn ranges(&self, marks: &[Vec<Mark>], skipped: usize) -> Result<[(f64, f64); 2], FigureError> {
-        let nothing = || FigureError::NothingToDraw {
-            title: self.title.clone(),
-            skipped,
-        };
+        let nothing = || FigureError::NothingToDraw { title: self.title.clone(), skipped };
         let x = extent(marks.iter().flatten().map(|m| m.x)).ok_or_else(nothing)?;
-        let lines = self
-            .traces
-            .iter()
-            .all(|t| matches!(t.style, TraceStyle::Line | TraceStyle::Steps));
+        let lines =
+            self.traces.iter().all(|t| matches!(t.style, TraceStyle::Line | TraceStyle::Steps));
         // Lines may run from edge to edge; markers want room.
         let x = if lines && self.x.scale == Scale::Linear {
             Scale::Linear.widened(x, 0.0)
         } else {
             self.x.scale.padded(x, 0.0)
         };
-        let y = self
-            .y
-            .scale
-            .widened(self.y_range(marks).ok_or_else(nothing)?, 0.0);
-        Ok([
-            self.x.fixed_range()?.unwrap_or(x),
-            self.y.fixed_range()?.unwrap_or(y),
-        ])
+        let y = self.y.scale.widened(self.y_range(marks).ok_or_else(nothing)?, 0.0);
+        Ok([self.x.fixed_range()?.unwrap_or(x), self.y.fixed_range()?.unwrap_or(y)])
     }
 
     fn draw_data(&self, canvas: &mut Canvas, panel: &Panel, marks: &[Vec<Mark>]) {
@@ -412,11 +327,7 @@ impl LinePlot {
             );
             canvas.lines(
                 [[(panel.frame.left, y), (panel.frame.right(), y)]],
-                Stroke {
-                    colour: band.role.colour(),
-                    width: 1.5,
-                    dash: None,
-                },
+                Stroke { colour: band.role.colour(), width: 1.5, dash: None },
             );
         }
         let drawn = || self.traces.iter().zip(marks);
@@ -433,11 +344,7 @@ impl LinePlot {
             panel.bars(
                 canvas,
                 marks,
-                if trace.style == TraceStyle::Columns {
-                    Role::Fitted
-                } else {
-                    trace.role
-                },
+                if trace.style == TraceStyle::Columns { Role::Fitted } else { trace.role },
             );
             panel.points(
                 canvas,
@@ -461,19 +368,12 @@ impl crate::Figure for LinePlot {
         let y = match self.y.scale {
             Scale::Linear => Ruler::linear(y_range, Steps::Decimal, 6.0, self.y.range.is_none()),
             Scale::Log => Ruler::log(
-                if self.y.range.is_none() {
-                    Scale::Log.padded(y_range, 0.0)
-                } else {
-                    y_range
-                },
+                if self.y.range.is_none() { Scale::Log.padded(y_range, 0.0) } else { y_range },
                 HEIGHT,
             ),
         };
-        let widest = y
-            .ticks
-            .iter()
-            .map(|t| width(&t.label, TICK_SIZE, Weight::Regular))
-            .fold(0.0, f64::max);
+        let widest =
+            y.ticks.iter().map(|t| width(&t.label, TICK_SIZE, Weight::Regular)).fold(0.0, f64::max);
         let left = 30.0 + widest + 14.0;
         let wide = SHEET_WIDTH - RIGHT_MARGIN - left;
         let x = match self.x.scale {
@@ -488,16 +388,7 @@ impl crate::Figure for LinePlot {
             self.subtitle.as_deref(),
             &self.entries(),
         );
-        let panel = Panel {
-            frame: Rect {
-                left,
-                top,
-                width: wide,
-                height: HEIGHT,
-            },
-            x,
-            y,
-        };
+        let panel = Panel { frame: Rect { left, top, width: wide, height: HEIGHT }, x, y };
         panel.grid(&mut canvas);
         canvas.clipped(panel.frame, |canvas| self.draw_data(canvas, &panel, &marks));
         panel.frame(&mut canvas);
@@ -505,10 +396,7 @@ impl crate::Figure for LinePlot {
         panel.x_labels(&mut canvas, &self.x.label);
         let mut bottom = panel.frame.bottom() + X_AXIS_HEIGHT;
         if let Some(note) = skipped_note(skipped) {
-            let style = TextStyle {
-                colour: FAINT_INK,
-                ..TextStyle::new(12.0, Anchor::End)
-            };
+            let style = TextStyle { colour: FAINT_INK, ..TextStyle::new(12.0, Anchor::End) };
             canvas.text((SHEET_WIDTH - RIGHT_MARGIN, bottom + 8.0), &note, style);
             bottom += 18.0;
         }
@@ -520,22 +408,14 @@ impl crate::Figure for LinePlot {
 fn columns(canvas: &mut Canvas, panel: &Panel, marks: &[Mark], role: Role) {
     let mut places: Vec<f64> = marks.iter().map(|m| panel.at(m.x, m.y).0).collect();
     places.sort_by(f64::total_cmp);
-    let apart = places
-        .windows(2)
-        .map(|w| w[1] - w[0])
-        .filter(|d| *d > 0.0)
-        .fold(f64::INFINITY, f64::min);
+    let apart =
+        places.windows(2).map(|w| w[1] - w[0]).filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
     let wide = (COLUMN_FILL * apart).clamp(1.0, MAX_COLUMN);
     for mark in marks {
         let ((x, y), (_, foot)) = (panel.at(mark.x, mark.y), panel.at(mark.x, 0.0));
         let foot = foot.min(panel.frame.bottom());
         canvas.rect(
-            Rect {
-                left: x - wide / 2.0,
-                top: y.min(foot),
-                width: wide,
-                height: (y - foot).abs(),
-            },
+            Rect { left: x - wide / 2.0, top: y.min(foot), width: wide, height: (y - foot).abs() },
             role.colour(),
             0.75,
         );

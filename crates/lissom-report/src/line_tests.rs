@@ -53,15 +53,9 @@ fn labels_bands_and_flags_are_there() {
 
 #[test]
 fn small_numbers_say_their_power() {
-    let found = texts(
-        &plot(Trace::line("", Role::Raw, vec![0.0, 1.0], vec![0.0, 4e-7]))
-            .to_svg()
-            .unwrap(),
-    );
-    assert!(
-        found.contains(&"angle (rad) × 10⁻⁷".to_owned()),
-        "{found:?}"
-    );
+    let found =
+        texts(&plot(Trace::line("", Role::Raw, vec![0.0, 1.0], vec![0.0, 4e-7])).to_svg().unwrap());
+    assert!(found.contains(&"angle (rad) × 10⁻⁷".to_owned()), "{found:?}");
 }
 
 #[test]
@@ -96,10 +90,9 @@ fn every_style_takes_degenerate_data() {
                         );
                         svg_to_png(&svg, 0.2).unwrap();
                     }
-                    Err(error) => assert!(
-                        matches!(error, FigureError::NothingToDraw { .. }),
-                        "{error}"
-                    ),
+                    Err(error) => {
+                        assert!(matches!(error, FigureError::NothingToDraw { .. }), "{error}")
+                    }
                 }
             }
         }
@@ -111,20 +104,12 @@ fn faults_have_names() {
     let uneven = plot(Trace::line("s", Role::Raw, vec![1.0], vec![]));
     assert!(matches!(
         uneven.to_svg(),
-        Err(FigureError::Length {
-            field: "y",
-            expected: 1,
-            found: 0,
-            ..
-        })
+        Err(FigureError::Length { field: "y", expected: 1, found: 0, .. })
     ));
     let mut backwards = plot(Trace::line("s", Role::Raw, vec![1.0], vec![1.0]));
     backwards.x = Axis::linear("x").range(2.0, 1.0);
     assert!(matches!(backwards.to_svg(), Err(FigureError::Range { .. })));
-    assert!(matches!(
-        LinePlot::default().to_svg(),
-        Err(FigureError::NothingToDraw { .. })
-    ));
+    assert!(matches!(LinePlot::default().to_svg(), Err(FigureError::NothingToDraw { .. })));
 }
 
 #[test]

@@ -8,11 +8,7 @@ pub(crate) fn fixed(value: f64, decimals: i32) -> String {
     let places = usize::try_from(decimals.clamp(0, MAX_DECIMALS)).unwrap_or(0);
     let text = format!("{value:.places$}");
     let zero = text.bytes().all(|b| matches!(b, b'-' | b'0' | b'.'));
-    if zero {
-        text.trim_start_matches('-').to_owned()
-    } else {
-        text.replace('-', "−")
-    }
+    if zero { text.trim_start_matches('-').to_owned() } else { text.replace('-', "−") }
 }
 
 /// 10 to the power `exponent` in superscript digits.
@@ -22,15 +18,9 @@ pub(crate) fn power_of_ten(exponent: i32) -> String {
         '1' => '¹',
         '2' => '²',
         '3' => '³',
-        d => d
-            .to_digit(10)
-            .and_then(|digit| char::from_u32(0x2070 + digit))
-            .unwrap_or(d),
+        d => d.to_digit(10).and_then(|digit| char::from_u32(0x2070 + digit)).unwrap_or(d),
     };
-    format!(
-        "10{}",
-        exponent.to_string().chars().map(raise).collect::<String>()
-    )
+    format!("10{}", exponent.to_string().chars().map(raise).collect::<String>())
 }
 
 /// The decimal exponent of the leading digit, 0 for zero and non-finite numbers.

@@ -107,15 +107,9 @@ pub struct Table {
 impl Table {
     /// A table without rows.
     pub fn new(caption: impl Into<String>, columns: &[(&str, Cells)]) -> Self {
-        let columns = columns
-            .iter()
-            .map(|(heading, cells)| ((*heading).to_owned(), *cells))
-            .collect();
-        Self {
-            caption: caption.into(),
-            columns,
-            rows: Vec::new(),
-        }
+        let columns =
+            columns.iter().map(|(heading, cells)| ((*heading).to_owned(), *cells)).collect();
+        Self { caption: caption.into(), columns, rows: Vec::new() }
     }
 
     /// Adds a row.
@@ -139,10 +133,7 @@ pub struct Page {
 impl Page {
     /// A page with its title.
     pub fn new(title: impl Into<String>) -> Self {
-        Self {
-            title: title.into(),
-            body: String::new(),
-        }
+        Self { title: title.into(), body: String::new() }
     }
 
     fn put(mut self, html: &str) -> Self {
@@ -198,21 +189,14 @@ impl Page {
             ]
         });
         let rows = rows.collect();
-        self.table(&Table {
-            rows,
-            ..Table::new(caption, &columns)
-        })
+        self.table(&Table { rows, ..Table::new(caption, &columns) })
     }
 
     /// A table.
     #[must_use]
     pub fn table(self, table: &Table) -> Self {
         let class = |cells: &Cells| {
-            if *cells == Cells::Numbers {
-                " class=\"n\""
-            } else {
-                ""
-            }
+            if *cells == Cells::Numbers { " class=\"n\"" } else { "" }
         };
         let mut html = "<div class=\"wide\"><table>".to_owned();
         if !table.caption.is_empty() {
@@ -220,12 +204,7 @@ impl Page {
         }
         html.push_str("<thead><tr>");
         for (heading, cells) in &table.columns {
-            let _ = write!(
-                html,
-                "<th scope=\"col\"{}>{}</th>",
-                class(cells),
-                escape(heading)
-            );
+            let _ = write!(html, "<th scope=\"col\"{}>{}</th>", class(cells), escape(heading));
         }
         html.push_str("</tr></thead>\n<tbody>");
         for row in &table.rows {
@@ -248,10 +227,7 @@ impl Page {
     #[must_use]
     pub fn figure(self, figure: &impl Figure, caption: &str) -> Self {
         let picture = figure.to_svg().unwrap_or_else(|error| {
-            format!(
-                "<p class=\"missing\">Not drawn: {}.</p>",
-                escape(&error.to_string())
-            )
+            format!("<p class=\"missing\">Not drawn: {}.</p>", escape(&error.to_string()))
         });
         self.put(&format!(
             "<figure><div class=\"wide plot\">{picture}</div><figcaption>{}</figcaption></figure>",

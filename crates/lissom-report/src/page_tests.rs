@@ -48,10 +48,7 @@ fn full() -> String {
         .figure(&plot(), HOSTILE)
         .figure(&plot(), "again")
         .figure(&LinePlot::default(), "nothing")
-        .findings(&[
-            finding.hint(HOSTILE),
-            Finding::new(Severity::Refusal, "stuck", "No slip."),
-        ])
+        .findings(&[finding.hint(HOSTILE), Finding::new(Severity::Refusal, "stuck", "No slip.")])
         .details(HOSTILE, HOSTILE)
         .footer(HOSTILE)
         .to_html()
@@ -63,17 +60,11 @@ fn the_page_is_well_formed_and_nothing_breaks_out() {
     // Written so that it is well-formed XML too, which a parser can check to the last tag.
     let document = Document::parse_with_options(
         &html,
-        ParsingOptions {
-            allow_dtd: true,
-            ..ParsingOptions::default()
-        },
+        ParsingOptions { allow_dtd: true, ..ParsingOptions::default() },
     )
     .unwrap();
-    let names = |name: &'static str| {
-        document
-            .descendants()
-            .filter(move |n| n.tag_name().name() == name)
-    };
+    let names =
+        |name: &'static str| document.descendants().filter(move |n| n.tag_name().name() == name);
     assert_eq!(names("script").count(), 0);
     assert_eq!(names("figure").count(), 3);
     assert_eq!(names("details").count(), 1);
@@ -108,14 +99,6 @@ fn figures_findings_and_refusals_read_right() {
             && html.contains("too few runs")
     );
     assert!(html.contains("Not drawn: figure &quot;&quot; has no point to draw"));
-    assert!(
-        html.find("stuck").unwrap() < html.find(">info<").unwrap(),
-        "refusals come first"
-    );
-    assert!(
-        Page::new("t")
-            .findings(&[])
-            .to_html()
-            .contains("No findings.")
-    );
+    assert!(html.find("stuck").unwrap() < html.find(">info<").unwrap(), "refusals come first");
+    assert!(Page::new("t").findings(&[]).to_html().contains("No findings."));
 }

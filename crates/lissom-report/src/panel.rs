@@ -54,32 +54,18 @@ impl Panel {
 
     fn grid_x(&self, places: impl Iterator<Item = f64>) -> Vec<[(f64, f64); 2]> {
         let (top, bottom) = (self.frame.top, self.frame.bottom());
-        places
-            .map(|x| self.at(x, self.y.low).0)
-            .map(|x| [(x, top), (x, bottom)])
-            .collect()
+        places.map(|x| self.at(x, self.y.low).0).map(|x| [(x, top), (x, bottom)]).collect()
     }
 
     fn grid_y(&self, places: impl Iterator<Item = f64>) -> Vec<[(f64, f64); 2]> {
         let (left, right) = (self.frame.left, self.frame.right());
-        places
-            .map(|y| self.at(self.x.low, y).1)
-            .map(|y| [(left, y), (right, y)])
-            .collect()
+        places.map(|y| self.at(self.x.low, y).1).map(|y| [(left, y), (right, y)]).collect()
     }
 
     /// The grid lines.
     pub(crate) fn grid(&self, canvas: &mut Canvas) {
-        let minor = Stroke {
-            colour: MINOR_GRID,
-            width: 1.0,
-            dash: None,
-        };
-        let major = Stroke {
-            colour: GRID,
-            width: 1.0,
-            dash: None,
-        };
+        let minor = Stroke { colour: MINOR_GRID, width: 1.0, dash: None };
+        let major = Stroke { colour: GRID, width: 1.0, dash: None };
         canvas.lines(self.grid_x(self.x.minor.iter().copied()), minor);
         canvas.lines(self.grid_y(self.y.minor.iter().copied()), minor);
         canvas.lines(self.grid_x(self.x.ticks.iter().map(|t| t.at)), major);
@@ -90,11 +76,7 @@ impl Panel {
     pub(crate) fn frame(&self, canvas: &mut Canvas) {
         let Rect { left, top, .. } = self.frame;
         let (right, bottom) = (self.frame.right(), self.frame.bottom());
-        let ink = Stroke {
-            colour: INK,
-            width: 1.0,
-            dash: None,
-        };
+        let ink = Stroke { colour: INK, width: 1.0, dash: None };
         canvas.polyline(
             &[
                 (left, top),
@@ -127,10 +109,7 @@ impl Panel {
                 TextStyle::new(TICK_SIZE, Anchor::End),
             );
         }
-        let style = TextStyle {
-            upward: true,
-            ..TextStyle::new(LABEL_SIZE, Anchor::Middle)
-        };
+        let style = TextStyle { upward: true, ..TextStyle::new(LABEL_SIZE, Anchor::Middle) };
         let middle = self.frame.top + self.frame.height / 2.0;
         let label = labelled(label, self.y.factor);
         canvas.text(
@@ -144,12 +123,8 @@ impl Panel {
     pub(crate) fn x_labels(&self, canvas: &mut Canvas, label: &str) {
         self.x_numbers(canvas, &self.x, self.frame.bottom() + TICK_BASELINE);
         let middle = self.frame.left + self.frame.width / 2.0;
-        let label = shorten(
-            &labelled(label, self.x.factor),
-            LABEL_SIZE,
-            Weight::Regular,
-            self.frame.width,
-        );
+        let label =
+            shorten(&labelled(label, self.x.factor), LABEL_SIZE, Weight::Regular, self.frame.width);
         canvas.text(
             (middle, self.frame.bottom() + LABEL_BASELINE),
             &label,
@@ -159,19 +134,10 @@ impl Panel {
 
     /// A second horizontal axis above the frame.
     pub(crate) fn top_labels(&self, canvas: &mut Canvas, ruler: &Ruler, label: &str) {
-        let ink = Stroke {
-            colour: INK,
-            width: 1.0,
-            dash: None,
-        };
-        let places = ruler
-            .ticks
-            .iter()
-            .map(|t| self.frame.left + self.frame.width * ruler.fraction(t.at));
-        canvas.lines(
-            places.map(|x| [(x, self.frame.top), (x, self.frame.top - TICK)]),
-            ink,
-        );
+        let ink = Stroke { colour: INK, width: 1.0, dash: None };
+        let places =
+            ruler.ticks.iter().map(|t| self.frame.left + self.frame.width * ruler.fraction(t.at));
+        canvas.lines(places.map(|x| [(x, self.frame.top), (x, self.frame.top - TICK)]), ink);
         self.x_numbers(canvas, ruler, self.frame.top - TICK - 5.0);
         let middle = self.frame.left + self.frame.width / 2.0;
         canvas.text(
@@ -187,11 +153,7 @@ impl Panel {
             let x = self.frame.left + self.frame.width * ruler.fraction(tick.at);
             let half = width(&tick.label, TICK_SIZE, Weight::Regular) / 2.0;
             if x - half >= free {
-                canvas.text(
-                    (x, baseline),
-                    &tick.label,
-                    TextStyle::new(TICK_SIZE, Anchor::Middle),
-                );
+                canvas.text((x, baseline), &tick.label, TextStyle::new(TICK_SIZE, Anchor::Middle));
                 free = x + half + 6.0;
             }
         }
@@ -199,11 +161,7 @@ impl Panel {
 
     /// A line through the marks, broken at gaps; a point with gaps on both sides becomes a dot.
     pub(crate) fn curve(&self, canvas: &mut Canvas, marks: &[Mark], role: Role, steps: bool) {
-        let stroke = Stroke {
-            colour: role.colour(),
-            width: LINE_WIDTH,
-            dash: role.dash(),
-        };
+        let stroke = Stroke { colour: role.colour(), width: LINE_WIDTH, dash: role.dash() };
         for run in marks.chunk_by(|_, next| !next.after_gap) {
             let mut path: Vec<(f64, f64)> = Vec::with_capacity(run.len());
             for mark in run {
@@ -215,12 +173,7 @@ impl Panel {
             }
             match path.as_slice() {
                 [(x, y)] => canvas.rect(
-                    Rect {
-                        left: x - 2.0,
-                        top: y - 2.0,
-                        width: 4.0,
-                        height: 4.0,
-                    },
+                    Rect { left: x - 2.0, top: y - 2.0, width: 4.0, height: 4.0 },
                     role.colour(),
                     1.0,
                 ),
@@ -232,10 +185,8 @@ impl Panel {
     /// The error bars of the marks that have one.
     pub(crate) fn bars(&self, canvas: &mut Canvas, marks: &[Mark], role: Role) {
         for (flagged, colour) in [(true, FLAGGED), (false, role.colour())] {
-            let ends = marks
-                .iter()
-                .filter(|m| m.flagged == flagged)
-                .filter_map(|m| Some((m.x, m.bar?)));
+            let ends =
+                marks.iter().filter(|m| m.flagged == flagged).filter_map(|m| Some((m.x, m.bar?)));
             let lines = ends.flat_map(|(x, (low, high))| {
                 let ((x, bottom), (_, top)) = (self.at(x, low), self.at(x, high));
                 [
@@ -244,45 +195,26 @@ impl Panel {
                     [(x - CAP, top), (x + CAP, top)],
                 ]
             });
-            canvas.lines(
-                lines.collect::<Vec<_>>(),
-                Stroke {
-                    colour,
-                    width: 1.3,
-                    dash: None,
-                },
-            );
+            canvas.lines(lines.collect::<Vec<_>>(), Stroke { colour, width: 1.3, dash: None });
         }
     }
 
     /// The markers; flagged ones are grey and hollow and lie below the others. `all` draws those without flag too.
     pub(crate) fn points(&self, canvas: &mut Canvas, marks: &[Mark], role: Role, all: bool) {
-        let places = |flagged| {
-            marks
-                .iter()
-                .filter(move |m| m.flagged == flagged)
-                .map(|m| self.at(m.x, m.y))
-        };
+        let places =
+            |flagged| marks.iter().filter(move |m| m.flagged == flagged).map(|m| self.at(m.x, m.y));
         canvas.markers(
             role.marker(),
             places(true),
             "#ffffff",
-            Stroke {
-                colour: FLAGGED,
-                width: 1.5,
-                dash: None,
-            },
+            Stroke { colour: FLAGGED, width: 1.5, dash: None },
         );
         if all {
             canvas.markers(
                 role.marker(),
                 places(false),
                 role.colour(),
-                Stroke {
-                    colour: "#ffffff",
-                    width: 0.8,
-                    dash: None,
-                },
+                Stroke { colour: "#ffffff", width: 0.8, dash: None },
             );
         }
     }
@@ -329,12 +261,7 @@ mod tests {
     #[test]
     fn long_paths_keep_their_extremes() {
         let path: Vec<(f64, f64)> = (0..100_000)
-            .map(|k| {
-                (
-                    f64::from(k) / 200.0,
-                    if k == 51_234 { 9.0 } else { f64::from(k % 7) },
-                )
-            })
+            .map(|k| (f64::from(k) / 200.0, if k == 51_234 { 9.0 } else { f64::from(k % 7) }))
             .collect();
         let thin = thinned(&path);
         assert!(thin.len() < 4100, "{}", thin.len());

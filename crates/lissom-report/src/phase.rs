@@ -25,13 +25,7 @@ const BRANCH_TOP: f64 = 135.0;
 /// falls too fast for the spacing of its points; then it is moved as a whole to the branch where the median difference is
 /// within half a turn. Beyond its ends the leader counts as constant. A doubtful point takes the branch nearest to its neighbours.
 pub(crate) fn unwrap_together(tracks: &mut [Track]) {
-    let lead = |t: &Track| {
-        (
-            t.dense,
-            t.doubtful.iter().filter(|d| !**d).count(),
-            t.x.len(),
-        )
-    };
+    let lead = |t: &Track| (t.dense, t.doubtful.iter().filter(|d| !**d).count(), t.x.len());
     let Some(leader) = (0..tracks.len()).rev().max_by_key(|k| lead(&tracks[*k])) else {
         return;
     };
@@ -48,31 +42,18 @@ pub(crate) fn unwrap_together(tracks: &mut [Track]) {
             continue;
         }
         let course: Vec<f64> = track.x.iter().map(|x| interpolate(&first, *x)).collect();
-        let mut apart: Vec<f64> = track
-            .degrees
-            .iter()
-            .zip(&course)
-            .map(|(d, c)| d - c)
-            .collect();
+        let mut apart: Vec<f64> = track.degrees.iter().zip(&course).map(|(d, c)| d - c).collect();
         unwrap(&mut apart, &track.doubtful);
         let turns =
             median(sure(&apart, &track.doubtful).collect()).map_or(0.0, |m| (m / 360.0).round());
-        track.degrees = apart
-            .iter()
-            .zip(&course)
-            .map(|(d, c)| d + c - 360.0 * turns)
-            .collect();
+        track.degrees = apart.iter().zip(&course).map(|(d, c)| d + c - 360.0 * turns).collect();
     }
 }
 
 /// The degrees that are not doubtful, or all where every one is.
 fn sure<'a>(degrees: &'a [f64], doubtful: &'a [bool]) -> impl Iterator<Item = f64> + 'a {
     let none = doubtful.iter().all(|d| *d);
-    degrees
-        .iter()
-        .zip(doubtful)
-        .filter(move |(_, doubtful)| none || !**doubtful)
-        .map(|(d, _)| *d)
+    degrees.iter().zip(doubtful).filter(move |(_, doubtful)| none || !**doubtful).map(|(d, _)| *d)
 }
 
 /// Makes consecutive sure points differ by at most 180°, and doubtful ones by at most that from the sure point before them.
@@ -116,24 +97,14 @@ mod tests {
     }
 
     fn track(phase: impl Fn(f64) -> f64, count: u32, dense: bool) -> Track {
-        let x: Vec<f64> = (0..count)
-            .map(|k| f64::from(k) / f64::from(count - 1) * 3.0)
-            .collect();
+        let x: Vec<f64> = (0..count).map(|k| f64::from(k) / f64::from(count - 1) * 3.0).collect();
         let degrees = x.iter().map(|x| wrapped(phase(*x))).collect();
-        Track {
-            degrees,
-            doubtful: vec![false; x.len()],
-            x,
-            dense,
-        }
+        Track { degrees, doubtful: vec![false; x.len()], x, dense }
     }
 
     fn near(found: &[f64], expected: impl Iterator<Item = f64>) {
         for (found, expected) in found.iter().zip(expected) {
-            assert!(
-                (found - expected).abs() < 1e-9,
-                "{found} against {expected}"
-            );
+            assert!((found - expected).abs() < 1e-9, "{found} against {expected}");
         }
     }
 
@@ -151,10 +122,7 @@ mod tests {
         let lag = |x: f64| -10.0 - 400.0 * x;
         let mut tracks = [track(|x| lag(x) + 25.0, 7, false), track(lag, 200, true)];
         unwrap_together(&mut tracks);
-        near(
-            &tracks[0].degrees,
-            tracks[0].x.iter().map(|x| lag(*x) + 25.0),
-        );
+        near(&tracks[0].degrees, tracks[0].x.iter().map(|x| lag(*x) + 25.0));
     }
 
     #[test]
@@ -182,18 +150,9 @@ mod tests {
     #[test]
     fn nothing_and_single_points_are_fine() {
         unwrap_together(&mut []);
-        let empty = Track {
-            x: vec![],
-            degrees: vec![],
-            doubtful: vec![],
-            dense: true,
-        };
-        let single = Track {
-            x: vec![1.0],
-            degrees: vec![350.0],
-            doubtful: vec![true],
-            dense: false,
-        };
+        let empty = Track { x: vec![], degrees: vec![], doubtful: vec![], dense: true };
+        let single =
+            Track { x: vec![1.0], degrees: vec![350.0], doubtful: vec![true], dense: false };
         let mut tracks = [empty, single];
         unwrap_together(&mut tracks);
         assert!((wrapped(tracks[1].degrees[0]) + 10.0).abs() < 1e-9);

@@ -38,27 +38,15 @@ pub fn svg_to_png(svg: &str, scale: f32) -> Result<Vec<u8>, FigureError> {
         },
         ..Options::default()
     };
-    let tree = Tree::from_str(svg, &options).map_err(|error| FigureError::Svg {
-        source: Box::new(error),
-    })?;
+    let tree = Tree::from_str(svg, &options)
+        .map_err(|error| FigureError::Svg { source: Box::new(error) })?;
     let (width, height) = (tree.size().width() * scale, tree.size().height() * scale);
-    let size = || FigureError::Size {
-        scale,
-        width,
-        height,
-        limit: LIMIT,
-    };
+    let size = || FigureError::Size { scale, width, height, limit: LIMIT };
     let (columns, rows) = pixels(width).zip(pixels(height)).ok_or_else(size)?;
     let mut pixmap = Pixmap::new(columns, rows).ok_or_else(size)?;
     pixmap.fill(Color::WHITE);
-    resvg::render(
-        &tree,
-        Transform::from_scale(scale, scale),
-        &mut pixmap.as_mut(),
-    );
-    pixmap.encode_png().map_err(|error| FigureError::Png {
-        source: Box::new(error),
-    })
+    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
+    pixmap.encode_png().map_err(|error| FigureError::Png { source: Box::new(error) })
 }
 
 /// A side in whole pixels, where it lies between 1 and [`LIMIT`].
@@ -69,9 +57,7 @@ fn pixels(side: f32) -> Option<u32> {
         clippy::cast_sign_loss,
         reason = "the range is checked before the cast"
     )]
-    (1.0..=f32::from(LIMIT))
-        .contains(&side)
-        .then_some(side as u32)
+    (1.0..=f32::from(LIMIT)).contains(&side).then_some(side as u32)
 }
 
 #[cfg(test)]
@@ -89,23 +75,14 @@ mod tests {
             picture.pixels().iter().any(|p| p.red() < 64),
             "the compiled-in font draws the letter"
         );
-        assert!(
-            picture.pixels().iter().all(|p| p.alpha() == 255),
-            "the ground is opaque"
-        );
+        assert!(picture.pixels().iter().all(|p| p.alpha() == 255), "the ground is opaque");
     }
 
     #[test]
     fn impossible_pictures_are_errors() {
         for scale in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e6] {
-            assert!(
-                matches!(svg_to_png(SQUARE, scale), Err(FigureError::Size { .. })),
-                "{scale}"
-            );
+            assert!(matches!(svg_to_png(SQUARE, scale), Err(FigureError::Size { .. })), "{scale}");
         }
-        assert!(matches!(
-            svg_to_png("not svg", 1.0),
-            Err(FigureError::Svg { .. })
-        ));
+        assert!(matches!(svg_to_png("not svg", 1.0), Err(FigureError::Svg { .. })));
     }
 }

@@ -64,10 +64,7 @@ impl Scale {
             return (low, high);
         }
         let middle = f64::midpoint(a, b);
-        (
-            self.back(middle - wanted / 2.0),
-            self.back(middle + wanted / 2.0),
-        )
+        (self.back(middle - wanted / 2.0), self.back(middle + wanted / 2.0))
     }
 }
 
@@ -88,10 +85,7 @@ mod tests {
     fn constants_get_a_range() {
         for value in [0.0, 1.0, -3e-12, 1e300] {
             let (low, high) = Scale::Linear.padded((value, value), 0.0);
-            assert!(
-                low < value && value < high && (high - low).is_finite(),
-                "{value}"
-            );
+            assert!(low < value && value < high && (high - low).is_finite(), "{value}");
         }
         let (low, high) = Scale::Log.padded((1e-300, 1e-300), 0.0);
         assert!(0.0 < low && low < 1e-300 && 1e-300 < high);

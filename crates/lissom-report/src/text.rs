@@ -32,14 +32,10 @@ pub(crate) fn width(text: &str, size: f64, weight: Weight) -> f64 {
     let Some(font) = font else {
         return UNKNOWN_ADVANCE * size * text.chars().count() as f64;
     };
-    let (glyphs, map) = (
-        font.glyph_metrics(Size::new(1.0), LocationRef::default()),
-        font.charmap(),
-    );
+    let (glyphs, map) =
+        (font.glyph_metrics(Size::new(1.0), LocationRef::default()), font.charmap());
     let advance = |c| {
-        map.map(c)
-            .and_then(|glyph| glyphs.advance_width(glyph))
-            .map_or(UNKNOWN_ADVANCE, f64::from)
+        map.map(c).and_then(|glyph| glyphs.advance_width(glyph)).map_or(UNKNOWN_ADVANCE, f64::from)
     };
     size * text.chars().map(advance).sum::<f64>()
 }
@@ -54,11 +50,7 @@ pub(crate) fn shorten(text: &str, size: f64, weight: Weight, limit: f64) -> Stri
         // Long text is cut by halves first, so that its length costs little.
         let whole: String = kept.iter().collect();
         let excess = width(&whole, size, weight) / limit.max(size);
-        let keep = if excess > 2.0 {
-            kept.len() / 2
-        } else {
-            kept.len().saturating_sub(1)
-        };
+        let keep = if excess > 2.0 { kept.len() / 2 } else { kept.len().saturating_sub(1) };
         kept.truncate(keep);
         let short: String = kept.iter().collect::<String>().trim_end().to_owned() + "…";
         if keep == 0 || width(&short, size, weight) <= limit {
@@ -85,10 +77,7 @@ pub(crate) fn wrap(text: &str, size: f64, weight: Weight, limit: f64, lines: usi
             _ => broken.push(word.to_owned()),
         }
     }
-    broken
-        .iter()
-        .map(|line| shorten(line, size, weight, limit))
-        .collect()
+    broken.iter().map(|line| shorten(line, size, weight, limit)).collect()
 }
 
 fn broken_fits(line: &str, word: &str, size: f64, weight: Weight, limit: f64) -> bool {
@@ -101,14 +90,9 @@ mod tests {
 
     #[test]
     fn widths_follow_the_font() {
-        let (thin, wide) = (
-            width("iiii", 10.0, Weight::Regular),
-            width("mmmm", 10.0, Weight::Regular),
-        );
-        assert!(
-            thin > 5.0 && thin * 2.0 < wide && wide < 50.0,
-            "{thin} {wide}"
-        );
+        let (thin, wide) =
+            (width("iiii", 10.0, Weight::Regular), width("mmmm", 10.0, Weight::Regular));
+        assert!(thin > 5.0 && thin * 2.0 < wide && wide < 50.0, "{thin} {wide}");
         assert!(width("abc", 10.0, Weight::Bold) > width("abc", 10.0, Weight::Regular));
     }
 
@@ -119,11 +103,7 @@ mod tests {
         assert!(short.ends_with('…') && width(&short, 10.0, Weight::Regular) <= 100.0);
         let lines = wrap(&long, 10.0, Weight::Regular, 100.0, 3);
         assert_eq!(lines.len(), 3);
-        assert!(
-            lines
-                .iter()
-                .all(|line| width(line, 10.0, Weight::Regular) <= 100.0)
-        );
+        assert!(lines.iter().all(|line| width(line, 10.0, Weight::Regular) <= 100.0));
         assert!(lines[2].ends_with('…'));
         assert_eq!(shorten("abc", 10.0, Weight::Regular, 0.0), "…");
     }

@@ -11,6 +11,7 @@ pub mod arm;
 pub mod beam;
 pub mod drive;
 pub mod identify;
+pub mod lti;
 pub mod record;
 pub mod rig;
 pub mod spectrum;

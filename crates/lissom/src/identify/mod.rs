@@ -1,13 +1,27 @@
 //! From records to friction, parameters and a verdict.
 
+mod campaign;
+mod channel_check;
 mod correct;
 mod estimate;
+mod finding;
+mod rational;
 mod regression;
+mod response_table;
+mod run_analysis;
 mod third_harmonic;
+mod verdict;
 
+pub use campaign::{
+    Beam, Friction, Identified, IdentifyError, Options, Stage, ThirdHarmonic, identify,
+};
 pub use correct::{Response, corrected, ratio};
 pub use estimate::{Estimate, ModeEstimate};
+pub use finding::{Finding, Severity};
+pub use rational::{BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_beam, fit_motor};
 pub use regression::{
-    BeamRegression, Candidate, MotorRegression, beam_regression, motor_regression,
+    BeamRegression, ByDirection, Candidate, MotorRegression, beam_regression, motor_regression,
 };
+pub use response_table::ResponsePoint;
+pub use run_analysis::{RunAnalysis, RunKind, Sinusoidal};
 pub use third_harmonic::{PairFigure, RunPhasors, mean_figure, pair_figure};

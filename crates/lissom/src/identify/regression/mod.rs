@@ -9,5 +9,6 @@ mod scan;
 mod window;
 
 pub use beam::{BeamRegression, beam_regression};
-pub use motor::{MotorRegression, motor_regression};
+pub use motor::{ByDirection, MotorRegression, motor_regression};
+pub(crate) use phases::slip_sign;
 pub use scan::Candidate;

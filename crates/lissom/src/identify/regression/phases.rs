@@ -38,6 +38,18 @@ pub(crate) fn slip_phases(motor: &[f64], smooth: usize, sample_time_s: f64) -> V
     phases
 }
 
+/// Direction of motion at every sample: +1, −1, or 0 where the smoothed velocity has no sign.
+///
+/// The velocity is smoothed over `smooth_s`, and over no fewer than eight samples.
+pub(crate) fn slip_sign(motor: &[f64], smooth_s: f64, sample_time_s: f64) -> Vec<f64> {
+    let smooth = ((smooth_s / sample_time_s) as usize).max(8);
+    let mut sign = vec![0.0; motor.len()];
+    for phase in slip_phases(motor, smooth, sample_time_s) {
+        sign[phase.from..phase.to].fill(phase.sign);
+    }
+    sign
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

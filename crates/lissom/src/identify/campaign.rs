@@ -1,0 +1,286 @@
+//! The whole way from a campaign to its figures and their verdict.
+
+use thiserror::Error;
+
+use super::finding::{Finding, Severity};
+use super::rational::{BeamFit, MotorData, MotorFit, TipData, fit_beam, fit_motor};
+use super::regression::{BeamRegression, MotorRegression, beam_regression, motor_regression};
+use super::response_table::{ResponsePoint, response_table, tip_model};
+use super::run_analysis::{RunAnalysis, RunKind, analyse};
+use super::third_harmonic::{PairFigure, mean_figure, pair_figure};
+use super::{Estimate, ModeEstimate, verdict};
+use crate::record::Campaign;
+
+/// A run is the triple of another when its frequency is 3ω0 to this share.
+const TRIPLE: f64 = 2e-3;
+/// Windowed torque that the regression may leave before its figures are refused.
+const RESIDUAL_REFUSED: f64 = 0.6;
+/// Share of the beam's windowed acceleration that its regression may leave.
+const BEAM_RESIDUAL: f64 = 0.1;
+
+/// What a user may ask for.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Options {
+    /// Length of the regression's window \[s\]; chosen from the data when `None`.
+    pub window_s: Option<f64>,
+}
+
+/// Why a campaign cannot be identified at all.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum IdentifyError {
+    /// In every run the motor or the command stands still.
+    #[error(
+        "in all {runs} runs the motor or the command is constant: there is nothing to identify"
+    )]
+    NothingMoves {
+        /// Number of runs.
+        runs: usize,
+    },
+    /// The window asked for is not a positive finite length.
+    #[error("a window of {found_s} s is not positive and finite")]
+    Window {
+        /// The length given \[s\].
+        found_s: f64,
+    },
+}
+
+/// A stage of the work, for a progress display.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// Periods and harmonics of run `.0` (from 0) of `.1`.
+    Run(usize, usize),
+    /// Regression on slip phases.
+    Regression,
+    /// The beam's own regression.
+    Beam,
+    /// Responses and rational models.
+    Responses,
+}
+
+/// Figures of the report's own method.
+#[derive(Debug, Clone)]
+pub struct ThirdHarmonic {
+    /// Every pair's figure.
+    pub pairs: Vec<PairFigure>,
+    /// Mean of the pairs that no finding flags (of all, where all are flagged).
+    pub coulomb_command: Estimate,
+    /// Pairs in that mean.
+    pub used: Vec<bool>,
+    /// Rational fit of the response corrected with that mean, as in 6.2.2.
+    pub motor: Option<MotorFit>,
+}
+
+/// Friction, in torque (or force).
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Friction {
+    /// Coulomb friction, mean of both directions.
+    pub coulomb: Option<Estimate>,
+    /// While moving forward.
+    pub forward: Option<Estimate>,
+    /// While moving backward.
+    pub backward: Option<Estimate>,
+    /// (forward − backward)/2.
+    pub offset: Option<Estimate>,
+    /// Viscous friction.
+    pub viscous: Option<Estimate>,
+    /// Viscous friction forward and backward, where the data reject one constant.
+    pub viscous_by_direction: Option<(Estimate, Estimate)>,
+}
+
+/// The beam's figures.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Beam {
+    /// Modes with the motor clamped, ascending.
+    pub modes: Vec<ModeEstimate>,
+    /// Torque per angle between motor and beam, Σκ_i = h_{n+1} of (15).
+    pub coupling: Option<Estimate>,
+    /// κ_i by tip.
+    pub coupling_by_tip: Vec<Option<Estimate>>,
+}
+
+/// All that a campaign gave.
+#[derive(Debug, Clone)]
+pub struct Identified {
+    /// Friction by the best method that the data carry.
+    pub friction: Friction,
+    /// Inertia or mass.
+    pub inertia: Option<Estimate>,
+    /// The beam.
+    pub beam: Beam,
+    /// The report's method.
+    pub third_harmonic: Option<ThirdHarmonic>,
+    /// Regression on slip phases.
+    pub regression: Option<MotorRegression>,
+    /// The beam's regression.
+    pub beam_regression: Option<BeamRegression>,
+    /// What each run is.
+    pub runs: Vec<RunAnalysis>,
+    /// Responses, ascending in frequency.
+    pub responses: Vec<ResponsePoint>,
+    /// Rational model of the beam.
+    pub beam_model: Option<BeamFit>,
+    /// Rational model of the motor, fitted to the corrected response.
+    pub motor_model: Option<MotorFit>,
+    /// Torque per command used; `None`: figures are per unit of command.
+    pub torque_per_command: Option<f64>,
+    /// What the data could not carry.
+    pub findings: Vec<Finding>,
+}
+
+/// Identifies drive and beam from a campaign.
+///
+/// # Errors
+/// [`IdentifyError`] where nothing can be said at all. Everything less is a finding.
+pub fn identify(
+    campaign: &Campaign,
+    options: Options,
+    mut progress: impl FnMut(Stage),
+) -> Result<Identified, IdentifyError> {
+    if let Some(found_s) = options.window_s.filter(|w| !(*w > 0.0 && w.is_finite())) {
+        return Err(IdentifyError::Window { found_s });
+    }
+    let mut findings = Vec::new();
+    let mut runs = Vec::with_capacity(campaign.runs.len());
+    for index in 0..campaign.runs.len() {
+        progress(Stage::Run(index, campaign.runs.len()));
+        runs.push(analyse(campaign, index, &mut findings));
+    }
+    let usable = Campaign {
+        channels: campaign.channels.clone(),
+        runs: campaign
+            .runs
+            .iter()
+            .zip(&runs)
+            .filter(|(_, a)| a.usable)
+            .map(|(r, _)| r.clone())
+            .collect(),
+    };
+    if usable.runs.is_empty() {
+        return Err(IdentifyError::NothingMoves { runs: campaign.runs.len() });
+    }
+    progress(Stage::Regression);
+    let regression = motor_regression(&usable, options.window_s)
+        .filter(|r| r.relative_residual < RESIDUAL_REFUSED);
+    progress(Stage::Beam);
+    let beam_regression =
+        beam_regression(&usable).filter(|b| b.relative_residual.iter().all(|r| *r < BEAM_RESIDUAL));
+
+    progress(Stage::Responses);
+    let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
+    let smooth_s = regression.as_ref().map_or(0.0, |r| r.window_s / 3.0);
+    let table = |c: Option<Estimate>| response_table(campaign, &runs, c, smooth_s, &findings);
+    let mut third_harmonic = pairs(&runs, &findings);
+    let from_regression =
+        regression.as_ref().and_then(|r| r.coulomb).map(|c| c.scaled(1.0 / constant));
+    let best = from_regression
+        .filter(|c| c.value > 0.0)
+        .or(third_harmonic.as_ref().map(|t| t.coulomb_command));
+    let responses = table(best);
+    let beam_model = beam_model(campaign, &responses);
+    let poles = beam_model.as_ref().map(|b| b.poles.as_slice());
+    let motor_model = motor_model(&responses, constant, poles);
+    if let Some(third) = &mut third_harmonic {
+        third.motor = self::motor_model(&table(Some(third.coulomb_command)), constant, poles);
+    }
+    let mut identified = Identified {
+        friction: Friction::default(),
+        inertia: None,
+        beam: Beam::default(),
+        third_harmonic,
+        regression,
+        beam_regression,
+        runs,
+        responses,
+        beam_model,
+        motor_model,
+        torque_per_command: campaign.channels.command.torque_per_command,
+        findings,
+    };
+    verdict::conclude(campaign, &mut identified);
+    Ok(identified)
+}
+
+/// Every pair of runs at ω0 and 3ω0; each run meets the triple nearest to it in amplitude.
+fn pairs(runs: &[RunAnalysis], findings: &[Finding]) -> Option<ThirdHarmonic> {
+    let phasors: Vec<_> = runs
+        .iter()
+        .map(|r| match &r.kind {
+            RunKind::Sinusoidal(s) => s.phasors(),
+            RunKind::General => None,
+        })
+        .collect();
+    let flagged = |i: usize| {
+        findings.iter().any(|f| {
+            f.run.as_deref() == Some(&runs[i].name)
+                && f.severity >= Severity::Warning
+                && f.code != "sticking"
+                && f.affects.contains(&super::finding::key::THIRD)
+        })
+    };
+    let mut pairs = Vec::new();
+    for (i, low) in phasors.iter().enumerate() {
+        let Some(low) = low else { continue };
+        let amplitude = low.motor_1.value.norm();
+        let triple = phasors
+            .iter()
+            .enumerate()
+            .filter_map(|(k, p)| Some((k, (*p)?)))
+            .filter(|(_, p)| (p.omega_rad_s / (3.0 * low.omega_rad_s) - 1.0).abs() < TRIPLE)
+            .min_by(|(_, a), (_, b)| {
+                let far = |p: f64| (p / amplitude).ln().abs();
+                far(a.motor_1.value.norm()).total_cmp(&far(b.motor_1.value.norm()))
+            });
+        if let Some((k, triple)) = triple {
+            pairs.extend(pair_figure(i, k, low, &triple));
+        }
+    }
+    let clean: Vec<bool> =
+        pairs.iter().map(|p| !flagged(p.run) && !flagged(p.triple_run)).collect();
+    let used = if clean.iter().any(|c| *c) { clean } else { vec![true; pairs.len()] };
+    let chosen: Vec<PairFigure> =
+        pairs.iter().zip(&used).filter(|(_, u)| **u).map(|(p, _)| *p).collect();
+    let coulomb_command = mean_figure(&chosen)?;
+    Some(ThirdHarmonic { pairs, coulomb_command, used, motor: None })
+}
+
+fn beam_model(campaign: &Campaign, responses: &[ResponsePoint]) -> Option<BeamFit> {
+    let tips = &campaign.channels.tips;
+    if tips.is_empty() {
+        return None;
+    }
+    let complete: Vec<&ResponsePoint> =
+        responses.iter().filter(|p| p.tips.iter().all(Option::is_some)).collect();
+    let omega: Vec<f64> = complete.iter().map(|p| p.omega_rad_s).collect();
+    let data: Vec<TipData> = tips
+        .iter()
+        .enumerate()
+        .map(|(i, tip)| {
+            let modelled: Vec<_> = complete
+                .iter()
+                .filter_map(|p| Some(tip_model(tip.quantity, tip.calibrated, p.tips[i]?)))
+                .collect();
+            let form = modelled.first().map(|m| m.0)?;
+            Some(TipData { form, response: modelled.into_iter().map(|m| m.1).collect() })
+        })
+        .collect::<Option<_>>()?;
+    fit_beam(&omega, &data)
+}
+
+fn motor_model(
+    responses: &[ResponsePoint],
+    constant: f64,
+    poles: Option<&[super::Pole]>,
+) -> Option<MotorFit> {
+    let sound: Vec<_> = responses
+        .iter()
+        .filter(|p| !p.flagged)
+        .filter_map(|p| Some((p.omega_rad_s, p.motor_corrected?)))
+        .collect();
+    let data = MotorData {
+        omega_rad_s: sound.iter().map(|p| p.0).collect(),
+        response: sound.iter().map(|p| p.1).collect(),
+        torque_per_command: constant,
+    };
+    fit_motor(&data, poles)
+}

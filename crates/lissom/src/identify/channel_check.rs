@@ -1,0 +1,124 @@
+//! Checks of single channels: dead, clipped, sticking.
+
+/// Smallest difference between neighbouring values that a channel takes: its step.
+///
+/// Differences below 1e-9 of the range are rounding of one value. Zero for a constant.
+pub(crate) fn step(samples: &[f64]) -> f64 {
+    let range = range(samples);
+    samples
+        .windows(2)
+        .map(|w| (w[1] - w[0]).abs())
+        .filter(|d| *d > 1e-9 * range)
+        .fold(f64::INFINITY, f64::min)
+        .min(range)
+}
+
+/// Largest minus smallest value.
+pub(crate) fn range(samples: &[f64]) -> f64 {
+    let (low, high) = extremes(samples);
+    high - low
+}
+
+fn extremes(samples: &[f64]) -> (f64, f64) {
+    samples.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(*x), h.max(*x)))
+}
+
+/// Share of samples at which a channel stands at its largest or smallest value after having run
+/// into it at speed: at least three samples on end, entered with a slope of 30 % of the largest.
+///
+/// A signal that turns round or sticks at its extreme comes to it slowly and is not counted.
+pub(crate) fn clipped_share(samples: &[f64]) -> f64 {
+    let (low, high) = extremes(samples);
+    if high <= low {
+        return 0.0;
+    }
+    let near = 1e-9 * (high - low);
+    // Slopes over a few samples: a quantised signal has none over one.
+    let reach = 4;
+    let slope = |k: usize| (samples[k] - samples[k - reach]).abs();
+    let steepest = (reach..samples.len()).map(slope).fold(0.0, f64::max);
+    let at = |x: f64| (x - low).abs() <= near || (x - high).abs() <= near;
+    let mut clipped = 0;
+    let mut k = reach;
+    while k < samples.len() {
+        let mut end = k;
+        while end < samples.len() && at(samples[end]) && (samples[end] - samples[k]).abs() <= near {
+            end += 1;
+        }
+        if end - k >= 3 && !at(samples[k - 1]) && slope(k) > 0.3 * steepest {
+            clipped += end - k;
+        }
+        k = end.max(k + 1);
+    }
+    clipped as f64 / samples.len() as f64
+}
+
+/// Share of a sinusoidal cycle that the motor dwells at its extremes, beyond what a sinusoid of
+/// the same amplitude does: an estimate of the sticking share, to about one per cent of the
+/// cycle for a sensor of 12 bits.
+pub(crate) fn dwell_share(motor: &[f64], omega_rad_s: f64, sample_time_s: f64) -> f64 {
+    let period = std::f64::consts::TAU / (omega_rad_s * sample_time_s);
+    let quantum = step(motor);
+    let (mut share, mut cycles) = (0.0, 0.0);
+    let mut from = 0.0;
+    while from + period <= motor.len() as f64 + 0.5 {
+        let end = ((from + period).round() as usize).min(motor.len());
+        let cycle = &motor[from.round() as usize..end];
+        let (low, high) = extremes(cycle);
+        let amplitude = 0.5 * (high - low);
+        if amplitude > 0.0 && cycle.len() > 8 {
+            let margin = quantum.max(0.003 * amplitude);
+            let near =
+                cycle.iter().filter(|x| **x >= high - margin || **x <= low + margin).count() as f64;
+            // Readings are rounded: within half a step more of the true extreme.
+            let depth = (margin + 0.5 * quantum).min(amplitude);
+            let expected = 2.0 / std::f64::consts::PI * (1.0 - depth / amplitude).acos();
+            share += near / cycle.len() as f64 - expected;
+            cycles += 1.0;
+        }
+        from += period;
+    }
+    if cycles > 0.0 { (share / cycles).max(0.0) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sine(limit: f64) -> Vec<f64> {
+        (0..4000).map(|k| (0.02 * f64::from(k)).sin().clamp(-limit, limit)).collect()
+    }
+
+    #[test]
+    fn a_clipped_sine_is_told_from_a_whole_one() {
+        assert!(clipped_share(&sine(2.0)) < 1e-9);
+        let share = clipped_share(&sine(0.8));
+        // Above 0.8 for 1 − 2/π·asin(0.8) = 41 % of the cycle.
+        assert!((share - 0.41).abs() < 0.02, "{share}");
+    }
+
+    #[test]
+    fn a_quantised_sine_is_not_clipped_and_does_not_dwell() {
+        let x: Vec<f64> = sine(2.0).iter().map(|v| (v / 0.003).round() * 0.003).collect();
+        assert!(clipped_share(&x) < 1e-9);
+        assert!(dwell_share(&x, 2.0, 0.01) < 0.012);
+        assert!((step(&x) - 0.003).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_dwell_is_measured() {
+        // A cosine that stands for 5 % of the cycle at each extreme.
+        let period = 2000;
+        let x: Vec<f64> = (0..5 * period)
+            .map(|k| {
+                let phase = f64::from(k % period) / f64::from(period);
+                let (half, sign) = if phase < 0.5 { (phase, 1.0) } else { (phase - 0.5, -1.0) };
+                let moving = ((half - 0.05) / 0.45).max(0.0);
+                sign * (std::f64::consts::PI * moving).cos()
+            })
+            .collect();
+        let omega = std::f64::consts::TAU / (f64::from(period) * 0.001);
+        let share = dwell_share(&x, omega, 0.001);
+        assert!((share - 0.1).abs() < 0.01, "{share}");
+    }
+}

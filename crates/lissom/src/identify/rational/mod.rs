@@ -1,0 +1,63 @@
+//! Rational models fitted to responses: beam as (36), motor as (35), any number of modes.
+
+mod beam;
+mod motor;
+
+pub use beam::{BeamFit, TipData, TipForm, fit_beam};
+pub use motor::{MotorData, MotorFit, fit_motor};
+
+use num_complex::Complex64;
+
+/// A pole pair `s² + 2ζω·s + ω²`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pole {
+    /// Undamped natural frequency ω \[rad/s\].
+    pub omega_rad_s: f64,
+    /// Damping ratio ζ.
+    pub damping_ratio: f64,
+}
+
+impl Pole {
+    /// `s² + 2ζω·s + ω²` at `s = jω_0`.
+    pub fn denominator(&self, omega_rad_s: f64) -> Complex64 {
+        let w = self.omega_rad_s;
+        Complex64::new(
+            w * w - omega_rad_s * omega_rad_s,
+            2.0 * self.damping_ratio * w * omega_rad_s,
+        )
+    }
+
+    /// Its coefficients in descending powers.
+    pub fn polynomial(&self) -> [f64; 3] {
+        let w = self.omega_rad_s;
+        [1.0, 2.0 * self.damping_ratio * w, w * w]
+    }
+}
+
+/// Product of all pole pairs, descending powers.
+pub(crate) fn common_denominator(poles: &[Pole]) -> Vec<f64> {
+    poles.iter().fold(vec![1.0], |p, pole| crate::lti::multiply(&p, &pole.polynomial()))
+}
+
+/// Product of all pole pairs but the one at `left_out`.
+pub(crate) fn others(poles: &[Pole], left_out: usize) -> Vec<f64> {
+    let rest: Vec<Pole> =
+        poles.iter().enumerate().filter(|(k, _)| *k != left_out).map(|(_, p)| *p).collect();
+    common_denominator(&rest)
+}
+
+/// Frequencies tried as the start of a new pole, logarithmic over the data and half a decade
+/// beyond either end.
+pub(crate) fn trial_frequencies(omega: &[f64]) -> Vec<f64> {
+    const TRIALS: i32 = 160;
+    let low = omega.iter().copied().fold(f64::INFINITY, f64::min) / 1.5;
+    let high = omega.iter().copied().fold(0.0, f64::max) * 1.5;
+    (0..=TRIALS).map(|k| low * (high / low).powf(f64::from(k) / f64::from(TRIALS))).collect()
+}
+
+/// Bayesian information criterion for `n` real residuals of sum of squares `cost` and `p`
+/// parameters, the noise level unknown.
+pub(crate) fn information(n: usize, p: usize, cost: f64) -> f64 {
+    let n = n as f64;
+    n * (cost.max(f64::MIN_POSITIVE) / n).ln() + p as f64 * n.ln()
+}

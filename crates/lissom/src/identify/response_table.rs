@@ -1,0 +1,179 @@
+//! The campaign's frequency responses: one point a sinusoidal run, bands of all other runs.
+
+use std::f64::consts::PI;
+
+use num_complex::Complex64;
+
+use super::correct::{Response, corrected, ratio};
+use super::finding::{Finding, key};
+use super::rational::TipForm;
+use super::regression::slip_sign;
+use super::run_analysis::{RunAnalysis, RunKind};
+use super::{Estimate, Severity};
+use crate::record::{Campaign, Hold, TipQuantity};
+use crate::spectrum::{Band, Phasor, broadband, hold_factor};
+
+/// Least coherence at which a band of a broadband record is worth showing.
+const COHERENCE: f64 = 0.3;
+/// Least power of the input in a band, relative to the strongest.
+const POWER: f64 = 1e-7;
+/// A corrected point is flagged where friction's fundamental is this share of the current's…
+const FRICTION_SHARE: f64 = 0.9;
+/// …or where the joint sticks for this share of the cycle.
+const STUCK_SHARE: f64 = 0.12;
+
+/// One frequency of the campaign's responses.
+#[derive(Debug, Clone)]
+pub struct ResponsePoint {
+    /// Frequency \[rad/s\].
+    pub omega_rad_s: f64,
+    /// Index of the sinusoidal run; `None` for a band of broadband records.
+    pub run: Option<usize>,
+    /// θ_m per command as measured: friction and all.
+    pub motor_raw: Response,
+    /// The same with friction taken out; `None` where friction is unknown.
+    pub motor_corrected: Option<Response>,
+    /// Response of each tip to the motor's angle, in the tip's own quantity.
+    pub tips: Vec<Option<Response>>,
+    /// Whether a finding speaks against the corrected point.
+    pub flagged: bool,
+}
+
+/// Builds the table with friction `coulomb_command` (CF/K in the command's unit), if known.
+pub(crate) fn response_table(
+    campaign: &Campaign,
+    runs: &[RunAnalysis],
+    coulomb_command: Option<Estimate>,
+    smooth_s: f64,
+    findings: &[Finding],
+) -> Vec<ResponsePoint> {
+    let mut points: Vec<ResponsePoint> = runs
+        .iter()
+        .enumerate()
+        .filter_map(|(index, run)| sinusoidal(index, run, coulomb_command, findings))
+        .collect();
+    points.extend(bands(campaign, runs, coulomb_command, smooth_s));
+    points.sort_by(|a, b| a.omega_rad_s.total_cmp(&b.omega_rad_s));
+    points
+}
+
+fn sinusoidal(
+    index: usize,
+    run: &RunAnalysis,
+    coulomb_command: Option<Estimate>,
+    findings: &[Finding],
+) -> Option<ResponsePoint> {
+    let RunKind::Sinusoidal(s) = &run.kind else { return None };
+    let (motor, command) = (s.motor.get(1)?, s.command.get(1)?);
+    let spoken_against = findings.iter().any(|f| {
+        f.run.as_deref() == Some(&run.name)
+            && f.severity >= Severity::Warning
+            && f.code != "sticking"
+            && f.affects.contains(&key::CORRECTED)
+    });
+    let share = coulomb_command
+        .map_or(0.0, |c| c.value.abs() * 4.0 / PI / command.value.norm().max(f64::MIN_POSITIVE));
+    let stuck = run.stuck_share.unwrap_or(0.0);
+    Some(ResponsePoint {
+        omega_rad_s: s.omega_rad_s,
+        run: Some(index),
+        motor_raw: ratio(motor, command),
+        motor_corrected: coulomb_command.map(|c| corrected(motor, command, c)),
+        tips: s.tips.iter().map(|t| tip_response(t.get(1)?, motor)).collect(),
+        flagged: spoken_against || share > FRICTION_SHARE || stuck > STUCK_SHARE,
+    })
+}
+
+fn tip_response(tip: Phasor, motor: Phasor) -> Option<Response> {
+    (tip.value.norm() > 0.0).then(|| ratio(tip, motor))
+}
+
+/// Bands of all runs that are not sinusoidal, friction taken out of the command in time.
+fn bands(
+    campaign: &Campaign,
+    runs: &[RunAnalysis],
+    coulomb_command: Option<Estimate>,
+    smooth_s: f64,
+) -> Vec<ResponsePoint> {
+    let general: Vec<usize> = (0..runs.len())
+        .filter(|&i| runs[i].usable && matches!(runs[i].kind, RunKind::General))
+        .collect();
+    if general.is_empty() {
+        return Vec::new();
+    }
+    let hold = campaign.channels.command.hold;
+    let spectrum = |input: &dyn Fn(usize) -> Vec<f64>, output: &dyn Fn(usize) -> Vec<f64>| {
+        let series: Vec<(Vec<f64>, Vec<f64>, f64)> = general
+            .iter()
+            .map(|&i| (input(i), output(i), campaign.runs[i].sample_time_s()))
+            .collect();
+        broadband(&series.iter().map(|(u, y, t)| (&u[..], &y[..], *t)).collect::<Vec<_>>())
+    };
+    let run = |i: usize| &campaign.runs[i];
+    let motor = |i: usize| run(i).motor().to_vec();
+    // The hold delays by half a sample: runs of different sampling get the mean of theirs.
+    let sample_time =
+        general.iter().map(|&i| run(i).sample_time_s()).sum::<f64>() / general.len() as f64;
+    let held = |w: f64| match hold {
+        Hold::Sampled => hold_factor(w, sample_time),
+        Hold::Measured => Complex64::ONE,
+    };
+    let raw = spectrum(&|i| run(i).command().to_vec(), &motor);
+    let without_friction = coulomb_command.map(|c| {
+        spectrum(
+            &|i| {
+                let sign = slip_sign(run(i).motor(), smooth_s, run(i).sample_time_s());
+                run(i).command().iter().zip(sign).map(|(u, s)| u - c.value * s).collect()
+            },
+            &motor,
+        )
+    });
+    let tips: Vec<Vec<Band>> = (0..campaign.channels.tips.len())
+        .map(|k| spectrum(&motor, &|i| run(i).tips()[k].clone()))
+        .collect();
+    let nearest = |bands: &[Band], w: f64| {
+        bands
+            .iter()
+            .find(|b| (b.omega_rad_s / w - 1.0).abs() < 0.03 && b.coherence > COHERENCE)
+            .copied()
+    };
+    raw.iter()
+        .filter(|b| b.coherence > COHERENCE && b.input_power > POWER)
+        .map(|b| {
+            let w = b.omega_rad_s;
+            let per_held = |b: Band, w: f64| {
+                let factor = held(w);
+                Response { value: b.response / factor, std: b.std / factor.norm() }
+            };
+            let corrected = without_friction.as_deref().and_then(|c| nearest(c, w));
+            ResponsePoint {
+                omega_rad_s: w,
+                run: None,
+                motor_raw: per_held(*b, w),
+                motor_corrected: corrected.map(|c| per_held(c, w)),
+                tips: tips
+                    .iter()
+                    .map(|t| nearest(t, w).map(|b| Response { value: b.response, std: b.std }))
+                    .collect(),
+                flagged: corrected.is_none(),
+            }
+        })
+        .collect()
+}
+
+/// Form of a tip's model and its responses in that form: θ_i/θ_m for angles and deflections.
+pub(crate) fn tip_model(
+    quantity: TipQuantity,
+    calibrated: bool,
+    response: Response,
+) -> (TipForm, Response) {
+    match (quantity, calibrated) {
+        (TipQuantity::Angle, _) => (TipForm::Angle, response),
+        (TipQuantity::Deflection, true) => {
+            (TipForm::Angle, Response { value: response.value + 1.0, std: response.std })
+        }
+        (TipQuantity::Deflection, false) | (TipQuantity::Acceleration, _) => {
+            (TipForm::SecondDerivative, response)
+        }
+    }
+}

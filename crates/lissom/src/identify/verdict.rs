@@ -1,0 +1,343 @@
+//! Which figures stand, and what speaks against them.
+
+use super::campaign::{Beam, Friction, Identified};
+use super::finding::{Finding, Severity, key};
+use super::run_analysis::RunKind;
+use super::{Estimate, Severity::Warning};
+use crate::record::{Campaign, CommandQuantity, Hold, TipQuantity};
+
+/// A figure whose deviation is beyond this share of it is called uncertain…
+const UNCERTAIN: f64 = 0.2;
+/// …and beyond this share it is refused.
+const UNKNOWN: f64 = 1.0;
+/// Windowed torque left by the regression from which on its figures are called uncertain.
+const RESIDUAL: f64 = 0.15;
+/// Methods that differ by more than this share disagree.
+const DISAGREE: f64 = 0.15;
+/// A figure this many deviations from zero is there.
+const PRESENT: f64 = 4.0;
+
+/// Fills in the figures by the best method that the data carry, and the findings about them.
+pub(crate) fn conclude(campaign: &Campaign, id: &mut Identified) {
+    let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
+    from_regression(id);
+    if id.friction.coulomb.is_none() {
+        id.friction.coulomb =
+            id.third_harmonic.as_ref().map(|t| t.coulomb_command.scaled(constant));
+    }
+    if id.regression.is_none()
+        && let Some(motor) = &id.motor_model
+    {
+        let back_emf = campaign.channels.command.back_emf_viscous;
+        id.inertia = Some(motor.inertia);
+        id.friction.viscous =
+            Some(Estimate { value: motor.viscous.value - back_emf, std: motor.viscous.std });
+    }
+    beam(campaign, id);
+    refuse_the_unknown(id);
+    command(campaign, id);
+    friction(campaign, id);
+    regression(id);
+    methods(id, constant);
+    tips(campaign, id);
+    id.findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
+}
+
+fn from_regression(id: &mut Identified) {
+    let Some(r) = &id.regression else { return };
+    id.friction = Friction {
+        coulomb: r.coulomb,
+        forward: r.forward,
+        backward: r.backward,
+        offset: r.offset,
+        viscous: r.viscous,
+        viscous_by_direction: r.viscous_by_direction.map(|d| (d.forward, d.backward)),
+    };
+    id.inertia = r.inertia;
+}
+
+fn beam(campaign: &Campaign, id: &mut Identified) {
+    let tips = campaign.channels.tips.len();
+    let fitted = id.beam_model.as_ref().map_or(&[][..], |b| &b.modes[..]);
+    let modes = match &id.beam_regression {
+        // As many equations as tips: it sees no further modes.
+        Some(r) if fitted.len() <= tips => r.modes.clone(),
+        _ => fitted.to_vec(),
+    };
+    let by_tip = id.regression.as_ref().map_or(Vec::new(), |r| r.coupling.clone());
+    let total = by_tip.iter().copied().collect::<Option<Vec<_>>>().filter(|k| !k.is_empty());
+    let coupling = match total {
+        Some(k) => Some(Estimate {
+            value: k.iter().map(|e| e.value).sum(),
+            std: k.iter().map(|e| e.std * e.std).sum::<f64>().sqrt(),
+        }),
+        None => id.motor_model.as_ref().filter(|m| !m.coupling.is_empty()).map(|m| Estimate {
+            value: m.coupling.iter().map(|e| e.value).sum(),
+            std: m.coupling.iter().map(|e| e.std * e.std).sum::<f64>().sqrt(),
+        }),
+    };
+    if modes.is_empty() && tips > 0 {
+        id.findings.push(Finding::new(
+            "modes-not-found",
+            Severity::Refusal,
+            &[key::MODES],
+            "no mode explains the tips' responses to the motor".to_owned(),
+            "drive it at six or more frequencies about the beam's resonance, or with a sweep",
+        ));
+    }
+    let poles_found = match (&id.motor_model, modes.is_empty() && tips == 0) {
+        (Some(m), true) if !m.poles_given => m.poles.len(),
+        _ => 0,
+    };
+    if poles_found > 0 {
+        id.findings.push(Finding::new(
+            "flexible-without-tip",
+            Severity::Info,
+            &[key::MODES, key::COUPLING],
+            "the motor's response shows a flexible mode, and no tip is measured".to_owned(),
+            "measure a tip: from the motor alone its figures are rough",
+        ));
+    }
+    id.beam = Beam { modes, coupling, coupling_by_tip: by_tip };
+}
+
+/// Figures that are not known to their own size are taken back.
+fn refuse_the_unknown(id: &mut Identified) {
+    let mut findings = Vec::new();
+    let mut look = |name: &'static str, figure: &mut Option<Estimate>, hint: &'static str| {
+        let Some(e) = *figure else {
+            findings.push(Finding::new(
+                "not-separable",
+                Severity::Refusal,
+                &[name],
+                format!("{name} cannot be told from other terms in these runs"),
+                hint,
+            ));
+            return;
+        };
+        let share = e.std / e.value.abs();
+        let what = if e.value < 0.0 && e.value < -2.0 * e.std {
+            "negative: the model does not fit".to_owned()
+        } else if share > UNKNOWN || !share.is_finite() {
+            format!("known only to ±{:.0} % of itself", 100.0 * share)
+        } else if share > UNCERTAIN {
+            let message = format!("{name} is uncertain: ±{:.0} % (one deviation)", 100.0 * share);
+            findings.push(Finding::new("uncertain", Warning, &[name], message, hint));
+            return;
+        } else {
+            return;
+        };
+        let message = format!("{name} would be {:.4e}, {what}", e.value);
+        findings.push(Finding::new("unknown", Severity::Refusal, &[name], message, hint));
+        *figure = None;
+    };
+    look(key::COULOMB, &mut id.friction.coulomb, "add slow runs in both directions");
+    look(key::VISCOUS, &mut id.friction.viscous, "add runs at higher speed and larger amplitude");
+    look(
+        key::INERTIA,
+        &mut id.inertia,
+        "add runs with more acceleration: faster sines, larger amplitude",
+    );
+    if !id.beam.coupling_by_tip.is_empty() || id.beam.coupling.is_some() {
+        look(key::COUPLING, &mut id.beam.coupling, "drive it near the beam's resonance");
+    }
+    id.findings.extend(findings);
+}
+
+fn command(campaign: &Campaign, id: &mut Identified) {
+    let command = &campaign.channels.command;
+    if command.torque_per_command.is_none() {
+        id.findings.push(Finding::new(
+            "per-unit-of-command",
+            Severity::Info,
+            &[key::COULOMB, key::VISCOUS, key::INERTIA],
+            "the torque constant is unknown: figures are per unit of command".to_owned(),
+            "state drive.torque_constant in the campaign",
+        ));
+    }
+    let commanded = command.hold == Hold::Sampled && command.quantity != CommandQuantity::Current;
+    if commanded {
+        id.findings.push(Finding::new(
+            "command-not-measured",
+            Severity::Info,
+            &[key::COULOMB, key::VISCOUS],
+            "the drive's input is its command, not a measurement: the amplifier's dead band, \
+             drop and delay are counted as the joint's"
+                .to_owned(),
+            "log the motor current where the drive gives it",
+        ));
+    }
+}
+
+fn friction(campaign: &Campaign, id: &mut Identified) {
+    let mut shown = None;
+    for run in &id.runs {
+        let RunKind::Sinusoidal(s) = &run.kind else { continue };
+        let size = |k: usize| s.command.get(k).map_or(0.0, |p| p.value.norm());
+        let (odd, even) = (size(3) + size(5), size(2) + size(4));
+        let certain = s.command.get(3).is_some_and(|p| p.value.norm() > PRESENT * p.std);
+        if certain && odd > 2.0 * even {
+            let share = 100.0 * size(3) / size(1).max(f64::MIN_POSITIVE);
+            shown = Some(format!(
+                "odd harmonics stand out of the command (third {share:.1} % of the fundamental in \
+                 {}, even ones {:.1} times smaller): dry friction",
+                run.name,
+                odd / even.max(f64::MIN_POSITIVE)
+            ));
+            break;
+        }
+    }
+    if shown.is_none()
+        && let Some(c) = id.regression.as_ref().and_then(|r| r.coulomb)
+        && c.value > PRESENT * c.std
+    {
+        shown = Some(format!(
+            "the torque jumps with the direction of motion, by {:.0} deviations: dry friction",
+            c.value / c.std
+        ));
+    }
+    if let Some(message) = shown {
+        id.findings.push(Finding::new(
+            "friction-visible",
+            Severity::Info,
+            &[key::COULOMB, key::RAW],
+            message,
+            "a linear fit of the raw response would be wrong; use the corrected one",
+        ));
+    }
+    if let Some(offset) = id.friction.offset
+        && offset.value.abs() > PRESENT * offset.std
+        && let Some(c) = id.friction.coulomb
+        && offset.value.abs() > 0.01 * c.value
+    {
+        id.findings.push(Finding::new(
+            "offset",
+            Severity::Info,
+            &[key::OFFSET],
+            format!(
+                "friction differs by direction, or a constant load acts: {:.1} % of the mean",
+                100.0 * offset.value / c.value
+            ),
+            "the two are the same to a motion log; a load from another orientation tells them apart",
+        ));
+    }
+    let _ = campaign;
+}
+
+fn regression(id: &mut Identified) {
+    let everything = [key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING];
+    let Some(r) = &id.regression else {
+        id.findings.push(Finding::new(
+            "regression-refused",
+            Severity::Refusal,
+            &everything,
+            "the slip phases hold no windows enough, or the motor's equation does not explain \
+             the command in them"
+                .to_owned(),
+            "longer moves in both directions; check that the columns and signs are right",
+        ));
+        return;
+    };
+    if r.relative_residual > RESIDUAL {
+        id.findings.push(Finding::new(
+            "unexplained-torque",
+            Severity::Warning,
+            &everything,
+            format!(
+                "the motor's equation leaves {:.0} % of the windowed torque",
+                100.0 * r.relative_residual
+            ),
+            "a delay, a load, other friction or a flexible mode without a tip; check units and signs",
+        ));
+    }
+    if let Some(d) = r.viscous_by_direction {
+        id.findings.push(Finding::new(
+            "viscous-by-direction",
+            Warning,
+            &[key::VISCOUS, key::OFFSET],
+            format!(
+                "viscous friction differs by direction: {:.4e} forward, {:.4e} backward; the \
+                 residual falls from {:.1} % to {:.1} %, and of the offset {:.4e} is left",
+                d.forward.value,
+                d.backward.value,
+                100.0 * r.relative_residual,
+                100.0 * d.relative_residual,
+                d.offset.value
+            ),
+            "the scalar figure is the mean of both; the offset depends on which law is taken",
+        ));
+    }
+    let negative = r.coupling.iter().flatten().any(|k| k.value < -2.0 * k.std);
+    if negative && r.coupling.len() == 1 {
+        id.findings.push(Finding::new(
+            "coupling-sign",
+            Warning,
+            &[key::COUPLING, key::MODES],
+            "the beam would push the motor away from itself: the tip's sign looks reversed"
+                .to_owned(),
+            "give the tip a negative scale in the campaign",
+        ));
+    }
+}
+
+fn methods(id: &mut Identified, constant: f64) {
+    let third = id.third_harmonic.as_ref().map(|t| t.coulomb_command.scaled(constant));
+    let sinusoidal = id.runs.iter().any(|r| matches!(r.kind, RunKind::Sinusoidal(_)));
+    match (third, id.friction.coulomb) {
+        (Some(a), Some(b)) if (a.value / b.value - 1.0).abs() > DISAGREE => {
+            id.findings.push(Finding::new(
+                "methods-disagree",
+                Warning,
+                &[key::COULOMB, key::THIRD],
+                format!(
+                    "third harmonic and regression differ by {:.0} % in Coulomb friction",
+                    100.0 * (a.value / b.value - 1.0)
+                ),
+                "sticking, sensor steps and saturation lower the third harmonic's figure",
+            ));
+        }
+        (None, _) if sinusoidal => id.findings.push(Finding::new(
+            "no-pairs",
+            Severity::Info,
+            &[key::THIRD],
+            "no two runs are at a frequency and its triple: the third-harmonic method needs pairs"
+                .to_owned(),
+            "add for each frequency ω0 a run at 3ω0",
+        )),
+        _ => {}
+    }
+}
+
+fn tips(campaign: &Campaign, id: &mut Identified) {
+    for tip in &campaign.channels.tips {
+        let why = match (tip.quantity, tip.calibrated) {
+            (TipQuantity::Acceleration, _) => "an acceleration",
+            (_, false) => "of unknown scale",
+            _ => continue,
+        };
+        id.findings.push(Finding::new(
+            "tip-without-angle",
+            Severity::Info,
+            &[key::COUPLING],
+            format!("tip {} is {why}: it gives modes, but no coupling by regression", tip.name),
+            "measure the tip's angle or deflection for the coupling",
+        ));
+    }
+    if let Some(model) = &id.beam_model
+        && model.modes.len() > campaign.channels.tips.len()
+        && id.regression.as_ref().is_some_and(|r| !r.coupling.is_empty())
+    {
+        id.findings.push(Finding::new(
+            "more-modes-than-tips",
+            Warning,
+            &[key::COUPLING],
+            format!(
+                "the responses show {} modes and {} tips are measured: the coupling torque is \
+                 not a sum over these tips alone",
+                model.modes.len(),
+                campaign.channels.tips.len()
+            ),
+            "measure as many points as there are modes in the band",
+        ));
+    }
+}
