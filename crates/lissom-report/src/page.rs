@@ -91,7 +91,7 @@ impl Page {
 
     /// A figure with its caption; where it cannot be drawn, the reason stands in its place.
     #[must_use]
-    pub fn figure(self, figure: &impl Figure, caption: &str) -> Self {
+    pub fn figure<F: Figure + ?Sized>(self, figure: &F, caption: &str) -> Self {
         let picture = figure.to_svg().unwrap_or_else(|error| {
             format!(
                 "<p class=\"missing\">Not drawn: {}.</p>",

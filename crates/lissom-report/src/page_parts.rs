@@ -1,4 +1,4 @@
-//! What a page is made of: findings, key figures and tables.
+//! What a [`Page`](crate::Page) is made of: findings, key figures and tables.
 
 /// How serious a finding is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -59,7 +59,7 @@ impl Finding {
     }
 }
 
-/// An estimated figure for [`Page::key_figures`].
+/// An estimated figure for [`Page::key_figures`](crate::Page::key_figures).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct KeyFigure {
     /// What it is.
@@ -85,7 +85,7 @@ pub enum Cells {
     Numbers,
 }
 
-/// A table for [`Page::table`].
+/// A table for [`Page::table`](crate::Page::table).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Table {
     /// The line above it.
