@@ -10,7 +10,7 @@ pub(crate) enum Steps {
     Decimal,
     /// As decimal, then 10, 20, 40, 60, 100 ... dB.
     Decibels,
-    /// As decimal, then 5, 10, 15, 30, 45, 90, 180 degrees and multiples of 360.
+    /// As decimal, then 5, 10, 15, 45, 90, 180 degrees and multiples of 360.
     Degrees,
 }
 
@@ -36,6 +36,8 @@ pub(crate) struct Ruler {
 
 /// Ticks a linear axis never exceeds, whatever the rounding.
 const MAX_TICKS: usize = 40;
+/// The least distance of the data from a snapped end, as a part of their span.
+const SNAP_PAD: f64 = 0.02;
 /// Pixels a decade needs to carry labels at 1, 2 and 5.
 const ROOMY_DECADE: f64 = 130.0;
 /// Pixels a decade needs to carry labels at 1 to 9.
@@ -51,7 +53,7 @@ impl Steps {
         let special: &[f64] = match self {
             Self::Decimal => &[],
             Self::Decibels => &[5.0, 10.0, 20.0, 40.0, 60.0, 100.0],
-            Self::Degrees => &[5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0],
+            Self::Degrees => &[5.0, 10.0, 15.0, 45.0, 90.0, 180.0, 360.0],
         };
         if rough > 2.0 {
             if let Some(step) = special.iter().find(|step| **step >= rough) {
@@ -71,15 +73,22 @@ impl Steps {
 }
 
 impl Ruler {
-    /// A linear axis over `low..high` with about `count` ticks; `snap` moves its ends outward to ticks.
+    /// A linear axis over `low..high` with about `count` ticks; `snap` moves its ends outward to
+    /// the next tick or half way between two.
     pub(crate) fn linear((low, high): (f64, f64), steps: Steps, count: f64, snap: bool) -> Self {
         let step = steps.at_least((high - low) / count);
-        let (mut first, mut last) = ((low / step).ceil(), (high / step).floor());
         let (mut low, mut high) = (low, high);
         if snap {
-            (first, last) = ((low / step + 1e-9).floor(), (high / step - 1e-9).ceil());
-            (low, high) = (first * step, last * step);
+            let (half, pad) = (step / 2.0, SNAP_PAD * (high - low));
+            // Zero is a natural end: data that stop there need no pad.
+            let (bottom, top) = (
+                if low == 0.0 { 0.0 } else { low - pad },
+                if high == 0.0 { 0.0 } else { high + pad },
+            );
+            low = (bottom / half + 1e-9).floor() * half;
+            high = (top / half - 1e-9).ceil() * half;
         }
+        let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
         let places: Vec<f64> = (0..MAX_TICKS)
             .map(|k| first + k as f64)
             .take_while(|k| *k <= last)
@@ -169,7 +178,7 @@ mod tests {
     fn phases_take_multiples_of_45_and_90() {
         assert_eq!(
             labels(&Ruler::linear((-188.0, 4.0), Steps::Degrees, 6.0, true)),
-            ["−225", "−180", "−135", "−90", "−45", "0", "45"]
+            ["−180", "−135", "−90", "−45", "0"]
         );
         assert_eq!(
             labels(&Ruler::linear((-350.0, -10.0), Steps::Degrees, 6.0, true)),
@@ -180,8 +189,8 @@ mod tests {
     #[test]
     fn decibels_snap_outward() {
         let ruler = Ruler::linear((-37.0, 41.0), Steps::Decibels, 6.0, true);
-        assert_eq!(labels(&ruler), ["−40", "−20", "0", "20", "40", "60"]);
-        assert_eq!((ruler.low, ruler.high), (-40.0, 60.0));
+        assert_eq!(labels(&ruler), ["−40", "−20", "0", "20", "40"]);
+        assert_eq!((ruler.low, ruler.high), (-40.0, 50.0));
         assert_eq!(
             labels(&Ruler::linear((0.1, 0.32), Steps::Decibels, 5.0, false)),
             ["0.10", "0.15", "0.20", "0.25", "0.30"]
@@ -191,7 +200,7 @@ mod tests {
     #[test]
     fn large_and_small_numbers_share_a_factor() {
         let ruler = Ruler::linear((0.0, 4.2e-5), Steps::Decimal, 5.0, true);
-        assert_eq!((ruler.factor, labels(&ruler)), (Some(-5), vec!["0", "1", "2", "3", "4", "5"]));
+        assert_eq!((ruler.factor, labels(&ruler)), (Some(-5), vec!["0", "1", "2", "3", "4"]));
     }
 
     #[test]

@@ -2,16 +2,16 @@
 
 use std::f64::consts::TAU;
 
-use num_complex::Complex64;
-
 use crate::axis::{Ruler, Steps};
 use crate::canvas::{Anchor, Canvas, Rect, TextStyle};
 use crate::error::FigureError;
 use crate::legend::{Entry, Sample, header, skipped_note};
-use crate::palette::{FAINT_INK, Role};
-use crate::panel::{Mark, Panel, TICK_SIZE, X_AXIS_HEIGHT};
+use crate::marks::{Mark, with_bars};
+use crate::palette::FAINT_INK;
+use crate::panel::{Panel, TICK_SIZE, X_AXIS_HEIGHT};
 use crate::phase::{Track, unwrap_together};
 use crate::scale::{Scale, extent};
+use crate::series::{FrequencyAxis, Series, Style};
 use crate::text::{Weight, width};
 
 const SHEET_WIDTH: f64 = 760.0;
@@ -24,96 +24,6 @@ const TOP_AXIS_HEIGHT: f64 = 42.0;
 const LEAST_DB: f64 = 1.0;
 /// The least phase range in degrees.
 const LEAST_DEGREES: f64 = 10.0;
-/// How far an error bar may stretch an axis, as a part of the span of the points.
-const BAR_STRETCH: f64 = 0.35;
-
-/// What the frequency axis shows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum FrequencyAxis {
-    /// rad/s below.
-    #[default]
-    RadPerSecond,
-    /// Hz below.
-    Hertz,
-    /// rad/s below and Hz above.
-    Both,
-}
-
-/// How a series is drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Style {
-    /// A line, for models.
-    #[default]
-    Line,
-    /// Markers, for measurements.
-    Points,
-    /// Markers with one standard deviation to both sides.
-    PointsWithBars,
-}
-
-/// One frequency response.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Series {
-    /// The label in the legend; empty keeps the series out of it.
-    pub label: String,
-    /// What it stands for, hence its colour and marker.
-    pub role: Role,
-    /// How it is drawn.
-    pub style: Style,
-    /// The frequencies in rad/s, in any order.
-    pub omega_rad_s: Vec<f64>,
-    /// The response at each frequency.
-    pub response: Vec<Complex64>,
-    /// The standard deviation of each response as a distance in the complex plane; a value that is not positive draws no bar.
-    pub std: Option<Vec<f64>>,
-    /// Points to draw grey and hollow, because something is wrong with them.
-    pub flagged: Option<Vec<bool>>,
-}
-
-impl Series {
-    /// A series without deviations or flags.
-    pub fn new(
-        label: impl Into<String>,
-        role: Role,
-        style: Style,
-        omega_rad_s: Vec<f64>,
-        response: Vec<Complex64>,
-    ) -> Self {
-        Self { label: label.into(), role, style, omega_rad_s, response, std: None, flagged: None }
-    }
-
-    /// Adds standard deviations.
-    #[must_use]
-    pub fn with_std(mut self, std: Vec<f64>) -> Self {
-        self.std = Some(std);
-        self
-    }
-
-    /// Adds flags.
-    #[must_use]
-    pub fn with_flags(mut self, flagged: Vec<bool>) -> Self {
-        self.flagged = Some(flagged);
-        self
-    }
-
-    fn check(&self) -> Result<(), FigureError> {
-        let lengths = [
-            ("response", Some(self.response.len())),
-            ("std", self.std.as_ref().map(Vec::len)),
-            ("flagged", self.flagged.as_ref().map(Vec::len)),
-        ];
-        let expected = self.omega_rad_s.len();
-        match lengths
-            .into_iter()
-            .find_map(|(field, n)| n.filter(|n| *n != expected).map(|n| (field, n)))
-        {
-            Some((field, found)) => {
-                Err(FigureError::Length { series: self.label.clone(), field, expected, found })
-            }
-            None => Ok(()),
-        }
-    }
-}
 
 /// Magnitude and phase of frequency responses.
 ///
@@ -332,19 +242,6 @@ impl crate::Figure for BodePlot {
         let degrees = Ruler::linear(degrees, Steps::Degrees, 6.0, true);
         Ok(self.draw(&prepared, skipped, frequencies, [db, degrees]))
     }
-}
-
-/// The range of the points, stretched by their error bars as far as those stay in proportion.
-pub(crate) fn with_bars(marks: &[&Mark]) -> Option<(f64, f64)> {
-    let (low, high) = extent(marks.iter().map(|m| m.y))?;
-    let sure = || marks.iter().filter(|m| !m.flagged).filter_map(|m| m.bar);
-    let mut sizes: Vec<f64> =
-        sure().map(|(a, b)| (b - a) / 2.0).filter(|s| s.is_finite()).collect();
-    sizes.sort_by(f64::total_cmp);
-    let typical = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
-    let stretch = (BAR_STRETCH * (high - low)).max(1.5 * typical);
-    let (bottom, top) = extent(sure().flat_map(|(a, b)| [a, b])).unwrap_or((low, high));
-    Some((low.min(bottom).max(low - stretch), high.max(top).min(high + stretch)))
 }
 
 /// A magnitude in dB.

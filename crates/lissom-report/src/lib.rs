@@ -28,23 +28,30 @@ mod error;
 mod html;
 mod legend;
 mod line;
+mod marks;
 mod number;
 mod page;
+mod page_parts;
 mod palette;
 mod panel;
 mod phase;
 mod png;
 mod scale;
+mod series;
 mod text;
+mod trace;
 
-pub use bode::{BodePlot, FrequencyAxis, Series, Style};
+pub use bode::BodePlot;
 pub use error::FigureError;
-pub use line::{Axis, Band, LinePlot, Trace, TraceStyle};
+pub use line::LinePlot;
 pub use number::with_uncertainty;
-pub use page::{Cells, Finding, KeyFigure, Page, Severity, Table};
+pub use page::Page;
+pub use page_parts::{Cells, Finding, KeyFigure, Severity, Table};
 pub use palette::Role;
 pub use png::svg_to_png;
 pub use scale::Scale;
+pub use series::{FrequencyAxis, Series, Style};
+pub use trace::{Axis, Band, Trace, TraceStyle};
 
 mod sealed {
     /// Keeps [`Figure`](crate::Figure) to this crate, whose SVG carries no ids that could clash on a page.

@@ -1,14 +1,15 @@
 //! Plots over one pair of axes: friction against frequency, residuals, time traces.
 
 use crate::axis::{Ruler, Steps};
-use crate::bode::with_bars;
 use crate::canvas::{Anchor, Canvas, Rect, Stroke, TextStyle};
 use crate::error::FigureError;
 use crate::legend::{Entry, Sample, header, skipped_note};
-use crate::palette::{FAINT_INK, Role};
-use crate::panel::{Mark, Panel, TICK_SIZE, X_AXIS_HEIGHT};
+use crate::marks::{Mark, with_bars};
+use crate::palette::{FAINT_INK, INK, Role};
+use crate::panel::{Panel, TICK_SIZE, X_AXIS_HEIGHT};
 use crate::scale::{Scale, extent};
 use crate::text::{Weight, width};
+use crate::trace::{Axis, Band, Trace, TraceStyle};
 
 const SHEET_WIDTH: f64 = 760.0;
 const RIGHT_MARGIN: f64 = 24.0;
@@ -17,184 +18,6 @@ const HEIGHT: f64 = 300.0;
 const COLUMN_FILL: f64 = 0.7;
 /// The widest column.
 const MAX_COLUMN: f64 = 44.0;
-
-/// One axis.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Axis {
-    /// The quantity with its unit.
-    pub label: String,
-    /// Linear or logarithmic.
-    pub scale: Scale,
-    /// The ends of the axis; without them it shows all data.
-    pub range: Option<(f64, f64)>,
-}
-
-impl Axis {
-    /// A linear axis over all data.
-    pub fn linear(label: impl Into<String>) -> Self {
-        Self { label: label.into(), ..Self::default() }
-    }
-
-    /// A logarithmic axis over all positive data.
-    pub fn log(label: impl Into<String>) -> Self {
-        Self { label: label.into(), scale: Scale::Log, range: None }
-    }
-
-    /// Fixes the ends of the axis.
-    #[must_use]
-    pub fn range(mut self, low: f64, high: f64) -> Self {
-        self.range = Some((low, high));
-        self
-    }
-
-    fn fixed_range(&self) -> Result<Option<(f64, f64)>, FigureError> {
-        match self.range {
-            Some((low, high))
-                if !(self.scale.admits(low) && self.scale.admits(high) && low < high) =>
-            {
-                Err(FigureError::Range { axis: self.label.clone(), low, high })
-            }
-            Some((low, high)) => Ok(Some(self.scale.widened((low, high), 0.0))),
-            None => Ok(None),
-        }
-    }
-}
-
-/// How a trace is drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum TraceStyle {
-    /// Straight lines from point to point, in the order given.
-    #[default]
-    Line,
-    /// Each value held until the next: a sampled command.
-    Steps,
-    /// Markers.
-    Points,
-    /// Markers with one standard deviation to both sides.
-    PointsWithBars,
-    /// Columns from zero (on a logarithmic axis, from the bottom), with one standard deviation where there is one.
-    Columns,
-}
-
-/// One trace.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Trace {
-    /// The label in the legend; empty keeps the trace out of it.
-    pub label: String,
-    /// What it stands for, hence its colour and marker.
-    pub role: Role,
-    /// How it is drawn.
-    pub style: TraceStyle,
-    /// The abscissae.
-    pub x: Vec<f64>,
-    /// The ordinates.
-    pub y: Vec<f64>,
-    /// The standard deviation of each ordinate; a value that is not positive draws no bar.
-    pub std: Option<Vec<f64>>,
-    /// Points to draw grey and hollow, because something is wrong with them.
-    pub flagged: Option<Vec<bool>>,
-}
-
-impl Trace {
-    /// A trace without deviations or flags.
-    pub fn new(
-        label: impl Into<String>,
-        role: Role,
-        style: TraceStyle,
-        x: Vec<f64>,
-        y: Vec<f64>,
-    ) -> Self {
-        Self { label: label.into(), role, style, x, y, std: None, flagged: None }
-    }
-
-    /// A line without deviations or flags.
-    pub fn line(label: impl Into<String>, role: Role, x: Vec<f64>, y: Vec<f64>) -> Self {
-        Self::new(label, role, TraceStyle::Line, x, y)
-    }
-
-    /// Markers with error bars.
-    pub fn points_with_bars(
-        label: impl Into<String>,
-        role: Role,
-        x: Vec<f64>,
-        y: Vec<f64>,
-        std: Vec<f64>,
-    ) -> Self {
-        Self { std: Some(std), ..Self::new(label, role, TraceStyle::PointsWithBars, x, y) }
-    }
-
-    /// Adds flags.
-    #[must_use]
-    pub fn with_flags(mut self, flagged: Vec<bool>) -> Self {
-        self.flagged = Some(flagged);
-        self
-    }
-
-    /// The drawable points in the order given, and the count of the others.
-    fn marks(&self, axes: [Scale; 2]) -> Result<(Vec<Mark>, usize), FigureError> {
-        let lengths = [
-            ("y", Some(self.y.len())),
-            ("std", self.std.as_ref().map(Vec::len)),
-            ("flagged", self.flagged.as_ref().map(Vec::len)),
-        ];
-        let expected = self.x.len();
-        if let Some((field, found)) = lengths
-            .into_iter()
-            .find_map(|(field, n)| n.filter(|n| *n != expected).map(|n| (field, n)))
-        {
-            return Err(FigureError::Length { series: self.label.clone(), field, expected, found });
-        }
-        let barred = matches!(self.style, TraceStyle::PointsWithBars | TraceStyle::Columns);
-        let (mut marks, mut after_gap) = (Vec::with_capacity(expected), false);
-        for (k, (x, y)) in self.x.iter().copied().zip(self.y.iter().copied()).enumerate() {
-            if axes[0].admits(x) && axes[1].admits(y) {
-                let std = self
-                    .std
-                    .as_ref()
-                    .map(|s| s[k])
-                    .filter(|s| barred && *s > 0.0 && Scale::Linear.admits(*s));
-                let flagged = self.flagged.as_ref().is_some_and(|f| f[k]);
-                marks.push(Mark { x, y, bar: std.map(|s| (y - s, y + s)), flagged, after_gap });
-                after_gap = false;
-            } else {
-                after_gap = true;
-            }
-        }
-        let skipped = expected - marks.len();
-        Ok((marks, skipped))
-    }
-
-    fn sample(&self) -> Sample {
-        match self.style {
-            TraceStyle::Line | TraceStyle::Steps => Sample::Line(self.role),
-            TraceStyle::Points => Sample::Points(self.role),
-            TraceStyle::PointsWithBars => Sample::PointsWithBars(self.role),
-            TraceStyle::Columns => Sample::Column(self.role),
-        }
-    }
-}
-
-/// A horizontal band with a line at its middle value: an estimate and its interval.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Band {
-    /// The label in the legend; empty keeps the band out of it.
-    pub label: String,
-    /// What it stands for, hence its colour.
-    pub role: Role,
-    /// The value.
-    pub middle: f64,
-    /// The lower end.
-    pub low: f64,
-    /// The upper end.
-    pub high: f64,
-}
-
-impl Band {
-    /// A band from `low` to `high` with its line at `middle`.
-    pub fn new(label: impl Into<String>, role: Role, middle: f64, (low, high): (f64, f64)) -> Self {
-        Self { label: label.into(), role, middle, low, high }
-    }
-}
 
 /// Traces and bands over one pair of axes.
 ///
@@ -388,6 +211,8 @@ impl crate::Figure for LinePlot {
             self.subtitle.as_deref(),
             &self.entries(),
         );
+        // The power of ten stands above the frame.
+        let top = top + if y.factor.is_some() { 18.0 } else { 0.0 };
         let panel = Panel { frame: Rect { left, top, width: wide, height: HEIGHT }, x, y };
         panel.grid(&mut canvas);
         canvas.clipped(panel.frame, |canvas| self.draw_data(canvas, &panel, &marks));
@@ -408,18 +233,19 @@ impl crate::Figure for LinePlot {
 fn columns(canvas: &mut Canvas, panel: &Panel, marks: &[Mark], role: Role) {
     let mut places: Vec<f64> = marks.iter().map(|m| panel.at(m.x, m.y).0).collect();
     places.sort_by(f64::total_cmp);
-    let apart =
-        places.windows(2).map(|w| w[1] - w[0]).filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
-    let wide = (COLUMN_FILL * apart).clamp(1.0, MAX_COLUMN);
+    let gaps = places.windows(2).map(|w| w[1] - w[0]).filter(|gap| *gap > 0.0);
+    let width = (COLUMN_FILL * gaps.fold(f64::INFINITY, f64::min)).clamp(1.0, MAX_COLUMN);
+    let foot = panel.at(panel.x.low, 0.0).1.min(panel.frame.bottom());
     for mark in marks {
-        let ((x, y), (_, foot)) = (panel.at(mark.x, mark.y), panel.at(mark.x, 0.0));
-        let foot = foot.min(panel.frame.bottom());
-        canvas.rect(
-            Rect { left: x - wide / 2.0, top: y.min(foot), width: wide, height: (y - foot).abs() },
-            role.colour(),
-            0.75,
-        );
+        let (x, y) = panel.at(mark.x, mark.y);
+        let (left, top, height) = (x - width / 2.0, y.min(foot), (y - foot).abs());
+        let column = Rect { left, top, width, height };
+        // White first: the grid must not show through.
+        canvas.rect(column, "#ffffff", 1.0);
+        canvas.rect(column, role.colour(), 0.8);
     }
+    let line = [(panel.frame.left, foot), (panel.frame.right(), foot)];
+    canvas.lines([line], Stroke { colour: INK, width: 1.0, dash: None });
 }
 
 #[cfg(test)]

@@ -47,7 +47,7 @@ fn significant(value: f64, digits: usize) -> String {
     // The exponent after rounding: 9999.9 has five digits before the point once it has four in all.
     let (mantissa, e) = rounded.split_once('e').unwrap_or((&rounded, "0"));
     let e: i32 = e.parse().unwrap_or(0);
-    if (-4..6).contains(&e) {
+    if (-3..6).contains(&e) {
         return fixed(value, i32::try_from(places).unwrap_or(0) - e);
     }
     format!("{}×{}", mantissa.replace('-', "−"), power_of_ten(e))
@@ -70,22 +70,53 @@ fn mantissa(value: f64, e: i32) -> f64 {
 /// assert_eq!(with_uncertainty(f64::NAN, 1.0), "—");
 /// ```
 pub fn with_uncertainty(value: f64, std: f64) -> String {
-    if !value.is_finite() || !std.is_finite() || std <= 0.0 {
-        return plain(value);
+    match Layout::of(value, std) {
+        Some(layout) => layout.write(&format!("{} ± {}", layout.digits(value), layout.digits(std))),
+        None => plain(value),
     }
-    // The place of the second digit of the deviation after rounding: 0.00996 is written 0.010.
-    let place = exponent(std * 1.005_000_001) - 1;
-    let e = exponent(value).max(exponent(std));
-    if (-4..6).contains(&e) && place < 1 {
-        return format!("{} ± {}", fixed(value, -place), fixed(std, -place));
+}
+
+/// An interval written to the same place as [`with_uncertainty`] writes its value.
+pub(crate) fn interval([low, high]: [f64; 2], value: f64, std: f64) -> String {
+    match Layout::of(value, std).filter(|_| low.is_finite() && high.is_finite()) {
+        Some(layout) => layout.write(&format!("{} … {}", layout.digits(low), layout.digits(high))),
+        None => format!("{} … {}", plain(low), plain(high)),
     }
-    let decimals = e - place;
-    format!(
-        "({} ± {})×{}",
-        fixed(mantissa(value, e), decimals),
-        fixed(mantissa(std, e), decimals),
-        power_of_ten(e)
-    )
+}
+
+/// The place to round to and the power of ten to leave out.
+struct Layout {
+    decimals: i32,
+    factor: Option<i32>,
+}
+
+impl Layout {
+    /// The layout a value and its deviation call for, if there is a deviation.
+    fn of(value: f64, std: f64) -> Option<Self> {
+        if !value.is_finite() || !std.is_finite() || std <= 0.0 {
+            return None;
+        }
+        // The place of the second digit of the deviation after rounding: 0.00996 is written 0.010.
+        let place = exponent(std * 1.005_000_001) - 1;
+        let e = exponent(value).max(exponent(std));
+        let plain = (-3..6).contains(&e) && place < 1;
+        Some(if plain {
+            Self { decimals: -place, factor: None }
+        } else {
+            Self { decimals: e - place, factor: Some(e) }
+        })
+    }
+
+    fn digits(&self, value: f64) -> String {
+        fixed(self.factor.map_or(value, |e| mantissa(value, e)), self.decimals)
+    }
+
+    fn write(&self, digits: &str) -> String {
+        match self.factor {
+            Some(e) => format!("({digits})×{}", power_of_ten(e)),
+            None => digits.to_owned(),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -115,6 +146,8 @@ mod tests {
     fn uncertainty_sets_the_place() {
         assert_eq!(with_uncertainty(12.345, 0.0996), "12.35 ± 0.10");
         assert_eq!(with_uncertainty(12.345, 0.0), "12.35");
+        assert_eq!(with_uncertainty(6.247e-4, 1.1e-6), "(6.247 ± 0.011)×10⁻⁴");
+        assert_eq!(interval([6.225e-4, 6.269e-4], 6.247e-4, 1.1e-6), "(6.225 … 6.269)×10⁻⁴");
         assert_eq!(with_uncertainty(95.11, 12.0), "95 ± 12");
         assert_eq!(with_uncertainty(951.1, 120.0), "(9.5 ± 1.2)×10²");
         assert_eq!(with_uncertainty(0.0, 0.02), "0.000 ± 0.020");

@@ -4,121 +4,10 @@ use std::fmt::Write as _;
 
 use crate::Figure;
 use crate::html::escape;
-use crate::number::{plain, with_uncertainty};
+use crate::number::{interval, with_uncertainty};
+use crate::page_parts::{Cells, Finding, KeyFigure, Table};
 
 const STYLE: &str = include_str!("page.css");
-
-/// How serious a finding is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Severity {
-    /// Worth knowing.
-    Info,
-    /// A figure is less certain than it looks.
-    Warning,
-    /// A figure asked for is not given.
-    Refusal,
-}
-
-impl Severity {
-    fn word(self) -> &'static str {
-        match self {
-            Self::Info => "info",
-            Self::Warning => "warning",
-            Self::Refusal => "refusal",
-        }
-    }
-}
-
-/// Something the reader must know about the data or a figure.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Finding {
-    /// How serious it is.
-    pub severity: Severity,
-    /// A stable key.
-    pub code: String,
-    /// What was found.
-    pub message: String,
-    /// What to do about it.
-    pub hint: Option<String>,
-    /// The run concerned.
-    pub run: Option<String>,
-    /// The results concerned.
-    pub affects: Vec<String>,
-}
-
-impl Finding {
-    /// A finding without hint, run or results concerned.
-    pub fn new(severity: Severity, code: impl Into<String>, message: impl Into<String>) -> Self {
-        Self {
-            severity,
-            code: code.into(),
-            message: message.into(),
-            hint: None,
-            run: None,
-            affects: Vec::new(),
-        }
-    }
-
-    /// Adds what to do about it.
-    #[must_use]
-    pub fn hint(mut self, hint: impl Into<String>) -> Self {
-        self.hint = Some(hint.into());
-        self
-    }
-}
-
-/// An estimated figure for [`Page::key_figures`].
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct KeyFigure {
-    /// What it is.
-    pub name: String,
-    /// The estimate; `None` where it is refused.
-    pub value: Option<f64>,
-    /// Its standard deviation.
-    pub std: Option<f64>,
-    /// Its 95 % interval.
-    pub ci95: Option<[f64; 2]>,
-    /// Its unit.
-    pub unit: String,
-    /// A remark, for example why it is refused.
-    pub note: String,
-}
-
-/// The alignment of a column.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Cells {
-    /// Words: left.
-    Text,
-    /// Numbers: right, with digits of equal width.
-    Numbers,
-}
-
-/// A table for [`Page::table`].
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Table {
-    /// The line above it.
-    pub caption: String,
-    /// Heading and alignment of each column.
-    pub columns: Vec<(String, Cells)>,
-    /// The rows; cells missing at the end stay empty, cells without a column are not shown.
-    pub rows: Vec<Vec<String>>,
-}
-
-impl Table {
-    /// A table without rows.
-    pub fn new(caption: impl Into<String>, columns: &[(&str, Cells)]) -> Self {
-        let columns =
-            columns.iter().map(|(heading, cells)| ((*heading).to_owned(), *cells)).collect();
-        Self { caption: caption.into(), columns, rows: Vec::new() }
-    }
-
-    /// Adds a row.
-    #[must_use]
-    pub fn row<T: Into<String>>(mut self, cells: impl IntoIterator<Item = T>) -> Self {
-        self.rows.push(cells.into_iter().map(Into::into).collect());
-        self
-    }
-}
 
 /// Builds the page; its parts appear in the order they are added.
 ///
@@ -173,59 +62,30 @@ impl Page {
         columns.extend(noted.then_some(("note", Cells::Text)));
         let rows = figures.iter().map(|f| {
             let value = f.value.filter(|v| v.is_finite());
-            let interval = f.ci95.filter(|_| value.is_some());
+            let std = f.std.unwrap_or(f64::NAN);
+            let ci95 = Option::zip(value, f.ci95).map(|(v, ci95)| interval(ci95, v, std));
             vec![
                 f.name.clone(),
-                value.map_or_else(
-                    || "refused".to_owned(),
-                    |v| with_uncertainty(v, f.std.unwrap_or(f64::NAN)),
-                ),
-                interval.map_or_else(
-                    || "—".to_owned(),
-                    |[low, high]| format!("{} … {}", plain(low), plain(high)),
-                ),
+                value.map_or_else(|| "refused".to_owned(), |v| with_uncertainty(v, std)),
+                ci95.unwrap_or_else(|| "—".to_owned()),
                 f.unit.clone(),
                 f.note.clone(),
             ]
         });
         let rows = rows.collect();
-        self.table(&Table { rows, ..Table::new(caption, &columns) })
+        let table = Table { rows, ..Table::new(caption, &columns) };
+        self.put(&table_html(&table, " class=\"stack\""))
     }
 
     /// A table.
     #[must_use]
     pub fn table(self, table: &Table) -> Self {
-        let class = |cells: &Cells| {
-            if *cells == Cells::Numbers { " class=\"n\"" } else { "" }
-        };
-        let mut html = "<div class=\"wide\"><table>".to_owned();
-        if !table.caption.is_empty() {
-            let _ = write!(html, "<caption>{}</caption>", escape(&table.caption));
-        }
-        html.push_str("<thead><tr>");
-        for (heading, cells) in &table.columns {
-            let _ = write!(html, "<th scope=\"col\"{}>{}</th>", class(cells), escape(heading));
-        }
-        html.push_str("</tr></thead>\n<tbody>");
-        for row in &table.rows {
-            html.push_str("<tr>");
-            for (k, (_, cells)) in table.columns.iter().enumerate() {
-                let _ = write!(
-                    html,
-                    "<td{}>{}</td>",
-                    class(cells),
-                    escape(row.get(k).map_or("", String::as_str))
-                );
-            }
-            html.push_str("</tr>\n");
-        }
-        html.push_str("</tbody></table></div>");
-        self.put(&html)
+        self.put(&table_html(table, ""))
     }
 
     /// A figure with its caption; where it cannot be drawn, the reason stands in its place.
     #[must_use]
-    pub fn figure(self, figure: &impl Figure, caption: &str) -> Self {
+    pub fn figure<F: Figure + ?Sized>(self, figure: &F, caption: &str) -> Self {
         let picture = figure.to_svg().unwrap_or_else(|error| {
             format!("<p class=\"missing\">Not drawn: {}.</p>", escape(&error.to_string()))
         });
@@ -298,6 +158,33 @@ impl Page {
              <style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n{body}</main>\n</body>\n</html>\n"
         )
     }
+}
+
+/// A table; `attributes` go to its element.
+fn table_html(table: &Table, attributes: &str) -> String {
+    let class = |cells: &Cells| {
+        if *cells == Cells::Numbers { " class=\"n\"" } else { "" }
+    };
+    let mut html = format!("<div class=\"wide\"><table{attributes}>");
+    if !table.caption.is_empty() {
+        let _ = write!(html, "<caption>{}</caption>", escape(&table.caption));
+    }
+    html.push_str("<thead><tr>");
+    for (heading, cells) in &table.columns {
+        let _ = write!(html, "<th scope=\"col\"{}>{}</th>", class(cells), escape(heading));
+    }
+    html.push_str("</tr></thead>\n<tbody>");
+    for row in &table.rows {
+        html.push_str("<tr>");
+        for (k, (heading, cells)) in table.columns.iter().enumerate() {
+            let text = escape(row.get(k).map_or("", String::as_str));
+            let (class, label) = (class(cells), escape(heading));
+            let _ = write!(html, "<td{class} data-label=\"{label}\">{text}</td>");
+        }
+        html.push_str("</tr>\n");
+    }
+    html.push_str("</tbody></table></div>");
+    html
 }
 
 #[cfg(test)]

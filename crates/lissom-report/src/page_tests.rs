@@ -3,6 +3,7 @@
 use resvg::usvg::roxmltree::{Document, ParsingOptions};
 
 use super::*;
+use crate::page_parts::Severity;
 use crate::{Axis, LinePlot, Role, Trace};
 
 const HOSTILE: &str = "<script>alert(\"x\")</script>&'\u{0}";
@@ -91,13 +92,18 @@ fn nothing_is_loaded_and_no_id_clashes() {
 #[test]
 fn figures_findings_and_refusals_read_right() {
     let html = full();
-    assert!(html.contains(
-        "<td class=\"n\">0.1320 ± 0.0012</td><td class=\"n\">0.1296 … 0.1344</td><td>A</td>"
-    ));
-    assert!(
-        html.contains("<td>viscous</td><td class=\"n\">refused</td>")
-            && html.contains("too few runs")
-    );
+    let cell = |class: &str, label: &str, text: &str| {
+        format!("<td{class} data-label=\"{label}\">{text}</td>")
+    };
+    let number = " class=\"n\"";
+    for expected in [
+        cell(number, "value ± std", "0.1320 ± 0.0012"),
+        cell(number, "95 % interval", "0.1296 … 0.1344"),
+        cell("", "quantity", "viscous") + &cell(number, "value ± std", "refused"),
+        cell("", "note", "too few runs"),
+    ] {
+        assert!(html.contains(&expected), "{expected}");
+    }
     assert!(html.contains("Not drawn: figure &quot;&quot; has no point to draw"));
     assert!(html.find("stuck").unwrap() < html.find(">info<").unwrap(), "refusals come first");
     assert!(Page::new("t").findings(&[]).to_html().contains("No findings."));

@@ -2,6 +2,7 @@
 
 use crate::axis::Ruler;
 use crate::canvas::{Anchor, Canvas, Rect, Stroke, TextStyle};
+use crate::marks::{Mark, thinned};
 use crate::number::power_of_ten;
 use crate::palette::{FLAGGED, GRID, INK, MINOR_GRID, Role};
 use crate::text::{Weight, shorten, width};
@@ -22,18 +23,6 @@ const LABEL_BASELINE: f64 = 44.0;
 pub(crate) const X_AXIS_HEIGHT: f64 = 54.0;
 /// Lines of data are this wide.
 pub(crate) const LINE_WIDTH: f64 = 2.0;
-
-/// One datum in the units of its axes.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Mark {
-    pub(crate) x: f64,
-    pub(crate) y: f64,
-    /// The ends of the error bar.
-    pub(crate) bar: Option<(f64, f64)>,
-    pub(crate) flagged: bool,
-    /// A point before this one could not be drawn: lines stop there.
-    pub(crate) after_gap: bool,
-}
 
 /// A frame with its two axes.
 #[derive(Debug)]
@@ -111,10 +100,13 @@ impl Panel {
         }
         let style = TextStyle { upward: true, ..TextStyle::new(LABEL_SIZE, Anchor::Middle) };
         let middle = self.frame.top + self.frame.height / 2.0;
-        let label = labelled(label, self.y.factor);
+        if let Some(e) = self.y.factor {
+            let place = (self.frame.left, self.frame.top - 8.0);
+            canvas.text(place, &factor(e), TextStyle::new(TICK_SIZE, Anchor::Start));
+        }
         canvas.text(
             (label_x, middle),
-            &shorten(&label, LABEL_SIZE, Weight::Regular, self.frame.height * 1.1),
+            &shorten(label, LABEL_SIZE, Weight::Regular, self.frame.height * 1.1),
             style,
         );
     }
@@ -122,14 +114,7 @@ impl Panel {
     /// The numbers and the label of the horizontal axis, below the frame.
     pub(crate) fn x_labels(&self, canvas: &mut Canvas, label: &str) {
         self.x_numbers(canvas, &self.x, self.frame.bottom() + TICK_BASELINE);
-        let middle = self.frame.left + self.frame.width / 2.0;
-        let label =
-            shorten(&labelled(label, self.x.factor), LABEL_SIZE, Weight::Regular, self.frame.width);
-        canvas.text(
-            (middle, self.frame.bottom() + LABEL_BASELINE),
-            &label,
-            TextStyle::new(LABEL_SIZE, Anchor::Middle),
-        );
+        self.x_label(canvas, &self.x, label, self.frame.bottom() + LABEL_BASELINE);
     }
 
     /// A second horizontal axis above the frame.
@@ -139,12 +124,22 @@ impl Panel {
             ruler.ticks.iter().map(|t| self.frame.left + self.frame.width * ruler.fraction(t.at));
         canvas.lines(places.map(|x| [(x, self.frame.top), (x, self.frame.top - TICK)]), ink);
         self.x_numbers(canvas, ruler, self.frame.top - TICK - 5.0);
+        self.x_label(canvas, ruler, label, self.frame.top - 28.0);
+    }
+
+    /// The label of a horizontal axis, and at its right end the power of ten the numbers leave out.
+    fn x_label(&self, canvas: &mut Canvas, ruler: &Ruler, label: &str, baseline: f64) {
         let middle = self.frame.left + self.frame.width / 2.0;
+        let room = self.frame.width - if ruler.factor.is_some() { 120.0 } else { 0.0 };
         canvas.text(
-            (middle, self.frame.top - 28.0),
-            &labelled(label, ruler.factor),
+            (middle, baseline),
+            &shorten(label, LABEL_SIZE, Weight::Regular, room),
             TextStyle::new(LABEL_SIZE, Anchor::Middle),
         );
+        if let Some(e) = ruler.factor {
+            let place = (self.frame.right(), baseline);
+            canvas.text(place, &factor(e), TextStyle::new(TICK_SIZE, Anchor::End));
+        }
     }
 
     fn x_numbers(&self, canvas: &mut Canvas, ruler: &Ruler, baseline: f64) {
@@ -220,52 +215,7 @@ impl Panel {
     }
 }
 
-/// An axis label with the power of ten its numbers leave out.
-fn labelled(label: &str, factor: Option<i32>) -> String {
-    match factor {
-        Some(e) if label.is_empty() => format!("×{}", power_of_ten(e)),
-        Some(e) => format!("{label} × {}", power_of_ten(e)),
-        None => label.to_owned(),
-    }
-}
-
-/// The same picture of a long path with fewer points: of those in one half pixel column the first, extremes and last are kept.
-fn thinned(path: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    const SHORT: usize = 1500;
-    if path.len() <= SHORT {
-        return path.to_vec();
-    }
-    let column = |x: f64| (2.0 * x).round();
-    let mut kept = Vec::new();
-    for run in path.chunk_by(|a, b| (column(a.0) - column(b.0)).abs() < 0.5) {
-        let place = |best: fn(f64, f64) -> bool| {
-            (0..run.len()).fold(0, |k, j| if best(run[j].1, run[k].1) { j } else { k })
-        };
-        let mut places = [0, place(|a, b| a < b), place(|a, b| a > b), run.len() - 1];
-        places.sort_unstable();
-        kept.extend(
-            places
-                .iter()
-                .enumerate()
-                .filter(|(k, p)| *k == 0 || places[k - 1] != **p)
-                .map(|(_, p)| run[*p]),
-        );
-    }
-    kept
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn long_paths_keep_their_extremes() {
-        let path: Vec<(f64, f64)> = (0..100_000)
-            .map(|k| (f64::from(k) / 200.0, if k == 51_234 { 9.0 } else { f64::from(k % 7) }))
-            .collect();
-        let thin = thinned(&path);
-        assert!(thin.len() < 4100, "{}", thin.len());
-        assert!(thin.iter().any(|p| p.1 > 8.0));
-        assert_eq!((thin.first(), thin.last()), (path.first(), path.last()));
-    }
+/// The power of ten that the numbers of an axis leave out.
+fn factor(e: i32) -> String {
+    format!("×{}", power_of_ten(e))
 }
