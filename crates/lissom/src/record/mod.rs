@@ -3,10 +3,12 @@
 
 mod channel;
 mod error;
+mod note;
 mod run;
 
 pub use channel::{Axis, Channels, Command, CommandQuantity, Hold, Tip, TipQuantity};
 pub use error::RecordError;
+pub use note::Note;
 pub use run::{Run, TimeBase};
 
 /// Several runs of one machine, all with the same channels.

@@ -1,6 +1,6 @@
 //! One run: uniformly sampled channels.
 
-use super::RecordError;
+use super::{Note, RecordError};
 
 /// Fewest samples a run may have.
 const LEAST_SAMPLES: usize = 8;
@@ -34,7 +34,7 @@ pub struct Run {
     motor: Vec<f64>,
     tips: Vec<Vec<f64>>,
     omega_rad_s: Option<f64>,
-    notes: Vec<String>,
+    notes: Vec<Note>,
 }
 
 impl Run {
@@ -95,8 +95,8 @@ impl Run {
 
     /// Adds what the reader did to the log and a user should know (a gap cut, rows merged).
     #[must_use]
-    pub fn with_note(mut self, note: impl Into<String>) -> Self {
-        self.notes.push(note.into());
+    pub fn with_note(mut self, note: Note) -> Self {
+        self.notes.push(note);
         self
     }
 
@@ -137,7 +137,7 @@ impl Run {
         self.omega_rad_s
     }
     /// What the reader did to the log.
-    pub fn notes(&self) -> &[String] {
+    pub fn notes(&self) -> &[Note] {
         &self.notes
     }
 }
