@@ -1,4 +1,5 @@
 //! Reads measured logs and campaign descriptions; writes logs, models and results.
 
+pub mod log;
 mod nearest;
 pub mod units;
