@@ -102,6 +102,13 @@ impl ArmFile {
 
     /// Reads the text of an `arm.toml`; `path` stands in errors.
     ///
+    /// ```
+    /// let text = "[rig]\nsample_time = \"3 ms\"";
+    /// let arm = lissom_io::ArmFile::from_text("arm.toml".as_ref(), text)?;
+    /// assert_eq!(arm.rig.map(|rig| rig.sample_time_s), Some(0.003));
+    /// # Ok::<(), lissom_io::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::Config`].
     pub fn from_text(path: &Path, text: &str) -> Result<Self, Error> {

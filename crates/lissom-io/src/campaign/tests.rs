@@ -298,7 +298,9 @@ fn wrong_keys_and_units() {
     fails(
         &PLAIN.replace(", hold = \"sampled\"", ""),
         "campaign.toml, line 4: `signals.current` has no `hold`",
-        Some("add `hold` to signals.current"),
+        Some(
+            "\"sampled\" for a command that is held between samples, \"measured\" for a measurement",
+        ),
     );
     fails(
         &PLAIN.replace("\"sampled\"", "\"held\""),

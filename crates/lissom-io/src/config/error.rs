@@ -177,6 +177,10 @@ impl ConfigError {
             Self::UnknownKey { known, .. } => {
                 Some(format!("the keys here are `{}`", known.join("`, `")))
             }
+            Self::MissingKey { key: "hold", .. } => Some(
+                "\"sampled\" for a command that is held between samples, \"measured\" for a measurement"
+                    .to_owned(),
+            ),
             Self::MissingKey { place, key } => {
                 let table = if place.key.is_empty() {
                     "the file"

@@ -229,7 +229,18 @@ impl LogError {
     }
 }
 
+/// Most names that an error lists.
+const MOST_NAMES: usize = 40;
+
 fn listed(names: &[String]) -> String {
-    let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
-    quoted.join(", ")
+    let quoted: Vec<String> = names
+        .iter()
+        .take(MOST_NAMES)
+        .map(|name| format!("\"{name}\""))
+        .collect();
+    let listed = quoted.join(", ");
+    match names.len().checked_sub(MOST_NAMES) {
+        None | Some(0) => listed,
+        Some(more) => format!("{listed} and {more} more"),
+    }
 }

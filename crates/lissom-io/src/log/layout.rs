@@ -1,5 +1,7 @@
 //! How a log's cells are separated and what its columns are called.
 
+use std::collections::VecDeque;
+
 use super::{ColumnRef, LogError};
 use crate::nearest::nearest;
 
@@ -18,11 +20,13 @@ impl Delimiter {
         Self::Blanks,
     ];
 
-    /// The delimiter of a row: tab before semicolon before comma before blanks.
-    pub(super) fn of(row: &str) -> Self {
+    /// The delimiter of a row: tab before semicolon before comma before blanks. A comma that is
+    /// the decimal sign separates nothing.
+    pub(super) fn of(row: &str, decimal_comma: bool) -> Self {
         let row = row.trim_matches(' ');
         Self::ALL
             .into_iter()
+            .filter(|&d| !(decimal_comma && d == Self::Char(',')))
             .find(|d| d.split(row).count() > 1)
             .unwrap_or(Self::Blanks)
     }
@@ -107,6 +111,15 @@ pub(super) fn is_header(row: &str, delimiter: Delimiter, decimal_comma: bool) ->
     words > numbers
 }
 
+/// Whether a row has words and no number: below the names it holds units.
+pub(super) fn is_words(row: &str, delimiter: Delimiter, decimal_comma: bool) -> bool {
+    let mut cells = delimiter
+        .split(row)
+        .filter(|cell| !cell.is_empty())
+        .peekable();
+    cells.peek().is_some() && cells.all(|cell| number(cell, decimal_comma).is_none())
+}
+
 /// The comment line without its mark, if `line` is one.
 pub(super) fn comment(line: &str) -> Option<&str> {
     let line = line.trim_start();
@@ -116,7 +129,7 @@ pub(super) fn comment(line: &str) -> Option<&str> {
 
 /// Names from the comment lines before the data: see the module's documentation.
 pub(super) fn names_from_comments(
-    comments: &[String],
+    comments: &VecDeque<String>,
     delimiter: Delimiter,
     columns: usize,
 ) -> Vec<String> {

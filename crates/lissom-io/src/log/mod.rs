@@ -5,11 +5,13 @@
 //! line (`#` or `%`) before the data; of several such lines the last counts that has as many
 //! names as the data have columns, else the last with at least half as many. Names belong to
 //! columns by position. A column is asked for by its name, trimmed and exact, or by its number
-//! from 1. Blank lines, comment lines among the data, CRLF, a byte order mark and a delimiter at
+//! from 1. One row of words below a header row holds units and is passed over. Blank lines, comment lines among the data, CRLF, a byte order mark and a delimiter at
 //! the end of a row are allowed.
 //!
 //! Only the columns asked for are read as numbers. A log is read in bounded memory: one with more
-//! rows than [`LogOptions::max_rows`] is thinned while it is read.
+//! rows than [`LogOptions::max_rows`] is thinned while it is read: a held command by its mean, a
+//! measured channel by leaving samples out, without a filter. Rows are counted for this, not
+//! time: a row lost within a sample shifts the later ones, which shows as jitter.
 
 mod error;
 mod layout;
@@ -59,7 +61,7 @@ pub struct LogColumn {
 pub struct LogOptions {
     /// Most rows kept; a longer log is thinned by 2, 4, 8, ... while it is read. At least 4.
     pub max_rows: usize,
-    /// Numbers have a decimal comma. Only where cells are separated by semicolons, tabs or blanks.
+    /// Numbers have a decimal comma; cells are then separated by semicolons, tabs or blanks.
     pub decimal_comma: bool,
 }
 

@@ -1,5 +1,6 @@
 //! Reading a log row by row.
 
+use std::collections::VecDeque;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
@@ -12,8 +13,10 @@ use super::{ColumnRef, Log, LogColumn, LogError, LogOptions};
 
 /// Longest row in bytes.
 const LONGEST_ROW: u64 = 1 << 20;
-/// Most comment lines kept in search of names.
-const MOST_COMMENTS: usize = 1000;
+/// Comment lines before the data in which names are looked for.
+const LAST_COMMENTS: usize = 50;
+/// Longest of them in bytes.
+const LONGEST_COMMENT: usize = 1 << 16;
 
 /// Reads the columns of a log file, and its time stamps where `time` names them.
 ///
@@ -72,7 +75,7 @@ pub fn read_log_from(
     let mut body = Body {
         file: name,
         delimiter: head.delimiter,
-        decimal_comma: options.decimal_comma && head.delimiter != Delimiter::Char(','),
+        decimal_comma: options.decimal_comma,
         labels: refs.iter().map(ToString::to_string).collect(),
         wanted,
         has_time: time.is_some(),
@@ -157,21 +160,28 @@ impl Head {
         rows: &mut Rows<'_, impl BufRead>,
         options: &LogOptions,
     ) -> Result<Option<Self>, LogError> {
-        let mut comments: Vec<String> = Vec::new();
+        let mut comments: VecDeque<String> = VecDeque::new();
         let mut names: Option<Vec<String>> = None;
+        let mut units = false;
         while let Some((row, line)) = rows.next()? {
             if line.trim().is_empty() {
                 continue;
             }
             if let Some(text) = layout::comment(&line) {
-                if comments.len() < MOST_COMMENTS {
-                    comments.push(text.to_owned());
+                if comments.len() == LAST_COMMENTS {
+                    comments.pop_front();
                 }
+                comments.push_back(text.chars().take(LONGEST_COMMENT).collect());
                 continue;
             }
-            let delimiter = Delimiter::of(&line);
-            if names.is_none() && layout::is_header(&line, delimiter, options.decimal_comma) {
+            let decimal_comma = options.decimal_comma;
+            let delimiter = Delimiter::of(&line, decimal_comma);
+            if names.is_none() && layout::is_header(&line, delimiter, decimal_comma) {
                 names = Some(delimiter.split(&line).map(str::to_owned).collect());
+                continue;
+            }
+            if names.is_some() && !units && layout::is_words(&line, delimiter, decimal_comma) {
+                units = true;
                 continue;
             }
             let columns = delimiter.split(&line).count();

@@ -60,6 +60,7 @@ fn reads_every_layout() {
         "%t\tu\tx\tmade on 1 May\n0\t9\t1\t0\t0\n0.5\t9\t2\t0\t0\r\n",
         "% t, u, x\n0 9 1\n0.5 9 2\n",
         "t,u,x\n0,nothing,1\n0.5,,2\n",
+        "t,u,x\ns,\"A\",rad\n0,9,1\n0.5,9,2\n",
     ] {
         holds(
             &read(text, "t", "x").unwrap_or_else(|e| panic!("{text:?}: {e}")),
@@ -88,7 +89,11 @@ fn reads_a_decimal_comma() {
         decimal_comma: true,
         ..LogOptions::default()
     };
-    for text in ["t;x\n0,0;1,25\n0,5;2\n", "t\tx\n0\t1,25\n0,5\t2\n"] {
+    for text in [
+        "t;x\n0,0;1,25\n0,5;2\n",
+        "t\tx\n0\t1,25\n0,5\t2\n",
+        "t x\n0 1,25\n0,5 2\n",
+    ] {
         let log = read_with(text, Some(&named("t")), &[named("x")], &options).unwrap();
         holds(&log, &[0.0, 0.5], &[1.25, 2.0]);
     }
@@ -302,6 +307,51 @@ fn the_sample_time_survives_rounded_stamps_and_lost_rows() {
         let pieces = cut_at_gaps(&stamps, grid, 1);
         assert_eq!(pieces.gaps > 0, lost > 0, "{step} {unit} {lost}: {grid:?}");
     }
+}
+
+#[test]
+fn late_stamps_do_not_blur_the_sample_time() {
+    let stamps: Vec<f64> = (8_257_265..8_258_265)
+        .map(|k| f64::from(k) * 0.001)
+        .collect();
+    assert_eq!(TimeGrid::of(&stamps, 1e-6).unwrap().sample_time_s, 0.001);
+}
+
+#[test]
+fn comments_are_searched_for_names_from_the_last() {
+    let mut text = "# a,b\n".repeat(60);
+    text += "# t,x\n# made by hand\n0,1\n0.5,2\n";
+    holds(&read(&text, "t", "x").unwrap(), &[0.0, 0.5], &[1.0, 2.0]);
+}
+
+#[test]
+fn many_names_are_listed_in_part() {
+    let names: Vec<String> = (0..100).map(|k| format!("c{k}")).collect();
+    let text = format!("{}\n{}", names.join(","), "1,\n".repeat(2));
+    let message = read_with(text, None, &[named("wanted")], &LogOptions::default());
+    let message = message.unwrap_err().to_string();
+    assert!(
+        message.ends_with("\"c38\", \"c39\" and 60 more"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_broken_reader_is_reported_with_its_row() {
+    struct Broken;
+    impl std::io::Read for Broken {
+        fn read(&mut self, _: &mut [u8]) -> std::io::Result<usize> {
+            Err(std::io::Error::other("the disk is gone"))
+        }
+    }
+    let text = &b"t,x\n0,1\n"[..];
+    let reader = std::io::BufReader::new(std::io::Read::chain(text, Broken));
+    let result = read_log_from(reader, "a.csv", None, &[], &LogOptions::default());
+    fails(
+        result,
+        "a.csv: reading failed at row 3: the disk is gone",
+        None,
+    );
 }
 
 #[test]

@@ -71,7 +71,10 @@ impl TimeGrid {
         } else {
             (mean_below(GAP_STEPS * median + stamp_step_s), stamp_step_s)
         };
-        let sample_time_s = rounded(sample_time_s);
+        let largest = stamps_s
+            .iter()
+            .fold(0.0_f64, |largest, stamp| largest.max(stamp.abs()));
+        let sample_time_s = rounded(sample_time_s, largest);
         Some(Self {
             sample_time_s,
             gap_s: GAP_STEPS * sample_time_s + slack,
@@ -96,9 +99,16 @@ impl TimeGrid {
     }
 }
 
-/// To eleven digits: differences of stamps carry the noise of their last bits.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.10e}").parse().unwrap_or(value)
+/// A sample time to the digits that the difference of two stamps can carry, eleven at most.
+fn rounded(sample_time_s: f64, largest_stamp_s: f64) -> f64 {
+    let noise = 4.0 * f64::EPSILON * largest_stamp_s / sample_time_s;
+    let digits = (1_u8..11)
+        .rev()
+        .find(|&digits| noise * 10_f64.powi(digits.into()) < 1.0);
+    let digits = usize::from(digits.unwrap_or(10));
+    format!("{sample_time_s:.digits$e}")
+        .parse()
+        .unwrap_or(sample_time_s)
 }
 
 /// A log cut at its gaps.
