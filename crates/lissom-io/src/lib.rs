@@ -4,7 +4,7 @@
 //!   [`Campaign`](lissom::record::Campaign): see [`campaign`] for the file, [`log`] for the logs.
 //! - [`ArmFile::read`] reads an `arm.toml`: see [`arm_file`].
 //! - [`units`] reads quantities such as `"2.184 lbf*in/A"`.
-//! - [`write`] writes files whole or not at all.
+//! - [`mod@write`] writes files whole or not at all.
 //!
 //! Every error is an [`Error`] that names file, place and value, and most have a
 //! [hint](Error::hint).

@@ -17,6 +17,16 @@ pub enum CampaignError {
         /// Dimension found.
         found: Dimension,
     },
+    /// A command's unit is neither of current nor of voltage nor `1`.
+    #[error(
+        "{place}: the command is measured in {found}, which is neither a current nor a voltage"
+    )]
+    CommandUnit {
+        /// Where.
+        place: Place,
+        /// Dimension found.
+        found: Dimension,
+    },
     /// A torque constant per current for a voltage channel, without the winding's resistance.
     #[error(
         "{place}: a torque constant per ampere needs `resistance` where the command is a voltage"
@@ -81,6 +91,9 @@ impl CampaignError {
         let hint = match self {
             Self::MotorUnit { .. } => {
                 "give \"rad\" or \"deg\" for a rotary axis, \"m\" or \"mm\" for a linear one; counts: unit = \"rad\" with scale = rad per count"
+            }
+            Self::CommandUnit { .. } => {
+                "give \"A\" or \"V\", or \"1\" for a command of unknown unit"
             }
             Self::NoResistance { .. } => {
                 "give `resistance` and `back_emf`, or the torque constant per volt, as in \"0.15 N*m/V\""

@@ -156,7 +156,7 @@ fn reading(table: &Table<'_>, unit_size: f64) -> Result<Reading, ConfigError> {
     })
 }
 
-fn command(table: &Table<'_>, kind: usize) -> Result<CommandSource, ConfigError> {
+fn command(table: &Table<'_>, kind: usize) -> Result<CommandSource, Error> {
     table.only(&["column", "unit", "scale", "offset", "hold"])?;
     let unit = table.need("unit")?;
     let (size, found) = unit.any_unit()?;
@@ -164,9 +164,20 @@ fn command(table: &Table<'_>, kind: usize) -> Result<CommandSource, ConfigError>
         Dimension::CURRENT if kind != 1 => CommandQuantity::Current,
         Dimension::VOLTAGE if kind != 0 => CommandQuantity::Voltage,
         Dimension::NUMBER if kind == 2 || unit.text()?.trim() == "1" => CommandQuantity::Arbitrary,
+        _ if kind == 2 => {
+            return Err(CampaignError::CommandUnit {
+                place: unit.place(),
+                found,
+            }
+            .into());
+        }
         _ => {
-            let expected = [Dimension::CURRENT, Dimension::VOLTAGE, Dimension::NUMBER][kind];
-            return Err(wrong_unit(&unit, found, expected));
+            let expected = if kind == 0 {
+                Dimension::CURRENT
+            } else {
+                Dimension::VOLTAGE
+            };
+            return Err(wrong_unit(&unit, found, expected).into());
         }
     };
     let hold = match table.need("hold")?.choice(&["sampled", "measured"])? {

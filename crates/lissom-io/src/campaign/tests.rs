@@ -363,6 +363,27 @@ fn wrong_keys_and_units() {
 }
 
 #[test]
+fn a_command_is_a_current_a_voltage_or_unknown() {
+    fails(
+        &PLAIN.replace(
+            "current = { column = \"u\", unit = \"A\"",
+            "command = { column = \"u\", unit = \"N\"",
+        ),
+        "campaign.toml, line 4: `signals.command.unit`: the command is measured in a force [kg*m*s^-2], which is neither a current nor a voltage",
+        Some("give \"A\" or \"V\", or \"1\" for a command of unknown unit"),
+    );
+    let current = PLAIN.replace("current =", "command =");
+    let command = read(&current).unwrap().campaign.channels.command;
+    assert_eq!(command.quantity, CommandQuantity::Current);
+}
+
+#[test]
+fn a_byte_order_mark_and_crlf_are_allowed() {
+    let text = format!("\u{feff}{}", PLAIN.replace('\n', "\r\n"));
+    assert_eq!(read(&text).unwrap().campaign.runs.len(), 1);
+}
+
+#[test]
 fn drives_that_do_not_fit_their_command() {
     let winding =
         "campaign.toml, line 7: `drive.torque_constant`: a torque constant per ampere needs";
@@ -481,6 +502,11 @@ proptest! {
     ) {
         let end = (at + length).min(PLAIN.len());
         let _ = read(&format!("{}{with}{}", &PLAIN[..at], &PLAIN[end..]));
+    }
+
+    #[test]
+    fn no_text_panics(text in "\\PC{0,120}") {
+        let _ = read(&text);
     }
 
     #[test]
