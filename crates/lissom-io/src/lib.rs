@@ -1,1 +1,30 @@
 //! Reads measured logs and campaign descriptions; writes logs, models and results.
+//!
+//! - [`read_campaign`] reads a `campaign.toml` and its logs into a
+//!   [`Campaign`](lissom::record::Campaign): see [`campaign`] for the file, [`log`] for the logs.
+//! - [`ArmFile::read`] reads an `arm.toml`: see [`arm_file`].
+//! - [`units`] reads quantities such as `"2.184 lbf*in/A"`.
+//! - [`mod@write`] writes files whole or not at all.
+//!
+//! Every error is an [`Error`] that names file, place and value, and most have a
+//! [hint](Error::hint).
+
+pub mod arm_file;
+pub mod campaign;
+mod config;
+mod error;
+pub mod log;
+mod nearest;
+pub mod units;
+pub mod write;
+
+pub use arm_file::{ArmFile, BeamSpec, ControllerSpec, DriveSpec, RigSpec, SensorSpec, SpanSpec};
+pub use campaign::{
+    AnalysisOptions, CampaignError, CampaignFile, Known, ReadOptions, read_campaign,
+    read_campaign_with,
+};
+pub use config::{ConfigError, Place, Rule};
+pub use error::Error;
+pub use log::LogError;
+pub use units::UnitError;
+pub use write::WriteError;

@@ -1,5 +1,8 @@
 //! Checks of single channels: dead, clipped, sticking.
 
+/// With fewer steps than this over its range a channel comes to its extremes in jumps anyway.
+const COARSE: f64 = 64.0;
+
 /// Smallest difference between neighbouring values that a channel takes: its step.
 ///
 /// Differences below 1e-9 of the range are rounding of one value. Zero for a constant.
@@ -29,7 +32,7 @@ fn extremes(samples: &[f64]) -> (f64, f64) {
 /// A signal that turns round or sticks at its extreme comes to it slowly and is not counted.
 pub(crate) fn clipped_share(samples: &[f64]) -> f64 {
     let (low, high) = extremes(samples);
-    if high <= low {
+    if high - low < COARSE * step(samples) || high <= low {
         return 0.0;
     }
     let near = 1e-9 * (high - low);

@@ -1,0 +1,115 @@
+//! What can be wrong with a campaign beyond its keys.
+
+use thiserror::Error;
+
+use crate::config::Place;
+use crate::units::Dimension;
+
+/// Why a campaign's signals and drive do not fit together.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CampaignError {
+    /// The motor's unit is neither an angle nor a length.
+    #[error("{place}: the motor is measured in {found}, which is neither an angle nor a length")]
+    MotorUnit {
+        /// Where.
+        place: Place,
+        /// Dimension found.
+        found: Dimension,
+    },
+    /// A command's unit is neither of current nor of voltage nor `1`.
+    #[error(
+        "{place}: the command is measured in {found}, which is neither a current nor a voltage"
+    )]
+    CommandUnit {
+        /// Where.
+        place: Place,
+        /// Dimension found.
+        found: Dimension,
+    },
+    /// A torque constant per current for a voltage channel, without the winding's resistance.
+    #[error(
+        "{place}: a torque constant per ampere needs `resistance` where the command is a voltage"
+    )]
+    NoResistance {
+        /// Where.
+        place: Place,
+    },
+    /// A torque constant per current for a voltage channel, without the back-EMF constant.
+    #[error(
+        "{place}: a torque constant per ampere needs `back_emf` where the command is a voltage"
+    )]
+    NoBackEmf {
+        /// Where.
+        place: Place,
+    },
+    /// A bare number that could be per ampere or per volt.
+    #[error("{place}: a torque constant without a unit could be per ampere or per volt")]
+    TorqueConstantUnit {
+        /// Where.
+        place: Place,
+    },
+    /// A drive key that says nothing about this kind of command.
+    #[error("{place} says nothing where the command is {command}")]
+    NotForCommand {
+        /// Where.
+        place: Place,
+        /// The kind of command.
+        command: &'static str,
+    },
+    /// A length measured at a tip of a rotary axis, without its distance from the joint.
+    #[error("{place}: {found} at a tip of a rotary axis needs `radius`")]
+    NoRadius {
+        /// Where.
+        place: Place,
+        /// Dimension found.
+        found: Dimension,
+    },
+    /// A radius where the reading is an angle already, or on a linear axis.
+    #[error("{place}: a radius means nothing for this tip")]
+    NeedlessRadius {
+        /// Where.
+        place: Place,
+    },
+    /// A camera on a linear axis.
+    #[error("{place}: a camera's x and y give an angle, and the motor is measured in metres")]
+    CameraOnLinear {
+        /// Where.
+        place: Place,
+    },
+    /// A camera's quantity is not an angle.
+    #[error("{place}: a camera's x and y give the angle of the radius to the point, nothing else")]
+    CameraQuantity {
+        /// Where.
+        place: Place,
+    },
+}
+
+impl CampaignError {
+    /// What to do about it.
+    pub fn hint(&self) -> Option<String> {
+        let hint = match self {
+            Self::MotorUnit { .. } => {
+                "give \"rad\" or \"deg\" for a rotary axis, \"m\" or \"mm\" for a linear one; counts: unit = \"rad\" with scale = rad per count"
+            }
+            Self::CommandUnit { .. } => {
+                "give \"A\" or \"V\", or \"1\" for a command of unknown unit"
+            }
+            Self::NoResistance { .. } => {
+                "give `resistance` and `back_emf`, or the torque constant per volt, as in \"0.15 N*m/V\""
+            }
+            Self::NoBackEmf { .. } => {
+                "of a DC motor it equals the torque constant in SI, as in \"0.0107 V*s/rad\"; 0 leaves its damping in the viscous figure"
+            }
+            Self::TorqueConstantUnit { .. } => "give it a unit: N*m/A or N*m/V, N/A or N/V",
+            Self::NotForCommand { .. } => "remove it, or describe the channel it belongs to",
+            Self::NoRadius { .. } => {
+                "give the distance of the sensor from the joint, as in radius = \"0.45 m\""
+            }
+            Self::NeedlessRadius { .. } => "remove it",
+            Self::CameraOnLinear { .. } => "give one column with a unit of length",
+            Self::CameraQuantity { .. } => "remove `quantity`",
+        };
+        Some(hint.to_owned())
+    }
+}

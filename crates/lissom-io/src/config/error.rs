@@ -1,0 +1,210 @@
+//! What can be wrong with a file of keys and values.
+
+use std::fmt;
+use std::io;
+
+use thiserror::Error;
+
+use crate::units::UnitError;
+
+/// A key in a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// The file.
+    pub file: String,
+    /// The line, from 1.
+    pub line: usize,
+    /// The key with the tables around it; empty for the whole file.
+    pub key: String,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.key.is_empty() {
+            write!(f, "{}", self.file)
+        } else {
+            write!(f, "{}, line {}: `{}`", self.file, self.line, self.key)
+        }
+    }
+}
+
+/// What a number must be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Rule {
+    /// Greater than zero.
+    Positive,
+    /// Zero or greater.
+    NotNegative,
+    /// Another number than zero.
+    NotZero,
+    /// A whole number within limits.
+    WholeBetween(i64, i64),
+}
+
+impl fmt::Display for Rule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Positive => f.write_str("greater than zero"),
+            Self::NotNegative => f.write_str("zero or greater"),
+            Self::NotZero => f.write_str("other than zero"),
+            Self::WholeBetween(least, most) => write!(f, "a whole number from {least} to {most}"),
+        }
+    }
+}
+
+/// Why a file of keys and values cannot be used.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ConfigError {
+    /// The file cannot be read.
+    #[error("{file}: cannot be read: {source}")]
+    Read {
+        /// The file.
+        file: String,
+        /// Why.
+        source: io::Error,
+    },
+    /// It is not TOML.
+    #[error("{file}, line {line}, column {column}: {message}")]
+    Syntax {
+        /// The file.
+        file: String,
+        /// The line, from 1.
+        line: usize,
+        /// The character in the line, from 1.
+        column: usize,
+        /// What the TOML reader says.
+        message: String,
+    },
+    /// A key that means nothing here.
+    #[error("{place} is not a key that is known here")]
+    UnknownKey {
+        /// Where.
+        place: Place,
+        /// The keys that are.
+        known: Vec<&'static str>,
+        /// The one that was probably meant.
+        nearest: Option<String>,
+    },
+    /// A key that must be there.
+    #[error("{place} has no `{key}`")]
+    MissingKey {
+        /// The table.
+        place: Place,
+        /// The key.
+        key: &'static str,
+    },
+    /// None of several keys of which one must be there.
+    #[error("{place} has none of `{}`", keys.join("`, `"))]
+    NoneOf {
+        /// The table.
+        place: Place,
+        /// The keys.
+        keys: Vec<&'static str>,
+    },
+    /// Two keys that exclude each other.
+    #[error("{place} has both `{first}` and `{second}`")]
+    Clash {
+        /// The table.
+        place: Place,
+        /// One key.
+        first: &'static str,
+        /// The other.
+        second: &'static str,
+    },
+    /// A key that only the last entry of a list may have.
+    #[error("{place} may stand in the last entry alone")]
+    LastOnly {
+        /// Where.
+        place: Place,
+    },
+    /// A value of another kind.
+    #[error("{place} is {found}, where {expected} is expected")]
+    Kind {
+        /// Where.
+        place: Place,
+        /// What is expected.
+        expected: &'static str,
+        /// What stands there.
+        found: String,
+    },
+    /// A quantity or unit that cannot be read.
+    #[error("{place}: {source}")]
+    Unit {
+        /// Where.
+        place: Place,
+        /// What is wrong with it.
+        source: Box<UnitError>,
+    },
+    /// A number outside its range.
+    #[error("{place} is {found}, but must be {rule}")]
+    Range {
+        /// Where.
+        place: Place,
+        /// The value as it stands in the file.
+        found: String,
+        /// What it must be.
+        rule: Rule,
+    },
+    /// A word that is none of the choices.
+    #[error("{place} is \"{found}\", but must be \"{}\"", choices.join("\" or \""))]
+    Choice {
+        /// Where.
+        place: Place,
+        /// The word.
+        found: String,
+        /// The choices.
+        choices: Vec<&'static str>,
+    },
+}
+
+impl ConfigError {
+    /// Whether a unit has another dimension than expected.
+    pub(crate) fn is_dimension(&self) -> bool {
+        match self {
+            Self::Unit { source, .. } => matches!(**source, UnitError::Dimension { .. }),
+            _ => false,
+        }
+    }
+
+    /// What to do about it.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::UnknownKey {
+                nearest: Some(key), ..
+            } => Some(format!("did you mean `{key}`?")),
+            Self::UnknownKey { known, .. } => {
+                Some(format!("the keys here are `{}`", known.join("`, `")))
+            }
+            Self::MissingKey { key: "hold", .. } => Some(
+                "\"sampled\" for a command that is held between samples, \"measured\" for a measurement"
+                    .to_owned(),
+            ),
+            Self::MissingKey { place, key } => {
+                let table = if place.key.is_empty() {
+                    "the file"
+                } else {
+                    place.key.as_str()
+                };
+                Some(format!("add `{key}` to {table}"))
+            }
+            Self::NoneOf { .. } => Some("add one of them".to_owned()),
+            Self::Clash { .. } => Some("give one of the two".to_owned()),
+            Self::Unit { source, .. } => source.hint(),
+            Self::Range {
+                found,
+                rule: Rule::Positive | Rule::NotNegative,
+                ..
+            } if found.trim_start_matches('"').starts_with('-') => {
+                Some("check its sign".to_owned())
+            }
+            Self::Read { .. }
+            | Self::Syntax { .. }
+            | Self::Kind { .. }
+            | Self::LastOnly { .. }
+            | Self::Range { .. }
+            | Self::Choice { .. } => None,
+        }
+    }
+}

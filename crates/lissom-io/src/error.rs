@@ -1,0 +1,60 @@
+//! The crate's error.
+
+use lissom::record::RecordError;
+use thiserror::Error;
+
+use crate::campaign::CampaignError;
+use crate::config::ConfigError;
+use crate::log::LogError;
+use crate::units::UnitError;
+use crate::write::WriteError;
+
+/// Anything that can go wrong on the way in or out.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A quantity or unit.
+    #[error(transparent)]
+    Unit(#[from] UnitError),
+    /// A log.
+    #[error(transparent)]
+    Log(#[from] LogError),
+    /// `arm.toml` or `campaign.toml` as a file of keys and values.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// What a campaign says about its signals and drive.
+    #[error(transparent)]
+    Campaign(#[from] CampaignError),
+    /// Signals that make no run.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// Writing a file.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}
+
+impl Error {
+    /// What to do about it.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::Unit(error) => error.hint(),
+            Self::Log(error) => error.hint(),
+            Self::Config(error) => error.hint(),
+            Self::Campaign(error) => error.hint(),
+            Self::Write(error) => error.hint(),
+            Self::Record(error) => record_hint(error),
+        }
+    }
+}
+
+fn record_hint(error: &RecordError) -> Option<String> {
+    match error {
+        RecordError::TooShort { .. } => Some("record longer, or leave the run out".to_owned()),
+        RecordError::NoRuns => Some("add a [[runs]] table with `file = \"...\"`".to_owned()),
+        RecordError::Omega { .. } => Some(
+            "`omega_rad_s` is an angular frequency in rad/s; `frequency = \"5 Hz\"` takes a unit"
+                .to_owned(),
+        ),
+        _ => None,
+    }
+}

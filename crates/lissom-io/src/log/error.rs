@@ -1,0 +1,240 @@
+//! What can be wrong with a log.
+
+use std::io;
+
+use thiserror::Error;
+
+/// Why a log cannot be used. Rows are lines of the file, counted from 1 as an editor does.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum LogError {
+    /// The file cannot be opened.
+    #[error("{file}: cannot be opened: {source}")]
+    Open {
+        /// The file.
+        file: String,
+        /// Why.
+        source: io::Error,
+    },
+    /// Reading broke off.
+    #[error("{file}: reading failed at row {row}: {source}")]
+    Read {
+        /// The file.
+        file: String,
+        /// Row reached.
+        row: usize,
+        /// Why.
+        source: io::Error,
+    },
+    /// A zero byte or an endless line: not a text file.
+    #[error("{file}: row {row} is not text")]
+    NotText {
+        /// The file.
+        file: String,
+        /// The row.
+        row: usize,
+    },
+    /// Nothing but blank lines.
+    #[error("{file}: the log is empty")]
+    Empty {
+        /// The file.
+        file: String,
+    },
+    /// A header and no rows.
+    #[error("{file}: the log has a header and no rows of numbers")]
+    HeaderOnly {
+        /// The file.
+        file: String,
+    },
+    /// One row of numbers.
+    #[error("{file}: the log has one row of numbers only, row {row}")]
+    OneRow {
+        /// The file.
+        file: String,
+        /// The row.
+        row: usize,
+    },
+    /// No column has the name.
+    #[error("{file}: there is no column \"{column}\"; the columns are {}", listed(names))]
+    NoColumn {
+        /// The file.
+        file: String,
+        /// Name wanted.
+        column: String,
+        /// Names there are.
+        names: Vec<String>,
+        /// The one that was probably meant.
+        nearest: Option<String>,
+    },
+    /// A column by name from a log without names.
+    #[error("{file}: there is no column \"{column}\": the log has no header")]
+    NoHeader {
+        /// The file.
+        file: String,
+        /// Name wanted.
+        column: String,
+        /// Number of columns.
+        columns: usize,
+    },
+    /// Several columns have the name.
+    #[error("{file}: {} columns are called \"{column}\"", numbers.len())]
+    Ambiguous {
+        /// The file.
+        file: String,
+        /// Name wanted.
+        column: String,
+        /// Their numbers.
+        numbers: Vec<usize>,
+    },
+    /// No column has the number.
+    #[error("{file}: there is no column {number}; the log has {columns}")]
+    ColumnNumber {
+        /// The file.
+        file: String,
+        /// Number wanted, from 1.
+        number: usize,
+        /// Number of columns.
+        columns: usize,
+    },
+    /// A cell that is no number.
+    #[error("{file}: row {row}, column {column}: \"{found}\" is not a number")]
+    NotANumber {
+        /// The file.
+        file: String,
+        /// The row.
+        row: usize,
+        /// The column.
+        column: String,
+        /// What stands there.
+        found: String,
+    },
+    /// A cell that is NaN or infinite.
+    #[error("{file}: row {row}, column {column}: \"{found}\" is not a finite number")]
+    NotFinite {
+        /// The file.
+        file: String,
+        /// The row.
+        row: usize,
+        /// The column.
+        column: String,
+        /// What stands there.
+        found: String,
+    },
+    /// An empty cell, or a row that ends before it.
+    #[error("{file}: row {row}, column {column}: the cell is missing")]
+    MissingCell {
+        /// The file.
+        file: String,
+        /// The row.
+        row: usize,
+        /// The column.
+        column: String,
+    },
+    /// A stamp before the one above it. Stamps as they stand in the file.
+    #[error("{file}: row {row}: time goes back from {before} to {after}")]
+    TimeBack {
+        /// The file.
+        file: String,
+        /// Row of the later stamp.
+        row: usize,
+        /// Stamp of the row before.
+        before: f64,
+        /// Stamp of this row.
+        after: f64,
+    },
+    /// Two rows with one stamp.
+    #[error("{file}: row {row}: time stands still at {stamp}")]
+    TimeStill {
+        /// The file.
+        file: String,
+        /// Row of the second stamp.
+        row: usize,
+        /// The stamp.
+        stamp: f64,
+    },
+    /// Gaps leave no piece that is long enough.
+    #[error(
+        "{file}: gaps in the time stamps ({gaps}) leave no piece of {least} samples; the longest has {longest}"
+    )]
+    AllPiecesShort {
+        /// The file.
+        file: String,
+        /// Number of gaps.
+        gaps: usize,
+        /// Samples a piece must have.
+        least: usize,
+        /// Samples of the longest piece.
+        longest: usize,
+    },
+    /// The head that is to be skipped leaves nothing.
+    #[error("{file}: skipping {skip_s} s leaves {left} rows of a log of {length_s} s")]
+    AllSkipped {
+        /// The file.
+        file: String,
+        /// Time to skip \[s\].
+        skip_s: f64,
+        /// Length of the log \[s\].
+        length_s: f64,
+        /// Rows left.
+        left: usize,
+    },
+}
+
+impl LogError {
+    /// What to do about it.
+    pub fn hint(&self) -> Option<String> {
+        Some(match self {
+            Self::Open { source, .. } if source.kind() == io::ErrorKind::NotFound => {
+                "a run's file is looked for in the folder of its campaign.toml".to_owned()
+            }
+            Self::Open { .. } | Self::Read { .. } => return None,
+            Self::NotText { .. } => {
+                "logs are text: comma, semicolon, tab or blank separated; export the file as CSV".to_owned()
+            }
+            Self::Empty { .. } | Self::HeaderOnly { .. } | Self::OneRow { .. } => {
+                "check that the recording ran and that this is the right file".to_owned()
+            }
+            Self::NoColumn { nearest: Some(name), .. } => format!("did you mean \"{name}\"?"),
+            Self::NoColumn { .. } => {
+                "give one of these names as it stands in the log, or the column's number from 1".to_owned()
+            }
+            Self::NoHeader { columns, .. } => {
+                format!("give the column's number, 1 to {columns}, as in `column = 1`")
+            }
+            Self::Ambiguous { numbers, .. } => {
+                let numbers: Vec<String> = numbers.iter().map(ToString::to_string).collect();
+                format!("give the column's number: {}", numbers.join(" or "))
+            }
+            Self::ColumnNumber { .. } => "columns are counted from 1".to_owned(),
+            Self::NotANumber { found, .. } if found.contains(',') => {
+                "where the decimal sign is a comma, say `decimal = \",\"` in [signals]".to_owned()
+            }
+            Self::NotANumber { .. } | Self::NotFinite { .. } | Self::MissingCell { .. } => {
+                "repair the row or cut the log there: nothing is filled in silently".to_owned()
+            }
+            Self::TimeBack { .. } => {
+                "cut the log there and give the two parts as two runs".to_owned()
+            }
+            Self::TimeStill { .. } => {
+                "export the stamps with more digits, or give `sample_time` in place of `time` if the sampling is regular".to_owned()
+            }
+            Self::AllPiecesShort { .. } => {
+                "where the stamps are too coarse for the sampling, give `sample_time` in place of `time`".to_owned()
+            }
+            Self::AllSkipped { .. } => "give a smaller `skip`".to_owned(),
+        })
+    }
+}
+
+/// Most names that an error lists.
+const MOST_NAMES: usize = 40;
+
+fn listed(names: &[String]) -> String {
+    let quoted: Vec<String> =
+        names.iter().take(MOST_NAMES).map(|name| format!("\"{name}\"")).collect();
+    let listed = quoted.join(", ");
+    match names.len().checked_sub(MOST_NAMES) {
+        None | Some(0) => listed,
+        Some(more) => format!("{listed} and {more} more"),
+    }
+}

@@ -1,0 +1,351 @@
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![expect(clippy::float_cmp, reason = "these numbers are exact")]
+
+use std::path::Path;
+
+use lissom::record::{Hold, Note};
+use proptest::prelude::*;
+
+use super::{
+    ColumnRef, Log, LogColumn, LogError, LogOptions, TimeGrid, cut_at_gaps, read_log, read_log_from,
+};
+
+fn named(name: &str) -> ColumnRef {
+    ColumnRef::Name(name.to_owned())
+}
+
+fn measured(column: ColumnRef) -> LogColumn {
+    LogColumn { column, hold: Hold::Measured }
+}
+
+fn read_with(
+    text: impl AsRef<[u8]>,
+    time: Option<&ColumnRef>,
+    columns: &[ColumnRef],
+    options: &LogOptions,
+) -> Result<Log, LogError> {
+    let columns: Vec<LogColumn> = columns.iter().cloned().map(measured).collect();
+    read_log_from(text.as_ref(), "a.csv", time, &columns, options)
+}
+
+fn read(text: &str, time: &str, column: &str) -> Result<Log, LogError> {
+    read_with(text, Some(&named(time)), &[named(column)], &LogOptions::default())
+}
+
+#[track_caller]
+fn holds(log: &Log, time: &[f64], column: &[f64]) {
+    assert_eq!(log.time.as_deref(), Some(time));
+    assert_eq!(log.columns[0], column);
+}
+
+#[test]
+fn reads_every_layout() {
+    for text in [
+        "t,u,x\n0,9,1\n0.5,9,2\n",
+        "t;u;x\n0;9;1\n0.5;9;2",
+        "t\tu\tx\n0\t9\t1\n0.5\t9\t2\n",
+        "t u  x\n 0   9 1\n 0.5 9 2\n",
+        "\u{feff}t,u,x\r\n0,9,1\r\n\r\n0.5,9,2\r\n",
+        "\"t\", \"u, raw\", \"x\"\n0,9,1,\n0.5,9,2,\n",
+        "# bench, run 7\n# t,u,x\n0,9,1\n# paused\n0.5,9,2\n",
+        "#TEST\n#gain=1.0\n#t\tu\tx\n0\t9\t1\n0.5\t9\t2\n",
+        "%t\tu\tx\tmade on 1 May\n0\t9\t1\t0\t0\n0.5\t9\t2\t0\t0\r\n",
+        "% t, u, x\n0 9 1\n0.5 9 2\n",
+        "t,u,x\n0,nothing,1\n0.5,,2\n",
+        "t,u,x\ns,\"A\",rad\n0,9,1\n0.5,9,2\n",
+    ] {
+        holds(
+            &read(text, "t", "x").unwrap_or_else(|e| panic!("{text:?}: {e}")),
+            &[0.0, 0.5],
+            &[1.0, 2.0],
+        );
+    }
+}
+
+#[test]
+fn reads_columns_by_number_with_and_without_header() {
+    for text in ["0 9 1\n0.5 9 2\n", "t,u,x\n0,9,1\n0.5,9,2\n"] {
+        let log = read_with(
+            text,
+            Some(&ColumnRef::Number(1)),
+            &[ColumnRef::Number(3)],
+            &LogOptions::default(),
+        );
+        holds(&log.unwrap(), &[0.0, 0.5], &[1.0, 2.0]);
+    }
+}
+
+#[test]
+fn reads_a_decimal_comma() {
+    let options = LogOptions { decimal_comma: true, ..LogOptions::default() };
+    for text in ["t;x\n0,0;1,25\n0,5;2\n", "t\tx\n0\t1,25\n0,5\t2\n", "t x\n0 1,25\n0,5 2\n"] {
+        let log = read_with(text, Some(&named("t")), &[named("x")], &options).unwrap();
+        holds(&log, &[0.0, 0.5], &[1.25, 2.0]);
+    }
+}
+
+#[track_caller]
+fn fails(result: Result<Log, LogError>, message: &str, hint: Option<&str>) {
+    let error = result.unwrap_err();
+    assert_eq!(error.to_string(), message);
+    assert_eq!(error.hint().as_deref(), hint);
+}
+
+const REPAIR: Option<&str> =
+    Some("repair the row or cut the log there: nothing is filled in silently");
+const CHECK: Option<&str> = Some("check that the recording ran and that this is the right file");
+
+#[test]
+fn bad_cells_are_named_with_row_and_column() {
+    fails(
+        read("t,x\n0,1\n\n1,broken\n", "t", "x"),
+        "a.csv: row 4, column \"x\": \"broken\" is not a number",
+        REPAIR,
+    );
+    fails(
+        read("t,x\n0,1\n1,NaN\n", "t", "x"),
+        "a.csv: row 3, column \"x\": \"NaN\" is not a finite number",
+        REPAIR,
+    );
+    fails(
+        read("t,x\n0,1\n1,-inf\n", "t", "x"),
+        "a.csv: row 3, column \"x\": \"-inf\" is not a finite number",
+        REPAIR,
+    );
+    fails(
+        read("t,x\n0,1\n1\n", "t", "x"),
+        "a.csv: row 3, column \"x\": the cell is missing",
+        REPAIR,
+    );
+    fails(
+        read("t,x,y\n0,1,1\n1,,1\n", "t", "x"),
+        "a.csv: row 3, column \"x\": the cell is missing",
+        REPAIR,
+    );
+    fails(
+        read("t;x\n0;1\n1;1,5\n", "t", "x"),
+        "a.csv: row 3, column \"x\": \"1,5\" is not a number",
+        Some("where the decimal sign is a comma, say `decimal = \",\"` in [signals]"),
+    );
+    fails(
+        read_with("0 1\n1 x\n", None, &[ColumnRef::Number(2)], &LogOptions::default()),
+        "a.csv: row 2, column 2: \"x\" is not a number",
+        REPAIR,
+    );
+}
+
+#[test]
+fn logs_without_rows_are_refused() {
+    fails(read("", "t", "x"), "a.csv: the log is empty", CHECK);
+    fails(read("\n \r\n", "t", "x"), "a.csv: the log is empty", CHECK);
+    fails(read("t,x\n", "t", "x"), "a.csv: the log has a header and no rows of numbers", CHECK);
+    fails(read("#t,x\n", "t", "x"), "a.csv: the log has a header and no rows of numbers", CHECK);
+    fails(read("t,x\n0,1\n", "t", "x"), "a.csv: the log has one row of numbers only, row 2", CHECK);
+}
+
+#[test]
+fn missing_columns_list_those_there_are() {
+    let text = "time,theta_m,time\n0,1,2\n1,1,2\n";
+    fails(
+        read(text, "theta_m", "theta"),
+        "a.csv: there is no column \"theta\"; the columns are \"time\", \"theta_m\", \"time\"",
+        Some("did you mean \"theta_m\"?"),
+    );
+    fails(
+        read(text, "theta_m", "current"),
+        "a.csv: there is no column \"current\"; the columns are \"time\", \"theta_m\", \"time\"",
+        Some("give one of these names as it stands in the log, or the column's number from 1"),
+    );
+    fails(
+        read(text, "time", "theta_m"),
+        "a.csv: 2 columns are called \"time\"",
+        Some("give the column's number: 1 or 3"),
+    );
+    fails(
+        read_with(text, None, &[ColumnRef::Number(4)], &LogOptions::default()),
+        "a.csv: there is no column 4; the log has 3",
+        Some("columns are counted from 1"),
+    );
+    fails(
+        read("0,1\n1,2\n", "t", "x"),
+        "a.csv: there is no column \"t\": the log has no header",
+        Some("give the column's number, 1 to 2, as in `column = 1`"),
+    );
+}
+
+#[test]
+fn time_must_increase() {
+    fails(
+        read("t,x\n0,1\n1,1\n0.5,1\n", "t", "x"),
+        "a.csv: row 4: time goes back from 1 to 0.5",
+        Some("cut the log there and give the two parts as two runs"),
+    );
+    fails(
+        read("t,x\n0,1\n1,1\n1,1\n", "t", "x"),
+        "a.csv: row 4: time stands still at 1",
+        Some(
+            "export the stamps with more digits, or give `sample_time` in place of `time` if the sampling is regular",
+        ),
+    );
+}
+
+#[test]
+fn files_that_are_no_text_are_refused() {
+    let hint =
+        Some("logs are text: comma, semicolon, tab or blank separated; export the file as CSV");
+    let options = LogOptions::default();
+    fails(read_with(b"MAT\0\0", None, &[], &options), "a.csv: row 1 is not text", hint);
+    let endless = vec![b'1'; 3 << 20];
+    fails(read_with(endless, None, &[], &options), "a.csv: row 1 is not text", hint);
+}
+
+#[test]
+fn a_missing_file_is_named() {
+    let result = read_log(Path::new("no/such.csv"), None, &[], &LogOptions::default());
+    fails(
+        result,
+        "no/such.csv: cannot be opened: No such file or directory (os error 2)",
+        Some("a run's file is looked for in the folder of its campaign.toml"),
+    );
+}
+
+#[test]
+fn a_long_log_is_thinned_while_it_is_read() {
+    use std::fmt::Write as _;
+    let mut text = String::from("t,u,x\n");
+    for k in 0..103 {
+        writeln!(text, "{k},{},{k}", k % 4).unwrap();
+    }
+    let columns = [LogColumn { column: named("u"), hold: Hold::Sampled }, measured(named("x"))];
+    let options = LogOptions { max_rows: 17, ..LogOptions::default() };
+    let log =
+        read_log_from(text.as_bytes(), "a.csv", Some(&named("t")), &columns, &options).unwrap();
+    assert_eq!(log.factor, 8);
+    let stamps: Vec<f64> = (0..12).map(|k| f64::from(8 * k)).collect();
+    assert_eq!(log.time.unwrap(), stamps);
+    assert_eq!(log.columns, [vec![1.5; 12], stamps]);
+}
+
+#[test]
+fn the_sample_time_survives_rounded_stamps_and_lost_rows() {
+    let stamps = |step: f64, unit: f64, lost: usize| -> Vec<f64> {
+        (0..1000)
+            .filter(|k| lost == 0 || k % lost != lost / 2)
+            .map(|k| (f64::from(u32::try_from(k).unwrap()) * step / unit).round() * unit)
+            .collect()
+    };
+    for (step, unit, lost) in [
+        (0.002, 0.001, 0),
+        (0.002, 0.001, 40),
+        (0.001, 0.001, 40),
+        (0.01 / 3.0, 0.001, 0),
+        (0.01 / 3.0, 0.001, 90),
+        (0.0012, 0.001, 0),
+        (0.002_000_4, 0.0001, 50),
+    ] {
+        let stamps = stamps(step, unit, lost);
+        let grid = TimeGrid::of(&stamps, unit).unwrap();
+        assert!((grid.sample_time_s / step - 1.0).abs() < 1e-3, "{step} {unit} {lost}: {grid:?}");
+        let pieces = cut_at_gaps(&stamps, grid, 1);
+        assert_eq!(pieces.gaps > 0, lost > 0, "{step} {unit} {lost}: {grid:?}");
+    }
+}
+
+#[test]
+fn late_stamps_do_not_blur_the_sample_time() {
+    let stamps: Vec<f64> = (8_257_265..8_258_265).map(|k| f64::from(k) * 0.001).collect();
+    assert_eq!(TimeGrid::of(&stamps, 1e-6).unwrap().sample_time_s, 0.001);
+}
+
+#[test]
+fn comments_are_searched_for_names_from_the_last() {
+    let mut text = "# a,b\n".repeat(60);
+    text += "# t,x\n# made by hand\n0,1\n0.5,2\n";
+    holds(&read(&text, "t", "x").unwrap(), &[0.0, 0.5], &[1.0, 2.0]);
+}
+
+#[test]
+fn many_names_are_listed_in_part() {
+    let names: Vec<String> = (0..100).map(|k| format!("c{k}")).collect();
+    let text = format!("{}\n{}", names.join(","), "1,\n".repeat(2));
+    let message = read_with(text, None, &[named("wanted")], &LogOptions::default());
+    let message = message.unwrap_err().to_string();
+    assert!(message.ends_with("\"c38\", \"c39\" and 60 more"), "{message}");
+}
+
+#[test]
+fn a_broken_reader_is_reported_with_its_row() {
+    struct Broken;
+    impl std::io::Read for Broken {
+        fn read(&mut self, _: &mut [u8]) -> std::io::Result<usize> {
+            Err(std::io::Error::other("the disk is gone"))
+        }
+    }
+    let text = &b"t,x\n0,1\n"[..];
+    let reader = std::io::BufReader::new(std::io::Read::chain(text, Broken));
+    let result = read_log_from(reader, "a.csv", None, &[], &LogOptions::default());
+    fails(result, "a.csv: reading failed at row 3: the disk is gone", None);
+}
+
+#[test]
+fn jitter_is_measured_about_the_sample_time() {
+    let stamps = [0.0, 1.0, 2.0, 3.25, 4.0, 5.0];
+    let grid = TimeGrid::of(&stamps, 0.0).unwrap();
+    assert_eq!(grid.sample_time_s, 1.0);
+    let (_, base, _) = &cut_at_gaps(&stamps, grid, 2).kept[0];
+    assert_eq!(base.jitter_max_s, 0.25);
+    assert_eq!(base.jitter_rms_s, (0.125_f64 / 5.0).sqrt());
+}
+
+#[test]
+fn gaps_cut_and_short_pieces_go() {
+    let stamps = [0.0, 1.0, 2.0, 7.0, 8.0, 20.0, 21.0, 22.0, 30.0];
+    let grid = TimeGrid::of(&stamps, 0.0).unwrap();
+    let pieces = cut_at_gaps(&stamps, grid, 3);
+    assert_eq!((pieces.gaps, pieces.longest, pieces.kept.len()), (3, 3, 2));
+    assert_eq!(pieces.kept[0].0, 0..3);
+    assert_eq!(pieces.kept[0].2, []);
+    assert_eq!(pieces.kept[1].0, 5..8);
+    assert_eq!(pieces.kept[1].1.start_s, 20.0);
+    assert_eq!(
+        pieces.kept[1].2,
+        [
+            Note::GapCut { at_s: 2.0, length_s: 5.0 },
+            Note::PieceDropped { at_s: 7.0, samples: 2 },
+            Note::GapCut { at_s: 8.0, length_s: 12.0 },
+            Note::GapCut { at_s: 22.0, length_s: 8.0 },
+            Note::PieceDropped { at_s: 30.0, samples: 1 },
+        ]
+    );
+}
+
+proptest! {
+    #[test]
+    fn no_bytes_panic(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
+        let options = LogOptions { max_rows: 4, decimal_comma: true };
+        let _ = read_with(&bytes, Some(&ColumnRef::Number(1)), &[ColumnRef::Number(2)], &options);
+        let _ = read_with(&bytes, None, &[named("x")], &options);
+    }
+
+    #[test]
+    fn no_lines_panic(lines in proptest::collection::vec("[-#%tx0-9.,;\t \"eµ]{0,12}", 0..12)) {
+        let text = lines.join("\n");
+        let options = LogOptions { max_rows: 4, decimal_comma: true };
+        let log = read_with(&text, Some(&ColumnRef::Number(1)), &[ColumnRef::Number(2)], &options);
+        if let Ok(log) = log {
+            let stamps = log.time.unwrap();
+            prop_assert!(stamps.windows(2).all(|pair| pair[0] < pair[1]));
+            if let Some(grid) = TimeGrid::of(&stamps, log.time_step) {
+                let _ = cut_at_gaps(&stamps, grid, 2);
+            }
+        }
+        let _ = read_with(&text, Some(&named("t")), &[named("x")], &options);
+    }
+
+    #[test]
+    fn what_is_written_is_read(values in proptest::collection::vec(-1e9..1e9f64, 2..50)) {
+        let rows: Vec<String> = values.iter().enumerate().map(|(k, v)| format!("{k};{v}")).collect();
+        let log = read(&format!("t;x\n{}", rows.join("\n")), "t", "x").unwrap();
+        prop_assert_eq!(&log.columns[0], &values);
+    }
+}

@@ -1,0 +1,79 @@
+//! Rows in bounded memory.
+
+use lissom::record::Hold;
+
+/// Columns that halve themselves in place when they are full.
+///
+/// A sample stands for `factor` rows. The mean of a held command over these rows is exactly the
+/// command of one hold as long as they last; a measured channel keeps the first of them. Rows at
+/// the end that fill no sample are left out.
+pub(super) struct Thinner {
+    holds: Vec<Hold>,
+    columns: Vec<Vec<f64>>,
+    most: usize,
+    factor: usize,
+    /// Rows that the sample under way stands for so far.
+    pending: usize,
+    /// First value or sum of each column over these rows.
+    partial: Vec<f64>,
+}
+
+impl Thinner {
+    pub(super) fn new(holds: Vec<Hold>, most: usize) -> Self {
+        let count = holds.len();
+        Self {
+            holds,
+            columns: vec![Vec::new(); count],
+            most: most.max(4) & !1,
+            factor: 1,
+            pending: 0,
+            partial: vec![0.0; count],
+        }
+    }
+
+    pub(super) fn push(&mut self, row: &[f64]) {
+        let channels = self.partial.iter_mut().zip(&self.holds).zip(row);
+        for ((partial, hold), &value) in channels {
+            match hold {
+                _ if self.pending == 0 => *partial = value,
+                Hold::Sampled => *partial += value,
+                Hold::Measured => {}
+            }
+        }
+        self.pending += 1;
+        if self.pending < self.factor {
+            return;
+        }
+        self.pending = 0;
+        let rows = self.factor as f64;
+        for ((column, hold), &partial) in
+            self.columns.iter_mut().zip(&self.holds).zip(&self.partial)
+        {
+            column.push(match hold {
+                Hold::Sampled => partial / rows,
+                Hold::Measured => partial,
+            });
+        }
+        if self.columns.first().is_some_and(|column| column.len() >= self.most) {
+            self.halve();
+        }
+    }
+
+    fn halve(&mut self) {
+        for (column, hold) in self.columns.iter_mut().zip(&self.holds) {
+            for k in 0..column.len() / 2 {
+                column[k] = match hold {
+                    Hold::Sampled => f64::midpoint(column[2 * k], column[2 * k + 1]),
+                    Hold::Measured => column[2 * k],
+                };
+            }
+            column.truncate(column.len() / 2);
+        }
+        self.factor *= 2;
+    }
+
+    /// The columns, and the rows per sample.
+    pub(super) fn finish(self) -> (Vec<Vec<f64>>, usize) {
+        (self.columns, self.factor)
+    }
+}

@@ -1,0 +1,117 @@
+//! What can be wrong with a quantity.
+
+use thiserror::Error;
+
+use super::Dimension;
+
+/// Why a text is not the quantity or unit that is wanted.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum UnitError {
+    /// It does not begin with a number.
+    #[error("\"{text}\" does not begin with a number")]
+    NoNumber {
+        /// The whole text.
+        text: String,
+    },
+    /// A number without a unit.
+    #[error("\"{text}\" has no unit; {expected} is expected")]
+    NoUnit {
+        /// The whole text.
+        text: String,
+        /// Dimension wanted.
+        expected: Dimension,
+    },
+    /// A name that is no unit.
+    #[error("\"{text}\": there is no unit `{unit}`")]
+    Unknown {
+        /// The whole text.
+        text: String,
+        /// The name.
+        unit: String,
+        /// The unit whose name is nearest.
+        nearest: Option<String>,
+    },
+    /// The expression breaks off or holds a character that does not belong there.
+    #[error("\"{text}\" is not a unit: {}", found.map_or("it breaks off".to_owned(), |c| format!("unexpected `{c}`")))]
+    Syntax {
+        /// The whole text.
+        text: String,
+        /// The character, or none at the end.
+        found: Option<char>,
+    },
+    /// An exponent that is too large.
+    #[error("\"{text}\" has an exponent above {largest}")]
+    Power {
+        /// The whole text.
+        text: String,
+        /// The largest there may be.
+        largest: i32,
+    },
+    /// A unit of another dimension.
+    #[error("\"{text}\" is {found}, where {expected} is expected")]
+    Dimension {
+        /// The whole text.
+        text: String,
+        /// Its dimension.
+        found: Dimension,
+        /// Dimension wanted.
+        expected: Dimension,
+    },
+    /// Too large or too small for a number.
+    #[error("\"{text}\" is out of range")]
+    OutOfRange {
+        /// The whole text.
+        text: String,
+    },
+}
+
+impl UnitError {
+    /// What to do about it.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::NoNumber { .. } => Some("write a number and a unit, such as \"7 in\"".to_owned()),
+            Self::NoUnit { expected, .. } => expected
+                .example()
+                .map(|e| format!("write it as in \"{e}\", or as a bare SI number")),
+            Self::Unknown { nearest, .. } => Some(match nearest {
+                Some(name) => format!("did you mean `{name}`?"),
+                None => "write products with * and quotients with /, as in \"N*m^2\"".to_owned(),
+            }),
+            Self::Syntax { .. } => {
+                Some("write products with * and quotients with /, as in \"N*m^2\"".to_owned())
+            }
+            Self::Dimension { found, expected, .. } => dimension_hint(*found, *expected),
+            Self::Power { .. } | Self::OutOfRange { .. } => None,
+        }
+    }
+
+    /// The same error in a longer text.
+    pub(super) fn within(mut self, whole: &str) -> Self {
+        match &mut self {
+            Self::NoNumber { text }
+            | Self::NoUnit { text, .. }
+            | Self::Unknown { text, .. }
+            | Self::Syntax { text, .. }
+            | Self::Power { text, .. }
+            | Self::Dimension { text, .. }
+            | Self::OutOfRange { text } => whole.clone_into(text),
+        }
+        self
+    }
+}
+
+/// A mass where a force belongs is the usual slip.
+fn dimension_hint(found: Dimension, expected: Dimension) -> Option<String> {
+    if found.times(Dimension::ACCELERATION, 1) == expected {
+        return Some(
+            "`lb`, `oz` and `kg` are masses; the forces are `lbf`, `ozf` and `kgf`".into(),
+        );
+    }
+    if expected.times(Dimension::ACCELERATION, 1) == found {
+        return Some(
+            "`lbf`, `ozf` and `kgf` are forces; the masses are `lb`, `oz` and `kg`".into(),
+        );
+    }
+    expected.example().map(|example| format!("write it as in \"{example}\""))
+}

@@ -1,0 +1,78 @@
+//! Writing files whole or not at all.
+
+mod campaign;
+mod csv;
+mod error;
+#[cfg(test)]
+mod tests;
+
+pub use campaign::{CampaignPlan, PlannedCommand, PlannedRun, campaign_text, write_campaign};
+pub use csv::{csv_text, write_csv};
+pub use error::WriteError;
+
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Writes a file whole or not at all: into a new file beside it, which then takes its name. On an
+/// error the file keeps its former content, or stays absent.
+///
+/// # Errors
+/// [`WriteError::File`] where the folder does not exist, cannot be written or is full, and where
+/// `fill` fails.
+pub fn write_whole(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    let failed = |source| WriteError::File { file: path.display().to_string(), source };
+    let (part, file) = part_beside(path).map_err(failed)?;
+    let written = fill_and_sync(file, fill).and_then(|()| std::fs::rename(&part, path));
+    if written.is_err() {
+        // The first error is the one to report.
+        let _ = std::fs::remove_file(&part);
+    }
+    written.map_err(failed)
+}
+
+/// Writes text whole or not at all.
+///
+/// # Errors
+/// As [`write_whole`].
+pub fn write_text(path: &Path, text: &str) -> Result<(), WriteError> {
+    write_whole(path, |out| out.write_all(text.as_bytes()))
+}
+
+/// Writes a value as indented JSON, whole or not at all.
+///
+/// # Errors
+/// As [`write_whole`]; [`WriteError::Json`] for a value that JSON cannot hold.
+pub fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), WriteError> {
+    let text = serde_json::to_string_pretty(value)
+        .map_err(|source| WriteError::Json { file: path.display().to_string(), source })?;
+    write_text(path, &(text + "\n"))
+}
+
+fn fill_and_sync(
+    file: File,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut out = BufWriter::new(file);
+    fill(&mut out)?;
+    out.into_inner()?.sync_all()
+}
+
+/// A new file in the folder of `path`.
+fn part_beside(path: &Path) -> io::Result<(PathBuf, File)> {
+    static COUNT: AtomicUsize = AtomicUsize::new(0);
+    let Some(name) = path.file_name() else {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"));
+    };
+    let number = COUNT.fetch_add(1, Ordering::Relaxed);
+    let mut part_name = std::ffi::OsString::from(".");
+    part_name.push(name);
+    part_name.push(format!(".{}-{number}.part", std::process::id()));
+    let part = path.with_file_name(part_name);
+    let file = OpenOptions::new().write(true).create_new(true).open(&part)?;
+    Ok((part, file))
+}

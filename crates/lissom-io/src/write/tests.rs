@@ -1,0 +1,150 @@
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![expect(clippy::float_cmp, reason = "these numbers are exact")]
+
+use std::path::Path;
+
+use lissom::record::{Hold, TipQuantity};
+use proptest::prelude::*;
+
+use super::{
+    CampaignPlan, PlannedCommand, PlannedRun, campaign_text, csv_text, write_campaign, write_csv,
+    write_json, write_text, write_whole,
+};
+use crate::log::{ColumnRef, LogColumn, LogOptions, read_log_from};
+
+#[test]
+fn a_file_is_written_whole_or_not_at_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.txt");
+    write_text(&path, "first").unwrap();
+    let error = write_whole(&path, |out| {
+        out.write_all(b"half")?;
+        Err(std::io::Error::other("the source broke"))
+    })
+    .unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        format!("{}: cannot be written: the source broke", path.display())
+    );
+    assert_eq!(error.hint(), None);
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "first");
+    write_text(&path, "second").unwrap();
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "second");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn a_missing_folder_is_named() {
+    let error = write_text(Path::new("no/such/a.txt"), "").unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "no/such/a.txt: cannot be written: No such file or directory (os error 2)"
+    );
+    assert_eq!(error.hint().as_deref(), Some("create the folder first"));
+    let error = write_text(Path::new(".."), "").unwrap_err();
+    assert_eq!(error.to_string(), "..: cannot be written: the path names no file");
+}
+
+#[test]
+fn numbers_are_short_and_exact() {
+    let text = csv_text(&[("t, s", &[0.0, 0.1, 1e-9]), ("x", &[-1.5, 1e300, 0.25])]).unwrap();
+    assert_eq!(text, "\"t, s\",x\n0,-1.5\n0.1,1e300\n1e-9,0.25\n");
+    let error = csv_text(&[("t", &[0.0]), ("x", &[])]).unwrap_err();
+    assert_eq!(error.to_string(), "column \"x\" has 0 rows where \"t\" has 1");
+    assert_eq!(csv_text(&[]).unwrap(), "\n");
+}
+
+#[test]
+fn json_is_indented_and_ends_with_a_newline() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.json");
+    write_json(&path, &[1.5]).unwrap();
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "[\n  1.5\n]\n");
+    let keys = std::collections::BTreeMap::from([((1, 2), 3)]);
+    let error = write_json(&path, &keys).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        format!("{}: cannot be written as JSON: key must be a string", path.display())
+    );
+}
+
+fn plan() -> CampaignPlan {
+    CampaignPlan {
+        title: "Stepped sines\nof a virtual arm".to_owned(),
+        time_column: "t".to_owned(),
+        command: PlannedCommand { column: "i \"set\"".to_owned(), hold: Hold::Sampled },
+        motor_column: "theta_m".to_owned(),
+        tips: vec![("tip".to_owned(), "theta_t".to_owned(), TipQuantity::Angle)],
+        torque_constant_nm_per_a: Some(0.25),
+        current_limit_a: Some(4.12),
+        arm: None,
+        runs: vec![
+            PlannedRun { file: "run-01.csv".to_owned(), omega_rad_s: Some(3.0) },
+            PlannedRun { file: "run-02.csv".to_owned(), omega_rad_s: None },
+        ],
+    }
+}
+
+#[test]
+fn a_campaign_is_written_as_its_contract_says() {
+    assert_eq!(
+        campaign_text(&plan()),
+        r#"# Stepped sines
+# of a virtual arm
+[signals]
+time = { column = "t", unit = "s" }
+current = { column = 'i "set"', unit = "A", hold = "sampled" }
+motor = { column = "theta_m", unit = "rad" }
+tips = [
+    { name = "tip", column = "theta_t", unit = "rad", quantity = "angle" },
+]
+
+[drive]
+torque_constant = "0.25 N*m/A"
+current_limit = "4.12 A"
+
+[[runs]]
+file = "run-01.csv"
+omega_rad_s = 3.0
+
+[[runs]]
+file = "run-02.csv"
+"#
+    );
+}
+
+#[test]
+fn what_is_written_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut plan = plan();
+    plan.command.column = "i".to_owned();
+    let stamps: Vec<f64> = (0..100).map(|k| f64::from(k) * 0.003).collect();
+    let signal: Vec<f64> = stamps.iter().map(|t| (3.0 * t).sin()).collect();
+    for run in &plan.runs {
+        let columns: [(&str, &[f64]); 4] =
+            [("t", &stamps), ("i", &signal), ("theta_m", &signal), ("theta_t", &signal)];
+        write_csv(&folder.path().join(&run.file), &columns).unwrap();
+    }
+    let path = folder.path().join("campaign.toml");
+    write_campaign(&path, &plan).unwrap();
+    let read = crate::read_campaign(&path).unwrap().campaign;
+    assert_eq!(read.channels.command.torque_per_command, Some(0.25));
+    assert_eq!(read.runs.len(), 2);
+    assert_eq!(read.runs[0].omega_rad_s(), Some(3.0));
+    for run in &read.runs {
+        assert_eq!(run.motor(), signal);
+        assert_eq!(run.tips(), std::slice::from_ref(&signal));
+        assert_eq!(run.sample_time_s(), 0.003);
+    }
+}
+
+proptest! {
+    #[test]
+    fn every_number_survives(values in proptest::collection::vec(proptest::num::f64::NORMAL, 2..40)) {
+        let text = csv_text(&[("x", &values)]).unwrap();
+        let column = LogColumn { column: ColumnRef::Number(1), hold: Hold::Measured };
+        let log =
+            read_log_from(text.as_bytes(), "a.csv", None, &[column], &LogOptions::default()).unwrap();
+        prop_assert_eq!(&log.columns[0], &values);
+    }
+}
