@@ -3,14 +3,18 @@
 use thiserror::Error;
 
 use super::finding::{Finding, Severity};
+use super::model::state_space;
 use super::rational::{BeamFit, MotorData, MotorFit, TipData, fit_beam, fit_motor};
 use super::regression::{BeamRegression, MotorRegression, beam_regression, motor_regression};
-use super::response_table::{ResponsePoint, response_table, tip_model};
+use super::response_table::{ResponsePoint, response_table, tip_model, weak_points};
 use super::run_analysis::{RunAnalysis, RunKind, analyse};
 use super::third_harmonic::{PairFigure, mean_figure, pair_figure};
 use super::{Estimate, ModeEstimate, verdict};
-use crate::record::Campaign;
+use crate::lti::StateSpace;
+use crate::record::{Campaign, TipQuantity};
 
+/// Harmonics fitted to a periodic run.
+const HARMONICS: usize = 9;
 /// A run is the triple of another when its frequency is 3ω0 to this share.
 const TRIPLE: f64 = 2e-3;
 /// Windowed torque that the regression may leave before its figures are refused.
@@ -19,10 +23,13 @@ const RESIDUAL_REFUSED: f64 = 0.6;
 const BEAM_RESIDUAL: f64 = 0.1;
 
 /// What a user may ask for.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Options {
-    /// Length of the regression's window \[s\]; chosen from the data when `None`.
-    pub window_s: Option<f64>,
+    /// Lengths of the regression's window to take one of \[s\]; chosen from the data when empty.
+    pub window_s: Vec<f64>,
+    /// Highest harmonic fitted to a periodic run; nine when `None`, and never above the Nyquist
+    /// frequency.
+    pub harmonics: Option<usize>,
 }
 
 /// Why a campaign cannot be identified at all.
@@ -65,6 +72,8 @@ pub struct ThirdHarmonic {
     pub pairs: Vec<PairFigure>,
     /// Mean of the pairs that no finding flags (of all, where all are flagged).
     pub coulomb_command: Estimate,
+    /// Standard deviation of one pair about that mean.
+    pub spread_command: f64,
     /// Pairs in that mean.
     pub used: Vec<bool>,
     /// Rational fit of the response corrected with that mean, as in 6.2.2.
@@ -122,6 +131,8 @@ pub struct Identified {
     pub beam_model: Option<BeamFit>,
     /// Rational model of the motor, fitted to the corrected response.
     pub motor_model: Option<MotorFit>,
+    /// Both as one state space, from the command to the motor and to each tip that is an angle.
+    pub state_space: Option<StateSpace>,
     /// Torque per command used; `None`: figures are per unit of command.
     pub torque_per_command: Option<f64>,
     /// What the data could not carry.
@@ -134,17 +145,18 @@ pub struct Identified {
 /// [`IdentifyError`] where nothing can be said at all. Everything less is a finding.
 pub fn identify(
     campaign: &Campaign,
-    options: Options,
+    options: &Options,
     mut progress: impl FnMut(Stage),
 ) -> Result<Identified, IdentifyError> {
-    if let Some(found_s) = options.window_s.filter(|w| !(*w > 0.0 && w.is_finite())) {
+    if let Some(&found_s) = options.window_s.iter().find(|w| !(**w > 0.0 && w.is_finite())) {
         return Err(IdentifyError::Window { found_s });
     }
+    let harmonics = options.harmonics.unwrap_or(HARMONICS).max(1);
     let mut findings = Vec::new();
     let mut runs = Vec::with_capacity(campaign.runs.len());
     for index in 0..campaign.runs.len() {
         progress(Stage::Run(index, campaign.runs.len()));
-        runs.push(analyse(campaign, index, &mut findings));
+        runs.push(analyse(campaign, index, harmonics, &mut findings));
     }
     let usable = Campaign {
         channels: campaign.channels.clone(),
@@ -160,7 +172,7 @@ pub fn identify(
         return Err(IdentifyError::NothingMoves { runs: campaign.runs.len() });
     }
     progress(Stage::Regression);
-    let regression = motor_regression(&usable, options.window_s)
+    let regression = motor_regression(&usable, &options.window_s)
         .filter(|r| r.relative_residual < RESIDUAL_REFUSED);
     progress(Stage::Beam);
     let beam_regression =
@@ -183,6 +195,17 @@ pub fn identify(
     if let Some(third) = &mut third_harmonic {
         third.motor = self::motor_model(&table(Some(third.coulomb_command)), constant, poles);
     }
+    findings.extend(weak_points(&responses, &runs));
+    let angles: Vec<(usize, String)> = campaign
+        .channels
+        .tips
+        .iter()
+        .enumerate()
+        .filter(|(_, t)| t.calibrated && t.quantity != TipQuantity::Acceleration)
+        .map(|(i, t)| (i, t.name.clone()))
+        .collect();
+    let state_space =
+        motor_model.as_ref().map(|m| state_space(m, constant, beam_model.as_ref(), &angles));
     let mut identified = Identified {
         friction: Friction::default(),
         inertia: None,
@@ -194,6 +217,7 @@ pub fn identify(
         responses,
         beam_model,
         motor_model,
+        state_space,
         torque_per_command: campaign.channels.command.torque_per_command,
         findings,
     };
@@ -214,7 +238,6 @@ fn pairs(runs: &[RunAnalysis], findings: &[Finding]) -> Option<ThirdHarmonic> {
         findings.iter().any(|f| {
             f.run.as_deref() == Some(&runs[i].name)
                 && f.severity >= Severity::Warning
-                && f.code != "sticking"
                 && f.affects.contains(&super::finding::key::THIRD)
         })
     };
@@ -240,8 +263,9 @@ fn pairs(runs: &[RunAnalysis], findings: &[Finding]) -> Option<ThirdHarmonic> {
     let used = if clean.iter().any(|c| *c) { clean } else { vec![true; pairs.len()] };
     let chosen: Vec<PairFigure> =
         pairs.iter().zip(&used).filter(|(_, u)| **u).map(|(p, _)| *p).collect();
-    let coulomb_command = mean_figure(&chosen)?;
-    Some(ThirdHarmonic { pairs, coulomb_command, used, motor: None })
+    let stuck = |i: usize| runs[i].stuck_share.unwrap_or(0.0);
+    let (coulomb_command, spread_command) = mean_figure(&chosen, |p| stuck(p.run))?;
+    Some(ThirdHarmonic { pairs, coulomb_command, spread_command, used, motor: None })
 }
 
 fn beam_model(campaign: &Campaign, responses: &[ResponsePoint]) -> Option<BeamFit> {

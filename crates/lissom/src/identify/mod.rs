@@ -5,6 +5,7 @@ mod channel_check;
 mod correct;
 mod estimate;
 mod finding;
+mod model;
 mod rational;
 mod regression;
 mod response_table;

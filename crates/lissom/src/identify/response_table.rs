@@ -17,10 +17,10 @@ use crate::spectrum::{Band, Phasor, broadband, hold_factor};
 const COHERENCE: f64 = 0.3;
 /// Least power of the input in a band, relative to the strongest.
 const POWER: f64 = 1e-7;
-/// A corrected point is flagged where friction's fundamental is this share of the current's…
-const FRICTION_SHARE: f64 = 0.9;
-/// …or where the joint sticks for this share of the cycle.
-const STUCK_SHARE: f64 = 0.12;
+/// Sticking shares below this are not measured: what (30) leaves where nothing sticks.
+const STUCK_LEAST: f64 = 0.008;
+/// A corrected point uncertain by more than this share is flagged.
+const WEAK: f64 = 0.5;
 
 /// One frequency of the campaign's responses.
 #[derive(Debug, Clone)]
@@ -68,20 +68,59 @@ fn sinusoidal(
     let spoken_against = findings.iter().any(|f| {
         f.run.as_deref() == Some(&run.name)
             && f.severity >= Severity::Warning
-            && f.code != "sticking"
             && f.affects.contains(&key::CORRECTED)
     });
-    let share = coulomb_command
-        .map_or(0.0, |c| c.value.abs() * 4.0 / PI / command.value.norm().max(f64::MIN_POSITIVE));
-    let stuck = run.stuck_share.unwrap_or(0.0);
+    let motor_corrected = coulomb_command.map(|c| {
+        let stuck = run.stuck_share.unwrap_or(0.0).max(STUCK_LEAST);
+        corrected(
+            motor,
+            command,
+            Estimate { std: c.std.hypot(sticking_error(stuck) * c.value), ..c },
+        )
+    });
     Some(ResponsePoint {
         omega_rad_s: s.omega_rad_s,
         run: Some(index),
         motor_raw: ratio(motor, command),
-        motor_corrected: coulomb_command.map(|c| corrected(motor, command, c)),
+        motor_corrected,
         tips: s.tips.iter().map(|t| tip_response(t.get(1)?, motor)).collect(),
-        flagged: spoken_against || share > FRICTION_SHARE || stuck > STUCK_SHARE,
+        flagged: spoken_against || motor_corrected.is_none_or(|r| weak(&r).is_some()),
     })
+}
+
+/// Relative error of friction's fundamental in (30) where the joint sticks for `share` of the
+/// cycle: sticking begins at each reversal and lasts π·share in phase; the square wave is late by
+/// half of that.
+fn sticking_error(share: f64) -> f64 {
+    0.5 * PI * share
+}
+
+/// Relative deviation of a corrected response, where it is too large for the point to count.
+fn weak(response: &Response) -> Option<f64> {
+    let relative = response.std / response.value.norm();
+    (relative.is_nan() || relative > WEAK).then_some(relative)
+}
+
+/// Findings about corrected points that friction leaves too uncertain.
+pub(crate) fn weak_points(points: &[ResponsePoint], runs: &[RunAnalysis]) -> Vec<Finding> {
+    points
+        .iter()
+        .filter_map(|p| {
+            let relative = weak(&p.motor_corrected?)?;
+            let run = &runs[p.run?];
+            let message = format!(
+                "at {:.3} rad/s nearly all of the current overcomes friction: the corrected \
+                 response is uncertain by {:.0} %",
+                p.omega_rad_s,
+                100.0 * relative
+            );
+            let hint = "drive it with a larger amplitude: friction's share of the current falls";
+            let affects = [key::CORRECTED];
+            let finding =
+                Finding::new("correction-weak", Severity::Warning, &affects, message, hint);
+            Some(finding.of(&run.name))
+        })
+        .collect()
 }
 
 fn tip_response(tip: Phasor, motor: Phasor) -> Option<Response> {

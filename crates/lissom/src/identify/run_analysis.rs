@@ -10,15 +10,13 @@ use crate::spectrum::{
     Harmonics, Phasor, Steady, find_frequency, hold_factor, least_squares, steady_state,
 };
 
-/// Harmonics fitted, as far as the Nyquist frequency lets them.
-const HARMONICS: usize = 9;
 /// A run is sinusoidal when harmonics leave at most this share of the motor's power…
 const UNEXPLAINED: f64 = 0.02;
 /// …and the harmonics above the first have at most this share of the first's amplitude.
 const DISTORTION: f64 = 0.1;
 /// Fewer periods than this are few for a covariance.
 const FEW_PERIODS: usize = 6;
-/// Sticking share of the cycle from which on (30) is off by per cents.
+/// Sticking share of the cycle from which on the third harmonic is off by per cents.
 const STICKING: f64 = 0.05;
 /// Stamps off the grid by more than this share of the sample time, rms.
 const JITTER: f64 = 0.05;
@@ -87,6 +85,7 @@ impl Sinusoidal {
 pub(crate) fn analyse(
     campaign: &Campaign,
     index: usize,
+    harmonics: usize,
     findings: &mut Vec<Finding>,
 ) -> RunAnalysis {
     let run = &campaign.runs[index];
@@ -105,7 +104,7 @@ pub(crate) fn analyse(
     if !usable {
         return analysis;
     }
-    if let Some(found) = sinusoidal(campaign, run, findings) {
+    if let Some(found) = sinusoidal(campaign, run, harmonics, findings) {
         let kept = &run.motor()[found.steady.first..];
         let share = dwell_share(kept, found.omega_rad_s, run.sample_time_s());
         if share > STICKING {
@@ -113,7 +112,7 @@ pub(crate) fn analyse(
                 Finding::new(
                     "sticking",
                     Severity::Warning,
-                    &[key::THIRD, key::CORRECTED],
+                    &[key::COULOMB, key::RAW],
                     format!("the motor sticks for about {:.0} % of the cycle", 100.0 * share),
                     "friction is no square wave there: drive it with a larger amplitude or faster",
                 )
@@ -236,7 +235,12 @@ fn time_base(run: &Run, findings: &mut Vec<Finding>) {
 }
 
 /// The run as one sinusoid in steady state, if it is one.
-fn sinusoidal(campaign: &Campaign, run: &Run, findings: &mut Vec<Finding>) -> Option<Sinusoidal> {
+fn sinusoidal(
+    campaign: &Campaign,
+    run: &Run,
+    harmonics: usize,
+    findings: &mut Vec<Finding>,
+) -> Option<Sinusoidal> {
     let t = run.sample_time_s();
     let omega = match run.omega_rad_s() {
         Some(omega) => omega,
@@ -260,7 +264,7 @@ fn sinusoidal(campaign: &Campaign, run: &Run, findings: &mut Vec<Finding>) -> Op
     };
     let window = steady.first..steady.first + steady.len;
     // Below the Nyquist frequency, and never more unknowns than a period has samples.
-    let count = HARMONICS.min((0.9 * std::f64::consts::PI / (omega * t)) as usize).max(1);
+    let count = harmonics.min((0.9 * std::f64::consts::PI / (omega * t)) as usize).max(1);
     let fit = |x: &[f64]| least_squares(&x[window.clone()], omega, t, count);
     let motor = fit(run.motor())?;
     let distortion = motor.phasors[1..].iter().map(|p| p.value.norm_sqr()).sum::<f64>().sqrt()

@@ -15,6 +15,8 @@ const MOST_MODES: usize = 4;
 const START_DAMPING: f64 = 0.02;
 /// A pole more damped than this is no mode of a beam: the search ends.
 const MOST_DAMPING: f64 = 0.5;
+/// A mode is there when one of its residues is this many deviations from zero.
+const PRESENT: f64 = 4.0;
 /// Responses are trusted to this share of their size at best: held currents, quantised angles
 /// and windows leave errors that no residual shows.
 const FLOOR: f64 = 2e-3;
@@ -91,7 +93,7 @@ pub fn fit_beam(omega_rad_s: &[f64], tips: &[TipData]) -> Option<BeamFit> {
                 && p.omega_rad_s > 0.3 * low
                 && p.omega_rad_s < 3.0 * high
         };
-        if !poles.iter().all(plausible) {
+        if !poles.iter().all(plausible) || !solved.all_residues_are_there() {
             break;
         }
         let cost = solved.residuals()?.norm_squared();
@@ -100,7 +102,12 @@ pub fn fit_beam(omega_rad_s: &[f64], tips: &[TipData]) -> Option<BeamFit> {
         if !improved {
             break;
         }
+        let explained = cost <= (2 * m * tips.len() - parameters) as f64;
         best = Some((score, solved));
+        if explained {
+            // Within what the responses claim: another mode would fit their errors.
+            break;
+        }
     }
     best.and_then(|(_, solved)| finish(&data, tips, &solved))
 }
@@ -206,6 +213,23 @@ impl Problem<'_> {
                 row += 2;
             }
         }
+    }
+    /// Whether each mode has a residue in some tip that stands clear of its deviation.
+    fn all_residues_are_there(&self) -> bool {
+        let Some((jacobian, residuals)) = self.jacobian().zip(self.residuals()) else {
+            return false;
+        };
+        let Ok(covariance) = (jacobian.transpose() * &jacobian).pseudo_inverse(1e-14) else {
+            return false;
+        };
+        let free = residuals.len().saturating_sub(self.x.len()).max(1) as f64;
+        let spread = (residuals.norm_squared() / free).sqrt();
+        (0..self.modes()).all(|k| {
+            (0..self.data.forms.len()).any(|tip| {
+                let at = self.residue(tip, k);
+                self.x[at].abs() > PRESENT * spread * covariance[(at, at)].max(0.0).sqrt()
+            })
+        })
     }
     fn rows_len(&self) -> usize {
         2 * self.data.omega.len() * self.data.forms.len()

@@ -46,7 +46,7 @@ pub fn beam_regression(campaign: &Campaign) -> Option<BeamRegression> {
     let sample_time = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let scans: Vec<Scan> = (0..n)
         .map(|i| {
-            scan(sample_time, None, &counts, |length| solve(&clusters(campaign, i, length), &terms))
+            scan(sample_time, &[], &counts, |length| solve(&clusters(campaign, i, length), &terms))
         })
         .collect::<Option<_>>()?;
     let stiffness = DMatrix::from_fn(n, n, |i, j| scans[i].solution.value[j]);

@@ -78,8 +78,9 @@ pub struct ByDirection {
 /// exact integral. The covariance takes phases, and runs where there are several, as independent,
 /// and counts how much the figures move with the window's length.
 ///
+/// With lengths in `window_s` one of these is used; without, the length is chosen from the data.
 /// `None` where no phase holds windows enough.
-pub fn motor_regression(campaign: &Campaign, window_s: Option<f64>) -> Option<MotorRegression> {
+pub fn motor_regression(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRegression> {
     let tips = coupled_tips(campaign);
     let mut terms =
         vec![Term::Plain(INERTIA), Term::Plain(VISCOUS), Term::Signed(DRY), Term::Plain(DRY)];
@@ -112,7 +113,7 @@ pub fn motor_regression(campaign: &Campaign, window_s: Option<f64>) -> Option<Mo
     let by_direction = by_direction(&clusters(campaign, &tips, chosen.window_s), &terms, solution);
     Some(MotorRegression {
         window_s: chosen.window_s,
-        window_given: window_s.is_some(),
+        window_given: !window_s.is_empty(),
         rows: chosen.rows,
         phases: chosen.clusters,
         relative_residual: solution.relative_residual,

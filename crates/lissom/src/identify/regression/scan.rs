@@ -9,7 +9,7 @@ const RATIO: f64 = std::f64::consts::SQRT_2;
 /// Fewest clusters (phases, blocks) that a candidate must rest on.
 const LEAST_CLUSTERS: usize = 4;
 /// Most candidates: √2⁴⁰ is a factor of a million in length.
-const MOST_CANDIDATES: usize = 40;
+const MOST_CANDIDATES: i32 = 40;
 
 /// A window length that was tried.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,29 +40,46 @@ pub(crate) struct Scan {
 /// Tries windows from ten samples on, each √2 longer than the one before, until too few phases
 /// hold one; takes the one with the least sensitivity in the figures marked by `counts`.
 ///
-/// With `given` a single length is used, and its neighbours for the sensitivity.
+/// With `given` lengths only these are taken, each between neighbours that tell its sensitivity.
 pub(crate) fn scan(
     sample_time_s: f64,
-    given: Option<f64>,
+    given: &[f64],
     counts: &[bool],
     solve: impl Fn(f64) -> Option<Solution>,
 ) -> Option<Scan> {
     let shortest = LEAST_SAMPLES * sample_time_s;
-    let lengths: Vec<f64> = match given {
-        Some(length) => vec![length / RATIO, length, length * RATIO],
-        None => (0..MOST_CANDIDATES as i32).map(|k| shortest * RATIO.powi(k)).collect(),
-    };
-    let mut tried: Vec<(f64, Solution)> = Vec::new();
-    for length in lengths {
+    let usable = |length: f64| {
         let solution = (length >= 0.5 * shortest).then(|| solve(length)).flatten();
-        let usable =
-            solution.filter(|s| s.clusters >= LEAST_CLUSTERS && s.rows >= 3 * s.value.len());
-        match usable {
+        solution.filter(|s| s.clusters >= LEAST_CLUSTERS && s.rows >= 3 * s.value.len())
+    };
+    if !given.is_empty() {
+        let scans = given.iter().filter_map(|&length| {
+            let around = [length / RATIO, length, length * RATIO];
+            let tried = around.into_iter().filter_map(|l| Some((l, usable(l)?))).collect();
+            choose(tried, counts, Some(length))
+        });
+        return scans.min_by(|a, b| a.sensitivity().total_cmp(&b.sensitivity()));
+    }
+    let mut tried: Vec<(f64, Solution)> = Vec::new();
+    for k in 0..MOST_CANDIDATES {
+        let length = shortest * RATIO.powi(k);
+        match usable(length) {
             Some(solution) => tried.push((length, solution)),
-            None if given.is_none() && !tried.is_empty() => break,
+            None if !tried.is_empty() => break,
             None => {}
         }
     }
+    choose(tried, counts, None)
+}
+
+impl Scan {
+    fn sensitivity(&self) -> f64 {
+        self.candidates[self.chosen].sensitivity
+    }
+}
+
+/// Takes the length `given`, or the one with the least sensitivity.
+fn choose(tried: Vec<(f64, Solution)>, counts: &[bool], given: Option<f64>) -> Option<Scan> {
     let sensitivity = |k: usize| {
         if k == 0 || k + 1 >= tried.len() {
             return f64::INFINITY;

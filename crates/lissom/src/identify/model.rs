@@ -1,0 +1,80 @@
+//! State space of the identified drive and beam.
+
+use nalgebra::DMatrix;
+
+use super::rational::{BeamFit, MotorFit};
+use crate::lti::StateSpace;
+
+/// `ẋ = A·x + B·u` with `x = [θ_m, θ̇_m, q_1, q̇_1, …]`, u the command, y = θ_m and each tip.
+///
+/// Each mode follows the motor, `q̈_k = ω_k²(θ_m − q_k) − 2ζ_kω_k·q̇_k`, and pulls it back with
+/// `c_k(θ_m − q_k)`; a tip is `Σ (r_ik/ω_k²)·q_k`. `tips` holds the residues r_ik of tips that
+/// are angles, with their names; they must belong to the poles of `motor`.
+pub(crate) fn state_space(
+    motor: &MotorFit,
+    torque_per_command: f64,
+    beam: Option<&BeamFit>,
+    tips: &[(usize, String)],
+) -> StateSpace {
+    let modes = motor.poles.len();
+    let n = 2 + 2 * modes;
+    let (j, v) = (motor.inertia.value, motor.viscous.value);
+    let mut a = DMatrix::zeros(n, n);
+    a[(0, 1)] = 1.0;
+    a[(1, 1)] = -v / j;
+    let mut states = vec!["motor_rad".to_owned(), "motor_rad_per_s".to_owned()];
+    for (k, pole) in motor.poles.iter().enumerate() {
+        let (q, w2) = (2 + 2 * k, pole.omega_rad_s * pole.omega_rad_s);
+        let c = motor.coupling[k].value;
+        // The damping acts on the mode's own velocity, so that C_t is c(θ_m − q).
+        a[(1, 0)] -= c / j;
+        a[(1, q)] += c / j;
+        a[(q, q + 1)] = 1.0;
+        a[(q + 1, 0)] = w2;
+        a[(q + 1, q)] = -w2;
+        a[(q + 1, q + 1)] = -2.0 * pole.damping_ratio * pole.omega_rad_s;
+        states.push(format!("mode_{}_rad", k + 1));
+        states.push(format!("mode_{}_rad_per_s", k + 1));
+    }
+    let mut b = DMatrix::zeros(n, 1);
+    b[(1, 0)] = torque_per_command / j;
+    let mut c = DMatrix::zeros(1 + tips.len(), n);
+    c[(0, 0)] = 1.0;
+    let mut outputs = vec!["motor_rad".to_owned()];
+    for (row, (tip, name)) in tips.iter().enumerate() {
+        if let Some(residues) = beam.and_then(|b| b.residues.get(*tip)) {
+            for (k, (r, pole)) in residues.iter().zip(&motor.poles).enumerate() {
+                c[(1 + row, 2 + 2 * k)] = r.value / (pole.omega_rad_s * pole.omega_rad_s);
+            }
+        }
+        outputs.push(format!("{name}_rad"));
+    }
+    let d = DMatrix::zeros(1 + tips.len(), 1);
+    StateSpace { a, b, c, d, states, outputs }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::identify::{MotorData, Pole, Response, fit_motor};
+    use crate::lti::TransferFunction;
+
+    #[test]
+    fn responds_as_the_transfer_function_it_comes_from() {
+        let g = TransferFunction {
+            num: vec![394.94, 394.94 * 0.06, 394.94 * 43.75],
+            den: vec![1.0, 2.26, 165.7, 103.56, 0.0],
+        };
+        let omega_rad_s: Vec<f64> = (0..30).map(|k| 1.12_f64.powi(k)).collect();
+        let response =
+            omega_rad_s.iter().map(|&w| Response { value: g.response(w), std: 1e-3 }).collect();
+        let data = MotorData { omega_rad_s, response, torque_per_command: 2.184 };
+        let pole = Pole { omega_rad_s: 43.75_f64.sqrt(), damping_ratio: 0.0045 };
+        let fit = fit_motor(&data, Some(&[pole])).unwrap();
+        let space = state_space(&fit, 2.184, None, &[]);
+        for w in [0.5, 3.0, 6.0, 13.0, 40.0] {
+            let (a, b) = (space.response(w).unwrap()[0], fit.transfer_function.response(w));
+            assert!((a / b - 1.0).norm() < 1e-10, "{w}: {a} {b}");
+        }
+    }
+}
