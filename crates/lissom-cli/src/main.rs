@@ -1,2 +1,31 @@
-//! The command `lissom`.
-fn main() {}
+//! The command `lissom`: parse, call the library, print.
+//!
+//! Exit codes: 0 done, 1 the input cannot be used, 2 wrong usage, 3 done but the verdict refuses a
+//! figure asked for.
+
+mod cli;
+mod demo;
+mod failure;
+mod figures;
+mod identify;
+mod page;
+mod print;
+mod progress;
+
+use std::process::ExitCode;
+
+use clap::Parser as _;
+
+fn main() -> ExitCode {
+    let outcome = match cli::Cli::parse().command {
+        cli::Command::Identify(args) => identify::run(&args),
+        cli::Command::Demo(args) => demo::run(&args),
+    };
+    match outcome {
+        Ok(code) => code,
+        Err(failure) => {
+            print::failure(&failure);
+            ExitCode::from(1)
+        }
+    }
+}

@@ -3,6 +3,7 @@
 use lissom::record::RecordError;
 use thiserror::Error;
 
+use crate::arm_file::ArmError;
 use crate::campaign::CampaignError;
 use crate::config::ConfigError;
 use crate::log::LogError;
@@ -22,6 +23,9 @@ pub enum Error {
     /// `arm.toml` or `campaign.toml` as a file of keys and values.
     #[error(transparent)]
     Config(#[from] ConfigError),
+    /// An `arm.toml` that makes no arm.
+    #[error(transparent)]
+    Arm(#[from] ArmError),
     /// What a campaign says about its signals and drive.
     #[error(transparent)]
     Campaign(#[from] CampaignError),
@@ -40,6 +44,7 @@ impl Error {
             Self::Unit(error) => error.hint(),
             Self::Log(error) => error.hint(),
             Self::Config(error) => error.hint(),
+            Self::Arm(error) => error.hint(),
             Self::Campaign(error) => error.hint(),
             Self::Write(error) => error.hint(),
             Self::Record(error) => record_hint(error),

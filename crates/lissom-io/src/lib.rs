@@ -15,10 +15,13 @@ mod config;
 mod error;
 pub mod log;
 mod nearest;
+pub mod result;
 pub mod units;
 pub mod write;
 
-pub use arm_file::{ArmFile, BeamSpec, ControllerSpec, DriveSpec, RigSpec, SensorSpec, SpanSpec};
+pub use arm_file::{
+    ArmError, ArmFile, BeamSpec, ControllerSpec, DriveSpec, RigSpec, SensorSpec, SpanSpec,
+};
 pub use campaign::{
     AnalysisOptions, CampaignError, CampaignFile, Known, ReadOptions, read_campaign,
     read_campaign_with,
@@ -26,5 +29,6 @@ pub use campaign::{
 pub use config::{ConfigError, Place, Rule};
 pub use error::Error;
 pub use log::LogError;
+pub use result::{UnitNames, result_json};
 pub use units::UnitError;
 pub use write::WriteError;

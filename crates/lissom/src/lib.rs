@@ -15,3 +15,6 @@ pub mod lti;
 pub mod record;
 pub mod rig;
 pub mod spectrum;
+
+/// Dense matrix of the public interface.
+pub type Matrix = nalgebra::DMatrix<f64>;

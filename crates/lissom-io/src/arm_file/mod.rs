@@ -23,10 +23,12 @@
 //! A bare number is in SI; for `damping` in N·s/m, for `coulomb` in N·m.
 
 mod beam;
+mod build;
 #[cfg(test)]
 mod tests;
 
 pub use beam::{BeamSpec, SpanSpec};
+pub use build::ArmError;
 
 use std::path::Path;
 

@@ -1,0 +1,77 @@
+//! What the user can ask for.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+/// Identifies flexible arms and drives whose joint has friction.
+#[derive(Debug, Parser)]
+#[command(version, about, max_term_width = 100, after_help = AFTER_HELP)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const AFTER_HELP: &str = "\
+Start with `lissom demo`: it runs the experiment on a virtual arm, writes its logs and their \
+campaign.toml, and identifies them. Then describe your own logs in a campaign.toml like that one.
+
+Exit codes: 0 done; 1 the input cannot be used; 2 wrong usage; 3 done, but the data refuse a \
+figure (see the findings).";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Identify friction, frequency response and parameters from logs
+    Identify(IdentifyArgs),
+    /// Run the report's experiment on a virtual arm and identify it from its logs
+    Demo(DemoArgs),
+}
+
+/// The logs are described by a campaign.toml: columns, units, what is known of the drive.
+#[derive(Debug, Args)]
+#[command(after_help = IDENTIFY_HELP)]
+pub(crate) struct IdentifyArgs {
+    /// The campaign.toml
+    pub(crate) campaign: PathBuf,
+    /// Write the result as JSON to FILE, or alone to standard output
+    #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    pub(crate) json: Option<Option<PathBuf>>,
+    /// Write one self-contained HTML page
+    #[arg(long, value_name = "FILE")]
+    pub(crate) report: Option<PathBuf>,
+    /// Draw the Bode plots into DIR as SVG and PNG
+    #[arg(long, value_name = "DIR")]
+    pub(crate) plots: Option<PathBuf>,
+    /// Length of the regression's window, e.g. "0.3 s"; chosen from the data when absent
+    #[arg(long, value_name = "TIME")]
+    pub(crate) window: Option<String>,
+}
+
+const IDENTIFY_HELP: &str = "\
+A campaign.toml:
+
+  [signals]
+  time    = { column = \"t\", unit = \"s\" }
+  current = { column = \"i\", unit = \"A\", hold = \"sampled\" }  # or \"measured\"
+  motor   = { column = \"theta_m\", unit = \"rad\" }
+  tips    = [{ name = \"tip\", column = \"theta_t\", unit = \"rad\" }]
+  [drive]
+  torque_constant = \"2.184 lbf*in/A\"
+  [[runs]]
+  file = \"run-01.csv\"
+
+Columns go by name or number. hold = \"sampled\" is a commanded value held between samples, \
+\"measured\" one that was measured. A command of unknown unit has unit = \"1\": figures are then \
+per unit of command.";
+
+/// The single-mass arm of the report: PD loop, 3 ms, 12 bits, 4.12 A, stepped sines at
+/// frequencies and their triples, two amplitudes.
+#[derive(Debug, Args)]
+pub(crate) struct DemoArgs {
+    /// Folder for the logs, the campaign, the result and the plots
+    #[arg(long, value_name = "DIR", default_value = "lissom-demo")]
+    pub(crate) out: PathBuf,
+    /// Write truth and result as JSON to FILE, or alone to standard output
+    #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    pub(crate) json: Option<Option<PathBuf>>,
+}

@@ -1,0 +1,164 @@
+//! `lissom demo`: the report's experiment on a virtual rig, identified from its logs alone.
+
+mod plan;
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use lissom::arm::Arm;
+use lissom::identify::{Estimate, Identified};
+use lissom_io::{ArmFile, UnitNames, read_campaign, result_json, write};
+use serde_json::{Value, json};
+
+use crate::cli::DemoArgs;
+use crate::failure::Failure;
+use crate::{figures, identify, page, print};
+
+/// The arm, as a user would describe it.
+const ARM: &str = include_str!("arm.toml");
+
+pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
+    let out = &args.out;
+    let arm_path = out.join("arm.toml");
+    let rig = ArmFile::from_text(&arm_path, ARM)?.rig(&arm_path).map_err(lissom_io::Error::from)?;
+    write::write_text(&arm_path, ARM)?;
+    plan::write_logs(&rig, out)?;
+
+    let campaign_path = out.join("campaign.toml");
+    let file = read_campaign(&campaign_path)?;
+    let id = identify::identified(&campaign_path, &file, None)?;
+
+    let channels = &file.campaign.channels;
+    let names = UnitNames::new(channels);
+    let result = result_json(channels, &id);
+    write::write_json(&out.join("result.json"), &result)?;
+    figures::write_all(out, channels, &names, &id, Some(&rig.arm))?;
+    let text = page::page("lissom demo", &file.campaign, &names, &id, Some(&rig.arm));
+    write::write_text(&out.join("report.html"), &text)?;
+
+    let rows = comparison(&rig.arm, &id);
+    match &args.json {
+        Some(None) => print::json(&compared(&rows, &result)),
+        other => {
+            if let Some(Some(path)) = other {
+                write::write_json(path, &compared(&rows, &result))?;
+            }
+            report(out, &file.campaign, &id, &rows);
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A figure: name, unit, truth, the report's method, regression.
+struct Row {
+    name: &'static str,
+    unit: &'static str,
+    truth: f64,
+    third: Option<Estimate>,
+    regression: Option<Estimate>,
+}
+
+fn comparison(arm: &Arm, id: &Identified) -> Vec<Row> {
+    let third = id.third_harmonic.as_ref();
+    let fit = third.and_then(|t| t.motor.as_ref());
+    let r = id.regression.as_ref();
+    let k = arm.motor.torque_constant_nm_per_a;
+    let frequency = |m: &lissom::identify::ModeEstimate| m.natural_frequency_rad_s;
+    vec![
+        Row {
+            name: "Coulomb friction",
+            unit: "A",
+            truth: arm.coulomb.forward / k,
+            third: third.map(|t| t.coulomb_command),
+            regression: r.and_then(|r| r.coulomb).map(|e| e.scaled(1.0 / k)),
+        },
+        Row {
+            name: "viscous friction",
+            unit: "N·m·s/rad",
+            truth: arm.motor.viscous_nm_s_per_rad,
+            third: fit.map(|f| f.viscous),
+            regression: r.and_then(|r| r.viscous),
+        },
+        Row {
+            name: "inertia",
+            unit: "kg·m²",
+            truth: arm.motor.inertia_kg_m2,
+            third: fit.map(|f| f.inertia),
+            regression: r.and_then(|r| r.inertia),
+        },
+        Row {
+            name: "coupling",
+            unit: "N·m/rad",
+            truth: arm.beam().h_motor(),
+            third: fit.and_then(|f| f.coupling.first().copied()),
+            regression: r.and_then(|r| r.coupling.first().copied().flatten()),
+        },
+        Row {
+            name: "beam frequency",
+            unit: "rad/s",
+            truth: arm.beam().natural_frequencies_rad_s()[0],
+            third: id.beam_model.as_ref().and_then(|b| b.modes.first()).map(frequency),
+            regression: id.beam_regression.as_ref().and_then(|b| b.modes.first()).map(frequency),
+        },
+    ]
+}
+
+fn compared(rows: &[Row], result: &Value) -> Value {
+    let value = |e: Option<Estimate>| e.map(|e| json!({ "value": e.value, "std": e.std }));
+    let figures: Vec<Value> = rows
+        .iter()
+        .map(|r| {
+            json!({
+                "figure": r.name,
+                "unit": r.unit,
+                "true": r.truth,
+                "third_harmonic": value(r.third),
+                "regression": value(r.regression),
+            })
+        })
+        .collect();
+    json!({ "comparison": figures, "result": result })
+}
+
+fn report(out: &Path, campaign: &lissom::record::Campaign, id: &Identified, rows: &[Row]) {
+    print::campaign(campaign);
+    print::runs(id);
+    print::line("");
+    let mut table = vec![
+        ["figure", "unit", "true", "third harmonic", "error", "regression", "error"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    for r in rows {
+        let mut line = vec![r.name.to_owned(), r.unit.to_owned(), significant(r.truth)];
+        for e in [r.third, r.regression] {
+            match e {
+                Some(e) => {
+                    line.push(significant(e.value));
+                    line.push(format!("{:+.2} %", 100.0 * (e.value / r.truth - 1.0)));
+                }
+                None => line.extend(["refused".to_owned(), String::new()]),
+            }
+        }
+        table.push(line);
+    }
+    print::table(&table);
+    print::findings(&id.findings);
+    print::line("");
+    print::line(&format!(
+        "logs, campaign.toml, result.json, report.html and the Bode plots are in {}",
+        out.display()
+    ));
+    print::line(&format!(
+        "identify them again with: lissom identify {}",
+        out.join("campaign.toml").display()
+    ));
+}
+
+/// Five significant digits.
+fn significant(value: f64) -> String {
+    let digits = (4.0 - value.abs().log10().floor()).clamp(0.0, 12.0);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 12")]
+    let digits = digits as usize;
+    format!("{value:.digits$}")
+}

@@ -1,0 +1,44 @@
+//! Why a command could not be carried out.
+
+use std::path::PathBuf;
+
+use lissom::identify::IdentifyError;
+use lissom::rig::RigError;
+use lissom_report::FigureError;
+use thiserror::Error;
+
+/// A reason that goes to the user with its hint.
+#[derive(Debug, Error)]
+pub(crate) enum Failure {
+    #[error(transparent)]
+    Io(#[from] lissom_io::Error),
+    #[error(transparent)]
+    Write(#[from] lissom_io::WriteError),
+    #[error("{}: {source}", campaign.display())]
+    Identify { campaign: PathBuf, source: IdentifyError },
+    #[error("--window: {0}")]
+    Window(lissom_io::UnitError),
+    #[error(transparent)]
+    Rig(#[from] RigError),
+    #[error("the plot could not be drawn: {0}")]
+    Figure(#[from] FigureError),
+}
+
+impl Failure {
+    /// What to do about it.
+    pub(crate) fn hint(&self) -> Option<String> {
+        match self {
+            Self::Io(error) => error.hint(),
+            Self::Write(error) => error.hint(),
+            Self::Window(error) => error.hint(),
+            Self::Identify { source: IdentifyError::NothingMoves { .. }, .. } => Some(
+                "check which columns the campaign names; the drive must move in at least one run"
+                    .to_owned(),
+            ),
+            Self::Identify { source: IdentifyError::Window { .. }, .. } => {
+                Some("give a time such as \"0.3 s\"".to_owned())
+            }
+            _ => None,
+        }
+    }
+}

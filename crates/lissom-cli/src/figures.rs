@@ -1,0 +1,156 @@
+//! Bode plots of a result.
+
+use std::path::Path;
+
+use lissom::arm::Arm;
+use lissom::identify::{Identified, Response};
+use lissom::lti::TransferFunction;
+use lissom::record::{Channels, TipQuantity};
+use lissom_io::{UnitNames, write};
+use lissom_report::{BodePlot, Figure, Role, Series, Style, svg_to_png};
+use num_complex::Complex64;
+
+use crate::failure::Failure;
+
+/// Points of a model's line.
+const LINE: i32 = 1200;
+/// Scale of the PNG.
+const PNG_SCALE: f32 = 2.0;
+
+/// Motor and tips: file name and plot. `truth` adds the arm that a virtual rig had.
+pub(crate) fn bode_plots(
+    channels: &Channels,
+    names: &UnitNames,
+    id: &Identified,
+    truth: Option<&Arm>,
+) -> Vec<(String, BodePlot)> {
+    if id.responses.is_empty() {
+        return Vec::new();
+    }
+    let mut plots = vec![("bode-motor".to_owned(), motor(names, id, truth))];
+    for (i, tip) in channels.tips.iter().enumerate() {
+        if id.responses.iter().any(|p| p.tips.get(i).is_some_and(Option::is_some)) {
+            let file = format!("bode-tip-{}", i + 1);
+            plots.push((file, tip_plot(i, &tip.name, tip.quantity, id, truth)));
+        }
+    }
+    plots
+}
+
+/// Writes every plot as SVG and PNG.
+pub(crate) fn write_all(
+    folder: &Path,
+    channels: &Channels,
+    names: &UnitNames,
+    id: &Identified,
+    truth: Option<&Arm>,
+) -> Result<(), Failure> {
+    for (name, plot) in bode_plots(channels, names, id, truth) {
+        let svg = plot.to_svg()?;
+        let png = svg_to_png(&svg, PNG_SCALE)?;
+        write::write_text(&folder.join(format!("{name}.svg")), &svg)?;
+        write::write_whole(&folder.join(format!("{name}.png")), |file| {
+            std::io::Write::write_all(file, &png)
+        })?;
+    }
+    Ok(())
+}
+
+fn motor(names: &UnitNames, id: &Identified, truth: Option<&Arm>) -> BodePlot {
+    let points = &id.responses;
+    let omega: Vec<f64> = points.iter().map(|p| p.omega_rad_s).collect();
+    let unit = format!("{}/{}", names.angle(), names.command_unit());
+    let raw: Vec<Complex64> = points.iter().map(|p| p.motor_raw.value).collect();
+    let mut plot = BodePlot::new("Motor: angle per command", unit)
+        .subtitle("grey or hollow: a finding speaks against the point; bars: one deviation")
+        .series(Series::new("as measured", Role::Raw, Style::Points, omega, raw));
+    let sound: Vec<(f64, Response, bool)> = points
+        .iter()
+        .filter_map(|p| Some((p.omega_rad_s, p.motor_corrected?, p.flagged)))
+        .collect();
+    if !sound.is_empty() {
+        let series = Series::new(
+            "friction taken out",
+            Role::Corrected,
+            Style::PointsWithBars,
+            sound.iter().map(|p| p.0).collect(),
+            sound.iter().map(|p| p.1.value).collect(),
+        );
+        plot = plot.series(
+            series
+                .with_std(sound.iter().map(|p| p.1.std).collect())
+                .with_flags(sound.iter().map(|p| p.2).collect()),
+        );
+    }
+    let grid = grid(id);
+    if let Some(model) = &id.motor_model {
+        plot = plot.series(line("fitted model", Role::Fitted, &grid, &model.transfer_function));
+    }
+    if let Some(arm) = truth {
+        let exact: Vec<(f64, Complex64)> =
+            grid.iter().filter_map(|w| Some((*w, arm.motor_response(*w)?))).collect();
+        plot = plot.series(known("truth", &exact));
+    }
+    plot
+}
+
+fn tip_plot(
+    i: usize,
+    name: &str,
+    quantity: TipQuantity,
+    id: &Identified,
+    truth: Option<&Arm>,
+) -> BodePlot {
+    let what = match quantity {
+        TipQuantity::Angle => "angle",
+        TipQuantity::Deflection => "deflection",
+        TipQuantity::Acceleration => "acceleration",
+    };
+    let points: Vec<(f64, Response)> = id
+        .responses
+        .iter()
+        .filter_map(|p| Some((p.omega_rad_s, p.tips.get(i).copied().flatten()?)))
+        .collect();
+    let measured = Series::new(
+        "as measured",
+        Role::Corrected,
+        Style::PointsWithBars,
+        points.iter().map(|p| p.0).collect(),
+        points.iter().map(|p| p.1.value).collect(),
+    )
+    .with_std(points.iter().map(|p| p.1.std).collect());
+    let mut plot =
+        BodePlot::new(format!("Beam: {what} of {name} per motor angle"), "1").series(measured);
+    let grid = grid(id);
+    let model = id.beam_model.as_ref().and_then(|b| b.transfer_functions.get(i));
+    // A calibrated deflection is modelled as the angle it belongs to.
+    if let Some(model) = model.filter(|_| quantity != TipQuantity::Deflection) {
+        plot = plot.series(line("fitted model", Role::Fitted, &grid, model));
+    }
+    if let Some(arm) = truth.filter(|_| quantity == TipQuantity::Angle) {
+        let exact: Vec<(f64, Complex64)> = grid
+            .iter()
+            .filter_map(|w| Some((*w, arm.tip_response(*w)?.get(i).copied()?)))
+            .collect();
+        plot = plot.series(known("truth", &exact));
+    }
+    plot
+}
+
+/// Frequencies of a line over the data.
+fn grid(id: &Identified) -> Vec<f64> {
+    let low = id.responses.iter().map(|p| p.omega_rad_s).fold(f64::INFINITY, f64::min);
+    let high = id.responses.iter().map(|p| p.omega_rad_s).fold(0.0, f64::max);
+    let (low, high) = (low / 1.1, high * 1.1);
+    (0..=LINE).map(|k| low * (high / low).powf(f64::from(k) / f64::from(LINE))).collect()
+}
+
+fn line(label: &str, role: Role, grid: &[f64], model: &TransferFunction) -> Series {
+    let response = grid.iter().map(|w| model.response(*w)).collect();
+    Series::new(label, role, Style::Line, grid.to_vec(), response)
+}
+
+fn known(label: &str, exact: &[(f64, Complex64)]) -> Series {
+    let (omega, response) = exact.iter().copied().unzip();
+    Series::new(label, Role::Truth, Style::Line, omega, response)
+}

@@ -1,0 +1,179 @@
+//! The report: one self-contained HTML page.
+
+use lissom::arm::Arm;
+use lissom::identify::{Finding, Identified, RunKind, Severity};
+use lissom::record::Campaign;
+use lissom_io::UnitNames;
+use lissom_report::{
+    Axis, Band, Cells, Finding as ReportFinding, KeyFigure, LinePlot, Page, Role,
+    Severity as ReportSeverity, Table, Trace,
+};
+
+use crate::{figures, print};
+
+/// The page as HTML.
+pub(crate) fn page(
+    title: &str,
+    campaign: &Campaign,
+    names: &UnitNames,
+    id: &Identified,
+    truth: Option<&Arm>,
+) -> String {
+    let refusals = id.findings.iter().filter(|f| f.severity == Severity::Refusal).count();
+    let warnings = id.findings.iter().filter(|f| f.severity == Severity::Warning).count();
+    let summary = format!(
+        "{} runs; {warnings} warnings, {refusals} refusals. Figures are estimates with one \
+         standard deviation and a 95 % interval; what the data could not carry stands under \
+         Findings.",
+        id.runs.len()
+    );
+    let mut page = Page::new(title)
+        .summary(&summary)
+        .heading("Figures")
+        .key_figures("Drive and beam", &key_figures(names, id));
+    page = page.heading("Frequency responses");
+    for (_, plot) in figures::bode_plots(&campaign.channels, names, id, truth) {
+        page =
+            page.figure(&plot, "Points: runs or bands. Line: the rational model fitted to them.");
+    }
+    if let Some(plot) = pairs(names, id) {
+        page = page.heading("Third harmonic").figure(
+            &plot,
+            "Coulomb friction from each pair of runs at a frequency and its triple.",
+        );
+    }
+    if let Some(table) = windows(id) {
+        page = page
+            .heading("Regression on slip phases")
+            .paragraph(
+                "The window's length is the one about which the figures depend on it least: \
+                 sensitivity is their relative change from the next shorter to the next longer \
+                 window.",
+            )
+            .table(&table);
+    }
+    page.heading("Runs")
+        .table(&runs(id))
+        .heading("Findings")
+        .findings(&id.findings.iter().map(finding).collect::<Vec<_>>())
+        .footer(&format!("lissom {}", env!("CARGO_PKG_VERSION")))
+        .to_html()
+}
+
+fn key_figures(names: &UnitNames, id: &Identified) -> Vec<KeyFigure> {
+    print::figure_rows(names, id)
+        .into_iter()
+        .map(|(name, e, unit)| KeyFigure {
+            name: name.trim().to_owned(),
+            value: e.map(|e| e.value),
+            std: e.map(|e| e.std),
+            ci95: e.map(|e| e.ci95()),
+            unit,
+            note: String::new(),
+        })
+        .collect()
+}
+
+fn pairs(names: &UnitNames, id: &Identified) -> Option<LinePlot> {
+    let third = id.third_harmonic.as_ref()?;
+    let mean = third.coulomb_command;
+    let [low, high] = mean.ci95();
+    let trace = Trace::points_with_bars(
+        "each pair",
+        Role::Corrected,
+        third.pairs.iter().map(|p| p.omega_rad_s).collect(),
+        third.pairs.iter().map(|p| p.coulomb_command.value).collect(),
+        third.pairs.iter().map(|p| p.coulomb_command.std).collect(),
+    )
+    .with_flags(third.used.iter().map(|u| !u).collect());
+    let unit = names.command_unit();
+    let plot = LinePlot::new(
+        "Coulomb friction by the third harmonic",
+        Axis::log("ω0 (rad/s)"),
+        Axis::linear(format!("Coulomb friction ({unit})")),
+    )
+    .band(Band::new("mean, 95 % interval", Role::Fitted, mean.value, (low, high)))
+    .trace(trace);
+    Some(plot)
+}
+
+fn windows(id: &Identified) -> Option<Table> {
+    let r = id.regression.as_ref()?;
+    let mut table = Table::new(
+        "Windows tried",
+        &[
+            ("window (s)", Cells::Numbers),
+            ("rows", Cells::Numbers),
+            ("slip phases", Cells::Numbers),
+            ("torque left (%)", Cells::Numbers),
+            ("sensitivity (%)", Cells::Numbers),
+            ("", Cells::Text),
+        ],
+    );
+    for c in &r.candidates {
+        let chosen = (c.window_s - r.window_s).abs() < 1e-12;
+        let sensitivity = if c.sensitivity.is_finite() {
+            format!("{:.3}", 100.0 * c.sensitivity)
+        } else {
+            "–".to_owned()
+        };
+        table = table.row([
+            format!("{:.4}", c.window_s),
+            c.rows.to_string(),
+            c.clusters.to_string(),
+            format!("{:.2}", 100.0 * c.relative_residual),
+            sensitivity,
+            (if chosen { "taken" } else { "" }).to_owned(),
+        ]);
+    }
+    Some(table)
+}
+
+fn runs(id: &Identified) -> Table {
+    let mut table = Table::new(
+        "What each run is",
+        &[
+            ("run", Cells::Text),
+            ("ω0 (rad/s)", Cells::Numbers),
+            ("periods kept", Cells::Numbers),
+            ("dropped", Cells::Numbers),
+            ("sticking (%)", Cells::Numbers),
+            ("saturated (%)", Cells::Numbers),
+        ],
+    );
+    for run in &id.runs {
+        let share = |s: f64| format!("{:.1}", 100.0 * s);
+        let cells = match &run.kind {
+            RunKind::Sinusoidal(s) => [
+                run.name.clone(),
+                format!("{:.4}", s.omega_rad_s),
+                s.steady.periods.to_string(),
+                s.steady.dropped.to_string(),
+                run.stuck_share.map_or_else(String::new, share),
+                share(run.saturated_share),
+            ],
+            RunKind::General => [
+                run.name.clone(),
+                "other motion".to_owned(),
+                String::new(),
+                String::new(),
+                String::new(),
+                share(run.saturated_share),
+            ],
+        };
+        table = table.row(cells);
+    }
+    table
+}
+
+fn finding(f: &Finding) -> ReportFinding {
+    let severity = match f.severity {
+        Severity::Info => ReportSeverity::Info,
+        Severity::Warning => ReportSeverity::Warning,
+        Severity::Refusal => ReportSeverity::Refusal,
+    };
+    let mut finding = ReportFinding::new(severity, f.code, &f.message);
+    finding.run.clone_from(&f.run);
+    finding.affects = f.affects.iter().map(|a| (*a).to_owned()).collect();
+    if f.hint.is_empty() { finding } else { finding.hint(f.hint) }
+}

@@ -1,0 +1,278 @@
+//! `result.json`: what identification found, with stable keys that carry their units.
+//!
+//! Its schema is `docs/result.schema.json`. A figure is `{value, std, ci95}`, or `null` where it
+//! is refused; a finding then says why.
+
+mod units;
+
+pub use units::UnitNames;
+
+use lissom::identify::{
+    BeamRegression, Candidate, Estimate, Finding, Identified, ModeEstimate, MotorFit,
+    MotorRegression, Response, ResponsePoint, RunAnalysis, RunKind, Severity, ThirdHarmonic,
+};
+use lissom::lti::{StateSpace, TransferFunction};
+use lissom::record::{Axis, Channels, TipQuantity};
+use serde_json::{Map, Value, json};
+
+/// The result as JSON, SI and rad/s throughout.
+pub fn result_json(channels: &Channels, id: &Identified) -> Value {
+    let names = UnitNames::new(channels);
+    let constant = id.torque_per_command.unwrap_or(1.0);
+    json!({
+        "lissom": env!("CARGO_PKG_VERSION"),
+        "axis": match channels.axis { Axis::Rotary => "rotary", Axis::Linear => "linear" },
+        "torque_per_command": id.torque_per_command,
+        "friction": friction(&names, constant, id),
+        "drive": { (names.inertia_key()): figure(id.inertia) },
+        "beam": beam(&names, id),
+        "methods": {
+            "third_harmonic": id.third_harmonic.as_ref().map(|t| third(&names, constant, t, &id.runs)),
+            "regression": id.regression.as_ref().map(|r| {
+                regression(&names, constant, r, id.beam_regression.as_ref())
+            }),
+        },
+        "frequency_response": responses(channels, id),
+        "models": models(channels, id),
+        "runs": id.runs.iter().map(run).collect::<Vec<_>>(),
+        "findings": id.findings.iter().map(finding).collect::<Vec<_>>(),
+    })
+}
+
+/// A figure as JSON.
+fn figure(e: Option<Estimate>) -> Value {
+    e.map_or(Value::Null, |e| json!({ "value": e.value, "std": e.std, "ci95": e.ci95() }))
+}
+
+/// A torque under its own unit and, where both are known, the command's.
+fn torque(map: &mut Map<String, Value>, names: &UnitNames, k: f64, key: &str, e: Option<Estimate>) {
+    map.insert(format!("{key}_{}", names.command()), figure(e.map(|e| e.scaled(1.0 / k))));
+    if names.torque_known {
+        map.insert(format!("{key}_{}", names.torque()), figure(e));
+    }
+}
+
+fn friction(names: &UnitNames, constant: f64, id: &Identified) -> Value {
+    let f = &id.friction;
+    let mut map = Map::new();
+    torque(&mut map, names, constant, "coulomb", f.coulomb);
+    torque(&mut map, names, constant, "forward", f.forward);
+    torque(&mut map, names, constant, "backward", f.backward);
+    torque(&mut map, names, constant, "offset", f.offset);
+    map.insert(names.viscous_key("viscous"), figure(f.viscous));
+    if let Some((forward, backward)) = f.viscous_by_direction {
+        map.insert(names.viscous_key("viscous_forward"), figure(Some(forward)));
+        map.insert(names.viscous_key("viscous_backward"), figure(Some(backward)));
+    }
+    Value::Object(map)
+}
+
+fn mode(m: &ModeEstimate) -> Value {
+    json!({
+        "natural_frequency_rad_s": figure(Some(m.natural_frequency_rad_s)),
+        "damping_ratio": figure(Some(m.damping_ratio)),
+    })
+}
+
+fn beam(names: &UnitNames, id: &Identified) -> Value {
+    let by_tip: Vec<Value> = id.beam.coupling_by_tip.iter().map(|e| figure(*e)).collect();
+    json!({
+        "modes": id.beam.modes.iter().map(mode).collect::<Vec<_>>(),
+        (names.coupling_key("coupling")): figure(id.beam.coupling),
+        (names.coupling_key("coupling_by_tip")): by_tip,
+    })
+}
+
+fn fit(names: &UnitNames, m: &MotorFit) -> Value {
+    json!({
+        (names.inertia_key()): figure(Some(m.inertia)),
+        (names.viscous_key("viscous")): figure(Some(m.viscous)),
+        (names.coupling_key("coupling_by_mode")):
+            m.coupling.iter().map(|c| figure(Some(*c))).collect::<Vec<_>>(),
+        "motor": transfer_function(&m.transfer_function),
+        "weighted_rms": m.weighted_rms,
+    })
+}
+
+fn third(names: &UnitNames, constant: f64, t: &ThirdHarmonic, runs: &[RunAnalysis]) -> Value {
+    let mut map = Map::new();
+    torque(&mut map, names, constant, "coulomb", Some(t.coulomb_command.scaled(constant)));
+    map.insert(format!("spread_{}", names.command()), json!(t.spread_command));
+    let pairs: Vec<Value> = t
+        .pairs
+        .iter()
+        .zip(&t.used)
+        .map(|(p, used)| {
+            json!({
+                "omega_rad_s": p.omega_rad_s,
+                "run": runs[p.run].name,
+                "triple_run": runs[p.triple_run].name,
+                (format!("coulomb_{}", names.command())): figure(Some(p.coulomb_command)),
+                "cost": p.cost,
+                "used": used,
+            })
+        })
+        .collect();
+    map.insert("pairs".to_owned(), Value::Array(pairs));
+    map.insert("fit".to_owned(), t.motor.as_ref().map_or(Value::Null, |m| fit(names, m)));
+    Value::Object(map)
+}
+
+fn candidates(list: &[Candidate]) -> Vec<Value> {
+    list.iter()
+        .map(|c| {
+            json!({
+                "window_s": c.window_s,
+                "rows": c.rows,
+                "phases": c.clusters,
+                "relative_residual": c.relative_residual,
+                "sensitivity": Some(c.sensitivity).filter(|s| s.is_finite()),
+            })
+        })
+        .collect()
+}
+
+fn regression(
+    names: &UnitNames,
+    constant: f64,
+    r: &MotorRegression,
+    beam: Option<&BeamRegression>,
+) -> Value {
+    let mut map = Map::new();
+    torque(&mut map, names, constant, "coulomb", r.coulomb);
+    torque(&mut map, names, constant, "forward", r.forward);
+    torque(&mut map, names, constant, "backward", r.backward);
+    torque(&mut map, names, constant, "offset", r.offset);
+    map.insert(names.viscous_key("viscous"), figure(r.viscous));
+    map.insert(names.inertia_key(), figure(r.inertia));
+    let coupling: Vec<Value> = r.coupling.iter().map(|e| figure(*e)).collect();
+    map.insert(names.coupling_key("coupling_by_tip"), Value::Array(coupling));
+    let split = r.viscous_by_direction.map(|d| {
+        json!({
+            (names.viscous_key("forward")): figure(Some(d.forward)),
+            (names.viscous_key("backward")): figure(Some(d.backward)),
+            (format!("offset_{}", names.torque())): figure(Some(d.offset)),
+            "relative_residual": d.relative_residual,
+        })
+    });
+    map.insert("viscous_by_direction".to_owned(), split.unwrap_or(Value::Null));
+    map.insert("window_s".to_owned(), json!(r.window_s));
+    map.insert("window_given".to_owned(), json!(r.window_given));
+    map.insert("rows".to_owned(), json!(r.rows));
+    map.insert("phases".to_owned(), json!(r.phases));
+    map.insert("relative_residual".to_owned(), json!(r.relative_residual));
+    map.insert("candidates".to_owned(), json!(candidates(&r.candidates)));
+    let beam = beam.map(|b| {
+        json!({
+            "modes": b.modes.iter().map(mode).collect::<Vec<_>>(),
+            "window_s": b.window_s,
+            "relative_residual": b.relative_residual,
+        })
+    });
+    map.insert("beam".to_owned(), beam.unwrap_or(Value::Null));
+    Value::Object(map)
+}
+
+/// Complex series as parallel lists, `null` where a point has none.
+fn series(points: &[ResponsePoint], get: impl Fn(&ResponsePoint) -> Option<Response>) -> Value {
+    let list = |part: fn(&Response) -> f64| -> Vec<Option<f64>> {
+        points.iter().map(|p| get(p).map(|r| part(&r))).collect()
+    };
+    json!({ "re": list(|r| r.value.re), "im": list(|r| r.value.im), "std": list(|r| r.std) })
+}
+
+fn responses(channels: &Channels, id: &Identified) -> Value {
+    let points = &id.responses;
+    let tips: Vec<Value> = channels
+        .tips
+        .iter()
+        .enumerate()
+        .map(|(i, tip)| {
+            let mut value = series(points, |p| p.tips.get(i).copied().flatten());
+            value["name"] = json!(tip.name);
+            value["quantity"] = json!(quantity(tip.quantity));
+            value
+        })
+        .collect();
+    json!({
+        "omega_rad_s": points.iter().map(|p| p.omega_rad_s).collect::<Vec<_>>(),
+        "run": points.iter().map(|p| p.run.map(|r| &id.runs[r].name)).collect::<Vec<_>>(),
+        "flagged": points.iter().map(|p| p.flagged).collect::<Vec<_>>(),
+        "motor_raw": series(points, |p| Some(p.motor_raw)),
+        "motor_corrected": series(points, |p| p.motor_corrected),
+        "tips": tips,
+    })
+}
+
+fn quantity(q: TipQuantity) -> &'static str {
+    match q {
+        TipQuantity::Angle => "angle",
+        TipQuantity::Deflection => "deflection",
+        TipQuantity::Acceleration => "acceleration",
+    }
+}
+
+fn transfer_function(g: &TransferFunction) -> Value {
+    json!({ "num": g.num, "den": g.den })
+}
+
+fn models(channels: &Channels, id: &Identified) -> Value {
+    let tips: Vec<Value> = id.beam_model.as_ref().map_or(Vec::new(), |b| {
+        let named = channels.tips.iter().zip(&b.transfer_functions);
+        named.map(|(tip, g)| json!({ "name": tip.name, "num": g.num, "den": g.den })).collect()
+    });
+    json!({
+        "motor": id.motor_model.as_ref().map(|m| transfer_function(&m.transfer_function)),
+        "tips": tips,
+        "state_space": id.state_space.as_ref().map(state_space),
+    })
+}
+
+fn state_space(s: &StateSpace) -> Value {
+    let matrix = |m: &lissom::Matrix| -> Vec<Vec<f64>> {
+        m.row_iter().map(|r| r.iter().copied().collect()).collect()
+    };
+    json!({
+        "a": matrix(&s.a),
+        "b": matrix(&s.b),
+        "c": matrix(&s.c),
+        "d": matrix(&s.d),
+        "states": s.states,
+        "outputs": s.outputs,
+    })
+}
+
+fn run(r: &RunAnalysis) -> Value {
+    let mut value = json!({
+        "name": r.name,
+        "samples": r.samples,
+        "sample_time_s": r.sample_time_s,
+        "kind": "general",
+        "saturated_share": r.saturated_share,
+        "usable": r.usable,
+    });
+    if let RunKind::Sinusoidal(s) = &r.kind {
+        value["kind"] = json!("sinusoidal");
+        value["omega_rad_s"] = json!(s.omega_rad_s);
+        value["omega_given"] = json!(s.omega_given);
+        value["periods"] = json!(s.steady.periods);
+        value["dropped_periods"] = json!(s.steady.dropped);
+        value["stuck_share"] = json!(r.stuck_share);
+    }
+    value
+}
+
+fn finding(f: &Finding) -> Value {
+    json!({
+        "code": f.code,
+        "severity": match f.severity {
+            Severity::Info => "info",
+            Severity::Warning => "warning",
+            Severity::Refusal => "refusal",
+        },
+        "run": f.run,
+        "affects": f.affects,
+        "message": f.message,
+        "hint": f.hint,
+    })
+}
