@@ -45,6 +45,7 @@ pub(crate) fn write_all(
     id: &Identified,
     truth: Option<&Arm>,
 ) -> Result<(), Failure> {
+    write::create_folder(folder)?;
     for (name, plot) in bode_plots(channels, names, id, truth) {
         let svg = plot.to_svg()?;
         let png = svg_to_png(&svg, PNG_SCALE)?;
@@ -60,9 +61,10 @@ fn motor(names: &UnitNames, id: &Identified, truth: Option<&Arm>) -> BodePlot {
     let points = &id.responses;
     let omega: Vec<f64> = points.iter().map(|p| p.omega_rad_s).collect();
     let unit = format!("{}/{}", names.angle(), names.command_unit());
+    let title = format!("Motor: {} per {}", names.motion(), names.command_name());
     let raw: Vec<Complex64> = points.iter().map(|p| p.motor_raw.value).collect();
-    let mut plot = BodePlot::new("Motor: angle per command", unit)
-        .subtitle("grey or hollow: a finding speaks against the point; bars: one deviation")
+    let mut plot = BodePlot::new(title, unit)
+        .subtitle("flagged: a finding speaks against the point; bars: one standard deviation")
         .series(Series::new("as measured", Role::Raw, Style::Points, omega, raw));
     let sound: Vec<(f64, Response, bool)> = points
         .iter()
@@ -120,7 +122,7 @@ fn tip_plot(
     )
     .with_std(points.iter().map(|p| p.1.std).collect());
     let mut plot =
-        BodePlot::new(format!("Beam: {what} of {name} per motor angle"), "1").series(measured);
+        BodePlot::new(format!("Beam: {what} of {name} per motor angle"), "").series(measured);
     let grid = grid(id);
     let model = id.beam_model.as_ref().and_then(|b| b.transfer_functions.get(i));
     // A calibrated deflection is modelled as the angle it belongs to.

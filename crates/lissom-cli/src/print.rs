@@ -1,11 +1,12 @@
 //! The one place that prints: results to standard output, talk to standard error.
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "the command's printer")]
+#![expect(clippy::print_stderr, reason = "the command's printer")]
 
 use lissom::identify::{Estimate, Finding, Identified, RunKind, Severity};
 use lissom::record::{Campaign, Hold};
 use lissom_io::UnitNames;
 use lissom_report::with_uncertainty;
 use serde_json::Value;
+use std::io::{ErrorKind, Write as _};
 
 use crate::failure::Failure;
 
@@ -17,14 +18,19 @@ pub(crate) fn failure(failure: &Failure) {
     }
 }
 
-/// A line of the result.
+/// A line of the result. A reader that goes away (`| head`) ends the command without a word.
 pub(crate) fn line(text: &str) {
-    println!("{text}");
+    if let Err(error) = writeln!(std::io::stdout().lock(), "{text}") {
+        if error.kind() != ErrorKind::BrokenPipe {
+            eprintln!("error: standard output: {error}");
+        }
+        std::process::exit(i32::from(error.kind() != ErrorKind::BrokenPipe));
+    }
 }
 
 /// JSON, alone on standard output.
 pub(crate) fn json(value: &Value) {
-    println!("{value:#}");
+    line(&format!("{value:#}"));
 }
 
 /// A table with its columns aligned, the first to the left, the others to the right.
@@ -44,7 +50,7 @@ pub(crate) fn table(rows: &[Vec<String>]) {
             text.push_str(cell);
             text.push_str(after);
         }
-        println!("{}", text.trim_end());
+        line(text.trim_end());
     }
 }
 
@@ -65,11 +71,11 @@ pub(crate) fn campaign(campaign: &Campaign) {
         Hold::Sampled => "commanded and held",
         Hold::Measured => "measured",
     };
-    println!(
+    line(&format!(
         "{} runs, {samples} samples every {sampling}, command {hold}, {} tips",
         campaign.runs.len(),
         campaign.channels.tips.len()
-    );
+    ));
 }
 
 /// What was kept of the runs.
@@ -89,23 +95,23 @@ pub(crate) fn runs(id: &Identified) {
     }
     let sinusoidal = id.runs.len() - general;
     if sinusoidal > 0 {
-        println!(
+        line(&format!(
             "{sinusoidal} sinusoidal runs, {low:.3} to {high:.3} rad/s: {kept} periods kept, \
              {dropped} dropped as transients"
-        );
+        ));
     }
     if general > 0 {
-        println!("{general} runs of other motion");
+        line(&format!("{general} runs of other motion"));
     }
     if let Some(r) = &id.regression {
         let how = if r.window_given { "given" } else { "chosen where the figures move least" };
-        println!(
+        line(&format!(
             "regression: {} rows in {} slip phases, window {:.4} s ({how}), {:.2} % of the torque left",
             r.rows,
             r.phases,
             r.window_s,
             100.0 * r.relative_residual
-        );
+        ));
     }
 }
 
@@ -172,20 +178,18 @@ pub(crate) fn figure_rows(
 /// The findings, gravest first, those of one kind together.
 pub(crate) fn findings(findings: &[Finding]) {
     if findings.is_empty() {
-        println!("\nno findings");
+        line(&format!("\nno findings"));
         return;
     }
-    println!("\nfindings");
-    let mut told: Vec<(&str, Severity)> = Vec::new();
+    line(&format!("\nfindings"));
+    let kind = |f: &Finding| (f.code, f.severity, f.hint);
+    let mut told = Vec::new();
     for finding in findings {
-        if told.contains(&(finding.code, finding.severity)) {
+        if told.contains(&kind(finding)) {
             continue;
         }
-        told.push((finding.code, finding.severity));
-        let same: Vec<&Finding> = findings
-            .iter()
-            .filter(|f| f.code == finding.code && f.severity == finding.severity)
-            .collect();
+        told.push(kind(finding));
+        let same: Vec<&Finding> = findings.iter().filter(|f| kind(f) == kind(finding)).collect();
         let severity = match finding.severity {
             Severity::Info => "info",
             Severity::Warning => "warning",
@@ -193,13 +197,16 @@ pub(crate) fn findings(findings: &[Finding]) {
         };
         for f in same.iter().take(SHOWN) {
             let run = f.run.as_ref().map_or(String::new(), |r| format!(" {r}:"));
-            println!("  {severity} [{}]{run} {}", f.code, f.message);
+            line(&format!("  {severity} [{}]{run} {}", f.code, f.message));
         }
         if same.len() > SHOWN {
-            println!("    … and {} more runs (all in the JSON and the report)", same.len() - SHOWN);
+            line(&format!(
+                "    … and {} more runs (all in the JSON and the report)",
+                same.len() - SHOWN
+            ));
         }
         if !finding.hint.is_empty() {
-            println!("    hint: {}", finding.hint);
+            line(&format!("    hint: {}", finding.hint));
         }
     }
 }

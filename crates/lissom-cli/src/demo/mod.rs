@@ -21,6 +21,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
     let out = &args.out;
     let arm_path = out.join("arm.toml");
     let rig = ArmFile::from_text(&arm_path, ARM)?.rig(&arm_path).map_err(lissom_io::Error::from)?;
+    write::create_folder(out)?;
     write::write_text(&arm_path, ARM)?;
     plan::write_logs(&rig, out)?;
 

@@ -79,6 +79,21 @@ impl UnitNames {
             (true, Axis::Linear) => "N",
         }
     }
+    /// What the motor's sensor measures, by the axis.
+    pub fn motion(&self) -> &'static str {
+        match self.axis {
+            Axis::Rotary => "angle",
+            Axis::Linear => "position",
+        }
+    }
+    /// The command in words.
+    pub fn command_name(&self) -> &'static str {
+        match self.command {
+            CommandQuantity::Current => "current",
+            CommandQuantity::Voltage => "voltage",
+            CommandQuantity::Arbitrary => "command",
+        }
+    }
     /// Inertia or mass, by the axis.
     pub fn inertia_name(&self) -> &'static str {
         match self.axis {

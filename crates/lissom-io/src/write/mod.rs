@@ -35,6 +35,15 @@ pub fn write_whole(
     written.map_err(failed)
 }
 
+/// Makes a folder, and those above it, where they do not exist.
+///
+/// # Errors
+/// [`WriteError::File`] where one cannot be made.
+pub fn create_folder(path: &Path) -> Result<(), WriteError> {
+    std::fs::create_dir_all(path)
+        .map_err(|source| WriteError::File { file: path.display().to_string(), source })
+}
+
 /// Writes text whole or not at all.
 ///
 /// # Errors

@@ -121,6 +121,8 @@ pub struct Identified {
     pub third_harmonic: Option<ThirdHarmonic>,
     /// Regression on slip phases.
     pub regression: Option<MotorRegression>,
+    /// ‖y − X·q‖/‖y‖ of the regression, also where it is refused; `None` without windows enough.
+    pub regression_residual: Option<f64>,
     /// The beam's regression.
     pub beam_regression: Option<BeamRegression>,
     /// What each run is.
@@ -172,8 +174,9 @@ pub fn identify(
         return Err(IdentifyError::NothingMoves { runs: campaign.runs.len() });
     }
     progress(Stage::Regression);
-    let regression = motor_regression(&usable, &options.window_s)
-        .filter(|r| r.relative_residual < RESIDUAL_REFUSED);
+    let regression = motor_regression(&usable, &options.window_s);
+    let regression_residual = regression.as_ref().map(|r| r.relative_residual);
+    let regression = regression.filter(|r| r.relative_residual < RESIDUAL_REFUSED);
     progress(Stage::Beam);
     let beam_regression =
         beam_regression(&usable).filter(|b| b.relative_residual.iter().all(|r| *r < BEAM_RESIDUAL));
@@ -190,7 +193,8 @@ pub fn identify(
         .or(third_harmonic.as_ref().map(|t| t.coulomb_command));
     let responses = table(best);
     let beam_model = beam_model(campaign, &responses);
-    let poles = beam_model.as_ref().map(|b| b.poles.as_slice());
+    let poles = beam_model.as_ref().map(BeamFit::modal_poles);
+    let poles = poles.as_deref();
     let motor_model = motor_model(&responses, constant, poles);
     if let Some(third) = &mut third_harmonic {
         third.motor = self::motor_model(&table(Some(third.coulomb_command)), constant, poles);
@@ -212,6 +216,7 @@ pub fn identify(
         beam: Beam::default(),
         third_harmonic,
         regression,
+        regression_residual,
         beam_regression,
         runs,
         responses,

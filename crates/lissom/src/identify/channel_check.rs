@@ -1,7 +1,8 @@
 //! Checks of single channels: dead, clipped, sticking.
 
-/// With fewer steps than this over its range a channel comes to its extremes in jumps anyway.
-const COARSE: f64 = 64.0;
+/// Within a plateau's length before it, a smooth signal rounded to steps comes up by about four of
+/// them; one that runs into a stop by more than this many.
+const STEPS: f64 = 16.0;
 
 /// Smallest difference between neighbouring values that a channel takes: its step.
 ///
@@ -29,12 +30,14 @@ fn extremes(samples: &[f64]) -> (f64, f64) {
 /// Share of samples at which a channel stands at its largest or smallest value after having run
 /// into it at speed: at least three samples on end, entered with a slope of 30 % of the largest.
 ///
-/// A signal that turns round or sticks at its extreme comes to it slowly and is not counted.
+/// A signal that turns round or sticks at its extreme comes to it slowly and is not counted, nor is
+/// one whose plateau is no longer than its own steps make it.
 pub(crate) fn clipped_share(samples: &[f64]) -> f64 {
     let (low, high) = extremes(samples);
-    if high - low < COARSE * step(samples) || high <= low {
+    if high <= low {
         return 0.0;
     }
+    let quantum = step(samples);
     let near = 1e-9 * (high - low);
     // Slopes over a few samples: a quantised signal has none over one.
     let reach = 4;
@@ -48,12 +51,23 @@ pub(crate) fn clipped_share(samples: &[f64]) -> f64 {
         while end < samples.len() && at(samples[end]) && (samples[end] - samples[k]).abs() <= near {
             end += 1;
         }
-        if end - k >= 3 && !at(samples[k - 1]) && slope(k) > 0.3 * steepest {
+        let before = samples[k.saturating_sub(end - k)];
+        let ran_in = (samples[k] - before).abs() > STEPS * quantum;
+        if end - k >= 3 && !at(samples[k - 1]) && slope(k) > 0.3 * steepest && ran_in {
             clipped += end - k;
         }
         k = end.max(k + 1);
     }
     clipped as f64 / samples.len() as f64
+}
+
+/// Share of a run in which the motor stays for a fiftieth of it within two steps, or within a
+/// thousandth of its range.
+pub(crate) fn rest_share(motor: &[f64]) -> f64 {
+    let block = motor.len().div_ceil(50);
+    let allowed = (2.0 * step(motor)).max(1e-3 * range(motor));
+    let still: usize = motor.chunks(block).filter(|c| range(c) <= allowed).map(<[f64]>::len).sum();
+    still as f64 / motor.len() as f64
 }
 
 /// Share of a sinusoidal cycle that the motor dwells at its extremes, beyond what a sinusoid of
@@ -106,6 +120,14 @@ mod tests {
         assert!(clipped_share(&x) < 1e-9);
         assert!(dwell_share(&x, 2.0, 0.01) < 0.012);
         assert!((step(&x) - 0.003).abs() < 1e-12);
+    }
+
+    #[test]
+    fn rest_is_told_from_motion() {
+        let mut x = sine(2.0);
+        assert!(rest_share(&x) < 1e-9);
+        x.extend(vec![0.3; 4000]);
+        assert!((rest_share(&x) - 0.5).abs() < 0.03);
     }
 
     #[test]

@@ -9,7 +9,8 @@ use crate::lti::StateSpace;
 ///
 /// Each mode follows the motor, `q̈_k = ω_k²(θ_m − q_k) − 2ζ_kω_k·q̇_k`, and pulls it back with
 /// `c_k(θ_m − q_k)`; a tip is `Σ (r_ik/ω_k²)·q_k`. `tips` holds the residues r_ik of tips that
-/// are angles, with their names; they must belong to the poles of `motor`.
+/// are angles, with their names; the modes' poles must be those of `motor`.
+/// Poles of the beam that are no modes are left out.
 pub(crate) fn state_space(
     motor: &MotorFit,
     torque_per_command: f64,
@@ -43,8 +44,10 @@ pub(crate) fn state_space(
     let mut outputs = vec!["motor_rad".to_owned()];
     for (row, (tip, name)) in tips.iter().enumerate() {
         if let Some(residues) = beam.and_then(|b| b.residues.get(*tip)) {
-            for (k, (r, pole)) in residues.iter().zip(&motor.poles).enumerate() {
-                c[(1 + row, 2 + 2 * k)] = r.value / (pole.omega_rad_s * pole.omega_rad_s);
+            let modal = beam.map_or(&[][..], |b| &b.mode_poles);
+            for (k, (&at, pole)) in modal.iter().zip(&motor.poles).enumerate() {
+                let w2 = pole.omega_rad_s * pole.omega_rad_s;
+                c[(1 + row, 2 + 2 * k)] = residues[at].value / w2;
             }
         }
         outputs.push(format!("{name}_rad"));

@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use super::channel_check::{clipped_share, dwell_share, range, step};
+use super::channel_check::{clipped_share, dwell_share, range, rest_share, step};
 use super::finding::{Finding, Severity, key};
 use super::third_harmonic::RunPhasors;
 use crate::record::{Campaign, Hold, Note, Run};
@@ -12,12 +12,17 @@ use crate::spectrum::{
 
 /// A run is sinusoidal when harmonics leave at most this share of the motor's power…
 const UNEXPLAINED: f64 = 0.02;
-/// …and the harmonics above the first have at most this share of the first's amplitude.
-const DISTORTION: f64 = 0.1;
+/// …and the harmonics above the first have at most this share of the first's amplitude, where the
+/// frequency is given…
+const DISTORTION_GIVEN: f64 = 0.1;
+/// …or found: a trapezoidal move has 5 to 10 %, and is none.
+const DISTORTION_FOUND: f64 = 0.04;
 /// Fewer periods than this are few for a covariance.
 const FEW_PERIODS: usize = 6;
 /// Sticking share of the cycle from which on the third harmonic is off by per cents.
 const STICKING: f64 = 0.05;
+/// Share of a run at rest from which on it is said.
+const AT_REST: f64 = 0.3;
 /// Stamps off the grid by more than this share of the sample time, rms.
 const JITTER: f64 = 0.05;
 /// Drift over the run, relative to the amplitude.
@@ -90,6 +95,7 @@ pub(crate) fn analyse(
 ) -> RunAnalysis {
     let run = &campaign.runs[index];
     let usable = channels(campaign, run, findings);
+    at_rest(run, findings);
     let saturated_share = saturation(campaign, run, findings);
     time_base(run, findings);
     let mut analysis = RunAnalysis {
@@ -147,12 +153,17 @@ fn channels(campaign: &Campaign, run: &Run, findings: &mut Vec<Finding>) -> bool
     }
     for (tip, x) in campaign.channels.tips.iter().zip(run.tips()) {
         if !alive(x) {
+            usable = false;
             findings.push(
                 Finding::new(
                     "dead-channel",
                     Severity::Warning,
                     &[key::COUPLING, key::MODES],
-                    format!("the tip channel {} is constant at {}", tip.name, x[0]),
+                    format!(
+                        "the tip channel {} is constant at {}: the run is left out of the \
+                         regression",
+                        tip.name, x[0]
+                    ),
                     "check the sensor; without it nothing can be said of the beam",
                 )
                 .of(run.name()),
@@ -178,6 +189,23 @@ fn channels(campaign: &Campaign, run: &Run, findings: &mut Vec<Finding>) -> bool
         }
     }
     usable
+}
+
+/// Long stands, in which a log says nothing but that friction holds.
+fn at_rest(run: &Run, findings: &mut Vec<Finding>) {
+    let share = rest_share(run.motor());
+    if share > AT_REST {
+        findings.push(
+            Finding::new(
+                "mostly-at-rest",
+                Severity::Info,
+                &[key::COULOMB, key::VISCOUS, key::INERTIA, key::RAW],
+                format!("the motor stands still for {:.0} % of the run", 100.0 * share),
+                "a drive that keeps moving (sines, a sweep) tells more in less time",
+            )
+            .of(run.name()),
+        );
+    }
 }
 
 fn saturation(campaign: &Campaign, run: &Run, findings: &mut Vec<Finding>) -> f64 {
@@ -269,7 +297,8 @@ fn sinusoidal(
     let motor = fit(run.motor())?;
     let distortion = motor.phasors[1..].iter().map(|p| p.value.norm_sqr()).sum::<f64>().sqrt()
         / motor.phasors[0].value.norm();
-    if motor.unexplained() > UNEXPLAINED || distortion > DISTORTION {
+    let allowed = if given { DISTORTION_GIVEN } else { DISTORTION_FOUND };
+    if motor.unexplained() > UNEXPLAINED || distortion > allowed {
         if given {
             let message = format!(
                 "not a sinusoid of {omega:.4} rad/s: {:.0} % of the motor's power is left, \

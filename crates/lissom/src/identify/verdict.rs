@@ -12,6 +12,8 @@ const UNCERTAIN: f64 = 0.2;
 const UNKNOWN: f64 = 1.0;
 /// Windowed torque left by the regression from which on its figures are called uncertain.
 const RESIDUAL: f64 = 0.15;
+/// Weighted residual of the motor's rational model from which on its coupling is not taken.
+const MODEL_MISFIT: f64 = 3.0;
 /// Methods that differ by more than this share disagree.
 const DISAGREE: f64 = 0.15;
 /// A figure this many deviations from zero is there.
@@ -71,10 +73,16 @@ fn beam(campaign: &Campaign, id: &mut Identified) {
             value: k.iter().map(|e| e.value).sum(),
             std: k.iter().map(|e| e.std * e.std).sum::<f64>().sqrt(),
         }),
-        None => id.motor_model.as_ref().filter(|m| !m.coupling.is_empty()).map(|m| Estimate {
-            value: m.coupling.iter().map(|e| e.value).sum(),
-            std: m.coupling.iter().map(|e| e.std * e.std).sum::<f64>().sqrt(),
-        }),
+        // Without a calibrated tip: from the motor's response, where its model fits.
+        None if tips > 0 => id
+            .motor_model
+            .as_ref()
+            .filter(|m| !m.coupling.is_empty() && m.weighted_rms < MODEL_MISFIT)
+            .map(|m| Estimate {
+                value: m.coupling.iter().map(|e| e.value).sum(),
+                std: m.coupling.iter().map(|e| e.std * e.std).sum::<f64>().sqrt(),
+            }),
+        None => None,
     };
     if modes.is_empty() && tips > 0 {
         id.findings.push(Finding::new(
@@ -85,16 +93,19 @@ fn beam(campaign: &Campaign, id: &mut Identified) {
             "drive it at six or more frequencies about the beam's resonance, or with a sweep",
         ));
     }
-    let poles_found = match (&id.motor_model, modes.is_empty() && tips == 0) {
-        (Some(m), true) if !m.poles_given => m.poles.len(),
-        _ => 0,
-    };
-    if poles_found > 0 {
+    if tips == 0
+        && let Some(model) = id.motor_model.as_ref().filter(|m| m.weighted_rms < MODEL_MISFIT)
+        && let Some(pole) = model.poles.first()
+    {
         id.findings.push(Finding::new(
             "flexible-without-tip",
             Severity::Info,
             &[key::MODES, key::COUPLING],
-            "the motor's response shows a flexible mode, and no tip is measured".to_owned(),
+            format!(
+                "the motor's response looks flexible, clamped at about {:.3e} rad/s, and no tip is \
+                 measured",
+                pole.omega_rad_s
+            ),
             "measure a tip: from the motor alone its figures are rough",
         ));
     }
@@ -104,8 +115,13 @@ fn beam(campaign: &Campaign, id: &mut Identified) {
 /// Figures that are not known to their own size are taken back.
 fn refuse_the_unknown(id: &mut Identified) {
     let mut findings = Vec::new();
+    let regression = id.regression.is_some();
     let mut look = |name: &'static str, figure: &mut Option<Estimate>, hint: &'static str| {
         let Some(e) = *figure else {
+            if !regression {
+                // One refusal of the whole regression says it.
+                return;
+            }
             findings.push(Finding::new(
                 "not-separable",
                 Severity::Refusal,
@@ -116,19 +132,22 @@ fn refuse_the_unknown(id: &mut Identified) {
             return;
         };
         let share = e.std / e.value.abs();
-        let what = if e.value < 0.0 && e.value < -2.0 * e.std {
-            "negative: the model does not fit".to_owned()
+        let (code, what) = if e.value < 0.0 && e.value < -2.0 * e.std {
+            ("negative-figure", "negative: the model does not fit".to_owned())
         } else if share > UNKNOWN || !share.is_finite() {
-            format!("known only to ±{:.0} % of itself", 100.0 * share)
+            ("poor-excitation", format!("uncertain by ±{:.0} %: not known", 100.0 * share))
         } else if share > UNCERTAIN {
-            let message = format!("{name} is uncertain: ±{:.0} % (one deviation)", 100.0 * share);
-            findings.push(Finding::new("uncertain", Warning, &[name], message, hint));
+            let message = format!(
+                "{name} is known to ±{:.0} % only (one deviation): these motions hardly show it",
+                100.0 * share
+            );
+            findings.push(Finding::new("poor-excitation", Warning, &[name], message, hint));
             return;
         } else {
             return;
         };
         let message = format!("{name} would be {:.4e}, {what}", e.value);
-        findings.push(Finding::new("unknown", Severity::Refusal, &[name], message, hint));
+        findings.push(Finding::new(code, Severity::Refusal, &[name], message, hint));
         *figure = None;
     };
     look(key::COULOMB, &mut id.friction.coulomb, "add slow runs in both directions");
@@ -140,6 +159,11 @@ fn refuse_the_unknown(id: &mut Identified) {
     );
     if !id.beam.coupling_by_tip.is_empty() || id.beam.coupling.is_some() {
         look(key::COUPLING, &mut id.beam.coupling, "drive it near the beam's resonance");
+    }
+    if id.friction.coulomb.is_none() {
+        id.friction.forward = None;
+        id.friction.backward = None;
+        id.friction.offset = None;
     }
     id.findings.extend(findings);
 }
@@ -227,14 +251,20 @@ fn friction(campaign: &Campaign, id: &mut Identified) {
 fn regression(id: &mut Identified) {
     let everything = [key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING];
     let Some(r) = &id.regression else {
+        let message = match id.regression_residual {
+            Some(residual) => format!(
+                "the motor's equation leaves {:.0} % of the windowed torque: no figure of it stands",
+                100.0 * residual
+            ),
+            None => "too few slip phases are long enough for a window".to_owned(),
+        };
+        let hint = "longer moves in both directions at a measured current; check columns and signs";
         id.findings.push(Finding::new(
             "regression-refused",
             Severity::Refusal,
             &everything,
-            "the slip phases hold no windows enough, or the motor's equation does not explain \
-             the command in them"
-                .to_owned(),
-            "longer moves in both directions; check that the columns and signs are right",
+            message,
+            hint,
         ));
         return;
     };

@@ -13,8 +13,11 @@ use crate::lti::{TransferFunction, add};
 const MOST_MODES: usize = 4;
 /// Damping ratio with which a new mode starts.
 const START_DAMPING: f64 = 0.02;
-/// A pole more damped than this is no mode of a beam: the search ends.
-const MOST_DAMPING: f64 = 0.5;
+/// Poles damped less or more than this are none of a beam: the search ends before them.
+const DAMPING: std::ops::Range<f64> = -0.01..0.5;
+/// A pole more damped than this, or outside the data's frequencies, mends the model's edges and is
+/// not called a mode.
+const MODE_DAMPING: f64 = 0.25;
 /// A mode is there when one of its residues is this many deviations from zero.
 const PRESENT: f64 = 4.0;
 /// Responses are trusted to this share of their size at best: held currents, quantised angles
@@ -44,8 +47,11 @@ pub struct TipData {
 pub struct BeamFit {
     /// Poles, ascending.
     pub poles: Vec<Pole>,
-    /// The same with their deviations.
+    /// Those poles that are modes, with their deviations, ascending: within the data's frequencies
+    /// and lightly damped. Others mend the model's edges.
     pub modes: Vec<ModeEstimate>,
+    /// Index into `poles` of each mode.
+    pub mode_poles: Vec<usize>,
     /// `r_ik` of tip i (outer) and mode k.
     pub residues: Vec<Vec<Estimate>>,
     /// θ_i/θ_m (or the second derivative's) of each tip, monic.
@@ -89,7 +95,7 @@ pub fn fit_beam(omega_rad_s: &[f64], tips: &[TipData]) -> Option<BeamFit> {
         let low = omega_rad_s.iter().copied().fold(f64::INFINITY, f64::min);
         let high = omega_rad_s.iter().copied().fold(0.0, f64::max);
         let plausible = |p: &Pole| {
-            p.damping_ratio.abs() < MOST_DAMPING
+            DAMPING.contains(&p.damping_ratio)
                 && p.omega_rad_s > 0.3 * low
                 && p.omega_rad_s < 3.0 * high
         };
@@ -285,6 +291,13 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     }
 }
 
+impl BeamFit {
+    /// Poles that are modes, ascending.
+    pub fn modal_poles(&self) -> Vec<Pole> {
+        self.mode_poles.iter().map(|&i| self.poles[i]).collect()
+    }
+}
+
 fn finish(data: &Data, tips: &[TipData], solved: &Problem) -> Option<BeamFit> {
     let jacobian = solved.jacobian()?;
     let residuals = solved.residuals()?;
@@ -298,11 +311,21 @@ fn finish(data: &Data, tips: &[TipData], solved: &Problem) -> Option<BeamFit> {
     let mut order: Vec<usize> = (0..found.len()).collect();
     order.sort_by(|a, b| found[*a].omega_rad_s.total_cmp(&found[*b].omega_rad_s));
     let poles: Vec<Pole> = order.iter().map(|&k| found[k]).collect();
-    let modes = order
+    let low = data.omega.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = data.omega.iter().copied().fold(0.0, f64::max);
+    let mode_poles: Vec<usize> = (0..poles.len())
+        .filter(|&i| {
+            poles[i].damping_ratio < MODE_DAMPING && (low..=high).contains(&poles[i].omega_rad_s)
+        })
+        .collect();
+    let modes = mode_poles
         .iter()
-        .map(|&k| ModeEstimate {
-            natural_frequency_rad_s: Estimate { value: found[k].omega_rad_s, std: std(2 * k) },
-            damping_ratio: Estimate { value: found[k].damping_ratio, std: std(2 * k + 1) },
+        .map(|&i| ModeEstimate {
+            natural_frequency_rad_s: Estimate {
+                value: poles[i].omega_rad_s,
+                std: std(2 * order[i]),
+            },
+            damping_ratio: Estimate { value: poles[i].damping_ratio, std: std(2 * order[i] + 1) },
         })
         .collect();
     let residues: Vec<Vec<Estimate>> = (0..tips.len())
@@ -334,10 +357,10 @@ fn finish(data: &Data, tips: &[TipData], solved: &Problem) -> Option<BeamFit> {
         left += (residuals[row].powi(2) + residuals[row + 1].powi(2)) / (weight * weight);
         power += value.norm_sqr();
     });
-    let _ = data;
     Some(BeamFit {
         poles,
         modes,
+        mode_poles,
         residues,
         transfer_functions,
         weighted_rms,
