@@ -35,6 +35,7 @@ pub(crate) struct IdentifyArgs {
     pub(crate) campaign: PathBuf,
     /// Write the result as JSON to FILE, or alone to standard output
     #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    #[expect(clippy::option_option, reason = "absent, alone, with a file")]
     pub(crate) json: Option<Option<PathBuf>>,
     /// Write one self-contained HTML page
     #[arg(long, value_name = "FILE")]
@@ -73,5 +74,6 @@ pub(crate) struct DemoArgs {
     pub(crate) out: PathBuf,
     /// Write truth and result as JSON to FILE, or alone to standard output
     #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    #[expect(clippy::option_option, reason = "absent, alone, with a file")]
     pub(crate) json: Option<Option<PathBuf>>,
 }
