@@ -141,7 +141,9 @@ impl Check<'_> {
             self.wrong.push(format!("{at} is {value} and not {}", schema["type"]));
         }
         if let Some(items) = value.as_array() {
-            items.iter().for_each(|item| self.value(&schema["items"], item, &format!("{at}[]")));
+            for item in items {
+                self.value(&schema["items"], item, &format!("{at}[]"));
+            }
         }
         if let Some(object) = value.as_object()
             && schema["type"] == "object"
