@@ -61,3 +61,37 @@ fn record(line: &str) {
         panic!("cannot record the test in {}: {error}", path.display());
     }
 }
+
+/// Writes `campaign` into a folder of its own, with `{data}` and `{file}` filled in.
+fn place(campaign: &str, data: &Path, file: &str) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("campaign.toml");
+    let data = data.canonicalize().unwrap();
+    let text = campaign.replace("{data}", data.to_str().unwrap()).replace("{file}", file);
+    std::fs::write(&path, text).unwrap();
+    (folder, path)
+}
+
+/// What the command's `identify` gives as JSON; it must end with `code`.
+pub(crate) fn identify(campaign: &str, data: &Path, file: &str, code: i32) -> serde_json::Value {
+    let (_folder, path) = place(campaign, data, file);
+    let output = assert_cmd::Command::cargo_bin("lissom")
+        .unwrap()
+        .args(["identify", path.to_str().unwrap(), "--json"])
+        .output()
+        .unwrap();
+    let talk = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{talk}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// The campaign as the library reads it.
+pub(crate) fn read(campaign: &str, data: &Path, file: &str) -> lissom_io::CampaignFile {
+    let (_folder, path) = place(campaign, data, file);
+    lissom_io::read_campaign(&path).unwrap()
+}
+
+/// Whether a result has a finding of this code.
+pub(crate) fn has_finding(result: &serde_json::Value, code: &str) -> bool {
+    result["findings"].as_array().unwrap().iter().any(|f| f["code"] == code)
+}

@@ -2,6 +2,10 @@
 //! them from the folder that `LISSOM_DATA` names, and say that they were skipped where it is unset.
 
 mod common;
+mod cu;
+mod emps;
+mod krauss;
+mod quanser;
 
 /// The folders that these tests read.
 const FOLDERS: [&str; 4] = ["emps", "krauss-slfr", "quanser-2dsfl", "cu-flexarm"];

@@ -2,6 +2,7 @@
 
 use super::campaign::{Beam, Friction, Identified};
 use super::finding::{Finding, Severity, key};
+use super::regression::BeamRegression;
 use super::run_analysis::RunKind;
 use super::{Estimate, Severity::Warning};
 use crate::record::{Campaign, CommandQuantity, Hold, TipQuantity};
@@ -14,10 +15,12 @@ const UNKNOWN: f64 = 1.0;
 const RESIDUAL: f64 = 0.15;
 /// Weighted residual of the motor's rational model from which on its coupling is not taken.
 const MODEL_MISFIT: f64 = 3.0;
+/// Share of the tips' windowed acceleration below which their own equations explain it all.
+const COMPLETE: f64 = 0.02;
 /// Methods that differ by more than this share disagree.
 const DISAGREE: f64 = 0.15;
 /// A figure this many deviations from zero is there.
-const PRESENT: f64 = 4.0;
+const PRESENT: f64 = 3.0;
 
 /// Fills in the figures by the best method that the data carry, and the findings about them.
 pub(crate) fn conclude(campaign: &Campaign, id: &mut Identified) {
@@ -40,6 +43,7 @@ pub(crate) fn conclude(campaign: &Campaign, id: &mut Identified) {
     command(campaign, id);
     friction(campaign, id);
     regression(id);
+    model(id);
     methods(id, constant);
     tips(campaign, id);
     id.findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
@@ -62,8 +66,8 @@ fn beam(campaign: &Campaign, id: &mut Identified) {
     let tips = campaign.channels.tips.len();
     let fitted = id.beam_model.as_ref().map_or(&[][..], |b| &b.modes[..]);
     let modes = match &id.beam_regression {
-        // As many equations as tips: it sees no further modes.
-        Some(r) if fitted.len() <= tips => r.modes.clone(),
+        // As many equations as tips: where they leave nothing there are no further modes.
+        Some(r) if fitted.len() <= tips || complete(r) => r.modes.clone(),
         _ => fitted.to_vec(),
     };
     let by_tip = id.regression.as_ref().map_or(Vec::new(), |r| r.coupling.clone());
@@ -110,6 +114,11 @@ fn beam(campaign: &Campaign, id: &mut Identified) {
         ));
     }
     id.beam = Beam { modes, coupling, coupling_by_tip: by_tip };
+}
+
+/// Whether the beam's equations on the measured tips explain their motion.
+fn complete(r: &BeamRegression) -> bool {
+    r.relative_residual.iter().all(|left| *left < COMPLETE)
 }
 
 /// Figures that are not known to their own size are taken back.
@@ -310,6 +319,24 @@ fn regression(id: &mut Identified) {
     }
 }
 
+/// A rational model that does not fit its own responses.
+fn model(id: &mut Identified) {
+    if let Some(m) = &id.motor_model
+        && m.weighted_rms > MODEL_MISFIT
+    {
+        id.findings.push(Finding::new(
+            "model-misfit",
+            Warning,
+            &["models.motor", "models.state_space"],
+            format!(
+                "the motor's rational model misses its responses by {:.1} deviations (rms)",
+                m.weighted_rms
+            ),
+            "a delay, an actuator's lag or a mode without a tip is in the response and not in it",
+        ));
+    }
+}
+
 fn methods(id: &mut Identified, constant: f64) {
     let third = id.third_harmonic.as_ref().map(|t| t.coulomb_command.scaled(constant));
     let sinusoidal = id.runs.iter().any(|r| matches!(r.kind, RunKind::Sinusoidal(_)));
@@ -353,7 +380,8 @@ fn tips(campaign: &Campaign, id: &mut Identified) {
             "measure the tip's angle or deflection for the coupling",
         ));
     }
-    if let Some(model) = &id.beam_model
+    if !id.beam_regression.as_ref().is_some_and(complete)
+        && let Some(model) = &id.beam_model
         && model.modes.len() > campaign.channels.tips.len()
         && id.regression.as_ref().is_some_and(|r| !r.coupling.is_empty())
     {

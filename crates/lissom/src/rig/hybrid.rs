@@ -1,11 +1,14 @@
 //! Exact motion of an arm between samples: stick, slip and the events between them.
 
-use super::polynomial::{ORDER_MOST, first_nonpositive, value};
+use super::polynomial::{ORDER_MOST, first_nonpositive, first_used_up, value};
 use crate::arm::Arm;
 
 /// Largest (rate bound × step) for which a Taylor series of order [`ORDER_MOST`] is exact to
 /// rounding: 0.5²⁴/24! is 1e-31.
 const STEP_RATE: f64 = 0.5;
+
+/// Accelerations below this share of what the torques give are rounding.
+const ROUNDING: f64 = 1e-13;
 
 /// What the joint does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,11 +60,23 @@ pub struct Hybrid<'a> {
 impl<'a> Hybrid<'a> {
     /// An arm at rest at angle zero.
     pub fn at_rest(arm: &'a Arm) -> Self {
+        Self::with_state(arm, vec![0.0; arm.state_len()])
+    }
+
+    /// An arm in `state`, `[θ_m, θ̇_m, θ_i.., θ̇_i..]`; missing entries are zero, further ones are
+    /// left out.
+    pub fn with_state(arm: &'a Arm, mut state: Vec<f64>) -> Self {
         let len = arm.state_len();
+        state.resize(len, 0.0);
+        let mode = match state[1] {
+            v if v > 0.0 => Mode::Forward,
+            v if v < 0.0 => Mode::Backward,
+            _ => Mode::Stick,
+        };
         Self {
             arm,
-            state: vec![0.0; len],
-            mode: Mode::Stick,
+            state,
+            mode,
             step_most_s: STEP_RATE / arm.rate_bound(),
             terms: vec![vec![0.0; len]; ORDER_MOST + 1],
             sticks: 0,
@@ -101,7 +116,14 @@ impl<'a> Hybrid<'a> {
 
     /// Moves on by at most `step`, ending early at an event; gives the time that passed.
     fn step(&mut self, torque: f64, step: f64) -> f64 {
-        if self.mode == Mode::Stick {
+        let coulomb = self.arm.coulomb;
+        if coulomb.forward == 0.0 && coulomb.backward == 0.0 {
+            // Without friction there are no events.
+            self.mode = Mode::Forward;
+            let order = self.series(torque);
+            self.evaluate(order, step);
+            step
+        } else if self.mode == Mode::Stick {
             self.step_sticking(torque, step)
         } else {
             self.step_slipping(torque, step)
@@ -109,14 +131,9 @@ impl<'a> Hybrid<'a> {
     }
 
     fn step_sticking(&mut self, torque: f64, step: f64) -> f64 {
-        let net = torque - self.arm.coupling_torque(&self.state);
         let (forward, backward) = (self.arm.coulomb.forward, self.arm.coulomb.backward);
-        if net > forward {
-            self.mode = Mode::Forward;
-            return 0.0;
-        }
-        if net < -backward {
-            self.mode = Mode::Backward;
+        self.mode = self.mode_from_rest(torque);
+        if self.mode != Mode::Stick {
             return 0.0;
         }
         let order = self.series(0.0);
@@ -130,8 +147,9 @@ impl<'a> Hybrid<'a> {
         }
         room_forward[0] += forward - torque;
         room_backward[0] += backward + torque;
-        let up = first_nonpositive(&room_forward[..=order], step);
-        let down = first_nonpositive(&room_backward[..=order], step);
+        let rounding = self.rounding(torque);
+        let up = first_used_up(&room_forward[..=order], step, rounding);
+        let down = first_used_up(&room_backward[..=order], step, rounding);
         let (time, next) = match (up, down) {
             (Some(a), Some(b)) if b < a => (b, Mode::Backward),
             (Some(a), _) => (a, Mode::Forward),
@@ -152,9 +170,15 @@ impl<'a> Hybrid<'a> {
         for k in 0..=order {
             velocity[k] = sign * self.terms[k][1];
         }
-        let from_rest = self.state[1] == 0.0;
-        // From rest the root at the start is divided out.
-        let polynomial = &velocity[usize::from(from_rest)..=order];
+        // From rest the root at the start is divided out. Released between samples, the motor
+        // starts with no acceleration but rounding, and that root is double.
+        let rounding = self.rounding(torque) / self.arm.motor.inertia_kg_m2;
+        let roots = match (self.state[1] == 0.0, velocity[1].abs() <= rounding) {
+            (false, _) => 0,
+            (true, false) => 1,
+            (true, true) => 2,
+        };
+        let polynomial = &velocity[roots..=order];
         if polynomial[0] <= 0.0 {
             // Released with no acceleration, or turned by a jump of the torque: decide anew.
             self.state[1] = 0.0;
@@ -166,43 +190,51 @@ impl<'a> Hybrid<'a> {
         };
         self.evaluate(order, time);
         self.state[1] = 0.0;
-        let net = torque - self.arm.coupling_torque(&self.state);
-        if net > self.arm.coulomb.forward {
-            self.mode = Mode::Forward;
-        } else if net < -self.arm.coulomb.backward {
-            self.mode = Mode::Backward;
-        } else {
-            self.mode = Mode::Stick;
+        self.mode = self.mode_from_rest(torque);
+        if self.mode == Mode::Stick {
             self.sticks += 1;
         }
         time
     }
 
-    /// At rest with a net torque exactly at the friction limit: the velocity's next terms decide.
-    fn leave_rest(&mut self, torque: f64, sign: f64, step: f64) -> f64 {
+    /// What the joint does from rest: friction holds up to its limit, rounding left out.
+    fn mode_from_rest(&self, torque: f64) -> Mode {
         let net = torque - self.arm.coupling_torque(&self.state);
-        if net > self.arm.coulomb.forward && sign < 0.0 {
-            self.mode = Mode::Forward;
+        let rounding = self.rounding(torque);
+        if net > self.arm.coulomb.forward + rounding {
+            Mode::Forward
+        } else if net < -self.arm.coulomb.backward - rounding {
+            Mode::Backward
+        } else {
+            Mode::Stick
+        }
+    }
+
+    /// Torques below this are rounding of those that act \[N·m\].
+    fn rounding(&self, torque: f64) -> f64 {
+        let coulomb = self.arm.coulomb.forward.max(self.arm.coulomb.backward);
+        ROUNDING * (torque.abs() + coulomb)
+    }
+
+    /// At rest with a net torque exactly at the friction limit and no sign of where it goes.
+    fn leave_rest(&mut self, torque: f64, sign: f64, step: f64) -> f64 {
+        let mode = self.mode_from_rest(torque);
+        let turned = match mode {
+            Mode::Forward => sign < 0.0,
+            Mode::Backward => sign > 0.0,
+            Mode::Stick => false,
+        };
+        if turned {
+            self.mode = mode;
             return 0.0;
         }
-        if net < -self.arm.coulomb.backward && sign > 0.0 {
-            self.mode = Mode::Backward;
-            return 0.0;
-        }
-        // The limit is just met. With the beam moving, the coupling torque goes on changing and
-        // the joint starts; move the beam alone until it does, by the smallest useful time.
+        // With the beam moving, the coupling torque goes on changing and the joint starts; move
+        // the beam alone until it does, by the smallest useful time.
         let order = self.series_of_beam();
         let pause = step.min(self.step_most_s * 1e-9).max(f64::MIN_POSITIVE);
         self.evaluate(order, pause);
         self.stuck_s += pause;
-        let net = torque - self.arm.coupling_torque(&self.state);
-        self.mode = if net > self.arm.coulomb.forward {
-            Mode::Forward
-        } else if net < -self.arm.coulomb.backward {
-            Mode::Backward
-        } else {
-            Mode::Stick
-        };
+        self.mode = self.mode_from_rest(torque);
         pause
     }
 
@@ -250,5 +282,57 @@ impl<'a> Hybrid<'a> {
             }
             self.state[i] = value(&column[..=order], time);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::beam::{LumpedBeam, Span};
+    use crate::drive::{Coulomb, Motor};
+
+    fn arm(coulomb: f64) -> Arm {
+        let span = Span {
+            length_m: 0.2,
+            flexural_rigidity_n_m2: 0.005,
+            mass_kg: 0.05,
+            damping_n_s_per_m: 0.0,
+        };
+        let motor = Motor::new(6e-4, 1e-3, 0.25).unwrap();
+        let beam = LumpedBeam::new(&[span]).unwrap();
+        Arm::new(beam, motor, Coulomb::symmetric(coulomb).unwrap())
+    }
+
+    #[test]
+    fn a_torque_exactly_at_the_limit_holds() {
+        let arm = arm(0.033);
+        let mut hybrid = Hybrid::at_rest(&arm);
+        for torque in [0.033, -0.033, 0.033 * (1.0 - f64::EPSILON)] {
+            hybrid.advance(torque, 1.0);
+            assert_eq!(hybrid.mode(), Mode::Stick);
+        }
+        assert!((hybrid.stuck_s() - 3.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn without_friction_nothing_sticks() {
+        let arm = arm(0.0);
+        let mut hybrid = Hybrid::at_rest(&arm);
+        hybrid.advance(0.0, 1.0);
+        assert_eq!((hybrid.sticks(), hybrid.state()[0]), (0, 0.0));
+        hybrid.advance(1e-3, 1.0);
+        assert!(hybrid.state()[1] > 0.0);
+    }
+
+    #[test]
+    fn free_motion_of_a_frictionless_arm_keeps_its_momentum() {
+        let mut arm = arm(0.0);
+        arm.motor.viscous_nm_s_per_rad = 0.0;
+        let mut hybrid = Hybrid::with_state(&arm, vec![0.0, 1.0, 0.1, -2.0]);
+        let inertia = 0.05 * 0.2 * 0.2;
+        let momentum = |x: &[f64]| 6e-4 * x[1] + inertia * x[3];
+        let before = momentum(hybrid.state());
+        hybrid.advance(0.0, 100.0);
+        assert!((momentum(hybrid.state()) - before).abs() < 1e-12 * inertia);
     }
 }

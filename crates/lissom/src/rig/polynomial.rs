@@ -14,6 +14,21 @@ pub(crate) fn first_nonpositive(c: &[f64], end: f64) -> Option<f64> {
     descend(c, 0.0, end, 52)
 }
 
+/// First `t` in `[0, end]` at which a polynomial that is not negative at 0 becomes so.
+///
+/// Leading coefficients that add no more than `rounding` over the interval count as zero: at zero
+/// the first that counts decides, and where none does the polynomial stays where it is.
+pub(crate) fn first_used_up(c: &[f64], end: f64, rounding: f64) -> Option<f64> {
+    let mut reach = 1.0;
+    for (k, a) in c.iter().enumerate() {
+        if (a * reach).abs() > rounding {
+            return if *a > 0.0 { first_nonpositive(&c[k..], end) } else { Some(0.0) };
+        }
+        reach *= end;
+    }
+    None
+}
+
 fn descend(c: &[f64], from: f64, to: f64, depth: u32) -> Option<f64> {
     let radius = 0.5 * (to - from);
     let middle = from + radius;

@@ -7,6 +7,10 @@ use rustfft::FftPlanner;
 const BANDS_PER_DECADE: f64 = 60.0;
 /// Fewest bins in a band: a variance needs more than one.
 const LEAST_BINS: usize = 4;
+/// Beyond the last band with this share of the power next to it, the input was not driven…
+const DRIVEN: f64 = 0.02;
+/// …where next to it is within this ratio of frequency.
+const NEXT: f64 = 1.3;
 /// Share of a record over which each end is tapered.
 const TAPER: f64 = 0.05;
 
@@ -26,7 +30,8 @@ pub struct Band {
 }
 
 /// H1 estimate `S_yu/S_uu` of the response from `input` to `output` over one or more records with
-/// their sample times, in bands of logarithmic width.
+/// their sample times, in bands of logarithmic width. Bands beyond those that the input was driven
+/// in (the end of a sweep) hold its transients only, and are left out.
 ///
 /// # Source
 /// Cross-spectral averaging over neighbouring bins and records; Pintelon & Schoukens, *System
@@ -64,7 +69,18 @@ pub fn broadband(records: &[(&[f64], &[f64], f64)]) -> Vec<Band> {
     }
     let strongest = bands.iter().map(|b| b.input_power).fold(f64::MIN_POSITIVE, f64::max);
     bands.iter_mut().for_each(|b| b.input_power /= strongest);
-    bands
+    driven(bands)
+}
+
+/// The bands from the first to the last in which the input is not far weaker than next to it.
+fn driven(bands: Vec<Band>) -> Vec<Band> {
+    let beside = |b: &Band, low: f64, high: f64| {
+        let next = bands.iter().filter(|o| (low..=high).contains(&(o.omega_rad_s / b.omega_rad_s)));
+        b.input_power >= DRIVEN * next.map(|o| o.input_power).fold(0.0, f64::max)
+    };
+    let first = bands.iter().position(|b| beside(b, 1.0, NEXT)).unwrap_or(0);
+    let last = bands.iter().rposition(|b| beside(b, 1.0 / NEXT, 1.0)).unwrap_or(0);
+    bands.get(first..=last).map_or_else(Vec::new, <[Band]>::to_vec)
 }
 
 fn average(bins: &[(f64, Complex64, Complex64)]) -> Option<Band> {

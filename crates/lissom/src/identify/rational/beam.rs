@@ -329,7 +329,9 @@ fn finish(data: &Data, tips: &[TipData], solved: &Problem) -> Option<BeamFit> {
     let high = data.omega.iter().copied().fold(0.0, f64::max);
     let mode_poles: Vec<usize> = (0..poles.len())
         .filter(|&i| {
-            poles[i].damping_ratio < MODE_DAMPING && (low..=high).contains(&poles[i].omega_rad_s)
+            let (zeta, at) = (poles[i].damping_ratio, poles[i].omega_rad_s);
+            let damped = zeta < MODE_DAMPING && zeta > -2.0 * std(2 * order[i] + 1);
+            damped && (low..=high).contains(&at)
         })
         .collect();
     let modes = mode_poles

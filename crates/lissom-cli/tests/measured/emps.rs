@@ -1,0 +1,47 @@
+//! EMPS, Janot, Gautier & Brunot: an electro-mechanical positioning system.
+
+use super::common;
+
+/// Published (IDIM-LS): mass \[kg\], viscous \[N·s/m\], Coulomb \[N\], offset \[N\].
+const PUBLISHED: [(&str, f64, f64); 4] = [
+    // Name, value, relative tolerance.
+    ("mass_kg", 95.1089, 0.01),
+    ("viscous_n_s_per_m", 203.5034, 0.01),
+    ("coulomb_n", 20.3935, 0.01),
+    ("offset_n", -3.1648, 0.05),
+];
+
+#[test]
+fn figures_are_the_published_ones() {
+    let Some(data) = common::data("emps") else { return };
+    let result = common::identify(include_str!("emps.toml"), &data, "DATA_EMPS.csv", 0);
+    for (key, published, tolerance) in PUBLISHED {
+        let table = if key == "mass_kg" { "drive" } else { "friction" };
+        let found = result[table][key]["value"].as_f64().unwrap();
+        let error = (found / published - 1.0).abs();
+        assert!(error < tolerance, "{key}: {found}, published {published}");
+    }
+    assert_eq!(result["methods"]["regression"]["window_given"], false);
+}
+
+#[test]
+fn viscous_friction_by_direction_is_found() {
+    let Some(data) = common::data("emps") else { return };
+    let result = common::identify(include_str!("emps.toml"), &data, "DATA_EMPS.csv", 0);
+    // The log's provenance: 166.7 forward, 239.6 backward, error 4.43 to 3.62 %.
+    let value = |key: &str| result["friction"][key]["value"].as_f64().unwrap();
+    assert!((value("viscous_forward_n_s_per_m") / 166.7 - 1.0).abs() < 0.03);
+    assert!((value("viscous_backward_n_s_per_m") / 239.6 - 1.0).abs() < 0.03);
+    assert!(common::has_finding(&result, "viscous-by-direction"));
+}
+
+#[test]
+fn predicts_the_force_of_the_other_log() {
+    let Some(data) = common::data("emps") else { return };
+    let read = |file| common::read(include_str!("emps.toml"), &data, file).campaign;
+    let train = lissom::identify::motor_regression(&read("DATA_EMPS.csv"), &[]).unwrap();
+    let error = train.prediction_error(&read("DATA_EMPS_PULSES.csv")).unwrap();
+    assert!(error < 0.065, "{error}");
+    // And not because there is nothing to predict: the fit's own error is of the same size.
+    assert!(error > 0.5 * train.relative_residual);
+}
