@@ -20,7 +20,7 @@ const PNG_SCALE: f32 = 2.0;
 /// Motor and tips: file name and plot. `truth` adds the arm that a virtual rig had.
 pub(crate) fn bode_plots(
     channels: &Channels,
-    names: &UnitNames,
+    names: UnitNames,
     id: &Identified,
     truth: Option<&Arm>,
 ) -> Vec<(String, BodePlot)> {
@@ -41,7 +41,7 @@ pub(crate) fn bode_plots(
 pub(crate) fn write_all(
     folder: &Path,
     channels: &Channels,
-    names: &UnitNames,
+    names: UnitNames,
     id: &Identified,
     truth: Option<&Arm>,
 ) -> Result<(), Failure> {
@@ -57,7 +57,7 @@ pub(crate) fn write_all(
     Ok(())
 }
 
-fn motor(names: &UnitNames, id: &Identified, truth: Option<&Arm>) -> BodePlot {
+fn motor(names: UnitNames, id: &Identified, truth: Option<&Arm>) -> BodePlot {
     let points = &id.responses;
     let omega: Vec<f64> = points.iter().map(|p| p.omega_rad_s).collect();
     let unit = format!("{}/{}", names.angle(), names.command_unit());

@@ -27,11 +27,11 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     let names = UnitNames::new(&file.campaign.channels);
     if let Some(path) = &args.report {
         let title = args.campaign.display().to_string();
-        let text = page::page(&title, &file.campaign, &names, &id, None);
+        let text = page::page(&title, &file.campaign, names, &id, None);
         write::write_text(path, &text)?;
     }
     if let Some(folder) = &args.plots {
-        figures::write_all(folder, &file.campaign.channels, &names, &id, None)?;
+        figures::write_all(folder, &file.campaign.channels, names, &id, None)?;
     }
     match &args.json {
         Some(None) => print::json(&result),
@@ -42,7 +42,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
             print::campaign(&file.campaign);
             print::runs(&id);
             print::line("");
-            print::figures(&names, &id);
+            print::figures(names, &id);
             print::findings(&id.findings);
         }
     }

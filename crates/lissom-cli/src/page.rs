@@ -15,7 +15,7 @@ use crate::{figures, print};
 pub(crate) fn page(
     title: &str,
     campaign: &Campaign,
-    names: &UnitNames,
+    names: UnitNames,
     id: &Identified,
     truth: Option<&Arm>,
 ) -> String {
@@ -60,7 +60,7 @@ pub(crate) fn page(
         .to_html()
 }
 
-fn key_figures(names: &UnitNames, id: &Identified) -> Vec<KeyFigure> {
+fn key_figures(names: UnitNames, id: &Identified) -> Vec<KeyFigure> {
     print::figure_rows(names, id)
         .into_iter()
         .map(|(name, e, unit)| KeyFigure {
@@ -74,7 +74,7 @@ fn key_figures(names: &UnitNames, id: &Identified) -> Vec<KeyFigure> {
         .collect()
 }
 
-fn pairs(names: &UnitNames, id: &Identified) -> Option<LinePlot> {
+fn pairs(names: UnitNames, id: &Identified) -> Option<LinePlot> {
     let third = id.third_harmonic.as_ref()?;
     let mean = third.coulomb_command;
     let [low, high] = mean.ci95();

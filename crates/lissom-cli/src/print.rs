@@ -116,7 +116,7 @@ pub(crate) fn runs(id: &Identified) {
 }
 
 /// The figures, each with its 95 % interval.
-pub(crate) fn figures(names: &UnitNames, id: &Identified) {
+pub(crate) fn figures(names: UnitNames, id: &Identified) {
     let mut rows = vec![vec![
         "figure".to_owned(),
         "value".to_owned(),
@@ -138,7 +138,7 @@ pub(crate) fn figures(names: &UnitNames, id: &Identified) {
 
 /// Name, figure and unit of each figure that the result has.
 pub(crate) fn figure_rows(
-    names: &UnitNames,
+    names: UnitNames,
     id: &Identified,
 ) -> Vec<(String, Option<Estimate>, String)> {
     let f = &id.friction;

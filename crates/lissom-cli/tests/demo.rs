@@ -1,5 +1,7 @@
 //! The demo's accuracy against the truth of its rig, and that it says what it did.
 
+#![expect(clippy::unwrap_used, reason = "tests")]
+
 use std::path::Path;
 use std::sync::OnceLock;
 

@@ -33,8 +33,8 @@ pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
     let names = UnitNames::new(channels);
     let result = result_json(channels, &id);
     write::write_json(&out.join("result.json"), &result)?;
-    figures::write_all(out, channels, &names, &id, Some(&rig.arm))?;
-    let text = page::page("lissom demo", &file.campaign, &names, &id, Some(&rig.arm));
+    figures::write_all(out, channels, names, &id, Some(&rig.arm))?;
+    let text = page::page("lissom demo", &file.campaign, names, &id, Some(&rig.arm));
     write::write_text(&out.join("report.html"), &text)?;
 
     let rows = comparison(&rig.arm, &id);
@@ -159,7 +159,6 @@ fn report(out: &Path, campaign: &lissom::record::Campaign, id: &Identified, rows
 /// Five significant digits.
 fn significant(value: f64) -> String {
     let digits = (4.0 - value.abs().log10().floor()).clamp(0.0, 12.0);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 12")]
     let digits = digits as usize;
     format!("{value:.digits$}")
 }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use lissom::identify::{Options, RunKind, identify};
 use num_complex::Complex64;
 use serde_json::Value;
 
@@ -65,10 +66,8 @@ fn figures_are_per_unit_of_command_and_friction_is_seen() {
 fn odd_harmonics_of_the_fixed_runs() {
     let Some(data) = common::data("krauss-slfr") else { return };
     let file = common::read(include_str!("krauss-fixed.toml"), &data, "");
-    let id = lissom::identify::identify(&file.campaign, &Default::default(), |_| {}).unwrap();
-    let lissom::identify::RunKind::Sinusoidal(run) = &id.runs[0].kind else {
-        panic!("not sinusoidal")
-    };
+    let id = identify(&file.campaign, &Options::default(), |_| {}).unwrap();
+    let RunKind::Sinusoidal(run) = &id.runs[0].kind else { panic!("not sinusoidal") };
     assert!((run.omega_rad_s / TAU - 5.0).abs() < 0.005, "{}", run.omega_rad_s);
     // Provenance, harmonics 1 to 7 of v: 101, 0.54, 3.40, 0.07, 1.00, 0.16, 0.77.
     let size = |k: usize| {

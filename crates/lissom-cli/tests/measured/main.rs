@@ -1,6 +1,8 @@
 //! Tests on logs measured on real machines. The logs are no part of the project: the tests read
 //! them from the folder that `LISSOM_DATA` names, and say that they were skipped where it is unset.
 
+#![expect(clippy::unwrap_used, reason = "tests")]
+
 mod common;
 mod cu;
 mod emps;

@@ -23,13 +23,13 @@ pub fn result_json(channels: &Channels, id: &Identified) -> Value {
         "lissom": env!("CARGO_PKG_VERSION"),
         "axis": match channels.axis { Axis::Rotary => "rotary", Axis::Linear => "linear" },
         "torque_per_command": id.torque_per_command,
-        "friction": friction(&names, constant, id),
+        "friction": friction(names, constant, id),
         "drive": { (names.inertia_key()): figure(id.inertia) },
-        "beam": beam(&names, id),
+        "beam": beam(names, id),
         "methods": {
-            "third_harmonic": id.third_harmonic.as_ref().map(|t| third(&names, constant, t, &id.runs)),
+            "third_harmonic": id.third_harmonic.as_ref().map(|t| third(names, constant, t, &id.runs)),
             "regression": id.regression.as_ref().map(|r| {
-                regression(&names, constant, r, id.beam_regression.as_ref())
+                regression(names, constant, r, id.beam_regression.as_ref())
             }),
         },
         "frequency_response": responses(channels, id),
@@ -45,14 +45,14 @@ fn figure(e: Option<Estimate>) -> Value {
 }
 
 /// A torque under its own unit and, where both are known, the command's.
-fn torque(map: &mut Map<String, Value>, names: &UnitNames, k: f64, key: &str, e: Option<Estimate>) {
+fn torque(map: &mut Map<String, Value>, names: UnitNames, k: f64, key: &str, e: Option<Estimate>) {
     map.insert(format!("{key}_{}", names.command()), figure(e.map(|e| e.scaled(1.0 / k))));
     if names.torque_known {
         map.insert(format!("{key}_{}", names.torque()), figure(e));
     }
 }
 
-fn friction(names: &UnitNames, constant: f64, id: &Identified) -> Value {
+fn friction(names: UnitNames, constant: f64, id: &Identified) -> Value {
     let f = &id.friction;
     let mut map = Map::new();
     torque(&mut map, names, constant, "coulomb", f.coulomb);
@@ -74,7 +74,7 @@ fn mode(m: &ModeEstimate) -> Value {
     })
 }
 
-fn beam(names: &UnitNames, id: &Identified) -> Value {
+fn beam(names: UnitNames, id: &Identified) -> Value {
     let by_tip: Vec<Value> = id.beam.coupling_by_tip.iter().map(|e| figure(*e)).collect();
     json!({
         "modes": id.beam.modes.iter().map(mode).collect::<Vec<_>>(),
@@ -83,7 +83,7 @@ fn beam(names: &UnitNames, id: &Identified) -> Value {
     })
 }
 
-fn fit(names: &UnitNames, m: &MotorFit) -> Value {
+fn fit(names: UnitNames, m: &MotorFit) -> Value {
     json!({
         (names.inertia_key()): figure(Some(m.inertia)),
         (names.viscous_key("viscous")): figure(Some(m.viscous)),
@@ -94,7 +94,7 @@ fn fit(names: &UnitNames, m: &MotorFit) -> Value {
     })
 }
 
-fn third(names: &UnitNames, constant: f64, t: &ThirdHarmonic, runs: &[RunAnalysis]) -> Value {
+fn third(names: UnitNames, constant: f64, t: &ThirdHarmonic, runs: &[RunAnalysis]) -> Value {
     let mut map = Map::new();
     torque(&mut map, names, constant, "coulomb", Some(t.coulomb_command.scaled(constant)));
     map.insert(format!("spread_{}", names.command()), json!(t.spread_command));
@@ -133,7 +133,7 @@ fn candidates(list: &[Candidate]) -> Vec<Value> {
 }
 
 fn regression(
-    names: &UnitNames,
+    names: UnitNames,
     constant: f64,
     r: &MotorRegression,
     beam: Option<&BeamRegression>,

@@ -167,8 +167,8 @@ impl<'a> Hybrid<'a> {
         let friction = self.arm.coulomb.slipping(sign);
         let order = self.series(torque - friction);
         let mut velocity = [0.0; ORDER_MOST + 1];
-        for k in 0..=order {
-            velocity[k] = sign * self.terms[k][1];
+        for (v, term) in velocity.iter_mut().zip(&self.terms[..=order]) {
+            *v = sign * term[1];
         }
         // From rest the root at the start is divided out. Released between samples, the motor
         // starts with no acceleration but rounding, and that root is double.
@@ -263,7 +263,9 @@ impl<'a> Hybrid<'a> {
                 }
             }
             let scale = 1.0 / (k as f64 + 1.0);
-            next.iter_mut().for_each(|v| *v *= scale);
+            for v in next.iter_mut() {
+                *v *= scale;
+            }
             reach *= self.step_most_s;
             let largest = next.iter().fold(0.0, |m: f64, v| m.max(v.abs())) * reach;
             // Two orders below rounding, and never before the torque has reached every state.

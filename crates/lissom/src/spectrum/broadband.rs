@@ -68,12 +68,14 @@ pub fn broadband(records: &[(&[f64], &[f64], f64)]) -> Vec<Band> {
         from = to.max(from + 1);
     }
     let strongest = bands.iter().map(|b| b.input_power).fold(f64::MIN_POSITIVE, f64::max);
-    bands.iter_mut().for_each(|b| b.input_power /= strongest);
-    driven(bands)
+    for band in &mut bands {
+        band.input_power /= strongest;
+    }
+    driven(&bands)
 }
 
 /// The bands from the first to the last in which the input is not far weaker than next to it.
-fn driven(bands: Vec<Band>) -> Vec<Band> {
+fn driven(bands: &[Band]) -> Vec<Band> {
     let beside = |b: &Band, low: f64, high: f64| {
         let next = bands.iter().filter(|o| (low..=high).contains(&(o.omega_rad_s / b.omega_rad_s)));
         b.input_power >= DRIVEN * next.map(|o| o.input_power).fold(0.0, f64::max)

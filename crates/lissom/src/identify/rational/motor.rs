@@ -65,23 +65,18 @@ pub struct MotorFit {
 /// # Source
 /// `[Feliu1989, Section 4 step 6, 6.2.2, eqs. (35), (37)]`
 pub fn fit_motor(data: &MotorData, poles: Option<&[Pole]>) -> Option<MotorFit> {
-    match poles {
-        Some(poles) => solve(data, poles).map(|s| finish(data, poles, true, &s)),
-        None => {
-            let rigid = solve(data, &[])?;
-            let flexible = scan(data);
-            let n = 2 * data.response.len();
-            match flexible {
-                Some((pole, s))
-                    if information(n, 5, s.cost) < information(n, 2, rigid.cost)
-                        && s.value[2] > 0.0 =>
-                {
-                    Some(finish(data, &[pole], false, &s))
-                }
-                _ => Some(finish(data, &[], false, &rigid)),
-            }
-        }
+    if let Some(poles) = poles {
+        return solve(data, poles).map(|s| finish(data, poles, true, &s));
     }
+    let rigid = solve(data, &[])?;
+    let n = 2 * data.response.len();
+    let flexible = scan(data).filter(|(_, s)| {
+        information(n, 5, s.cost) < information(n, 2, rigid.cost) && s.value[2] > 0.0
+    });
+    Some(match flexible {
+        Some((pole, s)) => finish(data, &[pole], false, &s),
+        None => finish(data, &[], false, &rigid),
+    })
 }
 
 struct Solution {

@@ -169,7 +169,9 @@ fn clusters(campaign: &Campaign, i: usize, length_s: f64) -> Vec<Cluster> {
         let starts: Vec<usize> = (0..run.len() - len).step_by(step).collect();
         for block in starts.chunks(BLOCK) {
             let mut cluster = Cluster::new(index, 0.0, n + 3);
-            block.iter().for_each(|&k| cluster.add(&row(campaign, run, i, &window, k)));
+            for &k in block {
+                cluster.add(&row(campaign, run, i, &window, k));
+            }
             out.push(cluster);
         }
     }
@@ -204,6 +206,5 @@ fn row(campaign: &Campaign, run: &Run, i: usize, window: &Window, k: usize) -> V
     row.push(dot(&window.first, &own) * t);
     row.push(window.held.iter().sum());
     row.push(dot(&window.second, &own) * t);
-    row.iter_mut().for_each(|v| *v *= window.row_scale);
-    row
+    row.into_iter().map(|v| v * window.row_scale).collect()
 }

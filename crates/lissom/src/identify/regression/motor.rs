@@ -239,8 +239,7 @@ fn row(campaign: &Campaign, run: &Run, tips: &[usize], window: &Window, k: usize
                 Hold::Measured => dot(&window.value, &run.command()[k..=k + n]) * t,
             },
     );
-    row.iter_mut().for_each(|v| *v *= window.row_scale);
-    row
+    row.into_iter().map(|v| v * window.row_scale).collect()
 }
 
 /// Viscous friction by direction, if the data call for it.

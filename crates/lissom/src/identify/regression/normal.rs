@@ -140,7 +140,7 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
     let present = by_run.iter().filter(|g| g.norm() > 0.0).count();
     // Fewer runs than this say little of their own scatter.
     let covariance = if present > p + 1 {
-        larger(by_cluster, &sandwich(&inverse, by_run.into_iter()))
+        larger(&by_cluster, &sandwich(&inverse, by_run.into_iter()))
     } else {
         by_cluster
     };
@@ -168,7 +168,7 @@ fn sandwich(inverse: &DMatrix<f64>, scores: impl Iterator<Item = DVector<f64>>) 
 }
 
 /// The first covariance, stretched where the second has the larger variance.
-fn larger(a: DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+fn larger(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     let p = a.nrows();
     let stretch: Vec<f64> = (0..p)
         .map(|i| {

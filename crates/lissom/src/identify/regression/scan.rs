@@ -55,8 +55,8 @@ pub(crate) fn scan(
     if !given.is_empty() {
         let scans = given.iter().filter_map(|&length| {
             let around = [length / RATIO, length, length * RATIO];
-            let tried = around.into_iter().filter_map(|l| Some((l, usable(l)?))).collect();
-            choose(tried, counts, Some(length))
+            let tried: Vec<_> = around.into_iter().filter_map(|l| Some((l, usable(l)?))).collect();
+            choose(&tried, counts, Some(length))
         });
         return scans.min_by(|a, b| a.sensitivity().total_cmp(&b.sensitivity()));
     }
@@ -69,7 +69,7 @@ pub(crate) fn scan(
             None => {}
         }
     }
-    choose(tried, counts, None)
+    choose(&tried, counts, None)
 }
 
 impl Scan {
@@ -79,7 +79,7 @@ impl Scan {
 }
 
 /// Takes the length `given`, or the one with the least sensitivity.
-fn choose(tried: Vec<(f64, Solution)>, counts: &[bool], given: Option<f64>) -> Option<Scan> {
+fn choose(tried: &[(f64, Solution)], counts: &[bool], given: Option<f64>) -> Option<Scan> {
     let sensitivity = |k: usize| {
         if k == 0 || k + 1 >= tried.len() {
             return f64::INFINITY;
@@ -108,17 +108,14 @@ fn choose(tried: Vec<(f64, Solution)>, counts: &[bool], given: Option<f64>) -> O
             sensitivity: sensitivity(k),
         })
         .collect();
-    let chosen = match given {
-        Some(length) => {
-            candidates.iter().position(|c| (c.window_s - length).abs() < 1e-12 * length)?
-        }
-        None => {
-            let least = candidates
-                .iter()
-                .enumerate()
-                .min_by(|a, b| a.1.sensitivity.total_cmp(&b.1.sensitivity));
-            least?.0
-        }
+    let chosen = if let Some(length) = given {
+        candidates.iter().position(|c| (c.window_s - length).abs() < 1e-12 * length)?
+    } else {
+        let least = candidates
+            .iter()
+            .enumerate()
+            .min_by(|a, b| a.1.sensitivity.total_cmp(&b.1.sensitivity));
+        least?.0
     };
     let solution = tried[chosen].1.clone();
     let neighbours = (tried.get(chosen.wrapping_sub(1)), tried.get(chosen + 1));

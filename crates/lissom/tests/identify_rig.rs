@@ -1,0 +1,201 @@
+//! Simulate, identify, recover: arms, channels and motions unlike the demo's.
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use lissom::arm::Arm;
+use lissom::beam::{LumpedBeam, Span};
+use lissom::drive::{Coulomb, Motor};
+use lissom::identify::{Estimate, Identified, Options, identify};
+use lissom::record::{
+    Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
+};
+use lissom::rig::{Hybrid, Pd, Quantiser, Rig, SteppedSine};
+
+/// Two unequal masses, friction by direction: modes at 7.9 and 41 rad/s.
+fn two_mass_arm() -> Arm {
+    let span = |length_m, mass_kg| Span {
+        length_m,
+        flexural_rigidity_n_m2: 0.02,
+        mass_kg,
+        damping_n_s_per_m: 0.02 * mass_kg,
+    };
+    let beam = LumpedBeam::new(&[span(0.15, 0.06), span(0.15, 0.04)]).unwrap();
+    let motor = Motor::new(8e-4, 2e-3, 0.3).unwrap();
+    Arm::new(beam, motor, Coulomb::by_direction(0.05, 0.04).unwrap())
+}
+
+fn rig(arm: Arm) -> Rig {
+    let sensor = Quantiser::new(14, std::f64::consts::TAU).unwrap();
+    Rig {
+        arm,
+        controller: Pd { proportional_a_per_rad: 8.0, derivative_a_s_per_rad: 0.15, limit_a: 6.0 },
+        sample_time_s: 0.002,
+        motor_sensor: Some(sensor),
+        tip_sensor: Some(sensor),
+        current_converter: None,
+    }
+}
+
+fn runs(rig: &Rig) -> Vec<Run> {
+    [1.5, 3.0, 4.5, 9.0, 12.0, 20.0, 36.0]
+        .iter()
+        .map(|&omega_rad_s| {
+            let drive = SteppedSine {
+                omega_rad_s,
+                amplitude_rad: 0.5,
+                settle_s: 20.0,
+                record_s: (40.0 / omega_rad_s).max(6.0),
+            };
+            rig.stepped_sine(&format!("{omega_rad_s} rad/s"), &drive).unwrap()
+        })
+        .collect()
+}
+
+fn current(k: f64) -> Command {
+    Command {
+        quantity: CommandQuantity::Current,
+        hold: Hold::Sampled,
+        torque_per_command: Some(k),
+        back_emf_viscous: 0.0,
+        limit: None,
+    }
+}
+
+fn tip(name: &str, quantity: TipQuantity) -> Tip {
+    Tip { name: name.to_owned(), quantity, calibrated: true }
+}
+
+fn identified(command: Command, axis: Axis, tips: Vec<Tip>, runs: Vec<Run>) -> Identified {
+    let campaign = Campaign::new(Channels { axis, command, tips }, runs).unwrap();
+    identify(&campaign, &Options::default(), |_| {}).unwrap()
+}
+
+#[track_caller]
+fn within(what: &str, found: Option<Estimate>, truth: f64, tolerance: f64) {
+    let found = found.unwrap_or_else(|| panic!("{what} is refused"));
+    let error = (found.value / truth - 1.0).abs();
+    assert!(error < tolerance, "{what}: {found:?}, true {truth}");
+}
+
+#[test]
+fn two_masses_with_friction_by_direction() {
+    let arm = two_mass_arm();
+    let tips = vec![tip("1", TipQuantity::Angle), tip("2", TipQuantity::Angle)];
+    let id = identified(current(0.3), Axis::Rotary, tips, runs(&rig(arm.clone())));
+    within("inertia", id.inertia, 8e-4, 0.01);
+    within("viscous", id.friction.viscous, 2e-3, 0.05);
+    within("forward", id.friction.forward, 0.05, 0.005);
+    within("backward", id.friction.backward, 0.04, 0.005);
+    within("offset", id.friction.offset, 0.005, 0.02);
+    within("coupling", id.beam.coupling, arm.beam().h_motor(), 0.01);
+    for (i, h) in arm.beam().h().iter().enumerate() {
+        within("coupling by tip", id.beam.coupling_by_tip[i], -h, 0.02);
+    }
+    let truth = arm.beam().natural_frequencies_rad_s();
+    assert_eq!(id.beam.modes.len(), 2, "{:?}", id.beam.modes);
+    for (mode, truth) in id.beam.modes.iter().zip(truth) {
+        within("mode", Some(mode.natural_frequency_rad_s), truth, 0.002);
+    }
+}
+
+#[test]
+fn deflections_say_the_same_as_angles() {
+    let arm = two_mass_arm();
+    let runs: Vec<Run> = runs(&rig(arm))
+        .into_iter()
+        .map(|r| {
+            let minus = |tip: &Vec<f64>| tip.iter().zip(r.motor()).map(|(t, m)| t - m).collect();
+            let tips = r.tips().iter().map(minus).collect();
+            Run::new(r.name(), r.time(), r.command().to_vec(), r.motor().to_vec(), tips).unwrap()
+        })
+        .collect();
+    let tips = vec![tip("1", TipQuantity::Deflection), tip("2", TipQuantity::Deflection)];
+    let id = identified(current(0.3), Axis::Rotary, tips, runs);
+    within("inertia", id.inertia, 8e-4, 0.01);
+    let truth = two_mass_arm().beam().natural_frequencies_rad_s();
+    for (mode, truth) in id.beam.modes.iter().zip(truth) {
+        within("mode", Some(mode.natural_frequency_rad_s), truth, 0.002);
+    }
+}
+
+/// An axis whose beam weighs nothing, with Coulomb friction under a held random-like command: no sine anywhere.
+fn stiff_axis(constant: f64, back_emf: f64) -> Vec<Run> {
+    let span =
+        Span { length_m: 0.01, flexural_rigidity_n_m2: 1e-9, mass_kg: 1e-9, damping_n_s_per_m: 0.0 };
+    let motor = Motor::new(2e-3, 0.01 + back_emf, constant).unwrap();
+    let arm = Arm::new(LumpedBeam::new(&[span]).unwrap(), motor, Coulomb::symmetric(0.06).unwrap());
+    let t = 0.005;
+    (0..3)
+        .map(|run| {
+            let mut motion = Hybrid::at_rest(&arm);
+            let (mut u, mut theta) = (Vec::new(), Vec::new());
+            for k in 0..2400 {
+                let s = f64::from(k) * t;
+                let phase = f64::from(run);
+                let drive = 0.9 * (1.1 * s + phase).sin()
+                    + 0.7 * (2.9 * s + 2.0 * phase).cos()
+                    + 0.5 * (7.3 * s + 3.0 * phase).sin();
+                theta.push((motion.state()[0] / 1e-4).round() * 1e-4);
+                u.push(drive);
+                motion.advance(constant * drive, t);
+            }
+            Run::new(format!("run {run}"), TimeBase::uniform(0.0, t), u, theta, vec![]).unwrap()
+        })
+        .collect()
+}
+
+#[test]
+fn any_motion_and_a_voltage_with_back_emf() {
+    // τ = 0.2·v − 0.03·θ̇: the drive's own viscous friction is what is left of 0.04.
+    let command =
+        Command { quantity: CommandQuantity::Voltage, back_emf_viscous: 0.03, ..current(0.2) };
+    let id = identified(command, Axis::Rotary, vec![], stiff_axis(0.2, 0.03));
+    within("inertia", id.inertia, 2e-3, 0.01);
+    within("viscous", id.friction.viscous, 0.01, 0.05);
+    within("coulomb", id.friction.coulomb, 0.06, 0.01);
+    assert!(id.third_harmonic.is_none());
+}
+
+#[test]
+fn unknown_constant_gives_figures_per_unit_of_command() {
+    let command =
+        Command { quantity: CommandQuantity::Arbitrary, torque_per_command: None, ..current(1.0) };
+    let id = identified(command, Axis::Linear, vec![], stiff_axis(0.2, 0.0));
+    within("inertia", id.inertia, 2e-3 / 0.2, 0.01);
+    within("coulomb", id.friction.coulomb, 0.06 / 0.2, 0.01);
+    assert!(id.findings.iter().any(|f| f.code == "per-unit-of-command"));
+}
+
+#[test]
+fn one_direction_only_refuses_coulomb_and_offset() {
+    let runs: Vec<Run> = stiff_axis(0.2, 0.0)
+        .into_iter()
+        .map(|r| {
+            // A constant push large enough that the axis never turns back, its angle a ramp more.
+            let t = r.sample_time_s();
+            let ramp = |k: usize| 20.0 * k as f64 * t;
+            let motor = r.motor().iter().enumerate().map(|(k, x)| x + ramp(k)).collect();
+            // The torque that goes with the ramp: V·20 at 0.01, and friction always forward.
+            let command = r.command().iter().map(|u| u + 1.0).collect();
+            Run::new(r.name(), r.time(), command, motor, vec![]).unwrap()
+        })
+        .collect();
+    let id = identified(current(0.2), Axis::Rotary, vec![], runs);
+    assert!(id.friction.coulomb.is_none() && id.friction.offset.is_none());
+    let refused = id
+        .findings
+        .iter()
+        .any(|f| f.code == "not-separable" && f.affects.contains(&"friction.coulomb"));
+    assert!(refused, "{:?}", id.findings);
+}
+
+#[test]
+fn a_motor_that_never_moves_is_an_error() {
+    let still = Run::new("a", TimeBase::uniform(0.0, 0.01), vec![1.0; 100], vec![2.0; 100], vec![]);
+    let channels = Channels { axis: Axis::Rotary, command: current(1.0), tips: vec![] };
+    let campaign = Campaign::new(channels, vec![still.unwrap()]).unwrap();
+    let error = identify(&campaign, &Options::default(), |_| {}).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "in all 1 runs the motor or the command is constant: there is nothing to identify"
+    );
+}
