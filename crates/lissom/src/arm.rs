@@ -26,7 +26,7 @@ pub struct Arm {
 }
 
 impl Arm {
-    /// Joins a beam to a drive.
+    /// Joins a beam to a drive through the coupling torque (15).
     pub fn new(beam: LumpedBeam, motor: Motor, coulomb: Coulomb) -> Self {
         let n = beam.len();
         let mass = |i: usize| beam.spans()[i].mass_kg;
@@ -91,7 +91,11 @@ impl Arm {
 
     /// Responses θ_i/θ_m at `omega_rad_s`, motor to each mass.
     ///
-    /// Solves (13) with `s = jω`; `None` exactly on an undamped pole.
+    /// Solves (13) with tip loads zero and `s = jω`: `(M·s² + D·s − EI·A)·Θ = EI·B·θ_m`. `None`
+    /// exactly on an undamped pole.
+    ///
+    /// # Source
+    /// `[Feliu1989, eq. (16)]`, with the damping of each mass added.
     pub fn tip_response(&self, omega_rad_s: f64) -> Option<Vec<Complex64>> {
         let n = self.beam.len();
         let s = Complex64::new(0.0, omega_rad_s);
@@ -106,6 +110,25 @@ impl Arm {
 
     /// Response θ_m/i of the linear part at `omega_rad_s` \[rad/A\]: what is left when Coulomb
     /// friction is taken away.
+    ///
+    /// `G(jω) = K/(J·s² + V·s + Σ h_i·(θ_i/θ_m − 1))` with `s = jω`. `None` exactly on an undamped
+    /// pole of the beam.
+    ///
+    /// ```
+    /// # use lissom::{arm::Arm, beam::{LumpedBeam, Span}, drive::{Coulomb, Motor}};
+    /// # let (l, m) = (0.2, 0.05);
+    /// # let span = Span { length_m: l, flexural_rigidity_n_m2: 0.004, mass_kg: m, damping_n_s_per_m: 0.0 };
+    /// # let beam = LumpedBeam::new(&[span]).unwrap();
+    /// let motor = Motor::new(6e-4, 0.0, 0.25)?; // J, V, K
+    /// let arm = Arm::new(beam, motor, Coulomb::symmetric(0.03)?);
+    /// let (w, rigid) = (1e-3, 6e-4 + m * l * l); // slowly, the arm turns as one body
+    /// let g = arm.motor_response(w).unwrap();
+    /// assert!((g.re * rigid * w * w / -0.25 - 1.0).abs() < 1e-6);
+    /// # Ok::<(), lissom::drive::DriveError>(())
+    /// ```
+    ///
+    /// # Source
+    /// `[Feliu1989, eqs. (13)-(16)]`; the G(ω) that (26) and (30) speak of.
     pub fn motor_response(&self, omega_rad_s: f64) -> Option<Complex64> {
         let tips = self.tip_response(omega_rad_s)?;
         let coupling: Complex64 =

@@ -81,8 +81,26 @@ pub struct LumpedBeam {
 impl LumpedBeam {
     /// Builds the matrices from spans, base to tip.
     ///
+    /// With f_ij the deflection at L_i for a unit force at L_j, K = f⁻¹ the stiffness \[N/m\] and
+    /// angles in place of deflections: `EI·a_ij = −K_ij·L_j/L_i`, `EI·b_i = −Σ_j EI·a_ij`,
+    /// `h_j = −Σ_i L_i·K_ij·L_j`, `h_{n+1} = −Σ_j h_j`.
+    ///
+    /// ```
+    /// use lissom::beam::{LumpedBeam, Span};
+    /// let (l, ei) = (0.2, 0.004);
+    /// let span = Span { length_m: l, flexural_rigidity_n_m2: ei, mass_kg: 0.05, damping_n_s_per_m: 0.0 };
+    /// let beam = LumpedBeam::new(&[span])?;
+    /// assert!((beam.h_motor() - 3.0 * ei / l).abs() < 1e-12); // (32)
+    /// # Ok::<(), lissom::beam::BeamError>(())
+    /// ```
+    ///
+    /// # Source
+    /// `[Feliu1989, eqs. (2)-(13), (15)]`; the two identities A·1 + B = 0 and ΣH + h_{n+1} = 0
+    /// (a rigid rotation strains nothing) are used to form B and h_{n+1}.
+    ///
     /// # Errors
-    /// [`BeamError`]: no spans, a dimension that is not positive, spans too unlike to be solved.
+    /// [`BeamError`]: no spans, more than 200 masses, a dimension that is not positive, damping
+    /// that is negative, spans too unlike to be solved together.
     pub fn new(spans: &[Span]) -> Result<Self, BeamError> {
         check(spans)?;
         let n = spans.len();

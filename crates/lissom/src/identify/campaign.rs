@@ -104,7 +104,7 @@ pub struct Beam {
     pub modes: Vec<ModeEstimate>,
     /// Torque per angle between motor and beam, Σκ_i = h_{n+1} of (15).
     pub coupling: Option<Estimate>,
-    /// κ_i by tip.
+    /// κ_i of each tip that is a calibrated angle or deflection, in their order.
     pub coupling_by_tip: Vec<Option<Estimate>>,
 }
 
@@ -142,6 +142,30 @@ pub struct Identified {
 }
 
 /// Identifies drive and beam from a campaign.
+///
+/// Run by run: checks of the channels, steady state and harmonics. Then over all runs: regression
+/// on slip phases of motor and beam, third harmonic of every pair of runs at ω0 and 3ω0,
+/// responses with friction taken out, rational models, and the verdict, which takes the regression's
+/// figures where they stand and those of the third harmonic and its model where they do not.
+/// `progress` is called at the beginning of each stage.
+///
+/// ```
+/// # use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
+/// # let (t, w) = (0.002, 3.0);
+/// # let wave = |f: &dyn Fn(f64) -> f64| (0..10_000).map(|k| f(t * f64::from(k))).collect::<Vec<f64>>();
+/// # let motor = wave(&|s| (w * s).sin());
+/// # let torque = wave(&|s| -0.02 * w * w * (w * s).sin() + 0.05 * w * (w * s).cos() + 0.3 * (w * s).cos().signum());
+/// # let command = Command { quantity: CommandQuantity::Current, hold: Hold::Measured, torque_per_command: Some(1.0), back_emf_viscous: 0.0, limit: None };
+/// # let run = Run::new("sine", TimeBase::uniform(0.0, t), torque, motor, vec![]).unwrap();
+/// # let campaign = Campaign::new(Channels { axis: Axis::Rotary, command, tips: vec![] }, vec![run]).unwrap();
+/// use lissom::identify::{Options, identify}; // of a sine with J = 0.02, V = 0.05, CF = 0.3
+/// let found = identify(&campaign, &Options::default(), |_stage| ())?;
+/// assert!((found.friction.coulomb.unwrap().value - 0.3).abs() < 1e-3);
+/// # Ok::<(), lissom::identify::IdentifyError>(())
+/// ```
+///
+/// # Source
+/// `[Feliu1989, Sections 4 (step 6), 5 and 6.2.2]`, with the regression beside it.
 ///
 /// # Errors
 /// [`IdentifyError`] where nothing can be said at all. Everything less is a finding.

@@ -26,7 +26,17 @@ pub fn ratio(output: Phasor, input: Phasor) -> Response {
 
 /// `G(ω) = θ_m/(i − j·4c/π·e^{j∠θ_m})`, with c = CF/K in the command's unit.
 ///
-/// The deviation counts that of both phasors and of c.
+/// G in rad (or m) per command; θ_m and i are phasors at ω. The deviation counts that of both
+/// phasors and of c.
+///
+/// ```
+/// # use {lissom::identify::{Estimate, corrected}, lissom::spectrum::Phasor, num_complex::Complex64};
+/// let g = Complex64::new(-0.3, -0.2);
+/// let motor = Phasor { value: Complex64::new(0.5, 0.0), std: 0.0 };
+/// let friction = Complex64::new(0.0, 4.0 * 0.1 / std::f64::consts::PI); // leads by a quarter turn
+/// let command = Phasor { value: motor.value / g + friction, std: 0.0 };
+/// assert!((corrected(motor, command, Estimate { value: 0.1, std: 0.0 }).value - g).norm() < 1e-14);
+/// ```
 ///
 /// # Source
 /// `[Feliu1989, eq. (30)]`. It takes friction for a square wave in phase with the velocity: where

@@ -20,7 +20,7 @@ pub struct Finding {
     pub severity: Severity,
     /// Name of the run it is about; `None` for the whole campaign.
     pub run: Option<String>,
-    /// Result keys that it affects, e.g. `friction.viscous`.
+    /// Result keys that it affects, without the suffix of their unit, e.g. `friction.viscous`.
     pub affects: Vec<&'static str>,
     /// What was found, with its figure.
     pub message: String,

@@ -52,6 +52,17 @@ pub struct PairFigure {
 ///
 /// Returns `None` where the linear solution is not positive: no friction can be seen.
 ///
+/// ```
+/// # use {lissom::identify::{RunPhasors, pair_figure}, lissom::spectrum::Phasor, num_complex::Complex64};
+/// # let p = |size: f64, phase: f64| Phasor { value: Complex64::from_polar(size, phase), std: 0.0 };
+/// # let (zero, quarter) = (p(0.0, 0.0), std::f64::consts::FRAC_PI_2);
+/// let c = 0.132 * 4.0 / std::f64::consts::PI; // fundamental of a square wave of ±0.132 A
+/// let low = RunPhasors { omega_rad_s: 2.0, command_1: p(1.0, 0.0), command_3: p(c / 3.0, quarter + 0.9), motor_1: p(0.5, 0.3), motor_3: zero };
+/// let triple = RunPhasors { omega_rad_s: 6.0, command_1: p(c, quarter), command_3: zero, motor_1: p(0.5, 0.0), motor_3: zero };
+/// let figure = pair_figure(0, 1, &low, &triple).unwrap();
+/// assert!((figure.coulomb_command.value - 0.132).abs() < 1e-12);
+/// ```
+///
 /// # Source
 /// `[Feliu1989, eqs. (26)-(29)]`
 ///

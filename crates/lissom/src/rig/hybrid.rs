@@ -27,6 +27,25 @@ pub enum Mode {
 /// whose terms follow from one another by the state matrix, summed until they vanish. The
 /// velocity is then a polynomial whose first root is the event. Nothing is smoothed and no
 /// tolerance enters but rounding.
+///
+/// ```
+/// # use lissom::{arm::Arm, beam::{LumpedBeam, Span}, drive::{Coulomb, Motor}, rig::Hybrid};
+/// # let span = Span { length_m: 0.2, flexural_rigidity_n_m2: 0.004, mass_kg: 0.05, damping_n_s_per_m: 0.0 };
+/// # let beam = LumpedBeam::new(&[span]).unwrap();
+/// # let arm = Arm::new(beam, Motor::new(6e-4, 1e-3, 0.25).unwrap(), Coulomb::symmetric(0.03).unwrap());
+/// let mut hybrid = Hybrid::at_rest(&arm);
+/// hybrid.advance(0.029, 1.0); // N·m and s: below the friction of 0.03 N·m
+/// assert_eq!(hybrid.state()[0], 0.0);
+/// hybrid.advance(0.031, 1.0);
+/// assert!(hybrid.state()[0] > 0.0);
+/// ```
+///
+/// # Source
+/// `[Feliu1989, eqs. (13)-(15), Section 5]`.
+///
+/// # Differences from the source
+/// Section 5 says nothing of θ̇_m = 0: here the joint sticks while the drive torque less the
+/// coupling torque lies between −backward and forward.
 #[derive(Debug, Clone)]
 pub struct Hybrid<'a> {
     arm: &'a Arm,

@@ -43,6 +43,24 @@ impl Rig {
     ///
     /// Sample k of the current is held from the instant of sample k of the angles on.
     ///
+    /// ```
+    /// # use lissom::{arm::Arm, beam::{LumpedBeam, Span}, drive::{Coulomb, Motor}};
+    /// # use lissom::rig::{Pd, Rig, SteppedSine};
+    /// # let span = Span { length_m: 0.2, flexural_rigidity_n_m2: 0.004, mass_kg: 0.05, damping_n_s_per_m: 0.0 };
+    /// # let beam = LumpedBeam::new(&[span]).unwrap();
+    /// # let arm = Arm::new(beam, Motor::new(6e-4, 1e-3, 0.25).unwrap(), Coulomb::symmetric(0.03).unwrap());
+    /// # let controller = Pd { proportional_a_per_rad: 8.0, derivative_a_s_per_rad: 0.2, limit_a: 4.0 };
+    /// # let rig = Rig { arm, controller, sample_time_s: 0.003, motor_sensor: None, tip_sensor: None, current_converter: None };
+    /// let drive = SteppedSine { omega_rad_s: 2.0, amplitude_rad: 0.5, settle_s: 3.0, record_s: 6.0 };
+    /// let run = rig.stepped_sine("slow", &drive)?;
+    /// assert_eq!((run.len(), run.tips().len()), (2000, 1));
+    /// assert!(run.motor().iter().all(|angle| angle.abs() < 0.55)); // the loop follows
+    /// # Ok::<(), lissom::rig::RigError>(())
+    /// ```
+    ///
+    /// # Source
+    /// `[Feliu1989, Sections 5.1 and 6.1]`. The report prints no gains.
+    ///
     /// # Errors
     /// [`RigError::NotPositive`] for times and frequencies that are not, [`RigError::Unstable`]
     /// where the loop runs away.

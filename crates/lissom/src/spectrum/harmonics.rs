@@ -44,18 +44,39 @@ impl Harmonics {
 /// `sin(ωT/2)/(ωT/2)·e^{−jωT/2}`.
 ///
 /// A commanded current is held between samples; this factor turns the phasor of its samples into
-/// that of the current which the motor saw.
+/// that of the current which the motor saw. ω in rad/s, T in s, the factor without unit.
+///
+/// ```
+/// let f = lissom::spectrum::hold_factor(20.0, 0.003);
+/// assert!((f.arg().to_degrees() + 1.719).abs() < 1e-3); // half a sample late
+/// ```
+///
+/// # Source
+/// Fourier transform of a held sample. `[Feliu1989, Section 5.2]` takes the commanded current as
+/// the motor's: see the hold in `docs/errata.md`.
 pub fn hold_factor(omega_rad_s: f64, sample_time_s: f64) -> Complex64 {
     let half = 0.5 * omega_rad_s * sample_time_s;
     let gain = if half == 0.0 { 1.0 } else { half.sin() / half };
     Complex64::from_polar(gain, -half)
 }
 
-/// Fits mean, drift and harmonics 1..=`count` of `omega_rad_s` to uniform samples.
+/// Fits mean, drift and harmonics 1..=`count` of `omega_rad_s` to uniform samples:
+/// `x(t) = a + b·t + Σ_k Re{X_k·e^{jkω0·t}}`, t from the first sample.
+///
+/// ```
+/// use lissom::spectrum::least_squares;
+/// let x: Vec<f64> = (0..1000).map(|k| 2.0 * (3.0 * 0.01 * f64::from(k) + 0.4).cos()).collect();
+/// let first = least_squares(&x, 3.0, 0.01, 3).unwrap().get(1).unwrap().value;
+/// assert!((first.norm() - 2.0).abs() < 1e-12 && (first.arg() - 0.4).abs() < 1e-12);
+/// ```
 ///
 /// Covariance from the residual e, never below what white noise of its power gives: the larger of
 /// the white `2σ²/N` and of a sandwich over blocks of one period, which sees a residual that is
 /// coloured about the harmonic. Returns `None` where there are too few samples for the unknowns.
+///
+/// # Source
+/// Linear least squares in place of the spectral analysis that `[Feliu1989, Section 5.2]` leaves
+/// open.
 pub fn least_squares(
     samples: &[f64],
     omega_rad_s: f64,

@@ -68,6 +68,20 @@ pub struct BeamFit {
 /// all are then refined together by Levenberg-Marquardt; the number is the one with the least
 /// Bayesian information criterion. `None` with fewer than four frequencies.
 ///
+/// `θ_i/θ_m = Σ_k r_ik/(s² + 2ζ_kω_k·s + ω_k²)`, r_ik in 1/s², times s² for
+/// [`TipForm::SecondDerivative`].
+///
+/// ```
+/// # use {lissom::identify::{Pole, Response}, num_complex::Complex64};
+/// # let omega: Vec<f64> = (0..30).map(|k| 1.15_f64.powi(k)).collect();
+/// # let pole = Pole { omega_rad_s: 6.6, damping_ratio: 0.005 };
+/// # let response: Vec<Response> = omega.iter().map(|&w| 43.75 / pole.denominator(w)).map(|value: Complex64| Response { value, std: 1e-4 }).collect();
+/// use lissom::identify::{TipData, TipForm, fit_beam}; // of 43.75/(s² + 2ζω·s + ω²), ω = 6.6
+/// let fit = fit_beam(&omega, &[TipData { form: TipForm::Angle, response }]).unwrap();
+/// assert!((fit.modes[0].natural_frequency_rad_s.value - 6.6).abs() < 1e-6);
+/// assert!((fit.residues[0][0].value - 43.75).abs() < 1e-4);
+/// ```
+///
 /// # Source
 /// `[Feliu1989, eqs. (19), (36)]`: common denominator, relative degree of at least two.
 ///

@@ -46,7 +46,7 @@ pub(crate) fn others(poles: &[Pole], left_out: usize) -> Vec<f64> {
     common_denominator(&rest)
 }
 
-/// Frequencies tried as the start of a new pole, logarithmic over the data and half a decade
+/// Frequencies tried as the start of a new pole, logarithmic over the data and by a factor of 1.5
 /// beyond either end.
 pub(crate) fn trial_frequencies(omega: &[f64]) -> Vec<f64> {
     const TRIALS: i32 = 160;

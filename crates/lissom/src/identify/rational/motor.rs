@@ -52,6 +52,16 @@ pub struct MotorFit {
 /// one is found by a scan, as the information criterion says. `None` where the frequencies are
 /// fewer than the unknowns.
 ///
+/// ```
+/// # use {lissom::identify::{Pole, Response}, num_complex::Complex64};
+/// # let omega: Vec<f64> = (0..30).map(|k| 1.15_f64.powi(k)).collect();
+/// # let rigid = |w: f64| 2.0 / (Complex64::new(0.0, w) * Complex64::new(0.01, 0.05 * w));
+/// # let response: Vec<Response> = omega.iter().map(|&w| Response { value: rigid(w), std: 1e-4 * rigid(w).norm() }).collect();
+/// use lissom::identify::{MotorData, fit_motor}; // of 2/(0.05·s² + 0.01·s)
+/// let fit = fit_motor(&MotorData { omega_rad_s: omega, response, torque_per_command: 2.0 }, None).unwrap();
+/// assert!((fit.inertia.value - 0.05).abs() < 1e-6 && (fit.viscous.value - 0.01).abs() < 1e-6);
+/// ```
+///
 /// # Source
 /// `[Feliu1989, Section 4 step 6, 6.2.2, eqs. (35), (37)]`
 pub fn fit_motor(data: &MotorData, poles: Option<&[Pole]>) -> Option<MotorFit> {

@@ -32,6 +32,20 @@ pub struct BeamRegression {
 /// As many modes as tips: `None` where a tip is no calibrated angle or deflection, where windows
 /// are too few, or where Â has no set of positive real natural frequencies.
 ///
+/// ```
+/// # use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity};
+/// # let t = 0.002;
+/// # let wave = |gain: &dyn Fn(f64) -> f64| (0..10_000).map(|k| t * f64::from(k)).map(|s| gain(3.0) * (3.0 * s).sin() + gain(9.0) * (9.0 * s).sin()).collect::<Vec<f64>>();
+/// # let (motor, tip) = (wave(&|_| 1.0), wave(&|w| 36.0 / (36.0 - w * w)));
+/// # let command = Command { quantity: CommandQuantity::Current, hold: Hold::Measured, torque_per_command: Some(1.0), back_emf_viscous: 0.0, limit: None };
+/// # let tips = vec![Tip { name: "tip".into(), quantity: TipQuantity::Angle, calibrated: true }];
+/// # let run = Run::new("two sines", TimeBase::uniform(0.0, t), motor.clone(), motor, vec![tip]).unwrap();
+/// # let campaign = Campaign::new(Channels { axis: Axis::Rotary, command, tips }, vec![run]).unwrap();
+/// use lissom::identify::beam_regression; // of a beam with θ_t/θ_m = 36/(s² + 36)
+/// let mode = beam_regression(&campaign).unwrap().modes[0];
+/// assert!((mode.natural_frequency_rad_s.value - 6.0).abs() < 1e-3);
+/// ```
+///
 /// # Source
 /// `[Feliu1989, eqs. (13), (17)]`, by parts as in the motor's regression; A·1 + B = 0 is built in.
 pub fn beam_regression(campaign: &Campaign) -> Option<BeamRegression> {

@@ -51,7 +51,8 @@ pub struct MotorRegression {
     pub forward: Option<Estimate>,
     /// Friction while moving backward.
     pub backward: Option<Estimate>,
-    /// Coupling to each tip, κ_i = −h_i of (15) \[N·m/rad\]; empty without calibrated angles.
+    /// Coupling κ_i = −h_i of (15) \[N·m/rad\] to each tip that is a calibrated angle or
+    /// deflection, in their order.
     pub coupling: Vec<Option<Estimate>>,
     /// Viscous friction by direction, where the data reject one constant.
     pub viscous_by_direction: Option<ByDirection>,
@@ -80,6 +81,27 @@ pub struct ByDirection {
 ///
 /// With lengths in `window_s` one of these is used; without, the length is chosen from the data.
 /// `None` where no phase holds windows enough.
+///
+/// τ is the command times its torque constant \[N·m, N, or the command's unit where the constant is
+/// unknown\]; θ_i − θ_m is measured, so that no model of the beam enters.
+///
+/// ```
+/// # use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
+/// # let (t, w) = (0.002, 3.0);
+/// # let wave = |f: &dyn Fn(f64) -> f64| (0..10_000).map(|k| f(t * f64::from(k))).collect::<Vec<f64>>();
+/// # let motor = wave(&|s| (w * s).sin());
+/// # let torque = wave(&|s| -0.02 * w * w * (w * s).sin() + 0.05 * w * (w * s).cos() + 0.3 * (w * s).cos().signum());
+/// # let command = Command { quantity: CommandQuantity::Current, hold: Hold::Measured, torque_per_command: Some(1.0), back_emf_viscous: 0.0, limit: None };
+/// # let run = Run::new("sine", TimeBase::uniform(0.0, t), torque, motor, vec![]).unwrap();
+/// # let campaign = Campaign::new(Channels { axis: Axis::Rotary, command, tips: vec![] }, vec![run]).unwrap();
+/// use lissom::identify::motor_regression; // of a sine with J = 0.02, V = 0.05, CF = 0.3
+/// let fit = motor_regression(&campaign, &[]).unwrap();
+/// assert!((fit.coulomb.unwrap().value - 0.3).abs() < 1e-3);
+/// ```
+///
+/// # Source
+/// `[Feliu1989, eqs. (14), (15)]` is the equation; the way of fitting it is this project's own
+/// (DESIGN.md, "How does the regression work?").
 pub fn motor_regression(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRegression> {
     let tips = coupled_tips(campaign);
     let mut terms =

@@ -1,0 +1,65 @@
+//! Every campaign.toml and arm.toml in the documents can be read.
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use lissom_io::{ArmFile, read_campaign};
+
+/// Columns of the log that stands in for those that the documents name.
+const COLUMNS: [&str; 8] = ["t", "i", "theta_m", "theta_t", "u", "v", "x", "y"];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// The blocks of a document that are fenced as TOML.
+fn blocks(document: &str) -> Vec<String> {
+    let text = std::fs::read_to_string(root().join(document)).unwrap();
+    let fenced = text.split("```toml\n").skip(1);
+    fenced.map(|rest| rest.split("```").next().unwrap().to_owned()).collect()
+}
+
+/// A log of 3000 rows in which every column moves and the first is time at 2 ms.
+fn log(separator: &str) -> String {
+    let mut text = COLUMNS.join(separator) + "\n";
+    for k in 0..3000 {
+        let wave = (f64::from(k) * 0.02).sin();
+        let cells = [wave; COLUMNS.len() - 1].map(|v| format!("{v:.6}")).join(separator);
+        writeln!(text, "{:.3}{separator}{cells}", f64::from(k) * 0.002).unwrap();
+    }
+    text
+}
+
+fn read_as_campaign(block: &str) {
+    let folder = tempfile::tempdir().unwrap();
+    let comma = block.contains("decimal = \",\"");
+    for line in block.lines() {
+        if let Some(file) = line.strip_prefix("file = \"").and_then(|rest| rest.split('"').next()) {
+            let text = if comma { log("\t").replace('.', ",") } else { log(",") };
+            std::fs::write(folder.path().join(file), text).unwrap();
+        }
+    }
+    let path = folder.path().join("campaign.toml");
+    std::fs::write(&path, block).unwrap();
+    if let Err(error) = read_campaign(&path) {
+        panic!("{error} ({:?})\n{block}", error.hint());
+    }
+}
+
+#[test]
+fn the_documents_describe_files_that_can_be_read() {
+    let (mut campaigns, mut arms) = (0, 0);
+    for document in ["README.md", "docs/campaign.md"] {
+        for block in blocks(document) {
+            if block.contains("[signals]") {
+                read_as_campaign(&block);
+                campaigns += 1;
+            } else {
+                ArmFile::from_text("arm.toml".as_ref(), &block).unwrap();
+                arms += 1;
+            }
+        }
+    }
+    assert!(campaigns >= 5 && arms >= 1, "{campaigns} campaigns, {arms} arms");
+}
