@@ -29,9 +29,17 @@ pub enum Error {
     /// What a campaign says about its signals and drive.
     #[error(transparent)]
     Campaign(#[from] CampaignError),
-    /// Signals that make no run.
+    /// Runs that make no campaign.
     #[error(transparent)]
     Record(#[from] RecordError),
+    /// A log whose signals make no run.
+    #[error("{file}: {source}")]
+    Run {
+        /// The log.
+        file: String,
+        /// What is wrong with it.
+        source: RecordError,
+    },
     /// Writing a file.
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -47,7 +55,7 @@ impl Error {
             Self::Arm(error) => error.hint(),
             Self::Campaign(error) => error.hint(),
             Self::Write(error) => error.hint(),
-            Self::Record(error) => record_hint(error),
+            Self::Record(error) | Self::Run { source: error, .. } => record_hint(error),
         }
     }
 }
@@ -55,11 +63,12 @@ impl Error {
 fn record_hint(error: &RecordError) -> Option<String> {
     match error {
         RecordError::TooShort { .. } => Some("record longer, or leave the run out".to_owned()),
-        RecordError::NoRuns => Some("add a [[runs]] table with `file = \"...\"`".to_owned()),
-        RecordError::Omega { .. } => Some(
-            "`omega_rad_s` is an angular frequency in rad/s; `frequency = \"5 Hz\"` takes a unit"
-                .to_owned(),
-        ),
+        RecordError::NotFinite { .. } => {
+            Some("check `scale`, `offset` and `unit` of this channel: they make the number too large".to_owned())
+        }
+        RecordError::SampleTime { .. } => {
+            Some("check the unit and scale of the time stamps".to_owned())
+        }
         _ => None,
     }
 }

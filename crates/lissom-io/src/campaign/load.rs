@@ -4,10 +4,10 @@ use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 use std::path::Path;
 
-use lissom::record::{Campaign, Channels, Command, Hold, Note, Run, TimeBase};
+use lissom::record::{Campaign, Channels, Command, Hold, Note, RecordError, Run, TimeBase};
 
 use super::signals::{Reading, Signals, TimeSource, TipSource};
-use super::{ReadOptions, RunSpec};
+use super::{CampaignError, ReadOptions, RunSpec};
 use crate::error::Error;
 use crate::log::{self, ColumnRef, Log, LogColumn, LogError, LogOptions, TimeGrid};
 
@@ -54,10 +54,18 @@ fn load_run(
             _ => format!("{} [{}/{count}]", spec.name, index + 1),
         };
         let cut = |channel: &Vec<f64>| channel[range.clone()].to_vec();
+        let failed = |source| Error::Run { file: file.clone(), source };
         let mut run =
-            Run::new(name, base, cut(&command), cut(&motor), tips.iter().map(cut).collect())?;
-        if let Some(omega_rad_s) = spec.omega_rad_s {
-            run = run.with_omega(omega_rad_s)?;
+            Run::new(name, base, cut(&command), cut(&motor), tips.iter().map(cut).collect())
+                .map_err(failed)?;
+        if let Some((omega_rad_s, place)) = &spec.omega_rad_s {
+            run = run.with_omega(*omega_rad_s).map_err(|error| match error {
+                RecordError::Omega { found_rad_s, nyquist_rad_s, .. } => {
+                    let (place, log) = (place.clone(), file.clone());
+                    CampaignError::AboveNyquist { place, found_rad_s, log, nyquist_rad_s }.into()
+                }
+                other => failed(other),
+            })?;
         }
         if factor > 1 {
             run = run.with_note(Note::Thinned { factor });

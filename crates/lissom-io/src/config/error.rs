@@ -5,6 +5,7 @@ use std::io;
 
 use thiserror::Error;
 
+use crate::excerpt::excerpt;
 use crate::units::UnitError;
 
 /// A key in a file.
@@ -23,7 +24,7 @@ impl fmt::Display for Place {
         if self.key.is_empty() {
             write!(f, "{}", self.file)
         } else {
-            write!(f, "{}, line {}: `{}`", self.file, self.line, self.key)
+            write!(f, "{}, line {}: `{}`", self.file, self.line, excerpt(&self.key))
         }
     }
 }
@@ -148,7 +149,7 @@ pub enum ConfigError {
         rule: Rule,
     },
     /// A word that is none of the choices.
-    #[error("{place} is \"{found}\", but must be \"{}\"", choices.join("\" or \""))]
+    #[error("{place} is \"{}\", but must be \"{}\"", excerpt(found), choices.join("\" or \""))]
     Choice {
         /// Where.
         place: Place,
@@ -156,7 +157,24 @@ pub enum ConfigError {
         found: String,
         /// The choices.
         choices: Vec<&'static str>,
+        /// The one that was probably meant.
+        nearest: Option<String>,
     },
+    /// A list with nothing in it.
+    #[error("{place} is an empty list")]
+    EmptyList {
+        /// Where.
+        place: Place,
+    },
+}
+
+fn read_hint(source: &io::Error) -> &'static str {
+    match source.kind() {
+        io::ErrorKind::NotFound => "check the path; `lissom demo` writes an example",
+        io::ErrorKind::InvalidData => "the file is text in UTF-8: save it so",
+        io::ErrorKind::IsADirectory => "name the file in it",
+        _ => "check that it is a file that you may read",
+    }
 }
 
 impl ConfigError {
@@ -181,14 +199,13 @@ impl ConfigError {
                 "\"sampled\" for a command that is held between samples, \"measured\" for a measurement"
                     .to_owned(),
             ),
-            Self::MissingKey { place, key } => {
-                let table = if place.key.is_empty() {
-                    "the file"
-                } else {
-                    place.key.as_str()
-                };
-                Some(format!("add `{key}` to {table}"))
+            Self::MissingKey { key: "runs", .. } | Self::EmptyList { .. } => {
+                Some("add a table [[runs]] with `file = \"...\"` for each log".to_owned())
             }
+            Self::MissingKey { place, key } if place.key.is_empty() => {
+                Some(format!("add the table [{key}]"))
+            }
+            Self::MissingKey { place, key } => Some(format!("add `{key}` to {}", place.key)),
             Self::NoneOf { .. } => Some("add one of them".to_owned()),
             Self::Clash { .. } => Some("give one of the two".to_owned()),
             Self::Unit { source, .. } => source.hint(),
@@ -199,12 +216,15 @@ impl ConfigError {
             } if found.trim_start_matches('"').starts_with('-') => {
                 Some("check its sign".to_owned())
             }
-            Self::Read { .. }
-            | Self::Syntax { .. }
-            | Self::Kind { .. }
-            | Self::LastOnly { .. }
-            | Self::Range { .. }
-            | Self::Choice { .. } => None,
+            Self::Range { .. } => Some("check the number and its unit".to_owned()),
+            Self::Choice { nearest: Some(word), .. } => Some(format!("did you mean \"{word}\"?")),
+            Self::Choice { .. } => Some("write one of these words".to_owned()),
+            Self::Read { source, .. } => Some(read_hint(source).to_owned()),
+            Self::Syntax { .. } => {
+                Some("the file is TOML: `key = value` lines below [table] lines".to_owned())
+            }
+            Self::Kind { .. } => Some("see the example at the end of `lissom identify --help`".to_owned()),
+            Self::LastOnly { .. } => Some("move it there, or leave it out".to_owned()),
         }
     }
 }

@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
+use crate::excerpt::excerpt;
 use crate::nearest::nearest;
 use crate::units::{Dimension, UnitError, parse_any_unit, parse_quantity, parse_unit};
 
@@ -283,6 +284,7 @@ impl<'a> Value<'a> {
             place: self.place(),
             found: text.to_owned(),
             choices: choices.to_vec(),
+            nearest: nearest(text, choices.iter().copied()),
         })
     }
 
@@ -294,6 +296,10 @@ impl<'a> Value<'a> {
         ConfigError::Range { place: self.place(), found: self.shown(), rule }
     }
 
+    pub(crate) fn empty(&self) -> ConfigError {
+        ConfigError::EmptyList { place: self.place() }
+    }
+
     pub(crate) fn kind(&self, expected: &'static str) -> ConfigError {
         ConfigError::Kind { place: self.place(), expected, found: self.shown() }
     }
@@ -301,9 +307,9 @@ impl<'a> Value<'a> {
     /// The value as an error shows it.
     fn shown(&self) -> String {
         match self.content {
-            DeValue::String(text) => format!("\"{text}\""),
-            DeValue::Integer(number) => number.to_string(),
-            DeValue::Float(number) => number.to_string(),
+            DeValue::String(text) => format!("\"{}\"", excerpt(text)),
+            DeValue::Integer(number) => excerpt(&number.to_string()),
+            DeValue::Float(number) => excerpt(&number.to_string()),
             DeValue::Boolean(value) => value.to_string(),
             DeValue::Datetime(value) => value.to_string(),
             DeValue::Array(_) => "a list".to_owned(),

@@ -107,10 +107,16 @@ impl<R: BufRead> Rows<'_, R> {
             return Ok(None);
         }
         let whole = self.bytes.last() == Some(&b'\n') || (length as u64) < LONGEST_ROW;
-        if !whole || self.bytes.contains(&0) {
+        let bytes = self.bytes.as_slice();
+        if row == 1 && (bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF")) {
+            return Err(LogError::Utf16 { file: file() });
+        }
+        if bytes.iter().any(|&byte| is_control(byte)) {
             return Err(LogError::NotText { file: file(), row });
         }
-        let bytes = self.bytes.as_slice();
+        if !whole {
+            return Err(LogError::LongRow { file: file(), row, most: LONGEST_ROW });
+        }
         let bytes =
             if row == 1 { bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes) } else { bytes };
         let line = match std::str::from_utf8(bytes) {
@@ -121,6 +127,11 @@ impl<R: BufRead> Rows<'_, R> {
         };
         Ok(Some((row, line)))
     }
+}
+
+/// A byte that stands in no text.
+fn is_control(byte: u8) -> bool {
+    byte.is_ascii_control() && !matches!(byte, b'\t' | b'\r' | b'\n' | b'\x0C')
 }
 
 /// What stands before the second row of numbers.
@@ -243,7 +254,7 @@ impl Body<'_> {
                 file: file(),
                 row,
                 column: column(),
-                found: cell.chars().take(40).collect(),
+                found: cell.to_owned(),
             }),
         }
     }

@@ -3,19 +3,20 @@
 use thiserror::Error;
 
 use super::Dimension;
+use crate::excerpt::excerpt;
 
 /// Why a text is not the quantity or unit that is wanted.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum UnitError {
     /// It does not begin with a number.
-    #[error("\"{text}\" does not begin with a number")]
+    #[error("\"{}\" does not begin with a number", excerpt(text))]
     NoNumber {
         /// The whole text.
         text: String,
     },
     /// A number without a unit.
-    #[error("\"{text}\" has no unit; {expected} is expected")]
+    #[error("\"{}\" has no unit; {expected} is expected", excerpt(text))]
     NoUnit {
         /// The whole text.
         text: String,
@@ -23,7 +24,7 @@ pub enum UnitError {
         expected: Dimension,
     },
     /// A name that is no unit.
-    #[error("\"{text}\": there is no unit `{unit}`")]
+    #[error("\"{}\": there is no unit `{}`", excerpt(text), excerpt(unit))]
     Unknown {
         /// The whole text.
         text: String,
@@ -33,7 +34,7 @@ pub enum UnitError {
         nearest: Option<String>,
     },
     /// The expression breaks off or holds a character that does not belong there.
-    #[error("\"{text}\" is not a unit: {}", found.map_or("it breaks off".to_owned(), |c| format!("unexpected `{c}`")))]
+    #[error("\"{}\" is not a unit: {}", excerpt(text), found.map_or("it breaks off".to_owned(), |c| format!("unexpected `{c}`")))]
     Syntax {
         /// The whole text.
         text: String,
@@ -41,7 +42,7 @@ pub enum UnitError {
         found: Option<char>,
     },
     /// An exponent that is too large.
-    #[error("\"{text}\" has an exponent above {largest}")]
+    #[error("\"{}\" has an exponent above {largest}", excerpt(text))]
     Power {
         /// The whole text.
         text: String,
@@ -49,7 +50,7 @@ pub enum UnitError {
         largest: i32,
     },
     /// A unit of another dimension.
-    #[error("\"{text}\" is {found}, where {expected} is expected")]
+    #[error("\"{}\" is {found}, where {expected} is expected", excerpt(text))]
     Dimension {
         /// The whole text.
         text: String,
@@ -59,7 +60,7 @@ pub enum UnitError {
         expected: Dimension,
     },
     /// Too large or too small for a number.
-    #[error("\"{text}\" is out of range")]
+    #[error("\"{}\" is out of range", excerpt(text))]
     OutOfRange {
         /// The whole text.
         text: String,
@@ -82,7 +83,8 @@ impl UnitError {
                 Some("write products with * and quotients with /, as in \"N*m^2\"".to_owned())
             }
             Self::Dimension { found, expected, .. } => dimension_hint(*found, *expected),
-            Self::Power { .. } | Self::OutOfRange { .. } => None,
+            Self::Power { .. } => Some("check the exponent of the unit".to_owned()),
+            Self::OutOfRange { .. } => Some("check the exponent of the number and its unit".to_owned()),
         }
     }
 
@@ -113,5 +115,8 @@ fn dimension_hint(found: Dimension, expected: Dimension) -> Option<String> {
             "`lbf`, `ozf` and `kgf` are forces; the masses are `lb`, `oz` and `kg`".into(),
         );
     }
-    expected.example().map(|example| format!("write it as in \"{example}\""))
+    Some(expected.example().map_or_else(
+        || "check the unit against the quantity it stands for".to_owned(),
+        |example| format!("write it as in \"{example}\""),
+    ))
 }

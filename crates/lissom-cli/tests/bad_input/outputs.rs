@@ -1,0 +1,62 @@
+//! Outputs that cannot be written, and options that mean nothing.
+
+use crate::bench::{Bench, text};
+
+#[test]
+fn the_folder_of_an_output_is_absent() {
+    let bench = Bench::new();
+    let json = ["campaign.toml", "--report", "out.html", "--plots", "plots", "--json", "no/out.json"];
+    bench.refuses_with(&json, 1, "");
+    let report = ["campaign.toml", "--json", "out.json", "--report", "no/out.html"];
+    bench.refuses_with(&report, 1, "");
+}
+
+#[test]
+fn an_output_is_a_folder_or_below_a_file() {
+    let bench = Bench::new();
+    std::fs::create_dir(bench.path().join("folder")).unwrap();
+    bench.refuses_with(
+        &["campaign.toml", "--report", "out.html", "--json", "folder"],
+        1,
+        "",
+    );
+    bench.refuses_with(
+        &["campaign.toml", "--json", "out.json", "--plots", "run.csv"],
+        1,
+        "",
+    );
+    bench.refuses_with(&["campaign.toml", "--json", "run.csv/out.json"], 1, "");
+}
+
+#[test]
+fn a_window_is_no_time() {
+    let usage = "\n\nFor more information, try '--help'.";
+    for (window, reason) in [
+        ("abc", ""),
+        ("0 s", ""),
+        ("-1 s", ""),
+        ("1 A", ""),
+        ("0.3", ""),
+    ] {
+        let message = format!("error: invalid value '{window}' for '--window <TIME>': {reason}{usage}");
+        Bench::new().refuses_with(&["campaign.toml", "--window", window], 2, &message);
+    }
+    let negative = "[analysis]\nwindow = \"-1 s\"\n";
+    Bench::adding(negative).refuses("");
+}
+
+#[test]
+fn all_outputs_appear_together() {
+    let bench = Bench::new();
+    let output = bench.identify(&[
+        "campaign.toml", "--json", "out.json", "--report", "out.html", "--plots", "new/plots",
+    ]);
+    assert!(matches!(output.status.code(), Some(0 | 3)), "{}", text(&output.stderr));
+    for name in ["out.json", "out.html", "new/plots"] {
+        assert!(bench.path().join(name).exists(), "{name}");
+    }
+    let hidden = std::fs::read_dir(bench.path()).unwrap().filter(|entry| {
+        entry.as_ref().unwrap().file_name().to_string_lossy().starts_with('.')
+    });
+    assert_eq!(hidden.count(), 0, "no part of a file is left");
+}
