@@ -32,14 +32,6 @@ pub enum Error {
     /// Runs that make no campaign.
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// A log whose signals make no run.
-    #[error("{file}: {source}")]
-    Run {
-        /// The log.
-        file: String,
-        /// What is wrong with it.
-        source: RecordError,
-    },
     /// Writing a file.
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -55,20 +47,8 @@ impl Error {
             Self::Arm(error) => error.hint(),
             Self::Campaign(error) => error.hint(),
             Self::Write(error) => error.hint(),
-            Self::Record(error) | Self::Run { source: error, .. } => record_hint(error),
+            // A reader makes no such run: see [`LogError`] and [`CampaignError`].
+            Self::Record(_) => None,
         }
-    }
-}
-
-fn record_hint(error: &RecordError) -> Option<String> {
-    match error {
-        RecordError::TooShort { .. } => Some("record longer, or leave the run out".to_owned()),
-        RecordError::NotFinite { .. } => {
-            Some("check `scale`, `offset` and `unit` of this channel: they make the number too large".to_owned())
-        }
-        RecordError::SampleTime { .. } => {
-            Some("check the unit and scale of the time stamps".to_owned())
-        }
-        _ => None,
     }
 }

@@ -45,17 +45,6 @@ pub(crate) fn good() -> Vec<Row> {
     motion(4.0, 0.005, 20.0)
 }
 
-/// A move of several frequencies, which is no sinusoid.
-pub(crate) fn shaken() -> Vec<Row> {
-    let mut rows = good();
-    for row in &mut rows {
-        let slow = (0.37 * PI * row[0]).sin();
-        row[2] += 0.7 * slow;
-        row[3] += 0.7 * slow;
-    }
-    rows
-}
-
 pub(crate) fn csv(rows: &[Row]) -> String {
     let mut text = String::from("t,i,m,p\n");
     for [t, i, m, p] in rows {
@@ -149,7 +138,9 @@ impl Bench {
             .filter(|finding| finding["code"] == code)
             .map(|finding| {
                 let message = finding["message"].as_str().unwrap();
-                finding["run"].as_str().map_or(message.to_owned(), |run| format!("{run}: {message}"))
+                finding["run"]
+                    .as_str()
+                    .map_or(message.to_owned(), |run| format!("{run}: {message}"))
             })
             .collect()
     }
@@ -165,4 +156,19 @@ fn names(folder: &Path) -> Vec<std::ffi::OsString> {
         std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     names.sort();
     names
+}
+
+/// The good motion, the motor standing for a tenth of the cycle at each reversal.
+pub(crate) fn sticking() -> Vec<Row> {
+    let cycle = |phase: f64| {
+        let (half, sign) = if phase < 0.5 { (phase, 1.0) } else { (phase - 0.5, -1.0) };
+        sign * (PI * ((half - 0.05) / 0.45).max(0.0)).cos()
+    };
+    let mut rows = good();
+    for row in &mut rows {
+        let phase = (4.0 * row[0] / (2.0 * PI)).fract();
+        row[2] = cycle(phase);
+        row[3] = 1.02 * row[2];
+    }
+    rows
 }

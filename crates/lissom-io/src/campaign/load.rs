@@ -54,17 +54,16 @@ fn load_run(
             _ => format!("{} [{}/{count}]", spec.name, index + 1),
         };
         let cut = |channel: &Vec<f64>| channel[range.clone()].to_vec();
-        let failed = |source| Error::Run { file: file.clone(), source };
         let mut run =
             Run::new(name, base, cut(&command), cut(&motor), tips.iter().map(cut).collect())
-                .map_err(failed)?;
+                .map_err(|error| of_log(error, &file))?;
         if let Some((omega_rad_s, place)) = &spec.omega_rad_s {
             run = run.with_omega(*omega_rad_s).map_err(|error| match error {
                 RecordError::Omega { found_rad_s, nyquist_rad_s, .. } => {
                     let (place, log) = (place.clone(), file.clone());
                     CampaignError::AboveNyquist { place, found_rad_s, log, nyquist_rad_s }.into()
                 }
-                other => failed(other),
+                other => of_log(other, &file),
             })?;
         }
         if factor > 1 {
@@ -76,6 +75,21 @@ fn load_run(
         runs.push(notes.into_iter().fold(run, Run::with_note));
     }
     Ok(runs)
+}
+
+/// What is wrong with a run, as a flaw of its log.
+fn of_log(error: RecordError, file: &str) -> Error {
+    let file = file.to_owned();
+    match error {
+        RecordError::TooShort { found, least, .. } => {
+            LogError::FewSamples { file, found, least }.into()
+        }
+        RecordError::NotFinite { channel, sample, .. } => {
+            LogError::OutOfRange { file, channel, sample: sample + 1 }.into()
+        }
+        RecordError::SampleTime { found_s, .. } => LogError::SampleTime { file, found_s }.into(),
+        other => other.into(),
+    }
 }
 
 /// The columns to read: command, motor, then those of the tips in turn.

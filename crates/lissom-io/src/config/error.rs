@@ -216,6 +216,14 @@ impl ConfigError {
             } if found.trim_start_matches('"').starts_with('-') => {
                 Some("check its sign".to_owned())
             }
+            Self::Range { place, rule: Rule::WholeBetween(..), .. }
+                if place.key.ends_with(".column") =>
+            {
+                Some("columns go by name in quotes or by number from 1".to_owned())
+            }
+            Self::Range { rule: Rule::WholeBetween(..), .. } => {
+                Some("write it without unit and quotes".to_owned())
+            }
             Self::Range { .. } => Some("check the number and its unit".to_owned()),
             Self::Choice { nearest: Some(word), .. } => Some(format!("did you mean \"{word}\"?")),
             Self::Choice { .. } => Some("write one of these words".to_owned()),
@@ -223,7 +231,14 @@ impl ConfigError {
             Self::Syntax { .. } => {
                 Some("the file is TOML: `key = value` lines below [table] lines".to_owned())
             }
-            Self::Kind { .. } => Some("see the example at the end of `lissom identify --help`".to_owned()),
+            Self::Kind { expected: "a number", .. } => {
+                Some("write it without unit and quotes".to_owned())
+            }
+            Self::Kind { expected: "text in quotes", .. } => Some("put it in quotes".to_owned()),
+            Self::Kind { expected: "a table", .. } => {
+                Some("write it as in { column = \"t\", unit = \"s\" }".to_owned())
+            }
+            Self::Kind { .. } => Some("`lissom demo` writes an example".to_owned()),
             Self::LastOnly { .. } => Some("move it there, or leave it out".to_owned()),
         }
     }

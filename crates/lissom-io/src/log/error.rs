@@ -73,7 +73,11 @@ pub enum LogError {
         row: usize,
     },
     /// No column has the name.
-    #[error("{file}: there is no column \"{}\"; the columns are {}", excerpt(column), listed(names))]
+    #[error(
+        "{file}: there is no column \"{}\"; the columns are {}",
+        excerpt(column),
+        listed(names)
+    )]
     NoColumn {
         /// The file.
         file: String,
@@ -115,7 +119,11 @@ pub enum LogError {
         columns: usize,
     },
     /// A cell that is no number.
-    #[error("{file}: row {row}, column {}: \"{}\" is not a number", excerpt(column), excerpt(found))]
+    #[error(
+        "{file}: row {row}, column {}: \"{}\" is not a number",
+        excerpt(column),
+        excerpt(found)
+    )]
     NotANumber {
         /// The file.
         file: String,
@@ -127,7 +135,11 @@ pub enum LogError {
         found: String,
     },
     /// A cell that is NaN or infinite.
-    #[error("{file}: row {row}, column {}: \"{}\" is not a finite number", excerpt(column), excerpt(found))]
+    #[error(
+        "{file}: row {row}, column {}: \"{}\" is not a finite number",
+        excerpt(column),
+        excerpt(found)
+    )]
     NotFinite {
         /// The file.
         file: String,
@@ -149,24 +161,31 @@ pub enum LogError {
         column: String,
     },
     /// A stamp before the one above it. Stamps as they stand in the file.
-    #[error("{file}: row {row}: time goes back from {before} to {after}")]
+    #[error(
+        "{file}: row {row}, column {}: time goes back from {before} to {after}",
+        excerpt(column)
+    )]
     TimeBack {
         /// The file.
         file: String,
         /// Row of the later stamp.
         row: usize,
+        /// The column of the stamps.
+        column: String,
         /// Stamp of the row before.
         before: f64,
         /// Stamp of this row.
         after: f64,
     },
     /// Two rows with one stamp.
-    #[error("{file}: row {row}: time stands still at {stamp}")]
+    #[error("{file}: row {row}, column {}: time stands still at {stamp}", excerpt(column))]
     TimeStill {
         /// The file.
         file: String,
         /// Row of the second stamp.
         row: usize,
+        /// The column of the stamps.
+        column: String,
         /// The stamp.
         stamp: f64,
     },
@@ -183,6 +202,34 @@ pub enum LogError {
         least: usize,
         /// Samples of the longest piece.
         longest: usize,
+    },
+    /// Fewer samples than anything can be said from.
+    #[error("{file}: {found} samples; at least {least} are needed")]
+    FewSamples {
+        /// The file.
+        file: String,
+        /// Samples found.
+        found: usize,
+        /// Samples needed.
+        least: usize,
+    },
+    /// Numbers that overflow in their unit.
+    #[error("{file}: channel {channel}: sample {sample} is out of range in its unit")]
+    OutOfRange {
+        /// The file.
+        file: String,
+        /// Name of the channel.
+        channel: String,
+        /// The sample, from 1.
+        sample: usize,
+    },
+    /// Stamps that give no sample time.
+    #[error("{file}: the time stamps give a sample time of {found_s} s")]
+    SampleTime {
+        /// The file.
+        file: String,
+        /// The sample time \[s\].
+        found_s: f64,
     },
     /// The head that is to be skipped leaves nothing.
     #[error("{file}: skipping {skip_s} s leaves {left} rows of a log of {length_s} s")]
@@ -248,8 +295,13 @@ impl LogError {
             Self::TimeStill { .. } => {
                 "export the stamps with more digits, or give `sample_time` in place of `time` if the sampling is regular".to_owned()
             }
+            Self::FewSamples { .. } => "record longer, or leave the run out".to_owned(),
+            Self::OutOfRange { .. } => {
+                "check `unit`, `scale` and `offset` of this channel".to_owned()
+            }
+            Self::SampleTime { .. } => "check the unit and scale of the time stamps".to_owned(),
             Self::AllPiecesShort { .. } => {
-                "where the stamps are too coarse for the sampling, give `sample_time` in place of `time`".to_owned()
+                "log without interruption; where the stamps are too coarse for the sampling, give `sample_time` in place of `time`".to_owned()
             }
             Self::AllSkipped { .. } => "give a smaller `skip`".to_owned(),
         })

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader, ErrorKind, Read};
 use std::path::Path;
 
 use lissom::record::Hold;
@@ -29,13 +29,18 @@ pub fn read_log(
     options: &LogOptions,
 ) -> Result<Log, LogError> {
     let name = path.display().to_string();
-    match File::open(path) {
+    match File::open(path).and_then(only_file) {
         Ok(file) => {
             let reader = BufReader::with_capacity(1 << 16, file);
             read_log_from(reader, &name, time, columns, options)
         }
         Err(source) => Err(LogError::Open { file: name, source }),
     }
+}
+
+/// Folders can be opened too.
+fn only_file(file: File) -> std::io::Result<File> {
+    if file.metadata()?.is_dir() { Err(ErrorKind::IsADirectory.into()) } else { Ok(file) }
 }
 
 /// Reads the columns of a log from any reader; `name` stands in errors.
@@ -275,12 +280,13 @@ impl Body<'_> {
     fn check_time(&mut self, row: usize) -> Result<(), LogError> {
         let after = self.values[0];
         if let Some(before) = self.last_stamp {
-            let file = self.file.to_owned();
-            if after < before {
-                return Err(LogError::TimeBack { file, row, before, after });
-            }
             if after <= before {
-                return Err(LogError::TimeStill { file, row, stamp: after });
+                let (file, column) = (self.file.to_owned(), self.labels[0].clone());
+                return Err(if after < before {
+                    LogError::TimeBack { file, row, column, before, after }
+                } else {
+                    LogError::TimeStill { file, row, column, stamp: after }
+                });
             }
         }
         self.last_stamp = Some(after);

@@ -77,14 +77,16 @@ impl UnitError {
                 .map(|e| format!("write it as in \"{e}\", or as a bare SI number")),
             Self::Unknown { nearest, .. } => Some(match nearest {
                 Some(name) => format!("did you mean `{name}`?"),
-                None => "write products with * and quotients with /, as in \"N*m^2\"".to_owned(),
+                None => "units are written as in \"mA\", \"deg\" or \"lbf*in/A\"".to_owned(),
             }),
             Self::Syntax { .. } => {
                 Some("write products with * and quotients with /, as in \"N*m^2\"".to_owned())
             }
             Self::Dimension { found, expected, .. } => dimension_hint(*found, *expected),
             Self::Power { .. } => Some("check the exponent of the unit".to_owned()),
-            Self::OutOfRange { .. } => Some("check the exponent of the number and its unit".to_owned()),
+            Self::OutOfRange { .. } => {
+                Some("check the exponent of the number and its unit".to_owned())
+            }
         }
     }
 

@@ -298,7 +298,9 @@ fn sinusoidal(
     let distortion = motor.phasors[1..].iter().map(|p| p.value.norm_sqr()).sum::<f64>().sqrt()
         / motor.phasors[0].value.norm();
     let allowed = if given { DISTORTION_GIVEN } else { DISTORTION_FOUND };
-    if motor.unexplained() > UNEXPLAINED || distortion > allowed {
+    // At rest in all that is kept, neither is a number: no sinusoid either.
+    let sinusoid = motor.unexplained() <= UNEXPLAINED && distortion <= allowed;
+    if !sinusoid {
         if given {
             let message = format!(
                 "not a sinusoid of {omega:.4} rad/s: {:.0} % of the motor's power is left, \
@@ -312,6 +314,9 @@ fn sinusoidal(
         return None;
     }
     let command = held(fit(run.command())?, campaign.channels.command.hold, t);
+    if command.phasors[0].value.norm() <= 0.0 {
+        return None;
+    }
     let tips: Vec<Harmonics> = run.tips().iter().map(|x| fit(x)).collect::<Option<_>>()?;
     steadiness(run, &steady, findings);
     if 3.0 * omega > 0.9 * std::f64::consts::PI / t {
