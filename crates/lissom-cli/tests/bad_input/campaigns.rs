@@ -50,7 +50,7 @@ fn the_campaign_is_a_log() {
 fn the_unit_is_unknown() {
     Bench::replacing("unit = \"A\"", "unit = \"amp\"").refuses(
         "error: campaign.toml, line 3: `signals.current.unit`: \"amp\": there is no unit `amp`\n\
-             hint: units are written as in \"mA\", \"deg\" or \"lbf*in/A\"",
+             hint: write units as in \"mA\", \"deg\" or \"lbf*in/A\": products with *, quotients with /",
     );
     Bench::replacing("unit = \"rad\" }\ntips", "unit = \"Rad\" }\ntips").refuses(
         "error: campaign.toml, line 4: `signals.motor.unit`: \"Rad\": there is no unit `Rad`\n\
@@ -144,9 +144,9 @@ fn a_voltage_needs_the_resistance() {
 
 #[test]
 fn the_drive_frequency_is_above_nyquist() {
-    Bench::adding("omega_rad_s = 700\n").refuses("error: campaign.toml, line 12: `runs[1].omega_rad_s` is 700 rad/s, but the Nyquist frequency of run.csv is 628.3185 rad/s\n\
+    Bench::adding("omega_rad_s = 700\n").refuses("error: campaign.toml, line 12: `runs[1].omega_rad_s` is 700.0000 rad/s, but must be below 628.3185 rad/s, the Nyquist frequency of run.csv\n\
              hint: `omega_rad_s` is in rad/s, and `frequency = \"5 Hz\"` takes a unit; check the unit of the time stamps too");
-    Bench::adding("frequency = \"101 Hz\"\n").refuses("error: campaign.toml, line 12: `runs[1].frequency` is 634.6017160251382 rad/s, but the Nyquist frequency of run.csv is 628.3185 rad/s\n\
+    Bench::adding("frequency = \"101 Hz\"\n").refuses("error: campaign.toml, line 12: `runs[1].frequency` is 634.6017 rad/s, but must be below 628.3185 rad/s, the Nyquist frequency of run.csv\n\
              hint: `omega_rad_s` is in rad/s, and `frequency = \"5 Hz\"` takes a unit; check the unit of the time stamps too");
     Bench::adding("omega_rad_s = 0\n").refuses(
         "error: campaign.toml, line 12: `runs[1].omega_rad_s` is 0, but must be greater than zero\n\

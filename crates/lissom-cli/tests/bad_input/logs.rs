@@ -181,12 +181,12 @@ fn signals_are_constant() {
 }
 
 #[test]
-fn a_number_overflows_in_its_unit() {
+fn a_number_is_too_large_in_its_unit() {
     let mut rows = motion(4.0, 0.005, 20.0);
     rows.iter_mut().for_each(|row| row[1] *= 1e306);
     let text = crate::bench::CAMPAIGN.replace("unit = \"A\"", "unit = \"A\", scale = 1e6");
     Bench::log(csv(&rows)).file("campaign.toml", text).refuses(
-        "error: run.csv: channel command: sample 1 is out of range in its unit\n\
-             hint: check `unit`, `scale` and `offset` of this channel",
+        "error: run.csv: channel command: sample 1 is beyond 1e100 in SI\n\
+             hint: check the log at that sample, and `unit`, `scale` and `offset` of the channel",
     );
 }

@@ -51,7 +51,7 @@ fn a_unit_is_endless() {
              hint: units are written as in \"mA\", \"deg\" or \"lbf*in/A\"");
     let unit = format!("unit = \"{}A\"", "(".repeat(1_000_000));
     Bench::replacing("unit = \"A\"", &unit).refuses("error: campaign.toml, line 3: `signals.current.unit`: \"((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((…\" is not a unit: unexpected `(`\n\
-             hint: write products with * and quotients with /, as in \"N*m^2\"");
+             hint: write units as in \"mA\", \"deg\" or \"lbf*in/A\": products with *, quotients with /");
 }
 
 #[test]

@@ -73,7 +73,7 @@ pub enum CampaignError {
     },
     /// A run driven at or above the Nyquist frequency of its log.
     #[error(
-        "{place} is {found_rad_s} rad/s, but the Nyquist frequency of {log} is {nyquist_rad_s:.4} rad/s"
+        "{place} is {found_rad_s:.4} rad/s, but must be below {nyquist_rad_s:.4} rad/s, the Nyquist frequency of {log}"
     )]
     AboveNyquist {
         /// Where.

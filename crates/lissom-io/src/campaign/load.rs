@@ -11,6 +11,10 @@ use super::{CampaignError, ReadOptions, RunSpec};
 use crate::error::Error;
 use crate::log::{self, ColumnRef, Log, LogColumn, LogError, LogOptions, TimeGrid};
 
+/// Largest magnitude of a sample in SI: no machine has one, and squares and products of larger ones
+/// overflow.
+const LARGEST: f64 = 1e100;
+
 /// Reads every run.
 pub(super) fn load(
     folder: &Path,
@@ -47,6 +51,7 @@ fn load_run(
     let factor = log.factor;
     let (command, motor, tips) = channels(log.columns, signals);
     let count = pieces.len();
+    in_range(&command, &motor, &tips, signals, &file)?;
     let mut runs = Vec::with_capacity(count);
     for (index, (range, base, notes)) in pieces.into_iter().enumerate() {
         let name = match count {
@@ -77,15 +82,35 @@ fn load_run(
     Ok(runs)
 }
 
+/// Refuses samples that overflow in their unit or in what is made of them.
+fn in_range(
+    command: &[f64],
+    motor: &[f64],
+    tips: &[Vec<f64>],
+    signals: &Signals,
+    file: &str,
+) -> Result<(), LogError> {
+    let tips = signals.tips.iter().map(|(tip, _)| tip.name.as_str()).zip(tips);
+    let all = [("command", command), ("motor", motor)].into_iter();
+    for (channel, samples) in all.chain(tips.map(|(name, tip)| (name, tip.as_slice()))) {
+        if let Some(k) = samples.iter().position(|v| !v.is_finite() || v.abs() > LARGEST) {
+            return Err(LogError::OutOfRange {
+                file: file.to_owned(),
+                channel: channel.to_owned(),
+                sample: k + 1,
+                largest: LARGEST,
+            });
+        }
+    }
+    Ok(())
+}
+
 /// What is wrong with a run, as a flaw of its log.
 fn of_log(error: RecordError, file: &str) -> Error {
     let file = file.to_owned();
     match error {
         RecordError::TooShort { found, least, .. } => {
             LogError::FewSamples { file, found, least }.into()
-        }
-        RecordError::NotFinite { channel, sample, .. } => {
-            LogError::OutOfRange { file, channel, sample: sample + 1 }.into()
         }
         RecordError::SampleTime { found_s, .. } => LogError::SampleTime { file, found_s }.into(),
         other => other.into(),

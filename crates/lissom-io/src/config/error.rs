@@ -222,7 +222,7 @@ impl ConfigError {
                 Some("columns go by name in quotes or by number from 1".to_owned())
             }
             Self::Range { rule: Rule::WholeBetween(..), .. } => {
-                Some("write it without unit and quotes".to_owned())
+                Some("give a whole number within these limits".to_owned())
             }
             Self::Range { .. } => Some("check the number and its unit".to_owned()),
             Self::Choice { nearest: Some(word), .. } => Some(format!("did you mean \"{word}\"?")),

@@ -213,8 +213,8 @@ pub enum LogError {
         /// Samples needed.
         least: usize,
     },
-    /// Numbers that overflow in their unit.
-    #[error("{file}: channel {channel}: sample {sample} is out of range in its unit")]
+    /// Numbers that are too large in their unit.
+    #[error("{file}: channel {}: sample {sample} is beyond {largest:e} in SI", excerpt(channel))]
     OutOfRange {
         /// The file.
         file: String,
@@ -222,6 +222,8 @@ pub enum LogError {
         channel: String,
         /// The sample, from 1.
         sample: usize,
+        /// Largest magnitude there may be.
+        largest: f64,
     },
     /// Stamps that give no sample time.
     #[error("{file}: the time stamps give a sample time of {found_s} s")]
@@ -297,7 +299,7 @@ impl LogError {
             }
             Self::FewSamples { .. } => "record longer, or leave the run out".to_owned(),
             Self::OutOfRange { .. } => {
-                "check `unit`, `scale` and `offset` of this channel".to_owned()
+                "check the log at that sample, and `unit`, `scale` and `offset` of the channel".to_owned()
             }
             Self::SampleTime { .. } => "check the unit and scale of the time stamps".to_owned(),
             Self::AllPiecesShort { .. } => {

@@ -77,7 +77,7 @@ impl UnitError {
                 .map(|e| format!("write it as in \"{e}\", or as a bare SI number")),
             Self::Unknown { nearest, .. } => Some(match nearest {
                 Some(name) => format!("did you mean `{name}`?"),
-                None => "units are written as in \"mA\", \"deg\" or \"lbf*in/A\"".to_owned(),
+                None => "write units as in \"mA\", \"deg\" or \"lbf*in/A\": products with *, quotients with /".to_owned(),
             }),
             Self::Syntax { .. } => {
                 Some("write products with * and quotients with /, as in \"N*m^2\"".to_owned())

@@ -302,12 +302,16 @@ fn sinusoidal(
     let sinusoid = motor.unexplained() <= UNEXPLAINED && distortion <= allowed;
     if !sinusoid {
         if given {
-            let message = format!(
-                "not a sinusoid of {omega:.4} rad/s: {:.0} % of the motor's power is left, \
-                 harmonics have {:.0} % of the fundamental",
-                100.0 * motor.unexplained(),
-                100.0 * distortion
-            );
+            let message = if distortion.is_finite() {
+                format!(
+                    "not a sinusoid of {omega:.4} rad/s: {:.0} % of the motor's power is left, \
+                     harmonics have {:.0} % of the fundamental",
+                    100.0 * motor.unexplained(),
+                    100.0 * distortion
+                )
+            } else {
+                format!("the motor does not move at {omega:.4} rad/s in the periods kept")
+            };
             let hint = "check omega_rad_s; the run is used as a motion of any shape";
             refuse(findings, "not-sinusoidal", Severity::Warning, message, hint);
         }
