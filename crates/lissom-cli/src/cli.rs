@@ -36,6 +36,7 @@ pub(crate) struct IdentifyArgs {
     pub(crate) campaign: PathBuf,
     /// Write the result as JSON to FILE, or alone to standard output
     #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    #[expect(clippy::option_option, reason = "not asked for, to standard output, to a file")]
     pub(crate) json: Option<Option<PathBuf>>,
     /// Write one self-contained HTML page
     #[arg(long, value_name = "FILE")]
@@ -84,5 +85,6 @@ pub(crate) struct DemoArgs {
     pub(crate) out: PathBuf,
     /// Write truth and result as JSON to FILE, or alone to standard output
     #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    #[expect(clippy::option_option, reason = "not asked for, to standard output, to a file")]
     pub(crate) json: Option<Option<PathBuf>>,
 }

@@ -32,15 +32,14 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         figures::add_all(&mut batch, folder, &file.campaign.channels, &names, &id, None)?;
     }
     batch.commit()?;
-    match &args.json {
-        Some(None) => print::json(&result),
-        _ => {
-            print::campaign(&file.campaign);
-            print::runs(&id);
-            print::line("");
-            print::figures(&names, &id);
-            print::findings(&id.findings);
-        }
+    if let Some(None) = args.json {
+        print::json(&result);
+    } else {
+        print::campaign(&file.campaign);
+        print::runs(&id);
+        print::line("");
+        print::figures(&names, &id);
+        print::findings(&id.findings);
     }
     Ok(code(&id))
 }

@@ -29,15 +29,15 @@ pub(crate) type Row = [f64; 4];
 /// `omega_rad_s`; a beam of 40 N·m/rad, clamped at 30 rad/s, follows.
 pub(crate) fn motion(omega_rad_s: f64, sample_time_s: f64, seconds: f64) -> Vec<Row> {
     let magnified = 1.0 / (1.0 - (omega_rad_s / 30.0).powi(2));
-    let row = |k: usize| {
-        let time_s = k as f64 * sample_time_s;
+    let row = |k: u32| {
+        let time_s = f64::from(k) * sample_time_s;
         let (sin, cos) = (omega_rad_s * time_s + 0.3).sin_cos();
         let (speed, acceleration) = (omega_rad_s * cos, -omega_rad_s * omega_rad_s * sin);
         let beam = 0.4 * (1.0 - magnified) * sin;
         let torque = 0.01 * acceleration + 0.02 * speed + 0.05 * speed.signum() + beam;
         [time_s, torque / 0.25, sin, magnified * sin]
     };
-    (0..(seconds / sample_time_s).round() as usize).map(row).collect()
+    (0..u32::MAX).map(row).take_while(|row| row[0] < seconds - 0.5 * sample_time_s).collect()
 }
 
 /// The motion that most tests spoil: 4 rad/s, 5 ms, 20 s.

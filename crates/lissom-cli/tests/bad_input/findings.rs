@@ -129,7 +129,9 @@ fn another_frequency_than_the_stated_one_is_seen() {
 fn a_dead_channel_is_named() {
     let dead = |column: usize| {
         let mut rows = good();
-        rows.iter_mut().for_each(|row| row[column] = 0.25);
+        for row in &mut rows {
+            row[column] = 0.25;
+        }
         Bench::adding("[[runs]]\nfile = \"dead.csv\"\n").file("dead.csv", csv(&rows))
     };
     assert_eq!(

@@ -58,13 +58,17 @@ fn a_window_is_no_time() {
         ("0.3", "\"0.3\" has no unit; a time [s] is expected"),
     ] {
         let message = format!(
-            "error: invalid value '{window}' for '--window <TIME>': {reason}\n{hint}{usage}"
+            "error: invalid value '{window}' for '--window <TIME>': {reason}\n\
+         {hint}{usage}",
         );
         Bench::new().refuses_with(&["campaign.toml", "--window", window], 2, &message);
     }
     let negative = "[analysis]\nwindow = \"-1 s\"\n";
-    Bench::adding(negative).refuses("error: campaign.toml, line 13: `analysis.window` is \"-1 s\", but must be greater than zero\n\
-             hint: check its sign");
+    Bench::adding(negative).refuses(
+        "error: campaign.toml, line 13: `analysis.window` is \"-1 s\", but must be greater \
+         than zero\n\
+         hint: check its sign",
+    );
 }
 
 #[test]

@@ -6,6 +6,7 @@ use std::io;
 use thiserror::Error;
 
 use crate::excerpt::excerpt;
+use crate::nearest::nearest;
 use crate::units::UnitError;
 
 /// A key in a file.
@@ -157,8 +158,6 @@ pub enum ConfigError {
         found: String,
         /// The choices.
         choices: Vec<&'static str>,
-        /// The one that was probably meant.
-        nearest: Option<String>,
     },
     /// A list with nothing in it.
     #[error("{place} is an empty list")]
@@ -225,8 +224,12 @@ impl ConfigError {
                 Some("give a whole number within these limits".to_owned())
             }
             Self::Range { .. } => Some("check the number and its unit".to_owned()),
-            Self::Choice { nearest: Some(word), .. } => Some(format!("did you mean \"{word}\"?")),
-            Self::Choice { .. } => Some("write one of these words".to_owned()),
+            Self::Choice { found, choices, .. } => {
+                Some(match nearest(found, choices.iter().copied()) {
+                    Some(word) => format!("did you mean \"{word}\"?"),
+                    None => "write one of these words".to_owned(),
+                })
+            }
             Self::Read { source, .. } => Some(read_hint(source).to_owned()),
             Self::Syntax { .. } => {
                 Some("the file is TOML: `key = value` lines below [table] lines".to_owned())

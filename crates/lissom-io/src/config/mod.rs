@@ -284,7 +284,6 @@ impl<'a> Value<'a> {
             place: self.place(),
             found: text.to_owned(),
             choices: choices.to_vec(),
-            nearest: nearest(text, choices.iter().copied()),
         })
     }
 

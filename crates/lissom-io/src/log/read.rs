@@ -279,15 +279,15 @@ impl Body<'_> {
 
     fn check_time(&mut self, row: usize) -> Result<(), LogError> {
         let after = self.values[0];
-        if let Some(before) = self.last_stamp {
-            if after <= before {
-                let (file, column) = (self.file.to_owned(), self.labels[0].clone());
-                return Err(if after < before {
-                    LogError::TimeBack { file, row, column, before, after }
-                } else {
-                    LogError::TimeStill { file, row, column, stamp: after }
-                });
-            }
+        if let Some(before) = self.last_stamp
+            && after <= before
+        {
+            let (file, column) = (self.file.to_owned(), self.labels[0].clone());
+            return Err(if after < before {
+                LogError::TimeBack { file, row, column, before, after }
+            } else {
+                LogError::TimeStill { file, row, column, stamp: after }
+            });
         }
         self.last_stamp = Some(after);
         Ok(())

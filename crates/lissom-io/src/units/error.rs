@@ -82,7 +82,7 @@ impl UnitError {
             Self::Syntax { .. } => {
                 Some("write products with * and quotients with /, as in \"N*m^2\"".to_owned())
             }
-            Self::Dimension { found, expected, .. } => dimension_hint(*found, *expected),
+            Self::Dimension { found, expected, .. } => Some(dimension_hint(*found, *expected)),
             Self::Power { .. } => Some("check the exponent of the unit".to_owned()),
             Self::OutOfRange { .. } => {
                 Some("check the exponent of the number and its unit".to_owned())
@@ -106,19 +106,15 @@ impl UnitError {
 }
 
 /// A mass where a force belongs is the usual slip.
-fn dimension_hint(found: Dimension, expected: Dimension) -> Option<String> {
+fn dimension_hint(found: Dimension, expected: Dimension) -> String {
     if found.times(Dimension::ACCELERATION, 1) == expected {
-        return Some(
-            "`lb`, `oz` and `kg` are masses; the forces are `lbf`, `ozf` and `kgf`".into(),
-        );
+        return "`lb`, `oz` and `kg` are masses; the forces are `lbf`, `ozf` and `kgf`".into();
     }
     if expected.times(Dimension::ACCELERATION, 1) == found {
-        return Some(
-            "`lbf`, `ozf` and `kgf` are forces; the masses are `lb`, `oz` and `kg`".into(),
-        );
+        return "`lbf`, `ozf` and `kgf` are forces; the masses are `lb`, `oz` and `kg`".into();
     }
-    Some(expected.example().map_or_else(
+    expected.example().map_or_else(
         || "check the unit against the quantity it stands for".to_owned(),
         |example| format!("write it as in \"{example}\""),
-    ))
+    )
 }

@@ -1,5 +1,3 @@
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use std::f64::consts::{PI, TAU};
 
 use proptest::prelude::*;
