@@ -102,6 +102,11 @@ fn a_quantity_is_no_quantity() {
          range\n\
          hint: check the exponent of the number and its unit",
     );
+    Bench::replacing("0.25 N*m/A", "0.25e200 N*m/A").refuses(
+        "error: campaign.toml, line 8: `drive.torque_constant` is \"0.25e200 N*m/A\", but must be \
+         of a magnitude from 1e-100 to 1e100 in SI\n\
+         hint: check the number and its unit",
+    );
     Bench::replacing("\"0.25 N*m/A\"", "true").refuses(
         "error: campaign.toml, line 8: `drive.torque_constant` is true, where text with a unit \
          or an SI number is expected\n\

@@ -220,4 +220,9 @@ fn a_number_is_too_large_in_its_unit() {
         "error: run.csv: channel command: sample 1 is beyond 1e100 in SI\n\
          hint: check the log at that sample, and `unit`, `scale` and `offset` of the channel",
     );
+    let late: Vec<Row> = good().into_iter().map(|[t, i, m, p]| [t * 1e200, i, m, p]).collect();
+    Bench::log(csv(&late)).refuses(
+        "error: run.csv: channel time: sample 2 is beyond 1e100 in SI\n\
+         hint: check the log at that sample, and `unit`, `scale` and `offset` of the channel",
+    );
 }

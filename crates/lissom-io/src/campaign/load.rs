@@ -8,12 +8,12 @@ use lissom::record::{Campaign, Channels, Command, Hold, Note, RecordError, Run, 
 
 use super::signals::{Reading, Signals, TimeSource, TipSource};
 use super::{CampaignError, ReadOptions, RunSpec};
+use crate::config::MAGNITUDE;
 use crate::error::Error;
 use crate::log::{self, ColumnRef, Log, LogColumn, LogError, LogOptions, TimeGrid};
 
-/// Largest magnitude of a sample in SI: no machine has one, and squares and products of larger ones
-/// overflow.
-const LARGEST: f64 = 1e100;
+/// Largest magnitude of a sample in SI.
+const LARGEST: f64 = MAGNITUDE.1;
 
 /// Reads every run.
 pub(super) fn load(
@@ -91,18 +91,22 @@ fn in_range(
     file: &str,
 ) -> Result<(), LogError> {
     let tips = signals.tips.iter().map(|(tip, _)| tip.name.as_str()).zip(tips);
-    let all = [("command", command), ("motor", motor)].into_iter();
-    for (channel, samples) in all.chain(tips.map(|(name, tip)| (name, tip.as_slice()))) {
-        if let Some(k) = samples.iter().position(|v| !v.is_finite() || v.abs() > LARGEST) {
-            return Err(LogError::OutOfRange {
-                file: file.to_owned(),
-                channel: channel.to_owned(),
-                sample: k + 1,
-                largest: LARGEST,
-            });
-        }
+    let mut all = [("command", command), ("motor", motor)]
+        .into_iter()
+        .chain(tips.map(|(name, tip)| (name, tip.as_slice())));
+    all.try_for_each(|(channel, samples)| channel_in_range(channel, samples, file))
+}
+
+fn channel_in_range(channel: &str, samples: &[f64], file: &str) -> Result<(), LogError> {
+    match samples.iter().position(|v| !v.is_finite() || v.abs() > LARGEST) {
+        None => Ok(()),
+        Some(k) => Err(LogError::OutOfRange {
+            file: file.to_owned(),
+            channel: channel.to_owned(),
+            sample: k + 1,
+            largest: LARGEST,
+        }),
     }
-    Ok(())
 }
 
 /// What is wrong with a run, as a flaw of its log.
@@ -152,6 +156,7 @@ fn pieces(
     match (&signals.time, &log.time) {
         (TimeSource::Stamps(_, unit_s), Some(stamps)) => {
             let stamps_s: Vec<f64> = stamps.iter().map(|stamp| stamp * unit_s).collect();
+            channel_in_range("time", &stamps_s, file)?;
             let start_s = stamps_s.first().copied().unwrap_or(0.0);
             let first = stamps_s.partition_point(|stamp| stamp - start_s < spec.skip_s);
             let kept = &stamps_s[first..];

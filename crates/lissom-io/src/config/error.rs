@@ -42,6 +42,8 @@ pub enum Rule {
     NotZero,
     /// A whole number within limits.
     WholeBetween(i64, i64),
+    /// Zero, or of a magnitude between these limits in SI.
+    Magnitude(f64, f64),
 }
 
 impl fmt::Display for Rule {
@@ -50,6 +52,9 @@ impl fmt::Display for Rule {
             Self::Positive => f.write_str("greater than zero"),
             Self::NotNegative => f.write_str("zero or greater"),
             Self::NotZero => f.write_str("other than zero"),
+            Self::Magnitude(least, most) => {
+                write!(f, "of a magnitude from {least:e} to {most:e} in SI")
+            }
             Self::WholeBetween(least, most) => write!(f, "a whole number from {least} to {most}"),
         }
     }
