@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use lissom::arm::Arm;
 use lissom::identify::{Identified, Response};
 use lissom::lti::TransferFunction;
 use lissom::record::{Channels, TipQuantity};
@@ -12,27 +11,28 @@ use lissom_report::{BodePlot, Figure, Role, Series, Style, svg_to_png};
 use num_complex::Complex64;
 
 use crate::failure::Failure;
+use crate::reference::Reference;
 
 /// Points of a model's line.
 const LINE: i32 = 1200;
 /// Scale of the PNG.
 const PNG_SCALE: f32 = 2.0;
 
-/// Motor and tips: file name and plot. `truth` adds the arm that a virtual rig had.
+/// Motor and tips: file name and plot. `reference` adds what is known beforehand.
 pub(crate) fn bode_plots(
     channels: &Channels,
     names: UnitNames,
     id: &Identified,
-    truth: Option<&Arm>,
+    reference: Option<&Reference>,
 ) -> Vec<(String, BodePlot)> {
     if id.responses.is_empty() {
         return Vec::new();
     }
-    let mut plots = vec![("bode-motor".to_owned(), motor(names, id, truth))];
+    let mut plots = vec![("bode-motor".to_owned(), motor(names, id, reference))];
     for (i, tip) in channels.tips.iter().enumerate() {
         if id.responses.iter().any(|p| p.tips.get(i).is_some_and(Option::is_some)) {
             let file = format!("bode-tip-{}", i + 1);
-            plots.push((file, tip_plot(i, &tip.name, tip.quantity, id, truth)));
+            plots.push((file, tip_plot(i, &tip.name, tip.quantity, id, reference)));
         }
     }
     plots
@@ -45,10 +45,10 @@ pub(crate) fn add_all(
     channels: &Channels,
     names: UnitNames,
     id: &Identified,
-    truth: Option<&Arm>,
+    reference: Option<&Reference>,
 ) -> Result<(), Failure> {
     batch.folder(folder)?;
-    for (name, plot) in bode_plots(channels, names, id, truth) {
+    for (name, plot) in bode_plots(channels, names, id, reference) {
         let svg = plot.to_svg()?;
         let png = svg_to_png(&svg, PNG_SCALE)?;
         batch.file(&folder.join(format!("{name}.svg")), svg.as_bytes())?;
@@ -57,7 +57,7 @@ pub(crate) fn add_all(
     Ok(())
 }
 
-fn motor(names: UnitNames, id: &Identified, truth: Option<&Arm>) -> BodePlot {
+fn motor(names: UnitNames, id: &Identified, reference: Option<&Reference>) -> BodePlot {
     let points = &id.responses;
     let omega: Vec<f64> = points.iter().map(|p| p.omega_rad_s).collect();
     let unit = format!("{}/{}", names.angle(), names.command_unit());
@@ -88,10 +88,10 @@ fn motor(names: UnitNames, id: &Identified, truth: Option<&Arm>) -> BodePlot {
     if let Some(model) = &id.motor_model {
         plot = plot.series(line("fitted model", Role::Fitted, &grid, &model.transfer_function));
     }
-    if let Some(arm) = truth {
+    if let Some((label, arm)) = reference.and_then(|r| Some((r.label, r.arm.as_ref()?))) {
         let exact: Vec<(f64, Complex64)> =
             grid.iter().filter_map(|w| Some((*w, arm.motor_response(*w)?))).collect();
-        plot = plot.series(known("truth", &exact));
+        plot = plot.series(known(label, &exact));
     }
     plot
 }
@@ -101,7 +101,7 @@ fn tip_plot(
     name: &str,
     quantity: TipQuantity,
     id: &Identified,
-    truth: Option<&Arm>,
+    reference: Option<&Reference>,
 ) -> BodePlot {
     let what = match quantity {
         TipQuantity::Angle => "angle",
@@ -129,12 +129,13 @@ fn tip_plot(
     if let Some(model) = model.filter(|_| quantity != TipQuantity::Deflection) {
         plot = plot.series(line("fitted model", Role::Fitted, &grid, model));
     }
-    if let Some(arm) = truth.filter(|_| quantity == TipQuantity::Angle) {
+    let known_arm = reference.and_then(|r| Some((r.label, r.arm.as_ref()?)));
+    if let Some((label, arm)) = known_arm.filter(|_| quantity == TipQuantity::Angle) {
         let exact: Vec<(f64, Complex64)> = grid
             .iter()
             .filter_map(|w| Some((*w, arm.tip_response(*w)?.get(i).copied()?)))
             .collect();
-        plot = plot.series(known("truth", &exact));
+        plot = plot.series(known(label, &exact));
     }
     plot
 }

@@ -9,6 +9,7 @@ use lissom_io::{CampaignFile, UnitNames, read_campaign, result_json};
 
 use crate::cli::IdentifyArgs;
 use crate::failure::Failure;
+use crate::reference::Reference;
 use crate::{figures, page, print, progress};
 
 /// The verdict refuses a figure asked for.
@@ -19,17 +20,19 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     let id = identified(&args.campaign, &file, args.window)?;
     let result = result_json(&file.campaign.channels, &id);
     let names = UnitNames::new(&file.campaign.channels);
+    let reference = Reference::of(&file)?;
+    let reference = reference.as_ref();
     let mut batch = Batch::new();
     if let Some(path) = &args.report {
         let title = args.campaign.display().to_string();
-        let text = page::page(&title, &file.campaign, names, &id, None);
+        let text = page::page(&title, &file.campaign, names, &id, reference);
         batch.file(path, text.as_bytes())?;
     }
     if let Some(Some(path)) = &args.json {
         batch.file(path, write::json_text(path, &result)?.as_bytes())?;
     }
     if let Some(folder) = &args.plots {
-        figures::add_all(&mut batch, folder, &file.campaign.channels, names, &id, None)?;
+        figures::add_all(&mut batch, folder, &file.campaign.channels, names, &id, reference)?;
     }
     batch.commit()?;
     if let Some(None) = args.json {
@@ -38,7 +41,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         print::campaign(&file.campaign);
         print::runs(&id);
         print::line("");
-        print::figures(names, &id);
+        print::figures(names, &id, reference);
         print::findings(&id.findings);
     }
     Ok(code(&id))

@@ -11,6 +11,7 @@ mod identify;
 mod page;
 mod print;
 mod progress;
+mod reference;
 
 use std::process::ExitCode;
 

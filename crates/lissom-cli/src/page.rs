@@ -1,6 +1,5 @@
 //! The report: one self-contained HTML page.
 
-use lissom::arm::Arm;
 use lissom::identify::{Finding, Identified, RunKind, Severity};
 use lissom::record::Campaign;
 use lissom_io::UnitNames;
@@ -9,6 +8,7 @@ use lissom_report::{
     Severity as ReportSeverity, Table, Trace,
 };
 
+use crate::reference::Reference;
 use crate::{figures, print};
 
 /// The page as HTML.
@@ -17,7 +17,7 @@ pub(crate) fn page(
     campaign: &Campaign,
     names: UnitNames,
     id: &Identified,
-    truth: Option<&Arm>,
+    reference: Option<&Reference>,
 ) -> String {
     let refusals = id.findings.iter().filter(|f| f.severity == Severity::Refusal).count();
     let warnings = id.findings.iter().filter(|f| f.severity == Severity::Warning).count();
@@ -30,9 +30,9 @@ pub(crate) fn page(
     let mut page = Page::new(title)
         .summary(&summary)
         .heading("Figures")
-        .key_figures("Drive and beam", &key_figures(names, id));
+        .key_figures("Drive and beam", &key_figures(names, id, reference));
     page = page.heading("Frequency responses");
-    for (_, plot) in figures::bode_plots(&campaign.channels, names, id, truth) {
+    for (_, plot) in figures::bode_plots(&campaign.channels, names, id, reference) {
         page =
             page.figure(&plot, "Points: runs or bands. Line: the rational model fitted to them.");
     }
@@ -41,6 +41,7 @@ pub(crate) fn page(
             &plot,
             "Coulomb friction from each pair of runs at a frequency and its triple.",
         );
+        page = page.table(&pair_table(names, id));
     }
     if let Some(table) = windows(id) {
         page = page
@@ -60,16 +61,19 @@ pub(crate) fn page(
         .to_html()
 }
 
-fn key_figures(names: UnitNames, id: &Identified) -> Vec<KeyFigure> {
-    print::figure_rows(names, id)
+fn key_figures(names: UnitNames, id: &Identified, reference: Option<&Reference>) -> Vec<KeyFigure> {
+    print::figure_rows(names, id, reference)
         .into_iter()
-        .map(|(name, e, unit)| KeyFigure {
-            name: name.trim().to_owned(),
-            value: e.map(|e| e.value),
-            std: e.map(|e| e.std),
-            ci95: e.map(|e| e.ci95()),
-            unit,
-            note: String::new(),
+        .map(|row| KeyFigure {
+            name: row.name.trim().to_owned(),
+            value: row.figure.map(|e| e.value),
+            std: row.figure.map(|e| e.std),
+            ci95: row.figure.map(|e| e.ci95()),
+            unit: row.unit,
+            note: match (row.known, reference) {
+                (Some(known), Some(r)) => format!("{}: {known:.5e}", r.label),
+                _ => String::new(),
+            },
         })
         .collect()
 }
@@ -95,6 +99,46 @@ fn pairs(names: UnitNames, id: &Identified) -> Option<LinePlot> {
     .band(Band::new("mean, 95 % interval", Role::Fitted, mean.value, (low, high)))
     .trace(trace);
     Some(plot)
+}
+
+fn pair_table(names: UnitNames, id: &Identified) -> Table {
+    let unit = names.command_unit();
+    let coulomb = format!("Coulomb friction ({unit})");
+    let mut table = Table::new(
+        "Every pair: its figure and the cost (29) at its minimum",
+        &[
+            ("run", Cells::Text),
+            ("triple", Cells::Text),
+            ("ω0 (rad/s)", Cells::Numbers),
+            (&coulomb, Cells::Numbers),
+            ("deviation", Cells::Numbers),
+            ("cost", Cells::Numbers),
+            ("", Cells::Text),
+        ],
+    );
+    if let Some(third) = &id.third_harmonic {
+        for (p, used) in third.pairs.iter().zip(&third.used) {
+            table = table.row([
+                id.runs[p.run].name.clone(),
+                id.runs[p.triple_run].name.clone(),
+                format!("{:.4}", p.omega_rad_s),
+                format!("{:.5}", p.coulomb_command.value),
+                format!("{:.5}", p.coulomb_command.std),
+                format!("{:.2e}", p.cost),
+                (if *used { "" } else { "left out" }).to_owned(),
+            ]);
+        }
+        table = table.row([
+            "mean".to_owned(),
+            String::new(),
+            String::new(),
+            format!("{:.5}", third.coulomb_command.value),
+            format!("{:.5}", third.coulomb_command.std),
+            String::new(),
+            format!("spread {:.5}", third.spread_command),
+        ]);
+    }
+    table
 }
 
 fn windows(id: &Identified) -> Option<Table> {

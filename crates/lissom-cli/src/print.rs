@@ -9,6 +9,7 @@ use serde_json::Value;
 use std::io::{ErrorKind, Write as _};
 
 use crate::failure::Failure;
+use crate::reference::Reference;
 
 /// An error with the way out.
 pub(crate) fn failure(failure: &Failure) {
@@ -106,71 +107,98 @@ pub(crate) fn runs(id: &Identified) {
     if let Some(r) = &id.regression {
         let how = if r.window_given { "given" } else { "chosen where the figures move least" };
         line(&format!(
-            "regression: {} rows in {} slip phases, window {:.4} s ({how}), {:.2} % of the torque left",
+            "regression: {} rows in {} slip phases, window {:.4} s ({how}; motion up to {:.3} Hz), \
+             {:.2} % of the torque left",
             r.rows,
             r.phases,
             r.window_s,
+            FIRST_NULL / r.window_s,
             100.0 * r.relative_residual
         ));
     }
 }
 
-/// The figures, each with its 95 % interval.
-pub(crate) fn figures(names: UnitNames, id: &Identified) {
-    let mut rows = vec![vec![
-        "figure".to_owned(),
-        "value".to_owned(),
-        "unit".to_owned(),
-        "95 % interval".to_owned(),
-    ]];
-    rows.extend(figure_rows(names, id).into_iter().map(|(name, e, unit)| {
-        let (value, interval) = match e {
+/// The figures, each with its 95 % interval and what was known beforehand.
+pub(crate) fn figures(names: UnitNames, id: &Identified, reference: Option<&Reference>) {
+    let mut heading = vec!["figure", "value", "unit", "95 % interval"];
+    heading.extend(reference.map(|r| r.label));
+    let mut rows = vec![heading.into_iter().map(str::to_owned).collect::<Vec<_>>()];
+    rows.extend(figure_rows(names, id, reference).into_iter().map(|row| {
+        let (value, interval) = match row.figure {
             Some(e) => {
                 let [low, high] = e.ci95();
                 (with_uncertainty(e.value, e.std), format!("{low:.5e} to {high:.5e}"))
             }
             None => ("refused".to_owned(), "see findings".to_owned()),
         };
-        vec![name, value, unit, interval]
+        let known = row.known.map(|k| format!("{k:.5e}"));
+        [row.name, value, row.unit, interval].into_iter().chain(known).collect()
     }));
     table(&rows);
 }
 
-/// Name, figure and unit of each figure that the result has.
+/// A figure for people.
+pub(crate) struct FigureRow {
+    /// Its name; indented where it belongs to the one above.
+    pub(crate) name: String,
+    /// The figure; `None` where it is refused.
+    pub(crate) figure: Option<Estimate>,
+    /// Its unit.
+    pub(crate) unit: String,
+    /// What was known beforehand, in the same unit.
+    pub(crate) known: Option<f64>,
+}
+
+/// Every figure that the result has.
 pub(crate) fn figure_rows(
     names: UnitNames,
     id: &Identified,
-) -> Vec<(String, Option<Estimate>, String)> {
+    reference: Option<&Reference>,
+) -> Vec<FigureRow> {
+    // An arm.toml is in SI and rotary: it says nothing of figures per unit of command.
+    let reference = reference.filter(|_| names.torque_unit() == "N·m");
+    let arm = reference.and_then(|r| r.arm.as_ref());
     let f = &id.friction;
     let constant = id.torque_per_command.unwrap_or(1.0);
-    let torque = names.torque_unit().to_owned();
-    let mut rows = vec![];
+    let torque = || names.torque_unit().to_owned();
+    let mut rows = Vec::new();
+    let mut add = |name: &str, figure, unit: String, known: Option<f64>| {
+        rows.push(FigureRow { name: name.to_owned(), figure, unit, known });
+    };
+    let mean = reference.map(|r| 0.5 * (r.coulomb_nm.0 + r.coulomb_nm.1));
     if names.torque_known {
-        let command = names.command_unit().to_owned();
         let in_command = f.coulomb.map(|e| e.scaled(1.0 / constant));
-        rows.push(("Coulomb friction".to_owned(), in_command, command));
+        let unit = names.command_unit().to_owned();
+        add("Coulomb friction", in_command, unit, mean.map(|m| m / constant));
     }
-    rows.push(("Coulomb friction".to_owned(), f.coulomb, torque.clone()));
+    add("Coulomb friction", f.coulomb, torque(), mean);
     if f.forward.is_some() {
-        rows.push(("  forward".to_owned(), f.forward, torque.clone()));
-        rows.push(("  backward".to_owned(), f.backward, torque.clone()));
-        rows.push(("  offset".to_owned(), f.offset, torque));
+        add("  forward", f.forward, torque(), reference.map(|r| r.coulomb_nm.0));
+        add("  backward", f.backward, torque(), reference.map(|r| r.coulomb_nm.1));
+        let offset = reference.map(|r| 0.5 * (r.coulomb_nm.0 - r.coulomb_nm.1));
+        add("  offset", f.offset, torque(), offset);
     }
-    rows.push(("viscous friction".to_owned(), f.viscous, names.viscous_unit()));
+    let viscous = reference.map(|r| r.viscous_nm_s_per_rad);
+    add("viscous friction", f.viscous, names.viscous_unit(), viscous);
     if let Some((forward, backward)) = f.viscous_by_direction {
-        rows.push(("  forward".to_owned(), Some(forward), names.viscous_unit()));
-        rows.push(("  backward".to_owned(), Some(backward), names.viscous_unit()));
+        add("  forward", Some(forward), names.viscous_unit(), None);
+        add("  backward", Some(backward), names.viscous_unit(), None);
     }
-    rows.push((names.inertia_name().to_owned(), id.inertia, names.inertia_unit()));
+    let inertia = reference.map(|r| r.inertia_kg_m2);
+    add(names.inertia_name(), id.inertia, names.inertia_unit(), inertia);
     if !id.beam.coupling_by_tip.is_empty() || id.beam.coupling.is_some() {
-        rows.push(("coupling to the beam".to_owned(), id.beam.coupling, names.coupling_unit()));
+        let known = arm.map(|a| a.beam().h_motor());
+        add("coupling to the beam", id.beam.coupling, names.coupling_unit(), known);
     }
+    let natural = arm.map_or(Vec::new(), |a| a.beam().natural_frequencies_rad_s());
     for (k, mode) in id.beam.modes.iter().enumerate() {
         let name = format!("mode {} (motor clamped)", k + 1);
-        rows.push((name, Some(mode.natural_frequency_rad_s), "rad/s".to_owned()));
-        let hertz = mode.natural_frequency_rad_s.scaled(1.0 / std::f64::consts::TAU);
-        rows.push((String::new(), Some(hertz), "Hz".to_owned()));
-        rows.push(("  damping ratio".to_owned(), Some(mode.damping_ratio), "1".to_owned()));
+        let frequency = mode.natural_frequency_rad_s;
+        let known = natural.get(k).copied();
+        add(&name, Some(frequency), "rad/s".to_owned(), known);
+        let hertz = |v: f64| v / std::f64::consts::TAU;
+        add("", Some(frequency.scaled(hertz(1.0))), "Hz".to_owned(), known.map(hertz));
+        add("  damping ratio", Some(mode.damping_ratio), "1".to_owned(), None);
     }
     rows
 }
@@ -211,5 +239,7 @@ pub(crate) fn findings(findings: &[Finding]) {
     }
 }
 
+/// The spectrum of a sin⁴ window has its first zero at this over its length.
+const FIRST_NULL: f64 = 3.0;
 /// Findings of one kind that are shown one by one.
 const SHOWN: usize = 3;

@@ -13,6 +13,7 @@ use serde_json::{Value, json};
 
 use crate::cli::DemoArgs;
 use crate::failure::Failure;
+use crate::reference::Reference;
 use crate::{figures, identify, page, print};
 
 /// The arm, as a user would describe it.
@@ -32,12 +33,13 @@ pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
 
     let channels = &file.campaign.channels;
     let names = UnitNames::new(channels);
+    let truth = Reference::truth(&rig.arm);
     let result = result_json(channels, &id);
     write::write_json(&out.join("result.json"), &result)?;
     let mut batch = Batch::new();
-    figures::add_all(&mut batch, out, channels, names, &id, Some(&rig.arm))?;
+    figures::add_all(&mut batch, out, channels, names, &id, Some(&truth))?;
     batch.commit()?;
-    let text = page::page("lissom demo", &file.campaign, names, &id, Some(&rig.arm));
+    let text = page::page("lissom demo", &file.campaign, names, &id, Some(&truth));
     write::write_text(&out.join("report.html"), &text)?;
 
     let rows = comparison(&rig.arm, &id);

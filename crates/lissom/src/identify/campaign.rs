@@ -1,5 +1,7 @@
 //! The whole way from a campaign to its figures and their verdict.
 
+use std::borrow::Cow;
+
 use thiserror::Error;
 
 use super::channel_check::range;
@@ -190,16 +192,7 @@ pub fn identify(
         progress(Stage::Run(index, campaign.runs.len()));
         runs.push(analyse(campaign, index, harmonics, &mut findings));
     }
-    let usable = Campaign {
-        channels: campaign.channels.clone(),
-        runs: campaign
-            .runs
-            .iter()
-            .zip(&runs)
-            .filter(|(_, a)| a.usable)
-            .map(|(r, _)| r.clone())
-            .collect(),
-    };
+    let usable = usable(campaign, &runs);
     if usable.runs.is_empty() {
         let constant = constant_channels(campaign);
         return Err(IdentifyError::NothingMoves { runs: campaign.runs.len(), constant });
@@ -275,6 +268,19 @@ fn constant_channels(campaign: &Campaign) -> Vec<(String, usize)> {
     }));
     constant.retain(|(_, runs)| *runs > 0);
     constant
+}
+
+/// The runs that the regressions may use; logs are long, so they are copied only where some fall
+/// out.
+fn usable<'a>(campaign: &'a Campaign, runs: &[RunAnalysis]) -> Cow<'a, Campaign> {
+    if runs.iter().all(|a| a.usable) {
+        return Cow::Borrowed(campaign);
+    }
+    let kept = campaign.runs.iter().zip(runs).filter(|(_, a)| a.usable);
+    Cow::Owned(Campaign {
+        channels: campaign.channels.clone(),
+        runs: kept.map(|(r, _)| r.clone()).collect(),
+    })
 }
 
 /// Every pair of runs at ω0 and 3ω0; each run meets the triple nearest to it in amplitude.
