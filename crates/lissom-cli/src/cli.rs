@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
+use lissom_io::units::{Dimension, parse_quantity};
 
 /// Identifies flexible arms and drives whose joint has friction.
 #[derive(Debug, Parser)]
@@ -35,6 +36,7 @@ pub(crate) struct IdentifyArgs {
     pub(crate) campaign: PathBuf,
     /// Write the result as JSON to FILE, or alone to standard output
     #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    #[expect(clippy::option_option, reason = "not asked for, to standard output, to a file")]
     pub(crate) json: Option<Option<PathBuf>>,
     /// Write one self-contained HTML page
     #[arg(long, value_name = "FILE")]
@@ -43,8 +45,18 @@ pub(crate) struct IdentifyArgs {
     #[arg(long, value_name = "DIR")]
     pub(crate) plots: Option<PathBuf>,
     /// Length of the regression's window, e.g. "0.3 s"; chosen from the data when absent
-    #[arg(long, value_name = "TIME")]
-    pub(crate) window: Option<String>,
+    #[arg(long, value_name = "TIME", value_parser = positive_time, allow_hyphen_values = true)]
+    pub(crate) window: Option<f64>,
+}
+
+/// A time greater than zero, in seconds.
+fn positive_time(text: &str) -> Result<f64, String> {
+    let hint = "hint: write a time with its unit, such as \"0.3 s\"";
+    match parse_quantity(text, Dimension::TIME) {
+        Ok(time_s) if time_s > 0.0 => Ok(time_s),
+        Ok(_) => Err(format!("it must be greater than zero\n{hint}")),
+        Err(error) => Err(format!("{error}\n{hint}")),
+    }
 }
 
 const IDENTIFY_HELP: &str = "\
@@ -73,5 +85,6 @@ pub(crate) struct DemoArgs {
     pub(crate) out: PathBuf,
     /// Write truth and result as JSON to FILE, or alone to standard output
     #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    #[expect(clippy::option_option, reason = "not asked for, to standard output, to a file")]
     pub(crate) json: Option<Option<PathBuf>>,
 }

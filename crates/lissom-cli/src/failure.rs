@@ -16,8 +16,6 @@ pub(crate) enum Failure {
     Write(#[from] lissom_io::WriteError),
     #[error("{}: {source}", campaign.display())]
     Identify { campaign: PathBuf, source: IdentifyError },
-    #[error("--window: {0}")]
-    Window(lissom_io::UnitError),
     #[error(transparent)]
     Rig(#[from] RigError),
     #[error("the plot could not be drawn: {0}")]
@@ -30,9 +28,9 @@ impl Failure {
         match self {
             Self::Io(error) => error.hint(),
             Self::Write(error) => error.hint(),
-            Self::Window(error) => error.hint(),
             Self::Identify { source: IdentifyError::NothingMoves { .. }, .. } => Some(
-                "check which columns the campaign names; the drive must move in at least one run"
+                "check the wiring and which columns the campaign names; a tip without a signal can be \
+                 left out of [signals]"
                     .to_owned(),
             ),
             Self::Identify { source: IdentifyError::Window { .. }, .. } => {

@@ -6,7 +6,8 @@ use lissom::arm::Arm;
 use lissom::identify::{Identified, Response};
 use lissom::lti::TransferFunction;
 use lissom::record::{Channels, TipQuantity};
-use lissom_io::{UnitNames, write};
+use lissom_io::UnitNames;
+use lissom_io::write::Batch;
 use lissom_report::{BodePlot, Figure, Role, Series, Style, svg_to_png};
 use num_complex::Complex64;
 
@@ -37,22 +38,21 @@ pub(crate) fn bode_plots(
     plots
 }
 
-/// Writes every plot as SVG and PNG.
-pub(crate) fn write_all(
+/// Adds every plot to what is to be written, as SVG and PNG.
+pub(crate) fn add_all(
+    batch: &mut Batch,
     folder: &Path,
     channels: &Channels,
     names: UnitNames,
     id: &Identified,
     truth: Option<&Arm>,
 ) -> Result<(), Failure> {
-    write::create_folder(folder)?;
+    batch.folder(folder)?;
     for (name, plot) in bode_plots(channels, names, id, truth) {
         let svg = plot.to_svg()?;
         let png = svg_to_png(&svg, PNG_SCALE)?;
-        write::write_text(&folder.join(format!("{name}.svg")), &svg)?;
-        write::write_whole(&folder.join(format!("{name}.png")), |file| {
-            std::io::Write::write_all(file, &png)
-        })?;
+        batch.file(&folder.join(format!("{name}.svg")), svg.as_bytes())?;
+        batch.file(&folder.join(format!("{name}.png")), &png)?;
     }
     Ok(())
 }

@@ -4,8 +4,8 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use lissom::identify::{Identified, Options, Severity, identify};
-use lissom_io::units::{Dimension, parse_quantity};
-use lissom_io::{CampaignFile, UnitNames, read_campaign, result_json, write};
+use lissom_io::write::{self, Batch};
+use lissom_io::{CampaignFile, UnitNames, read_campaign, result_json};
 
 use crate::cli::IdentifyArgs;
 use crate::failure::Failure;
@@ -15,36 +15,31 @@ use crate::{figures, page, print, progress};
 pub(crate) const REFUSED: u8 = 3;
 
 pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
-    let window = args
-        .window
-        .as_deref()
-        .map(|text| parse_quantity(text, Dimension::TIME))
-        .transpose()
-        .map_err(Failure::Window)?;
     let file = read_campaign(&args.campaign)?;
-    let id = identified(&args.campaign, &file, window)?;
+    let id = identified(&args.campaign, &file, args.window)?;
     let result = result_json(&file.campaign.channels, &id);
     let names = UnitNames::new(&file.campaign.channels);
+    let mut batch = Batch::new();
     if let Some(path) = &args.report {
         let title = args.campaign.display().to_string();
         let text = page::page(&title, &file.campaign, names, &id, None);
-        write::write_text(path, &text)?;
+        batch.file(path, text.as_bytes())?;
+    }
+    if let Some(Some(path)) = &args.json {
+        batch.file(path, write::json_text(path, &result)?.as_bytes())?;
     }
     if let Some(folder) = &args.plots {
-        figures::write_all(folder, &file.campaign.channels, names, &id, None)?;
+        figures::add_all(&mut batch, folder, &file.campaign.channels, names, &id, None)?;
     }
-    match &args.json {
-        Some(None) => print::json(&result),
-        other => {
-            if let Some(Some(path)) = other {
-                write::write_json(path, &result)?;
-            }
-            print::campaign(&file.campaign);
-            print::runs(&id);
-            print::line("");
-            print::figures(names, &id);
-            print::findings(&id.findings);
-        }
+    batch.commit()?;
+    if let Some(None) = args.json {
+        print::json(&result);
+    } else {
+        print::campaign(&file.campaign);
+        print::runs(&id);
+        print::line("");
+        print::figures(names, &id);
+        print::findings(&id.findings);
     }
     Ok(code(&id))
 }

@@ -178,10 +178,10 @@ pub(crate) fn figure_rows(
 /// The findings, gravest first, those of one kind together.
 pub(crate) fn findings(findings: &[Finding]) {
     if findings.is_empty() {
-        line(&format!("\nno findings"));
+        line("\nno findings");
         return;
     }
-    line(&format!("\nfindings"));
+    line("\nfindings");
     let kind = |f: &Finding| (f.code, f.severity, f.hint);
     let mut told = Vec::new();
     for finding in findings {

@@ -29,7 +29,7 @@ pub enum Error {
     /// What a campaign says about its signals and drive.
     #[error(transparent)]
     Campaign(#[from] CampaignError),
-    /// Signals that make no run.
+    /// Runs that make no campaign.
     #[error(transparent)]
     Record(#[from] RecordError),
     /// Writing a file.
@@ -47,19 +47,8 @@ impl Error {
             Self::Arm(error) => error.hint(),
             Self::Campaign(error) => error.hint(),
             Self::Write(error) => error.hint(),
-            Self::Record(error) => record_hint(error),
+            // A reader makes no such run: see [`LogError`] and [`CampaignError`].
+            Self::Record(_) => None,
         }
-    }
-}
-
-fn record_hint(error: &RecordError) -> Option<String> {
-    match error {
-        RecordError::TooShort { .. } => Some("record longer, or leave the run out".to_owned()),
-        RecordError::NoRuns => Some("add a [[runs]] table with `file = \"...\"`".to_owned()),
-        RecordError::Omega { .. } => Some(
-            "`omega_rad_s` is an angular frequency in rad/s; `frequency = \"5 Hz\"` takes a unit"
-                .to_owned(),
-        ),
-        _ => None,
     }
 }

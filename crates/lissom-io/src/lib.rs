@@ -13,6 +13,7 @@ pub mod arm_file;
 pub mod campaign;
 mod config;
 mod error;
+mod excerpt;
 pub mod log;
 mod nearest;
 pub mod result;

@@ -1,14 +1,21 @@
 //! The valid name that a wrong one probably meant.
 
+/// Characters of the longest text that is looked at: the time goes with its length.
+const LONGEST: usize = 64;
+
 /// The candidate nearest to `wanted`, if one is near enough to be worth naming.
 pub(crate) fn nearest<'a>(
     wanted: &str,
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<String> {
-    let lower = wanted.to_lowercase();
     let length = wanted.chars().count();
+    if length > LONGEST {
+        return None;
+    }
+    let lower = wanted.to_lowercase();
     candidates
         .into_iter()
+        .filter(|name| name.len() <= 4 * LONGEST)
         .map(|name| (strsim::osa_distance(&lower, &name.to_lowercase()), name))
         .filter(|&(distance, name)| distance <= (length.max(name.chars().count()) / 3).max(1))
         .filter(|&(distance, name)| distance < name.chars().count())
@@ -27,5 +34,6 @@ mod tests {
         assert_eq!(nearest("Current", names).as_deref(), Some("current"));
         assert_eq!(nearest("voltage", names), None);
         assert_eq!(nearest("", ["s"]), None);
+        assert_eq!(nearest(&"a".repeat(65), [&*"a".repeat(64)]), None);
     }
 }

@@ -1,5 +1,3 @@
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use resvg::usvg::roxmltree::Document;
 
 use num_complex::Complex64;

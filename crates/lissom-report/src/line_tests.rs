@@ -1,5 +1,3 @@
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use resvg::usvg::roxmltree::Document;
 
 use super::*;
@@ -91,7 +89,7 @@ fn every_style_takes_degenerate_data() {
                         svg_to_png(&svg, 0.2).unwrap();
                     }
                     Err(error) => {
-                        assert!(matches!(error, FigureError::NothingToDraw { .. }), "{error}")
+                        assert!(matches!(error, FigureError::NothingToDraw { .. }), "{error}");
                     }
                 }
             }

@@ -119,8 +119,12 @@ fn deflections_say_the_same_as_angles() {
 
 /// An axis whose beam weighs nothing, with Coulomb friction under a held random-like command: no sine anywhere.
 fn stiff_axis(constant: f64, back_emf: f64) -> Vec<Run> {
-    let span =
-        Span { length_m: 0.01, flexural_rigidity_n_m2: 1e-9, mass_kg: 1e-9, damping_n_s_per_m: 0.0 };
+    let span = Span {
+        length_m: 0.01,
+        flexural_rigidity_n_m2: 1e-9,
+        mass_kg: 1e-9,
+        damping_n_s_per_m: 0.0,
+    };
     let motor = Motor::new(2e-3, 0.01 + back_emf, constant).unwrap();
     let arm = Arm::new(LumpedBeam::new(&[span]).unwrap(), motor, Coulomb::symmetric(0.06).unwrap());
     let t = 0.005;

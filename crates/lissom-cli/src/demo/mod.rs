@@ -7,7 +7,8 @@ use std::process::ExitCode;
 
 use lissom::arm::Arm;
 use lissom::identify::{Estimate, Identified};
-use lissom_io::{ArmFile, UnitNames, read_campaign, result_json, write};
+use lissom_io::write::{self, Batch};
+use lissom_io::{ArmFile, UnitNames, read_campaign, result_json};
 use serde_json::{Value, json};
 
 use crate::cli::DemoArgs;
@@ -33,7 +34,9 @@ pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
     let names = UnitNames::new(channels);
     let result = result_json(channels, &id);
     write::write_json(&out.join("result.json"), &result)?;
-    figures::write_all(out, channels, names, &id, Some(&rig.arm))?;
+    let mut batch = Batch::new();
+    figures::add_all(&mut batch, out, channels, names, &id, Some(&rig.arm))?;
+    batch.commit()?;
     let text = page::page("lissom demo", &file.campaign, names, &id, Some(&rig.arm));
     write::write_text(&out.join("report.html"), &text)?;
 

@@ -71,6 +71,20 @@ pub enum CampaignError {
         /// Where.
         place: Place,
     },
+    /// A run driven at or above the Nyquist frequency of its log.
+    #[error(
+        "{place} is {found_rad_s:.4} rad/s, but must be below {nyquist_rad_s:.4} rad/s, the Nyquist frequency of {log}"
+    )]
+    AboveNyquist {
+        /// Where.
+        place: Place,
+        /// The drive frequency given \[rad/s\].
+        found_rad_s: f64,
+        /// The log.
+        log: String,
+        /// π over its sample time \[rad/s\].
+        nyquist_rad_s: f64,
+    },
     /// A camera on a linear axis.
     #[error("{place}: a camera's x and y give an angle, and the motor is measured in metres")]
     CameraOnLinear {
@@ -107,6 +121,9 @@ impl CampaignError {
                 "give the distance of the sensor from the joint, as in radius = \"0.45 m\""
             }
             Self::NeedlessRadius { .. } => "remove it",
+            Self::AboveNyquist { .. } => {
+                "`omega_rad_s` is in rad/s, and `frequency = \"5 Hz\"` takes a unit; check the unit of the time stamps too"
+            }
             Self::CameraOnLinear { .. } => "give one column with a unit of length",
             Self::CameraQuantity { .. } => "remove `quantity`",
         };

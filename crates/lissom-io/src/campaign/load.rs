@@ -4,12 +4,16 @@ use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 use std::path::Path;
 
-use lissom::record::{Campaign, Channels, Command, Hold, Note, Run, TimeBase};
+use lissom::record::{Campaign, Channels, Command, Hold, Note, RecordError, Run, TimeBase};
 
 use super::signals::{Reading, Signals, TimeSource, TipSource};
-use super::{ReadOptions, RunSpec};
+use super::{CampaignError, ReadOptions, RunSpec};
+use crate::config::MAGNITUDE;
 use crate::error::Error;
 use crate::log::{self, ColumnRef, Log, LogColumn, LogError, LogOptions, TimeGrid};
+
+/// Largest magnitude of a sample in SI.
+const LARGEST: f64 = MAGNITUDE.1;
 
 /// Reads every run.
 pub(super) fn load(
@@ -47,6 +51,7 @@ fn load_run(
     let factor = log.factor;
     let (command, motor, tips) = channels(log.columns, signals);
     let count = pieces.len();
+    in_range(&command, &motor, &tips, signals, &file)?;
     let mut runs = Vec::with_capacity(count);
     for (index, (range, base, notes)) in pieces.into_iter().enumerate() {
         let name = match count {
@@ -55,9 +60,16 @@ fn load_run(
         };
         let cut = |channel: &Vec<f64>| channel[range.clone()].to_vec();
         let mut run =
-            Run::new(name, base, cut(&command), cut(&motor), tips.iter().map(cut).collect())?;
-        if let Some(omega_rad_s) = spec.omega_rad_s {
-            run = run.with_omega(omega_rad_s)?;
+            Run::new(name, base, cut(&command), cut(&motor), tips.iter().map(cut).collect())
+                .map_err(|error| of_log(error, &file))?;
+        if let Some((omega_rad_s, place)) = &spec.omega_rad_s {
+            run = run.with_omega(*omega_rad_s).map_err(|error| match error {
+                RecordError::Omega { found_rad_s, nyquist_rad_s, .. } => {
+                    let (place, log) = (place.clone(), file.clone());
+                    CampaignError::AboveNyquist { place, found_rad_s, log, nyquist_rad_s }.into()
+                }
+                other => of_log(other, &file),
+            })?;
         }
         if factor > 1 {
             run = run.with_note(Note::Thinned { factor });
@@ -68,6 +80,45 @@ fn load_run(
         runs.push(notes.into_iter().fold(run, Run::with_note));
     }
     Ok(runs)
+}
+
+/// Refuses samples that overflow in their unit or in what is made of them.
+fn in_range(
+    command: &[f64],
+    motor: &[f64],
+    tips: &[Vec<f64>],
+    signals: &Signals,
+    file: &str,
+) -> Result<(), LogError> {
+    let tips = signals.tips.iter().map(|(tip, _)| tip.name.as_str()).zip(tips);
+    let mut all = [("command", command), ("motor", motor)]
+        .into_iter()
+        .chain(tips.map(|(name, tip)| (name, tip.as_slice())));
+    all.try_for_each(|(channel, samples)| channel_in_range(channel, samples, file))
+}
+
+fn channel_in_range(channel: &str, samples: &[f64], file: &str) -> Result<(), LogError> {
+    match samples.iter().position(|v| !v.is_finite() || v.abs() > LARGEST) {
+        None => Ok(()),
+        Some(k) => Err(LogError::OutOfRange {
+            file: file.to_owned(),
+            channel: channel.to_owned(),
+            sample: k + 1,
+            largest: LARGEST,
+        }),
+    }
+}
+
+/// What is wrong with a run, as a flaw of its log.
+fn of_log(error: RecordError, file: &str) -> Error {
+    let file = file.to_owned();
+    match error {
+        RecordError::TooShort { found, least, .. } => {
+            LogError::FewSamples { file, found, least }.into()
+        }
+        RecordError::SampleTime { found_s, .. } => LogError::SampleTime { file, found_s }.into(),
+        other => other.into(),
+    }
 }
 
 /// The columns to read: command, motor, then those of the tips in turn.
@@ -105,6 +156,7 @@ fn pieces(
     match (&signals.time, &log.time) {
         (TimeSource::Stamps(_, unit_s), Some(stamps)) => {
             let stamps_s: Vec<f64> = stamps.iter().map(|stamp| stamp * unit_s).collect();
+            channel_in_range("time", &stamps_s, file)?;
             let start_s = stamps_s.first().copied().unwrap_or(0.0);
             let first = stamps_s.partition_point(|stamp| stamp - start_s < spec.skip_s);
             let kept = &stamps_s[first..];

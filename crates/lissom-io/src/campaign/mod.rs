@@ -53,7 +53,7 @@ use std::path::{Path, PathBuf};
 use lissom::record::Campaign;
 
 use crate::arm_file::ArmFile;
-use crate::config::{ConfigError, Rule, Source, Table, Value};
+use crate::config::{ConfigError, Place, Rule, Source, Table, Value};
 use crate::error::Error;
 use crate::units::Dimension;
 
@@ -135,6 +135,9 @@ pub fn read_campaign_with(path: &Path, options: &ReadOptions) -> Result<Campaign
     };
     let value = root.need("runs")?;
     let items = value.list("a list of runs, each a table [[runs]]")?;
+    if items.is_empty() {
+        return Err(value.empty().into());
+    }
     let runs = items.iter().map(|item| run(item, skip_s)).collect::<Result<Vec<_>, _>>()?;
     let campaign = load::load(source.folder(), &signals, command, &runs, options)?;
     Ok(CampaignFile { campaign, known, analysis })
@@ -155,7 +158,8 @@ fn analysis(table: &Table<'_>) -> Result<(AnalysisOptions, Option<f64>), ConfigE
 struct RunSpec {
     file: PathBuf,
     name: String,
-    omega_rad_s: Option<f64>,
+    /// With its place in the campaign.
+    omega_rad_s: Option<(f64, Place)>,
     skip_s: f64,
 }
 
@@ -167,10 +171,10 @@ fn run(value: &Value<'_>, skip_s: Option<f64>) -> Result<RunSpec, ConfigError> {
     let omega_rad_s = match table.one_of(&["omega_rad_s", "frequency"])? {
         None => None,
         Some((0, value)) => match value.number()? {
-            omega if omega > 0.0 => Some(omega),
+            omega if omega > 0.0 => Some((omega, value.place())),
             _ => return Err(value.range(Rule::Positive)),
         },
-        Some((_, value)) => Some(value.positive(Dimension::RATE)?),
+        Some((_, value)) => Some((value.positive(Dimension::RATE)?, value.place())),
     };
     let own_skip = table.get("skip").map(|v| v.not_negative(Dimension::TIME)).transpose()?;
     Ok(RunSpec {

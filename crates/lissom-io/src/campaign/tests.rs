@@ -1,4 +1,3 @@
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![expect(clippy::float_cmp, reason = "these numbers are exact")]
 
 use std::f64::consts::{PI, TAU};
@@ -262,7 +261,7 @@ fn wrong_keys_and_units() {
     fails(
         &PLAIN.replace("\"sampled\"", "\"held\""),
         "campaign.toml, line 4: `signals.current.hold` is \"held\", but must be \"sampled\" or \"measured\"",
-        None,
+        Some("write one of these words"),
     );
     fails(
         &PLAIN.replace("unit = \"A\"", "unit = \"V\""),
@@ -294,21 +293,18 @@ fn wrong_keys_and_units() {
     fails(
         &PLAIN.replace("unit = \"rad\"", "unit = \"rad\", scale = 0"),
         "campaign.toml, line 5: `signals.motor.scale` is 0, but must be other than zero",
-        None,
+        Some("check the number and its unit"),
     );
     fails(
         &PLAIN.replace("\"0.25 N*m/A\"", "\"-0.25 N*m/A\""),
         "campaign.toml, line 7: `drive.torque_constant` is \"-0.25 N*m/A\", but must be greater than zero",
         Some("check its sign"),
     );
-    fails("", "campaign.toml has no `signals`", Some("add `signals` to the file"));
+    fails("", "campaign.toml has no `signals`", Some("add the table [signals]"));
     let no_runs = PLAIN.replace("[[runs]]\nfile = \"a.csv\"", "");
-    fails(&no_runs, "campaign.toml has no `runs`", Some("add `runs` to the file"));
-    fails(
-        &format!("runs = []\n{no_runs}"),
-        "the campaign has no runs",
-        Some("add a [[runs]] table with `file = \"...\"`"),
-    );
+    let add = Some("add a table [[runs]] with `file = \"...\"` for each log");
+    fails(&no_runs, "campaign.toml has no `runs`", add);
+    fails(&format!("runs = []\n{no_runs}"), "campaign.toml, line 1: `runs` is an empty list", add);
 }
 
 #[test]
@@ -405,13 +401,13 @@ fn logs_that_do_not_fit_their_campaign() {
         &[("a.csv", &log((0..40).chain(100..130)))],
         "a.csv: gaps in the time stamps (1) leave no piece of 50 samples; the longest has 40",
         Some(
-            "where the stamps are too coarse for the sampling, give `sample_time` in place of `time`",
+            "log without interruption; where the stamps are too coarse for the sampling, give `sample_time` in place of `time`",
         ),
     );
     fails_on(
         PLAIN,
         &[("a.csv", &log(0..5))],
-        "run a.csv: 5 samples; at least 8 are needed",
+        "a.csv: 5 samples; at least 8 are needed",
         Some("record longer, or leave the run out"),
     );
     fails(
@@ -421,8 +417,10 @@ fn logs_that_do_not_fit_their_campaign() {
     );
     fails(
         &format!("{PLAIN}frequency = \"500 Hz\"\n"),
-        "run a.csv: a drive frequency of 3141.592653589793 rad/s is not between 0 and the Nyquist frequency 3141.592653589793 rad/s",
-        Some("`omega_rad_s` is an angular frequency in rad/s; `frequency = \"5 Hz\"` takes a unit"),
+        "campaign.toml, line 10: `runs[1].frequency` is 3141.5927 rad/s, but must be below 3141.5927 rad/s, the Nyquist frequency of a.csv",
+        Some(
+            "`omega_rad_s` is in rad/s, and `frequency = \"5 Hz\"` takes a unit; check the unit of the time stamps too",
+        ),
     );
     fails(
         &PLAIN.replace("column = \"x\"", "column = \"z\""),

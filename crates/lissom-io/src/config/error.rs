@@ -5,6 +5,8 @@ use std::io;
 
 use thiserror::Error;
 
+use crate::excerpt::excerpt;
+use crate::nearest::nearest;
 use crate::units::UnitError;
 
 /// A key in a file.
@@ -23,7 +25,7 @@ impl fmt::Display for Place {
         if self.key.is_empty() {
             write!(f, "{}", self.file)
         } else {
-            write!(f, "{}, line {}: `{}`", self.file, self.line, self.key)
+            write!(f, "{}, line {}: `{}`", self.file, self.line, excerpt(&self.key))
         }
     }
 }
@@ -40,6 +42,8 @@ pub enum Rule {
     NotZero,
     /// A whole number within limits.
     WholeBetween(i64, i64),
+    /// Zero, or of a magnitude between these limits in SI.
+    Magnitude(f64, f64),
 }
 
 impl fmt::Display for Rule {
@@ -48,6 +52,9 @@ impl fmt::Display for Rule {
             Self::Positive => f.write_str("greater than zero"),
             Self::NotNegative => f.write_str("zero or greater"),
             Self::NotZero => f.write_str("other than zero"),
+            Self::Magnitude(least, most) => {
+                write!(f, "of a magnitude from {least:e} to {most:e} in SI")
+            }
             Self::WholeBetween(least, most) => write!(f, "a whole number from {least} to {most}"),
         }
     }
@@ -148,7 +155,7 @@ pub enum ConfigError {
         rule: Rule,
     },
     /// A word that is none of the choices.
-    #[error("{place} is \"{found}\", but must be \"{}\"", choices.join("\" or \""))]
+    #[error("{place} is \"{}\", but must be \"{}\"", excerpt(found), choices.join("\" or \""))]
     Choice {
         /// Where.
         place: Place,
@@ -157,6 +164,21 @@ pub enum ConfigError {
         /// The choices.
         choices: Vec<&'static str>,
     },
+    /// A list with nothing in it.
+    #[error("{place} is an empty list")]
+    EmptyList {
+        /// Where.
+        place: Place,
+    },
+}
+
+fn read_hint(source: &io::Error) -> &'static str {
+    match source.kind() {
+        io::ErrorKind::NotFound => "check the path; `lissom demo` writes an example",
+        io::ErrorKind::InvalidData => "the file is text in UTF-8: save it so",
+        io::ErrorKind::IsADirectory => "name the file in it",
+        _ => "check that it is a file that you may read",
+    }
 }
 
 impl ConfigError {
@@ -181,14 +203,13 @@ impl ConfigError {
                 "\"sampled\" for a command that is held between samples, \"measured\" for a measurement"
                     .to_owned(),
             ),
-            Self::MissingKey { place, key } => {
-                let table = if place.key.is_empty() {
-                    "the file"
-                } else {
-                    place.key.as_str()
-                };
-                Some(format!("add `{key}` to {table}"))
+            Self::MissingKey { key: "runs", .. } | Self::EmptyList { .. } => {
+                Some("add a table [[runs]] with `file = \"...\"` for each log".to_owned())
             }
+            Self::MissingKey { place, key } if place.key.is_empty() => {
+                Some(format!("add the table [{key}]"))
+            }
+            Self::MissingKey { place, key } => Some(format!("add `{key}` to {}", place.key)),
             Self::NoneOf { .. } => Some("add one of them".to_owned()),
             Self::Clash { .. } => Some("give one of the two".to_owned()),
             Self::Unit { source, .. } => source.hint(),
@@ -199,12 +220,34 @@ impl ConfigError {
             } if found.trim_start_matches('"').starts_with('-') => {
                 Some("check its sign".to_owned())
             }
-            Self::Read { .. }
-            | Self::Syntax { .. }
-            | Self::Kind { .. }
-            | Self::LastOnly { .. }
-            | Self::Range { .. }
-            | Self::Choice { .. } => None,
+            Self::Range { place, rule: Rule::WholeBetween(..), .. }
+                if place.key.ends_with(".column") =>
+            {
+                Some("columns go by name in quotes or by number from 1".to_owned())
+            }
+            Self::Range { rule: Rule::WholeBetween(..), .. } => {
+                Some("give a whole number within these limits".to_owned())
+            }
+            Self::Range { .. } => Some("check the number and its unit".to_owned()),
+            Self::Choice { found, choices, .. } => {
+                Some(match nearest(found, choices.iter().copied()) {
+                    Some(word) => format!("did you mean \"{word}\"?"),
+                    None => "write one of these words".to_owned(),
+                })
+            }
+            Self::Read { source, .. } => Some(read_hint(source).to_owned()),
+            Self::Syntax { .. } => {
+                Some("the file is TOML: `key = value` lines below [table] lines".to_owned())
+            }
+            Self::Kind { expected: "a number", .. } => {
+                Some("write it without unit and quotes".to_owned())
+            }
+            Self::Kind { expected: "text in quotes", .. } => Some("put it in quotes".to_owned()),
+            Self::Kind { expected: "a table", .. } => {
+                Some("write it as in { column = \"t\", unit = \"s\" }".to_owned())
+            }
+            Self::Kind { .. } => Some("`lissom demo` writes an example".to_owned()),
+            Self::LastOnly { .. } => Some("move it there, or leave it out".to_owned()),
         }
     }
 }

@@ -12,8 +12,13 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
+use crate::excerpt::excerpt;
 use crate::nearest::nearest;
 use crate::units::{Dimension, UnitError, parse_any_unit, parse_quantity, parse_unit};
+
+/// Smallest and largest magnitude of a number in SI: no machine has another, and products and
+/// quotients of such numbers stay finite.
+pub(crate) const MAGNITUDE: (f64, f64) = (1e-100, 1e100);
 
 /// A file and its text.
 #[derive(Debug)]
@@ -206,7 +211,7 @@ impl<'a> Value<'a> {
 
     /// A number without unit.
     pub(crate) fn number(&self) -> Result<f64, ConfigError> {
-        self.as_number().ok_or_else(|| self.kind("a number"))
+        self.in_range(self.as_number().ok_or_else(|| self.kind("a number"))?)
     }
 
     /// A finite number without unit, if it is one.
@@ -234,9 +239,19 @@ impl<'a> Value<'a> {
 
     /// Text with a unit, or a number in SI.
     pub(crate) fn quantity(&self, expected: Dimension) -> Result<f64, ConfigError> {
-        match self.as_text() {
+        let value = match self.as_text() {
             Some(text) => parse_quantity(text, expected).map_err(|source| self.unit_error(source)),
             None => self.as_number().ok_or_else(|| self.kind("text with a unit or an SI number")),
+        };
+        self.in_range(value?)
+    }
+
+    fn in_range(&self, value: f64) -> Result<f64, ConfigError> {
+        let (least, most) = MAGNITUDE;
+        if value == 0.0 || (least..=most).contains(&value.abs()) {
+            Ok(value)
+        } else {
+            Err(self.range(Rule::Magnitude(least, most)))
         }
     }
 
@@ -294,6 +309,10 @@ impl<'a> Value<'a> {
         ConfigError::Range { place: self.place(), found: self.shown(), rule }
     }
 
+    pub(crate) fn empty(&self) -> ConfigError {
+        ConfigError::EmptyList { place: self.place() }
+    }
+
     pub(crate) fn kind(&self, expected: &'static str) -> ConfigError {
         ConfigError::Kind { place: self.place(), expected, found: self.shown() }
     }
@@ -301,9 +320,9 @@ impl<'a> Value<'a> {
     /// The value as an error shows it.
     fn shown(&self) -> String {
         match self.content {
-            DeValue::String(text) => format!("\"{text}\""),
-            DeValue::Integer(number) => number.to_string(),
-            DeValue::Float(number) => number.to_string(),
+            DeValue::String(text) => format!("\"{}\"", excerpt(text)),
+            DeValue::Integer(number) => excerpt(&number.to_string()),
+            DeValue::Float(number) => excerpt(&number.to_string()),
             DeValue::Boolean(value) => value.to_string(),
             DeValue::Datetime(value) => value.to_string(),
             DeValue::Array(_) => "a list".to_owned(),

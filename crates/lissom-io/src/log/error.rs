@@ -4,6 +4,8 @@ use std::io;
 
 use thiserror::Error;
 
+use crate::excerpt::excerpt;
+
 /// Why a log cannot be used. Rows are lines of the file, counted from 1 as an editor does.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -26,13 +28,29 @@ pub enum LogError {
         /// Why.
         source: io::Error,
     },
-    /// A zero byte or an endless line: not a text file.
+    /// Control characters: not a text file.
     #[error("{file}: row {row} is not text")]
     NotText {
         /// The file.
         file: String,
         /// The row.
         row: usize,
+    },
+    /// The byte order mark of UTF-16 or UTF-32.
+    #[error("{file}: the text is in UTF-16 or UTF-32")]
+    Utf16 {
+        /// The file.
+        file: String,
+    },
+    /// A row without end.
+    #[error("{file}: row {row} is longer than {most} bytes")]
+    LongRow {
+        /// The file.
+        file: String,
+        /// The row.
+        row: usize,
+        /// Bytes it may have.
+        most: u64,
     },
     /// Nothing but blank lines.
     #[error("{file}: the log is empty")]
@@ -55,7 +73,11 @@ pub enum LogError {
         row: usize,
     },
     /// No column has the name.
-    #[error("{file}: there is no column \"{column}\"; the columns are {}", listed(names))]
+    #[error(
+        "{file}: there is no column \"{}\"; the columns are {}",
+        excerpt(column),
+        listed(names)
+    )]
     NoColumn {
         /// The file.
         file: String,
@@ -67,7 +89,7 @@ pub enum LogError {
         nearest: Option<String>,
     },
     /// A column by name from a log without names.
-    #[error("{file}: there is no column \"{column}\": the log has no header")]
+    #[error("{file}: there is no column \"{}\": the log has no header", excerpt(column))]
     NoHeader {
         /// The file.
         file: String,
@@ -77,7 +99,7 @@ pub enum LogError {
         columns: usize,
     },
     /// Several columns have the name.
-    #[error("{file}: {} columns are called \"{column}\"", numbers.len())]
+    #[error("{file}: {} columns are called \"{}\"", numbers.len(), excerpt(column))]
     Ambiguous {
         /// The file.
         file: String,
@@ -97,7 +119,11 @@ pub enum LogError {
         columns: usize,
     },
     /// A cell that is no number.
-    #[error("{file}: row {row}, column {column}: \"{found}\" is not a number")]
+    #[error(
+        "{file}: row {row}, column {}: \"{}\" is not a number",
+        excerpt(column),
+        excerpt(found)
+    )]
     NotANumber {
         /// The file.
         file: String,
@@ -109,7 +135,11 @@ pub enum LogError {
         found: String,
     },
     /// A cell that is NaN or infinite.
-    #[error("{file}: row {row}, column {column}: \"{found}\" is not a finite number")]
+    #[error(
+        "{file}: row {row}, column {}: \"{}\" is not a finite number",
+        excerpt(column),
+        excerpt(found)
+    )]
     NotFinite {
         /// The file.
         file: String,
@@ -121,7 +151,7 @@ pub enum LogError {
         found: String,
     },
     /// An empty cell, or a row that ends before it.
-    #[error("{file}: row {row}, column {column}: the cell is missing")]
+    #[error("{file}: row {row}, column {}: the cell is missing", excerpt(column))]
     MissingCell {
         /// The file.
         file: String,
@@ -131,24 +161,31 @@ pub enum LogError {
         column: String,
     },
     /// A stamp before the one above it. Stamps as they stand in the file.
-    #[error("{file}: row {row}: time goes back from {before} to {after}")]
+    #[error(
+        "{file}: row {row}, column {}: time goes back from {before} to {after}",
+        excerpt(column)
+    )]
     TimeBack {
         /// The file.
         file: String,
         /// Row of the later stamp.
         row: usize,
+        /// The column of the stamps.
+        column: String,
         /// Stamp of the row before.
         before: f64,
         /// Stamp of this row.
         after: f64,
     },
     /// Two rows with one stamp.
-    #[error("{file}: row {row}: time stands still at {stamp}")]
+    #[error("{file}: row {row}, column {}: time stands still at {stamp}", excerpt(column))]
     TimeStill {
         /// The file.
         file: String,
         /// Row of the second stamp.
         row: usize,
+        /// The column of the stamps.
+        column: String,
         /// The stamp.
         stamp: f64,
     },
@@ -165,6 +202,36 @@ pub enum LogError {
         least: usize,
         /// Samples of the longest piece.
         longest: usize,
+    },
+    /// Fewer samples than anything can be said from.
+    #[error("{file}: {found} samples; at least {least} are needed")]
+    FewSamples {
+        /// The file.
+        file: String,
+        /// Samples found.
+        found: usize,
+        /// Samples needed.
+        least: usize,
+    },
+    /// Numbers that are too large in their unit.
+    #[error("{file}: channel {}: sample {sample} is beyond {largest:e} in SI", excerpt(channel))]
+    OutOfRange {
+        /// The file.
+        file: String,
+        /// Name of the channel.
+        channel: String,
+        /// The sample, from 1.
+        sample: usize,
+        /// Largest magnitude there may be.
+        largest: f64,
+    },
+    /// Stamps that give no sample time.
+    #[error("{file}: the time stamps give a sample time of {found_s} s")]
+    SampleTime {
+        /// The file.
+        file: String,
+        /// The sample time \[s\].
+        found_s: f64,
     },
     /// The head that is to be skipped leaves nothing.
     #[error("{file}: skipping {skip_s} s leaves {left} rows of a log of {length_s} s")]
@@ -187,14 +254,25 @@ impl LogError {
             Self::Open { source, .. } if source.kind() == io::ErrorKind::NotFound => {
                 "a run's file is looked for in the folder of its campaign.toml".to_owned()
             }
-            Self::Open { .. } | Self::Read { .. } => return None,
+            Self::Open { source, .. } | Self::Read { source, .. }
+                if source.kind() == io::ErrorKind::IsADirectory =>
+            {
+                "`file` names one log; give each log of a folder a [[runs]] of its own".to_owned()
+            }
+            Self::Open { .. } | Self::Read { .. } => {
+                "check that it is a file that you may read".to_owned()
+            }
+            Self::Utf16 { .. } => "save the log as UTF-8".to_owned(),
+            Self::LongRow { .. } => {
+                "logs have one sample a row: check the line ends, or export fewer columns".to_owned()
+            }
             Self::NotText { .. } => {
                 "logs are text: comma, semicolon, tab or blank separated; export the file as CSV".to_owned()
             }
             Self::Empty { .. } | Self::HeaderOnly { .. } | Self::OneRow { .. } => {
                 "check that the recording ran and that this is the right file".to_owned()
             }
-            Self::NoColumn { nearest: Some(name), .. } => format!("did you mean \"{name}\"?"),
+            Self::NoColumn { nearest: Some(name), .. } => format!("did you mean \"{}\"?", excerpt(name)),
             Self::NoColumn { .. } => {
                 "give one of these names as it stands in the log, or the column's number from 1".to_owned()
             }
@@ -202,7 +280,8 @@ impl LogError {
                 format!("give the column's number, 1 to {columns}, as in `column = 1`")
             }
             Self::Ambiguous { numbers, .. } => {
-                let numbers: Vec<String> = numbers.iter().map(ToString::to_string).collect();
+                let numbers: Vec<String> =
+                    numbers.iter().take(MOST_NAMES).map(ToString::to_string).collect();
                 format!("give the column's number: {}", numbers.join(" or "))
             }
             Self::ColumnNumber { .. } => "columns are counted from 1".to_owned(),
@@ -218,8 +297,13 @@ impl LogError {
             Self::TimeStill { .. } => {
                 "export the stamps with more digits, or give `sample_time` in place of `time` if the sampling is regular".to_owned()
             }
+            Self::FewSamples { .. } => "record longer, or leave the run out".to_owned(),
+            Self::OutOfRange { .. } => {
+                "check the log at that sample, and `unit`, `scale` and `offset` of the channel".to_owned()
+            }
+            Self::SampleTime { .. } => "check the unit and scale of the time stamps".to_owned(),
             Self::AllPiecesShort { .. } => {
-                "where the stamps are too coarse for the sampling, give `sample_time` in place of `time`".to_owned()
+                "log without interruption; where the stamps are too coarse for the sampling, give `sample_time` in place of `time`".to_owned()
             }
             Self::AllSkipped { .. } => "give a smaller `skip`".to_owned(),
         })
@@ -231,7 +315,7 @@ const MOST_NAMES: usize = 40;
 
 fn listed(names: &[String]) -> String {
     let quoted: Vec<String> =
-        names.iter().take(MOST_NAMES).map(|name| format!("\"{name}\"")).collect();
+        names.iter().take(MOST_NAMES).map(|name| format!("\"{}\"", excerpt(name))).collect();
     let listed = quoted.join(", ");
     match names.len().checked_sub(MOST_NAMES) {
         None | Some(0) => listed,

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader, ErrorKind, Read};
 use std::path::Path;
 
 use lissom::record::Hold;
@@ -29,13 +29,18 @@ pub fn read_log(
     options: &LogOptions,
 ) -> Result<Log, LogError> {
     let name = path.display().to_string();
-    match File::open(path) {
+    match File::open(path).and_then(only_file) {
         Ok(file) => {
             let reader = BufReader::with_capacity(1 << 16, file);
             read_log_from(reader, &name, time, columns, options)
         }
         Err(source) => Err(LogError::Open { file: name, source }),
     }
+}
+
+/// Folders can be opened too.
+fn only_file(file: File) -> std::io::Result<File> {
+    if file.metadata()?.is_dir() { Err(ErrorKind::IsADirectory.into()) } else { Ok(file) }
 }
 
 /// Reads the columns of a log from any reader; `name` stands in errors.
@@ -107,10 +112,16 @@ impl<R: BufRead> Rows<'_, R> {
             return Ok(None);
         }
         let whole = self.bytes.last() == Some(&b'\n') || (length as u64) < LONGEST_ROW;
-        if !whole || self.bytes.contains(&0) {
+        let bytes = self.bytes.as_slice();
+        if row == 1 && (bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF")) {
+            return Err(LogError::Utf16 { file: file() });
+        }
+        if bytes.iter().any(|&byte| is_control(byte)) {
             return Err(LogError::NotText { file: file(), row });
         }
-        let bytes = self.bytes.as_slice();
+        if !whole {
+            return Err(LogError::LongRow { file: file(), row, most: LONGEST_ROW });
+        }
         let bytes =
             if row == 1 { bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes) } else { bytes };
         let line = match std::str::from_utf8(bytes) {
@@ -121,6 +132,11 @@ impl<R: BufRead> Rows<'_, R> {
         };
         Ok(Some((row, line)))
     }
+}
+
+/// A byte that stands in no text.
+fn is_control(byte: u8) -> bool {
+    byte.is_ascii_control() && !matches!(byte, b'\t' | b'\r' | b'\n' | b'\x0C')
 }
 
 /// What stands before the second row of numbers.
@@ -243,7 +259,7 @@ impl Body<'_> {
                 file: file(),
                 row,
                 column: column(),
-                found: cell.chars().take(40).collect(),
+                found: cell.to_owned(),
             }),
         }
     }
@@ -263,14 +279,15 @@ impl Body<'_> {
 
     fn check_time(&mut self, row: usize) -> Result<(), LogError> {
         let after = self.values[0];
-        if let Some(before) = self.last_stamp {
-            let file = self.file.to_owned();
-            if after < before {
-                return Err(LogError::TimeBack { file, row, before, after });
-            }
-            if after <= before {
-                return Err(LogError::TimeStill { file, row, stamp: after });
-            }
+        if let Some(before) = self.last_stamp
+            && after <= before
+        {
+            let (file, column) = (self.file.to_owned(), self.labels[0].clone());
+            return Err(if after < before {
+                LogError::TimeBack { file, row, column, before, after }
+            } else {
+                LogError::TimeStill { file, row, column, stamp: after }
+            });
         }
         self.last_stamp = Some(after);
         Ok(())

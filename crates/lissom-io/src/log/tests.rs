@@ -1,4 +1,3 @@
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![expect(clippy::float_cmp, reason = "these numbers are exact")]
 
 use std::path::Path;
@@ -177,12 +176,12 @@ fn missing_columns_list_those_there_are() {
 fn time_must_increase() {
     fails(
         read("t,x\n0,1\n1,1\n0.5,1\n", "t", "x"),
-        "a.csv: row 4: time goes back from 1 to 0.5",
+        "a.csv: row 4, column \"t\": time goes back from 1 to 0.5",
         Some("cut the log there and give the two parts as two runs"),
     );
     fails(
         read("t,x\n0,1\n1,1\n1,1\n", "t", "x"),
-        "a.csv: row 4: time stands still at 1",
+        "a.csv: row 4, column \"t\": time stands still at 1",
         Some(
             "export the stamps with more digits, or give `sample_time` in place of `time` if the sampling is regular",
         ),
@@ -196,7 +195,21 @@ fn files_that_are_no_text_are_refused() {
     let options = LogOptions::default();
     fails(read_with(b"MAT\0\0", None, &[], &options), "a.csv: row 1 is not text", hint);
     let endless = vec![b'1'; 3 << 20];
-    fails(read_with(endless, None, &[], &options), "a.csv: row 1 is not text", hint);
+    fails(
+        read_with(endless, None, &[], &options),
+        "a.csv: row 1 is longer than 1048576 bytes",
+        Some("logs have one sample a row: check the line ends, or export fewer columns"),
+    );
+    fails(
+        read_with(b"\xff\xfet\0,\0x\0", None, &[], &options),
+        "a.csv: the text is in UTF-16 or UTF-32",
+        Some("save the log as UTF-8"),
+    );
+    fails(
+        read_with(b"t,x\n0,1\n\x1b[2J,1\n", None, &[], &options),
+        "a.csv: row 3 is not text",
+        hint,
+    );
 }
 
 #[test]
@@ -284,7 +297,11 @@ fn a_broken_reader_is_reported_with_its_row() {
     let text = &b"t,x\n0,1\n"[..];
     let reader = std::io::BufReader::new(std::io::Read::chain(text, Broken));
     let result = read_log_from(reader, "a.csv", None, &[], &LogOptions::default());
-    fails(result, "a.csv: reading failed at row 3: the disk is gone", None);
+    fails(
+        result,
+        "a.csv: reading failed at row 3: the disk is gone",
+        Some("check that it is a file that you may read"),
+    );
 }
 
 #[test]

@@ -3,19 +3,20 @@
 use thiserror::Error;
 
 use super::Dimension;
+use crate::excerpt::excerpt;
 
 /// Why a text is not the quantity or unit that is wanted.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum UnitError {
     /// It does not begin with a number.
-    #[error("\"{text}\" does not begin with a number")]
+    #[error("\"{}\" does not begin with a number", excerpt(text))]
     NoNumber {
         /// The whole text.
         text: String,
     },
     /// A number without a unit.
-    #[error("\"{text}\" has no unit; {expected} is expected")]
+    #[error("\"{}\" has no unit; {expected} is expected", excerpt(text))]
     NoUnit {
         /// The whole text.
         text: String,
@@ -23,7 +24,7 @@ pub enum UnitError {
         expected: Dimension,
     },
     /// A name that is no unit.
-    #[error("\"{text}\": there is no unit `{unit}`")]
+    #[error("\"{}\": there is no unit `{}`", excerpt(text), excerpt(unit))]
     Unknown {
         /// The whole text.
         text: String,
@@ -33,7 +34,7 @@ pub enum UnitError {
         nearest: Option<String>,
     },
     /// The expression breaks off or holds a character that does not belong there.
-    #[error("\"{text}\" is not a unit: {}", found.map_or("it breaks off".to_owned(), |c| format!("unexpected `{c}`")))]
+    #[error("\"{}\" is not a unit: {}", excerpt(text), found.map_or("it breaks off".to_owned(), |c| format!("unexpected `{c}`")))]
     Syntax {
         /// The whole text.
         text: String,
@@ -41,7 +42,7 @@ pub enum UnitError {
         found: Option<char>,
     },
     /// An exponent that is too large.
-    #[error("\"{text}\" has an exponent above {largest}")]
+    #[error("\"{}\" has an exponent above {largest}", excerpt(text))]
     Power {
         /// The whole text.
         text: String,
@@ -49,7 +50,7 @@ pub enum UnitError {
         largest: i32,
     },
     /// A unit of another dimension.
-    #[error("\"{text}\" is {found}, where {expected} is expected")]
+    #[error("\"{}\" is {found}, where {expected} is expected", excerpt(text))]
     Dimension {
         /// The whole text.
         text: String,
@@ -59,7 +60,7 @@ pub enum UnitError {
         expected: Dimension,
     },
     /// Too large or too small for a number.
-    #[error("\"{text}\" is out of range")]
+    #[error("\"{}\" is out of range", excerpt(text))]
     OutOfRange {
         /// The whole text.
         text: String,
@@ -76,13 +77,16 @@ impl UnitError {
                 .map(|e| format!("write it as in \"{e}\", or as a bare SI number")),
             Self::Unknown { nearest, .. } => Some(match nearest {
                 Some(name) => format!("did you mean `{name}`?"),
-                None => "write products with * and quotients with /, as in \"N*m^2\"".to_owned(),
+                None => "write units as in \"mA\", \"deg\" or \"lbf*in/A\": products with *, quotients with /".to_owned(),
             }),
             Self::Syntax { .. } => {
                 Some("write products with * and quotients with /, as in \"N*m^2\"".to_owned())
             }
-            Self::Dimension { found, expected, .. } => dimension_hint(*found, *expected),
-            Self::Power { .. } | Self::OutOfRange { .. } => None,
+            Self::Dimension { found, expected, .. } => Some(dimension_hint(*found, *expected)),
+            Self::Power { .. } => Some("check the exponent of the unit".to_owned()),
+            Self::OutOfRange { .. } => {
+                Some("check the exponent of the number and its unit".to_owned())
+            }
         }
     }
 
@@ -102,16 +106,15 @@ impl UnitError {
 }
 
 /// A mass where a force belongs is the usual slip.
-fn dimension_hint(found: Dimension, expected: Dimension) -> Option<String> {
+fn dimension_hint(found: Dimension, expected: Dimension) -> String {
     if found.times(Dimension::ACCELERATION, 1) == expected {
-        return Some(
-            "`lb`, `oz` and `kg` are masses; the forces are `lbf`, `ozf` and `kgf`".into(),
-        );
+        return "`lb`, `oz` and `kg` are masses; the forces are `lbf`, `ozf` and `kgf`".into();
     }
     if expected.times(Dimension::ACCELERATION, 1) == found {
-        return Some(
-            "`lbf`, `ozf` and `kgf` are forces; the masses are `lb`, `oz` and `kg`".into(),
-        );
+        return "`lbf`, `ozf` and `kgf` are forces; the masses are `lb`, `oz` and `kg`".into();
     }
-    expected.example().map(|example| format!("write it as in \"{example}\""))
+    expected.example().map_or_else(
+        || "check the unit against the quantity it stands for".to_owned(),
+        |example| format!("write it as in \"{example}\""),
+    )
 }

@@ -45,7 +45,21 @@ impl WriteError {
             Self::File { source, .. } if source.kind() == io::ErrorKind::NotFound => {
                 Some("create the folder first".to_owned())
             }
-            _ => None,
+            Self::File { source, .. } => Some(
+                match source.kind() {
+                    io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+                        "choose a folder that you may write to"
+                    }
+                    io::ErrorKind::IsADirectory => "give a file name, not a folder",
+                    io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists => {
+                        "a file of that name stands where a folder is needed"
+                    }
+                    io::ErrorKind::StorageFull => "make room on the disk",
+                    _ => "check the path",
+                }
+                .to_owned(),
+            ),
+            Self::Json { .. } | Self::Ragged { .. } => None,
         }
     }
 }

@@ -1,11 +1,13 @@
 //! Writing files whole or not at all.
 
+mod batch;
 mod campaign;
 mod csv;
 mod error;
 #[cfg(test)]
 mod tests;
 
+pub use batch::Batch;
 pub use campaign::{CampaignPlan, PlannedCommand, PlannedRun, campaign_text, write_campaign};
 pub use csv::{csv_text, write_csv};
 pub use error::WriteError;
@@ -57,9 +59,17 @@ pub fn write_text(path: &Path, text: &str) -> Result<(), WriteError> {
 /// # Errors
 /// As [`write_whole`]; [`WriteError::Json`] for a value that JSON cannot hold.
 pub fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), WriteError> {
+    write_text(path, &json_text(path, value)?)
+}
+
+/// A value as indented JSON; `path` is the file it is meant for.
+///
+/// # Errors
+/// [`WriteError::Json`] for a value that JSON cannot hold.
+pub fn json_text(path: &Path, value: &impl serde::Serialize) -> Result<String, WriteError> {
     let text = serde_json::to_string_pretty(value)
         .map_err(|source| WriteError::Json { file: path.display().to_string(), source })?;
-    write_text(path, &(text + "\n"))
+    Ok(text + "\n")
 }
 
 fn fill_and_sync(

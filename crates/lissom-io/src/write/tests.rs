@@ -1,4 +1,3 @@
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![expect(clippy::float_cmp, reason = "these numbers are exact")]
 
 use std::path::Path;
@@ -7,8 +6,8 @@ use lissom::record::{Hold, TipQuantity};
 use proptest::prelude::*;
 
 use super::{
-    CampaignPlan, PlannedCommand, PlannedRun, campaign_text, csv_text, write_campaign, write_csv,
-    write_json, write_text, write_whole,
+    Batch, CampaignPlan, PlannedCommand, PlannedRun, campaign_text, csv_text, write_campaign,
+    write_csv, write_json, write_text, write_whole,
 };
 use crate::log::{ColumnRef, LogColumn, LogOptions, read_log_from};
 
@@ -26,11 +25,35 @@ fn a_file_is_written_whole_or_not_at_all() {
         error.to_string(),
         format!("{}: cannot be written: the source broke", path.display())
     );
-    assert_eq!(error.hint(), None);
+    assert_eq!(error.hint().as_deref(), Some("check the path"));
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "first");
     write_text(&path, "second").unwrap();
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "second");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn a_batch_appears_together_or_not_at_all() {
+    let root = tempfile::tempdir().unwrap();
+    let inside = |name: &str| root.path().join(name);
+    let mut batch = Batch::new();
+    batch.folder(&inside("new/plots")).unwrap();
+    batch.file(&inside("new/plots/a.svg"), b"a").unwrap();
+    batch.file(&inside("b.json"), b"b").unwrap();
+    assert!(!inside("b.json").exists());
+    let error = batch.file(&inside("new"), b"c").unwrap_err();
+    assert_eq!(error.hint().as_deref(), Some("give a file name, not a folder"));
+    drop(batch);
+    assert_eq!(std::fs::read_dir(root.path()).unwrap().count(), 0);
+
+    let mut batch = Batch::new();
+    batch.folder(&inside("new/plots")).unwrap();
+    batch.file(&inside("new/plots/a.svg"), b"a").unwrap();
+    batch.file(&inside("b.json"), b"b").unwrap();
+    batch.commit().unwrap();
+    assert_eq!(std::fs::read(inside("new/plots/a.svg")).unwrap(), b"a");
+    assert_eq!(std::fs::read(inside("b.json")).unwrap(), b"b");
+    assert_eq!(std::fs::read_dir(root.path()).unwrap().count(), 2);
 }
 
 #[test]

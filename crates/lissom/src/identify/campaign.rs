@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::channel_check::range;
 use super::finding::{Finding, Severity};
 use super::model::state_space;
 use super::rational::{BeamFit, MotorData, MotorFit, TipData, fit_beam, fit_motor};
@@ -11,7 +12,7 @@ use super::run_analysis::{RunAnalysis, RunKind, analyse};
 use super::third_harmonic::{PairFigure, mean_figure, pair_figure};
 use super::{Estimate, ModeEstimate, verdict};
 use crate::lti::StateSpace;
-use crate::record::{Campaign, TipQuantity};
+use crate::record::{Campaign, Run, TipQuantity};
 
 /// Harmonics fitted to a periodic run.
 const HARMONICS: usize = 9;
@@ -36,13 +37,13 @@ pub struct Options {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum IdentifyError {
-    /// In every run the motor or the command stands still.
-    #[error(
-        "in all {runs} runs the motor or the command is constant: there is nothing to identify"
-    )]
+    /// In every run some channel stands still.
+    #[error("every run has a constant channel: {}", counted(constant, *runs))]
     NothingMoves {
         /// Number of runs.
         runs: usize,
+        /// Channels that are constant somewhere, and in how many runs.
+        constant: Vec<(String, usize)>,
     },
     /// The window asked for is not a positive finite length.
     #[error("a window of {found_s} s is not positive and finite")]
@@ -50,6 +51,11 @@ pub enum IdentifyError {
         /// The length given \[s\].
         found_s: f64,
     },
+}
+
+fn counted(constant: &[(String, usize)], runs: usize) -> String {
+    let count = |(name, count): &(String, usize)| format!("{name} in {count} of {runs}");
+    constant.iter().map(count).collect::<Vec<_>>().join(", ")
 }
 
 /// A stage of the work, for a progress display.
@@ -195,7 +201,8 @@ pub fn identify(
             .collect(),
     };
     if usable.runs.is_empty() {
-        return Err(IdentifyError::NothingMoves { runs: campaign.runs.len() });
+        let constant = constant_channels(campaign);
+        return Err(IdentifyError::NothingMoves { runs: campaign.runs.len(), constant });
     }
     progress(Stage::Regression);
     let regression = motor_regression(&usable, &options.window_s);
@@ -252,6 +259,22 @@ pub fn identify(
     };
     verdict::conclude(campaign, &mut identified);
     Ok(identified)
+}
+
+/// Channels that are constant in some runs, and in how many.
+fn constant_channels(campaign: &Campaign) -> Vec<(String, usize)> {
+    let count = |channel: &dyn Fn(&Run) -> &[f64]| {
+        campaign.runs.iter().filter(|run| range(channel(run)) <= 0.0).count()
+    };
+    let mut constant = vec![
+        ("motor".to_owned(), count(&Run::motor)),
+        ("command".to_owned(), count(&Run::command)),
+    ];
+    constant.extend(campaign.channels.tips.iter().enumerate().map(|(i, tip)| {
+        (format!("tip \"{}\"", tip.name), count(&|run: &Run| run.tips()[i].as_slice()))
+    }));
+    constant.retain(|(_, runs)| *runs > 0);
+    constant
 }
 
 /// Every pair of runs at ω0 and 3ω0; each run meets the triple nearest to it in amplitude.

@@ -298,20 +298,29 @@ fn sinusoidal(
     let distortion = motor.phasors[1..].iter().map(|p| p.value.norm_sqr()).sum::<f64>().sqrt()
         / motor.phasors[0].value.norm();
     let allowed = if given { DISTORTION_GIVEN } else { DISTORTION_FOUND };
-    if motor.unexplained() > UNEXPLAINED || distortion > allowed {
+    // At rest in all that is kept, neither is a number: no sinusoid either.
+    let sinusoid = motor.unexplained() <= UNEXPLAINED && distortion <= allowed;
+    if !sinusoid {
         if given {
-            let message = format!(
-                "not a sinusoid of {omega:.4} rad/s: {:.0} % of the motor's power is left, \
-                 harmonics have {:.0} % of the fundamental",
-                100.0 * motor.unexplained(),
-                100.0 * distortion
-            );
+            let message = if distortion.is_finite() {
+                format!(
+                    "not a sinusoid of {omega:.4} rad/s: {:.0} % of the motor's power is left, \
+                     harmonics have {:.0} % of the fundamental",
+                    100.0 * motor.unexplained(),
+                    100.0 * distortion
+                )
+            } else {
+                format!("the motor does not move at {omega:.4} rad/s in the periods kept")
+            };
             let hint = "check omega_rad_s; the run is used as a motion of any shape";
             refuse(findings, "not-sinusoidal", Severity::Warning, message, hint);
         }
         return None;
     }
     let command = held(fit(run.command())?, campaign.channels.command.hold, t);
+    if command.phasors[0].value.norm() <= 0.0 {
+        return None;
+    }
     let tips: Vec<Harmonics> = run.tips().iter().map(|x| fit(x)).collect::<Option<_>>()?;
     steadiness(run, &steady, findings);
     if 3.0 * omega > 0.9 * std::f64::consts::PI / t {

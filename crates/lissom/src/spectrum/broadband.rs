@@ -134,10 +134,10 @@ mod tests {
 
     #[test]
     fn response_of_a_first_order_lag_from_a_sweep() {
-        let (t, n, pole) = (0.002, 30_000, 8.0);
+        let (t, n, pole) = (0.002_f64, 30_000, 8.0);
         let rate = 0.5 * 60.0 / (n as f64 * t);
         let u: Vec<f64> = (0..n).map(|k| (rate * (k as f64 * t).powi(2)).sin()).collect();
-        let a = (-pole * t as f64).exp();
+        let a = (-pole * t).exp();
         let mut y = vec![0.0; n];
         for k in 1..n {
             y[k] = a * y[k - 1] + (1.0 - a) * u[k - 1];

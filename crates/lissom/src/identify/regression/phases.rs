@@ -58,7 +58,7 @@ mod tests {
     fn a_quantised_cosine_has_its_half_cycles() {
         let t = 0.003;
         let x: Vec<f64> =
-            (0..4000).map(|k| ((2.0 * k as f64 * t).cos() / 0.0015).round() * 0.0015).collect();
+            (0..4000).map(|k| ((2.0 * f64::from(k) * t).cos() / 0.0015).round() * 0.0015).collect();
         let phases = slip_phases(&x, 30, t);
         let long: Vec<_> = phases.iter().filter(|p| p.to - p.from > 100).collect();
         assert_eq!(long.len(), 8);

@@ -1,0 +1,203 @@
+//! Logs that are used, and what is said of them.
+
+use lissom::identify::{Options, identify};
+use lissom_io::{ReadOptions, campaign::read_campaign_with};
+
+use crate::bench::{Bench, Row, csv, good, motion, sticking, text};
+
+/// Relative error of Coulomb friction on an ideal log: its numbers have six decimals.
+const COULOMB_ERROR: f64 = 1e-4;
+
+/// The good log with every row changed by `change`, which gets its number.
+fn changed(change: impl Fn(usize, &mut Row)) -> Bench {
+    let mut rows = good();
+    rows.iter_mut().enumerate().for_each(|(k, row)| change(k, row));
+    Bench::log(csv(&rows))
+}
+
+#[test]
+fn the_good_log_is_used_without_a_warning() {
+    let result = Bench::new().result();
+    let coulomb = result["friction"]["coulomb_nm"]["value"].as_f64().unwrap();
+    assert!((coulomb / 0.05 - 1.0).abs() < COULOMB_ERROR, "{coulomb}");
+    let findings = result["findings"].as_array().unwrap();
+    let warnings: Vec<_> = findings.iter().filter(|f| f["severity"] == "warning").collect();
+    assert!(warnings.is_empty(), "{warnings:?}");
+}
+
+#[test]
+fn runs_of_different_sampling_are_used_together() {
+    let bench = Bench::adding("[[runs]]\nfile = \"slow.csv\"\n")
+        .file("slow.csv", csv(&motion(2.0, 0.008, 40.0)));
+    let result = bench.result();
+    let runs = result["runs"].as_array().unwrap();
+    let times: Vec<_> = runs.iter().map(|run| run["sample_time_s"].as_f64().unwrap()).collect();
+    assert_eq!(times, [0.005, 0.008]);
+    let coulomb = result["friction"]["coulomb_nm"]["value"].as_f64().unwrap();
+    assert!((coulomb / 0.05 - 1.0).abs() < COULOMB_ERROR, "{coulomb}");
+    let output = bench.identify(&["campaign.toml"]);
+    assert_eq!(
+        text(&output.stdout).lines().next().unwrap(),
+        "2 runs, 9000 samples every 5.0000 to 8.0000 ms, command measured, 1 tips"
+    );
+}
+
+#[test]
+fn gaps_cut_a_log_into_runs() {
+    let mut rows = good();
+    rows.drain(1520..1600);
+    rows.drain(1400..1500);
+    let bench = Bench::log(csv(&rows));
+    assert_eq!(
+        bench.findings("gap"),
+        [
+            "run.csv [2/2]: cut at a gap of 0.5050 s after 6.9950 s",
+            "run.csv [2/2]: cut at a gap of 0.4050 s after 7.5950 s"
+        ]
+    );
+    assert_eq!(
+        bench.findings("piece-dropped"),
+        ["run.csv [2/2]: a piece of 20 samples from 7.5000 s on, between gaps, left out"]
+    );
+}
+
+#[test]
+fn a_long_log_is_thinned() {
+    let bench = Bench::new();
+    let options = ReadOptions { max_rows: 1500, ..ReadOptions::default() };
+    let file = read_campaign_with(&bench.path().join("campaign.toml"), &options).unwrap();
+    assert_eq!(file.campaign.runs[0].len(), 1000);
+    let identified = identify(&file.campaign, &Options::default(), |_| {}).unwrap();
+    let thinned: Vec<_> = identified.findings.iter().filter(|f| f.code == "thinned").collect();
+    let [finding] = &thinned[..] else { panic!("{thinned:?}") };
+    assert_eq!(finding.message, "thinned: one sample from 4 rows of the log");
+    assert_eq!(finding.run.as_deref(), Some("run.csv"));
+}
+
+#[test]
+fn a_head_is_skipped() {
+    let bench = Bench::adding("skip = \"2 s\"\n");
+    assert_eq!(bench.findings("head-skipped"), ["run.csv: the first 2 s left out as asked"]);
+}
+
+#[test]
+fn jitter_is_measured() {
+    let off = |k: usize| ((k * 7919 % 11) as f64 / 5.0 - 1.0) * 1e-3;
+    assert_eq!(
+        changed(|k, row| row[0] += off(k)).findings("jitter"),
+        ["run.csv: time stamps lie 13.8 % of the sample time off the grid (rms; 46 % at most)"]
+    );
+}
+
+#[test]
+fn saturation_is_seen_with_and_without_a_known_limit() {
+    let bench = changed(|_, row| row[1] = row[1].clamp(-0.5, 0.5));
+    let campaign = crate::bench::CAMPAIGN.replace("[drive]", "[drive]\ncurrent_limit = \"0.5 A\"");
+    assert_eq!(
+        bench.findings("saturation"),
+        ["run.csv: the command stands at its largest value for 50.2 % of the run"]
+    );
+    assert_eq!(
+        bench.file("campaign.toml", campaign).findings("saturation"),
+        ["run.csv: the command is at its limit for 50.2 % of the run"]
+    );
+}
+
+#[test]
+fn periods_are_counted() {
+    assert_eq!(
+        Bench::log(csv(&motion(1.0, 0.005, 26.0))).findings("few-periods"),
+        ["run.csv: only 4 periods in steady state"]
+    );
+    let slow = Bench::adding("omega_rad_s = 0.5\n").file("run.csv", csv(&motion(0.5, 0.005, 20.0)));
+    assert_eq!(
+        slow.findings("too-few-periods"),
+        ["run.csv: driven at 0.5000 rad/s: 1 whole blocks of periods; at least 3 are needed"]
+    );
+}
+
+#[test]
+fn another_frequency_than_the_stated_one_is_seen() {
+    assert_eq!(
+        Bench::adding("omega_rad_s = 5\n").findings("not-sinusoidal"),
+        ["run.csv: not a sinusoid of 5.0000 rad/s: 100 % of the motor's power is left, harmonics \
+          have 76 % of the fundamental"]
+    );
+}
+
+#[test]
+fn a_dead_channel_is_named() {
+    let dead = |column: usize| {
+        let mut rows = good();
+        for row in &mut rows {
+            row[column] = 0.25;
+        }
+        Bench::adding("[[runs]]\nfile = \"dead.csv\"\n").file("dead.csv", csv(&rows))
+    };
+    assert_eq!(
+        dead(3).findings("dead-channel"),
+        [
+            "dead.csv: the tip channel tip is constant at 0.25: the run is left out of the regression"
+        ]
+    );
+    assert_eq!(
+        dead(2).findings("dead-channel"),
+        ["dead.csv: the motor channel is constant at 0.25: the run is left out"]
+    );
+    assert_eq!(
+        dead(1).findings("dead-channel"),
+        ["dead.csv: the command channel is constant at 0.25: the run is left out"]
+    );
+}
+
+#[test]
+fn a_clipped_motor_is_seen() {
+    assert_eq!(
+        changed(|_, row| row[2] = row[2].clamp(-0.8, 0.8)).findings("clipped-channel"),
+        ["run.csv: channel motor stands at its end stop for 41.2 % of the run"]
+    );
+}
+
+#[test]
+fn drift_is_measured() {
+    let drifting = |_: usize, row: &mut Row| {
+        row[2] += 0.02 * row[0];
+        row[3] += 0.02 * row[0];
+    };
+    assert_eq!(
+        changed(drifting).findings("drift"),
+        ["run.csv: the motor drifts by 38 % of its amplitude over the run"]
+    );
+}
+
+#[test]
+fn a_third_harmonic_above_nyquist_is_seen() {
+    assert_eq!(
+        Bench::log(csv(&motion(4.0, 0.3, 300.0))).findings("harmonic-above-nyquist"),
+        ["run.csv: the third harmonic, 12.0 rad/s, is not below the Nyquist frequency 10.5 rad/s"]
+    );
+}
+
+#[test]
+fn sticking_is_measured() {
+    assert_eq!(
+        Bench::log(csv(&sticking())).findings("sticking"),
+        ["run.csv: the motor sticks for about 9 % of the cycle"]
+    );
+}
+
+#[test]
+fn a_motor_that_comes_to_rest_is_no_sinusoid() {
+    let bench = changed(|k, row| {
+        if k > 2000 {
+            row[1..].fill(0.0);
+        }
+    });
+    assert_eq!(
+        bench.findings("mostly-at-rest"),
+        ["run.csv: the motor stands still for 48 % of the run"]
+    );
+    let result = bench.result();
+    assert!(!result.to_string().contains("NaN"), "{:#}", result["findings"]);
+    assert_eq!(bench.findings("transient-dropped"), [""; 0]);
+}

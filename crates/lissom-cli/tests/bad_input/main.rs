@@ -1,0 +1,9 @@
+//! What the command says to input that it cannot use, and what it says of input that is poor.
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod bench;
+mod campaigns;
+mod findings;
+mod logs;
+mod odd_files;
+mod outputs;

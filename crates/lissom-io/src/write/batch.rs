@@ -1,0 +1,80 @@
+//! Several files that appear together or not at all.
+
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use super::{WriteError, fill_and_sync, part_beside};
+
+/// Files that are written beside their places and take their names when all of them are complete.
+///
+/// A batch that is dropped leaves nothing behind, not even the folders it made.
+#[derive(Debug, Default)]
+pub struct Batch {
+    /// Complete files and the names they are to take.
+    parts: Vec<(PathBuf, PathBuf)>,
+    /// Folders made, outer ones first.
+    folders: Vec<PathBuf>,
+}
+
+impl Batch {
+    /// A batch without files.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Makes a folder, and those above it, where they do not exist.
+    ///
+    /// # Errors
+    /// [`WriteError::File`] where one cannot be made.
+    pub fn folder(&mut self, path: &Path) -> Result<(), WriteError> {
+        let absent: Vec<PathBuf> = path
+            .ancestors()
+            .take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists())
+            .map(Path::to_owned)
+            .collect();
+        self.folders.extend(absent.into_iter().rev());
+        super::create_folder(path)
+    }
+
+    /// Writes a file that has not its name yet.
+    ///
+    /// # Errors
+    /// [`WriteError::File`] where the folder does not exist, cannot be written or is full, and
+    /// where a folder has the file's name.
+    pub fn file(&mut self, path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+        let failed = |source| WriteError::File { file: path.display().to_string(), source };
+        if path.is_dir() {
+            return Err(failed(io::ErrorKind::IsADirectory.into()));
+        }
+        let (part, file): (PathBuf, File) = part_beside(path).map_err(failed)?;
+        self.parts.push((part, path.to_owned()));
+        fill_and_sync(file, |out: &mut dyn Write| out.write_all(bytes)).map_err(failed)
+    }
+
+    /// Gives every file its name.
+    ///
+    /// # Errors
+    /// [`WriteError::File`] where a name cannot be given; files that have theirs keep it.
+    pub fn commit(mut self) -> Result<(), WriteError> {
+        while let Some((part, path)) = self.parts.first() {
+            std::fs::rename(part, path)
+                .map_err(|source| WriteError::File { file: path.display().to_string(), source })?;
+            self.parts.remove(0);
+        }
+        self.folders.clear();
+        Ok(())
+    }
+}
+
+impl Drop for Batch {
+    fn drop(&mut self) {
+        // What cannot be removed stays: the reason to report is the one before.
+        for (part, _) in &self.parts {
+            let _ = std::fs::remove_file(part);
+        }
+        for folder in self.folders.iter().rev() {
+            let _ = std::fs::remove_dir(folder);
+        }
+    }
+}
