@@ -35,9 +35,8 @@ pub(crate) struct IdentifyArgs {
     /// The campaign.toml
     pub(crate) campaign: PathBuf,
     /// Write the result as JSON to FILE, or alone to standard output
-    #[arg(long, value_name = "FILE", num_args = 0..=1)]
-    #[expect(clippy::option_option, reason = "not asked for, to standard output, to a file")]
-    pub(crate) json: Option<Option<PathBuf>>,
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
+    pub(crate) json: Option<PathBuf>,
     /// Write one self-contained HTML page
     #[arg(long, value_name = "FILE")]
     pub(crate) report: Option<PathBuf>,
@@ -84,7 +83,9 @@ pub(crate) struct DemoArgs {
     #[arg(long, value_name = "DIR", default_value = "lissom-demo")]
     pub(crate) out: PathBuf,
     /// Write truth and result as JSON to FILE, or alone to standard output
-    #[arg(long, value_name = "FILE", num_args = 0..=1)]
-    #[expect(clippy::option_option, reason = "not asked for, to standard output, to a file")]
-    pub(crate) json: Option<Option<PathBuf>>,
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
+    pub(crate) json: Option<PathBuf>,
 }
+
+/// The file name that stands for standard output.
+pub(crate) const STDOUT: &str = "-";

@@ -16,6 +16,10 @@ pub(crate) enum Failure {
     Write(#[from] lissom_io::WriteError),
     #[error("{}: {source}", campaign.display())]
     Identify { campaign: PathBuf, source: IdentifyError },
+    #[error("{}: exists and is no earlier output; it is not written over", file.display())]
+    NotAnOutput { file: PathBuf },
+    #[error("{}: one name for two outputs", file.display())]
+    SameOutput { file: PathBuf },
     #[error(transparent)]
     Rig(#[from] RigError),
     #[error("the plot could not be drawn: {0}")]
@@ -28,6 +32,11 @@ impl Failure {
         match self {
             Self::Io(error) => error.hint(),
             Self::Write(error) => error.hint(),
+            Self::NotAnOutput { .. } => Some(
+                "put the campaign before `--json FILE`, or remove the file if it is to go"
+                    .to_owned(),
+            ),
+            Self::SameOutput { .. } => Some("give each output its own file".to_owned()),
             Self::Identify { source: IdentifyError::NothingMoves { .. }, .. } => Some(
                 "check the wiring and which columns the campaign names; a tip without a signal can be \
                  left out of [signals]"

@@ -7,15 +7,18 @@ use lissom::identify::{Identified, Options, Severity, identify};
 use lissom_io::write::{self, Batch};
 use lissom_io::{CampaignFile, UnitNames, read_campaign, result_json};
 
-use crate::cli::IdentifyArgs;
+use crate::cli::{IdentifyArgs, STDOUT};
 use crate::failure::Failure;
 use crate::reference::Reference;
-use crate::{figures, page, print, progress};
+use crate::{figures, output, page, print, progress};
 
 /// The verdict refuses a figure asked for.
 pub(crate) const REFUSED: u8 = 3;
 
 pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
+    let json = args.json.as_deref();
+    let json_file = json.filter(|path| *path != Path::new(STDOUT));
+    output::guard(json_file, args.report.as_deref())?;
     let file = read_campaign(&args.campaign)?;
     let id = identified(&args.campaign, &file, args.window)?;
     let result = result_json(&file.campaign.channels, &id);
@@ -28,14 +31,14 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         let text = page::page(&title, &file.campaign, names, &id, reference);
         batch.file(path, text.as_bytes())?;
     }
-    if let Some(Some(path)) = &args.json {
+    if let Some(path) = json_file {
         batch.file(path, write::json_text(path, &result)?.as_bytes())?;
     }
     if let Some(folder) = &args.plots {
         figures::add_all(&mut batch, folder, &file.campaign.channels, names, &id, reference)?;
     }
     batch.commit()?;
-    if let Some(None) = args.json {
+    if json.is_some() && json_file.is_none() {
         print::json(&result);
     } else {
         print::campaign(&file.campaign);

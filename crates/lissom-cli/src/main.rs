@@ -8,6 +8,7 @@ mod demo;
 mod failure;
 mod figures;
 mod identify;
+mod output;
 mod page;
 mod print;
 mod progress;

@@ -22,10 +22,12 @@ pub(crate) fn page(
     let refusals = id.findings.iter().filter(|f| f.severity == Severity::Refusal).count();
     let warnings = id.findings.iter().filter(|f| f.severity == Severity::Warning).count();
     let summary = format!(
-        "{} runs; {warnings} warnings, {refusals} refusals. Figures are estimates with one \
+        "{}; {}, {}. Figures are estimates with one \
          standard deviation and a 95 % interval; what the data could not carry stands under \
          Findings.",
-        id.runs.len()
+        print::counted(id.runs.len(), "run"),
+        print::counted(warnings, "warning"),
+        print::counted(refusals, "refusal")
     );
     let mut page = Page::new(title)
         .summary(&summary)

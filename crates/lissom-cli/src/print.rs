@@ -55,6 +55,11 @@ pub(crate) fn table(rows: &[Vec<String>]) {
     }
 }
 
+/// "1 run", "2 runs".
+pub(crate) fn counted(number: usize, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
+}
+
 /// What was read.
 pub(crate) fn campaign(campaign: &Campaign) {
     let samples: usize = campaign.runs.iter().map(lissom::record::Run::len).sum();
@@ -73,9 +78,9 @@ pub(crate) fn campaign(campaign: &Campaign) {
         Hold::Measured => "measured",
     };
     line(&format!(
-        "{} runs, {samples} samples every {sampling}, command {hold}, {} tips",
-        campaign.runs.len(),
-        campaign.channels.tips.len()
+        "{}, {samples} samples every {sampling}, command {hold}, {}",
+        counted(campaign.runs.len(), "run"),
+        counted(campaign.channels.tips.len(), "tip")
     ));
 }
 
@@ -97,12 +102,13 @@ pub(crate) fn runs(id: &Identified) {
     let sinusoidal = id.runs.len() - general;
     if sinusoidal > 0 {
         line(&format!(
-            "{sinusoidal} sinusoidal runs, {low:.3} to {high:.3} rad/s: {kept} periods kept, \
-             {dropped} dropped as transients"
+            "{}, {low:.3} to {high:.3} rad/s: {kept} periods kept, \
+             {dropped} dropped as transients",
+            counted(sinusoidal, "sinusoidal run")
         ));
     }
     if general > 0 {
-        line(&format!("{general} runs of other motion"));
+        line(&format!("{} of other motion", counted(general, "run")));
     }
     if let Some(r) = &id.regression {
         let how = if r.window_given { "given" } else { "chosen where the figures move least" };

@@ -67,6 +67,7 @@ fn with_directions(mut id: Identified) -> Identified {
         regression.viscous_by_direction = Some(ByDirection {
             forward: figure,
             backward: figure,
+            mean: figure,
             offset: figure,
             relative_residual: 0.1,
         });

@@ -193,6 +193,21 @@ fn one_direction_only_refuses_coulomb_and_offset() {
 }
 
 #[test]
+fn a_tip_dead_in_every_run_is_left_out() {
+    let runs: Vec<Run> = stiff_axis(0.2, 0.0)
+        .into_iter()
+        .map(|r| {
+            let still = vec![vec![0.0; r.len()]];
+            Run::new(r.name(), r.time(), r.command().to_vec(), r.motor().to_vec(), still).unwrap()
+        })
+        .collect();
+    let id = identified(current(0.2), Axis::Rotary, vec![tip("gauge", TipQuantity::Angle)], runs);
+    within("inertia", id.inertia, 2e-3, 0.01);
+    assert!(id.beam.coupling.is_none() && id.beam.modes.is_empty());
+    assert!(id.findings.iter().any(|f| f.code == "dead-channel" && f.run.is_none()));
+}
+
+#[test]
 fn a_motor_that_never_moves_is_an_error() {
     let still = Run::new("a", TimeBase::uniform(0.0, 0.01), vec![1.0; 100], vec![2.0; 100], vec![]);
     let channels = Channels { axis: Axis::Rotary, command: current(1.0), tips: vec![] };
@@ -200,6 +215,6 @@ fn a_motor_that_never_moves_is_an_error() {
     let error = identify(&campaign, &Options::default(), |_| {}).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "in all 1 runs the motor or the command is constant: there is nothing to identify"
+        "every run has a constant channel: motor in 1 of 1, command in 1 of 1"
     );
 }

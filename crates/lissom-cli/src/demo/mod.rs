@@ -11,16 +11,17 @@ use lissom_io::write::{self, Batch};
 use lissom_io::{ArmFile, UnitNames, read_campaign, result_json};
 use serde_json::{Value, json};
 
-use crate::cli::DemoArgs;
+use crate::cli::{DemoArgs, STDOUT};
 use crate::failure::Failure;
 use crate::reference::Reference;
-use crate::{figures, identify, page, print};
+use crate::{figures, identify, output, page, print};
 
 /// The arm, as a user would describe it.
 const ARM: &str = include_str!("arm.toml");
 
 pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
     let out = &args.out;
+    output::guard(args.json.as_deref().filter(|path| *path != Path::new(STDOUT)), None)?;
     let arm_path = out.join("arm.toml");
     let rig = ArmFile::from_text(&arm_path, ARM)?.rig(&arm_path).map_err(lissom_io::Error::from)?;
     write::create_folder(out)?;
@@ -43,10 +44,10 @@ pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
     write::write_text(&out.join("report.html"), &text)?;
 
     let rows = comparison(&rig.arm, &id);
-    match &args.json {
-        Some(None) => print::json(&compared(&rows, &result)),
-        other => {
-            if let Some(Some(path)) = other {
+    match args.json.as_deref() {
+        Some(path) if path == Path::new(STDOUT) => print::json(&compared(&rows, &result)),
+        json => {
+            if let Some(path) = json {
                 write::write_json(path, &compared(&rows, &result))?;
             }
             report(out, &file.campaign, &id, &rows);

@@ -38,7 +38,7 @@ fn runs_of_different_sampling_are_used_together() {
     let output = bench.identify(&["campaign.toml"]);
     assert_eq!(
         text(&output.stdout).lines().next().unwrap(),
-        "2 runs, 9000 samples every 5.0000 to 8.0000 ms, command measured, 1 tips"
+        "2 runs, 9000 samples every 5.0000 to 8.0000 ms, command measured, 1 tip"
     );
 }
 
@@ -166,7 +166,7 @@ fn drift_is_measured() {
     };
     assert_eq!(
         changed(drifting).findings("drift"),
-        ["run.csv: the motor drifts by 38 % of its amplitude over the run"]
+        ["run.csv: the motor drifts by 38 % of its amplitude over the periods kept"]
     );
 }
 

@@ -47,6 +47,22 @@ fn an_output_is_a_folder_or_below_a_file() {
 }
 
 #[test]
+fn an_output_would_cost_a_log() {
+    let bench = Bench::new();
+    bench.refuses_with(
+        &["--json", "run.csv", "campaign.toml"],
+        1,
+        "error: run.csv: exists and is no earlier output; it is not written over\n\
+         hint: put the campaign before `--json FILE`, or remove the file if it is to go",
+    );
+    bench.refuses_with(
+        &["campaign.toml", "--json", "out", "--report", "out"],
+        1,
+        "error: out: one name for two outputs\nhint: give each output its own file",
+    );
+}
+
+#[test]
 fn a_window_is_no_time() {
     let hint = "hint: write a time with its unit, such as \"0.3 s\"";
     let usage = "\n\nFor more information, try '--help'.";

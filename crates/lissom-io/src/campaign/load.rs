@@ -1,5 +1,6 @@
 //! From logs to runs.
 
+use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 use std::path::Path;
@@ -24,8 +25,12 @@ pub(super) fn load(
     options: &ReadOptions,
 ) -> Result<Campaign, Error> {
     let mut runs = Vec::with_capacity(specs.len());
+    let mut named: HashMap<&str, usize> = HashMap::new();
     for spec in specs {
-        runs.extend(load_run(folder, signals, spec, options)?);
+        let times = named.entry(&spec.name).and_modify(|n| *n += 1).or_insert(1);
+        // Findings and results tell runs apart by name.
+        let name = if *times == 1 { spec.name.clone() } else { format!("{} ({times})", spec.name) };
+        runs.extend(load_run(folder, signals, spec, &name, options)?);
     }
     let tips = signals.tips.iter().map(|(tip, _)| tip.clone()).collect();
     let channels = Channels { axis: signals.axis, command, tips };
@@ -36,6 +41,7 @@ fn load_run(
     folder: &Path,
     signals: &Signals,
     spec: &RunSpec,
+    name: &str,
     options: &ReadOptions,
 ) -> Result<Vec<Run>, Error> {
     let path = folder.join(&spec.file);
@@ -54,13 +60,13 @@ fn load_run(
     in_range(&command, &motor, &tips, signals, &file)?;
     let mut runs = Vec::with_capacity(count);
     for (index, (range, base, notes)) in pieces.into_iter().enumerate() {
-        let name = match count {
-            1 => spec.name.clone(),
-            _ => format!("{} [{}/{count}]", spec.name, index + 1),
+        let piece = match count {
+            1 => name.to_owned(),
+            _ => format!("{name} [{}/{count}]", index + 1),
         };
         let cut = |channel: &Vec<f64>| channel[range.clone()].to_vec();
         let mut run =
-            Run::new(name, base, cut(&command), cut(&motor), tips.iter().map(cut).collect())
+            Run::new(piece, base, cut(&command), cut(&motor), tips.iter().map(cut).collect())
                 .map_err(|error| of_log(error, &file))?;
         if let Some((omega_rad_s, place)) = &spec.omega_rad_s {
             run = run.with_omega(*omega_rad_s).map_err(|error| match error {

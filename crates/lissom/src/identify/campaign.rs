@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use thiserror::Error;
 
 use super::channel_check::range;
-use super::finding::{Finding, Severity};
+use super::finding::{Finding, Severity, key};
 use super::model::state_space;
 use super::rational::{BeamFit, MotorData, MotorFit, TipData, fit_beam, fit_motor};
 use super::regression::{BeamRegression, MotorRegression, beam_regression, motor_regression};
@@ -14,7 +14,7 @@ use super::run_analysis::{RunAnalysis, RunKind, analyse};
 use super::third_harmonic::{PairFigure, mean_figure, pair_figure};
 use super::{Estimate, ModeEstimate, verdict};
 use crate::lti::StateSpace;
-use crate::record::{Campaign, Run, TipQuantity};
+use crate::record::{Axis, Campaign, Run, TipQuantity};
 
 /// Harmonics fitted to a periodic run.
 const HARMONICS: usize = 9;
@@ -112,7 +112,7 @@ pub struct Beam {
     pub modes: Vec<ModeEstimate>,
     /// Torque per angle between motor and beam, Σκ_i = h_{n+1} of (15).
     pub coupling: Option<Estimate>,
-    /// κ_i of each tip that is a calibrated angle or deflection, in their order.
+    /// κ_i of each tip of the campaign, `None` where its angle is not known; empty where none is.
     pub coupling_by_tip: Vec<Option<Estimate>>,
 }
 
@@ -188,11 +188,15 @@ pub fn identify(
     let harmonics = options.harmonics.unwrap_or(HARMONICS).max(1);
     let mut findings = Vec::new();
     let mut runs = Vec::with_capacity(campaign.runs.len());
+    let dead: Vec<bool> = (0..campaign.channels.tips.len())
+        .map(|i| campaign.runs.iter().all(|run| range(&run.tips()[i]) <= 0.0))
+        .collect();
     for index in 0..campaign.runs.len() {
         progress(Stage::Run(index, campaign.runs.len()));
-        runs.push(analyse(campaign, index, harmonics, &mut findings));
+        runs.push(analyse(campaign, index, harmonics, &dead, &mut findings));
     }
-    let usable = usable(campaign, &runs);
+    dead_tips(campaign, &dead, &mut findings);
+    let usable = usable(campaign, &runs, &dead);
     if usable.runs.is_empty() {
         let constant = constant_channels(campaign);
         return Err(IdentifyError::NothingMoves { runs: campaign.runs.len(), constant });
@@ -232,8 +236,12 @@ pub fn identify(
         .filter(|(_, t)| t.calibrated && t.quantity != TipQuantity::Acceleration)
         .map(|(i, t)| (i, t.name.clone()))
         .collect();
+    let unit = match campaign.channels.axis {
+        Axis::Rotary => "rad",
+        Axis::Linear => "m",
+    };
     let state_space =
-        motor_model.as_ref().map(|m| state_space(m, constant, beam_model.as_ref(), &angles));
+        motor_model.as_ref().map(|m| state_space(m, constant, beam_model.as_ref(), &angles, unit));
     let mut identified = Identified {
         friction: Friction::default(),
         inertia: None,
@@ -270,17 +278,31 @@ fn constant_channels(campaign: &Campaign) -> Vec<(String, usize)> {
     constant
 }
 
-/// The runs that the regressions may use; logs are long, so they are copied only where some fall
-/// out.
-fn usable<'a>(campaign: &'a Campaign, runs: &[RunAnalysis]) -> Cow<'a, Campaign> {
-    if runs.iter().all(|a| a.usable) {
+/// Says which tips are dead in every run.
+fn dead_tips(campaign: &Campaign, dead: &[bool], findings: &mut Vec<Finding>) {
+    for (tip, _) in campaign.channels.tips.iter().zip(dead).filter(|(_, dead)| **dead) {
+        findings.push(Finding::new(
+            "dead-channel",
+            Severity::Warning,
+            &[key::COUPLING, key::MODES, key::INERTIA],
+            format!("tip {} is constant in every run: nothing is taken from it", tip.name),
+            "check the sensor; of a flexible beam the motor's figures are then rough",
+        ));
+    }
+}
+
+/// What the regressions may use: no run with a dead channel, and no tip that is dead in all.
+/// Logs are long: they are copied only where something falls out.
+fn usable<'a>(campaign: &'a Campaign, runs: &[RunAnalysis], dead: &[bool]) -> Cow<'a, Campaign> {
+    if runs.iter().all(|a| a.usable) && !dead.iter().any(|d| *d) {
         return Cow::Borrowed(campaign);
     }
     let kept = campaign.runs.iter().zip(runs).filter(|(_, a)| a.usable);
-    Cow::Owned(Campaign {
-        channels: campaign.channels.clone(),
-        runs: kept.map(|(r, _)| r.clone()).collect(),
-    })
+    let mut channels = campaign.channels.clone();
+    for (tip, dead) in channels.tips.iter_mut().zip(dead) {
+        tip.calibrated &= !dead;
+    }
+    Cow::Owned(Campaign { channels, runs: kept.map(|(r, _)| r.clone()).collect() })
 }
 
 /// Every pair of runs at ω0 and 3ω0; each run meets the triple nearest to it in amplitude.
@@ -292,11 +314,13 @@ fn pairs(runs: &[RunAnalysis], findings: &[Finding]) -> Option<ThirdHarmonic> {
             RunKind::General => None,
         })
         .collect();
+    // Sticking lowers every pair's figure, and counts in the mean's deviation.
     let flagged = |i: usize| {
         findings.iter().any(|f| {
             f.run.as_deref() == Some(&runs[i].name)
                 && f.severity >= Severity::Warning
-                && f.affects.contains(&super::finding::key::THIRD)
+                && f.code != "sticking"
+                && f.affects.contains(&key::THIRD)
         })
     };
     let mut pairs = Vec::new();

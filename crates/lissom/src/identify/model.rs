@@ -9,13 +9,14 @@ use crate::lti::StateSpace;
 ///
 /// Each mode follows the motor, `q̈_k = ω_k²(θ_m − q_k) − 2ζ_kω_k·q̇_k`, and pulls it back with
 /// `c_k(θ_m − q_k)`; a tip is `Σ (r_ik/ω_k²)·q_k`. `tips` holds the residues r_ik of tips that
-/// are angles, with their names; the modes' poles must be those of `motor`.
+/// are angles, with their names, `unit` their unit (`rad`, `m`); the modes' poles must be those of `motor`.
 /// Poles of the beam that are no modes are left out.
 pub(crate) fn state_space(
     motor: &MotorFit,
     torque_per_command: f64,
     beam: Option<&BeamFit>,
     tips: &[(usize, String)],
+    unit: &str,
 ) -> StateSpace {
     let modes = motor.poles.len();
     let n = 2 + 2 * modes;
@@ -23,7 +24,7 @@ pub(crate) fn state_space(
     let mut a = DMatrix::zeros(n, n);
     a[(0, 1)] = 1.0;
     a[(1, 1)] = -v / j;
-    let mut states = vec!["motor_rad".to_owned(), "motor_rad_per_s".to_owned()];
+    let mut states = vec![format!("motor_{unit}"), format!("motor_{unit}_per_s")];
     for (k, pole) in motor.poles.iter().enumerate() {
         let (q, w2) = (2 + 2 * k, pole.omega_rad_s * pole.omega_rad_s);
         let c = motor.coupling[k].value;
@@ -34,14 +35,14 @@ pub(crate) fn state_space(
         a[(q + 1, 0)] = w2;
         a[(q + 1, q)] = -w2;
         a[(q + 1, q + 1)] = -2.0 * pole.damping_ratio * pole.omega_rad_s;
-        states.push(format!("mode_{}_rad", k + 1));
-        states.push(format!("mode_{}_rad_per_s", k + 1));
+        states.push(format!("mode_{}_{unit}", k + 1));
+        states.push(format!("mode_{}_{unit}_per_s", k + 1));
     }
     let mut b = DMatrix::zeros(n, 1);
     b[(1, 0)] = torque_per_command / j;
     let mut c = DMatrix::zeros(1 + tips.len(), n);
     c[(0, 0)] = 1.0;
-    let mut outputs = vec!["motor_rad".to_owned()];
+    let mut outputs = vec![format!("motor_{unit}")];
     for (row, (tip, name)) in tips.iter().enumerate() {
         if let Some(residues) = beam.and_then(|b| b.residues.get(*tip)) {
             let modal = beam.map_or(&[][..], |b| &b.mode_poles);
@@ -50,7 +51,7 @@ pub(crate) fn state_space(
                 c[(1 + row, 2 + 2 * k)] = residues[at].value / w2;
             }
         }
-        outputs.push(format!("{name}_rad"));
+        outputs.push(format!("{name}_{unit}"));
     }
     let d = DMatrix::zeros(1 + tips.len(), 1);
     StateSpace { a, b, c, d, states, outputs }
@@ -74,7 +75,7 @@ mod tests {
         let data = MotorData { omega_rad_s, response, torque_per_command: 2.184 };
         let pole = Pole { omega_rad_s: 43.75_f64.sqrt(), damping_ratio: 0.0045 };
         let fit = fit_motor(&data, Some(&[pole])).unwrap();
-        let space = state_space(&fit, 2.184, None, &[]);
+        let space = state_space(&fit, 2.184, None, &[], "rad");
         for w in [0.5, 3.0, 6.0, 13.0, 40.0] {
             let (a, b) = (space.response(w).unwrap()[0], fit.transfer_function.response(w));
             assert!((a / b - 1.0).norm() < 1e-10, "{w}: {a} {b}");

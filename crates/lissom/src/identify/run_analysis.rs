@@ -91,10 +91,11 @@ pub(crate) fn analyse(
     campaign: &Campaign,
     index: usize,
     harmonics: usize,
+    dead: &[bool],
     findings: &mut Vec<Finding>,
 ) -> RunAnalysis {
     let run = &campaign.runs[index];
-    let usable = channels(campaign, run, findings);
+    let usable = channels(campaign, run, dead, findings);
     at_rest(run, findings);
     let saturated_share = saturation(campaign, run, findings);
     time_base(run, findings);
@@ -118,7 +119,7 @@ pub(crate) fn analyse(
                 Finding::new(
                     "sticking",
                     Severity::Warning,
-                    &[key::COULOMB, key::RAW],
+                    &[key::THIRD],
                     format!("the motor sticks for about {:.0} % of the cycle", 100.0 * share),
                     "friction is no square wave there: drive it with a larger amplitude or faster",
                 )
@@ -132,7 +133,7 @@ pub(crate) fn analyse(
 }
 
 /// Dead and clipped channels; whether motor and command are alive.
-fn channels(campaign: &Campaign, run: &Run, findings: &mut Vec<Finding>) -> bool {
+fn channels(campaign: &Campaign, run: &Run, dead: &[bool], findings: &mut Vec<Finding>) -> bool {
     let alive = |x: &[f64]| range(x) > 0.0;
     let everything = [key::COULOMB, key::VISCOUS, key::INERTIA];
     let mut usable = true;
@@ -151,8 +152,8 @@ fn channels(campaign: &Campaign, run: &Run, findings: &mut Vec<Finding>) -> bool
             );
         }
     }
-    for (tip, x) in campaign.channels.tips.iter().zip(run.tips()) {
-        if !alive(x) {
+    for ((tip, x), dead) in campaign.channels.tips.iter().zip(run.tips()).zip(dead) {
+        if !alive(x) && !dead {
             usable = false;
             findings.push(
                 Finding::new(
@@ -390,7 +391,7 @@ fn drift(run: &Run, motor: &Harmonics, quantum: f64, findings: &mut Vec<Finding>
                 Severity::Warning,
                 &[key::OFFSET, key::CORRECTED],
                 format!(
-                    "the motor drifts by {:.0} % of its amplitude over the run",
+                    "the motor drifts by {:.0} % of its amplitude over the periods kept",
                     100.0 * motor.drift.abs() / amplitude
                 ),
                 "a load or an offset of the loop carries it away: close the position loop",

@@ -56,7 +56,7 @@ fn from_regression(id: &mut Identified) {
         forward: r.forward,
         backward: r.backward,
         offset: r.offset,
-        viscous: r.viscous,
+        viscous: r.viscous_by_direction.map(|d| d.mean).or(r.viscous),
         viscous_by_direction: r.viscous_by_direction.map(|d| (d.forward, d.backward)),
     };
     id.inertia = r.inertia;
@@ -71,23 +71,16 @@ fn beam(campaign: &Campaign, id: &mut Identified) {
         _ => fitted.to_vec(),
     };
     let by_tip = id.regression.as_ref().map_or(Vec::new(), |r| r.coupling.clone());
-    let total = by_tip.iter().copied().collect::<Option<Vec<_>>>().filter(|k| !k.is_empty());
-    let coupling = match total {
-        Some(k) => Some(Estimate {
-            value: k.iter().map(|e| e.value).sum(),
-            std: k.iter().map(|e| e.std * e.std).sum::<f64>().sqrt(),
-        }),
+    let total = id.regression.as_ref().and_then(|r| r.total_coupling);
+    let coupling = total.or_else(|| {
         // Without a calibrated tip: from the motor's response, where its model fits.
-        None if tips > 0 => id
-            .motor_model
-            .as_ref()
-            .filter(|m| !m.coupling.is_empty() && m.weighted_rms < MODEL_MISFIT)
-            .map(|m| Estimate {
-                value: m.coupling.iter().map(|e| e.value).sum(),
-                std: m.coupling.iter().map(|e| e.std * e.std).sum::<f64>().sqrt(),
-            }),
-        None => None,
-    };
+        let model = id.motor_model.as_ref().filter(|_| tips > 0 && by_tip.is_empty())?;
+        let fits = !model.coupling.is_empty() && model.weighted_rms < MODEL_MISFIT;
+        fits.then(|| Estimate {
+            value: model.coupling.iter().map(|e| e.value).sum(),
+            std: model.coupling.iter().map(|e| e.std * e.std).sum::<f64>().sqrt(),
+        })
+    });
     if modes.is_empty() && tips > 0 {
         id.findings.push(Finding::new(
             "modes-not-found",
@@ -140,10 +133,12 @@ fn refuse_the_unknown(id: &mut Identified) {
             ));
             return;
         };
-        let share = e.std / e.value.abs();
+        let share = if e.value == 0.0 { f64::INFINITY } else { e.std / e.value.abs() };
         let (code, what) = if e.value < 0.0 && e.value < -2.0 * e.std {
             ("negative-figure", "negative: the model does not fit".to_owned())
-        } else if share > UNKNOWN || !share.is_finite() {
+        } else if share.is_infinite() {
+            ("poor-excitation", "with nothing in the runs that shows it".to_owned())
+        } else if share > UNKNOWN || share.is_nan() {
             ("poor-excitation", format!("uncertain by ±{:.0} %: not known", 100.0 * share))
         } else if share > UNCERTAIN {
             let message = format!(
@@ -307,7 +302,7 @@ fn regression(id: &mut Identified) {
         ));
     }
     let negative = r.coupling.iter().flatten().any(|k| k.value < -2.0 * k.std);
-    if negative && r.coupling.len() == 1 {
+    if negative && r.coupling.iter().flatten().count() == 1 {
         id.findings.push(Finding::new(
             "coupling-sign",
             Warning,

@@ -1,8 +1,10 @@
 //! The motor's equation on slip phases.
 
+use std::ops::Range;
+
 use super::normal::{Cluster, Solution, Term, solve};
 use super::phases::slip_phases;
-use super::scan::{Candidate, scan};
+use super::scan::{Candidate, Scan, scan};
 use super::window::{Window, dot};
 use crate::identify::Estimate;
 use crate::record::{Campaign, Hold, Run, TipQuantity};
@@ -51,8 +53,10 @@ pub struct MotorRegression {
     pub forward: Option<Estimate>,
     /// Friction while moving backward.
     pub backward: Option<Estimate>,
-    /// Coupling κ_i = −h_i of (15) \[N·m/rad\] to each tip that is a calibrated angle or
-    /// deflection, in their order.
+    /// Coupling to all tips together, Σκ_i; `None` without tips whose angle is known.
+    pub total_coupling: Option<Estimate>,
+    /// Coupling to each tip of the campaign, κ_i = −h_i of (15) \[N·m/rad\]; `None` where its
+    /// angle is not known or it cannot be told from others. Empty where no angle is known.
     pub coupling: Vec<Option<Estimate>>,
     /// Viscous friction by direction, where the data reject one constant.
     pub viscous_by_direction: Option<ByDirection>,
@@ -66,6 +70,8 @@ pub struct ByDirection {
     pub forward: Estimate,
     /// While moving backward.
     pub backward: Estimate,
+    /// Mean of both.
+    pub mean: Estimate,
     /// Offset that is left beside them.
     pub offset: Estimate,
     /// Residual beside that of one constant.
@@ -130,6 +136,11 @@ pub fn motor_regression(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRe
         let separable = !solution.inseparable[2] && !solution.inseparable[3];
         separable.then_some(Estimate { value, std })
     };
+    let mut coupling = vec![None; if tips.is_empty() { 0 } else { campaign.channels.tips.len() }];
+    for (i, &tip) in tips.iter().enumerate() {
+        coupling[tip] = figure(4 + i);
+    }
+    let total_coupling = total(&found, 4..4 + tips.len());
     let back_emf = campaign.channels.command.back_emf_viscous;
     let viscous = |e: Estimate| Estimate { value: e.value - back_emf, std: e.std };
     let by_direction = by_direction(&clusters(campaign, &tips, chosen.window_s), &terms, solution);
@@ -145,15 +156,30 @@ pub fn motor_regression(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRe
         offset: figure(3),
         forward: direction(1.0),
         backward: direction(-1.0),
-        coupling: (0..tips.len()).map(|i| figure(4 + i)).collect(),
+        total_coupling,
+        coupling,
         viscous_by_direction: by_direction.map(|d| ByDirection {
             forward: viscous(d.forward),
             backward: viscous(d.backward),
+            mean: viscous(d.mean),
             ..d
         }),
         candidates: found.candidates,
         parameters: solution.value.iter().copied().collect(),
     })
+}
+
+/// Sum of some figures, with their covariances; `None` of none, or where one is inseparable.
+fn total(found: &Scan, figures: Range<usize>) -> Option<Estimate> {
+    let s = &found.solution;
+    if figures.is_empty() || figures.clone().any(|i| s.inseparable[i]) {
+        return None;
+    }
+    let sum = |f: &dyn Fn(usize) -> f64| figures.clone().map(f).sum::<f64>();
+    let variance = sum(&|i| sum(&|k| s.covariance[(i, k)]));
+    let systematic = 0.25 * sum(&|i| found.change[i]);
+    let std = (variance.max(0.0) + systematic * systematic).sqrt();
+    Some(Estimate { value: sum(&|i| s.value[i]), std })
 }
 
 impl MotorRegression {
@@ -260,6 +286,10 @@ fn by_direction(clusters: &[Cluster], terms: &[Term], one: &Solution) -> Option<
     called_for.then(|| ByDirection {
         forward: figure(1),
         backward: figure(2),
+        mean: Estimate {
+            value: 0.5 * (two.value[1] + two.value[2]),
+            std: 0.5 * (c[(1, 1)] + c[(2, 2)] + 2.0 * c[(1, 2)]).max(0.0).sqrt(),
+        },
         offset: figure(4),
         relative_residual: two.relative_residual,
     })

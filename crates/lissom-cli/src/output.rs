@@ -1,0 +1,33 @@
+//! Keeps a slip of the fingers (`--json run.csv campaign.toml`) from costing a log.
+
+use std::fs::File;
+use std::io::{BufRead as _, BufReader};
+use std::path::Path;
+
+use crate::failure::Failure;
+
+/// Refuses to write over a file that is no earlier output: JSON begins with `{`, a page with `<`.
+/// Also refuses one name for two outputs.
+pub(crate) fn guard(json: Option<&Path>, report: Option<&Path>) -> Result<(), Failure> {
+    if json.is_some() && json == report {
+        return Err(Failure::SameOutput { file: json.unwrap_or(Path::new("")).to_owned() });
+    }
+    for (path, first) in [(json, b'{'), (report, b'<')] {
+        if let Some(path) = path.filter(|p| begins_otherwise(p, first)) {
+            return Err(Failure::NotAnOutput { file: path.to_owned() });
+        }
+    }
+    Ok(())
+}
+
+/// Whether `path` is a file with a first character other than `first`, blanks left out. What
+/// cannot be read is left to the writing to refuse.
+fn begins_otherwise(path: &Path, first: u8) -> bool {
+    if !path.is_file() {
+        return false;
+    }
+    let Ok(file) = File::open(path) else { return false };
+    let mut reader = BufReader::new(file);
+    let Ok(start) = reader.fill_buf() else { return false };
+    start.iter().find(|b| !b.is_ascii_whitespace()).is_some_and(|b| *b != first)
+}
