@@ -5,6 +5,7 @@ mod channel_check;
 mod correct;
 mod estimate;
 mod finding;
+mod identified;
 mod model;
 mod rational;
 mod regression;
@@ -13,12 +14,11 @@ mod run_analysis;
 mod third_harmonic;
 mod verdict;
 
-pub use campaign::{
-    Beam, Friction, Identified, IdentifyError, Options, Stage, ThirdHarmonic, identify,
-};
+pub use campaign::{IdentifyError, Options, Stage, identify};
 pub use correct::{Response, corrected, ratio};
 pub use estimate::{Estimate, ModeEstimate};
 pub use finding::{Finding, Severity};
+pub use identified::{Beam, Friction, Identified, ThirdHarmonic};
 pub use rational::{BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_beam, fit_motor};
 pub use regression::{
     BeamRegression, ByDirection, Candidate, MotorRegression, beam_regression, motor_regression,

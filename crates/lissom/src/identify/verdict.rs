@@ -1,7 +1,7 @@
 //! Which figures stand, and what speaks against them.
 
-use super::campaign::{Beam, Friction, Identified};
 use super::finding::{Finding, Severity, key};
+use super::identified::{Beam, Friction, Identified};
 use super::regression::BeamRegression;
 use super::run_analysis::RunKind;
 use super::{Estimate, Severity::Warning};

@@ -1,0 +1,86 @@
+//! What identification gives.
+
+use super::finding::Finding;
+use super::rational::{BeamFit, MotorFit};
+use super::regression::{BeamRegression, MotorRegression};
+use super::response_table::ResponsePoint;
+use super::run_analysis::RunAnalysis;
+use super::third_harmonic::PairFigure;
+use super::{Estimate, ModeEstimate};
+use crate::lti::StateSpace;
+
+/// Figures of the report's own method.
+#[derive(Debug, Clone)]
+pub struct ThirdHarmonic {
+    /// Every pair's figure.
+    pub pairs: Vec<PairFigure>,
+    /// Mean of the pairs that no finding flags (of all, where all are flagged).
+    pub coulomb_command: Estimate,
+    /// Standard deviation of one pair about that mean.
+    pub spread_command: f64,
+    /// Pairs in that mean.
+    pub used: Vec<bool>,
+    /// Rational fit of the response corrected with that mean, as in 6.2.2.
+    pub motor: Option<MotorFit>,
+}
+
+/// Friction, in torque (or force).
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Friction {
+    /// Coulomb friction, mean of both directions.
+    pub coulomb: Option<Estimate>,
+    /// While moving forward.
+    pub forward: Option<Estimate>,
+    /// While moving backward.
+    pub backward: Option<Estimate>,
+    /// (forward − backward)/2.
+    pub offset: Option<Estimate>,
+    /// Viscous friction.
+    pub viscous: Option<Estimate>,
+    /// Viscous friction forward and backward, where the data reject one constant.
+    pub viscous_by_direction: Option<(Estimate, Estimate)>,
+}
+
+/// The beam's figures.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Beam {
+    /// Modes with the motor clamped, ascending.
+    pub modes: Vec<ModeEstimate>,
+    /// Torque per angle between motor and beam, Σκ_i = h_{n+1} of (15).
+    pub coupling: Option<Estimate>,
+    /// κ_i of each tip of the campaign, `None` where its angle is not known; empty where none is.
+    pub coupling_by_tip: Vec<Option<Estimate>>,
+}
+
+/// All that a campaign gave.
+#[derive(Debug, Clone)]
+pub struct Identified {
+    /// Friction by the best method that the data carry.
+    pub friction: Friction,
+    /// Inertia or mass.
+    pub inertia: Option<Estimate>,
+    /// The beam.
+    pub beam: Beam,
+    /// The report's method.
+    pub third_harmonic: Option<ThirdHarmonic>,
+    /// Regression on slip phases.
+    pub regression: Option<MotorRegression>,
+    /// ‖y − X·q‖/‖y‖ of the regression, also where it is refused; `None` without windows enough.
+    pub regression_residual: Option<f64>,
+    /// The beam's regression.
+    pub beam_regression: Option<BeamRegression>,
+    /// What each run is.
+    pub runs: Vec<RunAnalysis>,
+    /// Responses, ascending in frequency.
+    pub responses: Vec<ResponsePoint>,
+    /// Rational model of the beam.
+    pub beam_model: Option<BeamFit>,
+    /// Rational model of the motor, fitted to the corrected response.
+    pub motor_model: Option<MotorFit>,
+    /// Both as one state space, from the command to the motor and to each tip that is an angle.
+    pub state_space: Option<StateSpace>,
+    /// Torque per command used; `None`: figures are per unit of command.
+    pub torque_per_command: Option<f64>,
+    /// What the data could not carry.
+    pub findings: Vec<Finding>,
+}
