@@ -135,8 +135,7 @@ pub fn identify(
 
     progress(Stage::Responses);
     let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
-    let smooth_s = regression.as_ref().map_or(0.0, |r| r.window_s / 3.0);
-    let table = |c: Option<Estimate>| response_table(campaign, &runs, c, smooth_s, &findings);
+    let table = |c: Option<Estimate>| response_table(campaign, &runs, c, &findings);
     let mut third_harmonic = pairs(&runs, &findings);
     let from_regression =
         regression.as_ref().and_then(|r| r.coulomb).map(|c| c.scaled(1.0 / constant));

@@ -44,7 +44,6 @@ pub(crate) fn response_table(
     campaign: &Campaign,
     runs: &[RunAnalysis],
     coulomb_command: Option<Estimate>,
-    smooth_s: f64,
     findings: &[Finding],
 ) -> Vec<ResponsePoint> {
     let mut points: Vec<ResponsePoint> = runs
@@ -52,7 +51,7 @@ pub(crate) fn response_table(
         .enumerate()
         .filter_map(|(index, run)| sinusoidal(index, run, coulomb_command, findings))
         .collect();
-    points.extend(bands(campaign, runs, coulomb_command, smooth_s));
+    points.extend(bands(campaign, runs, coulomb_command));
     points.sort_by(|a, b| a.omega_rad_s.total_cmp(&b.omega_rad_s));
     points
 }
@@ -132,7 +131,6 @@ fn bands(
     campaign: &Campaign,
     runs: &[RunAnalysis],
     coulomb_command: Option<Estimate>,
-    smooth_s: f64,
 ) -> Vec<ResponsePoint> {
     let general: Vec<usize> = (0..runs.len())
         .filter(|&i| runs[i].usable && matches!(runs[i].kind, RunKind::General))
@@ -161,7 +159,7 @@ fn bands(
     let without_friction = coulomb_command.map(|c| {
         spectrum(
             &|i| {
-                let sign = slip_sign(run(i).motor(), smooth_s, run(i).sample_time_s());
+                let sign = slip_sign(run(i).motor(), run(i).sample_time_s());
                 run(i).command().iter().zip(sign).map(|(u, s)| u - c.value * s).collect()
             },
             &motor,

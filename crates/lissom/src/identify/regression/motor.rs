@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::normal::{Cluster, Solution, Term, solve};
-use super::phases::slip_phases;
+use super::phases::{slip_phases, smoothing};
 use super::scan::{Candidate, Scan, scan};
 use super::window::{Window, dot};
 use crate::identify::Estimate;
@@ -11,10 +11,8 @@ use crate::record::{Campaign, Hold, Run, TipQuantity};
 
 /// Windows overlap by all but this part of their length.
 const STEP: f64 = 0.25;
-/// The velocity is smoothed over this part of the window's length…
+/// The velocity is smoothed over no more than this part of the window's length.
 const SMOOTH: f64 = 1.0 / 3.0;
-/// …and at least over this many samples.
-const SMOOTH_SAMPLES: usize = 8;
 /// Directional viscous terms are reported when they differ by this many deviations…
 const DIRECTION_DEVIATIONS: f64 = 4.0;
 /// …and leave at most this share of the residual.
@@ -223,7 +221,7 @@ fn clusters(campaign: &Campaign, tips: &[usize], length_s: f64) -> Vec<Cluster> 
             continue;
         }
         let window = Window::new(n, t);
-        let smooth = ((n as f64 * SMOOTH) as usize).max(SMOOTH_SAMPLES);
+        let smooth = smoothing(run.motor()).min((n as f64 * SMOOTH) as usize).max(4);
         let step = ((n as f64 * STEP) as usize).max(1);
         for phase in slip_phases(run.motor(), smooth, t) {
             if phase.to - phase.from <= n {

@@ -38,11 +38,31 @@ pub(crate) fn slip_phases(motor: &[f64], smooth: usize, sample_time_s: f64) -> V
     phases
 }
 
+/// Fewest samples over which a velocity is smoothed.
+const LEAST_SAMPLES: usize = 8;
+/// The motor moves by this many times its sensor's noise within the smoothing.
+const STEPS: f64 = 10.0;
+
+/// Samples over which the motor's velocity is smoothed: enough that it moves by several times the
+/// sensor's steps or noise at its usual speed, and no more, so that no reversal is smoothed away.
+///
+/// Noise is taken from second differences, whose expectation for white noise σ is √6·σ.
+pub(crate) fn smoothing(motor: &[f64]) -> usize {
+    let rms = |sum: f64, n: usize| (sum / n.max(1) as f64).sqrt();
+    let second = motor.windows(3).map(|w| (w[2] - 2.0 * w[1] + w[0]).powi(2)).sum();
+    let noise = rms(second, motor.len() - 2) / 6.0_f64.sqrt();
+    // Speed over a hundredth of the record: steps and noise are small against it.
+    let reach = (motor.len() / 100).max(1);
+    let moved = motor.windows(reach + 1).map(|w| (w[reach] - w[0]).powi(2)).sum();
+    let speed = rms(moved, motor.len() - reach) / reach as f64;
+    let samples = STEPS * noise / speed.max(f64::MIN_POSITIVE);
+    (samples.min(motor.len() as f64) as usize).max(LEAST_SAMPLES)
+}
+
 /// Direction of motion at every sample: +1, −1, or 0 where the smoothed velocity has no sign.
 ///
-/// The velocity is smoothed over `smooth_s`, and over no fewer than eight samples.
-pub(crate) fn slip_sign(motor: &[f64], smooth_s: f64, sample_time_s: f64) -> Vec<f64> {
-    let smooth = ((smooth_s / sample_time_s) as usize).max(8);
+pub(crate) fn slip_sign(motor: &[f64], sample_time_s: f64) -> Vec<f64> {
+    let smooth = smoothing(motor);
     let mut sign = vec![0.0; motor.len()];
     for phase in slip_phases(motor, smooth, sample_time_s) {
         sign[phase.from..phase.to].fill(phase.sign);
