@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::normal::{Cluster, Term, solve};
-use super::scan::{Candidate, Scan, scan};
+use super::scan::{Candidate, SYSTEMATIC, Scan, scan};
 use super::window::{Window, dot};
 use crate::identify::{Estimate, ModeEstimate};
 use crate::record::{Campaign, Run, TipQuantity};
@@ -140,8 +140,8 @@ fn deviations(
         for (mode, total) in variance.iter_mut().enumerate() {
             let mut systematic = (0.0, 0.0);
             for (a, ga) in gradients.iter().enumerate() {
-                systematic.0 += 0.25 * scan.change[a] * ga[mode].0;
-                systematic.1 += 0.25 * scan.change[a] * ga[mode].1;
+                systematic.0 += SYSTEMATIC * scan.change[a] * ga[mode].0;
+                systematic.1 += SYSTEMATIC * scan.change[a] * ga[mode].1;
                 for (b, gb) in gradients.iter().enumerate() {
                     total.0 += ga[mode].0 * gb[mode].0 * covariance[(a, b)];
                     total.1 += ga[mode].1 * gb[mode].1 * covariance[(a, b)];

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::normal::{Cluster, Solution, Term, solve};
 use super::phases::{slip_phases, smoothing};
-use super::scan::{Candidate, Scan, scan};
+use super::scan::{Candidate, SYSTEMATIC, Scan, scan};
 use super::window::{Window, dot};
 use crate::identify::Estimate;
 use crate::record::{Campaign, Hold, Run, TipQuantity};
@@ -120,7 +120,7 @@ pub fn motor_regression(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRe
     let chosen = &found.candidates[found.chosen];
     let solution = &found.solution;
     let figure = |i: usize| {
-        let systematic = 0.25 * found.change[i];
+        let systematic = SYSTEMATIC * found.change[i];
         let std = (solution.covariance[(i, i)].max(0.0) + systematic * systematic).sqrt();
         (!solution.inseparable[i]).then_some(Estimate { value: solution.value[i], std })
     };
@@ -128,7 +128,7 @@ pub fn motor_regression(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRe
     let direction = |sign: f64| {
         let c = &solution.covariance;
         let variance = c[(2, 2)] + c[(3, 3)] + 2.0 * sign * c[(2, 3)];
-        let systematic = 0.25 * (found.change[2] + sign * found.change[3]);
+        let systematic = SYSTEMATIC * (found.change[2] + sign * found.change[3]);
         let std = (variance.max(0.0) + systematic * systematic).sqrt();
         let value = solution.value[2] + sign * solution.value[3];
         let separable = !solution.inseparable[2] && !solution.inseparable[3];
@@ -175,7 +175,7 @@ fn total(found: &Scan, figures: Range<usize>) -> Option<Estimate> {
     }
     let sum = |f: &dyn Fn(usize) -> f64| figures.clone().map(f).sum::<f64>();
     let variance = sum(&|i| sum(&|k| s.covariance[(i, k)]));
-    let systematic = 0.25 * sum(&|i| found.change[i]);
+    let systematic = SYSTEMATIC * sum(&|i| found.change[i]);
     let std = (variance.max(0.0) + systematic * systematic).sqrt();
     Some(Estimate { value: sum(&|i| s.value[i]), std })
 }

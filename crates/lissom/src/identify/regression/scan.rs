@@ -11,6 +11,10 @@ const LEAST_CLUSTERS: usize = 4;
 /// Most candidates: √2⁴⁰ is a factor of a million in length.
 const MOST_CANDIDATES: i32 = 40;
 
+/// Share of a figure's change from the next shorter to the next longer window that counts as its
+/// systematic deviation: half of it, the change to one neighbour.
+pub(crate) const SYSTEMATIC: f64 = 0.5;
+
 /// A window length that was tried.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {
