@@ -217,10 +217,10 @@ fn friction(campaign: &Campaign, id: &mut Identified) {
     }
     if shown.is_none()
         && let Some(c) = id.regression.as_ref().and_then(|r| r.coulomb)
-        && c.value > PRESENT * c.std
+        && c.ci95()[0] > 0.0
     {
         shown = Some(format!(
-            "the torque jumps with the direction of motion, by {:.0} deviations: dry friction",
+            "the torque jumps with the direction of motion, by {:.1} deviations: dry friction",
             c.value / c.std
         ));
     }
