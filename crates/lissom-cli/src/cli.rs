@@ -7,7 +7,7 @@ use lissom_io::units::{Dimension, parse_quantity};
 
 /// Identifies flexible arms and drives whose joint has friction.
 #[derive(Debug, Parser)]
-#[command(version, about, max_term_width = 100, after_help = AFTER_HELP)]
+#[command(name = "lissom", version, about, max_term_width = 100, after_help = AFTER_HELP)]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,

@@ -42,6 +42,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         print::json(&result);
     } else {
         print::campaign(&file.campaign);
+        print::ranges(names, &file.campaign);
         print::runs(&id);
         print::line("");
         print::figures(names, &id, reference);

@@ -4,7 +4,7 @@
 use lissom::identify::{Estimate, Finding, Identified, RunKind, Severity};
 use lissom::record::{Campaign, Hold};
 use lissom_io::UnitNames;
-use lissom_report::with_uncertainty;
+use lissom_report::{interval, with_uncertainty};
 use serde_json::Value;
 use std::io::{ErrorKind, Write as _};
 
@@ -84,6 +84,27 @@ pub(crate) fn campaign(campaign: &Campaign) {
     ));
 }
 
+/// How far and how fast things go: a wrong unit shows here first.
+pub(crate) fn ranges(names: UnitNames, campaign: &Campaign) {
+    let (mut low, mut high, mut speed, mut drive) = (f64::INFINITY, f64::NEG_INFINITY, 0.0, 0.0);
+    for run in &campaign.runs {
+        // Speed over some samples: over one, the sensor's steps would be the fastest.
+        let reach = (run.len() / 50).clamp(1, 10);
+        let moved = run.motor().windows(reach + 1).map(|w| (w[reach] - w[0]).abs());
+        speed = moved.fold(0.0, f64::max).max(speed * reach as f64 * run.sample_time_s())
+            / (reach as f64 * run.sample_time_s());
+        for &x in run.motor() {
+            (low, high) = (f64::min(low, x), f64::max(high, x));
+        }
+        drive = run.command().iter().fold(drive, |m, u| f64::max(m, u.abs()));
+    }
+    let (angle, unit) = (names.angle(), names.command_unit());
+    line(&format!(
+        "motor from {low:.3} to {high:.3} {angle}, up to {speed:.3} {angle}/s; {} up to {drive:.3} {unit}",
+        names.command_name()
+    ));
+}
+
 /// What was kept of the runs.
 pub(crate) fn runs(id: &Identified) {
     let (mut kept, mut dropped, mut general) = (0, 0, 0);
@@ -130,15 +151,15 @@ pub(crate) fn figures(names: UnitNames, id: &Identified, reference: Option<&Refe
     heading.extend(reference.map(|r| r.label));
     let mut rows = vec![heading.into_iter().map(str::to_owned).collect::<Vec<_>>()];
     rows.extend(figure_rows(names, id, reference).into_iter().map(|row| {
-        let (value, interval) = match row.figure {
+        let (value, within) = match row.figure {
             Some(e) => {
-                let [low, high] = e.ci95();
-                (with_uncertainty(e.value, e.std), format!("{low:.5e} to {high:.5e}"))
+                let shown = interval(e.ci95(), e.value, e.std);
+                (with_uncertainty(e.value, e.std), shown)
             }
             None => ("refused".to_owned(), "see findings".to_owned()),
         };
         let known = row.known.map(|k| format!("{k:.5e}"));
-        [row.name, value, row.unit, interval].into_iter().chain(known).collect()
+        [row.name, value, row.unit, within].into_iter().chain(known).collect()
     }));
     table(&rows);
 }

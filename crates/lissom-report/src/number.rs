@@ -77,7 +77,7 @@ pub fn with_uncertainty(value: f64, std: f64) -> String {
 }
 
 /// An interval written to the same place as [`with_uncertainty`] writes its value.
-pub(crate) fn interval([low, high]: [f64; 2], value: f64, std: f64) -> String {
+pub fn interval([low, high]: [f64; 2], value: f64, std: f64) -> String {
     match Layout::of(value, std).filter(|_| low.is_finite() && high.is_finite()) {
         Some(layout) => layout.write(&format!("{} … {}", layout.digits(low), layout.digits(high))),
         None => format!("{} … {}", plain(low), plain(high)),

@@ -8,8 +8,8 @@ use super::channel_check::range;
 use super::finding::{Finding, Severity, key};
 use super::identified::{Beam, Friction, Identified, ThirdHarmonic};
 use super::model::state_space;
-use super::rational::{BeamFit, MotorData, MotorFit, TipData, fit_beam, fit_motor};
-use super::regression::{beam_regression, motor_regression};
+use super::rational::{BeamFit, MotorData, MotorFit, Pole, TipData, fit_beam, fit_motor};
+use super::regression::{BeamRegression, MotorRegression, beam_regression, motor_regression};
 use super::response_table::{ResponsePoint, response_table, tip_model, weak_points};
 use super::run_analysis::{RunAnalysis, RunKind, analyse};
 use super::third_harmonic::{PairFigure, mean_figure, pair_figure};
@@ -22,6 +22,12 @@ const HARMONICS: usize = 9;
 const TRIPLE: f64 = 2e-3;
 /// Windowed torque that the regression may leave before its figures are refused.
 const RESIDUAL_REFUSED: f64 = 0.6;
+/// Windowed torque (or acceleration) that a regression may leave for its figures to make a model.
+const EXPLAINED: f64 = 0.05;
+/// Relative difference from that model at which a band is flagged.
+const CONTRADICTED: f64 = 0.1;
+/// Sinusoidal runs from which on the rational models are fitted to the responses.
+const STEPPED: usize = 4;
 /// Share of the beam's windowed acceleration that its regression may leave.
 const BEAM_RESIDUAL: f64 = 0.1;
 
@@ -142,14 +148,26 @@ pub fn identify(
     let best = from_regression
         .filter(|c| c.value > 0.0)
         .or(third_harmonic.as_ref().map(|t| t.coulomb_command));
-    let responses = table(best);
-    let beam_model = beam_model(campaign, &responses);
+    let mut responses = table(best);
+    let stepped = responses.iter().filter(|p| p.run.is_some()).count() >= STEPPED;
+    let figures = figures_model(campaign, regression.as_ref(), beam_regression.as_ref());
+    let (mut beam_model, mut motor_model) = (beam_model(campaign, &responses), None);
+    let mut contradicted = None;
+    if let Some((motor, beam)) = &figures {
+        contradicted = against(&mut responses, motor);
+        if !stepped {
+            // Bands of a sweep or of ordinary moves are poorer than the figures of the regression.
+            motor_model = Some(motor.clone());
+            beam_model = beam.clone().or(beam_model);
+        }
+    }
     let poles = beam_model.as_ref().map(BeamFit::modal_poles);
     let poles = poles.as_deref();
-    let motor_model = motor_model(&responses, constant, poles);
+    let motor_model = motor_model.or_else(|| self::motor_model(&responses, constant, poles));
     if let Some(third) = &mut third_harmonic {
         third.motor = self::motor_model(&table(Some(third.coulomb_command)), constant, poles);
     }
+    findings.extend(contradicted);
     findings.extend(weak_points(&responses, &runs));
     let angles: Vec<(usize, String)> = campaign
         .channels
@@ -199,6 +217,60 @@ fn constant_channels(campaign: &Campaign) -> Vec<(String, usize)> {
     }));
     constant.retain(|(_, runs)| *runs > 0);
     constant
+}
+
+/// The model that the regressions' figures make, where they explain all: a rigid axis without
+/// tips, or one tip that follows one mode.
+fn figures_model(
+    campaign: &Campaign,
+    motor: Option<&MotorRegression>,
+    beam: Option<&BeamRegression>,
+) -> Option<(MotorFit, Option<BeamFit>)> {
+    let motor = motor.filter(|m| m.relative_residual < EXPLAINED)?;
+    let (inertia, viscous) = (motor.inertia?, motor.viscous?);
+    let mode = match (campaign.channels.tips.len(), beam) {
+        (0, _) => None,
+        (1, Some(beam)) if beam.relative_residual[0] < EXPLAINED => {
+            let mode = *beam.modes.first()?;
+            let pole = Pole {
+                omega_rad_s: mode.natural_frequency_rad_s.value,
+                damping_ratio: mode.damping_ratio.value,
+            };
+            Some((mode, (pole, motor.total_coupling?)))
+        }
+        _ => return None,
+    };
+    let command = &campaign.channels.command;
+    let constant = command.torque_per_command.unwrap_or(1.0);
+    let through = mode.map(|m| m.1);
+    let model = MotorFit::of_figures(inertia, viscous, through, constant, command.back_emf_viscous);
+    (inertia.value > 0.0).then(|| (model, mode.map(|m| BeamFit::of_mode(m.0))))
+}
+
+/// Flags the bands whose corrected response the regression's figures contradict, and says so.
+fn against(responses: &mut [ResponsePoint], model: &MotorFit) -> Option<Finding> {
+    let mut number = 0;
+    let bands = responses.iter_mut().filter(|p| p.run.is_none());
+    let mut all = 0;
+    for point in bands {
+        all += 1;
+        let Some(corrected) = point.motor_corrected else { continue };
+        let expected = model.transfer_function.response(point.omega_rad_s);
+        let distance = (corrected.value - expected).norm();
+        if distance > CONTRADICTED * expected.norm() {
+            point.flagged = true;
+            number += 1;
+        }
+    }
+    let message = format!(
+        "{number} of {all} bands of the corrected response differ by more than {:.0} % from what \
+         the regression's figures give: they are flagged",
+        100.0 * CONTRADICTED
+    );
+    let hint = "hardly driven there, or biased by the loop: take the model's response";
+    let affects = [key::CORRECTED];
+    (number > 0)
+        .then(|| Finding::new("bands-contradicted", Severity::Info, &affects, message, hint))
 }
 
 /// Says which tips are dead in every run.

@@ -16,9 +16,9 @@ use crate::spectrum::{Band, Phasor, broadband, hold_factor};
 /// Least coherence at which a band of a broadband record is worth showing.
 const COHERENCE: f64 = 0.3;
 /// Least power of the input in a band, relative to the strongest.
-const POWER: f64 = 1e-4;
+const POWER: f64 = 1e-3;
 /// Sticking shares below this are not measured: what (30) leaves where nothing sticks.
-const STUCK_LEAST: f64 = 0.008;
+const STUCK_LEAST: f64 = 0.015;
 /// A corrected point uncertain by more than this share is flagged.
 const WEAK: f64 = 0.5;
 

@@ -276,6 +276,13 @@ fn sinusoidal(
         None => find_frequency(run.motor(), t)?,
     };
     let given = run.omega_rad_s().is_some();
+    // A frequency given in Hz, or of another run, shows beside the log's own.
+    let own = || {
+        let own = find_frequency(run.motor(), t).filter(|w| (w / omega - 1.0).abs() > 0.02);
+        own.map_or_else(String::new, |w| {
+            format!("; the motor itself moves at {w:.4} rad/s, {:.4} Hz", w / std::f64::consts::TAU)
+        })
+    };
     let refuse = |findings: &mut Vec<Finding>, code, severity, message: String, hint| {
         let affects = [key::THIRD, key::CORRECTED];
         findings.push(Finding::new(code, severity, &affects, message, hint).of(run.name()));
@@ -284,7 +291,7 @@ fn sinusoidal(
         Ok(steady) => steady,
         Err(error) => {
             if given {
-                let message = format!("driven at {omega:.4} rad/s: {error}");
+                let message = format!("driven at {omega:.4} rad/s: {error}{}", own());
                 let hint = "log at least six periods in steady state";
                 refuse(findings, "too-few-periods", Severity::Warning, message, hint);
             }
@@ -306,9 +313,10 @@ fn sinusoidal(
             let message = if distortion.is_finite() {
                 format!(
                     "not a sinusoid of {omega:.4} rad/s: {:.0} % of the motor's power is left, \
-                     harmonics have {:.0} % of the fundamental",
+                     harmonics have {:.0} % of the fundamental{}",
                     100.0 * motor.unexplained(),
-                    100.0 * distortion
+                    100.0 * distortion,
+                    own()
                 )
             } else {
                 format!("the motor does not move at {omega:.4} rad/s in the periods kept")

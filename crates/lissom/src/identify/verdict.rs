@@ -51,6 +51,18 @@ pub(crate) fn conclude(campaign: &Campaign, id: &mut Identified) {
 
 fn from_regression(id: &mut Identified) {
     let Some(r) = &id.regression else { return };
+    let negative = |e: Option<Estimate>| e.is_some_and(|e| e.value < -2.0 * e.std);
+    if negative(r.inertia) && negative(r.coulomb) {
+        id.findings.push(Finding::new(
+            "command-sign",
+            Severity::Refusal,
+            &[key::COULOMB, key::VISCOUS, key::INERTIA],
+            "inertia and friction come out negative together: the command's sign is reversed \
+             against the motor's"
+                .to_owned(),
+            "give the command or the motor a negative scale in the campaign",
+        ));
+    }
     id.friction = Friction {
         coulomb: r.coulomb,
         forward: r.forward,
@@ -164,6 +176,21 @@ fn refuse_the_unknown(id: &mut Identified) {
     if !id.beam.coupling_by_tip.is_empty() || id.beam.coupling.is_some() {
         look(key::COUPLING, &mut id.beam.coupling, "drive it near the beam's resonance");
     }
+    for figure in [id.friction.forward, id.friction.backward] {
+        if let Some(e) = figure.filter(|e| e.value < -2.0 * e.std) {
+            findings.push(Finding::new(
+                "negative-figure",
+                Severity::Refusal,
+                &[key::COULOMB, key::OFFSET],
+                format!(
+                    "{name} friction would be {:.4e}, negative: the model does not fit",
+                    e.value
+                ),
+                "a large load or an offset of a sensor; check units, signs and a camera's origin",
+            ));
+            id.friction.coulomb = None;
+        }
+    }
     if id.friction.coulomb.is_none() {
         id.friction.forward = None;
         id.friction.backward = None;
@@ -262,7 +289,8 @@ fn regression(id: &mut Identified) {
             ),
             None => "too few slip phases are long enough for a window".to_owned(),
         };
-        let hint = "longer moves in both directions at a measured current; check columns and signs";
+        let hint = "longer moves in both directions at a measured current; a flexible beam needs its tip \
+                    measured; check columns, units and signs";
         id.findings.push(Finding::new(
             "regression-refused",
             Severity::Refusal,
@@ -303,14 +331,15 @@ fn regression(id: &mut Identified) {
     }
     let negative = r.coupling.iter().flatten().any(|k| k.value < -2.0 * k.std);
     if negative && r.coupling.iter().flatten().count() == 1 {
-        id.findings.push(Finding::new(
+        let finding = Finding::new(
             "coupling-sign",
-            Warning,
+            Severity::Refusal,
             &[key::COUPLING, key::MODES],
             "the beam would push the motor away from itself: the tip's sign looks reversed"
                 .to_owned(),
             "give the tip a negative scale in the campaign",
-        ));
+        );
+        id.findings.insert(0, finding);
     }
 }
 
@@ -327,7 +356,7 @@ fn model(id: &mut Identified) {
                 "the motor's rational model misses its responses by {:.1} deviations (rms)",
                 m.weighted_rms
             ),
-            "a delay, an actuator's lag or a mode without a tip is in the response and not in it",
+            "a delay, a lag or a mode without a tip is not in it, or the responses are poorer than they look",
         ));
     }
 }

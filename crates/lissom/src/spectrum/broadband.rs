@@ -8,7 +8,7 @@ const BANDS_PER_DECADE: f64 = 60.0;
 /// Fewest bins in a band: a variance needs more than one.
 const LEAST_BINS: usize = 4;
 /// Beyond the last band with this share of the power next to it, the input was not driven…
-const DRIVEN: f64 = 0.02;
+const DRIVEN: f64 = 0.05;
 /// …where next to it is within this ratio of frequency.
 const NEXT: f64 = 1.3;
 /// Share of a record over which each end is tapered.

@@ -306,6 +306,26 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
 }
 
 impl BeamFit {
+    /// The model of one tip and one mode: `ω²/(s² + 2ζω·s + ω²)`, as (36).
+    pub(crate) fn of_mode(mode: ModeEstimate) -> Self {
+        let omega = mode.natural_frequency_rad_s;
+        let pole = Pole { omega_rad_s: omega.value, damping_ratio: mode.damping_ratio.value };
+        let gain = omega.value * omega.value;
+        let residue = Estimate { value: gain, std: 2.0 * omega.value * omega.std };
+        Self {
+            poles: vec![pole],
+            modes: vec![mode],
+            mode_poles: vec![0],
+            residues: vec![vec![residue]],
+            transfer_functions: vec![TransferFunction {
+                num: vec![gain],
+                den: pole.polynomial().to_vec(),
+            }],
+            weighted_rms: 0.0,
+            relative_residual: 0.0,
+        }
+    }
+
     /// Poles that are modes, ascending.
     pub fn modal_poles(&self) -> Vec<Pole> {
         self.mode_poles.iter().map(|&i| self.poles[i]).collect()

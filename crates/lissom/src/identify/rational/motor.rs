@@ -40,7 +40,7 @@ pub struct MotorFit {
     pub poles_given: bool,
     /// θ_m per command as (35), monic.
     pub transfer_function: TransferFunction,
-    /// Root mean square of the weighted residuals.
+    /// Root mean square of the weighted residuals; zero for a model made of other figures.
     pub weighted_rms: f64,
 }
 
@@ -77,6 +77,54 @@ pub fn fit_motor(data: &MotorData, poles: Option<&[Pole]>) -> Option<MotorFit> {
         Some((pole, s)) => finish(data, &[pole], false, &s),
         None => finish(data, &[], false, &rigid),
     })
+}
+
+impl MotorFit {
+    /// The model that the regression's figures make: rigid, or with the one mode of `pole` through
+    /// which the beam is coupled. The command's `torque_per_command` and the damping of its
+    /// back-EMF, `back_emf_viscous`, are those of the channel.
+    pub(crate) fn of_figures(
+        inertia: Estimate,
+        viscous: Estimate,
+        mode: Option<(Pole, Estimate)>,
+        torque_per_command: f64,
+        back_emf_viscous: f64,
+    ) -> Self {
+        let poles: Vec<Pole> = mode.iter().map(|m| m.0).collect();
+        let coupling: Vec<Estimate> = mode.iter().map(|m| m.1).collect();
+        let viscous = Estimate { value: viscous.value + back_emf_viscous, ..viscous };
+        Self {
+            transfer_function: transfer_function(
+                [inertia.value, viscous.value],
+                &coupling.iter().map(|c| c.value).collect::<Vec<_>>(),
+                &poles,
+                torque_per_command,
+            ),
+            inertia,
+            viscous,
+            coupling,
+            poles,
+            poles_given: true,
+            weighted_rms: 0.0,
+        }
+    }
+}
+
+/// `K·d_c/((J·s² + V·s)·d_c + n_c)`, monic.
+fn transfer_function(
+    [inertia, viscous]: [f64; 2],
+    coupling: &[f64],
+    poles: &[Pole],
+    torque_per_command: f64,
+) -> TransferFunction {
+    let shared = common_denominator(poles);
+    let rigid = multiply(&[inertia, viscous, 0.0], &shared);
+    let coupled = poles.iter().zip(coupling).enumerate().fold(Vec::new(), |sum, (k, (p, c))| {
+        let [one, two_zeta_omega, _] = p.polynomial();
+        add(&sum, &multiply(&[c * one, c * two_zeta_omega, 0.0], &others(poles, k)))
+    });
+    let num = multiply(&[torque_per_command], &shared);
+    TransferFunction { num, den: add(&rigid, &coupled) }.monic()
 }
 
 struct Solution {
@@ -162,21 +210,20 @@ fn finish(data: &MotorData, poles: &[Pole], poles_given: bool, s: &Solution) -> 
         value: s.value[i],
         std: spread * s.covariance[(i, i)].max(0.0).sqrt(),
     };
-    let shared = common_denominator(poles);
-    let rigid = multiply(&[s.value[0], s.value[1], 0.0], &shared);
-    let coupled = poles.iter().enumerate().fold(Vec::new(), |sum, (k, p)| {
-        let [one, two_zeta_omega, _] = p.polynomial();
-        let c = s.value[2 + k];
-        add(&sum, &multiply(&[c * one, c * two_zeta_omega, 0.0], &others(poles, k)))
-    });
-    let num = multiply(&[data.torque_per_command], &shared);
+    let coupling: Vec<Estimate> = (0..poles.len()).map(|k| figure(2 + k)).collect();
+    let values: Vec<f64> = coupling.iter().map(|c| c.value).collect();
     MotorFit {
         inertia: figure(0),
         viscous: figure(1),
-        coupling: (0..poles.len()).map(|k| figure(2 + k)).collect(),
+        coupling,
         poles: poles.to_vec(),
         poles_given,
-        transfer_function: TransferFunction { num, den: add(&rigid, &coupled) }.monic(),
+        transfer_function: transfer_function(
+            [s.value[0], s.value[1]],
+            &values,
+            poles,
+            data.torque_per_command,
+        ),
         weighted_rms,
     }
 }
