@@ -183,7 +183,7 @@ fn refuse_the_unknown(id: &mut Identified) {
                 Severity::Refusal,
                 &[key::COULOMB, key::OFFSET],
                 format!(
-                    "{name} friction would be {:.4e}, negative: the model does not fit",
+                    "friction in one direction would be {:.4e}, negative: the model does not fit",
                     e.value
                 ),
                 "a large load or an offset of a sensor; check units, signs and a camera's origin",
