@@ -4,7 +4,7 @@
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
-use lissom::identify::{Estimate, Identified, Options, identify};
+use lissom::identify::{Estimate, Identified, MissingKind, Options, identify};
 use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
 };
@@ -157,6 +157,31 @@ fn any_motion_and_a_voltage_with_back_emf() {
     within("viscous", id.friction.viscous, 0.01, 0.05);
     within("coulomb", id.friction.coulomb, 0.06, 0.01);
     assert!(id.third_harmonic.is_none());
+}
+
+#[test]
+fn a_delay_is_noticed_and_measured() {
+    // The command as logged acts two samples of 5 ms later.
+    let late: Vec<Run> = stiff_axis(0.2, 0.0)
+        .into_iter()
+        .map(|r| {
+            let n = r.len() - 2;
+            let (command, motor) = (r.command()[2..].to_vec(), r.motor()[..n].to_vec());
+            Run::new(r.name(), r.time(), command, motor, vec![]).unwrap()
+        })
+        .collect();
+    let missing = |runs| {
+        let id = identified(current(0.2), Axis::Rotary, vec![], runs);
+        assert_eq!(
+            id.findings.iter().any(|f| f.code == "missing-term"),
+            id.regression.as_ref().unwrap().missing.is_some()
+        );
+        id.regression.unwrap().missing
+    };
+    assert_eq!(missing(stiff_axis(0.2, 0.0)), None);
+    let found = missing(late).unwrap();
+    assert_eq!(found.kind, MissingKind::Delay);
+    assert!((found.value / 0.010 - 1.0).abs() < 0.05, "{found:?}");
 }
 
 #[test]

@@ -21,7 +21,8 @@ pub use finding::{Finding, Severity};
 pub use identified::{Beam, Friction, Identified, ThirdHarmonic};
 pub use rational::{BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_beam, fit_motor};
 pub use regression::{
-    BeamRegression, ByDirection, Candidate, MotorRegression, beam_regression, motor_regression,
+    BeamRegression, ByDirection, Candidate, MissingKind, MissingTerm, MotorRegression,
+    beam_regression, motor_regression,
 };
 pub use response_table::ResponsePoint;
 pub use run_analysis::{RunAnalysis, RunKind, Sinusoidal};

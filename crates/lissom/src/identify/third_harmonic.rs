@@ -113,6 +113,8 @@ pub fn pair_figure(
 /// How much lower a pair's figure comes out for each unit of sticking share of its run: with a
 /// share of 4 and 8 % of the cycle 2.3 and 4.9 % were found on the report's arm.
 const STICKING_BIAS: f64 = 0.6;
+/// Sticking shares below this are not measured.
+const LEAST_SHARE: f64 = 0.01;
 
 /// Mean of the pairs' figures and the standard deviation of one pair about it.
 ///
@@ -126,7 +128,8 @@ pub fn mean_figure(
     let n = pairs.len() as f64;
     let first = pairs.first()?;
     let value = pairs.iter().map(|p| p.coulomb_command.value).sum::<f64>() / n;
-    let bias = STICKING_BIAS * pairs.iter().map(stuck_share).sum::<f64>() / n;
+    let stuck = pairs.iter().map(stuck_share).sum::<f64>() / n;
+    let bias = STICKING_BIAS * stuck.max(LEAST_SHARE);
     let spread = if pairs.len() == 1 {
         first.coulomb_command.std
     } else {

@@ -2,7 +2,7 @@
 
 use super::finding::{Finding, Severity, key};
 use super::identified::{Beam, Friction, Identified};
-use super::regression::BeamRegression;
+use super::regression::{BeamRegression, MissingKind};
 use super::run_analysis::RunKind;
 use super::{Estimate, Severity::Warning};
 use crate::record::{Campaign, CommandQuantity, Hold, TipQuantity};
@@ -108,8 +108,8 @@ fn beam(campaign: &Campaign, id: &mut Identified) {
     {
         id.findings.push(Finding::new(
             "flexible-without-tip",
-            Severity::Info,
-            &[key::MODES, key::COUPLING],
+            Warning,
+            &[key::INERTIA, key::VISCOUS, key::COULOMB],
             format!(
                 "the motor's response looks flexible, clamped at about {:.3e} rad/s, and no tip is \
                  measured",
@@ -190,6 +190,16 @@ fn refuse_the_unknown(id: &mut Identified) {
             ));
             id.friction.coulomb = None;
         }
+    }
+    if findings.iter().any(|f| f.code == "negative-figure") {
+        findings.push(Finding::new(
+            "others-doubtful",
+            Warning,
+            &[key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING],
+            "a figure that must be positive came out negative: the others are doubtful too"
+                .to_owned(),
+            "the equation does not describe these runs: check signs, units and what acts on the axis",
+        ));
     }
     if id.friction.coulomb.is_none() {
         id.friction.forward = None;
@@ -312,6 +322,34 @@ fn regression(id: &mut Identified) {
             "a delay, a load, other friction or a flexible mode without a tip; check units and signs",
         ));
     }
+    if let Some(m) = r.missing {
+        let (what, hint) = match m.kind {
+            MissingKind::Delay => (
+                format!("the command acts {:.2} ms later than it is logged", 1e3 * m.value),
+                "shift the channels against each other, or log the current where it is measured",
+            ),
+            MissingKind::Position => (
+                format!("a torque grows with position, {:.3e} per unit", m.value),
+                "gravity, a spring, cogging or a wrongly scaled tip: the equation has no such term",
+            ),
+            MissingKind::Stribeck => (
+                format!("friction changes with speed, by {:.3e} towards rest", m.value),
+                "Stribeck friction or presliding: one constant and one slope do not describe it",
+            ),
+        };
+        id.findings.push(Finding::new(
+            "missing-term",
+            Warning,
+            &everything,
+            format!(
+                "it looks as if {what}: with that the residual falls to {:.0} % of itself \
+                 ({:.0} deviations); the figures take it up and are off by more than they say",
+                100.0 * m.residual_ratio,
+                m.deviations
+            ),
+            hint,
+        ));
+    }
     if let Some(d) = r.viscous_by_direction {
         id.findings.push(Finding::new(
             "viscous-by-direction",
@@ -412,7 +450,7 @@ fn tips(campaign: &Campaign, id: &mut Identified) {
         id.findings.push(Finding::new(
             "more-modes-than-tips",
             Warning,
-            &[key::COUPLING],
+            &[key::COUPLING, key::INERTIA],
             format!(
                 "the responses show {} modes and {} tips are measured: the coupling torque is \
                  not a sum over these tips alone",

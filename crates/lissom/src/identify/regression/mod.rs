@@ -2,6 +2,7 @@
 //! measurement.
 
 mod beam;
+mod missing;
 mod motor;
 mod normal;
 mod phases;
@@ -9,6 +10,7 @@ mod scan;
 mod window;
 
 pub use beam::{BeamRegression, beam_regression};
+pub use missing::{MissingKind, MissingTerm};
 pub use motor::{ByDirection, MotorRegression, motor_regression};
 pub(crate) use phases::slip_sign;
 pub use scan::Candidate;

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::missing::{MissingTerm, missing_term};
 use super::normal::{Cluster, Solution, Term, solve};
 use super::phases::{slip_phases, smoothing};
 use super::scan::{Candidate, SYSTEMATIC, Scan, scan};
@@ -23,6 +24,8 @@ const INERTIA: usize = 0;
 const VISCOUS: usize = 1;
 const DRY: usize = 2;
 const TIPS: usize = 3;
+/// Columns that [`missing_term`] tries.
+const EXTRA: usize = 3;
 
 /// Figures of the motor's equation, in torque (or force) as the command's constant gives it.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,6 +61,8 @@ pub struct MotorRegression {
     pub coupling: Vec<Option<Estimate>>,
     /// Viscous friction by direction, where the data reject one constant.
     pub viscous_by_direction: Option<ByDirection>,
+    /// A term that the equation lacks, where the data call for one.
+    pub missing: Option<MissingTerm>,
     parameters: Vec<f64>,
 }
 
@@ -141,6 +146,12 @@ pub fn motor_regression(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRe
     let total_coupling = total(&found, 4..4 + tips.len());
     let back_emf = campaign.channels.command.back_emf_viscous;
     let viscous = |e: Estimate| Estimate { value: e.value - back_emf, std: e.std };
+    let missing = missing_term(
+        &clusters_with(campaign, &tips, chosen.window_s, true),
+        &terms,
+        solution,
+        TIPS + tips.len(),
+    );
     let by_direction = by_direction(&clusters(campaign, &tips, chosen.window_s), &terms, solution);
     Some(MotorRegression {
         window_s: chosen.window_s,
@@ -162,6 +173,7 @@ pub fn motor_regression(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRe
             mean: viscous(d.mean),
             ..d
         }),
+        missing,
         candidates: found.candidates,
         parameters: solution.value.iter().copied().collect(),
     })
@@ -213,6 +225,13 @@ fn coupled_tips(campaign: &Campaign) -> Vec<usize> {
 
 /// Sums of every slip phase of every run, for one length of window.
 fn clusters(campaign: &Campaign, tips: &[usize], length_s: f64) -> Vec<Cluster> {
+    clusters_with(campaign, tips, length_s, false)
+}
+
+/// The same, with the columns of [`missing_term`] before the right side if `extra`.
+fn clusters_with(campaign: &Campaign, tips: &[usize], length_s: f64, extra: bool) -> Vec<Cluster> {
+    let columns = TIPS + tips.len() + 1 + if extra { EXTRA } else { 0 };
+    let origin = campaign.runs.first().map_or(0.0, |run| run.motor()[0]);
     let mut out = Vec::new();
     for (index, run) in campaign.runs.iter().enumerate() {
         let t = run.sample_time_s();
@@ -223,18 +242,64 @@ fn clusters(campaign: &Campaign, tips: &[usize], length_s: f64) -> Vec<Cluster> 
         let window = Window::new(n, t);
         let smooth = smoothing(run.motor()).min((n as f64 * SMOOTH) as usize).max(4);
         let step = ((n as f64 * STEP) as usize).max(1);
+        let slowness = if extra { slowness(run, smooth) } else { Vec::new() };
         for phase in slip_phases(run.motor(), smooth, t) {
             if phase.to - phase.from <= n {
                 continue;
             }
-            let mut cluster = Cluster::new(index, phase.sign, TIPS + tips.len() + 1);
+            let mut cluster = Cluster::new(index, phase.sign, columns);
             for k in (phase.from..phase.to - n).step_by(step) {
-                cluster.add(&row(campaign, run, tips, &window, k));
+                let mut row = row(campaign, run, tips, &window, k);
+                if extra {
+                    let right = row.len() - 1;
+                    let more = extra_columns(campaign, run, &window, k, origin, &slowness);
+                    row.splice(right..right, more.map(|v| v * window.row_scale));
+                }
+                cluster.add(&row);
             }
             out.push(cluster);
         }
     }
     out
+}
+
+/// `e^{−|v|/v̄}` at every sample, v̄ the run's mean speed.
+fn slowness(run: &Run, smooth: usize) -> Vec<f64> {
+    let x = run.motor();
+    let last = x.len() - 1;
+    let speed: Vec<f64> = (0..x.len())
+        .map(|k| {
+            let (from, to) = (k.saturating_sub(smooth / 2), (k + smooth / 2).min(last));
+            ((x[to] - x[from]) / (to - from).max(1) as f64).abs()
+        })
+        .collect();
+    let mean = speed.iter().sum::<f64>() / speed.len() as f64;
+    speed.iter().map(|v| (-v / mean.max(f64::MIN_POSITIVE)).exp()).collect()
+}
+
+/// `[∫ẇτ, ∫wθ, ∫w·e^{−|v|/v̄}]`.
+fn extra_columns(
+    campaign: &Campaign,
+    run: &Run,
+    window: &Window,
+    k: usize,
+    origin: f64,
+    slowness: &[f64],
+) -> [f64; EXTRA] {
+    let t = run.sample_time_s();
+    let n = window.len();
+    let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
+    let command = &run.command()[k..=k + n];
+    let by_delay = match campaign.channels.command.hold {
+        // Held: ∫ẇ over each interval is the difference of w.
+        Hold::Sampled => {
+            window.value.windows(2).zip(command).map(|(w, u)| (w[1] - w[0]) * u).sum::<f64>()
+        }
+        Hold::Measured => dot(&window.first, command) * t,
+    };
+    let motor = &run.motor()[k..=k + n];
+    let by_position: f64 = motor.iter().zip(&window.value).map(|(x, w)| w * (x - origin)).sum();
+    [constant * by_delay, by_position * t, dot(&window.value, &slowness[k..=k + n]) * t]
 }
 
 /// One row: `[∫ẅθ, −∫ẇθ, ∫w, ∫w(θ_m − θ_i).., ∫wτ]`, scaled by the noise it carries.
