@@ -14,10 +14,10 @@ pub(crate) struct Cli {
 }
 
 const AFTER_HELP: &str = "\
-Start with `lissom demo`: it runs the experiment on a virtual arm, writes its logs and their \
+Start with `lissom demo`: it runs the experiment on a virtual arm, writes its logs and their
 campaign.toml, and identifies them. Then describe your own logs in a campaign.toml like that one.
 
-Exit codes: 0 done; 1 the input cannot be used; 2 wrong usage; 3 done, but the data refuse a \
+Exit codes: 0 done; 1 the input cannot be used; 2 wrong usage; 3 done, but the data refuse a
 figure (see the findings).";
 
 #[derive(Debug, Subcommand)]
@@ -71,9 +71,9 @@ A campaign.toml:
   [[runs]]
   file = \"run-01.csv\"
 
-Columns go by name or number. hold = \"sampled\" is a commanded value held between samples, \
-\"measured\" one that was measured. A command of unknown unit has unit = \"1\": figures are then \
-per unit of command.";
+Columns go by name or number. hold = \"sampled\" is a commanded value held between samples,
+\"measured\" one that was measured. A command of unknown unit has unit = \"1\": figures are then
+per unit of command. docs/campaign.md explains every key.";
 
 /// The single-mass arm of the report: PD loop, 3 ms, 12 bits, 4.12 A, stepped sines at
 /// frequencies and their triples, two amplitudes.

@@ -9,8 +9,8 @@ use crate::failure::Failure;
 /// Refuses to write over a file that is no earlier output: JSON begins with `{`, a page with `<`.
 /// Also refuses one name for two outputs.
 pub(crate) fn guard(json: Option<&Path>, report: Option<&Path>) -> Result<(), Failure> {
-    if json.is_some() && json == report {
-        return Err(Failure::SameOutput { file: json.unwrap_or(Path::new("")).to_owned() });
+    if let Some(file) = json.filter(|file| report == Some(*file)) {
+        return Err(Failure::SameOutput { file: file.to_owned() });
     }
     for (path, first) in [(json, b'{'), (report, b'<')] {
         if let Some(path) = path.filter(|p| begins_otherwise(p, first)) {

@@ -35,8 +35,10 @@ pub(crate) fn page(
         .key_figures("Drive and beam", &key_figures(names, id, reference));
     page = page.heading("Frequency responses");
     for (_, plot) in figures::bode_plots(&campaign.channels, names, id, reference) {
-        page =
-            page.figure(&plot, "Points: runs or bands. Line: the rational model fitted to them.");
+        page = page.figure(
+            &plot,
+            "Points: runs or bands. Line: the model, fitted to them or made of the figures.",
+        );
     }
     if let Some(plot) = pairs(names, id) {
         page = page.heading("Third harmonic").figure(

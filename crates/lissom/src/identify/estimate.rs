@@ -18,6 +18,11 @@ impl Estimate {
         [self.value - NORMAL_95 * self.std, self.value + NORMAL_95 * self.std]
     }
 
+    /// Whether it is below zero by more than two deviations.
+    pub(crate) fn is_negative(&self) -> bool {
+        self.value < -2.0 * self.std
+    }
+
     /// The figure in a unit of which one is `factor` of the present one.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {

@@ -41,7 +41,7 @@ pub(crate) fn conclude(campaign: &Campaign, id: &mut Identified) {
     beam(campaign, id);
     refuse_the_unknown(id);
     command(campaign, id);
-    friction(campaign, id);
+    friction(id);
     regression(id);
     model(id);
     methods(id, constant);
@@ -51,8 +51,7 @@ pub(crate) fn conclude(campaign: &Campaign, id: &mut Identified) {
 
 fn from_regression(id: &mut Identified) {
     let Some(r) = &id.regression else { return };
-    let negative = |e: Option<Estimate>| e.is_some_and(|e| e.value < -2.0 * e.std);
-    if negative(r.inertia) && negative(r.coulomb) {
+    if [r.inertia, r.coulomb].iter().all(|e| e.is_some_and(|e| e.is_negative())) {
         id.findings.push(Finding::new(
             "command-sign",
             Severity::Refusal,
@@ -146,7 +145,7 @@ fn refuse_the_unknown(id: &mut Identified) {
             return;
         };
         let share = if e.value == 0.0 { f64::INFINITY } else { e.std / e.value.abs() };
-        let (code, what) = if e.value < 0.0 && e.value < -2.0 * e.std {
+        let (code, what) = if e.is_negative() {
             ("negative-figure", "negative: the model does not fit".to_owned())
         } else if share.is_infinite() {
             ("poor-excitation", "with nothing in the runs that shows it".to_owned())
@@ -177,7 +176,7 @@ fn refuse_the_unknown(id: &mut Identified) {
         look(key::COUPLING, &mut id.beam.coupling, "drive it near the beam's resonance");
     }
     for figure in [id.friction.forward, id.friction.backward] {
-        if let Some(e) = figure.filter(|e| e.value < -2.0 * e.std) {
+        if let Some(e) = figure.filter(Estimate::is_negative) {
             findings.push(Finding::new(
                 "negative-figure",
                 Severity::Refusal,
@@ -234,7 +233,7 @@ fn command(campaign: &Campaign, id: &mut Identified) {
     }
 }
 
-fn friction(campaign: &Campaign, id: &mut Identified) {
+fn friction(id: &mut Identified) {
     let mut shown = None;
     for run in &id.runs {
         let RunKind::Sinusoidal(s) = &run.kind else { continue };
@@ -286,7 +285,6 @@ fn friction(campaign: &Campaign, id: &mut Identified) {
             "the two are the same to a motion log; a load from another orientation tells them apart",
         ));
     }
-    let _ = campaign;
 }
 
 fn regression(id: &mut Identified) {
@@ -367,7 +365,7 @@ fn regression(id: &mut Identified) {
             "the scalar figure is the mean of both; the offset depends on which law is taken",
         ));
     }
-    let negative = r.coupling.iter().flatten().any(|k| k.value < -2.0 * k.std);
+    let negative = r.coupling.iter().flatten().any(Estimate::is_negative);
     if negative && r.coupling.iter().flatten().count() == 1 {
         let finding = Finding::new(
             "coupling-sign",

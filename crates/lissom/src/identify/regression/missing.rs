@@ -4,8 +4,8 @@ use super::normal::{Cluster, Solution, Term, solve};
 
 /// A term is missing where it stands this many deviations from zero…
 const DEVIATIONS: f64 = 4.0;
-/// …and leaves at most this share of the residual. Between what sound logs leave (0.99 and more,
-/// over 18 simulated ones) and the weakest real lack seen (0.87).
+/// …and leaves at most this share of the residual: a term that chance makes significant leaves
+/// nearly all of it.
 const RESIDUAL: f64 = 0.9;
 
 /// What the equation may lack.
