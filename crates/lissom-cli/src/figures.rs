@@ -90,7 +90,7 @@ fn motor(names: UnitNames, id: &Identified, reference: Option<&Reference>) -> Bo
     }
     if let Some((label, arm)) = reference.and_then(|r| Some((r.label, r.arm.as_ref()?))) {
         let exact: Vec<(f64, Complex64)> =
-            grid.iter().filter_map(|w| Some((*w, arm.motor_response(*w)?))).collect();
+            grid.iter().map(|w| (*w, arm.motor_response(*w))).collect();
         plot = plot.series(known(label, &exact));
     }
     plot
@@ -131,10 +131,8 @@ fn tip_plot(
     }
     let known_arm = reference.and_then(|r| Some((r.label, r.arm.as_ref()?)));
     if let Some((label, arm)) = known_arm.filter(|_| quantity == TipQuantity::Angle) {
-        let exact: Vec<(f64, Complex64)> = grid
-            .iter()
-            .filter_map(|w| Some((*w, arm.tip_response(*w)?.get(i).copied()?)))
-            .collect();
+        let exact: Vec<(f64, Complex64)> =
+            grid.iter().filter_map(|w| Some((*w, arm.tip_response(*w).get(i).copied()?))).collect();
         plot = plot.series(known(label, &exact));
     }
     plot

@@ -214,7 +214,7 @@ pub(crate) fn figure_rows(
     let inertia = reference.map(|r| r.inertia_kg_m2);
     add(names.inertia_name(), id.inertia, names.inertia_unit(), inertia);
     if !id.beam.coupling_by_tip.is_empty() || id.beam.coupling.is_some() {
-        let known = arm.map(|a| a.beam().h_motor());
+        let known = arm.map(|a| a.dynamics().coupling_motor);
         add("coupling to the beam", id.beam.coupling, names.coupling_unit(), known);
     }
     let natural = arm.map_or(Vec::new(), |a| a.beam().natural_frequencies_rad_s());

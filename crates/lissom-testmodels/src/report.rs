@@ -29,7 +29,8 @@ pub fn report_arm() -> Arm {
     let motor = Motor::new(0.005_529 * torque, 0.012_16 * torque, 2.184 * torque);
     let motor = motor.expect("valid motor");
     let coulomb = Coulomb::symmetric(0.132 * motor.torque_constant_nm_per_a);
-    Arm::new(LumpedBeam::new(&[span]).expect("valid beam"), motor, coulomb.expect("valid"))
+    let beam = LumpedBeam::new(&[span]).expect("valid beam");
+    Arm::new(beam, motor, coulomb.expect("valid")).expect("one mass")
 }
 
 /// The rig of `[Feliu1989, 6.1]`: 3 ms, 4.12 A, sensors of `bits` bits over a turn (`None`: ideal).

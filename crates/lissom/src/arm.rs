@@ -1,15 +1,16 @@
 //! The coupled arm: beam and drive joined by the coupling torque (15).
 
+use nalgebra::DMatrix;
 use num_complex::Complex64;
 
-use nalgebra::{DMatrix, DVector};
-
-use crate::beam::LumpedBeam;
+use crate::beam::{BeamDynamics, BeamError, LumpedBeam, Roots, motor_poles};
 use crate::drive::{Coulomb, Motor};
+use crate::lti::StateSpace;
 
 /// A single-link flexible arm with a friction joint.
 ///
-/// State `x = [θ_m, θ̇_m, θ_1..θ_n, θ̇_1..θ̇_n]`.
+/// State `x = [θ_m, θ̇_m, q_1..q_k, q̇_1..q̇_k]`: q are the angles θ_1 … θ_n of the masses and, where
+/// the payload needs a torque to turn, the tip's slope.
 ///
 /// # Source
 /// `[Feliu1989, eqs. (13)-(15)]`
@@ -20,20 +21,18 @@ pub struct Arm {
     /// Its Coulomb friction.
     pub coulomb: Coulomb,
     beam: LumpedBeam,
-    acceleration: DMatrix<f64>,
-    acceleration_motor: DVector<f64>,
-    damping: DVector<f64>,
+    dynamics: BeamDynamics,
 }
 
 impl Arm {
     /// Joins a beam to a drive through the coupling torque (15).
-    pub fn new(beam: LumpedBeam, motor: Motor, coulomb: Coulomb) -> Self {
-        let n = beam.len();
-        let mass = |i: usize| beam.spans()[i].mass_kg;
-        let acceleration = DMatrix::from_fn(n, n, |i, j| beam.ei_a()[(i, j)] / mass(i));
-        let acceleration_motor = DVector::from_fn(n, |i, _| beam.ei_b()[i] / mass(i));
-        let damping = DVector::from_fn(n, |i, _| beam.spans()[i].damping_n_s_per_m / mass(i));
-        Self { motor, coulomb, beam, acceleration, acceleration_motor, damping }
+    ///
+    /// # Errors
+    /// [`BeamError::TooManyMasses`] where the beam is longer than matrices are made for: its own
+    /// methods need none. [`BeamError::OutOfRange`] where a matrix leaves the range of a double.
+    pub fn new(beam: LumpedBeam, motor: Motor, coulomb: Coulomb) -> Result<Self, BeamError> {
+        let dynamics = beam.dynamics()?;
+        Ok(Self { motor, coulomb, beam, dynamics })
     }
 
     /// The beam.
@@ -41,16 +40,26 @@ impl Arm {
         &self.beam
     }
 
-    /// Number of states, 2 + 2n.
-    pub fn state_len(&self) -> usize {
-        2 + 2 * self.beam.len()
+    /// The beam's equation of motion.
+    pub fn dynamics(&self) -> &BeamDynamics {
+        &self.dynamics
     }
 
-    /// Coupling torque C_t of (15) in state `x` \[N·m\].
+    /// Number of states, 2 + 2k.
+    pub fn state_len(&self) -> usize {
+        2 + 2 * self.dynamics.len()
+    }
+
+    /// Coupling torque C_t of (15) in state `x`, without tip loads \[N·m\].
     pub fn coupling_torque(&self, x: &[f64]) -> f64 {
-        let n = self.beam.len();
+        let k = self.dynamics.len();
         // Differences from the motor's line: (15) with ΣH + h_m = 0, free of cancellation.
-        self.beam.h().iter().zip(&x[2..2 + n]).map(|(h, theta)| h * (theta - x[0])).sum()
+        let against = |h: &nalgebra::DVector<f64>, x: &[f64], motor: f64| -> f64 {
+            h.iter().zip(x).map(|(h, q)| h * (q - motor)).sum()
+        };
+        let elastic = against(&self.dynamics.coupling, &x[2..2 + k], x[0]);
+        let rate = self.dynamics.coupling_rate.as_ref();
+        elastic + rate.map_or(0.0, |g| against(g, &x[2 + k..2 + 2 * k], x[1]))
     }
 
     /// Homogeneous part of ẋ while the motor slips: friction and drive torque left out.
@@ -69,50 +78,53 @@ impl Arm {
     }
 
     fn derivative_beam(&self, x: &[f64], out: &mut [f64]) {
-        let n = self.beam.len();
-        for i in 0..n {
-            out[2 + i] = x[2 + n + i];
-            let elastic: f64 = (0..n).map(|j| self.acceleration[(i, j)] * (x[2 + j] - x[0])).sum();
-            out[2 + n + i] = elastic - self.damping[i] * x[2 + n + i];
+        let k = self.dynamics.len();
+        let (q, v) = (&x[2..2 + k], &x[2 + k..2 + 2 * k]);
+        let row = |m: &DMatrix<f64>, i: usize, x: &[f64], motor: f64| -> f64 {
+            x.iter().enumerate().map(|(j, q)| m[(i, j)] * (q - motor)).sum()
+        };
+        for i in 0..k {
+            out[2 + i] = v[i];
+            let mut a = row(&self.dynamics.elastic, i, q, x[0]);
+            if let Some(relative) = &self.dynamics.relative {
+                a += row(relative, i, v, x[1]);
+            }
+            if let Some(absolute) = &self.dynamics.absolute {
+                a += row(absolute, i, v, 0.0);
+            }
+            out[2 + k + i] = a;
         }
     }
 
     /// A bound on how fast the state can change: a norm of the state matrix \[1/s\].
     pub(crate) fn rate_bound(&self) -> f64 {
-        let n = self.beam.len();
-        let stiffness = (0..n)
-            .map(|i| self.acceleration.row(i).abs().sum() + self.acceleration_motor[i].abs())
-            .fold(0.0, f64::max);
-        let coupling =
-            (self.beam.h().abs().sum() + self.beam.h_motor().abs()) / self.motor.inertia_kg_m2;
-        let rate = self.motor.viscous_nm_s_per_rad / self.motor.inertia_kg_m2;
-        (stiffness + coupling).sqrt() + rate + self.damping.max()
+        let d = &self.dynamics;
+        let rows = |m: &DMatrix<f64>| {
+            m.row_iter().map(|r| r.iter().map(|v| v.abs()).sum()).fold(0.0, f64::max)
+        };
+        let inertia = self.motor.inertia_kg_m2;
+        let all = |m: Option<&DMatrix<f64>>| m.map_or(0.0, rows);
+        let stiffness: f64 = rows(&d.elastic) * 2.0 + 2.0 * d.coupling.abs().sum() / inertia;
+        let damping = all(d.relative.as_ref()) * 2.0
+            + all(d.absolute.as_ref())
+            + 2.0 * d.coupling_rate.as_ref().map_or(0.0, |g| g.abs().sum()) / inertia;
+        stiffness.sqrt() + self.motor.viscous_nm_s_per_rad / inertia + damping
     }
 
     /// Responses θ_i/θ_m at `omega_rad_s`, motor to each mass.
     ///
-    /// Solves (13) with tip loads zero and `s = jω`: `(M·s² + D·s − EI·A)·Θ = EI·B·θ_m`. `None`
-    /// exactly on an undamped pole.
+    /// On an undamped pole they are very large.
     ///
     /// # Source
-    /// `[Feliu1989, eq. (16)]`, with the damping of each mass added.
-    pub fn tip_response(&self, omega_rad_s: f64) -> Option<Vec<Complex64>> {
-        let n = self.beam.len();
-        let s = Complex64::new(0.0, omega_rad_s);
-        let matrix = nalgebra::DMatrix::<nalgebra::Complex<f64>>::from_fn(n, n, |i, j| {
-            let inertial = if i == j { s * s + s * self.damping[i] } else { Complex64::ZERO };
-            inertial - self.acceleration[(i, j)]
-        });
-        let right = DVector::from_fn(n, |i, _| Complex64::from(self.acceleration_motor[i]));
-        let solved = matrix.lu().solve(&right)?;
-        Some(solved.iter().copied().collect())
+    /// `[Feliu1989, eq. (16)]`, with damping added.
+    pub fn tip_response(&self, omega_rad_s: f64) -> Vec<Complex64> {
+        self.beam.response(Complex64::new(0.0, omega_rad_s)).angles
     }
 
     /// Response θ_m/i of the linear part at `omega_rad_s` \[rad/A\]: what is left when Coulomb
     /// friction is taken away.
     ///
-    /// `G(jω) = K/(J·s² + V·s + Σ h_i·(θ_i/θ_m − 1))` with `s = jω`. `None` exactly on an undamped
-    /// pole of the beam.
+    /// `G(jω) = K/(J·s² + V·s + C_t/θ_m)` with `s = jω`.
     ///
     /// ```
     /// # use lissom::{arm::Arm, beam::{LumpedBeam, Span}, drive::{Coulomb, Motor}};
@@ -120,22 +132,78 @@ impl Arm {
     /// # let span = Span { length_m: l, flexural_rigidity_n_m2: 0.004, mass_kg: m, damping_n_s_per_m: 0.0 };
     /// # let beam = LumpedBeam::new(&[span]).unwrap();
     /// let motor = Motor::new(6e-4, 0.0, 0.25)?; // J, V, K
-    /// let arm = Arm::new(beam, motor, Coulomb::symmetric(0.03)?);
+    /// let arm = Arm::new(beam, motor, Coulomb::symmetric(0.03)?).unwrap();
     /// let (w, rigid) = (1e-3, 6e-4 + m * l * l); // slowly, the arm turns as one body
-    /// let g = arm.motor_response(w).unwrap();
+    /// let g = arm.motor_response(w);
     /// assert!((g.re * rigid * w * w / -0.25 - 1.0).abs() < 1e-6);
     /// # Ok::<(), lissom::drive::DriveError>(())
     /// ```
     ///
     /// # Source
     /// `[Feliu1989, eqs. (13)-(16)]`; the G(ω) that (26) and (30) speak of.
-    pub fn motor_response(&self, omega_rad_s: f64) -> Option<Complex64> {
-        let tips = self.tip_response(omega_rad_s)?;
-        let coupling: Complex64 =
-            self.beam.h().iter().zip(&tips).map(|(h, theta)| (theta - 1.0) * *h).sum();
+    pub fn motor_response(&self, omega_rad_s: f64) -> Complex64 {
         let s = Complex64::new(0.0, omega_rad_s);
-        let inverse =
-            s * s * self.motor.inertia_kg_m2 + s * self.motor.viscous_nm_s_per_rad + coupling;
-        Some(self.motor.torque_constant_nm_per_a / inverse)
+        let coupling = self.beam.response(s).coupling_nm_per_rad;
+        self.motor.torque_constant_nm_per_a / (self.motor.impedance(s) + coupling)
+    }
+
+    /// Poles of θ_m/i \[1/s\]: of the whole arm without Coulomb friction.
+    ///
+    /// # Source
+    /// `[Feliu1989, eqs. (13)-(15)]`
+    pub fn poles(&self) -> Roots {
+        motor_poles(&self.beam, &self.motor)
+    }
+
+    /// The coupled arm (13)-(15) as one state space, Coulomb friction left out.
+    ///
+    /// Inputs: current \[A\], tip force F_n \[N\], tip torque T_n \[N·m\]. Outputs: motor angle, angle
+    /// of each mass \[rad\], coupling torque \[N·m\]. States as in [`Arm`].
+    ///
+    /// # Source
+    /// `[Feliu1989, eqs. (13)-(15)]`
+    pub fn state_space(&self) -> StateSpace {
+        let d = &self.dynamics;
+        let (k, n, len) = (d.len(), self.beam.len(), self.state_len());
+        let j = self.motor.inertia_kg_m2;
+        let mut a = DMatrix::zeros(len, len);
+        let mut unit = vec![0.0; len];
+        let mut column = vec![0.0; len];
+        for c in 0..len {
+            unit[c] = 1.0;
+            self.derivative_slipping(&unit, &mut column);
+            a.column_mut(c).copy_from_slice(&column);
+            unit[c] = 0.0;
+        }
+        let mut b = DMatrix::zeros(len, 3);
+        b[(1, 0)] = self.motor.torque_constant_nm_per_a / j;
+        b[(1, 2)] = -d.coupling_torque / j;
+        for i in 0..k {
+            b[(2 + k + i, 1)] = d.force[i];
+            b[(2 + k + i, 2)] = d.torque[i];
+        }
+        let mut c = DMatrix::zeros(n + 2, len);
+        c[(0, 0)] = 1.0;
+        for i in 0..n {
+            c[(1 + i, 2 + i)] = 1.0;
+        }
+        for state in 0..len {
+            unit[state] = 1.0;
+            c[(n + 1, state)] = self.coupling_torque(&unit);
+            unit[state] = 0.0;
+        }
+        let mut direct = DMatrix::zeros(n + 2, 3);
+        direct[(n + 1, 2)] = d.coupling_torque;
+        let angles = || (1..=n).map(|i| format!("theta_{i}_rad"));
+        let slope = || (k > n).then(|| "tip_slope_rad".to_owned());
+        let mut states = vec!["motor_rad".to_owned(), "motor_rad_per_s".to_owned()];
+        states.extend(angles().chain(slope()));
+        states.extend(angles().chain(slope()).map(|name| format!("{name}_per_s")));
+        let mut outputs = vec!["motor_rad".to_owned()];
+        outputs.extend(angles());
+        outputs.push("coupling_torque_nm".to_owned());
+        let inputs = ["current_a", "tip_force_n", "tip_torque_nm"];
+        let inputs = inputs.map(str::to_owned).to_vec();
+        StateSpace { a, b, c, d: direct, states, inputs, outputs }
     }
 }

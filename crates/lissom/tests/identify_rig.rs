@@ -20,7 +20,7 @@ fn two_mass_arm() -> Arm {
     };
     let beam = LumpedBeam::new(&[span(0.15, 0.06), span(0.15, 0.04)]).unwrap();
     let motor = Motor::new(8e-4, 2e-3, 0.3).unwrap();
-    Arm::new(beam, motor, Coulomb::by_direction(0.05, 0.04).unwrap())
+    Arm::new(beam, motor, Coulomb::by_direction(0.05, 0.04).unwrap()).unwrap()
 }
 
 fn rig(arm: Arm) -> Rig {
@@ -86,8 +86,8 @@ fn two_masses_with_friction_by_direction() {
     within("forward", id.friction.forward, 0.05, 0.005);
     within("backward", id.friction.backward, 0.04, 0.005);
     within("offset", id.friction.offset, 0.005, 0.02);
-    within("coupling", id.beam.coupling, arm.beam().h_motor(), 0.01);
-    for (i, h) in arm.beam().h().iter().enumerate() {
+    within("coupling", id.beam.coupling, arm.dynamics().coupling_motor, 0.01);
+    for (i, h) in arm.dynamics().coupling.iter().enumerate() {
         within("coupling by tip", id.beam.coupling_by_tip[i], -h, 0.02);
     }
     let truth = arm.beam().natural_frequencies_rad_s();
@@ -126,7 +126,8 @@ fn stiff_axis(constant: f64, back_emf: f64) -> Vec<Run> {
         damping_n_s_per_m: 0.0,
     };
     let motor = Motor::new(2e-3, 0.01 + back_emf, constant).unwrap();
-    let arm = Arm::new(LumpedBeam::new(&[span]).unwrap(), motor, Coulomb::symmetric(0.06).unwrap());
+    let arm = Arm::new(LumpedBeam::new(&[span]).unwrap(), motor, Coulomb::symmetric(0.06).unwrap())
+        .unwrap();
     let t = 0.005;
     (0..3)
         .map(|run| {

@@ -379,7 +379,7 @@ fn near(case: &str, k: usize, what: &str, found: f64, expected: f64, tolerance: 
 fn run(case: &Case) {
     let base = report_arm();
     let coulomb = Coulomb::by_direction(case.coulomb.0, case.coulomb.1).unwrap();
-    let arm = Arm::new(base.beam().clone(), base.motor, coulomb);
+    let arm = Arm::new(base.beam().clone(), base.motor, coulomb).unwrap();
     let pd = Pd {
         proportional_a_per_rad: case.gains.0,
         derivative_a_s_per_rad: case.gains.1,

@@ -96,7 +96,7 @@ fn comparison(arm: &Arm, id: &Identified) -> Vec<Row> {
         Row {
             name: "coupling",
             unit: "N·m/rad",
-            truth: arm.beam().h_motor(),
+            truth: arm.dynamics().coupling_motor,
             third: fit.and_then(|f| f.coupling.first().copied()),
             regression: r.and_then(|r| r.coupling.first().copied().flatten()),
         },

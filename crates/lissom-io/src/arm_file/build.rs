@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use lissom::arm::Arm;
-use lissom::beam::{BeamError, LumpedBeam, Span};
+use lissom::beam::{BeamError, LumpedBeam, Payload, Span};
 use lissom::drive::{Coulomb, DriveError, Motor};
 use lissom::rig::{Pd, Quantiser, Rig, RigError};
 use thiserror::Error;
@@ -21,12 +21,6 @@ pub enum ArmError {
         file: PathBuf,
         /// Its missing table.
         table: &'static str,
-    },
-    /// A tip with rotary inertia.
-    #[error("{}: a tip with rotary inertia is not modelled", file.display())]
-    TipInertia {
-        /// The file.
-        file: PathBuf,
     },
     /// The beam's numbers.
     #[error("{}: {source}", file.display())]
@@ -59,7 +53,6 @@ impl ArmError {
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::MissingTable { table, .. } => Some(format!("add the table [{table}]")),
-            Self::TipInertia { .. } => Some("leave out `inertia` of the last span".to_owned()),
             _ => None,
         }
     }
@@ -73,11 +66,30 @@ impl ArmFile {
     pub fn arm(&self, path: &Path) -> Result<Arm, ArmError> {
         let file = || path.to_owned();
         let absent = |table| ArmError::MissingTable { file: file(), table };
-        let beam = self.beam.as_ref().ok_or_else(|| absent("beam"))?;
+        let lumped = self.lumped_beam(path)?;
         let drive = self.drive.as_ref().ok_or_else(|| absent("drive"))?;
-        if beam.tip_inertia_kg_m2.is_some_and(|i| i > 0.0) {
-            return Err(ArmError::TipInertia { file: file() });
-        }
+        let drive_error = |source| ArmError::Drive { file: file(), source };
+        let motor = Motor::new(
+            drive.inertia_kg_m2,
+            drive.viscous_nm_s_per_rad,
+            drive.torque_constant_nm_per_a,
+        )
+        .map_err(drive_error)?;
+        let coulomb = Coulomb::by_direction(drive.coulomb_forward_nm, drive.coulomb_backward_nm)
+            .map_err(drive_error)?;
+        Arm::new(lumped, motor, coulomb).map_err(|source| ArmError::Beam { file: file(), source })
+    }
+
+    /// The lumped beam that the file describes; `path` names the file in errors.
+    ///
+    /// # Errors
+    /// [`ArmError`] where `[beam]` is absent or its numbers make no beam.
+    pub fn lumped_beam(&self, path: &Path) -> Result<LumpedBeam, ArmError> {
+        let file = || path.to_owned();
+        let beam = self
+            .beam
+            .as_ref()
+            .ok_or_else(|| ArmError::MissingTable { file: file(), table: "beam" })?;
         let spans: Vec<Span> = beam
             .spans
             .iter()
@@ -88,18 +100,11 @@ impl ArmFile {
                 damping_n_s_per_m: s.damping_n_s_per_m,
             })
             .collect();
-        let lumped =
-            LumpedBeam::new(&spans).map_err(|source| ArmError::Beam { file: file(), source })?;
-        let drive_error = |source| ArmError::Drive { file: file(), source };
-        let motor = Motor::new(
-            drive.inertia_kg_m2,
-            drive.viscous_nm_s_per_rad,
-            drive.torque_constant_nm_per_a,
-        )
-        .map_err(drive_error)?;
-        let coulomb = Coulomb::by_direction(drive.coulomb_forward_nm, drive.coulomb_backward_nm)
-            .map_err(drive_error)?;
-        Ok(Arm::new(lumped, motor, coulomb))
+        let payload =
+            Payload { inertia_kg_m2: beam.tip_inertia_kg_m2.unwrap_or(0.0), ..Payload::default() };
+        LumpedBeam::new(&spans)
+            .and_then(|b| b.with_payload(payload))
+            .map_err(|source| ArmError::Beam { file: file(), source })
     }
 
     /// The arm in its loop; sensors of the tips are those of the motor.

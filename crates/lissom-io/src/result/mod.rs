@@ -238,6 +238,7 @@ fn state_space(s: &StateSpace) -> Value {
         "c": matrix(&s.c),
         "d": matrix(&s.d),
         "states": s.states,
+        "inputs": s.inputs,
         "outputs": s.outputs,
     })
 }

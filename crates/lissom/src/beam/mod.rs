@@ -1,5 +1,30 @@
-//! The beam, Sections 2-3 of the report: massless spans between point masses.
+//! The beam, Sections 2-4 of the report.
+//!
+//! A [`LumpedBeam`] is massless between point masses (Sections 2 and 3). Whatever does not need a
+//! matrix runs along the beam once, by the recursion of `chain`.
 
+mod bracket;
+mod chain;
+mod damped;
+mod dynamics;
+mod frequencies;
 mod lumped;
+mod matrices;
+mod modes;
+mod number;
+mod response;
+mod roots;
+mod span;
+mod three_moment;
+mod zeros;
 
-pub use lumped::{BeamError, LumpedBeam, Span};
+pub use damped::{Roots, motor_poles};
+pub use dynamics::BeamDynamics;
+pub use frequencies::Base;
+pub use lumped::LumpedBeam;
+pub use matrices::{BeamMatrices, MOST_MASSES};
+pub use modes::Mode;
+pub use response::BeamResponse;
+pub use roots::{RootClass, class};
+pub use span::{BeamError, Damping, Payload, Span};
+pub use zeros::Zeros;

@@ -1,5 +1,6 @@
 //! The linear part of the motor (14).
 
+use num_complex::Complex64;
 use thiserror::Error;
 
 /// Why numbers cannot make a drive.
@@ -64,5 +65,10 @@ impl Motor {
             });
         }
         Ok(Self { inertia_kg_m2, viscous_nm_s_per_rad, torque_constant_nm_per_a })
+    }
+
+    /// Torque per angle of the motor alone, `J·s² + V·s` \[N·m/rad\].
+    pub fn impedance(&self, s: Complex64) -> Complex64 {
+        s * (s * self.inertia_kg_m2 + self.viscous_nm_s_per_rad)
     }
 }

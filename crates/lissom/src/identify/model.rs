@@ -54,7 +54,8 @@ pub(crate) fn state_space(
         outputs.push(format!("{name}_{unit}"));
     }
     let d = DMatrix::zeros(1 + tips.len(), 1);
-    StateSpace { a, b, c, d, states, outputs }
+    let inputs = vec!["command".to_owned()];
+    StateSpace { a, b, c, d, states, inputs, outputs }
 }
 
 #[cfg(test)]

@@ -32,7 +32,7 @@ pub enum Mode {
 /// # use lissom::{arm::Arm, beam::{LumpedBeam, Span}, drive::{Coulomb, Motor}, rig::Hybrid};
 /// # let span = Span { length_m: 0.2, flexural_rigidity_n_m2: 0.004, mass_kg: 0.05, damping_n_s_per_m: 0.0 };
 /// # let beam = LumpedBeam::new(&[span]).unwrap();
-/// # let arm = Arm::new(beam, Motor::new(6e-4, 1e-3, 0.25).unwrap(), Coulomb::symmetric(0.03).unwrap());
+/// # let arm = Arm::new(beam, Motor::new(6e-4, 1e-3, 0.25).unwrap(), Coulomb::symmetric(0.03).unwrap()).unwrap();
 /// let mut hybrid = Hybrid::at_rest(&arm);
 /// hybrid.advance(0.029, 1.0); // N·m and s: below the friction of 0.03 N·m
 /// assert_eq!(hybrid.state()[0], 0.0);
@@ -302,7 +302,7 @@ mod tests {
         };
         let motor = Motor::new(6e-4, 1e-3, 0.25).unwrap();
         let beam = LumpedBeam::new(&[span]).unwrap();
-        Arm::new(beam, motor, Coulomb::symmetric(coulomb).unwrap())
+        Arm::new(beam, motor, Coulomb::symmetric(coulomb).unwrap()).unwrap()
     }
 
     #[test]

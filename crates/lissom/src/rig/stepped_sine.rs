@@ -48,7 +48,7 @@ impl Rig {
     /// # use lissom::rig::{Pd, Rig, SteppedSine};
     /// # let span = Span { length_m: 0.2, flexural_rigidity_n_m2: 0.004, mass_kg: 0.05, damping_n_s_per_m: 0.0 };
     /// # let beam = LumpedBeam::new(&[span]).unwrap();
-    /// # let arm = Arm::new(beam, Motor::new(6e-4, 1e-3, 0.25).unwrap(), Coulomb::symmetric(0.03).unwrap());
+    /// # let arm = Arm::new(beam, Motor::new(6e-4, 1e-3, 0.25).unwrap(), Coulomb::symmetric(0.03).unwrap()).unwrap();
     /// # let controller = Pd { proportional_a_per_rad: 8.0, derivative_a_s_per_rad: 0.2, limit_a: 4.0 };
     /// # let rig = Rig { arm, controller, sample_time_s: 0.003, motor_sensor: None, tip_sensor: None, current_converter: None };
     /// let drive = SteppedSine { omega_rad_s: 2.0, amplitude_rad: 0.5, settle_s: 3.0, record_s: 6.0 };

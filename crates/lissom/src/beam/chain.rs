@@ -1,0 +1,552 @@
+//! A beam as a chain of pieces and masses, and the 2×2 recursions that run along it.
+//!
+//! From the base, the outer end of what has been passed answers a force F and a torque T on it with
+//! `u = C·(F, T) + d·θ_m`, u = (deflection, slope) in the fixed frame. From the tip, the inner end
+//! of what has been passed asks for `(F, T) = Y·u`. Each piece changes C, d and Y in a fixed number
+//! of operations, whatever the frequency. Where the two meet, everything at that point follows.
+//!
+//! With z = s², a mass m is a stiffness m·z. The pivots `1 + m·z·C₁₁` are those of the LDLᵀ
+//! factorisation of `I + z·M^½·F·M^½` (F: flexibility): by Sylvester's law the number of negative
+//! ones at z = −ω² is the number of natural frequencies below ω. None can be missed.
+//!
+//! # Source
+//! The count is that of `[WittrickWilliams1971]`; flexibility in place of stiffness keeps the
+//! figures exact to rounding where many short spans make the stiffness ill-conditioned.
+
+use super::number::{Number, Scaled};
+
+/// Terms of the series of a piece with mass: for |x| ≤ 1 the seventh is below 1e-19.
+const TERMS: usize = 7;
+
+/// A piece of a chain, base to tip.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Element {
+    /// Elastic without mass: length \[m\], EI \[N·m²\].
+    Span { length: f64, rigidity: f64 },
+    /// Elastic with mass per length \[kg/m\].
+    Heavy { length: f64, rigidity: f64, mass_per_length: f64 },
+    /// Rigid, without mass: length \[m\].
+    Rigid { length: f64 },
+    /// Mass \[kg\], damped against the fixed frame \[N·s/m\].
+    Mass { mass: f64, damping: f64 },
+    /// Rotary inertia \[kg·m²\].
+    Inertia { inertia: f64 },
+}
+
+/// Where the recursion runs: what multiplies masses, and what multiplies dampers.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct At<N> {
+    /// s², or its counterpart where damping is proportional \[1/s²\].
+    pub(crate) z: N,
+    /// s, likewise \[1/s\]; zero where there are no dampers.
+    pub(crate) s: N,
+}
+
+impl<N: Number> At<N> {
+    /// Without dampers.
+    pub(crate) fn undamped(z: N) -> Self {
+        Self { z, s: N::real(0.0) }
+    }
+}
+
+/// Symmetric 2×2, its determinant carried beside it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sym<N> {
+    pub(crate) a: N,
+    pub(crate) b: N,
+    pub(crate) c: N,
+    /// `a·c − b²`, formed without that subtraction.
+    pub(crate) det: N,
+}
+
+impl<N: Number> Sym<N> {
+    fn zero() -> Self {
+        let o = N::real(0.0);
+        Self { a: o, b: o, c: o, det: o }
+    }
+    /// With the determinant from the entries, where it does not cancel.
+    fn new(a: N, b: N, c: N) -> Self {
+        Self { a, b, c, det: a * c - b * b }
+    }
+    fn times_all(self, factor: N) -> Self {
+        Self {
+            a: self.a * factor,
+            b: self.b * factor,
+            c: self.c * factor,
+            det: self.det * factor * factor,
+        }
+    }
+    /// The sum; its determinant is `det A + det B + tr(A·adj B)`.
+    fn plus(self, o: Self) -> Self {
+        let mixed = self.a * o.c + self.c * o.a - (self.b * o.b).times(2.0);
+        Self { a: self.a + o.a, b: self.b + o.b, c: self.c + o.c, det: self.det + o.det + mixed }
+    }
+    /// `T·S·Tᵀ`.
+    fn congruent(self, t: &Transport<N>) -> Self {
+        let [[p, q], [r, u]] = t.matrix;
+        // S·Tᵀ, by columns.
+        let (x1, y1) = (self.a * p + self.b * q, self.b * p + self.c * q);
+        let (x2, y2) = (self.a * r + self.b * u, self.b * r + self.c * u);
+        Self {
+            a: p * x1 + q * y1,
+            b: r * x1 + u * y1,
+            c: r * x2 + u * y2,
+            det: self.det * t.det * t.det,
+        }
+    }
+    /// `det(I + A·B) = 1 + tr(A·B) + det A·det B`.
+    pub(crate) fn meeting(self, o: Self) -> N {
+        let trace = self.a * o.a + (self.b * o.b).times(2.0) + self.c * o.c;
+        kept_from_zero(N::real(1.0) + trace + self.det * o.det)
+    }
+    /// `A·(I + B·A)⁻¹ = (A + det A·adj B)/det(I + B·A)`.
+    pub(crate) fn loaded(self, o: Self, det: N) -> Self {
+        let inverse = N::real(1.0) / det;
+        Self {
+            a: (self.a + self.det * o.c) * inverse,
+            b: (self.b - self.det * o.b) * inverse,
+            c: (self.c + self.det * o.a) * inverse,
+            det: self.det * inverse,
+        }
+    }
+}
+
+/// How one end moves with the other while nothing pulls at it.
+#[derive(Debug, Clone, Copy)]
+struct Transport<N> {
+    matrix: [[N; 2]; 2],
+    det: N,
+}
+
+impl<N: Number> Transport<N> {
+    fn apply(&self, (x, y): (N, N)) -> (N, N) {
+        let [[a, b], [c, d]] = self.matrix;
+        (a * x + b * y, c * x + d * y)
+    }
+    fn transposed(&self) -> Self {
+        let [[a, b], [c, d]] = self.matrix;
+        Self { matrix: [[a, c], [b, d]], det: self.det }
+    }
+}
+
+/// A piece with mass as: an inertia at its inner end, then a transport, then a compliance.
+///
+/// `u_b = T·u_a + C·f_b` and `f_a = W·u_a − Tᵀ·f_b`, f the loads on its ends.
+struct Piece<N> {
+    inertia: Sym<N>,
+    transport: Transport<N>,
+    compliance: Sym<N>,
+    /// Its own characteristic, one at rest: (1 + cos λ·cosh λ)/2.
+    own: N,
+}
+
+/// Largest |λ|, λ⁴ = x, of a piece with mass: well below the 1.8751 of its first clamped-free
+/// frequency.
+const LAMBDA_MOST: f64 = 1.0;
+
+/// How many equal parts a heavy piece is cut into.
+fn parts<N: Number>(at: At<N>, length: f64, rigidity: f64, mass: f64) -> usize {
+    let x = at.z.size() * mass * length.powi(4) / rigidity;
+    // A complex number's size here is its larger part: √2 covers the modulus.
+    ((2f64.sqrt() * x).powf(0.25) / LAMBDA_MOST).ceil().max(1.0) as usize
+}
+
+/// One part of a heavy piece, by the power series of its clamped-free functions in
+/// x = λ⁴ = −z·μ·l⁴/EI, entire in x: no hyperbolic functions to overflow or cancel.
+fn heavy<N: Number>(at: At<N>, length: f64, rigidity: f64, mass_per_length: f64) -> Piece<N> {
+    let load = at.z.times(mass_per_length); // z·μ [kg/(m·s²)]
+    let x = -load.times(length.powi(4) / rigidity);
+    // Σ base^m·k!/(4m+k)!·x^m, each term from the one before.
+    let series = |base: f64, k: usize| {
+        let mut term = N::real(1.0);
+        let mut sum = term;
+        for m in 1..TERMS {
+            let top = 4 * m + k;
+            let down: f64 = (top - 3..=top).map(|j| j as f64).product();
+            term = term * x.times(base / down);
+            sum = sum + term;
+        }
+        sum
+    };
+    // cos·cosh, (sin·cosh + cos·sinh)/2λ, sin·sinh/λ², 3(sin·cosh − cos·sinh)/2λ³ …
+    let own = (series(-4.0, 0) + N::real(1.0)).times(0.5);
+    let (p, q, r) = (series(-4.0, 1) / own, series(-4.0, 2) / own, series(-4.0, 3) / own);
+    // … (cos + cosh)/2, (sin + sinh)/2λ, 3(sinh − sin)/λ³.
+    let (a, b, g) = (series(1.0, 0) / own, series(1.0, 1) / own, series(1.0, 3) / own);
+    let l = length;
+    let lower = (x * g).times(1.0 / (6.0 * l));
+    Piece {
+        inertia: Sym::new(
+            (load * p).times(l),
+            (load * q).times(l * l / 2.0),
+            (load * r).times(l * l * l / 3.0),
+        ),
+        transport: Transport {
+            matrix: [[a, b.times(l)], [lower, a]],
+            det: a * a - b.times(l) * lower,
+        },
+        compliance: Sym::new(
+            r.times(l * l * l / (3.0 * rigidity)),
+            q.times(l * l / (2.0 * rigidity)),
+            p.times(l / rigidity),
+        ),
+        own,
+    }
+}
+
+/// A pivot of exactly zero is within rounding of this one.
+fn kept_from_zero<N: Number>(pivot: N) -> N {
+    if pivot.size() == 0.0 { N::real(f64::EPSILON) } else { pivot }
+}
+
+/// Bend of a massless span per moment, l/EI \[1/(N·m)\]; zero where it is rigid.
+fn bend(length: f64, rigidity: f64) -> f64 {
+    if rigidity.is_finite() { length / rigidity } else { 0.0 }
+}
+
+/// What has been passed coming from the base.
+///
+/// Beside C and d their minors are carried: det C and `e = C·(d₂, −d₁)`, as
+/// `e_k = C_1k·d₂ − C_2k·d₁`. Every step is then a ratio of sums that do not cancel in structure,
+/// whether a part of the beam is close to a resonance of its own or its spans are unlike by orders.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BaseSide<N> {
+    /// Compliance of the outer end.
+    pub(crate) compliance: Sym<N>,
+    /// Motion (deflection, slope) of the free outer end per motor angle.
+    pub(crate) motion: (N, N),
+    /// Minors of C with d.
+    minors: (N, N),
+    /// Torque per motor angle with the outer end free \[N·m/rad\].
+    pub(crate) torque: N,
+    /// Product of the pivots: the characteristic function of the part, one at z = 0.
+    pub(crate) det: Scaled<N>,
+    /// Negative pivots: for real z = −ω², the part's natural frequencies below ω.
+    pub(crate) below: usize,
+}
+
+impl<N: Number> BaseSide<N> {
+    /// The motor's axis.
+    pub(crate) fn clamped() -> Self {
+        let o = N::real(0.0);
+        Self {
+            compliance: Sym::zero(),
+            motion: (o, N::real(1.0)),
+            minors: (o, o),
+            torque: o,
+            det: Scaled::one(),
+            below: 0,
+        }
+    }
+
+    /// Passes an element.
+    pub(crate) fn pass(&mut self, at: At<N>, element: &Element) {
+        match *element {
+            Element::Span { length, rigidity } => self.span(length, bend(length, rigidity)),
+            Element::Rigid { length } => self.span(length, 0.0),
+            Element::Mass { mass, damping } => {
+                self.mass(at.z.times(mass) + at.s.times(damping));
+            }
+            Element::Inertia { inertia } => self.inertia(at.z.times(inertia)),
+            Element::Heavy { length, rigidity, mass_per_length } => {
+                let count = parts(at, length, rigidity, mass_per_length);
+                let part = heavy(at, length / count as f64, rigidity, mass_per_length);
+                for _ in 0..count {
+                    self.part(&part);
+                }
+            }
+        }
+    }
+
+    /// A massless span, `f` = l/EI: transport and compliance in one, so that nothing cancels.
+    fn span(&mut self, l: f64, f: f64) {
+        let (c, (d1, d2), (e1, e2)) = (self.compliance, self.motion, self.minors);
+        let (b, cc) = (c.b + c.c.times(l), c.c);
+        self.compliance = Sym {
+            a: c.a + (c.b + b).times(l) + N::real(l * l * f / 3.0),
+            b: b + N::real(l * f / 2.0),
+            c: cc + N::real(f),
+            det: c.det
+                + (c.a + c.b.times(l) + cc.times(l * l / 3.0)).times(f)
+                + N::real(l * l * f * f / 12.0),
+        };
+        self.motion = (d1 + d2.times(l), d2);
+        self.minors = (
+            e1 + e2.times(l) - (d2.times(l / 6.0) + d1.times(0.5)).times(l * f),
+            e2 - (d2.times(l / 2.0) + d1).times(f),
+        );
+    }
+
+    fn part(&mut self, piece: &Piece<N>) {
+        let w = piece.inertia;
+        let det = self.compliance.meeting(w);
+        let inverse = N::real(1.0) / det;
+        // (I + C·W)⁻¹·d = (d + adj(C·W)·d)/det, with the minors: d + (W₁₂e₁ + …).
+        let ((d1, d2), (e1, e2)) = (self.motion, self.minors);
+        let moved = ((d1 - w.b * e1 - w.c * e2) * inverse, (d2 + w.a * e1 + w.b * e2) * inverse);
+        // f = −W·u at the joint; the base carries it.
+        self.torque = self.torque
+            + d1 * (w.a * moved.0 + w.b * moved.1)
+            + d2 * (w.b * moved.0 + w.c * moved.1);
+        let trace = self.compliance.a * w.a
+            + (self.compliance.b * w.b).times(2.0)
+            + self.compliance.c * w.c
+            + N::real(2.0);
+        self.below += negative(det, trace);
+        self.compliance = self.compliance.loaded(w, det).congruent(&piece.transport);
+        self.motion = piece.transport.apply(moved);
+        let (e1, e2) = piece.transport.apply((e1 * inverse, e2 * inverse));
+        let (c, (d1, d2)) = (piece.compliance, self.motion);
+        self.minors = (
+            e1 * piece.transport.det + c.a * d2 - c.b * d1,
+            e2 * piece.transport.det + c.b * d2 - c.c * d1,
+        );
+        self.compliance = self.compliance.plus(piece.compliance);
+        self.det = self.det.times(det).times(piece.own);
+    }
+
+    fn mass(&mut self, stiffness: N) {
+        let (c, (d1, d2), (e1, e2)) = (self.compliance, self.motion, self.minors);
+        let pivot = kept_from_zero(N::real(1.0) + stiffness * c.a);
+        let g = N::real(1.0) / pivot;
+        self.torque = self.torque + stiffness * g * d1 * d1;
+        self.motion = (d1 * g, (d2 + stiffness * e1) * g);
+        self.compliance =
+            Sym { a: c.a * g, b: c.b * g, c: (c.c + stiffness * c.det) * g, det: c.det * g };
+        self.minors = (e1 * g, e2 * g);
+        self.det = self.det.times(pivot);
+        self.below += usize::from(pivot.sign_part() < 0.0);
+    }
+
+    fn inertia(&mut self, stiffness: N) {
+        let (c, (d1, d2), (e1, e2)) = (self.compliance, self.motion, self.minors);
+        let pivot = kept_from_zero(N::real(1.0) + stiffness * c.c);
+        let g = N::real(1.0) / pivot;
+        self.torque = self.torque + stiffness * g * d2 * d2;
+        self.motion = ((d1 - stiffness * e2) * g, d2 * g);
+        self.compliance =
+            Sym { a: (c.a + stiffness * c.det) * g, b: c.b * g, c: c.c * g, det: c.det * g };
+        self.minors = (e1 * g, e2 * g);
+        self.det = self.det.times(pivot);
+        self.below += usize::from(pivot.sign_part() < 0.0);
+    }
+}
+
+/// Negative ones among two real eigenvalues with this product and sum.
+fn negative<N: Number>(product: N, sum: N) -> usize {
+    if product.sign_part() < 0.0 {
+        1
+    } else if sum.sign_part() < 0.0 {
+        2
+    } else {
+        0
+    }
+}
+
+/// What has been passed coming from the tip.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TipSide<N> {
+    /// Dynamic stiffness at the inner end.
+    pub(crate) stiffness: Sym<N>,
+    /// Characteristic function of the part with its inner end clamped, one at z = 0.
+    pub(crate) det: Scaled<N>,
+}
+
+impl<N: Number> TipSide<N> {
+    /// The free tip.
+    pub(crate) fn free() -> Self {
+        Self { stiffness: Sym::zero(), det: Scaled::one() }
+    }
+
+    /// Passes an element.
+    pub(crate) fn pass(&mut self, at: At<N>, element: &Element) {
+        let y = self.stiffness;
+        match *element {
+            Element::Span { length, rigidity } => self.span(length, bend(length, rigidity)),
+            Element::Rigid { length } => self.span(length, 0.0),
+            Element::Mass { mass, damping } => {
+                let m = at.z.times(mass) + at.s.times(damping);
+                self.stiffness = Sym { a: y.a + m, det: y.det + m * y.c, ..y };
+            }
+            Element::Inertia { inertia } => {
+                let i = at.z.times(inertia);
+                self.stiffness = Sym { c: y.c + i, det: y.det + i * y.a, ..y };
+            }
+            Element::Heavy { length, rigidity, mass_per_length } => {
+                let count = parts(at, length, rigidity, mass_per_length);
+                let part = heavy(at, length / count as f64, rigidity, mass_per_length);
+                let inward = part.transport.transposed();
+                for _ in 0..count {
+                    let y = self.stiffness;
+                    let det = y.meeting(part.compliance);
+                    self.stiffness =
+                        y.loaded(part.compliance, det).congruent(&inward).plus(part.inertia);
+                    self.det = self.det.times(det).times(part.own);
+                }
+            }
+        }
+    }
+
+    /// A massless span, `f` = l/EI: compliance and transport in one, so that nothing cancels.
+    fn span(&mut self, l: f64, f: f64) {
+        let y = self.stiffness;
+        let det = kept_from_zero(
+            N::real(1.0)
+                + (y.a.times(l * l / 3.0) + y.b.times(l) + y.c).times(f)
+                + y.det.times(l * l * f * f / 12.0),
+        );
+        let g = N::real(1.0) / det;
+        self.stiffness = Sym {
+            a: y.a + y.det.times(f),
+            b: y.b + y.a.times(l) + y.det.times(l * f / 2.0),
+            c: y.c + (y.b.times(2.0) + y.a.times(l)).times(l) + y.det.times(l * l * f / 3.0),
+            det: y.det,
+        };
+        // Divided by det, the determinant of the whole once and not twice.
+        let whole = self.stiffness.times_all(g);
+        self.stiffness = Sym { det: y.det * g, ..whole };
+        self.det = self.det.times(det);
+    }
+}
+
+impl TipSide<f64> {
+    /// Motion at the outer end of `element`, from that at its inner end; `self` is what lies
+    /// beyond it.
+    pub(crate) fn carried(&self, element: &Element, (w, phi): (f64, f64)) -> (f64, f64) {
+        let (length, rigidity) = match *element {
+            Element::Span { length, rigidity } => (length, rigidity),
+            Element::Rigid { length } => (length, f64::INFINITY),
+            _ => return (w, phi),
+        };
+        let f = bend(length, rigidity);
+        let compliance = Sym {
+            a: length * length * f / 3.0,
+            b: length * f / 2.0,
+            c: f,
+            det: length * length * f * f / 12.0,
+        };
+        // (I + C·Y)·u = T·u_inner
+        let y = self.stiffness;
+        let det = compliance.meeting(y);
+        let (x1, x2) = (w + length * phi, phi);
+        let (m11, m12) = (
+            1.0 + compliance.a * y.a + compliance.b * y.b,
+            compliance.a * y.b + compliance.b * y.c,
+        );
+        let (m21, m22) = (
+            compliance.b * y.a + compliance.c * y.b,
+            1.0 + compliance.b * y.b + compliance.c * y.c,
+        );
+        ((m22 * x1 - m12 * x2) / det, (m11 * x2 - m21 * x1) / det)
+    }
+}
+
+/// What follows at a point where both sides meet.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Joined<N> {
+    base: BaseSide<N>,
+    tip: TipSide<N>,
+    /// `det(I + C·Y)`.
+    det: N,
+}
+
+impl<N: Number> Joined<N> {
+    pub(crate) fn new(base: BaseSide<N>, tip: TipSide<N>) -> Self {
+        Self { base, tip, det: base.compliance.meeting(tip.stiffness) }
+    }
+
+    /// Deflection and slope here in the fixed frame, per motor angle.
+    pub(crate) fn motion(&self) -> (N, N) {
+        let (u1, u2) = self.free_motion();
+        (u1 / self.det, u2 / self.det)
+    }
+
+    /// Torque that the motor gives to the beam, per motor angle: C_t/θ_m \[N·m/rad\].
+    pub(crate) fn coupling(&self) -> N {
+        self.base.torque + self.free_coupling() / self.det
+    }
+
+    /// The whole beam's characteristic function with the motor clamped, one at z = 0.
+    #[cfg(test)]
+    pub(crate) fn characteristic(&self) -> Scaled<N> {
+        self.base.det.product(self.tip.det).times(self.det)
+    }
+
+    /// Deflection per motor angle times the characteristic function: its zeros are those of the
+    /// response. A mass at this very point does not enter it.
+    pub(crate) fn numerator(&self) -> Scaled<N> {
+        self.base.det.product(self.tip.det).times(self.free_motion().0)
+    }
+
+    /// `det(I + C·Y)`, whose zeros are poles.
+    pub(crate) fn determinant(&self) -> N {
+        self.det
+    }
+
+    /// Deflection and slope times the determinant: `(I + C·Y)⁻¹·d` by the minors.
+    pub(crate) fn free_motion(&self) -> (N, N) {
+        let ((d1, d2), (e1, e2)) = (self.base.motion, self.base.minors);
+        let y = self.tip.stiffness;
+        (d1 - y.b * e1 - y.c * e2, d2 + y.a * e1 + y.b * e2)
+    }
+
+    /// Coupling times the determinant, but for what is no pole.
+    pub(crate) fn free_coupling(&self) -> N {
+        let (d1, d2) = self.base.motion;
+        let (u1, u2) = self.free_motion();
+        let y = self.tip.stiffness;
+        d1 * (y.a * u1 + y.b * u2) + d2 * (y.b * u1 + y.c * u2)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_heavy_piece_may_be_cut_anywhere() {
+        let at = At::undamped(-4000.0_f64);
+        let whole = [Element::Heavy { length: 1.0, rigidity: 2.0, mass_per_length: 3.0 }];
+        let cut: Vec<Element> = [0.3, 0.5, 0.2]
+            .iter()
+            .map(|&length| Element::Heavy { length, rigidity: 2.0, mass_per_length: 3.0 })
+            .collect();
+        let run = |elements: &[Element]| {
+            let mut side = BaseSide::clamped();
+            elements.iter().for_each(|e| side.pass(at, e));
+            side
+        };
+        let (a, b) = (run(&whole), run(&cut));
+        assert!((a.motion.0 / b.motion.0 - 1.0).abs() < 1e-12);
+        assert!((a.torque / b.torque - 1.0).abs() < 1e-12);
+        assert!((a.det.at(0) / b.det.at(0) - 1.0).abs() < 1e-12);
+        assert_eq!(a.below, b.below);
+        assert!(a.below > 0);
+    }
+
+    #[test]
+    fn both_sides_tell_the_same_wherever_they_meet() {
+        let at = At::undamped(-700.0_f64);
+        let chain = [
+            Element::Rigid { length: 0.1 },
+            Element::Span { length: 0.3, rigidity: 2.0 },
+            Element::Mass { mass: 0.5, damping: 0.0 },
+            Element::Heavy { length: 0.4, rigidity: 1.0, mass_per_length: 0.7 },
+            Element::Mass { mass: 0.2, damping: 0.0 },
+            Element::Inertia { inertia: 0.01 },
+        ];
+        let mut seen = Vec::new();
+        for cut in 0..=chain.len() {
+            let mut base = BaseSide::clamped();
+            chain[..cut].iter().for_each(|e| base.pass(at, e));
+            let mut tip = TipSide::free();
+            chain[cut..].iter().rev().for_each(|e| tip.pass(at, e));
+            let joined = Joined::new(base, tip);
+            seen.push((joined.coupling(), joined.characteristic().at(0)));
+        }
+        for (coupling, det) in &seen {
+            assert!((coupling / seen[0].0 - 1.0).abs() < 1e-11, "{seen:?}");
+            assert!((det / seen[0].1 - 1.0).abs() < 1e-11, "{seen:?}");
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! Natural frequencies by counting: none missed, each exact to rounding.
+
+use super::bracket::root;
+use super::chain::{At, BaseSide, Element};
+use super::number::{Number, Scaled};
+
+/// What the base of the beam does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Base {
+    /// Held: the poles of θ_i/θ_m.
+    Clamped,
+    /// Free to turn, without inertia: the zeros of C_t/θ_m other than s = 0.
+    Pinned,
+    /// Turning with a rotor of this inertia \[kg·m²\]: the poles of θ_m/i without viscous friction,
+    /// other than s = 0.
+    Rotor(f64),
+}
+
+/// Everything from the base to the tip.
+pub(crate) fn whole<N: Number>(elements: &[Element], at: At<N>) -> BaseSide<N> {
+    let mut side = BaseSide::clamped();
+    for element in elements {
+        side.pass(at, element);
+    }
+    side
+}
+
+/// The function of z whose negative roots are −ω², and how many of those lie below.
+fn characteristic(elements: &[Element], base: Base, z: f64) -> (Scaled<f64>, usize) {
+    let side = whole(elements, At::undamped(z));
+    let free = |inertia: f64| {
+        // Divided by z: the rigid turn is no oscillation. It is one negative pivot at any z < 0.
+        let pivot = side.torque / z + inertia;
+        (side.det.times(pivot), (side.below + usize::from(pivot > 0.0)).saturating_sub(1))
+    };
+    match base {
+        Base::Clamped => (side.det, side.below),
+        Base::Pinned => free(0.0),
+        Base::Rotor(inertia) => free(inertia),
+    }
+}
+
+/// How many natural frequencies lie below `omega_rad_s`.
+pub(crate) fn below(elements: &[Element], base: Base, omega_rad_s: f64) -> usize {
+    if omega_rad_s <= 0.0 {
+        return 0;
+    }
+    characteristic(elements, base, -omega_rad_s * omega_rad_s).1
+}
+
+/// Frequencies closer to each other than this, relatively, are given as one value.
+const TOGETHER: f64 = 4.0 * f64::EPSILON;
+
+/// Doublings of ω tried before a frequency is taken to be out of a double's range.
+const DOUBLINGS_MOST: usize = 1200;
+
+/// The lowest `count` natural frequencies, ascending \[rad/s\]; fewer where the chain has fewer or
+/// they are beyond the range of a double.
+///
+/// # Source
+/// `[WittrickWilliams1971]` for the count; between two points whose counts differ by one the
+/// characteristic function changes its sign once.
+pub(crate) fn lowest(elements: &[Element], base: Base, count: usize) -> Vec<f64> {
+    let degrees = degrees(elements).saturating_sub(usize::from(base == Base::Pinned));
+    let count = count.min(degrees);
+    if count == 0 {
+        return Vec::new();
+    }
+    // ω as a power of two: interval ends stay exact and any scale is reached.
+    let mut low = 1.0_f64;
+    for _ in 0..DOUBLINGS_MOST {
+        if below(elements, base, low) == 0 {
+            break;
+        }
+        low *= 0.5;
+    }
+    let mut high = low;
+    let mut reached = 0;
+    for _ in 0..DOUBLINGS_MOST {
+        high *= 2.0;
+        if high * high >= f64::MAX {
+            break;
+        }
+        reached = below(elements, base, high);
+        if reached >= count {
+            break;
+        }
+    }
+    let mut found = Vec::with_capacity(count);
+    isolate(elements, base, (low, 0), (high, reached), &mut found);
+    found.truncate(count);
+    found
+}
+
+/// Degrees of freedom: two at most at a joint, which moves and turns; `usize::MAX` with mass along
+/// a piece.
+pub(crate) fn degrees(elements: &[Element]) -> usize {
+    let (mut total, mut here, mut flexible) = (0_usize, 0_usize, false);
+    for element in elements {
+        match element {
+            Element::Heavy { .. } => return usize::MAX,
+            Element::Span { .. } => {
+                total += here.min(2);
+                (here, flexible) = (0, true);
+            }
+            Element::Mass { .. } | Element::Inertia { .. } => here += usize::from(flexible),
+            Element::Rigid { .. } => {}
+        }
+    }
+    total + here.min(2)
+}
+
+/// Splits an interval of ω until each part holds one frequency, ascending.
+fn isolate(
+    elements: &[Element],
+    base: Base,
+    (low, below_low): (f64, usize),
+    (high, below_high): (f64, usize),
+    found: &mut Vec<f64>,
+) {
+    match below_high.saturating_sub(below_low) {
+        0 => {}
+        1 => {
+            let f = |omega: f64| characteristic(elements, base, -omega * omega).0;
+            found.push(root(f, low, high));
+        }
+        several => {
+            let middle = 0.5 * (low + high);
+            if high - low <= TOGETHER * high {
+                found.extend(std::iter::repeat_n(middle, several));
+                return;
+            }
+            let count = below(elements, base, middle).clamp(below_low, below_high);
+            isolate(elements, base, (low, below_low), (middle, count), found);
+            isolate(elements, base, (middle, count), (high, below_high), found);
+        }
+    }
+}

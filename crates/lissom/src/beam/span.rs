@@ -1,0 +1,225 @@
+//! What a lumped beam is made of, and what makes it impossible.
+
+use thiserror::Error;
+
+/// One span and the mass at its outer end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Span {
+    /// Length \[m\].
+    pub length_m: f64,
+    /// Flexural rigidity EI, constant along the span \[N·m²\].
+    pub flexural_rigidity_n_m2: f64,
+    /// Mass at the outer end \[kg\].
+    pub mass_kg: f64,
+    /// Viscous damping of that mass against the fixed frame \[N·s/m\].
+    pub damping_n_s_per_m: f64,
+}
+
+/// A rigid body at the tip, beyond the last mass.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Payload {
+    /// Mass \[kg\].
+    pub mass_kg: f64,
+    /// Rotary inertia about its own centre of mass \[kg·m²\].
+    pub inertia_kg_m2: f64,
+    /// Distance of its centre of mass beyond the tip, along the beam; negative towards the motor
+    /// \[m\].
+    pub offset_m: f64,
+}
+
+impl Payload {
+    /// Whether the tip's slope needs a torque: it then is a degree of freedom.
+    pub fn turns(&self) -> bool {
+        self.inertia_kg_m2 > 0.0 || (self.mass_kg > 0.0 && self.offset_m != 0.0)
+    }
+
+    fn check(&self) -> Result<(), BeamError> {
+        if !self.offset_m.is_finite() {
+            return Err(BeamError::Payload { quantity: "offset_m", found: self.offset_m });
+        }
+        let parts = [("mass_kg", self.mass_kg), ("inertia_kg_m2", self.inertia_kg_m2)];
+        for (quantity, found) in parts {
+            if !(found >= 0.0 && found.is_finite()) {
+                return Err(BeamError::Payload { quantity, found });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Damping beside that of each mass.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub enum Damping {
+    /// None.
+    #[default]
+    None,
+    /// Proportional to mass and stiffness (Rayleigh).
+    ///
+    /// `α·m_i·(velocity in the fixed frame)` at each mass and `β` times the rate of every elastic
+    /// force: turning the arm as one body strains nothing and is not damped by β. Proportional to
+    /// the mass of the payload likewise.
+    Proportional {
+        /// α \[1/s\].
+        mass_per_s: f64,
+        /// β \[s\].
+        stiffness_s: f64,
+    },
+    /// A damping ratio for each mode of the beam with the motor clamped, on its deflection from
+    /// the motor's line. The last one given holds for all further modes.
+    Modal {
+        /// ζ_k \[1\], at least one.
+        ratios: Vec<f64>,
+    },
+}
+
+impl Damping {
+    fn check(&self) -> Result<(), BeamError> {
+        let each: Vec<(&'static str, f64)> = match self {
+            Self::None => Vec::new(),
+            Self::Proportional { mass_per_s, stiffness_s } => {
+                vec![("mass_per_s", *mass_per_s), ("stiffness_s", *stiffness_s)]
+            }
+            Self::Modal { ratios } if ratios.is_empty() => {
+                return Err(BeamError::NoRatios);
+            }
+            Self::Modal { ratios } => ratios.iter().map(|r| ("ratios", *r)).collect(),
+        };
+        for (quantity, found) in each {
+            if !(found >= 0.0 && found.is_finite()) {
+                return Err(BeamError::DampingModel { quantity, found });
+            }
+        }
+        Ok(())
+    }
+
+    /// ζ of mode `index`, from 0; `None` where damping is not modal.
+    pub fn ratio(&self, index: usize) -> Option<f64> {
+        match self {
+            Self::Modal { ratios } => ratios.get(index).or(ratios.last()).copied(),
+            _ => None,
+        }
+    }
+
+    /// α and β, zero where damping is not proportional.
+    pub fn proportional(&self) -> (f64, f64) {
+        match self {
+            Self::Proportional { mass_per_s, stiffness_s } => (*mass_per_s, *stiffness_s),
+            _ => (0.0, 0.0),
+        }
+    }
+}
+
+/// What makes numbers no beam.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum BeamError {
+    /// A beam without spans.
+    #[error("the beam has no spans")]
+    NoSpans,
+    /// More degrees of freedom than dense matrices are meant for.
+    #[error("{found} masses; matrices are made for at most {most}")]
+    TooManyMasses {
+        /// Masses given.
+        found: usize,
+        /// Masses supported.
+        most: usize,
+    },
+    /// A dimension is not positive and finite.
+    #[error("span {span}: {quantity} = {found} is not positive and finite")]
+    NotPositive {
+        /// Number of the span, from 1 at the base.
+        span: usize,
+        /// Which quantity, with its unit.
+        quantity: &'static str,
+        /// The number found.
+        found: f64,
+    },
+    /// A quantity of a span that may be zero is negative or not finite.
+    #[error("span {span}: {quantity} = {found} is negative or not finite")]
+    Negative {
+        /// Number of the span, from 1 at the base.
+        span: usize,
+        /// Which quantity, with its unit.
+        quantity: &'static str,
+        /// The number found.
+        found: f64,
+    },
+    /// The hub's radius is negative or not finite.
+    #[error("hub_radius_m = {found} is negative or not finite")]
+    HubRadius {
+        /// The number found.
+        found: f64,
+    },
+    /// A quantity of the payload is negative or not finite.
+    #[error("payload: {quantity} = {found} is negative or not finite")]
+    Payload {
+        /// Which quantity, with its unit.
+        quantity: &'static str,
+        /// The number found.
+        found: f64,
+    },
+    /// A quantity of the damping model is negative or not finite.
+    #[error("damping: {quantity} = {found} is negative or not finite")]
+    DampingModel {
+        /// Which quantity, with its unit.
+        quantity: &'static str,
+        /// The number found.
+        found: f64,
+    },
+    /// Modal damping without a ratio.
+    #[error("modal damping needs at least one ratio")]
+    NoRatios,
+    /// A beam without any mass.
+    #[error("the beam has no mass")]
+    NoMass,
+    /// Dimensions so far apart that numbers leave the range of a double.
+    #[error("the dimensions are so far apart that {quantity} leaves the range of a double")]
+    OutOfRange {
+        /// What left it.
+        quantity: &'static str,
+    },
+}
+
+/// Checks everything that does not hang on the number of masses.
+pub(super) fn check(
+    spans: &[Span],
+    hub_radius_m: f64,
+    payload: &Payload,
+    damping: &Damping,
+) -> Result<(), BeamError> {
+    if spans.is_empty() {
+        return Err(BeamError::NoSpans);
+    }
+    for (index, span) in spans.iter().enumerate() {
+        let positive = [
+            ("length_m", span.length_m),
+            ("flexural_rigidity_n_m2", span.flexural_rigidity_n_m2),
+            ("mass_kg", span.mass_kg),
+        ];
+        for (quantity, found) in positive {
+            if !(found > 0.0 && found.is_finite()) {
+                return Err(BeamError::NotPositive { span: index + 1, quantity, found });
+            }
+        }
+        let found = span.damping_n_s_per_m;
+        if !(found >= 0.0 && found.is_finite()) {
+            let quantity = "damping_n_s_per_m";
+            return Err(BeamError::Negative { span: index + 1, quantity, found });
+        }
+    }
+    check_rest(hub_radius_m, payload, damping)
+}
+
+/// Checks hub, payload and damping.
+pub(super) fn check_rest(
+    hub_radius_m: f64,
+    payload: &Payload,
+    damping: &Damping,
+) -> Result<(), BeamError> {
+    if !(hub_radius_m >= 0.0 && hub_radius_m.is_finite()) {
+        return Err(BeamError::HubRadius { found: hub_radius_m });
+    }
+    payload.check()?;
+    damping.check()
+}

@@ -1,0 +1,145 @@
+//! Zeros of θ_i/θ_m.
+
+use num_complex::Complex64;
+
+use super::bracket::root;
+use super::chain::{At, BaseSide, Element, Joined, TipSide};
+use super::frequencies::{Base, degrees, lowest};
+use super::number::{Dual, Number, Scaled};
+use super::roots::further;
+use super::{LumpedBeam, RootClass, class};
+
+/// The finite zeros of one response, as z = s², by growing |z|.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Zeros {
+    /// z = s² \[1/s²\], undamped: real, or in conjugate pairs.
+    pub z: Vec<Complex64>,
+    /// How many more there are that the search has not found: zero but for pathological beams.
+    pub missing: usize,
+}
+
+impl Zeros {
+    /// Class of each, in the same order.
+    pub fn classes(&self) -> Vec<RootClass> {
+        self.z.iter().map(|z| class(*z)).collect()
+    }
+
+    /// Whether all lie on the imaginary axis: class a alone.
+    pub fn minimum_phase(&self) -> bool {
+        self.missing == 0 && self.z.iter().all(|z| class(*z) == RootClass::Imaginary)
+    }
+}
+
+/// The numerator's sides at a joint.
+pub(crate) fn at_joint<N: Number>(elements: &[Element], joint: usize, at: At<N>) -> Joined<N> {
+    let mut base = BaseSide::clamped();
+    elements[..joint].iter().for_each(|e| base.pass(at, e));
+    let mut tip = TipSide::free();
+    elements[joint..].iter().rev().for_each(|e| tip.pass(at, e));
+    Joined::new(base, tip)
+}
+
+/// N′/N of a scaled dual.
+pub(crate) fn log_slope(n: Scaled<Dual<Complex64>>) -> Complex64 {
+    n.mantissa.slope / n.mantissa.value
+}
+
+/// Points of the first grid per zero sought.
+const GRID_EACH: usize = 4;
+/// Times that the grid is made twice as fine.
+const FINER_MOST: usize = 5;
+
+/// Zeros on both sides of z = 0 with |z| between `low` and `high`, `wanted` in all, by changes of
+/// sign on a grid in log |z|, then by Brent's method.
+pub(crate) fn real_zeros(
+    numerator: impl Fn(f64) -> Scaled<f64>,
+    wanted: usize,
+    (low, high): (f64, f64),
+) -> Vec<f64> {
+    let positive = |v: f64| numerator(v).mantissa > 0.0;
+    let mut grids: Vec<Vec<(f64, bool)>> = [1.0, -1.0]
+        .iter()
+        .map(|side| {
+            let count = GRID_EACH * wanted + 8;
+            let at =
+                |k: usize| side * (low.ln() + (high / low).ln() * k as f64 / count as f64).exp();
+            (0..=count).map(at).map(|v| (v, positive(v))).collect()
+        })
+        .collect();
+    let changes = |grids: &[Vec<(f64, bool)>]| -> usize {
+        grids.iter().map(|g| g.windows(2).filter(|w| w[0].1 != w[1].1).count()).sum()
+    };
+    for _ in 0..FINER_MOST {
+        if changes(&grids) >= wanted {
+            break;
+        }
+        for grid in &mut grids {
+            let mut finer = Vec::with_capacity(2 * grid.len());
+            for w in grid.windows(2) {
+                let middle = (w[0].0 * w[1].0).sqrt().copysign(w[0].0);
+                finer.push(w[0]);
+                finer.push((middle, positive(middle)));
+            }
+            finer.extend(grid.last().copied());
+            *grid = finer;
+        }
+    }
+    let mut zeros = Vec::with_capacity(wanted);
+    for grid in &grids {
+        for w in grid.windows(2).filter(|w| w[0].1 != w[1].1) {
+            zeros.push(root(&numerator, w[0].0, w[1].0));
+        }
+    }
+    zeros
+}
+
+/// How far beyond the natural frequencies the search for zeros goes at first, in |z|.
+const MARGIN: f64 = 1e3;
+
+/// All zeros at `joint`, the lowest joint counting from the base.
+fn all(elements: &[Element], joint: usize) -> Zeros {
+    let wanted = degrees(elements).saturating_sub(1);
+    if wanted == 0 {
+        return Zeros { z: Vec::new(), missing: 0 };
+    }
+    let frequencies = lowest(elements, Base::Clamped, usize::MAX);
+    let (first, last) = (frequencies[0], frequencies[frequencies.len() - 1]);
+    let numerator = |z: f64| at_joint(elements, joint, At::undamped(z)).numerator();
+    let slope = |z: Complex64| {
+        log_slope(at_joint(elements, joint, At::undamped(Dual::variable(z))).numerator())
+    };
+    let mut range = (first * first / MARGIN, last * last * MARGIN);
+    let mut z: Vec<Complex64> = Vec::new();
+    for _ in 0..3 {
+        z = real_zeros(numerator, wanted, range).into_iter().map(Complex64::from).collect();
+        if z.len() < wanted {
+            let more = further(slope, &z, wanted - z.len(), range);
+            z.extend(more);
+        }
+        if z.len() >= wanted {
+            break;
+        }
+        range = (range.0 / (MARGIN * MARGIN), range.1 * MARGIN * MARGIN);
+    }
+    z.sort_by(|a, b| a.norm().total_cmp(&b.norm()).then(a.im.total_cmp(&b.im)));
+    let missing = wanted.saturating_sub(z.len());
+    Zeros { z, missing }
+}
+
+impl LumpedBeam {
+    /// The zeros of θ_i/θ_m at mass `mass` (from 0 at the base), damping left out: as many as the
+    /// beam has degrees of freedom, less one.
+    ///
+    /// Real zeros are found as changes of sign of the numerator along the recursion, complex ones
+    /// by Newton's method with those found divided out; the degree says when all are there. The
+    /// mass at this point does not enter: zeros' invariance.
+    ///
+    /// `None` where there is no such mass.
+    ///
+    /// # Source
+    /// `[Feliu1989, Section 3, properties 1, 2 and 4]`
+    pub fn zeros(&self, mass: usize) -> Option<Zeros> {
+        let joint = self.joints().nth(mass)?;
+        Some(all(self.elements(), joint))
+    }
+}
