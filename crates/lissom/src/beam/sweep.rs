@@ -10,6 +10,8 @@
 //! # Source
 //! The compound form of the recursion, `[Ng1985]`.
 
+#![expect(clippy::needless_range_loop, reason = "lanes side by side are what is vectorised")]
+
 use num_complex::Complex64;
 
 use super::{LumpedBeam, Span};
@@ -83,7 +85,7 @@ impl State {
     }
 
     /// A span and its mass at −ω² = −`square`.
-    #[inline(always)]
+    #[inline]
     fn pass(&mut self, square: &Lane, q: &Coefficients) {
         for j in 0..LANES {
             let load = square[j] * q.m;
@@ -103,7 +105,7 @@ impl State {
     }
 
     /// Takes a power of two out of all numbers: G is a ratio of them.
-    #[inline(always)]
+    #[inline]
     fn settle(&mut self) {
         for j in 0..LANES {
             let back = reciprocal_power(self.p[j].abs().max(self.d2[j].abs()));
@@ -125,7 +127,7 @@ impl State {
 }
 
 /// 2^−k for a number of size 2^k, from its exponent's bits.
-#[inline(always)]
+#[inline]
 fn reciprocal_power(size: f64) -> f64 {
     const EXPONENT: u64 = 0x7FF0_0000_0000_0000;
     // Twice the bias of 1023, less the exponent.
