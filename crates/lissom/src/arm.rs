@@ -3,9 +3,9 @@
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
-use crate::beam::{BeamDynamics, BeamError, LumpedBeam, Roots, motor_poles};
+use crate::beam::{BeamDynamics, BeamError, LumpedBeam, Roots, current_to_angle, motor_function, motor_poles};
 use crate::drive::{Coulomb, Motor};
-use crate::lti::StateSpace;
+use crate::lti::{StateSpace, ZeroPoleGain};
 
 /// A single-link flexible arm with a friction joint.
 ///
@@ -153,6 +153,19 @@ impl Arm {
     /// `[Feliu1989, eqs. (13)-(15)]`
     pub fn poles(&self) -> Roots {
         motor_poles(&self.beam, &self.motor)
+    }
+
+    /// θ_m/i \[rad/A\], Coulomb friction left out: its zeros are the beam's poles.
+    ///
+    /// # Source
+    /// `[Feliu1989, eqs. (13)-(15)]`; the form of (35).
+    pub fn motor_function(&self) -> ZeroPoleGain {
+        motor_function(&self.beam, &self.motor)
+    }
+
+    /// θ_i/i \[rad/A\] of mass `mass`, from 0 at the base; `None` where there is no such mass.
+    pub fn angle_function(&self, mass: usize) -> Option<ZeroPoleGain> {
+        current_to_angle(&self.beam, &self.motor, mass)
     }
 
     /// The coupled arm (13)-(15) as one state space, Coulomb friction left out.

@@ -216,3 +216,54 @@ pub fn motor_poles(beam: &LumpedBeam, motor: &Motor) -> Roots {
     s.push(Complex64::ZERO);
     Roots { s: sorted(s), missing }
 }
+
+impl LumpedBeam {
+    /// Zeros of C_t/θ_m where dampers at the masses or modal ratios leave no closed form: from
+    /// those without damping.
+    pub(super) fn coupling_zeros_together(&self, squares: &[Complex64]) -> Roots {
+        let modal = matches!(self.damping(), Damping::Modal { .. });
+        let modes = if modal { self.modes(usize::MAX) } else { Vec::new() };
+        // Divided by s: the zero at the origin is known, and with modal damping, which turning as
+        // one body does not feel, it is double.
+        let function = |s: Complex64| {
+            let s = Jet::variable(s);
+            if modal {
+                let (det, coupling) = self.modal_characteristic(s, &modes, None);
+                return log_slope(det.times(coupling / (s * s)));
+            }
+            let (det, coupling) = self.characteristic(s);
+            log_slope(det.times(coupling / s))
+        };
+        let mut all = starts(squares);
+        let mut known = vec![Complex64::ZERO];
+        let (_, beta) = self.damping().proportional();
+        if modal {
+            known.push(Complex64::ZERO);
+            // Relative degree one: the modes' rates pass torque on at once.
+            let (mut rate, mut stiffness) = (0.0, 0.0);
+            for (k, mode) in modes.iter().enumerate() {
+                let omega = mode.natural_frequency_rad_s;
+                let zeta = self.damping().ratio(k).unwrap_or(0.0);
+                rate += 2.0 * zeta * omega * mode.inertia_kg_m2;
+                stiffness += omega * omega * mode.inertia_kg_m2;
+            }
+            if rate > 0.0 {
+                all.push(Complex64::from(-stiffness / rate));
+            }
+        } else {
+            let drag: f64 = self
+                .spans()
+                .iter()
+                .zip(self.position_m())
+                .map(|(s, l)| s.damping_n_s_per_m * l * l)
+                .sum();
+            all.push(Complex64::from(-drag / self.inertia_kg_m2()));
+        }
+        if beta > 0.0 {
+            known.push(Complex64::from(-1.0 / beta));
+        }
+        let (mut s, missing) = together(function, all);
+        s.extend(known);
+        Roots { s: sorted(s), missing }
+    }
+}

@@ -16,6 +16,7 @@ mod response;
 mod roots;
 mod span;
 mod three_moment;
+mod transfer;
 mod zeros;
 
 pub use damped::{Roots, motor_poles};
@@ -27,4 +28,5 @@ pub use modes::Mode;
 pub use response::BeamResponse;
 pub use roots::{RootClass, class};
 pub use span::{BeamError, Damping, Payload, Span};
+pub use transfer::{current_to_angle, motor_function};
 pub use zeros::Zeros;

@@ -3,7 +3,9 @@
 mod polynomial;
 mod state_space;
 mod transfer_function;
+mod zero_pole_gain;
 
 pub use polynomial::{add, multiply};
 pub use state_space::StateSpace;
 pub use transfer_function::TransferFunction;
+pub use zero_pole_gain::ZeroPoleGain;

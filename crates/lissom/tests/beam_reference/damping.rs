@@ -11,7 +11,7 @@ const ROOTS: f64 = 1e-10;
 /// Responses, against the larger of their size and one.
 const RESPONSES: f64 = 1e-10;
 
-fn damped(case: &Value) -> LumpedBeam {
+pub(crate) fn damped(case: &Value) -> LumpedBeam {
     let damping = match case["kind"].as_str().unwrap() {
         "modal" => Damping::Modal { ratios: numbers(&case["zeta"]) },
         _ => Damping::Proportional {

@@ -4,3 +4,4 @@
 mod damping;
 mod data;
 mod lumped;
+mod transfer;
