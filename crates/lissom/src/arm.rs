@@ -3,7 +3,9 @@
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
-use crate::beam::{BeamDynamics, BeamError, LumpedBeam, Roots, current_to_angle, motor_function, motor_poles};
+use crate::beam::{
+    BeamDynamics, BeamError, LumpedBeam, Roots, current_to_angle, motor_function, motor_poles,
+};
 use crate::drive::{Coulomb, Motor};
 use crate::lti::{StateSpace, ZeroPoleGain};
 

@@ -33,7 +33,8 @@ impl LumpedBeam {
         let zeros = self.coupling_zeros(&squares);
         let inertia = self.inertia_kg_m2();
         // The zeros at the origin are left out of the low-frequency ratio.
-        let apart: Vec<Complex64> = zeros.s.iter().filter(|z| **z != Complex64::ZERO).copied().collect();
+        let apart: Vec<Complex64> =
+            zeros.s.iter().filter(|z| **z != Complex64::ZERO).copied().collect();
         let origin = zeros.s.len() - apart.len();
         let low = if origin == 2 { inertia } else { self.drag_nm_s_per_rad() };
         let gain = low * ratio(&poles.s, &apart);
