@@ -96,8 +96,11 @@ impl<N: Number> Sym<N> {
     }
     /// `det(I + A·B) = 1 + tr(A·B) + det A·det B`.
     pub(crate) fn meeting(self, o: Self) -> N {
-        let trace = self.a * o.a + (self.b * o.b).times(2.0) + self.c * o.c;
-        kept_from_zero(N::real(1.0) + trace + self.det * o.det)
+        kept_from_zero(N::real(1.0) + self.trace(o) + self.det * o.det)
+    }
+    /// `tr(A·B)`.
+    fn trace(self, o: Self) -> N {
+        self.a * o.a + (self.b * o.b).times(2.0) + self.c * o.c
     }
     /// `A·(I + B·A)⁻¹ = (A + det A·adj B)/det(I + B·A)`.
     pub(crate) fn loaded(self, o: Self, det: N) -> Self {
@@ -288,11 +291,7 @@ impl<N: Number> BaseSide<N> {
         self.torque = self.torque
             + d1 * (w.a * moved.0 + w.b * moved.1)
             + d2 * (w.b * moved.0 + w.c * moved.1);
-        let trace = self.compliance.a * w.a
-            + (self.compliance.b * w.b).times(2.0)
-            + self.compliance.c * w.c
-            + N::real(2.0);
-        self.below += negative(det, trace);
+        self.below += negative(det, self.compliance.trace(w) + N::real(2.0));
         self.compliance = self.compliance.loaded(w, det).congruent(&piece.transport);
         self.motion = piece.transport.apply(moved);
         let (e1, e2) = piece.transport.apply((e1 * inverse, e2 * inverse));
@@ -350,12 +349,14 @@ pub(crate) struct TipSide<N> {
     pub(crate) stiffness: Sym<N>,
     /// Characteristic function of the part with its inner end clamped, one at z = 0.
     pub(crate) det: Scaled<N>,
+    /// For real z = −ω², the part's natural frequencies below ω with its inner end clamped.
+    pub(crate) below: usize,
 }
 
 impl<N: Number> TipSide<N> {
     /// The free tip.
     pub(crate) fn free() -> Self {
-        Self { stiffness: Sym::zero(), det: Scaled::one() }
+        Self { stiffness: Sym::zero(), det: Scaled::one(), below: 0 }
     }
 
     /// Passes an element.
@@ -379,6 +380,7 @@ impl<N: Number> TipSide<N> {
                 for _ in 0..count {
                     let y = self.stiffness;
                     let det = y.meeting(part.compliance);
+                    self.below += negative(det, y.trace(part.compliance) + N::real(2.0));
                     self.stiffness =
                         y.loaded(part.compliance, det).congruent(&inward).plus(part.inertia);
                     self.det = self.det.times(det).times(part.own);
@@ -390,11 +392,9 @@ impl<N: Number> TipSide<N> {
     /// A massless span, `f` = l/EI: compliance and transport in one, so that nothing cancels.
     fn span(&mut self, l: f64, f: f64) {
         let y = self.stiffness;
-        let det = kept_from_zero(
-            N::real(1.0)
-                + (y.a.times(l * l / 3.0) + y.b.times(l) + y.c).times(f)
-                + y.det.times(l * l * f * f / 12.0),
-        );
+        let trace = (y.a.times(l * l / 3.0) + y.b.times(l) + y.c).times(f);
+        let det = kept_from_zero(N::real(1.0) + trace + y.det.times(l * l * f * f / 12.0));
+        self.below += negative(det, trace + N::real(2.0));
         let g = N::real(1.0) / det;
         self.stiffness = Sym {
             a: y.a + y.det.times(f),
@@ -409,35 +409,90 @@ impl<N: Number> TipSide<N> {
     }
 }
 
-impl TipSide<f64> {
-    /// Motion at the outer end of `element`, from that at its inner end; `self` is what lies
-    /// beyond it.
-    pub(crate) fn carried(&self, element: &Element, (w, phi): (f64, f64)) -> (f64, f64) {
-        let (length, rigidity) = match *element {
-            Element::Span { length, rigidity } => (length, rigidity),
-            Element::Rigid { length } => (length, f64::INFINITY),
-            _ => return (w, phi),
-        };
-        let f = bend(length, rigidity);
-        let compliance = Sym {
+/// A piece at one z, for carrying a motion across it.
+fn piece(at: At<f64>, element: &Element) -> Option<Piece<f64>> {
+    let (length, rigidity) = match *element {
+        Element::Heavy { length, rigidity, mass_per_length } => {
+            return Some(heavy(at, length, rigidity, mass_per_length));
+        }
+        Element::Span { length, rigidity } => (length, rigidity),
+        Element::Rigid { length } => (length, f64::INFINITY),
+        Element::Mass { .. } | Element::Inertia { .. } => return None,
+    };
+    let f = bend(length, rigidity);
+    Some(Piece {
+        inertia: Sym::zero(),
+        transport: Transport { matrix: [[1.0, length], [0.0, 1.0]], det: 1.0 },
+        compliance: Sym {
             a: length * length * f / 3.0,
             b: length * f / 2.0,
             c: f,
             det: length * length * f * f / 12.0,
+        },
+        own: 1.0,
+    })
+}
+
+/// The elements with heavy ones cut into parts short enough for `at`, and where each old one
+/// begins among the new ones (and their end).
+pub(crate) fn cut_up(elements: &[Element], at: At<f64>) -> (Vec<Element>, Vec<usize>) {
+    let mut cut = Vec::with_capacity(elements.len());
+    let mut place = Vec::with_capacity(elements.len() + 1);
+    for element in elements {
+        place.push(cut.len());
+        match *element {
+            Element::Heavy { length, rigidity, mass_per_length } => {
+                let count = parts(at, length, rigidity, mass_per_length);
+                let length = length / count as f64;
+                let part = Element::Heavy { length, rigidity, mass_per_length };
+                cut.extend(std::iter::repeat_n(part, count));
+            }
+            other => cut.push(other),
+        }
+    }
+    place.push(cut.len());
+    (cut, place)
+}
+
+impl TipSide<f64> {
+    /// Motion at the outer end of `element`, not longer than a part, from that at its inner end;
+    /// `self` is what lies beyond it.
+    pub(crate) fn carried(&self, at: At<f64>, element: &Element, inner: (f64, f64)) -> (f64, f64) {
+        let Some(Piece { transport, compliance: c, .. }) = piece(at, element) else {
+            return inner;
         };
         // (I + C·Y)·u = T·u_inner
         let y = self.stiffness;
-        let det = compliance.meeting(y);
-        let (x1, x2) = (w + length * phi, phi);
-        let (m11, m12) = (
-            1.0 + compliance.a * y.a + compliance.b * y.b,
-            compliance.a * y.b + compliance.b * y.c,
-        );
-        let (m21, m22) = (
-            compliance.b * y.a + compliance.c * y.b,
-            1.0 + compliance.b * y.b + compliance.c * y.c,
-        );
+        let det = c.meeting(y);
+        let (x1, x2) = transport.apply(inner);
+        let (m11, m12) = (1.0 + c.a * y.a + c.b * y.b, c.a * y.b + c.b * y.c);
+        let (m21, m22) = (c.b * y.a + c.c * y.b, 1.0 + c.b * y.b + c.c * y.c);
         ((m22 * x1 - m12 * x2) / det, (m11 * x2 - m21 * x1) / det)
+    }
+}
+
+impl BaseSide<f64> {
+    /// Load on `self` and its motion, both at the inner end of `element`, from those at its outer
+    /// end; the motor is clamped.
+    pub(crate) fn carried(
+        &self,
+        at: At<f64>,
+        element: &Element,
+        (force, torque): (f64, f64),
+        outer: (f64, f64),
+    ) -> ((f64, f64), (f64, f64)) {
+        match *element {
+            Element::Mass { mass, .. } => ((force - mass * at.z * outer.0, torque), outer),
+            Element::Inertia { inertia } => ((force, torque - inertia * at.z * outer.1), outer),
+            _ => {
+                let Some(piece) = piece(at, element) else { return ((force, torque), outer) };
+                let (f, t) = piece.transport.transposed().apply((force, torque));
+                let w = piece.inertia;
+                let c = self.compliance.loaded(w, self.compliance.meeting(w));
+                let (u1, u2) = (c.a * f + c.b * t, c.b * f + c.c * t);
+                ((f - w.a * u1 - w.b * u2, t - w.b * u1 - w.c * u2), (u1, u2))
+            }
+        }
     }
 }
 
@@ -478,20 +533,15 @@ impl<N: Number> Joined<N> {
         self.base.det.product(self.tip.det).times(self.free_motion().0)
     }
 
-    /// `det(I + C·Y)`, whose zeros are poles.
-    pub(crate) fn determinant(&self) -> N {
-        self.det
-    }
-
     /// Deflection and slope times the determinant: `(I + C·Y)⁻¹·d` by the minors.
-    pub(crate) fn free_motion(&self) -> (N, N) {
+    fn free_motion(&self) -> (N, N) {
         let ((d1, d2), (e1, e2)) = (self.base.motion, self.base.minors);
         let y = self.tip.stiffness;
         (d1 - y.b * e1 - y.c * e2, d2 + y.a * e1 + y.b * e2)
     }
 
     /// Coupling times the determinant, but for what is no pole.
-    pub(crate) fn free_coupling(&self) -> N {
+    fn free_coupling(&self) -> N {
         let (d1, d2) = self.base.motion;
         let (u1, u2) = self.free_motion();
         let y = self.tip.stiffness;

@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 
 use super::chain::{At, Joined};
-use super::frequencies::{degrees, whole};
+use super::frequencies::{degrees, from_tip};
 use super::number::{Dual, Number, Scaled};
 use super::response::at_damped;
 use super::roots::together;
@@ -110,13 +110,13 @@ impl LumpedBeam {
         }
         let (at, elastic) = at_damped(s, self.damping());
         let at: At<Jet> = at;
-        let side = whole(self.elements(), at);
+        let side = from_tip(self.elements(), at);
         // β's poles at −1/β are no poles of the arm.
         let mut det = side.det;
         for _ in 0..degrees(self.elements()) {
             det = det.times(elastic);
         }
-        (det, side.torque * elastic)
+        (det, side.stiffness.c * elastic)
     }
 
     /// The same with a damping ratio for each mode; with a mass, its numerator and its response.

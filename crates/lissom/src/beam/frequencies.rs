@@ -1,7 +1,7 @@
 //! Natural frequencies by counting: none missed, each exact to rounding.
 
 use super::bracket::root;
-use super::chain::{At, BaseSide, Element};
+use super::chain::{At, BaseSide, Element, TipSide};
 use super::number::{Number, Scaled};
 
 /// What the base of the beam does.
@@ -25,16 +25,30 @@ pub(crate) fn whole<N: Number>(elements: &[Element], at: At<N>) -> BaseSide<N> {
     side
 }
 
+/// Everything from the tip to the base. The torque per turn of the motor, C_t/θ_m, is the
+/// stiffness against slope there; it is no sum that could cancel, as that kept from the base is.
+pub(crate) fn from_tip<N: Number>(elements: &[Element], at: At<N>) -> TipSide<N> {
+    let mut side = TipSide::free();
+    for element in elements.iter().rev() {
+        side.pass(at, element);
+    }
+    side
+}
+
 /// The function of z whose negative roots are −ω², and how many of those lie below.
 fn characteristic(elements: &[Element], base: Base, z: f64) -> (Scaled<f64>, usize) {
-    let side = whole(elements, At::undamped(z));
     let free = |inertia: f64| {
+        let side = from_tip(elements, At::undamped(z));
         // Divided by z: the rigid turn is no oscillation. It is one negative pivot at any z < 0.
-        let pivot = side.torque / z + inertia;
-        (side.det.times(pivot), (side.below + usize::from(pivot > 0.0)).saturating_sub(1))
+        let pivot = side.stiffness.c / z + inertia;
+        let below = (side.below + usize::from(pivot > 0.0)).saturating_sub(1);
+        (side.det.times(pivot), below)
     };
     match base {
-        Base::Clamped => (side.det, side.below),
+        Base::Clamped => {
+            let side = whole(elements, At::undamped(z));
+            (side.det, side.below)
+        }
         Base::Pinned => free(0.0),
         Base::Rotor(inertia) => free(inertia),
     }

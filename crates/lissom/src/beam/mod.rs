@@ -1,11 +1,13 @@
 //! The beam, Sections 2-4 of the report.
 //!
 //! A [`LumpedBeam`] is massless between point masses (Sections 2 and 3). Whatever does not need a
-//! matrix runs along the beam once, by the recursion of `chain`.
+//! matrix runs along the beam once, by the recursion of `chain`. A [`DistributedBeam`] has its mass along
+//! it (Section 4); a [`TruncatedBeam`] keeps the first of its modes, in the form (17)-(18).
 
 mod bracket;
 mod chain;
 mod damped;
+mod distributed;
 mod dynamics;
 mod frequencies;
 mod lumped;
@@ -17,9 +19,12 @@ mod roots;
 mod span;
 mod three_moment;
 mod transfer;
+mod truncated;
+mod winding;
 mod zeros;
 
 pub use damped::{Roots, motor_poles};
+pub use distributed::{DistributedBeam, Piece};
 pub use dynamics::BeamDynamics;
 pub use frequencies::Base;
 pub use lumped::LumpedBeam;
@@ -29,4 +34,5 @@ pub use response::BeamResponse;
 pub use roots::{RootClass, class};
 pub use span::{BeamError, Damping, Payload, Span};
 pub use transfer::{current_to_angle, motor_function};
+pub use truncated::TruncatedBeam;
 pub use zeros::Zeros;

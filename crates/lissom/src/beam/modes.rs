@@ -2,7 +2,8 @@
 
 use num_complex::Complex64;
 
-use super::chain::{At, BaseSide, Element, TipSide};
+use super::chain::{At, BaseSide, Element, Sym, TipSide, cut_up};
+use super::number::Dual;
 use super::response::BeamResponse;
 use super::{Base, LumpedBeam};
 
@@ -22,66 +23,101 @@ pub struct Mode {
     pub inertia_kg_m2: f64,
 }
 
-/// Motion (deflection, slope) at the outer end of every element in a mode of z, any scale.
+/// What a mode does, any scale.
+struct Motion {
+    /// Deflection at each joint asked for.
+    deflection: Vec<f64>,
+    /// ∫ w² dm and its like for slopes.
+    mass: f64,
+    /// ∫ x·w dm: what turning the base at a unit rate drives it with.
+    lever: f64,
+}
+
+/// The motion in a mode of z = −ω² at the inner end of each element of `joints`.
 ///
-/// The two sides are joined at the mass that moves most, and the motion is carried from there
+/// The two sides are joined where the beam moves most, and the motion is carried from there
 /// inwards by the base side's compliance and outwards by the tip side's stiffness: high modes keep
 /// to a few masses, and further out a part of the beam resonates at the very same frequency.
 ///
 /// # Source
 /// The twisted factorisation of `[DhillonParlett2004]`, with 2×2 blocks.
-fn motions(elements: &[Element], z: f64) -> Vec<(f64, f64)> {
+fn motion(elements: &[Element], joints: &[usize], z: f64) -> Motion {
+    let (elements, place) = cut_up(elements, At::undamped(z));
     let at = At::undamped(z);
     let mut base = BaseSide::clamped();
-    let inner: Vec<BaseSide<f64>> = elements
-        .iter()
-        .map(|e| {
-            base.pass(at, e);
-            base
-        })
-        .collect();
+    let mut inner = vec![base];
+    for element in &elements {
+        base.pass(at, element);
+        inner.push(base);
+    }
     let mut tip = TipSide::free();
-    let mut outer: Vec<TipSide<f64>> = elements
-        .iter()
-        .rev()
-        .map(|e| {
-            let beyond = tip;
-            tip.pass(at, e);
-            beyond
-        })
-        .collect();
+    let mut outer = vec![tip];
+    for element in elements.iter().rev() {
+        tip.pass(at, element);
+        outer.push(tip);
+    }
     outer.reverse();
-    // Cut just inside each mass, where its deflection's compliance peaks.
-    let moving = |k: usize| match elements[k] {
-        Element::Mass { mass, .. } if k > 0 => {
-            let stiffness = outer[k - 1].stiffness;
-            let det = inner[k - 1].compliance.meeting(stiffness);
-            (mass * inner[k - 1].compliance.loaded(stiffness, det).a).abs()
-        }
-        _ => 0.0,
+    // Boundary k lies inside element k; its compliance against the element's own mass.
+    let moving = |k: usize| {
+        let mass = match elements[k] {
+            Element::Mass { mass, .. } => mass,
+            Element::Heavy { length, mass_per_length, .. } => mass_per_length * length,
+            _ => return 0.0,
+        };
+        let det = inner[k].compliance.meeting(outer[k].stiffness);
+        (mass * inner[k].compliance.loaded(outer[k].stiffness, det).a).abs()
     };
-    let cut = (0..elements.len()).max_by(|a, b| moving(*a).total_cmp(&moving(*b))).unwrap_or(1);
-    let cut = cut.max(1) - 1;
+    let cut = (1..elements.len()).max_by(|a, b| moving(*a).total_cmp(&moving(*b))).unwrap_or(0);
     let (c, y) = (inner[cut].compliance, outer[cut].stiffness);
-    let mut motion = vec![(0.0, 0.0); elements.len()];
-    motion[cut] = (c.a + c.det * y.c, c.b - c.det * y.b);
-    for k in cut + 1..elements.len() {
-        motion[k] = outer[k].carried(&elements[k], motion[k - 1]);
+    let mut moves = vec![(0.0, 0.0); elements.len() + 1];
+    // A column of (I + C·Y)⁻¹·C, where it has its pole.
+    let (w, phi) = (c.a + c.det * y.c, c.b - c.det * y.b);
+    moves[cut] = (w, phi);
+    for k in cut..elements.len() {
+        moves[k + 1] = outer[k + 1].carried(at, &elements[k], moves[k]);
     }
-    let (w, phi) = motion[cut];
-    let (mut force, mut torque) = (-y.a * w - y.b * phi, -y.b * w - y.c * phi);
+    let load = (-y.a * w - y.b * phi, -y.b * w - y.c * phi);
+    let mut inward = load;
     for k in (0..cut).rev() {
-        // Across element k + 1 to the outer end of element k.
-        match elements[k + 1] {
-            Element::Span { length, .. } | Element::Rigid { length } => torque += force * length,
-            Element::Mass { mass, .. } => force -= mass * z * motion[k + 1].0,
-            Element::Inertia { inertia } => torque -= inertia * z * motion[k + 1].1,
-            Element::Heavy { .. } => {}
-        }
-        let c = inner[k].compliance;
-        motion[k] = (c.a * force + c.b * torque, c.b * force + c.c * torque);
+        (inward, moves[k]) = inner[k].carried(at, &elements[k], inward, moves[k + 1]);
     }
-    motion
+    let (mass, lever) = modal_mass(&elements, cut, z, (w, phi), load);
+    Motion { deflection: joints.iter().map(|k| moves[place[*k]].0).collect(), mass, lever }
+}
+
+/// Modal mass and lever from both sides of a cut: the mass is the derivative by z of the dynamic
+/// stiffness C⁻¹ + Y, the lever that of the torque at the base.
+fn modal_mass(
+    elements: &[Element],
+    cut: usize,
+    z: f64,
+    (w, phi): (f64, f64),
+    (force, torque): (f64, f64),
+) -> (f64, f64) {
+    let at = At::undamped(Dual::variable(z));
+    let mut base = BaseSide::clamped();
+    elements[..cut].iter().for_each(|e| base.pass(at, e));
+    let mut tip = TipSide::free();
+    elements[cut..].iter().rev().for_each(|e| tip.pass(at, e));
+    let (c, y) = (base.compliance, tip.stiffness);
+    let form = |s: Sym<Dual<f64>>, x: f64, y: f64| {
+        s.a.slope * x * x + 2.0 * s.b.slope * x * y + s.c.slope * y * y
+    };
+    let lever = -(base.motion.0.value * force + base.motion.1.value * torque) / z;
+    (form(y, w, phi) - form(c, force, torque), lever)
+}
+
+/// The mode at ω, at the joints with these distances from the axis.
+pub(crate) fn mode(elements: &[Element], joints: &[usize], position: &[f64], omega: f64) -> Mode {
+    let Motion { deflection, mass, lever } = motion(elements, joints, -omega * omega);
+    let largest = deflection.iter().fold(0.0, |m: f64, v| if v.abs() > m.abs() { *v } else { m });
+    let share = deflection.iter().zip(position).map(|(w, l)| w * lever / (mass * l)).collect();
+    Mode {
+        natural_frequency_rad_s: omega,
+        share,
+        shape: deflection.iter().map(|w| w / largest).collect(),
+        inertia_kg_m2: lever * lever / mass,
+    }
 }
 
 impl LumpedBeam {
@@ -90,44 +126,10 @@ impl LumpedBeam {
     /// # Source
     /// `[Feliu1989, eq. (16)]` in partial fractions.
     pub fn modes(&self, count: usize) -> Vec<Mode> {
+        let joints: Vec<usize> = self.joints().collect();
         let frequencies = self.frequencies_rad_s(Base::Clamped, count);
-        frequencies.into_iter().map(|omega| self.mode(omega)).collect()
-    }
-
-    /// The mode at a natural frequency.
-    fn mode(&self, omega: f64) -> Mode {
-        let motion = motions(self.elements(), -omega * omega);
-        let mut distance = 0.0;
-        // Σ m·w² + I·φ², and Σ m·x·w + I·φ.
-        let (mut mass_all, mut lever) = (0.0, 0.0);
-        for (element, &(w, phi)) in self.elements().iter().zip(&motion) {
-            match *element {
-                Element::Span { length, .. }
-                | Element::Rigid { length }
-                | Element::Heavy { length, .. } => distance += length,
-                Element::Mass { mass, .. } => {
-                    mass_all += mass * w * w;
-                    lever += mass * distance * w;
-                }
-                Element::Inertia { inertia } => {
-                    mass_all += inertia * phi * phi;
-                    lever += inertia * phi;
-                }
-            }
-        }
-        let deflection: Vec<f64> = self.joints().map(|k| motion[k].0).collect();
-        let largest =
-            deflection.iter().fold(0.0, |m: f64, v| if v.abs() > m.abs() { *v } else { m });
-        Mode {
-            natural_frequency_rad_s: omega,
-            share: deflection
-                .iter()
-                .zip(self.position_m())
-                .map(|(w, l)| w * lever / (mass_all * l))
-                .collect(),
-            shape: deflection.iter().map(|w| w / largest).collect(),
-            inertia_kg_m2: lever * lever / mass_all,
-        }
+        let one = |omega| mode(self.elements(), &joints, self.position_m(), omega);
+        frequencies.into_iter().map(one).collect()
     }
 }
 

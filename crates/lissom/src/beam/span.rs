@@ -170,9 +170,17 @@ pub enum BeamError {
     /// Modal damping without a ratio.
     #[error("modal damping needs at least one ratio")]
     NoRatios,
-    /// A beam without any mass.
-    #[error("the beam has no mass")]
-    NoMass,
+    /// Modal damping of a distributed beam.
+    #[error("a distributed beam takes proportional damping, not a ratio for each mode")]
+    ModalDistributed,
+    /// Modes that cannot be told apart at the points chosen.
+    #[error(
+        "at these points the modes cannot be told apart (reciprocal condition {condition:.1e})"
+    )]
+    PointsTooClose {
+        /// Smallest over largest singular value of the modes' shares at the points.
+        condition: f64,
+    },
     /// Dimensions so far apart that numbers leave the range of a double.
     #[error("the dimensions are so far apart that {quantity} leaves the range of a double")]
     OutOfRange {

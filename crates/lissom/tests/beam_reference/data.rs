@@ -60,7 +60,9 @@ pub(crate) fn beam(case: &Value) -> LumpedBeam {
 pub(crate) fn entrywise(found: &[f64], expected: &[f64]) -> f64 {
     assert_eq!(found.len(), expected.len(), "{found:?} {expected:?}");
     let pairs = found.iter().zip(expected);
-    pairs.map(|(f, e)| if f == e { 0.0 } else { (f - e).abs() / e.abs() }).fold(0.0, f64::max)
+    pairs
+        .map(|(f, e)| if f.total_cmp(e).is_eq() { 0.0 } else { (f - e).abs() / e.abs() })
+        .fold(0.0, f64::max)
 }
 
 /// Largest relative distance of an expected root from the nearest found, as many being found.

@@ -1,0 +1,385 @@
+//! Distributed beam: Euler-Bernoulli pieces with mass along them, exactly.
+
+use num_complex::Complex64;
+
+use super::chain::{At, BaseSide, Element, Joined, TipSide};
+use super::frequencies::{below, lowest};
+use super::lumped::{attach, positions};
+use super::modes::mode;
+use super::number::{Dual, Number, Scaled};
+use super::response::{BeamResponse, at_damped, joined};
+use super::roots::further;
+use super::span::check_rest;
+use super::winding::zeros_within;
+use super::zeros::{log_slope, real_zeros};
+use super::{Base, BeamError, Damping, LumpedBeam, Mode, Payload, Span, Zeros};
+
+/// A piece of beam with constant rigidity and mass per length, and what sits at its outer end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Piece {
+    /// Length \[m\].
+    pub length_m: f64,
+    /// Flexural rigidity EI \[N·m²\].
+    pub flexural_rigidity_n_m2: f64,
+    /// Mass per length \[kg/m\].
+    pub mass_per_length_kg_per_m: f64,
+    /// Point mass at the outer end \[kg\].
+    pub end_mass_kg: f64,
+    /// Viscous damping of that point against the fixed frame \[N·s/m\].
+    pub end_damping_n_s_per_m: f64,
+}
+
+/// An Euler-Bernoulli beam with mass along it, clamped to the motor.
+///
+/// `EI·∂⁴y/∂x⁴ + μ·∂²ŷ/∂t² = 0` on each piece, y the deflection from the motor's line and
+/// ŷ = y + x·θ_m. Solved exactly at any s: each piece is cut into parts short against the bending
+/// wave, whose clamped-free functions are power series in `λ⁴ = −s²·μ·l⁴/EI`. Frequencies and
+/// zeros are counted, so that none is missed.
+///
+/// # Source
+/// Section 4 of `[Feliu1989]` speaks of this beam; `[WittrickWilliams1971]` for the count.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DistributedBeam {
+    pieces: Vec<Piece>,
+    hub_radius_m: f64,
+    payload: Payload,
+    damping: Damping,
+    position_m: Vec<f64>,
+    elements: Vec<Element>,
+}
+
+impl DistributedBeam {
+    /// A beam from pieces, base to tip.
+    ///
+    /// ```
+    /// use lissom::beam::{Base, DistributedBeam, Piece};
+    /// let (l, ei, mu) = (0.5, 2.0, 0.1_f64);
+    /// let piece = Piece { length_m: l, flexural_rigidity_n_m2: ei, mass_per_length_kg_per_m: mu, end_mass_kg: 0.0, end_damping_n_s_per_m: 0.0 };
+    /// let beam = DistributedBeam::new(&[piece])?;
+    /// let first = beam.frequencies_rad_s(Base::Clamped, 1)[0];
+    /// assert!((first * l * l * (mu / ei).sqrt() / 1.875_104_068_711_961_f64.powi(2) - 1.0).abs() < 1e-12);
+    /// # Ok::<(), lissom::beam::BeamError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`BeamError`]: no pieces, a dimension that is not positive and finite, a point mass or
+    /// damping that is negative.
+    pub fn new(pieces: &[Piece]) -> Result<Self, BeamError> {
+        Self::build(pieces.to_vec(), 0.0, Payload::default(), Damping::None)
+    }
+
+    /// The same beam beginning at distance `hub_radius_m` from the motor's axis.
+    ///
+    /// # Errors
+    /// [`BeamError::HubRadius`] where it is negative or not finite.
+    pub fn with_hub_radius(self, hub_radius_m: f64) -> Result<Self, BeamError> {
+        Self::build(self.pieces, hub_radius_m, self.payload, self.damping)
+    }
+
+    /// The same beam with a payload at its tip.
+    ///
+    /// # Errors
+    /// [`BeamError::Payload`] where a quantity is negative or not finite.
+    pub fn with_payload(self, payload: Payload) -> Result<Self, BeamError> {
+        Self::build(self.pieces, self.hub_radius_m, payload, self.damping)
+    }
+
+    /// The same beam with proportional damping.
+    ///
+    /// # Errors
+    /// [`BeamError::ModalDistributed`] for ratios by mode: a distributed beam has no last mode;
+    /// give them to its truncated model.
+    pub fn with_damping(self, damping: Damping) -> Result<Self, BeamError> {
+        Self::build(self.pieces, self.hub_radius_m, self.payload, damping)
+    }
+
+    fn build(
+        pieces: Vec<Piece>,
+        hub_radius_m: f64,
+        payload: Payload,
+        damping: Damping,
+    ) -> Result<Self, BeamError> {
+        check(&pieces)?;
+        check_rest(hub_radius_m, &payload, &damping)?;
+        if let Damping::Modal { .. } = damping {
+            return Err(BeamError::ModalDistributed);
+        }
+        let position_m = positions(pieces.iter().map(|p| p.length_m), hub_radius_m);
+        let elements = elements(&pieces, hub_radius_m, &payload, &[]).0;
+        let beam = Self { pieces, hub_radius_m, payload, damping, position_m, elements };
+        let whole = super::frequencies::whole(&beam.elements, At::undamped(0.0));
+        let all = [whole.compliance.a, whole.compliance.c, beam.inertia_kg_m2()];
+        if all.iter().all(|v| v.is_finite() && *v > 0.0) {
+            Ok(beam)
+        } else {
+            Err(BeamError::OutOfRange { quantity: "the compliance or the inertia" })
+        }
+    }
+
+    /// Pieces, base to tip.
+    pub fn pieces(&self) -> &[Piece] {
+        &self.pieces
+    }
+    /// Distance of the clamp from the motor's axis \[m\].
+    pub fn hub_radius_m(&self) -> f64 {
+        self.hub_radius_m
+    }
+    /// What the tip carries.
+    pub fn payload(&self) -> &Payload {
+        &self.payload
+    }
+    /// Damping of the whole beam.
+    pub fn damping(&self) -> &Damping {
+        &self.damping
+    }
+    /// Distance of each piece's outer end from the motor's axis \[m\].
+    pub fn position_m(&self) -> &[f64] {
+        &self.position_m
+    }
+    /// Distance of the tip from the motor's axis \[m\].
+    pub fn length_m(&self) -> f64 {
+        self.position_m[self.pieces.len() - 1]
+    }
+
+    /// The beam's inertia about the motor's axis as one body \[kg·m²\].
+    pub fn inertia_kg_m2(&self) -> f64 {
+        let mut start = self.hub_radius_m;
+        let mut sum = 0.0;
+        for (piece, &end) in self.pieces.iter().zip(&self.position_m) {
+            let l = piece.length_m;
+            let middle = start + 0.5 * l;
+            sum += piece.mass_per_length_kg_per_m * l * (middle * middle + l * l / 12.0);
+            sum += piece.end_mass_kg * end * end;
+            start = end;
+        }
+        let tip = start + self.payload.offset_m;
+        sum + self.payload.mass_kg * tip * tip + self.payload.inertia_kg_m2
+    }
+
+    /// The lowest `count` natural frequencies, ascending \[rad/s\], damping left out; found by
+    /// counting.
+    ///
+    /// # Source
+    /// `[WittrickWilliams1971]`
+    pub fn frequencies_rad_s(&self, base: Base, count: usize) -> Vec<f64> {
+        lowest(&self.elements, base, count)
+    }
+
+    /// How many natural frequencies lie below `omega_rad_s`.
+    pub fn frequencies_below(&self, base: Base, omega_rad_s: f64) -> usize {
+        below(&self.elements, base, omega_rad_s)
+    }
+
+    /// θ/θ_m at each piece's outer end and C_t/θ_m, at `s` \[1/s\].
+    pub fn response(&self, s: Complex64) -> BeamResponse {
+        self.response_at(s, &self.position_m)
+    }
+
+    /// θ/θ_m at `points`, distances from the axis in ascending order \[m\], and C_t/θ_m.
+    ///
+    /// Points outside the beam are taken to its nearer end.
+    ///
+    /// # Source
+    /// `[Feliu1989, Section 4]`; exact, not truncated.
+    pub fn response_at(&self, s: Complex64, points: &[f64]) -> BeamResponse {
+        let (elements, joints) = self.split(points);
+        let z = s * s;
+        let damped = self.damping != Damping::None
+            || self.pieces.iter().any(|p| p.end_damping_n_s_per_m > 0.0);
+        if !damped && z.im == 0.0 {
+            let meetings = joined(&elements, At::undamped(z.re), joints.into_iter());
+            return BeamResponse {
+                angles: self.angles(&meetings, points).map(Complex64::from).collect(),
+                coupling_nm_per_rad: meetings[0].coupling().into(),
+            };
+        }
+        let (at, elastic) = at_damped(s, &self.damping);
+        let meetings = joined(&elements, at, joints.into_iter());
+        BeamResponse {
+            angles: self.angles(&meetings, points).collect(),
+            coupling_nm_per_rad: meetings[0].coupling() * elastic,
+        }
+    }
+
+    fn angles<N: Number>(&self, meetings: &[Joined<N>], points: &[f64]) -> impl Iterator<Item = N> {
+        let (low, high) = (self.hub_radius_m, self.length_m());
+        let at = points.iter().map(move |p| p.clamp(low, high));
+        meetings.iter().zip(at).map(|(m, x)| m.motion().0.times(1.0 / x))
+    }
+
+    /// The elements cut at `points`, and the index of the element that begins at each.
+    fn split(&self, points: &[f64]) -> (Vec<Element>, Vec<usize>) {
+        elements(&self.pieces, self.hub_radius_m, &self.payload, points)
+    }
+
+    /// The lowest `count` modes with the motor clamped, at `points` (distances from the axis,
+    /// ascending) \[m\].
+    pub fn modes(&self, count: usize, points: &[f64]) -> Vec<Mode> {
+        let (elements, joints) = self.split(points);
+        let frequencies = self.frequencies_rad_s(Base::Clamped, count);
+        frequencies.into_iter().map(|omega| mode(&elements, &joints, points, omega)).collect()
+    }
+
+    /// The zeros of θ/θ_m at distance `point_m` from the axis with |s| below `omega_rad_s`, damping
+    /// left out; all of them, complex ones too.
+    ///
+    /// Their number is that of the argument principle on the circle; real ones are then found as
+    /// changes of sign, the rest by Newton's method. Where a zero lies on the circle itself it is
+    /// made a little wider.
+    ///
+    /// # Source
+    /// `[Feliu1989, Section 3, properties 1 and 4]`
+    pub fn zeros_below(&self, point_m: f64, omega_rad_s: f64) -> Zeros {
+        let (elements, joints) = self.split(&[point_m]);
+        let joint = joints[0];
+        let mut radius = omega_rad_s * omega_rad_s;
+        let dual = |z: Complex64| numerator(&elements, joint, Dual::variable(z));
+        let mut wanted = None;
+        for _ in 0..WIDER_MOST {
+            wanted = zeros_within(dual, radius);
+            if wanted.is_some() {
+                break;
+            }
+            radius *= 1.01;
+        }
+        let wanted = wanted.unwrap_or(0);
+        if wanted == 0 {
+            return Zeros { z: Vec::new(), missing: 0 };
+        }
+        let range = (radius * NEAREST, radius);
+        let real = real_zeros(|z| numerator(&elements, joint, z), wanted, range);
+        let mut z: Vec<Complex64> = real.into_iter().map(Complex64::from).collect();
+        if z.len() < wanted {
+            let more = further(|z| log_slope(dual(z)), &z, wanted - z.len(), range);
+            z.extend(more);
+        }
+        z.sort_by(|a, b| a.norm().total_cmp(&b.norm()).then(a.im.total_cmp(&b.im)));
+        let missing = wanted.saturating_sub(z.len());
+        Zeros { z, missing }
+    }
+
+    /// The lumped beam of `count` masses or a few more: each piece is cut into equal spans, half of
+    /// a span's mass goes to each of its ends. The half at the clamp does not move.
+    ///
+    /// # Errors
+    /// [`BeamError`] where the masses make no beam.
+    pub fn lumped(&self, count: usize) -> Result<LumpedBeam, BeamError> {
+        let total: f64 = self.pieces.iter().map(|p| p.length_m).sum();
+        let mut spans: Vec<Span> = Vec::new();
+        for piece in &self.pieces {
+            let cells = (count as f64 * piece.length_m / total).round().max(1.0) as usize;
+            let length_m = piece.length_m / cells as f64;
+            let half = 0.5 * piece.mass_per_length_kg_per_m * length_m;
+            if let Some(last) = spans.last_mut() {
+                last.mass_kg += half;
+            }
+            for cell in 1..=cells {
+                let last = cell == cells;
+                spans.push(Span {
+                    length_m,
+                    flexural_rigidity_n_m2: piece.flexural_rigidity_n_m2,
+                    mass_kg: if last { half + piece.end_mass_kg } else { 2.0 * half },
+                    damping_n_s_per_m: if last { piece.end_damping_n_s_per_m } else { 0.0 },
+                });
+            }
+        }
+        LumpedBeam::new(&spans)?
+            .with_hub_radius(self.hub_radius_m)?
+            .with_payload(self.payload)?
+            .with_damping(self.damping.clone())
+    }
+}
+
+/// Times that a circle is made wider to keep off a zero.
+const WIDER_MOST: usize = 20;
+/// The search for real zeros begins at this part of the radius in |z|.
+const NEAREST: f64 = 1e-9;
+
+fn numerator<N: Number>(elements: &[Element], joint: usize, z: N) -> Scaled<N> {
+    let at = At::undamped(z);
+    let mut base = BaseSide::clamped();
+    elements[..joint].iter().for_each(|e| base.pass(at, e));
+    let mut tip = TipSide::free();
+    elements[joint..].iter().rev().for_each(|e| tip.pass(at, e));
+    Joined::new(base, tip).numerator()
+}
+
+fn check(pieces: &[Piece]) -> Result<(), BeamError> {
+    if pieces.is_empty() {
+        return Err(BeamError::NoSpans);
+    }
+    for (index, piece) in pieces.iter().enumerate() {
+        let span = index + 1;
+        let positive = [
+            ("length_m", piece.length_m),
+            ("flexural_rigidity_n_m2", piece.flexural_rigidity_n_m2),
+            ("mass_per_length_kg_per_m", piece.mass_per_length_kg_per_m),
+        ];
+        for (quantity, found) in positive {
+            if !(found > 0.0 && found.is_finite()) {
+                return Err(BeamError::NotPositive { span, quantity, found });
+            }
+        }
+        let rest = [
+            ("end_mass_kg", piece.end_mass_kg),
+            ("end_damping_n_s_per_m", piece.end_damping_n_s_per_m),
+        ];
+        for (quantity, found) in rest {
+            if !(found >= 0.0 && found.is_finite()) {
+                return Err(BeamError::Negative { span, quantity, found });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The chain, cut at ascending `points`, and the index of the element that begins at each.
+fn elements(
+    pieces: &[Piece],
+    hub_radius: f64,
+    payload: &Payload,
+    points: &[f64],
+) -> (Vec<Element>, Vec<usize>) {
+    let mut elements = Vec::with_capacity(2 * pieces.len() + points.len() + 4);
+    let mut joints = Vec::with_capacity(points.len());
+    if hub_radius > 0.0 {
+        elements.push(Element::Rigid { length: hub_radius });
+    }
+    let mut points = points.iter().peekable();
+    let mut start = hub_radius;
+    let ends = positions(pieces.iter().map(|p| p.length_m), hub_radius);
+    for (index, (piece, end)) in pieces.iter().zip(ends).enumerate() {
+        let heavy = |length: f64| Element::Heavy {
+            length,
+            rigidity: piece.flexural_rigidity_n_m2,
+            mass_per_length: piece.mass_per_length_kg_per_m,
+        };
+        let last = index + 1 == pieces.len();
+        // What is left of the piece; a point within rounding of its end is its end.
+        let mut left = piece.length_m;
+        while let Some(&&point) = points.peek() {
+            let into = point - start;
+            if into > left * (1.0 - 1e-12) {
+                break;
+            }
+            if into > 0.0 {
+                elements.push(heavy(into));
+                left -= into;
+                start += into;
+            }
+            joints.push(elements.len());
+            points.next();
+        }
+        elements.push(heavy(left));
+        start = end;
+        while points.next_if(|p| **p <= end * (1.0 + 1e-12) || last).is_some() {
+            joints.push(elements.len());
+        }
+        let (mass, damping) = (piece.end_mass_kg, piece.end_damping_n_s_per_m);
+        if mass > 0.0 || damping > 0.0 || last {
+            elements.push(Element::Mass { mass, damping });
+        }
+    }
+    attach(&mut elements, payload);
+    (elements, joints)
+}
