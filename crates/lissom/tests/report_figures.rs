@@ -81,9 +81,9 @@ fn the_two_mass_arm() {
     let unit = POUND_KG;
     let a = [[-176.6032, 110.377], [27.59425, -22.0754]];
     let b = [66.2262, -5.51885];
-    for i in 0..2 {
-        for j in 0..2 {
-            within(m.ei_a[(i, j)] / unit, a[i][j], SLIP);
+    for (i, row) in a.iter().enumerate() {
+        for (j, figure) in row.iter().enumerate() {
+            within(m.ei_a[(i, j)] / unit, *figure, SLIP);
         }
         within(m.ei_b[i] / unit, b[i], SLIP);
     }
