@@ -110,7 +110,7 @@ fn modes(task: &Task<'_>, model: &Model) -> LinePlot {
     let mut plot = LinePlot::new(
         "Modes with the motor clamped",
         Axis::linear("distance from the motor's axis (m)"),
-        Axis::linear("deflection, the largest is 1"),
+        Axis::linear("deflection, largest 1"),
     );
     for (k, shape) in shape::shapes(task.beam, DRAWN).into_iter().enumerate() {
         let role = Role::Other(u8::try_from(k).unwrap_or(0));
@@ -130,9 +130,11 @@ fn modes(task: &Task<'_>, model: &Model) -> LinePlot {
 fn payload(cases: &[PayloadCase]) -> LinePlot {
     let mut order: Vec<&PayloadCase> = cases.iter().collect();
     order.sort_by(|a, b| a.tip_mass_kg.total_cmp(&b.tip_mass_kg));
+    let load = "load at the tip (kg)";
+    let empty = order.iter().any(|case| case.tip_mass_kg == 0.0);
     let mut plot = LinePlot::new(
         "Poles and zeros of the tip's response over its load",
-        Axis::log("load at the tip (kg)"),
+        if empty { Axis::linear(load) } else { Axis::log(load) },
         Axis::log("|s| (rad/s)"),
     );
     let mut add = |name: &str, role: Role, value: &dyn Fn(&PayloadCase, usize) -> Option<f64>| {

@@ -18,12 +18,20 @@ const LINE: usize = 300;
 /// Most masses that are drawn.
 const MOST_POINTS: usize = 40;
 
-/// The shapes of the lowest `count` modes.
+/// The shapes of the lowest `count` modes, the largest deflection of each being 1.
 pub(super) fn shapes(beam: &Beam, count: usize) -> Vec<Shape> {
-    match beam {
+    let mut shapes = match beam {
         Beam::Lumped(beam) => beam.modes(count).iter().map(|m| lumped(beam, m)).collect(),
         Beam::Distributed(beam) => distributed(beam, count),
+    };
+    for shape in &mut shapes {
+        // Between the masses the line may go further than they do.
+        let further = |m: f64, (_, y): &(f64, f64)| if y.abs() > m.abs() { *y } else { m };
+        let largest = shape.line.iter().fold(0.0, further);
+        let all = shape.line.iter_mut().chain(&mut shape.points);
+        all.for_each(|(_, y)| *y /= largest);
     }
+    shapes
 }
 
 fn distances(hub: f64, tip: f64) -> Vec<f64> {
