@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 use lissom_io::units::{Dimension, parse_quantity};
 
-/// Identifies flexible arms and drives whose joint has friction.
+use crate::model::ModelArgs;
+
+/// Models and identifies flexible arms and drives whose joint has friction.
 #[derive(Debug, Parser)]
 #[command(name = "lissom", version, about, max_term_width = 100, after_help = AFTER_HELP)]
 pub(crate) struct Cli {
@@ -15,7 +17,8 @@ pub(crate) struct Cli {
 
 const AFTER_HELP: &str = "\
 Start with `lissom demo`: it runs the experiment on a virtual arm, writes its logs and their
-campaign.toml, and identifies them. Then describe your own logs in a campaign.toml like that one.
+campaign.toml, and identifies them. Then describe your own logs in a campaign.toml like that one,
+and an arm's dimensions in an arm.toml for `lissom model`.
 
 Exit codes: 0 done; 1 the input cannot be used; 2 wrong usage; 3 done, but the data refuse a
 figure (see the findings).";
@@ -24,6 +27,8 @@ figure (see the findings).";
 pub(crate) enum Command {
     /// Identify friction, frequency response and parameters from logs
     Identify(IdentifyArgs),
+    /// Turn an arm's dimensions into frequencies, matrices, transfer functions and plots
+    Model(ModelArgs),
     /// Run the report's experiment on a virtual arm and identify it from its logs
     Demo(DemoArgs),
 }

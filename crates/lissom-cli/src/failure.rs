@@ -20,6 +20,9 @@ pub(crate) enum Failure {
     NotAnOutput { file: PathBuf },
     #[error("{}: one name for two outputs", file.display())]
     SameOutput { file: PathBuf },
+    /// What was asked for is not there for this beam.
+    #[error("{}: {reason}", arm.display())]
+    Model { arm: PathBuf, reason: String, hint: &'static str },
     #[error(transparent)]
     Rig(#[from] RigError),
     #[error("the plot could not be drawn: {0}")]
@@ -33,9 +36,10 @@ impl Failure {
             Self::Io(error) => error.hint(),
             Self::Write(error) => error.hint(),
             Self::NotAnOutput { .. } => Some(
-                "put the campaign before `--json FILE`, or remove the file if it is to go"
+                "put the input before `--json FILE`, or remove the file if it is to go"
                     .to_owned(),
             ),
+            Self::Model { hint, .. } => Some((*hint).to_owned()),
             Self::SameOutput { .. } => Some("give each output its own file".to_owned()),
             Self::Identify { source: IdentifyError::NothingMoves { .. }, .. } => Some(
                 "check the wiring and which columns the campaign names; a tip without a signal can be \

@@ -49,11 +49,22 @@ pub(crate) fn add_all(
 ) -> Result<(), Failure> {
     batch.folder(folder)?;
     for (name, plot) in bode_plots(channels, names, id, reference) {
-        let svg = plot.to_svg()?;
-        let png = svg_to_png(&svg, PNG_SCALE)?;
-        batch.file(&folder.join(format!("{name}.svg")), svg.as_bytes())?;
-        batch.file(&folder.join(format!("{name}.png")), &png)?;
+        add(batch, folder, &name, &plot)?;
     }
+    Ok(())
+}
+
+/// Adds one plot to what is to be written, as SVG and PNG.
+pub(crate) fn add(
+    batch: &mut Batch,
+    folder: &Path,
+    name: &str,
+    plot: &impl Figure,
+) -> Result<(), Failure> {
+    let svg = plot.to_svg()?;
+    let png = svg_to_png(&svg, PNG_SCALE)?;
+    batch.file(&folder.join(format!("{name}.svg")), svg.as_bytes())?;
+    batch.file(&folder.join(format!("{name}.png")), &png)?;
     Ok(())
 }
 

@@ -8,6 +8,7 @@ mod demo;
 mod failure;
 mod figures;
 mod identify;
+mod model;
 mod output;
 mod page;
 mod print;
@@ -21,6 +22,7 @@ use clap::Parser as _;
 fn main() -> ExitCode {
     let outcome = match cli::Cli::parse().command {
         cli::Command::Identify(args) => identify::run(&args),
+        cli::Command::Model(args) => model::run(&args),
         cli::Command::Demo(args) => demo::run(&args),
     };
     match outcome {

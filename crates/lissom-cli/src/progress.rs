@@ -14,6 +14,13 @@ pub(crate) fn bar(length: usize, what: &'static str) -> ProgressBar {
     bar
 }
 
+/// A bar whose time goes on while a step takes long.
+pub(crate) fn stages(length: usize) -> ProgressBar {
+    let bar = bar(length, "");
+    bar.enable_steady_tick(std::time::Duration::from_millis(250));
+    bar
+}
+
 /// Shows the stage that identification has reached.
 pub(crate) fn stage(bar: &ProgressBar, stage: Stage) {
     bar.inc(1);

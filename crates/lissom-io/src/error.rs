@@ -7,6 +7,7 @@ use crate::arm_file::ArmError;
 use crate::campaign::CampaignError;
 use crate::config::ConfigError;
 use crate::log::LogError;
+use crate::model::FrequencyError;
 use crate::units::UnitError;
 use crate::write::WriteError;
 
@@ -26,6 +27,9 @@ pub enum Error {
     /// An `arm.toml` that makes no arm.
     #[error(transparent)]
     Arm(#[from] ArmError),
+    /// A list of frequencies.
+    #[error(transparent)]
+    Frequencies(#[from] FrequencyError),
     /// What a campaign says about its signals and drive.
     #[error(transparent)]
     Campaign(#[from] CampaignError),
@@ -45,6 +49,7 @@ impl Error {
             Self::Log(error) => error.hint(),
             Self::Config(error) => error.hint(),
             Self::Arm(error) => error.hint(),
+            Self::Frequencies(error) => error.hint(),
             Self::Campaign(error) => error.hint(),
             Self::Write(error) => error.hint(),
             // A reader makes no such run: see [`LogError`] and [`CampaignError`].

@@ -2,7 +2,7 @@
 //!
 //! - [`read_campaign`] reads a `campaign.toml` and its logs into a
 //!   [`Campaign`](lissom::record::Campaign): see [`campaign`] for the file, [`log`] for the logs.
-//! - [`ArmFile::read`] reads an `arm.toml`: see [`arm_file`].
+//! - [`ArmFile::read`] reads an `arm.toml`: see [`arm_file`]; [`model_json`] writes what comes of it.
 //! - [`units`] reads quantities such as `"2.184 lbf*in/A"`.
 //! - [`mod@write`] writes files whole or not at all.
 //!
@@ -15,6 +15,7 @@ mod config;
 mod error;
 mod excerpt;
 pub mod log;
+pub mod model;
 mod nearest;
 pub mod result;
 pub mod units;
@@ -30,6 +31,7 @@ pub use campaign::{
 pub use config::{ConfigError, Place, Rule};
 pub use error::Error;
 pub use log::LogError;
+pub use model::{FrequencyError, Model, model_json, read_frequencies};
 pub use result::{UnitNames, result_json};
 pub use units::UnitError;
 pub use write::WriteError;

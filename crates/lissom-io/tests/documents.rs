@@ -50,8 +50,10 @@ fn read_as_campaign(block: &str) {
 fn read_as_arm(block: &str) {
     let path = Path::new("arm.toml");
     let file = ArmFile::from_text(path, block).unwrap();
-    if let Some(BeamKind::Lumped) = file.beam.as_ref().map(BeamSpec::kind) {
-        file.lumped_beam(path).unwrap();
+    match file.beam.as_ref().map(BeamSpec::kind) {
+        Some(BeamKind::Lumped) => drop(file.lumped_beam(path).unwrap()),
+        Some(BeamKind::Distributed) => drop(file.distributed_beam(path).unwrap()),
+        None => {}
     }
     file.motor(path).unwrap();
 }

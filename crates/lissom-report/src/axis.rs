@@ -40,8 +40,10 @@ const MAX_TICKS: usize = 40;
 const SNAP_PAD: f64 = 0.02;
 /// Pixels a decade needs to carry labels at 1, 2 and 5.
 const ROOMY_DECADE: f64 = 130.0;
+/// Pixels a decade needs to carry labels at 1, 2, 3, 5 and 7.
+const WIDE_DECADE: f64 = 420.0;
 /// Pixels a decade needs to carry labels at 1 to 9.
-const VAST_DECADE: f64 = 420.0;
+const VAST_DECADE: f64 = 1100.0;
 /// Pixels a labelled decade needs.
 const NARROW_DECADE: f64 = 44.0;
 /// Pixels a decade needs to show its minor grid lines.
@@ -110,6 +112,7 @@ impl Ruler {
         let decade = length / decades;
         let labelled: &[f64] = match decade {
             d if d >= VAST_DECADE => &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0],
+            d if d >= WIDE_DECADE => &[1.0, 2.0, 3.0, 5.0, 7.0],
             d if d >= ROOMY_DECADE => &[1.0, 2.0, 5.0],
             _ => &[1.0],
         };
@@ -208,6 +211,10 @@ mod tests {
         assert_eq!(
             labels(&Ruler::log((0.09, 120.0), 600.0)),
             ["0.1", "0.2", "0.5", "1", "2", "5", "10", "20", "50", "100"]
+        );
+        assert_eq!(
+            labels(&Ruler::log((0.01, 0.3), 650.0)),
+            ["0.01", "0.02", "0.03", "0.05", "0.07", "0.1", "0.2", "0.3"]
         );
         assert_eq!(
             labels(&Ruler::log((0.9, 1.2e6), 600.0)),

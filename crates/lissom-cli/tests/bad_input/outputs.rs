@@ -53,7 +53,7 @@ fn an_output_would_cost_a_log() {
         &["--json", "run.csv", "campaign.toml"],
         1,
         "error: run.csv: exists and is no earlier output; it is not written over\n\
-         hint: put the campaign before `--json FILE`, or remove the file if it is to go",
+         hint: put the input before `--json FILE`, or remove the file if it is to go",
     );
     bench.refuses_with(
         &["campaign.toml", "--json", "out", "--report", "out"],

@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use lissom::arm::Arm;
-use lissom::beam::{BeamError, LumpedBeam, Span};
+use lissom::beam::{BeamError, DistributedBeam, LumpedBeam, Piece, Span};
 use lissom::drive::{Coulomb, DriveError, Motor};
 use lissom::rig::{Pd, Quantiser, Rig, RigError};
 use thiserror::Error;
 
-use super::{ArmFile, BeamKind, BeamSpec};
+use super::{ArmFile, BeamKind, BeamSpec, SpanSpec};
 
 /// Why an `arm.toml` makes no arm or rig.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -76,6 +76,11 @@ impl ArmError {
             Self::Beam { source: BeamError::TooManyMasses { .. }, .. } => {
                 Some("use fewer spans".to_owned())
             }
+            Self::Beam { source: BeamError::ModalDistributed, .. } => Some(
+                "write damping = { mass_proportional = \"...\", stiffness_proportional = \"...\" }, or \
+                 describe the beam by point masses"
+                    .to_owned(),
+            ),
             Self::Beam { .. } | Self::Drive { .. } | Self::Rig { .. } => {
                 Some("check the numbers and their units".to_owned())
             }
@@ -136,6 +141,30 @@ impl ArmFile {
             })
             .collect();
         LumpedBeam::new(&spans)
+            .and_then(|b| b.with_hub_radius(beam.hub_radius_m))
+            .and_then(|b| b.with_payload(beam.tip()))
+            .and_then(|b| b.with_damping(beam.damping.clone()))
+            .map_err(|source| ArmError::Beam { file: path.to_owned(), source })
+    }
+
+    /// The beam with mass along it that the file describes; `path` names the file in errors.
+    ///
+    /// # Errors
+    /// [`ArmError`] where `[beam]` is absent, has point masses alone or its numbers make no beam.
+    pub fn distributed_beam(&self, path: &Path) -> Result<DistributedBeam, ArmError> {
+        let beam = self.beam(path)?;
+        let piece = |s: &SpanSpec| {
+            Some(Piece {
+                length_m: s.length_m,
+                flexural_rigidity_n_m2: s.flexural_rigidity_n_m2,
+                mass_per_length_kg_per_m: s.mass_per_length_kg_per_m?,
+                end_mass_kg: s.mass_kg,
+                end_damping_n_s_per_m: s.damping_n_s_per_m,
+            })
+        };
+        let pieces: Option<Vec<Piece>> = beam.spans.iter().map(piece).collect();
+        let pieces = pieces.ok_or_else(|| ArmError::Lumped { file: path.to_owned() })?;
+        DistributedBeam::new(&pieces)
             .and_then(|b| b.with_hub_radius(beam.hub_radius_m))
             .and_then(|b| b.with_payload(beam.tip()))
             .and_then(|b| b.with_damping(beam.damping.clone()))

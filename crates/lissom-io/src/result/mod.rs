@@ -11,7 +11,7 @@ use lissom::identify::{
     BeamRegression, Candidate, Estimate, Finding, Identified, ModeEstimate, MotorFit,
     MotorRegression, Response, ResponsePoint, RunAnalysis, RunKind, Severity, ThirdHarmonic,
 };
-use lissom::lti::{StateSpace, TransferFunction};
+use lissom::lti::TransferFunction;
 use lissom::record::{Axis, Channels, TipQuantity};
 use serde_json::{Map, Value, json};
 
@@ -224,22 +224,7 @@ fn models(channels: &Channels, id: &Identified) -> Value {
     json!({
         "motor": id.motor_model.as_ref().map(|m| transfer_function(&m.transfer_function)),
         "tips": tips,
-        "state_space": id.state_space.as_ref().map(state_space),
-    })
-}
-
-fn state_space(s: &StateSpace) -> Value {
-    let matrix = |m: &lissom::Matrix| -> Vec<Vec<f64>> {
-        m.row_iter().map(|r| r.iter().copied().collect()).collect()
-    };
-    json!({
-        "a": matrix(&s.a),
-        "b": matrix(&s.b),
-        "c": matrix(&s.c),
-        "d": matrix(&s.d),
-        "states": s.states,
-        "inputs": s.inputs,
-        "outputs": s.outputs,
+        "state_space": id.state_space.as_ref().map(crate::model::state_space),
     })
 }
 

@@ -133,6 +133,27 @@ fn a_rig_needs_point_masses() {
 }
 
 #[test]
+fn a_heavy_beam_is_built() {
+    let path = Path::new("arm.toml");
+    let text = "[beam]\nflexural_rigidity = 2\nmass_per_length = 0.1\nhub_radius = 0.1\n\
+                spans = [{ length = 1, mass = 0.3 }, { length = 0.5 }]\npayload = { mass = 2 }\n";
+    let file = read(text).unwrap();
+    let beam = file.distributed_beam(path).unwrap();
+    assert_eq!(beam.pieces().len(), 2);
+    assert_eq!((beam.length_m(), beam.payload().mass_kg), (1.6, 2.0));
+    assert_eq!(file.beam.as_ref().map(BeamSpec::kind), Some(BeamKind::Distributed));
+    let ratio = read(&format!("{text}damping = {{ ratio = 0.01 }}\n")).unwrap();
+    let error = ratio.distributed_beam(path).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "arm.toml: a distributed beam takes proportional damping, not a ratio for each mode"
+    );
+    assert!(error.hint().unwrap().starts_with("write damping = { mass_proportional"));
+    let points = read(&lumped("")).unwrap().distributed_beam(path).unwrap_err();
+    assert!(matches!(points, ArmError::Lumped { .. }), "{points}");
+}
+
+#[test]
 fn wrong_hubs_and_payloads_are_named() {
     let sign = Some("check its sign");
     for (keys, message, hint) in [

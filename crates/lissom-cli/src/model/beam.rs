@@ -1,0 +1,185 @@
+//! A beam of either kind, with its load.
+
+use std::path::Path;
+
+use lissom::beam::{
+    Base, BeamError, BeamResponse, Damping, DistributedBeam, LumpedBeam, Payload, Piece, Zeros,
+};
+use lissom_io::{ArmError, ArmFile, BeamKind};
+use num_complex::Complex64;
+
+use super::args::Load;
+
+/// A lumped beam with more masses has no matrices, zeros and state space here: they cost the square
+/// and the cube of n, and no one reads them.
+pub(super) const MOST_DENSE: usize = 200;
+
+#[derive(Debug, Clone)]
+pub(super) enum Beam {
+    Lumped(LumpedBeam),
+    Distributed(DistributedBeam),
+}
+
+impl Beam {
+    pub(super) fn of(file: &ArmFile, path: &Path) -> Result<Self, ArmError> {
+        match file.beam(path)?.kind() {
+            BeamKind::Lumped => file.lumped_beam(path).map(Self::Lumped),
+            BeamKind::Distributed => file.distributed_beam(path).map(Self::Distributed),
+        }
+    }
+
+    pub(super) fn kind(&self) -> BeamKind {
+        match self {
+            Self::Lumped(_) => BeamKind::Lumped,
+            Self::Distributed(_) => BeamKind::Distributed,
+        }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.position_m().len()
+    }
+
+    pub(super) fn position_m(&self) -> &[f64] {
+        match self {
+            Self::Lumped(beam) => beam.position_m(),
+            Self::Distributed(beam) => beam.position_m(),
+        }
+    }
+
+    pub(super) fn mass_kg(&self) -> Vec<f64> {
+        match self {
+            Self::Lumped(beam) => beam.spans().iter().map(|s| s.mass_kg).collect(),
+            Self::Distributed(beam) => beam.pieces().iter().map(|p| p.end_mass_kg).collect(),
+        }
+    }
+
+    pub(super) fn mass_along_kg(&self) -> f64 {
+        match self {
+            Self::Lumped(_) => 0.0,
+            Self::Distributed(beam) => {
+                beam.pieces().iter().map(|p| p.mass_per_length_kg_per_m * p.length_m).sum()
+            }
+        }
+    }
+
+    pub(super) fn hub_radius_m(&self) -> f64 {
+        match self {
+            Self::Lumped(beam) => beam.hub_radius_m(),
+            Self::Distributed(beam) => beam.hub_radius_m(),
+        }
+    }
+
+    pub(super) fn payload(&self) -> Payload {
+        match self {
+            Self::Lumped(beam) => *beam.payload(),
+            Self::Distributed(beam) => *beam.payload(),
+        }
+    }
+
+    pub(super) fn damping(&self) -> &Damping {
+        match self {
+            Self::Lumped(beam) => beam.damping(),
+            Self::Distributed(beam) => beam.damping(),
+        }
+    }
+
+    pub(super) fn is_undamped(&self) -> bool {
+        match self {
+            Self::Lumped(beam) => beam.is_undamped(),
+            Self::Distributed(beam) => {
+                *beam.damping() == Damping::None
+                    && beam.pieces().iter().all(|p| p.end_damping_n_s_per_m == 0.0)
+            }
+        }
+    }
+
+    pub(super) fn inertia_kg_m2(&self) -> f64 {
+        match self {
+            Self::Lumped(beam) => beam.inertia_kg_m2(),
+            Self::Distributed(beam) => beam.inertia_kg_m2(),
+        }
+    }
+
+    pub(super) fn frequencies_rad_s(&self, base: Base, count: usize) -> Vec<f64> {
+        match self {
+            Self::Lumped(beam) => beam.frequencies_rad_s(base, count),
+            Self::Distributed(beam) => beam.frequencies_rad_s(base, count),
+        }
+    }
+
+    pub(super) fn response(&self, s: Complex64) -> BeamResponse {
+        match self {
+            Self::Lumped(beam) => beam.response(s),
+            Self::Distributed(beam) => beam.response(s),
+        }
+    }
+
+    /// Zeros of the tip's response, those of a distributed beam below `omega_rad_s`; `None` for
+    /// beams of too many masses.
+    pub(super) fn tip_zeros(&self, omega_rad_s: f64) -> Option<Zeros> {
+        match self {
+            Self::Lumped(beam) if beam.len() > MOST_DENSE => None,
+            Self::Lumped(beam) => beam.zeros(beam.len() - 1),
+            Self::Distributed(beam) => Some(beam.zeros_below(beam.length_m(), omega_rad_s)),
+        }
+    }
+
+    /// The load at the tip: the payload's mass where there is one, else the last mass \[kg\].
+    pub(super) fn load_kg(&self) -> f64 {
+        let payload = self.payload();
+        if payload.mass_kg > 0.0 { payload.mass_kg } else { self.last_mass_kg() }
+    }
+
+    fn last_mass_kg(&self) -> f64 {
+        match self {
+            Self::Lumped(beam) => beam.spans().last().map_or(0.0, |s| s.mass_kg),
+            Self::Distributed(beam) => beam.pieces().last().map_or(0.0, |p| p.end_mass_kg),
+        }
+    }
+
+    /// The same beam with another load. Its rotary inertia grows with its mass.
+    pub(super) fn with_load(&self, load: Load) -> Result<Self, BeamError> {
+        let now = self.load_kg();
+        let mass_kg = match load {
+            Load::Times(factor) => factor * now,
+            Load::Mass(mass_kg) => mass_kg,
+        };
+        let factor = match load {
+            Load::Times(factor) => factor,
+            Load::Mass(_) if now > 0.0 => mass_kg / now,
+            Load::Mass(_) => 1.0,
+        };
+        let mut payload = self.payload();
+        payload.inertia_kg_m2 *= factor;
+        // Nothing at the tip yet: the load is a payload.
+        if payload.mass_kg > 0.0 || now == 0.0 {
+            payload.mass_kg = mass_kg;
+            return match self {
+                Self::Lumped(beam) => beam.clone().with_payload(payload).map(Self::Lumped),
+                Self::Distributed(beam) => {
+                    beam.clone().with_payload(payload).map(Self::Distributed)
+                }
+            };
+        }
+        match self {
+            Self::Lumped(beam) => {
+                let mut spans = beam.spans().to_vec();
+                spans.iter_mut().last().into_iter().for_each(|s| s.mass_kg = mass_kg);
+                LumpedBeam::new(&spans)?
+                    .with_hub_radius(beam.hub_radius_m())?
+                    .with_payload(payload)?
+                    .with_damping(beam.damping().clone())
+                    .map(Self::Lumped)
+            }
+            Self::Distributed(beam) => {
+                let mut pieces: Vec<Piece> = beam.pieces().to_vec();
+                pieces.iter_mut().last().into_iter().for_each(|p| p.end_mass_kg = mass_kg);
+                DistributedBeam::new(&pieces)?
+                    .with_hub_radius(beam.hub_radius_m())?
+                    .with_payload(payload)?
+                    .with_damping(beam.damping().clone())
+                    .map(Self::Distributed)
+            }
+        }
+    }
+}

@@ -1,0 +1,305 @@
+//! Everything about a beam that is asked for.
+
+use std::path::Path;
+
+use indicatif::ProgressBar;
+use lissom::arm::Arm;
+use lissom::beam::{
+    Base, BeamError, LumpedBeam, MOST_CHECKED, MOST_MASSES, motor_function, properties,
+};
+use lissom::drive::{Coulomb, Motor};
+use lissom::lti::ZeroPoleGain;
+use lissom_io::ArmError;
+use lissom_io::model::{Function, Model, Responses};
+use num_complex::Complex64;
+
+use super::args::ModelArgs;
+use super::beam::{Beam, MOST_DENSE};
+use super::payload;
+use crate::failure::Failure;
+
+/// Beams with more masses have transfer functions and responses of the tip alone, unless all are
+/// asked for.
+const MOST_LISTED: usize = 20;
+
+/// Steps that `model` takes beside its frequencies and loads.
+pub(super) const STEPS: usize = 7;
+
+/// A beam, its drive, and what is asked for.
+pub(super) struct Task<'a> {
+    pub(super) args: &'a ModelArgs,
+    pub(super) beam: &'a Beam,
+    pub(super) drive: Option<(Motor, Coulomb)>,
+    pub(super) omega_rad_s: Option<Vec<f64>>,
+    pub(super) bar: ProgressBar,
+}
+
+impl Task<'_> {
+    /// Does it.
+    pub(super) fn model(&self) -> Result<Model, Failure> {
+        let beam = self.beam;
+        self.step("natural frequencies");
+        let count = self.frequency_count();
+        let natural_frequencies_rad_s = beam.frequencies_rad_s(Base::Clamped, count);
+        let rotor = |(motor, _): &(Motor, Coulomb)| Base::Rotor(motor.inertia_kg_m2);
+        let coupled = self.drive.as_ref().map(|drive| beam.frequencies_rad_s(rotor(drive), count));
+        let mut model = Model {
+            kind: beam.kind(),
+            mass_kg: beam.mass_kg(),
+            position_m: beam.position_m().to_vec(),
+            mass_along_kg: beam.mass_along_kg(),
+            hub_radius_m: beam.hub_radius_m(),
+            payload: beam.payload(),
+            inertia_kg_m2: beam.inertia_kg_m2(),
+            matrices: None,
+            natural_frequencies_rad_s,
+            coupled_frequencies_rad_s: coupled,
+            modes: None,
+            tip_zeros: None,
+            functions: Vec::new(),
+            state_space: None,
+            truncated: None,
+            response: None,
+            payload_study: None,
+            properties: None,
+            notes: Vec::new(),
+            warnings: Vec::new(),
+        };
+        self.step("zeros");
+        let highest = model.natural_frequencies_rad_s.last().copied().unwrap_or(0.0);
+        model.tip_zeros = beam.tip_zeros(highest);
+        match beam {
+            Beam::Lumped(lumped) => self.lumped(lumped, &mut model)?,
+            Beam::Distributed(_) => self.distributed(&mut model),
+        }
+        if let Some(missing) = model.tip_zeros.as_ref().map(|z| z.missing).filter(|m| *m > 0) {
+            model.warnings.push(format!("{missing} zeros of the tip's response were not found"));
+        }
+        if let Some(omega) = &self.omega_rad_s {
+            model.response = Some(self.response(omega, &mut model));
+        }
+        if !self.args.payload.is_empty() {
+            let count = if beam.len() <= MOST_DENSE { count } else { self.args.modes };
+            let cases = payload::study(&self.args.arm, beam, &self.args.payload, count, &self.bar)?;
+            model.payload_study = Some(cases);
+        }
+        if self.args.properties {
+            self.step("properties");
+            model.properties = Some(self.properties()?);
+        }
+        self.bar.finish_and_clear();
+        Ok(model)
+    }
+
+    fn step(&self, what: &'static str) {
+        self.bar.set_message(what);
+        self.bar.inc(1);
+    }
+
+    fn frequency_count(&self) -> usize {
+        match self.beam {
+            Beam::Lumped(beam) if beam.len() <= MOST_MASSES => usize::MAX,
+            _ => self.args.modes,
+        }
+    }
+
+    /// Masses whose transfer functions and responses are given.
+    fn listed(&self) -> Vec<usize> {
+        let n = self.beam.len();
+        let most = if self.args.all { MOST_DENSE } else { MOST_LISTED };
+        if n <= most { (0..n).collect() } else { vec![n - 1] }
+    }
+
+    fn lumped(&self, beam: &LumpedBeam, model: &mut Model) -> Result<(), Failure> {
+        let n = beam.len();
+        self.step("modes");
+        if n <= MOST_MASSES {
+            let count = if n <= MOST_DENSE { usize::MAX } else { self.args.modes };
+            model.modes = Some(beam.modes(count));
+        }
+        if n > MOST_DENSE {
+            let modes = model.modes.as_ref().map_or("none".to_owned(), |m| m.len().to_string());
+            model.notes.push(format!(
+                "of beams of more than {MOST_DENSE} masses, matrices, zeros, transfer functions \
+                 and state space are left out; of the modes, {modes} are given"
+            ));
+            if n > MOST_MASSES {
+                model.notes.push(format!(
+                    "the lowest {} natural frequencies of {n} are given (--modes)",
+                    model.natural_frequencies_rad_s.len()
+                ));
+            }
+            return Ok(());
+        }
+        self.step("matrices");
+        model.matrices = Some(beam.matrices().map_err(|e| self.failed(e))?);
+        if let Some((motor, coulomb)) = self.drive {
+            let arm = Arm::new(beam.clone(), motor, coulomb).map_err(|e| self.failed(e))?;
+            model.state_space = Some(arm.state_space());
+        }
+        self.step("transfer functions");
+        self.functions(beam, model);
+        Ok(())
+    }
+
+    fn functions(&self, beam: &LumpedBeam, model: &mut Model) {
+        let listed = self.listed();
+        if listed.len() < beam.len() {
+            model.notes.push(format!(
+                "of more than {MOST_LISTED} masses, transfer functions and responses are those of \
+                 the tip alone (--all gives every mass)"
+            ));
+        }
+        let motor = self.drive.map(|(motor, _)| (motor, motor_function(beam, &motor)));
+        let function = |from, to: String, roots| Function { from, to, roots, lowest: false };
+        let name = |mass: usize| format!("theta_{}", mass + 1);
+        let (mut angles, mut driven) = (Vec::new(), Vec::new());
+        for mass in listed {
+            let Some(angle) = beam.angle_function(mass) else { continue };
+            if let Some((motor, from_current)) = &motor {
+                driven.push(function("current", name(mass), through(&angle, motor, from_current)));
+            }
+            angles.push(function("motor", name(mass), angle));
+        }
+        angles.push(function("motor", "coupling_torque".to_owned(), beam.coupling_function()));
+        if let Some((_, from_current)) = motor {
+            angles.push(function("current", "motor".to_owned(), from_current));
+        }
+        model.functions = angles;
+        model.functions.append(&mut driven);
+        for f in model.functions.iter().filter(|f| f.roots.missing > 0) {
+            model.warnings.push(format!(
+                "{} roots of {}/{} were not found, or not to ten digits: its polynomials are left \
+                 out",
+                f.roots.missing, f.to, f.from
+            ));
+        }
+        let large = model.functions.iter().filter(|f| f.roots.missing == 0);
+        let large = large.filter(|f| f.roots.transfer_function().is_none()).count();
+        if large > 0 {
+            model.notes.push(format!(
+                "the polynomials of {large} transfer functions leave the range of a double: take \
+                 zeros, poles and gain"
+            ));
+        }
+    }
+
+    fn distributed(&self, model: &mut Model) {
+        let Beam::Distributed(beam) = self.beam else { return };
+        self.step("modes");
+        model.modes = Some(beam.modes(self.args.modes, beam.position_m()));
+        model.notes.push(
+            "a beam with mass along it has frequencies and zeros without end, and no matrices: \
+             frequencies are the lowest (--modes), zeros those below the highest of them; \
+             `truncated` has its first modes in the form of the matrices"
+                .to_owned(),
+        );
+        if !self.beam.is_undamped() {
+            model.notes.push(
+                "frequencies, zeros, poles and modes leave damping out; responses do not"
+                    .to_owned(),
+            );
+        }
+        let poles: Vec<Complex64> = model
+            .natural_frequencies_rad_s
+            .iter()
+            .flat_map(|w| [Complex64::new(0.0, *w), Complex64::new(0.0, -*w)])
+            .collect();
+        if let Some(found) = &model.tip_zeros {
+            let zeros = found.z.iter().flat_map(|z| [z.sqrt(), -z.sqrt()]).collect();
+            let roots = ZeroPoleGain { zeros, poles, gain: f64::NAN, missing: found.missing };
+            let to = format!("theta_{}", beam.pieces().len());
+            model.functions.push(Function { from: "motor", to, roots, lowest: true });
+        }
+        self.step("truncated model");
+        if beam.pieces().len() <= MOST_LISTED {
+            match beam.truncated(beam.position_m()) {
+                Ok(truncated) => model.truncated = Some(truncated),
+                Err(error) => model.notes.push(format!("no truncated model: {error}")),
+            }
+        } else {
+            model.notes.push(format!(
+                "no truncated model: it has a mode for each span's end, {MOST_LISTED} at most"
+            ));
+        }
+    }
+
+    fn response(&self, omega_rad_s: &[f64], model: &mut Model) -> Responses {
+        self.bar.set_message("responses");
+        let masses = self.listed();
+        let mut r = Responses {
+            omega_rad_s: omega_rad_s.to_vec(),
+            tips: vec![Vec::with_capacity(omega_rad_s.len()); masses.len()],
+            coupling: Vec::with_capacity(omega_rad_s.len()),
+            motor: self.drive.map(|_| Vec::with_capacity(omega_rad_s.len())),
+            masses,
+        };
+        for omega in omega_rad_s {
+            let s = Complex64::new(0.0, *omega);
+            let beam = self.beam.response(s);
+            for (list, mass) in r.tips.iter_mut().zip(&r.masses) {
+                list.push(beam.angles[*mass]);
+            }
+            r.coupling.push(beam.coupling_nm_per_rad);
+            if let (Some(list), Some((motor, _))) = (&mut r.motor, &self.drive) {
+                list.push(motor_response(motor, s, beam.coupling_nm_per_rad));
+            }
+            self.bar.inc(1);
+        }
+        let all = r.tips.iter().flatten().chain(&r.coupling).chain(r.motor.iter().flatten());
+        if !all.clone().all(|v| v.is_finite()) {
+            model.warnings.push(
+                "some responses are not finite: without damping, a frequency on a pole has none"
+                    .to_owned(),
+            );
+        }
+        r
+    }
+
+    fn properties(&self) -> Result<Vec<lissom::beam::Property>, Failure> {
+        let Beam::Lumped(beam) = self.beam else {
+            return Err(Failure::Model {
+                arm: self.args.arm.clone(),
+                reason: "Section 3 is about beams with point masses, and this one has its mass \
+                         along its length"
+                    .to_owned(),
+                hint: "leave --properties out, or describe the beam by point masses",
+            });
+        };
+        if beam.len() > MOST_CHECKED {
+            return Err(Failure::Model {
+                arm: self.args.arm.clone(),
+                reason: format!(
+                    "{} masses; the properties are measured for at most {MOST_CHECKED}",
+                    beam.len()
+                ),
+                hint: "leave --properties out, or use fewer spans",
+            });
+        }
+        properties(beam).map_err(|e| self.failed(e))
+    }
+
+    fn failed(&self, source: BeamError) -> Failure {
+        beam_failure(&self.args.arm, source)
+    }
+}
+
+/// A beam's numbers that cannot be used.
+pub(super) fn beam_failure(arm: &Path, source: BeamError) -> Failure {
+    lissom_io::Error::from(ArmError::Beam { file: arm.to_owned(), source }).into()
+}
+
+/// θ_m/i at s.
+pub(super) fn motor_response(motor: &Motor, s: Complex64, coupling: Complex64) -> Complex64 {
+    motor.torque_constant_nm_per_a / (motor.impedance(s) + coupling)
+}
+
+/// θ_i/i from θ_i/θ_m and θ_m/i, whose zeros are the poles of the former.
+fn through(angle: &ZeroPoleGain, motor: &Motor, from_current: &ZeroPoleGain) -> ZeroPoleGain {
+    ZeroPoleGain {
+        zeros: angle.zeros.clone(),
+        poles: from_current.poles.clone(),
+        gain: angle.gain * motor.torque_constant_nm_per_a / motor.inertia_kg_m2,
+        missing: angle.missing + from_current.missing,
+    }
+}

@@ -1,0 +1,87 @@
+//! The same beam with other loads: poles move, zeros stand.
+
+use std::path::Path;
+
+use indicatif::ProgressBar;
+use lissom::beam::{Base, Zeros, zero_shift};
+use lissom_io::ArmError;
+use lissom_io::model::PayloadCase;
+
+use super::args::Load;
+use super::beam::Beam;
+use super::number::shown;
+use crate::failure::Failure;
+
+/// The file's own load first, then those asked for.
+pub(super) fn study(
+    path: &Path,
+    beam: &Beam,
+    loads: &[Load],
+    count: usize,
+    bar: &ProgressBar,
+) -> Result<Vec<PayloadCase>, Failure> {
+    let own = beam.load_kg();
+    if own == 0.0 && loads.iter().any(|load| matches!(load, Load::Times(_))) {
+        return Err(Failure::Model {
+            arm: path.to_owned(),
+            reason: "the tip carries no mass that a factor could multiply".to_owned(),
+            hint: "give masses, as in --payload \"0.3 kg\", or add a `payload` to [beam]",
+        });
+    }
+    bar.set_message("payloads");
+    let mut cases: Vec<PayloadCase> = Vec::with_capacity(loads.len() + 1);
+    // Zeros of a distributed beam are looked for up to its own frequencies.
+    let mut highest = 0.0;
+    for load in std::iter::once(None).chain(loads.iter().map(Some)) {
+        let other = match load {
+            None => beam.clone(),
+            Some(load) => beam.with_load(*load).map_err(|source| {
+                lissom_io::Error::from(ArmError::Beam { file: path.to_owned(), source })
+            })?,
+        };
+        let natural_frequencies_rad_s = other.frequencies_rad_s(Base::Clamped, count);
+        if load.is_none() {
+            highest = natural_frequencies_rad_s.last().copied().unwrap_or(0.0);
+        }
+        let found = other.tip_zeros(highest);
+        let known = found.is_some();
+        let zeros = found.unwrap_or(Zeros { z: Vec::new(), missing: 0 });
+        let shift = cases.first().map_or(0.0, |first| zero_shift(&first.zeros, &zeros));
+        let tip_mass_kg = other.load_kg();
+        cases.push(PayloadCase {
+            tip_mass_kg,
+            factor: Some(tip_mass_kg / own).filter(|f| f.is_finite()),
+            natural_frequencies_rad_s,
+            zeros,
+            zero_shift: Some(shift).filter(|s| known && s.is_finite()),
+        });
+        bar.inc(1);
+    }
+    Ok(cases)
+}
+
+/// Zeros further apart than this, relatively, have moved: beyond rounding.
+const MOVED: f64 = 1e-9;
+
+/// What became of the zeros, in one sentence.
+pub(super) fn verdict(beam: &Beam, cases: &[PayloadCase]) -> Option<String> {
+    let others = cases.get(1..)?;
+    if others.is_empty() || cases[0].zero_shift.is_none() {
+        return None;
+    }
+    if cases[0].zeros.z.is_empty() && others.iter().all(|c| c.zeros.z.is_empty()) {
+        return Some("the tip's response has no zeros that a load could move".to_owned());
+    }
+    let largest = others.iter().map(|c| c.zero_shift).try_fold(0.0, |m: f64, s| Some(m.max(s?)));
+    Some(match largest {
+        Some(shift) if shift <= MOVED => format!(
+            "the zeros stand (largest relative change of s² {}): at a zero the tip's mass does \
+             not move, so that its size says nothing",
+            shown(shift, 2)
+        ),
+        _ if beam.payload().turns() => "the zeros move: the load has rotary inertia or an offset, \
+             and at a zero the tip stands still but turns"
+            .to_owned(),
+        _ => "the zeros move, though the load is a point mass: do not trust them".to_owned(),
+    })
+}
