@@ -563,7 +563,9 @@ mod tests {
             .collect();
         let run = |elements: &[Element]| {
             let mut side = BaseSide::clamped();
-            elements.iter().for_each(|e| side.pass(at, e));
+            for element in elements {
+                side.pass(at, element);
+            }
             side
         };
         let (a, b) = (run(&whole), run(&cut));
