@@ -50,17 +50,3 @@ fn uniform(state: &mut u64) -> f64 {
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
 }
-
-/// Stands in until the method of that name is there.
-pub trait TipResponse {
-    /// θ_n/θ_m.
-    fn tip_response(&self, omega_rad_s: &[f64]) -> Vec<f64>;
-}
-
-impl TipResponse for LumpedBeam {
-    fn tip_response(&self, omega_rad_s: &[f64]) -> Vec<f64> {
-        let at =
-            |w: &f64| self.response(num_complex::Complex64::new(0.0, *w)).angles[self.len() - 1].re;
-        omega_rad_s.iter().map(at).collect()
-    }
-}

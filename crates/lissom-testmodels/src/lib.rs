@@ -3,5 +3,5 @@
 mod beams;
 mod report;
 
-pub use beams::{TipResponse, random_beam, uniform_beam};
+pub use beams::{random_beam, uniform_beam};
 pub use report::{report_arm, report_rig};

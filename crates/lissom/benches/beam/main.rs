@@ -11,10 +11,10 @@ mod double_double;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput};
+use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
 use criterion::{criterion_group, criterion_main, measurement::WallTime};
 use lissom::beam::{Base, LumpedBeam};
-use lissom_testmodels::{TipResponse, random_beam, uniform_beam};
+use lissom_testmodels::{random_beam, uniform_beam};
 use serde_json::Value;
 
 /// Frequencies of a sweep, from a tenth of the first to ten times the twentieth natural one.
@@ -50,6 +50,10 @@ impl Sweep {
         largest(points.filter(|(_, judged)| **judged).map(|((g, e), _)| (g - e) / e.abs().max(1.0)))
     }
 
+    fn lissom(&self) -> impl Iterator<Item = f64> {
+        self.beam.tip_response(&self.omega).into_iter().map(|g| g.re)
+    }
+
     fn by(&self, mut tip: impl FnMut(f64) -> f64) -> Vec<f64> {
         self.omega.iter().map(|w| tip(*w)).collect()
     }
@@ -70,12 +74,12 @@ fn say(group: &str, name: &str, error: f64) {
     eprintln!("{group}: error {error:.1e}  {name}");
 }
 
-/// Everything here takes microseconds to seconds: short of criterion's usual three and five.
-fn group<'a>(c: &'a mut Criterion, name: &str, samples: usize) -> BenchmarkGroup<'a, WallTime> {
+/// A group of ten samples, `seconds` in all for each of its benches.
+fn group<'a>(c: &'a mut Criterion, name: &str, seconds: u64) -> BenchmarkGroup<'a, WallTime> {
     let mut group = c.benchmark_group(name);
-    group.sample_size(samples);
+    group.sample_size(10).sampling_mode(SamplingMode::Flat);
     group.warm_up_time(Duration::from_millis(300));
-    group.measurement_time(Duration::from_millis(1500));
+    group.measurement_time(Duration::from_secs(seconds));
     group
 }
 
@@ -87,7 +91,9 @@ fn check_reference() {
     for case in file["cases"].as_array().unwrap() {
         let n = case["n"].as_u64().unwrap();
         let last = case["response_index"].as_array().unwrap().iter().position(|i| *i == n);
-        let (Some(last), Some(0.0)) = (last, case["hub_radius_m"].as_f64()) else { continue };
+        // The reference has neither hub nor dampers.
+        let bare = case["hub_radius_m"] == 0.0 && case.get("damping_n_s_per_m").is_none();
+        let (Some(last), true) = (last, bare) else { continue };
         let beam = given(case);
         for (w, at) in
             numbers(&case["omega_rad_s"]).iter().zip(case["response"].as_array().unwrap())
@@ -98,7 +104,8 @@ fn check_reference() {
         }
     }
     say("reference", "double-double against lumped.json", worst);
-    assert!(worst < 1e-15, "{worst:e}");
+    // The file's numbers are read to within a last place, and a pole multiplies that.
+    assert!(worst < 1e-14, "{worst:e}");
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -124,13 +131,12 @@ fn tip_sweep(c: &mut Criterion) {
         let sweep = Sweep::new(beam, FREQUENCIES);
         let mut banded = baselines::Banded::new(&sweep.beam);
         let recursion = |w: f64| baselines::recursion(&sweep.beam, w);
-        say(&title, "lissom", sweep.error(sweep.beam.tip_response(&sweep.omega)));
+        say(&title, "lissom", sweep.error(sweep.lissom()));
         say(&title, "recursion", sweep.error(sweep.by(recursion)));
         say(&title, "banded LDLᵀ", sweep.error(sweep.by(|w| banded.tip(w))));
-        let mut group = group(c, &title, 20);
+        let mut group = group(c, &title, 2);
         group.bench_function("lissom", |b| b.iter(|| sweep.beam.tip_response(&sweep.omega)));
         group.bench_function("recursion", |b| b.iter(|| sweep.by(recursion)));
-        group.sample_size(10);
         group.bench_function("banded LDLᵀ", |b| b.iter(|| sweep.by(|w| banded.tip(w))));
     }
 }
@@ -141,9 +147,9 @@ fn tip_sweep_dense(c: &mut Criterion) {
     let sweep = Sweep::new(uniform_beam(200), FREQUENCIES / 10);
     let matrices = sweep.beam.matrices().unwrap();
     let dense = |w: f64| baselines::dense(&sweep.beam, &matrices, w);
-    say(title, "lissom", sweep.error(sweep.beam.tip_response(&sweep.omega)));
+    say(title, "lissom", sweep.error(sweep.lissom()));
     say(title, "dense LU", sweep.error(sweep.by(dense)));
-    let mut group = group(c, title, 10);
+    let mut group = group(c, title, 2);
     group.bench_function("lissom", |b| b.iter(|| sweep.beam.tip_response(&sweep.omega)));
     group.bench_function("dense LU", |b| b.iter(|| sweep.by(dense)));
 }
@@ -166,7 +172,7 @@ fn growth(c: &mut Criterion) {
         let n = beam.len();
         eprintln!("growth: n = {n:>9}{build:>17.1}{one:>10.1}{all:>12.1}{plain:>11.1}");
     }
-    let mut group = group(c, "growth", 10);
+    let mut group = group(c, "growth", 1);
     for beam in beams.iter().step_by(2) {
         let n = beam.len();
         let omega = [5.0 * beam.frequencies_rad_s(Base::Clamped, 1)[0]];
@@ -204,7 +210,7 @@ fn lowest_modes(c: &mut Criterion) {
     let exact: Vec<f64> = found.iter().map(|w| double_double::frequency(&beam, *w)).collect();
     say(&title, "lissom", relative(&found, &exact));
     say(&title, "bisection", relative(&baselines::bisection(&beam, MODES), &exact));
-    let mut group = group(c, &title, 10);
+    let mut group = group(c, &title, 15);
     group.bench_function("lissom", |b| b.iter(|| beam.frequencies_rad_s(Base::Clamped, MODES)));
     group.bench_function("bisection", |b| b.iter(|| baselines::bisection(&beam, MODES)));
 }
@@ -221,7 +227,7 @@ fn all_frequencies(c: &mut Criterion) {
     let matrix = baselines::symmetric(&beam, &beam.matrices().unwrap());
     say(title, "lissom", relative(&beam.natural_frequencies_rad_s(), &exact));
     say(title, "nalgebra", relative(&baselines::eigenvalues(&matrix), &exact));
-    let mut group = group(c, title, 10);
+    let mut group = group(c, title, 2);
     group.bench_function("lissom", |b| b.iter(|| beam.natural_frequencies_rad_s()));
     group.bench_function("nalgebra", |b| b.iter(|| baselines::eigenvalues(&matrix)));
 }
