@@ -21,7 +21,7 @@ pub mod units;
 pub mod write;
 
 pub use arm_file::{
-    ArmError, ArmFile, BeamSpec, ControllerSpec, DriveSpec, RigSpec, SensorSpec, SpanSpec,
+    ArmError, ArmFile, BeamKind, BeamSpec, ControllerSpec, DriveSpec, RigSpec, SensorSpec, SpanSpec,
 };
 pub use campaign::{
     AnalysisOptions, CampaignError, CampaignFile, Known, ReadOptions, read_campaign,

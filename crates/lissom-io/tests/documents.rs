@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use lissom_io::{ArmFile, read_campaign};
+use lissom_io::{ArmFile, BeamKind, BeamSpec, read_campaign};
 
 /// Columns of the log that stands in for those that the documents name.
 const COLUMNS: [&str; 8] = ["t", "i", "theta_m", "theta_t", "u", "v", "x", "y"];
@@ -47,19 +47,29 @@ fn read_as_campaign(block: &str) {
     }
 }
 
+fn read_as_arm(block: &str) {
+    let path = Path::new("arm.toml");
+    let file = ArmFile::from_text(path, block).unwrap();
+    match file.beam.as_ref().map(BeamSpec::kind) {
+        Some(BeamKind::Lumped) => drop(file.lumped_beam(path).unwrap()),
+        Some(_) | None => {}
+    }
+    file.motor(path).unwrap();
+}
+
 #[test]
 fn the_documents_describe_files_that_can_be_read() {
     let (mut campaigns, mut arms) = (0, 0);
-    for document in ["README.md", "docs/campaign.md"] {
+    for document in ["README.md", "docs/campaign.md", "docs/arm.md"] {
         for block in blocks(document) {
             if block.contains("[signals]") {
                 read_as_campaign(&block);
                 campaigns += 1;
             } else {
-                ArmFile::from_text("arm.toml".as_ref(), &block).unwrap();
+                read_as_arm(&block);
                 arms += 1;
             }
         }
     }
-    assert!(campaigns >= 5 && arms >= 1, "{campaigns} campaigns, {arms} arms");
+    assert!(campaigns >= 5 && arms >= 5, "{campaigns} campaigns, {arms} arms");
 }

@@ -1,17 +1,29 @@
 //! The table `[beam]`.
 
-use std::f64::consts::PI;
+use lissom::beam::{Damping, Payload};
 
-use crate::config::{ConfigError, Rule, Table, Value};
+use super::material::{MATERIAL_KEYS, Material};
+use crate::config::{ConfigError, Place, Rule, Table, Value};
 use crate::units::Dimension;
 
-/// A massless beam with lumped masses.
+/// Most times that one span is repeated.
+const MOST_REPEATED: i64 = 1_000_000;
+/// Most spans of a beam.
+const MOST_SPANS: usize = 2_000_000;
+
+/// A beam from base to tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamSpec {
-    /// Spans from base to tip, at least one.
+    /// Spans from base to tip, at least one; one with a `count` stands here as often.
     pub spans: Vec<SpanSpec>,
+    /// Distance of the clamp from the motor's axis \[m\].
+    pub hub_radius_m: f64,
     /// Rotary inertia of the last mass about itself \[kg·m²\].
     pub tip_inertia_kg_m2: Option<f64>,
+    /// The table `payload`.
+    pub payload: Option<Payload>,
+    /// Damping beside that of each mass.
+    pub damping: Damping,
 }
 
 /// A piece of beam and the mass at its end.
@@ -19,140 +31,230 @@ pub struct BeamSpec {
 pub struct SpanSpec {
     /// Length \[m\].
     pub length_m: f64,
-    /// Mass at its end \[kg\].
+    /// Mass at its end \[kg\]; may be zero in a distributed beam.
     pub mass_kg: f64,
+    /// Mass along it \[kg/m\]; in a distributed beam every span has one, in a lumped one none.
+    pub mass_per_length_kg_per_m: Option<f64>,
     /// Flexural rigidity EI \[N·m²\].
     pub flexural_rigidity_n_m2: f64,
-    /// Viscous damping on the mass's velocity \[N·s/m\].
+    /// Viscous damping on the velocity of its end \[N·s/m\].
     pub damping_n_s_per_m: f64,
 }
 
-const RIGIDITY_KEYS: [&str; 3] = ["flexural_rigidity", "young_modulus", "section"];
+/// Where a beam's mass is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BeamKind {
+    /// At points; the spans between them are massless.
+    Lumped,
+    /// Along its length, and at points where the file names masses.
+    Distributed,
+}
+
+impl BeamSpec {
+    /// Where its mass is.
+    pub fn kind(&self) -> BeamKind {
+        match self.spans.first().and_then(|s| s.mass_per_length_kg_per_m) {
+            Some(_) => BeamKind::Distributed,
+            None => BeamKind::Lumped,
+        }
+    }
+
+    /// What the tip carries beside the last mass, that mass' own rotary inertia included.
+    pub fn tip(&self) -> Payload {
+        let mut tip = self.payload.unwrap_or_default();
+        tip.inertia_kg_m2 += self.tip_inertia_kg_m2.unwrap_or(0.0);
+        tip
+    }
+}
 
 pub(super) fn beam(table: &Table<'_>) -> Result<BeamSpec, ConfigError> {
-    table.only(&["young_modulus", "section", "flexural_rigidity", "spans"])?;
-    let common = Stiffness::read(table)?;
+    let own = ["hub_radius", "spans", "payload", "damping"];
+    table.only(&[&MATERIAL_KEYS[..], &own].concat())?;
+    let common = Material::read(table)?;
+    let hub_radius_m = table.get("hub_radius").map(|v| v.not_negative(Dimension::LENGTH));
+    let hub_radius_m = hub_radius_m.transpose()?.unwrap_or(0.0);
     let value = table.need("spans")?;
     let items =
         value.list("a list of spans, as in [{ length = \"7 in\", mass = \"0.121 lb\" }]")?;
     if items.is_empty() {
         return Err(value.kind("a list of at least one span"));
     }
-    let mut spans = Vec::with_capacity(items.len());
-    let mut tip_inertia_kg_m2 = None;
-    // L_i, the distance of mass i from the joint [m].
-    let mut distance_m = 0.0;
-    for (index, item) in items.iter().enumerate() {
-        let span = item.table()?;
-        span.only(&[
-            "length",
-            "mass",
-            "damping",
-            "inertia",
-            "flexural_rigidity",
-            "young_modulus",
-            "section",
-        ])?;
-        let length_m = span.need("length")?.positive(Dimension::LENGTH)?;
-        distance_m += length_m;
-        if let Some(inertia) = span.get("inertia") {
-            if index + 1 < items.len() {
-                return Err(ConfigError::LastOnly { place: inertia.place() });
-            }
-            tip_inertia_kg_m2 = Some(inertia.not_negative(Dimension::INERTIA)?);
-        }
-        let damping = span.get("damping").map(|value| damping(&value, distance_m)).transpose()?;
-        spans.push(SpanSpec {
-            length_m,
-            mass_kg: span.need("mass")?.positive(Dimension::MASS)?,
-            flexural_rigidity_n_m2: Stiffness::read(&span)?.or(&common).rigidity(table)?,
-            damping_n_s_per_m: damping.unwrap_or(0.0),
-        });
+    let read: Vec<Entry<'_>> =
+        items.iter().map(|v| Entry::read(v, table, &common)).collect::<Result<_, _>>()?;
+    if let Some(early) = read[..read.len() - 1].iter().find_map(|e| e.table.get("inertia")) {
+        return Err(ConfigError::LastOnly { place: early.place() });
     }
-    Ok(BeamSpec { spans, tip_inertia_kg_m2 })
-}
-
-/// Damping in N·s/m at distance L, from that or from the report's ν \[N·s/rad\]: with
-/// F = −ν dθ/dt and θ = y/L it is ν/L (Section 6.2).
-fn damping(value: &Value<'_>, distance_m: f64) -> Result<f64, ConfigError> {
-    let (index, size) =
-        value.quantity_of(&[Dimension::VISCOUS_LINEAR, Dimension::FORCE_PER_RATE])?;
-    if size < 0.0 {
-        return Err(value.range(Rule::NotNegative));
+    let inertia = read[read.len() - 1].table.get("inertia");
+    let payload = table.get("payload").map(|v| v.table()).transpose()?;
+    if let Some(both) = payload.as_ref().filter(|p| inertia.is_some() && p.get("inertia").is_some())
+    {
+        let place = Place { key: table.place().key, ..both.place() };
+        let (first, second) = ("payload.inertia", "spans[].inertia");
+        return Err(ConfigError::Clash { place, first, second });
     }
-    Ok(if index == 0 { size } else { size / distance_m })
+    Ok(BeamSpec {
+        spans: spans(&value, &read, hub_radius_m)?,
+        hub_radius_m,
+        tip_inertia_kg_m2: inertia.map(|v| v.not_negative(Dimension::INERTIA)).transpose()?,
+        payload: payload.map(|p| tip(&p)).transpose()?,
+        damping: table.get("damping").map_or(Ok(Damping::None), |v| damping(&v.table()?))?,
+    })
 }
 
-/// What a table says of EI.
-#[derive(Debug, Clone, Copy, Default)]
-struct Stiffness {
-    /// EI \[N·m²\].
-    rigidity: Option<f64>,
-    /// E \[Pa\].
-    modulus: Option<f64>,
-    /// I \[m⁴\].
-    area_moment: Option<f64>,
+/// One entry of the list of spans.
+struct Entry<'a> {
+    table: Table<'a>,
+    count: usize,
+    length_m: f64,
+    flexural_rigidity_n_m2: f64,
+    mass_per_length_kg_per_m: Option<f64>,
+    damping: Option<PointDamping>,
 }
 
-impl Stiffness {
-    fn read(table: &Table<'_>) -> Result<Self, ConfigError> {
-        for other in &RIGIDITY_KEYS[1..] {
-            table.one_of(&[RIGIDITY_KEYS[0], other])?;
-        }
-        let positive = |key, dimension| table.get(key).map(|v| v.positive(dimension)).transpose();
+impl<'a> Entry<'a> {
+    fn read(
+        value: &Value<'a>,
+        beam: &Table<'a>,
+        common: &Material<'a>,
+    ) -> Result<Self, ConfigError> {
+        let table = value.table()?;
+        table.only(
+            &[&["length", "mass", "count", "damping", "inertia"], &MATERIAL_KEYS[..]].concat(),
+        )?;
+        let material = Material::read(&table)?.or(common);
+        let count = table.get("count").map(|v| v.whole(1, MOST_REPEATED)).transpose()?;
         Ok(Self {
-            rigidity: positive("flexural_rigidity", Dimension::FLEXURAL_RIGIDITY)?,
-            modulus: positive("young_modulus", Dimension::PRESSURE)?,
-            area_moment: table.get("section").map(|v| area_moment(&v)).transpose()?,
+            count: count.and_then(|c| usize::try_from(c).ok()).unwrap_or(1),
+            length_m: table.need("length")?.positive(Dimension::LENGTH)?,
+            flexural_rigidity_n_m2: material.rigidity(beam)?,
+            mass_per_length_kg_per_m: material.mass_per_length()?,
+            damping: table.get("damping").map(|v| PointDamping::read(&v)).transpose()?,
+            table,
         })
     }
 
-    /// This span's stiffness, with the beam's where it says nothing.
-    fn or(self, common: &Self) -> Self {
-        if self.rigidity.is_some() {
-            return self;
-        }
-        let own = self.modulus.is_some() || self.area_moment.is_some();
-        Self {
-            rigidity: common.rigidity.filter(|_| !own),
-            modulus: self.modulus.or(common.modulus),
-            area_moment: self.area_moment.or(common.area_moment),
-        }
-    }
-
-    fn rigidity(self, beam: &Table<'_>) -> Result<f64, ConfigError> {
-        match (self.rigidity, self.modulus, self.area_moment) {
-            (Some(rigidity), ..) => Ok(rigidity),
-            (None, Some(modulus), Some(area_moment)) => Ok(modulus * area_moment),
-            (None, Some(_), None) => {
-                Err(ConfigError::MissingKey { place: beam.place(), key: "section" })
-            }
-            (None, None, Some(_)) => {
-                Err(ConfigError::MissingKey { place: beam.place(), key: "young_modulus" })
-            }
-            (None, None, None) => {
-                Err(ConfigError::NoneOf { place: beam.place(), keys: RIGIDITY_KEYS[..2].to_vec() })
-            }
+    /// The mass at its end: none has to be there where the beam itself is heavy.
+    fn mass_kg(&self) -> Result<f64, ConfigError> {
+        match (self.mass_per_length_kg_per_m, self.table.get("mass")) {
+            (None, _) => self.table.need("mass")?.positive(Dimension::MASS),
+            (Some(_), Some(mass)) => mass.not_negative(Dimension::MASS),
+            (Some(_), None) => Ok(0.0),
         }
     }
 }
 
-/// Second moment of area: πd⁴/64 of a round section, wt³/12 of a rectangle bent across t.
-fn area_moment(value: &Value<'_>) -> Result<f64, ConfigError> {
-    let section = value.table()?;
-    section.only(&["round", "rectangle"])?;
-    match section.one_of(&["round", "rectangle"])? {
-        None => {
-            let keys = vec!["round", "rectangle"];
-            Err(ConfigError::NoneOf { place: section.place(), keys })
+/// Every span, those that are repeated as often as they are.
+fn spans(
+    list: &Value<'_>,
+    entries: &[Entry<'_>],
+    hub_radius_m: f64,
+) -> Result<Vec<SpanSpec>, ConfigError> {
+    let heavy = entries.iter().find(|e| e.mass_per_length_kg_per_m.is_some());
+    let massless = entries.iter().find(|e| e.mass_per_length_kg_per_m.is_none());
+    if let (Some(heavy), Some(massless)) = (heavy, massless) {
+        let (place, other) = (massless.table.place(), heavy.table.place().key);
+        return Err(ConfigError::NoMassAlong { place, other });
+    }
+    let total: usize = entries.iter().map(|e| e.count).sum();
+    if total > MOST_SPANS {
+        let (place, most) = (list.place(), MOST_SPANS);
+        return Err(ConfigError::TooMany { place, found: total, most });
+    }
+    let mut spans = Vec::with_capacity(total);
+    // L_i, the distance of mass i from the axis [m].
+    let mut distance_m = hub_radius_m;
+    for entry in entries {
+        let mass_kg = entry.mass_kg()?;
+        for _ in 0..entry.count {
+            distance_m += entry.length_m;
+            spans.push(SpanSpec {
+                length_m: entry.length_m,
+                mass_kg,
+                mass_per_length_kg_per_m: entry.mass_per_length_kg_per_m,
+                flexural_rigidity_n_m2: entry.flexural_rigidity_n_m2,
+                damping_n_s_per_m: entry.damping.map_or(0.0, |d| d.at(distance_m)),
+            });
         }
-        Some((0, diameter)) => Ok(PI * diameter.positive(Dimension::LENGTH)?.powi(4) / 64.0),
-        Some((_, sides)) => match &sides.list("a list of width and thickness")?[..] {
-            [width, thickness] => {
-                let width_m = width.positive(Dimension::LENGTH)?;
-                Ok(width_m * thickness.positive(Dimension::LENGTH)?.powi(3) / 12.0)
-            }
-            _ => Err(sides.kind("a list of width and thickness")),
-        },
+    }
+    Ok(spans)
+}
+
+/// Damping of a mass.
+#[derive(Debug, Clone, Copy)]
+enum PointDamping {
+    /// \[N·s/m\].
+    PerVelocity(f64),
+    /// The report's ν \[N·s/rad\].
+    PerRate(f64),
+}
+
+impl PointDamping {
+    fn read(value: &Value<'_>) -> Result<Self, ConfigError> {
+        let (index, size) =
+            value.quantity_of(&[Dimension::VISCOUS_LINEAR, Dimension::FORCE_PER_RATE])?;
+        if size < 0.0 {
+            return Err(value.range(Rule::NotNegative));
+        }
+        Ok(if index == 0 { Self::PerVelocity(size) } else { Self::PerRate(size) })
+    }
+
+    /// N·s/m at distance L: with F = −ν dθ/dt and θ = ŷ/L it is ν/L (Section 6.2).
+    fn at(self, distance_m: f64) -> f64 {
+        match self {
+            Self::PerVelocity(size) => size,
+            Self::PerRate(size) => size / distance_m,
+        }
     }
 }
+
+/// The table `payload`.
+fn tip(table: &Table<'_>) -> Result<Payload, ConfigError> {
+    table.only(&["mass", "inertia", "offset"])?;
+    let not_negative =
+        |key, dimension| table.get(key).map(|v| v.not_negative(dimension)).transpose();
+    let mass = not_negative("mass", Dimension::MASS)?;
+    let inertia = not_negative("inertia", Dimension::INERTIA)?;
+    if mass.is_none() && inertia.is_none() {
+        let keys = vec!["mass", "inertia"];
+        return Err(ConfigError::NoneOf { place: table.place(), keys });
+    }
+    let offset = table.get("offset").map(|v| v.quantity(Dimension::LENGTH)).transpose()?;
+    Ok(Payload {
+        mass_kg: mass.unwrap_or(0.0),
+        inertia_kg_m2: inertia.unwrap_or(0.0),
+        offset_m: offset.unwrap_or(0.0),
+    })
+}
+
+/// The beam's table `damping`.
+fn damping(table: &Table<'_>) -> Result<Damping, ConfigError> {
+    let keys = ["mass_proportional", "stiffness_proportional", "ratio", "ratios"];
+    table.only(&keys)?;
+    for pair in [[0, 2], [0, 3], [1, 2], [1, 3], [2, 3]] {
+        table.one_of(&pair.map(|k| keys[k]))?;
+    }
+    if let Some(ratio) = table.get("ratio") {
+        return Ok(Damping::Modal { ratios: vec![ratio.not_negative(Dimension::NUMBER)?] });
+    }
+    if let Some(list) = table.get("ratios") {
+        let ratios = list.list(RATIOS)?;
+        if ratios.is_empty() {
+            return Err(list.kind(RATIOS));
+        }
+        let ratios = ratios.iter().map(|v| v.not_negative(Dimension::NUMBER));
+        return Ok(Damping::Modal { ratios: ratios.collect::<Result<_, _>>()? });
+    }
+    let not_negative =
+        |key, dimension| table.get(key).map(|v| v.not_negative(dimension)).transpose();
+    let mass = not_negative(keys[0], Dimension::RATE)?;
+    let stiffness = not_negative(keys[1], Dimension::TIME)?;
+    if mass.is_none() && stiffness.is_none() {
+        return Err(ConfigError::NoneOf { place: table.place(), keys: keys.to_vec() });
+    }
+    Ok(Damping::Proportional {
+        mass_per_s: mass.unwrap_or(0.0),
+        stiffness_s: stiffness.unwrap_or(0.0),
+    })
+}
+
+const RATIOS: &str = "a list of damping ratios";

@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use lissom::arm::Arm;
-use lissom::beam::{BeamError, LumpedBeam, Payload, Span};
+use lissom::beam::{BeamError, LumpedBeam, Span};
 use lissom::drive::{Coulomb, DriveError, Motor};
 use lissom::rig::{Pd, Quantiser, Rig, RigError};
 use thiserror::Error;
 
-use super::ArmFile;
+use super::{ArmFile, BeamKind, BeamSpec};
 
 /// Why an `arm.toml` makes no arm or rig.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -21,6 +21,18 @@ pub enum ArmError {
         file: PathBuf,
         /// Its missing table.
         table: &'static str,
+    },
+    /// A beam with mass along its length, where one of point masses is needed.
+    #[error("{}: the beam has mass along its length; here it must have point masses", file.display())]
+    Distributed {
+        /// The file.
+        file: PathBuf,
+    },
+    /// A beam of point masses, where one with mass along its length is needed.
+    #[error("{}: the beam has point masses; here it must have mass along its length", file.display())]
+    Lumped {
+        /// The file.
+        file: PathBuf,
     },
     /// The beam's numbers.
     #[error("{}: {source}", file.display())]
@@ -53,7 +65,20 @@ impl ArmError {
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::MissingTable { table, .. } => Some(format!("add the table [{table}]")),
-            _ => None,
+            Self::Distributed { .. } => Some(
+                "give each span a `mass` in place of `density` or `mass_per_length`; more spans \
+                 come closer to the heavy beam"
+                    .to_owned(),
+            ),
+            Self::Lumped { .. } => {
+                Some("add `mass_per_length`, or `density` and `section`, to [beam]".to_owned())
+            }
+            Self::Beam { source: BeamError::TooManyMasses { .. }, .. } => {
+                Some("use fewer spans".to_owned())
+            }
+            Self::Beam { .. } | Self::Drive { .. } | Self::Rig { .. } => {
+                Some("check the numbers and their units".to_owned())
+            }
         }
     }
 }
@@ -64,32 +89,42 @@ impl ArmFile {
     /// # Errors
     /// [`ArmError`] where `[beam]` or `[drive]` is absent or its numbers make no arm.
     pub fn arm(&self, path: &Path) -> Result<Arm, ArmError> {
-        let file = || path.to_owned();
-        let absent = |table| ArmError::MissingTable { file: file(), table };
-        let lumped = self.lumped_beam(path)?;
-        let drive = self.drive.as_ref().ok_or_else(|| absent("drive"))?;
-        let drive_error = |source| ArmError::Drive { file: file(), source };
-        let motor = Motor::new(
-            drive.inertia_kg_m2,
-            drive.viscous_nm_s_per_rad,
-            drive.torque_constant_nm_per_a,
-        )
-        .map_err(drive_error)?;
-        let coulomb = Coulomb::by_direction(drive.coulomb_forward_nm, drive.coulomb_backward_nm)
-            .map_err(drive_error)?;
-        Arm::new(lumped, motor, coulomb).map_err(|source| ArmError::Beam { file: file(), source })
+        let beam = self.lumped_beam(path)?;
+        let (motor, coulomb) = self.motor(path)?.ok_or_else(|| absent(path, "drive"))?;
+        Arm::new(beam, motor, coulomb)
+            .map_err(|source| ArmError::Beam { file: path.to_owned(), source })
     }
 
-    /// The lumped beam that the file describes; `path` names the file in errors.
+    /// The drive that the file describes, if it does; `path` names the file in errors.
     ///
     /// # Errors
-    /// [`ArmError`] where `[beam]` is absent or its numbers make no beam.
+    /// [`ArmError::Drive`] where its numbers make no drive.
+    pub fn motor(&self, path: &Path) -> Result<Option<(Motor, Coulomb)>, ArmError> {
+        let Some(d) = &self.drive else { return Ok(None) };
+        let failed = |source| ArmError::Drive { file: path.to_owned(), source };
+        let motor = Motor::new(d.inertia_kg_m2, d.viscous_nm_s_per_rad, d.torque_constant_nm_per_a);
+        let coulomb = Coulomb::by_direction(d.coulomb_forward_nm, d.coulomb_backward_nm);
+        Ok(Some((motor.map_err(failed)?, coulomb.map_err(failed)?)))
+    }
+
+    /// The table `[beam]`; `path` names the file in errors.
+    ///
+    /// # Errors
+    /// [`ArmError::MissingTable`] where it is absent.
+    pub fn beam(&self, path: &Path) -> Result<&BeamSpec, ArmError> {
+        self.beam.as_ref().ok_or_else(|| absent(path, "beam"))
+    }
+
+    /// The beam of point masses that the file describes; `path` names the file in errors.
+    ///
+    /// # Errors
+    /// [`ArmError`] where `[beam]` is absent, has mass along its length or its numbers make no
+    /// beam.
     pub fn lumped_beam(&self, path: &Path) -> Result<LumpedBeam, ArmError> {
-        let file = || path.to_owned();
-        let beam = self
-            .beam
-            .as_ref()
-            .ok_or_else(|| ArmError::MissingTable { file: file(), table: "beam" })?;
+        let beam = self.beam(path)?;
+        if beam.kind() == BeamKind::Distributed {
+            return Err(ArmError::Distributed { file: path.to_owned() });
+        }
         let spans: Vec<Span> = beam
             .spans
             .iter()
@@ -100,11 +135,11 @@ impl ArmFile {
                 damping_n_s_per_m: s.damping_n_s_per_m,
             })
             .collect();
-        let payload =
-            Payload { inertia_kg_m2: beam.tip_inertia_kg_m2.unwrap_or(0.0), ..Payload::default() };
         LumpedBeam::new(&spans)
-            .and_then(|b| b.with_payload(payload))
-            .map_err(|source| ArmError::Beam { file: file(), source })
+            .and_then(|b| b.with_hub_radius(beam.hub_radius_m))
+            .and_then(|b| b.with_payload(beam.tip()))
+            .and_then(|b| b.with_damping(beam.damping.clone()))
+            .map_err(|source| ArmError::Beam { file: path.to_owned(), source })
     }
 
     /// The arm in its loop; sensors of the tips are those of the motor.
@@ -112,9 +147,8 @@ impl ArmFile {
     /// # Errors
     /// As [`arm`](Self::arm), and where `[rig]` or its controller is absent.
     pub fn rig(&self, path: &Path) -> Result<Rig, ArmError> {
-        let absent = |table| ArmError::MissingTable { file: path.to_owned(), table };
-        let rig = self.rig.as_ref().ok_or_else(|| absent("rig"))?;
-        let controller = rig.controller.as_ref().ok_or_else(|| absent("rig.controller"))?;
+        let rig = self.rig.as_ref().ok_or_else(|| absent(path, "rig"))?;
+        let controller = rig.controller.as_ref().ok_or_else(|| absent(path, "rig.controller"))?;
         let sensor = rig
             .motor_sensor
             .as_ref()
@@ -134,4 +168,8 @@ impl ArmFile {
             current_converter: None,
         })
     }
+}
+
+fn absent(path: &Path, table: &'static str) -> ArmError {
+    ArmError::MissingTable { file: path.to_owned(), table }
 }

@@ -18,16 +18,34 @@
 //! controller = { proportional = "9 A/rad", derivative = "0.2 A*s/rad" }
 //! ```
 //!
-//! Each span may have its own `young_modulus`, `section` or `flexural_rigidity`, and `damping` at
-//! the mass at its end: N·s/m, or N·s/rad as the report's ν. The last span may have `inertia`.
-//! A bare number is in SI; for `damping` in N·s/m, for `coulomb` in N·m.
+//! A bare number is in SI; for `damping` of a span in N·s/m, for `coulomb` in N·m.
+//!
+//! Each span may have its own `young_modulus`, `section` or `flexural_rigidity`, `damping` at the
+//! mass at its end (N·s/m, or N·s/rad as the report's ν) and `count`, which repeats it. The last
+//! may have `inertia`. The beam may begin at a hub's rim, carry a payload, be damped as a whole,
+//! and have its mass along its length:
+//!
+//! ```toml
+//! [beam]
+//! young_modulus = "200 GPa"
+//! section = { rectangle = ["25 mm", "2 mm"] }
+//! density = "7850 kg/m^3"                   # or mass_per_length = "0.39 kg/m"; also per span
+//! hub_radius = "20 mm"
+//! spans = [{ length = "100 mm", count = 5 }]  # a point mass at each end is optional now
+//! payload = { mass = "0.2 kg", inertia = "1e-4 kg*m^2", offset = "30 mm" }
+//! damping = { mass_proportional = "0.1 1/s", stiffness_proportional = "1e-4 s" }
+//!                                           # or { ratio = 0.01 }, { ratios = [0.01, 0.02] }
+//! ```
+//!
+//! Every key is in `docs/arm.md`.
 
 mod beam;
 mod build;
+mod material;
 #[cfg(test)]
 mod tests;
 
-pub use beam::{BeamSpec, SpanSpec};
+pub use beam::{BeamKind, BeamSpec, SpanSpec};
 pub use build::ArmError;
 
 use std::path::Path;

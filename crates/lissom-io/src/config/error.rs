@@ -120,6 +120,32 @@ pub enum ConfigError {
         /// The other.
         second: &'static str,
     },
+    /// A value that means nothing without another key.
+    #[error("{place} needs `{key}`")]
+    Needs {
+        /// The value.
+        place: Place,
+        /// The key.
+        key: &'static str,
+    },
+    /// A span without mass along it in a beam that has spans with one.
+    #[error("{place} has no mass along its length, but `{other}` has")]
+    NoMassAlong {
+        /// The span.
+        place: Place,
+        /// A span that has one.
+        other: String,
+    },
+    /// A list that stands for too many entries.
+    #[error("{place} stands for {found} entries, but {most} is the most")]
+    TooMany {
+        /// The list.
+        place: Place,
+        /// Its entries, each as often as it is repeated.
+        found: usize,
+        /// The most there may be.
+        most: usize,
+    },
     /// A key that only the last entry of a list may have.
     #[error("{place} may stand in the last entry alone")]
     LastOnly {
@@ -181,6 +207,17 @@ fn read_hint(source: &io::Error) -> &'static str {
     }
 }
 
+/// How the table of this key may be written.
+fn table_example(key: &str) -> &'static str {
+    match key.rsplit('.').next() {
+        Some("payload") => "{ mass = \"0.2 kg\", inertia = \"1e-4 kg*m^2\" }",
+        Some("damping") => "{ ratio = 0.01 }",
+        Some("section") => "{ round = \"0.8 mm\" }",
+        Some(span) if span.starts_with("spans[") => "{ length = \"7 in\", mass = \"0.121 lb\" }",
+        _ => "{ column = \"t\", unit = \"s\" }",
+    }
+}
+
 impl ConfigError {
     /// Whether a unit has another dimension than expected.
     pub(crate) fn is_dimension(&self) -> bool {
@@ -206,6 +243,11 @@ impl ConfigError {
             Self::MissingKey { key: "runs", .. } | Self::EmptyList { .. } => {
                 Some("add a table [[runs]] with `file = \"...\"` for each log".to_owned())
             }
+            Self::MissingKey { place, key: "mass" } => Some(format!(
+                "add `mass` to {}, or give the beam mass along its length: `mass_per_length`, or \
+                 `density` with `section`",
+                place.key
+            )),
             Self::MissingKey { place, key } if place.key.is_empty() => {
                 Some(format!("add the table [{key}]"))
             }
@@ -243,10 +285,24 @@ impl ConfigError {
                 Some("write it without unit and quotes".to_owned())
             }
             Self::Kind { expected: "text in quotes", .. } => Some("put it in quotes".to_owned()),
-            Self::Kind { expected: "a table", .. } => {
-                Some("write it as in { column = \"t\", unit = \"s\" }".to_owned())
+            Self::Kind { expected: "a table", place, .. } => {
+                Some(format!("write it as in {}", table_example(&place.key)))
+            }
+            Self::Kind { expected: "a list of damping ratios", .. } => {
+                Some("write them as in [0.01, 0.02]".to_owned())
             }
             Self::Kind { .. } => Some("`lissom demo` writes an example".to_owned()),
+            Self::Needs { .. } => Some(
+                "the area comes from `section`, beside `young_modulus`; or write `mass_per_length` \
+                 in place of `density`"
+                    .to_owned(),
+            ),
+            Self::NoMassAlong { .. } => Some(
+                "give every span a mass along its length (`mass_per_length`, or `density` with \
+                 `section`), or none of them"
+                    .to_owned(),
+            ),
+            Self::TooMany { .. } => Some("lower a `count`".to_owned()),
             Self::LastOnly { .. } => Some("move it there, or leave it out".to_owned()),
         }
     }

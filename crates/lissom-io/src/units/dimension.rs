@@ -40,6 +40,10 @@ impl Dimension {
     pub const INERTIA: Self = Self::new(1, 2, 0, 0);
     /// Pa
     pub const PRESSURE: Self = Self::new(1, -1, -2, 0);
+    /// kg/m³
+    pub const DENSITY: Self = Self::new(1, -3, 0, 0);
+    /// kg/m
+    pub const LINEAR_DENSITY: Self = Self::new(1, -1, 0, 0);
     /// N·m²
     pub const FLEXURAL_RIGIDITY: Self = Self::new(1, 3, -2, 0);
     /// N·m·s/rad
@@ -81,6 +85,8 @@ impl Dimension {
             Self::TORQUE => ("a torque", "0.25 N*m"),
             Self::INERTIA => ("a moment of inertia", "0.005529 lbf*in*s^2"),
             Self::PRESSURE => ("a pressure or modulus", "200 GPa"),
+            Self::DENSITY => ("a density", "7850 kg/m^3"),
+            Self::LINEAR_DENSITY => ("a mass per length", "0.03 kg/m"),
             Self::FLEXURAL_RIGIDITY => ("a flexural rigidity", "0.00443 N*m^2"),
             Self::VISCOUS_ROTARY => ("a torque per angular rate", "0.01216 lbf*in*s/rad"),
             Self::VISCOUS_LINEAR => ("a force per velocity", "0.2 N*s/m"),

@@ -48,6 +48,10 @@ fn reads_the_units_of_the_field() {
         ("2 s^-1", Dimension::RATE, 2.0),
         ("0.25", Dimension::NUMBER, 0.25),
         ("1.5e-3 m", Dimension::LENGTH, 1.5e-3),
+        ("7850 kg/m^3", Dimension::DENSITY, 7850.0),
+        ("0.284 lb/in^3", Dimension::DENSITY, 0.284 * 0.453_592_37 / (inch * inch * inch)),
+        ("30 g/m", Dimension::LINEAR_DENSITY, 0.03),
+        ("0.1 1/s", Dimension::RATE, 0.1),
         ("1 slug", Dimension::MASS, 14.593_902_937_206_4),
     ] {
         near(parse_quantity(text, dimension).unwrap(), expected);

@@ -20,6 +20,7 @@ mod response;
 mod roots;
 mod shape;
 mod span;
+mod sweep;
 mod three_moment;
 mod transfer;
 mod truncated;

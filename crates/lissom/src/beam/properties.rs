@@ -78,7 +78,9 @@ pub fn properties(beam: &LumpedBeam) -> Result<Vec<Property>, BeamError> {
 
 fn undamped(beam: &LumpedBeam) -> Result<LumpedBeam, BeamError> {
     let mut spans = beam.spans().to_vec();
-    spans.iter_mut().for_each(|s| s.damping_n_s_per_m = 0.0);
+    for span in &mut spans {
+        span.damping_n_s_per_m = 0.0;
+    }
     LumpedBeam::new(&spans)?
         .with_hub_radius(beam.hub_radius_m())?
         .with_payload(*beam.payload())?

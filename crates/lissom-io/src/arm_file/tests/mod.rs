@@ -1,5 +1,7 @@
 #![expect(clippy::float_cmp, reason = "these numbers are exact")]
 
+mod beam;
+
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 

@@ -1,0 +1,129 @@
+//! What a beam or a span is made of: stiffness and mass along its length.
+
+use std::f64::consts::PI;
+
+use crate::config::{ConfigError, Table, Value};
+use crate::units::Dimension;
+
+/// Keys that a beam and each of its spans may have.
+pub(super) const MATERIAL_KEYS: [&str; 5] =
+    ["flexural_rigidity", "young_modulus", "section", "density", "mass_per_length"];
+
+/// What a table says of EI and of the mass along the beam.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Material<'a> {
+    /// EI \[N·m²\].
+    rigidity: Option<f64>,
+    /// E \[Pa\].
+    modulus: Option<f64>,
+    section: Option<Section>,
+    mass: Option<Mass<'a>>,
+}
+
+/// Area and second moment of area.
+#[derive(Debug, Clone, Copy)]
+struct Section {
+    /// A \[m²\].
+    area: f64,
+    /// I \[m⁴\].
+    moment: f64,
+}
+
+/// Mass along the beam.
+#[derive(Debug, Clone)]
+enum Mass<'a> {
+    /// ρ \[kg/m³\], and where it stands.
+    Density(f64, Value<'a>),
+    /// ρA \[kg/m\].
+    PerLength(f64),
+}
+
+impl<'a> Material<'a> {
+    pub(super) fn read(table: &Table<'a>) -> Result<Self, ConfigError> {
+        for other in ["young_modulus", "section"] {
+            table.one_of(&["flexural_rigidity", other])?;
+        }
+        let positive = |key, dimension| table.get(key).map(|v| v.positive(dimension)).transpose();
+        let mass = match table.one_of(&["density", "mass_per_length"])? {
+            None => None,
+            Some((0, value)) => Some(Mass::Density(value.positive(Dimension::DENSITY)?, value)),
+            Some((_, value)) => Some(Mass::PerLength(value.positive(Dimension::LINEAR_DENSITY)?)),
+        };
+        Ok(Self {
+            rigidity: positive("flexural_rigidity", Dimension::FLEXURAL_RIGIDITY)?,
+            modulus: positive("young_modulus", Dimension::PRESSURE)?,
+            section: table.get("section").map(|v| section(&v)).transpose()?,
+            mass,
+        })
+    }
+
+    /// This span's material, with the beam's where it says nothing. A span with its own
+    /// `flexural_rigidity` has another section than the beam's.
+    pub(super) fn or(self, common: &Self) -> Self {
+        let mass = self.mass.or_else(|| common.mass.clone());
+        if self.rigidity.is_some() {
+            return Self { mass, ..self };
+        }
+        let own = self.modulus.is_some() || self.section.is_some();
+        Self {
+            rigidity: common.rigidity.filter(|_| !own),
+            modulus: self.modulus.or(common.modulus),
+            section: self.section.or(common.section),
+            mass,
+        }
+    }
+
+    /// EI \[N·m²\].
+    pub(super) fn rigidity(&self, beam: &Table<'_>) -> Result<f64, ConfigError> {
+        match (self.rigidity, self.modulus, self.section) {
+            (Some(rigidity), ..) => Ok(rigidity),
+            (None, Some(modulus), Some(section)) => Ok(modulus * section.moment),
+            (None, Some(_), None) => {
+                Err(ConfigError::MissingKey { place: beam.place(), key: "section" })
+            }
+            (None, None, Some(_)) => {
+                Err(ConfigError::MissingKey { place: beam.place(), key: "young_modulus" })
+            }
+            (None, None, None) => Err(ConfigError::NoneOf {
+                place: beam.place(),
+                keys: vec!["flexural_rigidity", "young_modulus"],
+            }),
+        }
+    }
+
+    /// ρA \[kg/m\]; `None` where nothing gives a mass along the beam.
+    pub(super) fn mass_per_length(&self) -> Result<Option<f64>, ConfigError> {
+        match &self.mass {
+            None => Ok(None),
+            Some(Mass::PerLength(mass)) => Ok(Some(*mass)),
+            Some(Mass::Density(density, value)) => match self.section {
+                Some(section) => Ok(Some(density * section.area)),
+                None => Err(ConfigError::Needs { place: value.place(), key: "section" }),
+            },
+        }
+    }
+}
+
+/// A = πd²/4, I = πd⁴/64 of a round section; wt, wt³/12 of a rectangle bent across t.
+fn section(value: &Value<'_>) -> Result<Section, ConfigError> {
+    let table = value.table()?;
+    table.only(&["round", "rectangle"])?;
+    match table.one_of(&["round", "rectangle"])? {
+        None => {
+            let keys = vec!["round", "rectangle"];
+            Err(ConfigError::NoneOf { place: table.place(), keys })
+        }
+        Some((0, diameter)) => {
+            let d = diameter.positive(Dimension::LENGTH)?;
+            Ok(Section { area: PI * d.powi(2) / 4.0, moment: PI * d.powi(4) / 64.0 })
+        }
+        Some((_, sides)) => match &sides.list("a list of width and thickness")?[..] {
+            [width, thickness] => {
+                let w = width.positive(Dimension::LENGTH)?;
+                let t = thickness.positive(Dimension::LENGTH)?;
+                Ok(Section { area: w * t, moment: w * t.powi(3) / 12.0 })
+            }
+            _ => Err(sides.kind("a list of width and thickness")),
+        },
+    }
+}
