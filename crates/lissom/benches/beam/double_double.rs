@@ -106,7 +106,7 @@ pub(crate) fn frequency(beam: &LumpedBeam, near_rad_s: f64) -> f64 {
         let c = b - fb * ((b - a) / (fb - fa));
         (a, fa) = (b, fb);
         (b, fb) = (c, tip(beam, c).1);
-        if fb == fa {
+        if fb.total_cmp(&fa).is_eq() {
             break;
         }
     }
