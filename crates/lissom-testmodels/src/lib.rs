@@ -1,5 +1,7 @@
 //! Analytic plants shared by tests, benches and examples.
 
+mod beams;
 mod report;
 
+pub use beams::{random_beam, uniform_beam};
 pub use report::{report_arm, report_rig};
