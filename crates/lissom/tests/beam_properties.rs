@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use lissom::beam::{LumpedBeam, Payload, RootClass, Span, class, properties, zero_shift};
+use num_complex::Complex64;
 use proptest::prelude::*;
 
 fn span() -> impl Strategy<Value = Span> {
@@ -10,6 +11,17 @@ fn span() -> impl Strategy<Value = Span> {
     let decade = || (-0.75..0.75_f64).prop_map(|e| 10f64.powf(e));
     (decade(), decade(), decade(), prop_oneof![Just(0.0), decade()]).prop_map(|(l, ei, m, c)| {
         Span { length_m: l, flexural_rigidity_n_m2: ei, mass_kg: m, damping_n_s_per_m: c }
+    })
+}
+
+/// Each over four decades.
+fn wide_span() -> impl Strategy<Value = Span> {
+    let decades = || (-2.0..2.0_f64).prop_map(|e| 10f64.powf(e));
+    (decades(), decades(), decades()).prop_map(|(l, ei, m)| Span {
+        length_m: l,
+        flexural_rigidity_n_m2: ei,
+        mass_kg: m,
+        damping_n_s_per_m: 0.0,
     })
 }
 
@@ -63,4 +75,44 @@ proptest! {
         let shift = zero_shift(&beam.zeros(tip).unwrap(), &heavier.zeros(tip).unwrap());
         prop_assert!(shift < 1e-12, "{shift}");
     }
+
+    /// Changes of sign along the beam count the tip's zeros: there are n − 1, and the response
+    /// changes its sign at each.
+    #[test]
+    fn the_tips_zeros_are_counted(spans in prop::collection::vec(wide_span(), 2..30)) {
+        let beam = LumpedBeam::new(&spans).unwrap();
+        let (n, tip) = (beam.len(), beam.len() - 1);
+        let zeros = beam.tip_zeros_per_s(n).unwrap();
+        prop_assert_eq!(zeros.len(), n - 1);
+        prop_assert!(zeros.is_sorted());
+        let lowest = beam.tip_zeros_per_s(n / 2).unwrap();
+        prop_assert_eq!(lowest.len(), (n / 2).min(n - 1));
+        prop_assert!(lowest.iter().zip(&zeros).all(|(a, b)| (a / b - 1.0).abs() < 1e-13));
+        let mut ends = vec![zeros[0] / 2.0];
+        ends.extend(zeros.windows(2).map(|z| (z[0] * z[1]).sqrt()));
+        ends.push(zeros[tip - 1] * 2.0);
+        for (k, s) in ends.iter().enumerate() {
+            let positive = beam.response(Complex64::from(*s)).angles[tip].re > 0.0;
+            prop_assert_eq!(positive, k % 2 == 0, "{} {:?}", s, zeros);
+        }
+    }
+}
+
+/// Thousands of spans whose stiffness differs by 10⁹.
+#[test]
+fn no_zero_of_a_long_wild_beam_is_missed() {
+    let n = 2000;
+    let spans: Vec<Span> = (0..n)
+        .map(|i| Span {
+            length_m: 0.01,
+            flexural_rigidity_n_m2: if i * 7919 % 13 < 4 { 1e-4 } else { 1e5 },
+            mass_kg: 0.1 + f64::from(i * 31 % 7),
+            damping_n_s_per_m: 0.0,
+        })
+        .collect();
+    let beam = LumpedBeam::new(&spans).unwrap();
+    let zeros = beam.tip_zeros_per_s(usize::MAX).unwrap();
+    assert_eq!(zeros.len(), spans.len() - 1);
+    let heavier = beam.with_load_times(5.0).unwrap().tip_zeros_per_s(usize::MAX).unwrap();
+    assert!(zeros.iter().zip(&heavier).all(|(a, b)| (a / b - 1.0).abs() < 1e-12));
 }

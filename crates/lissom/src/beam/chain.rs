@@ -331,6 +331,28 @@ impl<N: Number> BaseSide<N> {
     }
 }
 
+impl BaseSide<f64> {
+    /// Takes a power of two out of the motion and its minors where they get small, and gives its
+    /// exponent: along thousands of spans at s² > 0 they would leave a double's range. The torque
+    /// is then no longer that of this motor angle.
+    pub(crate) fn taken_out(&mut self) -> i64 {
+        let ((d1, d2), (e1, e2)) = (self.motion, self.minors);
+        let size = d1.abs().max(d2.abs()).max(e1.abs()).max(e2.abs());
+        if size >= SMALL || size == 0.0 {
+            return 0;
+        }
+        let exponent = size.log2() as i32;
+        let half = 2f64.powi(-exponent / 2);
+        let back = |v: f64| v * half * 2f64.powi(-exponent + exponent / 2);
+        self.motion = (back(d1), back(d2));
+        self.minors = (back(e1), back(e2));
+        i64::from(exponent)
+    }
+}
+
+/// Motions below this are brought back to one.
+const SMALL: f64 = 1e-100;
+
 /// Negative ones among two real eigenvalues with this product and sum.
 fn negative<N: Number>(product: N, sum: N) -> usize {
     if product.sign_part() < 0.0 {

@@ -1,6 +1,6 @@
 //! Natural frequencies by counting: none missed, each exact to rounding.
 
-use super::bracket::root;
+use super::counted::counted_roots;
 use super::chain::{At, BaseSide, Element, TipSide};
 use super::number::{Number, Scaled};
 
@@ -62,12 +62,6 @@ pub(crate) fn below(elements: &[Element], base: Base, omega_rad_s: f64) -> usize
     characteristic(elements, base, -omega_rad_s * omega_rad_s).1
 }
 
-/// Frequencies closer to each other than this, relatively, are given as one value.
-const TOGETHER: f64 = 4.0 * f64::EPSILON;
-
-/// Doublings of ω tried before a frequency is taken to be out of a double's range.
-const DOUBLINGS_MOST: usize = 1200;
-
 /// The lowest `count` natural frequencies, ascending \[rad/s\]; fewer where the chain has fewer or
 /// they are beyond the range of a double.
 ///
@@ -76,34 +70,8 @@ const DOUBLINGS_MOST: usize = 1200;
 /// characteristic function changes its sign once.
 pub(crate) fn lowest(elements: &[Element], base: Base, count: usize) -> Vec<f64> {
     let degrees = degrees(elements).saturating_sub(usize::from(base == Base::Pinned));
-    let count = count.min(degrees);
-    if count == 0 {
-        return Vec::new();
-    }
-    // ω as a power of two: interval ends stay exact and any scale is reached.
-    let mut low = 1.0_f64;
-    for _ in 0..DOUBLINGS_MOST {
-        if below(elements, base, low) == 0 {
-            break;
-        }
-        low *= 0.5;
-    }
-    let mut high = low;
-    let mut reached = 0;
-    for _ in 0..DOUBLINGS_MOST {
-        high *= 2.0;
-        if high * high >= f64::MAX {
-            break;
-        }
-        reached = below(elements, base, high);
-        if reached >= count {
-            break;
-        }
-    }
-    let mut found = Vec::with_capacity(count);
-    isolate(elements, base, (low, 0), (high, reached), &mut found);
-    found.truncate(count);
-    found
+    let at = |omega: f64| characteristic(elements, base, -omega * omega);
+    counted_roots(at, count.min(degrees))
 }
 
 /// Degrees of freedom: two at most at a joint, which moves and turns; `usize::MAX` with mass along
@@ -122,31 +90,4 @@ pub(crate) fn degrees(elements: &[Element]) -> usize {
         }
     }
     total + here.min(2)
-}
-
-/// Splits an interval of ω until each part holds one frequency, ascending.
-fn isolate(
-    elements: &[Element],
-    base: Base,
-    (low, below_low): (f64, usize),
-    (high, below_high): (f64, usize),
-    found: &mut Vec<f64>,
-) {
-    match below_high.saturating_sub(below_low) {
-        0 => {}
-        1 => {
-            let f = |omega: f64| characteristic(elements, base, -omega * omega).0;
-            found.push(root(f, low, high));
-        }
-        several => {
-            let middle = 0.5 * (low + high);
-            if high - low <= TOGETHER * high {
-                found.extend(std::iter::repeat_n(middle, several));
-                return;
-            }
-            let count = below(elements, base, middle).clamp(below_low, below_high);
-            isolate(elements, base, (low, below_low), (middle, count), found);
-            isolate(elements, base, (middle, count), (high, below_high), found);
-        }
-    }
 }

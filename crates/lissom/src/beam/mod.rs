@@ -6,6 +6,7 @@
 
 mod bracket;
 mod chain;
+mod counted;
 mod damped;
 mod distributed;
 mod dynamics;
