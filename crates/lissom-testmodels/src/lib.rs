@@ -2,6 +2,8 @@
 
 mod beams;
 mod report;
+mod schema;
 
 pub use beams::{random_beam, uniform_beam};
 pub use report::{report_arm, report_rig};
+pub use schema::SchemaCheck;

@@ -10,8 +10,8 @@ use num_complex::Complex64;
 
 use super::args::Load;
 
-/// A lumped beam with more masses has no matrices, zeros and state space here: they cost the square
-/// and the cube of n, and no one reads them.
+/// A lumped beam with more masses has no matrices, transfer functions and state space here: they
+/// cost the square and the cube of n, and no one reads them.
 pub(super) const MOST_DENSE: usize = 200;
 
 #[derive(Debug, Clone)]
@@ -114,11 +114,14 @@ impl Beam {
         }
     }
 
-    /// Zeros of the tip's response, those of a distributed beam below `omega_rad_s`; `None` for
-    /// beams of too many masses.
-    pub(super) fn tip_zeros(&self, omega_rad_s: f64) -> Option<Zeros> {
+    /// Zeros of the tip's response: of a distributed beam those below `omega_rad_s`, of many masses
+    /// the lowest `count`; `None` with many masses and a payload that turns.
+    pub(super) fn tip_zeros(&self, omega_rad_s: f64, count: usize) -> Option<Zeros> {
         match self {
-            Self::Lumped(beam) if beam.len() > MOST_DENSE => None,
+            Self::Lumped(beam) if beam.len() > MOST_DENSE => {
+                let zeros = beam.tip_zeros_per_s(count)?;
+                Some(Zeros { z: zeros.iter().map(|s| (s * s).into()).collect(), missing: 0 })
+            }
             Self::Lumped(beam) => beam.zeros(beam.len() - 1),
             Self::Distributed(beam) => Some(beam.zeros_below(beam.length_m(), omega_rad_s)),
         }

@@ -67,7 +67,7 @@ impl Task<'_> {
         };
         self.step("zeros");
         let highest = model.natural_frequencies_rad_s.last().copied().unwrap_or(0.0);
-        model.tip_zeros = beam.tip_zeros(highest);
+        model.tip_zeros = beam.tip_zeros(highest, count);
         match beam {
             Beam::Lumped(lumped) => self.lumped(lumped, &mut model)?,
             Beam::Distributed(_) => self.distributed(&mut model),
@@ -118,15 +118,23 @@ impl Task<'_> {
             model.modes = Some(beam.modes(count));
         }
         if n > MOST_DENSE {
-            let modes = model.modes.as_ref().map_or("none".to_owned(), |m| m.len().to_string());
             model.notes.push(format!(
-                "of beams of more than {MOST_DENSE} masses, matrices, zeros, transfer functions \
-                 and state space are left out; of the modes, {modes} are given"
+                "of beams of more than {MOST_DENSE} masses, matrices, transfer functions and state \
+                 space are left out"
             ));
-            if n > MOST_MASSES {
+            let lowest = self.args.modes;
+            model.notes.push(if n > MOST_MASSES {
+                format!(
+                    "of {n} natural frequencies and {} zeros the lowest {lowest} are given \
+                     (--modes), and no mode shapes",
+                    n - 1
+                )
+            } else {
+                format!("the shapes of the lowest {lowest} modes are given (--modes)")
+            });
+            if model.tip_zeros.is_none() {
                 model.notes.push(format!(
-                    "the lowest {} natural frequencies of {n} are given (--modes)",
-                    model.natural_frequencies_rad_s.len()
+                    "with a payload that turns, zeros are sought for at most {MOST_DENSE} masses"
                 ));
             }
             return Ok(());

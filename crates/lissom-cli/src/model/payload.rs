@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use indicatif::ProgressBar;
-use lissom::beam::{Base, Zeros, zero_shift};
+use lissom::beam::{Base, RootClass, Zeros, class, zero_shift};
 use lissom_io::ArmError;
 use lissom_io::model::PayloadCase;
+use num_complex::Complex64;
 
 use super::args::Load;
 use super::beam::Beam;
@@ -43,7 +44,7 @@ pub(super) fn study(
         if load.is_none() {
             highest = natural_frequencies_rad_s.last().copied().unwrap_or(0.0);
         }
-        let found = other.tip_zeros(highest);
+        let found = other.tip_zeros(highest, count);
         let known = found.is_some();
         let zeros = found.unwrap_or(Zeros { z: Vec::new(), missing: 0 });
         let shift = cases.first().map_or(0.0, |first| zero_shift(&first.zeros, &zeros));
@@ -58,6 +59,19 @@ pub(super) fn study(
         bar.inc(1);
     }
     Ok(cases)
+}
+
+/// The zero of another load that answers to zero `index` of the file's own: the same place within
+/// its class.
+pub(super) fn counterpart(own: &Zeros, index: usize, other: &Zeros) -> Option<Complex64> {
+    let kind = class(*own.z.get(index)?);
+    let place = own.z[..index].iter().filter(|z| class(**z) == kind).count();
+    of_class(other, kind).nth(place)
+}
+
+/// Zeros of one class.
+pub(super) fn of_class(zeros: &Zeros, kind: RootClass) -> impl Iterator<Item = Complex64> + '_ {
+    zeros.z.iter().copied().filter(move |z| class(*z) == kind)
 }
 
 /// Zeros further apart than this, relatively, have moved: beyond rounding.

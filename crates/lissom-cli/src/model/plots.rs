@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use lissom::beam::RootClass;
 use lissom_io::model::{Model, PayloadCase};
 use lissom_io::write::Batch;
 use lissom_report::{Axis, BodePlot, LinePlot, Role, Series, Style, Trace, TraceStyle};
@@ -9,6 +10,7 @@ use num_complex::Complex64;
 
 use super::args::Omega;
 use super::build::{Task, motor_response};
+use super::payload::of_class;
 use super::shape;
 use crate::failure::Failure;
 use crate::{figures, progress};
@@ -153,6 +155,12 @@ fn payload(cases: &[PayloadCase]) -> LinePlot {
     add("poles (motor clamped)", Role::Corrected, &|case, k| {
         case.natural_frequencies_rad_s.get(k).copied()
     });
-    add("zeros", Role::Raw, &|case, k| case.zeros.z.get(k).map(|z| z.sqrt().norm()));
+    for (kind, name, role) in [
+        (RootClass::Imaginary, "zeros ±jω (a)", Role::Fitted),
+        (RootClass::Real, "zeros ±σ (b)", Role::Raw),
+        (RootClass::Quadruple, "zeros ±σ ± jω (c)", Role::Other(0)),
+    ] {
+        add(name, role, &|case, k| of_class(&case.zeros, kind).nth(k).map(|z| z.sqrt().norm()));
+    }
     plot
 }

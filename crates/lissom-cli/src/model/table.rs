@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use lissom::beam::{Damping, Property, RootClass, Zeros, class};
+use lissom::beam::{Damping, MOST_MASSES, Property, RootClass, Zeros, class};
 use lissom_io::BeamKind;
 use lissom_io::model::{Model, PayloadCase, Responses};
 use num_complex::Complex64;
@@ -10,7 +10,7 @@ use num_complex::Complex64;
 use super::algebra;
 use super::build::Task;
 use super::number::{change, roots_of, shown, trimmed};
-use super::payload::verdict;
+use super::payload::{counterpart, verdict};
 use crate::print::{self, counted, line};
 
 /// Significant digits of frequencies and zeros.
@@ -180,7 +180,9 @@ fn zeros(model: &Model, found: &Zeros, most: usize) {
             .map(|z| vec![format!("  {}", roots_of(**z, DIGITS)), class(**z).letter().to_string()]),
     );
     print::table(&rows);
-    more(once.len().saturating_sub(most));
+    // Of very many masses only the lowest are sought.
+    let all = if model.len() > MOST_MASSES { model.len() - 1 } else { once.len() };
+    more(all - once.len().min(most));
     let count = |wanted: RootClass| once.iter().filter(|z| class(***z) == wanted).count();
     let (real, quadruple) = (count(RootClass::Real), count(RootClass::Quadruple));
     line(&match (real, quadruple) {
@@ -189,9 +191,10 @@ fn zeros(model: &Model, found: &Zeros, most: usize) {
         (b, c) => {
             let pair = (b > 0).then(|| format!("{} (b)", counted(b, "real pair")));
             let four = (c > 0).then(|| format!("{} (c)", counted(c, "quadruple")));
-            let both: Vec<String> = pair.into_iter().chain(four).collect();
+            let others = (all > once.len()).then(|| "others".to_owned());
+            let both: Vec<String> = pair.into_iter().chain(four).chain(others).collect();
             // The sign of the leading coefficient against that of the value at rest.
-            let against = model.kind == BeamKind::Lumped && b % 2 == 1;
+            let against = model.kind == BeamKind::Lumped && all == once.len() && b % 2 == 1;
             let against = if against { ", and the tip first moves against the motor" } else { "" };
             format!(
                 "non-minimum phase, by {}: the inverse of this response is unstable{against}",
@@ -258,8 +261,8 @@ fn payloads(task: &Task<'_>, cases: &[PayloadCase]) {
             row.push(found.filter(|_| index > 0).map_or(String::new(), |v| change(*v, own)));
         }
         for k in 0..zeros {
-            let found = case.zeros.z.get(k);
-            row.push(found.map_or(String::new(), |z| roots_of(*z, DIGITS)));
+            let found = counterpart(&first.zeros, k, &case.zeros);
+            row.push(found.map_or(String::new(), |z| roots_of(z, DIGITS)));
             let own = first.zeros.z[k].sqrt().norm();
             let found = found.filter(|_| index > 0);
             row.push(found.map_or(String::new(), |z| change(z.sqrt().norm(), own)));

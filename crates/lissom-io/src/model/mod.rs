@@ -160,12 +160,9 @@ pub(crate) fn rows(m: &lissom::Matrix) -> Vec<Vec<f64>> {
     m.row_iter().map(|r| r.iter().copied().collect()).collect()
 }
 
-fn pair(z: &Complex64) -> [f64; 2] {
-    [z.re, z.im]
-}
-
-fn pairs(list: &[Complex64]) -> Vec<[f64; 2]> {
-    list.iter().map(pair).collect()
+/// Complex values; `null` where a part is not finite.
+fn complex(list: &[Complex64]) -> Vec<Value> {
+    list.iter().map(|v| json!({ "re": v.re, "im": v.im })).collect()
 }
 
 fn mode(m: &Mode) -> Value {
@@ -178,7 +175,7 @@ fn mode(m: &Mode) -> Value {
 }
 
 fn zeros(found: &Zeros) -> Value {
-    let each = |z: &Complex64| json!({ "z": pair(z), "class": letter(class(*z)) });
+    let each = |z: &Complex64| json!({ "s_squared": { "re": z.re, "im": z.im }, "class": letter(class(*z)) });
     found.z.iter().map(each).collect()
 }
 
@@ -195,8 +192,8 @@ fn function(f: &Function) -> Value {
         "to": f.to,
         "num": polynomials.as_ref().map(|g| &g.num),
         "den": polynomials.as_ref().map(|g| &g.den),
-        "zeros": pairs(&f.roots.zeros),
-        "poles": pairs(&f.roots.poles),
+        "zeros": complex(&f.roots.zeros),
+        "poles": complex(&f.roots.poles),
         "gain": Some(f.roots.gain).filter(|_| !f.lowest),
         "minimum_phase": minimum_phase,
         "missing": f.roots.missing,
@@ -233,7 +230,7 @@ fn payload_case(case: &PayloadCase) -> Value {
         "tip_mass_kg": case.tip_mass_kg,
         "factor": case.factor,
         "natural_frequencies_rad_s": case.natural_frequencies_rad_s,
-        "zeros_z": pairs(&case.zeros.z),
+        "zeros": zeros(&case.zeros),
         "zero_shift": case.zero_shift,
     })
 }

@@ -3,6 +3,8 @@
 use num_complex::Complex64;
 use serde_json::{Value, json};
 
+use super::complex;
+
 /// Responses over frequency; frequency runs along the last index.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Responses {
@@ -22,13 +24,8 @@ pub(super) fn json(r: &Responses) -> Value {
     json!({
         "omega_rad_s": r.omega_rad_s,
         "to": r.masses.iter().map(|i| format!("theta_{}", i + 1)).collect::<Vec<_>>(),
-        "tips": r.tips.iter().map(|tip| values(tip)).collect::<Vec<_>>(),
-        "coupling": values(&r.coupling),
-        "motor": r.motor.as_ref().map(|motor| values(motor)),
+        "tips": r.tips.iter().map(|tip| complex(tip)).collect::<Vec<_>>(),
+        "coupling_nm_per_rad": complex(&r.coupling),
+        "motor_rad_per_a": r.motor.as_ref().map(|motor| complex(motor)),
     })
-}
-
-/// Complex values; `null` where one is not finite, exactly on a pole.
-fn values(list: &[Complex64]) -> Vec<Value> {
-    list.iter().map(|v| json!({ "re": v.re, "im": v.im })).collect()
 }
