@@ -98,8 +98,12 @@ impl Bench {
     }
 
     pub(crate) fn identify(&self, arguments: &[&str]) -> Output {
-        let mut command = Command::cargo_bin("lissom").unwrap();
-        command.current_dir(self.path()).arg("identify").args(arguments).output().unwrap()
+        self.lissom("identify", arguments)
+    }
+
+    pub(crate) fn lissom(&self, command: &str, arguments: &[&str]) -> Output {
+        let mut lissom = Command::cargo_bin("lissom").unwrap();
+        lissom.current_dir(self.path()).arg(command).args(arguments).output().unwrap()
     }
 
     /// Every output is asked for; the command says `message` alone and leaves nothing.
@@ -111,8 +115,19 @@ impl Bench {
 
     #[track_caller]
     pub(crate) fn refuses_with(&self, arguments: &[&str], code: i32, message: &str) {
+        self.lissom_refuses("identify", arguments, code, message);
+    }
+
+    #[track_caller]
+    pub(crate) fn lissom_refuses(
+        &self,
+        command: &str,
+        arguments: &[&str],
+        code: i32,
+        message: &str,
+    ) {
         let before = names(self.path());
-        let output = self.identify(arguments);
+        let output = self.lissom(command, arguments);
         assert_eq!(text(&output.stderr).trim_end(), message);
         assert_eq!(output.status.code(), Some(code));
         assert_eq!(text(&output.stdout), "");

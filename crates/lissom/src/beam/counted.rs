@@ -10,16 +10,20 @@ const TOGETHER: f64 = 4.0 * f64::EPSILON;
 const DOUBLINGS_MOST: usize = 1200;
 
 /// The lowest `wanted` positive roots, ascending; fewer where their squares are beyond the range of
-/// a double.
+/// a double. The search begins at `start`, a power of two: best a little below the first.
 ///
 /// `at` gives the function's value and how many of its roots lie below a point. Intervals are
 /// halved until each holds one root, where the function changes its sign; Brent's method finds it.
-pub(crate) fn counted_roots(at: impl Fn(f64) -> (Scaled<f64>, usize), wanted: usize) -> Vec<f64> {
+pub(crate) fn counted_roots(
+    at: impl Fn(f64) -> (Scaled<f64>, usize),
+    wanted: usize,
+    start: f64,
+) -> Vec<f64> {
     if wanted == 0 {
         return Vec::new();
     }
     // Powers of two: the ends of intervals stay exact and any scale is reached.
-    let mut low = 1.0_f64;
+    let mut low = start;
     for _ in 0..DOUBLINGS_MOST {
         if at(low).1 == 0 {
             break;

@@ -71,7 +71,28 @@ pub(crate) fn below(elements: &[Element], base: Base, omega_rad_s: f64) -> usize
 pub(crate) fn lowest(elements: &[Element], base: Base, count: usize) -> Vec<f64> {
     let degrees = degrees(elements).saturating_sub(usize::from(base == Base::Pinned));
     let at = |omega: f64| characteristic(elements, base, -omega * omega);
-    counted_roots(at, count.min(degrees))
+    counted_roots(at, count.min(degrees), below_first(elements))
+}
+
+/// A power of two below the first natural frequency with the motor clamped \[rad/s\]: all mass
+/// at the tip, as it were. A search that began at some fixed frequency could meet a beam that has
+/// millions of waves there.
+///
+/// # Source
+/// Dunkerley: 1/ω₁² ≤ Σ m_i·F_ii, and no F_ii is above that of the tip.
+pub(crate) fn below_first(elements: &[Element]) -> f64 {
+    let compliance = whole(elements, At::undamped(0.0)).compliance;
+    let (mut mass, mut inertia) = (0.0, 0.0);
+    for element in elements {
+        match *element {
+            Element::Mass { mass: m, .. } => mass += m,
+            Element::Heavy { length, mass_per_length, .. } => mass += mass_per_length * length,
+            Element::Inertia { inertia: i } => inertia += i,
+            Element::Span { .. } | Element::Rigid { .. } => {}
+        }
+    }
+    let low = (0.5 / (mass * compliance.a + inertia * compliance.c)).sqrt();
+    if low.is_normal() { 2f64.powi(low.log2().floor() as i32) } else { 1.0 }
 }
 
 /// Degrees of freedom: two at most at a joint, which moves and turns; `usize::MAX` with mass along

@@ -1,10 +1,8 @@
 //! The properties of Section 3 as checks that run on a beam.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use num_complex::Complex64;
 
-use super::chain::At;
-use super::frequencies::whole;
 use super::{Base, BeamError, Damping, LumpedBeam, RootClass, Zeros};
 
 /// One property, measured.
@@ -189,25 +187,29 @@ fn zeros_stand(beam: &LumpedBeam, zeros: &Zeros) -> Result<Property, BeamError> 
 }
 
 fn tip_loads(beam: &LumpedBeam) -> Result<Property, BeamError> {
-    // Statics: −EI·A·Θ = P·T_n + Q·F_n against the recursion's compliance of the tip.
+    // Statics, EI·A·Θ + P·T_n + Q·F_n = 0, with Θ from the bending moments span by span.
     let matrices = beam.matrices()?;
     let n = beam.len();
-    let points = LumpedBeam::new(beam.spans())?.with_hub_radius(beam.hub_radius_m())?;
-    let compliance = whole(points.elements(), At::undamped(0.0)).compliance;
-    let solve = |load: &DVector<f64>| (-&matrices.ei_a).lu().solve(load);
-    let length = beam.position_m()[n - 1];
-    let mut worst = f64::INFINITY;
-    if let (Some(force), Some(torque)) = (solve(&matrices.q), solve(&matrices.p)) {
-        let by_force = (force[n - 1] * length / compliance.a - 1.0).abs();
-        let by_torque = (torque[n - 1] * length / compliance.b - 1.0).abs();
-        worst = by_force.max(by_torque);
+    let mut worst = 0.0_f64;
+    for (force_n, torque_nm, by) in [(1.0, 0.0, &matrices.q), (0.0, 1.0, &matrices.p)] {
+        let mut forces_n = vec![0.0; n];
+        forces_n[n - 1] = force_n;
+        let shape = beam.shape_under(&forces_n, torque_nm);
+        let angle = |x: &f64| shape.deflection_m(*x) / x;
+        let angles: Vec<f64> = beam.position_m().iter().map(angle).collect();
+        for (row, load) in matrices.ei_a.row_iter().zip(by) {
+            let terms = row.iter().zip(&angles).map(|(a, angle)| a * angle);
+            let (sum, size) =
+                terms.fold((*load, load.abs()), |(sum, size), t| (sum + t, size + t.abs()));
+            worst = worst.max((sum / size).abs());
+        }
     }
     Ok(Property::at_most(
         "tip loads",
         "F_n and T_n act linearly through P and Q; F_n does not stand in (15)",
         worst,
-        DENSE,
-        "deflection of the tip by P and Q (dense) against the recursion's static compliance",
+        ROUNDING,
+        "what (13) at rest leaves of the shape that such a load bends the beam to, over its terms",
     ))
 }
 

@@ -5,7 +5,7 @@ use num_complex::Complex64;
 use super::bracket::root;
 use super::chain::{At, BaseSide, Element, Joined, TipSide};
 use super::counted::counted_roots;
-use super::frequencies::{Base, degrees, lowest};
+use super::frequencies::{Base, below_first, degrees, lowest};
 use super::number::{Dual, Number, Scaled};
 use super::roots::further;
 use super::{LumpedBeam, RootClass, class};
@@ -165,7 +165,7 @@ impl LumpedBeam {
             return None;
         }
         let at = |s: f64| tip_numerator(self.elements(), s);
-        Some(counted_roots(at, count.min(self.len() - 1)))
+        Some(counted_roots(at, count.min(self.len() - 1), below_first(self.elements())))
     }
 
     /// The zeros of θ_i/θ_m at mass `mass` (from 0 at the base), damping left out: as many as the
