@@ -1,6 +1,7 @@
 //! Analytic plants shared by tests, benches and examples.
 
 mod beams;
+pub mod limit;
 mod report;
 mod schema;
 

@@ -259,7 +259,11 @@ impl DistributedBeam {
     }
 
     /// The lumped beam of `count` masses or a few more: each piece is cut into equal spans, half of
-    /// a span's mass goes to each of its ends. The half at the clamp does not move.
+    /// a span's mass goes to each of its ends.
+    ///
+    /// The half at the clamp does not bend the beam and is left out. With a hub of radius r it turns
+    /// with the motor: `μ·l·r²/2`, l the first span's length, is to be added to the motor's inertia.
+    /// Everything then tends to this beam with order 2 (`docs/lumped-and-distributed.md`).
     ///
     /// # Errors
     /// [`BeamError`] where the masses make no beam.
