@@ -120,8 +120,9 @@ impl Figures {
         let frequencies_rad_s = first(&beam.frequencies_rad_s(Base::Clamped, EACH));
         // Zeros of class b lie as far apart as frequencies; the third is below the fifth of these.
         let beyond = beam.frequencies_rad_s(Base::Clamped, EACH + 2)[EACH + 1];
-        let zeros = beam.zeros_below(beam.length_m(), beyond).z;
-        let zeros: Vec<f64> = zeros.iter().map(|z| z.re.sqrt()).collect();
+        let zeros = beam.zeros_below(beam.length_m(), beyond);
+        let zeros: Vec<f64> =
+            zeros.iter().flat_map(|found| &found.z).map(|z| z.re.sqrt()).collect();
         let torque = |w: f64| beam.response(Complex64::new(0.0, w)).coupling_nm_per_rad.re;
         Self {
             frequencies_rad_s,

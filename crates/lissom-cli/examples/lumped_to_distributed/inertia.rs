@@ -13,6 +13,7 @@ const BEYOND: f64 = 500.0;
 /// quadruple.
 pub(crate) fn zeros(payload: Payload, point_m: f64) -> Result<Vec<Complex64>, Box<dyn Error>> {
     let zeros = cantilever().with_payload(payload)?.zeros_below(point_m, BEYOND);
+    let zeros = zeros.ok_or_else(|| format!("zeros cannot be counted with {payload:?}"))?;
     if zeros.missing > 0 {
         return Err(format!("{} zeros are not found with {payload:?}", zeros.missing).into());
     }

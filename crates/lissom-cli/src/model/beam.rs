@@ -123,7 +123,7 @@ impl Beam {
                 Some(Zeros { z: zeros.iter().map(|s| (s * s).into()).collect(), missing: 0 })
             }
             Self::Lumped(beam) => beam.zeros(beam.len() - 1),
-            Self::Distributed(beam) => Some(beam.zeros_below(beam.length_m(), omega_rad_s)),
+            Self::Distributed(beam) => beam.zeros_below(beam.length_m(), omega_rad_s),
         }
     }
 

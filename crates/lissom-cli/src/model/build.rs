@@ -9,8 +9,8 @@ use lissom::beam::{
 };
 use lissom::drive::{Coulomb, Motor};
 use lissom::lti::ZeroPoleGain;
-use lissom_io::ArmError;
 use lissom_io::model::{Function, Model, Responses};
+use lissom_io::{ArmError, BeamKind};
 use num_complex::Complex64;
 
 use super::args::ModelArgs;
@@ -71,6 +71,13 @@ impl Task<'_> {
         match beam {
             Beam::Lumped(lumped) => self.lumped(lumped, &mut model)?,
             Beam::Distributed(_) => self.distributed(&mut model),
+        }
+        if model.tip_zeros.is_none() && beam.kind() == BeamKind::Distributed {
+            model.warnings.push(
+                "the zeros of the tip's response cannot be counted: the beam's parts differ by too \
+                 many orders"
+                    .to_owned(),
+            );
         }
         if let Some(missing) = model.tip_zeros.as_ref().map(|z| z.missing).filter(|m| *m > 0) {
             model.warnings.push(format!("{missing} zeros of the tip's response were not found"));

@@ -105,14 +105,22 @@ impl DistributedBeam {
             return Err(BeamError::ModalDistributed);
         }
         let position_m = positions(pieces.iter().map(|p| p.length_m), hub_radius_m);
+        // Points on the beam are told by their distance from the axis.
+        if pieces.iter().zip(&position_m).any(|(p, end)| p.length_m < RESOLVED * end) {
+            return Err(BeamError::OutOfRange { quantity: "a point's distance from the axis" });
+        }
         let elements = elements(&pieces, hub_radius_m, &payload, &[]).0;
         let beam = Self { pieces, hub_radius_m, payload, damping, position_m, elements };
         let whole = super::frequencies::whole(&beam.elements, At::undamped(0.0));
         let all = [whole.compliance.a, whole.compliance.c, beam.inertia_kg_m2()];
-        if all.iter().all(|v| v.is_finite() && *v > 0.0) {
+        if !all.iter().all(|v| v.is_finite() && *v > 0.0) {
+            return Err(BeamError::OutOfRange { quantity: "the compliance or the inertia" });
+        }
+        let first = super::frequencies::below_first(&beam.elements);
+        if (REACH.recip()..=REACH).contains(&first) {
             Ok(beam)
         } else {
-            Err(BeamError::OutOfRange { quantity: "the compliance or the inertia" })
+            Err(BeamError::OutOfRange { quantity: "the first natural frequency's fourth power" })
         }
     }
 
@@ -225,26 +233,26 @@ impl DistributedBeam {
     ///
     /// Their number is that of the argument principle on the circle; real ones are then found as
     /// changes of sign, the rest by Newton's method. Where a zero lies on the circle itself it is
-    /// made a little wider.
+    /// made a little wider. `None` where their number cannot be had: the beam's parts differ by so
+    /// many orders that the function is lost in rounding.
     ///
     /// # Source
     /// `[Feliu1989, Section 3, properties 1 and 4]`
-    pub fn zeros_below(&self, point_m: f64, omega_rad_s: f64) -> Zeros {
+    pub fn zeros_below(&self, point_m: f64, omega_rad_s: f64) -> Option<Zeros> {
         let (elements, joints) = self.split(&[point_m]);
         let joint = joints[0];
         let mut radius = omega_rad_s * omega_rad_s;
         let dual = |z: Complex64| numerator(&elements, joint, Dual::variable(z));
-        let mut wanted = None;
-        for _ in 0..WIDER_MOST {
-            wanted = zeros_within(dual, radius);
-            if wanted.is_some() {
-                break;
+        // About as many zeros as natural frequencies.
+        let steps_most = 2000 + 200 * self.frequencies_below(Base::Clamped, omega_rad_s);
+        let wanted = (0..WIDER_MOST).find_map(|wider| {
+            if wider > 0 {
+                radius *= 1.01;
             }
-            radius *= 1.01;
-        }
-        let wanted = wanted.unwrap_or(0);
+            zeros_within(dual, radius, steps_most)
+        })?;
         if wanted == 0 {
-            return Zeros { z: Vec::new(), missing: 0 };
+            return Some(Zeros { z: Vec::new(), missing: 0 });
         }
         let range = (radius * NEAREST, radius);
         let real = real_zeros(|z| numerator(&elements, joint, z), wanted, range);
@@ -255,7 +263,7 @@ impl DistributedBeam {
         }
         z.sort_by(|a, b| a.norm().total_cmp(&b.norm()).then(a.im.total_cmp(&b.im)));
         let missing = wanted.saturating_sub(z.len());
-        Zeros { z, missing }
+        Some(Zeros { z, missing })
     }
 
     /// The lumped beam of `count` masses or a few more: each piece is cut into equal spans, half of
@@ -294,8 +302,13 @@ impl DistributedBeam {
     }
 }
 
+/// Shortest span of a distributed beam, relative to the distance of its end from the axis: points
+/// on it are known to four digits.
+const RESOLVED: f64 = 1e-12;
+/// Largest first natural frequency, and the reciprocal of the smallest \[rad/s\].
+const REACH: f64 = 1e60;
 /// Times that a circle is made wider to keep off a zero.
-const WIDER_MOST: usize = 20;
+const WIDER_MOST: usize = 5;
 /// The search for real zeros begins at this part of the radius in |z|.
 const NEAREST: f64 = 1e-9;
 

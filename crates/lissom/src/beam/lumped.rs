@@ -91,7 +91,8 @@ impl LumpedBeam {
         let whole = super::frequencies::whole(&self.elements, super::chain::At::undamped(0.0));
         let c = whole.compliance;
         let ok = |v: f64| v.is_finite() && v > 0.0;
-        if !(ok(c.a) && ok(c.b) && ok(c.c)) {
+        // A payload that lies far back may even have b < 0.
+        if !(ok(c.a) && c.b.is_finite() && ok(c.c)) {
             return Err(BeamError::OutOfRange { quantity: "the tip's compliance" });
         }
         if !ok(self.inertia_kg_m2()) {

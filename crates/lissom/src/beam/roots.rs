@@ -96,6 +96,11 @@ pub(crate) fn together(
 
 /// Tries for each root that is still sought.
 const TRIES_EACH: usize = 60;
+/// Tries in a row without a root after which the rest are given up.
+const FRUITLESS_MOST: usize = 300;
+/// Iterates further out than this, relative to the ring, will not come back; on a beam with mass
+/// along it each costs the more the further it is out.
+const ASTRAY: f64 = 100.0;
 /// Newton steps of a try.
 const STEPS_MOST: usize = 80;
 
@@ -115,10 +120,12 @@ pub(crate) fn further(
         let modulus = (low.ln() + (high / low).ln() * fraction(0.618_033_988_749_895)).exp();
         Complex64::from_polar(modulus, std::f64::consts::PI * fraction(0.414_213_562_373_095))
     };
+    let mut fruitless = 0;
     for k in 0..TRIES_EACH * wanted {
-        if all.len() >= known.len() + wanted {
+        if all.len() >= known.len() + wanted || fruitless > FRUITLESS_MOST {
             break;
         }
+        fruitless += 1;
         let mut z = start(k);
         let mut least = f64::INFINITY;
         for _ in 0..STEPS_MOST {
@@ -128,6 +135,9 @@ pub(crate) fn further(
                 break;
             }
             z -= step;
+            if z.norm() > ASTRAY * high {
+                break;
+            }
             let size = step.norm() / z.norm();
             if size <= STANDS || (least < 1e-12 && size >= least) {
                 least = size;
@@ -140,6 +150,7 @@ pub(crate) fn further(
             let polished = z - log_slope(z).inv();
             let z = if polished.is_finite() { polished } else { z };
             all.push(z);
+            fruitless = 0;
             if class(z) == RootClass::Quadruple {
                 all.push(z.conj());
             }
