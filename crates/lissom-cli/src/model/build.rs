@@ -1,5 +1,6 @@
 //! Everything about a beam that is asked for.
 
+use std::f64::consts::TAU;
 use std::path::Path;
 
 use indicatif::ProgressBar;
@@ -15,12 +16,16 @@ use num_complex::Complex64;
 
 use super::args::ModelArgs;
 use super::beam::{Beam, MOST_DENSE};
+use super::number::shown;
 use super::payload;
 use crate::failure::Failure;
 
 /// Beams with more masses have transfer functions and responses of the tip alone, unless all are
 /// asked for.
 const MOST_LISTED: usize = 20;
+
+/// Radians of waves along a beam up to which responses are computed.
+const WAVES_MOST: f64 = 1e5;
 
 /// Steps that `model` takes beside its frequencies and loads.
 pub(super) const STEPS: usize = 7;
@@ -38,6 +43,7 @@ impl Task<'_> {
     /// Does it.
     pub(super) fn model(&self) -> Result<Model, Failure> {
         let beam = self.beam;
+        self.check_reach(self.omega_rad_s.as_deref().unwrap_or(&[]))?;
         self.step("natural frequencies");
         let count = self.frequency_count();
         let natural_frequencies_rad_s = beam.frequencies_rad_s(Base::Clamped, count);
@@ -237,6 +243,27 @@ impl Task<'_> {
                 "no truncated model: it has a mode for each span's end, {MOST_LISTED} at most"
             ));
         }
+    }
+
+    /// Frequencies at which a distributed beam bends in so many waves that a response takes seconds.
+    fn check_reach(&self, omega_rad_s: &[f64]) -> Result<(), Failure> {
+        let Beam::Distributed(beam) = self.beam else { return Ok(()) };
+        let highest = omega_rad_s.iter().copied().fold(0.0, f64::max);
+        let waves = beam.wave_radians(highest);
+        if waves <= WAVES_MOST {
+            return Ok(());
+        }
+        let reached = highest * (WAVES_MOST / waves).powi(2);
+        Err(Failure::Model {
+            arm: self.args.arm.clone(),
+            reason: format!(
+                "at {} rad/s the beam bends in {} waves; responses are computed up to {} rad/s",
+                shown(highest, 3),
+                shown(waves / TAU, 3),
+                shown(reached, 3)
+            ),
+            hint: "give a lower --omega: far below that, a beam is no longer thin beside its waves",
+        })
     }
 
     fn response(&self, omega_rad_s: &[f64], model: &mut Model) -> Responses {

@@ -178,6 +178,16 @@ impl DistributedBeam {
         below(&self.elements, base, omega_rad_s)
     }
 
+    /// Radians of bending waves along the beam at `omega_rad_s`, Σ l·(μ·ω²/EI)^¼: what a response
+    /// there costs grows with them, and so with √ω.
+    pub fn wave_radians(&self, omega_rad_s: f64) -> f64 {
+        let each = |p: &Piece| {
+            let ratio = p.mass_per_length_kg_per_m / p.flexural_rigidity_n_m2;
+            if ratio > 0.0 { p.length_m * ratio.powf(0.25) } else { 0.0 }
+        };
+        omega_rad_s.sqrt() * self.pieces.iter().map(each).sum::<f64>()
+    }
+
     /// θ/θ_m at each piece's outer end and C_t/θ_m, at `s` \[1/s\].
     pub fn response(&self, s: Complex64) -> BeamResponse {
         self.response_at(s, &self.position_m)

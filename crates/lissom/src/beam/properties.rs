@@ -32,6 +32,17 @@ impl Property {
     ) -> Self {
         Self { name, statement, measured, bound, holds: measured <= bound, note: note.into() }
     }
+
+    /// Of a law of every beam: where it seems broken, the check is.
+    fn or_lost_in_rounding(mut self) -> Self {
+        if !self.holds {
+            self.note.push_str(
+                ". This is a law of every beam: masses or spans that differ by so many orders \
+                 leave the check no digits",
+            );
+        }
+        self
+    }
 }
 
 /// Most masses for which the checks run: some of them solve dense systems.
@@ -103,7 +114,8 @@ fn poles_on_the_axis(beam: &LumpedBeam, frequencies: &[f64]) -> Result<Property,
         DENSE,
         "largest real part among the eigenvalues of the dense state matrix, over the highest \
          frequency",
-    ))
+    )
+    .or_lost_in_rounding())
 }
 
 fn relative_degree(beam: &LumpedBeam, highest: f64) -> Property {
@@ -210,7 +222,8 @@ fn tip_loads(beam: &LumpedBeam) -> Result<Property, BeamError> {
         worst,
         ROUNDING,
         "what (13) at rest leaves of the shape that such a load bends the beam to, over its terms",
-    ))
+    )
+    .or_lost_in_rounding())
 }
 
 fn rigid_turn(beam: &LumpedBeam) -> Result<Property, BeamError> {
