@@ -129,12 +129,11 @@ fn options_of_model() {
 /// Spans whose stiffness differs by 10⁹, thousands of them: figures, no NaN, no panic.
 #[test]
 fn thousands_of_spans_of_absurd_ratio() {
-    let soft_and_stiff: String = (0..3000)
-        .map(|i| {
-            let rigidity = if i % 7 < 3 { "1e-4" } else { "1e5" };
-            format!("{{ length = 0.01, mass = 0.1, flexural_rigidity = {rigidity} }},\n")
-        })
-        .collect();
+    let each = |i: usize| {
+        let rigidity = if i % 7 < 3 { "1e-4" } else { "1e5" };
+        format!("{{ length = 0.01, mass = 0.1, flexural_rigidity = {rigidity} }}")
+    };
+    let soft_and_stiff = (0..3000).map(each).collect::<Vec<_>>().join(",\n");
     let bench = Bench::new().file("arm.toml", format!("[beam]\nspans = [\n{soft_and_stiff}]\n"));
     let output = bench.lissom("model", &["arm.toml", "--json", "--omega", "1e-4:1e4:20"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
