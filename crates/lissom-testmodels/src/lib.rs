@@ -1,7 +1,9 @@
-//! Analytic plants shared by tests, benches and examples.
+//! Analytic plants shared by tests, benches and examples, and exact figures of them.
 
 mod beams;
+mod double_double;
+pub mod exact;
 mod report;
 
-pub use beams::{random_beam, uniform_beam};
+pub use beams::{contrast_beam, random_beam, uniform_beam};
 pub use report::{report_arm, report_rig};
