@@ -50,13 +50,12 @@ fn errors(beam: &LumpedBeam) -> [Option<f64>; 6] {
     let (low, high) = (0.1 * lowest[0], 10.0 * lowest[COUNT - 1]);
     let step = (high / low).ln() / (FREQUENCIES - 1) as f64;
     let spread: Vec<f64> = (0..FREQUENCIES).map(|i| low * (step * i as f64).exp()).collect();
-    let poles =
-        beam.frequencies_rad_s(Base::Clamped, beam.frequencies_below(Base::Clamped, high));
+    let poles = beam.frequencies_rad_s(Base::Clamped, beam.frequencies_below(Base::Clamped, high));
     let beside: Vec<f64> =
         poles.iter().flat_map(|p| [p * (1.0 - BESIDE_POLE), p * (1.0 + BESIDE_POLE)]).collect();
-    let zeros = beam.tip_zeros_per_s(COUNT).map(|zeros| {
-        largest(zeros.iter().map(|s| s / exact::tip_zero(beam, *s) - 1.0))
-    });
+    let zeros = beam
+        .tip_zeros_per_s(COUNT)
+        .map(|zeros| largest(zeros.iter().map(|s| s / exact::tip_zero(beam, *s) - 1.0)));
     [
         Some(frequencies),
         Some(shapes),

@@ -14,6 +14,7 @@ use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput
 use criterion::{criterion_group, criterion_main, measurement::WallTime};
 use lissom::beam::{Base, LumpedBeam};
 use lissom_testmodels::{exact, random_beam, uniform_beam};
+use num_complex::Complex64;
 use serde_json::Value;
 
 /// Frequencies of a sweep, from a tenth of the first to ten times the twentieth natural one.
@@ -129,12 +130,18 @@ fn tip_sweep(c: &mut Criterion) {
         let title = format!("tip sweep, {name} n=1000");
         let sweep = Sweep::new(beam, FREQUENCIES);
         let mut banded = baselines::Banded::new(&sweep.beam);
+        let last = sweep.beam.len() - 1;
+        let one = |w: f64| sweep.beam.response(Complex64::new(0.0, w)).angles[last].re;
         let recursion = |w: f64| baselines::recursion(&sweep.beam, w);
         say(&title, "lissom", sweep.error(sweep.lissom()));
+        say(&title, "lissom, one response after another", sweep.error(sweep.by(one)));
         say(&title, "recursion", sweep.error(sweep.by(recursion)));
         say(&title, "banded LDLᵀ", sweep.error(sweep.by(|w| banded.tip(w))));
         let mut group = group(c, &title, 2);
         group.bench_function("lissom", |b| b.iter(|| sweep.beam.tip_response(&sweep.omega)));
+        group.bench_function("lissom, one response after another", |b| {
+            b.iter(|| sweep.by(one));
+        });
         group.bench_function("recursion", |b| b.iter(|| sweep.by(recursion)));
         group.bench_function("banded LDLᵀ", |b| b.iter(|| sweep.by(|w| banded.tip(w))));
     }

@@ -1,7 +1,7 @@
 //! Natural frequencies by counting: none missed, each exact to rounding.
 
-use super::counted::counted_roots;
 use super::chain::{At, BaseSide, Element, TipSide};
+use super::counted::counted_roots;
 use super::number::{Number, Scaled};
 
 /// What the base of the beam does.
