@@ -4,7 +4,7 @@
 //! step of the recursion of `chain` is linear and has no division; numerator and denominator fall
 //! apart into nine numbers, 19 multiplications and 24 additions a span. Frequencies run in blocks that
 //! fill the processor's vectors without any instruction being asked for. This is the one place where
-//! the plain recursion is written a second time: it is 40 times as fast as one
+//! the plain recursion is written a second time: it is 20 times as fast as one
 //! [`response`](LumpedBeam::response) after another, and more exact beside a pole.
 //!
 //! # Source
