@@ -20,7 +20,9 @@ const FREQUENCIES: usize = 100;
 const BESIDE_POLE: f64 = 1.01e-6;
 
 fn main() {
-    let quick = std::env::args().any(|a| a == "--test");
+    // `cargo bench` adds `--bench`, `cargo test` does not.
+    let given = |flag: &str| std::env::args().any(|a| a == flag);
+    let quick = given("--test") || !given("--bench");
     let sizes = if quick { &[500][..] } else { &[500, 1000, 10_000, 100_000] };
     let head = ["frequencies", "shapes", "shares", "tip", "beside poles", "zeros"];
     row("beam", "n", &head.map(String::from));

@@ -2,10 +2,10 @@
 //!
 //! With compliance, motion and their minors all multiplied by the product p of the pivots, every
 //! step of the recursion of `chain` is linear and has no division; numerator and denominator fall
-//! apart into nine numbers, 19 multiplications and 24 additions a span. Frequencies run in blocks that
-//! fill the processor's vectors without any instruction being asked for. This is the one place where
-//! the plain recursion is written a second time: it is 20 times as fast as one
-//! [`response`](LumpedBeam::response) after another, and more exact beside a pole.
+//! apart into nine numbers, 19 multiplications and 24 additions a span. Frequencies run in blocks
+//! that fill the processor's vectors without any instruction being asked for. This is the one place
+//! where the plain recursion is written a second time: it is 20 times as fast as one
+//! [`response`](LumpedBeam::response) after another, and no less exact (`docs/benchmarks.md`).
 //!
 //! # Source
 //! The compound form of the recursion, `[Ng1985]`.
@@ -225,8 +225,9 @@ impl LumpedBeam {
     ///
     /// The values are those of [`response`](Self::response) at `s = jω`; without damping they are
     /// found for many frequencies at once and are real. Errors are below 1e-9 of the larger of
-    /// their size and one, up to ten times the twentieth natural frequency and down to 1e-6 from a
-    /// pole, relatively (`tests/tip_sweep.rs`; figures in `docs/benchmarks.md`). Exactly on an undamped pole the value may be infinite.
+    /// their size and one at 1000 spans, up to ten times the twentieth natural frequency and down
+    /// to 1e-6 from a pole, relatively (`tests/tip_sweep.rs`; figures up to 100 000 spans in
+    /// `docs/benchmarks.md`). Exactly on an undamped pole the value may be infinite.
     ///
     /// # Source
     /// `[Feliu1989, eq. (16)]`
