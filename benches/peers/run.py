@@ -19,6 +19,8 @@ import peers  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 MODES = 20
+# Among the lowest 20 modes of the beams [rad/s].
+CHECKED_AT = 3000.0
 
 
 def median(f, repeats):
@@ -115,6 +117,17 @@ def lowest(n):
     table(f"uniform beam, n = {n}", head, rows)
 
 
+def check(n):
+    rows = []
+    for make in (beams.uniform, beams.random, beams.contrast):
+        beam = make(n)
+        beam.omega = np.array([CHECKED_AT])
+        exact, wrong = beams.reference(beam)
+        rows.append([beam.name, f"{exact[0]:.6g}", f"{wrong:.1e}"])
+    head = ["beam", f"tip's response at {CHECKED_AT:g} rad/s", "difference"]
+    table(f"double-double against mpmath's 200 bits, n = {n}", head, rows)
+
+
 def growth(sizes):
     cases = {}
     for n in sizes:
@@ -147,6 +160,7 @@ def main():
     for n in (1000, 100_000):
         lowest(n)
     growth([10**k for k in range(1, 7)])
+    check(100_000)
 
 
 if __name__ == "__main__":

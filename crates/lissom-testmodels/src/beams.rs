@@ -9,16 +9,28 @@ const RIGIDITY_N_M2: f64 = 10.0;
 ///
 /// # Panics
 /// For no spans.
-#[expect(clippy::expect_used, reason = "a test model")]
 pub fn uniform_beam(n: usize) -> LumpedBeam {
+    equal_parts(n, |_| RIGIDITY_N_M2)
+}
+
+/// As [`uniform_beam`], but every other span, from the second, is 10⁹ times as stiff.
+///
+/// # Panics
+/// For no spans.
+pub fn contrast_beam(n: usize) -> LumpedBeam {
+    equal_parts(n, |i| if i % 2 == 0 { RIGIDITY_N_M2 } else { 1e9 * RIGIDITY_N_M2 })
+}
+
+#[expect(clippy::expect_used, reason = "a test model")]
+fn equal_parts(n: usize, rigidity_n_m2: impl Fn(usize) -> f64) -> LumpedBeam {
     let part = 1.0 / n as f64;
-    let span = Span {
+    let span = |i| Span {
         length_m: part,
-        flexural_rigidity_n_m2: RIGIDITY_N_M2,
+        flexural_rigidity_n_m2: rigidity_n_m2(i),
         mass_kg: part,
         damping_n_s_per_m: 0.0,
     };
-    LumpedBeam::new(&vec![span; n]).expect("at least one span")
+    LumpedBeam::new(&(0..n).map(span).collect::<Vec<_>>()).expect("at least one span")
 }
 
 /// As [`uniform_beam`], with every length, rigidity and mass multiplied by its own `10^(u − 1/2)`,

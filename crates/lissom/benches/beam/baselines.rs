@@ -75,6 +75,37 @@ pub(crate) fn bisection(beam: &LumpedBeam, wanted: usize) -> Vec<f64> {
     brackets.iter().map(|(low, high)| 0.5 * (low + high)).collect()
 }
 
+/// The shape of the mode at ω, the largest deflection being 1: the load of a unit deflection of the
+/// tip carried inwards through the same recursion.
+pub(crate) fn shape(beam: &LumpedBeam, omega_rad_s: f64) -> Vec<f64> {
+    let z = -omega_rad_s * omega_rad_s;
+    let [mut c11, mut c12, mut c22] = [0.0; 3];
+    let mut passed = Vec::with_capacity(beam.len());
+    for span in beam.spans() {
+        let (l, ei) = (span.length_m, span.flexural_rigidity_n_m2);
+        c11 += 2.0 * l * c12 + l * l * c22 + l * l * l / (3.0 * ei);
+        c12 += l * c22 + l * l / (2.0 * ei);
+        c22 += l / ei;
+        let g = 1.0 / (1.0 + z * span.mass_kg * c11);
+        c22 -= z * span.mass_kg * g * c12 * c12;
+        c12 *= g;
+        c11 *= g;
+        passed.push((c11, c12));
+    }
+    let last = beam.len() - 1;
+    let mut moves = vec![1.0; beam.len()];
+    let (mut force, mut torque) = (0.0, 0.0);
+    for (i, span) in beam.spans().iter().enumerate().rev() {
+        if i < last {
+            moves[i] = passed[i].0 * force + passed[i].1 * torque;
+        }
+        force -= z * span.mass_kg * moves[i];
+        torque += span.length_m * force;
+    }
+    let largest = moves.iter().fold(0.0, |m: f64, w| if w.abs() > m.abs() { *w } else { m });
+    moves.iter().map(|w| w / largest).collect()
+}
+
 /// Entries of a row on and left of the diagonal: two unknowns a mass, coupled to their neighbours.
 const BAND: usize = 4;
 

@@ -1,12 +1,11 @@
 //! Speed and accuracy of the lumped beam, each beside a baseline of the same run.
 //!
 //! `cargo bench -p lissom --bench beam`. Errors go to standard error before each group; their
-//! reference is `double_double`, or a file of `tests/beam_reference` where said.
+//! reference is `lissom_testmodels::exact`, or a file of `tests/beam_reference` where said.
 #![expect(clippy::unwrap_used, reason = "the models are fixed and valid")]
 #![expect(clippy::print_stderr, reason = "accuracy beside speed")]
 
 mod baselines;
-mod double_double;
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -14,7 +13,8 @@ use std::time::{Duration, Instant};
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
 use criterion::{criterion_group, criterion_main, measurement::WallTime};
 use lissom::beam::{Base, LumpedBeam};
-use lissom_testmodels::{random_beam, uniform_beam};
+use lissom_testmodels::{exact, random_beam, uniform_beam};
+use num_complex::Complex64;
 use serde_json::Value;
 
 /// Frequencies of a sweep, from a tenth of the first to ten times the twentieth natural one.
@@ -40,7 +40,7 @@ impl Sweep {
             beam.frequencies_rad_s(Base::Clamped, beam.frequencies_below(Base::Clamped, high) + 1);
         let apart = |w: &f64| poles.iter().all(|p| (w / p - 1.0).abs() > NEAR_POLE);
         let judged = omega.iter().map(apart).collect();
-        let exact = omega.iter().map(|w| double_double::tip(&beam, *w).0).collect();
+        let exact = omega.iter().map(|w| exact::tip_response(&beam, *w)).collect();
         Self { beam, omega, exact, judged }
     }
 
@@ -99,7 +99,7 @@ fn check_reference() {
             numbers(&case["omega_rad_s"]).iter().zip(case["response"].as_array().unwrap())
         {
             let expected = at[last][0].as_f64().unwrap();
-            let found = double_double::tip(&beam, *w).0;
+            let found = exact::tip_response(&beam, *w);
             worst = worst.max((found - expected).abs() / expected.abs().max(1.0));
         }
     }
@@ -130,12 +130,18 @@ fn tip_sweep(c: &mut Criterion) {
         let title = format!("tip sweep, {name} n=1000");
         let sweep = Sweep::new(beam, FREQUENCIES);
         let mut banded = baselines::Banded::new(&sweep.beam);
+        let last = sweep.beam.len() - 1;
+        let one = |w: f64| sweep.beam.response(Complex64::new(0.0, w)).angles[last].re;
         let recursion = |w: f64| baselines::recursion(&sweep.beam, w);
         say(&title, "lissom", sweep.error(sweep.lissom()));
+        say(&title, "lissom, one response after another", sweep.error(sweep.by(one)));
         say(&title, "recursion", sweep.error(sweep.by(recursion)));
         say(&title, "banded LDLᵀ", sweep.error(sweep.by(|w| banded.tip(w))));
         let mut group = group(c, &title, 2);
         group.bench_function("lissom", |b| b.iter(|| sweep.beam.tip_response(&sweep.omega)));
+        group.bench_function("lissom, one response after another", |b| {
+            b.iter(|| sweep.by(one));
+        });
         group.bench_function("recursion", |b| b.iter(|| sweep.by(recursion)));
         group.bench_function("banded LDLᵀ", |b| b.iter(|| sweep.by(|w| banded.tip(w))));
     }
@@ -200,19 +206,37 @@ fn median_s(f: &mut dyn FnMut()) -> f64 {
     times[times.len() / 2]
 }
 
-/// The lowest modes of a beam far beyond dense matrices.
+/// The lowest modes of a beam far beyond dense matrices, frequencies alone and with shapes.
 fn lowest_modes(c: &mut Criterion) {
     const N: usize = 100_000;
     const MODES: usize = 20;
-    let title = format!("lowest {MODES} frequencies, random n={N}");
+    let title = format!("lowest {MODES} modes, random n={N}");
     let beam = random_beam(N, 1);
-    let found = beam.frequencies_rad_s(Base::Clamped, MODES);
-    let exact: Vec<f64> = found.iter().map(|w| double_double::frequency(&beam, *w)).collect();
-    say(&title, "lissom", relative(&found, &exact));
-    say(&title, "bisection", relative(&baselines::bisection(&beam, MODES), &exact));
-    let mut group = group(c, &title, 15);
-    group.bench_function("lissom", |b| b.iter(|| beam.frequencies_rad_s(Base::Clamped, MODES)));
+    let plain = || -> Vec<(f64, Vec<f64>)> {
+        let frequencies = baselines::bisection(&beam, MODES);
+        frequencies.into_iter().map(|w| (w, baselines::shape(&beam, w))).collect()
+    };
+    let found: Vec<(f64, Vec<f64>)> = beam
+        .modes(MODES)
+        .into_iter()
+        .map(|mode| (mode.natural_frequency_rad_s, mode.shape))
+        .collect();
+    let exact: Vec<_> = found.iter().map(|(w, _)| exact::mode(&beam, *w)).collect();
+    for (name, modes) in [("lissom", found), ("bisection and recursion", plain())] {
+        let pairs = || modes.iter().zip(&exact);
+        let frequencies = largest(pairs().map(|((w, _), e)| w / e.frequency_rad_s - 1.0));
+        let moved = |shape: &[f64], e: &[f64]| largest(shape.iter().zip(e).map(|(f, e)| f - e));
+        let shapes = largest(pairs().map(|((_, shape), e)| moved(shape, &e.shape)));
+        say(&title, &format!("{name}, frequencies"), frequencies);
+        say(&title, &format!("{name}, shapes"), shapes);
+    }
+    let mut group = group(c, &title, 6);
+    group.bench_function("lissom, frequencies", |b| {
+        b.iter(|| beam.frequencies_rad_s(Base::Clamped, MODES));
+    });
     group.bench_function("bisection", |b| b.iter(|| baselines::bisection(&beam, MODES)));
+    group.bench_function("lissom, with shapes", |b| b.iter(|| beam.modes(MODES)));
+    group.bench_function("bisection and recursion, with shapes", |b| b.iter(plain));
 }
 
 /// Every frequency of a beam of the size that dense matrices are used for.

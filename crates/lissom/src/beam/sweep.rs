@@ -2,10 +2,10 @@
 //!
 //! With compliance, motion and their minors all multiplied by the product p of the pivots, every
 //! step of the recursion of `chain` is linear and has no division; numerator and denominator fall
-//! apart into nine numbers and 19 multiply-adds a span. Frequencies run in blocks that fill the
-//! processor's vectors without any instruction being asked for. This is the one place where the
-//! plain recursion is written a second time: it is 50 times as fast
-//! (`cargo bench -p lissom --bench beam -- tip`), and as exact.
+//! apart into nine numbers, 19 multiplications and 24 additions a span. Frequencies run in blocks
+//! that fill the processor's vectors without any instruction being asked for. This is the one place
+//! where the plain recursion is written a second time: it is 20 times as fast as one
+//! [`response`](LumpedBeam::response) after another, and no less exact (`docs/benchmarks.md`).
 //!
 //! # Source
 //! The compound form of the recursion, `[Ng1985]`.
@@ -64,13 +64,41 @@ impl Coefficients {
 
 type Lane = [f64; LANES];
 
+/// A number whose change over a stride is summed apart, so that many small steps cost one rounding
+/// of the whole: poles stay where they are to about 1e-16, relatively, for any number of spans.
+#[derive(Clone, Copy)]
+struct Grown {
+    now: Lane,
+    /// At the stride's beginning.
+    start: Lane,
+    change: Lane,
+}
+
+impl Grown {
+    fn from(start: f64) -> Self {
+        Self { now: [start; LANES], start: [start; LANES], change: [0.0; LANES] }
+    }
+    #[inline]
+    fn add(&mut self, j: usize, step: f64) {
+        self.change[j] += step;
+        self.now[j] = self.start[j] + self.change[j];
+    }
+    /// Begins a stride with all numbers times `back`; what the sum rounds off is its first change.
+    #[inline]
+    fn settle(&mut self, j: usize, back: f64) {
+        self.change[j] = (self.change[j] - (self.now[j] - self.start[j])) * back;
+        self.now[j] *= back;
+        self.start[j] = self.now[j];
+    }
+}
+
 /// p, p·C, p·det C; p·d and the minors −p·e.
 #[derive(Clone, Copy)]
 struct State {
-    p: Lane,
-    a: Lane,
-    b: Lane,
-    c: Lane,
+    p: Grown,
+    a: Grown,
+    b: Grown,
+    c: Grown,
     det: Lane,
     d1: Lane,
     d2: Lane,
@@ -81,7 +109,10 @@ struct State {
 impl State {
     fn clamped(hub_radius: f64) -> Self {
         let (o, one) = ([0.0; LANES], [1.0; LANES]);
-        Self { p: one, a: o, b: o, c: o, det: o, d1: [hub_radius; LANES], d2: one, e1: o, e2: o }
+        let zero = Grown::from(0.0);
+        let p = Grown::from(1.0);
+        let d1 = [hub_radius; LANES];
+        Self { p, a: zero, b: zero, c: zero, det: o, d1, d2: one, e1: o, e2: o }
     }
 
     /// A span and its mass at −ω² = −`square`.
@@ -89,13 +120,13 @@ impl State {
     fn pass(&mut self, square: &Lane, q: &Coefficients) {
         for j in 0..LANES {
             let load = square[j] * q.m;
-            let t = q.l * self.b[j] + self.a[j];
-            let b = q.l * self.c[j] + self.b[j];
-            self.det[j] += q.f * (q.l2_3 * self.c[j] + t) + q.l2f2_12 * self.p[j];
-            self.a[j] = q.l2f_3 * self.p[j] + (q.l * b + t);
-            self.b[j] = q.lf_2 * self.p[j] + b;
-            self.c[j] += q.f * self.p[j] - load * self.det[j];
-            self.p[j] -= load * self.a[j];
+            let (p, a, b, c) = (self.p.now[j], self.a.now[j], self.b.now[j], self.c.now[j]);
+            let (turn, lb) = (q.l * c, q.l * b);
+            self.det[j] += q.f * (q.l2_3 * c + (lb + a)) + q.l2f2_12 * p;
+            self.a.add(j, (lb + q.l * (b + turn)) + q.l2f_3 * p);
+            self.b.add(j, turn + q.lf_2 * p);
+            self.c.add(j, q.f * p - load * self.det[j]);
+            self.p.add(j, -(load * self.a.now[j]));
 
             self.e1[j] += q.l * self.e2[j] + (q.l2f_6 * self.d2[j] + q.lf_2 * self.d1[j]);
             self.e2[j] += q.f * self.d1[j] + q.lf_2 * self.d2[j];
@@ -108,18 +139,11 @@ impl State {
     #[inline]
     fn settle(&mut self) {
         for j in 0..LANES {
-            let back = reciprocal_power(self.p[j].abs().max(self.d2[j].abs()));
-            for lane in [
-                &mut self.p,
-                &mut self.a,
-                &mut self.b,
-                &mut self.c,
-                &mut self.det,
-                &mut self.d1,
-                &mut self.d2,
-                &mut self.e1,
-                &mut self.e2,
-            ] {
+            let back = reciprocal_power(self.p.now[j].abs().max(self.d2[j].abs()));
+            for grown in [&mut self.p, &mut self.a, &mut self.b, &mut self.c] {
+                grown.settle(j, back);
+            }
+            for lane in [&mut self.det, &mut self.d1, &mut self.d2, &mut self.e1, &mut self.e2] {
                 lane[j] *= back;
             }
         }
@@ -185,8 +209,9 @@ fn undamped(beam: &LumpedBeam, omega_rad_s: &[f64]) -> Vec<f64> {
     for ((square, s), block) in squares.iter().zip(&states).zip(omega_rad_s.chunks(LANES)) {
         for j in 0..block.len() {
             let z = -square[j];
-            let p = s.p[j]
-                + z * (load.a * s.a[j] + 2.0 * load.b * s.b[j] + load.c * s.c[j])
+            let (a, b, c) = (s.a.now[j], s.b.now[j], s.c.now[j]);
+            let p = s.p.now[j]
+                + z * (load.a * a + 2.0 * load.b * b + load.c * c)
                 + z * z * load.det * s.det[j];
             let d = s.d1[j] + z * (load.b * s.e1[j] + load.c * s.e2[j]);
             found.push(d / (p * length));
@@ -199,9 +224,10 @@ impl LumpedBeam {
     /// θ_n/θ_m, the tip's response, at each `omega_rad_s`.
     ///
     /// The values are those of [`response`](Self::response) at `s = jω`; without damping they are
-    /// found for many frequencies at once and are real. Errors are below 1e-11 of the larger of
-    /// their size and one at 1000 spans, up to ten times the twentieth natural frequency
-    /// (`docs/benchmarks.md`). Exactly on an undamped pole the value may be infinite.
+    /// found for many frequencies at once and are real. Errors are below 1e-9 of the larger of
+    /// their size and one at 1000 spans, up to ten times the twentieth natural frequency and down
+    /// to 1e-6 from a pole, relatively (`tests/tip_sweep.rs`; figures up to 100 000 spans in
+    /// `docs/benchmarks.md`). Exactly on an undamped pole the value may be infinite.
     ///
     /// # Source
     /// `[Feliu1989, eq. (16)]`
