@@ -8,7 +8,7 @@
 
 use lissom::arm::Arm;
 use lissom::drive::Coulomb;
-use lissom::rig::{Hybrid, Mode, Pd, Quantiser};
+use lissom::rig::{HeldStep, Hybrid, Mode, Pd, Quantiser};
 use lissom_testmodels::report_arm;
 
 /// Angles agree to this \[rad\]: the reference's own agreement is 2e-14.
@@ -376,7 +376,17 @@ fn near(case: &str, k: usize, what: &str, found: f64, expected: f64, tolerance: 
     assert!(error <= tolerance, "{case}, sample {k}: {what} {found}, reference {expected}");
 }
 
+/// Both ways of moving on: by the events' polynomials alone, and by whole samples where there are
+/// none.
 fn run(case: &Case) {
+    run_by(case, |_| |hybrid: &mut Hybrid<'_>, torque| hybrid.advance(torque, SAMPLE_TIME_S));
+    run_by(case, |arm| {
+        let step = HeldStep::new(arm, SAMPLE_TIME_S);
+        move |hybrid: &mut Hybrid<'_>, torque| hybrid.advance_held(&step, torque)
+    });
+}
+
+fn run_by<F: Fn(&mut Hybrid<'_>, f64)>(case: &Case, advance: impl Fn(&Arm) -> F) {
     let base = report_arm();
     let coulomb = Coulomb::by_direction(case.coulomb.0, case.coulomb.1).unwrap();
     let arm = Arm::new(base.beam().clone(), base.motor, coulomb).unwrap();
@@ -385,6 +395,7 @@ fn run(case: &Case) {
         derivative_a_s_per_rad: case.gains.1,
         limit_a: 4.12,
     };
+    let advance = advance(&arm);
     let sensor = case.bits.map(|b| Quantiser::new(b, std::f64::consts::TAU).unwrap());
     let mut hybrid = Hybrid::with_state(&arm, case.initial.to_vec());
     let started_at_rest = usize::from(hybrid.mode() == Mode::Stick);
@@ -405,7 +416,7 @@ fn run(case: &Case) {
             near(case.name, k, "current", current, s.5, RATE);
         }
         if k < case.steps {
-            hybrid.advance(arm.motor.torque_constant_nm_per_a * current, SAMPLE_TIME_S);
+            advance(&mut hybrid, arm.motor.torque_constant_nm_per_a * current);
         }
     }
     assert_eq!(hybrid.sticks() + started_at_rest, case.sticks.0, "{}: sticks", case.name);

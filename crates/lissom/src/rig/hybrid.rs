@@ -48,13 +48,14 @@ pub enum Mode {
 /// coupling torque lies between −backward and forward.
 #[derive(Debug, Clone)]
 pub struct Hybrid<'a> {
-    arm: &'a Arm,
-    state: Vec<f64>,
-    mode: Mode,
+    pub(super) arm: &'a Arm,
+    pub(super) state: Vec<f64>,
+    pub(super) mode: Mode,
     step_most_s: f64,
-    terms: Vec<Vec<f64>>,
+    /// Taylor coefficients of the state; the first also serves as a state that is tried.
+    pub(super) terms: Vec<Vec<f64>>,
     sticks: usize,
-    stuck_s: f64,
+    pub(super) stuck_s: f64,
 }
 
 impl<'a> Hybrid<'a> {
@@ -111,6 +112,40 @@ impl<'a> Hybrid<'a> {
             if left <= f64::EPSILON * duration_s {
                 break;
             }
+        }
+    }
+
+    /// Moves on by at most `duration_s` under a constant motor torque \[N·m\], ending where the joint
+    /// sticks, breaks loose or reverses; gives the time that passed \[s\].
+    ///
+    /// ```
+    /// # use lissom::{arm::Arm, beam::{LumpedBeam, Span}, drive::{Coulomb, Motor}, rig::{Hybrid, Mode}};
+    /// # let span = Span { length_m: 0.2, flexural_rigidity_n_m2: 0.004, mass_kg: 0.05, damping_n_s_per_m: 0.0 };
+    /// # let beam = LumpedBeam::new(&[span]).unwrap();
+    /// # let arm = Arm::new(beam, Motor::new(6e-4, 1e-3, 0.25).unwrap(), Coulomb::symmetric(0.03).unwrap()).unwrap();
+    /// let mut hybrid = Hybrid::with_state(&arm, vec![0.0, 1.0]); // coasting at 1 rad/s
+    /// let time_s = hybrid.advance_to_event(0.0, 1.0);
+    /// assert!(time_s < 0.02 && hybrid.mode() != Mode::Forward);
+    /// ```
+    pub fn advance_to_event(&mut self, torque_nm: f64, duration_s: f64) -> f64 {
+        let (mut passed, mode) = (0.0, self.mode);
+        while passed < duration_s {
+            let left = duration_s - passed;
+            passed += self.step(torque_nm, left.min(self.step_most_s));
+            if self.mode != mode || left <= f64::EPSILON * duration_s {
+                break;
+            }
+        }
+        passed.min(duration_s)
+    }
+
+    /// Moves on with the motor held, whatever the torques.
+    pub(super) fn advance_stuck(&mut self, duration_s: f64) {
+        self.mode = Mode::Stick;
+        let parts = (duration_s / self.step_most_s).ceil().max(1.0);
+        for _ in 0..parts as usize {
+            let order = self.series(0.0);
+            self.evaluate(order, duration_s / parts);
         }
     }
 
@@ -211,7 +246,7 @@ impl<'a> Hybrid<'a> {
     }
 
     /// Torques below this are rounding of those that act \[N·m\].
-    fn rounding(&self, torque: f64) -> f64 {
+    pub(super) fn rounding(&self, torque: f64) -> f64 {
         let coulomb = self.arm.coulomb.forward.max(self.arm.coulomb.backward);
         ROUNDING * (torque.abs() + coulomb)
     }

@@ -1,11 +1,13 @@
 //! The virtual laboratory, Sections 5.1 and 6.1: a sampled loop around an arm that sticks and
 //! slips.
 
+mod held;
 mod hybrid;
 mod instrument;
 mod polynomial;
 mod stepped_sine;
 
+pub use held::HeldStep;
 pub use hybrid::{Hybrid, Mode};
 pub use instrument::{Pd, Quantiser, RigError};
 pub use stepped_sine::{Rig, SteppedSine};

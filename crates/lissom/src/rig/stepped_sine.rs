@@ -1,6 +1,6 @@
 //! The report's experiment: the motor follows one sinusoid after another.
 
-use super::{Hybrid, Pd, Quantiser, RigError};
+use super::{HeldStep, Hybrid, Pd, Quantiser, RigError};
 use crate::arm::Arm;
 use crate::record::{Run, TimeBase};
 
@@ -83,6 +83,7 @@ impl Rig {
         let mut current = Vec::with_capacity(record);
         let mut motor = Vec::with_capacity(record);
         let mut tips = vec![Vec::with_capacity(record); n];
+        let step = HeldStep::new(&self.arm, t);
         let mut hybrid = Hybrid::at_rest(&self.arm);
         let mut error_before = None;
         for k in 0..settle + record {
@@ -103,7 +104,7 @@ impl Rig {
                     tip.push(read(self.tip_sensor, hybrid.state()[2 + i]));
                 }
             }
-            hybrid.advance(self.arm.motor.torque_constant_nm_per_a * command, t);
+            hybrid.advance_held(&step, self.arm.motor.torque_constant_nm_per_a * command);
         }
         let base = TimeBase::uniform(settle as f64 * t, t);
         Run::new(name, base, current, motor, tips)

@@ -1,0 +1,172 @@
+//! The rig's laws as property tests: energy, time reversal, superposition, and that whole samples
+//! give what the events' polynomials give.
+
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use lissom::arm::Arm;
+use lissom::beam::{LumpedBeam, Span};
+use lissom::drive::{Coulomb, Motor};
+use lissom::rig::{HeldStep, Hybrid, Mode};
+use proptest::prelude::*;
+
+fn decade(low: f64, high: f64) -> impl Strategy<Value = f64> {
+    (low.ln()..high.ln()).prop_map(f64::exp)
+}
+
+fn span() -> impl Strategy<Value = Span> {
+    let damping = prop_oneof![Just(0.0), decade(1e-3, 1e-1)];
+    (0.1..0.3_f64, decade(0.02, 0.5), decade(0.02, 0.2), damping).prop_map(|(l, ei, m, c)| Span {
+        length_m: l,
+        flexural_rigidity_n_m2: ei,
+        mass_kg: m,
+        damping_n_s_per_m: c,
+    })
+}
+
+/// One to three masses; friction that may differ by direction, viscous or none.
+fn arm() -> impl Strategy<Value = Arm> {
+    let motor = (decade(2e-4, 5e-3), prop_oneof![Just(0.0), decade(1e-4, 1e-2)]);
+    let limit = || decade(5e-3, 0.1);
+    (prop::collection::vec(span(), 1..4), motor, limit(), limit()).prop_map(
+        |(spans, (inertia, viscous), forward, backward)| {
+            let motor = Motor::new(inertia, viscous, 1.0).unwrap();
+            let coulomb = Coulomb::by_direction(forward, backward).unwrap();
+            Arm::new(LumpedBeam::new(&spans).unwrap(), motor, coulomb).unwrap()
+        },
+    )
+}
+
+/// Torques held for a sample each: below, at and above what friction holds.
+fn torques() -> impl Strategy<Value = Vec<f64>> {
+    prop::collection::vec(prop_oneof![Just(0.0), -0.2..0.2_f64, -0.02..0.02_f64], 5..40)
+}
+
+/// Kinetic and elastic energy \[J\].
+fn stored(arm: &Arm, x: &[f64]) -> f64 {
+    let beam = arm.beam();
+    let (n, at) = (beam.len(), beam.position_m());
+    let stiffness = beam.matrices().unwrap().ei_a;
+    let mut sum = arm.motor.inertia_kg_m2 * x[1] * x[1];
+    for i in 0..n {
+        let speed = at[i] * x[2 + n + i];
+        sum += beam.spans()[i].mass_kg * speed * speed;
+        // (13): the force on mass i is L_i·Σ EI·A_ij·(θ_j − θ_m).
+        let force: f64 = (0..n).map(|j| stiffness[(i, j)] * (x[2 + j] - x[0])).sum();
+        sum -= at[i] * at[i] * (x[2 + i] - x[0]) * force;
+    }
+    0.5 * sum
+}
+
+/// What dampers take \[W\].
+fn damped(arm: &Arm, x: &[f64]) -> f64 {
+    let beam = arm.beam();
+    let n = beam.len();
+    let at_mass = |i: usize| {
+        beam.spans()[i].damping_n_s_per_m * (beam.position_m()[i] * x[2 + n + i]).powi(2)
+    };
+    arm.motor.viscous_nm_s_per_rad * x[1] * x[1] + (0..n).map(at_mass).sum::<f64>()
+}
+
+/// Gauss-Legendre nodes and weights on \[0, 1\], exact up to degree nine.
+const GAUSS: [(f64, f64); 5] = [
+    (0.046_910_077_030_668_0, 0.118_463_442_528_094_5),
+    (0.230_765_344_947_158_5, 0.239_314_335_249_683_2),
+    (0.5, 0.284_444_444_444_444_4),
+    (0.769_234_655_052_841_5, 0.239_314_335_249_683_2),
+    (0.953_089_922_969_332, 0.118_463_442_528_094_5),
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// Supplied work = stored energy + what Coulomb friction, the motor's and the masses' dampers
+    /// take.
+    #[test]
+    fn energy_is_kept(arm in arm(), torques in torques(), sample_s in decade(1e-3, 2e-2)) {
+        let mut hybrid = Hybrid::at_rest(&arm);
+        let (mut supplied, mut rubbed, mut dampers, mut turned_over) = (0.0, 0.0, 0.0, 0.0);
+        for torque in torques {
+            let mut left = sample_s;
+            while left > 1e-15 * sample_s {
+                // Pieces short enough for the quadrature.
+                let before = hybrid.clone();
+                let passed = hybrid.advance_to_event(torque, left.min(5e-4));
+                left -= passed;
+                for (node, weight) in GAUSS {
+                    let mut within = before.clone();
+                    within.advance(torque, node * passed);
+                    dampers += weight * passed * damped(&arm, within.state());
+                }
+                let turned = hybrid.state()[0] - before.state()[0];
+                supplied += torque * turned;
+                rubbed += turned * arm.coulomb.slipping(turned);
+                turned_over += (torque * turned).abs();
+            }
+        }
+        let kept = stored(&arm, hybrid.state());
+        prop_assert!(rubbed >= 0.0 && dampers >= 0.0 && kept >= 0.0);
+        let gap = (supplied - kept - rubbed - dampers).abs();
+        prop_assert!(gap <= 1e-9 * turned_over, "{gap:e} of {turned_over:e}");
+    }
+
+    /// Whole samples and the events' polynomials give the same motion.
+    #[test]
+    fn whole_samples_change_nothing(arm in arm(), torques in torques(), sample_s in decade(1e-4, 1e-2)) {
+        let step = HeldStep::new(&arm, sample_s);
+        let (mut fast, mut slow) = (Hybrid::at_rest(&arm), Hybrid::at_rest(&arm));
+        let mut size = 0.0_f64;
+        for torque in torques {
+            fast.advance_held(&step, torque);
+            slow.advance(torque, sample_s);
+            for (a, b) in fast.state().iter().zip(slow.state()) {
+                size = size.max(b.abs());
+                prop_assert!((a - b).abs() <= 1e-10 * size, "{a} {b}");
+            }
+        }
+        prop_assert_eq!((fast.mode(), fast.sticks()), (slow.mode(), slow.sticks()));
+        prop_assert!((fast.stuck_s() - slow.stuck_s()).abs() <= 1e-10);
+    }
+
+    /// Without friction the motion runs backward as it came.
+    #[test]
+    fn time_can_be_turned_round(spans in prop::collection::vec(span(), 1..4), torques in torques()) {
+        let spans: Vec<Span> =
+            spans.into_iter().map(|s| Span { damping_n_s_per_m: 0.0, ..s }).collect();
+        let motor = Motor::new(1e-3, 0.0, 1.0).unwrap();
+        let beam = LumpedBeam::new(&spans).unwrap();
+        let arm = Arm::new(beam, motor, Coulomb::symmetric(0.0).unwrap()).unwrap();
+        let mut hybrid = Hybrid::at_rest(&arm);
+        let mut size = 1e-3_f64;
+        for torque in &torques {
+            hybrid.advance(*torque, 0.005);
+            size = hybrid.state().iter().fold(size, |m, v| m.max(v.abs()));
+        }
+        let mut turned = hybrid.state().to_vec();
+        let k = spans.len();
+        turned[1] *= -1.0;
+        turned[2 + k..].iter_mut().for_each(|v| *v *= -1.0);
+        let mut back = Hybrid::with_state(&arm, turned);
+        torques.iter().rev().for_each(|torque| back.advance(*torque, 0.005));
+        prop_assert!(back.state().iter().all(|v| v.abs() <= 1e-10 * size), "{:?}", back.state());
+    }
+
+    /// While the joint slips one way, the answer to the sum of two torques is the sum of answers.
+    #[test]
+    fn slips_add_up(arm in arm(), one in 0.0..0.2_f64, other in 0.0..0.2_f64) {
+        let start = || {
+            let mut x = vec![0.0; arm.state_len()];
+            x[1] = 50.0; // fast enough not to stop
+            Hybrid::with_state(&arm, x)
+        };
+        let [none, a, b, both] = [0.0, one, other, one + other].map(|torque| {
+            let mut hybrid = start();
+            hybrid.advance(torque, 0.01);
+            (hybrid.mode(), hybrid.state().to_vec())
+        });
+        prop_assume!([&none, &a, &b, &both].iter().all(|m| m.0 == Mode::Forward));
+        for i in 0..arm.state_len() {
+            let gap = (both.1[i] - a.1[i] - b.1[i] + none.1[i]).abs();
+            prop_assert!(gap <= 1e-11 * (1.0 + both.1[i].abs()), "{gap:e}");
+        }
+    }
+}
