@@ -228,6 +228,29 @@ fn a_payload_moves_poles_and_no_zero_unless_it_turns() {
 }
 
 #[test]
+fn odd_ratios_are_pointed_out() {
+    let with = |damping: &str| {
+        let model = json(&format!("{TWO_MASSES}damping = {{ {damping} }}\n"), &[]);
+        model["warnings"].as_array().unwrap().len()
+    };
+    assert_eq!(with("ratio = \"2 %\""), 0);
+    assert_eq!(with("ratio = 2"), 1);
+    assert_eq!(with("ratios = [0.01, 0.01, 0.02]"), 1);
+}
+
+#[test]
+fn a_uniform_beam_keeps_a_thousand_zeros() {
+    let model = json(UNIFORM, &["--modes", "1000"]);
+    let zeros = model["tip_zeros"].as_array().unwrap();
+    let highest = numbers(&model["natural_frequencies_rad_s"])[999];
+    // s = 2ξ²·√(EI/μ)/L², ξ near (k − ¼)·π.
+    let unit = (2.0 / 0.5_f64).sqrt() / (0.8 * 0.8);
+    let expected = (highest / (2.0 * unit)).sqrt() / std::f64::consts::PI + 0.25;
+    assert_eq!(zeros.len(), expected.floor() as usize);
+    assert!(model["warnings"].as_array().unwrap().is_empty());
+}
+
+#[test]
 fn section_3_is_reported() {
     let model = json(TWO_MASSES, &["--properties"]);
     let properties = model["properties"].as_array().unwrap();

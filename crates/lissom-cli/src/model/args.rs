@@ -21,7 +21,7 @@ pub(crate) struct ModelArgs {
     /// of a file
     #[arg(long, value_name = "FILE|START:STOP:COUNT", value_parser = omega, allow_hyphen_values = true)]
     pub(crate) omega: Option<Omega>,
-    /// Measure the properties that Section 3 of the report claims
+    /// Measure the properties that Section 3 of the report claims (at most 200 point masses)
     #[arg(long)]
     pub(crate) properties: bool,
     /// Other loads at the tip, as factors or masses, e.g. 0.5x,2x,"0.3 kg"

@@ -62,6 +62,20 @@ impl Beam {
         }
     }
 
+    /// Least and largest EI.
+    pub(super) fn rigidity_n_m2(&self) -> (f64, f64) {
+        let range = |(low, high): (f64, f64), ei: f64| (low.min(ei), high.max(ei));
+        let start = (f64::INFINITY, 0.0);
+        match self {
+            Self::Lumped(beam) => {
+                beam.spans().iter().map(|s| s.flexural_rigidity_n_m2).fold(start, range)
+            }
+            Self::Distributed(beam) => {
+                beam.pieces().iter().map(|p| p.flexural_rigidity_n_m2).fold(start, range)
+            }
+        }
+    }
+
     pub(super) fn hub_radius_m(&self) -> f64 {
         match self {
             Self::Lumped(beam) => beam.hub_radius_m(),

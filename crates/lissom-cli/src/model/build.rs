@@ -6,7 +6,7 @@ use std::path::Path;
 use indicatif::ProgressBar;
 use lissom::arm::Arm;
 use lissom::beam::{
-    Base, BeamError, LumpedBeam, MOST_CHECKED, MOST_MASSES, motor_function, properties,
+    Base, BeamError, Damping, LumpedBeam, MOST_CHECKED, MOST_MASSES, motor_function, properties,
 };
 use lissom::drive::{Coulomb, Motor};
 use lissom::lti::ZeroPoleGain;
@@ -14,6 +14,7 @@ use lissom_io::model::{Function, Model, Responses};
 use lissom_io::{ArmError, BeamKind};
 use num_complex::Complex64;
 
+use super::algebra::MOST_SHOWN;
 use super::args::ModelArgs;
 use super::beam::{Beam, MOST_DENSE};
 use super::number::shown;
@@ -98,7 +99,7 @@ impl Task<'_> {
         }
         if self.args.properties {
             self.step("properties");
-            model.properties = Some(self.properties()?);
+            self.properties(&mut model)?;
         }
         self.bar.finish_and_clear();
         Ok(model)
@@ -151,6 +152,14 @@ impl Task<'_> {
                 ));
             }
             return Ok(());
+        }
+        if n > MOST_SHOWN {
+            model.notes.push(format!(
+                "matrices and polynomials of more than {MOST_SHOWN} masses are in --json alone"
+            ));
+        }
+        if let Damping::Modal { ratios } = beam.damping() {
+            check_ratios(ratios, model);
         }
         self.step("matrices");
         model.matrices = Some(beam.matrices().map_err(|e| self.failed(e))?);
@@ -298,31 +307,40 @@ impl Task<'_> {
         r
     }
 
-    fn properties(&self) -> Result<Vec<lissom::beam::Property>, Failure> {
-        let Beam::Lumped(beam) = self.beam else {
-            return Err(Failure::Model {
-                arm: self.args.arm.clone(),
-                reason: "Section 3 is about beams with point masses, and this one has its mass \
-                         along its length"
+    /// Section 3, where it applies.
+    fn properties(&self, model: &mut Model) -> Result<(), Failure> {
+        match self.beam {
+            Beam::Distributed(_) => model.notes.push(
+                "no --properties: Section 3 is about beams with point masses, and this one has its \
+                 mass along it"
                     .to_owned(),
-                hint: "leave --properties out, or describe the beam by point masses",
-            });
-        };
-        if beam.len() > MOST_CHECKED {
-            return Err(Failure::Model {
-                arm: self.args.arm.clone(),
-                reason: format!(
-                    "{} masses; the properties are measured for at most {MOST_CHECKED}",
-                    beam.len()
-                ),
-                hint: "leave --properties out, or use fewer spans",
-            });
+            ),
+            Beam::Lumped(beam) if beam.len() > MOST_CHECKED => model.notes.push(format!(
+                "no --properties: they are measured for at most {MOST_CHECKED} masses"
+            )),
+            Beam::Lumped(beam) => {
+                model.properties = Some(properties(beam).map_err(|e| self.failed(e))?);
+            }
         }
-        properties(beam).map_err(|e| self.failed(e))
+        Ok(())
     }
 
     fn failed(&self, source: BeamError) -> Failure {
         beam_failure(&self.args.arm, source)
+    }
+}
+
+/// What may be a slip in a list of damping ratios.
+fn check_ratios(ratios: &[f64], model: &mut Model) {
+    let modes = model.natural_frequencies_rad_s.len();
+    if ratios.len() > modes {
+        model.warnings.push(format!("{} damping ratios for {modes} modes", ratios.len()));
+    }
+    if let Some(ratio) = ratios.iter().find(|r| **r >= 1.0) {
+        model.warnings.push(format!(
+            "a damping ratio of {ratio}: such a mode does not oscillate; per cent are written \
+             \"{ratio} %\""
+        ));
     }
 }
 

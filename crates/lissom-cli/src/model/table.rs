@@ -74,6 +74,14 @@ fn what(task: &Task<'_>, model: &Model) {
             )
         }
     });
+    let (soft, stiff) = task.beam.rigidity_n_m2();
+    #[expect(clippy::float_cmp, reason = "the same number twice")]
+    let rigidity = if soft == stiff {
+        shown(soft, DIGITS)
+    } else {
+        format!("{} to {}", shown(soft, DIGITS), shown(stiff, DIGITS))
+    };
+    line(&format!("EI {rigidity} N·m²"));
     if model.hub_radius_m > 0.0 {
         line(&format!("it begins {} from the axis", metres(model.hub_radius_m)));
     }
@@ -193,11 +201,8 @@ fn zeros(model: &Model, found: &Zeros, most: usize) {
             let four = (c > 0).then(|| format!("{} (c)", counted(c, "quadruple")));
             let others = (all > once.len()).then(|| "others".to_owned());
             let both: Vec<String> = pair.into_iter().chain(four).chain(others).collect();
-            // The sign of the leading coefficient against that of the value at rest.
-            let against = model.kind == BeamKind::Lumped && all == once.len() && b % 2 == 1;
-            let against = if against { ", and the tip first moves against the motor" } else { "" };
             format!(
-                "non-minimum phase, by {}: the inverse of this response is unstable{against}",
+                "non-minimum phase, by {}: the inverse of this response is unstable",
                 both.join(" and ")
             )
         }

@@ -149,3 +149,15 @@ fn thousands_of_spans_of_absurd_ratio() {
     let tips = model["frequency_response"]["tips"][0].as_array().unwrap();
     assert!(tips.len() == 20 && tips.iter().all(|tip| tip["re"].is_number()));
 }
+
+#[test]
+fn ratios_stand_beside_dampers() {
+    refuses(
+        "flexural_rigidity = 2\ndamping = { ratio = 0.01 }\n\
+         spans = [{ length = 1, mass = 1, damping = 0.1 }]",
+        "error: arm.toml: damping ratios by mode stand beside dampers at masses: no mode keeps its \
+         ratio then\n\
+         hint: leave out the `damping` of the spans, or write damping = { mass_proportional = \
+         \"...\", stiffness_proportional = \"...\" } in place of ratios",
+    );
+}

@@ -81,6 +81,11 @@ impl ArmError {
                  describe the beam by point masses"
                     .to_owned(),
             ),
+            Self::Beam { source: BeamError::ModalWithDampers, .. } => Some(
+                "leave out the `damping` of the spans, or write damping = { mass_proportional = \
+                 \"...\", stiffness_proportional = \"...\" } in place of ratios"
+                    .to_owned(),
+            ),
             Self::Beam { .. } | Self::Drive { .. } | Self::Rig { .. } => {
                 Some("check the numbers and their units".to_owned())
             }

@@ -56,6 +56,7 @@ const PREFIXED: &[(&str, f64, Dimension)] = &[
     ("N", 1.0, Dimension::FORCE),
     ("Pa", 1.0, Dimension::PRESSURE),
     ("J", 1.0, Dimension::TORQUE),
+    ("Nm", 1.0, Dimension::TORQUE),
     ("W", 1.0, Dimension::new(1, 2, -3, 0)),
     ("V", 1.0, Dimension::VOLTAGE),
     ("ohm", 1.0, Dimension::RESISTANCE),
@@ -97,4 +98,13 @@ pub(super) fn find(name: &str) -> Option<Unit> {
 /// Names of all units, without prefixes.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     PLAIN.iter().chain(PREFIXED).map(|(name, ..)| *name)
+}
+
+/// `found`, or with the prefix that `wanted` has but for upper and lower case: `GPa` for "Gpa".
+pub(super) fn with_prefix(wanted: &str, found: &str) -> String {
+    let same = |prefix: &&str| format!("{prefix}{found}").eq_ignore_ascii_case(wanted);
+    let exact = |prefix: &&str| wanted.starts_with(*prefix);
+    let prefixes = || PREFIXES.iter().map(|(prefix, _)| *prefix).filter(same);
+    let prefix = prefixes().find(exact).or_else(|| prefixes().next());
+    prefix.map_or(found.to_owned(), |prefix| format!("{prefix}{found}"))
 }

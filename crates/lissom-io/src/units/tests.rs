@@ -87,12 +87,18 @@ fn errors_say_what_was_found_and_wanted() {
         Some("write it as in \"7 in\", or as a bare SI number"),
     );
     fails(
-        "7 Nm",
-        Dimension::TORQUE,
-        "\"7 Nm\": there is no unit `Nm`",
+        "7 furlong",
+        Dimension::LENGTH,
+        "\"7 furlong\": there is no unit `furlong`",
         Some(
             "write units as in \"mA\", \"deg\" or \"lbf*in/A\": products with *, quotients with /",
         ),
+    );
+    fails(
+        "70 Gpa",
+        Dimension::PRESSURE,
+        "\"70 Gpa\": there is no unit `Gpa`",
+        Some("did you mean `GPa`?"),
     );
     fails(
         "7 lbs",

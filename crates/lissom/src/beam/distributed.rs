@@ -3,7 +3,8 @@
 use num_complex::Complex64;
 
 use super::chain::{At, BaseSide, Element, Joined, TipSide};
-use super::frequencies::{below, lowest};
+use super::counted::counted_roots;
+use super::frequencies::{below, below_first, lowest};
 use super::lumped::{attach, positions};
 use super::modes::mode;
 use super::number::{Dual, Number, Scaled};
@@ -11,7 +12,7 @@ use super::response::{BeamResponse, at_damped, joined};
 use super::roots::further;
 use super::span::check_rest;
 use super::winding::zeros_within;
-use super::zeros::{log_slope, real_zeros};
+use super::zeros::{log_slope, real_zeros, tip_numerator};
 use super::{Base, BeamError, Damping, LumpedBeam, Mode, Payload, Span, Zeros};
 
 /// A piece of beam with constant rigidity and mass per length, and what sits at its outer end.
@@ -116,7 +117,7 @@ impl DistributedBeam {
         if !all.iter().all(|v| v.is_finite() && *v > 0.0) {
             return Err(BeamError::OutOfRange { quantity: "the compliance or the inertia" });
         }
-        let first = super::frequencies::below_first(&beam.elements);
+        let first = below_first(&beam.elements);
         if (REACH.recip()..=REACH).contains(&first) {
             Ok(beam)
         } else {
@@ -249,6 +250,9 @@ impl DistributedBeam {
     /// # Source
     /// `[Feliu1989, Section 3, properties 1 and 4]`
     pub fn zeros_below(&self, point_m: f64, omega_rad_s: f64) -> Option<Zeros> {
+        if point_m >= self.length_m() && !self.payload.turns() {
+            return Some(self.tip_zeros_below(omega_rad_s));
+        }
         let (elements, joints) = self.split(&[point_m]);
         let joint = joints[0];
         let mut radius = omega_rad_s * omega_rad_s;
@@ -264,7 +268,8 @@ impl DistributedBeam {
         if wanted == 0 {
             return Some(Zeros { z: Vec::new(), missing: 0 });
         }
-        let range = (radius * NEAREST, radius);
+        let first = below_first(&self.elements);
+        let range = ((first * first * NEAREST).min(radius * NEAREST), radius);
         let real = real_zeros(|z| numerator(&elements, joint, z), wanted, range);
         let mut z: Vec<Complex64> = real.into_iter().map(Complex64::from).collect();
         if z.len() < wanted {
@@ -274,6 +279,16 @@ impl DistributedBeam {
         z.sort_by(|a, b| a.norm().total_cmp(&b.norm()).then(a.im.total_cmp(&b.im)));
         let missing = wanted.saturating_sub(z.len());
         Some(Zeros { z, missing })
+    }
+
+    /// Those of the tip, where nothing resists it in turning: all real, s² > 0, and counted by the
+    /// changes of sign along the beam (`docs/lumped-and-distributed.md`).
+    fn tip_zeros_below(&self, omega_rad_s: f64) -> Zeros {
+        let at = |s: f64| tip_numerator(&self.elements, s);
+        let wanted = at(omega_rad_s).1;
+        let found = counted_roots(at, wanted, below_first(&self.elements));
+        let missing = wanted - found.len();
+        Zeros { z: found.into_iter().map(|s| (s * s).into()).collect(), missing }
     }
 
     /// The lumped beam of `count` masses or a few more: each piece is cut into equal spans, half of
@@ -319,8 +334,8 @@ const RESOLVED: f64 = 1e-12;
 const REACH: f64 = 1e60;
 /// Times that a circle is made wider to keep off a zero.
 const WIDER_MOST: usize = 5;
-/// The search for real zeros begins at this part of the radius in |z|.
-const NEAREST: f64 = 1e-9;
+/// The search for real zeros begins at this part of the first frequency's square in |z|.
+const NEAREST: f64 = 1e-6;
 
 fn numerator<N: Number>(elements: &[Element], joint: usize, z: N) -> Scaled<N> {
     let at = At::undamped(z);

@@ -67,7 +67,8 @@ impl LumpedBeam {
     /// The same beam with this damping beside that of its masses.
     ///
     /// # Errors
-    /// [`BeamError`] where a quantity is negative or not finite, or a list of ratios is empty.
+    /// [`BeamError`] where a quantity is negative or not finite, a list of ratios is empty, or ratios
+    /// would stand beside dampers at masses.
     pub fn with_damping(self, damping: Damping) -> Result<Self, BeamError> {
         Self::build(self.spans, self.hub_radius_m, self.payload, damping)
     }
@@ -79,6 +80,10 @@ impl LumpedBeam {
         damping: Damping,
     ) -> Result<Self, BeamError> {
         check(&spans, hub_radius_m, &payload, &damping)?;
+        let modal = matches!(damping, Damping::Modal { .. });
+        if modal && spans.iter().any(|s| s.damping_n_s_per_m > 0.0) {
+            return Err(BeamError::ModalWithDampers);
+        }
         let position_m = positions(spans.iter().map(|s| s.length_m), hub_radius_m);
         let elements = elements(&spans, hub_radius_m, &payload);
         let beam = Self { spans, hub_radius_m, payload, damping, position_m, elements };

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
-use super::{Base, BeamError, Damping, LumpedBeam, RootClass, Zeros};
+use super::{BeamError, Damping, LumpedBeam, RootClass, Zeros};
 
 /// One property, measured.
 #[derive(Debug, Clone, PartialEq)]
@@ -261,10 +261,9 @@ fn classes(beam: &LumpedBeam, tip: &Zeros) -> Property {
     let (a, b) = found(tip);
     let c = count(tip, RootClass::Quadruple);
     let phase = if tip.minimum_phase() { "minimum phase" } else { "non-minimum phase" };
-    let clamped = beam.frequencies_rad_s(Base::Clamped, 1)[0];
     let mut note = format!(
-        "tip: {a} of class a, {b} of class b, {c} of class c, {phase} (first frequency {clamped:.4} \
-         rad/s); measured: masses whose zeros are others"
+        "number of masses whose zeros are others. The tip has {a} of class a, {b} of class b, {c} of \
+         class c: {phase}"
     );
     if !plain {
         note.push_str(

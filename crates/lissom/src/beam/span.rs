@@ -181,6 +181,9 @@ pub enum BeamError {
         /// Smallest over largest singular value of the modes' shares at the points.
         condition: f64,
     },
+    /// Ratios by mode and dampers at masses at once.
+    #[error("damping ratios by mode stand beside dampers at masses: no mode keeps its ratio then")]
+    ModalWithDampers,
     /// Dimensions so far apart that numbers leave the range of a double.
     #[error("the dimensions are so far apart that {quantity} leaves the range of a double")]
     OutOfRange {

@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 
 use super::bracket::root;
-use super::chain::{At, BaseSide, Element, Joined, TipSide};
+use super::chain::{At, BaseSide, Element, Joined, TipSide, cut_up};
 use super::counted::counted_roots;
 use super::frequencies::{Base, below_first, degrees, lowest};
 use super::number::{Dual, Number, Scaled};
@@ -128,22 +128,28 @@ fn all(elements: &[Element], joint: usize) -> Zeros {
 }
 
 /// The tip's numerator at `s` real, s² = z > 0, and how many of its zeros lie below, for a chain
-/// whose last element is the last mass.
+/// that nothing at its end resists in turning.
 ///
-/// The numerator of the part up to mass i, taken along i, changes its sign as often as there are
-/// zeros below: each further mass adds one zero above and lowers those that are there.
-fn tip_numerator(elements: &[Element], s: f64) -> (Scaled<f64>, usize) {
+/// The numerator of the part up to a point, taken along the beam, changes its sign as often as
+/// there are zeros below: each further mass adds one zero above and lowers those that are there.
+/// Parts of mass along the beam are so short that it changes once at most within one.
+pub(crate) fn tip_numerator(elements: &[Element], s: f64) -> (Scaled<f64>, usize) {
     let at = At::undamped(s * s);
     let (mut side, mut below, mut positive) = (BaseSide::clamped(), 0, true);
     let mut exponent = 0;
-    for element in elements {
-        if matches!(element, Element::Mass { .. }) {
-            let now = side.motion.0 > 0.0;
-            below += usize::from(now != positive);
-            positive = now;
-        }
+    let mut pass = |element: &Element| {
         side.pass(at, element);
         exponent += side.taken_out();
+        // A mass multiplies the motion by a positive pivot.
+        let now = side.motion.0 > 0.0;
+        below += usize::from(now != positive);
+        positive = now;
+    };
+    for element in elements {
+        match element {
+            Element::Heavy { .. } => cut_up(&[*element], at).0.iter().for_each(&mut pass),
+            _ => pass(element),
+        }
     }
     let value = side.det.times(side.motion.0);
     (Scaled { exponent: value.exponent + exponent, ..value }, below)
