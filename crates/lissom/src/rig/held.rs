@@ -32,9 +32,12 @@ pub struct HeldStep {
     stick: Vec<f64>,
     /// ρ of [`Size`] \[1/s\].
     rho: f64,
-    /// Remainder of the velocity's cubic per size of ẋ \[s\].
+    /// What the velocity changes by at most per size of ẋ \[s\], and what its cubic leaves out.
+    velocity_change_s: f64,
     velocity_rest_s: f64,
-    /// Remainder of the coupling torque's cubic per size of x \[N·m·s/rad\].
+    /// What the stuck coupling torque changes by at most per size of x \[N·m·s/rad\], and what its
+    /// cubic leaves out.
+    torque_change: f64,
     torque_rest: f64,
 }
 
@@ -65,11 +68,14 @@ impl HeldStep {
                 stick[row * len + column] = *h;
             }
         }
-        // T⁴/384·rate³·e^{rate·T}: what a cubic leaves out where ẋ has size one.
+        // Where ẋ has size one, x changes by T·e^{rate·T} at most, and a cubic leaves out
+        // T⁴/384·rate³·e^{rate·T}.
         let turn = 2.0 * rho * part_s;
-        let rest = turn.powi(3) * part_s / 384.0 * turn.exp();
+        let change = part_s * turn.exp();
+        let rest = change * turn.powi(3) / 384.0;
         let dynamics = arm.dynamics();
         let by_rate = dynamics.coupling_rate.as_ref().map_or(0.0, |g| g.abs().sum());
+        let torque = dynamics.coupling.abs().sum() + 2.0 * rho * by_rate;
         Self {
             sample_time_s,
             parts,
@@ -79,8 +85,10 @@ impl HeldStep {
             push: slipped(vec![0.0; len], 1.0),
             stick,
             rho,
+            velocity_change_s: change,
             velocity_rest_s: rest,
-            torque_rest: rest * (dynamics.coupling.abs().sum() + 2.0 * rho * by_rate),
+            torque_change: change * torque,
+            torque_rest: rest * torque,
         }
     }
 
@@ -103,9 +111,22 @@ fn stays_above(rest: f64, part_s: f64, [from, to]: [(f64, f64); 2]) -> bool {
     from.0.min(to.0).min(from.0 + third * from.1).min(to.0 - third * to.1) > rest
 }
 
-/// `out = M·x`, M by rows.
+/// `out = M·x`, M by rows. One mass and two have their own loops, which the compiler unrolls.
 fn times(rows: &[f64], x: &[f64], out: &mut [f64]) {
-    for (row, out) in rows.chunks_exact(x.len()).zip(out) {
+    match x.len() {
+        4 => times_of::<4>(rows, x, out),
+        6 => times_of::<6>(rows, x, out),
+        _ => {
+            for (row, out) in rows.chunks_exact(x.len()).zip(out) {
+                *out = row.iter().zip(x).map(|(m, x)| m * x).sum();
+            }
+        }
+    }
+}
+
+fn times_of<const N: usize>(rows: &[f64], x: &[f64], out: &mut [f64]) {
+    let (Some(x), Some(out)) = (x.first_chunk::<N>(), out.first_chunk_mut::<N>()) else { return };
+    for (row, out) in rows.as_chunks::<N>().0.iter().zip(out) {
         *out = row.iter().zip(x).map(|(m, x)| m * x).sum();
     }
 }
@@ -134,9 +155,17 @@ impl Hybrid<'_> {
     /// Tries a part of a sample without leaving the stick.
     fn stays_stuck(&mut self, step: &HeldStep, torque: f64) -> bool {
         let (arm, coulomb) = (self.arm, self.arm.coulomb);
-        let rest = step.torque_rest * step.size(&self.state) + self.rounding(torque);
+        let (size, rounding) = (step.size(&self.state), self.rounding(torque));
         let (next, scratch) = self.terms.split_at_mut(1);
         times(&step.stick, &self.state, &mut next[0]);
+        let net = arm.coupling_torque(&self.state) - torque;
+        if (coulomb.forward + net).min(coulomb.backward - net)
+            > step.torque_change * size + rounding
+        {
+            self.stuck_s += step.part_s;
+            return true;
+        }
+        let rest = step.torque_rest * size + rounding;
         let mut end = |x: &[f64]| {
             arm.derivative_sticking(x, &mut scratch[0]);
             // It is linear in the state.
@@ -167,6 +196,9 @@ impl Hybrid<'_> {
             return true;
         }
         let rate = 2.0 * step.rho * step.size(&self.state) + net.abs() / inertia;
+        if sign * self.state[1] > step.velocity_change_s * rate {
+            return true;
+        }
         let ends = [&self.state, &*next].map(|x| {
             let drag = self.arm.motor.viscous_nm_s_per_rad * x[1] + self.arm.coupling_torque(x);
             (sign * x[1], sign * (net - drag) / inertia)
