@@ -2,7 +2,10 @@
 
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use lissom::beam::{LumpedBeam, Payload, RootClass, Span, class, properties, zero_shift};
+use lissom::beam::{
+    Damping, LumpedBeam, Payload, RootClass, Span, class, motor_function, properties, zero_shift,
+};
+use lissom::drive::Motor;
 use num_complex::Complex64;
 use proptest::prelude::*;
 
@@ -59,6 +62,45 @@ proptest! {
         let heavier = loaded.with_load_times(2.0).unwrap();
         let shift = zero_shift(&zeros, &heavier.zeros(heavier.len() - 1).unwrap());
         prop_assert!(shift > 1e-6, "{shift}");
+    }
+
+    /// Zeros, poles and gain of every transfer function give the recursion's response, whatever
+    /// brakes the arm: dampers at masses, α, β, the motor's viscous friction, or nothing.
+    #[test]
+    fn roots_and_responses_agree(
+        beam in beam(),
+        alpha in prop_oneof![Just(0.0), 0.01..1.0],
+        beta in prop_oneof![Just(0.0), 1e-4..1e-2],
+        viscous in prop_oneof![Just(0.0), 0.01..1.0],
+        inertia in prop_oneof![Just(0.0), 0.01..1.0],
+    ) {
+        let damping = Damping::Proportional { mass_per_s: alpha, stiffness_s: beta };
+        let payload = Payload { inertia_kg_m2: inertia, ..Payload::default() };
+        let beam = beam.with_damping(damping).unwrap().with_payload(payload).unwrap();
+        let motor = Motor::new(0.5, viscous, 1.0).unwrap();
+        let from_current = motor_function(&beam, &motor);
+        let coupling = beam.coupling_function();
+        let tip = beam.len() - 1;
+        let angle = beam.angle_function(tip).unwrap();
+        let first = beam.natural_frequencies_rad_s()[0];
+        for part in [0.05, 0.4, 1.7, 9.0] {
+            let s = Complex64::new(0.0, part * first);
+            let exact = beam.response(s);
+            let of_motor = 1.0 / (motor.impedance(s) + exact.coupling_nm_per_rad);
+            for (g, exact) in [
+                (&from_current, of_motor),
+                (&coupling, exact.coupling_nm_per_rad),
+                (&angle, exact.angles[tip]),
+            ] {
+                if g.missing > 0 {
+                    continue;
+                }
+                let product = |roots: &[Complex64]| roots.iter().map(|r| s - r).product::<Complex64>();
+                let found = product(&g.zeros) / product(&g.poles) * g.gain;
+                let off = (found - exact).norm() / exact.norm();
+                prop_assert!(off < 1e-7, "{off:e}: {found} {exact} at {s}, {g:?}");
+            }
+        }
     }
 
     /// A heavier point mass at the tip lowers every frequency and moves no zero.

@@ -24,7 +24,8 @@ pub(crate) struct ModelArgs {
     /// Measure the properties that Section 3 of the report claims (at most 200 point masses)
     #[arg(long)]
     pub(crate) properties: bool,
-    /// Other loads at the tip, as factors or masses, e.g. 0.5x,2x,"0.3 kg"
+    /// Other loads at the tip: factors of its mass and rotary inertia, or masses, e.g.
+    /// 0.5x,2x,"0.3 kg". The load is the payload's mass, without one the last mass
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = load, allow_hyphen_values = true)]
     pub(crate) payload: Vec<Load>,
     /// Natural frequencies and zeros to show; those of a distributed beam to find

@@ -154,7 +154,8 @@ impl Beam {
         }
     }
 
-    /// The same beam with another load. Its rotary inertia grows with its mass.
+    /// The same beam with another load: a factor multiplies mass and rotary inertia, a mass takes
+    /// the place of the mass alone.
     pub(super) fn with_load(&self, load: Load) -> Result<Self, BeamError> {
         let now = self.load_kg();
         let mass_kg = match load {
@@ -163,7 +164,6 @@ impl Beam {
         };
         let factor = match load {
             Load::Times(factor) => factor,
-            Load::Mass(_) if now > 0.0 => mass_kg / now,
             Load::Mass(_) => 1.0,
         };
         let mut payload = self.payload();

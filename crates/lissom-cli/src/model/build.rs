@@ -9,7 +9,7 @@ use lissom::beam::{
     Base, BeamError, Damping, LumpedBeam, MOST_CHECKED, MOST_MASSES, motor_function, properties,
 };
 use lissom::drive::{Coulomb, Motor};
-use lissom::lti::ZeroPoleGain;
+use lissom::lti::{StateSpace, ZeroPoleGain};
 use lissom_io::model::{Function, Model, Responses};
 use lissom_io::{ArmError, BeamKind};
 use num_complex::Complex64;
@@ -24,6 +24,9 @@ use crate::failure::Failure;
 /// Beams with more masses have transfer functions and responses of the tip alone, unless all are
 /// asked for.
 const MOST_LISTED: usize = 20;
+
+/// Relative accuracy that a state space should keep.
+const KEPT: f64 = 1e-6;
 
 /// Radians of waves along a beam up to which responses are computed.
 const WAVES_MOST: f64 = 1e5;
@@ -165,7 +168,16 @@ impl Task<'_> {
         model.matrices = Some(beam.matrices().map_err(|e| self.failed(e))?);
         if let Some((motor, coulomb)) = self.drive {
             let arm = Arm::new(beam.clone(), motor, coulomb).map_err(|e| self.failed(e))?;
-            model.state_space = Some(arm.state_space());
+            let space = arm.state_space();
+            if let Some((omega, off)) = lost(&arm, &space) {
+                model.warnings.push(format!(
+                    "stiffnesses differ so much that the state space loses digits: its θ_m/i is off \
+                     by {} of its size at {} rad/s; take the transfer functions",
+                    shown(off, 2),
+                    shown(omega, 3)
+                ));
+            }
+            model.state_space = Some(space);
         }
         self.step("transfer functions");
         self.functions(beam, model);
@@ -185,6 +197,7 @@ impl Task<'_> {
         let name = |mass: usize| format!("theta_{}", mass + 1);
         let (mut angles, mut driven) = (Vec::new(), Vec::new());
         for mass in listed {
+            self.bar.inc(1);
             let Some(angle) = beam.angle_function(mass) else { continue };
             if let Some((motor, from_current)) = &motor {
                 driven.push(function("current", name(mass), through(&angle, motor, from_current)));
@@ -347,6 +360,23 @@ fn check_ratios(ratios: &[f64], model: &mut Model) {
 /// A beam's numbers that cannot be used.
 pub(super) fn beam_failure(arm: &Path, source: BeamError) -> Failure {
     lissom_io::Error::from(ArmError::Beam { file: arm.to_owned(), source }).into()
+}
+
+/// Where the state space's θ_m/i is worst beside the exact one, and by how much; `None` where it
+/// keeps [`KEPT`].
+fn lost(arm: &Arm, space: &StateSpace) -> Option<(f64, f64)> {
+    let frequencies = arm.beam().frequencies_rad_s(Base::Clamped, 3);
+    let low = [0.001, 0.03, 0.3].map(|part| part * frequencies[0]);
+    let between = frequencies.windows(2).map(|w| (w[0] * w[1]).sqrt());
+    low.into_iter()
+        .chain(between)
+        .map(|omega| {
+            let exact = arm.motor_response(omega);
+            let found = space.response(omega).map(|g| g[(0, 0)]);
+            (omega, found.map_or(f64::INFINITY, |g| (g - exact).norm() / exact.norm()))
+        })
+        .filter(|(_, off)| off.is_nan() || *off > KEPT)
+        .max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// θ_m/i at s.

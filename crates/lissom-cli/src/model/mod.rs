@@ -19,7 +19,7 @@ use lissom_io::write::{self, Batch};
 use lissom_io::{ArmFile, model_json, read_frequencies};
 
 use self::args::Omega;
-use self::beam::Beam;
+use self::beam::{Beam, MOST_DENSE};
 use self::build::{STEPS, Task};
 use crate::cli::STDOUT;
 use crate::failure::Failure;
@@ -33,7 +33,8 @@ pub(crate) fn run(args: &ModelArgs) -> Result<ExitCode, Failure> {
     let beam = Beam::of(&file, &args.arm).map_err(lissom_io::Error::from)?;
     let drive = file.motor(&args.arm).map_err(lissom_io::Error::from)?;
     let omega_rad_s = args.omega.as_ref().map(frequencies).transpose()?;
-    let steps = STEPS + omega_rad_s.as_ref().map_or(0, Vec::len) + args.payload.len();
+    let functions = if args.all { beam.len().min(MOST_DENSE) } else { 0 };
+    let steps = STEPS + functions + omega_rad_s.as_ref().map_or(0, Vec::len) + args.payload.len();
     let bar = progress::stages(steps);
     let task = Task { args, beam: &beam, drive, omega_rad_s, bar };
     let model = task.model()?;

@@ -51,6 +51,7 @@ pub(super) fn study(
         let tip_mass_kg = other.load_kg();
         cases.push(PayloadCase {
             tip_mass_kg,
+            inertia_kg_m2: other.payload().inertia_kg_m2,
             factor: Some(tip_mass_kg / own).filter(|f| f.is_finite()),
             natural_frequencies_rad_s,
             zeros,

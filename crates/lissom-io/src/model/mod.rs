@@ -79,6 +79,8 @@ pub struct Function {
 pub struct PayloadCase {
     /// The load: the payload's mass where there is one, else the last mass \[kg\].
     pub tip_mass_kg: f64,
+    /// Rotary inertia of the payload \[kg·m²\].
+    pub inertia_kg_m2: f64,
     /// Load over that of the file; `None` where the file has none.
     pub factor: Option<f64>,
     /// Natural frequencies, motor clamped \[rad/s\].
@@ -228,6 +230,7 @@ fn truncated(t: &TruncatedBeam) -> Value {
 fn payload_case(case: &PayloadCase) -> Value {
     json!({
         "tip_mass_kg": case.tip_mass_kg,
+        "payload_inertia_kg_m2": case.inertia_kg_m2,
         "factor": case.factor,
         "natural_frequencies_rad_s": case.natural_frequencies_rad_s,
         "zeros": zeros(&case.zeros),

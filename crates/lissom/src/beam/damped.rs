@@ -201,19 +201,27 @@ pub fn motor_poles(beam: &LumpedBeam, motor: &Motor) -> Roots {
         Damping::Modal { .. } => beam.modes(usize::MAX),
         _ => Vec::new(),
     };
-    // Divided by s: the root at zero is known.
+    // Divided by s, or by s² where nothing brakes the arm as a whole: roots at zero are known.
+    let drag = v + beam.drag_nm_s_per_rad();
+    let free = drag == 0.0;
     let function = |s: Complex64| {
         let s = Jet::variable(s);
         let (det, coupling) = match beam.damping() {
             Damping::Modal { .. } => beam.modal_characteristic(s, &modes, None),
             _ => beam.characteristic(s),
         };
-        log_slope(det.times(s.times(j) + Jet::real(v) + coupling / s))
+        let whole = s.times(j) + Jet::real(v) + coupling / s;
+        log_slope(det.times(if free { whole / s } else { whole }))
     };
     let mut all = starts(&squares);
-    all.push(Complex64::from(-v.max(f64::MIN_POSITIVE) / (j + beam.inertia_kg_m2())));
+    let mut known = vec![Complex64::ZERO];
+    if free {
+        known.push(Complex64::ZERO);
+    } else {
+        all.push(Complex64::from(-drag / (j + beam.inertia_kg_m2())));
+    }
     let (mut s, missing) = together(function, all);
-    s.push(Complex64::ZERO);
+    s.extend(known);
     Roots { s: sorted(s), missing }
 }
 
@@ -223,6 +231,7 @@ impl LumpedBeam {
     pub(super) fn coupling_zeros_together(&self, squares: &[Complex64]) -> Roots {
         let modal = matches!(self.damping(), Damping::Modal { .. });
         let modes = if modal { self.modes(usize::MAX) } else { Vec::new() };
+        let (_, beta) = self.damping().proportional();
         // Divided by s: the zero at the origin is known, and with modal damping, which turning as
         // one body does not feel, it is double.
         let function = |s: Complex64| {
@@ -231,12 +240,12 @@ impl LumpedBeam {
                 let (det, coupling) = self.modal_characteristic(s, &modes, None);
                 return log_slope(det.times(coupling / (s * s)));
             }
+            // −1/β is known as well.
             let (det, coupling) = self.characteristic(s);
-            log_slope(det.times(coupling / s))
+            log_slope(det.times(coupling / s / (Jet::real(1.0) + s.times(beta))))
         };
         let mut all = starts(squares);
         let mut known = vec![Complex64::ZERO];
-        let (_, beta) = self.damping().proportional();
         if modal {
             known.push(Complex64::ZERO);
             // Relative degree one: the modes' rates pass torque on at once.
@@ -251,12 +260,7 @@ impl LumpedBeam {
                 all.push(Complex64::from(-stiffness / rate));
             }
         } else {
-            let drag: f64 = self
-                .spans()
-                .iter()
-                .zip(self.position_m())
-                .map(|(s, l)| s.damping_n_s_per_m * l * l)
-                .sum();
+            let drag = self.drag_nm_s_per_rad();
             all.push(Complex64::from(-drag / self.inertia_kg_m2()));
         }
         if beta > 0.0 {

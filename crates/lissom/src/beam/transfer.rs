@@ -43,7 +43,7 @@ impl LumpedBeam {
     }
 
     /// Torque per rate of turning as one body, of dampers against the fixed frame.
-    fn drag_nm_s_per_rad(&self) -> f64 {
+    pub(super) fn drag_nm_s_per_rad(&self) -> f64 {
         let points = self.spans().iter().zip(self.position_m());
         let points: f64 = points.map(|(s, l)| s.damping_n_s_per_m * l * l).sum();
         points + self.damping().proportional().0 * self.inertia_kg_m2()
