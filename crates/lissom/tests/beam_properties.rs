@@ -140,6 +140,33 @@ proptest! {
     }
 }
 
+/// Spans that differ by 10⁹ in EI, zeros at every kind of mass.
+#[test]
+fn no_zero_within_a_wild_beam_is_missed() {
+    let n = 200;
+    let spans: Vec<Span> = (0..n)
+        .map(|i| Span {
+            length_m: 0.005,
+            flexural_rigidity_n_m2: if i % 2 == 0 { 1.0 } else { 1e9 },
+            mass_kg: 0.005,
+            damping_n_s_per_m: 0.0,
+        })
+        .collect();
+    let beam = LumpedBeam::new(&spans).unwrap();
+    for mass in [0, 50, 100, 150, 198, 199] {
+        let zeros = beam.zeros(mass).unwrap();
+        assert_eq!((zeros.z.len(), zeros.missing), (n - 1, 0), "mass {mass}");
+        let real = zeros.z.iter().filter(|z| class(**z) == RootClass::Real).count();
+        assert_eq!(real, mass, "mass {mass}");
+        // The mass at the point itself does not enter.
+        let mut other = spans.clone();
+        other[mass].mass_kg *= 7.0;
+        let other = LumpedBeam::new(&other).unwrap().zeros(mass).unwrap();
+        let shift = zero_shift(&zeros, &other);
+        assert!(shift < 1e-11, "mass {mass}: {shift:e}");
+    }
+}
+
 /// Thousands of spans whose stiffness differs by 10⁹.
 #[test]
 fn no_zero_of_a_long_wild_beam_is_missed() {

@@ -155,6 +155,80 @@ pub(crate) fn tip_numerator(elements: &[Element], s: f64) -> (Scaled<f64>, usize
     (Scaled { exponent: value.exponent + exponent, ..value }, below)
 }
 
+/// The numerator at `joint` for z = s² > 0, and how many zeros lie below: as for the tip, with the
+/// part beyond the joint attached to every point in turn.
+fn real_numerator(elements: &[Element], joint: usize, s: f64) -> (Scaled<f64>, usize) {
+    let at = At::undamped(s * s);
+    let mut tip = TipSide::free();
+    elements[joint..].iter().rev().for_each(|e| tip.pass(at, e));
+    let (mut side, mut exponent) = (BaseSide::clamped(), 0);
+    let (mut below, mut positive) = (0, true);
+    for element in &elements[..joint] {
+        side.pass(at, element);
+        exponent += side.taken_out();
+        let now = Joined::new(side, tip).numerator().mantissa > 0.0;
+        below += usize::from(now != positive);
+        positive = now;
+    }
+    let value = Joined::new(side, tip).numerator();
+    (Scaled { exponent: value.exponent + exponent, ..value }, below)
+}
+
+/// The numerator at `joint` for z = −ω², and how many zeros lie above: each mass beyond the joint
+/// adds one, seen as a change of sign of the numerator of the beam that ends there.
+fn imaginary_numerator(elements: &[Element], joint: usize, omega: f64) -> (Scaled<f64>, usize) {
+    let z = -omega * omega;
+    let at = At::undamped(z);
+    let mut side = BaseSide::clamped();
+    elements[..joint].iter().for_each(|e| side.pass(at, e));
+    // Deflection at the joint per motor angle, and per force and torque at the outer end.
+    let mut here = side.motion.0;
+    let (mut by_force, mut by_torque) = (side.compliance.a, side.compliance.b);
+    let (mut below, mut positive) = (0, true);
+    for element in &elements[joint..] {
+        match *element {
+            Element::Span { length, .. } | Element::Rigid { length } => {
+                by_force += length * by_torque
+            }
+            Element::Mass { mass, .. } => {
+                let push = z * mass / (1.0 + z * mass * side.compliance.a);
+                here -= by_force * push * side.motion.0;
+                by_torque -= by_force * push * side.compliance.b;
+                by_force -= by_force * push * side.compliance.a;
+            }
+            Element::Heavy { .. } | Element::Inertia { .. } => {}
+        }
+        side.pass(at, element);
+        if matches!(element, Element::Mass { .. }) {
+            let now = (here > 0.0) == (side.below % 2 == 0);
+            below += usize::from(now != positive);
+            positive = now;
+        }
+    }
+    (at_joint(elements, joint, at).numerator(), below)
+}
+
+/// Half a relative distance over which the numerator changes its sign at a zero that is one.
+const BESIDE: f64 = 1e-10;
+
+/// All zeros at a mass with `inner` masses before and `outer` ones beyond it, as z, where both
+/// counts are reached; `None` where rounding spoils one.
+fn counted(elements: &[Element], joint: usize, inner: usize, outer: usize) -> Option<Vec<f64>> {
+    let start = below_first(elements);
+    let real = counted_roots(|s| real_numerator(elements, joint, s), inner, start);
+    let imaginary = counted_roots(|w| imaginary_numerator(elements, joint, w), outer, start);
+    // That count and that value come from different sums.
+    let positive = |w: f64| imaginary_numerator(elements, joint, w).0.mantissa > 0.0;
+    let there = |w: &f64| positive(w * (1.0 - BESIDE)) != positive(w * (1.0 + BESIDE));
+    if real.len() != inner || imaginary.len() != outer || !imaginary.iter().all(there) {
+        return None;
+    }
+    let z = real.iter().map(|s| s * s).chain(imaginary.iter().map(|w| -w * w));
+    let mut z: Vec<f64> = z.collect();
+    z.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    Some(z)
+}
+
 impl LumpedBeam {
     /// The lowest `count` zeros of the tip's response, as real s > 0, ascending \[1/s\]: −s is a zero
     /// as well. All zeros are of this kind (class b) where nothing at the tip resists turning.
@@ -177,11 +251,12 @@ impl LumpedBeam {
     /// The zeros of θ_i/θ_m at mass `mass` (from 0 at the base), damping left out: as many as the
     /// beam has degrees of freedom, less one.
     ///
-    /// Those of the tip are counted ([`tip_zeros_per_s`](Self::tip_zeros_per_s)). Others are found as
-    /// changes of sign of the numerator, complex ones by Newton's method with those found divided
-    /// out; the degree says when all are there. That search is made for 200 masses or fewer: with
-    /// more it takes minutes and leaves some out. The mass at this point does not enter: zeros'
-    /// invariance.
+    /// With point masses they are counted: changes of sign along the beam give i of class b and
+    /// n − 1 − i of class a at mass i, from 0, and n − 1 zeros found are all there are. Where a payload
+    /// resists turning, real zeros are found as changes of sign of the numerator on a grid and
+    /// complex ones by Newton's method with those found divided out; the degree says when all are
+    /// there. That search is made for 200 masses or fewer: with more it takes minutes and leaves
+    /// some out. The mass at this point does not enter: zeros' invariance.
     ///
     /// `None` where there is no such mass.
     ///
@@ -189,11 +264,12 @@ impl LumpedBeam {
     /// `[Feliu1989, Section 3, properties 1, 2 and 4]`
     pub fn zeros(&self, mass: usize) -> Option<Zeros> {
         let joint = self.joints().nth(mass)?;
-        let wanted = self.len() - 1;
-        let tip = if mass == wanted { self.tip_zeros_per_s(wanted) } else { None };
-        // Where doubles do not reach them all, the search says how many are missing.
-        if let Some(zeros) = tip.filter(|zeros| zeros.len() == wanted) {
-            return Some(Zeros { z: zeros.iter().map(|s| (s * s).into()).collect(), missing: 0 });
+        if !self.payload().turns() {
+            // Where rounding spoils the counts, the search says how many are missing.
+            let outer = self.len() - 1 - mass;
+            if let Some(z) = counted(self.elements(), joint, mass, outer) {
+                return Some(Zeros { z: z.into_iter().map(Complex64::from).collect(), missing: 0 });
+            }
         }
         Some(all(self.elements(), joint))
     }
