@@ -188,7 +188,7 @@ fn imaginary_numerator(elements: &[Element], joint: usize, omega: f64) -> (Scale
     for element in &elements[joint..] {
         match *element {
             Element::Span { length, .. } | Element::Rigid { length } => {
-                by_force += length * by_torque
+                by_force += length * by_torque;
             }
             Element::Mass { mass, .. } => {
                 let push = z * mass / (1.0 + z * mass * side.compliance.a);
