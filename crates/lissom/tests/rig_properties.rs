@@ -76,6 +76,44 @@ const GAUSS: [(f64, f64); 5] = [
     (0.953_089_922_969_332, 0.118_463_442_528_094_5),
 ];
 
+/// Energies of a motion from rest under torques held for `sample_s` each: supplied, kept, rubbed
+/// off by Coulomb friction, taken by dampers, and the size of what went to and fro \[J\].
+fn energies(arm: &Arm, torques: impl IntoIterator<Item = f64>, sample_s: f64) -> [f64; 5] {
+    let mut hybrid = Hybrid::at_rest(arm);
+    let [mut supplied, mut rubbed, mut dampers, mut turned_over] = [0.0; 4];
+    for torque in torques {
+        let mut left = sample_s;
+        while left > 1e-15 * sample_s {
+            // Pieces short enough for the quadrature.
+            let before = hybrid.clone();
+            let passed = hybrid.advance_to_event(torque, left.min(PIECE_S));
+            left -= passed;
+            for (node, weight) in GAUSS {
+                let mut within = before.clone();
+                within.advance(torque, node * passed);
+                dampers += weight * passed * damped(arm, within.state());
+            }
+            let turned = hybrid.state()[0] - before.state()[0];
+            supplied += torque * turned;
+            rubbed += turned * arm.coulomb.slipping(turned);
+            turned_over += (torque * turned).abs();
+        }
+    }
+    [supplied, stored(arm, hybrid.state()), rubbed, dampers, turned_over]
+}
+
+/// Length of a piece \[s\]: some hundredths of the fastest oscillation.
+const PIECE_S: f64 = 5e-4;
+
+fn energy_balances([supplied, kept, rubbed, dampers, turned_over]: [f64; 5]) -> Result<(), String> {
+    let gap = (supplied - kept - rubbed - dampers).abs();
+    if kept >= 0.0 && rubbed >= 0.0 && dampers >= 0.0 && gap <= 1e-9 * turned_over {
+        Ok(())
+    } else {
+        Err(format!("{gap:e} of {turned_over:e}"))
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
@@ -83,30 +121,7 @@ proptest! {
     /// take.
     #[test]
     fn energy_is_kept(arm in arm(), torques in torques(), sample_s in decade(1e-3, 2e-2)) {
-        let mut hybrid = Hybrid::at_rest(&arm);
-        let (mut supplied, mut rubbed, mut dampers, mut turned_over) = (0.0, 0.0, 0.0, 0.0);
-        for torque in torques {
-            let mut left = sample_s;
-            while left > 1e-15 * sample_s {
-                // Pieces short enough for the quadrature.
-                let before = hybrid.clone();
-                let passed = hybrid.advance_to_event(torque, left.min(5e-4));
-                left -= passed;
-                for (node, weight) in GAUSS {
-                    let mut within = before.clone();
-                    within.advance(torque, node * passed);
-                    dampers += weight * passed * damped(&arm, within.state());
-                }
-                let turned = hybrid.state()[0] - before.state()[0];
-                supplied += torque * turned;
-                rubbed += turned * arm.coulomb.slipping(turned);
-                turned_over += (torque * turned).abs();
-            }
-        }
-        let kept = stored(&arm, hybrid.state());
-        prop_assert!(rubbed >= 0.0 && dampers >= 0.0 && kept >= 0.0);
-        let gap = (supplied - kept - rubbed - dampers).abs();
-        prop_assert!(gap <= 1e-9 * turned_over, "{gap:e} of {turned_over:e}");
+        prop_assert_eq!(energy_balances(energies(&arm, torques, sample_s)), Ok(()));
     }
 
     /// Whole samples and the events' polynomials give the same motion.
@@ -168,5 +183,23 @@ proptest! {
             let gap = (both.1[i] - a.1[i] - b.1[i] + none.1[i]).abs();
             prop_assert!(gap <= 1e-11 * (1.0 + both.1[i].abs()), "{gap:e}");
         }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(4))]
+
+    /// The same over a minute.
+    #[test]
+    fn energy_is_kept_for_a_minute(arm in arm(), seed in 1..u32::MAX) {
+        let mut state = seed;
+        let torques = (0..1200).map(|_| {
+            // Xorshift.
+            state ^= state << 13;
+            state ^= state >> 17;
+            state ^= state << 5;
+            0.4 * (f64::from(state) / f64::from(u32::MAX) - 0.5)
+        });
+        prop_assert_eq!(energy_balances(energies(&arm, torques, 0.05)), Ok(()));
     }
 }
