@@ -6,7 +6,8 @@ use std::path::Path;
 use indicatif::ProgressBar;
 use lissom::arm::Arm;
 use lissom::beam::{
-    Base, BeamError, Damping, LumpedBeam, MOST_CHECKED, MOST_MASSES, motor_function, properties,
+    Base, BeamError, Damping, LumpedBeam, MOST_CHECKED, MOST_MASSES, angle_per_current,
+    motor_function, properties,
 };
 use lissom::drive::{Coulomb, Motor};
 use lissom::lti::{StateSpace, ZeroPoleGain};
@@ -200,7 +201,11 @@ impl Task<'_> {
             self.bar.inc(1);
             let Some(angle) = beam.angle_function(mass) else { continue };
             if let Some((motor, from_current)) = &motor {
-                driven.push(function("current", name(mass), through(&angle, motor, from_current)));
+                driven.push(function(
+                    "current",
+                    name(mass),
+                    angle_per_current(&angle, from_current, motor),
+                ));
             }
             angles.push(function("motor", name(mass), angle));
         }
@@ -382,14 +387,4 @@ fn lost(arm: &Arm, space: &StateSpace) -> Option<(f64, f64)> {
 /// θ_m/i at s.
 pub(super) fn motor_response(motor: &Motor, s: Complex64, coupling: Complex64) -> Complex64 {
     motor.torque_constant_nm_per_a / (motor.impedance(s) + coupling)
-}
-
-/// θ_i/i from θ_i/θ_m and θ_m/i, whose zeros are the poles of the former.
-fn through(angle: &ZeroPoleGain, motor: &Motor, from_current: &ZeroPoleGain) -> ZeroPoleGain {
-    ZeroPoleGain {
-        zeros: angle.zeros.clone(),
-        poles: from_current.poles.clone(),
-        gain: angle.gain * motor.torque_constant_nm_per_a / motor.inertia_kg_m2,
-        missing: angle.missing + from_current.missing,
-    }
 }

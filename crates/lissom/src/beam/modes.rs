@@ -2,8 +2,9 @@
 
 use num_complex::Complex64;
 
-use super::chain::{At, BaseSide, Element, Sym, TipSide, cut_up};
+use super::chain::{At, BaseSide, Element, TipSide};
 use super::number::Dual;
+use super::piece::{Sym, cut_up};
 use super::response::BeamResponse;
 use super::{Base, LumpedBeam};
 

@@ -97,11 +97,20 @@ pub fn motor_function(beam: &LumpedBeam, motor: &Motor) -> ZeroPoleGain {
 /// θ_i/i \[rad/A\] of mass `mass`, from 0 at the base; `None` where there is no such mass.
 pub fn current_to_angle(beam: &LumpedBeam, motor: &Motor, mass: usize) -> Option<ZeroPoleGain> {
     let angle = beam.angle_function(mass)?;
-    let poles = motor_poles(beam, motor);
-    Some(ZeroPoleGain {
+    Some(angle_per_current(&angle, &motor_function(beam, motor), motor))
+}
+
+/// θ_i/i \[rad/A\] from θ_i/θ_m and θ_m/i of the same arm: the zeros of θ_m/i are the poles of
+/// θ_i/θ_m and cancel.
+pub fn angle_per_current(
+    angle: &ZeroPoleGain,
+    from_current: &ZeroPoleGain,
+    motor: &Motor,
+) -> ZeroPoleGain {
+    ZeroPoleGain {
+        zeros: angle.zeros.clone(),
+        poles: from_current.poles.clone(),
         gain: angle.gain * motor.torque_constant_nm_per_a / motor.inertia_kg_m2,
-        missing: angle.missing + poles.missing,
-        zeros: angle.zeros,
-        poles: poles.s,
-    })
+        missing: angle.missing + from_current.missing,
+    }
 }

@@ -3,10 +3,11 @@
 use num_complex::Complex64;
 
 use super::bracket::root;
-use super::chain::{At, BaseSide, Element, Joined, TipSide, cut_up};
+use super::chain::{At, BaseSide, Element, Joined, TipSide};
 use super::counted::counted_roots;
 use super::frequencies::{Base, below_first, degrees, lowest};
 use super::number::{Dual, Number, Scaled};
+use super::piece::cut_up;
 use super::roots::further;
 use super::{LumpedBeam, RootClass, class};
 
