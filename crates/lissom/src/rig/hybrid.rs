@@ -1,6 +1,7 @@
 //! Exact motion of an arm between samples: stick, slip and the events between them.
 
 use super::polynomial::{ORDER_MOST, first_nonpositive, first_used_up, value};
+use super::{Motion, RigError};
 use crate::arm::Arm;
 
 /// Largest (rate bound × step) for which a Taylor series of order [`ORDER_MOST`] is exact to
@@ -319,6 +320,22 @@ impl<'a> Hybrid<'a> {
             }
             self.state[i] = value(&column[..=order], time);
         }
+    }
+}
+
+impl Motion for Hybrid<'_> {
+    fn state(&self) -> &[f64] {
+        Hybrid::state(self)
+    }
+    fn advance(&mut self, torque_nm: f64, duration_s: f64) -> Result<(), RigError> {
+        Hybrid::advance(self, torque_nm, duration_s);
+        Ok(())
+    }
+    fn stuck_s(&self) -> f64 {
+        Hybrid::stuck_s(self)
+    }
+    fn tolerance(&self) -> Option<f64> {
+        None
     }
 }
 

@@ -4,10 +4,12 @@
 mod held;
 mod hybrid;
 mod instrument;
+mod motion;
 mod polynomial;
 mod stepped_sine;
 
 pub use held::HeldStep;
 pub use hybrid::{Hybrid, Mode};
 pub use instrument::{Pd, Quantiser, RigError};
+pub use motion::Motion;
 pub use stepped_sine::{Rig, SteppedSine};
