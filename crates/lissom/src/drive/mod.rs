@@ -1,7 +1,10 @@
-//! The drive, Section 2.2: motor (14) and its Coulomb friction.
+//! The drive, Section 2.2: motor (14) and its friction.
 
 mod coulomb;
+mod dry_friction;
 mod motor;
 
 pub use coulomb::Coulomb;
+pub(crate) use dry_friction::FrictionSeries;
+pub use dry_friction::{DryFriction, Falloff};
 pub use motor::{DriveError, Motor};

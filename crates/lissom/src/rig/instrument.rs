@@ -14,6 +14,47 @@ pub enum RigError {
         /// The number found.
         found: f64,
     },
+    /// A quantity that must not be negative is.
+    #[error("{quantity} = {found} is negative or not finite")]
+    Negative {
+        /// Which quantity, with its unit.
+        quantity: &'static str,
+        /// The number found.
+        found: f64,
+    },
+    /// A number that is not finite.
+    #[error("{quantity} = {found} is not finite")]
+    NotFinite {
+        /// Which quantity.
+        quantity: &'static str,
+        /// The number found.
+        found: f64,
+    },
+    /// A table without rows.
+    #[error("a table over time has no rows")]
+    EmptyTable,
+    /// Times that do not increase.
+    #[error("row {row} of a table over time: {time_s} s does not come after the time before it")]
+    TimesNotIncreasing {
+        /// The row, from 0.
+        row: usize,
+        /// Its time \[s\].
+        time_s: f64,
+    },
+    /// Arms that take over from one another have different numbers of masses.
+    #[error("an arm of {found} masses cannot take over from one of {expected}")]
+    Masses {
+        /// Masses of the first arm.
+        expected: usize,
+        /// Masses of the other.
+        found: usize,
+    },
+    /// The state is no number any more.
+    #[error("the motion left the range of numbers {time_s} s after its start")]
+    Lost {
+        /// When it was noticed \[s\].
+        time_s: f64,
+    },
     /// A sensor with no or too many bits.
     #[error("a sensor of {found} bits; 1 to 32 are possible")]
     Bits {
