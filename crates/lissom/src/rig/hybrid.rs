@@ -244,11 +244,11 @@ impl<'a> Hybrid<'a> {
     ///
     /// ```
     /// # use lissom::{arm::Arm, beam::{LumpedBeam, Span}, drive::{Coulomb, Motor}};
-    /// # use lissom::rig::{Hybrid, Signal, Sine};
+    /// # use lissom::rig::{Harmonic, Hybrid, Signal};
     /// # let span = Span { length_m: 0.2, flexural_rigidity_n_m2: 0.004, mass_kg: 0.05, damping_n_s_per_m: 0.0 };
     /// # let beam = LumpedBeam::new(&[span]).unwrap();
     /// # let arm = Arm::new(beam, Motor::new(6e-4, 1e-3, 0.25).unwrap(), Coulomb::symmetric(0.03).unwrap()).unwrap();
-    /// let swing = Sine { amplitude: 0.05, omega_rad_s: 3.0, phase_rad: 0.0 }; // N·m
+    /// let swing = Harmonic { amplitude: 0.05, omega_rad_s: 3.0, phase_rad: 0.0 }; // N·m
     /// let mut hybrid = Hybrid::at_rest(&arm);
     /// hybrid.advance_driven(&Signal::sines(&[swing])?, 10.0);
     /// assert!(hybrid.sticks() > 5);

@@ -17,6 +17,6 @@ pub use held::HeldStep;
 pub use hybrid::{Hybrid, Mode};
 pub use instrument::{Pd, Quantiser, RigError};
 pub use motion::Motion;
-pub use signal::{Signal, Sine};
+pub use signal::{Harmonic, Signal};
 pub use stepped_sine::{Rig, SteppedSine};
 pub use tip_world::{TipWorld, Wall};

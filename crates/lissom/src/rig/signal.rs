@@ -5,7 +5,7 @@ use super::polynomial::ORDER_MOST;
 
 /// `amplitude·sin(ω·t + phase)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sine {
+pub struct Harmonic {
     /// Amplitude, in the signal's unit.
     pub amplitude: f64,
     /// ω \[rad/s\].
@@ -30,7 +30,7 @@ enum Kind {
     Constant(f64),
     /// Times, values from each on, slopes after it.
     Table(Vec<[f64; 3]>),
-    Sines(Vec<Sine>),
+    Sines(Vec<Harmonic>),
 }
 
 impl Default for Signal {
@@ -78,7 +78,7 @@ impl Signal {
     ///
     /// # Errors
     /// [`RigError::NotFinite`].
-    pub fn sines(sines: &[Sine]) -> Result<Self, RigError> {
+    pub fn sines(sines: &[Harmonic]) -> Result<Self, RigError> {
         for s in sines {
             finite("amplitude of a sine", s.amplitude)?;
             finite("omega_rad_s", s.omega_rad_s)?;
@@ -172,7 +172,7 @@ mod tests {
 
     #[test]
     fn series_give_the_signal() {
-        let sine = Sine { amplitude: 2.0, omega_rad_s: 3.0, phase_rad: 0.4 };
+        let sine = Harmonic { amplitude: 2.0, omega_rad_s: 3.0, phase_rad: 0.4 };
         let signal = Signal::sines(&[sine]).unwrap();
         let exact = 2.0 * (3.0 * 0.9_f64 + 0.4).sin();
         assert!((summed(&signal, 0.7, 0.2) - exact).abs() < 1e-14);

@@ -7,7 +7,7 @@ mod properties;
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Payload, Span};
 use lissom::drive::{Coulomb, DryFriction, Falloff, Motor};
-use lissom::rig::{Hybrid, Signal, Sine, TipWorld, Wall};
+use lissom::rig::{Harmonic, Hybrid, Signal, TipWorld, Wall};
 use serde_json::Value;
 
 /// Angles agree to this \[rad\] and velocities to this \[rad/s\]: the reference's Runge-Kutta has
@@ -111,8 +111,8 @@ fn walls() {
 #[test]
 fn a_force_that_swings() {
     let sines = [
-        Sine { amplitude: 0.1, omega_rad_s: 5.0, phase_rad: 0.3 },
-        Sine { amplitude: 0.02, omega_rad_s: 0.0, phase_rad: std::f64::consts::FRAC_PI_2 },
+        Harmonic { amplitude: 0.1, omega_rad_s: 5.0, phase_rad: 0.3 },
+        Harmonic { amplitude: 0.02, omega_rad_s: 0.0, phase_rad: std::f64::consts::FRAC_PI_2 },
     ];
     let world = TipWorld { force: Signal::sines(&sines).unwrap(), ..TipWorld::default() };
     follow("tip_force", Hybrid::at_rest(&two()).with_world(world).unwrap());
