@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use lissom::arm::Arm;
 use lissom::beam::{BeamError, DistributedBeam, LumpedBeam, Piece, Span};
 use lissom::drive::{Coulomb, DriveError, Motor};
-use lissom::rig::{Pd, Quantiser, Rig, RigError};
+use lissom::rig::{Amplifier, Instruments, Pd, Quantiser, Rig, RigError, Sensor};
 use thiserror::Error;
 
 use super::{ArmFile, BeamKind, BeamSpec, SpanSpec};
@@ -183,24 +183,21 @@ impl ArmFile {
     pub fn rig(&self, path: &Path) -> Result<Rig, ArmError> {
         let rig = self.rig.as_ref().ok_or_else(|| absent(path, "rig"))?;
         let controller = rig.controller.as_ref().ok_or_else(|| absent(path, "rig.controller"))?;
-        let sensor = rig
-            .motor_sensor
-            .as_ref()
-            .map(|s| Quantiser::new(s.bits, s.range_rad))
-            .transpose()
-            .map_err(|source| ArmError::Rig { file: path.to_owned(), source })?;
-        Ok(Rig {
-            arm: self.arm(path)?,
-            controller: Pd {
-                proportional_a_per_rad: controller.proportional_a_per_rad,
-                derivative_a_s_per_rad: controller.derivative_a_s_per_rad,
-                limit_a: rig.current_limit_a.unwrap_or(f64::MAX),
-            },
-            sample_time_s: rig.sample_time_s,
-            motor_sensor: sensor,
-            tip_sensor: sensor,
-            current_converter: None,
-        })
+        let arm = self.arm(path)?;
+        let made = || -> Result<Rig, RigError> {
+            let (p, d) = (controller.proportional_a_per_rad, controller.derivative_a_s_per_rad);
+            let mut instruments = Instruments::ideal(rig.sample_time_s)?;
+            if let Some(sensor) = &rig.motor_sensor {
+                let sensor = Sensor::from(Quantiser::new(sensor.bits, sensor.range_rad)?);
+                instruments.motor = sensor;
+                instruments.tips = vec![sensor];
+            }
+            if let Some(limit_a) = rig.current_limit_a {
+                instruments.amplifier = Amplifier::ideal().with_limit(limit_a)?;
+            }
+            Ok(Rig { arm, instruments, controller: Pd::new(p, d)?.into() })
+        };
+        made().map_err(|source| ArmError::Rig { file: path.to_owned(), source })
     }
 }
 

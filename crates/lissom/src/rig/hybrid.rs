@@ -198,7 +198,7 @@ impl<'a> Hybrid<'a> {
         for (row, (time_s, arm)) in changes.iter().enumerate() {
             let before = if row == 0 { 0.0 } else { changes[row - 1].0 };
             if !(*time_s > before && time_s.is_finite()) {
-                return Err(RigError::TimesNotIncreasing { row, time_s: *time_s });
+                return Err(RigError::TableOrder { row, before_s: before, after_s: *time_s });
             }
             let (expected, found) = (self.arm.beam().len(), arm.beam().len());
             if expected != found {

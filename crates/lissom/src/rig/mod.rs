@@ -1,22 +1,36 @@
 //! The virtual laboratory, Sections 5.1 and 6.1: a sampled loop around an arm that sticks and
 //! slips.
 
+mod by_samples;
+mod controller;
+mod error;
 mod events;
+mod experiment;
+mod finding;
 mod held;
 mod hybrid;
 mod instrument;
+mod logging;
 mod motion;
 mod polynomial;
+mod sampled_loop;
 mod series;
+mod settling;
 mod signal;
 mod slip;
-mod stepped_sine;
 mod tip_world;
 
+pub use controller::{ControlLaw, Controller, IntegerPd, Pd, Pid, Proportional, Sensed, Word};
+pub use error::RigError;
+pub use experiment::{
+    Chirp, Drive, Experiment, Multisine, Reference, Settle, Sine, Square, Start, Sweep, Table,
+    TableHold,
+};
+pub use finding::{RigFinding, SensorPlace};
 pub use held::HeldStep;
 pub use hybrid::{Hybrid, Mode};
-pub use instrument::{Pd, Quantiser, RigError};
+pub use instrument::{Amplifier, Delay, Instruments, Noise, Quantiser, Sensor};
 pub use motion::Motion;
+pub use sampled_loop::{Logged, Rig, Settled};
 pub use signal::{Harmonic, Signal};
-pub use stepped_sine::{Rig, SteppedSine};
 pub use tip_world::{TipWorld, Wall};

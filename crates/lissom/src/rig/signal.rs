@@ -154,7 +154,7 @@ fn check(table: &[(f64, f64)]) -> Result<(), RigError> {
         finite("time of a table", t)?;
         finite("value of a table", v)?;
         if row > 0 && t <= table[row - 1].0 {
-            return Err(RigError::TimesNotIncreasing { row, time_s: t });
+            return Err(RigError::TableOrder { row, before_s: table[row - 1].0, after_s: t });
         }
     }
     Ok(())
@@ -187,7 +187,7 @@ mod tests {
     fn bad_tables_are_refused() {
         assert_eq!(Signal::steps(&[]), Err(RigError::EmptyTable));
         let back = Signal::lines(&[(0.0, 1.0), (0.0, 2.0)]);
-        assert_eq!(back, Err(RigError::TimesNotIncreasing { row: 1, time_s: 0.0 }));
+        assert_eq!(back, Err(RigError::TableOrder { row: 1, before_s: 0.0, after_s: 0.0 }));
         assert!(Signal::constant(f64::NAN).is_err());
         assert!(Signal::steps(&[(0.0, f64::INFINITY)]).is_err());
     }
