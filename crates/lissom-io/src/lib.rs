@@ -22,7 +22,8 @@ pub mod units;
 pub mod write;
 
 pub use arm_file::{
-    ArmError, ArmFile, BeamKind, BeamSpec, ControllerSpec, DriveSpec, RigSpec, SensorSpec, SpanSpec,
+    ArmError, ArmFile, BeamKind, BeamSpec, ControllerSpec, ConverterSpec, DriveSpec, IntegerSpec,
+    RestSpec, RigSpec, RippleSpec, SensorSpec, SensorSteps, SignalSpec, SpanSpec, TipSpec,
 };
 pub use campaign::{
     AnalysisOptions, CampaignError, CampaignFile, Known, ReadOptions, read_campaign,

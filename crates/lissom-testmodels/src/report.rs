@@ -49,5 +49,5 @@ pub fn report_rig(bits: Option<u32>) -> Rig {
     instruments.tips = vec![sensor];
     instruments.amplifier = Amplifier::ideal().with_limit(4.12).expect("positive");
     let controller = Pd::new(8.0, 0.2).expect("positive").into();
-    Rig { arm: report_arm(), instruments, controller }
+    Rig::new(report_arm(), instruments, controller)
 }

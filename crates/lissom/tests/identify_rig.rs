@@ -29,7 +29,7 @@ fn rig(arm: Arm) -> Rig {
     instruments.motor = sensor;
     instruments.tips = vec![sensor];
     instruments.amplifier = Amplifier::ideal().with_limit(6.0).unwrap();
-    Rig { arm, instruments, controller: Pd::new(8.0, 0.15).unwrap().into() }
+    Rig::new(arm, instruments, Pd::new(8.0, 0.15).unwrap().into())
 }
 
 fn runs(rig: &Rig) -> Vec<Run> {

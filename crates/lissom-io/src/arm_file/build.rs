@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use lissom::arm::Arm;
 use lissom::beam::{BeamError, DistributedBeam, LumpedBeam, Piece, Span};
 use lissom::drive::{Coulomb, DriveError, Motor};
-use lissom::rig::{Amplifier, Instruments, Pd, Quantiser, Rig, RigError, Sensor};
+use lissom::rig::RigError;
 use thiserror::Error;
 
 use super::{ArmFile, BeamKind, BeamSpec, SpanSpec};
@@ -175,32 +175,8 @@ impl ArmFile {
             .and_then(|b| b.with_damping(beam.damping.clone()))
             .map_err(|source| ArmError::Beam { file: path.to_owned(), source })
     }
-
-    /// The arm in its loop; sensors of the tips are those of the motor.
-    ///
-    /// # Errors
-    /// As [`arm`](Self::arm), and where `[rig]` or its controller is absent.
-    pub fn rig(&self, path: &Path) -> Result<Rig, ArmError> {
-        let rig = self.rig.as_ref().ok_or_else(|| absent(path, "rig"))?;
-        let controller = rig.controller.as_ref().ok_or_else(|| absent(path, "rig.controller"))?;
-        let arm = self.arm(path)?;
-        let made = || -> Result<Rig, RigError> {
-            let (p, d) = (controller.proportional_a_per_rad, controller.derivative_a_s_per_rad);
-            let mut instruments = Instruments::ideal(rig.sample_time_s)?;
-            if let Some(sensor) = &rig.motor_sensor {
-                let sensor = Sensor::from(Quantiser::new(sensor.bits, sensor.range_rad)?);
-                instruments.motor = sensor;
-                instruments.tips = vec![sensor];
-            }
-            if let Some(limit_a) = rig.current_limit_a {
-                instruments.amplifier = Amplifier::ideal().with_limit(limit_a)?;
-            }
-            Ok(Rig { arm, instruments, controller: Pd::new(p, d)?.into() })
-        };
-        made().map_err(|source| ArmError::Rig { file: path.to_owned(), source })
-    }
 }
 
-fn absent(path: &Path, table: &'static str) -> ArmError {
+pub(super) fn absent(path: &Path, table: &'static str) -> ArmError {
     ArmError::MissingTable { file: path.to_owned(), table }
 }

@@ -95,6 +95,12 @@ pub enum RigError {
         /// Its time \[s\].
         after_s: f64,
     },
+    /// Integer arithmetic beside a sensor or converter without steps.
+    #[error("integer arithmetic needs a `{what}` with steps")]
+    NeedsSteps {
+        /// Which.
+        what: &'static str,
+    },
     /// Arms that take over from one another have different numbers of masses.
     #[error("an arm of {found} masses cannot take over from one of {expected}")]
     Masses {

@@ -250,7 +250,7 @@ impl<'a> Hybrid<'a> {
     /// # let arm = Arm::new(beam, Motor::new(6e-4, 1e-3, 0.25).unwrap(), Coulomb::symmetric(0.03).unwrap()).unwrap();
     /// let swing = Harmonic { amplitude: 0.05, omega_rad_s: 3.0, phase_rad: 0.0 }; // N·m
     /// let mut hybrid = Hybrid::at_rest(&arm);
-    /// hybrid.advance_driven(&Signal::sines(&[swing])?, 10.0);
+    /// hybrid.advance_driven(&Signal::harmonics(&[swing])?, 10.0);
     /// assert!(hybrid.sticks() > 5);
     /// # Ok::<(), lissom::rig::RigError>(())
     /// ```

@@ -7,7 +7,7 @@ use super::finding::RigFinding;
 use super::instrument::{DelayLine, Instruments, Streams};
 use super::logging::Log;
 use super::settling::Settling;
-use super::{Motion, RigError};
+use super::{Motion, RigError, Scene};
 use crate::arm::Arm;
 use crate::record::Run;
 
@@ -31,6 +31,8 @@ const ROWS_LEAST: f64 = 8.0;
 pub struct Rig {
     /// The arm.
     pub arm: Arm,
+    /// Its joint's friction, where that is not the arm's, and the world at its tip.
+    pub scene: Scene,
     /// Sensors, amplifier, delay, sample time.
     pub instruments: Instruments,
     /// The controller, of no use to experiments with an open drive.
@@ -66,6 +68,11 @@ pub struct Logged {
 }
 
 impl Rig {
+    /// An arm with a free tip and Coulomb friction of its own.
+    pub fn new(arm: Arm, instruments: Instruments, controller: ControlLaw) -> Self {
+        Self { arm, scene: Scene::default(), instruments, controller }
+    }
+
     /// Carries out an experiment with the rig's own controller.
     ///
     /// The same seed gives the same bits; without noisy sensors it has no effect.
@@ -77,7 +84,7 @@ impl Rig {
     /// # let beam = LumpedBeam::new(&[span]).unwrap();
     /// # let arm = Arm::new(beam, Motor::new(6e-4, 1e-3, 0.25).unwrap(), Coulomb::symmetric(0.03).unwrap()).unwrap();
     /// # let instruments = Instruments::ideal(0.003)?;
-    /// let rig = Rig { arm, instruments, controller: Pd::new(8.0, 0.2)?.into() };
+    /// let rig = Rig::new(arm, instruments, Pd::new(8.0, 0.2)?.into());
     /// let logged = rig.run("slow", &Experiment::sine(2.0, 0.5, 6.0)?, 1)?; // rad/s, rad, s
     /// assert_eq!((logged.run.len(), logged.run.tips().len()), (2000, 1));
     /// assert!(logged.settled.left_rad.unwrap() < 0.5 * 1e-4 && logged.findings.is_empty());
@@ -111,13 +118,6 @@ impl Rig {
         let settled = bench.settle()?;
         bench.record(name, settled)
     }
-}
-
-/// What moves the arm between the loop's instants.
-///
-/// `durations_s` are those that come at every sample.
-fn motion<'a>(arm: &'a Arm, state: Vec<f64>, durations_s: &[f64]) -> Box<dyn Motion + 'a> {
-    Box::new(super::by_samples::BySamples::new(arm, state, durations_s))
 }
 
 /// A run on its way.
@@ -175,7 +175,7 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
             experiment,
             controller,
             seen: state.clone(),
-            motion: motion(&rig.arm, state, &line.durations_s()),
+            motion: rig.scene.motion(&rig.arm, state, &line.durations_s())?,
             line,
             streams: Streams::new(seed, 1 + masses),
             passed: 0,
@@ -247,7 +247,8 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
                 if first > 0.0 {
                     self.motion.advance(torque, first)?;
                 }
-                self.seen.copy_from_slice(self.motion.state());
+                self.seen.clear();
+                self.seen.extend_from_slice(self.motion.state());
                 rest -= first;
             }
             if rest > 0.0 {

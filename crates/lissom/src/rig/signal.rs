@@ -30,7 +30,7 @@ enum Kind {
     Constant(f64),
     /// Times, values from each on, slopes after it.
     Table(Vec<[f64; 3]>),
-    Sines(Vec<Harmonic>),
+    Harmonics(Vec<Harmonic>),
 }
 
 impl Default for Signal {
@@ -78,13 +78,13 @@ impl Signal {
     ///
     /// # Errors
     /// [`RigError::NotFinite`].
-    pub fn sines(sines: &[Harmonic]) -> Result<Self, RigError> {
+    pub fn harmonics(sines: &[Harmonic]) -> Result<Self, RigError> {
         for s in sines {
             finite("amplitude of a sine", s.amplitude)?;
             finite("omega_rad_s", s.omega_rad_s)?;
             finite("phase_rad", s.phase_rad)?;
         }
-        Ok(Self(Kind::Sines(sines.to_vec())))
+        Ok(Self(Kind::Harmonics(sines.to_vec())))
     }
 
     /// Whether it is zero at all times.
@@ -92,7 +92,7 @@ impl Signal {
         match &self.0 {
             Kind::Constant(value) => *value == 0.0,
             Kind::Table(rows) => rows.iter().all(|row| row[1] == 0.0),
-            Kind::Sines(sines) => sines.iter().all(|s| s.amplitude == 0.0),
+            Kind::Harmonics(sines) => sines.iter().all(|s| s.amplitude == 0.0),
         }
     }
 
@@ -111,7 +111,7 @@ impl Signal {
 
     /// A bound on its own rates \[1/s\].
     pub(super) fn rate_rad_s(&self) -> f64 {
-        let Kind::Sines(sines) = &self.0 else { return 0.0 };
+        let Kind::Harmonics(sines) = &self.0 else { return 0.0 };
         sines.iter().fold(0.0, |m, s| m.max(s.omega_rad_s.abs()))
     }
 
@@ -128,7 +128,7 @@ impl Signal {
                 out[0] += value + slope * (time_s - t);
                 out[1] += slope;
             }
-            Kind::Sines(sines) => {
+            Kind::Harmonics(sines) => {
                 for s in sines {
                     let (sine, cosine) = (s.omega_rad_s * time_s + s.phase_rad).sin_cos();
                     let mut factor = s.amplitude;
@@ -173,7 +173,7 @@ mod tests {
     #[test]
     fn series_give_the_signal() {
         let sine = Harmonic { amplitude: 2.0, omega_rad_s: 3.0, phase_rad: 0.4 };
-        let signal = Signal::sines(&[sine]).unwrap();
+        let signal = Signal::harmonics(&[sine]).unwrap();
         let exact = 2.0 * (3.0 * 0.9_f64 + 0.4).sin();
         assert!((summed(&signal, 0.7, 0.2) - exact).abs() < 1e-14);
         let lines = Signal::lines(&[(1.0, 2.0), (3.0, 6.0)]).unwrap();

@@ -114,7 +114,7 @@ fn a_force_that_swings() {
         Harmonic { amplitude: 0.1, omega_rad_s: 5.0, phase_rad: 0.3 },
         Harmonic { amplitude: 0.02, omega_rad_s: 0.0, phase_rad: std::f64::consts::FRAC_PI_2 },
     ];
-    let world = TipWorld { force: Signal::sines(&sines).unwrap(), ..TipWorld::default() };
+    let world = TipWorld { force: Signal::harmonics(&sines).unwrap(), ..TipWorld::default() };
     follow("tip_force", Hybrid::at_rest(&two()).with_world(world).unwrap());
 }
 
