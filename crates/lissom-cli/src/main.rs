@@ -14,6 +14,7 @@ mod page;
 mod print;
 mod progress;
 mod reference;
+mod rig;
 
 use std::process::ExitCode;
 
@@ -23,6 +24,7 @@ fn main() -> ExitCode {
     let outcome = match cli::Cli::parse().command {
         cli::Command::Identify(args) => identify::run(&args),
         cli::Command::Model(args) => model::run(&args),
+        cli::Command::Rig(args) => rig::run(&args),
         cli::Command::Demo(args) => demo::run(&args),
     };
     match outcome {

@@ -55,6 +55,7 @@ pub use beam::{BeamKind, BeamSpec, SpanSpec};
 pub use build::ArmError;
 pub use drive::{DriveSpec, RestSpec, RippleSpec};
 pub use rig::{ControllerSpec, ConverterSpec, IntegerSpec, RigSpec, SensorSpec, SensorSteps};
+pub(crate) use tip::omega;
 pub use tip::{SignalSpec, TipSpec};
 
 use std::path::Path;

@@ -44,6 +44,11 @@ impl Table {
         Ok(Self { time_s, value, hold })
     }
 
+    /// The last time \[s\].
+    pub fn end_s(&self) -> f64 {
+        self.time_s[self.time_s.len() - 1]
+    }
+
     /// Largest magnitude of the values.
     pub fn amplitude(&self) -> f64 {
         self.value.iter().fold(0.0, |m, v| m.max(v.abs()))
