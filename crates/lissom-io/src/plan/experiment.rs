@@ -25,8 +25,7 @@ pub(super) struct Planned {
 }
 
 /// The kinds of experiment.
-const KINDS: [&str; 7] =
-    ["sine", "multisine", "square", "chirp", "table", "velocity", "release"];
+const KINDS: [&str; 7] = ["sine", "multisine", "square", "chirp", "table", "velocity", "release"];
 /// Where the highest frequency of a multisine has no `to`: that many lines.
 const LINES: f64 = 20.0;
 
@@ -64,9 +63,9 @@ pub(super) fn read(
     for reference in references {
         let record_s = record_of(table, &reference)?;
         let omega_rad_s = reference.highest_rad_s().filter(|_| is_sine);
-        let drive =
-            if current { Drive::Current(reference) } else { Drive::Angle(reference) };
-        let experiment = Experiment::new(drive, record_s).map_err(|e| experiment_error(&value, e))?;
+        let drive = if current { Drive::Current(reference) } else { Drive::Angle(reference) };
+        let experiment =
+            Experiment::new(drive, record_s).map_err(|e| experiment_error(&value, e))?;
         let experiment = experiment.starting(start).settling(match KINDS[kind] {
             // It begins where it is let go.
             "release" => Settle::AtOnce,
