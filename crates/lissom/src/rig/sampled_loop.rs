@@ -131,6 +131,8 @@ struct Bench<'r, C: ?Sized> {
     /// Samples passed since the start.
     passed: usize,
     bound_rad: f64,
+    /// Largest angle at the start \[rad\].
+    deflection_rad: f64,
     command_a: f64,
     limited: bool,
     /// Readings of this instant and whether each was cut off, motor first.
@@ -180,6 +182,7 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
             streams: Streams::new(seed, 1 + masses),
             passed: 0,
             bound_rad,
+            deflection_rad: deflection,
             command_a: 0.0,
             limited: false,
             read_rad: vec![0.0; 1 + masses],
@@ -328,7 +331,7 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
             let amplitude = if open {
                 0.5 * (self.range_rad.1 - self.range_rad.0)
             } else {
-                reference.amplitude(self.experiment.record_s)
+                reference.amplitude(self.experiment.record_s).max(self.deflection_rad)
             };
             self.range_rad = (f64::INFINITY, f64::NEG_INFINITY);
             allowed = (tolerance * amplitude).max(rig.instruments.resolution_rad());

@@ -5,6 +5,8 @@ mod integer;
 mod pd;
 mod pid;
 mod proportional;
+#[cfg(test)]
+mod tests;
 
 pub use integer::{IntegerPd, Word};
 pub use pd::Pd;
