@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use lissom::arm::Arm;
-use lissom::beam::{LumpedBeam, Span};
+use lissom::beam::{LumpedBeam, Payload, Span};
 use lissom::drive::{Coulomb, Motor};
 use lissom::rig::{Drive, Experiment, Logged, Pd, Pid, Reference, Rig, RigFinding, Settle, Start};
 use lissom_testmodels::report_rig;
@@ -208,4 +208,19 @@ fn a_start_that_is_pushed_aside_is_waited_for_too() {
     assert!(
         at_rest.settled.waited_s.abs() < f64::MIN_POSITIVE && at_rest.settled.left_rad.is_none()
     );
+}
+
+#[test]
+fn a_payload_that_turns_is_judged_by_coordinates() {
+    let mut rig = two_masses(0.2);
+    let payload = Payload { mass_kg: 0.02, inertia_kg_m2: 1e-5, offset_m: 0.01 };
+    let beam = rig.arm.beam().clone().with_payload(payload).unwrap();
+    rig.arm = Arm::new(beam, rig.arm.motor, rig.arm.coulomb).unwrap();
+    let (rig, samples) = fitting(rig, 3.0);
+    let experiment = one_period(3.0);
+    let found = rig.run("payload", &experiment, 0).unwrap();
+    println!("{:?} {:?}", found.settled, found.findings);
+    assert!(found.findings.is_empty(), "{:?}", found.findings);
+    let error = apart(&found, &later(&rig, samples, &experiment, &found, 200));
+    assert!(error <= found.settled.left_rad.unwrap(), "{error:.2e}");
 }
