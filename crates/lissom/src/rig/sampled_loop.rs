@@ -20,6 +20,9 @@ const LEAST_RAD: f64 = 0.1;
 /// A loop hunts over some steps of its sensor without being unstable.
 const STEPS: f64 = 10.0;
 
+/// Parts of a sample below this are rounding of times.
+const WHOLE: f64 = 1e-9;
+
 /// Most samples of a run, waiting and record each.
 const SAMPLES_MOST: f64 = 1e8;
 
@@ -131,6 +134,8 @@ struct Bench<'r, C: ?Sized> {
     /// Samples passed since the start.
     passed: usize,
     bound_rad: f64,
+    /// Largest angle at the start \[rad\].
+    deflection_rad: f64,
     command_a: f64,
     limited: bool,
     /// Readings of this instant and whether each was cut off, motor first.
@@ -180,6 +185,7 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
             streams: Streams::new(seed, 1 + masses),
             passed: 0,
             bound_rad,
+            deflection_rad: deflection,
             command_a: 0.0,
             limited: false,
             read_rad: vec![0.0; 1 + masses],
@@ -238,7 +244,7 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
     /// for.
     fn move_on(&mut self, look_s: Option<f64>) -> Result<(), RigError> {
         let constant = self.rig.arm.motor.torque_constant_nm_per_a;
-        let mut from = 0.0;
+        let (mut from, mut noted) = (0.0, look_s.is_none());
         for (command, duration) in self.line.push(self.command_a) {
             let torque = constant * self.rig.instruments.amplifier.current_a(command);
             let look = look_s.map(|at| at - from).filter(|at| (0.0..duration).contains(at));
@@ -249,12 +255,18 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
                 }
                 self.seen.clear();
                 self.seen.extend_from_slice(self.motion.state());
+                noted = true;
                 rest -= first;
             }
             if rest > 0.0 {
                 self.motion.advance(torque, rest)?;
             }
             from += duration;
+        }
+        if !noted {
+            // Rounding of both parts of a sample put it behind them.
+            self.seen.clear();
+            self.seen.extend_from_slice(self.motion.state());
         }
         self.passed += 1;
         Ok(())
@@ -315,9 +327,9 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
         while self.passed < most {
             let (time, value) = self.before(period.is_some());
             self.sense(time, value)?;
-            // Within rounding of an instant it is that instant.
+            // Within rounding of an instant it is that instant: no sample is split for it.
             let look = looks as f64 * lag - time;
-            let look = if look.abs() < 1e-9 * sample { 0.0 } else { look };
+            let look = if look < WHOLE * sample { 0.0 } else { look };
             let due = look < sample;
             self.move_on(due.then_some(look))?;
             if !due {
@@ -329,7 +341,7 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
             let amplitude = if open {
                 0.5 * (self.range_rad.1 - self.range_rad.0)
             } else {
-                reference.amplitude(self.experiment.record_s)
+                reference.amplitude(self.experiment.record_s).max(self.deflection_rad)
             };
             self.range_rad = (f64::INFINITY, f64::NEG_INFINITY);
             allowed = (tolerance * amplitude).max(rig.instruments.resolution_rad());

@@ -5,6 +5,8 @@ mod integer;
 mod pd;
 mod pid;
 mod proportional;
+#[cfg(test)]
+mod tests;
 
 pub use integer::{IntegerPd, Word};
 pub use pd::Pd;
@@ -14,7 +16,8 @@ pub use proportional::Proportional;
 /// What a controller gets to know at an instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensed<'a> {
-    /// Time on the reference's clock \[s\]; negative while the loop waits for a start.
+    /// Time on the reference's clock \[s\]. While the loop waits at the first value of a reference
+    /// that is not periodic, time since it began to.
     pub time_s: f64,
     /// Time from one action of the controller to the next \[s\].
     pub period_s: f64,

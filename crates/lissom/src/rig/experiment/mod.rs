@@ -5,6 +5,8 @@ mod multisine;
 mod periodic;
 mod reference;
 mod table;
+#[cfg(test)]
+mod tests;
 
 pub use chirp::{Chirp, Sweep};
 pub use multisine::Multisine;
@@ -85,7 +87,8 @@ pub enum Settle {
     /// Until the transient has gone: what is left of it is at most `tolerance` times the amplitude,
     /// or at most a step (or the deviation of the noise) of the coarsest sensor.
     Detected {
-        /// What may be left, relative to the reference's amplitude \[1\].
+        /// What may be left, relative to the larger of the reference's amplitude and the start's
+        /// deflection; for an open drive to what the motor moves by in a period \[1\].
         tolerance: f64,
         /// The longest time to wait \[s\].
         longest_s: f64,

@@ -5,6 +5,8 @@ mod delay;
 mod noise;
 mod quantiser;
 mod sensor;
+#[cfg(test)]
+mod tests;
 
 pub use amplifier::Amplifier;
 pub use delay::Delay;
