@@ -20,6 +20,24 @@ pub enum RigError {
         /// Bits asked for.
         found: u32,
     },
+    /// A tolerance that no solver is asked for.
+    #[error("a tolerance of {found}; {least} to {most} are possible")]
+    Tolerance {
+        /// The number found.
+        found: f64,
+        /// The finest.
+        least: f64,
+        /// The coarsest.
+        most: f64,
+    },
+    /// A motion that is solved step by step got nowhere.
+    #[error("the motion cannot be followed beyond {time_s} s: the step there was {step_s} s")]
+    NotFollowed {
+        /// Time from the motion's start \[s\].
+        time_s: f64,
+        /// The step that was tried \[s\].
+        step_s: f64,
+    },
     /// The log could not be made into a run.
     #[error(transparent)]
     Record(#[from] crate::record::RecordError),

@@ -4,6 +4,8 @@
 mod held;
 mod hybrid;
 mod instrument;
+#[cfg(feature = "lugre")]
+mod lugre;
 mod motion;
 mod polynomial;
 mod stepped_sine;
@@ -11,5 +13,7 @@ mod stepped_sine;
 pub use held::HeldStep;
 pub use hybrid::{Hybrid, Mode};
 pub use instrument::{Pd, Quantiser, RigError};
+#[cfg(feature = "lugre")]
+pub use lugre::LuGreMotion;
 pub use motion::Motion;
 pub use stepped_sine::{Rig, SteppedSine};
