@@ -52,3 +52,17 @@ def run(e, step_s, integrator):
         torque[0] = e.torque_constant_nm_per_a * currents[k] - load
         mujoco.mj_step(made, data, steps)
     return currents, states
+
+
+def step_alone(e, step_s, integrator):
+    """The steps of the experiment without loop and log, under a torque that keeps the motor slipping: for their time."""
+    made = model(e, step_s, integrator)
+    data = mujoco.MjData(made)
+    steps, most = round(e.sample_time_s / step_s), 2.0 * max(e.forward_nm, e.backward_nm)
+    half = round(np.pi / e.omega_rad_s / e.sample_time_s)
+    done = 0
+    while done < e.samples:
+        data.qfrc_applied[0] = most if done // half % 2 else -most
+        many = min(half, e.samples - done)
+        mujoco.mj_step(made, data, many * steps)
+        done += many

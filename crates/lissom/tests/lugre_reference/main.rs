@@ -12,12 +12,10 @@ use serde_json::Value;
 
 const SAMPLE_TIME_S: f64 = 0.003;
 
-/// Angles and speeds, over the tolerance of a step: the steps of 300 samples add up, and a free
-/// motor does not forget \[rad, rad/s\].
-const ANGLE_PER_TOLERANCE: f64 = 2000.0;
-const RATE_PER_TOLERANCE: f64 = 20_000.0;
-/// The bristles' deflection, over the tolerance and the largest deflection; it forgets.
-const DEFLECTION_PER_TOLERANCE: f64 = 20_000.0;
+/// A tolerance, and what angles \[rad\], speeds \[rad/s\] and z·σ0/Fs are off by at most: 1.5 to 3 times
+/// what the worst case here is. The method is of order 3, and errors of steps add up.
+const BOUNDS: [(f64, [f64; 3]); 3] =
+    [(1e-5, [7e-5, 7e-4, 2e-3]), (1e-6, [1e-5, 6e-5, 5e-4]), (1e-8, [1.2e-6, 1.2e-5, 2e-5])];
 
 fn reference() -> Value {
     serde_json::from_str(include_str!("lugre.json")).unwrap()
@@ -67,16 +65,10 @@ fn errors(case: &Value, tolerance: f64) -> [f64; 3] {
 #[test]
 fn errors_against_scipy_follow_the_tolerance() {
     for case in reference()["cases"].as_array().unwrap() {
-        for tolerance in [1e-5, 1e-6, 1e-8] {
-            let [angle, rate, deflection] = errors(case, tolerance);
-            println!(
-                "{} {tolerance:.0e}: angle {angle:.1e} rad, rate {rate:.1e} rad/s, deflection {deflection:.1e}",
-                case["name"]
-            );
-            assert!(angle <= ANGLE_PER_TOLERANCE * tolerance, "{}: {angle}", case["name"]);
-            assert!(rate <= RATE_PER_TOLERANCE * tolerance, "{}: {rate}", case["name"]);
-            let most = DEFLECTION_PER_TOLERANCE * tolerance;
-            assert!(deflection <= most, "{}: {deflection}", case["name"]);
+        for (tolerance, most) in BOUNDS {
+            let found = errors(case, tolerance);
+            let kept = found.iter().zip(most).all(|(found, most)| *found <= most);
+            assert!(kept, "{} at {tolerance}: {found:?}", case["name"]);
         }
     }
 }
@@ -147,7 +139,6 @@ fn stiff_bristles_are_coulomb_friction() {
             motion.advance(torque(k), SAMPLE_TIME_S).unwrap();
             apart = apart.max((motion.state()[0] - wanted).abs());
         }
-        println!("Fc/σ0 {bend:.0e} rad: apart by {apart:.1e} rad");
         if power.is_finite() {
             let found = (before / apart).log10();
             assert!((found - power).abs() < POWER_ERROR, "{bend}: {found}");
