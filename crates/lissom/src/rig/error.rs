@@ -109,6 +109,24 @@ pub enum RigError {
         /// Masses of the other.
         found: usize,
     },
+    /// A tolerance that no solver is asked for.
+    #[error("a tolerance of {found}; {least} to {most} are possible")]
+    Tolerance {
+        /// The number found.
+        found: f64,
+        /// The finest.
+        least: f64,
+        /// The coarsest.
+        most: f64,
+    },
+    /// A motion that is solved step by step got nowhere.
+    #[error("the motion cannot be followed beyond {time_s} s: the step there was {step_s} s")]
+    NotFollowed {
+        /// Time from the motion's start \[s\].
+        time_s: f64,
+        /// The step that was tried \[s\].
+        step_s: f64,
+    },
     /// The state is no number any more.
     #[error("the motion left the range of numbers {time_s} s after its start")]
     Lost {

@@ -11,6 +11,8 @@ mod held;
 mod hybrid;
 mod instrument;
 mod logging;
+#[cfg(feature = "lugre")]
+mod lugre;
 mod motion;
 mod polynomial;
 mod sampled_loop;
@@ -31,6 +33,8 @@ pub use finding::{RigFinding, SensorPlace};
 pub use held::HeldStep;
 pub use hybrid::{Hybrid, Mode};
 pub use instrument::{Amplifier, Delay, Instruments, Noise, Quantiser, Sensor};
+#[cfg(feature = "lugre")]
+pub use lugre::LuGreMotion;
 pub use motion::Motion;
 pub use sampled_loop::{Logged, Rig, Settled};
 pub use scene::Scene;
