@@ -24,8 +24,9 @@ pub mod units;
 pub mod write;
 
 pub use arm_file::{
-    ArmError, ArmFile, BeamKind, BeamSpec, ControllerSpec, ConverterSpec, DriveSpec, IntegerSpec,
-    RestSpec, RigSpec, RippleSpec, SensorSpec, SensorSteps, SignalSpec, SpanSpec, TipSpec,
+    ArmError, ArmFile, BeamKind, BeamSpec, BristlesSpec, ControllerSpec, ConverterSpec, DriveSpec,
+    IntegerSpec, RestSpec, RigSpec, RippleSpec, SensorSpec, SensorSteps, SignalSpec, SpanSpec,
+    TipSpec,
 };
 pub use campaign::{
     AnalysisOptions, CampaignError, CampaignFile, Known, ReadOptions, read_campaign,

@@ -9,22 +9,28 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use lissom::drive::LuGre;
-use lissom::rig::{Hybrid, LuGreMotion, Motion};
+use lissom::rig::{Controller, Hybrid, LuGreMotion, Motion, Sensed};
 use lissom_testmodels::report_rig;
 
 const SAMPLES: usize = 20_000;
 
 fn closed_loop(motion: &mut impl Motion) -> f64 {
     let rig = report_rig(None);
-    let (t, torque_constant) = (rig.sample_time_s, rig.arm.motor.torque_constant_nm_per_a);
-    let mut before = 0.0;
+    let (t, torque_constant) =
+        (rig.instruments.sample_time_s, rig.arm.motor.torque_constant_nm_per_a);
+    let mut controller = rig.controller.clone();
+    let mut last = 0.0;
     for k in 0..SAMPLES {
-        let error = 0.5 * (3.0 * k as f64 * t).sin() - motion.state()[0];
-        let current = rig.controller.current_a(error, before, t);
-        before = error;
+        let time_s = k as f64 * t;
+        let reference_rad = 0.5 * (3.0 * time_s).sin();
+        let motor_rad = motion.state()[0];
+        let limit_a = rig.instruments.amplifier.most_a();
+        let now = Sensed { time_s, period_s: t, reference_rad, motor_rad, tips_rad: &[], limit_a };
+        let current = controller.current_a(&now).clamp(-limit_a, limit_a);
         motion.advance(torque_constant * current, t).unwrap();
+        last = motor_rad;
     }
-    before
+    last
 }
 
 fn experiment(c: &mut Criterion) {

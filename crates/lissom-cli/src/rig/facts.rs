@@ -1,7 +1,7 @@
 //! What is known of a virtual campaign beside its logs: `rig.json`.
 
 use lissom::beam::Base;
-use lissom::rig::{Logged, Rig, RigFinding};
+use lissom::rig::{JointFriction, Logged, Rig, RigFinding};
 use lissom_io::{PlanFile, PlanRun};
 use serde_json::{Value, json};
 
@@ -42,8 +42,11 @@ fn code(finding: &RigFinding) -> &'static str {
 /// The campaign, and the truth that identification is to find.
 pub(super) fn campaign(rig: &Rig, plan: &PlanFile, runs: &[Value]) -> Value {
     let (arm, motor) = (&rig.arm, &rig.arm.motor);
-    let sliding = rig.scene.friction.map_or(arm.coulomb, |law| law.sliding());
-    let rest = rig.scene.friction.map_or(arm.coulomb, |law| law.at(0.0, 0.0));
+    let (sliding, rest) = match rig.scene.friction {
+        JointFriction::Dry(law) => (law.sliding(), law.at(0.0, 0.0)),
+        JointFriction::Bristles { law, .. } => (law.coulomb(), law.at_rest()),
+        _ => (arm.coulomb, arm.coulomb),
+    };
     json!({
         "lissom": env!("CARGO_PKG_VERSION"),
         "title": plan.title,

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use lissom::arm::Arm;
-use lissom::drive::{Coulomb, DriveError, DryFriction};
+use lissom::drive::{Coulomb, DriveError, DryFriction, LuGre};
 use lissom::rig::{
-    Amplifier, ControlLaw, Delay, Harmonic, Instruments, IntegerPd, Noise, Pd, Pid, Quantiser, Rig,
-    RigError, Scene, Sensor, Signal, TipWorld,
+    Amplifier, ControlLaw, Delay, Harmonic, Instruments, IntegerPd, JointFriction, Noise, Pd, Pid,
+    Quantiser, Rig, RigError, Scene, Sensor, Signal, TipWorld,
 };
 
 use super::build::absent;
@@ -63,7 +63,7 @@ impl ArmFile {
         let beam_failed = |source| ArmError::Beam { file: path.to_owned(), source };
         let friction = match &self.drive {
             Some(drive) => friction(drive, arm.coulomb).map_err(drive_failed)?,
-            None => None,
+            None => JointFriction::Arm,
         };
         let Some(tip) = &self.tip else { return Ok(Scene { friction, ..Scene::default() }) };
         let mut later = Vec::with_capacity(tip.payloads.len());
@@ -77,8 +77,19 @@ impl ArmFile {
     }
 }
 
-/// The joint's dry friction where it is more than the arm's constants.
-fn friction(drive: &DriveSpec, sliding: Coulomb) -> Result<Option<DryFriction>, DriveError> {
+/// The joint's friction where it is more than the arm's constants.
+fn friction(drive: &DriveSpec, sliding: Coulomb) -> Result<JointFriction, DriveError> {
+    if let Some(bristles) = &drive.bristles {
+        let rest = match &drive.rest {
+            Some(rest) => Coulomb::by_direction(rest.forward_nm, rest.backward_nm)?,
+            None => sliding,
+        };
+        // Without another friction at rest its speed is of no use.
+        let velocity = drive.rest.map_or(1.0, |rest| rest.velocity_rad_s);
+        let (stiffness, damping) = (bristles.stiffness_nm_per_rad, bristles.damping_nm_s_per_rad);
+        let law = LuGre::new(stiffness, damping, sliding, rest, velocity)?;
+        return Ok(JointFriction::Bristles { law, tolerance: bristles.tolerance });
+    }
     let mut law = DryFriction::from(sliding);
     if let Some(rest) = &drive.rest {
         let limits = Coulomb::by_direction(rest.forward_nm, rest.backward_nm)?;
@@ -87,7 +98,7 @@ fn friction(drive: &DriveSpec, sliding: Coulomb) -> Result<Option<DryFriction>, 
     if let Some(ripple) = &drive.ripple {
         law = law.with_ripple(ripple.share, ripple.per_turn, ripple.phase_rad)?;
     }
-    Ok((!law.is_constant()).then_some(law))
+    Ok(if law.is_constant() { JointFriction::Arm } else { JointFriction::Dry(law) })
 }
 
 fn world(tip: &TipSpec) -> Result<TipWorld, RigError> {

@@ -22,7 +22,23 @@ pub struct DriveSpec {
     pub rest: Option<RestSpec>,
     /// Friction that changes over the turn.
     pub ripple: Option<RippleSpec>,
+    /// Bristles (LuGre).
+    pub bristles: Option<BristlesSpec>,
 }
+
+/// Bristles below Coulomb friction, and how exactly they are solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BristlesSpec {
+    /// σ0 \[N·m/rad\].
+    pub stiffness_nm_per_rad: f64,
+    /// σ1 \[N·m·s/rad\].
+    pub damping_nm_s_per_rad: f64,
+    /// Relative tolerance of a step.
+    pub tolerance: f64,
+}
+
+/// Tolerance of bristles where the file does not say.
+const TOLERANCE: f64 = 1e-8;
 
 /// Friction at rest, and the speed over which it passes into Coulomb friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,7 +65,18 @@ pub struct RippleSpec {
 }
 
 pub(super) fn drive(table: &Table<'_>) -> Result<DriveSpec, ConfigError> {
-    table.only(&["inertia", "viscous", "torque_constant", "coulomb", "rest", "ripple"])?;
+    table.only(&[
+        "inertia",
+        "viscous",
+        "torque_constant",
+        "coulomb",
+        "rest",
+        "ripple",
+        "bristles",
+    ])?;
+    if let Some((_, bristles)) = table.one_of(&["ripple", "bristles"])?.filter(|(i, _)| *i == 1) {
+        bristles_fit(table, &bristles)?;
+    }
     let torque_constant = table.need("torque_constant")?.positive(Dimension::TORQUE_PER_CURRENT)?;
     let viscous = table.get("viscous").map(|v| v.not_negative(Dimension::VISCOUS_ROTARY));
     let (forward, backward) = match table.get("coulomb") {
@@ -64,6 +91,7 @@ pub(super) fn drive(table: &Table<'_>) -> Result<DriveSpec, ConfigError> {
         coulomb_backward_nm: backward,
         rest: table.get("rest").map(|v| rest(&v.table()?, torque_constant)).transpose()?,
         ripple: table.get("ripple").map(|v| ripple(&v.table()?)).transpose()?,
+        bristles: table.get("bristles").map(|v| bristles(&v.table()?)).transpose()?,
     })
 }
 
@@ -115,4 +143,27 @@ fn ripple(table: &Table<'_>) -> Result<RippleSpec, ConfigError> {
         per_turn: table.need("per_turn")?.positive(Dimension::NUMBER)?,
         phase_rad: phase.transpose()?.unwrap_or(0.0),
     })
+}
+
+fn bristles(table: &Table<'_>) -> Result<BristlesSpec, ConfigError> {
+    table.only(&["stiffness", "damping", "tolerance"])?;
+    let damping = table.get("damping").map(|v| v.not_negative(Dimension::VISCOUS_ROTARY));
+    let tolerance = table.get("tolerance").map(|v| v.positive(Dimension::NUMBER)).transpose()?;
+    Ok(BristlesSpec {
+        stiffness_nm_per_rad: table.need("stiffness")?.positive(Dimension::TORQUE)?,
+        damping_nm_s_per_rad: damping.transpose()?.unwrap_or(0.0),
+        tolerance: tolerance.unwrap_or(TOLERANCE),
+    })
+}
+
+/// Bristles need Coulomb friction, and the law's fall from rest is Gaussian.
+fn bristles_fit(drive: &Table<'_>, bristles: &Value<'_>) -> Result<(), ConfigError> {
+    if drive.get("coulomb").is_none() {
+        return Err(ConfigError::Needs { place: bristles.place(), key: "drive.coulomb" });
+    }
+    let falloff = drive.get("rest").and_then(|v| v.as_table()).and_then(|t| t.get("falloff"));
+    match falloff {
+        Some(value) => value.choice(&["gaussian"]).map(|_| ()),
+        None => Ok(()),
+    }
 }

@@ -53,7 +53,7 @@ mod tip;
 
 pub use beam::{BeamKind, BeamSpec, SpanSpec};
 pub use build::ArmError;
-pub use drive::{DriveSpec, RestSpec, RippleSpec};
+pub use drive::{BristlesSpec, DriveSpec, RestSpec, RippleSpec};
 pub use rig::{ControllerSpec, ConverterSpec, IntegerSpec, RigSpec, SensorSpec, SensorSteps};
 pub(crate) use tip::omega;
 pub use tip::{SignalSpec, TipSpec};

@@ -74,6 +74,16 @@ impl LuGre {
         Ok(Self { stiffness_nm_per_rad, damping_nm_s_per_rad, coulomb, at_rest, stribeck_rad_s })
     }
 
+    /// Fc \[N·m\].
+    pub fn coulomb(&self) -> Coulomb {
+        self.coulomb
+    }
+
+    /// Fs \[N·m\].
+    pub fn at_rest(&self) -> Coulomb {
+        self.at_rest
+    }
+
     /// Bristle stiffness σ0 \[N·m/rad\].
     pub fn stiffness_nm_per_rad(&self) -> f64 {
         self.stiffness_nm_per_rad

@@ -109,6 +109,12 @@ pub enum RigError {
         /// Masses of the other.
         found: usize,
     },
+    /// What the rig cannot simulate.
+    #[error("{what} cannot be simulated")]
+    Unsupported {
+        /// What.
+        what: &'static str,
+    },
     /// A tolerance that no solver is asked for.
     #[error("a tolerance of {found}; {least} to {most} are possible")]
     Tolerance {

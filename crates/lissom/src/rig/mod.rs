@@ -37,6 +37,6 @@ pub use instrument::{Amplifier, Delay, Instruments, Noise, Quantiser, Sensor};
 pub use lugre::LuGreMotion;
 pub use motion::Motion;
 pub use sampled_loop::{Logged, Rig, Settled};
-pub use scene::Scene;
+pub use scene::{JointFriction, Scene};
 pub use signal::{Harmonic, Signal};
 pub use tip_world::{TipWorld, Wall};

@@ -1,6 +1,6 @@
 //! Rigs: instruments, controllers, friction laws, the world at the tip.
 
-use lissom::rig::{ControlLaw, Word};
+use lissom::rig::{ControlLaw, JointFriction, Word};
 
 use super::{ARM, read};
 use crate::arm_file::{ArmFile, SignalSpec};
@@ -71,7 +71,7 @@ fn reads_friction_laws_and_the_world_at_the_tip() {
          payloads = [{ at = \"10 s\", mass = \"50 g\" }, { at = \"20 s\" }]\n[rig]",
     );
     let made = rig(&text);
-    let law = made.scene.friction.unwrap();
+    let JointFriction::Dry(law) = made.scene.friction else { panic!() };
     let constant = made.arm.motor.torque_constant_nm_per_a;
     let ripple = 1.0 + 0.2 * (30.0_f64.to_radians()).cos();
     assert!((law.at(0.0, 0.0).forward - 0.2 * constant * ripple).abs() < 1e-15);
