@@ -132,7 +132,7 @@ fn a_slow_controller_on_fast_instruments_is_the_slow_loop() {
     assert_eq!(all.len(), 4000);
     let fourth: Vec<f64> = all.motor().iter().step_by(4).copied().collect();
     assert_eq!(fourth, b.run.motor());
-    assert!(all.command().chunks(4).all(|held| held.iter().all(|i| *i == held[0])));
+    assert!(all.command().chunks(4).all(|held| held == [held[0]; 4]));
     // Logged more seldom than controlled: said.
     fast.instruments.log_every = 8;
     let seldom = fast.run("seldom", &sine(), 0).unwrap();
@@ -420,6 +420,11 @@ fn what_cannot_be_run_is_refused() {
     seldom.instruments.control_every = 100;
     let fast = Experiment::sine(11.0, 0.1, 1.0).unwrap();
     assert!(matches!(seldom.run("fast", &fast, 0), Err(RigError::AboveNyquist { .. })));
+    // The loop can carry it, the log cannot.
+    let mut thin = rig.clone();
+    thin.instruments.log_every = 100;
+    let fast = wait(Experiment::sine(11.0, 0.1, 3.0).unwrap(), 0.0);
+    assert!(matches!(thin.run("thin", &fast, 0), Err(RigError::Record(_))));
     let mut changed = sine();
     changed.record_s = f64::NAN;
     let error = rig.run("bad", &changed, 0).err().unwrap();

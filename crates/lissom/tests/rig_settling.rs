@@ -58,7 +58,6 @@ fn a_mode_of_33_s_near_the_third_harmonic() {
     // 300 periods, twelve decays, later.
     let truth = later(&rig, samples, &experiment, &found, 300);
     let error = apart(&found, &truth);
-    println!("waited {} s, left at most {left:.2e}, is {error:.2e}", found.settled.waited_s);
     assert!(error <= left, "{error:.2e} rad is left, {left:.2e} were promised");
     // Nor is it far on the safe side: a decay or two at most.
     assert!(error > 0.05 * ALLOWED_RAD, "{error:.2e}");
@@ -69,7 +68,6 @@ fn a_mode_of_33_s_near_the_third_harmonic() {
         0,
     );
     let fixed = apart(&fixed.unwrap(), &truth);
-    println!("60 s: {fixed:.2e}");
     assert!(fixed > 50.0 * ALLOWED_RAD, "{fixed:.2e}");
 }
 
@@ -77,7 +75,6 @@ fn a_mode_of_33_s_near_the_third_harmonic() {
 fn samples_that_do_not_fit_the_period_delay_it_little() {
     let fitting = fitting(report_rig(None), OMEGA).0.run("fits", &one_period(OMEGA), 0).unwrap();
     let found = report_rig(None).run("3 ms", &one_period(OMEGA), 0).unwrap();
-    println!("{:?} {:?}", fitting.settled, found.settled);
     assert!(found.findings.is_empty(), "{:?}", found.findings);
     let ratio = found.settled.waited_s / fitting.settled.waited_s;
     assert!((0.7..1.5).contains(&ratio), "{ratio}");
@@ -87,7 +84,6 @@ fn samples_that_do_not_fit_the_period_delay_it_little() {
 fn twelve_bits_settle_to_a_step() {
     for omega in [OMEGA, 5.0, 20.0] {
         let found = report_rig(Some(12)).run("12 bits", &one_period(omega), 0).unwrap();
-        println!("{omega} {:?}", found.settled);
         assert!(found.findings.is_empty(), "{omega}: {:?}", found.findings);
         assert!((found.settled.tolerance_rad.unwrap() - TAU / 4096.0).abs() < 1e-12);
     }
@@ -139,7 +135,6 @@ fn two_modes_and_friction_by_direction() {
     assert!(found.findings.is_empty(), "{:?}", found.findings);
     let error = apart(&found, &later(&rig, samples, &experiment, &found, 200));
     let left = found.settled.left_rad.unwrap();
-    println!("{:?} is {error:.2e}", found.settled);
     assert!(error <= left, "{error:.2e} rad is left, {left:.2e} were promised");
 }
 
@@ -150,10 +145,8 @@ fn without_damping_the_decay_is_read_off() {
     let experiment =
         one_period(4.0).settling(Settle::Detected { tolerance: 1e-3, longest_s: 2000.0 });
     let found = rig.run("undamped", &experiment, 0).unwrap();
-    println!("{:?} {:?}", found.settled, found.findings);
     assert!(found.findings.is_empty(), "{:?}", found.findings);
     let error = apart(&found, &later(&rig, samples, &experiment, &found, 1000));
-    println!("is {error:.2e}");
     assert!(error <= 1e-3 * AMPLITUDE_RAD, "{error:.2e}");
 }
 
@@ -169,7 +162,6 @@ fn a_slow_integral_is_waited_for() {
     let found = rig.run("slow", &experiment, 0).unwrap();
     assert!(found.findings.is_empty(), "{:?}", found.findings);
     let error = apart(&found, &later(&rig, samples, &experiment, &found, 2000));
-    println!("{:?} is {error:.2e}", found.settled);
     assert!(error <= found.settled.left_rad.unwrap(), "{error:.2e}");
 }
 
@@ -179,7 +171,6 @@ fn an_open_drive_is_judged_by_what_it_moves() {
     let drive = Drive::Current(Reference::sine(4.0, 0.6).unwrap());
     let experiment = Experiment::new(drive, TAU / 4.0).unwrap();
     let found = rig.run("open", &experiment, 0).unwrap();
-    println!("{:?} {:?}", found.settled, found.findings);
     assert!(found.findings.is_empty(), "{:?}", found.findings);
     let truth = later(&rig, samples, &experiment, &found, 200);
     // Deflections: where the motor comes to turn about is its own affair.
@@ -188,7 +179,6 @@ fn an_open_drive_is_judged_by_what_it_moves() {
     };
     let error =
         bent(&found).iter().zip(bent(&truth)).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
-    println!("is {error:.2e}");
     assert!(error <= found.settled.left_rad.unwrap(), "{error:.2e}");
 }
 
@@ -198,7 +188,6 @@ fn a_start_that_is_pushed_aside_is_waited_for_too() {
     let hold = Experiment::new(Drive::Angle(Reference::hold(0.0).unwrap()), 3.0).unwrap();
     let pushed = hold.clone().starting(Start::Deflected { tip_force_n: 0.05 });
     let found = rig.run("waits", &pushed, 0).unwrap();
-    println!("{:?} {:?}", found.settled, found.findings);
     // Friction holds the motor, and the beam rings for nine decays of 33 s.
     assert!((250.0..400.0).contains(&found.settled.waited_s), "{:?}", found.settled);
     let tip = &found.run.tips()[0];
@@ -219,7 +208,6 @@ fn a_payload_that_turns_is_judged_by_coordinates() {
     let (rig, samples) = fitting(rig, 3.0);
     let experiment = one_period(3.0);
     let found = rig.run("payload", &experiment, 0).unwrap();
-    println!("{:?} {:?}", found.settled, found.findings);
     assert!(found.findings.is_empty(), "{:?}", found.findings);
     let error = apart(&found, &later(&rig, samples, &experiment, &found, 200));
     assert!(error <= found.settled.left_rad.unwrap(), "{error:.2e}");

@@ -64,11 +64,11 @@ impl Log {
         let share = |count: usize| count as f64 / self.samples as f64;
         let moved = moved_rad.1 - moved_rad.0;
         let mut findings = Vec::new();
-        if let (Some(left_rad), Some(tolerance_rad)) = (settled.left_rad, settled.tolerance_rad) {
-            if !(left_rad <= tolerance_rad) {
-                let waited_s = settled.waited_s;
-                findings.push(RigFinding::NotSettled { left_rad, tolerance_rad, waited_s });
-            }
+        if let (Some(left_rad), Some(tolerance_rad)) = (settled.left_rad, settled.tolerance_rad)
+            && left_rad > tolerance_rad
+        {
+            let waited_s = settled.waited_s;
+            findings.push(RigFinding::NotSettled { left_rad, tolerance_rad, waited_s });
         }
         if self.limited > 0 {
             let asked = self.reference.1 - self.reference.0;

@@ -203,7 +203,7 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
         let instruments = &self.rig.instruments;
         let state = self.motion.state();
         let angle = state[0];
-        if !(angle.abs() <= self.bound_rad) {
+        if angle.abs() > self.bound_rad || angle.is_nan() {
             return Err(RigError::Unstable {
                 angle_rad: angle,
                 bound_rad: self.bound_rad,

@@ -65,7 +65,7 @@ impl Multisine {
         let highest = *lines.last().ok_or(RigError::NoLines)?;
         let wrong = |k: &usize| {
             let line = lines[*k];
-            line % 2 == 0 || line > LINE_MOST || (*k > 0 && line <= lines[*k - 1])
+            line.is_multiple_of(2) || line > LINE_MOST || (*k > 0 && line <= lines[*k - 1])
         };
         if let Some(k) = (0..lines.len()).find(wrong) {
             return Err(RigError::Line { found: lines[k], most: LINE_MOST });
@@ -219,7 +219,7 @@ impl Multisine {
                 turn *= z * z;
             }
             let next = x - slope / bend;
-            if !((next - from).abs() <= step) {
+            if (next - from).abs() > step || next.is_nan() {
                 break;
             }
             x = next;

@@ -1,5 +1,3 @@
-#![expect(clippy::unwrap_used, reason = "tests")]
-
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 use super::*;
@@ -215,6 +213,8 @@ fn a_pushed_beam_is_bent_like_a_cantilever() {
         }
         // The coupling torque is the force's moment.
         assert!((arm.coupling_torque(&state) + force * length).abs() < ROUNDING);
+        let far = Start::Deflected { tip_force_n: f64::MAX }.state(&arm);
+        assert_eq!(far, Err(RigError::Deflection { tip_force_n: f64::MAX }));
         let bad = Start::Deflected { tip_force_n: f64::NAN }.state(&arm);
         assert!(matches!(bad, Err(RigError::NotFinite { .. })));
     }

@@ -27,7 +27,7 @@ impl Noise {
         self.std
     }
 
-    pub(super) fn draw(&self, stream: &mut Xoshiro256PlusPlus) -> f64 {
+    pub(super) fn draw(self, stream: &mut Xoshiro256PlusPlus) -> f64 {
         let normal: f64 = StandardNormal.sample(stream);
         self.std * normal
     }

@@ -1,4 +1,3 @@
-#![expect(clippy::unwrap_used, reason = "tests")]
 #![expect(clippy::float_cmp, reason = "hand-computed values that are exact in binary")]
 
 use std::f64::consts::TAU;
