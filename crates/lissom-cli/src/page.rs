@@ -200,6 +200,14 @@ fn runs(id: &Identified) -> Table {
                 run.stuck_share.map_or_else(String::new, share),
                 share(run.saturated_share),
             ],
+            RunKind::ConstantVelocity => [
+                run.name.clone(),
+                format!("constant velocities ({})", run.steady.len()),
+                String::new(),
+                String::new(),
+                String::new(),
+                share(run.saturated_share),
+            ],
             RunKind::General => [
                 run.name.clone(),
                 "other motion".to_owned(),
