@@ -9,8 +9,8 @@ pub use units::UnitNames;
 
 use lissom::identify::{
     BeamRegression, Candidate, ConstantVelocity, Estimate, Finding, FrictionLine, Identified,
-    ModeEstimate, MotorFit, MotorRegression, Response, ResponsePoint, RunAnalysis, RunKind, Severity,
-    Shape, ThirdHarmonic,
+    ModeEstimate, MotorFit, MotorRegression, Response, ResponsePoint, RunAnalysis, RunKind,
+    Severity, Shape, ThirdHarmonic,
 };
 use lissom::lti::TransferFunction;
 use lissom::record::{Axis, Channels, TipQuantity};
@@ -177,12 +177,7 @@ fn regression(
     Value::Object(map)
 }
 
-fn classical(
-    names: UnitNames,
-    constant: f64,
-    c: &ConstantVelocity,
-    runs: &[RunAnalysis],
-) -> Value {
+fn classical(names: UnitNames, constant: f64, c: &ConstantVelocity, runs: &[RunAnalysis]) -> Value {
     let mut map = Map::new();
     let forward = c.forward.as_ref().ok();
     let backward = c.backward.as_ref().ok();

@@ -3,7 +3,9 @@
 use num_complex::Complex64;
 
 use super::channel_check::{clipped_share, dwell_share, range, rest_share, step};
-use super::constant_velocity::{SHARE, SteadyPoint, no_stretch, steady_points, steady_share};
+use super::constant_velocity::{
+    SHARE, SHARE_ONE_WAY, SteadyPoint, no_stretch, steady_points, steady_share,
+};
 use super::finding::{Finding, Severity, key};
 use super::regression::slip_sign;
 use super::third_harmonic::RunPhasors;
@@ -27,7 +29,7 @@ const STICKING: f64 = 0.05;
 const AT_REST: f64 = 0.3;
 /// Stamps off the grid by more than this share of the sample time, rms.
 const JITTER: f64 = 0.05;
-/// Share of a run in which the motor turns one way from which on it does throughout.
+/// Share of the time in motion from which on the motor turns one way throughout.
 const ONE_WAY: f64 = 0.95;
 /// Drift over the run, relative to the amplitude.
 const DRIFT: f64 = 0.1;
@@ -157,21 +159,25 @@ pub(crate) fn analyse(
         return analysis;
     }
     steady = steady_points(campaign, index);
-    if steady_share(run, &steady, rest_share(run.motor())) > SHARE {
+    let one_way = turns_one_way(run);
+    let least = if one_way { SHARE_ONE_WAY } else { SHARE };
+    if steady_share(run, &steady, rest_share(run.motor())) > least {
         analysis.kind = RunKind::ConstantVelocity;
-    } else if steady.is_empty() && turns_one_way(run) {
+    } else if steady.is_empty() && one_way {
         findings.push(no_stretch(run));
     }
     analysis.steady = steady;
     analysis
 }
 
-/// Whether the motor never turns back, and is in motion most of the time.
+/// Whether the motor moves one way for nearly all of the time in motion, and is in motion for most
+/// of the run.
 fn turns_one_way(run: &Run) -> bool {
     let sign = slip_sign(run.motor(), run.sample_time_s());
     let count = |s: f64| sign.iter().filter(|x| **x * s > 0.0).count() as f64;
     let (forward, backward) = (count(1.0), count(-1.0));
-    forward.max(backward) > ONE_WAY * run.len() as f64
+    let moves = forward + backward;
+    forward.max(backward) > ONE_WAY * moves && moves > 0.5 * run.len() as f64
 }
 
 /// Dead and clipped channels; whether motor and command are alive. A constant command of a motor

@@ -147,7 +147,12 @@ mod tests {
         assert!((white - 1.0).abs() < 0.12, "{white}");
         let red = honesty(|x| {
             let mut state = 0.0;
-            x.iter().map(|e| { state = 0.8 * state + e; state }).collect()
+            x.iter()
+                .map(|e| {
+                    state = 0.8 * state + e;
+                    state
+                })
+                .collect()
         });
         assert!((red - 1.0).abs() < 0.12, "{red}");
         // Sensor steps: differences of white noise.

@@ -60,7 +60,9 @@ fn shape(name: &str, line: &FrictionLine, constant: f64) -> Option<Finding> {
     };
     match line.shape {
         Shape::Straight => None,
-        Shape::Concave { deviations } => Some(curved(deviations, "less than in proportion", "high")),
+        Shape::Concave { deviations } => {
+            Some(curved(deviations, "less than in proportion", "high"))
+        }
         Shape::Convex { deviations } => Some(curved(deviations, "more than in proportion", "low")),
         Shape::Scattered { rms } => Some(Finding::new(
             "speeds-scatter",
@@ -96,7 +98,9 @@ fn refused(name: &str, error: LineError, constant: f64) -> Finding {
         ),
         LineError::TooFewSpeeds { found } => finding(
             "too-few-speeds",
-            format!("{name}, there is {found} speed: a line to rest needs two, and three to be tested"),
+            format!(
+                "{name}, there is {found} speed: a line to rest needs two, and three to be tested"
+            ),
             "add speeds well apart, the slowest as slow as the motor still turns evenly",
         ),
         LineError::TooClose { coulomb, std } => finding(

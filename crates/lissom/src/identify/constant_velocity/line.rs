@@ -66,10 +66,14 @@ pub enum Shape {
 
 impl FrictionLine {
     /// The best that the points say of friction at rest: the line's figure where a line describes
-    /// them, that of the slowest third of the speeds where they lie on a curve.
+    /// them, that of the slowest third of the speeds where they lie on a curve. Half of what that
+    /// changes counts as a deviation: the curve goes on within the slowest third.
     pub fn near_rest(&self) -> Estimate {
-        match self.shape {
-            Shape::Concave { .. } | Shape::Convex { .. } => self.slowest.unwrap_or(self.coulomb),
+        match (self.shape, self.slowest) {
+            (Shape::Concave { .. } | Shape::Convex { .. }, Some(slowest)) => {
+                let change = slowest.value - self.coulomb.value;
+                Estimate { std: slowest.std.hypot(0.5 * change), ..slowest }
+            }
             _ => self.coulomb,
         }
     }
@@ -255,8 +259,8 @@ impl Fit {
     /// Coefficient `k`; its deviation is such that 1.96 of it make the 95 % interval.
     fn figure(&self, k: usize) -> Estimate {
         let (scale, freedom) = self.scale();
-        let wider = StudentsT::new(0.0, 1.0, freedom)
-            .map_or(1.0, |t| t.inverse_cdf(0.975) / NORMAL_975);
+        let wider =
+            StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |t| t.inverse_cdf(0.975) / NORMAL_975);
         let std = (self.covariance[(k, k)] * scale).max(0.0).sqrt() * wider;
         Estimate { value: self.value[k], std }
     }

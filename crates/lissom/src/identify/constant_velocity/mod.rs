@@ -11,8 +11,11 @@ pub(crate) use findings::{findings, no_stretch};
 pub use line::{FrictionLine, LineError, Shape};
 use stretches::stretches;
 
-/// A run of which this share of the time in motion is at constant velocities is made for them.
-pub(crate) const SHARE: f64 = 0.75;
+/// A run that turns one way, and does so at constant velocities for this share of the time in
+/// motion, is made for them…
+pub(crate) const SHARE_ONE_WAY: f64 = 0.5;
+/// …and one that turns both ways from this share on: ordinary moves have up to 0.8.
+pub(crate) const SHARE: f64 = 0.9;
 
 /// A stretch of a run in which the motor turns at a constant velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -174,8 +174,7 @@ fn drop_before(queue: &mut VecDeque<usize>, first: usize) {
 /// The stretch with its averages, if it is steady.
 fn judged(run: &Run, hold: Hold, r: Range<usize>, share: f64) -> Option<Stretch> {
     let (x, t) = (run.motor(), run.sample_time_s());
-    let series: Vec<f64> =
-        x[r.start..=r.end].windows(2).map(|w| (w[1] - w[0]) / t).collect();
+    let series: Vec<f64> = x[r.start..=r.end].windows(2).map(|w| (w[1] - w[0]) / t).collect();
     let velocity = average(&series)?;
     let speed = velocity.mean.abs();
     let changed = velocity.change + 2.0 * velocity.change_std;
