@@ -48,13 +48,13 @@ pub enum Shape {
     Straight,
     /// Friction grows less than in proportion: the extrapolation to rest is too high.
     Concave {
-        /// Quadratic term in units of its deviation.
+        /// What bends it, in units of its deviation.
         deviations: f64,
     },
     /// Friction grows more than in proportion, or falls before it grows: the extrapolation to rest
     /// is too low.
     Convex {
-        /// Quadratic term in units of its deviation.
+        /// What bends it, in units of its deviation.
         deviations: f64,
     },
     /// Farther off than their deviations, to both sides.
@@ -172,9 +172,18 @@ fn shape(points: &[Point], line: &Fit, speeds: usize) -> Shape {
     if speeds < 3 {
         return Shape::Unchecked;
     }
-    if let Some(parabola) = Fit::new(points, 2) {
-        let (scale, freedom) = parabola.scale();
-        let deviations = parabola.value[2] / (parabola.covariance[(2, 2)] * scale).sqrt();
+    // By the quadratic term; a sharper bend by what a cubic makes of rest, where it fits.
+    let parabola = Fit::new(points, 2).map(|p| {
+        let (scale, freedom) = p.scale();
+        (p.value[2] / (p.covariance[(2, 2)] * scale).sqrt(), freedom)
+    });
+    let cubic = || {
+        let cubic = Fit::new(points, 3).filter(|c| c.freedom >= 2 && !c.is_rejected())?;
+        let bent = (cubic.value[0] - line.value[0]) / cubic.covariance[(0, 0)].sqrt();
+        Some((bent, cubic.own_freedom()))
+    };
+    let sharp = if line.is_rejected() && speeds > 4 { cubic() } else { None };
+    for (deviations, freedom) in parabola.into_iter().chain(sharp) {
         let chance = StudentsT::new(0.0, 1.0, freedom)
             .map_or(1.0, |t| 2.0 * t.cdf(-deviations.abs().min(f64::MAX)));
         if chance < REJECTED {

@@ -18,7 +18,7 @@ const GROWN: [f64; 3] = [0.12, 0.06, 0.03];
 /// over a ramp it would change by 3/4, about a sine's crest by 9/16, over a cubic's inflection by
 /// 27/64.
 const STEADY: f64 = 1.0 / 6.0;
-/// Up to this many sixteenths of a grown stretch are trimmed: transients at its ends.
+/// Two to this many sixteenths of a grown stretch are trimmed, one at each end at least: transients.
 const TRIMMED_MOST: usize = 4;
 /// Change of the command over a stretch beyond which something else than friction drives it.
 const COMMAND_CHANGE: f64 = 0.1;
@@ -32,7 +32,7 @@ const STOPPED: f64 = 0.1;
 const STOPPED_SHARE: f64 = 0.01;
 /// Stretches slower than this share of the run's fastest are creep.
 const CREEP: f64 = 1e-3;
-/// A grown stretch that shares this part with one that was rejected is not tried.
+/// A grown stretch that is the same as one that was rejected, up to this share, is not tried.
 const TRIED: f64 = 0.9;
 
 /// A stretch of a run at one velocity.
@@ -66,8 +66,10 @@ pub(super) fn stretches(run: &Run, hold: Hold) -> Vec<Stretch> {
     let mut rejected: Vec<Range<usize>> = Vec::new();
     for candidate in grown {
         let whole = &candidate.intervals;
-        let shared = |r: &Range<usize>| overlap(r, whole) as f64 > TRIED * whole.len() as f64;
-        if rejected.iter().any(shared) || found.iter().any(|f| shared(&f.intervals)) {
+        let same = |r: &Range<usize>| {
+            overlap(r, whole) as f64 > TRIED * r.len().max(whole.len()) as f64
+        };
+        if rejected.iter().any(same) {
             continue;
         }
         let free = |r: &Range<usize>| found.iter().all(|f| overlap(&f.intervals, r) == 0);
@@ -86,12 +88,12 @@ fn overlap(a: &Range<usize>, b: &Range<usize>) -> usize {
     a.end.min(b.end).saturating_sub(a.start.max(b.start))
 }
 
-/// The stretch and its parts with the ends trimmed, the longest first.
+/// The stretch with its ends trimmed, the longest first.
 fn trims(whole: &Range<usize>) -> impl Iterator<Item = Range<usize>> + use<> {
     let (start, end) = (whole.start, whole.end);
     let part = (end - start) / 16;
-    (0..=TRIMMED_MOST).flat_map(move |trimmed| {
-        (0..=trimmed).rev().map(move |head| start + head * part..end - (trimmed - head) * part)
+    (2..=TRIMMED_MOST).flat_map(move |trimmed| {
+        (1..trimmed).rev().map(move |head| start + head * part..end - (trimmed - head) * part)
     })
 }
 
@@ -105,8 +107,8 @@ fn grown(run: &Run) -> Vec<Grown> {
         for share in GROWN {
             out.extend(agreeing(&velocity, share).into_iter().map(|blocks| {
                 // Velocity j lies between the middles of blocks j and j + 1.
-                let end = ((blocks.end + 1) * block).min(x.len() - 1);
-                Grown { intervals: blocks.start * block..end, share }
+                let middle = |b: usize| b * block + block / 2;
+                Grown { intervals: middle(blocks.start)..middle(blocks.end), share }
             }));
         }
         block *= 2;
