@@ -119,8 +119,12 @@ fn friction_by_direction_comes_out_of_two_staircases() {
         assert!((e.value - truth).abs() < 4.0 * e.std && e.std < 0.02 * truth, "{e:?} {truth}");
     }
     assert_eq!((f.shape, b.shape), (Shape::Straight, Shape::Straight));
-    assert!((found.coulomb.unwrap().value - 0.5 * (f.coulomb.value + b.coulomb.value)).abs() < 1e-12);
-    assert!((found.offset.unwrap().value - 0.5 * (f.coulomb.value - b.coulomb.value)).abs() < 1e-12);
+    assert!(
+        (found.coulomb.unwrap().value - 0.5 * (f.coulomb.value + b.coulomb.value)).abs() < 1e-12
+    );
+    assert!(
+        (found.offset.unwrap().value - 0.5 * (f.coulomb.value - b.coulomb.value)).abs() < 1e-12
+    );
     // High speeds and a line to rest: what the slope gains the figure loses.
     assert!((-1.0..-0.5).contains(&f.correlation));
 }
@@ -274,7 +278,8 @@ fn motions_without_a_constant_velocity_give_no_point() {
     // Stick and slip: 1 rad/s on average, at rest for half of the time.
     let jerky = |t: f64| t.floor() + 0.5 - 0.5 * (PI * (2.0 * t.fract()).min(1.0)).cos();
     assert_eq!(one(of(&jerky)).points, []);
-    let at_rest = Run::new("rest", TimeBase::uniform(0.0, T), vec![0.1; 900], vec![2.0; 900], vec![]);
+    let at_rest =
+        Run::new("rest", TimeBase::uniform(0.0, T), vec![0.1; 900], vec![2.0; 900], vec![]);
     assert_eq!(one(at_rest.unwrap()).points, []);
 }
 
@@ -384,7 +389,8 @@ fn other_methods_do_not_see_the_runs() {
     assert_eq!(with.friction, without.friction);
     assert_eq!(with.inertia, without.inertia);
     assert_eq!(with.regression, without.regression);
-    let third = |id: &lissom::identify::Identified| id.third_harmonic.as_ref().unwrap().coulomb_command;
+    let third =
+        |id: &lissom::identify::Identified| id.third_harmonic.as_ref().unwrap().coulomb_command;
     assert_eq!(third(&with), third(&without));
     assert_eq!(with.responses.len(), without.responses.len());
     assert!(without.constant_velocity.is_none() && with.constant_velocity.is_some());

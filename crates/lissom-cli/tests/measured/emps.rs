@@ -45,3 +45,39 @@ fn predicts_the_force_of_the_other_log() {
     // And not because there is nothing to predict: the fit's own error is of the same size.
     assert!(error > 0.5 * train.relative_residual);
 }
+
+/// The classical figure against the published one: it is extrapolated, and here from a curve.
+const CLASSICAL: f64 = 0.08;
+
+#[test]
+fn constant_velocities_give_friction_near_the_published_figure() {
+    let Some(data) = common::data("emps") else { return };
+    let result = common::identify(include_str!("emps.toml"), &data, "DATA_EMPS.csv", 0);
+    let classical = &result["methods"]["constant_velocity"];
+    // The log moves at 0.042, 0.083 and 0.125 m/s both ways.
+    let points = classical["points"].as_array().unwrap();
+    for (direction, sign) in [("forward", 1.0), ("backward", -1.0)] {
+        let speed = |p: &serde_json::Value| p["velocity_m_per_s"]["value"].as_f64().unwrap() * sign;
+        let mut speeds: Vec<f64> =
+            points.iter().filter(|p| p["direction"] == direction).map(speed).collect();
+        assert!(speeds.len() >= 9, "{direction}: {}", speeds.len());
+        speeds.sort_by(f64::total_cmp);
+        speeds.dedup_by(|a, b| *a < 1.02 * *b);
+        assert_eq!(speeds.len(), 3, "{direction}: {speeds:?}");
+    }
+    let value = |v: &serde_json::Value| v["value"].as_f64().unwrap();
+    let found = value(&classical["coulomb_n"]);
+    let published = PUBLISHED[2].1;
+    assert!((found / published - 1.0).abs() < CLASSICAL, "{found}");
+    // It says itself that it is too high, and the slowest speeds are nearer.
+    let forward = &classical["lines"][0];
+    assert_eq!(forward["shape"], "concave");
+    assert!(value(&forward["slowest_n"]) < value(&forward["coulomb_n"]));
+    assert!(common::has_finding(&result, "extrapolation-curved"));
+    // Viscous friction by direction as by the regression, within the bend.
+    let viscous = |line: usize| value(&classical["lines"][line]["viscous_n_s_per_m"]);
+    assert!((viscous(0) / 166.7 - 1.0).abs() < 0.1, "{}", viscous(0));
+    assert!((viscous(1) / 239.6 - 1.0).abs() < 0.1, "{}", viscous(1));
+    // The regression stands, and its figures are the ones taken.
+    assert_eq!(result["friction"]["coulomb_n"], result["methods"]["regression"]["coulomb_n"]);
+}

@@ -66,9 +66,8 @@ pub(super) fn stretches(run: &Run, hold: Hold) -> Vec<Stretch> {
     let mut rejected: Vec<Range<usize>> = Vec::new();
     for candidate in grown {
         let whole = &candidate.intervals;
-        let same = |r: &Range<usize>| {
-            overlap(r, whole) as f64 > TRIED * r.len().max(whole.len()) as f64
-        };
+        let same =
+            |r: &Range<usize>| overlap(r, whole) as f64 > TRIED * r.len().max(whole.len()) as f64;
         if rejected.iter().any(same) {
             continue;
         }
