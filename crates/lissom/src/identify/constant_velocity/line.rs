@@ -18,6 +18,8 @@ const ROUNDING: f64 = 1e-9;
 /// Rounds in which the slope that turns velocity's deviations into the command's settles: each
 /// takes its change down by the ratio of the two variances.
 const ROUNDS: usize = 4;
+/// Halvings of the variance that all points share: from all of the command down to 1e-15 of it.
+const HALVINGS: usize = 50;
 
 /// Friction in one direction: `τ = CF + V·|θ̇|`, magnitudes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -115,10 +117,15 @@ struct Fit {
     /// Coefficients in ascending powers of the speed.
     value: Vec<f64>,
     covariance: DMatrix<f64>,
-    /// Weighted sum of squared residuals.
+    /// Squared residuals in units of the variances: those of the points and what is added to them.
     chi_squared: f64,
     /// Points beyond coefficients.
     freedom: usize,
+    /// Speeds among the points.
+    speeds: usize,
+    /// Where the points lie farther off than their deviations allow: that distance (rms) in units of
+    /// their deviations. Their scatter is then added to their variances.
+    rejected: Option<f64>,
 }
 
 /// The line through `points`, `back_emf` taken off its slope.
@@ -178,11 +185,11 @@ fn shape(points: &[Point], line: &Fit, speeds: usize) -> Shape {
         (p.value[2] / (p.covariance[(2, 2)] * scale).sqrt(), freedom)
     });
     let cubic = || {
-        let cubic = Fit::new(points, 3).filter(|c| c.freedom >= 2 && !c.is_rejected())?;
+        let cubic = Fit::new(points, 3).filter(|c| c.freedom >= 2 && c.rejected.is_none())?;
         let bent = (cubic.value[0] - line.value[0]) / cubic.covariance[(0, 0)].sqrt();
         Some((bent, cubic.own_freedom()))
     };
-    let sharp = if line.is_rejected() && speeds > 4 { cubic() } else { None };
+    let sharp = if line.rejected.is_some() && speeds > 4 { cubic() } else { None };
     for (deviations, freedom) in parabola.into_iter().chain(sharp) {
         let chance = StudentsT::new(0.0, 1.0, freedom)
             .map_or(1.0, |t| 2.0 * t.cdf(-deviations.abs().min(f64::MAX)));
@@ -195,15 +202,39 @@ fn shape(points: &[Point], line: &Fit, speeds: usize) -> Shape {
             };
         }
     }
-    if line.is_rejected() {
-        return Shape::Scattered { rms: (line.chi_squared / line.freedom as f64).sqrt() };
-    }
-    Shape::Straight
+    line.rejected.map_or(Shape::Straight, |rms| Shape::Scattered { rms })
 }
 
 impl Fit {
     /// `None` where the speeds do not carry the powers.
     fn new(points: &[Point], degree: usize) -> Option<Self> {
+        let own = Self::weighted(points, degree, 0.0)?;
+        let freedom = own.freedom as f64;
+        let reduced = own.chi_squared / freedom;
+        let rejected = own.freedom > 0
+            && FisherSnedecor::new(freedom, own.own_freedom())
+                .is_ok_and(|f| f.sf(reduced) < REJECTED);
+        if !rejected {
+            return Some(own);
+        }
+        // Friction differs between the stretches by more than they know of: the variance that all
+        // share then is the one that leaves χ² at its degrees of freedom. It falls with it.
+        let with = |variance| Self::weighted(points, degree, variance);
+        let most = points.iter().map(|p| p.drive.value.powi(2)).fold(0.0, f64::max);
+        let (mut low, mut high) = (0.0, most);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if with(middle)?.chi_squared > freedom {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Some(Self { rejected: Some(reduced.sqrt()), ..with(high)? })
+    }
+
+    /// The fit with `shared` added to the variance of every point.
+    fn weighted(points: &[Point], degree: usize, shared: f64) -> Option<Self> {
         let most = |get: fn(&Point) -> f64| points.iter().map(get).fold(0.0, f64::max);
         let (fastest, largest) = (most(|p| p.speed.value), most(|p| p.drive.value.abs()));
         let columns = degree + 1;
@@ -211,7 +242,8 @@ impl Fit {
         let mut covariance = DMatrix::zeros(columns, columns);
         let mut chi_squared = 0.0;
         for _ in 0..ROUNDS {
-            let (mut normal, mut right) = (covariance.clone() * 0.0, value.clone() * 0.0);
+            let mut normal = DMatrix::zeros(columns, columns);
+            let mut right = DVector::zeros(columns);
             let mut rows = Vec::with_capacity(points.len());
             for p in points {
                 let s = p.speed.value / fastest;
@@ -219,7 +251,8 @@ impl Fit {
                     (1..columns).map(|k| k as f64 * value[k] * s.powi(k as i32 - 1)).sum();
                 let variance = p.drive.std.powi(2)
                     + (slope * p.speed.std / fastest).powi(2)
-                    + (ROUNDING * largest).powi(2);
+                    + (ROUNDING * largest).powi(2)
+                    + shared;
                 let row = DVector::from_fn(columns, |k, _| s.powi(k as i32));
                 normal += &row * row.transpose() / variance;
                 right += &row * (p.drive.value / variance);
@@ -237,6 +270,8 @@ impl Fit {
             }),
             chi_squared,
             freedom: points.len().saturating_sub(columns),
+            speeds: speeds(points).len(),
+            rejected: None,
         })
     }
 
@@ -245,22 +280,15 @@ impl Fit {
         FREEDOM * (self.freedom + self.value.len()) as f64
     }
 
-    /// Whether the points lie farther off than their deviations allow.
-    fn is_rejected(&self) -> bool {
-        let freedom = self.freedom as f64;
-        self.freedom > 0
-            && FisherSnedecor::new(freedom, self.own_freedom())
-                .is_ok_and(|f| f.sf(self.chi_squared / freedom) < REJECTED)
-    }
-
     /// What the covariance is to be multiplied by, and the degrees of freedom it then has: the
-    /// points' own deviations, never less than their scatter, and the scatter alone where it is
-    /// beyond them.
+    /// points' own deviations, never less than their scatter; the scatter alone where that is beyond
+    /// them. Runs repeated at one speed mostly pass through the same travel and meet the same
+    /// friction there: then speeds count, not points.
     fn scale(&self) -> (f64, f64) {
-        let scatter = self.chi_squared / (self.freedom.max(1)) as f64;
-        if self.is_rejected() {
-            (scatter, self.freedom as f64)
+        if self.rejected.is_some() {
+            (1.0, self.speeds.saturating_sub(self.value.len()).max(1) as f64)
         } else {
+            let scatter = self.chi_squared / self.freedom.max(1) as f64;
             (scatter.max(1.0), self.own_freedom())
         }
     }

@@ -56,9 +56,9 @@ fn scatter_alone_makes_the_interval_where_it_is_beyond_the_deviations() {
     let list: Vec<_> =
         [1.0, 1.0, 3.0, 3.0].iter().zip(off).map(|(x, e)| (*x, 2.0 + x + e, 1e-4)).collect();
     let found = line(&points(&list), 0.0).unwrap();
-    // s² = 0.04/2, slope's variance s²/4; two degrees of freedom: 4.302653.
+    // s² = 0.04/2, slope's variance s²/4; two speeds leave one degree of freedom: 12.706205.
     close(found.viscous.value, 1.0);
-    let expected = (0.02_f64 / 4.0).sqrt() * 4.302_652_73 / 1.959_964;
+    let expected = (0.02_f64 / 4.0).sqrt() * 12.706_204_74 / 1.959_964;
     assert!((found.viscous.std / expected - 1.0).abs() < 1e-6, "{found:?}");
 }
 
