@@ -46,6 +46,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         print::runs(&id);
         print::line("");
         print::figures(names, &id, reference);
+        print::constant_velocity(names, &id);
         print::findings(&id.findings);
     }
     Ok(code(&id))

@@ -33,10 +33,13 @@ pub(crate) fn page(
         .summary(&summary)
         .heading("Figures")
         .key_figures("Drive and beam", &key_figures(names, id, reference));
-    page = page.heading("Frequency responses");
-    for (_, plot) in figures::bode_plots(&campaign.channels, names, id, reference) {
+    let bode = figures::bode_plots(&campaign.channels, names, id, reference);
+    if !bode.is_empty() {
+        page = page.heading("Frequency responses");
+    }
+    for (_, plot) in &bode {
         page = page.figure(
-            &plot,
+            plot,
             "Points: runs or bands. Line: the model, fitted to them or made of the figures.",
         );
     }
@@ -57,6 +60,17 @@ pub(crate) fn page(
             )
             .table(&table);
     }
+    if let Some(plot) = figures::friction_plot(&campaign.channels, names, id) {
+        page = page
+            .heading("Constant velocity")
+            .figure(
+                &plot,
+                "The command that keeps up a velocity, both directions as magnitudes. Solid: the \
+                 lines through the points; dashed: extrapolated to rest.",
+            )
+            .key_figures("By constant velocities", &classical_figures(names, id))
+            .table(&points(names, id));
+    }
     page.heading("Runs")
         .table(&runs(id))
         .heading("Findings")
@@ -68,18 +82,58 @@ pub(crate) fn page(
 fn key_figures(names: UnitNames, id: &Identified, reference: Option<&Reference>) -> Vec<KeyFigure> {
     print::figure_rows(names, id, reference)
         .into_iter()
-        .map(|row| KeyFigure {
-            name: row.name.trim().to_owned(),
-            value: row.figure.map(|e| e.value),
-            std: row.figure.map(|e| e.std),
-            ci95: row.figure.map(|e| e.ci95()),
-            unit: row.unit,
-            note: match (row.known, reference) {
+        .map(|row| {
+            let note = match (row.known, reference) {
                 (Some(known), Some(r)) => format!("{}: {known:.5e}", r.label),
                 _ => String::new(),
-            },
+            };
+            key_figure(row, note)
         })
         .collect()
+}
+
+fn key_figure(row: print::FigureRow, note: String) -> KeyFigure {
+    KeyFigure {
+        name: row.name.trim().to_owned(),
+        value: row.figure.map(|e| e.value),
+        std: row.figure.map(|e| e.std),
+        ci95: row.figure.map(|e| e.ci95()),
+        unit: row.unit,
+        note,
+    }
+}
+
+fn classical_figures(names: UnitNames, id: &Identified) -> Vec<KeyFigure> {
+    let rows = id.constant_velocity.as_ref().map(|c| print::classical_rows(names, id, c));
+    rows.unwrap_or_default().into_iter().map(|row| key_figure(row, String::new())).collect()
+}
+
+/// Every stretch at a constant velocity.
+fn points(names: UnitNames, id: &Identified) -> Table {
+    let velocity = format!("velocity ({}/s)", names.angle());
+    let command = format!("{} ({})", names.command_name(), names.command_unit());
+    let mut table = Table::new(
+        "Stretches at a constant velocity",
+        &[
+            ("run", Cells::Text),
+            ("from (s)", Cells::Numbers),
+            ("to (s)", Cells::Numbers),
+            (&velocity, Cells::Numbers),
+            (&command, Cells::Numbers),
+            ("deviation", Cells::Numbers),
+        ],
+    );
+    for p in id.constant_velocity.iter().flat_map(|c| &c.points) {
+        table = table.row([
+            id.runs[p.run].name.clone(),
+            format!("{:.3}", p.start_s),
+            format!("{:.3}", p.end_s),
+            format!("{:.5}", p.velocity.value),
+            format!("{:.5}", p.command.value),
+            format!("{:.5}", p.command.std),
+        ]);
+    }
+    table
 }
 
 fn pairs(names: UnitNames, id: &Identified) -> Option<LinePlot> {
@@ -198,6 +252,14 @@ fn runs(id: &Identified) -> Table {
                 s.steady.periods.to_string(),
                 s.steady.dropped.to_string(),
                 run.stuck_share.map_or_else(String::new, share),
+                share(run.saturated_share),
+            ],
+            RunKind::ConstantVelocity => [
+                run.name.clone(),
+                format!("constant velocities ({})", run.steady.len()),
+                String::new(),
+                String::new(),
+                String::new(),
                 share(run.saturated_share),
             ],
             RunKind::General => [

@@ -1,7 +1,7 @@
 //! The one place that prints: results to standard output, talk to standard error.
 #![expect(clippy::print_stderr, reason = "the command's printer")]
 
-use lissom::identify::{Estimate, Finding, Identified, RunKind, Severity};
+use lissom::identify::{ConstantVelocity, Estimate, Finding, Identified, RunKind, Severity};
 use lissom::record::{Campaign, Hold};
 use lissom_io::UnitNames;
 use lissom_report::{interval, with_uncertainty};
@@ -107,7 +107,7 @@ pub(crate) fn ranges(names: UnitNames, campaign: &Campaign) {
 
 /// What was kept of the runs.
 pub(crate) fn runs(id: &Identified) {
-    let (mut kept, mut dropped, mut general) = (0, 0, 0);
+    let (mut kept, mut dropped, mut general, mut steady) = (0, 0, 0, 0);
     let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
     for run in &id.runs {
         match &run.kind {
@@ -117,16 +117,20 @@ pub(crate) fn runs(id: &Identified) {
                 low = low.min(s.omega_rad_s);
                 high = high.max(s.omega_rad_s);
             }
+            RunKind::ConstantVelocity => steady += 1,
             RunKind::General => general += 1,
         }
     }
-    let sinusoidal = id.runs.len() - general;
+    let sinusoidal = id.runs.len() - general - steady;
     if sinusoidal > 0 {
         line(&format!(
             "{}, {low:.3} to {high:.3} rad/s: {kept} periods kept, \
              {dropped} dropped as transients",
             counted(sinusoidal, "sinusoidal run")
         ));
+    }
+    if steady > 0 {
+        line(&format!("{} at constant velocities", counted(steady, "run")));
     }
     if general > 0 {
         line(&format!("{} of other motion", counted(general, "run")));
@@ -162,6 +166,53 @@ pub(crate) fn figures(names: UnitNames, id: &Identified, reference: Option<&Refe
         [row.name, value, row.unit, within].into_iter().chain(known).collect()
     }));
     table(&rows);
+}
+
+/// What steady velocities give, beside the figures taken.
+pub(crate) fn constant_velocity(names: UnitNames, id: &Identified) {
+    let Some(found) = &id.constant_velocity else { return };
+    let mut rows = vec![["constant velocity", "value", "unit", "95 % interval"].map(str::to_owned)];
+    rows.extend(classical_rows(names, id, found).into_iter().map(|row| match row.figure {
+        Some(e) => {
+            let within = interval(e.ci95(), e.value, e.std);
+            [row.name, with_uncertainty(e.value, e.std), row.unit, within]
+        }
+        None => [row.name, "refused".to_owned(), row.unit, "see findings".to_owned()],
+    }));
+    line("");
+    table(&rows.into_iter().map(Vec::from).collect::<Vec<_>>());
+    let number = |sign: f64| found.points.iter().filter(|p| p.velocity.value * sign > 0.0).count();
+    line(&format!(
+        "by lines through {} forward and {} backward",
+        counted(number(1.0), "point"),
+        counted(number(-1.0), "point")
+    ));
+}
+
+/// The figures of steady velocities.
+pub(crate) fn classical_rows(
+    names: UnitNames,
+    id: &Identified,
+    found: &ConstantVelocity,
+) -> Vec<FigureRow> {
+    let constant = id.torque_per_command.unwrap_or(1.0);
+    let (forward, backward) = (found.forward.as_ref().ok(), found.backward.as_ref().ok());
+    let in_command = |e: Option<Estimate>| e.map(|e| e.scaled(1.0 / constant));
+    let command = || names.command_unit().to_owned();
+    let row = |name: &str, figure, unit: String| FigureRow {
+        name: name.to_owned(),
+        figure,
+        unit,
+        known: None,
+    };
+    vec![
+        row("Coulomb friction", in_command(found.coulomb), command()),
+        row("  forward", in_command(forward.map(|l| l.coulomb)), command()),
+        row("  backward", in_command(backward.map(|l| l.coulomb)), command()),
+        row("viscous friction", found.viscous, names.viscous_unit()),
+        row("  forward", forward.map(|l| l.viscous), names.viscous_unit()),
+        row("  backward", backward.map(|l| l.viscous), names.viscous_unit()),
+    ]
 }
 
 /// A figure for people.

@@ -2,7 +2,10 @@
 //! names.
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use lissom::identify::{ByDirection, Estimate, Identified, Options, identify};
+use lissom::identify::{
+    ByDirection, ConstantVelocity, Estimate, FrictionLine, Identified, Options, Shape, SteadyPoint,
+    identify,
+};
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Tip, TipQuantity};
 use lissom::rig::{Experiment, Settle};
 use lissom_io::result_json;
@@ -60,6 +63,29 @@ fn results() -> Vec<Value> {
 fn with_directions(mut id: Identified) -> Identified {
     let figure = Estimate { value: 1.0, std: 0.1 };
     id.friction.viscous_by_direction = Some((figure, figure));
+    let line = |shape| FrictionLine {
+        coulomb: figure,
+        viscous: figure,
+        correlation: -0.8,
+        points: 3,
+        speeds: 3,
+        shape,
+        slowest: Some(figure),
+    };
+    id.constant_velocity = Some(ConstantVelocity {
+        coulomb: Some(figure),
+        offset: Some(figure),
+        viscous: Some(figure),
+        forward: Ok(line(Shape::Concave { deviations: 4.0 })),
+        backward: Ok(line(Shape::Straight)),
+        points: vec![SteadyPoint {
+            run: 0,
+            start_s: 0.0,
+            end_s: 1.0,
+            velocity: figure,
+            command: figure,
+        }],
+    });
     if let Some(regression) = &mut id.regression {
         regression.viscous_by_direction = Some(ByDirection {
             forward: figure,
@@ -83,6 +109,8 @@ fn a_result_and_its_schema_name_the_same_keys() {
         "methods.third_harmonic.fit.weighted_rms",
         "methods.regression.beam.modes",
         "methods.regression.viscous_by_direction.relative_residual",
+        "methods.constant_velocity.lines[].deviations",
+        "methods.constant_velocity.points[].start_s",
         "models.motor.den",
         "models.state_space.outputs",
         "runs[].stuck_share",

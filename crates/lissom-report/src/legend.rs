@@ -1,7 +1,7 @@
 //! What stands above the axes: title, subtitle and legend, so that none of them covers data.
 
 use crate::canvas::{Anchor, Canvas, Rect, Stroke, TextStyle};
-use crate::palette::{FAINT_INK, FLAGGED, Marker, Role};
+use crate::palette::{DASHES, FAINT_INK, FLAGGED, Marker, Role};
 use crate::panel::{LABEL_SIZE, LINE_WIDTH};
 use crate::text::{Weight, shorten, width, wrap};
 
@@ -19,6 +19,7 @@ const ROW: f64 = 23.0;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sample {
     Line(Role),
+    Dashes(Role),
     Points(Role),
     PointsWithBars(Role),
     Column(Role),
@@ -87,8 +88,9 @@ impl Sample {
             height,
         };
         match self {
-            Self::Line(role) => {
-                let stroke = Stroke { colour: role.colour(), width: LINE_WIDTH, dash: role.dash() };
+            Self::Line(role) | Self::Dashes(role) => {
+                let dash = if self == Self::Dashes(role) { Some(DASHES) } else { role.dash() };
+                let stroke = Stroke { colour: role.colour(), width: LINE_WIDTH, dash };
                 canvas.lines([[(x, y), (x + SAMPLE, y)]], stroke);
             }
             Self::Points(role) => {

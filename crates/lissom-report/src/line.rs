@@ -5,8 +5,8 @@ use crate::canvas::{Anchor, Canvas, Rect, Stroke, TextStyle};
 use crate::error::FigureError;
 use crate::legend::{Entry, Sample, header, skipped_note};
 use crate::marks::{Mark, with_bars};
-use crate::palette::{FAINT_INK, INK, Role};
-use crate::panel::{Panel, TICK_SIZE, X_AXIS_HEIGHT};
+use crate::palette::{DASHES, FAINT_INK, INK, Role};
+use crate::panel::{LINE_WIDTH, Panel, TICK_SIZE, X_AXIS_HEIGHT};
 use crate::scale::{Scale, extent};
 use crate::text::{Weight, width};
 use crate::trace::{Axis, Band, Trace, TraceStyle};
@@ -119,8 +119,10 @@ impl LinePlot {
     fn ranges(&self, marks: &[Vec<Mark>], skipped: usize) -> Result<[(f64, f64); 2], FigureError> {
         let nothing = || FigureError::NothingToDraw { title: self.title.clone(), skipped };
         let x = extent(marks.iter().flatten().map(|m| m.x)).ok_or_else(nothing)?;
-        let lines =
-            self.traces.iter().all(|t| matches!(t.style, TraceStyle::Line | TraceStyle::Steps));
+        let lines = self
+            .traces
+            .iter()
+            .all(|t| matches!(t.style, TraceStyle::Line | TraceStyle::Dashes | TraceStyle::Steps));
         // Lines may run from edge to edge; markers want room.
         let x = if lines && self.x.scale == Scale::Linear {
             Scale::Linear.widened(x, 0.0)
@@ -157,6 +159,11 @@ impl LinePlot {
         for (trace, marks) in drawn() {
             match trace.style {
                 TraceStyle::Line => panel.curve(canvas, marks, trace.role, false),
+                TraceStyle::Dashes => {
+                    let colour = trace.role.colour();
+                    let stroke = Stroke { colour, width: LINE_WIDTH, dash: Some(DASHES) };
+                    panel.curve_in(canvas, marks, stroke, false);
+                }
                 TraceStyle::Steps => panel.curve(canvas, marks, trace.role, true),
                 TraceStyle::Columns => columns(canvas, panel, marks, trace.role),
                 TraceStyle::Points | TraceStyle::PointsWithBars => {}

@@ -30,6 +30,8 @@ pub(crate) enum Marker {
 
 /// What flagged points are drawn in.
 pub(crate) const FLAGGED: &str = "#8a8a8a";
+/// Lines beyond what was measured, whatever their role.
+pub(crate) const DASHES: &str = "6 4";
 /// Frames and text.
 pub(crate) const INK: &str = "#1a1a1a";
 /// Text of less weight.

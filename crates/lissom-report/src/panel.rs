@@ -154,9 +154,20 @@ impl Panel {
         }
     }
 
-    /// A line through the marks, broken at gaps; a point with gaps on both sides becomes a dot.
+    /// A line through the marks in its role's dash; see [`curve_in`](Self::curve_in).
     pub(crate) fn curve(&self, canvas: &mut Canvas, marks: &[Mark], role: Role, steps: bool) {
         let stroke = Stroke { colour: role.colour(), width: LINE_WIDTH, dash: role.dash() };
+        self.curve_in(canvas, marks, stroke, steps);
+    }
+
+    /// A line through the marks, broken at gaps; a point with gaps on both sides becomes a dot.
+    pub(crate) fn curve_in(
+        &self,
+        canvas: &mut Canvas,
+        marks: &[Mark],
+        stroke: Stroke,
+        steps: bool,
+    ) {
         for run in marks.chunk_by(|_, next| !next.after_gap) {
             let mut path: Vec<(f64, f64)> = Vec::with_capacity(run.len());
             for mark in run {
@@ -169,7 +180,7 @@ impl Panel {
             match path.as_slice() {
                 [(x, y)] => canvas.rect(
                     Rect { left: x - 2.0, top: y - 2.0, width: 4.0, height: 4.0 },
-                    role.colour(),
+                    stroke.colour,
                     1.0,
                 ),
                 path => canvas.polyline(&thinned(path), stroke),

@@ -55,6 +55,8 @@ pub enum TraceStyle {
     /// Straight lines from point to point, in the order given.
     #[default]
     Line,
+    /// The same, dashed: beyond what was measured.
+    Dashes,
     /// Each value held until the next: a sampled command.
     Steps,
     /// Markers.
@@ -156,6 +158,7 @@ impl Trace {
     pub(crate) fn sample(&self) -> Sample {
         match self.style {
             TraceStyle::Line | TraceStyle::Steps => Sample::Line(self.role),
+            TraceStyle::Dashes => Sample::Dashes(self.role),
             TraceStyle::Points => Sample::Points(self.role),
             TraceStyle::PointsWithBars => Sample::PointsWithBars(self.role),
             TraceStyle::Columns => Sample::Column(self.role),

@@ -45,3 +45,40 @@ fn predicts_the_force_of_the_other_log() {
     // And not because there is nothing to predict: the fit's own error is of the same size.
     assert!(error > 0.5 * train.relative_residual);
 }
+
+/// Relative difference of the classical figure from the published one: the slow stretches lie at the
+/// ends of the travel, where friction is higher.
+const CLASSICAL: f64 = 0.08;
+
+#[test]
+fn constant_velocities_give_friction_near_the_published_figure() {
+    let Some(data) = common::data("emps") else { return };
+    let result = common::identify(include_str!("emps.toml"), &data, "DATA_EMPS.csv", 0);
+    let classical = &result["methods"]["constant_velocity"];
+    // The log moves at 0.042, 0.083 and 0.125 m/s both ways.
+    let points = classical["points"].as_array().unwrap();
+    for (direction, sign) in [("forward", 1.0), ("backward", -1.0)] {
+        let speed = |p: &serde_json::Value| p["velocity_m_per_s"]["value"].as_f64().unwrap() * sign;
+        let mut speeds: Vec<f64> =
+            points.iter().filter(|p| p["direction"] == direction).map(speed).collect();
+        assert!(speeds.len() >= 9, "{direction}: {}", speeds.len());
+        speeds.sort_by(f64::total_cmp);
+        speeds.dedup_by(|a, b| *a < 1.02 * *b);
+        assert_eq!(speeds.len(), 3, "{direction}: {speeds:?}");
+    }
+    let value = |v: &serde_json::Value| v["value"].as_f64().unwrap();
+    let found = value(&classical["coulomb_n"]);
+    let published = PUBLISHED[2].1;
+    assert!((found / published - 1.0).abs() < CLASSICAL, "{found}");
+    let interval = &classical["coulomb_n"]["ci95"];
+    let ends = [0, 1].map(|k| interval[k].as_f64().unwrap());
+    assert!(ends[0] < published && published < ends[1], "{ends:?}");
+    // It says itself why it is no better: friction changes along the screw.
+    assert!(common::has_finding(&result, "speeds-scatter"));
+    // Viscous friction by direction as by the regression, within that.
+    let viscous = |line: usize| value(&classical["lines"][line]["viscous_n_s_per_m"]);
+    assert!((viscous(0) / 166.7 - 1.0).abs() < 0.1, "{}", viscous(0));
+    assert!((viscous(1) / 239.6 - 1.0).abs() < 0.1, "{}", viscous(1));
+    // The regression stands, and its figures are the ones taken.
+    assert_eq!(result["friction"]["coulomb_n"], result["methods"]["regression"]["coulomb_n"]);
+}

@@ -8,8 +8,9 @@ mod units;
 pub use units::UnitNames;
 
 use lissom::identify::{
-    BeamRegression, Candidate, Estimate, Finding, Identified, ModeEstimate, MotorFit,
-    MotorRegression, Response, ResponsePoint, RunAnalysis, RunKind, Severity, ThirdHarmonic,
+    BeamRegression, Candidate, ConstantVelocity, Estimate, Finding, FrictionLine, Identified,
+    ModeEstimate, MotorFit, MotorRegression, Response, ResponsePoint, RunAnalysis, RunKind,
+    Severity, Shape, ThirdHarmonic,
 };
 use lissom::lti::TransferFunction;
 use lissom::record::{Axis, Channels, TipQuantity};
@@ -30,6 +31,9 @@ pub fn result_json(channels: &Channels, id: &Identified) -> Value {
             "third_harmonic": id.third_harmonic.as_ref().map(|t| third(names, constant, t, &id.runs)),
             "regression": id.regression.as_ref().map(|r| {
                 regression(names, constant, r, id.beam_regression.as_ref())
+            }),
+            "constant_velocity": id.constant_velocity.as_ref().map(|c| {
+                classical(names, constant, c, &id.runs)
             }),
         },
         "frequency_response": responses(channels, id),
@@ -173,6 +177,56 @@ fn regression(
     Value::Object(map)
 }
 
+fn classical(names: UnitNames, constant: f64, c: &ConstantVelocity, runs: &[RunAnalysis]) -> Value {
+    let mut map = Map::new();
+    let forward = c.forward.as_ref().ok();
+    let backward = c.backward.as_ref().ok();
+    torque(&mut map, names, constant, "coulomb", c.coulomb);
+    torque(&mut map, names, constant, "forward", forward.map(|l| l.coulomb));
+    torque(&mut map, names, constant, "backward", backward.map(|l| l.coulomb));
+    torque(&mut map, names, constant, "offset", c.offset);
+    map.insert(names.viscous_key("viscous"), figure(c.viscous));
+    let lines: Vec<Value> = c.lines().map(|(name, l)| line(names, constant, name, l)).collect();
+    map.insert("lines".to_owned(), Value::Array(lines));
+    let points: Vec<Value> = c
+        .points
+        .iter()
+        .map(|p| {
+            json!({
+                "run": runs[p.run].name,
+                "direction": if p.velocity.value > 0.0 { "forward" } else { "backward" },
+                "start_s": p.start_s,
+                "end_s": p.end_s,
+                (format!("velocity_{}_per_s", names.angle())): figure(Some(p.velocity)),
+                (format!("command_{}", names.command())): figure(Some(p.command)),
+            })
+        })
+        .collect();
+    map.insert("points".to_owned(), Value::Array(points));
+    Value::Object(map)
+}
+
+fn line(names: UnitNames, constant: f64, direction: &str, l: &FrictionLine) -> Value {
+    let (shape, deviations) = match l.shape {
+        Shape::Unchecked => ("unchecked", None),
+        Shape::Straight => ("straight", None),
+        Shape::Concave { deviations } => ("concave", Some(deviations)),
+        Shape::Convex { deviations } => ("convex", Some(deviations)),
+        Shape::Scattered { rms } => ("scattered", Some(rms)),
+    };
+    let mut map = Map::new();
+    map.insert("direction".to_owned(), json!(direction));
+    torque(&mut map, names, constant, "coulomb", Some(l.coulomb));
+    map.insert(names.viscous_key("viscous"), figure(Some(l.viscous)));
+    map.insert("correlation".to_owned(), json!(l.correlation));
+    map.insert("points".to_owned(), json!(l.points));
+    map.insert("speeds".to_owned(), json!(l.speeds));
+    map.insert("shape".to_owned(), json!(shape));
+    map.insert("deviations".to_owned(), json!(deviations));
+    torque(&mut map, names, constant, "slowest", l.slowest);
+    Value::Object(map)
+}
+
 /// Complex series as parallel lists, `null` where a point has none.
 fn series(points: &[ResponsePoint], get: impl Fn(&ResponsePoint) -> Option<Response>) -> Value {
     let list = |part: fn(&Response) -> f64| -> Vec<Option<f64>> {
@@ -237,6 +291,9 @@ fn run(r: &RunAnalysis) -> Value {
         "saturated_share": r.saturated_share,
         "usable": r.usable,
     });
+    if r.is_constant_velocity() {
+        value["kind"] = json!("constant_velocity");
+    }
     if let RunKind::Sinusoidal(s) = &r.kind {
         value["kind"] = json!("sinusoidal");
         value["omega_rad_s"] = json!(s.omega_rad_s);

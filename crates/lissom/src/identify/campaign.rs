@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use thiserror::Error;
 
 use super::channel_check::range;
+use super::constant_velocity::{self, ConstantVelocity};
 use super::finding::{Finding, Severity, key};
 use super::identified::{Beam, Friction, Identified, ThirdHarmonic};
 use super::model::state_space;
@@ -28,6 +29,9 @@ const EXPLAINED: f64 = 0.05;
 const CONTRADICTED: f64 = 0.1;
 /// Sinusoidal runs from which on the rational models are fitted to the responses.
 const STEPPED: usize = 4;
+/// Relative deviation, and share of the torque left, up to which a regression on constant velocities
+/// alone stands.
+const ALONE: f64 = 0.15;
 /// Share of the beam's windowed acceleration that its regression may leave.
 const BEAM_RESIDUAL: f64 = 0.1;
 
@@ -126,15 +130,20 @@ pub fn identify(
         runs.push(analyse(campaign, index, harmonics, &dead, &mut findings));
     }
     dead_tips(campaign, &dead, &mut findings);
+    let constant_velocity = classical(campaign, &runs, &mut findings);
     let usable = usable(campaign, &runs, &dead);
-    if usable.runs.is_empty() {
+    if usable.runs.is_empty() && constant_velocity.is_none() {
         let constant = constant_channels(campaign);
         return Err(IdentifyError::NothingMoves { runs: campaign.runs.len(), constant });
     }
     progress(Stage::Regression);
     let regression = motor_regression(&usable, &options.window_s);
     let regression_residual = regression.as_ref().map(|r| r.relative_residual);
-    let regression = regression.filter(|r| r.relative_residual < RESIDUAL_REFUSED);
+    // Of constant velocities alone it stands where their transitions show the inertia.
+    let alone = !runs.iter().any(|r| r.usable && !r.is_constant_velocity());
+    let regression = regression
+        .filter(|r| r.relative_residual < RESIDUAL_REFUSED)
+        .filter(|r| !alone || constant_velocity.is_none() || stands_alone(r));
     progress(Stage::Beam);
     let beam_regression =
         beam_regression(&usable).filter(|b| b.relative_residual.iter().all(|r| *r < BEAM_RESIDUAL));
@@ -190,6 +199,7 @@ pub fn identify(
         third_harmonic,
         regression,
         regression_residual,
+        constant_velocity,
         beam_regression,
         runs,
         responses,
@@ -286,13 +296,36 @@ fn dead_tips(campaign: &Campaign, dead: &[bool], findings: &mut Vec<Finding>) {
     }
 }
 
-/// What the regressions may use: no run with a dead channel, and no tip that is dead in all.
+/// The figures of steady velocities, where a line goes through some or a run was made for them.
+fn classical(
+    campaign: &Campaign,
+    runs: &[RunAnalysis],
+    findings: &mut Vec<Finding>,
+) -> Option<ConstantVelocity> {
+    let points: Vec<_> = runs.iter().flat_map(|r| r.steady.iter().copied()).collect();
+    let found = ConstantVelocity::of_points(&campaign.channels, points);
+    let meant = runs.iter().any(RunAnalysis::is_constant_velocity);
+    findings.extend(constant_velocity::findings(campaign, &found, meant));
+    (meant || found.lines().next().is_some()).then_some(found)
+}
+
+/// Whether a regression on nothing but constant velocities gives all of the motor's figures.
+fn stands_alone(r: &MotorRegression) -> bool {
+    let known = |e: Option<Estimate>| e.is_some_and(|e| e.std < ALONE * e.value);
+    known(r.inertia) && known(r.coulomb) && known(r.viscous) && r.relative_residual < ALONE
+}
+
+/// What the regressions may use: no run with a dead channel, no tip that is dead in all, and runs of
+/// constant velocities only where there are no others: they lie outside the speeds that a drive works
+/// at, and one viscous constant need not hold there.
 /// Logs are long: they are copied only where something falls out.
 fn usable<'a>(campaign: &'a Campaign, runs: &[RunAnalysis], dead: &[bool]) -> Cow<'a, Campaign> {
-    if runs.iter().all(|a| a.usable) && !dead.iter().any(|d| *d) {
+    let others = runs.iter().any(|r| r.usable && !r.is_constant_velocity());
+    let kept = |a: &RunAnalysis| a.usable && !(others && a.is_constant_velocity());
+    if runs.iter().all(kept) && !dead.iter().any(|d| *d) {
         return Cow::Borrowed(campaign);
     }
-    let kept = campaign.runs.iter().zip(runs).filter(|(_, a)| a.usable);
+    let kept = campaign.runs.iter().zip(runs).filter(|(_, a)| kept(a));
     let mut channels = campaign.channels.clone();
     for (tip, dead) in channels.tips.iter_mut().zip(dead) {
         tip.calibrated &= !dead;
@@ -306,7 +339,7 @@ fn pairs(runs: &[RunAnalysis], findings: &[Finding]) -> Option<ThirdHarmonic> {
         .iter()
         .map(|r| match &r.kind {
             RunKind::Sinusoidal(s) => s.phasors(),
-            RunKind::General => None,
+            RunKind::ConstantVelocity | RunKind::General => None,
         })
         .collect();
     // Sticking lowers every pair's figure, and counts in the mean's deviation.

@@ -56,6 +56,7 @@ pub(crate) mod key {
     pub(crate) const COUPLING: &str = "beam.coupling";
     pub(crate) const MODES: &str = "beam.modes";
     pub(crate) const THIRD: &str = "methods.third_harmonic";
+    pub(crate) const CLASSICAL: &str = "methods.constant_velocity";
     pub(crate) const RAW: &str = "frequency_response.motor_raw";
     pub(crate) const CORRECTED: &str = "frequency_response.motor_corrected";
     pub(crate) const TIPS: &str = "frequency_response.tips";

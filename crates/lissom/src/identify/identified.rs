@@ -1,5 +1,6 @@
 //! What identification gives.
 
+use super::constant_velocity::ConstantVelocity;
 use super::finding::Finding;
 use super::rational::{BeamFit, MotorFit};
 use super::regression::{BeamRegression, MotorRegression};
@@ -67,6 +68,9 @@ pub struct Identified {
     pub regression: Option<MotorRegression>,
     /// ‖y − X·q‖/‖y‖ of the regression, also where it is refused; `None` without windows enough.
     pub regression_residual: Option<f64>,
+    /// Steady velocities extrapolated to rest; `None` where no line goes through any and no run was
+    /// made for them.
+    pub constant_velocity: Option<ConstantVelocity>,
     /// The beam's regression.
     pub beam_regression: Option<BeamRegression>,
     /// What each run is.

@@ -2,6 +2,7 @@
 
 mod campaign;
 mod channel_check;
+mod constant_velocity;
 mod correct;
 mod estimate;
 mod finding;
@@ -15,6 +16,9 @@ mod third_harmonic;
 mod verdict;
 
 pub use campaign::{IdentifyError, Options, Stage, identify};
+pub use constant_velocity::{
+    ConstantVelocity, FrictionLine, LineError, Shape, SteadyPoint, constant_velocity,
+};
 pub use correct::{Response, corrected, ratio};
 pub use estimate::{Estimate, ModeEstimate};
 pub use finding::{Finding, Severity};

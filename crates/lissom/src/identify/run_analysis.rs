@@ -3,7 +3,11 @@
 use num_complex::Complex64;
 
 use super::channel_check::{clipped_share, dwell_share, range, rest_share, step};
+use super::constant_velocity::{
+    SHARE, SHARE_ONE_WAY, SteadyPoint, no_stretch, steady_points, steady_share,
+};
 use super::finding::{Finding, Severity, key};
+use super::regression::slip_sign;
 use super::third_harmonic::RunPhasors;
 use crate::record::{Campaign, Hold, Note, Run};
 use crate::spectrum::{
@@ -25,6 +29,8 @@ const STICKING: f64 = 0.05;
 const AT_REST: f64 = 0.3;
 /// Stamps off the grid by more than this share of the sample time, rms.
 const JITTER: f64 = 0.05;
+/// Share of the time in motion from which on the motor turns one way throughout.
+const ONE_WAY: f64 = 0.95;
 /// Drift over the run, relative to the amplitude.
 const DRIFT: f64 = 0.1;
 
@@ -45,6 +51,8 @@ pub struct RunAnalysis {
     pub stuck_share: Option<f64>,
     /// Whether the regression may use it.
     pub usable: bool,
+    /// Its stretches at constant velocity; none are looked for in a sinusoid.
+    pub steady: Vec<SteadyPoint>,
 }
 
 /// What a run is.
@@ -52,6 +60,8 @@ pub struct RunAnalysis {
 pub enum RunKind {
     /// One sinusoid in steady state.
     Sinusoidal(Box<Sinusoidal>),
+    /// Constant velocities for most of the time in motion.
+    ConstantVelocity,
     /// Any other motion.
     General,
 }
@@ -71,6 +81,13 @@ pub struct Sinusoidal {
     pub command: Harmonics,
     /// Harmonics of each tip.
     pub tips: Vec<Harmonics>,
+}
+
+impl RunAnalysis {
+    /// Whether it was made for the classical measurement.
+    pub fn is_constant_velocity(&self) -> bool {
+        matches!(self.kind, RunKind::ConstantVelocity)
+    }
 }
 
 impl Sinusoidal {
@@ -95,7 +112,13 @@ pub(crate) fn analyse(
     findings: &mut Vec<Finding>,
 ) -> RunAnalysis {
     let run = &campaign.runs[index];
-    let usable = channels(campaign, run, dead, findings);
+    // A motor may turn steadily at a constant command: that is no dead channel.
+    let mut steady = if range(run.command()) <= 0.0 && run.command()[0].abs() > 0.0 {
+        steady_points(campaign, index)
+    } else {
+        Vec::new()
+    };
+    let usable = channels(campaign, run, dead, !steady.is_empty(), findings);
     at_rest(run, findings);
     let saturated_share = saturation(campaign, run, findings);
     time_base(run, findings);
@@ -107,8 +130,13 @@ pub(crate) fn analyse(
         saturated_share,
         stuck_share: None,
         usable,
+        steady: Vec::new(),
     };
     if !usable {
+        if !steady.is_empty() {
+            analysis.kind = RunKind::ConstantVelocity;
+            analysis.steady = steady;
+        }
         return analysis;
     }
     if let Some(found) = sinusoidal(campaign, run, harmonics, findings) {
@@ -128,18 +156,48 @@ pub(crate) fn analyse(
         }
         analysis.stuck_share = Some(share);
         analysis.kind = RunKind::Sinusoidal(Box::new(found));
+        return analysis;
     }
+    steady = steady_points(campaign, index);
+    let one_way = turns_one_way(run);
+    let least = if one_way { SHARE_ONE_WAY } else { SHARE };
+    if steady_share(run, &steady, rest_share(run.motor())) > least {
+        analysis.kind = RunKind::ConstantVelocity;
+    } else if steady.is_empty() && one_way {
+        findings.push(no_stretch(run));
+    }
+    analysis.steady = steady;
     analysis
 }
 
-/// Dead and clipped channels; whether motor and command are alive.
-fn channels(campaign: &Campaign, run: &Run, dead: &[bool], findings: &mut Vec<Finding>) -> bool {
+/// Whether the motor moves one way for nearly all of the time in motion, and is in motion for most
+/// of the run.
+fn turns_one_way(run: &Run) -> bool {
+    let sign = slip_sign(run.motor(), run.sample_time_s());
+    let count = |s: f64| sign.iter().filter(|x| **x * s > 0.0).count() as f64;
+    let (forward, backward) = (count(1.0), count(-1.0));
+    let moves = forward + backward;
+    forward.max(backward) > ONE_WAY * moves && moves > 0.5 * run.len() as f64
+}
+
+/// Dead and clipped channels; whether motor and command are alive. A constant command of a motor
+/// that `turns` steadily is none of them, though no regression can use it.
+fn channels(
+    campaign: &Campaign,
+    run: &Run,
+    dead: &[bool],
+    turns: bool,
+    findings: &mut Vec<Finding>,
+) -> bool {
     let alive = |x: &[f64]| range(x) > 0.0;
     let everything = [key::COULOMB, key::VISCOUS, key::INERTIA];
     let mut usable = true;
     for (name, x) in [("motor", run.motor()), ("command", run.command())] {
         if !alive(x) {
             usable = false;
+            if turns && name == "command" {
+                continue;
+            }
             findings.push(
                 Finding::new(
                     "dead-channel",
