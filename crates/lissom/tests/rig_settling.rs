@@ -212,3 +212,20 @@ fn a_payload_that_turns_is_judged_by_coordinates() {
     let error = apart(&found, &later(&rig, samples, &experiment, &found, 200));
     assert!(error <= found.settled.left_rad.unwrap(), "{error:.2e}");
 }
+
+/// The loop is not linear, and the bound is a linear one: frequencies where the joint sticks for a
+/// tenth of the cycle, near the beam's own and its halves, and fast ones.
+#[test]
+fn the_bound_holds_at_all_frequencies() {
+    for omega in [1.0, 1.3, 1.7, 2.3, 3.28, 3.9, 5.1, 6.2, 7.0, 10.0, 30.0] {
+        let (rig, samples) = fitting(report_rig(None), omega);
+        let experiment = one_period(omega);
+        let found = rig.run("found", &experiment, 0).unwrap();
+        let left = found.settled.left_rad.unwrap();
+        let periods = (400.0 * omega / TAU) as usize;
+        let error = apart(&found, &later(&rig, samples, &experiment, &found, periods));
+        let unsettled = |f: &RigFinding| matches!(f, RigFinding::NotSettled { .. });
+        assert!(!found.findings.iter().any(unsettled), "{omega}: {:?}", found.findings);
+        assert!(error <= left, "{omega}: {error:.2e} rad is left, {left:.2e} were promised");
+    }
+}
