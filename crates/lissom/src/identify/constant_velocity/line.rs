@@ -248,12 +248,12 @@ impl Fit {
             for p in points {
                 let s = p.speed.value / fastest;
                 let slope: f64 =
-                    (1..columns).map(|k| k as f64 * value[k] * s.powi(k as i32 - 1)).sum();
+                    (1..columns).map(|k| k as f64 * value[k] * s.powf(k as f64 - 1.0)).sum();
                 let variance = p.drive.std.powi(2)
                     + (slope * p.speed.std / fastest).powi(2)
                     + (ROUNDING * largest).powi(2)
                     + shared;
-                let row = DVector::from_fn(columns, |k, _| s.powi(k as i32));
+                let row = DVector::from_fn(columns, |k, _| s.powf(k as f64));
                 normal += &row * row.transpose() / variance;
                 right += &row * (p.drive.value / variance);
                 rows.push((row, p.drive.value, variance));
@@ -262,7 +262,7 @@ impl Fit {
             value = &covariance * right;
             chi_squared = rows.iter().map(|(r, y, v)| (y - r.dot(&value)).powi(2) / v).sum();
         }
-        let unit = |k: usize| fastest.powi(-(k as i32));
+        let unit = |k: usize| fastest.powf(-(k as f64));
         Some(Self {
             value: value.iter().enumerate().map(|(k, v)| v * unit(k)).collect(),
             covariance: DMatrix::from_fn(columns, columns, |i, k| {
