@@ -31,6 +31,8 @@ pub(crate) enum Command {
     Model(ModelArgs),
     /// Run a campaign of experiments on a virtual arm and write its logs
     Rig(RigArgs),
+    /// Remake Figures 6, 7 and 8 of the report on a virtual rig
+    Figures(FiguresArgs),
     /// Run the report's experiment on a virtual arm and identify it from its logs
     Demo(DemoArgs),
 }
@@ -128,6 +130,19 @@ pub(crate) struct DemoArgs {
     #[arg(long, value_name = "DIR", default_value = "lissom-demo")]
     pub(crate) out: PathBuf,
     /// Write truth and result as JSON to FILE, or alone to standard output
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
+    pub(crate) json: Option<PathBuf>,
+}
+
+/// Motor and beam by stepped sines (theory, as measured, corrected, fitted), and friction by steady
+/// velocities beside friction by sines, on a joint whose friction grows less than in proportion with
+/// speed: extrapolated from high speed to rest it comes out too high.
+#[derive(Debug, Args)]
+pub(crate) struct FiguresArgs {
+    /// Folder for the figures and their logs
+    #[arg(long, value_name = "DIR", default_value = "lissom-figures")]
+    pub(crate) out: PathBuf,
+    /// Write the friction figures as JSON to FILE, or alone to standard output
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
     pub(crate) json: Option<PathBuf>,
 }

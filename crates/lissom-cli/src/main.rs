@@ -14,6 +14,7 @@ mod page;
 mod print;
 mod progress;
 mod reference;
+mod report_figures;
 mod rig;
 
 use std::process::ExitCode;
@@ -25,6 +26,7 @@ fn main() -> ExitCode {
         cli::Command::Identify(args) => identify::run(&args),
         cli::Command::Model(args) => model::run(&args),
         cli::Command::Rig(args) => rig::run(&args),
+        cli::Command::Figures(args) => report_figures::run(&args),
         cli::Command::Demo(args) => demo::run(&args),
     };
     match outcome {

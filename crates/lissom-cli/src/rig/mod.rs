@@ -18,6 +18,8 @@ use crate::failure::Failure;
 use crate::{output, print, progress};
 use folder::Folder;
 
+const CAMPAIGN: &str = "campaign.toml";
+
 pub(crate) fn run(args: &RigArgs) -> Result<ExitCode, Failure> {
     let to_stdout = args.json.as_deref() == Some(Path::new(STDOUT));
     output::guard(args.json.as_deref().filter(|_| !to_stdout), None)?;
@@ -28,24 +30,45 @@ pub(crate) fn run(args: &RigArgs) -> Result<ExitCode, Failure> {
     if let Some(run) = plan.runs.iter().find(loops).filter(|_| !file.has_controller()) {
         return Err(Failure::NoController { arm: args.arm.clone(), run: run.name.clone() });
     }
-    let folder = Folder::open(&args.out, &rig, &plan)?;
-    let facts = carry_out(&rig, &plan, &folder, args.jobs)?;
-    let whole = facts::campaign(&rig, &plan, &facts);
-    folder.copy(&args.arm, "arm.toml")?;
-    folder.copy(&args.campaign, "plan.toml")?;
-    let campaign = folder.path("campaign.toml");
-    write::write_campaign(&campaign, &campaign_plan(&rig, &plan))?;
-    folder.finish(&whole)?;
+    let place = Place { arm: &args.arm, plan: &args.campaign, out: &args.out };
+    let (facts, whole) = campaign(&rig, &plan, &place, args.jobs)?;
     match args.json.as_deref() {
         Some(_) if to_stdout => print::json(&whole),
         json => {
             if let Some(path) = json {
                 write::write_json(path, &whole)?;
             }
-            report(&plan, &facts, &campaign);
+            report(&plan, &facts, &args.out.join(CAMPAIGN));
         }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Where a campaign comes from and goes.
+pub(crate) struct Place<'a> {
+    /// The arm.toml.
+    pub(crate) arm: &'a Path,
+    /// The plan.toml.
+    pub(crate) plan: &'a Path,
+    /// The folder.
+    pub(crate) out: &'a Path,
+}
+
+/// Carries out a campaign, or the rest of it; gives the facts of each run and what `rig.json` holds.
+pub(crate) fn campaign(
+    rig: &Rig,
+    plan: &PlanFile,
+    place: &Place<'_>,
+    jobs: Option<u16>,
+) -> Result<(Vec<Value>, Value), Failure> {
+    let folder = Folder::open(place.out, rig, plan)?;
+    let facts = carry_out(rig, plan, &folder, jobs)?;
+    let whole = facts::campaign(rig, plan, &facts);
+    folder.copy(place.arm, "arm.toml")?;
+    folder.copy(place.plan, "plan.toml")?;
+    write::write_campaign(&folder.path(CAMPAIGN), &campaign_plan(rig, plan))?;
+    folder.finish(&whole)?;
+    Ok((facts, whole))
 }
 
 /// Makes every log that is not there yet; gives the facts of all, in order.
