@@ -40,8 +40,8 @@ const STEP_LEAST_S: f64 = 1e-30;
 /// # let arm = Arm::new(beam, Motor::new(6e-4, 1e-3, 0.25).unwrap(), friction).unwrap();
 /// let law = LuGre::new(300.0, 0.3, friction, friction, 0.1).unwrap(); // bends by 1e-4 rad at most
 /// let mut motion = LuGreMotion::at_rest(&arm, law, 1e-8)?;
-/// motion.advance(0.029, 0.1)?; // N·m and s: below the friction of 0.03 N·m
-/// assert!(motion.state()[0] > 0.0 && motion.state()[0] < 1e-3); // presliding
+/// motion.advance(0.01, 0.1)?; // N·m and s: a third of the friction
+/// assert!(motion.state()[0] > 0.0 && motion.state()[0] < 1e-4); // presliding
 /// # Ok::<(), lissom::rig::RigError>(())
 /// ```
 ///
