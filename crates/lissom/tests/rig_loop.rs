@@ -378,7 +378,7 @@ fn an_unstable_loop_is_said_with_time_and_bound() {
     let RigError::Unstable { angle_rad, bound_rad, time_s, state } = error else {
         panic!("{error}")
     };
-    assert!((bound_rad - 10.0).abs() < 1e-12 && angle_rad.abs() > 10.0 && angle_rad.abs() < 100.0);
+    assert!((bound_rad - 2.5).abs() < 1e-12 && angle_rad.abs() > 2.5 && angle_rad.abs() < 25.0);
     assert!(time_s > 0.05 && time_s < 4.5);
     assert_eq!((state.len(), state[0].to_bits()), (4, angle_rad.to_bits()));
     // Small amplitudes and coarse sensors have a bound that a loop may hunt within.

@@ -14,7 +14,7 @@ use crate::record::Run;
 /// Angle beyond which a loop is taken for unstable, as a multiple of the largest of: the
 /// reference's amplitude, [`LEAST_RAD`], [`STEPS`] steps of the motor's sensor, the start's
 /// deflection.
-const RUN_AWAY: f64 = 20.0;
+const RUN_AWAY: f64 = 5.0;
 /// Loops asked for less than this are let move by as much \[rad\].
 const LEAST_RAD: f64 = 0.1;
 /// A loop hunts over some steps of its sensor without being unstable.
@@ -108,7 +108,7 @@ impl Rig {
     /// # Errors
     /// [`RigError`] where times are not positive, sensors do not fit the beam, the reference is
     /// beyond the Nyquist frequency or the run too long; [`RigError::Controller`] where the
-    /// controller gives NaN or infinity; [`RigError::Unstable`] where the motor leaves 20 times
+    /// controller gives NaN or infinity; [`RigError::Unstable`] where the motor leaves five times
     /// the amplitude asked for (of no less than 0.1 rad or 10 steps of its sensor).
     pub fn run_with<C: Controller + ?Sized>(
         &self,

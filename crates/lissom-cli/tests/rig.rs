@@ -1,0 +1,217 @@
+//! `lissom rig` and `lissom figures`: campaigns that can be taken up again, and what is refused.
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+use assert_cmd::Command;
+use lissom_testmodels::SchemaCheck;
+use serde_json::Value;
+use tempfile::TempDir;
+
+const ARM: &str = r#"
+[beam]
+flexural_rigidity = "0.00443 N*m^2"
+spans = [{ length = "7 in", mass = "0.121 lb", damping = "0.01 N*s/m" }]
+[drive]
+inertia = "6.2e-4 kg*m^2"
+viscous = "1.4e-3 N*m*s/rad"
+torque_constant = "0.247 N*m/A"
+coulomb = "0.132 A"
+[rig]
+sample_time = "3 ms"
+current_limit = "4.12 A"
+motor_sensor = { bits = 12, range = "360 deg", noise = "0.3 mrad" }
+controller = { proportional = "8 A/rad", derivative = "0.2 A*s/rad" }
+"#;
+
+const PLAN: &str = r#"
+title = "A test"
+settle = { longest = "100 s" }
+[[runs]]
+sine = { omega_rad_s = [2, 3, 6, 9], amplitude = "0.5 rad" }
+periods = 6
+[[runs]]
+velocity = ["2 rad/s", "-2 rad/s"]
+record = "1 s"
+[[runs]]
+release = "0.5 N"
+record = "3 s"
+"#;
+
+struct Bench(TempDir);
+
+impl Bench {
+    fn new(arm: &str, plan: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("arm.toml"), arm).unwrap();
+        fs::write(folder.path().join("plan.toml"), plan).unwrap();
+        Self(folder)
+    }
+
+    fn run(&self, out: &str, more: &[&str]) -> Output {
+        let mut command = Command::cargo_bin("lissom").unwrap();
+        command.current_dir(self.0.path());
+        command.args(["rig", "arm.toml", "--campaign", "plan.toml", "--out", out]).args(more);
+        command.output().unwrap()
+    }
+
+    fn done(&self, out: &str, more: &[&str]) -> BTreeMap<String, Vec<u8>> {
+        let output = self.run(out, more);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        files(&self.0.path().join(out))
+    }
+
+    #[track_caller]
+    fn refused(&self, out: &str, message: &str) {
+        let output = self.run(out, &[]);
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert_eq!((output.status.code(), text.trim_end()), (Some(1), message));
+        assert!(output.stdout.is_empty());
+    }
+}
+
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
+    entries.map(|e| (e.file_name().into_string().unwrap(), fs::read(e.path()).unwrap())).collect()
+}
+
+#[test]
+fn the_same_bytes_on_any_number_of_threads_and_after_any_interruption() {
+    let bench = Bench::new(ARM, PLAN);
+    let whole = bench.done("whole", &["--jobs", "1"]);
+    assert_eq!(whole.len(), 7 + 4, "{:?}", whole.keys());
+    assert_eq!(bench.done("many", &["--jobs", "4"]), whole);
+    assert_eq!(bench.done("whole", &[]), whole, "a campaign that is done stays as it is");
+    // As a process killed after some runs leaves it: no log is there in part.
+    let cut = bench.0.path().join("cut");
+    bench.done("cut", &[]);
+    let rig: Value = serde_json::from_slice(&whole["rig.json"]).unwrap();
+    fs::remove_file(cut.join("rig.json")).unwrap();
+    fs::remove_file(cut.join("campaign.toml")).unwrap();
+    fs::create_dir(cut.join("rig-parts")).unwrap();
+    let input = serde_json::json!({ "fingerprint": rig["fingerprint"] });
+    fs::write(cut.join("rig-parts/input.json"), input.to_string()).unwrap();
+    for (index, run) in rig["runs"].as_array().unwrap().iter().enumerate() {
+        let log = run["file"].as_str().unwrap();
+        if index % 2 == 0 {
+            fs::remove_file(cut.join(log)).unwrap();
+        } else {
+            let part = format!("rig-parts/{}.json", log.trim_end_matches(".csv"));
+            fs::write(cut.join(part), run.to_string()).unwrap();
+        }
+    }
+    assert_eq!(bench.done("cut", &[]), whole);
+}
+
+#[test]
+fn the_logs_are_read_back_and_tell_the_truth() {
+    let bench = Bench::new(ARM, PLAN);
+    let files = bench.done("out", &[]);
+    let mut check = SchemaCheck::new(include_str!("../../../docs/rig.schema.json"), "rig.json");
+    let rig: Value = serde_json::from_slice(&files["rig.json"]).unwrap();
+    check.look_at(&rig);
+    check.holds(&["truth", "runs[].findings[].message"]);
+    let mut command = Command::cargo_bin("lissom").unwrap();
+    let campaign = bench.0.path().join("out/campaign.toml");
+    let output = command.args(["identify"]).arg(campaign).arg("--json").output().unwrap();
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let near = |found: &Value, truth: &Value, by: f64| {
+        let (found, truth) = (found["value"].as_f64().unwrap(), truth.as_f64().unwrap());
+        assert!((found / truth - 1.0).abs() < by, "{found} {truth}");
+    };
+    near(&found["friction"]["coulomb_nm"], &rig["truth"]["forward_nm"], 0.02);
+    near(&found["drive"]["inertia_kg_m2"], &rig["truth"]["inertia_kg_m2"], 0.03);
+}
+
+#[test]
+fn another_campaign_is_left_alone() {
+    let bench = Bench::new(ARM, PLAN);
+    let before = bench.done("out", &[]);
+    fs::write(bench.0.path().join("plan.toml"), PLAN.replace("periods = 6", "periods = 7"))
+        .unwrap();
+    bench.refused(
+        "out",
+        "error: out: holds another campaign; nothing is written over\n\
+         hint: give another --out, or remove the folder if it is to go",
+    );
+    assert_eq!(files(&bench.0.path().join("out")), before);
+    fs::create_dir(bench.0.path().join("mine")).unwrap();
+    fs::write(bench.0.path().join("mine/run-01.csv"), "precious").unwrap();
+    bench.refused(
+        "mine",
+        "error: mine: holds run-01.csv, which is of no virtual campaign; nothing is written over\n\
+         hint: give another --out, or remove the folder if it is to go",
+    );
+}
+
+#[test]
+fn what_cannot_be_simulated_is_said_once() {
+    let wild = ARM.replace("derivative = \"0.2 A*s/rad\"", "derivative = \"2 A*s/rad\"");
+    let wild = wild.replace("current_limit = \"4.12 A\"\n", "");
+    let output = Bench::new(&wild, PLAN).run("out", &[]);
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert!(text.starts_with("error: run `run-01`: the loop is unstable: "), "{text}");
+    assert!(text.contains(" s after the start") || text.contains(" s"), "{text}");
+    assert!(text.contains("hint: lower the gains"), "{text}");
+    assert_eq!(output.status.code(), Some(1));
+
+    let open = ARM.lines().filter(|l| !l.starts_with("controller")).collect::<Vec<_>>().join("\n");
+    Bench::new(&open, PLAN).refused(
+        "out",
+        "error: arm.toml: run `run-01` needs a controller, and [rig] has none\n\
+         hint: add controller = { proportional = \"8 A/rad\", derivative = \"0.2 A*s/rad\" } to [rig], \
+         or drive = \"current\" to the run",
+    );
+    let zero = ARM.replace("\"3 ms\"", "\"0 ms\"");
+    Bench::new(&zero, PLAN).refused(
+        "out",
+        "error: arm.toml, line 11: `rig.sample_time` is \"0 ms\", but must be greater than zero\n\
+         hint: check the number and its unit",
+    );
+    let fast = PLAN.replace("omega_rad_s = [2, 3, 6, 9]", "omega_rad_s = 2000");
+    let output = Bench::new(ARM, &fast).run("out", &[]);
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert!(text.contains("the Nyquist frequency is 1047.19"), "{text}");
+}
+
+#[test]
+fn findings_say_what_the_log_does_not() {
+    let held = ARM.replace("coulomb = \"0.132 A\"", "coulomb = \"20 A\"");
+    let weak = ARM.replace("current_limit = \"4.12 A\"", "current_limit = \"0.15 A\"");
+    let plan =
+        "settle = \"none\"\n[[runs]]\nsine = { omega_rad_s = 9, amplitude = 0.5 }\nperiods = 6";
+    for (arm, code) in [(held, "never_moved"), (weak, "current_limited")] {
+        let files = Bench::new(&arm, plan).done("out", &[]);
+        let rig: Value = serde_json::from_slice(&files["rig.json"]).unwrap();
+        let codes = rig["runs"][0]["findings"].as_array().unwrap();
+        assert!(codes.iter().any(|f| f["code"] == code), "{code}: {codes:?}");
+    }
+}
+
+/// The report's printed 0.161, 0.152 and 0.132 A, and that docs/report-figures.md says what comes out.
+#[test]
+fn figure_8_is_explained() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = Command::cargo_bin("lissom").unwrap();
+    let output = command.arg("figures").arg("--out").arg(folder.path()).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let printed = String::from_utf8(output.stdout).unwrap();
+    let table = printed.split("\n\n").next().unwrap();
+    assert!(include_str!("../../../docs/report-figures.md").contains(table), "{table}");
+    for name in ["figure-6", "figure-7", "figure-8"] {
+        for ending in ["svg", "png"] {
+            assert!(folder.path().join(format!("{name}.{ending}")).exists());
+        }
+    }
+    let figure = |name: &str, column: usize| -> f64 {
+        let row = table.lines().find(|line| line.starts_with(name)).unwrap();
+        row[name.len()..].split_whitespace().nth(column).unwrap().parse().unwrap()
+    };
+    for name in ["classical, forward", "classical, backward", "spectral, (26)-(29)"] {
+        let (printed, here) = (figure(name, 0), figure(name, 1));
+        assert!((printed - here).abs() < 1e-3, "{name}: {printed} {here}");
+    }
+}
