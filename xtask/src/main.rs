@@ -5,6 +5,7 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for a terminal")]
 
 mod deny;
+mod external;
 mod measured;
 mod step;
 
@@ -39,6 +40,12 @@ const RECIPES: &[Recipe] = &[
         about: "fmt, clippy, rustdoc, cargo deny, then `test`",
         flags: &[(SKIP_TESTS, "leave `test` out, where it has just run")],
         run: ci,
+    },
+    Recipe {
+        name: "external",
+        about: "the rig beside MuJoCo and scipy, in a Python of its own; minutes",
+        flags: &[],
+        run: external,
     },
 ];
 
@@ -93,7 +100,8 @@ fn main() -> ExitCode {
 /// tests of measured logs were among them.
 fn test(context: &Context) -> Result<(), Failure> {
     let log = measured::Log::start(&context.root)?;
-    let mut command = cargo(&context.root, &["test", "--workspace", "--no-fail-fast"]);
+    let mut command =
+        cargo(&context.root, &["test", "--workspace", "--all-features", "--no-fail-fast"]);
     log.pass_to(&mut command)?;
     let outcome = run("tests and doctests", &mut command);
     println!("{}", log.read()?);
@@ -104,12 +112,19 @@ fn test(context: &Context) -> Result<(), Failure> {
 fn ci(context: &Context) -> Result<(), Failure> {
     let root = &context.root;
     run("fmt", &mut cargo(root, &["fmt", "--all", "--check"]))?;
-    let clippy = ["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"];
-    run("clippy", &mut cargo(root, &clippy))?;
-    let mut rustdoc = cargo(root, &["doc", "--workspace", "--no-deps"]);
+    let everything = ["--workspace", "--all-features"];
+    let mut clippy = cargo(root, &["clippy", "--all-targets"]);
+    run("clippy", clippy.args(everything).args(["--", "--deny", "warnings"]))?;
+    let mut rustdoc = cargo(root, &["doc", "--no-deps"]);
+    rustdoc.args(everything);
     run("rustdoc", rustdoc.env("RUSTDOCFLAGS", "--deny warnings"))?;
     deny::check(root)?;
     if context.flags.iter().any(|flag| flag == SKIP_TESTS) { Ok(()) } else { test(context) }
+}
+
+/// The rig's experiments by other people's simulators.
+fn external(context: &Context) -> Result<(), Failure> {
+    external::compare(&context.root)
 }
 
 /// The workspace's folder: cargo says at run time where this package is.

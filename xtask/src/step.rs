@@ -68,5 +68,8 @@ fn shown(command: &Command) -> String {
         Some(format!("{}='{}'", name.to_string_lossy(), value?.to_string_lossy()))
     });
     let args = command.get_args().map(|arg| arg.to_string_lossy().into_owned());
-    set.chain(["cargo".to_owned()]).chain(args).collect::<Vec<_>>().join(" ")
+    // Cargo by its name, whatever its path.
+    let program = Path::new(command.get_program());
+    let program = program.file_stem().unwrap_or(program.as_os_str()).to_string_lossy().into_owned();
+    set.chain([program]).chain(args).collect::<Vec<_>>().join(" ")
 }

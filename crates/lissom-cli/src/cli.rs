@@ -29,6 +29,10 @@ pub(crate) enum Command {
     Identify(IdentifyArgs),
     /// Turn an arm's dimensions into frequencies, matrices, transfer functions and plots
     Model(ModelArgs),
+    /// Run a campaign of experiments on a virtual arm and write its logs
+    Rig(RigArgs),
+    /// Remake Figures 6, 7 and 8 of the report on a virtual rig
+    Figures(FiguresArgs),
     /// Run the report's experiment on a virtual arm and identify it from its logs
     Demo(DemoArgs),
 }
@@ -80,6 +84,44 @@ Columns go by name or number. hold = \"sampled\" is a commanded value held betwe
 \"measured\" one that was measured. A command of unknown unit has unit = \"1\": figures are then
 per unit of command. docs/campaign.md explains every key.";
 
+/// The logs come with a campaign.toml that `lissom identify` reads. An interrupted campaign goes on
+/// where it stopped; the same ARM and PLAN give the same bytes on any number of threads.
+#[derive(Debug, Args)]
+#[command(after_help = RIG_HELP)]
+pub(crate) struct RigArgs {
+    /// The arm.toml, with [drive] and [rig]
+    pub(crate) arm: PathBuf,
+    /// The plan.toml: the experiments
+    #[arg(long, value_name = "PLAN")]
+    pub(crate) campaign: PathBuf,
+    /// Folder for the logs, campaign.toml and rig.json
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Runs at a time; all processors when absent
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) jobs: Option<u16>,
+    /// Write what rig.json holds to FILE too, or alone to standard output
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
+    pub(crate) json: Option<PathBuf>,
+}
+
+const RIG_HELP: &str = "\
+A plan.toml:
+
+  settle = \"detected\"              # or a time, \"none\"
+  [[runs]]
+  sine = { frequency = [\"0.2 Hz\", \"0.6 Hz\"], amplitude = [\"0.5 rad\", \"1 rad\"] }
+  periods = 12
+  [[runs]]
+  multisine = { frequency = \"0.1 Hz\", to = \"5 Hz\", amplitude = \"0.5 rad\" }
+  periods = 4
+  [[runs]]
+  velocity = [\"1 rad/s\", \"2 rad/s\", \"-1 rad/s\", \"-2 rad/s\"]
+  record = \"10 s\"
+
+Also square, chirp, table (from a file) and release. Lists stand for each with each.
+docs/plan.md explains every key, docs/arm.md the arm, its instruments and the world at its tip.";
+
 /// The single-mass arm of the report: PD loop, 3 ms, 12 bits, 4.12 A, stepped sines at
 /// frequencies and their triples, two amplitudes.
 #[derive(Debug, Args)]
@@ -88,6 +130,19 @@ pub(crate) struct DemoArgs {
     #[arg(long, value_name = "DIR", default_value = "lissom-demo")]
     pub(crate) out: PathBuf,
     /// Write truth and result as JSON to FILE, or alone to standard output
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
+    pub(crate) json: Option<PathBuf>,
+}
+
+/// Motor and beam by stepped sines (theory, as measured, corrected, fitted), and friction by steady
+/// velocities beside friction by sines, on a joint whose friction grows less than in proportion with
+/// speed: extrapolated from high speed to rest it comes out too high.
+#[derive(Debug, Args)]
+pub(crate) struct FiguresArgs {
+    /// Folder for the figures and their logs
+    #[arg(long, value_name = "DIR", default_value = "lissom-figures")]
+    pub(crate) out: PathBuf,
+    /// Write the friction figures as JSON to FILE, or alone to standard output
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
     pub(crate) json: Option<PathBuf>,
 }

@@ -25,6 +25,15 @@ pub(crate) enum Failure {
     Model { arm: PathBuf, reason: String, hint: &'static str },
     #[error(transparent)]
     Rig(#[from] RigError),
+    /// A run of a virtual campaign.
+    #[error("run `{run}`: {source}")]
+    VirtualRun { run: String, source: RigError },
+    /// An experiment that needs what the arm file does not have.
+    #[error("{}: run `{run}` needs a controller, and [rig] has none", arm.display())]
+    NoController { arm: PathBuf, run: String },
+    /// A folder that holds something else.
+    #[error("{}: holds {what}; nothing is written over", folder.display())]
+    OtherCampaign { folder: PathBuf, what: String },
     #[error("the plot could not be drawn: {0}")]
     Figure(#[from] FigureError),
 }
@@ -40,6 +49,15 @@ impl Failure {
                     .to_owned(),
             ),
             Self::Model { hint, .. } => Some((*hint).to_owned()),
+            Self::VirtualRun { source, .. } => Some(rig_hint(source).to_owned()),
+            Self::NoController { .. } => Some(
+                "add controller = { proportional = \"8 A/rad\", derivative = \"0.2 A*s/rad\" } to [rig], \
+                 or drive = \"current\" to the run"
+                    .to_owned(),
+            ),
+            Self::OtherCampaign { .. } => {
+                Some("give another --out, or remove the folder if it is to go".to_owned())
+            }
             Self::SameOutput { .. } => Some("give each output its own file".to_owned()),
             Self::Identify { source: IdentifyError::NothingMoves { .. }, .. } => Some(
                 "check the wiring and which columns the campaign names; a tip without a signal can be \
@@ -51,5 +69,18 @@ impl Failure {
             }
             _ => None,
         }
+    }
+}
+
+fn rig_hint(error: &RigError) -> &'static str {
+    match error {
+        RigError::Unstable { .. } => {
+            "lower the gains, above all the derivative one, filter it, or sample faster"
+        }
+        RigError::AboveNyquist { .. } => {
+            "ask for lower frequencies, or let the controller act faster"
+        }
+        RigError::SensorCount { .. } => "give one `tip_sensors`, or one for each mass",
+        _ => "check the numbers of the run and of [rig]",
     }
 }

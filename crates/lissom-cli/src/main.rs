@@ -14,6 +14,8 @@ mod page;
 mod print;
 mod progress;
 mod reference;
+mod report_figures;
+mod rig;
 
 use std::process::ExitCode;
 
@@ -23,6 +25,8 @@ fn main() -> ExitCode {
     let outcome = match cli::Cli::parse().command {
         cli::Command::Identify(args) => identify::run(&args),
         cli::Command::Model(args) => model::run(&args),
+        cli::Command::Rig(args) => rig::run(&args),
+        cli::Command::Figures(args) => report_figures::run(&args),
         cli::Command::Demo(args) => demo::run(&args),
     };
     match outcome {

@@ -8,6 +8,7 @@ use crate::campaign::CampaignError;
 use crate::config::ConfigError;
 use crate::log::LogError;
 use crate::model::FrequencyError;
+use crate::plan::PlanError;
 use crate::units::UnitError;
 use crate::write::WriteError;
 
@@ -27,6 +28,9 @@ pub enum Error {
     /// An `arm.toml` that makes no arm.
     #[error(transparent)]
     Arm(#[from] ArmError),
+    /// Experiments that make no sense.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
     /// A list of frequencies.
     #[error(transparent)]
     Frequencies(#[from] FrequencyError),
@@ -49,6 +53,7 @@ impl Error {
             Self::Log(error) => error.hint(),
             Self::Config(error) => error.hint(),
             Self::Arm(error) => error.hint(),
+            Self::Plan(error) => error.hint(),
             Self::Frequencies(error) => error.hint(),
             Self::Campaign(error) => error.hint(),
             Self::Write(error) => error.hint(),

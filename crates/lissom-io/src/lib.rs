@@ -3,6 +3,7 @@
 //! - [`read_campaign`] reads a `campaign.toml` and its logs into a
 //!   [`Campaign`](lissom::record::Campaign): see [`campaign`] for the file, [`log`] for the logs.
 //! - [`ArmFile::read`] reads an `arm.toml`: see [`arm_file`]; [`model_json`] writes what comes of it.
+//! - [`PlanFile::read`] reads a `plan.toml`, the experiments of a virtual campaign: see [`plan`].
 //! - [`units`] reads quantities such as `"2.184 lbf*in/A"`.
 //! - [`mod@write`] writes files whole or not at all.
 //!
@@ -17,12 +18,15 @@ mod excerpt;
 pub mod log;
 pub mod model;
 mod nearest;
+pub mod plan;
 pub mod result;
 pub mod units;
 pub mod write;
 
 pub use arm_file::{
-    ArmError, ArmFile, BeamKind, BeamSpec, ControllerSpec, DriveSpec, RigSpec, SensorSpec, SpanSpec,
+    ArmError, ArmFile, BeamKind, BeamSpec, BristlesSpec, ControllerSpec, ConverterSpec, DriveSpec,
+    IntegerSpec, RestSpec, RigSpec, RippleSpec, SensorSpec, SensorSteps, SignalSpec, SpanSpec,
+    TipSpec,
 };
 pub use campaign::{
     AnalysisOptions, CampaignError, CampaignFile, Known, ReadOptions, read_campaign,
@@ -32,6 +36,7 @@ pub use config::{ConfigError, Place, Rule};
 pub use error::Error;
 pub use log::LogError;
 pub use model::{FrequencyError, Model, model_json, read_frequencies};
+pub use plan::{PlanError, PlanFile, PlanRun};
 pub use result::{UnitNames, result_json};
 pub use units::UnitError;
 pub use write::WriteError;

@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use lissom_io::{ArmFile, BeamKind, BeamSpec, read_campaign};
+use lissom_io::{ArmFile, BeamKind, BeamSpec, PlanFile, read_campaign};
 
 /// Columns of the log that stands in for those that the documents name.
 const COLUMNS: [&str; 8] = ["t", "i", "theta_m", "theta_t", "u", "v", "x", "y"];
@@ -56,21 +56,32 @@ fn read_as_arm(block: &str) {
         None => {}
     }
     file.motor(path).unwrap();
+    if file.rig.is_some() && file.beam.is_some() {
+        file.rig(path).unwrap();
+    }
+}
+
+fn read_as_plan(block: &str) {
+    assert!(!PlanFile::from_text(Path::new("plan.toml"), block).unwrap().runs.is_empty());
 }
 
 #[test]
 fn the_documents_describe_files_that_can_be_read() {
-    let (mut campaigns, mut arms) = (0, 0);
-    for document in ["README.md", "docs/campaign.md", "docs/arm.md"] {
+    let (mut campaigns, mut arms, mut plans) = (0, 0, 0);
+    for document in ["README.md", "docs/campaign.md", "docs/arm.md", "docs/plan.md"] {
         for block in blocks(document) {
             if block.contains("[signals]") {
                 read_as_campaign(&block);
                 campaigns += 1;
+            } else if block.contains("[[runs]]") {
+                read_as_plan(&block);
+                plans += 1;
             } else {
                 read_as_arm(&block);
                 arms += 1;
             }
         }
     }
-    assert!(campaigns >= 5 && arms >= 5, "{campaigns} campaigns, {arms} arms");
+    let counts = (campaigns, arms, plans);
+    assert!(campaigns >= 5 && arms >= 5 && plans >= 2, "campaigns, arms, plans: {counts:?}");
 }

@@ -7,7 +7,7 @@ use lissom::identify::{
     identify,
 };
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Tip, TipQuantity};
-use lissom::rig::SteppedSine;
+use lissom::rig::{Experiment, Settle};
 use lissom_io::result_json;
 use lissom_testmodels::SchemaCheck;
 use serde_json::Value;
@@ -16,9 +16,8 @@ use serde_json::Value;
 fn campaign() -> Campaign {
     let rig = lissom_testmodels::report_rig(Some(12));
     let sine = |name: &str, omega_rad_s: f64| {
-        let drive =
-            SteppedSine { omega_rad_s, amplitude_rad: 0.7, settle_s: 120.0, record_s: 20.0 };
-        rig.stepped_sine(name, &drive).unwrap()
+        let sine = Experiment::sine(omega_rad_s, 0.7, 20.0).unwrap();
+        rig.run(name, &sine.settling(Settle::Wait { wait_s: 120.0 }), 0).unwrap().run
     };
     let mut runs = vec![sine("low", 3.1), sine("triple", 9.3), sine("fast", 20.0)];
     // The last half turned about: no sinusoid any more.

@@ -3,7 +3,7 @@
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
-use lissom::rig::{Pd, Quantiser, Rig};
+use lissom::rig::{Amplifier, Instruments, Pd, Quantiser, Rig, Sensor};
 
 const INCH_M: f64 = 0.0254;
 const POUND_FORCE_N: f64 = 4.448_221_615_260_5;
@@ -42,13 +42,12 @@ pub fn report_arm() -> Arm {
 #[expect(clippy::expect_used, reason = "a test model")]
 pub fn report_rig(bits: Option<u32>) -> Rig {
     let turn = std::f64::consts::TAU;
-    let sensor = bits.map(|b| Quantiser::new(b, turn).expect("1 to 32 bits"));
-    Rig {
-        arm: report_arm(),
-        controller: Pd { proportional_a_per_rad: 8.0, derivative_a_s_per_rad: 0.2, limit_a: 4.12 },
-        sample_time_s: 0.003,
-        motor_sensor: sensor,
-        tip_sensor: sensor,
-        current_converter: None,
-    }
+    let quantiser = bits.map(|b| Quantiser::new(b, turn).expect("1 to 32 bits"));
+    let sensor = Sensor { noise: None, quantiser };
+    let mut instruments = Instruments::ideal(0.003).expect("positive");
+    instruments.motor = sensor;
+    instruments.tips = vec![sensor];
+    instruments.amplifier = Amplifier::ideal().with_limit(4.12).expect("positive");
+    let controller = Pd::new(8.0, 0.2).expect("positive").into();
+    Rig::new(report_arm(), instruments, controller)
 }

@@ -11,7 +11,7 @@ use std::time::Duration;
 use criterion::{Criterion, criterion_group, criterion_main};
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
-use lissom::rig::{HeldStep, Hybrid, Pd, Quantiser};
+use lissom::rig::{Controller, HeldStep, Hybrid, Pd, Quantiser, Sensed};
 use lissom_testmodels::report_arm;
 
 const SAMPLE_TIME_S: f64 = 0.003;
@@ -23,16 +23,21 @@ fn closed_loop(
     sensor: Option<Quantiser>,
     mut advance: impl FnMut(&mut Hybrid<'_>, f64),
 ) -> Vec<f64> {
-    let pd = Pd { proportional_a_per_rad: 8.0, derivative_a_s_per_rad: 0.2, limit_a: 4.12 };
+    let mut pd = Pd::new(8.0, 0.2).unwrap();
     let mut motor = Vec::with_capacity(SAMPLES);
     let mut hybrid = Hybrid::at_rest(arm);
-    let mut before = 0.0;
     for k in 0..SAMPLES {
         let angle = hybrid.state()[0];
-        let read = sensor.map_or(angle, |s| s.read(angle));
-        let error = 0.5 * (3.0 * k as f64 * SAMPLE_TIME_S).sin() - read;
-        let current = pd.current_a(error, before, SAMPLE_TIME_S);
-        before = error;
+        let time_s = k as f64 * SAMPLE_TIME_S;
+        let now = Sensed {
+            time_s,
+            period_s: SAMPLE_TIME_S,
+            reference_rad: 0.5 * (3.0 * time_s).sin(),
+            motor_rad: sensor.map_or(angle, |s| s.read(angle)),
+            tips_rad: &[],
+            limit_a: 4.12,
+        };
+        let current = pd.current_a(&now).clamp(-4.12, 4.12);
         motor.push(angle);
         advance(&mut hybrid, arm.motor.torque_constant_nm_per_a * current);
     }

@@ -98,6 +98,31 @@ impl Arm {
         }
     }
 
+    /// A state of `before`, an arm of as many masses, as one of this arm: angles and velocities go on.
+    /// The slope of a tip that begins to turn is that of the massless beam.
+    pub(crate) fn take_over(&self, before: &Self, x: &[f64]) -> Vec<f64> {
+        let (n, k, was) = (self.beam.len(), self.dynamics.len(), before.dynamics.len());
+        let mut out = x[..2 + n].to_vec();
+        let rates = &x[2 + was..2 + was + n];
+        // The end of a massless beam carries no moment: that row of the stiffness, taken out of E by
+        // the tip's share in the mass matrix.
+        let d = &self.dynamics;
+        let (own, mixed) = if k > n { (d.force[n - 1], d.force[n]) } else { (1.0, 0.0) };
+        let slope = |motor: f64, q: &[f64]| {
+            let row = |j: usize| own * d.elastic[(n, j)] - mixed * d.elastic[(n - 1, j)];
+            let bent: f64 = (0..n).map(|j| row(j) * (q[j] - motor)).sum();
+            motor - bent / row(n)
+        };
+        if k > n {
+            out.push(if was > n { x[2 + n] } else { slope(x[0], &x[2..2 + n]) });
+        }
+        out.extend(rates);
+        if k > n {
+            out.push(if was > n { x[2 + was + n] } else { slope(x[1], rates) });
+        }
+        out
+    }
+
     /// A bound on how fast the state can change: a norm of the state matrix \[1/s\].
     pub(crate) fn rate_bound(&self) -> f64 {
         let d = &self.dynamics;

@@ -8,7 +8,7 @@ use lissom::identify::{Estimate, Identified, MissingKind, Options, identify};
 use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
 };
-use lissom::rig::{Hybrid, Pd, Quantiser, Rig, SteppedSine};
+use lissom::rig::{Amplifier, Experiment, Hybrid, Instruments, Pd, Quantiser, Rig, Sensor, Settle};
 
 /// Two unequal masses, friction by direction: modes at 7.9 and 41 rad/s.
 fn two_mass_arm() -> Arm {
@@ -24,28 +24,21 @@ fn two_mass_arm() -> Arm {
 }
 
 fn rig(arm: Arm) -> Rig {
-    let sensor = Quantiser::new(14, std::f64::consts::TAU).unwrap();
-    Rig {
-        arm,
-        controller: Pd { proportional_a_per_rad: 8.0, derivative_a_s_per_rad: 0.15, limit_a: 6.0 },
-        sample_time_s: 0.002,
-        motor_sensor: Some(sensor),
-        tip_sensor: Some(sensor),
-        current_converter: None,
-    }
+    let sensor = Sensor::from(Quantiser::new(14, std::f64::consts::TAU).unwrap());
+    let mut instruments = Instruments::ideal(0.002).unwrap();
+    instruments.motor = sensor;
+    instruments.tips = vec![sensor];
+    instruments.amplifier = Amplifier::ideal().with_limit(6.0).unwrap();
+    Rig::new(arm, instruments, Pd::new(8.0, 0.15).unwrap().into())
 }
 
 fn runs(rig: &Rig) -> Vec<Run> {
     [1.5, 3.0, 4.5, 9.0, 12.0, 20.0, 36.0]
         .iter()
         .map(|&omega_rad_s| {
-            let drive = SteppedSine {
-                omega_rad_s,
-                amplitude_rad: 0.5,
-                settle_s: 20.0,
-                record_s: (40.0 / omega_rad_s).max(6.0),
-            };
-            rig.stepped_sine(&format!("{omega_rad_s} rad/s"), &drive).unwrap()
+            let sine = Experiment::sine(omega_rad_s, 0.5, (40.0 / omega_rad_s).max(6.0)).unwrap();
+            let sine = sine.settling(Settle::Wait { wait_s: 20.0 });
+            rig.run(&format!("{omega_rad_s} rad/s"), &sine, 0).unwrap().run
         })
         .collect()
 }

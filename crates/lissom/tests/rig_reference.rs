@@ -8,7 +8,7 @@
 
 use lissom::arm::Arm;
 use lissom::drive::Coulomb;
-use lissom::rig::{HeldStep, Hybrid, Mode, Pd, Quantiser};
+use lissom::rig::{Controller, HeldStep, Hybrid, Mode, Pd, Quantiser, Sensed};
 use lissom_testmodels::report_arm;
 
 /// Angles agree to this \[rad\]: the reference's own agreement is 2e-14.
@@ -390,23 +390,22 @@ fn run_by<F: Fn(&mut Hybrid<'_>, f64)>(case: &Case, advance: impl Fn(&Arm) -> F)
     let base = report_arm();
     let coulomb = Coulomb::by_direction(case.coulomb.0, case.coulomb.1).unwrap();
     let arm = Arm::new(base.beam().clone(), base.motor, coulomb).unwrap();
-    let pd = Pd {
-        proportional_a_per_rad: case.gains.0,
-        derivative_a_s_per_rad: case.gains.1,
-        limit_a: 4.12,
-    };
+    let mut pd = Pd::new(case.gains.0, case.gains.1).unwrap();
     let advance = advance(&arm);
     let sensor = case.bits.map(|b| Quantiser::new(b, std::f64::consts::TAU).unwrap());
     let mut hybrid = Hybrid::with_state(&arm, case.initial.to_vec());
     let started_at_rest = usize::from(hybrid.mode() == Mode::Stick);
-    let mut before = None;
     for k in 0..=case.steps {
         let angle = hybrid.state()[0];
-        let read = sensor.map_or(angle, |s| s.read(angle));
-        let reference = case.amplitude_rad * (case.omega_rad_s * k as f64 * SAMPLE_TIME_S).sin();
-        let error = reference - read;
-        let current = pd.current_a(error, before.unwrap_or(error), SAMPLE_TIME_S);
-        before = Some(error);
+        let now = Sensed {
+            time_s: k as f64 * SAMPLE_TIME_S,
+            period_s: SAMPLE_TIME_S,
+            reference_rad: case.amplitude_rad * (case.omega_rad_s * k as f64 * SAMPLE_TIME_S).sin(),
+            motor_rad: sensor.map_or(angle, |s| s.read(angle)),
+            tips_rad: &[],
+            limit_a: 4.12,
+        };
+        let current = pd.current_a(&now).clamp(-4.12, 4.12);
         if let Some(s) = case.samples.iter().find(|s| s.0 == k) {
             let x = hybrid.state();
             near(case.name, k, "θ_m", x[0], s.1, ANGLE_RAD);

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lissom::record::{Hold, TipQuantity};
-use lissom::rig::{Rig, SteppedSine};
+use lissom::rig::{Experiment, Rig, RigError, Settle};
 use lissom_io::write::{self, CampaignPlan, PlannedCommand, PlannedRun};
 
 use crate::failure::Failure;
@@ -20,15 +20,17 @@ const SETTLE_S: f64 = 300.0;
 const PERIODS: f64 = 12.0;
 /// …and no less than this time \[s\].
 const LEAST_S: f64 = 12.0;
+/// The demo's sensors have no noise: any number will do.
+const SEED: u64 = 0;
 
 /// Runs the campaign and writes its logs and `campaign.toml` into `out`.
 pub(super) fn write_logs(rig: &Rig, out: &Path) -> Result<(), Failure> {
-    let drives = drives();
+    let drives = drives()?;
     let bar = progress::bar(drives.len(), "virtual experiment");
     let mut runs = Vec::with_capacity(drives.len());
-    for (index, drive) in drives.iter().enumerate() {
+    for (index, (omega_rad_s, experiment)) in drives.iter().enumerate() {
         let file = format!("run-{:02}.csv", index + 1);
-        let run = rig.stepped_sine(&file, drive)?;
+        let run = rig.run(&file, experiment, SEED)?.run;
         let time: Vec<f64> = (0..run.len()).map(|k| k as f64 * run.sample_time_s()).collect();
         let columns: [(&str, &[f64]); 4] = [
             ("t", &time),
@@ -37,7 +39,7 @@ pub(super) fn write_logs(rig: &Rig, out: &Path) -> Result<(), Failure> {
             ("theta_t", &run.tips()[0]),
         ];
         write::write_csv(&out.join(&file), &columns)?;
-        runs.push(PlannedRun { file, omega_rad_s: Some(drive.omega_rad_s) });
+        runs.push(PlannedRun { file, omega_rad_s: Some(*omega_rad_s) });
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -48,7 +50,7 @@ pub(super) fn write_logs(rig: &Rig, out: &Path) -> Result<(), Failure> {
         motor_column: "theta_m".to_owned(),
         tips: vec![("tip".to_owned(), "theta_t".to_owned(), TipQuantity::Angle)],
         torque_constant_nm_per_a: Some(rig.arm.motor.torque_constant_nm_per_a),
-        current_limit_a: Some(rig.controller.limit_a),
+        current_limit_a: rig.instruments.amplifier.limit_a(),
         arm: None,
         runs,
     };
@@ -56,7 +58,7 @@ pub(super) fn write_logs(rig: &Rig, out: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-fn drives() -> Vec<SteppedSine> {
+fn drives() -> Result<Vec<(f64, Experiment)>, RigError> {
     let mut omega: Vec<f64> =
         OMEGA_RAD_S.iter().copied().chain(OMEGA_RAD_S.iter().map(|w| 3.0 * w)).collect();
     omega.sort_by(f64::total_cmp);
@@ -64,11 +66,10 @@ fn drives() -> Vec<SteppedSine> {
     AMPLITUDE_RAD
         .iter()
         .flat_map(|&amplitude_rad| {
-            omega.iter().map(move |&omega_rad_s| SteppedSine {
-                omega_rad_s,
-                amplitude_rad,
-                settle_s: SETTLE_S,
-                record_s: (PERIODS * std::f64::consts::TAU / omega_rad_s).max(LEAST_S),
+            omega.iter().map(move |&omega_rad_s| {
+                let record_s = (PERIODS * std::f64::consts::TAU / omega_rad_s).max(LEAST_S);
+                let sine = Experiment::sine(omega_rad_s, amplitude_rad, record_s)?;
+                Ok((omega_rad_s, sine.settling(Settle::Wait { wait_s: SETTLE_S })))
             })
         })
         .collect()

@@ -210,6 +210,11 @@ impl PointDamping {
 /// The table `payload`.
 fn tip(table: &Table<'_>) -> Result<Payload, ConfigError> {
     table.only(&["mass", "inertia", "offset"])?;
+    payload(table)
+}
+
+/// A payload's own keys.
+pub(super) fn payload(table: &Table<'_>) -> Result<Payload, ConfigError> {
     let not_negative =
         |key, dimension| table.get(key).map(|v| v.not_negative(dimension)).transpose();
     let mass = not_negative("mass", Dimension::MASS)?;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use lissom::arm::Arm;
 use lissom::beam::{BeamError, DistributedBeam, LumpedBeam, Piece, Span};
 use lissom::drive::{Coulomb, DriveError, Motor};
-use lissom::rig::{Pd, Quantiser, Rig, RigError};
+use lissom::rig::RigError;
 use thiserror::Error;
 
 use super::{ArmFile, BeamKind, BeamSpec, SpanSpec};
@@ -175,35 +175,8 @@ impl ArmFile {
             .and_then(|b| b.with_damping(beam.damping.clone()))
             .map_err(|source| ArmError::Beam { file: path.to_owned(), source })
     }
-
-    /// The arm in its loop; sensors of the tips are those of the motor.
-    ///
-    /// # Errors
-    /// As [`arm`](Self::arm), and where `[rig]` or its controller is absent.
-    pub fn rig(&self, path: &Path) -> Result<Rig, ArmError> {
-        let rig = self.rig.as_ref().ok_or_else(|| absent(path, "rig"))?;
-        let controller = rig.controller.as_ref().ok_or_else(|| absent(path, "rig.controller"))?;
-        let sensor = rig
-            .motor_sensor
-            .as_ref()
-            .map(|s| Quantiser::new(s.bits, s.range_rad))
-            .transpose()
-            .map_err(|source| ArmError::Rig { file: path.to_owned(), source })?;
-        Ok(Rig {
-            arm: self.arm(path)?,
-            controller: Pd {
-                proportional_a_per_rad: controller.proportional_a_per_rad,
-                derivative_a_s_per_rad: controller.derivative_a_s_per_rad,
-                limit_a: rig.current_limit_a.unwrap_or(f64::MAX),
-            },
-            sample_time_s: rig.sample_time_s,
-            motor_sensor: sensor,
-            tip_sensor: sensor,
-            current_converter: None,
-        })
-    }
 }
 
-fn absent(path: &Path, table: &'static str) -> ArmError {
+pub(super) fn absent(path: &Path, table: &'static str) -> ArmError {
     ArmError::MissingTable { file: path.to_owned(), table }
 }

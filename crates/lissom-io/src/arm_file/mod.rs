@@ -16,6 +16,8 @@
 //! current_limit = "4.12 A"                  # absent: none
 //! motor_sensor = { bits = 12, range = "360 deg" }
 //! controller = { proportional = "9 A/rad", derivative = "0.2 A*s/rad" }
+//! [tip]                                     # what acts on the tip; absent: nothing
+//! viscous = "0.003 N*s/m"
 //! ```
 //!
 //! A bare number is in SI; for `damping` of a span in N·s/m, for `coulomb` in N·m.
@@ -41,18 +43,25 @@
 
 mod beam;
 mod build;
+mod build_rig;
+mod drive;
 mod material;
+mod rig;
 #[cfg(test)]
 mod tests;
+mod tip;
 
 pub use beam::{BeamKind, BeamSpec, SpanSpec};
 pub use build::ArmError;
+pub use drive::{BristlesSpec, DriveSpec, RestSpec, RippleSpec};
+pub use rig::{ControllerSpec, ConverterSpec, IntegerSpec, RigSpec, SensorSpec, SensorSteps};
+pub(crate) use tip::omega;
+pub use tip::{SignalSpec, TipSpec};
 
 use std::path::Path;
 
-use crate::config::{ConfigError, Source, Table, Value};
+use crate::config::{ConfigError, Source};
 use crate::error::Error;
-use crate::units::Dimension;
 
 /// What an `arm.toml` says, in SI.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -61,54 +70,10 @@ pub struct ArmFile {
     pub beam: Option<BeamSpec>,
     /// The motor.
     pub drive: Option<DriveSpec>,
+    /// The world at the tip.
+    pub tip: Option<TipSpec>,
     /// Sampling, limits, sensors and controller.
     pub rig: Option<RigSpec>,
-}
-
-/// A motor with friction, referred to the joint.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DriveSpec {
-    /// Inertia \[kg·m²\].
-    pub inertia_kg_m2: f64,
-    /// Viscous friction \[N·m·s/rad\].
-    pub viscous_nm_s_per_rad: f64,
-    /// Torque constant \[N·m/A\].
-    pub torque_constant_nm_per_a: f64,
-    /// Coulomb friction in forward motion, a magnitude \[N·m\].
-    pub coulomb_forward_nm: f64,
-    /// Coulomb friction in backward motion, a magnitude \[N·m\].
-    pub coulomb_backward_nm: f64,
-}
-
-/// A sampled control rig.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RigSpec {
-    /// Sample time \[s\].
-    pub sample_time_s: f64,
-    /// Magnitude at which the current saturates \[A\].
-    pub current_limit_a: Option<f64>,
-    /// The motor's angle sensor.
-    pub motor_sensor: Option<SensorSpec>,
-    /// The motor's position controller.
-    pub controller: Option<ControllerSpec>,
-}
-
-/// A sensor that counts equal steps.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SensorSpec {
-    /// Bits of a reading.
-    pub bits: u32,
-    /// Angle over which all readings occur once \[rad\].
-    pub range_rad: f64,
-}
-
-/// A proportional and derivative controller from angle to current.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ControllerSpec {
-    /// Proportional gain \[A/rad\].
-    pub proportional_a_per_rad: f64,
-    /// Derivative gain \[A·s/rad\].
-    pub derivative_a_s_per_rad: f64,
 }
 
 impl ArmFile {
@@ -138,74 +103,12 @@ impl ArmFile {
     fn from_source(source: &Source) -> Result<Self, ConfigError> {
         let document = source.parse()?;
         let root = source.root(&document);
-        root.only(&["beam", "drive", "rig"])?;
+        root.only(&["beam", "drive", "tip", "rig"])?;
         Ok(Self {
             beam: root.get("beam").map(|v| beam::beam(&v.table()?)).transpose()?,
-            drive: root.get("drive").map(|v| drive(&v.table()?)).transpose()?,
-            rig: root.get("rig").map(|v| rig(&v.table()?)).transpose()?,
+            drive: root.get("drive").map(|v| drive::drive(&v.table()?)).transpose()?,
+            tip: root.get("tip").map(|v| tip::tip(&v.table()?)).transpose()?,
+            rig: root.get("rig").map(|v| rig::rig(&v.table()?)).transpose()?,
         })
     }
-}
-
-fn drive(table: &Table<'_>) -> Result<DriveSpec, ConfigError> {
-    table.only(&["inertia", "viscous", "torque_constant", "coulomb"])?;
-    let torque_constant = table.need("torque_constant")?.positive(Dimension::TORQUE_PER_CURRENT)?;
-    let viscous = table.get("viscous").map(|v| v.not_negative(Dimension::VISCOUS_ROTARY));
-    let (forward, backward) = match table.get("coulomb") {
-        Some(value) => coulomb(&value, torque_constant)?,
-        None => (0.0, 0.0),
-    };
-    Ok(DriveSpec {
-        inertia_kg_m2: table.need("inertia")?.positive(Dimension::INERTIA)?,
-        viscous_nm_s_per_rad: viscous.transpose()?.unwrap_or(0.0),
-        torque_constant_nm_per_a: torque_constant,
-        coulomb_forward_nm: forward,
-        coulomb_backward_nm: backward,
-    })
-}
-
-fn coulomb(value: &Value<'_>, torque_constant: f64) -> Result<(f64, f64), ConfigError> {
-    let torque = |value: &Value<'_>| {
-        let (index, size) = value.quantity_of(&[Dimension::TORQUE, Dimension::CURRENT])?;
-        if size < 0.0 {
-            return Err(value.range(crate::config::Rule::NotNegative));
-        }
-        Ok(if index == 0 { size } else { size * torque_constant })
-    };
-    match value.as_table() {
-        Some(table) => {
-            table.only(&["forward", "backward"])?;
-            Ok((torque(&table.need("forward")?)?, torque(&table.need("backward")?)?))
-        }
-        None => torque(value).map(|both| (both, both)),
-    }
-}
-
-fn rig(table: &Table<'_>) -> Result<RigSpec, ConfigError> {
-    table.only(&["sample_time", "current_limit", "motor_sensor", "controller"])?;
-    let limit = table.get("current_limit").map(|v| v.positive(Dimension::CURRENT));
-    Ok(RigSpec {
-        sample_time_s: table.need("sample_time")?.positive(Dimension::TIME)?,
-        current_limit_a: limit.transpose()?,
-        motor_sensor: table.get("motor_sensor").map(|v| sensor(&v.table()?)).transpose()?,
-        controller: table.get("controller").map(|v| controller(&v.table()?)).transpose()?,
-    })
-}
-
-fn sensor(table: &Table<'_>) -> Result<SensorSpec, ConfigError> {
-    table.only(&["bits", "range"])?;
-    let bits = table.need("bits")?.whole(1, 32)?;
-    Ok(SensorSpec {
-        bits: u32::try_from(bits).unwrap_or(32),
-        range_rad: table.need("range")?.positive(Dimension::NUMBER)?,
-    })
-}
-
-fn controller(table: &Table<'_>) -> Result<ControllerSpec, ConfigError> {
-    table.only(&["proportional", "derivative"])?;
-    let derivative = table.get("derivative").map(|v| v.quantity(Dimension::TORQUE_PER_VOLTAGE));
-    Ok(ControllerSpec {
-        proportional_a_per_rad: table.need("proportional")?.quantity(Dimension::CURRENT)?,
-        derivative_a_s_per_rad: derivative.transpose()?.unwrap_or(0.0),
-    })
 }

@@ -40,6 +40,10 @@ pub enum Rule {
     NotNegative,
     /// Another number than zero.
     NotZero,
+    /// Below a limit.
+    Below(f64),
+    /// One of two whole numbers.
+    OneOf(i64, i64),
     /// A whole number within limits.
     WholeBetween(i64, i64),
     /// Zero, or of a magnitude between these limits in SI.
@@ -52,6 +56,8 @@ impl fmt::Display for Rule {
             Self::Positive => f.write_str("greater than zero"),
             Self::NotNegative => f.write_str("zero or greater"),
             Self::NotZero => f.write_str("other than zero"),
+            Self::Below(most) => write!(f, "below {most}"),
+            Self::OneOf(one, other) => write!(f, "{one} or {other}"),
             Self::Magnitude(least, most) => {
                 write!(f, "of a magnitude from {least:e} to {most:e} in SI")
             }

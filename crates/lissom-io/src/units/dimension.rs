@@ -26,6 +26,10 @@ impl Dimension {
     pub const TIME: Self = Self::new(0, 0, 1, 0);
     /// A
     pub const CURRENT: Self = Self::new(0, 0, 0, 1);
+    /// A/(rad·s)
+    pub const CURRENT_RATE: Self = Self::new(0, 0, -1, 1);
+    /// N/m
+    pub const STIFFNESS: Self = Self::new(1, 0, -2, 0);
     /// rad/s
     pub const RATE: Self = Self::new(0, 0, -1, 0);
     /// rad/s²

@@ -1,17 +1,19 @@
-//! Exact motion of an arm between samples: stick, slip and the events between them.
+//! Exact motion of an arm: stick, slip and the events between them.
 
-use super::polynomial::{ORDER_MOST, first_nonpositive, first_used_up, value};
-use super::{Motion, RigError};
+use super::polynomial::ORDER_MOST;
+use super::{Motion, RigError, Signal, TipWorld};
 use crate::arm::Arm;
+use crate::drive::{DryFriction, FrictionSeries};
 
 /// Largest (rate bound × step) for which a Taylor series of order [`ORDER_MOST`] is exact to
 /// rounding: 0.5²⁴/24! is 1e-31.
-const STEP_RATE: f64 = 0.5;
+pub(super) const STEP_RATE: f64 = 0.5;
+/// Relative error of a step where friction bends: the series' last terms are below it.
+const BENT: f64 = 1e-15;
+/// Events at one instant after which the joint is taken to chatter and is held for a moment.
+const EVENTS_AT_ONCE: usize = 50;
 
-/// Accelerations below this share of what the torques give are rounding.
-const ROUNDING: f64 = 1e-13;
-
-/// What the joint does.
+/// What a joint, or a rubbing tip, does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mode {
     /// At rest, held by friction.
@@ -22,12 +24,40 @@ pub enum Mode {
     Backward,
 }
 
+impl Mode {
+    pub(super) fn of(velocity: f64) -> Self {
+        if velocity > 0.0 {
+            Self::Forward
+        } else if velocity < 0.0 {
+            Self::Backward
+        } else {
+            Self::Stick
+        }
+    }
+    /// +1 forward, −1 backward.
+    pub(super) fn sign(self) -> f64 {
+        if self == Self::Backward { -1.0 } else { 1.0 }
+    }
+}
+
+/// The motor's torque over time.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Torque<'s> {
+    /// Constant \[N·m\].
+    Held(f64),
+    /// Over the motion's own time \[N·m\].
+    Over(&'s Signal),
+}
+
 /// An arm in motion.
 ///
-/// Between events the arm is linear with constant input; its state is a Taylor series in time
-/// whose terms follow from one another by the state matrix, summed until they vanish. The
-/// velocity is then a polynomial whose first root is the event. Nothing is smoothed and no
-/// tolerance enters but rounding.
+/// Between events the arm is linear; its state is a Taylor series in time whose terms follow from
+/// one another by the state matrix, summed until they vanish. The velocity is then a polynomial
+/// whose first root is the event. Nothing is smoothed and no tolerance enters but rounding.
+///
+/// Friction that bends with speed or position ([`DryFriction`]) makes the series nonlinear: its
+/// terms still follow from one another, and the step is as long as the last of 24 terms are below
+/// 1e-15 of the state. [`Motion::tolerance`] says so.
 ///
 /// ```
 /// # use lissom::{arm::Arm, beam::{LumpedBeam, Span}, drive::{Coulomb, Motor}, rig::Hybrid};
@@ -50,13 +80,57 @@ pub enum Mode {
 #[derive(Debug, Clone)]
 pub struct Hybrid<'a> {
     pub(super) arm: &'a Arm,
+    pub(super) friction: DryFriction,
+    pub(super) world: Option<TipWorld>,
+    /// Arms that come later, and when \[s\]; the next one last.
+    pub(super) changes: Vec<(f64, &'a Arm)>,
     pub(super) state: Vec<f64>,
+    pub(super) time_s: f64,
     pub(super) mode: Mode,
-    step_most_s: f64,
+    /// What a rubbing tip does.
+    pub(super) tip_mode: Mode,
+    /// Which walls the tip touches.
+    pub(super) touching: Vec<bool>,
+    pub(super) step_most_s: f64,
     /// Taylor coefficients of the state; the first also serves as a state that is tried.
     pub(super) terms: Vec<Vec<f64>>,
-    sticks: usize,
+    pub(super) series: Coefficients,
+    pub(super) sticks: usize,
+    pub(super) events: usize,
     pub(super) stuck_s: f64,
+}
+
+/// Taylor coefficients of what acts on the arm.
+#[derive(Debug, Clone)]
+pub(super) struct Coefficients {
+    /// Motor torque less the part of C_t that the tip's torque makes \[N·m\].
+    pub(super) torque: [f64; ORDER_MOST + 1],
+    /// What the drive would have to overcome to turn a stuck joint \[N·m\].
+    pub(super) held: [f64; ORDER_MOST + 1],
+    /// F(t) and T(t) at the tip \[N, N·m\].
+    pub(super) tip_force: [f64; ORDER_MOST + 1],
+    pub(super) tip_torque: [f64; ORDER_MOST + 1],
+    /// What pushes a stuck tip \[N\].
+    pub(super) tip_held: [f64; ORDER_MOST + 1],
+    pub(super) angle: [f64; ORDER_MOST + 1],
+    pub(super) velocity: [f64; ORDER_MOST + 1],
+    pub(super) friction: FrictionSeries,
+}
+
+impl Default for Coefficients {
+    fn default() -> Self {
+        let zero = [0.0; ORDER_MOST + 1];
+        Self {
+            torque: zero,
+            held: zero,
+            tip_force: zero,
+            tip_torque: zero,
+            tip_held: zero,
+            angle: zero,
+            velocity: zero,
+            friction: FrictionSeries::default(),
+        }
+    }
 }
 
 impl<'a> Hybrid<'a> {
@@ -70,25 +144,78 @@ impl<'a> Hybrid<'a> {
     pub fn with_state(arm: &'a Arm, mut state: Vec<f64>) -> Self {
         let len = arm.state_len();
         state.resize(len, 0.0);
-        let mode = match state[1] {
-            v if v > 0.0 => Mode::Forward,
-            v if v < 0.0 => Mode::Backward,
-            _ => Mode::Stick,
-        };
-        Self {
+        let mode = Mode::of(state[1]);
+        let mut made = Self {
             arm,
+            friction: arm.coulomb.into(),
+            world: None,
+            changes: Vec::new(),
             state,
+            time_s: 0.0,
             mode,
-            step_most_s: STEP_RATE / arm.rate_bound(),
+            tip_mode: Mode::Stick,
+            touching: Vec::new(),
+            step_most_s: 0.0,
             terms: vec![vec![0.0; len]; ORDER_MOST + 1],
+            series: Coefficients::default(),
             sticks: 0,
+            events: 0,
             stuck_s: 0.0,
+        };
+        made.step_most_s = STEP_RATE / made.rate_bound();
+        made
+    }
+
+    /// The same joint with another dry friction than the arm's.
+    #[must_use]
+    pub fn with_friction(mut self, friction: DryFriction) -> Self {
+        self.friction = friction;
+        self
+    }
+
+    /// The same arm with a world at its tip.
+    ///
+    /// # Errors
+    /// [`RigError`] where a friction of it is negative.
+    pub fn with_world(mut self, world: TipWorld) -> Result<Self, RigError> {
+        world.check()?;
+        let tip = self.state[self.tip_index()];
+        self.touching = world.walls.iter().map(|w| w.depth(tip) > 0.0).collect();
+        self.tip_mode = Mode::of(self.state[self.tip_rate_index()]);
+        self.world = (!world.is_empty()).then_some(world);
+        self.step_most_s = STEP_RATE / self.rate_bound();
+        Ok(self)
+    }
+
+    /// The same with other arms from the times given on \[s\]: payloads that are taken up or dropped.
+    ///
+    /// Angles and velocities go on as they were: a payload is taken up at the tip's own velocity,
+    /// and one that turns in the direction that the massless beam's end has.
+    ///
+    /// # Errors
+    /// [`RigError`] unless times are positive and increase and all arms have as many masses.
+    pub fn with_changes(mut self, changes: &[(f64, &'a Arm)]) -> Result<Self, RigError> {
+        for (row, (time_s, arm)) in changes.iter().enumerate() {
+            let before = if row == 0 { 0.0 } else { changes[row - 1].0 };
+            if !(*time_s > before && time_s.is_finite()) {
+                return Err(RigError::TableOrder { row, before_s: before, after_s: *time_s });
+            }
+            let (expected, found) = (self.arm.beam().len(), arm.beam().len());
+            if expected != found {
+                return Err(RigError::Masses { expected, found });
+            }
         }
+        self.changes = changes.iter().rev().copied().collect();
+        Ok(self)
     }
 
     /// Current state `[θ_m, θ̇_m, θ_i.., θ̇_i..]`.
     pub fn state(&self) -> &[f64] {
         &self.state
+    }
+    /// Time since the start \[s\].
+    pub fn time_s(&self) -> f64 {
+        self.time_s
     }
     /// What the joint does now.
     pub fn mode(&self) -> Mode {
@@ -98,6 +225,10 @@ impl<'a> Hybrid<'a> {
     pub fn sticks(&self) -> usize {
         self.sticks
     }
+    /// How many events ended a step so far: of the joint, of a rubbing tip, at walls.
+    pub fn events(&self) -> usize {
+        self.events
+    }
     /// Total time spent sticking \[s\].
     pub fn stuck_s(&self) -> f64 {
         self.stuck_s
@@ -105,19 +236,31 @@ impl<'a> Hybrid<'a> {
 
     /// Moves on by `duration_s` under a constant motor torque \[N·m\].
     pub fn advance(&mut self, torque_nm: f64, duration_s: f64) {
-        let mut left = duration_s;
-        while left > 0.0 {
-            let step = left.min(self.step_most_s);
-            left -= self.step(torque_nm, step);
-            // A remainder of rounding only.
-            if left <= f64::EPSILON * duration_s {
-                break;
-            }
-        }
+        self.advance_under(Torque::Held(torque_nm), duration_s, false);
+    }
+
+    /// Moves on by `duration_s` under a motor torque \[N·m\] over the motion's own
+    /// [`time_s`](Self::time_s): a drive in continuous time.
+    ///
+    /// ```
+    /// # use lissom::{arm::Arm, beam::{LumpedBeam, Span}, drive::{Coulomb, Motor}};
+    /// # use lissom::rig::{Harmonic, Hybrid, Signal};
+    /// # let span = Span { length_m: 0.2, flexural_rigidity_n_m2: 0.004, mass_kg: 0.05, damping_n_s_per_m: 0.0 };
+    /// # let beam = LumpedBeam::new(&[span]).unwrap();
+    /// # let arm = Arm::new(beam, Motor::new(6e-4, 1e-3, 0.25).unwrap(), Coulomb::symmetric(0.03).unwrap()).unwrap();
+    /// let swing = Harmonic { amplitude: 0.05, omega_rad_s: 3.0, phase_rad: 0.0 }; // N·m
+    /// let mut hybrid = Hybrid::at_rest(&arm);
+    /// hybrid.advance_driven(&Signal::harmonics(&[swing])?, 10.0);
+    /// assert!(hybrid.sticks() > 5);
+    /// # Ok::<(), lissom::rig::RigError>(())
+    /// ```
+    pub fn advance_driven(&mut self, torque_nm: &Signal, duration_s: f64) {
+        self.advance_under(Torque::Over(torque_nm), duration_s, false);
     }
 
     /// Moves on by at most `duration_s` under a constant motor torque \[N·m\], ending where the joint
-    /// sticks, breaks loose or reverses; gives the time that passed \[s\].
+    /// or a rubbing tip sticks, breaks loose or reverses, or the tip meets or leaves a wall; gives
+    /// the time that passed \[s\].
     ///
     /// ```
     /// # use lissom::{arm::Arm, beam::{LumpedBeam, Span}, drive::{Coulomb, Motor}, rig::{Hybrid, Mode}};
@@ -129,11 +272,25 @@ impl<'a> Hybrid<'a> {
     /// assert!(time_s < 0.02 && hybrid.mode() != Mode::Forward);
     /// ```
     pub fn advance_to_event(&mut self, torque_nm: f64, duration_s: f64) -> f64 {
-        let (mut passed, mode) = (0.0, self.mode);
+        self.advance_under(Torque::Held(torque_nm), duration_s, true)
+    }
+
+    fn advance_under(&mut self, torque: Torque<'_>, duration_s: f64, to_event: bool) -> f64 {
+        let (mut passed, mut stalled, events) = (0.0, 0, self.events);
         while passed < duration_s {
             let left = duration_s - passed;
-            passed += self.step(torque_nm, left.min(self.step_most_s));
-            if self.mode != mode || left <= f64::EPSILON * duration_s {
+            // A remainder of rounding only.
+            if left <= f64::EPSILON * duration_s {
+                break;
+            }
+            let time = if stalled < EVENTS_AT_ONCE {
+                self.step(torque, left)
+            } else {
+                self.pause(torque, left)
+            };
+            stalled = if time > 0.0 { 0 } else { stalled + 1 };
+            passed += time;
+            if to_event && self.events != events || !time.is_finite() {
                 break;
             }
         }
@@ -145,180 +302,8 @@ impl<'a> Hybrid<'a> {
         self.mode = Mode::Stick;
         let parts = (duration_s / self.step_most_s).ceil().max(1.0);
         for _ in 0..parts as usize {
-            let order = self.series(0.0);
+            let (order, _) = self.fill(Torque::Held(0.0), duration_s / parts);
             self.evaluate(order, duration_s / parts);
-        }
-    }
-
-    /// Moves on by at most `step`, ending early at an event; gives the time that passed.
-    fn step(&mut self, torque: f64, step: f64) -> f64 {
-        let coulomb = self.arm.coulomb;
-        if coulomb.forward == 0.0 && coulomb.backward == 0.0 {
-            // Without friction there are no events.
-            self.mode = Mode::Forward;
-            let order = self.series(torque);
-            self.evaluate(order, step);
-            step
-        } else if self.mode == Mode::Stick {
-            self.step_sticking(torque, step)
-        } else {
-            self.step_slipping(torque, step)
-        }
-    }
-
-    fn step_sticking(&mut self, torque: f64, step: f64) -> f64 {
-        let (forward, backward) = (self.arm.coulomb.forward, self.arm.coulomb.backward);
-        self.mode = self.mode_from_rest(torque);
-        if self.mode != Mode::Stick {
-            return 0.0;
-        }
-        let order = self.series(0.0);
-        // Room left before the drive overcomes friction, as polynomials in time.
-        let mut room_forward = [0.0; ORDER_MOST + 1];
-        let mut room_backward = [0.0; ORDER_MOST + 1];
-        for k in 0..=order {
-            let coupling = self.arm.coupling_torque(&self.terms[k]);
-            room_forward[k] = coupling;
-            room_backward[k] = -coupling;
-        }
-        room_forward[0] += forward - torque;
-        room_backward[0] += backward + torque;
-        let rounding = self.rounding(torque);
-        let up = first_used_up(&room_forward[..=order], step, rounding);
-        let down = first_used_up(&room_backward[..=order], step, rounding);
-        let (time, next) = match (up, down) {
-            (Some(a), Some(b)) if b < a => (b, Mode::Backward),
-            (Some(a), _) => (a, Mode::Forward),
-            (None, Some(b)) => (b, Mode::Backward),
-            (None, None) => (step, Mode::Stick),
-        };
-        self.evaluate(order, time);
-        self.mode = next;
-        self.stuck_s += time;
-        time
-    }
-
-    fn step_slipping(&mut self, torque: f64, step: f64) -> f64 {
-        let sign = if self.mode == Mode::Forward { 1.0 } else { -1.0 };
-        let friction = self.arm.coulomb.slipping(sign);
-        let order = self.series(torque - friction);
-        let mut velocity = [0.0; ORDER_MOST + 1];
-        for (v, term) in velocity.iter_mut().zip(&self.terms[..=order]) {
-            *v = sign * term[1];
-        }
-        // From rest the root at the start is divided out. Released between samples, the motor
-        // starts with no acceleration but rounding, and that root is double.
-        let rounding = self.rounding(torque) / self.arm.motor.inertia_kg_m2;
-        let roots = match (self.state[1] == 0.0, velocity[1].abs() <= rounding) {
-            (false, _) => 0,
-            (true, false) => 1,
-            (true, true) => 2,
-        };
-        let polynomial = &velocity[roots..=order];
-        if polynomial[0] <= 0.0 {
-            // Released with no acceleration, or turned by a jump of the torque: decide anew.
-            self.state[1] = 0.0;
-            return self.leave_rest(torque, sign, step);
-        }
-        let Some(time) = first_nonpositive(polynomial, step) else {
-            self.evaluate(order, step);
-            return step;
-        };
-        self.evaluate(order, time);
-        self.state[1] = 0.0;
-        self.mode = self.mode_from_rest(torque);
-        if self.mode == Mode::Stick {
-            self.sticks += 1;
-        }
-        time
-    }
-
-    /// What the joint does from rest: friction holds up to its limit, rounding left out.
-    fn mode_from_rest(&self, torque: f64) -> Mode {
-        let net = torque - self.arm.coupling_torque(&self.state);
-        let rounding = self.rounding(torque);
-        if net > self.arm.coulomb.forward + rounding {
-            Mode::Forward
-        } else if net < -self.arm.coulomb.backward - rounding {
-            Mode::Backward
-        } else {
-            Mode::Stick
-        }
-    }
-
-    /// Torques below this are rounding of those that act \[N·m\].
-    pub(super) fn rounding(&self, torque: f64) -> f64 {
-        let coulomb = self.arm.coulomb.forward.max(self.arm.coulomb.backward);
-        ROUNDING * (torque.abs() + coulomb)
-    }
-
-    /// At rest with a net torque exactly at the friction limit and no sign of where it goes.
-    fn leave_rest(&mut self, torque: f64, sign: f64, step: f64) -> f64 {
-        let mode = self.mode_from_rest(torque);
-        let turned = match mode {
-            Mode::Forward => sign < 0.0,
-            Mode::Backward => sign > 0.0,
-            Mode::Stick => false,
-        };
-        if turned {
-            self.mode = mode;
-            return 0.0;
-        }
-        // With the beam moving, the coupling torque goes on changing and the joint starts; move
-        // the beam alone until it does, by the smallest useful time.
-        let order = self.series_of_beam();
-        let pause = step.min(self.step_most_s * 1e-9).max(f64::MIN_POSITIVE);
-        self.evaluate(order, pause);
-        self.stuck_s += pause;
-        self.mode = self.mode_from_rest(torque);
-        pause
-    }
-
-    fn series_of_beam(&mut self) -> usize {
-        let mode = self.mode;
-        self.mode = Mode::Stick;
-        let order = self.series(0.0);
-        self.mode = mode;
-        order
-    }
-
-    /// Fills `terms` with the Taylor coefficients of the state; gives the order reached.
-    fn series(&mut self, net_torque: f64) -> usize {
-        self.terms[0].copy_from_slice(&self.state);
-        let mut reach = 1.0;
-        let size = self.state.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(v.abs()));
-        for k in 0..ORDER_MOST {
-            let (before, after) = self.terms.split_at_mut(k + 1);
-            let (term, next) = (&before[k], &mut after[0]);
-            if self.mode == Mode::Stick {
-                self.arm.derivative_sticking(term, next);
-            } else {
-                self.arm.derivative_slipping(term, next);
-                if k == 0 {
-                    next[1] += net_torque / self.arm.motor.inertia_kg_m2;
-                }
-            }
-            let scale = 1.0 / (k as f64 + 1.0);
-            for v in next.iter_mut() {
-                *v *= scale;
-            }
-            reach *= self.step_most_s;
-            let largest = next.iter().fold(0.0, |m: f64, v| m.max(v.abs())) * reach;
-            // Two orders below rounding, and never before the torque has reached every state.
-            if k >= 4 && largest < size * f64::EPSILON * 1e-3 {
-                return k + 1;
-            }
-        }
-        ORDER_MOST
-    }
-
-    fn evaluate(&mut self, order: usize, time: f64) {
-        let mut column = [0.0; ORDER_MOST + 1];
-        for i in 0..self.state.len() {
-            for (c, term) in column.iter_mut().zip(&self.terms[..=order]) {
-                *c = term[i];
-            }
-            self.state[i] = value(&column[..=order], time);
         }
     }
 }
@@ -329,13 +314,17 @@ impl Motion for Hybrid<'_> {
     }
     fn advance(&mut self, torque_nm: f64, duration_s: f64) -> Result<(), RigError> {
         Hybrid::advance(self, torque_nm, duration_s);
-        Ok(())
+        if self.state.iter().all(|v| v.is_finite()) {
+            Ok(())
+        } else {
+            Err(RigError::Lost { time_s: self.time_s })
+        }
     }
     fn stuck_s(&self) -> f64 {
         Hybrid::stuck_s(self)
     }
     fn tolerance(&self) -> Option<f64> {
-        None
+        (!self.friction.is_constant()).then_some(BENT)
     }
 }
 

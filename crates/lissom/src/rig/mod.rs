@@ -1,15 +1,42 @@
 //! The virtual laboratory, Sections 5.1 and 6.1: a sampled loop around an arm that sticks and
 //! slips.
 
+mod by_samples;
+mod controller;
+mod error;
+mod events;
+mod experiment;
+mod finding;
 mod held;
 mod hybrid;
 mod instrument;
+mod logging;
+#[cfg(feature = "lugre")]
+mod lugre;
 mod motion;
 mod polynomial;
-mod stepped_sine;
+mod sampled_loop;
+mod scene;
+mod series;
+mod settling;
+mod signal;
+mod slip;
+mod tip_world;
 
+pub use controller::{ControlLaw, Controller, IntegerPd, Pd, Pid, Proportional, Sensed, Word};
+pub use error::RigError;
+pub use experiment::{
+    Chirp, Drive, Experiment, Multisine, Reference, Settle, Sine, Square, Start, Sweep, Table,
+    TableHold,
+};
+pub use finding::{RigFinding, SensorPlace};
 pub use held::HeldStep;
 pub use hybrid::{Hybrid, Mode};
-pub use instrument::{Pd, Quantiser, RigError};
+pub use instrument::{Amplifier, Delay, Instruments, Noise, Quantiser, Sensor};
+#[cfg(feature = "lugre")]
+pub use lugre::LuGreMotion;
 pub use motion::Motion;
-pub use stepped_sine::{Rig, SteppedSine};
+pub use sampled_loop::{Logged, Rig, Settled};
+pub use scene::{JointFriction, Scene};
+pub use signal::{Harmonic, Signal};
+pub use tip_world::{TipWorld, Wall};

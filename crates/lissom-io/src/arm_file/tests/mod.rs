@@ -1,13 +1,14 @@
 #![expect(clippy::float_cmp, reason = "these numbers are exact")]
 
 mod beam;
+mod rig;
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use proptest::prelude::*;
 
-use super::{ArmFile, ControllerSpec, DriveSpec, RigSpec, SensorSpec};
+use super::{ArmFile, ControllerSpec, DriveSpec, RigSpec, SensorSpec, SensorSteps};
 
 /// Relative: a few roundings.
 const ROUNDING: f64 = 1e-14;
@@ -59,12 +60,25 @@ fn reads_an_arm() {
         arm.rig,
         Some(RigSpec {
             sample_time_s: 0.003,
+            control_every: 1,
+            log_every: 1,
             current_limit_a: Some(4.12),
-            motor_sensor: Some(SensorSpec { bits: 12, range_rad: TAU }),
+            dead_band_a: None,
+            current_converter: None,
+            delay_s: None,
+            motor_sensor: Some(SensorSpec {
+                steps: Some(SensorSteps::Bits { bits: 12, range_rad: TAU }),
+                noise_rad: None
+            }),
+            tip_sensors: None,
             controller: Some(ControllerSpec {
                 proportional_a_per_rad: 9.0,
-                derivative_a_s_per_rad: 0.2
+                derivative_a_s_per_rad: 0.2,
+                integral_a_per_rad_s: None,
+                filter_s: None,
+                integers: None,
             }),
+            masses: None,
         })
     );
 }
@@ -213,7 +227,7 @@ fn wrong_keys_are_named_with_the_nearest() {
     fails(
         &ARM.replace("[rig]", "[camera]"),
         "arm.toml, line 11: `camera` is not a key that is known here",
-        Some("the keys here are `beam`, `drive`, `rig`"),
+        Some("the keys here are `beam`, `drive`, `tip`, `rig`"),
     );
     fails(
         &ARM.replace("sample_time", "current_limit").replacen(

@@ -1,0 +1,130 @@
+//! The folder of a virtual campaign: what is done stays done.
+//!
+//! A run's facts are written before its log, the log takes its name when it is whole, and
+//! `campaign.toml` and `rig.json` come last. So whatever is there is whole, and an interrupted
+//! campaign goes on with the logs that are missing.
+
+use std::fmt::{self, Write as _};
+use std::path::{Path, PathBuf};
+
+use lissom::rig::Rig;
+use lissom_io::PlanFile;
+use lissom_io::write;
+use serde_json::{Value, json};
+
+use crate::failure::Failure;
+
+/// Where a campaign under way keeps its facts.
+const PARTS: &str = "rig-parts";
+/// What says whose campaign it is.
+const INPUT: &str = "input.json";
+const DONE: &str = "rig.json";
+
+pub(super) struct Folder {
+    path: PathBuf,
+    fingerprint: String,
+}
+
+impl Folder {
+    /// Makes the folder, or takes up the campaign in it where that is the same.
+    pub(super) fn open(path: &Path, rig: &Rig, plan: &PlanFile) -> Result<Self, Failure> {
+        let folder = Self { path: path.to_owned(), fingerprint: fingerprint(rig, plan) };
+        let other =
+            |what: &str| Failure::OtherCampaign { folder: path.to_owned(), what: what.to_owned() };
+        let known = [folder.path(PARTS).join(INPUT), folder.path(DONE)];
+        match known.iter().find_map(|file| read_json(file)) {
+            Some(found) if found["fingerprint"].as_str() == Some(folder.fingerprint.as_str()) => {}
+            Some(_) => return Err(other("another campaign")),
+            None => {
+                let own = plan.runs.iter().map(|run| format!("{}.csv", run.name));
+                let fixed = ["campaign.toml", "arm.toml", "plan.toml", DONE].map(str::to_owned);
+                if let Some(file) = own.chain(fixed).find(|file| folder.path(file).exists()) {
+                    return Err(other(&format!("{file}, which is of no virtual campaign")));
+                }
+            }
+        }
+        write::create_folder(&folder.path(PARTS))?;
+        let input = json!({ "fingerprint": folder.fingerprint });
+        write::write_json(&folder.path(PARTS).join(INPUT), &input)?;
+        Ok(folder)
+    }
+
+    pub(super) fn path(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// The facts of a run whose log is there.
+    pub(super) fn done(&self, name: &str) -> Option<Value> {
+        let log = format!("{name}.csv");
+        if !self.path(&log).exists() {
+            return None;
+        }
+        if let Some(facts) = read_json(&self.part(name)) {
+            return Some(facts);
+        }
+        // A campaign that was finished has them together.
+        let all = read_json(&self.path(DONE))?;
+        let runs = all["runs"].as_array()?;
+        runs.iter().find(|run| run["file"].as_str() == Some(&log)).cloned()
+    }
+
+    /// Keeps a run.
+    pub(super) fn store(
+        &self,
+        name: &str,
+        facts: &Value,
+        columns: &[(&str, &[f64])],
+    ) -> Result<(), Failure> {
+        write::write_json(&self.part(name), facts)?;
+        write::write_csv(&self.path(&format!("{name}.csv")), columns)?;
+        Ok(())
+    }
+
+    /// Puts a copy of an input beside the logs.
+    pub(super) fn copy(&self, from: &Path, name: &str) -> Result<(), Failure> {
+        let text = std::fs::read_to_string(from).map_err(|source| lissom_io::WriteError::File {
+            file: from.display().to_string(),
+            source,
+        })?;
+        write::write_text(&self.path(name), &text)?;
+        Ok(())
+    }
+
+    /// Writes what is known of the whole and clears up.
+    pub(super) fn finish(&self, whole: &Value) -> Result<(), Failure> {
+        let mut whole = whole.clone();
+        whole["fingerprint"] = json!(self.fingerprint);
+        write::write_json(&self.path(DONE), &whole)?;
+        // What is left there does no harm.
+        let _ = std::fs::remove_dir_all(self.path(PARTS));
+        Ok(())
+    }
+
+    fn part(&self, name: &str) -> PathBuf {
+        self.path(PARTS).join(format!("{name}.json"))
+    }
+}
+
+fn read_json(path: &Path) -> Option<Value> {
+    serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()
+}
+
+/// A number for all that the logs depend on.
+fn fingerprint(rig: &Rig, plan: &PlanFile) -> String {
+    let mut hash = Fnv(0xcbf2_9ce4_8422_2325);
+    // Writing to a number does not fail. Every figure shows in the debug form to the last bit.
+    let _ = write!(hash, "{} {rig:?} {plan:?}", env!("CARGO_PKG_VERSION"));
+    format!("{:016x}", hash.0)
+}
+
+/// FNV-1a, the same on every machine and in every version.
+struct Fnv(u64);
+
+impl fmt::Write for Fnv {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        for byte in text.bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,192 @@
+//! `lissom rig`: a campaign of experiments on a virtual arm.
+
+mod facts;
+mod folder;
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use lissom::record::{Hold, TipQuantity};
+use lissom::rig::{Drive, Logged, Rig};
+use lissom_io::write::{self, CampaignPlan, PlannedCommand, PlannedRun};
+use lissom_io::{ArmFile, PlanFile, PlanRun};
+use rayon::prelude::*;
+use serde_json::Value;
+
+use crate::cli::{RigArgs, STDOUT};
+use crate::failure::Failure;
+use crate::{output, print, progress};
+use folder::Folder;
+
+const CAMPAIGN: &str = "campaign.toml";
+
+pub(crate) fn run(args: &RigArgs) -> Result<ExitCode, Failure> {
+    let to_stdout = args.json.as_deref() == Some(Path::new(STDOUT));
+    output::guard(args.json.as_deref().filter(|_| !to_stdout), None)?;
+    let file = ArmFile::read(&args.arm)?;
+    let rig = file.rig(&args.arm).map_err(lissom_io::Error::from)?;
+    let plan = PlanFile::read(&args.campaign)?;
+    let loops = |run: &&PlanRun| matches!(run.experiment.drive, Drive::Angle(_));
+    if let Some(run) = plan.runs.iter().find(loops).filter(|_| !file.has_controller()) {
+        return Err(Failure::NoController { arm: args.arm.clone(), run: run.name.clone() });
+    }
+    let place = Place { arm: &args.arm, plan: &args.campaign, out: &args.out };
+    let (facts, whole) = campaign(&rig, &plan, &place, args.jobs)?;
+    match args.json.as_deref() {
+        Some(_) if to_stdout => print::json(&whole),
+        json => {
+            if let Some(path) = json {
+                write::write_json(path, &whole)?;
+            }
+            report(&plan, &facts, &args.out.join(CAMPAIGN));
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Where a campaign comes from and goes.
+pub(crate) struct Place<'a> {
+    /// The arm.toml.
+    pub(crate) arm: &'a Path,
+    /// The plan.toml.
+    pub(crate) plan: &'a Path,
+    /// The folder.
+    pub(crate) out: &'a Path,
+}
+
+/// Carries out a campaign, or the rest of it; gives the facts of each run and what `rig.json` holds.
+pub(crate) fn campaign(
+    rig: &Rig,
+    plan: &PlanFile,
+    place: &Place<'_>,
+    jobs: Option<u16>,
+) -> Result<(Vec<Value>, Value), Failure> {
+    let folder = Folder::open(place.out, rig, plan)?;
+    let facts = carry_out(rig, plan, &folder, jobs)?;
+    let whole = facts::campaign(rig, plan, &facts);
+    folder.copy(place.arm, "arm.toml")?;
+    folder.copy(place.plan, "plan.toml")?;
+    write::write_campaign(&folder.path(CAMPAIGN), &campaign_plan(rig, plan))?;
+    folder.finish(&whole)?;
+    Ok((facts, whole))
+}
+
+/// Makes every log that is not there yet; gives the facts of all, in order.
+fn carry_out(
+    rig: &Rig,
+    plan: &PlanFile,
+    folder: &Folder,
+    jobs: Option<u16>,
+) -> Result<Vec<Value>, Failure> {
+    let bar = progress::bar(plan.runs.len(), "virtual campaign");
+    bar.enable_steady_tick(std::time::Duration::from_millis(250));
+    let one = |run: &PlanRun| -> Result<Value, Failure> {
+        let facts = match folder.done(&run.name) {
+            Some(facts) => facts,
+            None => simulate(rig, run, folder)?,
+        };
+        bar.inc(1);
+        Ok(facts)
+    };
+    let all = || plan.runs.par_iter().map(one).collect::<Vec<_>>();
+    let threads = jobs.map_or(0, usize::from);
+    // Where no threads can be had, this one does it alone.
+    let made = match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+        Ok(pool) => pool.install(all),
+        Err(_) => plan.runs.iter().map(one).collect(),
+    };
+    bar.finish_and_clear();
+    // The first failure in the order of the plan, whichever came first in time.
+    made.into_iter().collect()
+}
+
+fn simulate(rig: &Rig, run: &PlanRun, folder: &Folder) -> Result<Value, Failure> {
+    let logged = rig
+        .run(&run.name, &run.experiment, run.seed)
+        .map_err(|source| Failure::VirtualRun { run: run.name.clone(), source })?;
+    let facts = facts::run(run, &logged);
+    let columns = columns(&logged);
+    let columns: Vec<(&str, &[f64])> =
+        columns.iter().map(|(name, values)| (name.as_str(), values.as_slice())).collect();
+    folder.store(&run.name, &facts, &columns)?;
+    Ok(facts)
+}
+
+/// Time, current, motor and every mass.
+fn columns(logged: &Logged) -> Vec<(String, Vec<f64>)> {
+    let run = &logged.run;
+    let time = (0..run.len()).map(|k| k as f64 * run.sample_time_s()).collect();
+    let mut columns = vec![
+        ("t".to_owned(), time),
+        ("i".to_owned(), run.command().to_vec()),
+        ("theta_m".to_owned(), run.motor().to_vec()),
+    ];
+    for (mass, tip) in run.tips().iter().enumerate() {
+        columns.push((tip_column(mass), tip.clone()));
+    }
+    columns
+}
+
+fn tip_column(mass: usize) -> String {
+    format!("theta_{}", mass + 1)
+}
+
+fn campaign_plan(rig: &Rig, plan: &PlanFile) -> CampaignPlan {
+    let instruments = &rig.instruments;
+    // The current stands between two rows where the controller acts at rows alone.
+    let held = instruments.control_every.is_multiple_of(instruments.log_every);
+    let masses = rig.arm.beam().len();
+    let title = if plan.title.is_empty() { "A virtual campaign." } else { &plan.title };
+    CampaignPlan {
+        title: title.to_owned(),
+        time_column: "t".to_owned(),
+        command: PlannedCommand {
+            column: "i".to_owned(),
+            hold: if held { Hold::Sampled } else { Hold::Measured },
+        },
+        motor_column: "theta_m".to_owned(),
+        tips: (0..masses)
+            .map(|mass| (format!("theta_{}", mass + 1), tip_column(mass), TipQuantity::Angle))
+            .collect(),
+        torque_constant_nm_per_a: Some(rig.arm.motor.torque_constant_nm_per_a),
+        current_limit_a: instruments.amplifier.limit_a(),
+        arm: Some("arm.toml".to_owned()),
+        runs: plan
+            .runs
+            .iter()
+            .map(|run| PlannedRun {
+                file: format!("{}.csv", run.name),
+                omega_rad_s: run.omega_rad_s,
+            })
+            .collect(),
+    }
+}
+
+fn report(plan: &PlanFile, facts: &[Value], campaign: &Path) {
+    let head = ["run", "samples", "settled after", "left [rad]", "stuck"];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    let figure = |facts: &Value, key: &str, digits: usize, unit: &str| {
+        facts[key].as_f64().map_or_else(|| "-".to_owned(), |v| format!("{v:.digits$}{unit}"))
+    };
+    for (run, facts) in plan.runs.iter().zip(facts) {
+        let left = facts["transient_left_rad"].as_f64();
+        rows.push(vec![
+            run.name.clone(),
+            facts["samples"].to_string(),
+            figure(facts, "waited_s", 1, " s"),
+            left.map_or_else(|| "-".to_owned(), |v| format!("{v:.1e}")),
+            facts["stuck_share"]
+                .as_f64()
+                .map_or_else(String::new, |v| format!("{:.1} %", 100.0 * v)),
+        ]);
+    }
+    print::table(&rows);
+    for (run, facts) in plan.runs.iter().zip(facts) {
+        for finding in facts["findings"].as_array().into_iter().flatten() {
+            let message = finding["message"].as_str().unwrap_or_default();
+            print::line(&format!("warning: {}: {message}", run.name));
+        }
+    }
+    print::line("");
+    print::line(&format!("identify it with: lissom identify {}", campaign.display()));
+}

@@ -1,0 +1,188 @@
+//! From an `arm.toml` to a rig: instruments, controller and the arm's scene.
+
+use std::path::Path;
+
+use lissom::arm::Arm;
+use lissom::drive::{Coulomb, DriveError, DryFriction, LuGre};
+use lissom::rig::{
+    Amplifier, ControlLaw, Delay, Harmonic, Instruments, IntegerPd, JointFriction, Noise, Pd, Pid,
+    Quantiser, Rig, RigError, Scene, Sensor, Signal, TipWorld,
+};
+
+use super::build::absent;
+use super::{
+    ArmError, ArmFile, BeamKind, ControllerSpec, DriveSpec, RigSpec, SensorSpec, SensorSteps,
+    SignalSpec, TipSpec,
+};
+
+/// Point masses that stand for a distributed beam where the file does not say.
+const MASSES: usize = 10;
+
+impl ArmFile {
+    /// The arm in its loop and its scene; sensors of the tips are those of the motor where the file
+    /// gives none.
+    ///
+    /// A beam with mass along it is lumped into the `masses` of `[rig]`, ten where it does not say.
+    ///
+    /// # Errors
+    /// As [`arm`](Self::arm), and where `[rig]` is absent.
+    pub fn rig(&self, path: &Path) -> Result<Rig, ArmError> {
+        let spec = self.rig.as_ref().ok_or_else(|| absent(path, "rig"))?;
+        let arm = self.simulated_arm(path)?;
+        let failed = |source| ArmError::Rig { file: path.to_owned(), source };
+        let instruments = instruments(spec).map_err(failed)?;
+        let controller = match &spec.controller {
+            Some(controller) => law(controller, &instruments).map_err(failed)?,
+            // Of no use, and needed by no open drive.
+            None => Pd::new(0.0, 0.0).map_err(failed)?.into(),
+        };
+        let mut rig = Rig::new(arm, instruments, controller);
+        rig.scene = self.scene(path, &rig.arm)?;
+        Ok(rig)
+    }
+
+    /// Whether `[rig]` has a controller.
+    pub fn has_controller(&self) -> bool {
+        self.rig.as_ref().is_some_and(|rig| rig.controller.is_some())
+    }
+
+    fn simulated_arm(&self, path: &Path) -> Result<Arm, ArmError> {
+        if self.beam(path)?.kind() != BeamKind::Distributed {
+            return self.arm(path);
+        }
+        let count = self.rig.as_ref().and_then(|rig| rig.masses).unwrap_or(MASSES);
+        let (motor, coulomb) = self.motor(path)?.ok_or_else(|| absent(path, "drive"))?;
+        let failed = |source| ArmError::Beam { file: path.to_owned(), source };
+        let beam = self.distributed_beam(path)?.lumped(count).map_err(failed)?;
+        Arm::new(beam, motor, coulomb).map_err(failed)
+    }
+
+    fn scene(&self, path: &Path, arm: &Arm) -> Result<Scene, ArmError> {
+        let drive_failed = |source| ArmError::Drive { file: path.to_owned(), source };
+        let rig_failed = |source| ArmError::Rig { file: path.to_owned(), source };
+        let beam_failed = |source| ArmError::Beam { file: path.to_owned(), source };
+        let friction = match &self.drive {
+            Some(drive) => friction(drive, arm.coulomb).map_err(drive_failed)?,
+            None => JointFriction::Arm,
+        };
+        let Some(tip) = &self.tip else { return Ok(Scene { friction, ..Scene::default() }) };
+        let mut later = Vec::with_capacity(tip.payloads.len());
+        for (at_s, payload) in &tip.payloads {
+            let beam = arm.beam().clone().with_payload(*payload).map_err(beam_failed)?;
+            later.push((*at_s, Arm::new(beam, arm.motor, arm.coulomb).map_err(beam_failed)?));
+        }
+        let scene = Scene { friction, tip: world(tip).map_err(rig_failed)?, later };
+        scene.check().map_err(rig_failed)?;
+        Ok(scene)
+    }
+}
+
+/// The joint's friction where it is more than the arm's constants.
+fn friction(drive: &DriveSpec, sliding: Coulomb) -> Result<JointFriction, DriveError> {
+    if let Some(bristles) = &drive.bristles {
+        let rest = match &drive.rest {
+            Some(rest) => Coulomb::by_direction(rest.forward_nm, rest.backward_nm)?,
+            None => sliding,
+        };
+        // Without another friction at rest its speed is of no use.
+        let velocity = drive.rest.map_or(1.0, |rest| rest.velocity_rad_s);
+        let (stiffness, damping) = (bristles.stiffness_nm_per_rad, bristles.damping_nm_s_per_rad);
+        let law = LuGre::new(stiffness, damping, sliding, rest, velocity)?;
+        return Ok(JointFriction::Bristles { law, tolerance: bristles.tolerance });
+    }
+    let mut law = DryFriction::from(sliding);
+    if let Some(rest) = &drive.rest {
+        let limits = Coulomb::by_direction(rest.forward_nm, rest.backward_nm)?;
+        law = law.with_rest(limits, rest.velocity_rad_s, rest.falloff)?;
+    }
+    if let Some(ripple) = &drive.ripple {
+        law = law.with_ripple(ripple.share, ripple.per_turn, ripple.phase_rad)?;
+    }
+    Ok(if law.is_constant() { JointFriction::Arm } else { JointFriction::Dry(law) })
+}
+
+fn world(tip: &TipSpec) -> Result<TipWorld, RigError> {
+    let given = |spec: Option<&SignalSpec>| spec.map_or(Ok(Signal::default()), signal);
+    Ok(TipWorld {
+        force: given(tip.force.as_ref())?,
+        torque: given(tip.torque.as_ref())?,
+        viscous_n_s_per_m: tip.viscous_n_s_per_m,
+        coulomb_n: tip.coulomb_n,
+        walls: tip.walls.clone(),
+    })
+}
+
+fn signal(spec: &SignalSpec) -> Result<Signal, RigError> {
+    match spec {
+        SignalSpec::Constant(value) => Signal::constant(*value),
+        SignalSpec::Table { rows, lines: false } => Signal::steps(rows),
+        SignalSpec::Table { rows, lines: true } => Signal::lines(rows),
+        SignalSpec::Sine { offset, amplitude, omega_rad_s, phase_rad } => {
+            let swing = Harmonic {
+                amplitude: *amplitude,
+                omega_rad_s: *omega_rad_s,
+                phase_rad: *phase_rad,
+            };
+            // A cosine of frequency zero.
+            let mean = Harmonic {
+                amplitude: *offset,
+                omega_rad_s: 0.0,
+                phase_rad: std::f64::consts::FRAC_PI_2,
+            };
+            Signal::harmonics(&[swing, mean])
+        }
+    }
+}
+
+fn instruments(spec: &RigSpec) -> Result<Instruments, RigError> {
+    let mut made = Instruments::ideal(spec.sample_time_s)?;
+    made.control_every = spec.control_every;
+    made.log_every = spec.log_every;
+    made.motor = spec.motor_sensor.as_ref().map_or(Ok(Sensor::IDEAL), sensor)?;
+    made.tips = match &spec.tip_sensors {
+        Some(tips) => tips.iter().map(sensor).collect::<Result<_, _>>()?,
+        None => vec![made.motor],
+    };
+    let mut amplifier = Amplifier::ideal();
+    if let Some(limit_a) = spec.current_limit_a {
+        amplifier = amplifier.with_limit(limit_a)?;
+    }
+    if let Some(dead_band_a) = spec.dead_band_a {
+        amplifier = amplifier.with_dead_band(dead_band_a)?;
+    }
+    if let Some(converter) = &spec.current_converter {
+        amplifier = amplifier.with_converter(Quantiser::new(converter.bits, converter.range_a)?);
+    }
+    made.amplifier = amplifier;
+    made.delay = spec.delay_s.map(Delay::new).transpose()?;
+    Ok(made)
+}
+
+fn sensor(spec: &SensorSpec) -> Result<Sensor, RigError> {
+    let quantiser = match spec.steps {
+        Some(SensorSteps::Bits { bits, range_rad }) => Some(Quantiser::new(bits, range_rad)?),
+        Some(SensorSteps::CountsPerTurn(counts)) => Some(Quantiser::encoder(counts)?),
+        None => None,
+    };
+    Ok(Sensor { noise: spec.noise_rad.map(Noise::new).transpose()?, quantiser })
+}
+
+fn law(spec: &ControllerSpec, instruments: &Instruments) -> Result<ControlLaw, RigError> {
+    let mut pd = Pd::new(spec.proportional_a_per_rad, spec.derivative_a_s_per_rad)?;
+    if let Some(filter_s) = spec.filter_s {
+        pd = pd.with_filter(filter_s)?;
+    }
+    if let Some(integers) = spec.integers {
+        let input =
+            instruments.motor.quantiser.ok_or(RigError::NeedsSteps { what: "motor_sensor" })?;
+        let output = instruments.amplifier.converter();
+        let output = output.ok_or(RigError::NeedsSteps { what: "current_converter" })?;
+        let period_s = instruments.control_time_s();
+        let (word, point) = (integers.word, integers.binary_point);
+        return Ok(IntegerPd::new(&pd, period_s, input, output, word, point)?.into());
+    }
+    Ok(match spec.integral_a_per_rad_s {
+        Some(integral) => Pid::new(pd, integral)?.into(),
+        None => pd.into(),
+    })
+}

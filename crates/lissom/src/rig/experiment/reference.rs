@@ -1,0 +1,129 @@
+//! Signals over time, whatever they drive.
+
+use super::{Chirp, Multisine, Sine, Square, Sweep, Table};
+use crate::rig::RigError;
+use crate::rig::error::finite;
+
+/// A signal over time: an angle \[rad\] for the loop or a current \[A\] for the open drive.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Reference {
+    /// `A·sin(ω0·t)`.
+    Sine(Sine),
+    /// Odd harmonics with random phases.
+    Multisine(Multisine),
+    /// `±A`.
+    Square(Square),
+    /// A sine whose frequency rises or falls.
+    Chirp(Chirp),
+    /// Values at times.
+    Table(Table),
+    /// Constant velocity, `v·t`: see [`ramp`](Self::ramp).
+    Ramp {
+        /// Velocity v \[rad/s\], or A/s.
+        rate_per_s: f64,
+    },
+    /// A constant: see [`hold`](Self::hold).
+    Hold {
+        /// The value \[rad\], or A.
+        value: f64,
+    },
+}
+
+impl Reference {
+    /// `A·sin(ω0·t)`; the amplitude in rad or A.
+    ///
+    /// # Errors
+    /// [`RigError::NotPositive`].
+    pub fn sine(omega_rad_s: f64, amplitude: f64) -> Result<Self, RigError> {
+        Sine::new(omega_rad_s, amplitude).map(Self::Sine)
+    }
+
+    /// `+A` for the first half of each period `2π/ω0`, `−A` for the second.
+    ///
+    /// # Errors
+    /// [`RigError::NotPositive`].
+    pub fn square(omega_rad_s: f64, amplitude: f64) -> Result<Self, RigError> {
+        Square::new(omega_rad_s, amplitude).map(Self::Square)
+    }
+
+    /// A sine of `amplitude` from one frequency to another \[rad/s\] within `duration_s`.
+    ///
+    /// # Errors
+    /// [`RigError::NotPositive`].
+    pub fn chirp(
+        sweep: Sweep,
+        (from_rad_s, to_rad_s): (f64, f64),
+        amplitude: f64,
+        duration_s: f64,
+    ) -> Result<Self, RigError> {
+        Chirp::new(sweep, (from_rad_s, to_rad_s), amplitude, duration_s).map(Self::Chirp)
+    }
+
+    /// Constant velocity, for steady friction against velocity.
+    ///
+    /// # Errors
+    /// [`RigError::NotFinite`].
+    ///
+    /// # Source
+    /// `[Feliu1989, Section 6.2.2, Figure 8]`
+    pub fn ramp(rate_per_s: f64) -> Result<Self, RigError> {
+        Ok(Self::Ramp { rate_per_s: finite("rate_per_s", rate_per_s)? })
+    }
+
+    /// A constant, for a release or a rest.
+    ///
+    /// # Errors
+    /// [`RigError::NotFinite`].
+    pub fn hold(value: f64) -> Result<Self, RigError> {
+        Ok(Self::Hold { value: finite("value", value)? })
+    }
+
+    /// Value at a time \[s\].
+    pub fn value(&self, time_s: f64) -> f64 {
+        match self {
+            Self::Sine(sine) => sine.value(time_s),
+            Self::Multisine(multisine) => multisine.value(time_s),
+            Self::Square(square) => square.value(time_s),
+            Self::Chirp(chirp) => chirp.value(time_s),
+            Self::Table(table) => table.value(time_s),
+            Self::Ramp { rate_per_s } => rate_per_s * time_s,
+            Self::Hold { value } => *value,
+        }
+    }
+
+    /// The period of a periodic one \[s\].
+    pub fn period_s(&self) -> Option<f64> {
+        let omega_rad_s = match self {
+            Self::Sine(sine) => sine.omega_rad_s(),
+            Self::Multisine(multisine) => multisine.omega_rad_s(),
+            Self::Square(square) => square.omega_rad_s(),
+            _ => return None,
+        };
+        Some(std::f64::consts::TAU / omega_rad_s)
+    }
+
+    /// The highest frequency at which it is asked for \[rad/s\]; `None` where it has none.
+    pub fn highest_rad_s(&self) -> Option<f64> {
+        match self {
+            Self::Sine(sine) => Some(sine.omega_rad_s()),
+            Self::Multisine(multisine) => Some(multisine.highest_rad_s()),
+            Self::Square(square) => Some(square.omega_rad_s()),
+            Self::Chirp(chirp) => Some(chirp.highest_rad_s()),
+            _ => None,
+        }
+    }
+
+    /// Largest magnitude within `duration_s` of its start.
+    pub fn amplitude(&self, duration_s: f64) -> f64 {
+        match self {
+            Self::Sine(sine) => sine.amplitude(),
+            Self::Multisine(multisine) => multisine.amplitude(),
+            Self::Square(square) => square.amplitude(),
+            Self::Chirp(chirp) => chirp.amplitude(),
+            Self::Table(table) => table.amplitude(),
+            Self::Ramp { rate_per_s } => (rate_per_s * duration_s).abs(),
+            Self::Hold { value } => value.abs(),
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! What an arm is set in: the joint's friction, the world at the tip, payloads to come.
+
+#[cfg(feature = "lugre")]
+use super::LuGreMotion;
+use super::by_samples::BySamples;
+use super::{Hybrid, Motion, RigError, TipWorld};
+use crate::arm::Arm;
+use crate::drive::{DryFriction, LuGre};
+
+/// The friction of a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub enum JointFriction {
+    /// Coulomb friction as the arm has it. Exact.
+    #[default]
+    Arm,
+    /// Dry friction by another law: exact where it is constant in slip, else to 1e-15 a step.
+    Dry(DryFriction),
+    /// Bristles, in place of the arm's Coulomb friction, solved to a relative tolerance a step; needs
+    /// the feature `lugre`.
+    Bristles {
+        /// The law.
+        law: LuGre,
+        /// The tolerance of a step, 1e-12 to 1e-2.
+        tolerance: f64,
+    },
+}
+
+/// What of a rig's physics is not in its [`Arm`]. The default is nothing: Coulomb friction as the
+/// arm has it, a free tip.
+///
+/// ```
+/// use lissom::rig::{Scene, TipWorld};
+/// let air_table = TipWorld { viscous_n_s_per_m: 0.003, ..TipWorld::default() };
+/// let scene = Scene { tip: air_table, ..Scene::default() };
+/// assert!(scene.check().is_ok());
+/// ```
+///
+/// # Source
+/// `[Feliu1989, Sections 2.2, 6.1, 6.2.1]`
+#[derive(Debug, Clone, Default)]
+pub struct Scene {
+    /// The joint's friction.
+    pub friction: JointFriction,
+    /// The world at the tip.
+    pub tip: TipWorld,
+    /// Arms that take over at times \[s\], counted from the start: another payload.
+    pub later: Vec<(f64, Arm)>,
+}
+
+impl Scene {
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// [`RigError`] as [`TipWorld::check`].
+    pub fn check(&self) -> Result<(), RigError> {
+        self.tip.check()
+    }
+
+    /// What moves `arm` from `state` on; `durations_s` are those that come at every sample.
+    pub(super) fn motion<'a>(
+        &'a self,
+        arm: &'a Arm,
+        state: Vec<f64>,
+        durations_s: &[f64],
+    ) -> Result<Box<dyn Motion + 'a>, RigError> {
+        let alone = self.tip.is_empty() && self.later.is_empty();
+        let dry = match self.friction {
+            JointFriction::Arm if alone => {
+                return Ok(Box::new(BySamples::new(arm, state, durations_s)));
+            }
+            JointFriction::Arm => arm.coulomb.into(),
+            JointFriction::Dry(law) => law,
+            JointFriction::Bristles { .. } if !alone => {
+                return Err(RigError::Unsupported {
+                    what: "bristles beside a world at the tip or changing payloads",
+                });
+            }
+            #[cfg(feature = "lugre")]
+            JointFriction::Bristles { law, tolerance } => {
+                return Ok(Box::new(LuGreMotion::with_state(arm, law, tolerance, &state, 0.0)?));
+            }
+            #[cfg(not(feature = "lugre"))]
+            JointFriction::Bristles { .. } => {
+                return Err(RigError::Unsupported { what: "bristles without the feature `lugre`" });
+            }
+        };
+        let later: Vec<(f64, &Arm)> = self.later.iter().map(|(t, arm)| (*t, arm)).collect();
+        let hybrid = Hybrid::with_state(arm, state).with_friction(dry);
+        Ok(Box::new(hybrid.with_world(self.tip.clone())?.with_changes(&later)?))
+    }
+}
