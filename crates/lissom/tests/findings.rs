@@ -4,8 +4,8 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Names of channels that stand where a code may stand.
-const NO_CODES: [&str; 2] = ["motor", "command"];
+/// Names of channels and directions that stand where a code may stand.
+const NO_CODES: [&str; 4] = ["motor", "command", "forward", "backward"];
 /// What comes before a code in the sources.
 const BEFORE: [&str; 2] = ["(", "refuse(findings,"];
 

@@ -4,12 +4,14 @@ mod average;
 mod findings;
 mod line;
 mod stretches;
+mod verdict;
 
 use crate::identify::Estimate;
 use crate::record::{Campaign, Channels, Run};
 pub(crate) use findings::{findings, no_stretch};
 pub use line::{FrictionLine, LineError, Shape};
 use stretches::stretches;
+pub(crate) use verdict::{alone, only_constant_velocities, stand_in};
 
 /// A run that turns one way, and does so at constant velocities for this share of the time in
 /// motion, is made for them…
