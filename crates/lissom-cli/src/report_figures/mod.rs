@@ -100,7 +100,7 @@ fn with_truth(mut plot: LinePlot, rig: &Rig, id: &Identified) -> LinePlot {
             vec![spectral.std],
         ));
     }
-    plot.title = "Friction by steady velocities, and by sines".to_owned();
+    "Friction by steady velocities, and by sines".clone_into(&mut plot.title);
     plot
 }
 

@@ -1,4 +1,4 @@
-#![expect(clippy::unwrap_used, reason = "tests")]
+#![expect(clippy::float_cmp, reason = "these numbers are exact")]
 
 use std::path::Path;
 
