@@ -386,7 +386,7 @@ fn an_unstable_loop_is_said_with_time_and_bound() {
     let small = wait(Experiment::sine(3.0, 1e-3, 300.0).unwrap(), 0.0);
     let error = rig.run_with(&mut From(0.0, 5.0), "coarse", &small, 0).err().unwrap();
     let RigError::Unstable { bound_rad, .. } = error else { panic!("{error}") };
-    assert!((bound_rad - 200.0 * TAU / 16.0).abs() < 1e-9);
+    assert!((bound_rad - 50.0 * TAU / 16.0).abs() < 1e-9);
 }
 
 #[test]
