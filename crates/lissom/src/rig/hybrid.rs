@@ -9,7 +9,7 @@ use crate::arm::Arm;
 const STEP_RATE: f64 = 0.5;
 
 /// Accelerations below this share of what the torques give are rounding.
-const ROUNDING: f64 = 1e-13;
+pub(super) const ROUNDING: f64 = 1e-13;
 
 /// What the joint does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

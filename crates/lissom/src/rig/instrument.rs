@@ -14,6 +14,22 @@ pub enum RigError {
         /// The number found.
         found: f64,
     },
+    /// A number that is none.
+    #[error("{quantity} = {found} is not finite")]
+    NotFinite {
+        /// Which quantity, with its unit.
+        quantity: &'static str,
+        /// The number found.
+        found: f64,
+    },
+    /// A start that is not a state of the arm.
+    #[error("a start of {found} numbers; the arm's state has {expected}, all finite")]
+    State {
+        /// Numbers found.
+        found: usize,
+        /// Numbers that the state has.
+        expected: usize,
+    },
     /// A sensor with no or too many bits.
     #[error("a sensor of {found} bits; 1 to 32 are possible")]
     Bits {
