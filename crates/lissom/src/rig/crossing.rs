@@ -109,7 +109,11 @@ impl Wave {
     /// keep it positive: no crossing is stepped over, not even a pair of close ones, down to
     /// stretches of `(to − from)·2⁻⁵²`.
     pub(super) fn first_zero(&mut self, from: f64, to: f64) -> Option<f64> {
-        let first = self.at(from);
+        let first = if from > 0.0 {
+            self.at(from)
+        } else {
+            Point { time: 0.0, value: self.start, slope: self.slope() }
+        };
         if first.value <= 0.0 {
             return Some(from);
         }
@@ -144,13 +148,16 @@ impl Wave {
     fn single_crossing(&mut self, first: Point, last: Point) -> f64 {
         let (mut low, mut high) = (first.time, last.time);
         let smallest = f64::EPSILON * last.time;
+        let bend = self.bound(2);
         // Newton from the end where the wave is nearer to zero.
         let mut here = if first.value < -last.value { first } else { last };
         // Newton doubles the digits; the fence halves when Newton leaves it: 100 is never reached.
         for _ in 0..100 {
             let newton = here.time - here.value / here.slope;
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if (next - here.time).abs() <= smallest {
+            // What a step δ leaves to go is f̈·δ²/(2·ḟ).
+            let change = (next - here.time).abs();
+            if change <= smallest || (next == newton && bend * change * change <= -here.slope * smallest) {
                 return next;
             }
             here = self.at(next);

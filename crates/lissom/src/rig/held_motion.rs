@@ -48,7 +48,7 @@ pub struct HeldMotion<'a> {
     /// θ̇_m while slipping, C_t while sticking.
     watched: f64,
     /// States of the phase's blocks, and room for what is tried.
-    y: Vec<[f64; 2]>,
+    pub(super) y: Vec<[f64; 2]>,
     next: Vec<[f64; 2]>,
     z: Vec<f64>,
     wave: Wave,
@@ -419,6 +419,29 @@ impl<'a> HeldMotion<'a> {
                     None => self.events.advance(torque, duration_s),
                 }
             }
+        }
+    }
+
+    /// Number of blocks while the motor slips; none where the arm does not move by modes.
+    pub(super) fn blocks(&self) -> usize {
+        self.y.len()
+    }
+
+    /// A slipping motor is where it was moved to.
+    pub(super) fn put(&mut self, angle: f64, velocity: f64, sign: f64) {
+        self.angle = angle;
+        self.watched = velocity;
+        self.mode = if sign > 0.0 { Mode::Forward } else { Mode::Backward };
+    }
+
+    /// One sample, not tried at a stroke where that is known to fail.
+    pub(super) fn sample(&mut self, modes: &Modes, duration: &Duration, torque: f64, whole: bool) {
+        let free = frictionless(self.held.arm.coulomb) && self.mode == Mode::Stick;
+        if free {
+            self.change(modes, Mode::Forward, 0.0);
+        }
+        if !((whole || free) && self.whole(duration, torque)) {
+            self.search(modes, torque, duration.time_s);
         }
     }
 

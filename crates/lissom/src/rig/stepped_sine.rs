@@ -5,7 +5,7 @@ use crate::arm::Arm;
 use crate::record::{Run, TimeBase};
 
 /// Angle beyond which a loop is taken for unstable, as a multiple of the amplitude asked for.
-const RUN_AWAY: f64 = 20.0;
+pub(super) const RUN_AWAY: f64 = 20.0;
 
 /// An arm in its sampled loop.
 #[derive(Debug, Clone)]
