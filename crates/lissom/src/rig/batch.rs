@@ -273,6 +273,25 @@ struct Group<'a> {
     sums: [[Lanes; BASIS]; 2],
 }
 
+/// Some samples of a group, for whatever vectors the machine has: they change no result, as nothing
+/// is contracted or reordered.
+struct Block<'a, 'b> {
+    group: &'b mut Group<'a>,
+    modes: &'b Modes,
+    duration: &'b Duration,
+    from: usize,
+    noise: &'b [Lanes],
+    tables: &'b [[f64; BLOCK]; 4],
+}
+
+impl pulp::WithSimd for Block<'_, '_> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        self.group.block(self.modes, self.duration, self.from, self.noise, self.tables);
+    }
+}
+
 impl<'a> Group<'a> {
     fn new(plan: &'a Plan<'a>, held: &'a HeldArm<'a>, seeds: &'a [u64]) -> Self {
         // Empty lanes repeat the first experiment.
@@ -309,10 +328,8 @@ impl<'a> Group<'a> {
                 noise[..count].iter_mut().for_each(|n| n.0[lane] = source.next());
             }
             fill(&self.plan.waves, from, &mut tables);
-            arch.dispatch(
-                #[inline(always)]
-                || self.block(modes, duration, from, &noise[..count], &tables),
-            );
+            let noise = &noise[..count];
+            arch.dispatch(Block { group: &mut self, modes, duration, from, noise, tables: &tables });
             for angle in self.angle.0 {
                 self.plan.check(angle, from + count)?;
             }

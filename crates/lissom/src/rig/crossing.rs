@@ -53,22 +53,23 @@ impl Wave {
     ) {
         self.start = start;
         self.terms.clear();
-        let mut add = |rate: Complex64, slope: Complex64| {
-            let (speed, size) = (rate.norm(), slope.norm());
+        let mut add = |rate: Complex64, slope: Complex64, speed: f64| {
+            let size = slope.norm_sqr().sqrt();
             if size > 0.0 {
                 self.terms.push(Term { rate, slope, speed, size });
             }
         };
         for (block, &[a, b]) in blocks.iter().zip(y) {
             let ([g1, g2], [c1, c2]) = (block.gain, block.read);
+            let [one, other] = block.sizes.map(|(_, speed)| speed);
             match block.rates {
                 Rates::Oscillating(mu) => {
                     let rate = mu * Complex64::new(a, b) + Complex64::new(g1, g2) * torque;
-                    add(mu, Complex64::new(c1, -c2) * rate * sign);
+                    add(mu, Complex64::new(c1, -c2) * rate * sign, one);
                 }
-                Rates::Apart(one, other) => {
-                    add(one.into(), (c1 * (one * a + g1 * torque) * sign).into());
-                    add(other.into(), (c2 * (other * b + g2 * torque) * sign).into());
+                Rates::Apart(p, q) => {
+                    add(p.into(), (c1 * (p * a + g1 * torque) * sign).into(), one);
+                    add(q.into(), (c2 * (q * b + g2 * torque) * sign).into(), other);
                 }
             }
         }
@@ -109,6 +110,9 @@ impl Wave {
     /// keep it positive: no crossing is stepped over, not even a pair of close ones, down to
     /// stretches of `(to − from)·2⁻⁵²`.
     pub(super) fn first_zero(&mut self, from: f64, to: f64) -> Option<f64> {
+        if self.start > to * self.bound(1) {
+            return None;
+        }
         let first = if from > 0.0 {
             self.at(from)
         } else {

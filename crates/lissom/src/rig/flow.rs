@@ -8,9 +8,9 @@ use super::lane::Lane;
 
 /// Below this size of z the functions of [`phi`] are summed as series, with [`TERMS`]…
 const SERIES: f64 = 1.0;
-/// …terms and one: 1/20! is 4e-19. Below [`SHORT`] half of them will do: 0.04⁹/11! is 7e-21.
+/// …terms and one: 1/20! is 4e-19. Below [`SHORT`] half of them will do: 0.08⁹/11! is 3e-18.
 const TERMS: usize = 17;
-const SHORT: f64 = 0.04;
+const SHORT: f64 = 0.08;
 
 /// Two states of an arm, what a torque does to them, and their part in what is watched: the
 /// motor's velocity while it slips, the coupling torque while it sticks.
@@ -20,6 +20,8 @@ pub(super) struct Block {
     /// ẏ per torque \[1/(N·m)\].
     pub(super) gain: [f64; 2],
     pub(super) read: [f64; 2],
+    /// Of each part: the most that is watched of it per |ẏ| \[1\], and the size of its rate \[1/s\].
+    pub(super) sizes: [(f64, f64); 2],
 }
 
 /// A phase, slip or stick, as blocks.
@@ -68,10 +70,8 @@ impl Flow {
         let blocks = rates
             .iter()
             .enumerate()
-            .map(|(i, rates)| Block {
-                rates: *rates,
-                gain: [gain[2 * i], gain[2 * i + 1]],
-                read: [read[2 * i], read[2 * i + 1]],
+            .map(|(i, rates)| {
+                Block::new(*rates, [gain[2 * i], gain[2 * i + 1]], [read[2 * i], read[2 * i + 1]])
             })
             .collect();
         Some(Self { blocks, basis, inverse })
@@ -98,6 +98,14 @@ impl Flow {
 }
 
 impl Block {
+    fn new(rates: Rates, gain: [f64; 2], read: [f64; 2]) -> Self {
+        let sizes = match rates {
+            Rates::Oscillating(mu) => [(read[0].hypot(read[1]), mu.norm()); 2],
+            Rates::Apart(one, other) => [(read[0].abs(), one.abs()), (read[1].abs(), other.abs())],
+        };
+        Self { rates, gain, read, sizes }
+    }
+
     /// Over `time_s`.
     pub(super) fn over(&self, time_s: f64) -> Part {
         let ([g1, g2], [c1, c2]) = (self.gain, self.read);
@@ -131,26 +139,16 @@ impl Block {
         Part { turn, push, read: self.read, sum, sum_push, rate, gain: self.gain, stray }
     }
 
-    /// Sizes of what is watched per |ẏ|, and of the rates.
-    pub(super) fn sizes(&self) -> [(f64, f64); 2] {
-        match self.rates {
-            Rates::Oscillating(mu) => [(self.read[0].hypot(self.read[1]), mu.norm()); 2],
-            Rates::Apart(one, other) => {
-                [(self.read[0].abs(), one.abs()), (self.read[1].abs(), other.abs())]
-            }
-        }
-    }
-
     /// A part of ẏ that decays at rate λ, |λ| = r, makes the watched depart from its chord by
     /// `c·r·t²/8` at most, as its second derivative is c·r, and by twice its own size 2·c/r.
-    pub(super) fn stray(&self, time_s: f64) -> [f64; 2] {
-        self.sizes().map(|(c, r)| c * chord(r, time_s))
+    fn stray(&self, time_s: f64) -> [f64; 2] {
+        self.sizes.map(|(c, r)| c * chord(r, time_s))
     }
 }
 
 /// Most that a part with unit rate of change at the start, decaying at |λ| = `rate`, departs from
 /// its chord within `time_s`.
-pub(super) fn chord(rate: f64, time_s: f64) -> f64 {
+fn chord(rate: f64, time_s: f64) -> f64 {
     (rate * time_s * time_s / 8.0).min(2.0 / rate)
 }
 

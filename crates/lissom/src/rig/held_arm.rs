@@ -53,16 +53,22 @@ impl Duration {
         Self { time_s, turned: sum_push(&slip), slip, stick }
     }
 
-    /// The same over another time; nothing is allocated.
-    pub(super) fn set(&mut self, modes: &Modes, time_s: f64) {
-        let fill = |parts: &mut [Part], blocks: &[Block]| {
-            parts.iter_mut().zip(blocks).for_each(|(part, block)| *part = block.over(time_s));
-        };
-        fill(&mut self.slip, &modes.slip.blocks);
-        fill(&mut self.stick, &modes.stick.blocks);
+    /// The slip over another time; nothing is allocated.
+    pub(super) fn set_slip(&mut self, modes: &Modes, time_s: f64) {
+        fill(&mut self.slip, &modes.slip.blocks, time_s);
         self.turned = sum_push(&self.slip);
         self.time_s = time_s;
     }
+
+    /// The stick over another time; nothing is allocated.
+    pub(super) fn set_stick(&mut self, modes: &Modes, time_s: f64) {
+        fill(&mut self.stick, &modes.stick.blocks, time_s);
+        self.time_s = time_s;
+    }
+}
+
+fn fill(parts: &mut [Part], blocks: &[Block], time_s: f64) {
+    parts.iter_mut().zip(blocks).for_each(|(part, block)| *part = block.over(time_s));
 }
 
 impl<'a> HeldArm<'a> {

@@ -300,7 +300,7 @@ impl<'a> HeldMotion<'a> {
             (None, Some(b)) => (b, Mode::Backward),
             (None, None) => (left, Mode::Stick),
         };
-        room.set(modes, time);
+        room.set_stick(modes, time);
         let moved = step(&room.stick, &self.y, 0.0, &mut self.next);
         std::mem::swap(&mut self.y, &mut self.next);
         self.watched = moved.watched;
@@ -330,7 +330,7 @@ impl<'a> HeldMotion<'a> {
             return None;
         }
         let time = found.unwrap_or(left);
-        room.set(modes, time);
+        room.set_slip(modes, time);
         let moved = step(&room.slip, &self.y, net, &mut self.next);
         std::mem::swap(&mut self.y, &mut self.next);
         self.angle = (self.angle + moved.sum) + room.turned * net;
@@ -448,7 +448,11 @@ impl<'a> HeldMotion<'a> {
     #[cold]
     fn whole_of_other(&mut self, modes: &Modes, torque: f64, duration_s: f64) -> bool {
         let Some(mut room) = self.other.take() else { return false };
-        room.set(modes, duration_s);
+        if self.mode == Mode::Stick {
+            room.set_stick(modes, duration_s);
+        } else {
+            room.set_slip(modes, duration_s);
+        }
         let passed = self.whole(&room, torque);
         self.other = Some(room);
         passed
