@@ -2,7 +2,8 @@
 //!
 //! `cargo bench -p lissom --bench rig`. The experiment is 60 s of the report's arm in its loop at
 //! 3 ms, 20 000 samples of a sine that sticks; the difference to the event finder goes to standard
-//! error. Preparations are in the times.
+//! error. Preparations are in the times. Batches are 1000 such experiments, each with sensor noise
+//! of its own inside the loop and a figure of friction.
 #![expect(clippy::unwrap_used, reason = "the models are fixed and valid")]
 #![expect(clippy::print_stderr, reason = "accuracy beside speed")]
 
@@ -12,7 +13,9 @@ use std::time::Duration;
 use criterion::{Criterion, criterion_group, criterion_main};
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
-use lissom::rig::{HeldArm, HeldMotion, HeldStep, Hybrid, Motion, Pd, Quantiser};
+use lissom::rig::{
+    Batch, HeldArm, HeldMotion, HeldStep, Hybrid, Motion, Pd, Quantiser, Sines, SteppedSine,
+};
 use lissom_testmodels::report_arm;
 
 const SAMPLE_TIME_S: f64 = 0.003;
@@ -28,11 +31,17 @@ fn closed_loop(
 ) -> Vec<f64> {
     let mut motor = Vec::with_capacity(SAMPLES);
     let (mut before, mut angle) = (0.0, 0.0);
-    let pd = Pd { proportional_a_per_rad: 8.0, derivative_a_s_per_rad: 0.2, limit_a: LIMIT_A };
+    let (proportional, derivative) = (8.0, 0.2 / SAMPLE_TIME_S);
+    let sines = Sines::new(3.0 * SAMPLE_TIME_S);
+    let [mut sin, mut cos] = [[0.0; 64]; 2];
     for k in 0..SAMPLES {
+        if k % 64 == 0 {
+            sines.fill(k, &mut sin, &mut cos);
+        }
         let read = sensor.map_or(angle, |s| s.read(angle));
-        let error = 0.5 * (3.0 * k as f64 * SAMPLE_TIME_S).sin() - read;
-        let current = pd.current_a(error, before, SAMPLE_TIME_S);
+        let error = 0.5 * sin[k % 64] - read;
+        let current =
+            (proportional * error + derivative * (error - before)).clamp(-LIMIT_A, LIMIT_A);
         before = error;
         motor.push(angle);
         angle = advance(arm.motor.torque_constant_nm_per_a * current);
@@ -122,5 +131,30 @@ fn growth(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, experiment, growth);
+fn batches(c: &mut Criterion) {
+    let arm = arm(1);
+    let controller =
+        Pd { proportional_a_per_rad: 8.0, derivative_a_s_per_rad: 0.2, limit_a: LIMIT_A };
+    let drive = SteppedSine { omega_rad_s: 3.0, amplitude_rad: 0.5, settle_s: 2.0, record_s: 58.0 };
+    let mut group = c.benchmark_group("1000 experiments of 60 s");
+    group.sample_size(10).measurement_time(Duration::from_secs(5));
+    for noise_rad in [1e-4, 4.4e-4] {
+        let batch = Batch { arm: &arm, controller, sample_time_s: SAMPLE_TIME_S, noise_rad, drive };
+        let runs = batch.run(0..1000).unwrap();
+        let mean = runs.iter().map(|r| r.coulomb_a).sum::<f64>() / 1000.0;
+        let spread =
+            (runs.iter().map(|r| (r.coulomb_a - mean).powi(2)).sum::<f64>() / 999.0).sqrt();
+        let sticks = runs.iter().map(|r| r.sticks).sum::<usize>() / 1000;
+        eprintln!("noise {noise_rad} rad: {mean:.5} A, spread {spread:.1e} A, {sticks} sticks");
+        for threads in [1, 2] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            group.bench_function(format!("noise {noise_rad} rad, {threads} threads"), |b| {
+                b.iter(|| pool.install(|| black_box(batch.run(0..1000).unwrap())));
+            });
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, experiment, growth, batches);
 criterion_main!(benches);

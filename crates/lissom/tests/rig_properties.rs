@@ -8,6 +8,7 @@ use lissom::beam::{Damping, LumpedBeam, Payload, Span};
 use lissom::drive::{Coulomb, Motor};
 use lissom::rig::{HeldArm, HeldMotion, HeldStep, Hybrid, Mode, Motion};
 use proptest::prelude::*;
+use proptest::strategy::ValueTree;
 
 fn decade(low: f64, high: f64) -> impl Strategy<Value = f64> {
     (low.ln()..high.ln()).prop_map(f64::exp)
@@ -244,6 +245,18 @@ proptest! {
             prop_assert!(gap <= 1e-11 * (1.0 + both.1[i].abs()), "{gap:e}");
         }
     }
+}
+
+/// The property above is about modes: nearly every arm has them.
+#[test]
+fn most_arms_have_modes() {
+    let mut runner = proptest::test_runner::TestRunner::deterministic();
+    let by_modes = (0..200).filter(|_| {
+        let arm = loaded_arm().new_tree(&mut runner).unwrap().current();
+        HeldArm::new(&arm, &[]).unwrap().by_modes()
+    });
+    let count = by_modes.count();
+    assert!(count >= 190, "{count} of 200");
 }
 
 proptest! {

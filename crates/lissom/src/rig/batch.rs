@@ -187,10 +187,8 @@ impl<'a> Plan<'a> {
                     sums.iter_mut().zip(row).for_each(|(sum, b)| *sum += x * b);
                 }
             }
-            motion.advance(
-                batch.arm.motor.torque_constant_nm_per_a * current,
-                batch.sample_time_s,
-            )?;
+            motion
+                .advance(batch.arm.motor.torque_constant_nm_per_a * current, batch.sample_time_s)?;
             if (k + 1) % BLOCK == 0 {
                 self.check(motion.motor_angle_rad(), k + 1)?;
             }
@@ -329,7 +327,14 @@ impl<'a> Group<'a> {
             }
             fill(&self.plan.waves, from, &mut tables);
             let noise = &noise[..count];
-            arch.dispatch(Block { group: &mut self, modes, duration, from, noise, tables: &tables });
+            arch.dispatch(Block {
+                group: &mut self,
+                modes,
+                duration,
+                from,
+                noise,
+                tables: &tables,
+            });
             for angle in self.angle.0 {
                 self.plan.check(angle, from + count)?;
             }

@@ -144,8 +144,7 @@ impl Wave {
             return (last.value <= 0.0).then_some(last.time);
         }
         let middle = self.at(first.time + 0.5 * width);
-        self.descend(first, middle, depth - 1)
-            .or_else(|| self.descend(middle, last, depth - 1))
+        self.descend(first, middle, depth - 1).or_else(|| self.descend(middle, last, depth - 1))
     }
 
     /// The crossing where the wave falls all the way: Newton's method fenced by bisection.
@@ -161,7 +160,9 @@ impl Wave {
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
             // What a step δ leaves to go is f̈·δ²/(2·ḟ).
             let change = (next - here.time).abs();
-            if change <= smallest || (next == newton && bend * change * change <= -here.slope * smallest) {
+            if change <= smallest
+                || (next == newton && bend * change * change <= -here.slope * smallest)
+            {
                 return next;
             }
             here = self.at(next);
@@ -226,7 +227,8 @@ mod tests {
     fn a_fast_small_term_does_not_hide_the_crossing() {
         // 1 − t + 1e-3·(cos 1e4·t − 1), against bisection on the same formula near t = 0.999.
         let fast = Complex64::new(0.0, 1e4);
-        let mut w = wave(1.0, &[(Complex64::from(-1e-30), Complex64::from(-1.0)), (fast, fast * 1e-3)]);
+        let mut w =
+            wave(1.0, &[(Complex64::from(-1e-30), Complex64::from(-1.0)), (fast, fast * 1e-3)]);
         let found = w.first_zero(0.0, 2.0).unwrap();
         let f = |t: f64| 1.0 - t + 1e-3 * ((1e4 * t).cos() - 1.0);
         // Just before it is positive, everywhere before too, just after negative.

@@ -80,7 +80,8 @@ impl Flow {
     /// States of the phase to states of the blocks.
     pub(super) fn enter(&self, z: &[f64], y: &mut [[f64; 2]]) {
         for (i, y) in y.iter_mut().enumerate() {
-            *y = [0, 1].map(|j| self.inverse.row(2 * i + j).iter().zip(z).map(|(a, z)| a * z).sum());
+            *y =
+                [0, 1].map(|j| self.inverse.row(2 * i + j).iter().zip(z).map(|(a, z)| a * z).sum());
         }
     }
 
@@ -201,7 +202,8 @@ pub(super) fn step<F: Lane>(
     let mut moved = Moved { watched: zero, sum: zero, stray: zero };
     for ((p, y), next) in parts.iter().zip(y).zip(next) {
         let [a, b] = *y;
-        let rate = |row: usize| a * p.rate[2 * row] + b * p.rate[2 * row + 1] + torque * p.gain[row];
+        let rate =
+            |row: usize| a * p.rate[2 * row] + b * p.rate[2 * row + 1] + torque * p.gain[row];
         moved.stray = moved.stray + (rate(0).abs() * p.stray[0] + rate(1).abs() * p.stray[1]);
         moved.sum = moved.sum + (a * p.sum[0] + b * p.sum[1]);
         let turned = |row: usize| a * p.turn[2 * row] + b * p.turn[2 * row + 1];
@@ -226,25 +228,39 @@ mod tests {
     #[test]
     fn phi_on_both_sides_of_its_branches() {
         // mpmath: phi1 and phi2 at z, 20 digits.
-        let cases = [
-            ((0.0, 0.0), (1.0, 0.0), (0.5, 0.0)),
-            PHI_SHORT,
-            PHI_SERIES,
-            PHI_CLOSED,
-            PHI_FAR,
-        ];
+        let cases =
+            [((0.0, 0.0), (1.0, 0.0), (0.5, 0.0)), PHI_SHORT, PHI_SERIES, PHI_CLOSED, PHI_FAR];
         for ((re, im), once, twice) in cases {
             let [a, b] = phi(Complex64::new(re, im));
             for (found, (re, im)) in [(a, once), (b, twice)] {
                 let expected = Complex64::new(re, im);
-                assert!((found - expected).norm() < ROUNDING * expected.norm(), "{found} {expected}");
+                assert!(
+                    (found - expected).norm() < ROUNDING * expected.norm(),
+                    "{found} {expected}"
+                );
             }
         }
     }
 
     type Case = ((f64, f64), (f64, f64), (f64, f64));
-    const PHI_SHORT: Case = ((-0.01, 0.02), (0.9949504577443288, 0.00993325199471356), (0.49832092490196717, 0.0033166503325782817));
-    const PHI_SERIES: Case = ((-0.1, 0.4), (0.9270768811143566, 0.1847046505533984), (0.47749513005837474, 0.0629340146995149));
-    const PHI_CLOSED: Case = ((-0.2, 1.1), (0.742680113231448, 0.43644625751426885), (0.42524388849552486, 0.15661009915404273));
-    const PHI_FAR: Case = ((-3.0, 40.0), (0.002848660451908674, 0.025616472737922145), (0.00249603040904982, 0.02474158120802355));
+    const PHI_SHORT: Case = (
+        (-0.01, 0.02),
+        (0.9949504577443288, 0.00993325199471356),
+        (0.49832092490196717, 0.0033166503325782817),
+    );
+    const PHI_SERIES: Case = (
+        (-0.1, 0.4),
+        (0.9270768811143566, 0.1847046505533984),
+        (0.47749513005837474, 0.0629340146995149),
+    );
+    const PHI_CLOSED: Case = (
+        (-0.2, 1.1),
+        (0.742680113231448, 0.43644625751426885),
+        (0.42524388849552486, 0.15661009915404273),
+    );
+    const PHI_FAR: Case = (
+        (-3.0, 40.0),
+        (0.002848660451908674, 0.025616472737922145),
+        (0.00249603040904982, 0.02474158120802355),
+    );
 }

@@ -109,11 +109,7 @@ impl Modes {
         let coupling = modal.coupling();
         // At rest z has no velocity: its first entry is left out.
         let at_rest = |row: &nalgebra::DVector<f64>| row.rows(1, row.len() - 1).into_owned();
-        let stick = Flow::new(
-            &modal.stick,
-            &at_rest(&(modal.push() * 0.0)),
-            &at_rest(&coupling),
-        )?;
+        let stick = Flow::new(&modal.stick, &at_rest(&(modal.push() * 0.0)), &at_rest(&coupling))?;
         let rows: Vec<_> = (0..modal.len()).map(|i| modal.deflection(i)).collect();
         let deflections = [
             rows.iter().map(|row| slip.row(row)).collect(),

@@ -206,8 +206,7 @@ impl<'a> HeldMotion<'a> {
         if self.mode == Mode::Stick {
             let moved = step(&duration.stick, &self.y, 0.0, &mut self.next);
             let most = moved.stray + rounding(coulomb, torque);
-            let (low, high) =
-                (self.watched.min(moved.watched), self.watched.max(moved.watched));
+            let (low, high) = (self.watched.min(moved.watched), self.watched.max(moved.watched));
             if low - torque + coulomb.forward > most && torque - high + coulomb.backward > most {
                 self.watched = moved.watched;
                 self.stuck_s += duration.time_s;
@@ -413,12 +412,10 @@ impl<'a> HeldMotion<'a> {
                     self.search(modes, torque, duration_s);
                 }
             }
-            Way::Matrices(steps) => {
-                match steps.iter().find(|s| s.sample_time_s() == duration_s) {
-                    Some(step) => self.events.advance_held(step, torque),
-                    None => self.events.advance(torque, duration_s),
-                }
-            }
+            Way::Matrices(steps) => match steps.iter().find(|s| s.sample_time_s() == duration_s) {
+                Some(step) => self.events.advance_held(step, torque),
+                None => self.events.advance(torque, duration_s),
+            },
         }
     }
 

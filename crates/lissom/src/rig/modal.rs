@@ -85,8 +85,7 @@ impl Modal {
         let root_inertia = arm.motor.inertia_kg_m2.sqrt();
         let slip = {
             let against = &relative * &share / root_inertia;
-            let own = (arm.motor.viscous_nm_s_per_rad / root_inertia
-                + share.dot(&against))
+            let own = (arm.motor.viscous_nm_s_per_rad / root_inertia + share.dot(&against))
                 / root_inertia;
             let mut a = DMatrix::zeros(2 * k + 1, 2 * k + 1);
             a[(0, 0)] = -own;
@@ -241,7 +240,9 @@ mod tests {
         let beams = [
             beam(0.0, 1),
             beam(0.01, 4),
-            beam(0.0, 3).with_damping(Damping::Proportional { mass_per_s: 0.2, stiffness_s: 1e-4 }).unwrap(),
+            beam(0.0, 3)
+                .with_damping(Damping::Proportional { mass_per_s: 0.2, stiffness_s: 1e-4 })
+                .unwrap(),
             beam(0.0, 3).with_damping(Damping::Modal { ratios: vec![0.01, 0.02, 0.05] }).unwrap(),
             beam(0.01, 2).with_payload(payload).unwrap(),
         ];

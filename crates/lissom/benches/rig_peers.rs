@@ -1,0 +1,92 @@
+//! lissom's own figures for `benches/peers/rig.py`, which lays them beside those of other tools.
+//!
+//! `cargo bench -p lissom --bench rig_peers -- FILE`: 60 s of the report's arm in its loop, and a
+//! batch of experiments on one thread and on two.
+#![expect(clippy::unwrap_used, reason = "whoever runs it reads the panic")]
+
+use std::time::{Duration, Instant};
+
+use lissom::arm::Arm;
+use lissom::rig::{Batch, HeldArm, HeldMotion, Motion, Pd, Sines, SteppedSine};
+use lissom_testmodels::report_arm;
+use serde_json::json;
+
+const SAMPLE_TIME_S: f64 = 0.003;
+const SAMPLES: usize = 20_000;
+const EXPERIMENTS: u64 = 1000;
+
+fn main() {
+    // Cargo adds `--bench`. Without a file there is nothing to do.
+    let Some(file) = std::env::args().skip(1).find(|a| !a.starts_with('-')) else { return };
+    let arm = report_arm();
+    let (loop_s, angles) = median_s(|| closed_loop(&arm));
+    let mut batches = Vec::new();
+    for noise_rad in [1e-4, 4.4e-4] {
+        let batch = Batch {
+            arm: &arm,
+            controller: Pd {
+                proportional_a_per_rad: 8.0,
+                derivative_a_s_per_rad: 0.2,
+                limit_a: 4.12,
+            },
+            sample_time_s: SAMPLE_TIME_S,
+            noise_rad,
+            drive: SteppedSine {
+                omega_rad_s: 3.0,
+                amplitude_rad: 0.5,
+                settle_s: 2.0,
+                record_s: 58.0,
+            },
+        };
+        let [one_s, two_s] = [1, 2].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            median_s(|| pool.install(|| batch.run(0..EXPERIMENTS).unwrap())).0
+        });
+        let runs = batch.run(0..EXPERIMENTS).unwrap();
+        let coulomb: Vec<f64> = runs.iter().map(|r| r.coulomb_a).collect();
+        let sticks: Vec<usize> = runs.iter().map(|r| r.sticks).collect();
+        batches.push(json!({
+            "noise_rad": noise_rad, "one_s": one_s, "two_s": two_s, "coulomb_a": coulomb,
+            "sticks": sticks,
+        }));
+    }
+    let figures = json!({ "loop_s": loop_s, "angle_rad": angles, "batches": batches });
+    std::fs::write(file, figures.to_string()).unwrap();
+}
+
+fn closed_loop(arm: &Arm) -> Vec<f64> {
+    let held = HeldArm::new(arm, &[SAMPLE_TIME_S]).unwrap();
+    let mut motion = HeldMotion::at_rest(&held);
+    let mut angles = Vec::with_capacity(SAMPLES);
+    let (proportional, derivative) = (8.0, 0.2 / SAMPLE_TIME_S);
+    let sines = Sines::new(3.0 * SAMPLE_TIME_S);
+    let [mut sin, mut cos] = [[0.0; 64]; 2];
+    let mut before = 0.0;
+    for k in 0..SAMPLES {
+        if k % 64 == 0 {
+            sines.fill(k, &mut sin, &mut cos);
+        }
+        let angle = motion.motor_angle_rad();
+        angles.push(angle);
+        let error = 0.5 * sin[k % 64] - angle;
+        let current = (proportional * error + derivative * (error - before)).clamp(-4.12, 4.12);
+        before = error;
+        motion.advance(arm.motor.torque_constant_nm_per_a * current, SAMPLE_TIME_S).unwrap();
+    }
+    angles
+}
+
+/// Median time of a call \[s\] over at least 5 of them and, where they are short, 0.5 s; and what
+/// it gave.
+fn median_s<T>(f: impl Fn() -> T) -> (f64, T) {
+    let start = Instant::now();
+    let mut given = f();
+    let mut times = Vec::new();
+    while times.len() < 5 || (start.elapsed() < Duration::from_millis(500) && times.len() < 1000) {
+        let begin = Instant::now();
+        given = f();
+        times.push(begin.elapsed().as_secs_f64());
+    }
+    times.sort_by(f64::total_cmp);
+    (times[times.len() / 2], given)
+}
