@@ -1,6 +1,7 @@
 """The virtual rig beside hand-written loops: 60 s of the report's arm, and 1000 noisy experiments.
 
-`python benches/peers/rig.py` prints two tables. Every way closes the same loop: 20 000 samples of
+`python benches/peers/rig.py` prints two tables. Times are the least of some
+calls. Every way closes the same loop: 20 000 samples of
 3 ms on 0.5 rad and 3 rad/s, an arm that sticks. Errors are of the motor's angle against figures of
 50 digits (`crates/lissom/tests/rig_reference.rs`). `--no-scipy` leaves the slow one out.
 """
@@ -275,13 +276,14 @@ def by_scipy(rtol=1e-9, atol=1e-12):
     return angle
 
 
-def median(f, least=5, most_s=2.0):
+def least(f, count=5, most_s=0.5):
+    """Least time [s] of some calls, as other work may run beside; and what it gave."""
     times, begin = [], time.perf_counter()
-    while len(times) < least or time.perf_counter() - begin < most_s:
+    while len(times) < count or time.perf_counter() - begin < most_s:
         start = time.perf_counter()
         given = f()
         times.append(time.perf_counter() - start)
-    return float(np.median(times)), given
+    return min(times), given
 
 
 def lissom():
@@ -303,7 +305,7 @@ def main():
     own = lissom()
     dense = (PHI, GAMMA, PHI_STUCK)
     closed_loop(*dense)
-    loop_s, angle = median(lambda: closed_loop(*dense))
+    loop_s, angle = least(lambda: closed_loop(*dense))
     print("| 60 s, one mass | time | ratio | error [rad] |\n|---|---|---|---|")
 
     def row(name, seconds, angle):
@@ -326,7 +328,7 @@ def main():
         for threads in (1, 2):
             numba.set_num_threads(threads)
             batch(4, noise, table, *dense)
-            seconds, (sums, sticks) = median(lambda: batch(1000, noise, table, *dense))
+            seconds, (sums, sticks) = least(lambda: batch(1000, noise, table, *dense))
             times.append(seconds)
         theirs = friction(sums, table)
         for name, one, two, c, s in (

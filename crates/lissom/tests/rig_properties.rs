@@ -57,7 +57,9 @@ fn loaded_arm() -> impl Strategy<Value = Arm> {
     (arm(), damping, payload).prop_map(|(arm, damping, payload)| {
         let mut spans = arm.beam().spans().to_vec();
         if damping.is_some() {
-            spans.iter_mut().for_each(|s| s.damping_n_s_per_m = 0.0);
+            for span in &mut spans {
+                span.damping_n_s_per_m = 0.0;
+            }
         }
         let beam = LumpedBeam::new(&spans).unwrap().with_payload(payload).unwrap();
         let beam = match damping {

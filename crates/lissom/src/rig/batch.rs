@@ -1,5 +1,10 @@
 //! Many experiments that differ by their noise, side by side.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a loop over samples, compiled for vectors chosen at run time"
+)]
+
 use std::f64::consts::PI;
 
 use nalgebra::{Matrix5, Vector5};

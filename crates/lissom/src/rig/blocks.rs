@@ -137,8 +137,6 @@ fn eigenvector(a: &DMatrix<f64>, value: Complex64, size: f64) -> Option<DVector<
 
 #[cfg(test)]
 mod tests {
-    #![expect(clippy::unwrap_used, reason = "tests")]
-
     use super::*;
 
     /// B·diag·B⁻¹ gives the matrix back to this, relatively.

@@ -157,12 +157,12 @@ impl Wave {
         // Newton doubles the digits; the fence halves when Newton leaves it: 100 is never reached.
         for _ in 0..100 {
             let newton = here.time - here.value / here.slope;
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            // What a step δ leaves to go is f̈·δ²/(2·ḟ).
+            let inside = newton > low && newton < high;
+            let next = if inside { newton } else { 0.5 * (low + high) };
+            // What a step δ of Newton's leaves to go is f̈·δ²/(2·ḟ).
             let change = (next - here.time).abs();
-            if change <= smallest
-                || (next == newton && bend * change * change <= -here.slope * smallest)
-            {
+            let done = inside && bend * change * change <= -here.slope * smallest;
+            if done || change <= smallest {
                 return next;
             }
             here = self.at(next);
@@ -178,8 +178,6 @@ impl Wave {
 
 #[cfg(test)]
 mod tests {
-    #![expect(clippy::unwrap_used, reason = "tests")]
-
     use super::*;
 
     /// Times of events agree with closed forms to this \[s\].

@@ -127,6 +127,6 @@ impl Modes {
 
     /// Which duration this is.
     pub(super) fn duration(&self, time_s: f64) -> Option<&Duration> {
-        self.durations.iter().find(|d| d.time_s == time_s)
+        self.durations.iter().find(|d| d.time_s.to_bits() == time_s.to_bits())
     }
 }

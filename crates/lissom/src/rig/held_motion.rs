@@ -412,10 +412,12 @@ impl<'a> HeldMotion<'a> {
                     self.search(modes, torque, duration_s);
                 }
             }
-            Way::Matrices(steps) => match steps.iter().find(|s| s.sample_time_s() == duration_s) {
-                Some(step) => self.events.advance_held(step, torque),
-                None => self.events.advance(torque, duration_s),
-            },
+            Way::Matrices(steps) => {
+                match steps.iter().find(|s| s.sample_time_s().to_bits() == duration_s.to_bits()) {
+                    Some(step) => self.events.advance_held(step, torque),
+                    None => self.events.advance(torque, duration_s),
+                }
+            }
         }
     }
 

@@ -1,5 +1,10 @@
 //! One number, or one for each of several experiments.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a loop over samples, compiled for vectors chosen at run time"
+)]
+
 use std::ops::{Add, Mul, Sub};
 
 /// What a whole sample asks of a number.

@@ -219,8 +219,6 @@ fn masses(arm: &Arm) -> DMatrix<f64> {
 
 #[cfg(test)]
 mod tests {
-    #![expect(clippy::unwrap_used, reason = "tests")]
-
     use super::*;
     use crate::beam::{Damping, LumpedBeam, Payload, Span};
     use crate::drive::{Coulomb, Motor};
