@@ -1,6 +1,6 @@
 """The virtual rig beside hand-written loops: 60 s of the report's arm, and 1000 noisy experiments.
 
-`python benches/peers/rig.py` prints two tables. Times are the least of some
+`python benches/peers/rig.py` prints three tables. Times are the least of some
 calls. Every way closes the same loop: 20 000 samples of
 3 ms on 0.5 rad and 3 rad/s, an arm that sticks. Errors are of the motor's angle against figures of
 50 digits (`crates/lissom/tests/rig_reference.rs`). `--no-scipy` leaves the slow one out.
@@ -318,6 +318,11 @@ def main():
         start = time.perf_counter()
         angle = by_scipy()
         row("scipy DOP853 with events, rtol 1e-9", time.perf_counter() - start, angle)
+
+    print("\n| masses | 60 s | per mode | preparation |\n|---|---|---|---|")
+    for row in own["growth"]:
+        n, loop = row["masses"], row["loop_s"]
+        print(f"| {n} | {loop * 1e3:.3g} ms | {loop / n * 1e3:.3g} ms | {row['prepare_s'] * 1e3:.2g} ms |")
 
     table = basis()
     print("\n| 1000 experiments with noise | 1 thread | 2 threads | ratio | CF/K [A] | spread [A] | sticks |")

@@ -1,12 +1,13 @@
 //! lissom's own figures for `benches/peers/rig.py`, which lays them beside those of other tools.
 //!
-//! `cargo bench -p lissom --bench rig_peers -- FILE`: 60 s of the report's arm in its loop, and a
-//! batch of experiments on one thread and on two.
+//! `cargo bench -p lissom --bench rig_peers -- FILE`: 60 s of the report's arm in its loop, with
+//! up to 80 masses too, and a batch of experiments on one thread and on two.
 #![expect(clippy::unwrap_used, reason = "whoever runs it reads the panic")]
 
 use std::time::{Duration, Instant};
 
 use lissom::arm::Arm;
+use lissom::beam::{LumpedBeam, Span};
 use lissom::rig::{Batch, HeldArm, HeldMotion, Motion, Pd, Sines, SteppedSine};
 use lissom_testmodels::report_arm;
 use serde_json::json;
@@ -50,13 +51,35 @@ fn main() {
             "sticks": sticks,
         }));
     }
-    let figures = json!({ "loop_s": loop_s, "angle_rad": angles, "batches": batches });
+    let growth: Vec<_> = [1, 2, 5, 10, 20, 40, 80]
+        .map(|masses| {
+            let arm = in_parts(&arm, masses);
+            let (prepare_s, held) = least_s(|| HeldArm::new(&arm, &[SAMPLE_TIME_S]).unwrap());
+            assert!(held.by_modes());
+            let (loop_s, _) = least_s(|| in_loop(&held));
+            json!({ "masses": masses, "prepare_s": prepare_s, "loop_s": loop_s })
+        })
+        .into();
+    let figures =
+        json!({ "growth": growth, "loop_s": loop_s, "angle_rad": angles, "batches": batches });
     std::fs::write(file, figures.to_string()).unwrap();
 }
 
+/// The arm with equal masses on its beam's length.
+fn in_parts(arm: &Arm, masses: usize) -> Arm {
+    let span = arm.beam().spans()[0];
+    let parts = masses as f64;
+    let span = Span { length_m: span.length_m / parts, mass_kg: span.mass_kg / parts, ..span };
+    Arm::new(LumpedBeam::new(&vec![span; masses]).unwrap(), arm.motor, arm.coulomb).unwrap()
+}
+
 fn closed_loop(arm: &Arm) -> Vec<f64> {
-    let held = HeldArm::new(arm, &[SAMPLE_TIME_S]).unwrap();
-    let mut motion = HeldMotion::at_rest(&held);
+    in_loop(&HeldArm::new(arm, &[SAMPLE_TIME_S]).unwrap())
+}
+
+fn in_loop(held: &HeldArm<'_>) -> Vec<f64> {
+    let torque_constant = held.arm().motor.torque_constant_nm_per_a;
+    let mut motion = HeldMotion::at_rest(held);
     let mut angles = Vec::with_capacity(SAMPLES);
     let (proportional, derivative) = (8.0, 0.2 / SAMPLE_TIME_S);
     let sines = Sines::new(3.0 * SAMPLE_TIME_S);
@@ -71,7 +94,7 @@ fn closed_loop(arm: &Arm) -> Vec<f64> {
         let error = 0.5 * sin[k % 64] - angle;
         let current = (proportional * error + derivative * (error - before)).clamp(-4.12, 4.12);
         before = error;
-        motion.advance(arm.motor.torque_constant_nm_per_a * current, SAMPLE_TIME_S).unwrap();
+        motion.advance(torque_constant * current, SAMPLE_TIME_S).unwrap();
     }
     angles
 }

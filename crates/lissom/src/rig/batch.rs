@@ -32,11 +32,11 @@ const BASIS: usize = 5;
 /// ```
 /// # use lissom::{arm::Arm, beam::{LumpedBeam, Span}, drive::{Coulomb, Motor}};
 /// # use lissom::rig::{Batch, Pd, SteppedSine};
-/// # let span = Span { length_m: 0.2, flexural_rigidity_n_m2: 0.004, mass_kg: 0.05, damping_n_s_per_m: 0.0 };
+/// # let span = Span { length_m: 0.2, flexural_rigidity_n_m2: 0.004, mass_kg: 0.05, damping_n_s_per_m: 0.05 };
 /// # let beam = LumpedBeam::new(&[span]).unwrap();
 /// # let arm = Arm::new(beam, Motor::new(6e-4, 1e-3, 0.25).unwrap(), Coulomb::symmetric(0.03).unwrap()).unwrap();
 /// # let controller = Pd { proportional_a_per_rad: 8.0, derivative_a_s_per_rad: 0.2, limit_a: 4.0 };
-/// let drive = SteppedSine { omega_rad_s: 3.0, amplitude_rad: 0.5, settle_s: 6.0, record_s: 6.0 };
+/// let drive = SteppedSine { omega_rad_s: 3.0, amplitude_rad: 1.0, settle_s: 20.0, record_s: 20.0 };
 /// let batch = Batch { arm: &arm, controller, sample_time_s: 0.003, noise_rad: 1e-4, drive };
 /// let figures = batch.run(0..20)?;
 /// let mean = figures.iter().map(|f| f.coulomb_a).sum::<f64>() / 20.0;

@@ -84,17 +84,12 @@ impl Flow {
 
     /// States of the phase to states of the blocks.
     pub(super) fn enter(&self, z: &[f64], y: &mut [[f64; 2]]) {
-        for (i, y) in y.iter_mut().enumerate() {
-            *y =
-                [0, 1].map(|j| self.inverse.row(2 * i + j).iter().zip(z).map(|(a, z)| a * z).sum());
-        }
+        combine(&self.inverse, z, y.as_flattened_mut());
     }
 
     /// States of the blocks to states of the phase.
     pub(super) fn leave(&self, y: &[[f64; 2]], z: &mut [f64]) {
-        for (row, z) in self.basis.row_iter().zip(z) {
-            *z = row.iter().zip(y.as_flattened()).map(|(b, y)| b * y).sum();
-        }
+        combine(&self.basis, y.as_flattened(), z);
     }
 
     /// A row on the phase's states as one on the blocks'.
@@ -149,6 +144,14 @@ impl Block {
     /// `c·r·t²/8` at most, as its second derivative is c·r, and by twice its own size 2·c/r.
     fn stray(&self, time_s: f64) -> [f64; 2] {
         self.sizes.map(|(c, r)| c * chord(r, time_s))
+    }
+}
+
+/// `out = M·x`, column by column as they lie in memory.
+fn combine(m: &DMatrix<f64>, x: &[f64], out: &mut [f64]) {
+    out.fill(0.0);
+    for (column, x) in m.column_iter().zip(x) {
+        out.iter_mut().zip(column.iter()).for_each(|(out, m)| *out += m * x);
     }
 }
 

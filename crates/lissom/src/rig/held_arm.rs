@@ -5,12 +5,16 @@ use super::modal::Modal;
 use super::{HeldStep, RigError};
 use crate::arm::Arm;
 
+/// Dense matrices cut a sample into parts, some two per unit of (rate bound × duration). With more
+/// of it than this they save nothing over the event engine, and take long to make.
+const MOST_TURN: f64 = 32.0;
+
 /// An arm made ready for torques that are held: its modes while the motor slips and while it
 /// sticks, and what they do in each duration asked for.
 ///
 /// One serves any number of [`HeldMotion`](super::HeldMotion)s. Where the modes cannot be told
 /// apart (a damper that is nearly critical), or there are more than 150 coordinates, dense matrices
-/// stand in.
+/// stand in, or the event engine alone where the arm is stiff.
 #[derive(Debug, Clone)]
 pub struct HeldArm<'a> {
     pub(super) arm: &'a Arm,
@@ -85,7 +89,10 @@ impl<'a> HeldArm<'a> {
             }
         }
         let way = Modes::new(arm, durations_s).map_or_else(
-            || Way::Matrices(durations_s.iter().map(|t| HeldStep::new(arm, *t)).collect()),
+            || {
+                let soft = durations_s.iter().filter(|t| arm.rate_bound() * **t <= MOST_TURN);
+                Way::Matrices(soft.map(|t| HeldStep::new(arm, *t)).collect())
+            },
             |modes| Way::Modes(Box::new(modes)),
         );
         Ok(Self { arm, way })
