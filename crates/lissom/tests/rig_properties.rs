@@ -4,10 +4,11 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use lissom::arm::Arm;
-use lissom::beam::{LumpedBeam, Span};
+use lissom::beam::{Damping, LumpedBeam, Payload, Span};
 use lissom::drive::{Coulomb, Motor};
-use lissom::rig::{HeldStep, Hybrid, Mode};
+use lissom::rig::{HeldArm, HeldMotion, HeldStep, Hybrid, Mode, Motion};
 use proptest::prelude::*;
+use proptest::strategy::ValueTree;
 
 fn decade(low: f64, high: f64) -> impl Strategy<Value = f64> {
     (low.ln()..high.ln()).prop_map(f64::exp)
@@ -34,6 +35,39 @@ fn arm() -> impl Strategy<Value = Arm> {
             Arm::new(LumpedBeam::new(&spans).unwrap(), motor, coulomb).unwrap()
         },
     )
+}
+
+/// The same with other damping models and with a payload that turns.
+fn loaded_arm() -> impl Strategy<Value = Arm> {
+    let damping = prop_oneof![
+        Just(None),
+        (decade(1e-2, 2.0), decade(1e-6, 1e-3)).prop_map(|(mass_per_s, stiffness_s)| Some(
+            Damping::Proportional { mass_per_s, stiffness_s }
+        )),
+        decade(1e-3, 0.2).prop_map(|ratio| Some(Damping::Modal { ratios: vec![ratio] })),
+    ];
+    let payload = prop_oneof![
+        Just(Payload::default()),
+        (decade(1e-2, 0.2), decade(1e-6, 1e-4), 0.0..0.02_f64).prop_map(|(m, j, e)| Payload {
+            mass_kg: m,
+            inertia_kg_m2: j,
+            offset_m: e
+        }),
+    ];
+    (arm(), damping, payload).prop_map(|(arm, damping, payload)| {
+        let mut spans = arm.beam().spans().to_vec();
+        if damping.is_some() {
+            for span in &mut spans {
+                span.damping_n_s_per_m = 0.0;
+            }
+        }
+        let beam = LumpedBeam::new(&spans).unwrap().with_payload(payload).unwrap();
+        let beam = match damping {
+            Some(damping) => beam.with_damping(damping).unwrap(),
+            None => beam,
+        };
+        Arm::new(beam, arm.motor, arm.coulomb).unwrap()
+    })
 }
 
 /// Torques held for a sample each: below, at and above what friction holds.
@@ -142,6 +176,35 @@ proptest! {
         prop_assert!((fast.stuck_s() - slow.stuck_s()).abs() <= 1e-10);
     }
 
+    /// Modes and the events' polynomials give the same motion, whatever the damping and the load,
+    /// prepared durations or not.
+    #[test]
+    fn modes_change_nothing(
+        arm in loaded_arm(),
+        torques in torques(),
+        sample_s in decade(1e-4, 1e-2),
+        prepared: bool,
+    ) {
+        let durations = if prepared { vec![sample_s] } else { vec![] };
+        let held = HeldArm::new(&arm, &durations).unwrap();
+        let mut fast = HeldMotion::at_rest(&held);
+        let mut slow = Hybrid::at_rest(&arm);
+        let mut size = 0.0_f64;
+        for torque in torques {
+            fast.advance(torque, sample_s).unwrap();
+            slow.advance(torque, sample_s);
+            for (a, b) in fast.state().iter().zip(slow.state()) {
+                size = size.max(b.abs());
+                prop_assert!((a - b).abs() <= 1e-10 * size, "{a} {b}");
+            }
+            let tip = arm.dynamics().len() - 1;
+            let angle = fast.angle_rad(tip).unwrap();
+            prop_assert!((angle - fast.state()[2 + tip]).abs() <= 1e-13 * size);
+        }
+        prop_assert_eq!((fast.mode(), fast.sticks()), (slow.mode(), slow.sticks()));
+        prop_assert!((fast.stuck_s() - slow.stuck_s()).abs() <= 1e-10);
+    }
+
     /// Without friction the motion runs backward as it came.
     #[test]
     fn time_can_be_turned_round(spans in prop::collection::vec(span(), 1..4), torques in torques()) {
@@ -184,6 +247,18 @@ proptest! {
             prop_assert!(gap <= 1e-11 * (1.0 + both.1[i].abs()), "{gap:e}");
         }
     }
+}
+
+/// The property above is about modes: nearly every arm has them.
+#[test]
+fn most_arms_have_modes() {
+    let mut runner = proptest::test_runner::TestRunner::deterministic();
+    let by_modes = (0..200).filter(|_| {
+        let arm = loaded_arm().new_tree(&mut runner).unwrap().current();
+        HeldArm::new(&arm, &[]).unwrap().by_modes()
+    });
+    let count = by_modes.count();
+    assert!(count >= 190, "{count} of 200");
 }
 
 proptest! {

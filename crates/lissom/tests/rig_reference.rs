@@ -8,7 +8,7 @@
 
 use lissom::arm::Arm;
 use lissom::drive::Coulomb;
-use lissom::rig::{Controller, HeldStep, Hybrid, Mode, Pd, Quantiser, Sensed};
+use lissom::rig::{HeldArm, HeldMotion, HeldStep, Hybrid, Mode, Motion, Quantiser};
 use lissom_testmodels::report_arm;
 
 /// Angles agree to this \[rad\]: the reference's own agreement is 2e-14.
@@ -18,6 +18,7 @@ const RATE: f64 = 2e-11;
 /// Time spent sticking agrees to this \[s\]: events are where velocities vanish.
 const STUCK_S: f64 = 1e-11;
 const SAMPLE_TIME_S: f64 = 0.003;
+const LIMIT_A: f64 = 4.12;
 
 struct Case {
     name: &'static str,
@@ -376,38 +377,89 @@ fn near(case: &str, k: usize, what: &str, found: f64, expected: f64, tolerance: 
     assert!(error <= tolerance, "{case}, sample {k}: {what} {found}, reference {expected}");
 }
 
-/// Both ways of moving on: by the events' polynomials alone, and by whole samples where there are
-/// none.
-fn run(case: &Case) {
-    run_by(case, |_| |hybrid: &mut Hybrid<'_>, torque| hybrid.advance(torque, SAMPLE_TIME_S));
-    run_by(case, |arm| {
-        let step = HeldStep::new(arm, SAMPLE_TIME_S);
-        move |hybrid: &mut Hybrid<'_>, torque| hybrid.advance_held(&step, torque)
-    });
+/// One of the ways of moving on.
+trait Way {
+    fn state(&self) -> &[f64];
+    fn mode(&self) -> Mode;
+    fn sticks(&self) -> usize;
+    fn stuck_s(&self) -> f64;
+    fn sample(&mut self, torque: f64);
 }
 
-fn run_by<F: Fn(&mut Hybrid<'_>, f64)>(case: &Case, advance: impl Fn(&Arm) -> F) {
+/// By the events' polynomials, by dense matrices where there is no event.
+struct Events<'a>(Hybrid<'a>, Option<HeldStep>);
+
+impl Way for Events<'_> {
+    fn state(&self) -> &[f64] {
+        self.0.state()
+    }
+    fn mode(&self) -> Mode {
+        self.0.mode()
+    }
+    fn sticks(&self) -> usize {
+        self.0.sticks()
+    }
+    fn stuck_s(&self) -> f64 {
+        self.0.stuck_s()
+    }
+    fn sample(&mut self, torque: f64) {
+        match &self.1 {
+            Some(step) => self.0.advance_held(step, torque),
+            None => self.0.advance(torque, SAMPLE_TIME_S),
+        }
+    }
+}
+
+/// By the arm's modes.
+impl Way for HeldMotion<'_> {
+    fn state(&self) -> &[f64] {
+        Motion::state(self)
+    }
+    fn mode(&self) -> Mode {
+        HeldMotion::mode(self)
+    }
+    fn sticks(&self) -> usize {
+        HeldMotion::sticks(self)
+    }
+    fn stuck_s(&self) -> f64 {
+        Motion::stuck_s(self)
+    }
+    fn sample(&mut self, torque: f64) {
+        self.advance(torque, SAMPLE_TIME_S).unwrap();
+    }
+}
+
+/// Every way of moving on.
+fn run(case: &Case) {
     let base = report_arm();
     let coulomb = Coulomb::by_direction(case.coulomb.0, case.coulomb.1).unwrap();
     let arm = Arm::new(base.beam().clone(), base.motor, coulomb).unwrap();
-    let mut pd = Pd::new(case.gains.0, case.gains.1).unwrap();
-    let advance = advance(&arm);
+    let hybrid = || Hybrid::with_state(&arm, case.initial.to_vec());
+    run_by(case, &arm, Events(hybrid(), None));
+    run_by(case, &arm, Events(hybrid(), Some(HeldStep::new(&arm, SAMPLE_TIME_S))));
+    let held = HeldArm::new(&arm, &[SAMPLE_TIME_S]).unwrap();
+    assert!(held.by_modes());
+    run_by(case, &arm, HeldMotion::with_state(&held, &case.initial).unwrap());
+    // Of a duration that was not prepared.
+    let held = HeldArm::new(&arm, &[]).unwrap();
+    run_by(case, &arm, HeldMotion::with_state(&held, &case.initial).unwrap());
+}
+
+fn run_by(case: &Case, arm: &Arm, mut motion: impl Way) {
+    let (proportional, derivative) = case.gains;
     let sensor = case.bits.map(|b| Quantiser::new(b, std::f64::consts::TAU).unwrap());
-    let mut hybrid = Hybrid::with_state(&arm, case.initial.to_vec());
-    let started_at_rest = usize::from(hybrid.mode() == Mode::Stick);
+    let started_at_rest = usize::from(motion.mode() == Mode::Stick);
+    let mut before = None;
     for k in 0..=case.steps {
-        let angle = hybrid.state()[0];
-        let now = Sensed {
-            time_s: k as f64 * SAMPLE_TIME_S,
-            period_s: SAMPLE_TIME_S,
-            reference_rad: case.amplitude_rad * (case.omega_rad_s * k as f64 * SAMPLE_TIME_S).sin(),
-            motor_rad: sensor.map_or(angle, |s| s.read(angle)),
-            tips_rad: &[],
-            limit_a: 4.12,
-        };
-        let current = pd.current_a(&now).clamp(-4.12, 4.12);
+        let angle = motion.state()[0];
+        let read = sensor.map_or(angle, |s| s.read(angle));
+        let reference = case.amplitude_rad * (case.omega_rad_s * k as f64 * SAMPLE_TIME_S).sin();
+        let error = reference - read;
+        let rate = (error - before.unwrap_or(error)) / SAMPLE_TIME_S;
+        let current = (proportional * error + derivative * rate).clamp(-LIMIT_A, LIMIT_A);
+        before = Some(error);
         if let Some(s) = case.samples.iter().find(|s| s.0 == k) {
-            let x = hybrid.state();
+            let x = motion.state();
             near(case.name, k, "θ_m", x[0], s.1, ANGLE_RAD);
             near(case.name, k, "θ̇_m", x[1], s.2, RATE);
             near(case.name, k, "θ_t", x[2], s.3, ANGLE_RAD);
@@ -415,11 +467,11 @@ fn run_by<F: Fn(&mut Hybrid<'_>, f64)>(case: &Case, advance: impl Fn(&Arm) -> F)
             near(case.name, k, "current", current, s.5, RATE);
         }
         if k < case.steps {
-            advance(&mut hybrid, arm.motor.torque_constant_nm_per_a * current);
+            motion.sample(arm.motor.torque_constant_nm_per_a * current);
         }
     }
-    assert_eq!(hybrid.sticks() + started_at_rest, case.sticks.0, "{}: sticks", case.name);
-    near(case.name, case.steps, "time stuck", hybrid.stuck_s(), case.sticks.1, STUCK_S);
+    assert_eq!(motion.sticks() + started_at_rest, case.sticks.0, "{}: sticks", case.name);
+    near(case.name, case.steps, "time stuck", motion.stuck_s(), case.sticks.1, STUCK_S);
 }
 
 #[test]

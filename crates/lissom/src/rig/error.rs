@@ -109,6 +109,14 @@ pub enum RigError {
         /// Masses of the other.
         found: usize,
     },
+    /// A start that is not a state of the arm.
+    #[error("a start of {found} numbers; the arm's state has {expected}, all finite")]
+    State {
+        /// Numbers found.
+        found: usize,
+        /// Numbers that the state has.
+        expected: usize,
+    },
     /// What the rig cannot simulate.
     #[error("{what} cannot be simulated")]
     Unsupported {

@@ -6,7 +6,7 @@ use super::slip::{Contact, slip_ends};
 use crate::drive::Coulomb;
 
 /// Accelerations below this share of what the torques give are rounding.
-const ROUNDING: f64 = 1e-13;
+pub(super) const ROUNDING: f64 = 1e-13;
 
 /// What ends a step.
 #[derive(Debug, Clone, Copy)]

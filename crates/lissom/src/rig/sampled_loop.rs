@@ -7,16 +7,16 @@ use super::finding::RigFinding;
 use super::instrument::{DelayLine, Instruments, Streams};
 use super::logging::Log;
 use super::settling::Settling;
-use super::{Motion, RigError, Scene};
+use super::{HeldArm, Motion, RigError, Scene};
 use crate::arm::Arm;
 use crate::record::Run;
 
 /// Angle beyond which a loop is taken for unstable, as a multiple of the largest of: the
 /// reference's amplitude, [`LEAST_RAD`], [`STEPS`] steps of the motor's sensor, the start's
 /// deflection.
-const RUN_AWAY: f64 = 5.0;
+pub(super) const RUN_AWAY: f64 = 5.0;
 /// Loops asked for less than this are let move by as much \[rad\].
-const LEAST_RAD: f64 = 0.1;
+pub(super) const LEAST_RAD: f64 = 0.1;
 /// A loop hunts over some steps of its sensor without being unstable.
 const STEPS: f64 = 10.0;
 
@@ -117,7 +117,11 @@ impl Rig {
         experiment: &Experiment,
         seed: u64,
     ) -> Result<Logged, RigError> {
-        let mut bench = Bench::new(self, controller, experiment, seed)?;
+        self.instruments.check(self.arm.beam().len())?;
+        experiment.check()?;
+        let line = DelayLine::new(self.instruments.delay, self.instruments.sample_time_s)?;
+        let held = self.scene.held(&self.arm, &line.durations_s())?;
+        let mut bench = Bench::new(self, held.as_ref(), line, controller, experiment, seed)?;
         let settled = bench.settle()?;
         bench.record(name, settled)
     }
@@ -150,20 +154,19 @@ struct Bench<'r, C: ?Sized> {
 impl<'r, C: Controller + ?Sized> Bench<'r, C> {
     fn new(
         rig: &'r Rig,
+        held: Option<&'r HeldArm<'r>>,
+        line: DelayLine,
         controller: &'r mut C,
         experiment: &'r Experiment,
         seed: u64,
     ) -> Result<Self, RigError> {
         let masses = rig.arm.beam().len();
         let instruments = &rig.instruments;
-        instruments.check(masses)?;
-        experiment.check()?;
         let reference = experiment.drive.reference();
         let nyquist_rad_s = std::f64::consts::PI / instruments.control_time_s();
         if let Some(omega_rad_s) = reference.highest_rad_s().filter(|w| *w >= nyquist_rad_s) {
             return Err(RigError::AboveNyquist { omega_rad_s, nyquist_rad_s });
         }
-        let line = DelayLine::new(instruments.delay, instruments.sample_time_s)?;
         let state = experiment.start.state(&rig.arm)?;
         let deflection = state[2..].iter().fold(0.0_f64, |m, q| m.max(q.abs()));
         let bound_rad = match experiment.drive {
@@ -180,7 +183,7 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
             experiment,
             controller,
             seen: state.clone(),
-            motion: rig.scene.motion(&rig.arm, state, &line.durations_s())?,
+            motion: rig.scene.motion(&rig.arm, held, state)?,
             line,
             streams: Streams::new(seed, 1 + masses),
             passed: 0,

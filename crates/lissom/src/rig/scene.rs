@@ -2,8 +2,7 @@
 
 #[cfg(feature = "lugre")]
 use super::LuGreMotion;
-use super::by_samples::BySamples;
-use super::{Hybrid, Motion, RigError, TipWorld};
+use super::{HeldArm, HeldMotion, Hybrid, Motion, RigError, TipWorld};
 use crate::arm::Arm;
 use crate::drive::{DryFriction, LuGre};
 
@@ -57,21 +56,38 @@ impl Scene {
         self.tip.check()
     }
 
-    /// What moves `arm` from `state` on; `durations_s` are those that come at every sample.
+    fn is_alone(&self) -> bool {
+        self.tip.is_empty() && self.later.is_empty()
+    }
+
+    /// `arm` made ready for `durations_s`, those that come at every sample, where nothing but its own
+    /// friction acts on it.
+    pub(super) fn held<'a>(
+        &self,
+        arm: &'a Arm,
+        durations_s: &[f64],
+    ) -> Result<Option<HeldArm<'a>>, RigError> {
+        if self.friction != JointFriction::Arm || !self.is_alone() {
+            return Ok(None);
+        }
+        let durations_s: Vec<f64> = durations_s.iter().copied().filter(|d| *d > 0.0).collect();
+        HeldArm::new(arm, &durations_s).map(Some)
+    }
+
+    /// What moves `arm` from `state` on; `held` is [`Self::held`] of it.
     pub(super) fn motion<'a>(
         &'a self,
         arm: &'a Arm,
+        held: Option<&'a HeldArm<'a>>,
         state: Vec<f64>,
-        durations_s: &[f64],
     ) -> Result<Box<dyn Motion + 'a>, RigError> {
-        let alone = self.tip.is_empty() && self.later.is_empty();
+        if let Some(held) = held {
+            return Ok(Box::new(HeldMotion::with_state(held, &state)?));
+        }
         let dry = match self.friction {
-            JointFriction::Arm if alone => {
-                return Ok(Box::new(BySamples::new(arm, state, durations_s)));
-            }
             JointFriction::Arm => arm.coulomb.into(),
             JointFriction::Dry(law) => law,
-            JointFriction::Bristles { .. } if !alone => {
+            JointFriction::Bristles { .. } if !self.is_alone() => {
                 return Err(RigError::Unsupported {
                     what: "bristles beside a world at the tip or changing payloads",
                 });

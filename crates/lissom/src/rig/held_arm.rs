@@ -1,0 +1,139 @@
+//! An arm made ready for torques that are held over samples.
+
+use super::flow::{Block, Flow, Part, sum_push};
+use super::modal::Modal;
+use super::{HeldStep, RigError};
+use crate::arm::Arm;
+
+/// Dense matrices cut a sample into parts, some two per unit of (rate bound × duration). With more
+/// of it than this they save nothing over the event engine, and take long to make.
+const MOST_TURN: f64 = 32.0;
+
+/// An arm made ready for torques that are held: its modes while the motor slips and while it
+/// sticks, and what they do in each duration asked for.
+///
+/// One serves any number of [`HeldMotion`](super::HeldMotion)s. Where the modes cannot be told
+/// apart (a damper that is nearly critical), or there are more than 150 coordinates, dense matrices
+/// stand in, or the event engine alone where the arm is stiff.
+#[derive(Debug, Clone)]
+pub struct HeldArm<'a> {
+    pub(super) arm: &'a Arm,
+    pub(super) way: Way,
+}
+
+#[derive(Debug, Clone)]
+pub(super) enum Way {
+    Modes(Box<Modes>),
+    Matrices(Vec<HeldStep>),
+}
+
+/// The arm's modes in both phases.
+#[derive(Debug, Clone)]
+pub(super) struct Modes {
+    pub(super) modal: Modal,
+    pub(super) slip: Flow,
+    pub(super) stick: Flow,
+    /// C_t on the slip's states `z` when the motor is at rest.
+    pub(super) coupling: Vec<f64>,
+    /// q_i − θ_m on the blocks' states, slipping and sticking.
+    pub(super) deflections: [Vec<Vec<[f64; 2]>>; 2],
+    pub(super) durations: Vec<Duration>,
+}
+
+/// What the blocks do in a given time.
+#[derive(Debug, Clone)]
+pub(super) struct Duration {
+    pub(super) time_s: f64,
+    pub(super) slip: Vec<Part>,
+    pub(super) stick: Vec<Part>,
+    /// Angle that a torque of 1 N·m turns the motor by.
+    pub(super) turned: f64,
+}
+
+impl Duration {
+    fn new(slip: &Flow, stick: &Flow, time_s: f64) -> Self {
+        let over = |flow: &Flow| flow.blocks.iter().map(|b| b.over(time_s)).collect::<Vec<_>>();
+        let (slip, stick) = (over(slip), over(stick));
+        Self { time_s, turned: sum_push(&slip), slip, stick }
+    }
+
+    /// The slip over another time; nothing is allocated.
+    pub(super) fn set_slip(&mut self, modes: &Modes, time_s: f64) {
+        fill(&mut self.slip, &modes.slip.blocks, time_s);
+        self.turned = sum_push(&self.slip);
+        self.time_s = time_s;
+    }
+
+    /// The stick over another time; nothing is allocated.
+    pub(super) fn set_stick(&mut self, modes: &Modes, time_s: f64) {
+        fill(&mut self.stick, &modes.stick.blocks, time_s);
+        self.time_s = time_s;
+    }
+}
+
+fn fill(parts: &mut [Part], blocks: &[Block], time_s: f64) {
+    parts.iter_mut().zip(blocks).for_each(|(part, block)| *part = block.over(time_s));
+}
+
+impl<'a> HeldArm<'a> {
+    /// Makes an arm ready for torques held over any of `durations_s`.
+    ///
+    /// Other durations are possible later, and slower.
+    ///
+    /// # Errors
+    /// [`RigError::NotPositive`] for a duration that is not.
+    pub fn new(arm: &'a Arm, durations_s: &[f64]) -> Result<Self, RigError> {
+        for &found in durations_s {
+            if !(found > 0.0 && found.is_finite()) {
+                return Err(RigError::NotPositive { quantity: "held duration [s]", found });
+            }
+        }
+        let way = Modes::new(arm, durations_s).map_or_else(
+            || {
+                let soft = durations_s.iter().filter(|t| arm.rate_bound() * **t <= MOST_TURN);
+                Way::Matrices(soft.map(|t| HeldStep::new(arm, *t)).collect())
+            },
+            |modes| Way::Modes(Box::new(modes)),
+        );
+        Ok(Self { arm, way })
+    }
+
+    /// The arm.
+    pub fn arm(&self) -> &'a Arm {
+        self.arm
+    }
+
+    /// Whether the arm moves by its modes: a sample then costs time in proportion to their number.
+    pub fn by_modes(&self) -> bool {
+        matches!(self.way, Way::Modes(_))
+    }
+}
+
+impl Modes {
+    fn new(arm: &Arm, durations_s: &[f64]) -> Option<Self> {
+        let modal = Modal::new(arm)?;
+        let slip = Flow::new(&modal.slip, &modal.push(), &modal.velocity())?;
+        let coupling = modal.coupling();
+        // At rest z has no velocity: its first entry is left out.
+        let at_rest = |row: &nalgebra::DVector<f64>| row.rows(1, row.len() - 1).into_owned();
+        let stick = Flow::new(&modal.stick, &at_rest(&(modal.push() * 0.0)), &at_rest(&coupling))?;
+        let rows: Vec<_> = (0..modal.len()).map(|i| modal.deflection(i)).collect();
+        let deflections = [
+            rows.iter().map(|row| slip.row(row)).collect(),
+            rows.iter().map(|row| stick.row(&at_rest(row))).collect(),
+        ];
+        let durations = durations_s.iter().map(|t| Duration::new(&slip, &stick, *t)).collect();
+        let coupling = coupling.as_slice().to_vec();
+        Some(Self { modal, slip, stick, coupling, deflections, durations })
+    }
+
+    /// Room for a duration that was not asked for.
+    pub(super) fn other_duration(&self) -> Duration {
+        Duration::new(&self.slip, &self.stick, 0.0)
+    }
+
+    /// Which duration this is.
+    pub(super) fn duration(&self, time_s: f64) -> Option<&Duration> {
+        self.durations.iter().find(|d| d.time_s.to_bits() == time_s.to_bits())
+    }
+}
