@@ -13,6 +13,7 @@ mod flow;
 mod held;
 mod held_arm;
 mod held_motion;
+mod held_search;
 mod hybrid;
 mod instrument;
 mod lane;
