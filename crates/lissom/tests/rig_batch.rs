@@ -1,5 +1,7 @@
 //! Experiments side by side: each is what it is alone.
 
+#![expect(clippy::unwrap_used, reason = "tests")]
+
 use lissom::arm::Arm;
 use lissom::beam::{Damping, LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
