@@ -116,8 +116,8 @@ A plan.toml:
   multisine = { frequency = \"0.1 Hz\", to = \"5 Hz\", amplitude = \"0.5 rad\" }
   periods = 4
   [[runs]]
-  velocity = [\"1 rad/s\", \"2 rad/s\", \"-1 rad/s\", \"-2 rad/s\"]
-  record = \"10 s\"
+  velocity = [\"0.2 rad/s\", \"0.5 rad/s\", \"-0.2 rad/s\", \"-0.5 rad/s\"]
+  record = \"5 s\"
 
 Also square, chirp, table (from a file) and release. Lists stand for each with each.
 docs/plan.md explains every key, docs/arm.md the arm, its instruments and the world at its tip.";

@@ -77,6 +77,14 @@ fn rig_hint(error: &RigError) -> &'static str {
         RigError::Unstable { .. } => {
             "lower the gains, above all the derivative one, filter it, or sample faster"
         }
+        RigError::BeyondSensor { .. } => {
+            "turn less, or give motor_sensor a larger range, or { counts_per_turn = 4096 }, which has no \
+             ends"
+        }
+        RigError::TooLong { .. } => "record less, or log one sample in so many with log_every",
+        RigError::Unsupported { what } if what.contains("lugre") => {
+            "build the command with: cargo build --release --features lugre"
+        }
         RigError::AboveNyquist { .. } => {
             "ask for lower frequencies, or let the controller act faster"
         }

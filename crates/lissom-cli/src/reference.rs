@@ -39,7 +39,7 @@ impl Reference {
         };
         let Some(drive) = &arm.drive else { return Ok(None) };
         let whole = if arm.beam.is_some() {
-            Some(arm.arm(path).map_err(lissom_io::Error::from)?)
+            Some(arm.simulated_arm(path).map_err(lissom_io::Error::from)?)
         } else {
             None
         };

@@ -75,6 +75,7 @@ impl Bench {
 
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
+    let entries = entries.filter(|entry| entry.path().is_file());
     entries.map(|e| (e.file_name().into_string().unwrap(), fs::read(e.path()).unwrap())).collect()
 }
 
@@ -99,7 +100,7 @@ fn the_same_bytes_on_any_number_of_threads_and_after_any_interruption() {
         if index % 2 == 0 {
             fs::remove_file(cut.join(log)).unwrap();
         } else {
-            let part = format!("rig-parts/{}.json", log.trim_end_matches(".csv"));
+            let part = format!("rig-parts/run.{}.json", log.trim_end_matches(".csv"));
             fs::write(cut.join(part), run.to_string()).unwrap();
         }
     }
@@ -189,6 +190,50 @@ fn findings_say_what_the_log_does_not() {
         let codes = rig["runs"][0]["findings"].as_array().unwrap();
         assert!(codes.iter().any(|f| f["code"] == code), "{code}: {codes:?}");
     }
+}
+
+#[test]
+fn a_log_that_was_cut_is_made_again_and_a_failed_plan_can_be_mended() {
+    let bench = Bench::new(ARM, PLAN);
+    let whole = bench.done("out", &[]);
+    for cut in ["run-02.csv", "run-05.csv"] {
+        let text = &whole[cut];
+        fs::write(bench.0.path().join("out").join(cut), &text[..text.len() / 2]).unwrap();
+    }
+    assert_eq!(bench.done("out", &[]), whole);
+    fs::write(bench.0.path().join("plan.toml"), PLAN.replace("\"3 s\"", "\"1e9 s\"")).unwrap();
+    assert_eq!(bench.run("again", &[]).status.code(), Some(1));
+    for log in files(&bench.0.path().join("again")).keys().filter(|name| name.ends_with("csv")) {
+        fs::remove_file(bench.0.path().join("again").join(log)).unwrap();
+    }
+    fs::write(bench.0.path().join("plan.toml"), PLAN).unwrap();
+    assert_eq!(bench.done("again", &[]), whole);
+}
+
+#[test]
+fn payloads_may_come_and_go_while_it_settles() {
+    let beam =
+        "payload = { mass = \"0.05 kg\", inertia = \"1e-4 kg*m^2\", offset = \"10 mm\" }\n[drive]";
+    let turning = ARM.replace("[drive]", beam);
+    let take = "[tip]\npayloads = [{ at = 0.5, mass = 0.05, inertia = 1e-4 }]\n[rig]";
+    for arm in [
+        turning.replace("[rig]", "[tip]\npayloads = [{ at = 0.5 }]\n[rig]"),
+        ARM.replace("[rig]", take),
+    ] {
+        Bench::new(&arm, PLAN).done("out", &[]);
+    }
+}
+
+#[test]
+fn a_heavy_beam_is_lumped_and_identified() {
+    let heavy = ARM.replace("spans = [{", "mass_per_length = \"4 g/m\"\nspans = [{");
+    let heavy = heavy.replace("[rig]", "[rig]\nmasses = 1");
+    let bench = Bench::new(&heavy, PLAN);
+    bench.done("out", &[]);
+    let mut command = Command::cargo_bin("lissom").unwrap();
+    let campaign = bench.0.path().join("out/campaign.toml");
+    let output = command.args(["identify"]).arg(campaign).output().unwrap();
+    assert_ne!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stderr));
 }
 
 /// The report's printed 0.161, 0.152 and 0.132 A, and that docs/report-figures.md says what comes out.

@@ -36,12 +36,8 @@ pub(crate) fn run(args: &FiguresArgs) -> Result<ExitCode, Failure> {
     let made = ArmFile::read(&arm_path)?.rig(&arm_path).map_err(lissom_io::Error::from)?;
     let plan = PlanFile::read(&plan_path)?;
     let logs = out.join("logs");
-    rig::campaign(
-        &made,
-        &plan,
-        &rig::Place { arm: &arm_path, plan: &plan_path, out: &logs },
-        None,
-    )?;
+    let inputs = rig::Inputs { arm: ARM.to_owned(), plan: PLAN.to_owned() };
+    rig::campaign(&made, &plan, &inputs, &logs, None)?;
 
     let campaign = logs.join("campaign.toml");
     let file = read_campaign(&campaign)?;

@@ -6,6 +6,7 @@
 
 use std::fmt::{self, Write as _};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use lissom::rig::Rig;
 use lissom_io::PlanFile;
@@ -18,7 +19,9 @@ use crate::failure::Failure;
 const PARTS: &str = "rig-parts";
 /// What says whose campaign it is.
 const INPUT: &str = "input.json";
-const DONE: &str = "rig.json";
+pub(super) const DONE: &str = "rig.json";
+/// Age from which a part of a file is nobody's any more.
+const LEFT_OVER: Duration = Duration::from_secs(30);
 
 pub(super) struct Folder {
     path: PathBuf,
@@ -31,9 +34,14 @@ impl Folder {
         let folder = Self { path: path.to_owned(), fingerprint: fingerprint(rig, plan) };
         let other =
             |what: &str| Failure::OtherCampaign { folder: path.to_owned(), what: what.to_owned() };
-        let known = [folder.path(PARTS).join(INPUT), folder.path(DONE)];
-        match known.iter().find_map(|file| read_json(file)) {
-            Some(found) if found["fingerprint"].as_str() == Some(folder.fingerprint.as_str()) => {}
+        let parts = folder.path(PARTS).join(INPUT);
+        let same = |found: &Value| found["fingerprint"].as_str() == Some(&folder.fingerprint);
+        match [&folder.path(DONE), &parts].into_iter().find_map(|file| read_json(file)) {
+            Some(found) if same(&found) => {}
+            // One that failed before its first log.
+            Some(_) if !folder.path(DONE).exists() && !folder.has_logs() => {
+                let _ = std::fs::remove_dir_all(folder.path(PARTS));
+            }
             Some(_) => return Err(other("another campaign")),
             None => {
                 let own = plan.runs.iter().map(|run| format!("{}.csv", run.name));
@@ -53,19 +61,27 @@ impl Folder {
         self.path.join(name)
     }
 
-    /// The facts of a run whose log is there.
+    fn has_logs(&self) -> bool {
+        let Ok(entries) = std::fs::read_dir(&self.path) else { return false };
+        let csv =
+            |name: std::ffi::OsString| Path::new(&name).extension().is_some_and(|e| e == "csv");
+        entries.flatten().any(|entry| csv(entry.file_name()))
+    }
+
+    /// The facts of a run whose log is there and whole.
     pub(super) fn done(&self, name: &str) -> Option<Value> {
         let log = format!("{name}.csv");
-        if !self.path(&log).exists() {
-            return None;
-        }
-        if let Some(facts) = read_json(&self.part(name)) {
-            return Some(facts);
-        }
-        // A campaign that was finished has them together.
-        let all = read_json(&self.path(DONE))?;
-        let runs = all["runs"].as_array()?;
-        runs.iter().find(|run| run["file"].as_str() == Some(&log)).cloned()
+        let own = |facts: &Value| facts["file"].as_str() == Some(&log);
+        let facts = read_json(&self.part(name)).filter(own).or_else(|| {
+            // A campaign that was finished has them together.
+            let all = read_json(&self.path(DONE))?;
+            all["runs"].as_array()?.iter().find(|run| own(run)).cloned()
+        })?;
+        // A header, and a row for each sample, all of them ended.
+        let bytes = std::fs::read(self.path(&log)).ok()?;
+        let rows = bytes.iter().filter(|byte| **byte == b'\n').count() as u64;
+        let whole = facts["samples"].as_u64()?.checked_add(1)? == rows && bytes.ends_with(b"\n");
+        whole.then_some(facts)
     }
 
     /// Keeps a run.
@@ -80,16 +96,6 @@ impl Folder {
         Ok(())
     }
 
-    /// Puts a copy of an input beside the logs.
-    pub(super) fn copy(&self, from: &Path, name: &str) -> Result<(), Failure> {
-        let text = std::fs::read_to_string(from).map_err(|source| lissom_io::WriteError::File {
-            file: from.display().to_string(),
-            source,
-        })?;
-        write::write_text(&self.path(name), &text)?;
-        Ok(())
-    }
-
     /// Writes what is known of the whole and clears up.
     pub(super) fn finish(&self, whole: &Value) -> Result<(), Failure> {
         let mut whole = whole.clone();
@@ -97,11 +103,27 @@ impl Folder {
         write::write_json(&self.path(DONE), &whole)?;
         // What is left there does no harm.
         let _ = std::fs::remove_dir_all(self.path(PARTS));
+        self.clear_up();
         Ok(())
     }
 
+    /// Removes what processes that were killed left of logs; younger ones may be another's at work.
+    fn clear_up(&self) {
+        let Ok(entries) = std::fs::read_dir(&self.path) else { return };
+        for entry in entries.flatten() {
+            let name = entry.file_name();
+            let name = name.to_string_lossy();
+            let left = name.starts_with('.') && name.ends_with(".part") && name.contains(".csv.");
+            let age =
+                entry.metadata().and_then(|m| m.modified()).ok().and_then(|t| t.elapsed().ok());
+            if left && age.is_some_and(|age| age > LEFT_OVER) {
+                let _ = std::fs::remove_file(entry.path());
+            }
+        }
+    }
+
     fn part(&self, name: &str) -> PathBuf {
-        self.path(PARTS).join(format!("{name}.json"))
+        self.path(PARTS).join(format!("run.{name}.json"))
     }
 }
 

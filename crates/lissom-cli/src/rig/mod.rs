@@ -23,15 +23,18 @@ const CAMPAIGN: &str = "campaign.toml";
 pub(crate) fn run(args: &RigArgs) -> Result<ExitCode, Failure> {
     let to_stdout = args.json.as_deref() == Some(Path::new(STDOUT));
     output::guard(args.json.as_deref().filter(|_| !to_stdout), None)?;
-    let file = ArmFile::read(&args.arm)?;
+    if let Some(json) = args.json.as_deref().filter(|json| **json == args.out.join(folder::DONE)) {
+        return Err(Failure::SameOutput { file: json.to_owned() });
+    }
+    let inputs = Inputs::read(&args.arm, &args.campaign)?;
+    let file = ArmFile::from_text(&args.arm, &inputs.arm)?;
     let rig = file.rig(&args.arm).map_err(lissom_io::Error::from)?;
-    let plan = PlanFile::read(&args.campaign)?;
+    let plan = PlanFile::from_text(&args.campaign, &inputs.plan)?;
     let loops = |run: &&PlanRun| matches!(run.experiment.drive, Drive::Angle(_));
     if let Some(run) = plan.runs.iter().find(loops).filter(|_| !file.has_controller()) {
         return Err(Failure::NoController { arm: args.arm.clone(), run: run.name.clone() });
     }
-    let place = Place { arm: &args.arm, plan: &args.campaign, out: &args.out };
-    let (facts, whole) = campaign(&rig, &plan, &place, args.jobs)?;
+    let (facts, whole) = campaign(&rig, &plan, &inputs, &args.out, args.jobs)?;
     match args.json.as_deref() {
         Some(_) if to_stdout => print::json(&whole),
         json => {
@@ -44,28 +47,39 @@ pub(crate) fn run(args: &RigArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Where a campaign comes from and goes.
-pub(crate) struct Place<'a> {
-    /// The arm.toml.
-    pub(crate) arm: &'a Path,
-    /// The plan.toml.
-    pub(crate) plan: &'a Path,
-    /// The folder.
-    pub(crate) out: &'a Path,
+/// The texts that a campaign is made from, as they were when it began.
+pub(crate) struct Inputs {
+    /// Of the arm.toml.
+    pub(crate) arm: String,
+    /// Of the plan.toml.
+    pub(crate) plan: String,
+}
+
+impl Inputs {
+    fn read(arm: &Path, plan: &Path) -> Result<Self, Failure> {
+        let text = |path: &Path| {
+            std::fs::read_to_string(path).map_err(|source| {
+                let file = path.display().to_string();
+                lissom_io::Error::from(lissom_io::ConfigError::Read { file, source })
+            })
+        };
+        Ok(Self { arm: text(arm)?, plan: text(plan)? })
+    }
 }
 
 /// Carries out a campaign, or the rest of it; gives the facts of each run and what `rig.json` holds.
 pub(crate) fn campaign(
     rig: &Rig,
     plan: &PlanFile,
-    place: &Place<'_>,
+    inputs: &Inputs,
+    out: &Path,
     jobs: Option<u16>,
 ) -> Result<(Vec<Value>, Value), Failure> {
-    let folder = Folder::open(place.out, rig, plan)?;
+    let folder = Folder::open(out, rig, plan)?;
     let facts = carry_out(rig, plan, &folder, jobs)?;
     let whole = facts::campaign(rig, plan, &facts);
-    folder.copy(place.arm, "arm.toml")?;
-    folder.copy(place.plan, "plan.toml")?;
+    write::write_text(&folder.path("arm.toml"), &inputs.arm)?;
+    write::write_text(&folder.path("plan.toml"), &inputs.plan)?;
     write::write_campaign(&folder.path(CAMPAIGN), &campaign_plan(rig, plan))?;
     folder.finish(&whole)?;
     Ok((facts, whole))

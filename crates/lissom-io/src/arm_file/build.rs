@@ -86,6 +86,9 @@ impl ArmError {
                  \"...\", stiffness_proportional = \"...\" } in place of ratios"
                     .to_owned(),
             ),
+            Self::Rig { source: RigError::Unsupported { .. }, .. } => {
+                Some("use fewer spans, or `masses` in [rig] for a beam with mass along it".to_owned())
+            }
             Self::Beam { .. } | Self::Drive { .. } | Self::Rig { .. } => {
                 Some("check the numbers and their units".to_owned())
             }

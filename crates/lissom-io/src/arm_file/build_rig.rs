@@ -15,6 +15,8 @@ use super::{
     SignalSpec, TipSpec,
 };
 
+/// Beyond this modes are no gain and a run takes hours.
+const COORDINATES_MOST: usize = 150;
 /// Point masses that stand for a distributed beam where the file does not say.
 const MASSES: usize = 10;
 
@@ -29,6 +31,10 @@ impl ArmFile {
     pub fn rig(&self, path: &Path) -> Result<Rig, ArmError> {
         let spec = self.rig.as_ref().ok_or_else(|| absent(path, "rig"))?;
         let arm = self.simulated_arm(path)?;
+        if arm.dynamics().len() > COORDINATES_MOST {
+            let source = RigError::Unsupported { what: "more than 150 masses" };
+            return Err(ArmError::Rig { file: path.to_owned(), source });
+        }
         let failed = |source| ArmError::Rig { file: path.to_owned(), source };
         let instruments = instruments(spec).map_err(failed)?;
         let controller = match &spec.controller {
@@ -46,7 +52,11 @@ impl ArmFile {
         self.rig.as_ref().is_some_and(|rig| rig.controller.is_some())
     }
 
-    fn simulated_arm(&self, path: &Path) -> Result<Arm, ArmError> {
+    /// The arm as point masses: as it is, or lumped as [`rig`](Self::rig) does it.
+    ///
+    /// # Errors
+    /// As [`arm`](Self::arm).
+    pub fn simulated_arm(&self, path: &Path) -> Result<Arm, ArmError> {
         if self.beam(path)?.kind() != BeamKind::Distributed {
             return self.arm(path);
         }

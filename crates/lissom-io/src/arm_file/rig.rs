@@ -91,7 +91,7 @@ pub struct IntegerSpec {
 /// Most samples between two actions or rows.
 const EVERY_MOST: i64 = 1_000_000;
 /// Most point masses that stand for a distributed beam.
-const MASSES_MOST: i64 = 200;
+const MASSES_MOST: i64 = 150;
 
 pub(super) fn rig(table: &Table<'_>) -> Result<RigSpec, ConfigError> {
     table.only(&[

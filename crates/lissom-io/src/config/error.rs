@@ -134,6 +134,12 @@ pub enum ConfigError {
         /// The key.
         key: &'static str,
     },
+    /// Periods of what has none.
+    #[error("{place} is for what repeats itself")]
+    NoPeriod {
+        /// The value.
+        place: Place,
+    },
     /// A span without mass along it in a beam that has spans with one.
     #[error("{place} has no mass along its length, but `{other}` has")]
     NoMassAlong {
@@ -298,6 +304,12 @@ impl ConfigError {
                 Some("write them as in [0.01, 0.02]".to_owned())
             }
             Self::Kind { .. } => Some("`lissom demo` writes an example".to_owned()),
+            Self::NoPeriod { .. } => {
+                Some("give the time: record = \"20 s\"".to_owned())
+            }
+            Self::Needs { key, .. } if !matches!(*key, "section" | "young_modulus") => {
+                Some(format!("add `{key}`"))
+            }
             Self::Needs { .. } => Some(
                 "the area comes from `section`, beside `young_modulus`; or write `mass_per_length` \
                  in place of `density`"

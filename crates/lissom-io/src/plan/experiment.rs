@@ -8,7 +8,7 @@ use lissom::rig::{
     TableHold,
 };
 
-use super::{PlanError, settle};
+use super::{PlanError, RUNS_MOST, settle};
 use crate::arm_file::omega;
 use crate::config::{ConfigError, Table, Value};
 use crate::error::Error;
@@ -45,6 +45,11 @@ pub(super) fn read(
     let drive = table.get("drive").map(|v| v.choice(&["angle", "current"])).transpose()?;
     // A release leaves the motor to itself unless it says otherwise.
     let current = drive.map_or(KINDS[kind] == "release", |choice| choice == 1);
+    if current && KINDS[kind] == "velocity" {
+        let place = table.place();
+        let (first, second) = ("velocity", "drive = \"current\"");
+        return Err(ConfigError::Clash { place, first, second }.into());
+    }
     let unit = if current { Dimension::CURRENT } else { Dimension::NUMBER };
     let references = match KINDS[kind] {
         "sine" => sines(&value, unit, Reference::sine)?,
@@ -98,7 +103,11 @@ fn sines(
         None => vec![omega(&table)?],
     };
     let amplitudes = each(&table.need("amplitude")?, |v| v.positive(unit))?;
-    let mut references = Vec::with_capacity(frequencies.len() * amplitudes.len());
+    let found = frequencies.len().saturating_mul(amplitudes.len());
+    if found > RUNS_MOST {
+        return Err(ConfigError::TooMany { place: value.place(), found, most: RUNS_MOST }.into());
+    }
+    let mut references = Vec::with_capacity(found);
     for amplitude in &amplitudes {
         for frequency in &frequencies {
             references.push(made(value, make(*frequency, *amplitude))?);
@@ -184,9 +193,8 @@ fn rows(value: &Value<'_>, folder: &Path) -> Result<Reference, Error> {
 
 fn start(table: &Table<'_>, kind: &str, value: &Value<'_>) -> Result<Start, Error> {
     if kind == "release" {
-        if let Some(start) = table.get("start") {
+        if table.get("start").is_some() {
             let place = table.place();
-            let _ = start;
             return Err(ConfigError::Clash { place, first: "release", second: "start" }.into());
         }
         return Ok(Start::Deflected { tip_force_n: value.quantity(Dimension::FORCE)? });
@@ -215,11 +223,15 @@ fn record_of(table: &Table<'_>, reference: &Reference) -> Result<f64, Error> {
             (Some(least), _) => Ok(least),
             // A table says itself how long it is.
             (None, Reference::Table(rows)) if rows.end_s() > 0.0 => Ok(rows.end_s()),
+            (None, reference) if reference.period_s().is_some() => {
+                let keys = vec!["periods", "record"];
+                Err(ConfigError::NoneOf { place: table.place(), keys }.into())
+            }
             (None, _) => record(table),
         };
     };
     let Some(period) = reference.period_s() else {
-        return Err(ConfigError::Needs { place: periods.place(), key: "sine" }.into());
+        return Err(ConfigError::NoPeriod { place: periods.place() }.into());
     };
     let time = periods.positive(Dimension::NUMBER)? * period;
     Ok(least.map_or(time, |least| time.max(least)))

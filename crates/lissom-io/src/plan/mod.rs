@@ -100,12 +100,14 @@ impl PlanFile {
             let name = table.get("name").map(|v| v.text().map(str::to_owned)).transpose()?;
             let repeat = table.get("repeat").map(|v| v.whole(1, 10_000)).transpose()?.unwrap_or(1);
             let planned = experiment::read(&table, common, seed, source.folder())?;
+            let repeat = usize::try_from(repeat).unwrap_or(usize::MAX);
+            let found = made.len() + planned.len().saturating_mul(repeat);
+            if found > RUNS_MOST {
+                let (place, most) = (entry.place(), RUNS_MOST);
+                return Err(crate::config::ConfigError::TooMany { place, found, most }.into());
+            }
             for _ in 0..repeat {
                 made.extend(planned.iter().map(|p| (name.clone(), p.clone())));
-            }
-            if made.len() > RUNS_MOST {
-                let (place, found, most) = (entry.place(), made.len(), RUNS_MOST);
-                return Err(crate::config::ConfigError::TooMany { place, found, most }.into());
             }
         }
         let digits = made.len().to_string().len().max(2);

@@ -103,7 +103,7 @@ fn refuses_what_makes_no_experiment() {
     );
     refused(
         "[[runs]]\nsine = { frequency = \"1 Hz\", amplitude = 1 }",
-        "plan.toml, line 1: `runs[1]` has no `record`",
+        "plan.toml, line 1: `runs[1]` has none of `periods`, `record`",
     );
     refused(
         "[[runs]]\nsine = { frequency = \"1 Hz\", amplitude = \"1 A\" }\nrecord = 1",
@@ -111,7 +111,7 @@ fn refuses_what_makes_no_experiment() {
     );
     refused(
         "[[runs]]\nvelocity = 1\nperiods = 3",
-        "plan.toml, line 3: `runs[1].periods` needs `sine`",
+        "plan.toml, line 3: `runs[1].periods` is for what repeats itself",
     );
     refused(
         "[[runs]]\nmultisine = { frequency = \"5 Hz\", to = \"1 Hz\", amplitude = 1 }\nperiods = 1",

@@ -82,16 +82,26 @@ fn fill_and_sync(
 }
 
 /// A new file in the folder of `path`.
+/// Names of parts that are tried.
+const PARTS_MOST: usize = 10_000;
+
 fn part_beside(path: &Path) -> io::Result<(PathBuf, File)> {
     static COUNT: AtomicUsize = AtomicUsize::new(0);
     let Some(name) = path.file_name() else {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"));
     };
-    let number = COUNT.fetch_add(1, Ordering::Relaxed);
-    let mut part_name = std::ffi::OsString::from(".");
-    part_name.push(name);
-    part_name.push(format!(".{}-{number}.part", std::process::id()));
-    let part = path.with_file_name(part_name);
-    let file = OpenOptions::new().write(true).create_new(true).open(&part)?;
-    Ok((part, file))
+    // A process of this number that was killed may have left one of the name.
+    for _ in 0..PARTS_MOST {
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let mut part_name = std::ffi::OsString::from(".");
+        part_name.push(name);
+        part_name.push(format!(".{}-{number}.part", std::process::id()));
+        let part = path.with_file_name(part_name);
+        match OpenOptions::new().write(true).create_new(true).open(&part) {
+            Ok(file) => return Ok((part, file)),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Err(io::ErrorKind::AlreadyExists.into())
 }

@@ -117,6 +117,19 @@ pub enum RigError {
         /// Numbers that the state has.
         expected: usize,
     },
+    /// The motor left its sensor's range, and the loop ran away without knowing where it was.
+    #[error(
+        "the loop lost the motor, which was at {angle_rad:.3} rad after {time_s:.3} s: its sensor ends at {:.3} and {:.3} rad",
+        range_rad.0, range_rad.1
+    )]
+    BeyondSensor {
+        /// Angle reached \[rad\].
+        angle_rad: f64,
+        /// Lowest and highest angle that the sensor reads \[rad\].
+        range_rad: (f64, f64),
+        /// Time from the start \[s\].
+        time_s: f64,
+    },
     /// What the rig cannot simulate.
     #[error("{what} cannot be simulated")]
     Unsupported {

@@ -75,6 +75,7 @@ impl Hybrid<'_> {
             self.state = arm.take_over(self.arm, &self.state);
             self.terms = vec![vec![0.0; self.state.len()]; ORDER_MOST + 1];
             self.arm = arm;
+            self.coupling_size = arm.dynamics().coupling.abs().sum();
             self.step_most_s = STEP_RATE / self.rate_bound();
         }
     }
@@ -185,7 +186,11 @@ impl Hybrid<'_> {
         let at_rest = self.friction.at(0.0, self.state[0]);
         let sliding = self.friction.sliding();
         let most = at_rest.forward.max(at_rest.backward);
-        ROUNDING * (torque.abs() + most.max(sliding.forward).max(sliding.backward))
+        // The coupling torque of a stiff beam is a difference of angles that are nearly equal.
+        let k = self.arm.dynamics().len();
+        let angle = self.state[2..2 + k].iter().fold(self.state[0].abs(), |m, q| m.max(q.abs()));
+        let coupling = 4.0 * f64::EPSILON * self.coupling_size * angle;
+        coupling + ROUNDING * (torque.abs() + most.max(sliding.forward).max(sliding.backward))
     }
 
     /// Something at rest that was let go and does not start, as what pushes it is exactly at the

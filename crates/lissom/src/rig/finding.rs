@@ -71,6 +71,10 @@ pub enum RigFinding {
 impl fmt::Display for RigFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::NotSettled { left_rad, waited_s, .. } if left_rad.is_infinite() => write!(
+                f,
+                "not settled after {waited_s:.1} s: nothing bounds what is left of the transient (no damping, or too few periods)"
+            ),
             Self::NotSettled { left_rad, tolerance_rad, waited_s } => write!(
                 f,
                 "not settled after {waited_s:.1} s: up to {left_rad:.2e} rad of the transient are left, {tolerance_rad:.2e} rad were asked for"
@@ -87,11 +91,11 @@ impl fmt::Display for RigFinding {
             }
             Self::NeverMoved { torque_nm, coulomb_nm } => write!(
                 f,
-                "the joint never moved: the largest torque was {torque_nm:.3e} N·m, Coulomb friction holds {coulomb_nm:.3e} N·m"
+                "the joint never moved: the largest torque was {torque_nm:.3e} N·m, friction holds {coulomb_nm:.3e} N·m at rest"
             ),
             Self::SensorRange { sensor, share, range_rad: (low, high) } => write!(
                 f,
-                "the {sensor} sensor was beyond its range of {low} to {high} rad for {:.2} % of the record",
+                "the {sensor} sensor was beyond its range of {low:.4} to {high:.4} rad for {:.2} % of the record",
                 100.0 * share
             ),
             Self::CurrentBetweenSamples { control_every, log_every } => write!(

@@ -92,6 +92,8 @@ pub struct Hybrid<'a> {
     /// Which walls the tip touches.
     pub(super) touching: Vec<bool>,
     pub(super) step_most_s: f64,
+    /// Σ|h_i| \[N·m/rad\].
+    pub(super) coupling_size: f64,
     /// Taylor coefficients of the state; the first also serves as a state that is tried.
     pub(super) terms: Vec<Vec<f64>>,
     pub(super) series: Coefficients,
@@ -156,6 +158,7 @@ impl<'a> Hybrid<'a> {
             tip_mode: Mode::Stick,
             touching: Vec::new(),
             step_most_s: 0.0,
+            coupling_size: arm.dynamics().coupling.abs().sum(),
             terms: vec![vec![0.0; len]; ORDER_MOST + 1],
             series: Coefficients::default(),
             sticks: 0,

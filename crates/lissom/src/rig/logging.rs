@@ -83,7 +83,7 @@ impl Log {
             let current = instruments.amplifier.current_a(self.largest_a);
             findings.push(RigFinding::NeverMoved {
                 torque_nm: arm.motor.torque_constant_nm_per_a * current,
-                coulomb_nm: arm.coulomb.forward.min(arm.coulomb.backward),
+                coulomb_nm: rig.scene.holds_nm(arm),
             });
         }
         for (place, count) in self.cut_off.iter().enumerate().filter(|(_, count)| **count > 0) {

@@ -11,6 +11,10 @@ pub(crate) fn value(c: &[f64], t: f64) -> f64 {
 /// positive are passed over, the others halved: no crossing is stepped over, not even a pair of
 /// close ones, down to intervals of `end·2⁻⁵²`.
 pub(crate) fn first_nonpositive(c: &[f64], end: f64) -> Option<f64> {
+    // What is no number has no root, and would be halved for ever.
+    if !c.iter().all(|a| a.is_finite()) {
+        return None;
+    }
     descend(c, 0.0, end, 52)
 }
 

@@ -26,6 +26,9 @@ const WHOLE: f64 = 1e-9;
 /// Most samples of a run, waiting and record each.
 const SAMPLES_MOST: f64 = 1e8;
 
+/// Most numbers of a log: 1.6 GB.
+const NUMBERS_MOST: f64 = 2e8;
+
 /// Fewest rows of a log.
 const ROWS_LEAST: f64 = 8.0;
 
@@ -168,6 +171,9 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
             return Err(RigError::AboveNyquist { omega_rad_s, nyquist_rad_s });
         }
         let state = experiment.start.state(&rig.arm)?;
+        if rig.scene.tip.walls.iter().any(|wall| wall.depth(state[1 + masses]) > 0.0) {
+            return Err(RigError::Unsupported { what: "a start with the tip beyond a wall" });
+        }
         let deflection = state[2..].iter().fold(0.0_f64, |m, q| m.max(q.abs()));
         let bound_rad = match experiment.drive {
             Drive::Angle(_) => {
@@ -256,8 +262,7 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
                 if first > 0.0 {
                     self.motion.advance(torque, first)?;
                 }
-                self.seen.clear();
-                self.seen.extend_from_slice(self.motion.state());
+                note(&mut self.seen, self.motion.state(), self.rig.arm.beam().len());
                 noted = true;
                 rest -= first;
             }
@@ -268,8 +273,7 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
         }
         if !noted {
             // Rounding of both parts of a sample put it behind them.
-            self.seen.clear();
-            self.seen.extend_from_slice(self.motion.state());
+            note(&mut self.seen, self.motion.state(), self.rig.arm.beam().len());
         }
         self.passed += 1;
         Ok(())
@@ -324,7 +328,8 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
         let period = reference.period_s();
         let lag = period.unwrap_or(lowest).max(sample);
         let open = matches!(self.experiment.drive, Drive::Current(_));
-        let mut settling = Settling::new(&rig.arm, self.controller.memory_s(), lag, open);
+        let mut settling =
+            Settling::new(&rig.arm, &rig.scene.later, self.controller.memory_s(), lag, open);
         let mut left = f64::INFINITY;
         let (mut allowed, mut looks) = (0.0, 0_usize);
         while self.passed < most {
@@ -368,6 +373,11 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
         settled.waited_s = if self.passed == 0 { 0.0 } else { self.passed as f64 * sample };
         let rows = (self.experiment.record_s / instruments.log_time_s()).round().max(ROWS_LEAST);
         let rows = counted("record_s", rows * every as f64)? / every;
+        let numbers = (rows * (2 + self.read_rad.len() - 1)) as f64;
+        if numbers > NUMBERS_MOST {
+            let quantity = "the log of record_s, all channels together,";
+            return Err(RigError::TooLong { quantity, samples: numbers, most: NUMBERS_MOST });
+        }
         let first = self.passed;
         let clock = |passed: usize| {
             let since = if periodic { passed } else { passed - first };
@@ -399,6 +409,18 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
 }
 
 /// A number of samples that can be simulated.
+/// Notes a state in the layout that `seen` has: another payload may have a coordinate more, or less.
+fn note(seen: &mut [f64], state: &[f64], masses: usize) {
+    if seen.len() == state.len() {
+        seen.copy_from_slice(state);
+        return;
+    }
+    let (mine, theirs) = ((seen.len() - 2) / 2, (state.len() - 2) / 2);
+    seen.fill(0.0);
+    seen[..2 + masses].copy_from_slice(&state[..2 + masses]);
+    seen[2 + mine..2 + mine + masses].copy_from_slice(&state[2 + theirs..2 + theirs + masses]);
+}
+
 fn counted(quantity: &'static str, samples: f64) -> Result<usize, RigError> {
     if samples <= SAMPLES_MOST {
         Ok(samples.round() as usize)

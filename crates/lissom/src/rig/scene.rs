@@ -56,6 +56,16 @@ impl Scene {
         self.tip.check()
     }
 
+    /// What friction holds at rest, the lesser of both directions \[N·m\].
+    pub(super) fn holds_nm(&self, arm: &Arm) -> f64 {
+        let rest = match self.friction {
+            JointFriction::Arm => arm.coulomb,
+            JointFriction::Dry(law) => law.at(0.0, 0.0),
+            JointFriction::Bristles { law, .. } => law.at_rest(),
+        };
+        rest.forward.min(rest.backward)
+    }
+
     fn is_alone(&self) -> bool {
         self.tip.is_empty() && self.later.is_empty()
     }

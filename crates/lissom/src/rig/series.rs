@@ -7,6 +7,8 @@ use crate::drive::Coulomb;
 
 /// Relative size of terms that are left out: two orders below rounding.
 const LEFT_OUT: f64 = 1e-3 * f64::EPSILON;
+/// Steps are not cut below this share.
+const SHORTEST: f64 = 1e-14;
 /// Relative size of the last terms where the series does not end within its orders.
 const LAST: f64 = 1e-15;
 
@@ -83,8 +85,13 @@ impl Hybrid<'_> {
                 return (k + 1, step);
             }
         }
-        // Elsewhere the rate bound has seen to it that the step is short enough.
-        (ORDER_MOST, if bends { holds_for(&sizes, step) } else { step })
+        if !bends {
+            // The rate bound has seen to it that the step is short enough.
+            return (ORDER_MOST, step);
+        }
+        // Terms may leave the range of numbers where friction bends sharply.
+        let order = sizes.iter().position(|s| !s.is_finite()).map_or(ORDER_MOST, |k| k.max(3) - 1);
+        (order, holds_for(&sizes[..=order], step))
     }
 
     fn begin(&mut self, torque: Torque<'_>) {
@@ -184,12 +191,13 @@ impl Hybrid<'_> {
 
 /// How long, at most `step`, a series with terms of these sizes holds to [`LAST`] of the motion that
 /// its first terms describe.
-fn holds_for(sizes: &[f64; ORDER_MOST + 1], step: f64) -> f64 {
+fn holds_for(sizes: &[f64], step: f64) -> f64 {
+    let order = sizes.len() - 1;
     let mut h = step;
-    while h > step * 1e-9 {
+    while h > step * SHORTEST {
         let motion = sizes[0].max(sizes[1] * h).max(sizes[2] * h * h);
-        let last = h.powf(ORDER_MOST as f64 - 1.0);
-        if last * (sizes[ORDER_MOST - 1] + h * sizes[ORDER_MOST]) <= LAST * motion {
+        let last = h.powf(order as f64 - 1.0);
+        if last * (sizes[order - 1] + h * sizes[order]) <= LAST * motion {
             break;
         }
         h *= 0.8;

@@ -17,6 +17,9 @@ const RIGID: f64 = 1e-6;
 /// Lags of 1 to 16 periods, then each twice as long.
 const LAGS_SINGLE: usize = 16;
 
+/// Differences from which a decay is read off.
+const SHOWN_LEAST: usize = 8;
+
 /// Numbers kept of the past.
 const KEPT_MOST: usize = 4_000_000;
 
@@ -82,6 +85,23 @@ impl Decays {
     }
 }
 
+impl Decays {
+    /// What holds for this arm and for another that takes over: modes are not told apart.
+    fn or(self, other: &Self) -> Self {
+        let slowest =
+            |decays: &Self| decays.decay_s.iter().try_fold(0.0_f64, |m, d| d.map(|d| m.max(d)));
+        let decay_s = slowest(&self).zip(slowest(other)).map(|(a, b)| a.max(b));
+        let lowest = |decays: &Self| decays.omega_rad_s.iter().copied().fold(f64::MAX, f64::min);
+        let k = self.decay_s.len();
+        Self {
+            to_modes: None,
+            omega_rad_s: vec![lowest(&self).min(lowest(other)); k],
+            decay_s: vec![decay_s; k],
+            motor_decay_s: self.motor_decay_s.max(other.motor_decay_s),
+        }
+    }
+}
+
 /// Judges what is left of a transient, from states at one phase.
 ///
 /// A transient that decays by `e^{−P/τ}` in a period P differs from itself one period later by at
@@ -106,12 +126,25 @@ pub(super) struct Settling {
     seen: usize,
     /// Sizes of the differences over one period \[rad\].
     changes: Vec<f64>,
+    /// The decay that they show, and how many there have to be before it is looked at again.
+    shown_s: f64,
+    look_at: usize,
 }
 
 impl Settling {
-    pub(super) fn new(arm: &Arm, memory_s: f64, period_s: f64, open: bool) -> Self {
+    /// `later` are arms that take over from `arm`: the slowest of all counts.
+    pub(super) fn new(
+        arm: &Arm,
+        later: &[(f64, Arm)],
+        memory_s: f64,
+        period_s: f64,
+        open: bool,
+    ) -> Self {
+        let decays = later
+            .iter()
+            .fold(Decays::of(arm, memory_s), |all, (_, arm)| all.or(&Decays::of(arm, memory_s)));
         Self {
-            decays: Decays::of(arm, memory_s),
+            decays,
             coordinates: arm.dynamics().len(),
             open,
             period_s,
@@ -119,6 +152,8 @@ impl Settling {
             kept: (KEPT_MOST / arm.state_len()).max(2),
             seen: 0,
             changes: Vec::new(),
+            shown_s: f64::INFINITY,
+            look_at: SHOWN_LEAST,
         }
     }
 
@@ -132,6 +167,11 @@ impl Settling {
     /// \[rad\], infinite where nothing bounds it yet.
     pub(super) fn look(&mut self, state: &[f64]) -> f64 {
         let coordinates = self.amplitudes(state);
+        if self.changes.len() >= self.look_at {
+            self.shown_s = self.seen_decay_s();
+            // Ever more seldom, so that a long wait costs no square of its length.
+            self.look_at = self.changes.len() + 1 + self.changes.len() / 8;
+        }
         let most = self.seen.min(self.kept - 1);
         let mut left = f64::INFINITY;
         let mut lag = 1;
@@ -189,8 +229,7 @@ impl Settling {
             |d: f64, decay_s: f64| if d == 0.0 { 0.0 } else { -d / (-time / decay_s).exp_m1() };
         let sizes = self.sizes(difference);
         let modes = sizes[1..].iter().zip(&self.decays.decay_s);
-        let beam: f64 =
-            modes.map(|(d, tau)| left(*d, tau.unwrap_or_else(|| self.seen_decay_s()))).sum();
+        let beam: f64 = modes.map(|(d, tau)| left(*d, tau.unwrap_or(self.shown_s))).sum();
         left(sizes[0], self.decays.motor_decay_s) + beam
     }
 
@@ -198,9 +237,6 @@ impl Settling {
     /// the second \[s\]; infinite where they do not fall.
     fn seen_decay_s(&self) -> f64 {
         let n = self.changes.len();
-        if n < 8 {
-            return f64::INFINITY;
-        }
         let largest = |part: &[f64]| part.iter().fold(0.0_f64, |m, d| m.max(*d));
         let (early, late) =
             (largest(&self.changes[n / 4..n / 2]), largest(&self.changes[3 * n / 4..]));

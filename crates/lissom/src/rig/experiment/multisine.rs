@@ -110,7 +110,7 @@ impl Multisine {
         let mut best = self.clone();
         let points = self.points();
         // Bounds the work at some seconds for the longest multisine; a short one converges within.
-        let rounds = ((1_usize << 27) / points).clamp(20, 4000);
+        let rounds = ((1_usize << 24) / points).clamp(20, 4000);
         let mut planner = FftPlanner::new();
         let (back, there) = (planner.plan_fft_inverse(points), planner.plan_fft_forward(points));
         let mut buffer = vec![Complex64::ZERO; points];
