@@ -159,6 +159,12 @@ fn what_cannot_be_simulated_is_said_once() {
     assert!(text.contains("hint: lower the gains"), "{text}");
     assert_eq!(output.status.code(), Some(1));
 
+    let turning = "[[runs]]\nvelocity = \"2 rad/s\"\nrecord = \"5 s\"";
+    let output = Bench::new(ARM, turning).run("out", &[]);
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert!(text.contains("its sensor ends at -3.142 and 3.140 rad"), "{text}");
+    assert!(text.contains("counts_per_turn"), "{text}");
+
     let open = ARM.lines().filter(|l| !l.starts_with("controller")).collect::<Vec<_>>().join("\n");
     Bench::new(&open, PLAN).refused(
         "out",

@@ -382,7 +382,7 @@ fn an_unstable_loop_is_said_with_time_and_bound() {
     assert!(time_s > 0.05 && time_s < 4.5);
     assert_eq!((state.len(), state[0].to_bits()), (4, angle_rad.to_bits()));
     // Small amplitudes and coarse sensors have a bound that a loop may hunt within.
-    rig.instruments.motor = Quantiser::new(4, TAU).unwrap().into();
+    rig.instruments.motor = Quantiser::encoder(16).unwrap().into();
     let small = wait(Experiment::sine(3.0, 1e-3, 300.0).unwrap(), 0.0);
     let error = rig.run_with(&mut From(0.0, 5.0), "coarse", &small, 0).err().unwrap();
     let RigError::Unstable { bound_rad, .. } = error else { panic!("{error}") };

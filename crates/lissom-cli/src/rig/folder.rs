@@ -78,9 +78,9 @@ impl Folder {
             all["runs"].as_array()?.iter().find(|run| own(run)).cloned()
         })?;
         // A header, and a row for each sample, all of them ended.
-        let bytes = std::fs::read(self.path(&log)).ok()?;
-        let rows = bytes.iter().filter(|byte| **byte == b'\n').count() as u64;
-        let whole = facts["samples"].as_u64()?.checked_add(1)? == rows && bytes.ends_with(b"\n");
+        let text = std::fs::read_to_string(self.path(&log)).ok()?;
+        let rows = text.lines().count() as u64;
+        let whole = facts["samples"].as_u64()?.checked_add(1)? == rows && text.ends_with('\n');
         whole.then_some(facts)
     }
 

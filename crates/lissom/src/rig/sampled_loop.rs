@@ -213,6 +213,12 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
         let state = self.motion.state();
         let angle = state[0];
         if angle.abs() > self.bound_rad || angle.is_nan() {
+            // What the last reading was: a loop whose sensor is at its end knows no better.
+            if let (true, Some(quantiser)) = (self.cut_off[0], instruments.motor.quantiser) {
+                let time_s = self.passed as f64 * instruments.sample_time_s;
+                let range_rad = quantiser.ends();
+                return Err(RigError::BeyondSensor { angle_rad: angle, range_rad, time_s });
+            }
             return Err(RigError::Unstable {
                 angle_rad: angle,
                 bound_rad: self.bound_rad,

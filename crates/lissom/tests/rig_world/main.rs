@@ -142,3 +142,31 @@ fn a_payload_that_turns_is_taken_up_as_the_beam_stands() {
     hybrid.advance(0.0, 1e-12);
     assert_eq!(hybrid.state().len(), 4);
 }
+
+/// Both ran for ever: a stiff beam whose coupling torque rounds to more than friction's rounding, and
+/// friction that falls within 1e-12 rad/s.
+#[test]
+fn stiff_beams_and_sharp_falls_come_to_an_end() {
+    let beam = LumpedBeam::new(&[span(0.178, 3e3, 0.055, 0.0)]).unwrap();
+    let arm = Arm::new(beam, Motor::new(6e-4, 1e-3, 1.0).unwrap(), coulomb()).unwrap();
+    let mut hybrid = Hybrid::at_rest(&arm);
+    for k in 0..300 {
+        hybrid.advance(0.1 * (0.01 * f64::from(k)).sin(), 3e-3);
+    }
+    assert!(hybrid.state().iter().all(|x| x.is_finite()));
+    let arm = one(0.05);
+    for velocity in [1e-11, 1e-15] {
+        let law = with_rest((0.05, 0.04), velocity, Falloff::Exponential);
+        let mut hybrid = Hybrid::at_rest(&arm).with_friction(law);
+        for k in 0..100 {
+            // It either is followed or says that it is lost.
+            if hybrid_step(&mut hybrid, 0.1 * (0.1 * f64::from(k)).sin()).is_err() {
+                break;
+            }
+        }
+    }
+}
+
+fn hybrid_step(hybrid: &mut Hybrid<'_>, torque: f64) -> Result<(), lissom::rig::RigError> {
+    lissom::rig::Motion::advance(hybrid, torque, 3e-3)
+}
