@@ -10,7 +10,7 @@ use std::{env, fmt::Write, fs, hint::black_box, path::Path, time::Instant};
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::Coulomb;
-use lissom::rig::{ControlLaw, HeldStep, Hybrid, Rig};
+use lissom::rig::{ControlLaw, HeldArm, HeldMotion, Motion, Rig};
 use lissom_testmodels::{report_arm, report_rig};
 use serde_json::json;
 
@@ -30,17 +30,17 @@ struct Experiment {
 fn run(rig: &Rig, e: &Experiment) -> Vec<(f64, Vec<f64>)> {
     let t = rig.instruments.sample_time_s;
     let (p, d, limit) = gains(rig);
-    let step = HeldStep::new(&e.arm, t);
-    let mut hybrid = Hybrid::at_rest(&e.arm);
+    let held = HeldArm::new(&e.arm, &[t]).unwrap();
+    let mut motion = HeldMotion::at_rest(&held);
     let mut before = 0.0;
     let mut log = Vec::with_capacity(SAMPLES);
     for k in 0..SAMPLES {
-        let state = hybrid.state().to_vec();
+        let state = motion.state().to_vec();
         let error = e.amplitude_rad * (e.omega_rad_s * (k as f64 * t)).sin() - state[0];
         let current = (p * error + d * (error - before) / t).clamp(-limit, limit);
         before = error;
         log.push((current, state));
-        hybrid.advance_held(&step, e.arm.motor.torque_constant_nm_per_a * current);
+        motion.advance(e.arm.motor.torque_constant_nm_per_a * current, t).unwrap();
     }
     log
 }
