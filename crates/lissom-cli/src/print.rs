@@ -29,6 +29,11 @@ pub(crate) fn line(text: &str) {
     }
 }
 
+/// A remark on the way, which is no part of the result.
+pub(crate) fn note(text: &str) {
+    eprintln!("{text}");
+}
+
 /// JSON, alone on standard output.
 pub(crate) fn json(value: &Value) {
     line(&format!("{value:#}"));

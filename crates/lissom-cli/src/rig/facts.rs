@@ -51,6 +51,8 @@ pub(super) fn campaign(rig: &Rig, plan: &PlanFile, runs: &[Value]) -> Value {
         "lissom": env!("CARGO_PKG_VERSION"),
         "title": plan.title,
         "seed": plan.seed.to_string(),
+        "tolerance": rig.scene.tolerance(),
+        "masses": arm.beam().len(),
         "truth": {
             "inertia_kg_m2": motor.inertia_kg_m2,
             "viscous_nm_s_per_rad": motor.viscous_nm_s_per_rad,

@@ -6,6 +6,7 @@ mod folder;
 use std::path::Path;
 use std::process::ExitCode;
 
+use lissom::beam::Base;
 use lissom::record::{Hold, TipQuantity};
 use lissom::rig::{Drive, Logged, Rig};
 use lissom_io::write::{self, CampaignPlan, PlannedCommand, PlannedRun};
@@ -19,6 +20,8 @@ use crate::{output, print, progress};
 use folder::Folder;
 
 const CAMPAIGN: &str = "campaign.toml";
+/// Frequencies of a lumped beam that are compared.
+const SHOWN: usize = 3;
 
 pub(crate) fn run(args: &RigArgs) -> Result<ExitCode, Failure> {
     let to_stdout = args.json.as_deref() == Some(Path::new(STDOUT));
@@ -42,6 +45,9 @@ pub(crate) fn run(args: &RigArgs) -> Result<ExitCode, Failure> {
                 write::write_json(path, &whole)?;
             }
             report(&plan, &facts, &args.out.join(CAMPAIGN));
+            if let Some(line) = lumped(&file, &args.arm, &rig) {
+                print::line(&line);
+            }
         }
     }
     Ok(ExitCode::SUCCESS)
@@ -92,6 +98,10 @@ fn carry_out(
     folder: &Folder,
     jobs: Option<u16>,
 ) -> Result<Vec<Value>, Failure> {
+    let there = plan.runs.iter().filter(|run| folder.done(&run.name).is_some()).count();
+    if there > 0 {
+        print::note(&format!("{there} of {} logs are there already", plan.runs.len()));
+    }
     let bar = progress::bar(plan.runs.len(), "virtual campaign");
     bar.enable_steady_tick(std::time::Duration::from_millis(250));
     let one = |run: &PlanRun| -> Result<Value, Failure> {
@@ -174,6 +184,21 @@ fn campaign_plan(rig: &Rig, plan: &PlanFile) -> CampaignPlan {
             })
             .collect(),
     }
+}
+
+/// What lumping did to a beam with mass along it.
+fn lumped(file: &ArmFile, path: &Path, rig: &Rig) -> Option<String> {
+    let beam = file.distributed_beam(path).ok()?;
+    let exact = beam.frequencies_rad_s(Base::Clamped, SHOWN);
+    let found = rig.arm.beam().frequencies_rad_s(Base::Clamped, SHOWN);
+    let errors = found.iter().zip(&exact).map(|(a, b)| format!("{:+.2} %", 100.0 * (a / b - 1.0)));
+    let errors: Vec<String> = errors.collect();
+    Some(format!(
+        "the beam is lumped, masses: {}; its first frequencies are off by {}; `masses` in [rig] \
+         changes that",
+        rig.arm.beam().len(),
+        errors.join(", ")
+    ))
 }
 
 fn report(plan: &PlanFile, facts: &[Value], campaign: &Path) {

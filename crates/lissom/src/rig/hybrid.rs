@@ -8,8 +8,6 @@ use crate::drive::{DryFriction, FrictionSeries};
 /// Largest (rate bound × step) for which a Taylor series of order [`ORDER_MOST`] is exact to
 /// rounding: 0.5²⁴/24! is 1e-31.
 pub(super) const STEP_RATE: f64 = 0.5;
-/// Relative error of a step where friction bends: the series' last terms are below it.
-const BENT: f64 = 1e-15;
 /// Events at one instant after which the joint is taken to chatter and is held for a moment.
 const EVENTS_AT_ONCE: usize = 50;
 
@@ -136,6 +134,9 @@ impl Default for Coefficients {
 }
 
 impl<'a> Hybrid<'a> {
+    /// Relative error of a step where friction bends: the series' last terms are below it.
+    pub(super) const BENT: f64 = 1e-15;
+
     /// An arm at rest at angle zero.
     pub fn at_rest(arm: &'a Arm) -> Self {
         Self::with_state(arm, vec![0.0; arm.state_len()])
@@ -327,7 +328,7 @@ impl Motion for Hybrid<'_> {
         Hybrid::stuck_s(self)
     }
     fn tolerance(&self) -> Option<f64> {
-        (!self.friction.is_constant()).then_some(BENT)
+        (!self.friction.is_constant()).then_some(Self::BENT)
     }
 }
 

@@ -56,6 +56,15 @@ impl Scene {
         self.tip.check()
     }
 
+    /// Relative tolerance of a step of the motion; `None` where it is exact to rounding.
+    pub fn tolerance(&self) -> Option<f64> {
+        match self.friction {
+            JointFriction::Dry(law) if !law.is_constant() => Some(Hybrid::BENT),
+            JointFriction::Bristles { tolerance, .. } => Some(tolerance),
+            _ => None,
+        }
+    }
+
     /// What friction holds at rest, the lesser of both directions \[N·m\].
     pub(super) fn holds_nm(&self, arm: &Arm) -> f64 {
         let rest = match self.friction {

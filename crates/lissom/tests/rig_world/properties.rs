@@ -4,7 +4,7 @@ use lissom::Matrix;
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Payload, Span};
 use lissom::drive::{Coulomb, DryFriction, Falloff, Motor};
-use lissom::rig::{Hybrid, Signal, TipWorld, Wall};
+use lissom::rig::{Harmonic, Hybrid, Signal, TipWorld, Wall};
 use proptest::prelude::*;
 
 fn span() -> impl Strategy<Value = Span> {
@@ -68,6 +68,32 @@ proptest! {
         };
         let size = (0..len).fold(0.0_f64, |m, i| m.max(exact(i).abs()));
         for (i, x) in found.iter().enumerate() {
+            prop_assert!((x - exact(i)).abs() <= 1e-10 * size, "{i}: {x} {}", exact(i));
+        }
+    }
+
+    /// A drive in continuous time, against the matrix exponential with an oscillator as two states.
+    #[test]
+    fn a_swinging_torque_acts_as_in_the_state_space(
+        beam in beam(), omega in 0.5..60.0_f64, phase in 0.0..6.0_f64, time_s in 0.01..0.3_f64,
+    ) {
+        let arm = arm(beam, none());
+        let (s, len) = (arm.state_space(), arm.state_len());
+        let mut block = Matrix::zeros(len + 2, len + 2);
+        block.view_mut((0, 0), (len, len)).copy_from(&s.a);
+        block.view_mut((0, len), (len, 1)).copy_from(&s.b.column(0));
+        (block[(len, len + 1)], block[(len + 1, len)]) = (omega, -omega);
+        let answer = (block * time_s).exp();
+        let swing = Harmonic { amplitude: 0.05, omega_rad_s: omega, phase_rad: phase };
+        let mut hybrid = Hybrid::at_rest(&arm);
+        let torque = Signal::harmonics(&[swing]).unwrap();
+        hybrid.advance_driven(&torque, 0.3 * time_s);
+        hybrid.advance_driven(&torque, 0.7 * time_s);
+        let exact = |i: usize| {
+            0.05 * (phase.sin() * answer[(i, len)] + phase.cos() * answer[(i, len + 1)])
+        };
+        let size = (0..len).fold(0.0_f64, |m, i| m.max(exact(i).abs()));
+        for (i, x) in hybrid.state().iter().enumerate() {
             prop_assert!((x - exact(i)).abs() <= 1e-10 * size, "{i}: {x} {}", exact(i));
         }
     }
