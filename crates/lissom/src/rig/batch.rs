@@ -14,9 +14,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 use rayon::prelude::*;
 
-use super::flow::step;
-use super::held_arm::{Duration, Modes, Way};
-use super::lane::{LANES, Lane, Lanes};
+use super::held::arm::{Duration, Modes, Way};
+use super::held::flow::step;
+use super::held::lane::{LANES, Lane, Lanes};
 use super::sampled_loop::{LEAST_RAD, RUN_AWAY};
 use super::{HeldArm, HeldMotion, Mode, Motion, Pd, RigError, Sines};
 use crate::arm::Arm;

@@ -2,34 +2,22 @@
 //! slips.
 
 mod batch;
-mod blocks;
 mod controller;
-mod crossing;
 mod error;
-mod events;
 mod experiment;
 mod finding;
-mod flow;
 mod held;
-mod held_arm;
-mod held_motion;
-mod held_search;
 mod hybrid;
 mod instrument;
-mod lane;
 mod logging;
 #[cfg(feature = "lugre")]
 mod lugre;
-mod modal;
 mod motion;
-mod polynomial;
 mod sampled_loop;
 mod scene;
-mod series;
 mod settling;
 mod signal;
 mod sine;
-mod slip;
 mod tip_world;
 
 pub use batch::{Batch, NoisyRun};
@@ -40,9 +28,7 @@ pub use experiment::{
     TableHold,
 };
 pub use finding::{RigFinding, SensorPlace};
-pub use held::HeldStep;
-pub use held_arm::HeldArm;
-pub use held_motion::{HeldMotion, Work};
+pub use held::{HeldArm, HeldMotion, HeldStep, Work};
 pub use hybrid::{Hybrid, Mode};
 pub use instrument::{Amplifier, Delay, Instruments, Noise, Quantiser, Sensor};
 #[cfg(feature = "lugre")]

@@ -1,8 +1,8 @@
 //! One sample at a stroke: what the arm does under a constant torque, where no event falls within.
 
-use super::{Hybrid, Mode};
 use crate::arm::Arm;
 use crate::drive::Coulomb;
+use crate::rig::{Hybrid, Mode};
 
 /// Largest (bound on the state's rate × part of a sample) over which events are ruled out at once.
 const REACH: f64 = 1.0;

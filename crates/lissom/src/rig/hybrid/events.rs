@@ -1,12 +1,12 @@
 //! Events of a motion: what sticks, breaks loose, reverses, meets a wall or changes.
 
-use super::hybrid::{Hybrid, Mode, STEP_RATE, Torque};
 use super::polynomial::{ORDER_MOST, first_used_up};
 use super::slip::{Contact, slip_ends};
+use super::{Hybrid, Mode, STEP_RATE, Torque};
 use crate::drive::Coulomb;
 
 /// Accelerations below this share of what the torques give are rounding.
-pub(super) const ROUNDING: f64 = 1e-13;
+pub(in crate::rig) const ROUNDING: f64 = 1e-13;
 
 /// What ends a step.
 #[derive(Debug, Clone, Copy)]
@@ -182,7 +182,7 @@ impl Hybrid<'_> {
     }
 
     /// Torques below this are rounding of those that act \[N·m\].
-    pub(super) fn rounding(&self, torque: f64) -> f64 {
+    pub(in crate::rig) fn rounding(&self, torque: f64) -> f64 {
         let at_rest = self.friction.at(0.0, self.state[0]);
         let sliding = self.friction.sliding();
         let most = at_rest.forward.max(at_rest.backward);

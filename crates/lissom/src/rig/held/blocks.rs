@@ -15,7 +15,7 @@ const ROUNDING: f64 = 1e-13;
 
 /// What two states do that nothing else acts on.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Rates {
+pub(in crate::rig) enum Rates {
     /// `d/dt (a + j·b) = μ·(a + j·b)` \[1/s\].
     Oscillating(Complex64),
     /// Each by itself \[1/s\].
@@ -24,12 +24,12 @@ pub(super) enum Rates {
 
 /// A real matrix as `B·diag(blocks)·B⁻¹`.
 #[derive(Debug, Clone)]
-pub(super) struct Blocks {
-    pub(super) rates: Vec<Rates>,
+pub(in crate::rig) struct Blocks {
+    pub(in crate::rig) rates: Vec<Rates>,
     /// B: states of the blocks to those of the matrix. The last column is zero where their number
     /// is odd.
-    pub(super) basis: DMatrix<f64>,
-    pub(super) inverse: DMatrix<f64>,
+    pub(in crate::rig) basis: DMatrix<f64>,
+    pub(in crate::rig) inverse: DMatrix<f64>,
 }
 
 impl Blocks {
@@ -38,7 +38,7 @@ impl Blocks {
     /// # Source
     /// Eigenvalues by Schur's form, vectors by inverse iteration `[GolubVanLoan2013, 7.6]`, and the
     /// blocks of B⁻¹·A·B, whose other entries show how exact they are.
-    pub(super) fn new(a: &DMatrix<f64>) -> Option<Self> {
+    pub(in crate::rig) fn new(a: &DMatrix<f64>) -> Option<Self> {
         let m = a.nrows();
         let size = a.amax();
         let schur = Schur::try_new(a.clone(), f64::EPSILON, 100 * m.max(10))?;

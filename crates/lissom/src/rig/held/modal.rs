@@ -29,7 +29,7 @@ const MOST_COORDINATES: usize = 150;
 /// Without dampers that is skew-symmetric. A motor at rest leaves the rows of w and s. Only angles
 /// to the fixed frame are missing: θ_m is the integral of θ̇_m.
 #[derive(Debug, Clone)]
-pub(super) struct Modal {
+pub(in crate::rig) struct Modal {
     /// ω_j \[rad/s\].
     omega: Vec<f64>,
     /// Φ.
@@ -42,14 +42,14 @@ pub(super) struct Modal {
     relative: DMatrix<f64>,
     root_inertia: f64,
     /// Rates of z while the motor slips.
-    pub(super) slip: DMatrix<f64>,
+    pub(in crate::rig) slip: DMatrix<f64>,
     /// Rates of w and s while it sticks.
-    pub(super) stick: DMatrix<f64>,
+    pub(in crate::rig) stick: DMatrix<f64>,
 }
 
 impl Modal {
     /// `None` where the arm has too many coordinates or the modes do not give back its equations.
-    pub(super) fn new(arm: &Arm) -> Option<Self> {
+    pub(in crate::rig) fn new(arm: &Arm) -> Option<Self> {
         let k = arm.dynamics().len();
         if k > MOST_COORDINATES {
             return None;
@@ -110,24 +110,24 @@ impl Modal {
     }
 
     /// Number of coordinates.
-    pub(super) fn len(&self) -> usize {
+    pub(in crate::rig) fn len(&self) -> usize {
         self.omega.len()
     }
 
     /// What a torque of 1 N·m does to ż.
-    pub(super) fn push(&self) -> DVector<f64> {
+    pub(in crate::rig) fn push(&self) -> DVector<f64> {
         let mut push = DVector::zeros(2 * self.len() + 1);
         push[0] = 1.0 / self.root_inertia;
         push
     }
 
     /// θ̇_m as a row on z.
-    pub(super) fn velocity(&self) -> DVector<f64> {
+    pub(in crate::rig) fn velocity(&self) -> DVector<f64> {
         self.push()
     }
 
     /// C_t as a row on z.
-    pub(super) fn coupling(&self) -> DVector<f64> {
+    pub(in crate::rig) fn coupling(&self) -> DVector<f64> {
         let k = self.len();
         let against = &self.relative * &self.share;
         let mut row = DVector::zeros(2 * k + 1);
@@ -140,7 +140,7 @@ impl Modal {
     }
 
     /// z of a state `[θ_m, θ̇_m, q, q̇]`.
-    pub(super) fn energy(&self, x: &[f64], z: &mut [f64]) {
+    pub(in crate::rig) fn energy(&self, x: &[f64], z: &mut [f64]) {
         let k = self.len();
         z[0] = self.root_inertia * x[1];
         let (q, v) = (&x[2..2 + k], &x[2 + k..2 + 2 * k]);
@@ -153,7 +153,7 @@ impl Modal {
     }
 
     /// The state with the motor at `angle` that has this z.
-    pub(super) fn state(&self, angle: f64, z: &[f64], x: &mut [f64]) {
+    pub(in crate::rig) fn state(&self, angle: f64, z: &[f64], x: &mut [f64]) {
         let k = self.len();
         x[0] = angle;
         x[1] = z[0] / self.root_inertia;
@@ -167,7 +167,7 @@ impl Modal {
     }
 
     /// q_i − θ_m as a row on z.
-    pub(super) fn deflection(&self, i: usize) -> DVector<f64> {
+    pub(in crate::rig) fn deflection(&self, i: usize) -> DVector<f64> {
         let k = self.len();
         let mut row = DVector::zeros(2 * k + 1);
         for j in 0..k {

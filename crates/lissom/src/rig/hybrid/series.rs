@@ -1,8 +1,8 @@
 //! Taylor series of an arm's state, and where the tip stands in it.
 
 use super::events::pushed;
-use super::hybrid::{Hybrid, Mode, Torque};
 use super::polynomial::{ORDER_MOST, value};
+use super::{Hybrid, Mode, Torque};
 use crate::drive::Coulomb;
 
 /// Relative size of terms that are left out: two orders below rounding.

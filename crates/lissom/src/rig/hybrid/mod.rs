@@ -1,13 +1,19 @@
 //! Exact motion of an arm: stick, slip and the events between them.
 
-use super::polynomial::ORDER_MOST;
+pub(super) mod events;
+pub(super) mod polynomial;
+mod series;
+mod slip;
+
+use polynomial::ORDER_MOST;
+
 use super::{Motion, RigError, Signal, TipWorld};
 use crate::arm::Arm;
 use crate::drive::{DryFriction, FrictionSeries};
 
 /// Largest (rate bound × step) for which a Taylor series of order [`ORDER_MOST`] is exact to
 /// rounding: 0.5²⁴/24! is 1e-31.
-pub(super) const STEP_RATE: f64 = 0.5;
+pub(in crate::rig) const STEP_RATE: f64 = 0.5;
 /// Events at one instant after which the joint is taken to chatter and is held for a moment.
 const EVENTS_AT_ONCE: usize = 50;
 
@@ -23,7 +29,7 @@ pub enum Mode {
 }
 
 impl Mode {
-    pub(super) fn of(velocity: f64) -> Self {
+    pub(in crate::rig) fn of(velocity: f64) -> Self {
         if velocity > 0.0 {
             Self::Forward
         } else if velocity < 0.0 {
@@ -33,14 +39,14 @@ impl Mode {
         }
     }
     /// +1 forward, −1 backward.
-    pub(super) fn sign(self) -> f64 {
+    pub(in crate::rig) fn sign(self) -> f64 {
         if self == Self::Backward { -1.0 } else { 1.0 }
     }
 }
 
 /// The motor's torque over time.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Torque<'s> {
+pub(in crate::rig) enum Torque<'s> {
     /// Constant \[N·m\].
     Held(f64),
     /// Over the motion's own time \[N·m\].
@@ -77,44 +83,44 @@ pub(super) enum Torque<'s> {
 /// coupling torque lies between −backward and forward.
 #[derive(Debug, Clone)]
 pub struct Hybrid<'a> {
-    pub(super) arm: &'a Arm,
-    pub(super) friction: DryFriction,
-    pub(super) world: Option<TipWorld>,
+    pub(in crate::rig) arm: &'a Arm,
+    pub(in crate::rig) friction: DryFriction,
+    pub(in crate::rig) world: Option<TipWorld>,
     /// Arms that come later, and when \[s\]; the next one last.
-    pub(super) changes: Vec<(f64, &'a Arm)>,
-    pub(super) state: Vec<f64>,
-    pub(super) time_s: f64,
-    pub(super) mode: Mode,
+    pub(in crate::rig) changes: Vec<(f64, &'a Arm)>,
+    pub(in crate::rig) state: Vec<f64>,
+    pub(in crate::rig) time_s: f64,
+    pub(in crate::rig) mode: Mode,
     /// What a rubbing tip does.
-    pub(super) tip_mode: Mode,
+    pub(in crate::rig) tip_mode: Mode,
     /// Which walls the tip touches.
-    pub(super) touching: Vec<bool>,
-    pub(super) step_most_s: f64,
+    pub(in crate::rig) touching: Vec<bool>,
+    pub(in crate::rig) step_most_s: f64,
     /// Σ|h_i| \[N·m/rad\].
-    pub(super) coupling_size: f64,
+    pub(in crate::rig) coupling_size: f64,
     /// Taylor coefficients of the state; the first also serves as a state that is tried.
-    pub(super) terms: Vec<Vec<f64>>,
-    pub(super) series: Coefficients,
-    pub(super) sticks: usize,
-    pub(super) events: usize,
-    pub(super) stuck_s: f64,
+    pub(in crate::rig) terms: Vec<Vec<f64>>,
+    pub(in crate::rig) series: Coefficients,
+    pub(in crate::rig) sticks: usize,
+    pub(in crate::rig) events: usize,
+    pub(in crate::rig) stuck_s: f64,
 }
 
 /// Taylor coefficients of what acts on the arm.
 #[derive(Debug, Clone)]
-pub(super) struct Coefficients {
+pub(in crate::rig) struct Coefficients {
     /// Motor torque less the part of C_t that the tip's torque makes \[N·m\].
-    pub(super) torque: [f64; ORDER_MOST + 1],
+    pub(in crate::rig) torque: [f64; ORDER_MOST + 1],
     /// What the drive would have to overcome to turn a stuck joint \[N·m\].
-    pub(super) held: [f64; ORDER_MOST + 1],
+    pub(in crate::rig) held: [f64; ORDER_MOST + 1],
     /// F(t) and T(t) at the tip \[N, N·m\].
-    pub(super) tip_force: [f64; ORDER_MOST + 1],
-    pub(super) tip_torque: [f64; ORDER_MOST + 1],
+    pub(in crate::rig) tip_force: [f64; ORDER_MOST + 1],
+    pub(in crate::rig) tip_torque: [f64; ORDER_MOST + 1],
     /// What pushes a stuck tip \[N\].
-    pub(super) tip_held: [f64; ORDER_MOST + 1],
-    pub(super) angle: [f64; ORDER_MOST + 1],
-    pub(super) velocity: [f64; ORDER_MOST + 1],
-    pub(super) friction: FrictionSeries,
+    pub(in crate::rig) tip_held: [f64; ORDER_MOST + 1],
+    pub(in crate::rig) angle: [f64; ORDER_MOST + 1],
+    pub(in crate::rig) velocity: [f64; ORDER_MOST + 1],
+    pub(in crate::rig) friction: FrictionSeries,
 }
 
 impl Default for Coefficients {
@@ -135,7 +141,7 @@ impl Default for Coefficients {
 
 impl<'a> Hybrid<'a> {
     /// Relative error of a step where friction bends: the series' last terms are below it.
-    pub(super) const BENT: f64 = 1e-15;
+    pub(in crate::rig) const BENT: f64 = 1e-15;
 
     /// An arm at rest at angle zero.
     pub fn at_rest(arm: &'a Arm) -> Self {
@@ -302,7 +308,7 @@ impl<'a> Hybrid<'a> {
     }
 
     /// Moves on with the motor held, whatever the torques.
-    pub(super) fn advance_stuck(&mut self, duration_s: f64) {
+    pub(in crate::rig) fn advance_stuck(&mut self, duration_s: f64) {
         self.mode = Mode::Stick;
         let parts = (duration_s / self.step_most_s).ceil().max(1.0);
         for _ in 0..parts as usize {

@@ -10,11 +10,11 @@ const DEPTH: u32 = 52;
 
 /// `f(t) = f(0) + Σ Re(a·(e^{μt} − 1)/μ)`: what blocks contribute to the watched under a held torque.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Wave {
+pub(in crate::rig) struct Wave {
     start: f64,
     terms: Vec<Term>,
     /// Evaluations so far.
-    pub(super) evaluations: usize,
+    pub(in crate::rig) evaluations: usize,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -38,12 +38,12 @@ struct Point {
 
 impl Wave {
     /// Room for `blocks` blocks.
-    pub(super) fn with_room(blocks: usize) -> Self {
+    pub(in crate::rig) fn with_room(blocks: usize) -> Self {
         Self { terms: Vec::with_capacity(2 * blocks), ..Self::default() }
     }
 
     /// `start + sign·(change of what is watched)` of blocks in states `y` under `torque`.
-    pub(super) fn set(
+    pub(in crate::rig) fn set(
         &mut self,
         start: f64,
         sign: f64,
@@ -76,17 +76,17 @@ impl Wave {
     }
 
     /// Slope at the start.
-    pub(super) fn slope(&self) -> f64 {
+    pub(in crate::rig) fn slope(&self) -> f64 {
         self.terms.iter().map(|t| t.slope.re).sum()
     }
 
     /// Second derivative at the start.
-    pub(super) fn bend(&self) -> f64 {
+    pub(in crate::rig) fn bend(&self) -> f64 {
         self.terms.iter().map(|t| (t.slope * t.rate).re).sum()
     }
 
     /// Bounds on the derivatives of this order, from 1.
-    pub(super) fn bound(&self, order: i32) -> f64 {
+    pub(in crate::rig) fn bound(&self, order: i32) -> f64 {
         self.terms.iter().map(|t| t.size * t.speed.powi(order - 1)).sum()
     }
 
@@ -109,7 +109,7 @@ impl Wave {
     /// A stretch is passed over where the ends less the most that the wave departs from its chord
     /// keep it positive: no crossing is stepped over, not even a pair of close ones, down to
     /// stretches of `(to − from)·2⁻⁵²`.
-    pub(super) fn first_zero(&mut self, from: f64, to: f64) -> Option<f64> {
+    pub(in crate::rig) fn first_zero(&mut self, from: f64, to: f64) -> Option<f64> {
         if self.start > to * self.bound(1) {
             return None;
         }

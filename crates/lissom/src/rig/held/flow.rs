@@ -20,27 +20,27 @@ const SHORT: f64 = 0.08;
 /// Two states of an arm, what a torque does to them, and their part in what is watched: the
 /// motor's velocity while it slips, the coupling torque while it sticks.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Block {
-    pub(super) rates: Rates,
+pub(in crate::rig) struct Block {
+    pub(in crate::rig) rates: Rates,
     /// ẏ per torque \[1/(N·m)\].
-    pub(super) gain: [f64; 2],
-    pub(super) read: [f64; 2],
+    pub(in crate::rig) gain: [f64; 2],
+    pub(in crate::rig) read: [f64; 2],
     /// Of each part: the most that is watched of it per |ẏ| \[1\], and the size of its rate \[1/s\].
-    pub(super) sizes: [(f64, f64); 2],
+    pub(in crate::rig) sizes: [(f64, f64); 2],
 }
 
 /// A phase, slip or stick, as blocks.
 #[derive(Debug, Clone)]
-pub(super) struct Flow {
-    pub(super) blocks: Vec<Block>,
+pub(in crate::rig) struct Flow {
+    pub(in crate::rig) blocks: Vec<Block>,
     /// Blocks' states to the phase's and back.
-    pub(super) basis: DMatrix<f64>,
-    pub(super) inverse: DMatrix<f64>,
+    pub(in crate::rig) basis: DMatrix<f64>,
+    pub(in crate::rig) inverse: DMatrix<f64>,
 }
 
 /// A [`Block`] over a given time t.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Part {
+pub(in crate::rig) struct Part {
     /// e^{Λ·t} by rows.
     turn: [f64; 4],
     /// y after t from rest, per torque.
@@ -59,17 +59,21 @@ pub(super) struct Part {
 
 /// What [`step`] finds out beside the states.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Moved<F> {
+pub(in crate::rig) struct Moved<F> {
     /// What is watched, at the end.
-    pub(super) watched: F,
+    pub(in crate::rig) watched: F,
     /// Its integral, without the torque's part.
-    pub(super) sum: F,
+    pub(in crate::rig) sum: F,
     /// The most that it departs from the straight line through both ends.
-    pub(super) stray: F,
+    pub(in crate::rig) stray: F,
 }
 
 impl Flow {
-    pub(super) fn new(a: &DMatrix<f64>, push: &DVector<f64>, read: &DVector<f64>) -> Option<Self> {
+    pub(in crate::rig) fn new(
+        a: &DMatrix<f64>,
+        push: &DVector<f64>,
+        read: &DVector<f64>,
+    ) -> Option<Self> {
         let Blocks { rates, basis, inverse } = Blocks::new(a)?;
         let (gain, read) = (&inverse * push, basis.tr_mul(read));
         let blocks = rates
@@ -83,17 +87,17 @@ impl Flow {
     }
 
     /// States of the phase to states of the blocks.
-    pub(super) fn enter(&self, z: &[f64], y: &mut [[f64; 2]]) {
+    pub(in crate::rig) fn enter(&self, z: &[f64], y: &mut [[f64; 2]]) {
         combine(&self.inverse, z, y.as_flattened_mut());
     }
 
     /// States of the blocks to states of the phase.
-    pub(super) fn leave(&self, y: &[[f64; 2]], z: &mut [f64]) {
+    pub(in crate::rig) fn leave(&self, y: &[[f64; 2]], z: &mut [f64]) {
         combine(&self.basis, y.as_flattened(), z);
     }
 
     /// A row on the phase's states as one on the blocks'.
-    pub(super) fn row(&self, row: &DVector<f64>) -> Vec<[f64; 2]> {
+    pub(in crate::rig) fn row(&self, row: &DVector<f64>) -> Vec<[f64; 2]> {
         self.basis.tr_mul(row).as_slice().as_chunks::<2>().0.to_vec()
     }
 }
@@ -108,7 +112,7 @@ impl Block {
     }
 
     /// Over `time_s`.
-    pub(super) fn over(&self, time_s: f64) -> Part {
+    pub(in crate::rig) fn over(&self, time_s: f64) -> Part {
         let ([g1, g2], [c1, c2]) = (self.gain, self.read);
         let (turn, push, sum, sum_push, rate);
         match self.rates {
@@ -165,7 +169,7 @@ fn chord(rate: f64, time_s: f64) -> f64 {
 ///
 /// # Source
 /// `[HochbruckOstermann2010, Section 2.1]`
-pub(super) fn phi(z: Complex64) -> [Complex64; 2] {
+pub(in crate::rig) fn phi(z: Complex64) -> [Complex64; 2] {
     let size = z.re.abs().max(z.im.abs());
     if size < SERIES {
         // φ₂ = Σ z^k/(k+2)!, and φ₁ = 1 + z·φ₂.
@@ -200,7 +204,7 @@ const INVERSE_FACTORIALS: [f64; TERMS + 3] = {
 
 /// Moves the states on by the parts' time under `torque`.
 #[inline(always)]
-pub(super) fn step<F: Lane>(
+pub(in crate::rig) fn step<F: Lane>(
     parts: &[Part],
     y: &[[F; 2]],
     torque: F,
@@ -222,7 +226,7 @@ pub(super) fn step<F: Lane>(
 }
 
 /// ∫ of what is watched per torque.
-pub(super) fn sum_push(parts: &[Part]) -> f64 {
+pub(in crate::rig) fn sum_push(parts: &[Part]) -> f64 {
     parts.iter().map(|p| p.sum_push).sum()
 }
 

@@ -1,9 +1,10 @@
 //! An arm made ready for torques that are held over samples.
 
+use super::HeldStep;
 use super::flow::{Block, Flow, Part, sum_push};
 use super::modal::Modal;
-use super::{HeldStep, RigError};
 use crate::arm::Arm;
+use crate::rig::RigError;
 
 /// Dense matrices cut a sample into parts, some two per unit of (rate bound × duration). With more
 /// of it than this they save nothing over the event engine, and take long to make.
@@ -17,37 +18,37 @@ const MOST_TURN: f64 = 32.0;
 /// stand in, or the event engine alone where the arm is stiff.
 #[derive(Debug, Clone)]
 pub struct HeldArm<'a> {
-    pub(super) arm: &'a Arm,
-    pub(super) way: Way,
+    pub(in crate::rig) arm: &'a Arm,
+    pub(in crate::rig) way: Way,
 }
 
 #[derive(Debug, Clone)]
-pub(super) enum Way {
+pub(in crate::rig) enum Way {
     Modes(Box<Modes>),
     Matrices(Vec<HeldStep>),
 }
 
 /// The arm's modes in both phases.
 #[derive(Debug, Clone)]
-pub(super) struct Modes {
-    pub(super) modal: Modal,
-    pub(super) slip: Flow,
-    pub(super) stick: Flow,
+pub(in crate::rig) struct Modes {
+    pub(in crate::rig) modal: Modal,
+    pub(in crate::rig) slip: Flow,
+    pub(in crate::rig) stick: Flow,
     /// C_t on the slip's states `z` when the motor is at rest.
-    pub(super) coupling: Vec<f64>,
+    pub(in crate::rig) coupling: Vec<f64>,
     /// q_i − θ_m on the blocks' states, slipping and sticking.
-    pub(super) deflections: [Vec<Vec<[f64; 2]>>; 2],
-    pub(super) durations: Vec<Duration>,
+    pub(in crate::rig) deflections: [Vec<Vec<[f64; 2]>>; 2],
+    pub(in crate::rig) durations: Vec<Duration>,
 }
 
 /// What the blocks do in a given time.
 #[derive(Debug, Clone)]
-pub(super) struct Duration {
-    pub(super) time_s: f64,
-    pub(super) slip: Vec<Part>,
-    pub(super) stick: Vec<Part>,
+pub(in crate::rig) struct Duration {
+    pub(in crate::rig) time_s: f64,
+    pub(in crate::rig) slip: Vec<Part>,
+    pub(in crate::rig) stick: Vec<Part>,
     /// Angle that a torque of 1 N·m turns the motor by.
-    pub(super) turned: f64,
+    pub(in crate::rig) turned: f64,
 }
 
 impl Duration {
@@ -58,14 +59,14 @@ impl Duration {
     }
 
     /// The slip over another time; nothing is allocated.
-    pub(super) fn set_slip(&mut self, modes: &Modes, time_s: f64) {
+    pub(in crate::rig) fn set_slip(&mut self, modes: &Modes, time_s: f64) {
         fill(&mut self.slip, &modes.slip.blocks, time_s);
         self.turned = sum_push(&self.slip);
         self.time_s = time_s;
     }
 
     /// The stick over another time; nothing is allocated.
-    pub(super) fn set_stick(&mut self, modes: &Modes, time_s: f64) {
+    pub(in crate::rig) fn set_stick(&mut self, modes: &Modes, time_s: f64) {
         fill(&mut self.stick, &modes.stick.blocks, time_s);
         self.time_s = time_s;
     }
@@ -128,12 +129,12 @@ impl Modes {
     }
 
     /// Room for a duration that was not asked for.
-    pub(super) fn other_duration(&self) -> Duration {
+    pub(in crate::rig) fn other_duration(&self) -> Duration {
         Duration::new(&self.slip, &self.stick, 0.0)
     }
 
     /// Which duration this is.
-    pub(super) fn duration(&self, time_s: f64) -> Option<&Duration> {
+    pub(in crate::rig) fn duration(&self, time_s: f64) -> Option<&Duration> {
         self.durations.iter().find(|d| d.time_s.to_bits() == time_s.to_bits())
     }
 }

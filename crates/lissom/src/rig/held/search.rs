@@ -1,9 +1,9 @@
 //! From event to event within a sample: breaking loose, coming to rest, reversing.
 
-use super::Mode;
+use super::arm::{Duration, Modes};
 use super::flow::step;
-use super::held_arm::{Duration, Modes};
-use super::held_motion::{HeldMotion, rounding};
+use super::motion::{HeldMotion, rounding};
+use crate::rig::Mode;
 
 /// Events within one duration after which the event engine takes the rest.
 const MOST_EVENTS: usize = 64;
@@ -14,7 +14,7 @@ const SMALL: f64 = 1e-12;
 impl HeldMotion<'_> {
     /// Moves on by `duration_s` from event to event.
     #[cold]
-    pub(super) fn search(&mut self, modes: &Modes, torque: f64, duration_s: f64) {
+    pub(in crate::rig) fn search(&mut self, modes: &Modes, torque: f64, duration_s: f64) {
         self.work.searched += 1;
         let Some(mut room) = self.other.take() else { return };
         let mut left = duration_s;
@@ -167,7 +167,7 @@ impl HeldMotion<'_> {
     }
 
     /// Leaves the stick.
-    pub(super) fn change(&mut self, modes: &Modes, mode: Mode, velocity: f64) {
+    pub(in crate::rig) fn change(&mut self, modes: &Modes, mode: Mode, velocity: f64) {
         self.leave(modes);
         self.mode = mode;
         self.enter(modes);

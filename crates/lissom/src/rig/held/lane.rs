@@ -10,7 +10,7 @@ use std::ops::{Add, Mul, Sub};
 /// What a whole sample asks of a number.
 ///
 /// Only operations that round once: results are the same in any number of lanes and on any machine.
-pub(super) trait Lane:
+pub(in crate::rig) trait Lane:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f64, Output = Self>
 {
     fn splat(value: f64) -> Self;
@@ -29,16 +29,16 @@ impl Lane for f64 {
 }
 
 /// Experiments side by side.
-pub(super) const LANES: usize = 8;
+pub(in crate::rig) const LANES: usize = 8;
 
 /// A number of each.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(64))]
-pub(super) struct Lanes(pub(super) [f64; LANES]);
+pub(in crate::rig) struct Lanes(pub(in crate::rig) [f64; LANES]);
 
 impl Lanes {
     #[inline(always)]
-    pub(super) fn map2(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+    pub(in crate::rig) fn map2(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let mut out = self.0;
         for (a, b) in out.iter_mut().zip(other.0) {
             *a = f(*a, b);

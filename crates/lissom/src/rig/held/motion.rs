@@ -2,12 +2,12 @@
 
 use std::cell::{OnceCell, RefCell};
 
+use super::arm::{Duration, HeldArm, Modes, Way};
 use super::crossing::Wave;
-use super::events::ROUNDING;
 use super::flow::step;
-use super::held_arm::{Duration, HeldArm, Modes, Way};
-use super::{Hybrid, Mode, Motion, RigError};
 use crate::drive::Coulomb;
+use crate::rig::hybrid::events::ROUNDING;
+use crate::rig::{Hybrid, Mode, Motion, RigError};
 
 /// An arm in motion under torques that are held.
 ///
@@ -36,26 +36,26 @@ use crate::drive::Coulomb;
 /// `[Feliu1989, eqs. (13)-(15), Section 5]`, in the coordinates of the phase's own modes.
 #[derive(Debug, Clone)]
 pub struct HeldMotion<'a> {
-    pub(super) held: &'a HeldArm<'a>,
-    pub(super) mode: Mode,
-    pub(super) angle: f64,
+    pub(in crate::rig) held: &'a HeldArm<'a>,
+    pub(in crate::rig) mode: Mode,
+    pub(in crate::rig) angle: f64,
     /// θ̇_m while slipping, C_t while sticking.
-    pub(super) watched: f64,
+    pub(in crate::rig) watched: f64,
     /// States of the phase's blocks, and room for what is tried.
-    pub(super) y: Vec<[f64; 2]>,
-    pub(super) next: Vec<[f64; 2]>,
-    pub(super) z: Vec<f64>,
-    pub(super) wave: Wave,
+    pub(in crate::rig) y: Vec<[f64; 2]>,
+    pub(in crate::rig) next: Vec<[f64; 2]>,
+    pub(in crate::rig) z: Vec<f64>,
+    pub(in crate::rig) wave: Wave,
     /// Room for a duration that was not prepared.
-    pub(super) other: Option<Duration>,
+    pub(in crate::rig) other: Option<Duration>,
     /// The event engine, for what is left to it.
-    pub(super) events: Hybrid<'a>,
+    pub(in crate::rig) events: Hybrid<'a>,
     /// The state as it was last asked for, with its z behind it; and the room for it until then.
     state: OnceCell<Vec<f64>>,
     room: RefCell<Vec<f64>>,
-    pub(super) sticks: usize,
-    pub(super) stuck_s: f64,
-    pub(super) work: Work,
+    pub(in crate::rig) sticks: usize,
+    pub(in crate::rig) stuck_s: f64,
+    pub(in crate::rig) work: Work,
 }
 
 /// What a motion took.
@@ -163,7 +163,7 @@ impl<'a> HeldMotion<'a> {
     }
 
     /// The state of the event engine becomes this one's.
-    pub(super) fn take_over(&mut self, modes: &Modes) {
+    pub(in crate::rig) fn take_over(&mut self, modes: &Modes) {
         self.mode = self.events.mode;
         self.angle = self.events.state[0];
         modes.modal.energy(&self.events.state, &mut self.z);
@@ -174,7 +174,7 @@ impl<'a> HeldMotion<'a> {
     }
 
     /// z to the blocks of the phase.
-    pub(super) fn enter(&mut self, modes: &Modes) {
+    pub(in crate::rig) fn enter(&mut self, modes: &Modes) {
         if self.mode == Mode::Stick {
             modes.stick.enter(&self.z[1..], &mut self.y[..modes.stick.blocks.len()]);
             self.watched = self.z.iter().zip(&modes.coupling).skip(1).map(|(z, c)| z * c).sum();
@@ -184,7 +184,7 @@ impl<'a> HeldMotion<'a> {
     }
 
     /// The blocks of the phase to z.
-    pub(super) fn leave(&mut self, modes: &Modes) {
+    pub(in crate::rig) fn leave(&mut self, modes: &Modes) {
         if self.mode == Mode::Stick {
             self.z[0] = 0.0;
             modes.stick.leave(&self.y[..modes.stick.blocks.len()], &mut self.z[1..]);
@@ -254,19 +254,25 @@ impl<'a> HeldMotion<'a> {
     }
 
     /// Number of blocks while the motor slips; none where the arm does not move by modes.
-    pub(super) fn blocks(&self) -> usize {
+    pub(in crate::rig) fn blocks(&self) -> usize {
         self.y.len()
     }
 
     /// A slipping motor is where it was moved to.
-    pub(super) fn put(&mut self, angle: f64, velocity: f64, sign: f64) {
+    pub(in crate::rig) fn put(&mut self, angle: f64, velocity: f64, sign: f64) {
         self.angle = angle;
         self.watched = velocity;
         self.mode = if sign > 0.0 { Mode::Forward } else { Mode::Backward };
     }
 
     /// One sample, not tried at a stroke where that is known to fail.
-    pub(super) fn sample(&mut self, modes: &Modes, duration: &Duration, torque: f64, whole: bool) {
+    pub(in crate::rig) fn sample(
+        &mut self,
+        modes: &Modes,
+        duration: &Duration,
+        torque: f64,
+        whole: bool,
+    ) {
         let free = frictionless(self.held.arm.coulomb) && self.mode == Mode::Stick;
         if free {
             self.change(modes, Mode::Forward, 0.0);
@@ -345,6 +351,6 @@ fn frictionless(coulomb: Coulomb) -> bool {
 }
 
 /// Torques below this are rounding of those that act \[N·m\]: as the event engine's.
-pub(super) fn rounding(coulomb: Coulomb, torque: f64) -> f64 {
+pub(in crate::rig) fn rounding(coulomb: Coulomb, torque: f64) -> f64 {
     ROUNDING * (torque.abs() + coulomb.forward.max(coulomb.backward))
 }
