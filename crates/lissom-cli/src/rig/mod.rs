@@ -20,6 +20,8 @@ use crate::{output, print, progress};
 use folder::Folder;
 
 const CAMPAIGN: &str = "campaign.toml";
+/// Findings of one kind that are shown.
+const WARNED: usize = 3;
 /// Frequencies of a lumped beam that are compared.
 const SHOWN: usize = 3;
 
@@ -220,12 +222,31 @@ fn report(plan: &PlanFile, facts: &[Value], campaign: &Path) {
         ]);
     }
     print::table(&rows);
-    for (run, facts) in plan.runs.iter().zip(facts) {
-        for finding in facts["findings"].as_array().into_iter().flatten() {
-            let message = finding["message"].as_str().unwrap_or_default();
-            print::line(&format!("warning: {}: {message}", run.name));
-        }
-    }
+    warn(plan, facts);
     print::line("");
     print::line(&format!("identify it with: lissom identify {}", campaign.display()));
+}
+
+/// The findings, those of one kind together.
+fn warn(plan: &PlanFile, facts: &[Value]) {
+    let mut kinds: Vec<(&str, Vec<String>)> = Vec::new();
+    for (run, facts) in plan.runs.iter().zip(facts) {
+        for finding in facts["findings"].as_array().into_iter().flatten() {
+            let text = |key: &str| finding[key].as_str().unwrap_or_default();
+            let line = format!("warning: {}: {}", run.name, text("message"));
+            match kinds.iter_mut().find(|(code, _)| *code == text("code")) {
+                Some((_, lines)) => lines.push(line),
+                None => kinds.push((text("code"), vec![line])),
+            }
+        }
+    }
+    for (_, lines) in kinds {
+        lines.iter().take(WARNED).for_each(|line| print::line(line));
+        if lines.len() > WARNED {
+            print::line(&format!(
+                "  … and {} more of this kind, in rig.json",
+                lines.len() - WARNED
+            ));
+        }
+    }
 }
