@@ -7,7 +7,7 @@ mod properties;
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Payload, Span};
 use lissom::drive::{Coulomb, DryFriction, Falloff, Motor};
-use lissom::rig::{Harmonic, Hybrid, Signal, TipWorld, Wall};
+use lissom::rig::{Harmonic, HeldArm, HeldMotion, Hybrid, Motion, Signal, TipWorld, Wall};
 use serde_json::Value;
 
 /// Angles agree to this \[rad\] and velocities to this \[rad/s\]: the reference's Runge-Kutta has
@@ -141,6 +141,40 @@ fn a_payload_that_turns_is_taken_up_as_the_beam_stands() {
     assert!((x[5] - 1.5 * 0.7).abs() < 1e-8, "{x:?}");
     hybrid.advance(0.0, 1e-12);
     assert_eq!(hybrid.state().len(), 4);
+}
+
+/// A beam that swings on a stuck joint, its torque just reaching what friction holds: the limit is
+/// grazed, with no slope, once a swing. A torque that turns about at every sample chatters.
+#[test]
+fn grazing_and_chattering_come_to_an_end() {
+    let base = one(0.05);
+    let swing_rad = 0.4;
+    let holds = base.dynamics().coupling_motor * swing_rad;
+    for off in [0.0, 1e-16, -1e-16, 1e-13, -1e-13, 1e-9, -1e-9, 1e-4, -1e-4] {
+        let coulomb = Coulomb::symmetric(holds * (1.0 + off)).unwrap();
+        let beam = LumpedBeam::new(&[span(0.2, 0.005, 0.05, 0.0)]).unwrap();
+        let arm = Arm::new(beam, base.motor, coulomb).unwrap();
+        let held = HeldArm::new(&arm, &[3e-3]).unwrap();
+        for torque in [0.0, 0.5 * holds] {
+            let start = vec![0.0, 0.0, swing_rad, 0.0];
+            let mut by_events = Hybrid::with_state(&arm, start.clone());
+            let mut by_modes = HeldMotion::with_state(&held, &start).unwrap();
+            for k in 0..2000 {
+                let torque = if k % 2 == 0 { torque } else { -torque };
+                by_events.advance(torque, 3e-3);
+                by_modes.advance(torque, 3e-3).unwrap();
+            }
+            let (a, b) = (by_events.state(), by_modes.state());
+            assert!(
+                a.iter().chain(b).all(|x| x.is_finite() && x.abs() < 10.0),
+                "{off}: {a:?} {b:?}"
+            );
+            assert!(by_events.events() < 20_000, "{off}: {} events", by_events.events());
+            // Beyond rounding of the limit both do the same.
+            let apart = a.iter().zip(b).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+            assert!(off.abs() < 1e-9 || apart < 1e-6, "{off}, {torque}: apart by {apart:e}");
+        }
+    }
 }
 
 /// Both ran for ever: a stiff beam whose coupling torque rounds to more than friction's rounding, and
