@@ -82,7 +82,7 @@ fn rig_hint(error: &RigError) -> &'static str {
              ends"
         }
         RigError::TooLong { .. } => "record less, or log one sample in so many with log_every",
-        RigError::Unsupported { what } if what.contains("lugre") => {
+        RigError::Feature { .. } => {
             "build the command with: cargo build --release --features lugre"
         }
         RigError::AboveNyquist { .. } => {

@@ -26,17 +26,20 @@ const LEFT_OVER: Duration = Duration::from_secs(30);
 pub(super) struct Folder {
     path: PathBuf,
     fingerprint: String,
+    /// What a campaign that was finished left in `rig.json`.
+    finished: Option<Value>,
 }
 
 impl Folder {
     /// Makes the folder, or takes up the campaign in it where that is the same.
     pub(super) fn open(path: &Path, rig: &Rig, plan: &PlanFile) -> Result<Self, Failure> {
-        let folder = Self { path: path.to_owned(), fingerprint: fingerprint(rig, plan) };
+        let finished = read_json(&path.join(DONE));
+        let folder = Self { path: path.to_owned(), fingerprint: fingerprint(rig, plan), finished };
         let other =
             |what: &str| Failure::OtherCampaign { folder: path.to_owned(), what: what.to_owned() };
         let parts = folder.path(PARTS).join(INPUT);
         let same = |found: &Value| found["fingerprint"].as_str() == Some(&folder.fingerprint);
-        match [&folder.path(DONE), &parts].into_iter().find_map(|file| read_json(file)) {
+        match folder.finished.clone().or_else(|| read_json(&parts)) {
             Some(found) if same(&found) => {}
             // One that failed before its first log.
             Some(_) if !folder.path(DONE).exists() && !folder.has_logs() => {
@@ -74,8 +77,7 @@ impl Folder {
         let own = |facts: &Value| facts["file"].as_str() == Some(&log);
         let facts = read_json(&self.part(name)).filter(own).or_else(|| {
             // A campaign that was finished has them together.
-            let all = read_json(&self.path(DONE))?;
-            all["runs"].as_array()?.iter().find(|run| own(run)).cloned()
+            self.finished.as_ref()?["runs"].as_array()?.iter().find(|run| own(run)).cloned()
         })?;
         // A header, and a row for each sample, all of them ended.
         let text = std::fs::read_to_string(self.path(&log)).ok()?;

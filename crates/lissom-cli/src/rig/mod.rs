@@ -100,26 +100,27 @@ fn carry_out(
     folder: &Folder,
     jobs: Option<u16>,
 ) -> Result<Vec<Value>, Failure> {
-    let there = plan.runs.iter().filter(|run| folder.done(&run.name).is_some()).count();
+    let done: Vec<Option<Value>> = plan.runs.iter().map(|run| folder.done(&run.name)).collect();
+    let there = done.iter().flatten().count();
     if there > 0 {
         print::note(&format!("{there} of {} logs are there already", plan.runs.len()));
     }
     let bar = progress::bar(plan.runs.len(), "virtual campaign");
     bar.enable_steady_tick(std::time::Duration::from_millis(250));
-    let one = |run: &PlanRun| -> Result<Value, Failure> {
-        let facts = match folder.done(&run.name) {
+    let one = |(run, done): (&PlanRun, Option<Value>)| -> Result<Value, Failure> {
+        let facts = match done {
             Some(facts) => facts,
             None => simulate(rig, run, folder)?,
         };
         bar.inc(1);
         Ok(facts)
     };
-    let all = || plan.runs.par_iter().map(one).collect::<Vec<_>>();
+    let all = || plan.runs.par_iter().zip(done.clone()).map(one).collect::<Vec<_>>();
     let threads = jobs.map_or(0, usize::from);
     // Where no threads can be had, this one does it alone.
     let made = match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
         Ok(pool) => pool.install(all),
-        Err(_) => plan.runs.iter().map(one).collect(),
+        Err(_) => plan.runs.iter().zip(done.clone()).map(one).collect(),
     };
     bar.finish_and_clear();
     // The first failure in the order of the plan, whichever came first in time.

@@ -47,6 +47,7 @@ mod signals;
 mod tests;
 
 pub use error::CampaignError;
+pub(crate) use signals::column;
 
 use std::path::{Path, PathBuf};
 

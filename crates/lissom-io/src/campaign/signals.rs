@@ -95,7 +95,7 @@ fn stamps(table: &Table<'_>) -> Result<TimeSource, ConfigError> {
     Ok(TimeSource::Stamps(column(&table.need("column")?)?, unit_s * scale.unwrap_or(1.0)))
 }
 
-fn column(value: &Value<'_>) -> Result<ColumnRef, ConfigError> {
+pub(crate) fn column(value: &Value<'_>) -> Result<ColumnRef, ConfigError> {
     match value.as_text() {
         Some(name) => Ok(ColumnRef::Name(name.to_owned())),
         None => Ok(ColumnRef::Number(usize::try_from(value.whole(1, 100_000)?).unwrap_or(1))),

@@ -10,6 +10,7 @@ use lissom::rig::{
 
 use super::{PlanError, RUNS_MOST, settle};
 use crate::arm_file::omega;
+use crate::campaign::column;
 use crate::config::{ConfigError, Table, Value};
 use crate::error::Error;
 use crate::log::{ColumnRef, LogColumn, LogOptions, read_log};
@@ -165,12 +166,8 @@ fn velocities(value: &Value<'_>) -> Result<Vec<Reference>, Error> {
 fn rows(value: &Value<'_>, folder: &Path) -> Result<Reference, Error> {
     let table = value.table()?;
     table.only(&["file", "time", "time_unit", "value", "unit", "hold"])?;
-    let column = |key: &'static str, or: usize| -> Result<ColumnRef, ConfigError> {
-        let Some(value) = table.get(key) else { return Ok(ColumnRef::Number(or)) };
-        match value.as_text() {
-            Some(name) => Ok(ColumnRef::Name(name.to_owned())),
-            None => Ok(ColumnRef::Number(usize::try_from(value.whole(1, 100_000)?).unwrap_or(or))),
-        }
+    let column = |key: &str, or: usize| {
+        table.get(key).map_or(Ok(ColumnRef::Number(or)), |value| column(&value))
     };
     let scale = |key: &str| -> Result<f64, ConfigError> {
         table.get(key).map_or(Ok(1.0), |v| v.any_unit().map(|(size, _)| size))

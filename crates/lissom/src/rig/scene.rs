@@ -117,7 +117,7 @@ impl Scene {
             }
             #[cfg(not(feature = "lugre"))]
             JointFriction::Bristles { .. } => {
-                return Err(RigError::Unsupported { what: "bristles without the feature `lugre`" });
+                return Err(RigError::Feature { what: "bristles", feature: "lugre" });
             }
         };
         let later: Vec<(f64, &Arm)> = self.later.iter().map(|(t, arm)| (*t, arm)).collect();

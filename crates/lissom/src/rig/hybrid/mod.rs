@@ -13,7 +13,7 @@ use crate::drive::{DryFriction, FrictionSeries};
 
 /// Largest (rate bound × step) for which a Taylor series of order [`ORDER_MOST`] is exact to
 /// rounding: 0.5²⁴/24! is 1e-31.
-pub(in crate::rig) const STEP_RATE: f64 = 0.5;
+const STEP_RATE: f64 = 0.5;
 /// Events at one instant after which the joint is taken to chatter and is held for a moment.
 const EVENTS_AT_ONCE: usize = 50;
 
@@ -46,7 +46,7 @@ impl Mode {
 
 /// The motor's torque over time.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::rig) enum Torque<'s> {
+enum Torque<'s> {
     /// Constant \[N·m\].
     Held(f64),
     /// Over the motion's own time \[N·m\].
@@ -84,43 +84,43 @@ pub(in crate::rig) enum Torque<'s> {
 #[derive(Debug, Clone)]
 pub struct Hybrid<'a> {
     pub(in crate::rig) arm: &'a Arm,
-    pub(in crate::rig) friction: DryFriction,
-    pub(in crate::rig) world: Option<TipWorld>,
+    friction: DryFriction,
+    world: Option<TipWorld>,
     /// Arms that come later, and when \[s\]; the next one last.
-    pub(in crate::rig) changes: Vec<(f64, &'a Arm)>,
+    changes: Vec<(f64, &'a Arm)>,
     pub(in crate::rig) state: Vec<f64>,
-    pub(in crate::rig) time_s: f64,
+    time_s: f64,
     pub(in crate::rig) mode: Mode,
     /// What a rubbing tip does.
-    pub(in crate::rig) tip_mode: Mode,
+    tip_mode: Mode,
     /// Which walls the tip touches.
-    pub(in crate::rig) touching: Vec<bool>,
-    pub(in crate::rig) step_most_s: f64,
+    touching: Vec<bool>,
+    step_most_s: f64,
     /// Σ|h_i| \[N·m/rad\].
-    pub(in crate::rig) coupling_size: f64,
+    coupling_size: f64,
     /// Taylor coefficients of the state; the first also serves as a state that is tried.
     pub(in crate::rig) terms: Vec<Vec<f64>>,
-    pub(in crate::rig) series: Coefficients,
-    pub(in crate::rig) sticks: usize,
-    pub(in crate::rig) events: usize,
+    series: Coefficients,
+    sticks: usize,
+    events: usize,
     pub(in crate::rig) stuck_s: f64,
 }
 
 /// Taylor coefficients of what acts on the arm.
 #[derive(Debug, Clone)]
-pub(in crate::rig) struct Coefficients {
+struct Coefficients {
     /// Motor torque less the part of C_t that the tip's torque makes \[N·m\].
-    pub(in crate::rig) torque: [f64; ORDER_MOST + 1],
+    torque: [f64; ORDER_MOST + 1],
     /// What the drive would have to overcome to turn a stuck joint \[N·m\].
-    pub(in crate::rig) held: [f64; ORDER_MOST + 1],
+    held: [f64; ORDER_MOST + 1],
     /// F(t) and T(t) at the tip \[N, N·m\].
-    pub(in crate::rig) tip_force: [f64; ORDER_MOST + 1],
-    pub(in crate::rig) tip_torque: [f64; ORDER_MOST + 1],
+    tip_force: [f64; ORDER_MOST + 1],
+    tip_torque: [f64; ORDER_MOST + 1],
     /// What pushes a stuck tip \[N\].
-    pub(in crate::rig) tip_held: [f64; ORDER_MOST + 1],
-    pub(in crate::rig) angle: [f64; ORDER_MOST + 1],
-    pub(in crate::rig) velocity: [f64; ORDER_MOST + 1],
-    pub(in crate::rig) friction: FrictionSeries,
+    tip_held: [f64; ORDER_MOST + 1],
+    angle: [f64; ORDER_MOST + 1],
+    velocity: [f64; ORDER_MOST + 1],
+    friction: FrictionSeries,
 }
 
 impl Default for Coefficients {

@@ -1,6 +1,6 @@
 //! Taylor series of an arm's state, and where the tip stands in it.
 
-use super::events::pushed;
+use super::events::{ROUNDING, pushed};
 use super::polynomial::{ORDER_MOST, value};
 use super::{Hybrid, Mode, Torque};
 use crate::drive::Coulomb;
@@ -9,8 +9,6 @@ use crate::drive::Coulomb;
 const LEFT_OUT: f64 = 1e-3 * f64::EPSILON;
 /// Steps are not cut below this share.
 const SHORTEST: f64 = 1e-14;
-/// Relative size of the last terms where the series does not end within its orders.
-const LAST: f64 = 1e-15;
 
 impl Hybrid<'_> {
     /// Index of θ_n in the state.
@@ -60,7 +58,7 @@ impl Hybrid<'_> {
         self.next_term(0);
         self.tip_mode = before;
         let push = self.series.tip_held[0];
-        pushed(push, Coulomb { forward: limit, backward: limit }, 1e-13 * (limit + push.abs()))
+        pushed(push, Coulomb { forward: limit, backward: limit }, ROUNDING * (limit + push.abs()))
     }
 
     /// Fills `terms` with the Taylor coefficients of the state; gives the order reached and the time
@@ -189,7 +187,7 @@ impl Hybrid<'_> {
     }
 }
 
-/// How long, at most `step`, a series with terms of these sizes holds to [`LAST`] of the motion that
+/// How long, at most `step`, a series with terms of these sizes holds to [`Hybrid::BENT`] of the motion that
 /// its first terms describe.
 fn holds_for(sizes: &[f64], step: f64) -> f64 {
     let order = sizes.len() - 1;
@@ -197,7 +195,7 @@ fn holds_for(sizes: &[f64], step: f64) -> f64 {
     while h > step * SHORTEST {
         let motion = sizes[0].max(sizes[1] * h).max(sizes[2] * h * h);
         let last = h.powf(order as f64 - 1.0);
-        if last * (sizes[order - 1] + h * sizes[order]) <= LAST * motion {
+        if last * (sizes[order - 1] + h * sizes[order]) <= Hybrid::BENT * motion {
             break;
         }
         h *= 0.8;
