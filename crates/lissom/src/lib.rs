@@ -12,7 +12,9 @@ pub mod beam;
 pub mod drive;
 pub mod identify;
 pub mod lti;
+mod number;
 pub mod record;
+pub mod replay;
 pub mod rig;
 pub mod spectrum;
 

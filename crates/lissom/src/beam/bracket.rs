@@ -1,6 +1,6 @@
 //! A root between two points of opposite sign.
 
-use super::number::Scaled;
+use crate::number::Scaled;
 
 /// Halvings of the interval after which doubles are exhausted.
 const STEPS_MOST: usize = 400;

@@ -13,8 +13,8 @@
 //! The count is that of `[WittrickWilliams1971]`; flexibility in place of stiffness keeps the
 //! figures exact to rounding where many short spans make the stiffness ill-conditioned.
 
-use super::number::{Number, Scaled};
 use super::piece::{Piece, Sym, bend, heavy, kept_from_zero, parts, piece};
+use crate::number::{Number, Scaled};
 
 /// A piece of a chain, base to tip.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! Roots of a function that comes with a count of those below: none missed, each exact to rounding.
 
 use super::bracket::root;
-use super::number::Scaled;
+use crate::number::Scaled;
 
 /// Roots closer to each other than this, relatively, are given as one value.
 const TOGETHER: f64 = 4.0 * f64::EPSILON;

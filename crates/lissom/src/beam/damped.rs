@@ -4,13 +4,13 @@ use num_complex::Complex64;
 
 use super::chain::{At, Joined};
 use super::frequencies::{degrees, from_tip};
-use super::number::{Dual, Number, Scaled};
 use super::response::at_damped;
 use super::roots::together;
 use super::span::Damping;
 use super::zeros::{at_joint, log_slope};
 use super::{Base, LumpedBeam, Mode};
 use crate::drive::Motor;
+use crate::number::{Dual, Number, Scaled};
 
 /// Roots in the s plane.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,13 +7,13 @@ use super::counted::counted_roots;
 use super::frequencies::{below, below_first, lowest};
 use super::lumped::{attach, positions};
 use super::modes::mode;
-use super::number::{Dual, Number, Scaled};
 use super::response::{BeamResponse, at_damped, joined};
 use super::roots::further;
 use super::span::check_rest;
 use super::winding::zeros_within;
 use super::zeros::{log_slope, real_zeros, tip_numerator};
 use super::{Base, BeamError, Damping, LumpedBeam, Mode, Payload, Span, Zeros};
+use crate::number::{Dual, Number, Scaled};
 
 /// A piece of beam with constant rigidity and mass per length, and what sits at its outer end.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::chain::{At, BaseSide, Element, TipSide};
 use super::counted::counted_roots;
-use super::number::{Number, Scaled};
+use crate::number::{Number, Scaled};
 
 /// What the base of the beam does.
 #[derive(Debug, Clone, Copy, PartialEq)]

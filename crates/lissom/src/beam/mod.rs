@@ -14,7 +14,6 @@ mod frequencies;
 mod lumped;
 mod matrices;
 mod modes;
-mod number;
 mod payload;
 mod piece;
 mod properties;

@@ -3,10 +3,10 @@
 use num_complex::Complex64;
 
 use super::chain::{At, BaseSide, Element, TipSide};
-use super::number::Dual;
 use super::piece::{Sym, cut_up};
 use super::response::BeamResponse;
 use super::{Base, LumpedBeam};
+use crate::number::Dual;
 
 /// A mode of the beam with the motor clamped.
 ///

@@ -1,7 +1,7 @@
 //! Pieces of a chain: an inertia, a transport and a compliance, and the 2×2 algebra of these.
 
 use super::chain::{At, Element};
-use super::number::Number;
+use crate::number::Number;
 
 /// Terms of the series of a piece with mass: for |x| ≤ 1 the seventh is below 1e-19.
 const TERMS: usize = 7;

@@ -3,9 +3,9 @@
 use num_complex::Complex64;
 
 use super::chain::{At, BaseSide, Element, Joined, TipSide};
-use super::number::Number;
 use super::span::Damping;
 use super::{LumpedBeam, modes};
+use crate::number::Number;
 
 /// What a turn of the motor does to the beam at one s.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use num_complex::Complex64;
 
-use super::number::{Dual, Scaled};
+use crate::number::{Dual, Scaled};
 
 /// Turn of the argument aimed at in a step.
 const TURN: f64 = 0.3;

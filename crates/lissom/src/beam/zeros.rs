@@ -6,10 +6,10 @@ use super::bracket::root;
 use super::chain::{At, BaseSide, Element, Joined, TipSide};
 use super::counted::counted_roots;
 use super::frequencies::{Base, below_first, degrees, lowest};
-use super::number::{Dual, Number, Scaled};
 use super::piece::cut_up;
 use super::roots::further;
 use super::{LumpedBeam, RootClass, class};
+use crate::number::{Dual, Number, Scaled};
 
 /// The finite zeros of one response, as z = s², by growing |z|.
 #[derive(Debug, Clone, PartialEq)]

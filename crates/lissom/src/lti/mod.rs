@@ -1,5 +1,6 @@
 //! Linear models: transfer functions and state space.
 
+pub(crate) mod first_root;
 mod polynomial;
 mod state_space;
 mod transfer_function;

@@ -1,7 +1,7 @@
 //! Signals in continuous time whose Taylor coefficients are known: torques and tip loads.
 
 use super::RigError;
-use super::hybrid::polynomial::ORDER_MOST;
+use crate::lti::first_root::ORDER_MOST;
 
 /// `amplitude·sin(ω·t + phase)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -167,7 +167,7 @@ mod tests {
     fn summed(signal: &Signal, from: f64, t: f64) -> f64 {
         let mut c = [0.0; ORDER_MOST + 1];
         signal.add_taylor(from, &mut c);
-        super::super::hybrid::polynomial::value(&c, t)
+        crate::lti::first_root::value(&c, t)
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! Events of a motion: what sticks, breaks loose, reverses, meets a wall or changes.
 
-use super::polynomial::{ORDER_MOST, first_used_up};
 use super::slip::{Contact, slip_ends};
 use super::{Hybrid, Mode, STEP_RATE, Torque};
 use crate::drive::Coulomb;
+use crate::lti::first_root::{ORDER_MOST, first_used_up};
 
 /// Accelerations below this share of what the torques give are rounding.
 pub(in crate::rig) const ROUNDING: f64 = 1e-13;

@@ -1,11 +1,10 @@
 //! Exact motion of an arm: stick, slip and the events between them.
 
 pub(super) mod events;
-pub(super) mod polynomial;
 mod series;
 mod slip;
 
-use polynomial::ORDER_MOST;
+use crate::lti::first_root::ORDER_MOST;
 
 use super::{Motion, RigError, Signal, TipWorld};
 use crate::arm::Arm;
@@ -29,7 +28,7 @@ pub enum Mode {
 }
 
 impl Mode {
-    pub(in crate::rig) fn of(velocity: f64) -> Self {
+    pub(crate) fn of(velocity: f64) -> Self {
         if velocity > 0.0 {
             Self::Forward
         } else if velocity < 0.0 {

@@ -1,9 +1,9 @@
 //! Taylor series of an arm's state, and where the tip stands in it.
 
 use super::events::{ROUNDING, pushed};
-use super::polynomial::{ORDER_MOST, value};
 use super::{Hybrid, Mode, Torque};
 use crate::drive::Coulomb;
+use crate::lti::first_root::{ORDER_MOST, value};
 
 /// Relative size of terms that are left out: two orders below rounding.
 const LEFT_OUT: f64 = 1e-3 * f64::EPSILON;

@@ -1,6 +1,6 @@
 //! When a slip ends.
 
-use super::polynomial::first_nonpositive;
+use crate::lti::first_root::first_nonpositive;
 
 /// How long something goes on as it is.
 #[derive(Debug, Clone, Copy)]

@@ -1,0 +1,175 @@
+//! The arm that a record is replayed through: motor, dry friction, and the beam as oscillators.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::arm::Arm;
+
+/// Most modes of a replayed arm.
+pub const MOST_MODES: usize = 4;
+
+/// One mode of the clamped beam, as an oscillator of inertia k/ω² on the motor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Oscillator {
+    /// Natural frequency ω with the motor clamped \[rad/s\].
+    pub omega_rad_s: f64,
+    /// Stiffness k, its share of the coupling torque per turn of the motor \[N·m/rad\].
+    pub stiffness_nm_per_rad: f64,
+    /// Damping within the beam, d = 2ζω \[1/s\].
+    pub within_per_s: f64,
+    /// Damping against the fixed frame, a = 2ζω \[1/s\].
+    pub grounded_per_s: f64,
+}
+
+impl Oscillator {
+    /// ζ, of both dampers.
+    pub fn damping_ratio(&self) -> f64 {
+        0.5 * (self.within_per_s + self.grounded_per_s) / self.omega_rad_s
+    }
+}
+
+/// An arm as its motor feels it.
+///
+/// ```text
+/// J·θ̈ = τ − V_±·θ̇ − F_± − Σ k_j·(θ − ψ_j) + (k_j·d_j/ω_j²)·(θ̇ − ψ̇_j)
+/// ψ̈_j = ω_j²·(θ − ψ_j) + d_j·(θ̇ − ψ̇_j) − a_j·ψ̇_j
+/// θ_i = θ + Σ r_ij·(ψ_j − θ)
+/// ```
+///
+/// Any beam with modes is one, whatever its masses: oscillator j stands for the clamped mode j, and
+/// `r_ij` for the share of it at point i. Σ_j r_ij = 1 where all modes are there. Linear axes: m, N
+/// and kg for rad, N·m and kg·m².
+///
+/// # Source
+/// `[Feliu1989, eqs. (14), (15), (17), (18)]` in modal coordinates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModalArm {
+    /// Inertia J \[kg·m²\].
+    pub inertia_kg_m2: f64,
+    /// Viscous friction V_+ forward and V_− backward \[N·m·s/rad\].
+    pub viscous_nm_s_per_rad: [f64; 2],
+    /// Dry friction's mean of both directions, (F_+ − F_−)/2 \[N·m\].
+    pub coulomb_nm: f64,
+    /// (F_+ + F_−)/2: a constant load, or friction's difference by direction \[N·m\].
+    pub offset_nm: f64,
+    /// The beam's modes.
+    pub modes: Vec<Oscillator>,
+    /// r_ij of tip i (outer) and mode j.
+    pub shapes: Vec<Vec<f64>>,
+    /// The torque acts this much later than it is logged \[s\].
+    pub command_lag_s: f64,
+}
+
+impl ModalArm {
+    /// The modes of an arm of point masses, all masses as tips, in order from the motor.
+    ///
+    /// Dampers enter by their diagonal in modes: exactly for damping ratios by mode, proportional
+    /// damping and one mass; for light dampers at several masses to second order in ζ. `None` for
+    /// an arm without distinct modes, or with more than [`MOST_MODES`].
+    pub fn of_arm(arm: &Arm) -> Option<Self> {
+        let d = arm.dynamics();
+        let (n, masses) = (d.len(), arm.beam().len());
+        if n > MOST_MODES {
+            return None;
+        }
+        let (omega, shapes) = Self::modes_of(&-&d.elastic)?;
+        let r = DMatrix::from_fn(n, n, |i, j| shapes[i][j]);
+        let inverse = r.clone().try_inverse()?;
+        let in_modes = |m: Option<&DMatrix<f64>>| match m {
+            Some(m) => -(&inverse * m * &r).diagonal(),
+            None => DVector::zeros(n),
+        };
+        let within = in_modes(d.relative.as_ref());
+        let grounded = in_modes(d.absolute.as_ref());
+        let stiffness = -(r.transpose() * &d.coupling);
+        Some(Self {
+            inertia_kg_m2: arm.motor.inertia_kg_m2,
+            viscous_nm_s_per_rad: [arm.motor.viscous_nm_s_per_rad; 2],
+            coulomb_nm: 0.5 * (arm.coulomb.forward + arm.coulomb.backward),
+            offset_nm: 0.5 * (arm.coulomb.forward - arm.coulomb.backward),
+            modes: (0..n)
+                .map(|j| Oscillator {
+                    omega_rad_s: omega[j],
+                    stiffness_nm_per_rad: stiffness[j],
+                    within_per_s: within[j],
+                    grounded_per_s: grounded[j],
+                })
+                .collect(),
+            shapes: shapes[..masses].to_vec(),
+            command_lag_s: 0.0,
+        })
+    }
+
+    /// Σk_j: torque per turn of the motor with the beam's masses held \[N·m/rad\].
+    pub fn coupling_nm_per_rad(&self) -> f64 {
+        self.modes.iter().map(|m| m.stiffness_nm_per_rad).sum()
+    }
+
+    /// κ_i of each tip, `C_t = Σκ_i(θ_m − θ_i)`: with as many tips as modes, κ·r = k.
+    pub fn coupling_by_tip(&self) -> Option<Vec<f64>> {
+        let n = self.modes.len();
+        if self.shapes.len() != n || n == 0 {
+            return None;
+        }
+        let shares = DMatrix::from_fn(n, n, |j, i| self.shapes[i][j]);
+        let stiffness = DVector::from_fn(n, |j, _| self.modes[j].stiffness_nm_per_rad);
+        Some(shares.lu().solve(&stiffness)?.iter().copied().collect())
+    }
+
+    /// Modes and shapes of `θ̈_i = −Σ_l K_il·(θ_l − θ_m) − …`, the rows of K by tip, ascending in
+    /// frequency: `(ω_j, r_ij)`. `None` unless all frequencies are real, positive and distinct.
+    ///
+    /// Each column of r is an eigenvector of K, so scaled that the rows' sums are one: with the motor
+    /// turned and nothing deflected, all points turn with it (property 2, B = −A·1).
+    pub fn modes_of(stiffness: &DMatrix<f64>) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
+        let n = stiffness.nrows();
+        let mut squares: Vec<f64> = stiffness
+            .complex_eigenvalues()
+            .iter()
+            .map(|z| if z.im.abs() < 1e-9 * z.norm() { z.re } else { f64::NAN })
+            .collect();
+        squares.sort_by(f64::total_cmp);
+        if n == 0 || squares.iter().any(|s| !(*s > 0.0 && s.is_finite())) {
+            return None;
+        }
+        let mut vectors = DMatrix::zeros(n, n);
+        for (j, square) in squares.iter().enumerate() {
+            vectors.set_column(j, &eigenvector(stiffness, *square)?);
+        }
+        let scale = vectors.clone().lu().solve(&DVector::from_element(n, 1.0))?;
+        let shapes = (0..n).map(|i| (0..n).map(|j| vectors[(i, j)] * scale[j]).collect()).collect();
+        Some((squares.iter().map(|s| s.sqrt()).collect(), shapes))
+    }
+}
+
+/// Eigenvector of an eigenvalue that is known to rounding: inverse iteration beside it.
+fn eigenvector(matrix: &DMatrix<f64>, value: f64) -> Option<DVector<f64>> {
+    let n = matrix.nrows();
+    let shift = value * (1.0 + 1e-12) + f64::MIN_POSITIVE;
+    let lu = (matrix - DMatrix::identity(n, n) * shift).lu();
+    let mut vector = DVector::from_fn(n, |i, _| 1.0 + 0.3 * i as f64);
+    for _ in 0..3 {
+        vector = lu.solve(&vector)?.normalize();
+    }
+    vector.iter().all(|v| v.is_finite()).then_some(vector)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn modes_of_two_masses_give_back_their_matrix() {
+        let k = DMatrix::from_row_slice(2, 2, &[900.0, -250.0, -700.0, 400.0]);
+        let (omega, shapes) = ModalArm::modes_of(&k).unwrap();
+        let r = DMatrix::from_fn(2, 2, |i, j| shapes[i][j]);
+        let squares = DMatrix::from_diagonal(&DVector::from_fn(2, |j, _| omega[j] * omega[j]));
+        let back = &r * squares * r.clone().try_inverse().unwrap();
+        assert!((back - k).norm() < 1e-9);
+        assert!((shapes[0].iter().sum::<f64>() - 1.0).abs() < 1e-12 && omega[0] < omega[1]);
+    }
+
+    #[test]
+    fn a_beam_that_would_push_has_no_modes() {
+        assert!(ModalArm::modes_of(&DMatrix::from_element(1, 1, -4.0)).is_none());
+    }
+}

@@ -1,0 +1,23 @@
+//! Replays the logged command of a record through an arm, event by event, with exact derivatives
+//! of what its sensors show by every parameter and by the initial state.
+//!
+//! Within a phase the arm is linear: whole samples go by matrices, events by Taylor series. Where
+//! the motor comes to rest or reverses, tangents jump (saltation).
+
+mod arm;
+mod motion;
+mod parameter;
+mod prediction;
+mod rates;
+mod series;
+mod sums;
+mod transition;
+mod window;
+
+pub use arm::{MOST_MODES, ModalArm, Oscillator};
+pub use parameter::Parameter;
+pub use prediction::{Prediction, predict};
+pub use sums::{Sampling, Window, WindowSums, sums};
+
+#[cfg(test)]
+mod tests;

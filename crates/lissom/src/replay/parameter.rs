@@ -1,0 +1,104 @@
+//! Parameters of a replayed arm, each by name.
+
+use super::arm::ModalArm;
+
+/// One number of a [`ModalArm`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Parameter {
+    /// Inertia J.
+    Inertia,
+    /// Viscous friction, both directions alike (or their mean).
+    Viscous,
+    /// Half the difference of viscous friction, (V_+ − V_−)/2.
+    ViscousDifference,
+    /// ω of a mode.
+    Frequency(usize),
+    /// Stiffness k of a mode.
+    Stiffness(usize),
+    /// Damping d within the beam, of a mode.
+    DampingWithin(usize),
+    /// Damping a against the fixed frame, of a mode.
+    DampingGrounded(usize),
+    /// Mean Coulomb friction.
+    Coulomb,
+    /// Offset.
+    Offset,
+    /// Lag of the command.
+    CommandLag,
+    /// r of a tip (first) and a mode (second).
+    Shape(usize, usize),
+}
+
+/// What a parameter enters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Enters {
+    /// The arm's matrices.
+    Matrices,
+    /// The torque on the motor.
+    Torque,
+    /// When the torque acts.
+    Lag,
+    /// What a tip sees of the state.
+    Output,
+}
+
+impl Parameter {
+    pub(crate) fn enters(self) -> Enters {
+        match self {
+            Self::Inertia
+            | Self::Viscous
+            | Self::ViscousDifference
+            | Self::Frequency(_)
+            | Self::Stiffness(_)
+            | Self::DampingWithin(_)
+            | Self::DampingGrounded(_) => Enters::Matrices,
+            Self::Coulomb | Self::Offset => Enters::Torque,
+            Self::CommandLag => Enters::Lag,
+            Self::Shape(..) => Enters::Output,
+        }
+    }
+
+    /// Whether it is positive by nature and spans decades, so that a search moves its logarithm.
+    pub fn is_scale(self) -> bool {
+        matches!(self, Self::Inertia | Self::Frequency(_) | Self::Stiffness(_))
+    }
+
+    /// Its value.
+    pub fn of(self, arm: &ModalArm) -> f64 {
+        let [forward, backward] = arm.viscous_nm_s_per_rad;
+        match self {
+            Self::Inertia => arm.inertia_kg_m2,
+            Self::Viscous => 0.5 * (forward + backward),
+            Self::ViscousDifference => 0.5 * (forward - backward),
+            Self::Frequency(j) => arm.modes[j].omega_rad_s,
+            Self::Stiffness(j) => arm.modes[j].stiffness_nm_per_rad,
+            Self::DampingWithin(j) => arm.modes[j].within_per_s,
+            Self::DampingGrounded(j) => arm.modes[j].grounded_per_s,
+            Self::Coulomb => arm.coulomb_nm,
+            Self::Offset => arm.offset_nm,
+            Self::CommandLag => arm.command_lag_s,
+            Self::Shape(i, j) => arm.shapes[i][j],
+        }
+    }
+
+    /// Sets it.
+    pub fn set(self, arm: &mut ModalArm, value: f64) {
+        let change = value - self.of(arm);
+        match self {
+            Self::Inertia => arm.inertia_kg_m2 = value,
+            Self::Viscous => arm.viscous_nm_s_per_rad.iter_mut().for_each(|v| *v += change),
+            Self::ViscousDifference => {
+                arm.viscous_nm_s_per_rad[0] += change;
+                arm.viscous_nm_s_per_rad[1] -= change;
+            }
+            Self::Frequency(j) => arm.modes[j].omega_rad_s = value,
+            Self::Stiffness(j) => arm.modes[j].stiffness_nm_per_rad = value,
+            Self::DampingWithin(j) => arm.modes[j].within_per_s = value,
+            Self::DampingGrounded(j) => arm.modes[j].grounded_per_s = value,
+            Self::Coulomb => arm.coulomb_nm = value,
+            Self::Offset => arm.offset_nm = value,
+            Self::CommandLag => arm.command_lag_s = value,
+            Self::Shape(i, j) => arm.shapes[i][j] = value,
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! What an arm's sensors would show under a logged command.
+
+use super::arm::{MOST_MODES, ModalArm};
+use super::sums::{Window, replayers, start};
+use crate::record::Campaign;
+
+/// A window as the arm predicts it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prediction {
+    /// Motor first, then tips: one value a sample, in the channel's own unit.
+    pub channels: Vec<Vec<f64>>,
+    /// Friction's torque against the motor at each sample \[N·m\].
+    pub friction_nm: Vec<f64>,
+    /// Time that the joint sticks \[s\].
+    pub stuck_s: f64,
+    /// State at the last sample.
+    pub end: Vec<f64>,
+}
+
+/// Replays one window; `None` for more than [`MOST_MODES`] modes.
+pub fn predict(arm: &ModalArm, campaign: &Campaign, window: &Window) -> Option<Prediction> {
+    match arm.modes.len() {
+        0 => predict_of::<2>(arm, campaign, window),
+        1 => predict_of::<4>(arm, campaign, window),
+        2 => predict_of::<6>(arm, campaign, window),
+        3 => predict_of::<8>(arm, campaign, window),
+        MOST_MODES => predict_of::<10>(arm, campaign, window),
+        _ => None,
+    }
+}
+
+fn predict_of<const D: usize>(
+    arm: &ModalArm,
+    campaign: &Campaign,
+    window: &Window,
+) -> Option<Prediction> {
+    let replayers = replayers::<D>(arm, &[], campaign, std::slice::from_ref(window));
+    let (_, replayer) = replayers.first()?;
+    let run = &campaign.runs[window.run];
+    let mut channels = vec![Vec::with_capacity(window.len()); 1 + run.tips().len()];
+    let mut friction_nm = Vec::with_capacity(window.len());
+    let motion = replayer.walk(run, window.samples.clone(), start(window), false, |seen| {
+        for (channel, values) in channels.iter_mut().enumerate() {
+            let zero = channel.checked_sub(1).map_or(0.0, |tip| window.zeros[tip]);
+            values.push(replayer.output(seen, channel, None) + zero);
+        }
+        friction_nm.push(replayer.mover().friction_torque(seen.motion, seen.torque));
+    });
+    Some(Prediction { channels, friction_nm, stuck_s: motion.stuck_s, end: motion.x.to_vec() })
+}

@@ -1,0 +1,217 @@
+//! The replay against the event engine, and its derivatives against differences.
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use nalgebra::DVector;
+
+use super::*;
+use crate::arm::Arm;
+use crate::beam::{LumpedBeam, Span};
+use crate::drive::{Coulomb, Motor};
+use crate::record::{
+    Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
+};
+use crate::rig::Hybrid;
+
+const T: f64 = 0.002;
+const SAMPLES: usize = 1500;
+
+fn arm() -> Arm {
+    let span = |length_m, mass_kg| Span {
+        length_m,
+        flexural_rigidity_n_m2: 0.02,
+        mass_kg,
+        damping_n_s_per_m: 0.0,
+    };
+    let beam = LumpedBeam::new(&[span(0.15, 0.06), span(0.15, 0.04)]).unwrap();
+    let beam = beam.with_damping(crate::beam::Damping::Modal { ratios: vec![0.02, 0.01] }).unwrap();
+    let motor = Motor::new(8e-4, 2e-3, 0.3).unwrap();
+    Arm::new(beam, motor, Coulomb::by_direction(0.05, 0.04).unwrap()).unwrap()
+}
+
+/// A command that sticks, slips and reverses.
+fn command() -> Vec<f64> {
+    (0..SAMPLES)
+        .map(|k| k as f64 * T)
+        .map(|s| 0.4 * (3.0 * s + 0.3).sin() + 0.25 * (11.0 * s).cos() + 0.05 * (150.0 * s).sin())
+        .collect()
+}
+
+/// The event engine's own log of that command, from rest, beginning once the motor turns.
+fn campaign(hold: Hold, quantity: TipQuantity) -> (Campaign, Vec<Vec<f64>>, f64) {
+    let arm = arm();
+    let mut motion = Hybrid::at_rest(&arm);
+    let (mut motor, mut tips, mut states) = (Vec::new(), vec![Vec::new(); 2], Vec::new());
+    let command = command();
+    for u in &command {
+        motion.advance(0.3 * u, T);
+        let x = motion.state();
+        motor.push(x[0]);
+        let minus = if quantity == TipQuantity::Deflection { x[0] } else { 0.0 };
+        for (i, tip) in tips.iter_mut().enumerate() {
+            tip.push(x[2 + i] - minus);
+        }
+        states.push(x.to_vec());
+    }
+    // Sample k is seen before command k acts: the state after command k − 1.
+    let logged = [&command[1..], &command[..1]].concat();
+    let channels = Channels {
+        axis: Axis::Rotary,
+        command: Command {
+            quantity: CommandQuantity::Current,
+            hold,
+            torque_per_command: Some(0.3),
+            back_emf_viscous: 0.0,
+            limit: None,
+        },
+        tips: ["1", "2"].map(|n| Tip { name: n.into(), quantity, calibrated: true }).to_vec(),
+    };
+    let run = Run::new("run", TimeBase::uniform(0.0, T), logged, motor, tips).unwrap();
+    (Campaign::new(channels, vec![run]).unwrap(), states, motion.stuck_s())
+}
+
+/// The modal state of an arm's own.
+fn modal(model: &ModalArm, x: &[f64]) -> Vec<f64> {
+    let r = nalgebra::DMatrix::from_fn(2, 2, |i, j| model.shapes[i][j]);
+    let angles = r.clone().lu().solve(&DVector::from_column_slice(&x[2..4])).unwrap();
+    let rates = r.lu().solve(&DVector::from_column_slice(&x[4..6])).unwrap();
+    vec![x[0], x[1], angles[0], rates[0], angles[1], rates[1]]
+}
+
+fn window(model: &ModalArm, states: &[Vec<f64>], from: usize, to: usize) -> Window {
+    Window { run: 0, samples: from..=to, start: modal(model, &states[from]), zeros: vec![0.0; 2] }
+}
+
+#[test]
+fn replays_what_the_event_engine_does() {
+    let model = ModalArm::of_arm(&arm()).unwrap();
+    for quantity in [TipQuantity::Angle, TipQuantity::Deflection] {
+        let (campaign, states, stuck_s) = campaign(Hold::Sampled, quantity);
+        let from = states.iter().position(|x| x[1] != 0.0).unwrap();
+        let found =
+            predict(&model, &campaign, &window(&model, &states, from, SAMPLES - 1)).unwrap();
+        let run = &campaign.runs[0];
+        for (k, s) in found.channels[0].iter().enumerate() {
+            assert!((s - run.motor()[from + k]).abs() < 1e-10, "{k}");
+            for tip in 0..2 {
+                let error = found.channels[1 + tip][k] - run.tips()[tip][from + k];
+                assert!(error.abs() < 1e-10, "{k} {error}");
+            }
+        }
+        // It sticks again and again, for a good part of the time.
+        assert!(
+            found.stuck_s > 0.1 && (stuck_s - found.stuck_s) < 0.1,
+            "{} {stuck_s}",
+            found.stuck_s
+        );
+    }
+}
+
+const PARAMETERS: [Parameter; 14] = [
+    Parameter::Shape(0, 0),
+    Parameter::Inertia,
+    Parameter::CommandLag,
+    Parameter::Viscous,
+    Parameter::ViscousDifference,
+    Parameter::Coulomb,
+    Parameter::Frequency(0),
+    Parameter::Frequency(1),
+    Parameter::Stiffness(0),
+    Parameter::Stiffness(1),
+    Parameter::DampingWithin(0),
+    Parameter::DampingGrounded(1),
+    Parameter::Offset,
+    Parameter::Shape(1, 1),
+];
+
+/// Derivatives of every channel at every sample: the engine's, and by central differences.
+fn derivatives_hold(hold: Hold, quantity: TipQuantity, lag_s: f64) {
+    let mut model = ModalArm::of_arm(&arm()).unwrap();
+    model.command_lag_s = lag_s;
+    let (campaign, states, _) = campaign(hold, quantity);
+    let from = states.iter().position(|x| x[1].abs() > 0.05).unwrap();
+    let window = window(&model, &states, from, SAMPLES - 1);
+    let sampling = Sampling { sigma: &[1.0; 3], block: 1 };
+    let base = predict(&model, &campaign, &window).unwrap();
+    // With blocks of one sample and residuals put in one channel at a time, scores are derivatives.
+    let moved = |model: &ModalArm, window: &Window| predict(model, &campaign, window).unwrap();
+    let rows = derivative_rows(&model, &campaign, &window, &base, sampling);
+    let compare = |what: &str, column: usize, step: f64, above: &Prediction, below: &Prediction| {
+        let mut largest: f64 = 0.0;
+        let mut errors = Vec::new();
+        for channel in 0..3 {
+            for k in 0..window.len() {
+                let difference =
+                    (above.channels[channel][k] - below.channels[channel][k]) / (2.0 * step);
+                largest = largest.max(difference.abs());
+                errors.push((difference - rows[k][channel][column]).abs());
+            }
+        }
+        errors.sort_by(f64::total_cmp);
+        let (worst, usual) = (errors[errors.len() - 1], errors[errors.len() / 2]);
+        // Differences across an event that moves past a sample are off there, and only there.
+        assert!(usual < 2e-6 * largest, "{what}: median {usual} of {largest}");
+        assert!(worst < 1e-3 * largest, "{what}: worst {worst} of {largest}");
+    };
+    for (column, p) in PARAMETERS.iter().enumerate() {
+        let at = p.of(&model);
+        let usual = match p {
+            Parameter::DampingWithin(_) | Parameter::DampingGrounded(_) => 1.0,
+            _ => 1e-3,
+        };
+        let step = 1e-6 * at.abs().max(usual);
+        let with = |value: f64| {
+            let mut model = model.clone();
+            p.set(&mut model, value);
+            moved(&model, &window)
+        };
+        compare(&format!("{p:?}"), column, step, &with(at + step), &with(at - step));
+    }
+    for i in 0..6 {
+        let with = |change: f64| {
+            let mut window = window.clone();
+            window.start[i] += change;
+            moved(&model, &window)
+        };
+        compare(&format!("state {i}"), PARAMETERS.len() + i, 1e-6, &with(1e-6), &with(-1e-6));
+    }
+}
+
+/// ∂ŷ of each sample and channel: a residual of one in that channel alone leaves its row as score.
+fn derivative_rows(
+    model: &ModalArm,
+    campaign: &Campaign,
+    window: &Window,
+    base: &Prediction,
+    sampling: Sampling<'_>,
+) -> Vec<Vec<Vec<f64>>> {
+    let mut rows = vec![Vec::new(); window.len()];
+    for channel in 0..3 {
+        let run = &campaign.runs[0];
+        let shifted = |c: usize, logged: &[f64]| {
+            let mut out = logged.to_vec();
+            for (k, y) in base.channels[c].iter().enumerate() {
+                out[window.samples.start() + k] = y + f64::from(u8::from(c == channel));
+            }
+            out
+        };
+        let tips = (0..2).map(|i| shifted(i + 1, &run.tips()[i])).collect();
+        let run = Run::new("r", run.time(), run.command().to_vec(), shifted(0, run.motor()), tips);
+        let campaign = Campaign::new(campaign.channels.clone(), vec![run.unwrap()]).unwrap();
+        let sums = sums(model, &PARAMETERS, &campaign, std::slice::from_ref(window), sampling);
+        for (row, score) in rows.iter_mut().zip(&sums[0].scores) {
+            row.push(score.iter().copied().collect());
+        }
+    }
+    rows
+}
+
+#[test]
+fn derivatives_are_exact_through_stick_and_slip() {
+    derivatives_hold(Hold::Sampled, TipQuantity::Angle, 0.0);
+}
+
+#[test]
+fn derivatives_are_exact_with_a_lag() {
+    derivatives_hold(Hold::Sampled, TipQuantity::Deflection, 0.0013);
+    derivatives_hold(Hold::Measured, TipQuantity::Angle, 0.0013);
+}

@@ -1,0 +1,321 @@
+//! A stretch of a run, replayed: its logged command through the arm, beside its logged angles.
+
+use std::ops::RangeInclusive;
+
+use super::arm::ModalArm;
+use super::motion::{Columns, Motion, Mover, Torque};
+use super::parameter::{Enters, Parameter};
+use super::rates::Phases;
+use crate::record::{Channels, Hold, Run, TipQuantity};
+use crate::rig::Mode;
+
+/// Where a part of a sample is no longer one: shares of the sample time below this count as none.
+const SHARE: f64 = 1e-9;
+
+/// One arm with its derivatives by some parameters, ready to replay runs of one sample time.
+#[derive(Debug, Clone)]
+pub(super) struct Replayer<'a, const D: usize> {
+    mover: Mover<D>,
+    channels: &'a Channels,
+    parameters: &'a [Parameter],
+    /// Where each parameter's tangent is; `None` where it has none.
+    tangent_of: Vec<Option<usize>>,
+    shapes: &'a [Vec<f64>],
+    sample_time_s: f64,
+    /// Whole samples and the share of one by which the command acts later.
+    lag_samples: isize,
+    lag_share: f64,
+    /// Pieces of a sample: before and after the lagging command's change, or one.
+    pieces: [Option<usize>; 2],
+    torque_per_command: f64,
+}
+
+/// What is seen at one sample.
+pub(super) struct Seen<'m, const D: usize> {
+    pub(super) sample: usize,
+    pub(super) motion: &'m Motion<D>,
+    /// Torque that acts just before the sample \[N·m\].
+    pub(super) torque: f64,
+}
+
+impl<'a, const D: usize> Replayer<'a, D> {
+    pub(super) fn new(
+        arm: &'a ModalArm,
+        parameters: &'a [Parameter],
+        channels: &'a Channels,
+        sample_time_s: f64,
+    ) -> Self {
+        let phases = Phases::new(arm, parameters);
+        let matrices = phases.stick.by_parameter.len();
+        let mut next = matrices;
+        let mut column = |p: Parameter| {
+            parameters.contains(&p).then(|| {
+                next += 1;
+                next - 1
+            })
+        };
+        let coulomb = column(Parameter::Coulomb);
+        let offset = column(Parameter::Offset);
+        let lag = column(Parameter::CommandLag);
+        let columns = Columns { matrices, coulomb, offset, lag, initial: next };
+        let mut inside = 0;
+        let tangent_of = parameters
+            .iter()
+            .map(|p| match (p.enters(), p) {
+                (Enters::Matrices, _) => {
+                    inside += 1;
+                    Some(inside - 1)
+                }
+                (_, Parameter::Coulomb) => coulomb,
+                (_, Parameter::Offset) => offset,
+                (_, Parameter::CommandLag) => lag,
+                _ => None,
+            })
+            .collect();
+        let mut mover = Mover {
+            phases,
+            coulomb: arm.coulomb_nm,
+            offset: arm.offset_nm,
+            columns,
+            pieces: Vec::new(),
+        };
+        let samples = arm.command_lag_s / sample_time_s;
+        let held = channels.command.hold == Hold::Sampled;
+        let (mut lag_samples, mut lag_share) = (samples.floor(), samples - samples.floor());
+        if lag_share > 1.0 - SHARE {
+            (lag_samples, lag_share) = (lag_samples + 1.0, 0.0);
+        }
+        let pieces = if held && lag_share > SHARE {
+            let before = mover.prepare(lag_share * sample_time_s);
+            [Some(before), Some(mover.prepare((1.0 - lag_share) * sample_time_s))]
+        } else {
+            [None, Some(mover.prepare(sample_time_s))]
+        };
+        Self {
+            mover,
+            channels,
+            parameters,
+            tangent_of,
+            shapes: &arm.shapes,
+            sample_time_s,
+            lag_samples: lag_samples as isize,
+            lag_share,
+            pieces,
+            torque_per_command: channels.command.torque_per_command.unwrap_or(1.0),
+        }
+    }
+
+    pub(super) fn mover(&self) -> &Mover<D> {
+        &self.mover
+    }
+
+    /// Torque of the logged sample `index`; beyond the log's ends its first and last.
+    fn torque(&self, run: &Run, index: isize) -> f64 {
+        let last = run.len() as isize - 1;
+        self.torque_per_command * run.command()[index.clamp(0, last) as usize]
+    }
+
+    /// Replays samples `range` from the state `start`; `see` is called at each of them.
+    pub(super) fn walk(
+        &self,
+        run: &Run,
+        range: RangeInclusive<usize>,
+        start: [f64; D],
+        with_tangents: bool,
+        mut see: impl FnMut(&Seen<'_, D>),
+    ) -> Motion<D> {
+        let initial = self.mover.columns.initial;
+        let mut tangents = vec![[0.0; D]; if with_tangents { initial + D } else { 0 }];
+        if with_tangents {
+            for (i, column) in tangents[initial..].iter_mut().enumerate() {
+                column[i] = 1.0;
+            }
+        }
+        let mode = Mode::of(start[1]);
+        let mut motion = Motion { x: start, tangents, mode, stuck_s: 0.0 };
+        let (first, last) = (*range.start(), *range.end());
+        for sample in first..=last {
+            let torque = self.before(run, sample);
+            see(&Seen { sample, motion: &motion, torque });
+            if sample < last {
+                self.sample(run, sample, &mut motion);
+            }
+        }
+        motion
+    }
+
+    /// Torque that acts just before sample `k`.
+    fn before(&self, run: &Run, k: usize) -> f64 {
+        let at = k as isize - self.lag_samples;
+        match self.channels.command.hold {
+            Hold::Sampled => self.torque(run, at - 1),
+            Hold::Measured => self.between(run, at).0,
+        }
+    }
+
+    /// Measured torque at the lagging time of index `at`, and its slope per sample.
+    fn between(&self, run: &Run, at: isize) -> (f64, f64) {
+        let (before, after) = (self.torque(run, at - 1), self.torque(run, at));
+        let slope = after - before;
+        if self.lag_share > 0.0 {
+            (after - self.lag_share * slope, slope)
+        } else {
+            (after, 0.5 * (self.torque(run, at + 1) - before))
+        }
+    }
+
+    /// From sample `k` to the next.
+    fn sample(&self, run: &Run, k: usize, motion: &mut Motion<D>) {
+        let at = k as isize - self.lag_samples;
+        let whole = self.pieces[1].unwrap_or(0);
+        match self.channels.command.hold {
+            Hold::Measured => {
+                let (from, from_slope) = self.between(run, at);
+                let (to, to_slope) = self.between(run, at + 1);
+                let by_lag = [from_slope, to_slope].map(|s| -s / self.sample_time_s);
+                self.mover.advance(motion, whole, Torque { from, to, by_lag });
+            }
+            Hold::Sampled => {
+                let (old, new) = (self.torque(run, at - 1), self.torque(run, at));
+                if let Some(before) = self.pieces[0] {
+                    self.mover.advance(motion, before, Torque::held(old));
+                }
+                self.mover.jump(motion, old, new);
+                self.mover.advance(motion, whole, Torque::held(new));
+            }
+        }
+    }
+
+    /// Number of unknowns of a window: the parameters, its initial state and each tip's zero.
+    pub(super) fn unknowns(&self) -> usize {
+        self.parameters.len() + D + self.channels.tips.len()
+    }
+
+    /// What channel `channel` (0: motor, then tips) shows, and its derivatives by the parameters,
+    /// the initial state and the tips' zeros, in `row` where one is given.
+    pub(super) fn output(
+        &self,
+        seen: &Seen<'_, D>,
+        channel: usize,
+        row: Option<&mut [f64]>,
+    ) -> f64 {
+        let x = &seen.motion.x;
+        let (c, value) = if channel == 0 {
+            let mut c = [0.0; D];
+            c[0] = 1.0;
+            (c, x[0])
+        } else {
+            self.tip(seen, channel - 1)
+        };
+        let Some(row) = row else { return value };
+        let dot = |s: &[f64; D]| c.iter().zip(s).map(|(a, b)| a * b).sum::<f64>();
+        row.fill(0.0);
+        for (g, column) in row.iter_mut().zip(&self.tangent_of) {
+            if let Some(k) = column {
+                *g = dot(&seen.motion.tangents[*k]);
+            }
+        }
+        let shared = self.parameters.len();
+        let initial = &seen.motion.tangents[self.mover.columns.initial..];
+        for (g, s) in row[shared..].iter_mut().zip(initial) {
+            *g = dot(s);
+        }
+        if channel > 0 {
+            row[shared + D + channel - 1] = 1.0;
+            self.direct(seen, channel - 1, row);
+        }
+        value
+    }
+
+    /// Share of the modes that the tip sees beside its angle, `1 − Σr`, of an acceleration.
+    fn left(&self, tip: usize) -> f64 {
+        1.0 - self.shapes[tip].iter().sum::<f64>()
+    }
+
+    /// What a tip shows, as a row on the state, and its value.
+    fn tip(&self, seen: &Seen<'_, D>, tip: usize) -> ([f64; D], f64) {
+        let mut c = [0.0; D];
+        let shape = &self.shapes[tip];
+        let x = &seen.motion.x;
+        let dot = |c: &[f64; D]| c.iter().zip(x).map(|(a, b)| a * b).sum::<f64>();
+        match self.channels.tips[tip].quantity {
+            TipQuantity::Angle | TipQuantity::Deflection => {
+                if self.channels.tips[tip].quantity == TipQuantity::Angle {
+                    c[0] = 1.0;
+                }
+                for (j, r) in shape.iter().enumerate() {
+                    c[2 + 2 * j] = *r;
+                    c[0] -= r;
+                }
+                (c, dot(&c))
+            }
+            TipQuantity::Acceleration => {
+                for (j, r) in shape.iter().enumerate() {
+                    for (c, a) in c.iter_mut().zip(&self.mover.phases.stick.a[3 + 2 * j]) {
+                        *c += r * a;
+                    }
+                }
+                let oscillators = dot(&c);
+                let left = self.left(tip);
+                let motor = self.mover.motor_acceleration(seen.motion, seen.torque);
+                if let Some(d) = direction(seen.motion.mode) {
+                    for (c, a) in c.iter_mut().zip(&self.mover.phases.slip[d].a[1]) {
+                        *c += left * a;
+                    }
+                }
+                (c, oscillators + left * motor)
+            }
+        }
+    }
+
+    /// Derivatives of a tip's output beside those through the state.
+    fn direct(&self, seen: &Seen<'_, D>, tip: usize, row: &mut [f64]) {
+        let x = &seen.motion.x;
+        let acceleration = self.channels.tips[tip].quantity == TipQuantity::Acceleration;
+        let dot = |a: &[f64; D]| a.iter().zip(x).map(|(a, b)| a * b).sum::<f64>();
+        let motor = || self.mover.motor_acceleration(seen.motion, seen.torque);
+        for (index, p) in self.parameters.iter().enumerate() {
+            if let Parameter::Shape(i, j) = p
+                && *i == tip
+            {
+                row[index] = if acceleration {
+                    dot(&self.mover.phases.stick.a[3 + 2 * j]) - motor()
+                } else {
+                    x[2 + 2 * j] - x[0]
+                };
+            }
+        }
+        if !acceleration {
+            return;
+        }
+        let left = self.left(tip);
+        let slip = direction(seen.motion.mode);
+        for (index, p) in self.parameters.iter().enumerate() {
+            let Some(k) = self.tangent_of[index] else { continue };
+            if let Some((da, _)) = self.mover.phases.stick.by_parameter.get(k) {
+                let shape = self.shapes[tip].iter().enumerate();
+                row[index] += shape.map(|(j, r)| r * dot(&da[3 + 2 * j])).sum::<f64>();
+            }
+            let Some(d) = slip else { continue };
+            let rates = &self.mover.phases.slip[d];
+            let sign = if d == 0 { 1.0 } else { -1.0 };
+            row[index] += left
+                * match p {
+                    Parameter::Coulomb => -sign * rates.b[1],
+                    Parameter::Offset => -rates.b[1],
+                    _ => rates.by_parameter.get(k).map_or(0.0, |(da, db)| {
+                        let friction = sign * self.mover.coulomb + self.mover.offset;
+                        dot(&da[1]) + db[1] * (seen.torque - friction)
+                    }),
+                };
+        }
+    }
+}
+
+fn direction(mode: Mode) -> Option<usize> {
+    match mode {
+        Mode::Forward => Some(0),
+        Mode::Backward => Some(1),
+        Mode::Stick => None,
+    }
+}
