@@ -8,6 +8,7 @@ mod estimate;
 mod finding;
 mod identified;
 mod model;
+mod output_error;
 mod rational;
 mod regression;
 mod response_table;
@@ -23,6 +24,7 @@ pub use correct::{Response, corrected, ratio};
 pub use estimate::{Estimate, ModeEstimate};
 pub use finding::{Finding, Severity};
 pub use identified::{Beam, Friction, Identified, ThirdHarmonic};
+pub use output_error::{BeamDamping, Iteration, OutputError, StageReport, Stop, free_parameters, output_error, start_of_regressions};
 pub use rational::{BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_beam, fit_motor};
 pub use regression::{
     BeamRegression, ByDirection, Candidate, MissingKind, MissingTerm, MotorRegression,

@@ -27,6 +27,8 @@ pub enum Parameter {
     CommandLag,
     /// r of a tip (first) and a mode (second).
     Shape(usize, usize),
+    /// The same, with the last mode's r moved the other way: Σr of the tip stays.
+    ShapeShare(usize, usize),
 }
 
 /// What a parameter enters.
@@ -54,7 +56,7 @@ impl Parameter {
             | Self::DampingGrounded(_) => Enters::Matrices,
             Self::Coulomb | Self::Offset => Enters::Torque,
             Self::CommandLag => Enters::Lag,
-            Self::Shape(..) => Enters::Output,
+            Self::Shape(..) | Self::ShapeShare(..) => Enters::Output,
         }
     }
 
@@ -77,7 +79,7 @@ impl Parameter {
             Self::Coulomb => arm.coulomb_nm,
             Self::Offset => arm.offset_nm,
             Self::CommandLag => arm.command_lag_s,
-            Self::Shape(i, j) => arm.shapes[i][j],
+            Self::Shape(i, j) | Self::ShapeShare(i, j) => arm.shapes[i][j],
         }
     }
 
@@ -99,6 +101,12 @@ impl Parameter {
             Self::Offset => arm.offset_nm = value,
             Self::CommandLag => arm.command_lag_s = value,
             Self::Shape(i, j) => arm.shapes[i][j] = value,
+            Self::ShapeShare(i, j) => {
+                arm.shapes[i][j] = value;
+                if let Some(last) = arm.shapes[i].last_mut() {
+                    *last -= change;
+                }
+            }
         }
     }
 }

@@ -120,7 +120,7 @@ const PARAMETERS: [Parameter; 14] = [
     Parameter::DampingWithin(0),
     Parameter::DampingGrounded(1),
     Parameter::Offset,
-    Parameter::Shape(1, 1),
+    Parameter::ShapeShare(1, 0),
 ];
 
 /// Derivatives of every channel at every sample: the engine's, and by central differences.

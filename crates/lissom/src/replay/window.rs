@@ -274,15 +274,20 @@ impl<'a, const D: usize> Replayer<'a, D> {
         let acceleration = self.channels.tips[tip].quantity == TipQuantity::Acceleration;
         let dot = |a: &[f64; D]| a.iter().zip(x).map(|(a, b)| a * b).sum::<f64>();
         let motor = || self.mover.motor_acceleration(seen.motion, seen.torque);
+        let shown = |j: usize| {
+            if acceleration {
+                dot(&self.mover.phases.stick.a[3 + 2 * j]) - motor()
+            } else {
+                x[2 + 2 * j] - x[0]
+            }
+        };
         for (index, p) in self.parameters.iter().enumerate() {
-            if let Parameter::Shape(i, j) = p
-                && *i == tip
-            {
-                row[index] = if acceleration {
-                    dot(&self.mover.phases.stick.a[3 + 2 * j]) - motor()
-                } else {
-                    x[2 + 2 * j] - x[0]
-                };
+            match *p {
+                Parameter::Shape(i, j) if i == tip => row[index] = shown(j),
+                Parameter::ShapeShare(i, j) if i == tip => {
+                    row[index] = shown(j) - shown(self.shapes[tip].len() - 1);
+                }
+                _ => {}
             }
         }
         if !acceleration {

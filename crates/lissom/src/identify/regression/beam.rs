@@ -24,6 +24,8 @@ pub struct BeamRegression {
     pub relative_residual: Vec<f64>,
     /// Modes with the motor clamped, ascending.
     pub modes: Vec<ModeEstimate>,
+    /// −Â, by tip \[1/s²\].
+    pub stiffness: DMatrix<f64>,
 }
 
 /// Fits `θ̈_i = Σ_j â_ij(θ_j − θ_m) − d_i·θ̇_i + const` for each tip over all runs, sticking or not,
@@ -80,6 +82,7 @@ pub fn beam_regression(campaign: &Campaign) -> Option<BeamRegression> {
             })
             .collect(),
         candidates: scans.into_iter().map(|s| s.candidates).collect(),
+        stiffness,
     })
 }
 

@@ -12,5 +12,5 @@ mod window;
 pub use beam::{BeamRegression, beam_regression};
 pub use missing::{MissingKind, MissingTerm};
 pub use motor::{ByDirection, MotorRegression, motor_regression};
-pub(crate) use phases::slip_sign;
+pub(crate) use phases::{slip_sign, smoothing};
 pub use scan::Candidate;

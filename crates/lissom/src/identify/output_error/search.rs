@@ -1,0 +1,199 @@
+//! Levenberg-Marquardt on parameters that all windows share and unknowns of each window's own.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::normal::{Reduced, inverse};
+use crate::record::Campaign;
+use crate::replay::{ModalArm, Parameter, Sampling, Window, WindowSums, sums};
+
+/// Damping of the first step, relative to the diagonal.
+const FIRST_DAMPING: f64 = 1e-3;
+/// Damping beyond which no step helps.
+const MOST_DAMPING: f64 = 1e8;
+/// The search ends when a step promises to lower the cost, a sum of squared deviations, by less
+/// than this many: far below one, at which parameters move by a deviation.
+const PROMISE: f64 = 1e-3;
+/// Largest change of the logarithm of a parameter that is positive by nature, in one step.
+const LARGEST_FACTOR: f64 = 0.7;
+
+/// A window whose cost per sample is this many times the usual one counts half in a robust search.
+const ROBUST: f64 = 10.0;
+
+/// Parameters, windows and what they leave.
+#[derive(Debug, Clone)]
+pub(in crate::identify::output_error) struct Point {
+    pub(super) arm: ModalArm,
+    pub(super) windows: Vec<Window>,
+    pub(super) sums: Vec<WindowSums>,
+}
+
+impl Point {
+    pub(super) fn cost(&self) -> f64 {
+        self.sums.iter().map(WindowSums::cost).sum()
+    }
+
+    /// [`ROBUST`] times the median of the windows' costs per sample.
+    fn usual(&self) -> f64 {
+        let mut each: Vec<f64> = self.sums.iter().map(per_sample).collect();
+        each.sort_by(f64::total_cmp);
+        ROBUST * each.get(each.len() / 2).copied().unwrap_or(0.0).max(1.0)
+    }
+
+    /// `Σ n·κ·ln(1 + c/(n·κ))` of the windows' costs c and samples n: what a window adds grows
+    /// slowly once it is on another way of sticking and slipping than its log.
+    fn robust_cost(&self, usual: f64) -> f64 {
+        let each = |s: &WindowSums| {
+            let n = s.samples as f64 * usual;
+            if usual.is_finite() { n * (s.cost() / n).ln_1p() } else { s.cost() }
+        };
+        self.sums.iter().map(each).sum()
+    }
+}
+
+fn per_sample(sums: &WindowSums) -> f64 {
+    sums.cost() / sums.samples.max(1) as f64
+}
+
+/// Derivative of a window's share in the robust cost by its own cost.
+fn weight(sums: &WindowSums, usual: f64) -> f64 {
+    1.0 / (1.0 + per_sample(sums) / usual)
+}
+
+/// Why a search ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stop {
+    /// A further step promises nothing that counts beside the noise.
+    Converged,
+    /// No step, however short, lowers the cost: it has a kink there.
+    NoStepHelps,
+    /// All steps allowed are made.
+    StepsUsedUp,
+}
+
+/// A step of the search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Iteration {
+    /// Sum of squared residuals in units of their deviation, after the step.
+    pub cost: f64,
+    /// What the step was expected to lower it by.
+    pub promised: f64,
+    /// Damping of Levenberg and Marquardt.
+    pub damping: f64,
+    /// Whether it was taken.
+    pub taken: bool,
+}
+
+/// The problem that a search solves.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Problem<'a> {
+    pub(super) campaign: &'a Campaign,
+    pub(super) parameters: &'a [Parameter],
+    pub(super) sampling: Sampling<'a>,
+    /// Whether windows that fit far worse than the others count less.
+    pub(super) robust: bool,
+}
+
+impl Problem<'_> {
+    /// Replays `windows` through `arm`.
+    pub(super) fn at(&self, arm: ModalArm, windows: Vec<Window>) -> Point {
+        let sums = sums(&arm, self.parameters, self.campaign, &windows, self.sampling);
+        Point { arm, windows, sums }
+    }
+
+    /// Lowers the cost from `point` by at most `steps` steps.
+    pub(super) fn search(&self, mut point: Point, steps: usize) -> (Point, Vec<Iteration>, Stop) {
+        let (mut damping, mut growth) = (FIRST_DAMPING, 2.0);
+        let mut iterations = Vec::new();
+        for _ in 0..steps {
+            let usual = if self.robust { point.usual() } else { f64::INFINITY };
+            let Some(step) = self.step(&point, damping, usual) else {
+                return (point, iterations, Stop::NoStepHelps);
+            };
+            if step.promised < PROMISE {
+                return (point, iterations, Stop::Converged);
+            }
+            let trial = self.moved(&point, &step);
+            let (before, after) = (point.robust_cost(usual), trial.robust_cost(usual));
+            let gain = (before - after) / step.promised;
+            let taken = after < before;
+            let cost = if taken { after } else { before };
+            iterations.push(Iteration { cost, promised: step.promised, damping, taken });
+            if taken {
+                point = trial;
+                damping *= (1.0 - (2.0 * gain - 1.0).powi(3)).max(1.0 / 3.0);
+                growth = 2.0;
+            } else {
+                damping *= growth;
+                growth *= 2.0;
+                if damping > MOST_DAMPING {
+                    return (point, iterations, Stop::NoStepHelps);
+                }
+            }
+        }
+        (point, iterations, Stop::StepsUsedUp)
+    }
+
+    fn moved(&self, point: &Point, step: &Step) -> Point {
+        let mut arm = point.arm.clone();
+        for (p, change) in self.parameters.iter().zip(step.shared.iter()) {
+            let value = p.of(&arm);
+            let next = if p.is_scale() {
+                value * (change / value).clamp(-LARGEST_FACTOR, LARGEST_FACTOR).exp()
+            } else {
+                value + change
+            };
+            p.set(&mut arm, next);
+        }
+        let windows = point
+            .windows
+            .iter()
+            .zip(&step.own)
+            .map(|(w, change)| {
+                let mut w = w.clone();
+                let len = w.start.len();
+                w.start.iter_mut().zip(change.iter()).for_each(|(x, c)| *x += c);
+                w.zeros.iter_mut().zip(change.iter().skip(len)).for_each(|(x, c)| *x += c);
+                w
+            })
+            .collect();
+        self.at(arm, windows)
+    }
+
+    fn step(&self, point: &Point, damping: f64, usual: f64) -> Option<Step> {
+        let shared = self.parameters.len();
+        let reduced: Vec<Reduced> =
+            point.sums.iter().map(|s| Reduced::new(s, shared, damping)).collect();
+        let mut normal = DMatrix::zeros(shared, shared);
+        let mut right = DVector::zeros(shared);
+        let mut diagonal = DVector::zeros(shared);
+        for (r, s) in reduced.iter().zip(&point.sums) {
+            let weight = weight(s, usual);
+            normal += &r.normal * weight;
+            right += &r.right * weight;
+            diagonal += s.gram.diagonal().rows(0, shared) * weight;
+        }
+        for i in 0..shared {
+            normal[(i, i)] += damping * diagonal[i];
+        }
+        let change = inverse(&normal) * right;
+        let own: Vec<DVector<f64>> = reduced.iter().map(|r| &r.own - &r.by_shared * &change).collect();
+        // Decrease of the quadratic model: δᵀ(g + λ·diag·δ) = 2·gᵀδ − δᵀHδ.
+        let mut promised = 0.0;
+        for (s, own) in point.sums.iter().zip(&own) {
+            let size = s.gram.ncols() - 1;
+            let mut all = DVector::zeros(size);
+            all.rows_mut(0, shared).copy_from(&change);
+            all.rows_mut(shared, size - shared).copy_from(own);
+            let g = s.gram.column(size).rows(0, size).into_owned();
+            let bend = all.dot(&(s.gram.view((0, 0), (size, size)) * &all));
+            promised += weight(s, usual) * (2.0 * g.dot(&all) - bend);
+        }
+        promised.is_finite().then_some(Step { shared: change, own, promised })
+    }
+}
+
+struct Step {
+    shared: DVector<f64>,
+    own: Vec<DVector<f64>>,
+    promised: f64,
+}
