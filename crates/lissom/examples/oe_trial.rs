@@ -35,10 +35,10 @@ fn main() {
         show("wrong", &start);
     }
     let t = std::time::Instant::now();
-    let nofree: Vec<Parameter> = if std::env::var("NOFREE").is_ok() { vec![] } else { free.clone() }; let oe = output_error(&campaign, &start, &nofree, std::env::args().nth(4).map_or(0.5, |s| s.parse().unwrap()), &[4e-4, 4e-4]).unwrap();
+    let nofree: Vec<Parameter> = if std::env::var("NOFREE").is_ok() { vec![] } else { free.clone() }; let oe = output_error(&campaign, &start, &nofree, std::env::args().nth(4).map_or(0.5, |s| s.parse().unwrap()), &vec![Blocks { samples: 50.0, period: None }; 8]).unwrap();
     println!("output error {:?}", t.elapsed());
     for s in &oe.stages {
-        println!("L {:.2} n {} stop {:?} sigma {:?} steps {} taken {}", s.window_s, s.windows, s.stop, s.sigma, s.iterations.len(), s.iterations.iter().filter(|i| i.taken).count());
+        println!("L {:.2} n {} stop {:?} noise {:?} steps {} taken {}", s.window_s, s.windows, s.stop, s.noise, s.iterations.len(), s.iterations.iter().filter(|i| i.taken).count());
         println!("   {:?}", s.iterations.iter().map(|i| i.cost).collect::<Vec<_>>());
     }
     show("oe", &oe.arm);

@@ -2,6 +2,7 @@
 
 mod campaign;
 mod channel_check;
+mod channel_noise;
 mod constant_velocity;
 mod correct;
 mod estimate;

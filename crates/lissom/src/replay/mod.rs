@@ -6,6 +6,7 @@
 
 mod arm;
 mod motion;
+mod noise;
 mod parameter;
 mod prediction;
 mod rates;
@@ -15,9 +16,10 @@ mod transition;
 mod window;
 
 pub use arm::{MOST_MODES, ModalArm, Oscillator};
+pub use noise::SensorNoise;
 pub use parameter::Parameter;
 pub use prediction::{Prediction, predict};
-pub use sums::{Sampling, Window, WindowSums, sums};
+pub use sums::{Blocks, Sampling, Window, WindowSums, sums};
 
 #[cfg(test)]
 mod tests;

@@ -2,9 +2,10 @@
 
 use std::ops::RangeInclusive;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 
+use super::noise::SensorNoise;
 use super::arm::{MOST_MODES, ModalArm};
 use super::parameter::Parameter;
 use super::window::Replayer;
@@ -36,34 +37,54 @@ impl Window {
 
 /// Sums over one window, weighted.
 ///
-/// A row is `[∂ŷ/∂p, ∂ŷ/∂(initial state), ∂ŷ/∂(zeros), y − ŷ]/σ`.
+/// A row is `[∂ŷ/∂p, ∂ŷ/∂(initial state), ∂ŷ/∂(zeros), s/c]·√c`, s the slope and c the curvature of
+/// the channel's cost: without steps, the derivatives and the residual in deviations.
 #[derive(Debug, Clone)]
 pub struct WindowSums {
     /// Σ rowᵀ·row.
     pub gram: DMatrix<f64>,
-    /// Σ of derivative × residual over each block of samples: scores for a covariance.
-    pub scores: Vec<DVector<f64>>,
+    /// The same over the samples of each block.
+    pub blocks: Vec<DMatrix<f64>>,
     /// Σ of squared residuals of each channel, not weighted.
     pub squares: Vec<f64>,
+    /// Σ of `−2·ln` of the readings' probabilities, relative to the best: squared residuals in
+    /// deviations where sensors have no steps.
+    pub cost: f64,
+    /// Σ of the squared slopes of the channels' costs, in deviations.
+    pub slopes: f64,
+    /// Σ of their curvatures: equal to `slopes` in the mean where the noise is what it is taken for.
+    pub curvatures: f64,
     /// Samples summed.
     pub samples: usize,
-}
-
-impl WindowSums {
-    /// Σ of squared weighted residuals.
-    pub fn cost(&self) -> f64 {
-        let last = self.gram.ncols() - 1;
-        self.gram[(last, last)]
-    }
 }
 
 /// What the sums are over.
 #[derive(Debug, Clone, Copy)]
 pub struct Sampling<'a> {
-    /// Deviation of each channel's noise, motor first, then tips.
-    pub sigma: &'a [f64],
-    /// Samples in a block of scores.
-    pub block: usize,
+    /// Noise of each channel, motor first, then tips.
+    pub noise: &'a [SensorNoise],
+    /// How the samples of each run go into blocks.
+    pub blocks: &'a [Blocks],
+}
+
+/// How the samples of a run are gathered into blocks whose residuals belong together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Blocks {
+    /// Samples of a block.
+    pub samples: f64,
+    /// Samples of a period: in a repeated motion a sensor's steps err alike at the same phase of
+    /// every period, and these samples make one block. `None` for motions that do not repeat.
+    pub period: Option<f64>,
+}
+
+impl Blocks {
+    fn of(&self, sample: usize, first: usize) -> usize {
+        let at = match self.period {
+            Some(period) => (sample as f64).rem_euclid(period),
+            None => (sample - first) as f64,
+        };
+        (at / self.samples) as usize
+    }
 }
 
 /// Replays every window with its derivatives and sums up. Windows are independent and run on all
@@ -139,15 +160,26 @@ fn sum_up<const D: usize>(
     let run = &campaign.runs[window.run];
     let channels = 1 + run.tips().len();
     let unknowns = replayer.unknowns();
-    let mut rows: Vec<f64> = Vec::with_capacity(sampling.block * channels * (unknowns + 1));
+    let mut rows: Vec<f64> = Vec::new();
     let mut found = WindowSums {
         gram: DMatrix::zeros(unknowns + 1, unknowns + 1),
-        scores: Vec::new(),
+        blocks: Vec::new(),
         squares: vec![0.0; channels],
+        cost: 0.0,
+        slopes: 0.0,
+        curvatures: 0.0,
         samples: 0,
     };
     let mut row = vec![0.0; unknowns + 1];
+    let blocks = sampling.blocks[window.run];
+    let first = *window.samples.start();
+    let mut block = 0;
     replayer.walk(run, window.samples.clone(), start(window), true, |seen| {
+        let own = blocks.of(seen.sample, first);
+        if own != block {
+            found.add(&mut rows, block);
+            block = own;
+        }
         for channel in 0..channels {
             let predicted = replayer.output(seen, channel, Some(&mut row[..unknowns]));
             let (logged, zero) = match channel.checked_sub(1) {
@@ -155,23 +187,25 @@ fn sum_up<const D: usize>(
                 Some(tip) => (run.tips()[tip][seen.sample], window.zeros[tip]),
             };
             let residual = logged - predicted - zero;
-            row[unknowns] = residual;
             found.squares[channel] += residual * residual;
-            let weight = 1.0 / sampling.sigma[channel];
-            rows.extend(row.iter().map(|v| v * weight));
+            let loss = sampling.noise[channel].loss(residual);
+            found.cost += loss.cost;
+            let variance = sampling.noise[channel].deviation().powi(2);
+            found.slopes += loss.slope * loss.slope * variance;
+            found.curvatures += loss.curvature * variance;
+            let root = loss.curvature.sqrt();
+            row[unknowns] = loss.slope / loss.curvature;
+            rows.extend(row.iter().map(|v| v * root));
         }
         found.samples += 1;
-        if found.samples % sampling.block == 0 {
-            found.close_block(&mut rows);
-        }
     });
-    found.close_block(&mut rows);
+    found.add(&mut rows, block);
     found
 }
 
 impl WindowSums {
-    /// Adds the products of the gathered rows and empties them.
-    fn close_block(&mut self, rows: &mut Vec<f64>) {
+    /// Adds the products of the gathered rows, which are of one block, and empties them.
+    fn add(&mut self, rows: &mut Vec<f64>, block: usize) {
         if rows.is_empty() {
             return;
         }
@@ -179,8 +213,11 @@ impl WindowSums {
         // Rows lie one after another: columns of a matrix that is width × rows.
         let columns = nalgebra::DMatrixView::from_slice(rows, width, rows.len() / width);
         let products = columns * columns.transpose();
-        self.scores.push(products.column(width - 1).rows(0, width - 1).into_owned());
-        self.gram += products;
+        if self.blocks.len() <= block {
+            self.blocks.resize(block + 1, DMatrix::zeros(width, width));
+        }
+        self.gram += &products;
+        self.blocks[block] += products;
         rows.clear();
     }
 }

@@ -130,7 +130,7 @@ fn derivatives_hold(hold: Hold, quantity: TipQuantity, lag_s: f64) {
     let (campaign, states, _) = campaign(hold, quantity);
     let from = states.iter().position(|x| x[1].abs() > 0.05).unwrap();
     let window = window(&model, &states, from, SAMPLES - 1);
-    let sampling = Sampling { sigma: &[1.0; 3], block: 1 };
+    let sampling = Sampling { noise: &[SensorNoise::gaussian(1.0); 3], blocks: &[Blocks { samples: 1.0, period: None }] };
     let base = predict(&model, &campaign, &window).unwrap();
     // With blocks of one sample and residuals put in one channel at a time, scores are derivatives.
     let moved = |model: &ModalArm, window: &Window| predict(model, &campaign, window).unwrap();
@@ -198,8 +198,9 @@ fn derivative_rows(
         let run = Run::new("r", run.time(), run.command().to_vec(), shifted(0, run.motor()), tips);
         let campaign = Campaign::new(campaign.channels.clone(), vec![run.unwrap()]).unwrap();
         let sums = sums(model, &PARAMETERS, &campaign, std::slice::from_ref(window), sampling);
-        for (row, score) in rows.iter_mut().zip(&sums[0].scores) {
-            row.push(score.iter().copied().collect());
+        for (row, block) in rows.iter_mut().zip(&sums[0].blocks) {
+            let last = block.ncols() - 1;
+            row.push(block.column(last).iter().take(last).copied().collect());
         }
     }
     rows

@@ -4,54 +4,72 @@ use nalgebra::{DMatrix, DVector};
 
 use super::normal::{Reduced, inverse};
 use super::search::Point;
+use crate::replay::WindowSums;
 
 /// Two covariances of the same figures.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Covariances {
     /// As if residuals were white, of the deviation that they have.
     pub(super) white: DMatrix<f64>,
-    /// From the scores of blocks of residuals, coloured as they are.
-    pub(super) coloured: DMatrix<f64>,
+    /// By leaving out one block of samples after another (jackknife): residuals within a block may
+    /// belong together as they like.
+    pub(super) blocks: DMatrix<f64>,
 }
 
-/// Covariances at `point`, with `lags` blocks on either side taken as correlated.
-///
-/// `N⁻¹·M·N⁻¹`: N the normal matrix with the windows' own unknowns eliminated, M the long-run
-/// variance of the scores of blocks, by Bartlett's weights within each window.
-pub(super) fn covariances(point: &Point, shared: usize, lags: usize) -> Covariances {
-    let mut normal = DMatrix::zeros(shared, shared);
-    let mut middle = DMatrix::zeros(shared, shared);
-    let (mut blocks, mut rows, mut own) = (0, 0, 0);
-    for sums in &point.sums {
-        let reduced = Reduced::new(sums, shared, 0.0);
-        normal += &reduced.normal;
-        let size = sums.gram.ncols() - 1;
-        own += size - shared;
-        rows += sums.samples * sums.squares.len();
-        let scores: Vec<DVector<f64>> = sums
-            .scores
-            .iter()
-            .map(|g| g.rows(0, shared) - reduced.by_shared.tr_mul(&g.rows(shared, size - shared)))
-            .collect();
-        blocks += scores.len();
-        for (i, a) in scores.iter().enumerate() {
-            for (lag, b) in scores[i..].iter().take(lags + 1).enumerate() {
-                let weight = 1.0 - lag as f64 / (lags as f64 + 1.0);
-                if lag == 0 {
-                    middle.ger(weight, a, a, 1.0);
-                } else {
-                    middle.ger(weight, a, b, 1.0);
-                    middle.ger(weight, b, a, 1.0);
-                }
+impl Covariances {
+    /// At `point`, whose parameters are `shared`.
+    ///
+    /// White: `N⁻¹·s²`, N the normal matrix with the windows' own unknowns eliminated. Blocks:
+    /// `Σ δ_b·δ_bᵀ`, δ_b the change of the parameters without block b, to first order in the
+    /// residuals and exactly in what the block adds to N: few blocks that carry much count fully.
+    pub(super) fn at(point: &Point, shared: usize) -> Self {
+        let reduced: Vec<Reduced> =
+            point.sums.iter().map(|s| Reduced::new(s, shared, 0.0)).collect();
+        let zero = DMatrix::zeros(shared, shared);
+        let normal = reduced.iter().fold(zero.clone(), |sum, r| sum + &r.normal);
+        let (mut slopes, mut curvatures) = (0.0, 0.0);
+        let (mut rows, mut unknowns) = (0, shared);
+        let mut blocks = zero;
+        for (sums, own) in point.sums.iter().zip(&reduced) {
+            slopes += sums.slopes;
+            curvatures += sums.curvatures;
+            rows += sums.samples * sums.squares.len();
+            unknowns += sums.gram.ncols() - 1 - shared;
+            let others = &normal - &own.normal;
+            for change in without_each_block(sums, &others, shared) {
+                blocks.ger(1.0, &change, &change, 1.0);
             }
         }
+        let free = rows.saturating_sub(unknowns).max(1) as f64;
+        Self { white: inverse(&normal) * (slopes / curvatures * rows as f64 / free), blocks }
     }
-    let inverse = inverse(&normal);
-    let free = rows.saturating_sub(own + shared).max(1) as f64;
-    let blocks = blocks as f64;
-    let small = blocks / (blocks - shared as f64).max(1.0);
-    Covariances {
-        coloured: &inverse * middle * &inverse * small,
-        white: inverse * (point.cost() / free),
+
+    /// The white one, stretched where blocks say more.
+    pub(super) fn larger(&self) -> DMatrix<f64> {
+        let stretch = DVector::from_fn(self.white.nrows(), |i, _| {
+            let ratio = self.blocks[(i, i)] / self.white[(i, i)];
+            if ratio > 1.0 && ratio.is_finite() { ratio.sqrt() } else { 1.0 }
+        });
+        DMatrix::from_fn(self.white.nrows(), self.white.ncols(), |i, j| {
+            self.white[(i, j)] * stretch[i] * stretch[j]
+        })
     }
+}
+
+/// Change of the shared parameters where one block of a window after another is left out.
+/// `others` is the normal matrix of all other windows.
+fn without_each_block<'a>(
+    sums: &'a WindowSums,
+    others: &'a DMatrix<f64>,
+    shared: usize,
+) -> impl Iterator<Item = DVector<f64>> + 'a {
+    let size = sums.gram.ncols() - 1;
+    let mut all = sums.gram.view((0, 0), (size, size)).into_owned();
+    let mut corner = all.view_mut((0, 0), (shared, shared));
+    corner += others;
+    sums.blocks.iter().map(move |block| {
+        let left = &all - block.view((0, 0), (size, size));
+        let score = block.column(size).rows(0, size).into_owned();
+        (inverse(&left) * -score).rows(0, shared).into_owned()
+    })
 }

@@ -2,6 +2,7 @@
 //! the logged angles.
 
 mod covariance;
+mod noise;
 mod normal;
 mod search;
 mod start;
@@ -10,9 +11,9 @@ mod windows;
 use nalgebra::DMatrix;
 
 use super::Estimate;
-use crate::record::Campaign;
-use crate::replay::{ModalArm, Parameter, Sampling, WindowSums};
-use covariance::covariances;
+use crate::record::{Campaign, Run};
+use crate::replay::{Blocks, ModalArm, Parameter, Sampling, SensorNoise, WindowSums};
+use covariance::Covariances;
 use search::{Point, Problem};
 pub use search::{Iteration, Stop};
 pub use start::{BeamDamping, free_parameters, start_of_regressions};
@@ -34,8 +35,8 @@ pub struct StageReport {
     pub iterations: Vec<Iteration>,
     /// Why it ended.
     pub stop: Stop,
-    /// Deviation of each channel's residual afterwards, motor first, then tips.
-    pub sigma: Vec<f64>,
+    /// Noise that each channel was taken to have, motor first, then tips.
+    pub noise: Vec<SensorNoise>,
 }
 
 /// What the output error gives.
@@ -49,6 +50,8 @@ pub struct OutputError {
     pub covariance: DMatrix<f64>,
     /// As if the residual were white.
     pub white: DMatrix<f64>,
+    /// By blocks.
+    pub blocks: DMatrix<f64>,
     /// Every length of windows, in order.
     pub stages: Vec<StageReport>,
 }
@@ -68,71 +71,69 @@ pub fn output_error(
     start: &ModalArm,
     free: &[Parameter],
     first_window_s: f64,
-    sigma: &[f64],
+    blocks: &[Blocks],
 ) -> Option<OutputError> {
-    let longest = campaign
-        .runs
-        .iter()
-        .map(|r| r.len() as f64 * r.sample_time_s())
-        .fold(0.0, f64::max);
-    let mut sigma = sigma.to_vec();
+    let length = |r: &Run| r.len() as f64 * r.sample_time_s();
+    let longest = campaign.runs.iter().map(length).fold(0.0, f64::max);
+    let mut noise = noise::of_samples(campaign);
     let mut length_s = first_window_s.min(longest);
-    let mut windows = cut(campaign, start, length_s);
     let mut arm = start.clone();
+    let mut windows = cut(campaign, &arm, length_s);
     let mut stages = Vec::new();
+    let steps = noise::steps(campaign);
+    let mut polished = 0;
     loop {
         if windows.is_empty() {
             return None;
         }
-        let problem = Problem {
-            campaign,
-            parameters: free,
-            sampling: Sampling { sigma: &sigma, block: 50 },
-            robust: length_s < longest,
-        };
-        let (point, iterations, stop) =
-            problem.search(problem.at(arm, windows), MOST_STEPS);
-        sigma = residual_deviation(&point, free.len());
-        if std::env::var("OE_DEBUG").is_ok() {
-            let mut c: Vec<_> = point.sums.iter().zip(&point.windows).map(|(s, w)| (s.cost() / s.samples as f64, w)).collect();
-            c.sort_by(|a, b| b.0.total_cmp(&a.0));
-            for (c, w) in c.iter().take(12) {
-                #[expect(clippy::print_stderr)]
-                { eprintln!("{c:.3} run {} {:?} {:?} {:?}", w.run, w.samples, w.start, w.zeros); }
-            }
-            #[expect(clippy::print_stderr)]
-            { eprintln!("median {}", c[c.len() / 2].0); }
-        }
+        let last = length_s >= longest;
+        let sampling = Sampling { noise: &noise, blocks };
+        let problem = Problem { campaign, parameters: free, sampling, robust: !last };
+        let (point, iterations, stop) = problem.search(problem.at(arm, windows), MOST_STEPS);
+        arm = point.arm.clone();
         stages.push(StageReport {
             window_s: length_s,
             windows: point.windows.len(),
             iterations,
             stop,
-            sigma: sigma.clone(),
+            noise: noise.clone(),
         });
-        if length_s >= longest {
-            let found = covariances(&point, free.len(), 2);
+        if last && polished == 2 {
+            let noise: Vec<SensorNoise> =
+                noise.iter().map(|n| SensorNoise::gaussian(n.deviation())).collect();
+            let gaussian = Problem { sampling: Sampling { noise: &noise, blocks }, ..problem };
+            let found = Covariances::at(&gaussian.at(point.arm, point.windows), free.len());
             return Some(OutputError {
-                arm: point.arm,
+                arm,
                 parameters: free.to_vec(),
-                covariance: found.coloured,
+                covariance: found.larger(),
                 white: found.white,
+                blocks: found.blocks,
                 stages,
             });
         }
-        length_s = (length_s * WIDENING).min(longest);
-        windows = widen(campaign, &point.arm, &point.windows, length_s);
-        arm = point.arm;
+        if last {
+            // Steps count once the fit is near: within one there is nothing that would lead there.
+            let left = noise::residuals(campaign, &point);
+            noise = left.iter().zip(&steps).map(|(e, q)| noise::most_likely(e, *q)).collect();
+            polished += 1;
+            windows = point.windows;
+        } else {
+            noise = residual_deviation(&point, free.len());
+            length_s = (length_s * WIDENING).min(longest);
+            windows = widen(campaign, &arm, &point.windows, length_s);
+        }
     }
 }
 
 /// Deviation of each channel's residual, its share of the unknowns taken out.
-fn residual_deviation(point: &Point, shared: usize) -> Vec<f64> {
+fn residual_deviation(point: &Point, shared: usize) -> Vec<SensorNoise> {
     let channels = point.sums.first().map_or(0, |s| s.squares.len());
     let samples: usize = point.sums.iter().map(|s| s.samples).sum();
     let unknowns: usize =
         point.sums.iter().map(|s| s.gram.ncols() - 1 - shared).sum::<usize>() + shared;
     let free = (samples * channels).saturating_sub(unknowns).max(1) as f64 / channels as f64;
     let square = |c: usize| point.sums.iter().map(|s: &WindowSums| s.squares[c]).sum::<f64>();
-    (0..channels).map(|c| (square(c) / free).sqrt().max(f64::MIN_POSITIVE)).collect()
+    let deviation = |c: usize| (square(c) / free).sqrt().max(f64::MIN_POSITIVE);
+    (0..channels).map(|c| SensorNoise::gaussian(deviation(c))).collect()
 }

@@ -29,7 +29,7 @@ pub(in crate::identify::output_error) struct Point {
 
 impl Point {
     pub(super) fn cost(&self) -> f64 {
-        self.sums.iter().map(WindowSums::cost).sum()
+        self.sums.iter().map(|s| s.cost).sum()
     }
 
     /// [`ROBUST`] times the median of the windows' costs per sample.
@@ -44,14 +44,14 @@ impl Point {
     fn robust_cost(&self, usual: f64) -> f64 {
         let each = |s: &WindowSums| {
             let n = s.samples as f64 * usual;
-            if usual.is_finite() { n * (s.cost() / n).ln_1p() } else { s.cost() }
+            if usual.is_finite() { n * (s.cost / n).ln_1p() } else { s.cost }
         };
         self.sums.iter().map(each).sum()
     }
 }
 
 fn per_sample(sums: &WindowSums) -> f64 {
-    sums.cost() / sums.samples.max(1) as f64
+    sums.cost / sums.samples.max(1) as f64
 }
 
 /// Derivative of a window's share in the robust cost by its own cost.

@@ -1,0 +1,102 @@
+//! How noisy a channel is: its sensor's step and the noise beyond it, from its samples alone.
+
+/// Differences below this share of the range are rounding, not steps.
+const ROUNDING: f64 = 1e-9;
+/// Share of differences that must be whole multiples of the step…
+const MULTIPLES: f64 = 0.99;
+/// …to this share of it.
+const WHOLE: f64 = 0.01;
+/// Samples looked at, spread over the record.
+const SAMPLES: usize = 8192;
+/// Median of |x| of a normal x of deviation one.
+const NORMAL_MEDIAN: f64 = 0.674_489_8;
+/// Σ of the squares of 1, −4, 6, −4, 1.
+const FOURTH_DIFFERENCE: f64 = 70.0;
+
+/// Noise of a channel, in its own unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ChannelNoise {
+    /// Step of the sensor; 0 where the samples have none.
+    pub(crate) step: f64,
+    /// Deviation of all noise: rounding, step/√12, and what the sensor adds.
+    pub(crate) std: f64,
+}
+
+/// Step and noise of uniform samples of a smooth motion.
+///
+/// The step is the smallest difference between neighbours, if nearly all others are multiples of
+/// it. The deviation is the median of the fourth differences, which smooth motion leaves small and
+/// whose median its few corners do not move; never less than step/√12.
+pub(crate) fn channel_noise(x: &[f64]) -> ChannelNoise {
+    let step = step(x);
+    let pieces = x.len().div_ceil(SAMPLES);
+    let mut fourth: Vec<f64> = x
+        .windows(5)
+        .step_by(pieces.max(1))
+        .map(|w| (w[0] - 4.0 * w[1] + 6.0 * w[2] - 4.0 * w[3] + w[4]).abs())
+        .collect();
+    if fourth.is_empty() {
+        return ChannelNoise { step, std: step / 12.0_f64.sqrt() };
+    }
+    let middle = fourth.len() / 2;
+    let (_, median, _) = fourth.select_nth_unstable_by(middle, f64::total_cmp);
+    let spread = *median / (NORMAL_MEDIAN * FOURTH_DIFFERENCE.sqrt());
+    ChannelNoise { step, std: spread.max(step / 12.0_f64.sqrt()) }
+}
+
+/// The sensor's step, or 0.
+fn step(x: &[f64]) -> f64 {
+    let (least, most) =
+        x.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
+    let floor = ROUNDING * (most - least);
+    let moves = || x.windows(2).map(|w| (w[1] - w[0]).abs()).filter(|d| *d > floor);
+    let step = moves().fold(f64::INFINITY, f64::min);
+    if !step.is_finite() {
+        return 0.0;
+    }
+    let whole = moves().filter(|d| (d / step - (d / step).round()).abs() < WHOLE).count();
+    if whole as f64 >= MULTIPLES * moves().count() as f64 { step } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wave(noise: f64) -> Vec<f64> {
+        // A fixed sequence that no one can tell from noise: sums of twelve uniform numbers.
+        let mut state = 1_u64;
+        let mut uniform = move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        (0..20_000)
+            .map(|k| {
+                let normal: f64 = (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
+                (0.004 * f64::from(k)).sin() + noise * normal
+            })
+            .collect()
+    }
+
+    #[test]
+    fn white_noise_is_found() {
+        let found = channel_noise(&wave(1e-3));
+        assert!(found.step.abs() < 1e-12, "{found:?}");
+        assert!((found.std / 1e-3 - 1.0).abs() < 0.05, "{found:?}");
+    }
+
+    #[test]
+    fn a_step_is_found_with_and_without_noise() {
+        for (noise, expected) in [(0.0, 1.0 / 12.0_f64.sqrt()), (0.5, (0.25 + 1.0 / 12.0_f64).sqrt())] {
+            let q = 0.0015;
+            let x: Vec<f64> = wave(noise * q).iter().map(|x| (x / q).round() * q).collect();
+            let found = channel_noise(&x);
+            assert!((found.step / q - 1.0).abs() < 1e-6, "{found:?}");
+            assert!((found.std / q / expected - 1.0).abs() < 0.3, "{noise}: {}", found.std / q);
+        }
+    }
+
+    #[test]
+    fn a_channel_at_rest_has_none() {
+        assert_eq!(channel_noise(&[1.0; 50]), ChannelNoise { step: 0.0, std: 0.0 });
+    }
+}
