@@ -25,7 +25,10 @@ pub use correct::{Response, corrected, ratio};
 pub use estimate::{Estimate, ModeEstimate};
 pub use finding::{Finding, Severity};
 pub use identified::{Beam, Friction, Identified, ThirdHarmonic};
-pub use output_error::{BeamDamping, Iteration, OutputError, StageReport, Stop, free_parameters, output_error, start_of_regressions};
+pub use output_error::{
+    Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, free_parameters,
+    output_error, start_of_regressions,
+};
 pub use rational::{BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_beam, fit_motor};
 pub use regression::{
     BeamRegression, ByDirection, Candidate, MissingKind, MissingTerm, MotorRegression,

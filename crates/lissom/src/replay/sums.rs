@@ -5,8 +5,8 @@ use std::ops::RangeInclusive;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::noise::SensorNoise;
 use super::arm::{MOST_MODES, ModalArm};
+use super::noise::SensorNoise;
 use super::parameter::Parameter;
 use super::window::Replayer;
 use crate::record::Campaign;
@@ -47,6 +47,8 @@ pub struct WindowSums {
     pub blocks: Vec<DMatrix<f64>>,
     /// Σ of squared residuals of each channel, not weighted.
     pub squares: Vec<f64>,
+    /// Readings of each channel that count.
+    pub readings: Vec<usize>,
     /// Σ of `−2·ln` of the readings' probabilities, relative to the best: squared residuals in
     /// deviations where sensors have no steps.
     pub cost: f64,
@@ -65,6 +67,8 @@ pub struct Sampling<'a> {
     pub noise: &'a [SensorNoise],
     /// How the samples of each run go into blocks.
     pub blocks: &'a [Blocks],
+    /// Readings of each run and channel that count; `None` where all do.
+    pub masks: &'a [Vec<Option<Vec<bool>>>],
 }
 
 /// How the samples of a run are gathered into blocks whose residuals belong together.
@@ -165,6 +169,7 @@ fn sum_up<const D: usize>(
         gram: DMatrix::zeros(unknowns + 1, unknowns + 1),
         blocks: Vec::new(),
         squares: vec![0.0; channels],
+        readings: vec![0; channels],
         cost: 0.0,
         slopes: 0.0,
         curvatures: 0.0,
@@ -172,6 +177,7 @@ fn sum_up<const D: usize>(
     };
     let mut row = vec![0.0; unknowns + 1];
     let blocks = sampling.blocks[window.run];
+    let masks = &sampling.masks[window.run];
     let first = *window.samples.start();
     let mut block = 0;
     replayer.walk(run, window.samples.clone(), start(window), true, |seen| {
@@ -181,6 +187,11 @@ fn sum_up<const D: usize>(
             block = own;
         }
         for channel in 0..channels {
+            if let Some(counts) = &masks[channel]
+                && !counts[seen.sample]
+            {
+                continue;
+            }
             let predicted = replayer.output(seen, channel, Some(&mut row[..unknowns]));
             let (logged, zero) = match channel.checked_sub(1) {
                 None => (run.motor()[seen.sample], 0.0),
@@ -188,6 +199,7 @@ fn sum_up<const D: usize>(
             };
             let residual = logged - predicted - zero;
             found.squares[channel] += residual * residual;
+            found.readings[channel] += 1;
             let loss = sampling.noise[channel].loss(residual);
             found.cost += loss.cost;
             let variance = sampling.noise[channel].deviation().powi(2);

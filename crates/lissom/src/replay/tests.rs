@@ -130,7 +130,11 @@ fn derivatives_hold(hold: Hold, quantity: TipQuantity, lag_s: f64) {
     let (campaign, states, _) = campaign(hold, quantity);
     let from = states.iter().position(|x| x[1].abs() > 0.05).unwrap();
     let window = window(&model, &states, from, SAMPLES - 1);
-    let sampling = Sampling { noise: &[SensorNoise::gaussian(1.0); 3], blocks: &[Blocks { samples: 1.0, period: None }] };
+    let sampling = Sampling {
+        noise: &[SensorNoise::gaussian(1.0); 3],
+        blocks: &[Blocks { samples: 1.0, period: None }],
+        masks: &[vec![None; 3]],
+    };
     let base = predict(&model, &campaign, &window).unwrap();
     // With blocks of one sample and residuals put in one channel at a time, scores are derivatives.
     let moved = |model: &ModalArm, window: &Window| predict(model, &campaign, window).unwrap();

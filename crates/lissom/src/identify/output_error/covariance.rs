@@ -33,7 +33,7 @@ impl Covariances {
         for (sums, own) in point.sums.iter().zip(&reduced) {
             slopes += sums.slopes;
             curvatures += sums.curvatures;
-            rows += sums.samples * sums.squares.len();
+            rows += sums.readings.iter().sum::<usize>();
             unknowns += sums.gram.ncols() - 1 - shared;
             let others = &normal - &own.normal;
             for change in without_each_block(sums, &others, shared) {

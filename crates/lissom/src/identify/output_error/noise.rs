@@ -1,5 +1,6 @@
 //! The noise of each channel, from what a fit leaves.
 
+use super::data::Masks;
 use super::search::Point;
 use crate::identify::channel_noise::channel_noise;
 use crate::record::{Campaign, Run};
@@ -16,7 +17,10 @@ const GOLDEN_STEPS: usize = 24;
 
 /// First guess, from the samples alone: all noise as one, without steps.
 pub(super) fn of_samples(campaign: &Campaign) -> Vec<SensorNoise> {
-    each_channel(campaign, &|x| channel_noise(x).std).into_iter().map(SensorNoise::gaussian).collect()
+    each_channel(campaign, &|x| channel_noise(x).std)
+        .into_iter()
+        .map(SensorNoise::gaussian)
+        .collect()
 }
 
 /// Step of each channel's sensor; zero where it has none.
@@ -40,7 +44,7 @@ fn each_channel(campaign: &Campaign, figure: &dyn Fn(&[f64]) -> f64) -> Vec<f64>
 }
 
 /// Residuals of each channel over all windows of `point`.
-pub(super) fn residuals(campaign: &Campaign, point: &Point) -> Vec<Vec<f64>> {
+pub(super) fn residuals(campaign: &Campaign, point: &Point, masks: &[Masks]) -> Vec<Vec<f64>> {
     let mut all = vec![Vec::new(); 1 + campaign.channels.tips.len()];
     for window in &point.windows {
         let Some(found) = predict(&point.arm, campaign, window) else { continue };
@@ -50,7 +54,9 @@ pub(super) fn residuals(campaign: &Campaign, point: &Point) -> Vec<Vec<f64>> {
                 None => run.motor(),
                 Some(tip) => &run.tips()[tip],
             };
-            left.extend(logged[window.samples.clone()].iter().zip(predicted).map(|(y, p)| y - p));
+            let counts = |k: &usize| masks[window.run][c].as_ref().is_none_or(|m| m[*k]);
+            let pairs = window.samples.clone().zip(predicted).filter(|(k, _)| counts(k));
+            left.extend(pairs.map(|(k, p)| logged[k] - p));
         }
     }
     all

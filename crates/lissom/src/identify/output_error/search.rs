@@ -176,7 +176,8 @@ impl Problem<'_> {
             normal[(i, i)] += damping * diagonal[i];
         }
         let change = inverse(&normal) * right;
-        let own: Vec<DVector<f64>> = reduced.iter().map(|r| &r.own - &r.by_shared * &change).collect();
+        let own: Vec<DVector<f64>> =
+            reduced.iter().map(|r| &r.own - &r.by_shared * &change).collect();
         // Decrease of the quadratic model: δᵀ(g + λ·diag·δ) = 2·gᵀδ − δᵀHδ.
         let mut promised = 0.0;
         for (s, own) in point.sums.iter().zip(&own) {

@@ -14,11 +14,10 @@ pub fn start_of_regressions(
     campaign: &Campaign,
     motor: &MotorRegression,
     beam: Option<&BeamRegression>,
-    damping: BeamDamping,
 ) -> Option<ModalArm> {
     let inertia = motor.inertia?.value;
-    let viscous = motor.viscous.map_or(0.0, |v| v.value)
-        + campaign.channels.command.back_emf_viscous;
+    let viscous =
+        motor.viscous.map_or(0.0, |v| v.value) + campaign.channels.command.back_emf_viscous;
     let coulomb = motor.coulomb?.value;
     if !(inertia > 0.0) || !coulomb.is_finite() {
         return None;
@@ -41,46 +40,37 @@ pub fn start_of_regressions(
         let stiffness = r.tr_mul(&nalgebra::DVector::from_vec(coupling));
         for (j, &omega_rad_s) in omega.iter().enumerate() {
             let ratio = beam.modes.get(j).map_or(0.0, |m| m.damping_ratio.value);
-            let rate = (2.0 * ratio * omega_rad_s).max(0.0);
-            let (within_per_s, grounded_per_s) = match damping {
-                BeamDamping::Within => (rate, 0.0),
-                BeamDamping::Grounded => (0.0, rate),
-            };
             arm.modes.push(Oscillator {
                 omega_rad_s,
                 stiffness_nm_per_rad: stiffness[j].max(LEAST_SHARE * total.abs()),
-                within_per_s,
-                grounded_per_s,
+                within_per_s: (2.0 * ratio * omega_rad_s).max(0.0),
+                grounded_per_s: 0.0,
             });
         }
         arm.shapes = shapes;
-    } else if campaign.channels.tips.iter().any(|t| t.calibrated && t.quantity != TipQuantity::Acceleration) {
+    } else if campaign
+        .channels
+        .tips
+        .iter()
+        .any(|t| t.calibrated && t.quantity != TipQuantity::Acceleration)
+    {
         return None;
     }
     Some(arm)
 }
 
-/// Which damper of a mode is free.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BeamDamping {
-    /// Within the beam, on the rate of deflection.
-    Within,
-    /// Against the fixed frame, on the absolute rate.
-    Grounded,
-}
-
-/// The parameters of an arm that a campaign's channels can show, with Coulomb friction and one
-/// viscous constant.
-pub fn free_parameters(campaign: &Campaign, arm: &ModalArm, damping: BeamDamping) -> Vec<Parameter> {
+/// The parameters of an arm that a campaign's channels can show, with Coulomb friction, one viscous
+/// constant and damping within the beam.
+pub fn free_parameters(campaign: &Campaign, arm: &ModalArm) -> Vec<Parameter> {
     let mut free =
         vec![Parameter::Inertia, Parameter::Viscous, Parameter::Coulomb, Parameter::Offset];
     let modes = arm.modes.len();
     for j in 0..modes {
-        free.extend([Parameter::Frequency(j), Parameter::Stiffness(j)]);
-        free.push(match damping {
-            BeamDamping::Within => Parameter::DampingWithin(j),
-            BeamDamping::Grounded => Parameter::DampingGrounded(j),
-        });
+        free.extend([
+            Parameter::Frequency(j),
+            Parameter::Stiffness(j),
+            Parameter::DampingWithin(j),
+        ]);
     }
     for (i, tip) in campaign.channels.tips.iter().enumerate() {
         if tip.calibrated {

@@ -80,9 +80,8 @@ struct Speed {
 impl Speed {
     fn new(run: &Run) -> Self {
         let half = (smoothing(run.motor()) / 2).max(2);
-        let velocity: Vec<f64> = (0..run.len())
-            .map(|k| slope(run.motor(), k, half) / run.sample_time_s())
-            .collect();
+        let velocity: Vec<f64> =
+            (0..run.len()).map(|k| slope(run.motor(), k, half) / run.sample_time_s()).collect();
         let power: f64 = velocity.iter().map(|v| v * v).sum();
         let least = MOVES * (power / run.len() as f64).sqrt();
         Self { half, velocity, least }
@@ -145,10 +144,7 @@ fn initial_state(
     let bent = if tips.is_empty() || modes == 0 {
         (DVector::zeros(modes), DVector::zeros(modes))
     } else {
-        (
-            deflection(&|x| mean(x, k, half), angle),
-            deflection(&|x| slope(x, k, half) / t, velocity),
-        )
+        (deflection(&|x| mean(x, k, half), angle), deflection(&|x| slope(x, k, half) / t, velocity))
     };
     for j in 0..modes {
         state.push(angle + bent.0[j]);

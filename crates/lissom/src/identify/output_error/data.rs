@@ -1,0 +1,46 @@
+//! What of the records counts, and how residuals belong together.
+
+use crate::identify::channel_check::{clipped_share, range};
+use crate::record::{Campaign, Run};
+use crate::replay::Blocks;
+
+/// Share of clipped readings from which on a channel's ends are left out.
+const CLIPPED: f64 = 0.002;
+/// Samples of a block, in general: steps and noise of sensors forget themselves within.
+const BLOCK: f64 = 40.0;
+/// Fewest blocks of a period.
+const FEWEST: f64 = 6.0;
+
+/// Readings of each channel that count, of one run.
+pub(super) type Masks = Vec<Option<Vec<bool>>>;
+
+/// Leaves out the readings of channels that stand at the ends of their range.
+pub(super) fn masks(campaign: &Campaign) -> Vec<Masks> {
+    let of_run = |run: &Run| {
+        std::iter::once(run.motor()).chain(run.tips().iter().map(Vec::as_slice)).map(mask).collect()
+    };
+    campaign.runs.iter().map(of_run).collect()
+}
+
+fn mask(x: &[f64]) -> Option<Vec<bool>> {
+    if clipped_share(x) < CLIPPED {
+        return None;
+    }
+    let low = x.iter().copied().fold(f64::INFINITY, f64::min);
+    let near = 1e-9 * range(x);
+    let high = low + range(x);
+    Some(x.iter().map(|v| v - low > near && high - v > near).collect())
+}
+
+/// Blocks of each run; `omega_rad_s` where it is a sinusoid in steady state.
+pub(super) fn blocks(campaign: &Campaign, omega_rad_s: &[Option<f64>]) -> Vec<Blocks> {
+    let of_run = |(run, omega): (&Run, &Option<f64>)| match omega {
+        Some(omega) => {
+            let period = std::f64::consts::TAU / (omega * run.sample_time_s());
+            let count = (period / BLOCK).round().max(FEWEST);
+            Blocks { samples: period / count, period: Some(period) }
+        }
+        None => Blocks { samples: BLOCK, period: None },
+    };
+    campaign.runs.iter().zip(omega_rad_s).map(of_run).collect()
+}
