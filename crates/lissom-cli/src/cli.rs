@@ -55,6 +55,9 @@ pub(crate) struct IdentifyArgs {
     /// Length of the regression's window, e.g. "0.3 s"; chosen from the data when absent
     #[arg(long, value_name = "TIME", value_parser = positive_time, allow_hyphen_values = true)]
     pub(crate) window: Option<f64>,
+    /// Closed forms only: do not replay the runs through the arm
+    #[arg(long)]
+    pub(crate) quick: bool,
 }
 
 /// A time greater than zero, in seconds.

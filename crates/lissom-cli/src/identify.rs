@@ -20,7 +20,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     let json_file = json.filter(|path| *path != Path::new(STDOUT));
     output::guard(json_file, args.report.as_deref())?;
     let file = read_campaign(&args.campaign)?;
-    let id = identified(&args.campaign, &file, args.window)?;
+    let id = identified(&args.campaign, &file, args.window, args.quick)?;
     let result = result_json(&file.campaign.channels, &id);
     let names = UnitNames::new(&file.campaign.channels);
     let reference = Reference::of(&file)?;
@@ -57,10 +57,12 @@ pub(crate) fn identified(
     path: &Path,
     file: &CampaignFile,
     window: Option<f64>,
+    without_output_error: bool,
 ) -> Result<Identified, Failure> {
     let window_s = window.map_or_else(|| file.analysis.window_s.clone(), |w| vec![w]);
-    let options = Options { window_s, harmonics: file.analysis.harmonics };
-    let bar = progress::bar(progress::steps(file.campaign.runs.len()), "identifying");
+    let harmonics = file.analysis.harmonics;
+    let options = Options { window_s, harmonics, without_output_error };
+    let bar = progress::stages(progress::steps(file.campaign.runs.len()));
     let id = identify(&file.campaign, &options, |stage| progress::stage(&bar, stage));
     bar.finish_and_clear();
     id.map_err(|source| Failure::Identify { campaign: path.to_owned(), source })

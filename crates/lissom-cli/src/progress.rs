@@ -28,11 +28,12 @@ pub(crate) fn stage(bar: &ProgressBar, stage: Stage) {
         Stage::Run(..) => "periods and harmonics",
         Stage::Regression => "regression",
         Stage::Beam => "beam",
+        Stage::OutputError => "replay through the arm",
         Stage::Responses => "responses and models",
     });
 }
 
 /// Steps that identification takes for `runs` runs.
 pub(crate) fn steps(runs: usize) -> usize {
-    runs + 3
+    runs + 4
 }

@@ -30,7 +30,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
 
     let campaign_path = out.join("campaign.toml");
     let file = read_campaign(&campaign_path)?;
-    let id = identify::identified(&campaign_path, &file, None)?;
+    let id = identify::identified(&campaign_path, &file, None, false)?;
 
     let channels = &file.campaign.channels;
     let names = UnitNames::new(channels);

@@ -41,7 +41,7 @@ pub(crate) fn run(args: &FiguresArgs) -> Result<ExitCode, Failure> {
 
     let campaign = logs.join("campaign.toml");
     let file = read_campaign(&campaign)?;
-    let id = identify::identified(&campaign, &file, None)?;
+    let id = identify::identified(&campaign, &file, None, false)?;
     let channels = &file.campaign.channels;
     let names = UnitNames::new(channels);
     let truth = Reference { label: "theory", ..Reference::truth(&made.arm) };

@@ -9,11 +9,12 @@ pub use units::UnitNames;
 
 use lissom::identify::{
     BeamRegression, Candidate, ConstantVelocity, Estimate, Finding, FrictionLine, Identified,
-    ModeEstimate, MotorFit, MotorRegression, Response, ResponsePoint, RunAnalysis, RunKind,
-    Severity, Shape, ThirdHarmonic,
+    ModeEstimate, MotorFit, MotorRegression, OutputError, Response, ResponsePoint, RunAnalysis,
+    RunKind, Severity, Shape, StageReport, Stop, ThirdHarmonic,
 };
 use lissom::lti::TransferFunction;
 use lissom::record::{Axis, Channels, TipQuantity};
+use lissom::replay::Parameter;
 use serde_json::{Map, Value, json};
 
 /// The result as JSON, SI and rad/s throughout.
@@ -29,6 +30,7 @@ pub fn result_json(channels: &Channels, id: &Identified) -> Value {
         "beam": beam(names, id),
         "methods": {
             "third_harmonic": id.third_harmonic.as_ref().map(|t| third(names, constant, t, &id.runs)),
+            "output_error": id.output_error.as_ref().map(|o| replay(names, constant, channels, o)),
             "regression": id.regression.as_ref().map(|r| {
                 regression(names, constant, r, id.beam_regression.as_ref())
             }),
@@ -175,6 +177,58 @@ fn regression(
     });
     map.insert("beam".to_owned(), beam.unwrap_or(Value::Null));
     Value::Object(map)
+}
+
+fn replay(names: UnitNames, constant: f64, channels: &Channels, oe: &OutputError) -> Value {
+    let mut map = Map::new();
+    let friction = oe.friction(channels.command.back_emf_viscous);
+    torque(&mut map, names, constant, "coulomb", friction.coulomb);
+    torque(&mut map, names, constant, "forward", friction.forward);
+    torque(&mut map, names, constant, "backward", friction.backward);
+    torque(&mut map, names, constant, "offset", friction.offset);
+    map.insert(names.viscous_key("viscous"), figure(friction.viscous));
+    map.insert(names.inertia_key(), figure(oe.inertia()));
+    let beam = oe.beam(channels);
+    map.insert(names.coupling_key("coupling"), figure(beam.coupling));
+    map.insert("modes".to_owned(), json!(beam.modes.iter().map(mode).collect::<Vec<_>>()));
+    let lag = oe.estimate(Parameter::CommandLag);
+    map.insert("command_lag_s".to_owned(), figure(lag));
+    map.insert("whole_runs".to_owned(), json!(oe.whole_runs));
+    let stages: Vec<Value> = oe.stages.iter().map(stage).collect();
+    map.insert("stages".to_owned(), Value::Array(stages));
+    let tried: Vec<Value> = oe
+        .extensions
+        .iter()
+        .map(|e| {
+            json!({
+                "parameter": e.parameter.name(),
+                "value": e.value,
+                "std": e.std,
+                "share_of_cost": e.share,
+                "added": e.added,
+            })
+        })
+        .collect();
+    map.insert("tried".to_owned(), Value::Array(tried));
+    Value::Object(map)
+}
+
+fn stage(s: &StageReport) -> Value {
+    let stop = match s.stop {
+        Stop::Converged => "converged",
+        Stop::NoStepHelps => "no-step-helps",
+        Stop::StepsUsedUp => "steps-used-up",
+    };
+    json!({
+        "window_s": s.window_s,
+        "windows": s.windows,
+        "cost": s.iterations.iter().map(|i| i.cost).collect::<Vec<_>>(),
+        "steps_taken": s.iterations.iter().filter(|i| i.taken).count(),
+        "stop": stop,
+        "noise_sigma": s.noise.iter().map(|n| n.sigma).collect::<Vec<_>>(),
+        "noise_step": s.noise.iter().map(|n| n.step).collect::<Vec<_>>(),
+        "residual_std": s.residual,
+    })
 }
 
 fn classical(names: UnitNames, constant: f64, c: &ConstantVelocity, runs: &[RunAnalysis]) -> Value {

@@ -9,6 +9,7 @@ use super::constant_velocity::{self, ConstantVelocity};
 use super::finding::{Finding, Severity, key};
 use super::identified::{Beam, Friction, Identified, ThirdHarmonic};
 use super::model::state_space;
+use super::output_error::{OutputError, OutputErrorStart, output_error, start_of_regressions};
 use super::rational::{BeamFit, MotorData, MotorFit, Pole, TipData, fit_beam, fit_motor};
 use super::regression::{BeamRegression, MotorRegression, beam_regression, motor_regression};
 use super::response_table::{ResponsePoint, response_table, tip_model, weak_points};
@@ -43,6 +44,8 @@ pub struct Options {
     /// Highest harmonic fitted to a periodic run; nine when `None`, and never above the Nyquist
     /// frequency.
     pub harmonics: Option<usize>,
+    /// Leaves out the replay of the runs through the arm: the regression's figures stand.
+    pub without_output_error: bool,
 }
 
 /// Why a campaign cannot be identified at all.
@@ -79,6 +82,8 @@ pub enum Stage {
     Regression,
     /// The beam's own regression.
     Beam,
+    /// The runs replayed through the arm.
+    OutputError,
     /// Responses and rational models.
     Responses,
 }
@@ -131,7 +136,8 @@ pub fn identify(
     }
     dead_tips(campaign, &dead, &mut findings);
     let constant_velocity = classical(campaign, &runs, &mut findings);
-    let usable = usable(campaign, &runs, &dead);
+    let kept = kept(&runs);
+    let usable = usable(campaign, &kept, &dead);
     if usable.runs.is_empty() && constant_velocity.is_none() {
         let constant = constant_channels(campaign);
         return Err(IdentifyError::NothingMoves { runs: campaign.runs.len(), constant });
@@ -147,6 +153,13 @@ pub fn identify(
     progress(Stage::Beam);
     let beam_regression =
         beam_regression(&usable).filter(|b| b.relative_residual.iter().all(|r| *r < BEAM_RESIDUAL));
+
+    let output_error = if options.without_output_error {
+        None
+    } else {
+        progress(Stage::OutputError);
+        replayed(&usable, &runs, &kept, regression.as_ref(), beam_regression.as_ref())
+    };
 
     progress(Stage::Responses);
     let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
@@ -201,6 +214,7 @@ pub fn identify(
         regression_residual,
         constant_velocity,
         beam_regression,
+        output_error,
         runs,
         responses,
         beam_model,
@@ -319,18 +333,40 @@ fn stands_alone(r: &MotorRegression) -> bool {
 /// constant velocities only where there are no others: they lie outside the speeds that a drive works
 /// at, and one viscous constant need not hold there.
 /// Logs are long: they are copied only where something falls out.
-fn usable<'a>(campaign: &'a Campaign, runs: &[RunAnalysis], dead: &[bool]) -> Cow<'a, Campaign> {
-    let others = runs.iter().any(|r| r.usable && !r.is_constant_velocity());
-    let kept = |a: &RunAnalysis| a.usable && !(others && a.is_constant_velocity());
-    if runs.iter().all(kept) && !dead.iter().any(|d| *d) {
+fn usable<'a>(campaign: &'a Campaign, kept: &[usize], dead: &[bool]) -> Cow<'a, Campaign> {
+    if kept.len() == campaign.runs.len() && !dead.iter().any(|d| *d) {
         return Cow::Borrowed(campaign);
     }
-    let kept = campaign.runs.iter().zip(runs).filter(|(_, a)| kept(a));
     let mut channels = campaign.channels.clone();
     for (tip, dead) in channels.tips.iter_mut().zip(dead) {
         tip.calibrated &= !dead;
     }
-    Cow::Owned(Campaign { channels, runs: kept.map(|(r, _)| r.clone()).collect() })
+    let runs = kept.iter().map(|&i| campaign.runs[i].clone()).collect();
+    Cow::Owned(Campaign { channels, runs })
+}
+
+/// Runs that the regressions and the output error may use.
+fn kept(runs: &[RunAnalysis]) -> Vec<usize> {
+    let others = runs.iter().any(|r| r.usable && !r.is_constant_velocity());
+    let kept = |a: &RunAnalysis| a.usable && !(others && a.is_constant_velocity());
+    (0..runs.len()).filter(|&i| kept(&runs[i])).collect()
+}
+
+/// The output error from the regressions' figures, on the usable runs: the `kept` ones of `runs`.
+fn replayed(
+    usable: &Campaign,
+    runs: &[RunAnalysis],
+    kept: &[usize],
+    motor: Option<&MotorRegression>,
+    beam: Option<&BeamRegression>,
+) -> Option<OutputError> {
+    let arm = start_of_regressions(usable, motor?, beam)?;
+    let omega = |&i: &usize| match &runs[i].kind {
+        RunKind::Sinusoidal(s) => Some(s.omega_rad_s),
+        RunKind::ConstantVelocity | RunKind::General => None,
+    };
+    let omega_rad_s = kept.iter().map(omega).collect();
+    output_error(usable, &OutputErrorStart { arm, omega_rad_s, first_window_s: None })
 }
 
 /// Every pair of runs at ω0 and 3ω0; each run meets the triple nearest to it in amplitude.

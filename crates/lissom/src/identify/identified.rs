@@ -2,6 +2,7 @@
 
 use super::constant_velocity::ConstantVelocity;
 use super::finding::Finding;
+use super::output_error::OutputError;
 use super::rational::{BeamFit, MotorFit};
 use super::regression::{BeamRegression, MotorRegression};
 use super::response_table::ResponsePoint;
@@ -73,6 +74,8 @@ pub struct Identified {
     pub constant_velocity: Option<ConstantVelocity>,
     /// The beam's regression.
     pub beam_regression: Option<BeamRegression>,
+    /// The runs replayed; `None` where it was not asked for or has nothing to start from.
+    pub output_error: Option<OutputError>,
     /// What each run is.
     pub runs: Vec<RunAnalysis>,
     /// Responses, ascending in frequency.

@@ -3,10 +3,12 @@
 use super::constant_velocity::{alone, only_constant_velocities, stand_in};
 use super::finding::{Finding, Severity, key};
 use super::identified::{Beam, Friction, Identified};
+use super::output_error::{OutputError, StageReport};
 use super::regression::{BeamRegression, MissingKind};
 use super::run_analysis::RunKind;
 use super::{Estimate, Severity::Warning};
 use crate::record::{Campaign, CommandQuantity, Hold, TipQuantity};
+use crate::replay::Parameter;
 
 /// A figure whose deviation is beyond this share of it is called uncertain…
 pub(super) const UNCERTAIN: f64 = 0.2;
@@ -27,6 +29,7 @@ const PRESENT: f64 = 3.0;
 pub(crate) fn conclude(campaign: &Campaign, id: &mut Identified) {
     let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
     from_regression(id);
+    from_output_error(campaign, id);
     if id.friction.coulomb.is_none() {
         id.friction.coulomb =
             id.third_harmonic.as_ref().map(|t| t.coulomb_command.scaled(constant));
@@ -81,7 +84,62 @@ fn from_regression(id: &mut Identified) {
     id.inertia = r.inertia;
 }
 
+/// The output error's figures, where its arm describes the runs.
+fn from_output_error(campaign: &Campaign, id: &mut Identified) {
+    let Some(oe) = &id.output_error else { return };
+    if oe.stands() {
+        id.friction = oe.friction(campaign.channels.command.back_emf_viscous);
+        id.inertia = oe.inertia();
+        id.findings.extend(added(oe));
+        return;
+    }
+    let (Some(first), Some(last)) = (oe.stages.first(), longest(oe)) else { return };
+    let grown = first.residual.iter().zip(&last.residual).map(|(a, b)| b / a).fold(0.0, f64::max);
+    id.findings.push(Finding::new(
+        "replay-departs",
+        Warning,
+        &[key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES],
+        format!(
+            "replayed over {:.2} s at a time the residual is {grown:.1} times that over {:.2} s: \
+             something moves the axis that the arm has not",
+            last.window_s, first.window_s
+        ),
+        "other friction than Coulomb and viscous, a load, backlash, a mode without a tip; the \
+         regression's figures are taken",
+    ));
+}
+
+/// The stage of the longest windows tried.
+fn longest(oe: &OutputError) -> Option<&StageReport> {
+    oe.stages.iter().max_by(|a, b| a.window_s.total_cmp(&b.window_s))
+}
+
+/// What the output error added to the simplest law.
+fn added(oe: &OutputError) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    if let Some(lag) = oe.estimate(Parameter::CommandLag) {
+        findings.push(Finding::new(
+            "command-lag",
+            Severity::Info,
+            &[key::INERTIA, key::VISCOUS, key::RAW],
+            format!(
+                "the command acts {:.3} ms (± {:.3}) later than it is logged: counted in all figures",
+                1e3 * lag.value,
+                1e3 * lag.std
+            ),
+            "an amplifier's delay, or channels that are not sampled together",
+        ));
+    }
+    findings
+}
+
 fn beam(campaign: &Campaign, id: &mut Identified, alone: bool) {
+    if let Some(oe) = id.output_error.as_ref().filter(|oe| oe.stands())
+        && !oe.arm.modes.is_empty()
+    {
+        id.beam = oe.beam(&campaign.channels);
+        return;
+    }
     let tips = campaign.channels.tips.len();
     let fitted = id.beam_model.as_ref().map_or(&[][..], |b| &b.modes[..]);
     let modes = match &id.beam_regression {
@@ -328,7 +386,9 @@ fn regression(id: &mut Identified) {
             "a delay, a load, other friction or a flexible mode without a tip; check units and signs",
         ));
     }
-    if let Some(m) = r.missing {
+    // The replay explains the runs: what one added term would do to the regression says nothing.
+    let explained = id.output_error.as_ref().is_some_and(OutputError::stands);
+    if let Some(m) = r.missing.filter(|_| !explained) {
         let (what, hint) = match m.kind {
             MissingKind::Delay => (
                 format!("the command acts {:.2} ms later than it is logged", 1e3 * m.value),
@@ -356,7 +416,7 @@ fn regression(id: &mut Identified) {
             hint,
         ));
     }
-    if let Some(d) = r.viscous_by_direction {
+    if let Some(d) = r.viscous_by_direction.filter(|_| !explained) {
         id.findings.push(Finding::new(
             "viscous-by-direction",
             Warning,

@@ -65,6 +65,23 @@ impl Parameter {
         matches!(self, Self::Inertia | Self::Frequency(_) | Self::Stiffness(_))
     }
 
+    /// Its name in results, modes and tips counted from one.
+    pub fn name(self) -> String {
+        match self {
+            Self::Inertia => "inertia".to_owned(),
+            Self::Viscous => "viscous".to_owned(),
+            Self::ViscousDifference => "viscous-by-direction".to_owned(),
+            Self::Frequency(j) => format!("frequency-{}", j + 1),
+            Self::Stiffness(j) => format!("stiffness-{}", j + 1),
+            Self::DampingWithin(j) => format!("damping-within-{}", j + 1),
+            Self::DampingGrounded(j) => format!("damping-grounded-{}", j + 1),
+            Self::Coulomb => "coulomb".to_owned(),
+            Self::Offset => "offset".to_owned(),
+            Self::CommandLag => "command-lag".to_owned(),
+            Self::Shape(i, j) | Self::ShapeShare(i, j) => format!("shape-{}-{}", i + 1, j + 1),
+        }
+    }
+
     /// Its value.
     pub fn of(self, arm: &ModalArm) -> f64 {
         let [forward, backward] = arm.viscous_nm_s_per_rad;

@@ -4,6 +4,7 @@
 mod covariance;
 mod data;
 mod evidence;
+mod figures;
 mod noise;
 mod normal;
 mod search;
