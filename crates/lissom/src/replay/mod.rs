@@ -19,7 +19,7 @@ pub use arm::{MOST_MODES, ModalArm, Oscillator};
 pub use noise::SensorNoise;
 pub use parameter::Parameter;
 pub use prediction::{Prediction, predict};
-pub use sums::{Blocks, Sampling, Window, WindowSums, sums};
+pub use sums::{Blocks, Sampling, Window, WindowSums, costs, sums};
 
 #[cfg(test)]
 mod tests;

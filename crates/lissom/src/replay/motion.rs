@@ -11,11 +11,10 @@ const MOST_EVENTS: usize = 50;
 /// Rounding of an acceleration, relative to the terms it is a sum of.
 const ROUNDING: f64 = 1e-13;
 
-/// Which tangent is which: those of the matrices' parameters first, then those of the torque, the
-/// lag, and the initial state.
+/// Which tangent is which: those of the matrices' parameters come first, then those of the torque,
+/// the lag, and the initial state.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Columns {
-    pub(super) matrices: usize,
     pub(super) coulomb: Option<usize>,
     pub(super) offset: Option<usize>,
     pub(super) lag: Option<usize>,

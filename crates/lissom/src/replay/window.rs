@@ -57,7 +57,7 @@ impl<'a, const D: usize> Replayer<'a, D> {
         let coulomb = column(Parameter::Coulomb);
         let offset = column(Parameter::Offset);
         let lag = column(Parameter::CommandLag);
-        let columns = Columns { matrices, coulomb, offset, lag, initial: next };
+        let columns = Columns { coulomb, offset, lag, initial: next };
         let mut inside = 0;
         let tangent_of = parameters
             .iter()

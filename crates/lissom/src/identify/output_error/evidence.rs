@@ -1,5 +1,7 @@
 //! Which parameters beyond the simplest law the residual calls for.
 
+use nalgebra::{DMatrix, DVector};
+
 use super::covariance::Covariances;
 use super::normal::{Reduced, inverse};
 use super::search::Point;
@@ -57,8 +59,19 @@ pub(super) fn refused(fitting: &Fitting<'_>, fit: &Fit, free: &[Parameter]) -> V
     promises(fitting, fit, free)
 }
 
+/// What one step of a search with each candidate beside `free` promises: score tests, all from one
+/// replay.
 fn promises(fitting: &Fitting<'_>, fit: &Fit, free: &[Parameter]) -> Vec<Extension> {
-    candidates(fit, free).iter().filter_map(|p| score(fitting, fit, free, *p)).collect()
+    let candidates = candidates(fit, free);
+    let all: Vec<Parameter> = free.iter().chain(&candidates).copied().collect();
+    let problem = fitting.problem(&all, &fit.noise, false);
+    let point = problem.at(fit.point.arm.clone(), fit.point.windows.clone());
+    let score = |(i, parameter): (usize, &Parameter)| {
+        let kept: Vec<usize> = (0..free.len()).chain([free.len() + i]).collect();
+        let sums = point.sums.iter().map(|s| s.of(&kept, all.len())).collect();
+        score(&Point { sums, ..point.clone() }, kept.len(), *parameter)
+    };
+    candidates.iter().enumerate().filter_map(score).collect()
 }
 
 /// A mode's other damper goes where the one just added leaves nothing of it.
@@ -95,28 +108,19 @@ fn candidates(fit: &Fit, free: &[Parameter]) -> Vec<Parameter> {
     all
 }
 
-/// What one step of a search with `more` beside `free` promises: the score test.
-fn score(
-    fitting: &Fitting<'_>,
-    fit: &Fit,
-    free: &[Parameter],
-    more: Parameter,
-) -> Option<Extension> {
-    let mut with = free.to_vec();
-    with.push(more);
-    let problem = fitting.problem(&with, &fit.noise, false);
-    let point: Point = problem.at(fit.point.arm.clone(), fit.point.windows.clone());
-    let last = with.len() - 1;
-    let mut normal = nalgebra::DMatrix::zeros(with.len(), with.len());
-    let mut right = nalgebra::DVector::zeros(with.len());
+/// The step that a search would make from `point` in the last of its `shared` parameters.
+fn score(point: &Point, shared: usize, parameter: Parameter) -> Option<Extension> {
+    let mut normal = DMatrix::zeros(shared, shared);
+    let mut right = DVector::zeros(shared);
     for sums in &point.sums {
-        let reduced = Reduced::new(sums, with.len(), 0.0);
+        let reduced = Reduced::new(sums, shared, 0.0);
         normal += reduced.normal;
         right += reduced.right;
     }
     let step = inverse(&normal) * &right;
-    let covariance = Covariances::at(&point, with.len()).larger();
+    let covariance = Covariances::at(point, shared).larger();
+    let last = shared - 1;
     let (value, std) = (step[last], covariance[(last, last)].max(0.0).sqrt());
     let share = right.dot(&step) / point.cost();
-    value.is_finite().then_some(Extension { parameter: more, value, std, share, added: false })
+    value.is_finite().then_some(Extension { parameter, value, std, share, added: false })
 }

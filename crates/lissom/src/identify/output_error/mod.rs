@@ -25,11 +25,13 @@ pub use start::{free_parameters, start_of_regressions};
 use windows::{cut, widen};
 
 /// Most steps of a stage before the last, which only leads to it.
-const STEPS_ON_THE_WAY: usize = 20;
+const STEPS_ON_THE_WAY: usize = 12;
+/// Samples replayed on that way, about.
+const SAMPLES_ON_THE_WAY: usize = 40_000;
 /// Most steps of the last stage.
 const MOST_STEPS: usize = 40;
 /// Each stage's windows are longer than the ones before by this factor.
-const WIDENING: f64 = 3.0;
+const WIDENING: f64 = 4.0;
 /// Samples of the first windows, at least, and their share of the slowest mode's period.
 const FIRST_SAMPLES: f64 = 80.0;
 const FIRST_PERIODS: f64 = 0.3;
@@ -206,7 +208,7 @@ impl Fitting<'_> {
         let mut free = free_parameters(self.campaign, &start.arm);
         let window_s =
             start.first_window_s.unwrap_or_else(|| self.first_window_s(&start.arm)).min(longest);
-        let windows = cut(self.campaign, &start.arm, window_s);
+        let windows = some(cut(self.campaign, &start.arm, window_s));
         if windows.is_empty() {
             return None;
         }
@@ -214,11 +216,13 @@ impl Fitting<'_> {
         let point = self.problem(&free, &noise, true).at(start.arm.clone(), windows);
         let mut fit = Fit { point, noise, whole_runs: window_s >= longest, window_s };
         self.search(&mut fit, &free, report);
+        evidence::extend(self, &mut fit, &mut free, report);
         while !fit.whole_runs {
             let window_s = (fit.window_s * WIDENING).min(longest);
             let whole_runs = window_s >= longest;
             let before = (fit.clone(), free.clone());
             let windows = widen(self.campaign, &fit.point.arm, &fit.point.windows, window_s);
+            let windows = if whole_runs { windows } else { some(windows) };
             let problem = self.problem(&free, &fit.noise, !whole_runs);
             let point = problem.at(fit.point.arm, windows);
             fit = Fit { point, noise: before.0.noise.clone(), whole_runs, window_s };
@@ -235,16 +239,31 @@ impl Fitting<'_> {
 
     /// Searches from where the fit is and takes its noise from what is left; gives that.
     fn search(&self, fit: &mut Fit, free: &[Parameter], report: &mut Report) -> Vec<f64> {
+        let residual = self.steps(fit, free, report, STEPS_ON_THE_WAY);
+        let last = report.stages.last().map(|s| s.stop);
+        let residual = if last == Some(Stop::StepsUsedUp)
+            && (fit.whole_runs || report.grown(&residual))
+        {
+            self.steps(fit, free, report, MOST_STEPS)
+        } else {
+            residual
+        };
+        fit.noise = residual.iter().map(|r| SensorNoise::gaussian(*r)).collect();
+        residual
+    }
+
+    /// At most `most` steps; gives the residual's deviation.
+    fn steps(
+        &self,
+        fit: &mut Fit,
+        free: &[Parameter],
+        report: &mut Report,
+        most: usize,
+    ) -> Vec<f64> {
         let problem = self.problem(free, &fit.noise, !fit.whole_runs);
         let point = problem.at(fit.point.arm.clone(), fit.point.windows.clone());
-        let (mut point, mut iterations, mut stop) = problem.search(point, STEPS_ON_THE_WAY);
-        let mut residual = residual_deviation(&point, free.len());
-        if stop == Stop::StepsUsedUp && (fit.whole_runs || report.grown(&residual)) {
-            let more;
-            (point, more, stop) = problem.search(point, MOST_STEPS);
-            iterations.extend(more);
-            residual = residual_deviation(&point, free.len());
-        }
+        let (point, iterations, stop) = problem.search(point, most);
+        let residual = residual_deviation(&point, free.len());
         report.stages.push(StageReport {
             window_s: fit.window_s,
             windows: point.windows.len(),
@@ -254,7 +273,6 @@ impl Fitting<'_> {
             residual: residual.clone(),
         });
         fit.point = point;
-        fit.noise = residual.iter().map(|r| SensorNoise::gaussian(*r)).collect();
         residual
     }
 
@@ -270,15 +288,19 @@ impl Fitting<'_> {
     /// nothing that would lead there.
     fn count_steps(&self, fit: &mut Fit, free: &[Parameter], report: &mut Report) {
         let steps = noise::steps(self.campaign);
-        for _ in 0..2 {
-            let left = noise::residuals(self.campaign, &fit.point, self.masks);
-            let noise: Vec<SensorNoise> =
-                left.iter().zip(&steps).map(|(e, q)| noise::most_likely(e, *q)).collect();
-            fit.noise.clone_from(&noise);
-            self.search(fit, free, report);
-            fit.noise = noise;
-        }
+        let left = noise::residuals(self.campaign, &fit.point, self.masks);
+        let noise: Vec<SensorNoise> =
+            left.iter().zip(&steps).map(|(e, q)| noise::most_likely(e, *q)).collect();
+        fit.noise.clone_from(&noise);
+        self.steps(fit, free, report, STEPS_ON_THE_WAY);
+        fit.noise = noise;
     }
+}
+
+/// Windows enough to find the way: every so manieth.
+fn some(windows: Vec<Window>) -> Vec<Window> {
+    let samples: usize = windows.iter().map(Window::len).sum();
+    windows.into_iter().step_by(samples.div_ceil(SAMPLES_ON_THE_WAY).max(1)).collect()
 }
 
 fn duration_s(run: &Run) -> f64 {

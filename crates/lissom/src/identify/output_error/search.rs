@@ -4,15 +4,15 @@ use nalgebra::{DMatrix, DVector};
 
 use super::normal::{Reduced, inverse};
 use crate::record::Campaign;
-use crate::replay::{ModalArm, Parameter, Sampling, Window, WindowSums, sums};
+use crate::replay::{ModalArm, Parameter, Sampling, Window, WindowSums, costs, sums};
 
 /// Damping of the first step, relative to the diagonal.
 const FIRST_DAMPING: f64 = 1e-3;
 /// Damping beyond which no step helps.
 const MOST_DAMPING: f64 = 1e8;
 /// The search ends when a step promises to lower the cost, a sum of squared deviations, by less
-/// than this many: far below one, at which parameters move by a deviation.
-const PROMISE: f64 = 1e-3;
+/// than this: parameters would move by a seventh of their deviation.
+const PROMISE: f64 = 0.02;
 /// Largest change of the logarithm of a parameter that is positive by nature, in one step.
 const LARGEST_FACTOR: f64 = 0.7;
 
@@ -39,15 +39,16 @@ impl Point {
         ROBUST * each.get(each.len() / 2).copied().unwrap_or(0.0).max(1.0)
     }
 
-    /// `Σ n·κ·ln(1 + c/(n·κ))` of the windows' costs c and samples n: what a window adds grows
-    /// slowly once it is on another way of sticking and slipping than its log.
     fn robust_cost(&self, usual: f64) -> f64 {
-        let each = |s: &WindowSums| {
-            let n = s.samples as f64 * usual;
-            if usual.is_finite() { n * (s.cost / n).ln_1p() } else { s.cost }
-        };
-        self.sums.iter().map(each).sum()
+        self.sums.iter().map(|s| robust(s.cost, s.samples, usual)).sum()
     }
+}
+
+/// `n·κ·ln(1 + c/(n·κ))` of a window's cost c and samples n: what it adds grows slowly once it is on
+/// another way of sticking and slipping than its log.
+fn robust(cost: f64, samples: usize, usual: f64) -> f64 {
+    let n = samples as f64 * usual;
+    if usual.is_finite() { n * (cost / n).ln_1p() } else { cost }
 }
 
 fn per_sample(sums: &WindowSums) -> f64 {
@@ -112,14 +113,17 @@ impl Problem<'_> {
             if step.promised < PROMISE {
                 return (point, iterations, Stop::Converged);
             }
-            let trial = self.moved(&point, &step);
-            let (before, after) = (point.robust_cost(usual), trial.robust_cost(usual));
+            let (arm, windows) = self.moved(&point, &step);
+            let costs = costs(&arm, self.campaign, &windows, self.sampling);
+            let samples = point.sums.iter().map(|s| s.samples);
+            let after: f64 = costs.iter().zip(samples).map(|(c, n)| robust(*c, n, usual)).sum();
+            let before = point.robust_cost(usual);
             let gain = (before - after) / step.promised;
             let taken = after < before;
             let cost = if taken { after } else { before };
             iterations.push(Iteration { cost, promised: step.promised, damping, taken });
             if taken {
-                point = trial;
+                point = self.at(arm, windows);
                 damping *= (1.0 - (2.0 * gain - 1.0).powi(3)).max(1.0 / 3.0);
                 growth = 2.0;
             } else {
@@ -133,7 +137,7 @@ impl Problem<'_> {
         (point, iterations, Stop::StepsUsedUp)
     }
 
-    fn moved(&self, point: &Point, step: &Step) -> Point {
+    fn moved(&self, point: &Point, step: &Step) -> (ModalArm, Vec<Window>) {
         let mut arm = point.arm.clone();
         for (p, change) in self.parameters.iter().zip(step.shared.iter()) {
             let value = p.of(&arm);
@@ -156,7 +160,7 @@ impl Problem<'_> {
                 w
             })
             .collect();
-        self.at(arm, windows)
+        (arm, windows)
     }
 
     fn step(&self, point: &Point, damping: f64, usual: f64) -> Option<Step> {
