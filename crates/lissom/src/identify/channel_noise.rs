@@ -86,9 +86,7 @@ mod tests {
 
     #[test]
     fn a_step_is_found_with_and_without_noise() {
-        for (noise, expected) in
-            [(0.0, 1.0 / 12.0_f64.sqrt()), (0.5, (0.25 + 1.0 / 12.0_f64).sqrt())]
-        {
+        for (noise, expected) in [(0.0, 1.0 / 12.0_f64.sqrt()), (0.5, (0.25 + 1.0 / 12.0_f64).sqrt())] {
             let q = 0.0015;
             let x: Vec<f64> = wave(noise * q).iter().map(|x| (x / q).round() * q).collect();
             let found = channel_noise(&x);

@@ -35,13 +35,10 @@ impl OutputError {
             damping_ratio: self.figure(|arm| arm.modes[j].damping_ratio()),
         });
         let tips = &channels.tips;
-        let known = |i: usize| {
-            tips[i].calibrated && tips[i].quantity != TipQuantity::Acceleration
-        };
+        let known = |i: usize| tips[i].calibrated && tips[i].quantity != TipQuantity::Acceleration;
         let by_tip = self.arm.coupling_by_tip().map_or(Vec::new(), |found| {
-            let figure = |i: usize| {
-                self.figure(|arm| arm.coupling_by_tip().map_or(f64::NAN, |k| k[i]))
-            };
+            let figure =
+                |i: usize| self.figure(|arm| arm.coupling_by_tip().map_or(f64::NAN, |k| k[i]));
             (0..found.len()).map(|i| known(i).then(|| figure(i))).collect()
         });
         Beam {

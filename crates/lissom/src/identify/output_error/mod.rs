@@ -241,13 +241,12 @@ impl Fitting<'_> {
     fn search(&self, fit: &mut Fit, free: &[Parameter], report: &mut Report) -> Vec<f64> {
         let residual = self.steps(fit, free, report, STEPS_ON_THE_WAY);
         let last = report.stages.last().map(|s| s.stop);
-        let residual = if last == Some(Stop::StepsUsedUp)
-            && (fit.whole_runs || report.grown(&residual))
-        {
-            self.steps(fit, free, report, MOST_STEPS)
-        } else {
-            residual
-        };
+        let residual =
+            if last == Some(Stop::StepsUsedUp) && (fit.whole_runs || report.grown(&residual)) {
+                self.steps(fit, free, report, MOST_STEPS)
+            } else {
+                residual
+            };
         fit.noise = residual.iter().map(|r| SensorNoise::gaussian(*r)).collect();
         residual
     }
