@@ -4,10 +4,11 @@
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
-use lissom::identify::{Estimate, Identified, MissingKind, Options, identify};
+use lissom::identify::{Estimate, Identified, MissingKind, Options, identify, motor_regression};
 use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
 };
+use lissom::replay::Parameter;
 use lissom::rig::{Amplifier, Experiment, Hybrid, Instruments, Pd, Quantiser, Rig, Sensor, Settle};
 
 /// Two unequal masses, friction by direction: modes at 7.9 and 41 rad/s.
@@ -55,6 +56,10 @@ fn current(k: f64) -> Command {
 
 fn tip(name: &str, quantity: TipQuantity) -> Tip {
     Tip { name: name.to_owned(), quantity, calibrated: true }
+}
+
+fn campaign(command: Command, runs: Vec<Run>) -> Campaign {
+    Campaign::new(Channels { axis: Axis::Rotary, command, tips: vec![] }, runs).unwrap()
 }
 
 fn identified(command: Command, axis: Axis, tips: Vec<Tip>, runs: Vec<Run>) -> Identified {
@@ -164,18 +169,19 @@ fn a_delay_is_noticed_and_measured() {
             Run::new(r.name(), r.time(), command, motor, vec![]).unwrap()
         })
         .collect();
-    let missing = |runs| {
-        let id = identified(current(0.2), Axis::Rotary, vec![], runs);
-        assert_eq!(
-            id.findings.iter().any(|f| f.code == "missing-term"),
-            id.regression.as_ref().unwrap().missing.is_some()
-        );
-        id.regression.unwrap().missing
-    };
+    let missing = |runs| motor_regression(&campaign(current(0.2), runs), &[]).unwrap().missing;
     assert_eq!(missing(stiff_axis(0.2, 0.0)), None);
-    let found = missing(late).unwrap();
+    let found = missing(late.clone()).unwrap();
     assert_eq!(found.kind, MissingKind::Delay);
     assert!((found.value / 0.010 - 1.0).abs() < 0.05, "{found:?}");
+
+    // The output error counts it in all figures.
+    let id = identified(current(0.2), Axis::Rotary, vec![], late);
+    assert!(id.findings.iter().any(|f| f.code == "command-lag"));
+    let lag = id.output_error.as_ref().unwrap().estimate(Parameter::CommandLag).unwrap();
+    assert!((lag.value - 0.010).abs() < 4.0 * lag.std + 1e-6 && lag.std < 1e-4, "{lag:?}");
+    within("inertia", id.inertia, 2e-3, 1e-3);
+    within("coulomb", id.friction.coulomb, 0.06, 1e-3);
 }
 
 #[test]

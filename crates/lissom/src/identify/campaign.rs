@@ -7,6 +7,7 @@ use thiserror::Error;
 use super::channel_check::range;
 use super::constant_velocity::{self, ConstantVelocity};
 use super::finding::{Finding, Severity, key};
+use super::friction_waveform::FrictionWaveform;
 use super::identified::{Beam, Friction, Identified, ThirdHarmonic};
 use super::model::state_space;
 use super::output_error::{OutputError, OutputErrorStart, output_error, start_of_regressions};
@@ -163,14 +164,21 @@ pub fn identify(
 
     progress(Stage::Responses);
     let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
-    let table = |c: Option<Estimate>| response_table(campaign, &runs, c, &findings);
+    let square = |_: usize| None;
+    let table = |c: Option<Estimate>| response_table(campaign, &runs, c, &square, &findings);
     let mut third_harmonic = pairs(&runs, &findings);
     let from_regression =
         regression.as_ref().and_then(|r| r.coulomb).map(|c| c.scaled(1.0 / constant));
     let best = from_regression
         .filter(|c| c.value > 0.0)
         .or(third_harmonic.as_ref().map(|t| t.coulomb_command));
-    let mut responses = table(best);
+    let from_replay = |run: usize| {
+        let RunKind::Sinusoidal(steady) = &runs[run].kind else { return None };
+        let run = kept.iter().position(|&k| k == run)?;
+        let found = output_error.as_ref()?;
+        FrictionWaveform { found, campaign: &usable, run, steady }.response()
+    };
+    let mut responses = response_table(campaign, &runs, best, &from_replay, &findings);
     let stepped = responses.iter().filter(|p| p.run.is_some()).count() >= STEPPED;
     let figures = figures_model(campaign, regression.as_ref(), beam_regression.as_ref());
     let (mut beam_model, mut motor_model) = (beam_model(campaign, &responses), None);

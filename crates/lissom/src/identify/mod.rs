@@ -7,6 +7,7 @@ mod constant_velocity;
 mod correct;
 mod estimate;
 mod finding;
+mod friction_waveform;
 mod identified;
 mod model;
 mod output_error;

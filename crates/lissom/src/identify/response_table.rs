@@ -39,17 +39,21 @@ pub struct ResponsePoint {
     pub flagged: bool,
 }
 
-/// Builds the table with friction `coulomb_command` (CF/K in the command's unit), if known.
+/// Builds the table. `replayed` gives the corrected response of a sinusoidal run where friction is known
+/// over time; elsewhere it is taken for a square wave of `coulomb_command` (CF/K), if that is known.
 pub(crate) fn response_table(
     campaign: &Campaign,
     runs: &[RunAnalysis],
     coulomb_command: Option<Estimate>,
+    replayed: &dyn Fn(usize) -> Option<Response>,
     findings: &[Finding],
 ) -> Vec<ResponsePoint> {
     let mut points: Vec<ResponsePoint> = runs
         .iter()
         .enumerate()
-        .filter_map(|(index, run)| sinusoidal(index, run, coulomb_command, findings))
+        .filter_map(|(index, run)| {
+            sinusoidal(index, run, coulomb_command, replayed(index), findings)
+        })
         .collect();
     points.extend(bands(campaign, runs, coulomb_command));
     points.sort_by(|a, b| a.omega_rad_s.total_cmp(&b.omega_rad_s));
@@ -60,6 +64,7 @@ fn sinusoidal(
     index: usize,
     run: &RunAnalysis,
     coulomb_command: Option<Estimate>,
+    replayed: Option<Response>,
     findings: &[Finding],
 ) -> Option<ResponsePoint> {
     let RunKind::Sinusoidal(s) = &run.kind else { return None };
@@ -69,14 +74,15 @@ fn sinusoidal(
             && f.severity >= Severity::Warning
             && f.affects.contains(&key::CORRECTED)
     });
-    let motor_corrected = coulomb_command.map(|c| {
+    let square = |c: Estimate| {
         let stuck = run.stuck_share.unwrap_or(0.0).max(STUCK_LEAST);
         corrected(
             motor,
             command,
             Estimate { std: c.std.hypot(sticking_error(stuck) * c.value), ..c },
         )
-    });
+    };
+    let motor_corrected = replayed.or_else(|| coulomb_command.map(square));
     Some(ResponsePoint {
         omega_rad_s: s.omega_rad_s,
         run: Some(index),

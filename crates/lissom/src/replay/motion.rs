@@ -59,6 +59,16 @@ pub(super) struct Motion<const D: usize> {
     pub(super) mode: Mode,
     /// Time spent stuck \[s\].
     pub(super) stuck_s: f64,
+    /// ∫ friction's torque dt \[N·m·s\], where it is wanted.
+    pub(super) friction_impulse: Option<f64>,
+}
+
+impl<const D: usize> Motion<D> {
+    fn rub(&mut self, mean_torque: f64, duration_s: f64) {
+        if let Some(impulse) = &mut self.friction_impulse {
+            *impulse += mean_torque * duration_s;
+        }
+    }
 }
 
 /// Forward is +1, backward −1.
@@ -92,11 +102,13 @@ impl<const D: usize> Mover<D> {
         match motion.mode {
             Mode::Forward => self.friction(0),
             Mode::Backward => self.friction(1),
-            Mode::Stick => {
-                let free = self.acceleration(&motion.x, torque, 0) / self.phases.slip[0].b[1];
-                free + self.friction(0)
-            }
+            Mode::Stick => self.held(&motion.x, torque),
         }
+    }
+
+    /// The torque that holds a stuck motor.
+    fn held(&self, x: &[f64; D], torque: f64) -> f64 {
+        self.acceleration(x, torque, 0) / self.phases.slip[0].b[1] + self.friction(0)
     }
 
     /// The motor's acceleration now.
@@ -146,6 +158,10 @@ impl<const D: usize> Mover<D> {
             && self.acceleration(&next, torque.to, 1) >= 0.0;
         if held {
             self.move_tangents(motion, piece, None);
+            if motion.friction_impulse.is_some() {
+                let ends = self.held(&motion.x, torque.from) + self.held(&next, torque.to);
+                motion.rub(0.5 * ends, piece.duration_s);
+            }
             motion.x = next;
             motion.stuck_s += piece.duration_s;
         }
@@ -174,6 +190,7 @@ impl<const D: usize> Mover<D> {
             return false;
         }
         self.move_tangents(motion, piece, Some((direction, net, change, torque.by_lag)));
+        motion.rub(self.friction(direction), piece.duration_s);
         motion.x = next;
         true
     }
@@ -230,7 +247,10 @@ impl<const D: usize> Mover<D> {
             };
             let time_s = event.unwrap_or(most);
             self.series_tangents(motion, &series, net, by_lag.after(done), time_s);
+            let before = self.friction_torque(motion, ramp.from);
             motion.x = value(&series, time_s);
+            let after = self.friction_torque(motion, ramp.after(time_s).from);
+            motion.rub(0.5 * (before + after), time_s);
             if motion.mode == Mode::Stick {
                 motion.stuck_s += time_s;
             }

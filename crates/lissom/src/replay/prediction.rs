@@ -9,7 +9,8 @@ use crate::record::Campaign;
 pub struct Prediction {
     /// Motor first, then tips: one value a sample, in the channel's own unit.
     pub channels: Vec<Vec<f64>>,
-    /// Friction's torque against the motor at each sample \[N·m\].
+    /// Friction's torque against the motor, its mean from each sample to the next \[N·m\]: one value
+    /// less than samples.
     pub friction_nm: Vec<f64>,
     /// Time that the joint sticks \[s\].
     pub stuck_s: f64,
@@ -38,13 +39,15 @@ fn predict_of<const D: usize>(
     let (_, replayer) = replayers.first()?;
     let run = &campaign.runs[window.run];
     let mut channels = vec![Vec::with_capacity(window.len()); 1 + run.tips().len()];
-    let mut friction_nm = Vec::with_capacity(window.len());
+    let mut impulse = Vec::with_capacity(window.len());
     let motion = replayer.walk(run, window.samples.clone(), start(window), false, |seen| {
         for (channel, values) in channels.iter_mut().enumerate() {
             let zero = channel.checked_sub(1).map_or(0.0, |tip| window.zeros[tip]);
             values.push(replayer.output(seen, channel, None) + zero);
         }
-        friction_nm.push(replayer.mover().friction_torque(seen.motion, seen.torque));
+        impulse.push(seen.motion.friction_impulse.unwrap_or(0.0));
     });
+    let mean = |w: &[f64]| (w[1] - w[0]) / run.sample_time_s();
+    let friction_nm = impulse.windows(2).map(mean).collect();
     Some(Prediction { channels, friction_nm, stuck_s: motion.stuck_s, end: motion.x.to_vec() })
 }

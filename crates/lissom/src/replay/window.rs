@@ -105,10 +105,6 @@ impl<'a, const D: usize> Replayer<'a, D> {
         }
     }
 
-    pub(super) fn mover(&self) -> &Mover<D> {
-        &self.mover
-    }
-
     /// Torque of the logged sample `index`; beyond the log's ends its first and last.
     fn torque(&self, run: &Run, index: isize) -> f64 {
         let last = run.len() as isize - 1;
@@ -132,7 +128,8 @@ impl<'a, const D: usize> Replayer<'a, D> {
             }
         }
         let mode = Mode::of(start[1]);
-        let mut motion = Motion { x: start, tangents, mode, stuck_s: 0.0 };
+        let friction_impulse = (!with_tangents).then_some(0.0);
+        let mut motion = Motion { x: start, tangents, mode, stuck_s: 0.0, friction_impulse };
         let (first, last) = (*range.start(), *range.end());
         for sample in first..=last {
             let torque = self.before(run, sample);
