@@ -10,14 +10,14 @@ use crate::draw::Draw;
 const FIRST_RAD_S: (f64, f64) = (3.0, 40.0);
 /// Inertia of the beam about the axis over the motor's. The report's rig has 2.8.
 const INERTIA_RATIO: (f64, f64) = (0.3, 6.0);
-/// The motor's inertia \[kg·m²\]. The report's rig has 6e-4.
-const INERTIA_KG_M2: (f64, f64) = (1e-4, 2e-2);
+/// Mass of the beam \[kg\]. The report's rigs have 0.05 and 0.11.
+const MASS_KG: (f64, f64) = (0.02, 0.3);
 /// V/J, the rate at which the motor alone would run down \[1/s\]. The report's rig has 2.2.
 const RUN_DOWN_PER_S: (f64, f64) = (0.3, 10.0);
 /// Torque constant \[N·m/A\]. The report's rig has 0.25.
 const TORQUE_CONSTANT: (f64, f64) = (0.05, 1.0);
-/// Length of the beam \[m\].
-const LENGTH_M: (f64, f64) = (0.2, 0.8);
+/// Length of the beam \[m\]. The report's rigs have 0.18 and 0.30.
+const LENGTH_M: (f64, f64) = (0.15, 0.6);
 
 /// A beam and a motor; `beam_damping`: its damping acts on the deflection, mode by mode, in place
 /// of on the masses against the fixed frame.
@@ -27,7 +27,14 @@ pub(crate) fn random_arm(
     damping_ratio: f64,
     beam_damping: bool,
 ) -> Result<(LumpedBeam, Motor), BeamError> {
-    let inertia = draw.decade(INERTIA_KG_M2.0, INERTIA_KG_M2.1);
+    let first = draw.decade(FIRST_RAD_S.0, FIRST_RAD_S.1);
+    let mut spans = random_spans(draw, masses);
+    let found = LumpedBeam::new(&spans)?.natural_frequencies_rad_s()[0];
+    for span in &mut spans {
+        span.flexural_rigidity_n_m2 *= (first / found).powi(2);
+    }
+    let beam_inertia = LumpedBeam::new(&spans)?.inertia_kg_m2();
+    let inertia = beam_inertia / draw.decade(INERTIA_RATIO.0, INERTIA_RATIO.1);
     let viscous = inertia * draw.decade(RUN_DOWN_PER_S.0, RUN_DOWN_PER_S.1);
     let constant = draw.decade(TORQUE_CONSTANT.0, TORQUE_CONSTANT.1);
     // Positive by construction; the bounds above are.
@@ -36,10 +43,6 @@ pub(crate) fn random_arm(
         viscous_nm_s_per_rad: viscous,
         torque_constant_nm_per_a: constant,
     };
-    let beam_inertia = inertia * draw.decade(INERTIA_RATIO.0, INERTIA_RATIO.1);
-    let first = draw.decade(FIRST_RAD_S.0, FIRST_RAD_S.1);
-    let mut spans = random_spans(draw, masses);
-    scale_to(&mut spans, beam_inertia, first)?;
     if beam_damping {
         let beam = LumpedBeam::new(&spans)?;
         return Ok((beam.with_damping(Damping::Modal { ratios: vec![damping_ratio] })?, motor));
@@ -55,9 +58,10 @@ pub(crate) fn random_arm(
     Ok((LumpedBeam::new(&spans)?, motor))
 }
 
-/// Spans that differ among themselves, as long together as a real beam.
+/// Spans that differ among themselves, as long and as heavy together as a real beam; their stiffness
+/// is relative.
 fn random_spans(draw: &mut Draw, masses: usize) -> Vec<Span> {
-    let length = draw.uniform(LENGTH_M.0, LENGTH_M.1);
+    let (length, mass) = (draw.decade(LENGTH_M.0, LENGTH_M.1), draw.decade(MASS_KG.0, MASS_KG.1));
     let mut spans: Vec<Span> = (0..masses)
         .map(|_| Span {
             length_m: draw.uniform(0.7, 1.3),
@@ -66,24 +70,13 @@ fn random_spans(draw: &mut Draw, masses: usize) -> Vec<Span> {
             damping_n_s_per_m: 0.0,
         })
         .collect();
-    let all: f64 = spans.iter().map(|s| s.length_m).sum();
+    let lengths: f64 = spans.iter().map(|s| s.length_m).sum();
+    let masses: f64 = spans.iter().map(|s| s.mass_kg).sum();
     for span in &mut spans {
-        span.length_m *= length / all;
+        span.length_m *= length / lengths;
+        span.mass_kg *= mass / masses;
     }
     spans
-}
-
-/// Scales masses and stiffness so that inertia about the axis and first frequency are these.
-fn scale_to(spans: &mut [Span], inertia: f64, first_rad_s: f64) -> Result<(), BeamError> {
-    let mass = inertia / LumpedBeam::new(spans)?.inertia_kg_m2();
-    for span in spans.iter_mut() {
-        span.mass_kg *= mass;
-    }
-    let found = LumpedBeam::new(spans)?.natural_frequencies_rad_s()[0];
-    for span in spans.iter_mut() {
-        span.flexural_rigidity_n_m2 *= (first_rad_s / found).powi(2);
-    }
-    Ok(())
 }
 
 /// Natural frequency |s| \[rad/s\] and damping ratio −Re s/|s| of each mode, motor clamped,

@@ -14,7 +14,7 @@ use crate::arm::{clamped_modes, random_arm};
 use crate::campaign::Rejected;
 use crate::draw::Draw;
 use crate::law::{Law, joint};
-use crate::position_loop::{Gains, random_loop};
+use crate::position_loop::{Gains, Task, random_loop};
 use crate::stratum::Stratum;
 
 /// Radians per sample of the beam's last mode, at most: six samples a period.
@@ -28,7 +28,7 @@ const RATED_STEPS: f64 = 25.0;
 /// Largest amplitude of the motor \[rad\].
 const MOST_RAD: (f64, f64) = (0.5, 1.3);
 /// The amplifier's limit over the peak torque planned.
-const HEADROOM: f64 = 1.6;
+const HEADROOM: f64 = 2.0;
 
 /// Everything about the rig that stays from run to run.
 pub(crate) struct Bench {
@@ -64,9 +64,16 @@ impl Bench {
         let speed = RATED * first * rated_rad;
         let (coulomb, friction) = joint(law, draw, (coulomb_nm, motor.inertia_kg_m2), speed)?;
         let arm = Arm::new(beam, motor, coulomb)?;
-        let about = (peak_nm, step_rad, stratum.sample_time_s);
-        let gains = random_loop(draw, &arm, first, about).ok_or(Rejected::NoLoop)?;
         let most_rad = draw.uniform(MOST_RAD.0, MOST_RAD.1);
+        let task = Task {
+            first_rad_s: first,
+            peak_nm,
+            coulomb_nm,
+            most_rad,
+            jump_rad: stratum.motor_jump_rad(),
+            sample_time_s: stratum.sample_time_s,
+        };
+        let gains = random_loop(draw, &arm, &task).ok_or(Rejected::NoLoop)?;
         let rig = rig(arm, friction, &gains, stratum, peak_nm)?;
         Ok(Self { rig, gains, peak_nm, coulomb_nm, most_rad, step_rad, modes_rad_s })
     }
@@ -99,6 +106,12 @@ impl Bench {
         let friction = Complex64::new(0.0, 4.0 / PI * self.coulomb_nm);
         let torque = self.impedance(omega) * amplitude + friction;
         (amplitude + torque / self.stiffness(omega)).norm()
+    }
+
+    /// Amplitude below which the joint sticks for more than a tenth of a slow cycle \[rad\].
+    pub(crate) fn least_rad(&self) -> f64 {
+        let dead_rad = self.coulomb_nm / self.stiffness(0.0).re;
+        2.0 * dead_rad / (1.0 - (0.1 * PI).cos())
     }
 
     /// How far the beam bends per angle of the motor: the largest |θ_i/θ_m − 1|.

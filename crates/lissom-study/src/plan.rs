@@ -18,6 +18,12 @@ const LONGEST_S: f64 = 40.0;
 const PERIODS: f64 = 12.0;
 /// Sines keep off the clamped modes by this share of their frequency, with their triples.
 const KEEP_OFF: f64 = 0.06;
+/// Lines of a multisine likewise.
+const NEAR_LINE: f64 = 0.1;
+/// A slow chirp ends or begins this share beside a clamped mode.
+const BESIDE: f64 = 0.15;
+/// A chirp across a mode lasts this long: slower, the mode has time to grow \[s\].
+const ACROSS_S: (f64, f64) = (10.0, 16.0);
 /// Share of the torque left beside friction that a run is planned for.
 const PLANNED: f64 = 0.85;
 /// A beam is not bent further than this \[rad\].
@@ -82,8 +88,9 @@ impl Shape {
 /// Ten runs at most.
 pub(crate) fn ideas(draw: &mut Draw, bench: &Bench, kind: Kind) -> Vec<Idea> {
     let further = bench.modes_rad_s.len() - 1;
-    let low = (bench.modes_rad_s[0] * draw.uniform(0.25, 0.45)).max(LOWEST_RAD_S);
-    let main = (low, bench.modes_rad_s[0] * draw.uniform(1.7, 2.5));
+    let first = bench.modes_rad_s[0];
+    let low = (first * draw.uniform(0.25, 0.45)).max(LOWEST_RAD_S);
+    let main = (low, first * draw.uniform(1.7, 2.5));
     let mut ideas = Vec::new();
     match kind {
         Kind::Sines => {
@@ -104,20 +111,26 @@ pub(crate) fn ideas(draw: &mut Draw, bench: &Bench, kind: Kind) -> Vec<Idea> {
         }
         Kind::Chirps => {
             for _ in 0..draw.whole(3, 5) {
-                ideas.push(chirp(draw, bench, main));
+                ideas.push(chirp(draw, bench, main, first));
             }
-            ideas.extend(mode_bands(bench).into_iter().map(|band| chirp(draw, bench, band)));
+            ideas.extend(further_chirps(draw, bench));
         }
         Kind::Mixed => {
             stepped(draw, bench, low, 2, &mut ideas);
             for _ in 0..draw.whole(1, 2) {
                 ideas.extend(multisine(draw, bench, main));
-                ideas.push(chirp(draw, bench, main));
+                ideas.push(chirp(draw, bench, main, first));
             }
-            ideas.extend(mode_bands(bench).into_iter().map(|band| chirp(draw, bench, band)));
+            ideas.extend(further_chirps(draw, bench));
         }
     }
     ideas
+}
+
+/// A chirp about the second mode and each further one.
+fn further_chirps(draw: &mut Draw, bench: &Bench) -> Vec<Idea> {
+    let bands = mode_bands(bench).into_iter().zip(&bench.modes_rad_s[1..]);
+    bands.map(|(band, mode)| chirp(draw, bench, band, *mode)).collect()
 }
 
 /// Bands about the second mode and further ones.
@@ -134,12 +147,10 @@ fn stepped(draw: &mut Draw, bench: &Bench, low: f64, pairs: usize, ideas: &mut V
             let share = (pair as f64 + draw.uniform(0.1, 0.9)) / pairs as f64;
             low * (high / low).powf(share)
         };
-        let clear =
-            |omega: f64| bench.modes_rad_s.iter().all(|m| (omega / m - 1.0).abs() > KEEP_OFF);
         // Where no draw is clear of the modes the last one is taken: nobody promised better.
         let mut omega = at(draw);
         for _ in 0..20 {
-            if clear(omega) && clear(3.0 * omega) {
+            if is_clear(bench, omega, KEEP_OFF) && is_clear(bench, 3.0 * omega, KEEP_OFF) {
                 break;
             }
             omega = at(draw);
@@ -147,6 +158,11 @@ fn stepped(draw: &mut Draw, bench: &Bench, low: f64, pairs: usize, ideas: &mut V
         ideas.extend(sine(draw, bench, omega));
         ideas.extend(sine(draw, bench, 3.0 * omega));
     }
+}
+
+/// Whether a frequency is further than a share of it from every clamped mode.
+fn is_clear(bench: &Bench, omega_rad_s: f64, share: f64) -> bool {
+    bench.modes_rad_s.iter().all(|mode| (omega_rad_s / mode - 1.0).abs() > share)
 }
 
 /// A sine of as many whole periods as fit, as large as torque, travel and beam allow, or up to a
@@ -161,20 +177,22 @@ fn sine(draw: &mut Draw, bench: &Bench, omega_rad_s: f64) -> Option<Idea> {
     let torque_nm = PLANNED * (bench.peak_nm - bench.coulomb_nm);
     let amplitude = (torque_nm / bench.impedance(omega_rad_s).norm())
         .min(bench.most_rad)
-        .min(BEND_RAD / bench.bend(omega_rad_s))
-        * draw.uniform(0.5, 1.0);
-    let reference_rad = bench.reference_rad(omega_rad_s, amplitude);
+        .min(BEND_RAD / bench.bend(omega_rad_s));
+    let smaller = (amplitude * draw.uniform(0.5, 1.0)).max(bench.least_rad());
+    let reference_rad = bench.reference_rad(omega_rad_s, smaller.min(amplitude));
     Some(Idea { shape: Shape::Sine { omega_rad_s, record_s }, reference_rad })
 }
 
-/// Three periods of odd lines between two frequencies, evenly spread over their logarithm.
+/// Three periods of odd lines between two frequencies, evenly spread over their logarithm, none near
+/// a clamped mode, where a small line bends the beam far.
 fn multisine(draw: &mut Draw, bench: &Bench, (low, high): (f64, f64)) -> Option<Idea> {
     let period_s = draw.uniform(5.0, LONGEST_S / 3.0);
     let omega_rad_s = TAU / period_s;
     let ratio = (high / low).powf(1.0 / (LINES - 1) as f64);
     let odd = |omega: f64| 2 * ((0.5 * (omega / omega_rad_s - 1.0)).round().max(0.0) as u32) + 1;
-    let mut lines: Vec<u32> = (0..LINES).map(|k| odd(low * ratio.powi(k as i32))).collect();
+    let mut lines: Vec<u32> = (0..LINES).map(|k| odd(low * ratio.powf(k as f64))).collect();
     lines.dedup();
+    lines.retain(|line| is_clear(bench, f64::from(*line) * omega_rad_s, NEAR_LINE));
     let unit = Multisine::new(omega_rad_s, &lines, 1.0, 0).ok()?.line_amplitude();
     let power: f64 = lines
         .iter()
@@ -187,14 +205,23 @@ fn multisine(draw: &mut Draw, bench: &Bench, (low, high): (f64, f64)) -> Option<
     Some(Idea { shape, reference_rad })
 }
 
-/// A sweep between two frequencies, mostly upwards.
-fn chirp(draw: &mut Draw, bench: &Bench, (low, high): (f64, f64)) -> Idea {
+/// A sweep between two frequencies, mostly upwards: quickly across the mode between them, or slowly
+/// below or above it.
+fn chirp(draw: &mut Draw, bench: &Bench, (low, high): (f64, f64), mode: f64) -> Idea {
+    let (below, above) = ((1.0 - BESIDE) * mode, (1.0 + BESIDE) * mode);
+    let slow = (0.5 * LONGEST_S, LONGEST_S);
+    let (low, high, time) = match draw.whole(0, 3) {
+        0 if below > 1.5 * low => (low, below, slow),
+        1 if high > 1.2 * above => (above, high, slow),
+        _ => (low, high, ACROSS_S),
+    };
     let steps = 200;
     let per_reference = (0..=steps)
-        .map(|k| low * (high / low).powf(k as f64 / steps as f64))
+        .map(|k| low * (high / low).powf(f64::from(k) / f64::from(steps)))
+        .filter(|omega| is_clear(bench, *omega, NEAR_LINE))
         .fold(0.0_f64, |most, omega| most.max(bench.torque_per_reference(omega)));
     let reference_rad = planned(draw, bench, per_reference);
-    let record_s = draw.uniform(0.5 * LONGEST_S, LONGEST_S);
+    let record_s = draw.uniform(time.0, time.1);
     let (from_rad_s, to_rad_s) = if draw.chance(0.75) { (low, high) } else { (high, low) };
     Idea { shape: Shape::Chirp { from_rad_s, to_rad_s, record_s }, reference_rad }
 }

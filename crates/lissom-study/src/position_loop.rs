@@ -9,8 +9,12 @@ use crate::draw::Draw;
 
 /// Radians per sample that the loop's frequency √(k_p·K/J) may have at most.
 const FASTEST: f64 = 0.35;
-/// The torque that one step of the encoder makes through the loop, at most, over the peak torque.
+/// The torque that a jump of the motor's reading makes, at most, over the peak torque.
 const CHATTER: f64 = 0.3;
+/// Angle that the loop needs to overcome friction, CF/(K·k_p), over the largest amplitude, at most.
+/// With more the joint sticks for more than 15 % in slow motion: a share s takes
+/// `2·CF/(K·k_p) = A·(1 − cos πs)`.
+const DEAD: f64 = 0.04;
 /// Gains may be so many times larger before the loop is unstable (6 dB).
 const GAIN_MARGIN: f64 = 2.0;
 /// Loops are slowed by this factor until they fit…
@@ -48,31 +52,45 @@ impl Gains {
         self.proportional + self.derivative * s / (1.0 + self.filter_s * s)
     }
 
-    /// Current that one step of the encoder makes \[A\].
-    pub(crate) fn step_a(&self, step_rad: f64, sample_time_s: f64) -> f64 {
-        step_rad * (self.proportional + self.derivative / (sample_time_s + self.filter_s))
+    /// Current that a jump of the motor's reading makes \[A\].
+    fn jump_a(&self, jump_rad: f64, sample_time_s: f64) -> f64 {
+        jump_rad * (self.proportional + self.derivative / (sample_time_s + self.filter_s))
     }
 }
 
-/// A loop some times faster than the beam's first mode that is stable with a margin, and in which
-/// a step of the encoder does not shake the arm. `None` where there is none.
-pub(crate) fn random_loop(
-    draw: &mut Draw,
-    arm: &Arm,
-    first_rad_s: f64,
-    (peak_nm, step_rad, sample_time_s): (f64, f64, f64),
-) -> Option<Gains> {
+/// What a loop has to suit.
+pub(crate) struct Task {
+    /// The beam's first frequency \[rad/s\].
+    pub(crate) first_rad_s: f64,
+    /// Peak torque planned \[N·m\].
+    pub(crate) peak_nm: f64,
+    /// Coulomb friction \[N·m\].
+    pub(crate) coulomb_nm: f64,
+    /// Largest amplitude \[rad\].
+    pub(crate) most_rad: f64,
+    /// Change of the motor's reading from sample to sample by its sensor alone \[rad\].
+    pub(crate) jump_rad: f64,
+    /// T \[s\].
+    pub(crate) sample_time_s: f64,
+}
+
+/// A loop some times faster than the beam's first mode that is stiff enough for the friction, stable
+/// with a margin, and not shaken by the encoder. `None` where there is none.
+pub(crate) fn random_loop(draw: &mut Draw, arm: &Arm, task: &Task) -> Option<Gains> {
     let zeta_c = draw.uniform(0.6, 1.0);
     let filtered = draw.chance(0.5);
-    let mut omega_c = (first_rad_s * draw.decade(4.0, 10.0)).min(FASTEST / sample_time_s);
-    while omega_c > SLOWEST * first_rad_s {
+    let stiff = task.coulomb_nm / (DEAD * task.most_rad);
+    let slowest = (stiff / arm.motor.inertia_kg_m2).sqrt().max(SLOWEST * task.first_rad_s);
+    let meant = (task.first_rad_s * draw.decade(4.0, 10.0)).max(slowest);
+    let mut omega_c = meant.min(FASTEST / task.sample_time_s);
+    while omega_c >= slowest {
         // A filter where it is the house's habit, or where the encoder asks for one.
         for filter_s in [0.0, 0.2 / omega_c] {
             let gains = Gains::of(arm, omega_c, zeta_c, filter_s);
-            let chatter =
-                arm.motor.torque_constant_nm_per_a * gains.step_a(step_rad, sample_time_s);
-            let suits = (filter_s > 0.0 || !filtered) && chatter < CHATTER * peak_nm;
-            if suits && is_stable(arm, &gains, sample_time_s) {
+            let jump_a = gains.jump_a(task.jump_rad, task.sample_time_s);
+            let quiet = arm.motor.torque_constant_nm_per_a * jump_a < CHATTER * task.peak_nm;
+            let suits = quiet && (filter_s > 0.0 || !filtered);
+            if suits && is_stable(arm, &gains, task.sample_time_s) {
                 return Some(gains);
             }
         }

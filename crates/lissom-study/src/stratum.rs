@@ -69,7 +69,7 @@ impl Stratum {
             tip_bits: draw.whole(10, 16),
             sample_time_s: 0.25e-3 * f64::from(draw.whole(4, 16)),
             coulomb_share: draw.uniform(COULOMB_SHARE.0, COULOMB_SHARE.1),
-            noise_steps: draw.chance(0.75).then(|| draw.decade(0.1, 2.0)),
+            noise_steps: draw.chance(0.75).then(|| draw.decade(0.1, 1.0)),
             damping_ratio: draw.decade(0.001, 0.05),
         }
     }
@@ -77,5 +77,11 @@ impl Stratum {
     /// Step of the motor's encoder \[rad\].
     pub(crate) fn motor_step_rad(&self) -> f64 {
         std::f64::consts::TAU / f64::from(1_u32 << self.motor_bits)
+    }
+
+    /// By how much the motor's reading may change from one sample to the next though it stands
+    /// still: a step, and four deviations of its noise \[rad\].
+    pub(crate) fn motor_jump_rad(&self) -> f64 {
+        (1.0 + 4.0 * self.noise_steps.unwrap_or(0.0)) * self.motor_step_rad()
     }
 }

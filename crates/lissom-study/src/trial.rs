@@ -32,8 +32,10 @@ pub enum Dropped {
     Sticks,
     /// The motor moves by less than 20 steps of its encoder.
     TooSmall,
-    /// Too large for amplifier or beam, and too small for joint or encoder.
-    Contradiction,
+    /// The amplifier limits it, and smaller the joint sticks or the encoder is too coarse.
+    Current,
+    /// The beam bends too far, and smaller the joint sticks or the encoder is too coarse.
+    Bend,
     /// The rig cannot do it.
     Impossible,
 }
@@ -44,20 +46,11 @@ impl fmt::Display for Dropped {
             Self::Unstable => "the loop ran away",
             Self::Sticks => "sticks for more than 15 % at any amplitude allowed",
             Self::TooSmall => "less than 20 steps of the motor's encoder",
-            Self::Contradiction => {
-                "too large for amplifier or beam, too small for joint or encoder"
-            }
+            Self::Current => "the amplifier limits it, and smaller it sticks or is too coarse",
+            Self::Bend => "the beam bends too far, and smaller it sticks or is too coarse",
             Self::Impossible => "the rig cannot do it",
         })
     }
-}
-
-/// What is wrong with a run.
-enum Verdict {
-    Sound,
-    TooLarge,
-    Sticks,
-    TooSmall,
 }
 
 /// Tries a run at falling or growing amplitudes; gives the log and the experiment that made it.
@@ -68,42 +61,47 @@ pub(crate) fn tried(
     seed: u64,
 ) -> Result<(Logged, Experiment), Dropped> {
     let mut amplitude = idea.reference_rad;
-    let (mut enlarged, mut reduced) = (false, false);
+    // What was wrong first: a run is only ever enlarged, or only ever reduced.
+    let mut first: Option<Dropped> = None;
     for _ in 0..TRIES {
         let experiment = idea.shape.experiment(amplitude).map_err(|_| Dropped::Impossible)?;
         let logged = bench.rig.run(name, &experiment, seed).map_err(|error| match error {
             RigError::Unstable { .. } | RigError::BeyondSensor { .. } => Dropped::Unstable,
             _ => Dropped::Impossible,
         })?;
-        let (larger, why) = match judged(bench, &logged) {
-            Verdict::Sound => return Ok((logged, experiment)),
-            Verdict::TooLarge => (false, Dropped::Contradiction),
-            Verdict::Sticks => (true, Dropped::Sticks),
-            Verdict::TooSmall => (true, Dropped::TooSmall),
-        };
-        if (larger && reduced) || (!larger && enlarged) {
-            return Err(Dropped::Contradiction);
+        let Some(wrong) = wrong(bench, &logged) else { return Ok((logged, experiment)) };
+        let first = *first.get_or_insert(wrong);
+        if first.is_too_large() != wrong.is_too_large() {
+            return Err(if first.is_too_large() { first } else { wrong });
         }
-        if larger && half_range(logged.run.motor()) > TRAVEL * bench.most_rad {
-            return Err(why);
+        let far = half_range(logged.run.motor()) > TRAVEL * bench.most_rad;
+        if far && !wrong.is_too_large() {
+            return Err(wrong);
         }
-        enlarged |= larger;
-        reduced |= !larger;
-        amplitude *= if larger { LARGER } else { SMALLER };
+        amplitude *= if wrong.is_too_large() { SMALLER } else { LARGER };
     }
-    Err(if enlarged { Dropped::Sticks } else { Dropped::Contradiction })
+    Err(first.unwrap_or(Dropped::Impossible))
 }
 
-fn judged(bench: &Bench, logged: &Logged) -> Verdict {
+impl Dropped {
+    fn is_too_large(self) -> bool {
+        matches!(self, Self::Current | Self::Bend)
+    }
+}
+
+/// What is wrong with a run, if anything.
+fn wrong(bench: &Bench, logged: &Logged) -> Option<Dropped> {
     let limited = |f: &RigFinding| matches!(f, RigFinding::CurrentLimited { .. });
-    if logged.findings.iter().any(limited) || bend(&logged.run) > BEND_RAD {
-        Verdict::TooLarge
+    if logged.findings.iter().any(limited) {
+        Some(Dropped::Current)
+    } else if bend(&logged.run) > BEND_RAD {
+        Some(Dropped::Bend)
     } else if logged.stuck_share > STUCK_MOST {
-        Verdict::Sticks
+        Some(Dropped::Sticks)
     } else if half_range(logged.run.motor()) < STEPS_LEAST * bench.step_rad {
-        Verdict::TooSmall
+        Some(Dropped::TooSmall)
     } else {
-        Verdict::Sound
+        None
     }
 }
 
