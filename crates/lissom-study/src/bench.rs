@@ -26,7 +26,7 @@ const RATED: f64 = 1.5;
 /// That amplitude in steps of the motor's encoder, at least.
 const RATED_STEPS: f64 = 25.0;
 /// Largest amplitude of the motor \[rad\].
-const MOST_RAD: (f64, f64) = (0.5, 1.3);
+const MOST_RAD: (f64, f64) = (0.6, 1.5);
 /// The amplifier's limit over the peak torque planned.
 const HEADROOM: f64 = 2.0;
 

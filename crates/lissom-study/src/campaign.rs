@@ -12,8 +12,10 @@ use crate::plan::ideas;
 use crate::stratum::{COULOMB_SHARE, Kind, Stratum};
 use crate::trial::{Dropped, tried};
 
-/// Draws of one campaign before it is given up.
-const DRAWS_MOST: usize = 200;
+/// Draws of one stratum before another takes its place.
+const DRAWS_MOST: usize = 50;
+/// Strata of one campaign before it is given up.
+const STRATA_MOST: usize = 50;
 
 /// Everything that a simulator needs to make the logs.
 #[derive(Debug, Clone)]
@@ -65,6 +67,8 @@ pub struct Campaign {
     pub dropped: Vec<Dropped>,
     /// Draws that were rejected before this one.
     pub rejected: Vec<Rejected>,
+    /// Strata that all draws failed for.
+    pub given_up: Vec<Stratum>,
 }
 
 impl Campaign {
@@ -115,21 +119,21 @@ impl fmt::Display for Rejected {
     }
 }
 
-/// Campaign `index` of the study with `seed`; `Err`: every draw was rejected, for these reasons.
-///
-/// # Errors
-/// The reasons, one a draw.
-pub fn draw_campaign(seed: u64, index: usize, law: Law) -> Result<Campaign, Vec<Rejected>> {
+/// Campaign `index` of the study with `seed`; `None` where all of 2500 draws were rejected.
+pub fn draw_campaign(seed: u64, index: usize, law: Law) -> Option<Campaign> {
     let mut draw = Draw::of(seed, index);
-    let stratum = Stratum::draw(&mut draw);
-    let mut rejected = Vec::new();
-    while rejected.len() < DRAWS_MOST {
-        match drawn(&mut draw, stratum, law, index) {
-            Ok(campaign) => return Ok(Campaign { rejected, ..campaign }),
-            Err(why) => rejected.push(why),
+    let (mut rejected, mut given_up) = (Vec::new(), Vec::new());
+    while given_up.len() < STRATA_MOST {
+        let stratum = Stratum::draw(&mut draw);
+        for _ in 0..DRAWS_MOST {
+            match drawn(&mut draw, stratum, law, index) {
+                Ok(campaign) => return Some(Campaign { rejected, given_up, ..campaign }),
+                Err(why) => rejected.push(why),
+            }
         }
+        given_up.push(stratum);
     }
-    Err(rejected)
+    None
 }
 
 fn drawn(draw: &mut Draw, stratum: Stratum, law: Law, index: usize) -> Result<Campaign, Rejected> {
@@ -157,8 +161,17 @@ fn drawn(draw: &mut Draw, stratum: Stratum, law: Law, index: usize) -> Result<Ca
     let logs = lissom::record::Campaign::new(channels(&bench.rig), logs)
         .map_err(|error| Rejected::Impossible(error.to_string()))?;
     let definition = Definition { rig: bench.rig, runs };
-    let campaign =
-        Campaign { index, stratum, law, definition, logs, facts, dropped, rejected: vec![] };
+    let campaign = Campaign {
+        index,
+        stratum,
+        law,
+        definition,
+        logs,
+        facts,
+        dropped,
+        rejected: vec![],
+        given_up: vec![],
+    };
     let share = campaign.coulomb_share();
     if (COULOMB_SHARE.0..=COULOMB_SHARE.1).contains(&share) {
         Ok(campaign)

@@ -1,6 +1,5 @@
 //! A row for each campaign, for other programs.
 
-use crate::campaign::Rejected;
 use crate::score::{Figure, FigureScore};
 use crate::study::{Scored, Study};
 
@@ -23,14 +22,16 @@ const FIGURES: [(&str, Figure); 10] = [
 ];
 
 /// The campaigns of all studies as comma separated text, with a header; refused figures are empty.
-pub fn rows(studies: &[(Study, Vec<Result<Scored, Vec<Rejected>>>)]) -> String {
+pub fn rows(studies: &[(Study, Vec<Option<Scored>>)]) -> String {
     let mut header = HEAD.to_owned();
     for (name, _) in FIGURES {
-        header += &format!(",{name}_true,{name},{name}_std,{name}_warned");
+        for column in ["_true", "", "_std", "_warned"] {
+            header.extend([",", name, column]);
+        }
     }
     let mut lines = vec![header];
     for (study, outcome) in studies {
-        lines.extend(outcome.iter().filter_map(|one| Some(row(study, one.as_ref().ok()?))));
+        lines.extend(outcome.iter().filter_map(|one| Some(row(study, one.as_ref()?))));
     }
     lines.join("\n") + "\n"
 }

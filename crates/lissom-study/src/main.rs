@@ -67,8 +67,7 @@ fn run(args: &Args) -> Result<(), Box<dyn std::error::Error>> {
             Laws::One(law) => law,
             Laws::All => return Err("--only needs one law".into()),
         };
-        let text = describe(args.seed, index, law)
-            .map_err(|reasons| format!("every draw was rejected: {reasons:?}"))?;
+        let text = describe(args.seed, index, law).ok_or("every draw was rejected")?;
         print!("{text}");
         return Ok(());
     }

@@ -10,11 +10,13 @@ use crate::draw::Draw;
 /// Radians per sample that the loop's frequency √(k_p·K/J) may have at most.
 const FASTEST: f64 = 0.35;
 /// The torque that a jump of the motor's reading makes, at most, over the peak torque.
-const CHATTER: f64 = 0.3;
+const CHATTER: f64 = 0.4;
 /// Angle that the loop needs to overcome friction, CF/(K·k_p), over the largest amplitude, at most.
-/// With more the joint sticks for more than 15 % in slow motion: a share s takes
-/// `2·CF/(K·k_p) = A·(1 − cos πs)`.
-const DEAD: f64 = 0.04;
+/// In slow motion the joint then sticks for a share s of `2·CF/(K·k_p) = A·(1 − cos πs)`: 6 % at the
+/// lower of both, 18 % at the upper.
+const DEAD: (f64, f64) = (0.01, 0.08);
+/// Filters to choose from, in 1/ω_c: none where an encoder is fine enough.
+const FILTERS: [f64; 3] = [0.0, 0.2, 0.5];
 /// Gains may be so many times larger before the loop is unstable (6 dB).
 const GAIN_MARGIN: f64 = 2.0;
 /// Loops are slowed by this factor until they fit…
@@ -79,13 +81,13 @@ pub(crate) struct Task {
 pub(crate) fn random_loop(draw: &mut Draw, arm: &Arm, task: &Task) -> Option<Gains> {
     let zeta_c = draw.uniform(0.6, 1.0);
     let filtered = draw.chance(0.5);
-    let stiff = task.coulomb_nm / (DEAD * task.most_rad);
+    let stiff = task.coulomb_nm / (draw.decade(DEAD.0, DEAD.1) * task.most_rad);
     let slowest = (stiff / arm.motor.inertia_kg_m2).sqrt().max(SLOWEST * task.first_rad_s);
     let meant = (task.first_rad_s * draw.decade(4.0, 10.0)).max(slowest);
     let mut omega_c = meant.min(FASTEST / task.sample_time_s);
     while omega_c >= slowest {
         // A filter where it is the house's habit, or where the encoder asks for one.
-        for filter_s in [0.0, 0.2 / omega_c] {
+        for filter_s in FILTERS.map(|f| f / omega_c) {
             let gains = Gains::of(arm, omega_c, zeta_c, filter_s);
             let jump_a = gains.jump_a(task.jump_rad, task.sample_time_s);
             let quiet = arm.motor.torque_constant_nm_per_a * jump_a < CHATTER * task.peak_nm;

@@ -98,7 +98,7 @@ impl FigureScore {
     /// Off by more than five deviations, and nothing says so.
     pub fn silently_wrong(&self) -> bool {
         // NaN deviations are as wrong as large ones.
-        !self.warned && self.deviations().is_some_and(|d| !(d.abs() <= SILENT))
+        !self.warned && self.deviations().is_some_and(|d| d.is_nan() || d.abs() > SILENT)
     }
 
     /// Given without a warning.

@@ -2,17 +2,14 @@
 
 use std::fmt::Write;
 
-use crate::campaign::{Campaign, Rejected, draw_campaign};
+use crate::campaign::{Campaign, draw_campaign};
 use crate::law::Law;
 use crate::score::{FigureScore, Score, score};
 use crate::study::identified;
 use crate::truth::Truth;
 
-/// Draws, identifies and describes campaign `index`.
-///
-/// # Errors
-/// The reasons, where every draw was rejected.
-pub fn describe(seed: u64, index: usize, law: Law) -> Result<String, Vec<Rejected>> {
+/// Draws, identifies and describes campaign `index`; `None` where every draw was rejected.
+pub fn describe(seed: u64, index: usize, law: Law) -> Option<String> {
     let campaign = draw_campaign(seed, index, law)?;
     let mut lines = conditions(&campaign, seed);
     match identified(&campaign) {
@@ -32,7 +29,7 @@ pub fn describe(seed: u64, index: usize, law: Law) -> Result<String, Vec<Rejecte
             }
         }
     }
-    Ok(lines.join("\n") + "\n")
+    Some(lines.join("\n") + "\n")
 }
 
 fn conditions(campaign: &Campaign, seed: u64) -> Vec<String> {

@@ -12,8 +12,8 @@ pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
     let at = share * (sorted.len().checked_sub(1)? as f64);
     let below = sorted[at.floor() as usize];
     let above = sorted[at.ceil() as usize];
-    // Equal neighbours also where both are infinite.
-    Some(if below == above { below } else { below + (above - below) * at.fract() })
+    // Between infinite neighbours there is no difference to take.
+    Some(if above.is_infinite() { above } else { below + (above - below) * at.fract() })
 }
 
 /// The middle of the values.

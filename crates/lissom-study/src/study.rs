@@ -42,6 +42,8 @@ pub struct Scored {
     pub dropped: Vec<Dropped>,
     /// Draws rejected before this one.
     pub rejected: Vec<Rejected>,
+    /// Strata that all draws failed for.
+    pub given_up: Vec<Stratum>,
     /// Figures against truth, or why nothing was identified at all.
     pub score: Result<Score, IdentifyError>,
     /// Time of the simulation, repeated runs included.
@@ -58,9 +60,9 @@ pub fn identified(campaign: &Campaign) -> Result<Identified, IdentifyError> {
     identify(&campaign.logs, &Options::default(), |_| {})
 }
 
-/// Runs the study on rayon's current threads; `done` is called after each campaign. `Err`: a
+/// Runs the study on rayon's current threads; `done` is called after each campaign. `None`: a
 /// campaign whose draws were all rejected.
-pub fn study(study: &Study, done: impl Fn() + Sync) -> Vec<Result<Scored, Vec<Rejected>>> {
+pub fn study(study: &Study, done: impl Fn() + Sync) -> Vec<Option<Scored>> {
     (0..study.campaigns)
         .into_par_iter()
         .map(|index| {
@@ -71,14 +73,14 @@ pub fn study(study: &Study, done: impl Fn() + Sync) -> Vec<Result<Scored, Vec<Re
         .collect()
 }
 
-fn one(study: &Study, index: usize) -> Result<Scored, Vec<Rejected>> {
+fn one(study: &Study, index: usize) -> Option<Scored> {
     let start = Instant::now();
     let campaign = draw_campaign(study.seed, index, study.law)?;
     let simulation = start.elapsed();
     let start = Instant::now();
     let found = identified(&campaign);
     let identification = start.elapsed();
-    Ok(Scored {
+    Some(Scored {
         index,
         stratum: campaign.stratum,
         coulomb_share: campaign.coulomb_share(),
@@ -88,6 +90,7 @@ fn one(study: &Study, index: usize) -> Result<Scored, Vec<Rejected>> {
         runs: campaign.facts,
         dropped: campaign.dropped,
         rejected: campaign.rejected,
+        given_up: campaign.given_up,
         simulation,
         identification,
     })

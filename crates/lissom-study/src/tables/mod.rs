@@ -8,13 +8,12 @@ mod markdown;
 mod responses;
 mod worst;
 
-use crate::campaign::Rejected;
 use crate::law::Law;
 use crate::score::Score;
 use crate::study::{Scored, Study};
 
 /// Outcome of one study.
-type Outcome = Vec<Result<Scored, Vec<Rejected>>>;
+type Outcome = Vec<Option<Scored>>;
 
 /// Everything about the studies made, true Coulomb friction first where it is among them.
 pub fn report(studies: &[(Study, Outcome)]) -> String {
@@ -34,7 +33,7 @@ pub fn report(studies: &[(Study, Outcome)]) -> String {
 
 /// The campaigns that were drawn.
 fn drawn(outcome: &Outcome) -> Vec<&Scored> {
-    outcome.iter().filter_map(|one| one.as_ref().ok()).collect()
+    outcome.iter().flatten().collect()
 }
 
 /// Those that were identified, with their scores.

@@ -53,7 +53,8 @@ fn row(name: &str, of: &[&PointScore]) -> Vec<String> {
     let third: Vec<f64> = vouched.iter().filter_map(|p| p.third_harmonic).collect();
     let closer: Vec<f64> =
         vouched.iter().filter_map(|p| Some(p.third_harmonic? / p.corrected?)).collect();
-    let far = vouched.iter().filter(|p| p.deviations.is_some_and(|d| !(d <= 5.0))).count();
+    let far =
+        vouched.iter().filter(|p| p.deviations.is_some_and(|d| d.is_nan() || d > 5.0)).count();
     vec![
         name.to_owned(),
         of.len().to_string(),
