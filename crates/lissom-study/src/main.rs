@@ -24,7 +24,7 @@ struct Args {
     /// Threads; all cores when 0.
     #[arg(long, default_value_t = 0)]
     jobs: usize,
-    /// The truth, or `all`: true Coulomb friction, and a fifth as many campaigns of each wrong law.
+    /// The truth, or `all`: true Coulomb friction, and a tenth as many campaigns of each wrong law.
     #[arg(long, default_value = "none", value_parser = laws)]
     law: Laws,
     /// Run this campaign alone and print everything about it.
@@ -90,8 +90,8 @@ fn plans(args: &Args) -> Vec<Study> {
     match args.law {
         Laws::One(law) => vec![one(args.campaigns, law)],
         Laws::All => {
-            let fifth = args.campaigns.div_ceil(5);
-            let wrong = Law::wrong().into_iter().map(|law| one(fifth, law));
+            let tenth = args.campaigns.div_ceil(10);
+            let wrong = Law::wrong().into_iter().map(|law| one(tenth, law));
             std::iter::once(one(args.campaigns, Law::None)).chain(wrong).collect()
         }
     }

@@ -33,7 +33,7 @@ const CREST: f64 = 2.5;
 /// Lines of a multisine, at most.
 const LINES: usize = 24;
 /// Longest wait for a transient \[s\].
-const PATIENCE_S: f64 = 300.0;
+const PATIENCE_S: f64 = 120.0;
 
 /// A run but for its amplitude.
 #[derive(Debug, Clone)]

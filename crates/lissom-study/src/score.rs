@@ -36,7 +36,7 @@ impl Figure {
         }
     }
 
-    /// Relative error that issue 5 allows, where it names one.
+    /// Relative error that the project's goals allow, where they name one.
     pub fn bar(self) -> Option<f64> {
         match self {
             Self::Coulomb | Self::Inertia | Self::Coupling => Some(0.01),

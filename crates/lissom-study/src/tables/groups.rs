@@ -41,10 +41,10 @@ fn row((name, belongs): &Group, all: &[(&Scored, &Score)]) -> Vec<String> {
         let errors: Vec<f64> = figures.iter().filter_map(|f| f.error()).map(f64::abs).collect();
         let refused = Share::count(&figures, |f| f.estimate.is_none());
         cells.push(format!(
-            "{} / {} ({:.0} %)",
+            "{} / {} ({})",
             percent(median(&errors)),
             percent(quantile(&errors, 0.95)),
-            100.0 * refused.value()
+            percent(Some(refused.value()).filter(|_| refused.of > 0))
         ));
     }
     let silent = of.iter().filter(|s| s.figures.iter().any(FigureScore::silently_wrong)).count();
@@ -79,13 +79,25 @@ fn groups() -> Vec<Group> {
         add(format!("CF {:.0}-{:.0} %", 100.0 * low, 100.0 * high), Box::new(belongs));
     }
     for (name, least, most) in
-        [("no noise", 0.0, 0.0), ("noise to 0.5 steps", 1e-9, 0.5), ("noise to 2 steps", 0.5, 9.0)]
+        [("no noise", 0.0, 0.0), ("noise to 0.3 steps", 1e-9, 0.3), ("noise to 1 step", 0.3, 1.0)]
     {
         let belongs = move |s: &Scored| {
             let noise = s.stratum.noise_steps.unwrap_or(0.0);
             noise >= least && noise <= most
         };
         add(name.to_owned(), Box::new(belongs));
+    }
+    for (low, high) in [(0.001, 0.007), (0.007, 0.05)] {
+        let belongs =
+            move |s: &Scored| s.stratum.damping_ratio >= low && s.stratum.damping_ratio < high;
+        add(format!("damping ratio {low}-{high}"), Box::new(belongs));
+    }
+    for (low, high) in [(1.0, 2.0), (2.25, 4.0)] {
+        let belongs = move |s: &Scored| {
+            let milliseconds = 1e3 * s.stratum.sample_time_s;
+            milliseconds >= low - 0.1 && milliseconds <= high + 0.1
+        };
+        add(format!("T {low}-{high} ms"), Box::new(belongs));
     }
     groups
 }

@@ -8,21 +8,9 @@ use crate::score::{Figure, Score};
 use crate::statistics::{Share, median, quantile};
 use crate::study::Study;
 
-/// Error that issue 5 allows the linear part.
-const LINEAR: f64 = 0.03;
-
 pub(super) fn section(studies: &[(Study, Outcome)]) -> String {
     let rows: Vec<Vec<String>> = studies.iter().map(row).collect();
-    let header = [
-        "truth",
-        "campaigns",
-        "inertia",
-        "coupling",
-        "frequency 1",
-        "all three within 3 %",
-        "Coulomb",
-        "flagged",
-    ];
+    let header = ["truth", "campaigns", "inertia", "coupling", "frequency 1", "Coulomb", "flagged"];
     let mut codes: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     for (at, (_, outcome)) in studies.iter().enumerate() {
         let all: Vec<Vec<&str>> = scores(outcome).iter().map(|(_, s)| s.law_alarms()).collect();
@@ -57,22 +45,12 @@ fn row((study, outcome): &(Study, Outcome)) -> Vec<String> {
         let errors = errors(figure);
         format!("{} / {}", percent(median(&errors)), percent(quantile(&errors, 0.95)))
     };
-    let linear = [Figure::Inertia, Figure::Coupling, Figure::Frequency(0)];
-    let sound = Share::count(&all, |s| {
-        let good = |figure: &Figure| {
-            s.of(*figure)
-                .and_then(crate::score::FigureScore::error)
-                .is_some_and(|e| e.abs() <= LINEAR)
-        };
-        linear.iter().all(good)
-    });
     vec![
         study.law.to_string(),
         all.len().to_string(),
         cell(Figure::Inertia),
         cell(Figure::Coupling),
         cell(Figure::Frequency(0)),
-        sound.to_string(),
         cell(Figure::Coulomb),
         Share::count(&all, |s| !s.law_alarms().is_empty()).to_string(),
     ]

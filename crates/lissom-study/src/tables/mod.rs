@@ -2,6 +2,7 @@
 
 mod draws;
 mod figures;
+mod goals;
 mod groups;
 mod laws;
 mod markdown;
@@ -18,6 +19,7 @@ type Outcome = Vec<Option<Scored>>;
 /// Everything about the studies made, true Coulomb friction first where it is among them.
 pub fn report(studies: &[(Study, Outcome)]) -> String {
     let mut sections = vec![include_str!("preamble.md").trim_end().to_owned()];
+    sections.push(goals::section(studies));
     for (study, outcome) in studies.iter().filter(|(study, _)| study.law == Law::None) {
         sections.push(figures::section(study, outcome));
         sections.push(responses::section(outcome));
