@@ -76,7 +76,7 @@ fn errors(all: &[(&Scored, &Score)], taken: impl Fn(&FigureScore) -> bool) -> St
         "95th percentile",
         "within the bar",
         "95 % intervals that hold",
-        "median of abs. deviations",
+        "deviations, median size",
         "silently wrong",
     ];
     table(&header, &ROWS.iter().map(row).collect::<Vec<_>>())
@@ -97,7 +97,7 @@ fn time(outcome: &Outcome) -> String {
     let samples = median(&seconds(|s| s.samples as f64))
         .map_or_else(|| "–".to_owned(), |v| format!("{v:.0}"));
     format!(
-        "An honest deviation has a median of abs. deviations of 0.67.\n\nTime of one identification (median of {samples} samples, \
+        "Honest deviations have a median size of 0.67.\n\nTime of one identification (median of {samples} samples, \
          the cores shared with other campaigns): {}. Simulation, repeated runs included: {}.",
         shown(&seconds(|s| s.identification.as_secs_f64())),
         shown(&seconds(|s| s.simulation.as_secs_f64())),

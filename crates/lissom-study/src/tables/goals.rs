@@ -108,21 +108,25 @@ fn coverage(all: &[&Score], goals: &mut Vec<Goal>) {
 }
 
 fn responses(all: &[&Score], goals: &mut Vec<Goal>) {
-    let points: Vec<&PointScore> =
-        all.iter().flat_map(|s| &s.points).filter(|p| p.vouched).collect();
-    let errors: Vec<f64> = points.iter().filter_map(|p| p.corrected).collect();
-    let closer: Vec<f64> =
-        points.iter().filter_map(|p| Some(p.third_harmonic? / p.corrected?)).collect();
-    let (middle, worst) = (median(&errors), quantile(&errors, 1.0));
-    let asked = |what: &str, bar| format!("corrected response, {what} {}", percent(Some(bar)));
     let (least, most) = RESPONSE;
     let met = |value: Option<f64>, bar: f64| value.is_some_and(|v| v <= bar);
-    goals.push((asked("median", least), percent(middle), met(middle, least)));
-    goals.push((asked("worst", most), percent(worst), met(worst, most)));
-    let times = median(&closer);
-    let shown = times.map_or_else(|| "–".to_owned(), significant);
-    let closer = format!("{CLOSER} times closer than (30), in median");
-    goals.push((closer, shown, times.is_some_and(|t| t >= CLOSER)));
+    for (name, sinusoidal) in [("sines", true), ("other runs", false)] {
+        let of = |p: &&PointScore| p.vouched && p.sinusoidal == sinusoidal;
+        let points: Vec<&PointScore> = all.iter().flat_map(|s| &s.points).filter(of).collect();
+        let errors: Vec<f64> = points.iter().filter_map(|p| p.corrected).collect();
+        let (middle, worst) = (median(&errors), quantile(&errors, 1.0));
+        let asked = |what: &str, bar| {
+            format!("corrected response of {name}, {what} {}", percent(Some(bar)))
+        };
+        goals.push((asked("median", least), percent(middle), met(middle, least)));
+        goals.push((asked("worst", most), percent(worst), met(worst, most)));
+        let closer: Vec<f64> =
+            points.iter().filter_map(|p| Some(p.third_harmonic? / p.corrected?)).collect();
+        if let Some(times) = median(&closer) {
+            let asked = format!("{CLOSER} times closer than (30), in median");
+            goals.push((asked, significant(times), times >= CLOSER));
+        }
+    }
 }
 
 fn silence(all: &[&Score], goals: &mut Vec<Goal>) {

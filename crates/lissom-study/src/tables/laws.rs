@@ -28,9 +28,8 @@ pub(super) fn section(studies: &[(Study, Outcome)]) -> String {
     let code_header: Vec<&str> =
         std::iter::once("finding").chain(names.iter().map(String::as_str)).collect();
     format!(
-        "## Wrong laws\n\nMedian error / 95th percentile of the linear part. *Flagged*: a warning or refusal about the whole \
-         campaign says of the equation of motion, not of the data, that its figures are doubtful, or `offset` that friction differs by \
-         direction; of true Coulomb friction these are false alarms.\n\n{}\n\nWhat flagged them, in shares of the campaigns:\n\n{}",
+        "{}\n\n{}\n\nWhat flagged them, in shares of the campaigns:\n\n{}",
+        include_str!("laws.md").trim_end(),
         table(&header, &rows),
         table(&code_header, &code_rows)
     )
