@@ -1,9 +1,9 @@
 //! `cargo xtask study`: the accuracy study from the command line.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for a terminal")]
 
+use std::fs;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::{fs, io};
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -12,19 +12,19 @@ use lissom_study::{Law, Study, describe, report, rows, study};
 /// Accuracy of identification over random arms and campaigns.
 #[derive(Debug, Parser)]
 struct Args {
-    /// Campaigns of true Coulomb friction, or of the law asked for.
+    /// Campaigns of each law.
     #[arg(long, default_value_t = 1000)]
     campaigns: usize,
     /// Seed of all draws.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Folder for `accuracy.md` and `campaigns.csv`.
+    /// Folder for the tables and a row for each campaign.
     #[arg(long, default_value = "target/study")]
     out: PathBuf,
     /// Threads; all cores when 0.
     #[arg(long, default_value_t = 0)]
     jobs: usize,
-    /// The truth, or `all`: true Coulomb friction, and a tenth as many campaigns of each wrong law.
+    /// The truth, or `wrong`: so many campaigns of true Coulomb friction and of each wrong law.
     #[arg(long, default_value = "none", value_parser = laws)]
     law: Laws,
     /// Run this campaign alone and print everything about it.
@@ -32,16 +32,16 @@ struct Args {
     only: Option<usize>,
 }
 
-/// One law or all of them.
+/// One law, or all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Laws {
     One(Law),
-    All,
+    Wrong,
 }
 
 fn laws(text: &str) -> Result<Laws, String> {
-    if text == "all" {
-        return Ok(Laws::All);
+    if text == "wrong" {
+        return Ok(Laws::Wrong);
     }
     let law = <Law as clap::ValueEnum>::from_str(text, false)?;
     if law == Law::Lugre && !cfg!(feature = "lugre") {
@@ -65,7 +65,7 @@ fn run(args: &Args) -> Result<(), Box<dyn std::error::Error>> {
     if let Some(index) = args.only {
         let law = match args.law {
             Laws::One(law) => law,
-            Laws::All => return Err("--only needs one law".into()),
+            Laws::Wrong => return Err("--only needs one law".into()),
         };
         let text = describe(args.seed, index, law).ok_or("every draw was rejected")?;
         print!("{text}");
@@ -79,22 +79,22 @@ fn run(args: &Args) -> Result<(), Box<dyn std::error::Error>> {
         bar.finish_and_clear();
         studies.push((plan, outcome));
     }
-    let (text, table) = (report(&studies), rows(&studies));
+    let name = if args.law == Laws::One(Law::None) { "accuracy" } else { "wrong-laws" };
+    let text = report(&studies);
     print!("{text}");
-    written(args, &text, &table)?;
+    fs::create_dir_all(&args.out)?;
+    fs::write(args.out.join(format!("{name}.md")), text)?;
+    fs::write(args.out.join(format!("{name}.csv")), rows(&studies))?;
+    eprintln!("{name}.md and {name}.csv are in {}", args.out.display());
     Ok(())
 }
 
 fn plans(args: &Args) -> Vec<Study> {
-    let one = |campaigns: usize, law: Law| Study { campaigns, seed: args.seed, law };
-    match args.law {
-        Laws::One(law) => vec![one(args.campaigns, law)],
-        Laws::All => {
-            let tenth = args.campaigns.div_ceil(10);
-            let wrong = Law::wrong().into_iter().map(|law| one(tenth, law));
-            std::iter::once(one(args.campaigns, Law::None)).chain(wrong).collect()
-        }
-    }
+    let laws = match args.law {
+        Laws::One(law) => vec![law],
+        Laws::Wrong => std::iter::once(Law::None).chain(Law::wrong()).collect(),
+    };
+    laws.into_iter().map(|law| Study { campaigns: args.campaigns, seed: args.seed, law }).collect()
 }
 
 fn bar(plan: &Study) -> ProgressBar {
@@ -105,12 +105,4 @@ fn bar(plan: &Study) -> ProgressBar {
     }
     bar.set_message(plan.law.to_string());
     bar
-}
-
-fn written(args: &Args, text: &str, table: &str) -> io::Result<()> {
-    fs::create_dir_all(&args.out)?;
-    fs::write(args.out.join("accuracy.md"), text)?;
-    fs::write(args.out.join("campaigns.csv"), table)?;
-    eprintln!("accuracy.md and campaigns.csv are in {}", args.out.display());
-    Ok(())
 }

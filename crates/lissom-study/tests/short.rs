@@ -6,9 +6,13 @@
 
 use std::sync::OnceLock;
 
+use lissom::drive::Coulomb;
+use lissom::identify::{Options, identify};
+use lissom::record::Campaign;
+use lissom::rig::{Sensor, Settle};
 use lissom_study::{
-    Figure, FigureScore, Kind, Law, Score, Scored, Study, draw_campaign, median, report, rows,
-    study,
+    Figure, FigureScore, Kind, Law, Score, Scored, Study, Truth, draw_campaign, median, report,
+    rows, score, study,
 };
 
 const CAMPAIGNS: usize = 12;
@@ -64,6 +68,34 @@ fn correction_comes_closer_than_the_raw_response() {
     let raw: Vec<f64> = points().map(|p| p.raw).collect();
     assert!(corrected.len() >= 10);
     assert!(median(&corrected).unwrap() < 0.3 * median(&raw).unwrap());
+}
+
+/// Loops without friction and with ideal sensors show the response that points are scored against.
+#[test]
+fn the_true_response_is_that_of_a_loop_without_friction() {
+    let sines = |index: &usize| {
+        let campaign = draw_campaign(SEED, *index, Law::None).unwrap();
+        (campaign.stratum.kind == Kind::Sines).then_some(campaign)
+    };
+    let campaign = (0..CAMPAIGNS).find_map(|index| sines(&index)).unwrap();
+    let truth = Truth::of(&campaign);
+    let mut rig = campaign.definition.rig.clone();
+    rig.arm.coulomb = Coulomb::symmetric(0.0).unwrap();
+    rig.instruments.motor = Sensor::IDEAL;
+    rig.instruments.tips = Vec::new();
+    // Without friction a lightly damped beam rings longer than the campaign waits.
+    let settle = Settle::Detected { tolerance: 1e-6, longest_s: 3000.0 };
+    let runs = campaign.definition.runs.iter().map(|run| {
+        let experiment = run.experiment.clone().settling(settle);
+        rig.run(&run.name, &experiment, 0).unwrap().run
+    });
+    let logs = Campaign::new(campaign.logs.channels.clone(), runs.collect()).unwrap();
+    let id = identify(&logs, &Options::default(), |_| {}).unwrap();
+    let scored = score(&truth, &id);
+    assert!(scored.points.len() >= 4);
+    for p in &scored.points {
+        assert!(p.raw < 1e-3, "{p:?}");
+    }
 }
 
 /// The generator keeps to its envelope and reaches all of its kinds.

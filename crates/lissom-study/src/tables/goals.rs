@@ -38,7 +38,7 @@ pub(super) fn section(studies: &[(Study, Outcome)]) -> String {
     let mut goals: Vec<Goal> = Vec::new();
     for (study, outcome) in studies {
         let all: Vec<&Score> = scores(outcome).into_iter().map(|(_, score)| score).collect();
-        if study.law == Law::None {
+        if studies.len() == 1 && study.law == Law::None {
             figures(&all, &mut goals);
             coverage(&all, &mut goals);
             responses(&all, &mut goals);

@@ -16,20 +16,21 @@ use crate::study::{Scored, Study};
 /// Outcome of one study.
 type Outcome = Vec<Option<Scored>>;
 
-/// Everything about the studies made, true Coulomb friction first where it is among them.
+/// The page of studies that were made: of true Coulomb friction alone everything about it, else what
+/// wrong laws do.
 pub fn report(studies: &[(Study, Outcome)]) -> String {
-    let mut sections = vec![include_str!("preamble.md").trim_end().to_owned()];
-    sections.push(goals::section(studies));
-    for (study, outcome) in studies.iter().filter(|(study, _)| study.law == Law::None) {
-        sections.push(figures::section(study, outcome));
-        sections.push(responses::section(outcome));
-        sections.push(groups::section(outcome));
-        sections.push(worst::section(outcome));
-        sections.push(draws::section(outcome));
-    }
-    if studies.iter().any(|(study, _)| study.law != Law::None) {
-        sections.push(laws::section(studies));
-    }
+    let sections = match studies {
+        [(study, outcome)] if study.law == Law::None => vec![
+            include_str!("preamble.md").trim_end().to_owned(),
+            goals::section(studies),
+            figures::section(study, outcome),
+            responses::section(outcome),
+            groups::section(outcome),
+            worst::section(outcome),
+            draws::section(outcome),
+        ],
+        several => vec![laws::section(several), goals::section(several)],
+    };
     sections.join("\n\n") + "\n"
 }
 
