@@ -253,3 +253,67 @@ fn points(truth: &Truth, id: &Identified) -> Vec<PointScore> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mode(omega: f64) -> ModeEstimate {
+        let of = |value| Estimate { value, std: 0.1 };
+        ModeEstimate { natural_frequency_rad_s: of(omega), damping_ratio: of(0.01) }
+    }
+
+    fn omegas(truth: &[f64], found: &[f64]) -> Vec<Option<f64>> {
+        let truth: Vec<(f64, f64)> = truth.iter().map(|w| (*w, 0.01)).collect();
+        let found: Vec<ModeEstimate> = found.iter().map(|w| mode(*w)).collect();
+        let modes = matched(&truth, &found);
+        modes.into_iter().map(|m| Some(m?.natural_frequency_rad_s.value)).collect()
+    }
+
+    #[test]
+    fn modes_meet_their_truths() {
+        // As many: in order, also where one is far off.
+        assert_eq!(omegas(&[5.0, 30.0], &[4.0, 5.0]), [Some(4.0), Some(5.0)]);
+        // Fewer: the nearest; the rest is refused.
+        assert_eq!(omegas(&[5.0, 30.0], &[31.0]), [None, Some(31.0)]);
+        // More: the surplus is left over.
+        assert_eq!(omegas(&[5.0], &[2.0, 5.1, 9.0]), [Some(5.1)]);
+        assert_eq!(omegas(&[5.0, 30.0], &[]), [None, None]);
+    }
+
+    fn coulomb(value: f64, std: f64, warned: bool) -> FigureScore {
+        let estimate = Some(Estimate { value, std });
+        FigureScore { figure: Figure::Coulomb, truth: 1.0, estimate, warned }
+    }
+
+    #[test]
+    fn silence_is_far_off_without_a_word() {
+        assert!(coulomb(1.06, 0.01, false).silently_wrong());
+        assert!(!coulomb(1.04, 0.01, false).silently_wrong());
+        assert!(!coulomb(1.06, 0.01, true).silently_wrong());
+        assert!(coulomb(1.0001, 0.0, false).silently_wrong(), "a deviation of zero is a claim");
+        assert!(coulomb(1.0, f64::NAN, false).silently_wrong());
+        let refused = FigureScore { estimate: None, ..coulomb(0.0, 0.0, false) };
+        assert!(!refused.silently_wrong() && refused.covers().is_none());
+    }
+
+    #[test]
+    fn intervals_cover_what_lies_within() {
+        assert_eq!(coulomb(1.019, 0.01, false).covers(), Some(true));
+        assert_eq!(coulomb(1.021, 0.01, false).covers(), Some(false));
+        assert!((coulomb(1.02, 0.01, false).error().unwrap() - 0.02).abs() < 1e-12);
+    }
+
+    #[test]
+    fn alarms_speak_of_the_law() {
+        let alarms = |code, severity, about| {
+            let findings = vec![(code, severity, about)];
+            Score { figures: vec![], points: vec![], findings, surplus_modes: 0 }.law_alarms().len()
+        };
+        assert_eq!(alarms("missing-term", Severity::Warning, true), 1);
+        assert_eq!(alarms("missing-term", Severity::Info, true), 0);
+        assert_eq!(alarms("sticking", Severity::Warning, false), 0);
+        assert_eq!(alarms("poor-excitation", Severity::Refusal, true), 0);
+        assert_eq!(alarms("offset", Severity::Info, false), 1);
+    }
+}
