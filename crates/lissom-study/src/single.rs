@@ -18,6 +18,7 @@ pub fn describe(seed: u64, index: usize, law: Law) -> Option<String> {
             let scored = score(&Truth::of(&campaign), &id);
             lines.push(String::new());
             lines.push(figures(&scored));
+            lines.push(format!("modes beyond those that there are: {}\n", scored.surplus_modes));
             lines.push(points(&scored));
             for f in &id.findings {
                 let run = f.run.as_deref().unwrap_or("campaign");
