@@ -26,11 +26,25 @@ pub(super) fn section(outcome: &Outcome) -> String {
         "silently wrong",
     ];
     let rows: Vec<Vec<String>> = groups().iter().map(|group| row(group, &all)).collect();
+    let header_held = ["campaigns", "Coulomb", "inertia", "coupling", "viscous", "frequency 1"];
+    let held: Vec<Vec<String>> = (1..=3).map(|masses| held(masses, &all)).collect();
     format!(
         "## By campaign\n\nMedian error / 95th percentile (share refused) of every figure given. Sticking is \
-         the largest share of a run; CF is over the peak torque.\n\n{}",
-        table(&header, &rows)
+         the largest share of a run; CF is over the peak torque.\n\n{}\n\n95 % intervals that hold:\n\n{}",
+        table(&header, &rows),
+        table(&header_held, &held)
     )
+}
+
+/// Shares of the intervals that hold.
+fn held(masses: usize, all: &[(&Scored, &Score)]) -> Vec<String> {
+    let mut cells = vec![format!("n = {masses}")];
+    for figure in FIGURES {
+        let of = all.iter().filter(|(s, _)| s.stratum.masses == masses);
+        let covered: Vec<bool> = of.filter_map(|(_, score)| score.of(figure)?.covers()).collect();
+        cells.push(Share::count(&covered, |c| *c).to_string());
+    }
+    cells
 }
 
 fn row((name, belongs): &Group, all: &[(&Scored, &Score)]) -> Vec<String> {
