@@ -22,9 +22,25 @@ use step::{Failure, cargo, run};
 struct Recipe {
     name: &'static str,
     about: &'static str,
-    /// The flags it takes, with what each says.
-    flags: &'static [(&'static str, &'static str)],
+    takes: Takes,
     run: fn(&Context) -> Result<(), Failure>,
+}
+
+/// What may stand behind a recipe's name.
+enum Takes {
+    /// These flags, with what each says.
+    Flags(&'static [(&'static str, &'static str)]),
+    /// Whatever the program takes that it runs; says how to ask for it.
+    Arguments(&'static str),
+}
+
+impl Takes {
+    fn has(&self, flag: &str) -> bool {
+        match self {
+            Self::Flags(flags) => flags.iter().any(|(f, _)| *f == flag),
+            Self::Arguments(_) => true,
+        }
+    }
 }
 
 /// Every recipe, in the order of the help.
@@ -32,20 +48,26 @@ const RECIPES: &[Recipe] = &[
     Recipe {
         name: "test",
         about: "every test of the workspace, doctests included",
-        flags: &[],
+        takes: Takes::Flags(&[]),
         run: test,
     },
     Recipe {
         name: "ci",
         about: "fmt, clippy, rustdoc, cargo deny, tests of features, then `test`",
-        flags: &[(SKIP_TESTS, "leave `test` out, where it has just run")],
+        takes: Takes::Flags(&[(SKIP_TESTS, "leave `test` out, where it has just run")]),
         run: ci,
     },
     Recipe {
         name: "external",
         about: "the rig beside MuJoCo and scipy, in a Python of its own; minutes",
-        flags: &[],
+        takes: Takes::Flags(&[]),
         run: external,
+    },
+    Recipe {
+        name: "study",
+        about: "accuracy over random arms and campaigns; minutes",
+        takes: Takes::Arguments("`cargo xtask study --help` has the rest"),
+        run: study,
     },
 ];
 
@@ -55,7 +77,7 @@ const SKIP_TESTS: &str = "--skip-tests";
 struct Context {
     /// The workspace's folder.
     root: PathBuf,
-    /// The flags given, each one that the recipe takes.
+    /// The arguments given, each one that the recipe takes.
     flags: Vec<String>,
 }
 
@@ -74,7 +96,7 @@ fn main() -> ExitCode {
         eprint!("{}", help());
         return ExitCode::from(2);
     };
-    if let Some(flag) = flags.iter().find(|flag| !recipe.flags.iter().any(|(f, _)| f == flag)) {
+    if let Some(flag) = flags.iter().find(|flag| !recipe.takes.has(flag)) {
         eprintln!("xtask: `{name}` does not take `{flag}`");
         eprint!("{}", help());
         return ExitCode::from(2);
@@ -129,6 +151,15 @@ fn external(context: &Context) -> Result<(), Failure> {
     external::compare(&context.root)
 }
 
+/// The accuracy study; the law `lugre`, alone or among the wrong ones, needs the feature of that name.
+fn study(context: &Context) -> Result<(), Failure> {
+    let mut command = cargo(&context.root, &["run", "--release", "--package", "lissom-study"]);
+    if context.flags.iter().any(|flag| flag.ends_with("lugre") || flag.ends_with("wrong")) {
+        command.args(["--features", "lugre"]);
+    }
+    run("study", command.arg("--").args(&context.flags))
+}
+
 /// The workspace's folder: cargo says at run time where this package is.
 fn root() -> PathBuf {
     let package = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
@@ -139,8 +170,11 @@ fn help() -> String {
     let mut lines = vec!["Usage: cargo xtask RECIPE".to_owned(), String::new()];
     for recipe in RECIPES {
         lines.push(format!("  {:<16} {}", recipe.name, recipe.about));
-        for (flag, about) in recipe.flags {
-            lines.push(format!("    {flag:<14} {about}"));
+        match recipe.takes {
+            Takes::Flags(flags) => {
+                lines.extend(flags.iter().map(|(flag, about)| format!("    {flag:<14} {about}")));
+            }
+            Takes::Arguments(about) => lines.push(format!("    {:<14} {about}", "...")),
         }
     }
     lines.join("\n") + "\n"

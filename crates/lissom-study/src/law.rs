@@ -1,0 +1,106 @@
+//! The joint's friction, as the study's laws have it.
+
+use std::fmt;
+
+use lissom::drive::{Coulomb, DriveError, DryFriction, Falloff, LuGre};
+use lissom::rig::JointFriction;
+
+use crate::draw::Draw;
+
+/// What the truth departs from lissom's own equations in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Law {
+    /// Nothing: one Coulomb constant, dampers at the masses.
+    None,
+    /// Friction at rest above that at speed.
+    Stribeck,
+    /// Coulomb friction that differs by direction.
+    Direction,
+    /// Friction that changes over the turn.
+    Ripple,
+    /// Viscous friction that grows less than in proportion.
+    Sublinear,
+    /// Bristles, with friction at rest above that at speed (feature `lugre`).
+    Lugre,
+    /// Coulomb friction, but the beam is damped within itself.
+    BeamDamping,
+}
+
+impl Law {
+    /// All wrong ones that this build can simulate.
+    pub fn wrong() -> Vec<Self> {
+        let mut laws =
+            vec![Self::Stribeck, Self::Direction, Self::Ripple, Self::Sublinear, Self::BeamDamping];
+        if cfg!(feature = "lugre") {
+            laws.push(Self::Lugre);
+        }
+        laws
+    }
+}
+
+impl fmt::Display for Law {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::None => "true Coulomb",
+            Self::Stribeck => "Stribeck",
+            Self::Direction => "by direction",
+            Self::Ripple => "ripple",
+            Self::Sublinear => "sub-linear viscous",
+            Self::Lugre => "LuGre",
+            Self::BeamDamping => "damping in the beam",
+        })
+    }
+}
+
+/// Relative tolerance of a step of the bristles' solver: errors add up to some 60 times as much, far
+/// below a step of any encoder.
+const BRISTLE_TOLERANCE: f64 = 1e-6;
+
+/// The joint of a law: the arm's own Coulomb friction and what stands in its place.
+///
+/// `coulomb_nm` is the friction at speed, `speed_rad_s` one that the campaign works at.
+pub(crate) fn joint(
+    law: Law,
+    draw: &mut Draw,
+    (coulomb_nm, inertia_kg_m2): (f64, f64),
+    speed_rad_s: f64,
+) -> Result<(Coulomb, JointFriction), DriveError> {
+    let sliding = Coulomb::symmetric(coulomb_nm)?;
+    let times = |factor: f64| Coulomb::symmetric(factor * coulomb_nm);
+    let friction = match law {
+        Law::None | Law::BeamDamping => JointFriction::Arm,
+        Law::Direction => {
+            let apart = draw.decade(0.05, 0.3);
+            let by = Coulomb::by_direction(coulomb_nm * (1.0 + apart), coulomb_nm * (1.0 - apart))?;
+            return Ok((by, JointFriction::Arm));
+        }
+        Law::Stribeck => {
+            let rest = times(draw.uniform(1.2, 2.0))?;
+            let fall = speed_rad_s * draw.decade(0.02, 0.3);
+            let law = DryFriction::from(sliding).with_rest(rest, fall, Falloff::Exponential)?;
+            JointFriction::Dry(law)
+        }
+        Law::Ripple => {
+            let (share, per_turn) = (draw.uniform(0.05, 0.3), f64::from(draw.whole(4, 30)));
+            let phase = draw.uniform(0.0, std::f64::consts::TAU);
+            JointFriction::Dry(DryFriction::from(sliding).with_ripple(share, per_turn, phase)?)
+        }
+        Law::Sublinear => {
+            let rest = times(draw.uniform(0.4, 0.8))?;
+            let grows = speed_rad_s * draw.decade(0.5, 2.0);
+            let law = DryFriction::from(sliding).with_rest(rest, grows, Falloff::Exponential)?;
+            JointFriction::Dry(law)
+        }
+        Law::Lugre => {
+            let rest = times(draw.uniform(1.0, 1.5))?;
+            // Bristles break away after this angle.
+            let breakaway_rad = draw.decade(2e-4, 2e-3);
+            let stiffness = coulomb_nm / breakaway_rad;
+            let damping = (stiffness * inertia_kg_m2).sqrt();
+            let fall = speed_rad_s * draw.decade(0.02, 0.3);
+            let law = LuGre::new(stiffness, damping, sliding, rest, fall)?;
+            JointFriction::Bristles { law, tolerance: BRISTLE_TOLERANCE }
+        }
+    };
+    Ok((sliding, friction))
+}

@@ -1,0 +1,36 @@
+//! The accuracy study: random arms and campaigns, simulated, identified, scored against truth.
+//!
+//! [`draw_campaign`] makes a campaign from a seed and an index, as an engineer would who tries each
+//! run and repeats what saturates or sticks; [`Truth`] is what identification should find;
+//! [`Score`] compares; [`study`] does all of it for many campaigns side by side, and [`report`]
+//! turns the scores into tables. The generator knows nothing of the estimators, and the scores use
+//! nothing but what [`lissom::identify::Identified`] gives.
+
+mod arm;
+mod bench;
+mod campaign;
+mod csv;
+mod draw;
+mod law;
+mod plan;
+mod position_loop;
+mod score;
+mod single;
+mod statistics;
+mod stratum;
+mod study;
+mod tables;
+mod trial;
+mod truth;
+
+pub use campaign::{Campaign, Definition, PlannedRun, Rejected, RunFacts, draw_campaign};
+pub use csv::rows;
+pub use law::Law;
+pub use score::{Figure, FigureScore, PointScore, Score, score};
+pub use single::describe;
+pub use statistics::{Share, median, quantile};
+pub use stratum::{Kind, Stratum};
+pub use study::{Scored, Study, identified, study};
+pub use tables::report;
+pub use trial::Dropped;
+pub use truth::Truth;

@@ -1,0 +1,108 @@
+//! `cargo xtask study`: the accuracy study from the command line.
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for a terminal")]
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+use indicatif::{ProgressBar, ProgressStyle};
+use lissom_study::{Law, Study, describe, report, rows, study};
+
+/// Accuracy of identification over random arms and campaigns.
+#[derive(Debug, Parser)]
+struct Args {
+    /// Campaigns of each law.
+    #[arg(long, default_value_t = 1000)]
+    campaigns: usize,
+    /// Seed of all draws.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Folder for the tables and a row for each campaign.
+    #[arg(long, default_value = "target/study")]
+    out: PathBuf,
+    /// Threads; all cores when 0.
+    #[arg(long, default_value_t = 0)]
+    jobs: usize,
+    /// The truth, or `wrong`: so many campaigns of true Coulomb friction and of each wrong law.
+    #[arg(long, default_value = "none", value_parser = laws)]
+    law: Laws,
+    /// Run this campaign alone and print everything about it.
+    #[arg(long)]
+    only: Option<usize>,
+}
+
+/// One law, or all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Laws {
+    One(Law),
+    Wrong,
+}
+
+fn laws(text: &str) -> Result<Laws, String> {
+    if text == "wrong" {
+        return Ok(Laws::Wrong);
+    }
+    let law = <Law as clap::ValueEnum>::from_str(text, false)?;
+    if law == Law::Lugre && !cfg!(feature = "lugre") {
+        return Err("needs a build with `--features lugre`".to_owned());
+    }
+    Ok(Laws::One(law))
+}
+
+fn main() -> ExitCode {
+    let args = Args::parse();
+    match run(&args) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("lissom-study: {failure}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(args: &Args) -> Result<(), Box<dyn std::error::Error>> {
+    if let Some(index) = args.only {
+        let law = match args.law {
+            Laws::One(law) => law,
+            Laws::Wrong => return Err("--only needs one law".into()),
+        };
+        let text = describe(args.seed, index, law).ok_or("every draw was rejected")?;
+        print!("{text}");
+        return Ok(());
+    }
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(args.jobs).build()?;
+    let mut studies = Vec::new();
+    for plan in plans(args) {
+        let bar = bar(&plan);
+        let outcome = threads.install(|| study(&plan, || bar.inc(1)));
+        bar.finish_and_clear();
+        studies.push((plan, outcome));
+    }
+    let name = if args.law == Laws::One(Law::None) { "accuracy" } else { "wrong-laws" };
+    let text = report(&studies);
+    print!("{text}");
+    fs::create_dir_all(&args.out)?;
+    fs::write(args.out.join(format!("{name}.md")), text)?;
+    fs::write(args.out.join(format!("{name}.csv")), rows(&studies))?;
+    eprintln!("{name}.md and {name}.csv are in {}", args.out.display());
+    Ok(())
+}
+
+fn plans(args: &Args) -> Vec<Study> {
+    let laws = match args.law {
+        Laws::One(law) => vec![law],
+        Laws::Wrong => std::iter::once(Law::None).chain(Law::wrong()).collect(),
+    };
+    laws.into_iter().map(|law| Study { campaigns: args.campaigns, seed: args.seed, law }).collect()
+}
+
+fn bar(plan: &Study) -> ProgressBar {
+    let bar = ProgressBar::new(plan.campaigns as u64);
+    let template = "{msg:22} [{bar:36}] {pos}/{len} {elapsed}, {eta} left";
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style.progress_chars("=> "));
+    }
+    bar.set_message(plan.law.to_string());
+    bar
+}

@@ -1,0 +1,319 @@
+//! Figures against truth.
+
+use std::fmt;
+
+use lissom::identify::{Estimate, Finding, Identified, ModeEstimate, RunKind, Severity, corrected};
+use num_complex::Complex64;
+
+use crate::truth::Truth;
+
+/// A figure that identification gives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Figure {
+    /// Coulomb friction.
+    Coulomb,
+    /// Inertia of the motor's side.
+    Inertia,
+    /// Coupling h_{n+1}.
+    Coupling,
+    /// Viscous friction.
+    Viscous,
+    /// Natural frequency of mode k, from 0.
+    Frequency(usize),
+    /// Damping ratio of mode k, from 0.
+    Damping(usize),
+}
+
+impl Figure {
+    /// How findings name it.
+    fn key(self) -> &'static str {
+        match self {
+            Self::Coulomb => "friction.coulomb",
+            Self::Inertia => "drive.inertia",
+            Self::Coupling => "beam.coupling",
+            Self::Viscous => "friction.viscous",
+            Self::Frequency(_) | Self::Damping(_) => "beam.modes",
+        }
+    }
+
+    /// Relative error that the project's goals allow, where they name one.
+    pub fn bar(self) -> Option<f64> {
+        match self {
+            Self::Coulomb | Self::Inertia | Self::Coupling => Some(0.01),
+            Self::Viscous => Some(0.05),
+            Self::Frequency(_) => Some(0.002),
+            Self::Damping(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for Figure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Coulomb => f.write_str("Coulomb friction"),
+            Self::Inertia => f.write_str("inertia"),
+            Self::Coupling => f.write_str("coupling"),
+            Self::Viscous => f.write_str("viscous friction"),
+            Self::Frequency(k) => write!(f, "frequency {}", k + 1),
+            Self::Damping(k) => write!(f, "damping ratio {}", k + 1),
+        }
+    }
+}
+
+/// Deviations beyond which a figure without a finding is silently wrong.
+const SILENT: f64 = 5.0;
+
+/// One figure of one campaign.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FigureScore {
+    /// Which.
+    pub figure: Figure,
+    /// Its truth.
+    pub truth: f64,
+    /// What was given; `None`: refused.
+    pub estimate: Option<Estimate>,
+    /// Whether a warning or refusal names it.
+    pub warned: bool,
+}
+
+impl FigureScore {
+    /// Signed relative error.
+    pub fn error(&self) -> Option<f64> {
+        self.estimate.map(|e| e.value / self.truth - 1.0)
+    }
+
+    /// Distance from the truth in deviations; infinite where none is claimed.
+    pub fn deviations(&self) -> Option<f64> {
+        self.estimate.map(|e| (e.value - self.truth) / e.std)
+    }
+
+    /// Whether the 95 % interval holds the truth.
+    pub fn covers(&self) -> Option<bool> {
+        self.estimate.map(|e| {
+            let [low, high] = e.ci95();
+            (low..=high).contains(&self.truth)
+        })
+    }
+
+    /// Off by more than five deviations, and nothing says so.
+    pub fn silently_wrong(&self) -> bool {
+        // NaN deviations are as wrong as large ones.
+        !self.warned && self.deviations().is_some_and(|d| d.is_nan() || d.abs() > SILENT)
+    }
+
+    /// Given without a warning.
+    pub fn vouched(&self) -> bool {
+        self.estimate.is_some() && !self.warned
+    }
+}
+
+/// One frequency of the motor's response; errors are |Ĝ − G|/|G|.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointScore {
+    /// Frequency \[rad/s\].
+    pub omega_rad_s: f64,
+    /// Whether it is a sinusoidal run's, not a band's.
+    pub sinusoidal: bool,
+    /// As measured.
+    pub raw: f64,
+    /// By (30) with the third harmonic's friction.
+    pub third_harmonic: Option<f64>,
+    /// As given.
+    pub corrected: Option<f64>,
+    /// The same in its deviations.
+    pub deviations: Option<f64>,
+    /// Whether nothing speaks against it.
+    pub vouched: bool,
+}
+
+/// All scores of one campaign.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Score {
+    /// Figures, two of each mode at the end.
+    pub figures: Vec<FigureScore>,
+    /// Points of the motor's response.
+    pub points: Vec<PointScore>,
+    /// Findings: code, severity, and whether it names a figure of the equation of motion.
+    pub findings: Vec<(&'static str, Severity, bool)>,
+    /// Modes given beyond those that there are.
+    pub surplus_modes: usize,
+}
+
+/// Findings about what the runs show, not about the equation that they should follow.
+const ABOUT_DATA: [&str; 8] = [
+    "poor-excitation",
+    "not-separable",
+    "modes-not-found",
+    "no-pairs",
+    "methods-disagree",
+    "dead-channel",
+    "more-modes-than-tips",
+    "friction-visible",
+];
+
+impl Score {
+    /// The score of one figure.
+    pub fn of(&self, figure: Figure) -> Option<&FigureScore> {
+        self.figures.iter().find(|f| f.figure == figure)
+    }
+
+    /// The codes of the findings that say that the equation of motion does not hold: warnings and
+    /// refusals about the campaign that name friction, inertia or coupling and are not about its
+    /// data; and `offset`, which says that friction differs by direction.
+    pub fn law_alarms(&self) -> Vec<&'static str> {
+        let speaks = |f: &&(&'static str, Severity, bool)| {
+            f.0 == "offset" || (f.2 && f.1 >= Severity::Warning && !ABOUT_DATA.contains(&f.0))
+        };
+        self.findings.iter().filter(speaks).map(|f| f.0).collect()
+    }
+}
+
+/// Scores what was found against the truth.
+pub fn score(truth: &Truth, id: &Identified) -> Score {
+    let named = |figure: Figure| {
+        let speaks =
+            |f: &Finding| f.severity >= Severity::Warning && f.affects.contains(&figure.key());
+        id.findings.iter().any(speaks)
+    };
+    let one = |figure: Figure, truth: f64, estimate: Option<Estimate>| FigureScore {
+        figure,
+        truth,
+        estimate,
+        warned: named(figure),
+    };
+    let mut figures = vec![
+        one(Figure::Coulomb, truth.coulomb_nm, id.friction.coulomb),
+        one(Figure::Inertia, truth.inertia_kg_m2, id.inertia),
+        one(Figure::Coupling, truth.coupling_nm_per_rad, id.beam.coupling),
+        one(Figure::Viscous, truth.viscous_nm_s_per_rad, id.friction.viscous),
+    ];
+    let modes = matched(&truth.modes, &id.beam.modes);
+    for (k, ((omega, zeta), found)) in truth.modes.iter().zip(modes).enumerate() {
+        figures.push(one(Figure::Frequency(k), *omega, found.map(|m| m.natural_frequency_rad_s)));
+        figures.push(one(Figure::Damping(k), *zeta, found.map(|m| m.damping_ratio)));
+    }
+    Score {
+        figures,
+        points: points(truth, id),
+        findings: id.findings.iter().map(|f| (f.code, f.severity, about_equation(f))).collect(),
+        surplus_modes: id.beam.modes.len().saturating_sub(truth.modes.len()),
+    }
+}
+
+/// Whether a finding about the whole campaign names what the motor's equation of motion gives.
+fn about_equation(finding: &Finding) -> bool {
+    let named = |figure: Figure| finding.affects.contains(&figure.key());
+    let figures = [Figure::Coulomb, Figure::Viscous, Figure::Inertia, Figure::Coupling];
+    finding.run.is_none() && figures.into_iter().any(named)
+}
+
+/// The mode found for each true one: in order where there are as many, else the nearest left.
+fn matched(truth: &[(f64, f64)], found: &[ModeEstimate]) -> Vec<Option<ModeEstimate>> {
+    if truth.len() == found.len() {
+        return found.iter().copied().map(Some).collect();
+    }
+    let mut left = found.to_vec();
+    let distance =
+        |omega: f64, mode: &ModeEstimate| (mode.natural_frequency_rad_s.value / omega).ln().abs();
+    let mut by_truth = vec![None; truth.len()];
+    while !left.is_empty() {
+        let free = (0..truth.len()).filter(|k| by_truth[*k].is_none());
+        let nearest = free.flat_map(|k| (0..left.len()).map(move |m| (k, m))).min_by(|a, b| {
+            let far = |(k, m): &(usize, usize)| distance(truth[*k].0, &left[*m]);
+            far(a).total_cmp(&far(b))
+        });
+        let Some((k, m)) = nearest else { break };
+        by_truth[k] = Some(left.swap_remove(m));
+    }
+    by_truth
+}
+
+fn points(truth: &Truth, id: &Identified) -> Vec<PointScore> {
+    let third = id.third_harmonic.as_ref().map(|t| t.coulomb_command);
+    id.responses
+        .iter()
+        .map(|point| {
+            let exact = truth.response(point.omega_rad_s);
+            let off = |value: Complex64| (value - exact).norm() / exact.norm();
+            let by_report = point.run.and_then(|run| {
+                let RunKind::Sinusoidal(s) = &id.runs.get(run)?.kind else { return None };
+                let response = corrected(s.motor.get(1)?, s.command.get(1)?, third?);
+                Some(off(response.value))
+            });
+            let given = point.motor_corrected;
+            PointScore {
+                omega_rad_s: point.omega_rad_s,
+                sinusoidal: point.run.is_some(),
+                raw: off(point.motor_raw.value),
+                third_harmonic: by_report,
+                corrected: given.map(|r| off(r.value)),
+                deviations: given.map(|r| (r.value - exact).norm() / r.std),
+                vouched: given.is_some() && !point.flagged,
+            }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mode(omega: f64) -> ModeEstimate {
+        let of = |value| Estimate { value, std: 0.1 };
+        ModeEstimate { natural_frequency_rad_s: of(omega), damping_ratio: of(0.01) }
+    }
+
+    fn omegas(truth: &[f64], found: &[f64]) -> Vec<Option<f64>> {
+        let truth: Vec<(f64, f64)> = truth.iter().map(|w| (*w, 0.01)).collect();
+        let found: Vec<ModeEstimate> = found.iter().map(|w| mode(*w)).collect();
+        let modes = matched(&truth, &found);
+        modes.into_iter().map(|m| Some(m?.natural_frequency_rad_s.value)).collect()
+    }
+
+    #[test]
+    fn modes_meet_their_truths() {
+        // As many: in order, also where one is far off.
+        assert_eq!(omegas(&[5.0, 30.0], &[4.0, 5.0]), [Some(4.0), Some(5.0)]);
+        // Fewer: the nearest; the rest is refused.
+        assert_eq!(omegas(&[5.0, 30.0], &[31.0]), [None, Some(31.0)]);
+        // More: the surplus is left over.
+        assert_eq!(omegas(&[5.0], &[2.0, 5.1, 9.0]), [Some(5.1)]);
+        assert_eq!(omegas(&[5.0, 30.0], &[]), [None, None]);
+    }
+
+    fn coulomb(value: f64, std: f64, warned: bool) -> FigureScore {
+        let estimate = Some(Estimate { value, std });
+        FigureScore { figure: Figure::Coulomb, truth: 1.0, estimate, warned }
+    }
+
+    #[test]
+    fn silence_is_far_off_without_a_word() {
+        assert!(coulomb(1.06, 0.01, false).silently_wrong());
+        assert!(!coulomb(1.04, 0.01, false).silently_wrong());
+        assert!(!coulomb(1.06, 0.01, true).silently_wrong());
+        assert!(coulomb(1.0001, 0.0, false).silently_wrong(), "a deviation of zero is a claim");
+        assert!(coulomb(1.0, f64::NAN, false).silently_wrong());
+        let refused = FigureScore { estimate: None, ..coulomb(0.0, 0.0, false) };
+        assert!(!refused.silently_wrong() && refused.covers().is_none());
+    }
+
+    #[test]
+    fn intervals_cover_what_lies_within() {
+        assert_eq!(coulomb(1.019, 0.01, false).covers(), Some(true));
+        assert_eq!(coulomb(1.021, 0.01, false).covers(), Some(false));
+        assert!((coulomb(1.02, 0.01, false).error().unwrap() - 0.02).abs() < 1e-12);
+    }
+
+    #[test]
+    fn alarms_speak_of_the_law() {
+        let alarms = |code, severity, about| {
+            let findings = vec![(code, severity, about)];
+            Score { figures: vec![], points: vec![], findings, surplus_modes: 0 }.law_alarms().len()
+        };
+        assert_eq!(alarms("missing-term", Severity::Warning, true), 1);
+        assert_eq!(alarms("missing-term", Severity::Info, true), 0);
+        assert_eq!(alarms("sticking", Severity::Warning, false), 0);
+        assert_eq!(alarms("poor-excitation", Severity::Refusal, true), 0);
+        assert_eq!(alarms("offset", Severity::Info, false), 1);
+    }
+}

@@ -1,0 +1,121 @@
+//! Everything about one campaign, for who looks for a mistake.
+
+use std::fmt::Write;
+
+use crate::campaign::{Campaign, draw_campaign};
+use crate::law::Law;
+use crate::score::{FigureScore, Score, score};
+use crate::study::identified;
+use crate::truth::Truth;
+
+/// Draws, identifies and describes campaign `index`; `None` where every draw was rejected.
+pub fn describe(seed: u64, index: usize, law: Law) -> Option<String> {
+    let campaign = draw_campaign(seed, index, law)?;
+    let mut lines = conditions(&campaign, seed);
+    match identified(&campaign) {
+        Err(error) => lines.push(format!("nothing identified: {error}")),
+        Ok(id) => {
+            let scored = score(&Truth::of(&campaign), &id);
+            lines.push(String::new());
+            lines.push(figures(&scored));
+            lines.push(format!("modes beyond those that there are: {}\n", scored.surplus_modes));
+            lines.push(points(&scored));
+            for f in &id.findings {
+                let run = f.run.as_deref().unwrap_or("campaign");
+                let affects = f.affects.join(" ");
+                lines.push(format!(
+                    "{:?} {} [{run}] {affects}\n    {}",
+                    f.severity, f.code, f.message
+                ));
+            }
+        }
+    }
+    Some(lines.join("\n") + "\n")
+}
+
+fn conditions(campaign: &Campaign, seed: u64) -> Vec<String> {
+    let rig = &campaign.definition.rig;
+    let arm = &rig.arm;
+    let mut lines = vec![
+        format!("campaign {} of seed {seed}, {}", campaign.index, campaign.law),
+        format!("{:?}", campaign.stratum),
+        format!("{} draws rejected before it: {:?}", campaign.rejected.len(), campaign.rejected),
+        format!("{:?}", arm.motor),
+        format!("{:?}, {:?}", arm.coulomb, rig.scene.friction),
+    ];
+    lines.extend(arm.beam().spans().iter().map(|span| format!("{span:?}")));
+    lines.push(format!("{:?}", rig.controller));
+    lines.push(format!(
+        "limit {:.4} A, CF {:.1} % of the peak torque",
+        rig.instruments.amplifier.most_a(),
+        100.0 * campaign.coulomb_share()
+    ));
+    for ((run, facts), log) in
+        campaign.definition.runs.iter().zip(&campaign.facts).zip(&campaign.logs.runs)
+    {
+        let largest = log.motor().iter().fold(0.0_f64, |most, a| most.max(a.abs()));
+        lines.push(format!(
+            "{:30} {:6} samples, waited {:6.1} s, stuck {:5.2} %, motor to {largest:.4} rad, peak {:.4} A",
+            run.name,
+            log.len(),
+            facts.waited_s,
+            100.0 * facts.stuck_share,
+            facts.peak_a
+        ));
+    }
+    lines.push(format!("runs given up: {:?}", campaign.dropped));
+    lines
+}
+
+fn figures(scored: &Score) -> String {
+    let mut text = format!(
+        "{:18} {:>13} {:>13} {:>13} {:>10} {:>10}\n",
+        "figure", "true", "given", "deviation", "error", "deviations"
+    );
+    for f in &scored.figures {
+        let _ = writeln!(text, "{}", figure(f));
+    }
+    text
+}
+
+fn figure(f: &FigureScore) -> String {
+    let name = f.figure.to_string();
+    let Some(e) = f.estimate else { return format!("{name:18} {:13.6e}       refused", f.truth) };
+    let mark = match (f.warned, f.silently_wrong()) {
+        (true, _) => "warned",
+        (false, true) => "SILENTLY WRONG",
+        (false, false) => "",
+    };
+    format!(
+        "{name:18} {:13.6e} {:13.6e} {:13.3e} {:+9.3} % {:+10.2} {mark}",
+        f.truth,
+        e.value,
+        e.std,
+        100.0 * f.error().unwrap_or(f64::NAN),
+        f.deviations().unwrap_or(f64::NAN)
+    )
+}
+
+fn points(scored: &Score) -> String {
+    let mut text = format!(
+        "{:>10} {:>5} {:>10} {:>10} {:>10} {:>10}\n",
+        "rad/s", "kind", "raw", "(30)", "corrected", "deviations"
+    );
+    for p in &scored.points {
+        let percent = |v: Option<f64>| {
+            v.map_or_else(|| format!("{:>10}", "-"), |v| format!("{:8.2} %", 100.0 * v))
+        };
+        let _ = writeln!(
+            text,
+            "{:10.3} {:>5} {} {} {} {:10.2} {}",
+            p.omega_rad_s,
+            if p.sinusoidal { "sine" } else { "band" },
+            percent(Some(p.raw)),
+            percent(p.third_harmonic),
+            percent(p.corrected),
+            p.deviations.unwrap_or(f64::NAN),
+            if p.vouched { "" } else { "flagged" }
+        );
+    }
+    text
+}

@@ -1,0 +1,105 @@
+//! The figures over all campaigns.
+
+use super::markdown::{percent, significant, table};
+use super::{Outcome, drawn, scores};
+use crate::score::{Figure, FigureScore, Score};
+use crate::statistics::{Share, median, quantile};
+use crate::study::{Scored, Study};
+
+/// Rows of the tables: what they are called and which figures they hold.
+const ROWS: [(&str, &[Figure]); 8] = [
+    ("Coulomb friction", &[Figure::Coulomb]),
+    ("inertia", &[Figure::Inertia]),
+    ("coupling", &[Figure::Coupling]),
+    ("viscous friction", &[Figure::Viscous]),
+    ("frequency 1", &[Figure::Frequency(0)]),
+    ("frequency 2, 3", &[Figure::Frequency(1), Figure::Frequency(2)]),
+    ("damping ratio 1", &[Figure::Damping(0)]),
+    ("damping ratio 2, 3", &[Figure::Damping(1), Figure::Damping(2)]),
+];
+
+pub(super) fn section(study: &Study, outcome: &Outcome) -> String {
+    let all = scores(outcome);
+    let lost = drawn(outcome).len() - all.len();
+    let silent = all.iter().filter(|(_, s)| s.figures.iter().any(FigureScore::silently_wrong));
+    let silent = Share { hits: silent.count(), of: all.len() };
+    [
+        format!(
+            "## Figures\n\nSeed {}, {} campaigns identified, {lost} of which nothing could be said. \
+             Campaigns with a figure silently wrong: {silent}.\n\nEvery figure given:",
+            study.seed,
+            all.len(),
+        ),
+        errors(&all, |f| f.estimate.is_some()),
+        "Figures that no warning names:".to_owned(),
+        errors(&all, FigureScore::vouched),
+        time(outcome),
+    ]
+    .join("\n\n")
+}
+
+/// Errors, coverage and refusals of the figures that are `taken`.
+fn errors(all: &[(&Scored, &Score)], taken: impl Fn(&FigureScore) -> bool) -> String {
+    let row = |(name, figures): &(&str, &[Figure])| {
+        let of: Vec<&FigureScore> =
+            all.iter().flat_map(|(_, score)| figures.iter().filter_map(|f| score.of(*f))).collect();
+        let given: Vec<&FigureScore> = of.iter().copied().filter(|f| taken(f)).collect();
+        let error: Vec<f64> = given.iter().filter_map(|f| f.error()).map(f64::abs).collect();
+        let refused = Share::count(&of, |f| f.estimate.is_none());
+        let bar = figures[0].bar();
+        let within = bar.map_or_else(
+            || "–".to_owned(),
+            |bar| format!("{} within {}", Share::count(&error, |e| *e <= bar), percent(Some(bar))),
+        );
+        let covered: Vec<bool> = given.iter().filter_map(|f| f.covers()).collect();
+        let deviations: Vec<f64> =
+            given.iter().filter_map(|f| f.deviations()).map(f64::abs).collect();
+        vec![
+            (*name).to_owned(),
+            given.len().to_string(),
+            percent(Some(refused.value())),
+            percent(Some(Share::count(&of, |f| f.warned).value())),
+            percent(median(&error)),
+            percent(quantile(&error, 0.95)),
+            within,
+            Share::count(&covered, |c| *c).to_string(),
+            median(&deviations).map_or_else(|| "–".to_owned(), significant),
+            of.iter().filter(|f| f.silently_wrong()).count().to_string(),
+        ]
+    };
+    let header = [
+        "figure",
+        "given",
+        "refused",
+        "warned",
+        "median error",
+        "95th percentile",
+        "within the bar",
+        "95 % intervals that hold",
+        "deviations, median size",
+        "silently wrong",
+    ];
+    table(&header, &ROWS.iter().map(row).collect::<Vec<_>>())
+}
+
+fn time(outcome: &Outcome) -> String {
+    let all = drawn(outcome);
+    let seconds = |of: fn(&Scored) -> f64| all.iter().map(|s| of(s)).collect::<Vec<f64>>();
+    let shown = |values: &[f64]| {
+        let at = |share| quantile(values, share).map_or_else(|| "–".to_owned(), significant);
+        format!(
+            "{} s in median, {} s at the 95th percentile, {} s at most",
+            at(0.5),
+            at(0.95),
+            at(1.0)
+        )
+    };
+    let samples = median(&seconds(|s| s.samples as f64))
+        .map_or_else(|| "–".to_owned(), |v| format!("{v:.0}"));
+    format!(
+        "Honest deviations have a median size of 0.67.\n\nTime of one identification (median of {samples} samples, \
+         the cores shared with other campaigns): {}. Simulation, repeated runs included: {}.",
+        shown(&seconds(|s| s.identification.as_secs_f64())),
+        shown(&seconds(|s| s.simulation.as_secs_f64())),
+    )
+}

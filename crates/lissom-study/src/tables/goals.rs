@@ -1,0 +1,156 @@
+//! What the project asks of its estimators, beside what they do.
+
+use super::markdown::{percent, significant, table};
+use super::{Outcome, scores};
+use crate::law::Law;
+use crate::score::{Figure, FigureScore, PointScore, Score};
+use crate::statistics::{Share, median, quantile};
+use crate::study::Study;
+
+/// Least share of the campaigns in which a figure is to be within its bar.
+const CAMPAIGNS: f64 = 0.95;
+/// What nominal 95 % intervals are to cover.
+const COVERAGE: (f64, f64) = (0.93, 0.97);
+/// Largest share of campaigns with a figure silently wrong.
+const SILENT: f64 = 1e-3;
+/// Largest error of a corrected response, in median and anywhere.
+const RESPONSE: (f64, f64) = (0.01, 0.05);
+/// How many times closer than (30) it is to be.
+const CLOSER: f64 = 10.0;
+/// Error of the linear part under a wrong law.
+const LINEAR: f64 = 0.03;
+/// Least share of wrong laws flagged, largest share of false alarms.
+const FLAGGED: (f64, f64) = (0.9, 0.05);
+
+/// The largest median error of a figure.
+fn median_bar(figure: Figure) -> Option<f64> {
+    match figure {
+        Figure::Coulomb => Some(1e-3),
+        Figure::Inertia | Figure::Coupling => Some(2e-3),
+        _ => None,
+    }
+}
+
+/// One line: what is asked, what is done, whether that is enough.
+type Goal = (String, String, bool);
+
+pub(super) fn section(studies: &[(Study, Outcome)]) -> String {
+    let mut goals: Vec<Goal> = Vec::new();
+    for (study, outcome) in studies {
+        let all: Vec<&Score> = scores(outcome).into_iter().map(|(_, score)| score).collect();
+        if studies.len() == 1 && study.law == Law::None {
+            figures(&all, &mut goals);
+            coverage(&all, &mut goals);
+            responses(&all, &mut goals);
+            silence(&all, &mut goals);
+        }
+        law(study.law, &all, &mut goals);
+    }
+    let rows: Vec<Vec<String>> = goals
+        .into_iter()
+        .map(|(asked, done, met)| vec![asked, done, if met { "yes" } else { "no" }.to_owned()])
+        .collect();
+    format!(
+        "## Goals\n\nA figure refused is not within its bar.\n\n{}",
+        table(&["asked", "found", "met"], &rows)
+    )
+}
+
+/// All scores of a figure; of frequencies those of every mode.
+fn of(all: &[&Score], figure: Figure) -> Vec<FigureScore> {
+    let same = |f: &&FigureScore| match figure {
+        Figure::Frequency(_) => matches!(f.figure, Figure::Frequency(_)),
+        one => f.figure == one,
+    };
+    all.iter().flat_map(|s| s.figures.iter().filter(same).cloned()).collect()
+}
+
+fn name(figure: Figure) -> String {
+    match figure {
+        Figure::Frequency(_) => "every frequency".to_owned(),
+        one => one.to_string(),
+    }
+}
+
+fn figures(all: &[&Score], goals: &mut Vec<Goal>) {
+    let every =
+        [Figure::Coulomb, Figure::Inertia, Figure::Coupling, Figure::Frequency(0), Figure::Viscous];
+    for figure in every {
+        let (mut found, name) = (of(all, figure), name(figure));
+        let only = if figure == Figure::Viscous { " where no warning names it" } else { "" };
+        if figure == Figure::Viscous {
+            found.retain(FigureScore::vouched);
+        }
+        let errors: Vec<f64> = found.iter().filter_map(FigureScore::error).map(f64::abs).collect();
+        if let Some(bar) = figure.bar() {
+            let within = Share::count(&found, |f| f.error().is_some_and(|e| e.abs() <= bar));
+            let asked = format!("{name} within {} in 95 %{only}", percent(Some(bar)));
+            goals.push((asked, within.to_string(), within.value() >= CAMPAIGNS));
+        }
+        if let Some(bar) = median_bar(figure) {
+            let middle = median(&errors);
+            let asked = format!("{name}, median error {}", percent(Some(bar)));
+            goals.push((asked, percent(middle), middle.is_some_and(|m| m <= bar)));
+        }
+    }
+}
+
+fn coverage(all: &[&Score], goals: &mut Vec<Goal>) {
+    let every =
+        [Figure::Coulomb, Figure::Inertia, Figure::Coupling, Figure::Viscous, Figure::Frequency(0)];
+    for figure in every {
+        let covered: Vec<bool> = of(all, figure).iter().filter_map(FigureScore::covers).collect();
+        let share = Share::count(&covered, |c| *c);
+        let asked = format!("95 % intervals of {} hold in 93 to 97 %", name(figure));
+        let met = (COVERAGE.0..=COVERAGE.1).contains(&share.value());
+        goals.push((asked, share.to_string(), met));
+    }
+}
+
+fn responses(all: &[&Score], goals: &mut Vec<Goal>) {
+    let (least, most) = RESPONSE;
+    let met = |value: Option<f64>, bar: f64| value.is_some_and(|v| v <= bar);
+    for (name, sinusoidal) in [("sines", true), ("other runs", false)] {
+        let of = |p: &&PointScore| p.vouched && p.sinusoidal == sinusoidal;
+        let points: Vec<&PointScore> = all.iter().flat_map(|s| &s.points).filter(of).collect();
+        let errors: Vec<f64> = points.iter().filter_map(|p| p.corrected).collect();
+        let (middle, worst) = (median(&errors), quantile(&errors, 1.0));
+        let asked = |what: &str, bar| {
+            format!("corrected response of {name}, {what} {}", percent(Some(bar)))
+        };
+        goals.push((asked("median", least), percent(middle), met(middle, least)));
+        goals.push((asked("worst", most), percent(worst), met(worst, most)));
+        let closer: Vec<f64> =
+            points.iter().filter_map(|p| Some(p.third_harmonic? / p.corrected?)).collect();
+        if let Some(times) = median(&closer) {
+            let asked = format!("{CLOSER} times closer than (30), in median");
+            goals.push((asked, significant(times), times >= CLOSER));
+        }
+    }
+}
+
+fn silence(all: &[&Score], goals: &mut Vec<Goal>) {
+    let silent = Share::count(all, |s| s.figures.iter().any(FigureScore::silently_wrong));
+    let asked = "campaigns with a figure silently wrong: 1 of 1000".to_owned();
+    goals.push((asked, silent.to_string(), silent.value() <= SILENT));
+}
+
+fn law(law: Law, all: &[&Score], goals: &mut Vec<Goal>) {
+    let flagged = Share::count(all, |s| !s.law_alarms().is_empty());
+    if law == Law::None {
+        let asked = "false alarms about the law in at most 5 %".to_owned();
+        goals.push((asked, flagged.to_string(), flagged.value() <= FLAGGED.1));
+        return;
+    }
+    let linear = [Figure::Inertia, Figure::Coupling, Figure::Frequency(0)];
+    let sound = Share::count(all, |s| {
+        let good = |figure: &Figure| {
+            s.of(*figure).and_then(FigureScore::error).is_some_and(|e| e.abs() <= LINEAR)
+        };
+        linear.iter().all(good)
+    });
+    let asked = format!("{law}: linear part within 3 % in 95 %");
+    goals.push((asked, sound.to_string(), sound.value() >= CAMPAIGNS));
+    let asked = format!("{law}: flagged in 90 %");
+    goals.push((asked, flagged.to_string(), flagged.value() >= FLAGGED.0));
+}

@@ -1,0 +1,45 @@
+//! The study's results as markdown.
+
+mod draws;
+mod figures;
+mod goals;
+mod groups;
+mod laws;
+mod markdown;
+mod responses;
+mod worst;
+
+use crate::law::Law;
+use crate::score::Score;
+use crate::study::{Scored, Study};
+
+/// Outcome of one study.
+type Outcome = Vec<Option<Scored>>;
+
+/// The page of studies that were made: of true Coulomb friction alone everything about it, else what
+/// wrong laws do.
+pub fn report(studies: &[(Study, Outcome)]) -> String {
+    let sections = match studies {
+        [(study, outcome)] if study.law == Law::None => vec![
+            include_str!("preamble.md").trim_end().to_owned(),
+            goals::section(studies),
+            figures::section(study, outcome),
+            responses::section(outcome),
+            groups::section(outcome),
+            worst::section(outcome),
+            draws::section(outcome),
+        ],
+        several => vec![laws::section(several), goals::section(several)],
+    };
+    sections.join("\n\n") + "\n"
+}
+
+/// The campaigns that were drawn.
+fn drawn(outcome: &Outcome) -> Vec<&Scored> {
+    outcome.iter().flatten().collect()
+}
+
+/// Those that were identified, with their scores.
+fn scores(outcome: &Outcome) -> Vec<(&Scored, &Score)> {
+    drawn(outcome).into_iter().filter_map(|one| Some((one, one.score.as_ref().ok()?))).collect()
+}

@@ -1,0 +1,70 @@
+//! Campaigns to look at.
+
+use super::markdown::{percent, significant, table};
+use super::{Outcome, scores};
+use crate::score::FigureScore;
+use crate::study::Scored;
+
+/// Campaigns in each list.
+const SHOWN: usize = 10;
+
+pub(super) fn section(outcome: &Outcome) -> String {
+    let all = scores(outcome);
+    let mut worst: Vec<(f64, &Scored, &FigureScore)> = all
+        .iter()
+        .filter_map(|(scored, score)| {
+            let far = |f: &FigureScore| Some(f.error()?.abs() / f.figure.bar()?);
+            let figures = score.figures.iter().filter_map(|f| Some((far(f)?, *scored, f)));
+            figures.max_by(|a, b| a.0.total_cmp(&b.0))
+        })
+        .collect();
+    worst.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let worst: Vec<_> = worst.iter().take(SHOWN).map(|(_, s, f)| row(s, f)).collect();
+    let mut silent: Vec<(f64, &Scored, &FigureScore)> = all
+        .iter()
+        .flat_map(|(scored, score)| {
+            let wrong = score.figures.iter().filter(|f| f.silently_wrong());
+            wrong.map(|f| (f.deviations().map_or(0.0, f64::abs), *scored, f))
+        })
+        .collect();
+    silent.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let silent: Vec<_> = silent.iter().take(SHOWN).map(|(_, s, f)| row(s, f)).collect();
+    let header = [
+        "index",
+        "n",
+        "runs",
+        "bits, motor/tips",
+        "noise",
+        "T",
+        "CF",
+        "stuck",
+        "figure",
+        "error",
+        "deviations",
+        "warned",
+    ];
+    format!(
+        "## Worst campaigns\n\nThe {SHOWN} whose worst figure is furthest beyond its bar:\n\n{}\n\nThe {SHOWN} figures \
+         that are silently wrong by most deviations:\n\n{}",
+        table(&header, &worst),
+        table(&header, &silent)
+    )
+}
+
+fn row(scored: &Scored, figure: &FigureScore) -> Vec<String> {
+    let stratum = &scored.stratum;
+    vec![
+        scored.index.to_string(),
+        stratum.masses.to_string(),
+        format!("{} {}", scored.runs.len(), stratum.kind),
+        format!("{}/{}", stratum.motor_bits, stratum.tip_bits),
+        stratum.noise_steps.map_or_else(|| "0".to_owned(), significant),
+        format!("{:.2} ms", 1e3 * stratum.sample_time_s),
+        percent(Some(scored.coulomb_share)),
+        percent(Some(scored.stuck_share)),
+        figure.figure.to_string(),
+        percent(figure.error()),
+        figure.deviations().map_or_else(|| "–".to_owned(), significant),
+        if figure.warned { "yes" } else { "no" }.to_owned(),
+    ]
+}

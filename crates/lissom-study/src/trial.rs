@@ -1,0 +1,121 @@
+//! One run, tried until it is sound: what an engineer does who looks at each log.
+
+use std::fmt;
+
+use lissom::record::Run;
+use lissom::rig::{Experiment, Logged, RigError, RigFinding};
+
+use crate::bench::Bench;
+use crate::plan::Idea;
+
+/// Share of a run in which the joint may stick.
+pub(crate) const STUCK_MOST: f64 = 0.15;
+/// Amplitude of the motor in steps of its encoder, at least.
+const STEPS_LEAST: f64 = 20.0;
+/// Bend of the beam from which on a run is repeated smaller \[rad\].
+const BEND_RAD: f64 = 0.8;
+/// Amplitude of the motor over the largest meant, from which on it is not enlarged.
+const TRAVEL: f64 = 1.2;
+/// A run that is too small is repeated so many times larger…
+const LARGER: f64 = 1.35;
+/// …one that is too large so many times smaller…
+const SMALLER: f64 = 0.75;
+/// …and this often.
+const TRIES: usize = 8;
+
+/// Why a run was given up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Dropped {
+    /// The loop ran away.
+    Unstable,
+    /// The joint sticks for more than 15 % however large the run may be.
+    Sticks,
+    /// The motor moves by less than 20 steps of its encoder.
+    TooSmall,
+    /// The amplifier limits it, and smaller the joint sticks or the encoder is too coarse.
+    Current,
+    /// The beam bends too far, and smaller the joint sticks or the encoder is too coarse.
+    Bend,
+    /// The rig cannot do it.
+    Impossible,
+}
+
+impl fmt::Display for Dropped {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Unstable => "the loop ran away",
+            Self::Sticks => "sticks for more than 15 % at any amplitude allowed",
+            Self::TooSmall => "less than 20 steps of the motor's encoder",
+            Self::Current => "the amplifier limits it, and smaller it sticks or is too coarse",
+            Self::Bend => "the beam bends too far, and smaller it sticks or is too coarse",
+            Self::Impossible => "the rig cannot do it",
+        })
+    }
+}
+
+/// Tries a run at falling or growing amplitudes; gives the log and the experiment that made it.
+pub(crate) fn tried(
+    bench: &Bench,
+    idea: &Idea,
+    name: &str,
+    seed: u64,
+) -> Result<(Logged, Experiment), Dropped> {
+    let mut amplitude = idea.reference_rad;
+    // What was wrong first: a run is only ever enlarged, or only ever reduced.
+    let mut first: Option<Dropped> = None;
+    for _ in 0..TRIES {
+        let experiment = idea.shape.experiment(amplitude).map_err(|_| Dropped::Impossible)?;
+        let logged = bench.rig.run(name, &experiment, seed).map_err(|error| match error {
+            RigError::Unstable { .. } | RigError::BeyondSensor { .. } => Dropped::Unstable,
+            _ => Dropped::Impossible,
+        })?;
+        let Some(wrong) = wrong(bench, &logged) else { return Ok((logged, experiment)) };
+        let first = *first.get_or_insert(wrong);
+        if first.is_too_large() != wrong.is_too_large() {
+            return Err(if first.is_too_large() { first } else { wrong });
+        }
+        let far = half_range(logged.run.motor()) > TRAVEL * bench.most_rad;
+        if far && !wrong.is_too_large() {
+            return Err(wrong);
+        }
+        amplitude *= if wrong.is_too_large() { SMALLER } else { LARGER };
+    }
+    Err(first.unwrap_or(Dropped::Impossible))
+}
+
+impl Dropped {
+    fn is_too_large(self) -> bool {
+        matches!(self, Self::Current | Self::Bend)
+    }
+}
+
+/// What is wrong with a run, if anything.
+fn wrong(bench: &Bench, logged: &Logged) -> Option<Dropped> {
+    let limited = |f: &RigFinding| matches!(f, RigFinding::CurrentLimited { .. });
+    if logged.findings.iter().any(limited) {
+        Some(Dropped::Current)
+    } else if bend(&logged.run) > BEND_RAD {
+        Some(Dropped::Bend)
+    } else if logged.stuck_share > STUCK_MOST {
+        Some(Dropped::Sticks)
+    } else if half_range(logged.run.motor()) < STEPS_LEAST * bench.step_rad {
+        Some(Dropped::TooSmall)
+    } else {
+        None
+    }
+}
+
+/// Half of the way from the lowest to the highest value.
+fn half_range(values: &[f64]) -> f64 {
+    let (low, high) =
+        values.iter().fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(*v), high.max(*v)));
+    0.5 * (high - low)
+}
+
+/// Largest angle between a tip and the motor's line \[rad\].
+fn bend(run: &Run) -> f64 {
+    let against = |tip: &Vec<f64>| {
+        tip.iter().zip(run.motor()).fold(0.0_f64, |most, (t, m)| most.max((t - m).abs()))
+    };
+    run.tips().iter().map(against).fold(0.0, f64::max)
+}

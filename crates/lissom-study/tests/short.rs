@@ -1,0 +1,153 @@
+//! The study in short: what holds today, with margins that chance does not use up.
+//!
+//! The bounds are three to ten times what these campaigns give; an estimator that breaks is off by
+//! more. `cargo xtask study` has the full figures.
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use std::sync::OnceLock;
+
+use lissom::drive::Coulomb;
+use lissom::identify::{Options, identify};
+use lissom::record::Campaign;
+use lissom::rig::{Sensor, Settle};
+use lissom_study::{
+    Figure, FigureScore, Kind, Law, Score, Scored, Study, Truth, draw_campaign, median, report,
+    rows, score, study,
+};
+
+const CAMPAIGNS: usize = 12;
+const SEED: u64 = 1;
+
+fn short() -> &'static [Scored] {
+    static DONE: OnceLock<Vec<Scored>> = OnceLock::new();
+    DONE.get_or_init(|| {
+        let plan = Study { campaigns: CAMPAIGNS, seed: SEED, law: Law::None };
+        study(&plan, || ()).into_iter().map(Option::unwrap).collect()
+    })
+}
+
+fn scores() -> Vec<&'static Score> {
+    short().iter().map(|s| s.score.as_ref().unwrap()).collect()
+}
+
+/// Relative errors of a figure where it is given.
+fn errors(figure: Figure) -> Vec<f64> {
+    let error = |s: &&Score| s.of(figure).and_then(FigureScore::error).map(f64::abs);
+    scores().iter().filter_map(error).collect()
+}
+
+#[track_caller]
+fn holds(figure: Figure, median_most: f64, (bar, campaigns_least): (f64, usize)) {
+    let errors = errors(figure);
+    let within = errors.iter().filter(|e| **e <= bar).count();
+    assert!(median(&errors).unwrap() <= median_most, "{figure}: {errors:?}");
+    assert!(within >= campaigns_least, "{figure}: {within} within {bar}, {errors:?}");
+}
+
+#[test]
+fn figures_are_as_close_as_they_were() {
+    holds(Figure::Coulomb, 5e-4, (0.01, CAMPAIGNS - 1));
+    holds(Figure::Inertia, 5e-3, (0.05, CAMPAIGNS - 2));
+    holds(Figure::Viscous, 0.01, (0.05, CAMPAIGNS - 2));
+    holds(Figure::Coupling, 0.03, (0.05, CAMPAIGNS / 2));
+    holds(Figure::Frequency(0), 2e-4, (2e-3, CAMPAIGNS - 4));
+}
+
+#[test]
+fn most_intervals_of_friction_hold() {
+    let covered = |s: &&Score| s.of(Figure::Coulomb).and_then(FigureScore::covers) == Some(true);
+    let held = scores().into_iter().filter(covered).count();
+    assert!(held >= CAMPAIGNS - 4, "{held}");
+}
+
+#[test]
+fn correction_comes_closer_than_the_raw_response() {
+    let points =
+        || scores().into_iter().flat_map(|s| &s.points).filter(|p| p.sinusoidal && p.vouched);
+    let corrected: Vec<f64> = points().filter_map(|p| p.corrected).collect();
+    let raw: Vec<f64> = points().map(|p| p.raw).collect();
+    assert!(corrected.len() >= 10);
+    assert!(median(&corrected).unwrap() < 0.3 * median(&raw).unwrap());
+}
+
+/// Loops without friction and with ideal sensors show the response that points are scored against.
+#[test]
+fn the_true_response_is_that_of_a_loop_without_friction() {
+    let sines = |index: &usize| {
+        let campaign = draw_campaign(SEED, *index, Law::None).unwrap();
+        (campaign.stratum.kind == Kind::Sines).then_some(campaign)
+    };
+    let campaign = (0..CAMPAIGNS).find_map(|index| sines(&index)).unwrap();
+    let truth = Truth::of(&campaign);
+    let mut rig = campaign.definition.rig.clone();
+    rig.arm.coulomb = Coulomb::symmetric(0.0).unwrap();
+    rig.instruments.motor = Sensor::IDEAL;
+    rig.instruments.tips = Vec::new();
+    // Without friction a lightly damped beam rings longer than the campaign waits.
+    let settle = Settle::Detected { tolerance: 1e-6, longest_s: 3000.0 };
+    let runs = campaign.definition.runs.iter().map(|run| {
+        let experiment = run.experiment.clone().settling(settle);
+        rig.run(&run.name, &experiment, 0).unwrap().run
+    });
+    let logs = Campaign::new(campaign.logs.channels.clone(), runs.collect()).unwrap();
+    let id = identify(&logs, &Options::default(), |_| {}).unwrap();
+    let scored = score(&truth, &id);
+    assert!(scored.points.len() >= 4);
+    for p in &scored.points {
+        assert!(p.raw < 1e-3, "{p:?}");
+    }
+}
+
+/// The generator keeps to its envelope and reaches all of its kinds.
+#[test]
+fn campaigns_are_what_was_asked_for() {
+    for scored in short() {
+        assert!((0.05..=0.60).contains(&scored.coulomb_share));
+        assert!(scored.stuck_share <= 0.15);
+        assert!((3..=10).contains(&scored.runs.len()));
+        assert!((1e-3..=4e-3).contains(&scored.stratum.sample_time_s));
+    }
+    for kind in Kind::ALL {
+        assert!(short().iter().any(|s| s.stratum.kind == kind), "{kind}");
+    }
+    for masses in 1..=3 {
+        assert!(short().iter().any(|s| s.stratum.masses == masses), "{masses}");
+    }
+}
+
+#[test]
+fn threads_change_nothing() {
+    let plan = Study { campaigns: 3, seed: SEED, law: Law::None };
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let alone = one.install(|| study(&plan, || ()));
+    for (alone, together) in alone.iter().flatten().zip(short()) {
+        // Debug text tells every bit, NaN as well.
+        assert_eq!(format!("{:?}", alone.score), format!("{:?}", together.score));
+    }
+}
+
+#[test]
+fn another_law_is_another_truth_of_the_same_stratum() {
+    let of = |law: Law| draw_campaign(SEED, 0, law).unwrap();
+    let (coulomb, stribeck) = (of(Law::None), of(Law::Stribeck));
+    assert!(coulomb.definition.rig.scene.tolerance().is_none());
+    assert!(stribeck.definition.rig.scene.tolerance().is_some());
+    let direction = of(Law::Direction).definition.rig.arm.coulomb;
+    assert!(direction.forward > direction.backward);
+}
+
+#[test]
+fn tables_and_rows_hold_every_campaign() {
+    let plan = Study { campaigns: CAMPAIGNS, seed: SEED, law: Law::None };
+    let studies = vec![(plan, short().iter().cloned().map(Some).collect())];
+    let text = report(&studies);
+    for section in ["## Goals", "## Figures", "## By campaign", "## Worst campaigns", "## Draws"] {
+        assert!(text.contains(section), "{section}");
+    }
+    assert!(!text.contains("NaN"), "{text}");
+    let table = rows(&studies);
+    assert_eq!(table.lines().count(), 1 + CAMPAIGNS);
+    let columns = |line: &str| line.split(',').count();
+    let header = columns(table.lines().next().unwrap());
+    assert!(table.lines().all(|line| columns(line) == header));
+}
