@@ -7,12 +7,13 @@ use super::output_error::OutputError;
 use super::run_analysis::Sinusoidal;
 use crate::record::{Campaign, Hold};
 use crate::replay::{ModalArm, Parameter, Window, predict};
-use crate::spectrum::{hold_factor, least_squares};
+use crate::spectrum::hold_factor;
 
-/// Harmonics fitted.
-const HARMONICS: usize = 9;
-/// Pieces of whole periods that the deviation is taken from, at most.
-const PIECES: usize = 8;
+/// Fewest periods.
+const PERIODS: usize = 3;
+/// Lines of the spectrum beside the fundamental that noise is read off, on either side: Hann's window
+/// spreads a line over its neighbours, and the next harmonic is as many lines away as there are periods.
+const LINES: usize = 6;
 
 /// A sinusoidal run whose friction is known over time.
 pub(crate) struct FrictionWaveform<'a> {
@@ -31,21 +32,29 @@ impl FrictionWaveform<'_> {
     /// stick are known far better than from the angle's steps. Where the command was found to lag, G
     /// is from what acted.
     ///
-    /// The deviation is that of pieces of whole periods about the whole, which holds noise and what
-    /// is not yet periodic, and that of the arm's parameters. `None` where the replay covers less than
-    /// two periods of the steady state.
+    /// Spectra are taken with Hann's window over whole periods, which keeps what is not yet periodic to
+    /// itself. The deviation is that of the lines beside the fundamental, the arm's own response taken
+    /// out, and that of the arm's parameters. `None` where the replay covers too few periods.
     pub(crate) fn response(&self) -> Option<Response> {
         let arm = &self.found.arm;
         let net = self.net(arm)?;
-        let value = self.ratio(&net, 0, net.periods)?;
-        let pieces = PIECES.min(net.periods);
-        let each = net.periods / pieces;
-        let mut scatter = 0.0;
-        for piece in 0..pieces {
-            scatter += (self.ratio(&net, piece * each, each)? - value).norm_sqr();
+        let spectrum = Spectrum::new(self, &net);
+        let (motor, command) = spectrum.at(0.0);
+        let value = motor / command;
+        let line = std::f64::consts::TAU / (net.len as f64 * spectrum.sample_time_s);
+        let constant = self.campaign.channels.command.torque_per_command.unwrap_or(1.0);
+        let mut noise = 0.0;
+        let beside: Vec<usize> = (2..=LINES.min(net.periods - 1)).collect();
+        for lines in &beside {
+            for side in [-1.0, 1.0] {
+                let shift = side * *lines as f64 * line;
+                let (motor, command) = spectrum.at(shift);
+                let own = constant * arm.motor_response(self.steady.omega_rad_s + shift);
+                noise += (motor - own * command).norm_sqr();
+            }
         }
-        let scatter = scatter / (pieces as f64 * (pieces as f64 - 1.0).max(1.0));
-        let std = (scatter + self.by_parameters(value)?).sqrt();
+        let noise = noise / (2 * beside.len()) as f64 / command.norm_sqr();
+        let std = (noise + self.by_parameters(value)?).sqrt();
         Some(Response { value, std })
     }
 
@@ -59,8 +68,8 @@ impl FrictionWaveform<'_> {
             }
             let mut arm = self.found.arm.clone();
             p.set(&mut arm, p.of(&self.found.arm) + step);
-            let net = self.net(&arm)?;
-            Some((self.ratio(&net, 0, net.periods)? - value) / step)
+            let (motor, command) = Spectrum::new(self, &self.net(&arm)?).at(0.0);
+            Some((motor / command - value) / step)
         };
         let slopes: Vec<Complex64> =
             self.found.parameters.iter().enumerate().map(slope).collect::<Option<_>>()?;
@@ -82,41 +91,73 @@ impl FrictionWaveform<'_> {
         let begin = first.max(steady.first);
         let end = (steady.first + steady.len).min(first + torque.len());
         let periods = (end.checked_sub(begin)? as f64 / period).floor() as usize;
-        let friction = torque.into_iter().skip(begin - first).collect();
-        (periods >= 2).then_some(Net { begin, period, periods, friction })
-    }
-
-    /// Motor angle per net command over `periods` periods from `from` on.
-    fn ratio(&self, net: &Net, from: usize, periods: usize) -> Option<Complex64> {
-        let run = &self.campaign.runs[self.run];
-        let channel = &self.campaign.channels.command;
-        let (t, omega) = (run.sample_time_s(), self.steady.omega_rad_s);
-        let harmonics = HARMONICS.min((0.4 * net.period) as usize).max(1);
-        let at = (from as f64 * net.period).round() as usize;
-        let len = (periods as f64 * net.period).round() as usize;
-        let fit = |x: &[f64]| Some(least_squares(x, omega, t, harmonics)?.get(1)?.value);
-        let samples = net.begin + at..(net.begin + at + len).min(run.len());
-        let motor = fit(&run.motor()[samples.clone()])?;
-        // Friction is a mean over each sample, as a held command is.
-        let hold = hold_factor(omega, t);
-        let friction = fit(net.friction.get(at..(at + len).min(net.friction.len()))?)? * hold;
-        let constant = channel.torque_per_command.unwrap_or(1.0);
-        let logged = fit(&run.command()[samples])?;
-        let logged = match channel.hold {
-            Hold::Sampled => logged * hold,
-            Hold::Measured => logged,
-        };
-        let late = Complex64::from_polar(1.0, -omega * self.found.arm.command_lag_s);
-        Some(motor / (logged * late - friction / constant))
+        let len = (periods as f64 * period).round() as usize;
+        let friction = torque.into_iter().skip(begin - first).take(len).collect();
+        (periods >= PERIODS).then_some(Net { begin, len, periods, friction })
     }
 }
 
-/// Friction from sample `begin` on, over whole periods of so many samples.
+/// Friction from sample `begin` on, over whole periods.
 struct Net {
     begin: usize,
-    period: f64,
+    len: usize,
     periods: usize,
     friction: Vec<f64>,
+}
+
+/// Motor and net command about the fundamental.
+struct Spectrum {
+    omega_rad_s: f64,
+    sample_time_s: f64,
+    /// Windowed samples: motor, logged command, friction in the command's unit.
+    motor: Vec<f64>,
+    command: Vec<f64>,
+    friction: Vec<f64>,
+    hold: Hold,
+    lag_s: f64,
+}
+
+impl Spectrum {
+    fn new(of: &FrictionWaveform<'_>, net: &Net) -> Self {
+        let run = &of.campaign.runs[of.run];
+        let channel = &of.campaign.channels.command;
+        let len = net.len.min(net.friction.len()).min(run.len() - net.begin);
+        let span = net.begin..net.begin + len;
+        let constant = channel.torque_per_command.unwrap_or(1.0);
+        let windowed = |x: &[f64], scale: f64| {
+            let mean = x.iter().sum::<f64>() / len as f64;
+            let rate = std::f64::consts::TAU / len as f64;
+            let hann = |k: usize| 0.5 - 0.5 * (rate * k as f64).cos();
+            x.iter().enumerate().map(|(k, x)| scale * hann(k) * (x - mean)).collect()
+        };
+        Self {
+            omega_rad_s: of.steady.omega_rad_s,
+            sample_time_s: run.sample_time_s(),
+            motor: windowed(&run.motor()[span.clone()], 1.0),
+            command: windowed(&run.command()[span], 1.0),
+            friction: windowed(&net.friction[..len], 1.0 / constant),
+            hold: channel.hold,
+            lag_s: of.found.arm.command_lag_s,
+        }
+    }
+
+    /// Motor and net command `shift` rad/s beside the fundamental.
+    fn at(&self, shift: f64) -> (Complex64, Complex64) {
+        let omega = self.omega_rad_s + shift;
+        let turn = Complex64::from_polar(1.0, -omega * self.sample_time_s);
+        let line = |x: &[f64]| {
+            // Horner's scheme: Σ x_k·turn^k.
+            x.iter().rev().fold(Complex64::ZERO, |sum, x| sum * turn + x)
+        };
+        // Friction is a mean over each sample, as a held command is.
+        let hold = hold_factor(omega, self.sample_time_s);
+        let logged = match self.hold {
+            Hold::Sampled => line(&self.command) * hold,
+            Hold::Measured => line(&self.command),
+        };
+        let late = Complex64::from_polar(1.0, -omega * self.lag_s);
+        (line(&self.motor), logged * late - line(&self.friction) * hold)
+    }
 }
 
 /// Mean torque of friction from each sample to the next, from the first window's first sample on.

@@ -1,6 +1,7 @@
 //! The arm that a record is replayed through: motor, dry friction, and the beam as oscillators.
 
 use nalgebra::{DMatrix, DVector};
+use num_complex::Complex64;
 
 use crate::arm::Arm;
 
@@ -113,6 +114,22 @@ impl ModalArm {
         let shares = DMatrix::from_fn(n, n, |j, i| self.shapes[i][j]);
         let stiffness = DVector::from_fn(n, |j, _| self.modes[j].stiffness_nm_per_rad);
         Some(shares.lu().solve(&stiffness)?.iter().copied().collect())
+    }
+
+    /// θ_m per torque without dry friction at ω \[rad/(N·m)\]:
+    /// `1/(J·s² + V·s + Σ k(1 + d·s/ω²)·(s² + a·s)/(s² + (d + a)·s + ω²))` at s = jω, V the mean of both
+    /// directions.
+    pub fn motor_response(&self, omega_rad_s: f64) -> Complex64 {
+        let s = Complex64::new(0.0, omega_rad_s);
+        let [forward, backward] = self.viscous_nm_s_per_rad;
+        let rigid = s * (s * self.inertia_kg_m2 + 0.5 * (forward + backward));
+        let pull = |m: &Oscillator| {
+            let square = m.omega_rad_s * m.omega_rad_s;
+            let both = m.within_per_s + m.grounded_per_s;
+            let spring = m.stiffness_nm_per_rad * (1.0 + s * m.within_per_s / square);
+            spring * s * (s + m.grounded_per_s) / (s * (s + both) + square)
+        };
+        1.0 / self.modes.iter().map(pull).fold(rigid, |sum, p| sum + p)
     }
 
     /// Modes and shapes of `θ̈_i = −Σ_l K_il·(θ_l − θ_m) − …`, the rows of K by tip, ascending in
