@@ -21,20 +21,16 @@ pub struct Oscillator {
     pub grounded_per_s: f64,
 }
 
-impl Oscillator {
-    /// ζ, of both dampers.
-    pub fn damping_ratio(&self) -> f64 {
-        0.5 * (self.within_per_s + self.grounded_per_s) / self.omega_rad_s
-    }
-}
-
 /// An arm as its motor feels it.
 ///
 /// ```text
 /// J·θ̈ = τ − V_±·θ̇ − F_± − Σ k_j·(θ − ψ_j) + (k_j·d_j/ω_j²)·(θ̇ − ψ̇_j)
-/// ψ̈_j = ω_j²·(θ − ψ_j) + d_j·(θ̇ − ψ̇_j) − a_j·ψ̇_j
+/// ψ̈_j = ω_j²·(θ − ψ_j) + d_j·(θ̇ − ψ̇_j) − a_j·ψ̇_j − Σ_l (r⁻¹·diag(c)·r)_jl·ψ̇_l
 /// θ_i = θ + Σ r_ij·(ψ_j − θ)
 /// ```
+///
+/// with c_i the damping of the point of tip i against the fixed frame, of arms with as many tips as
+/// modes.
 ///
 /// Any beam with modes is one, whatever its masses: oscillator j stands for the clamped mode j, and
 /// `r_ij` for the share of it at point i. Σ_j r_ij = 1 where all modes are there. Linear axes: m, N
@@ -56,6 +52,8 @@ pub struct ModalArm {
     pub modes: Vec<Oscillator>,
     /// r_ij of tip i (outer) and mode j.
     pub shapes: Vec<Vec<f64>>,
+    /// c_i of each tip's point \[1/s\]; empty where there are not as many tips as modes.
+    pub at_points_per_s: Vec<f64>,
     /// The torque acts this much later than it is logged \[s\].
     pub command_lag_s: f64,
 }
@@ -63,9 +61,8 @@ pub struct ModalArm {
 impl ModalArm {
     /// The modes of an arm of point masses, all masses as tips, in order from the motor.
     ///
-    /// Dampers enter by their diagonal in modes: exactly for damping ratios by mode, proportional
-    /// damping and one mass; for light dampers at several masses to second order in ζ. `None` for
-    /// an arm without distinct modes, or with more than [`MOST_MODES`].
+    /// `None` for an arm without distinct modes, with more than [`MOST_MODES`], or whose payload turns
+    /// beside dampers at masses.
     pub fn of_arm(arm: &Arm) -> Option<Self> {
         let d = arm.dynamics();
         let (n, masses) = (d.len(), arm.beam().len());
@@ -75,12 +72,16 @@ impl ModalArm {
         let (omega, shapes) = Self::modes_of(&-&d.elastic)?;
         let r = DMatrix::from_fn(n, n, |i, j| shapes[i][j]);
         let inverse = r.clone().try_inverse()?;
-        let in_modes = |m: Option<&DMatrix<f64>>| match m {
+        let within = match &d.relative {
             Some(m) => -(&inverse * m * &r).diagonal(),
             None => DVector::zeros(n),
         };
-        let within = in_modes(d.relative.as_ref());
-        let grounded = in_modes(d.absolute.as_ref());
+        let at_points_per_s = match &d.absolute {
+            None if n == masses => vec![0.0; n],
+            None => Vec::new(),
+            Some(m) if n == masses => m.diagonal().iter().map(|g| -g).collect(),
+            Some(_) => return None,
+        };
         let stiffness = -(r.transpose() * &d.coupling);
         Some(Self {
             inertia_kg_m2: arm.motor.inertia_kg_m2,
@@ -92,12 +93,37 @@ impl ModalArm {
                     omega_rad_s: omega[j],
                     stiffness_nm_per_rad: stiffness[j],
                     within_per_s: within[j],
-                    grounded_per_s: grounded[j],
+                    grounded_per_s: 0.0,
                 })
                 .collect(),
             shapes: shapes[..masses].to_vec(),
+            at_points_per_s,
             command_lag_s: 0.0,
         })
+    }
+
+    /// ζ_j of every mode with the motor clamped, to first order in the dampers at points.
+    pub fn damping_ratios(&self) -> Vec<f64> {
+        let at_points = self.points_in_modes();
+        self.modes
+            .iter()
+            .enumerate()
+            .map(|(j, m)| {
+                let points = at_points.as_ref().map_or(0.0, |p| p[(j, j)]);
+                0.5 * (m.within_per_s + m.grounded_per_s + points) / m.omega_rad_s
+            })
+            .collect()
+    }
+
+    /// r⁻¹·diag(c)·r, where there are dampers at points.
+    fn points_in_modes(&self) -> Option<DMatrix<f64>> {
+        let n = self.modes.len();
+        if n == 0 || self.at_points_per_s.len() != n {
+            return None;
+        }
+        let r = DMatrix::from_fn(n, n, |i, j| self.shapes[i][j]);
+        let damped = DMatrix::from_fn(n, n, |i, j| self.at_points_per_s[i] * self.shapes[i][j]);
+        r.lu().solve(&damped)
     }
 
     /// Σk_j: torque per turn of the motor with the beam's masses held \[N·m/rad\].
@@ -116,20 +142,30 @@ impl ModalArm {
         Some(shares.lu().solve(&stiffness)?.iter().copied().collect())
     }
 
-    /// θ_m per torque without dry friction at ω \[rad/(N·m)\]:
-    /// `1/(J·s² + V·s + Σ k(1 + d·s/ω²)·(s² + a·s)/(s² + (d + a)·s + ω²))` at s = jω, V the mean of both
-    /// directions.
+    /// θ_m per torque without dry friction at ω \[rad/(N·m)\], V the mean of both directions:
+    /// `1/(J·s² + V·s + Σ k_j(1 + d_j·s/ω_j²)·(1 − ψ_j/θ))` at s = jω.
     pub fn motor_response(&self, omega_rad_s: f64) -> Complex64 {
         let s = Complex64::new(0.0, omega_rad_s);
         let [forward, backward] = self.viscous_nm_s_per_rad;
-        let rigid = s * (s * self.inertia_kg_m2 + 0.5 * (forward + backward));
-        let pull = |m: &Oscillator| {
-            let square = m.omega_rad_s * m.omega_rad_s;
+        let n = self.modes.len();
+        let points = self.points_in_modes();
+        let own = |m: &Oscillator| {
             let both = m.within_per_s + m.grounded_per_s;
-            let spring = m.stiffness_nm_per_rad * (1.0 + s * m.within_per_s / square);
-            spring * s * (s + m.grounded_per_s) / (s * (s + both) + square)
+            s * (s + both) + m.omega_rad_s * m.omega_rad_s
         };
-        1.0 / self.modes.iter().map(pull).fold(rigid, |sum, p| sum + p)
+        let driven = |m: &Oscillator| s * m.within_per_s + m.omega_rad_s * m.omega_rad_s;
+        let left = DMatrix::from_fn(n, n, |i, j| {
+            let points = s * points.as_ref().map_or(0.0, |p| p[(i, j)]);
+            if i == j { own(&self.modes[i]) + points } else { points }
+        });
+        let right = DVector::from_fn(n, |j, _| driven(&self.modes[j]));
+        let follow = left.lu().solve(&right).unwrap_or_else(|| DVector::zeros(n));
+        let rigid = s * (s * self.inertia_kg_m2 + 0.5 * (forward + backward));
+        let pull = |(m, psi): (&Oscillator, &Complex64)| {
+            let square = m.omega_rad_s * m.omega_rad_s;
+            m.stiffness_nm_per_rad * driven(m) / square * (1.0 - psi)
+        };
+        1.0 / self.modes.iter().zip(follow.iter()).map(pull).fold(rigid, |sum, p| sum + p)
     }
 
     /// Modes and shapes of `θ̈_i = −Σ_l K_il·(θ_l − θ_m) − …`, the rows of K by tip, ascending in

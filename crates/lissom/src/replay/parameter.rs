@@ -19,6 +19,8 @@ pub enum Parameter {
     DampingWithin(usize),
     /// Damping a against the fixed frame, of a mode.
     DampingGrounded(usize),
+    /// Damping c of the point of a tip.
+    DampingAtPoint(usize),
     /// Mean Coulomb friction.
     Coulomb,
     /// Offset.
@@ -45,15 +47,20 @@ pub(crate) enum Enters {
 }
 
 impl Parameter {
-    pub(crate) fn enters(self) -> Enters {
+    pub(crate) fn enters(self, arm: &ModalArm) -> Enters {
         match self {
+            // Dampers at points are in the modes by the shapes.
+            Self::Shape(..) | Self::ShapeShare(..) if !arm.at_points_per_s.is_empty() => {
+                Enters::Matrices
+            }
             Self::Inertia
             | Self::Viscous
             | Self::ViscousDifference
             | Self::Frequency(_)
             | Self::Stiffness(_)
             | Self::DampingWithin(_)
-            | Self::DampingGrounded(_) => Enters::Matrices,
+            | Self::DampingGrounded(_)
+            | Self::DampingAtPoint(_) => Enters::Matrices,
             Self::Coulomb | Self::Offset => Enters::Torque,
             Self::CommandLag => Enters::Lag,
             Self::Shape(..) | Self::ShapeShare(..) => Enters::Output,
@@ -75,6 +82,7 @@ impl Parameter {
             Self::Stiffness(j) => format!("stiffness-{}", j + 1),
             Self::DampingWithin(j) => format!("damping-within-{}", j + 1),
             Self::DampingGrounded(j) => format!("damping-grounded-{}", j + 1),
+            Self::DampingAtPoint(i) => format!("damping-at-point-{}", i + 1),
             Self::Coulomb => "coulomb".to_owned(),
             Self::Offset => "offset".to_owned(),
             Self::CommandLag => "command-lag".to_owned(),
@@ -93,6 +101,7 @@ impl Parameter {
             Self::Stiffness(j) => arm.modes[j].stiffness_nm_per_rad,
             Self::DampingWithin(j) => arm.modes[j].within_per_s,
             Self::DampingGrounded(j) => arm.modes[j].grounded_per_s,
+            Self::DampingAtPoint(i) => arm.at_points_per_s[i],
             Self::Coulomb => arm.coulomb_nm,
             Self::Offset => arm.offset_nm,
             Self::CommandLag => arm.command_lag_s,
@@ -114,6 +123,7 @@ impl Parameter {
             Self::Stiffness(j) => arm.modes[j].stiffness_nm_per_rad = value,
             Self::DampingWithin(j) => arm.modes[j].within_per_s = value,
             Self::DampingGrounded(j) => arm.modes[j].grounded_per_s = value,
+            Self::DampingAtPoint(i) => arm.at_points_per_s[i] = value,
             Self::Coulomb => arm.coulomb_nm = value,
             Self::Offset => arm.offset_nm = value,
             Self::CommandLag => arm.command_lag_s = value,

@@ -28,6 +28,8 @@ struct Entries<N> {
     viscous: N,
     /// ω, k, d, a of each mode.
     modes: Vec<[N; 4]>,
+    /// r⁻¹·diag(c)·r, where there are dampers at points.
+    points: Option<Vec<Vec<N>>>,
 }
 
 impl<const D: usize> Phases<D> {
@@ -35,7 +37,7 @@ impl<const D: usize> Phases<D> {
     /// count, in their order.
     pub(super) fn new(arm: &ModalArm, parameters: &[Parameter]) -> Self {
         let inside: Vec<Parameter> =
-            parameters.iter().copied().filter(|p| p.enters() == Enters::Matrices).collect();
+            parameters.iter().copied().filter(|p| p.enters(arm) == Enters::Matrices).collect();
         let rates = |direction: usize, stuck: bool| {
             let value = matrices::<f64, D>(&entries(arm, direction, None), stuck);
             let by_parameter = inside
@@ -75,7 +77,28 @@ fn entries<N: Number + Lift>(
             lift(m.grounded_per_s, Parameter::DampingGrounded(j), 1.0),
         ]
     });
+    let dampers = arm.at_points_per_s.iter().enumerate();
+    let dampers: Vec<N> =
+        dampers.map(|(i, c)| lift(*c, Parameter::DampingAtPoint(i), 1.0)).collect();
+    let last = arm.modes.len().wrapping_sub(1);
+    let shape = |i: usize, j: usize| {
+        let slope = match variable {
+            Some(Parameter::Shape(k, l)) if (k, l) == (i, j) => 1.0,
+            Some(Parameter::ShapeShare(k, l)) if (k, l) == (i, j) => 1.0,
+            Some(Parameter::ShapeShare(k, _)) if (k, last) == (i, j) => -1.0,
+            _ => 0.0,
+        };
+        N::lift(arm.shapes[i][j], slope)
+    };
+    let points = (!dampers.is_empty() && dampers.len() == arm.modes.len()).then(|| {
+        let n = dampers.len();
+        let shapes: Vec<Vec<N>> = (0..n).map(|i| (0..n).map(|j| shape(i, j)).collect()).collect();
+        let damped = shapes.iter().zip(&dampers);
+        let damped = damped.map(|(row, c)| row.iter().map(|r| *r * *c).collect()).collect();
+        solved(shapes, damped)
+    });
     Entries {
+        points,
         inertia: lift(arm.inertia_kg_m2, Parameter::Inertia, 1.0),
         viscous,
         modes: modes.collect(),
@@ -97,6 +120,29 @@ impl Lift for Dual<f64> {
     }
 }
 
+/// `left⁻¹·right`, by Gauss's elimination with pivots by rows.
+fn solved<N: Number>(mut left: Vec<Vec<N>>, mut right: Vec<Vec<N>>) -> Vec<Vec<N>> {
+    let n = left.len();
+    for k in 0..n {
+        let size = |i: usize| left[i][k].sign_part().abs();
+        let pivot = (k..n).max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap_or(k);
+        left.swap(k, pivot);
+        right.swap(k, pivot);
+        for i in (0..n).filter(|i| *i != k) {
+            let factor = left[i][k] / left[k][k];
+            for j in 0..n {
+                let (l, r) = (left[k][j], right[k][j]);
+                left[i][j] = left[i][j] - factor * l;
+                right[i][j] = right[i][j] - factor * r;
+            }
+        }
+    }
+    for (row, diagonal) in right.iter_mut().zip(&left).enumerate().map(|(k, (r, l))| (r, l[k])) {
+        row.iter_mut().for_each(|v| *v = *v / diagonal);
+    }
+    right
+}
+
 /// A and b; a stuck motor's two rows are zero.
 fn matrices<N: Number, const D: usize>(e: &Entries<N>, stuck: bool) -> ([[N; D]; D], [N; D]) {
     let zero = N::real(0.0);
@@ -108,7 +154,10 @@ fn matrices<N: Number, const D: usize>(e: &Entries<N>, stuck: bool) -> ([[N; D];
         a[speed][0] = square;
         a[speed][1] = within;
         a[speed][angle] = -square;
-        a[speed][speed] = -(within + grounded);
+        a[speed][speed] = a[speed][speed] - (within + grounded);
+        for (l, damper) in e.points.iter().flat_map(|p| p[j].iter().enumerate()) {
+            a[speed][3 + 2 * l] = a[speed][3 + 2 * l] - *damper;
+        }
         if !stuck {
             let spring = stiffness / e.inertia;
             let damper = spring * within / square;
@@ -135,8 +184,10 @@ fn rate(arm: &ModalArm) -> f64 {
             / (m.omega_rad_s * m.omega_rad_s * arm.inertia_kg_m2);
         m.within_per_s.abs() + m.grounded_per_s.abs() + on_motor.abs()
     };
+    let points: f64 = arm.at_points_per_s.iter().map(|c| c.abs()).sum();
     let viscous = arm.viscous_nm_s_per_rad.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     (squares + pinned).sqrt()
         + viscous / arm.inertia_kg_m2
         + arm.modes.iter().map(dampers).sum::<f64>()
+        + points
 }

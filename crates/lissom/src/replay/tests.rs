@@ -16,14 +16,19 @@ const T: f64 = 0.002;
 const SAMPLES: usize = 1500;
 
 fn arm() -> Arm {
-    let span = |length_m, mass_kg| Span {
+    arm_of(crate::beam::Damping::Modal { ratios: vec![0.02, 0.01] }, 0.0)
+}
+
+/// Two masses with damping within and dampers of `rate_per_s` and twice that at the masses.
+fn arm_of(damping: crate::beam::Damping, rate_per_s: f64) -> Arm {
+    let span = |length_m, mass_kg, rate: f64| Span {
         length_m,
         flexural_rigidity_n_m2: 0.02,
         mass_kg,
-        damping_n_s_per_m: 0.0,
+        damping_n_s_per_m: rate * mass_kg,
     };
-    let beam = LumpedBeam::new(&[span(0.15, 0.06), span(0.15, 0.04)]).unwrap();
-    let beam = beam.with_damping(crate::beam::Damping::Modal { ratios: vec![0.02, 0.01] }).unwrap();
+    let spans = [span(0.15, 0.06, rate_per_s), span(0.15, 0.04, 2.0 * rate_per_s)];
+    let beam = LumpedBeam::new(&spans).unwrap().with_damping(damping).unwrap();
     let motor = Motor::new(8e-4, 2e-3, 0.3).unwrap();
     Arm::new(beam, motor, Coulomb::by_direction(0.05, 0.04).unwrap()).unwrap()
 }
@@ -37,9 +42,8 @@ fn command() -> Vec<f64> {
 }
 
 /// The event engine's own log of that command, from rest, beginning once the motor turns.
-fn campaign(hold: Hold, quantity: TipQuantity) -> (Campaign, Vec<Vec<f64>>, f64) {
-    let arm = arm();
-    let mut motion = Hybrid::at_rest(&arm);
+fn campaign(arm: &Arm, hold: Hold, quantity: TipQuantity) -> (Campaign, Vec<Vec<f64>>, f64) {
+    let mut motion = Hybrid::at_rest(arm);
     let (mut motor, mut tips, mut states) = (Vec::new(), vec![Vec::new(); 2], Vec::new());
     let command = command();
     for u in &command {
@@ -83,9 +87,10 @@ fn window(model: &ModalArm, states: &[Vec<f64>], from: usize, to: usize) -> Wind
 
 #[test]
 fn replays_what_the_event_engine_does() {
-    let model = ModalArm::of_arm(&arm()).unwrap();
-    for quantity in [TipQuantity::Angle, TipQuantity::Deflection] {
-        let (campaign, states, stuck_s) = campaign(Hold::Sampled, quantity);
+    let dampers = arm_of(crate::beam::Damping::None, 1.0);
+    for (arm, quantity) in [(arm(), TipQuantity::Angle), (dampers, TipQuantity::Deflection)] {
+        let model = ModalArm::of_arm(&arm).unwrap();
+        let (campaign, states, stuck_s) = campaign(&arm, Hold::Sampled, quantity);
         let from = states.iter().position(|x| x[1] != 0.0).unwrap();
         let found =
             predict(&model, &campaign, &window(&model, &states, from, SAMPLES - 1)).unwrap();
@@ -106,7 +111,7 @@ fn replays_what_the_event_engine_does() {
     }
 }
 
-const PARAMETERS: [Parameter; 14] = [
+const PARAMETERS: [Parameter; 15] = [
     Parameter::Shape(0, 0),
     Parameter::Inertia,
     Parameter::CommandLag,
@@ -119,6 +124,7 @@ const PARAMETERS: [Parameter; 14] = [
     Parameter::Stiffness(1),
     Parameter::DampingWithin(0),
     Parameter::DampingGrounded(1),
+    Parameter::DampingAtPoint(0),
     Parameter::Offset,
     Parameter::ShapeShare(1, 0),
 ];
@@ -127,7 +133,8 @@ const PARAMETERS: [Parameter; 14] = [
 fn derivatives_hold(hold: Hold, quantity: TipQuantity, lag_s: f64) {
     let mut model = ModalArm::of_arm(&arm()).unwrap();
     model.command_lag_s = lag_s;
-    let (campaign, states, _) = campaign(hold, quantity);
+    model.at_points_per_s[1] = 0.4;
+    let (campaign, states, _) = campaign(&arm(), hold, quantity);
     let from = states.iter().position(|x| x[1].abs() > 0.05).unwrap();
     let window = window(&model, &states, from, SAMPLES - 1);
     let sampling = Sampling {
@@ -159,7 +166,9 @@ fn derivatives_hold(hold: Hold, quantity: TipQuantity, lag_s: f64) {
     for (column, p) in PARAMETERS.iter().enumerate() {
         let at = p.of(&model);
         let usual = match p {
-            Parameter::DampingWithin(_) | Parameter::DampingGrounded(_) => 1.0,
+            Parameter::DampingWithin(_)
+            | Parameter::DampingGrounded(_)
+            | Parameter::DampingAtPoint(_) => 1.0,
             _ => 1e-3,
         };
         let step = 1e-6 * at.abs().max(usual);

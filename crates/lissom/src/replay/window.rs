@@ -61,7 +61,7 @@ impl<'a, const D: usize> Replayer<'a, D> {
         let mut inside = 0;
         let tangent_of = parameters
             .iter()
-            .map(|p| match (p.enters(), p) {
+            .map(|p| match (p.enters(arm), p) {
                 (Enters::Matrices, _) => {
                     inside += 1;
                     Some(inside - 1)
@@ -280,9 +280,9 @@ impl<'a, const D: usize> Replayer<'a, D> {
         };
         for (index, p) in self.parameters.iter().enumerate() {
             match *p {
-                Parameter::Shape(i, j) if i == tip => row[index] = shown(j),
+                Parameter::Shape(i, j) if i == tip => row[index] += shown(j),
                 Parameter::ShapeShare(i, j) if i == tip => {
-                    row[index] = shown(j) - shown(self.shapes[tip].len() - 1);
+                    row[index] += shown(j) - shown(self.shapes[tip].len() - 1);
                 }
                 _ => {}
             }

@@ -14,8 +14,8 @@ const DEVIATIONS: f64 = 4.0;
 const SHARE: f64 = 1e-3;
 /// A damper is there when it stands this many deviations from zero.
 const THERE: f64 = 2.0;
-/// Most parameters added.
-const MOST: usize = 4;
+/// Most groups added at a time.
+const MOST: usize = 3;
 
 /// A parameter that was tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,13 +26,13 @@ pub struct Extension {
     pub value: f64,
     /// Deviation of that.
     pub std: f64,
-    /// Share of the cost that it was expected to take away.
+    /// Share of the cost that it, or its group, was expected to take away.
     pub share: f64,
     /// Whether it was added.
     pub added: bool,
 }
 
-/// Adds parameters to `free` while the residual calls for one, each time the one that takes most;
+/// Adds parameters to `free` while the residual calls for some, each time the group that takes most;
 /// tells whether it added any.
 pub(super) fn extend(
     fitting: &Fitting<'_>,
@@ -40,76 +40,105 @@ pub(super) fn extend(
     free: &mut Vec<Parameter>,
     report: &mut Report,
 ) -> bool {
-    let before = report.extensions.len();
-    while report.extensions.len() < MOST {
+    let mut added = false;
+    for _ in 0..MOST {
         let found = promises(fitting, fit, free);
-        let called_for = |e: &&Extension| e.value.abs() > DEVIATIONS * e.std && e.share > SHARE;
-        let best = found.iter().filter(called_for).max_by(|a, b| a.share.total_cmp(&b.share));
-        let Some(best) = best.copied() else { break };
-        report.extensions.push(Extension { added: true, ..best });
-        free.push(best.parameter);
+        let called_for = |group: &&Vec<Extension>| {
+            group.iter().any(|e| e.value.abs() > DEVIATIONS * e.std && e.share > SHARE)
+        };
+        let share = |group: &Vec<Extension>| group.first().map_or(0.0, |e| e.share);
+        let best = found.iter().filter(called_for).max_by(|a, b| share(a).total_cmp(&share(b)));
+        let Some(best) = best else { break };
+        added = true;
+        report.extensions.extend(best.iter().map(|e| Extension { added: true, ..*e }));
+        free.extend(best.iter().map(|e| e.parameter));
         fitting.search(fit, free, report);
-        replaced(fitting, fit, free, report, best.parameter);
+        drop_dampers(fitting, fit, free, report);
     }
-    report.extensions.len() > before
+    added
 }
 
 /// What is not called for, with the figures of the test.
 pub(super) fn refused(fitting: &Fitting<'_>, fit: &Fit, free: &[Parameter]) -> Vec<Extension> {
-    promises(fitting, fit, free)
+    promises(fitting, fit, free).into_iter().flatten().collect()
 }
 
-/// What one step of a search with each candidate beside `free` promises: score tests, all from one
+/// What one step of a search with each group beside `free` promises: score tests, all from one
 /// replay.
-fn promises(fitting: &Fitting<'_>, fit: &Fit, free: &[Parameter]) -> Vec<Extension> {
-    let candidates = candidates(fit, free);
-    let all: Vec<Parameter> = free.iter().chain(&candidates).copied().collect();
+fn promises(fitting: &Fitting<'_>, fit: &Fit, free: &[Parameter]) -> Vec<Vec<Extension>> {
+    let groups = candidates(fit, free);
+    let all: Vec<Parameter> = free.iter().chain(groups.iter().flatten()).copied().collect();
     let problem = fitting.problem(&all, &fit.noise, false);
     let point = problem.at(fit.point.arm.clone(), fit.point.windows.clone());
-    let score = |(i, parameter): (usize, &Parameter)| {
-        let kept: Vec<usize> = (0..free.len()).chain([free.len() + i]).collect();
+    let mut first = free.len();
+    let mut found = Vec::new();
+    for group in groups {
+        let kept: Vec<usize> = (0..free.len()).chain(first..first + group.len()).collect();
+        first += group.len();
         let sums = point.sums.iter().map(|s| s.of(&kept, all.len())).collect();
-        score(&Point { sums, ..point.clone() }, kept.len(), *parameter)
-    };
-    candidates.iter().enumerate().filter_map(score).collect()
+        found.push(score(&Point { sums, ..point.clone() }, free.len(), &group));
+    }
+    found
 }
 
-/// A mode's other damper goes where the one just added leaves nothing of it.
-fn replaced(
+/// Dampers that others beside them leave nothing of go.
+fn drop_dampers(
     fitting: &Fitting<'_>,
     fit: &mut Fit,
     free: &mut Vec<Parameter>,
     report: &mut Report,
-    added: Parameter,
 ) {
-    let other = match added {
-        Parameter::DampingGrounded(j) => Parameter::DampingWithin(j),
-        Parameter::DampingWithin(j) => Parameter::DampingGrounded(j),
-        _ => return,
+    let damper = |p: &Parameter| {
+        matches!(
+            p,
+            Parameter::DampingWithin(_)
+                | Parameter::DampingGrounded(_)
+                | Parameter::DampingAtPoint(_)
+        )
     };
-    let Some(i) = free.iter().position(|p| *p == other) else { return };
+    if free.iter().filter(|p| damper(p)).count() <= fit.point.arm.modes.len() {
+        return;
+    }
     let problem = fitting.problem(free, &fit.noise, false);
     let point = problem.at(fit.point.arm.clone(), fit.point.windows.clone());
-    let std = Covariances::at(&point, free.len()).larger()[(i, i)].max(0.0).sqrt();
-    if other.of(&fit.point.arm) < THERE * std {
-        free.remove(i);
-        other.set(&mut fit.point.arm, 0.0);
-        fitting.search(fit, free, report);
+    let covariance = Covariances::at(&point, free.len()).larger();
+    let std = |i: usize| covariance[(i, i)].max(0.0).sqrt();
+    let gone: Vec<Parameter> = (0..free.len())
+        .filter(|&i| damper(&free[i]) && free[i].of(&fit.point.arm) < THERE * std(i))
+        .map(|i| free[i])
+        .collect();
+    if gone.is_empty() {
+        return;
     }
+    free.retain(|p| !gone.contains(p));
+    for p in gone {
+        p.set(&mut fit.point.arm, 0.0);
+    }
+    fitting.search(fit, free, report);
 }
 
-/// What may be added to `free`.
-fn candidates(fit: &Fit, free: &[Parameter]) -> Vec<Parameter> {
-    let mut all = vec![Parameter::CommandLag, Parameter::ViscousDifference];
-    for j in 0..fit.point.arm.modes.len() {
-        all.extend([Parameter::DampingWithin(j), Parameter::DampingGrounded(j)]);
+/// Groups of parameters that may be added to `free`, each as a whole.
+fn candidates(fit: &Fit, free: &[Parameter]) -> Vec<Vec<Parameter>> {
+    let arm = &fit.point.arm;
+    let modes = 0..arm.modes.len();
+    let mut groups = vec![vec![Parameter::CommandLag], vec![Parameter::ViscousDifference]];
+    groups.push(modes.clone().map(Parameter::DampingWithin).collect());
+    groups.push(if arm.at_points_per_s.is_empty() {
+        modes.map(Parameter::DampingGrounded).collect()
+    } else {
+        modes.map(Parameter::DampingAtPoint).collect()
+    });
+    for group in &mut groups {
+        group.retain(|p| !free.contains(p));
     }
-    all.retain(|p| !free.contains(p));
-    all
+    groups.retain(|group| !group.is_empty());
+    groups
 }
 
-/// The step that a search would make from `point` in the last of its `shared` parameters.
-fn score(point: &Point, shared: usize, parameter: Parameter) -> Option<Extension> {
+/// The step that a search would make from `point` in the parameters of `group`, which follow
+/// `before` others.
+fn score(point: &Point, before: usize, group: &[Parameter]) -> Vec<Extension> {
+    let shared = before + group.len();
     let mut normal = DMatrix::zeros(shared, shared);
     let mut right = DVector::zeros(shared);
     for sums in &point.sums {
@@ -119,8 +148,11 @@ fn score(point: &Point, shared: usize, parameter: Parameter) -> Option<Extension
     }
     let step = inverse(&normal) * &right;
     let covariance = Covariances::at(point, shared).larger();
-    let last = shared - 1;
-    let (value, std) = (step[last], covariance[(last, last)].max(0.0).sqrt());
     let share = right.dot(&step) / point.cost();
-    value.is_finite().then_some(Extension { parameter, value, std, share, added: false })
+    let figure = |(k, parameter): (usize, &Parameter)| {
+        let i = before + k;
+        let (value, std) = (step[i], covariance[(i, i)].max(0.0).sqrt());
+        Extension { parameter: *parameter, value, std, share, added: false }
+    };
+    group.iter().enumerate().map(figure).filter(|e| e.value.is_finite()).collect()
 }

@@ -32,7 +32,7 @@ impl OutputError {
     pub fn beam(&self, channels: &Channels) -> Beam {
         let modes = (0..self.arm.modes.len()).map(|j| ModeEstimate {
             natural_frequency_rad_s: self.figure(|arm| arm.modes[j].omega_rad_s),
-            damping_ratio: self.figure(|arm| arm.modes[j].damping_ratio()),
+            damping_ratio: self.figure(|arm| arm.damping_ratios()[j]),
         });
         let tips = &channels.tips;
         let known = |i: usize| tips[i].calibrated && tips[i].quantity != TipQuantity::Acceleration;

@@ -29,6 +29,7 @@ pub fn start_of_regressions(
         offset_nm: motor.offset.map_or(0.0, |o| o.value),
         modes: Vec::new(),
         shapes: vec![Vec::new(); campaign.channels.tips.len()],
+        at_points_per_s: Vec::new(),
         command_lag_s: 0.0,
     };
     if let Some(beam) = beam {
@@ -47,6 +48,7 @@ pub fn start_of_regressions(
                 grounded_per_s: 0.0,
             });
         }
+        arm.at_points_per_s = vec![0.0; omega.len()];
         arm.shapes = shapes;
     } else if campaign
         .channels
