@@ -10,7 +10,7 @@ use super::finding::{Finding, Severity, key};
 use super::friction_waveform::FrictionWaveform;
 use super::identified::{Beam, Friction, Identified, ThirdHarmonic};
 use super::model::state_space;
-use super::output_error::{OutputError, OutputErrorStart, output_error, start_of_regressions};
+use super::output_error::{OutputError, OutputErrorStart, output_error, starts};
 use super::rational::{BeamFit, MotorData, MotorFit, Pole, TipData, fit_beam, fit_motor};
 use super::regression::{BeamRegression, MotorRegression, beam_regression, motor_regression};
 use super::response_table::{ResponsePoint, response_table, tip_model, weak_points};
@@ -152,19 +152,25 @@ pub fn identify(
         .filter(|r| r.relative_residual < RESIDUAL_REFUSED)
         .filter(|r| !alone || constant_velocity.is_none() || stands_alone(r));
     progress(Stage::Beam);
-    let beam_regression =
-        beam_regression(&usable).filter(|b| b.relative_residual.iter().all(|r| *r < BEAM_RESIDUAL));
+    let any_beam_regression = beam_regression(&usable);
 
+    // Tips' responses to the motor know nothing of friction.
+    let square = |_: usize| None;
+    let shown = response_table(campaign, &runs, None, &square, &findings);
+    let mut beam_model = beam_model(campaign, &shown);
     let output_error = if options.without_output_error {
         None
     } else {
         progress(Stage::OutputError);
-        replayed(&usable, &runs, &kept, regression.as_ref(), beam_regression.as_ref())
+        let beam = any_beam_regression.as_ref();
+        replayed(&usable, &runs, &kept, regression.as_ref(), beam, beam_model.as_ref())
     };
+
+    let beam_regression = any_beam_regression
+        .filter(|b| b.relative_residual.iter().all(|r| *r < BEAM_RESIDUAL));
 
     progress(Stage::Responses);
     let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
-    let square = |_: usize| None;
     let table = |c: Option<Estimate>| response_table(campaign, &runs, c, &square, &findings);
     let mut third_harmonic = pairs(&runs, &findings);
     let from_regression =
@@ -181,7 +187,7 @@ pub fn identify(
     let mut responses = response_table(campaign, &runs, best, &from_replay, &findings);
     let stepped = responses.iter().filter(|p| p.run.is_some()).count() >= STEPPED;
     let figures = figures_model(campaign, regression.as_ref(), beam_regression.as_ref());
-    let (mut beam_model, mut motor_model) = (beam_model(campaign, &responses), None);
+    let mut motor_model = None;
     let mut contradicted = None;
     if let Some((motor, beam)) = &figures {
         contradicted = against(&mut responses, motor);
@@ -360,21 +366,37 @@ fn kept(runs: &[RunAnalysis]) -> Vec<usize> {
     (0..runs.len()).filter(|&i| kept(&runs[i])).collect()
 }
 
-/// The output error from the regressions' figures, on the usable runs: the `kept` ones of `runs`.
+/// The output error on the usable runs, the `kept` ones of `runs`: from one start after another until
+/// its arm describes them; else the one that comes nearest.
 fn replayed(
     usable: &Campaign,
     runs: &[RunAnalysis],
     kept: &[usize],
     motor: Option<&MotorRegression>,
     beam: Option<&BeamRegression>,
+    rational: Option<&BeamFit>,
 ) -> Option<OutputError> {
-    let arm = start_of_regressions(usable, motor?, beam)?;
     let omega = |&i: &usize| match &runs[i].kind {
         RunKind::Sinusoidal(s) => Some(s.omega_rad_s),
         RunKind::ConstantVelocity | RunKind::General => None,
     };
-    let omega_rad_s = kept.iter().map(omega).collect();
-    output_error(usable, &OutputErrorStart { arm, omega_rad_s, first_window_s: None })
+    let omega_rad_s: Vec<Option<f64>> = kept.iter().map(omega).collect();
+    let mut nearest: Option<OutputError> = None;
+    for arm in starts(usable, motor?, beam, rational) {
+        let omega_rad_s = omega_rad_s.clone();
+        let start = OutputErrorStart { arm, omega_rad_s, first_window_s: None };
+        let Some(found) = output_error(usable, &start) else { continue };
+        if found.stands() {
+            return Some(found);
+        }
+        let nearer = |n: &OutputError| {
+            (found.whole_runs, -found.beyond_noise) > (n.whole_runs, -n.beyond_noise)
+        };
+        if nearest.as_ref().is_none_or(nearer) {
+            nearest = Some(found);
+        }
+    }
+    nearest
 }
 
 /// Every pair of runs at ω0 and 3ω0; each run meets the triple nearest to it in amplitude.

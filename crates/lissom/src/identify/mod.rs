@@ -28,7 +28,7 @@ pub use finding::{Finding, Severity};
 pub use identified::{Beam, Friction, Identified, ThirdHarmonic};
 pub use output_error::{
     Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, free_parameters,
-    output_error, start_of_regressions,
+    output_error, starts,
 };
 pub use rational::{BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_beam, fit_motor};
 pub use regression::{

@@ -4,6 +4,7 @@
 mod covariance;
 mod data;
 mod evidence;
+mod prune;
 mod figures;
 mod noise;
 mod normal;
@@ -21,7 +22,7 @@ use data::Masks;
 pub use evidence::Extension;
 pub use search::{Iteration, Stop};
 use search::{Point, Problem};
-pub use start::{free_parameters, start_of_regressions};
+pub use start::{free_parameters, starts};
 use windows::{cut, widen};
 
 /// Most steps of a stage before the last, which only leads to it.
@@ -77,6 +78,8 @@ pub struct OutputError {
     pub extensions: Vec<Extension>,
     /// Whether windows were widened to the whole of the runs: the arm describes them.
     pub whole_runs: bool,
+    /// Residual of the last stage beside the noise of the samples alone: the largest ratio of a channel.
+    pub beyond_noise: f64,
 }
 
 impl OutputError {
@@ -135,6 +138,7 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
     let mut report = Report::default();
     let (mut fit, mut free) = fitting.widen(start, &mut report)?;
     evidence::extend(&fitting, &mut fit, &mut free, &mut report);
+    prune::modes(&fitting, &mut fit, &mut free, &mut report);
     report.extensions.extend(evidence::refused(&fitting, &fit, &free));
     fitting.count_steps(&mut fit, &free, &mut report);
     let noise: Vec<SensorNoise> =
@@ -149,10 +153,18 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         blocks: found.blocks,
         windows: point.windows,
         parameters: free,
+        beyond_noise: beyond_noise(campaign, &report),
         stages: report.stages,
         extensions: report.extensions,
         whole_runs: fit.whole_runs,
     })
+}
+
+/// Largest ratio of a channel's residual to the noise that its samples show by themselves.
+fn beyond_noise(campaign: &Campaign, report: &Report) -> f64 {
+    let noise = noise::of_samples(campaign);
+    let residual = report.stages.last().map_or(&[][..], |s| &s.residual);
+    residual.iter().zip(&noise).map(|(r, n)| r / n.sigma).fold(0.0, f64::max)
 }
 
 /// A campaign as the fits see it.

@@ -1,64 +1,105 @@
 //! Where the output error starts: the figures of the regressions as an arm.
 
-use nalgebra::DMatrix;
-
-use crate::identify::{BeamRegression, MotorRegression};
-use crate::record::{Campaign, TipQuantity};
-use crate::replay::{ModalArm, Oscillator, Parameter};
+use crate::identify::{BeamFit, BeamRegression, MotorRegression};
+use crate::record::{Campaign, Tip, TipQuantity};
+use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter};
 
 /// Smallest stiffness of a mode to start with, as a share of the coupling: its logarithm is moved.
 const LEAST_SHARE: f64 = 0.02;
 
-/// The arm that the regressions describe; `None` where they lack what it needs.
-pub fn start_of_regressions(
+/// Arms to start from, the likelier first: the motor's regression with the beam's own, with the modes of
+/// the rational model, and as a rigid axis where there is no tip. Empty where the motor's figures lack
+/// what it needs.
+pub fn starts(
     campaign: &Campaign,
     motor: &MotorRegression,
     beam: Option<&BeamRegression>,
-) -> Option<ModalArm> {
+    rational: Option<&BeamFit>,
+) -> Vec<ModalArm> {
+    let Some(rigid) = rigid(campaign, motor) else { return Vec::new() };
+    let coupling: Option<Vec<f64>> =
+        motor.coupling.iter().map(|c| c.map(|e| e.value)).collect::<Option<_>>();
+    let angles = campaign.channels.tips.iter().any(known);
+    let Some(coupling) = coupling.filter(|_| angles) else {
+        return if campaign.channels.tips.is_empty() { vec![rigid] } else { Vec::new() };
+    };
+    let by_regression = beam.and_then(|b| {
+        let (omega, shapes) = ModalArm::modes_of(&b.stiffness)?;
+        let ratios = b.modes.iter().map(|m| m.damping_ratio.value).collect();
+        Some((omega, ratios, shapes))
+    });
+    let by_responses = rational.and_then(modes_of_responses);
+    [by_regression, by_responses]
+        .into_iter()
+        .flatten()
+        .filter(|(omega, ..)| omega.len() <= MOST_MODES)
+        .map(|modes| with_modes(rigid.clone(), modes, &coupling))
+        .collect()
+}
+
+/// Frequencies, damping ratios, and shapes by tip.
+type Modes = (Vec<f64>, Vec<f64>, Vec<Vec<f64>>);
+
+fn known(tip: &Tip) -> bool {
+    tip.calibrated && tip.quantity != TipQuantity::Acceleration
+}
+
+fn rigid(campaign: &Campaign, motor: &MotorRegression) -> Option<ModalArm> {
     let inertia = motor.inertia?.value;
-    let viscous =
-        motor.viscous.map_or(0.0, |v| v.value) + campaign.channels.command.back_emf_viscous;
+    let back_emf = campaign.channels.command.back_emf_viscous;
     let coulomb = motor.coulomb?.value;
-    if !(inertia > 0.0) || !coulomb.is_finite() {
-        return None;
-    }
-    let mut arm = ModalArm {
+    (inertia > 0.0 && coulomb.is_finite()).then(|| ModalArm {
         inertia_kg_m2: inertia,
-        viscous_nm_s_per_rad: [viscous; 2],
+        viscous_nm_s_per_rad: [motor.viscous.map_or(0.0, |v| v.value) + back_emf; 2],
         coulomb_nm: coulomb,
         offset_nm: motor.offset.map_or(0.0, |o| o.value),
         modes: Vec::new(),
         shapes: vec![Vec::new(); campaign.channels.tips.len()],
         at_points_per_s: Vec::new(),
         command_lag_s: 0.0,
-    };
-    if let Some(beam) = beam {
-        let (omega, shapes) = ModalArm::modes_of(&beam.stiffness)?;
-        let coupling: Vec<f64> =
-            motor.coupling.iter().map(|c| c.map(|e| e.value)).collect::<Option<_>>()?;
-        let total: f64 = coupling.iter().sum();
-        let r = DMatrix::from_fn(shapes.len(), omega.len(), |i, j| shapes[i][j]);
-        let stiffness = r.tr_mul(&nalgebra::DVector::from_vec(coupling));
-        for (j, &omega_rad_s) in omega.iter().enumerate() {
-            let ratio = beam.modes.get(j).map_or(0.0, |m| m.damping_ratio.value);
-            arm.modes.push(Oscillator {
-                omega_rad_s,
-                stiffness_nm_per_rad: stiffness[j].max(LEAST_SHARE * total.abs()),
-                within_per_s: (2.0 * ratio * omega_rad_s).max(0.0),
-                grounded_per_s: 0.0,
-            });
-        }
-        arm.at_points_per_s = vec![0.0; omega.len()];
-        arm.shapes = shapes;
-    } else if campaign
-        .channels
-        .tips
+    })
+}
+
+/// `r_ij = (residue of tip i in mode j)/ω_j²`, the rest of Σr = 1 given to the last mode.
+fn modes_of_responses(fit: &BeamFit) -> Option<Modes> {
+    let poles: Vec<_> = fit.mode_poles.iter().map(|&k| fit.poles[k]).collect();
+    let square = |j: usize| poles[j].omega_rad_s * poles[j].omega_rad_s;
+    let shapes = fit
+        .residues
         .iter()
-        .any(|t| t.calibrated && t.quantity != TipQuantity::Acceleration)
-    {
-        return None;
+        .map(|tip| {
+            let mut row: Vec<f64> = fit
+                .mode_poles
+                .iter()
+                .enumerate()
+                .map(|(j, &k)| tip[k].value / square(j))
+                .collect();
+            let sum: f64 = row.iter().sum();
+            row.last_mut().into_iter().for_each(|r| *r += 1.0 - sum);
+            row
+        })
+        .collect();
+    let omega: Vec<f64> = poles.iter().map(|p| p.omega_rad_s).collect();
+    let ratios = poles.iter().map(|p| p.damping_ratio).collect();
+    (!omega.is_empty()).then_some((omega, ratios, shapes))
+}
+
+fn with_modes(mut arm: ModalArm, (omega, ratios, shapes): Modes, coupling: &[f64]) -> ModalArm {
+    let total: f64 = coupling.iter().sum();
+    for (j, &omega_rad_s) in omega.iter().enumerate() {
+        let ratio = ratios.get(j).copied().unwrap_or(0.0);
+        let stiffness: f64 = coupling.iter().zip(&shapes).map(|(k, r)| k * r[j]).sum();
+        arm.modes.push(Oscillator {
+            omega_rad_s,
+            stiffness_nm_per_rad: stiffness.max(LEAST_SHARE * total.abs()),
+            within_per_s: (2.0 * ratio * omega_rad_s).max(0.0),
+            grounded_per_s: 0.0,
+        });
     }
-    Some(arm)
+    arm.at_points_per_s =
+        if omega.len() == shapes.len() { vec![0.0; omega.len()] } else { Vec::new() };
+    arm.shapes = shapes;
+    arm
 }
 
 /// The parameters of an arm that a campaign's channels can show, with Coulomb friction, one viscous
