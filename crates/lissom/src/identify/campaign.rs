@@ -166,8 +166,8 @@ pub fn identify(
         replayed(&usable, &runs, &kept, regression.as_ref(), beam, beam_model.as_ref())
     };
 
-    let beam_regression = any_beam_regression
-        .filter(|b| b.relative_residual.iter().all(|r| *r < BEAM_RESIDUAL));
+    let beam_regression =
+        any_beam_regression.filter(|b| b.relative_residual.iter().all(|r| *r < BEAM_RESIDUAL));
 
     progress(Stage::Responses);
     let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);

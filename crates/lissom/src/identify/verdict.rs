@@ -91,6 +91,7 @@ fn from_output_error(campaign: &Campaign, id: &mut Identified) {
         id.friction = oe.friction(campaign.channels.command.back_emf_viscous);
         id.inertia = oe.inertia();
         id.findings.extend(added(oe));
+        id.findings.extend(modes_missing(campaign, oe));
         return;
     }
     let (Some(first), Some(last)) = (oe.stages.first(), longest(oe)) else { return };
@@ -112,6 +113,23 @@ fn from_output_error(campaign: &Campaign, id: &mut Identified) {
 /// The stage of the longest windows tried.
 fn longest(oe: &OutputError) -> Option<&StageReport> {
     oe.stages.iter().max_by(|a, b| a.window_s.total_cmp(&b.window_s))
+}
+
+/// Fewer modes than tips: a mode that no run shows, whose inertia rides on the motor's.
+fn modes_missing(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
+    let (modes, tips) = (oe.arm.modes.len(), campaign.channels.tips.len());
+    (modes > 0 && modes < tips).then(|| {
+        Finding::new(
+            "modes-missing",
+            Warning,
+            &[key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES],
+            format!(
+                "{tips} tips are measured and the runs show {modes} modes: what the others add to \
+                 inertia and coupling is counted wrongly"
+            ),
+            "add runs above the modes found: a sweep, or sines at several times the highest",
+        )
+    })
 }
 
 /// What the output error added to the simplest law.

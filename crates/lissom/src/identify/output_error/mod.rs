@@ -4,10 +4,10 @@
 mod covariance;
 mod data;
 mod evidence;
-mod prune;
 mod figures;
 mod noise;
 mod normal;
+mod prune;
 mod search;
 mod start;
 mod windows;

@@ -3,12 +3,15 @@
 use super::covariance::Covariances;
 use super::start::free_parameters;
 use super::{Fit, Fitting, Report};
-use crate::replay::{ModalArm, Parameter};
+use crate::replay::{ModalArm, Oscillator, Parameter};
 
 /// A mode is in doubt whose stiffness is not this many deviations from zero…
 const DEVIATIONS: f64 = 5.0;
 /// …or whose frequency is not known to this share.
 const FREQUENCY: f64 = 0.02;
+/// A mode put beyond the others begins at this many times the highest, with this share of the coupling.
+const BEYOND: f64 = 3.0;
+const BEYOND_SHARE: f64 = 0.1;
 /// It goes where the cost rises by no more than this share without it.
 const SHARE: f64 = 2e-3;
 
@@ -30,15 +33,45 @@ pub(super) fn modes(
         let extra = [Parameter::CommandLag, Parameter::ViscousDifference];
         fewer.extend(extra.into_iter().filter(|p| free.contains(p)));
         fitting.search(&mut without, &fewer, report);
-        // Both costs at the noise of the fuller arm.
-        let problem = fitting.problem(&fewer, &fit.noise, false);
-        let arm = without.point.arm.clone();
-        let cost = problem.at(arm, without.point.windows.clone()).cost();
-        if cost > fit.point.cost() * (1.0 + SHARE) {
+        let at_noise_of = |other: &Fit, free: &[Parameter]| {
+            let problem = fitting.problem(free, &fit.noise, false);
+            problem.at(other.point.arm.clone(), other.point.windows.clone()).cost()
+        };
+        let before = at_noise_of(fit, free);
+        if at_noise_of(&without, &fewer) <= before * (1.0 + SHARE) {
+            *fit = without;
+            *free = fewer;
+            continue;
+        }
+        // It stands for something: for a mode beyond the others, perhaps.
+        let mut beyond = without;
+        put_beyond(&mut beyond);
+        let mut free_beyond = free_parameters(fitting.campaign, &beyond.point.arm);
+        free_beyond.extend(fewer.iter().filter(|p| extra.contains(p)));
+        fitting.search(&mut beyond, &free_beyond, report);
+        if at_noise_of(&beyond, &free_beyond) > before * (1.0 - SHARE) {
             return;
         }
-        *fit = without;
-        *free = fewer;
+        *fit = beyond;
+        *free = free_beyond;
+    }
+}
+
+/// Adds a mode above all others that no tip shows yet.
+fn put_beyond(fit: &mut Fit) {
+    let arm = &mut fit.point.arm;
+    let highest = arm.modes.iter().map(|m| m.omega_rad_s).fold(0.0, f64::max);
+    let coupling = arm.coupling_nm_per_rad();
+    arm.modes.push(Oscillator {
+        omega_rad_s: BEYOND * highest,
+        stiffness_nm_per_rad: BEYOND_SHARE * coupling,
+        within_per_s: 0.0,
+        grounded_per_s: 0.0,
+    });
+    arm.shapes.iter_mut().for_each(|row| row.push(0.0));
+    for window in &mut fit.point.windows {
+        let still = [window.start[0], window.start[1]];
+        window.start.extend(still);
     }
 }
 
@@ -65,8 +98,7 @@ fn less(arm: &ModalArm, mode: usize) -> ModalArm {
     let mut arm = arm.clone();
     for (j, ratio) in arm.damping_ratios().into_iter().enumerate() {
         let oscillator = &mut arm.modes[j];
-        oscillator.grounded_per_s =
-            2.0 * ratio * oscillator.omega_rad_s - oscillator.within_per_s;
+        oscillator.grounded_per_s = 2.0 * ratio * oscillator.omega_rad_s - oscillator.within_per_s;
     }
     arm.at_points_per_s.clear();
     arm.modes.remove(mode);

@@ -68,12 +68,8 @@ fn modes_of_responses(fit: &BeamFit) -> Option<Modes> {
         .residues
         .iter()
         .map(|tip| {
-            let mut row: Vec<f64> = fit
-                .mode_poles
-                .iter()
-                .enumerate()
-                .map(|(j, &k)| tip[k].value / square(j))
-                .collect();
+            let mut row: Vec<f64> =
+                fit.mode_poles.iter().enumerate().map(|(j, &k)| tip[k].value / square(j)).collect();
             let sum: f64 = row.iter().sum();
             row.last_mut().into_iter().for_each(|r| *r += 1.0 - sum);
             row
