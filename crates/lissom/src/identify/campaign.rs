@@ -17,6 +17,7 @@ use super::response_table::{ResponsePoint, response_table, tip_model, weak_point
 use super::run_analysis::{RunAnalysis, RunKind, analyse};
 use super::third_harmonic::{PairFigure, mean_figure, pair_figure};
 use super::{Estimate, verdict};
+use crate::lti::StateSpace;
 use crate::record::{Axis, Campaign, Run, TipQuantity};
 
 /// Harmonics fitted to a periodic run.
@@ -205,20 +206,8 @@ pub fn identify(
     }
     findings.extend(contradicted);
     findings.extend(weak_points(&responses, &runs));
-    let angles: Vec<(usize, String)> = campaign
-        .channels
-        .tips
-        .iter()
-        .enumerate()
-        .filter(|(_, t)| t.calibrated && t.quantity != TipQuantity::Acceleration)
-        .map(|(i, t)| (i, t.name.clone()))
-        .collect();
-    let unit = match campaign.channels.axis {
-        Axis::Rotary => "rad",
-        Axis::Linear => "m",
-    };
     let state_space =
-        motor_model.as_ref().map(|m| state_space(m, constant, beam_model.as_ref(), &angles, unit));
+        motor_model.as_ref().map(|m| joined(campaign, m, constant, beam_model.as_ref()));
     let mut identified = Identified {
         friction: Friction::default(),
         inertia: None,
@@ -239,6 +228,25 @@ pub fn identify(
     };
     verdict::conclude(campaign, &mut identified);
     Ok(identified)
+}
+
+/// Both rational models as one state space.
+fn joined(
+    campaign: &Campaign,
+    motor: &MotorFit,
+    constant: f64,
+    beam: Option<&BeamFit>,
+) -> StateSpace {
+    let tips = campaign.channels.tips.iter().enumerate();
+    let angles: Vec<(usize, String)> = tips
+        .filter(|(_, t)| t.calibrated && t.quantity != TipQuantity::Acceleration)
+        .map(|(i, t)| (i, t.name.clone()))
+        .collect();
+    let unit = match campaign.channels.axis {
+        Axis::Rotary => "rad",
+        Axis::Linear => "m",
+    };
+    state_space(motor, constant, beam, &angles, unit)
 }
 
 /// Channels that are constant in some runs, and in how many.

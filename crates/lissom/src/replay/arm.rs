@@ -159,7 +159,9 @@ impl ModalArm {
             if i == j { own(&self.modes[i]) + points } else { points }
         });
         let right = DVector::from_fn(n, |j, _| driven(&self.modes[j]));
-        let follow = left.lu().solve(&right).unwrap_or_else(|| DVector::zeros(n));
+        // A factorisation of nothing is refused by the library.
+        let solved = if n == 0 { None } else { left.lu().solve(&right) };
+        let follow = solved.unwrap_or_else(|| DVector::zeros(n));
         let rigid = s * (s * self.inertia_kg_m2 + 0.5 * (forward + backward));
         let pull = |(m, psi): (&Oscillator, &Complex64)| {
             let square = m.omega_rad_s * m.omega_rad_s;

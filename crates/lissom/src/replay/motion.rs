@@ -219,7 +219,7 @@ impl<const D: usize> Mover<D> {
             add(&mut motion.tangents[k], -1.0, &piece.own.push);
         }
         if let Some(k) = columns.lag
-            && by_lag != [0.0; 2]
+            && by_lag.iter().any(|b| *b != 0.0)
         {
             add(&mut motion.tangents[k], by_lag[0], &piece.own.push);
             add(&mut motion.tangents[k], by_lag[1] - by_lag[0], &piece.own.ramp);

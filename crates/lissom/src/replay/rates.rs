@@ -138,7 +138,9 @@ fn solved<N: Number>(mut left: Vec<Vec<N>>, mut right: Vec<Vec<N>>) -> Vec<Vec<N
         }
     }
     for (row, diagonal) in right.iter_mut().zip(&left).enumerate().map(|(k, (r, l))| (r, l[k])) {
-        row.iter_mut().for_each(|v| *v = *v / diagonal);
+        for v in row {
+            *v = *v / diagonal;
+        }
     }
     right
 }

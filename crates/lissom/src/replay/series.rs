@@ -93,11 +93,11 @@ pub(super) fn tangent<const D: usize>(
     time_s: f64,
 ) -> [f64; D] {
     let (mut term, mut sum, mut power) = (*start, *start, 1.0);
-    for n in 0..ORDER_MOST {
+    for (n, x) in terms.iter().enumerate().take(ORDER_MOST) {
         let mut next = times(&rates.a, &term);
         add(&mut next, input(n, net_by), &rates.b);
         if let Some((da, db)) = by {
-            add(&mut next, 1.0, &times(da, &terms[n]));
+            add(&mut next, 1.0, &times(da, x));
             add(&mut next, input(n, net), db);
         }
         term = next.map(|v| v / (n as f64 + 1.0));

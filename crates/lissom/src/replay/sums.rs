@@ -151,7 +151,7 @@ fn costs_of<const D: usize>(
         let replayer = replayer_of(&replayers, run);
         replayer.walk(run, window.samples.clone(), start(window), false, |seen| {
             for (channel, mask) in sampling.masks[window.run].iter().enumerate() {
-                if counts(mask, seen.sample) {
+                if counts(mask.as_ref(), seen.sample) {
                     let predicted = replayer.output(seen, channel, None);
                     let residual = window.residual(run, channel, seen.sample, predicted);
                     cost += sampling.noise[channel].loss(residual).cost;
@@ -173,8 +173,8 @@ fn replayer_of<'a, 'b, const D: usize>(
     replayer
 }
 
-fn counts(mask: &Option<Vec<bool>>, sample: usize) -> bool {
-    mask.as_ref().is_none_or(|m| m[sample])
+fn counts(mask: Option<&Vec<bool>>, sample: usize) -> bool {
+    mask.is_none_or(|m| m[sample])
 }
 
 fn sums_of<const D: usize>(
@@ -244,8 +244,8 @@ fn sum_up<const D: usize>(
             found.add(&mut rows, block);
             block = own;
         }
-        for channel in 0..channels {
-            if !counts(&masks[channel], seen.sample) {
+        for (channel, mask) in masks.iter().enumerate() {
+            if !counts(mask.as_ref(), seen.sample) {
                 continue;
             }
             let predicted = replayer.output(seen, channel, Some(&mut row[..unknowns]));

@@ -1,5 +1,4 @@
 //! The replay against the event engine, and its derivatives against differences.
-#![expect(clippy::unwrap_used, reason = "tests")]
 
 use nalgebra::DVector;
 
@@ -149,12 +148,12 @@ fn derivatives_hold(hold: Hold, quantity: TipQuantity, lag_s: f64) {
     let compare = |what: &str, column: usize, step: f64, above: &Prediction, below: &Prediction| {
         let mut largest: f64 = 0.0;
         let mut errors = Vec::new();
-        for channel in 0..3 {
-            for k in 0..window.len() {
+        for (k, row) in rows.iter().enumerate() {
+            for (channel, derivatives) in row.iter().enumerate() {
                 let difference =
                     (above.channels[channel][k] - below.channels[channel][k]) / (2.0 * step);
                 largest = largest.max(difference.abs());
-                errors.push((difference - rows[k][channel][column]).abs());
+                errors.push((difference - derivatives[column]).abs());
             }
         }
         errors.sort_by(f64::total_cmp);

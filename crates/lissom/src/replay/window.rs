@@ -107,8 +107,8 @@ impl<'a, const D: usize> Replayer<'a, D> {
 
     /// Torque of the logged sample `index`; beyond the log's ends its first and last.
     fn torque(&self, run: &Run, index: isize) -> f64 {
-        let last = run.len() as isize - 1;
-        self.torque_per_command * run.command()[index.clamp(0, last) as usize]
+        let last = run.len().cast_signed() - 1;
+        self.torque_per_command * run.command()[index.clamp(0, last).cast_unsigned()]
     }
 
     /// Replays samples `range` from the state `start`; `see` is called at each of them.
@@ -143,7 +143,7 @@ impl<'a, const D: usize> Replayer<'a, D> {
 
     /// Torque that acts just before sample `k`.
     fn before(&self, run: &Run, k: usize) -> f64 {
-        let at = k as isize - self.lag_samples;
+        let at = k.cast_signed() - self.lag_samples;
         match self.channels.command.hold {
             Hold::Sampled => self.torque(run, at - 1),
             Hold::Measured => self.between(run, at).0,
@@ -163,7 +163,7 @@ impl<'a, const D: usize> Replayer<'a, D> {
 
     /// From sample `k` to the next.
     fn sample(&self, run: &Run, k: usize, motion: &mut Motion<D>) {
-        let at = k as isize - self.lag_samples;
+        let at = k.cast_signed() - self.lag_samples;
         let whole = self.pieces[1].unwrap_or(0);
         match self.channels.command.hold {
             Hold::Measured => {
