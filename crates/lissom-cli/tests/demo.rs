@@ -67,6 +67,7 @@ fn figures_are_within_their_bars() {
         assert!((row["true"].as_f64().unwrap() / truth - 1.0).abs() < 1e-9, "{name}");
         let error = |method: &str| (row[method]["value"].as_f64().unwrap() / truth - 1.0).abs();
         assert!(error("regression") < regression, "{name}: {}", error("regression"));
+        assert!(error("output_error") < 1e-4, "{name}: {}", error("output_error"));
         if let Some(bar) = third {
             assert!(error("third_harmonic") < bar, "{name}: {}", error("third_harmonic"));
         }

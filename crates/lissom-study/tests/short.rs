@@ -15,7 +15,7 @@ use lissom_study::{
     rows, score, study,
 };
 
-const CAMPAIGNS: usize = 12;
+const CAMPAIGNS: usize = 6;
 const SEED: u64 = 1;
 
 fn short() -> &'static [Scored] {

@@ -6,7 +6,8 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use lissom::arm::Arm;
-use lissom::identify::{Estimate, Identified};
+use lissom::identify::{Estimate, Identified, OutputError};
+use lissom::replay::{ModalArm, Parameter};
 use lissom_io::write::{self, Batch};
 use lissom_io::{ArmFile, UnitNames, read_campaign, result_json};
 use serde_json::{Value, json};
@@ -56,19 +57,21 @@ pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// A figure: name, unit, truth, the report's method, regression.
+/// A figure: name, unit, truth, the report's method, regression, output error.
 struct Row {
     name: &'static str,
     unit: &'static str,
     truth: f64,
     third: Option<Estimate>,
     regression: Option<Estimate>,
+    output_error: Option<Estimate>,
 }
 
 fn comparison(arm: &Arm, id: &Identified) -> Vec<Row> {
     let third = id.third_harmonic.as_ref();
     let fit = third.and_then(|t| t.motor.as_ref());
     let r = id.regression.as_ref();
+    let oe = id.output_error.as_ref();
     let k = arm.motor.torque_constant_nm_per_a;
     let frequency = |m: &lissom::identify::ModeEstimate| m.natural_frequency_rad_s;
     vec![
@@ -78,6 +81,9 @@ fn comparison(arm: &Arm, id: &Identified) -> Vec<Row> {
             truth: arm.coulomb.forward / k,
             third: third.map(|t| t.coulomb_command),
             regression: r.and_then(|r| r.coulomb).map(|e| e.scaled(1.0 / k)),
+            output_error: oe
+                .and_then(|o| o.estimate(Parameter::Coulomb))
+                .map(|e| e.scaled(1.0 / k)),
         },
         Row {
             name: "viscous friction",
@@ -85,6 +91,7 @@ fn comparison(arm: &Arm, id: &Identified) -> Vec<Row> {
             truth: arm.motor.viscous_nm_s_per_rad,
             third: fit.map(|f| f.viscous),
             regression: r.and_then(|r| r.viscous),
+            output_error: oe.and_then(|o| o.estimate(Parameter::Viscous)),
         },
         Row {
             name: "inertia",
@@ -92,6 +99,7 @@ fn comparison(arm: &Arm, id: &Identified) -> Vec<Row> {
             truth: arm.motor.inertia_kg_m2,
             third: fit.map(|f| f.inertia),
             regression: r.and_then(|r| r.inertia),
+            output_error: oe.and_then(OutputError::inertia),
         },
         Row {
             name: "coupling",
@@ -99,6 +107,7 @@ fn comparison(arm: &Arm, id: &Identified) -> Vec<Row> {
             truth: arm.dynamics().coupling_motor,
             third: fit.and_then(|f| f.coupling.first().copied()),
             regression: r.and_then(|r| r.coupling.first().copied().flatten()),
+            output_error: oe.map(|o| o.figure(ModalArm::coupling_nm_per_rad)),
         },
         Row {
             name: "beam frequency",
@@ -106,6 +115,7 @@ fn comparison(arm: &Arm, id: &Identified) -> Vec<Row> {
             truth: arm.beam().natural_frequencies_rad_s()[0],
             third: id.beam_model.as_ref().and_then(|b| b.modes.first()).map(frequency),
             regression: id.beam_regression.as_ref().and_then(|b| b.modes.first()).map(frequency),
+            output_error: oe.and_then(|o| o.estimate(Parameter::Frequency(0))),
         },
     ]
 }
@@ -121,6 +131,7 @@ fn compared(rows: &[Row], result: &Value) -> Value {
                 "true": r.truth,
                 "third_harmonic": value(r.third),
                 "regression": value(r.regression),
+                "output_error": value(r.output_error),
             })
         })
         .collect();
@@ -131,18 +142,16 @@ fn report(out: &Path, campaign: &lissom::record::Campaign, id: &Identified, rows
     print::campaign(campaign);
     print::runs(id);
     print::line("");
-    let mut table = vec![
-        ["figure", "unit", "true", "third harmonic", "error", "regression", "error"]
-            .map(str::to_owned)
-            .to_vec(),
-    ];
+    let head = ["figure", "unit", "true", "third harmonic", "error", "regression", "error"];
+    let head = head.into_iter().chain(["output error", "error"]);
+    let mut table = vec![head.map(str::to_owned).collect::<Vec<_>>()];
     for r in rows {
         let mut line = vec![r.name.to_owned(), r.unit.to_owned(), significant(r.truth)];
-        for e in [r.third, r.regression] {
+        for (e, digits) in [(r.third, 2), (r.regression, 2), (r.output_error, 4)] {
             match e {
                 Some(e) => {
                     line.push(significant(e.value));
-                    line.push(format!("{:+.2} %", 100.0 * (e.value / r.truth - 1.0)));
+                    line.push(format!("{:+.digits$} %", 100.0 * (e.value / r.truth - 1.0)));
                 }
                 None => line.extend(["refused".to_owned(), String::new()]),
             }

@@ -8,8 +8,9 @@ use crate::replay::Blocks;
 const CLIPPED: f64 = 0.002;
 /// Samples of a block, in general: steps and noise of sensors forget themselves within.
 const BLOCK: f64 = 40.0;
-/// Fewest blocks of a period.
+/// Fewest blocks of a run, and most of all runs together: each costs the inverse of a matrix.
 const FEWEST: f64 = 6.0;
+const MOST: f64 = 400.0;
 
 /// Readings of each channel that count, of one run.
 pub(super) type Masks = Vec<Option<Vec<bool>>>;
@@ -34,13 +35,17 @@ fn mask(x: &[f64]) -> Option<Vec<bool>> {
 
 /// Blocks of each run; `omega_rad_s` where it is a sinusoid in steady state.
 pub(super) fn blocks(campaign: &Campaign, omega_rad_s: &[Option<f64>]) -> Vec<Blocks> {
+    let most = (MOST / campaign.runs.len() as f64).max(FEWEST);
+    let count = |samples: f64| (samples / BLOCK).round().clamp(FEWEST, most);
     let of_run = |(run, omega): (&Run, &Option<f64>)| match omega {
         Some(omega) => {
             let period = std::f64::consts::TAU / (omega * run.sample_time_s());
-            let count = (period / BLOCK).round().max(FEWEST);
-            Blocks { samples: period / count, period: Some(period) }
+            Blocks { samples: period / count(period), period: Some(period) }
         }
-        None => Blocks { samples: BLOCK, period: None },
+        None => {
+            let samples = run.len() as f64;
+            Blocks { samples: samples / count(samples), period: None }
+        }
     };
     campaign.runs.iter().zip(omega_rad_s).map(of_run).collect()
 }

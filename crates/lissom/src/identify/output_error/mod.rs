@@ -225,7 +225,11 @@ impl Fitting<'_> {
             return None;
         }
         let noise = noise::of_samples(self.campaign);
-        let point = self.problem(&free, &noise, true).at(start.arm.clone(), windows);
+        let problem = self.problem(&free, &noise, true);
+        if !problem.can_be_seen(&start.arm) {
+            return None;
+        }
+        let point = problem.at(start.arm.clone(), windows);
         let mut fit = Fit { point, noise, whole_runs: window_s >= longest, window_s };
         self.search(&mut fit, &free, report);
         evidence::extend(self, &mut fit, &mut free, report);

@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::normal::{Reduced, inverse};
-use crate::record::Campaign;
-use crate::replay::{ModalArm, Parameter, Sampling, Window, WindowSums, costs, sums};
+use crate::record::{Campaign, Run};
+use crate::replay::{ModalArm, Oscillator, Parameter, Sampling, Window, WindowSums, costs, sums};
 
 /// Damping of the first step, relative to the diagonal.
 const FIRST_DAMPING: f64 = 1e-3;
@@ -16,6 +16,8 @@ const PROMISE: f64 = 0.02;
 /// Largest change of the logarithm of a parameter that is positive by nature, in one step.
 const LARGEST_FACTOR: f64 = 0.7;
 
+/// Largest angle that a mode may turn by in a sample \[rad\], half as much again as Nyquist's.
+const LARGEST_TURN: f64 = 4.5;
 /// A window whose cost per sample is this many times the usual one counts half in a robust search.
 const ROBUST: f64 = 10.0;
 
@@ -114,9 +116,13 @@ impl Problem<'_> {
                 return (point, iterations, Stop::Converged);
             }
             let (arm, windows) = self.moved(&point, &step);
-            let costs = costs(&arm, self.campaign, &windows, self.sampling);
-            let samples = point.sums.iter().map(|s| s.samples);
-            let after: f64 = costs.iter().zip(samples).map(|(c, n)| robust(*c, n, usual)).sum();
+            let after = if self.can_be_seen(&arm) {
+                let costs = costs(&arm, self.campaign, &windows, self.sampling);
+                let samples = point.sums.iter().map(|s| s.samples);
+                costs.iter().zip(samples).map(|(c, n)| robust(*c, n, usual)).sum()
+            } else {
+                f64::INFINITY
+            };
             let before = point.robust_cost(usual);
             let gain = (before - after) / step.promised;
             let taken = after < before;
@@ -135,6 +141,18 @@ impl Problem<'_> {
             }
         }
         (point, iterations, Stop::StepsUsedUp)
+    }
+
+    /// Whether every mode turns by less than [`LARGEST_TURN`] in a sample: faster ones are in no log, and
+    /// take ever shorter steps to follow.
+    pub(super) fn can_be_seen(&self, arm: &ModalArm) -> bool {
+        let sample_s = self.campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
+        let turn = |m: &Oscillator| m.omega_rad_s * sample_s;
+        let damped = |m: &Oscillator| (m.within_per_s.abs() + m.grounded_per_s.abs()) * sample_s;
+        arm.modes.iter().all(|m| turn(m) < LARGEST_TURN && damped(m) < LARGEST_TURN)
+            && arm.at_points_per_s.iter().all(|c| (c * sample_s).abs() < LARGEST_TURN)
+            && arm.coupling_nm_per_rad() / arm.inertia_kg_m2 * sample_s * sample_s
+                < LARGEST_TURN * LARGEST_TURN
     }
 
     fn moved(&self, point: &Point, step: &Step) -> (ModalArm, Vec<Window>) {
