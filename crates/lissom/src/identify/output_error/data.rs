@@ -37,15 +37,10 @@ fn mask(x: &[f64]) -> Option<Vec<bool>> {
 pub(super) fn blocks(campaign: &Campaign, omega_rad_s: &[Option<f64>]) -> Vec<Blocks> {
     let most = (MOST / campaign.runs.len() as f64).max(FEWEST);
     let count = |samples: f64| (samples / BLOCK).round().clamp(FEWEST, most);
-    let of_run = |(run, omega): (&Run, &Option<f64>)| match omega {
-        Some(omega) => {
-            let period = std::f64::consts::TAU / (omega * run.sample_time_s());
-            Blocks { samples: period / count(period), period: Some(period) }
-        }
-        None => {
-            let samples = run.len() as f64;
-            Blocks { samples: samples / count(samples), period: None }
-        }
+    let of_run = |(run, omega): (&Run, &Option<f64>)| {
+        let period = omega.map(|w| std::f64::consts::TAU / (w * run.sample_time_s()));
+        let samples = period.unwrap_or(run.len() as f64);
+        Blocks { samples: samples / count(samples), period }
     };
     campaign.runs.iter().zip(omega_rad_s).map(of_run).collect()
 }
