@@ -2,6 +2,9 @@
 
 use std::fmt::Write;
 
+use lissom::identify::{OutputError, starts};
+use lissom::replay::ModalArm;
+
 use crate::campaign::{Campaign, draw_campaign};
 use crate::law::Law;
 use crate::score::{FigureScore, Score, score};
@@ -20,6 +23,14 @@ pub fn describe(seed: u64, index: usize, law: Law) -> Option<String> {
             lines.push(figures(&scored));
             lines.push(format!("modes beyond those that there are: {}\n", scored.surplus_modes));
             lines.push(points(&scored));
+            if let Some(replayed) = &id.output_error {
+                lines.push(stages(replayed, &campaign));
+            }
+            if let Some(motor) = &id.regression {
+                let (beam, rational) = (id.beam_regression.as_ref(), id.beam_model.as_ref());
+                let from = starts(&campaign.logs, motor, beam, rational);
+                lines.extend(from.iter().map(|arm| format!("start {}", arm_line(arm))));
+            }
             for f in &id.findings {
                 let run = f.run.as_deref().unwrap_or("campaign");
                 let affects = f.affects.join(" ");
@@ -93,6 +104,57 @@ fn figure(f: &FigureScore) -> String {
         e.std,
         100.0 * f.error().unwrap_or(f64::NAN),
         f.deviations().unwrap_or(f64::NAN)
+    )
+}
+
+/// The output error's way, a line a stage, and the arm that it should have come to.
+fn stages(found: &OutputError, campaign: &Campaign) -> String {
+    let mut text = String::new();
+    for s in &found.stages {
+        let cost = s.iterations.last().map_or(f64::NAN, |i| i.cost);
+        let residual: Vec<String> = s.residual.iter().map(|r| format!("{r:.2e}")).collect();
+        let _ = writeln!(
+            text,
+            "{:4} windows of {:8.3} s, {:2} steps, {:?}, cost {cost:.4e}, residual {}\n     {}",
+            s.windows,
+            s.window_s,
+            s.iterations.len(),
+            s.stop,
+            residual.join(" "),
+            arm_line(&s.arm)
+        );
+    }
+    for e in &found.extensions {
+        let (name, z) = (e.parameter.name(), e.value / e.std);
+        let done = if e.added { "added" } else { "refused" };
+        let _ = writeln!(
+            text,
+            "{done} {name}: {:.4e}, {z:+.1} deviations, share {:.1e}",
+            e.value, e.share
+        );
+    }
+    let truth = ModalArm::of_arm(&campaign.definition.rig.arm);
+    let truth = truth.as_ref().map_or_else(String::new, arm_line);
+    let _ = writeln!(
+        text,
+        "whole runs {}, {:.2} times the noise, point masses {}\ntrue {truth}",
+        found.whole_runs, found.beyond_noise, found.point_masses
+    );
+    text
+}
+
+fn arm_line(arm: &ModalArm) -> String {
+    let modes = arm.modes.iter().map(|m| format!("{:.4e}", m.omega_rad_s));
+    let stiffness = arm.modes.iter().map(|m| format!("{:.3e}", m.stiffness_nm_per_rad));
+    let shape =
+        |row: &Vec<f64>| row.iter().map(|r| format!("{r:+.3}")).collect::<Vec<_>>().join(" ");
+    format!(
+        "J {:.4e} CF {:.4e}, modes {}, k {}, shapes {}",
+        arm.inertia_kg_m2,
+        arm.coulomb_nm,
+        modes.collect::<Vec<_>>().join(" "),
+        stiffness.collect::<Vec<_>>().join(" "),
+        arm.shapes.iter().map(shape).collect::<Vec<_>>().join(" | ")
     )
 }
 

@@ -8,6 +8,7 @@ mod arm;
 mod motion;
 mod noise;
 mod parameter;
+mod point_masses;
 mod prediction;
 mod rates;
 mod series;
@@ -18,6 +19,7 @@ mod window;
 pub use arm::{MOST_MODES, ModalArm, Oscillator};
 pub use noise::SensorNoise;
 pub use parameter::Parameter;
+pub use point_masses::{BeamCoordinate, BeamDerivative, PointMasses};
 pub use prediction::{Prediction, predict};
 pub use sums::{Blocks, Sampling, Window, WindowSums, costs, sums};
 

@@ -3,7 +3,6 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::normal::{Reduced, inverse};
-use super::search::Point;
 use crate::replay::WindowSums;
 
 /// Two covariances of the same figures.
@@ -17,20 +16,19 @@ pub(super) struct Covariances {
 }
 
 impl Covariances {
-    /// At `point`, whose parameters are `shared`.
+    /// From sums of which the first `shared` columns are the parameters.
     ///
     /// White: `N⁻¹·s²`, N the normal matrix with the windows' own unknowns eliminated. Blocks:
     /// `Σ δ_b·δ_bᵀ`, δ_b the change of the parameters without block b, to first order in the
     /// residuals and exactly in what the block adds to N: few blocks that carry much count fully.
-    pub(super) fn at(point: &Point, shared: usize) -> Self {
-        let reduced: Vec<Reduced> =
-            point.sums.iter().map(|s| Reduced::new(s, shared, 0.0)).collect();
+    pub(super) fn at(sums: &[WindowSums], shared: usize) -> Self {
+        let reduced: Vec<Reduced> = sums.iter().map(|s| Reduced::new(s, shared, 0.0)).collect();
         let zero = DMatrix::zeros(shared, shared);
         let normal = reduced.iter().fold(zero.clone(), |sum, r| sum + &r.normal);
         let (mut slopes, mut curvatures) = (0.0, 0.0);
         let (mut rows, mut unknowns) = (0, shared);
         let mut blocks = zero;
-        for (sums, own) in point.sums.iter().zip(&reduced) {
+        for (sums, own) in sums.iter().zip(&reduced) {
             slopes += sums.slopes;
             curvatures += sums.curvatures;
             rows += sums.readings.iter().sum::<usize>();
@@ -44,6 +42,12 @@ impl Covariances {
         Self { white: inverse(&normal) * (slopes / curvatures * rows as f64 / free), blocks }
     }
 
+    /// Of parameters that depend on those of this covariance by `jacobian`.
+    pub(super) fn through(self, jacobian: &DMatrix<f64>) -> Self {
+        let through = |c: &DMatrix<f64>| jacobian * c * jacobian.transpose();
+        Self { white: through(&self.white), blocks: through(&self.blocks) }
+    }
+
     /// The white one, stretched where blocks say more.
     pub(super) fn larger(&self) -> DMatrix<f64> {
         let stretch = DVector::from_fn(self.white.nrows(), |i, _| {
@@ -54,6 +58,11 @@ impl Covariances {
             self.white[(i, j)] * stretch[i] * stretch[j]
         })
     }
+}
+
+/// Deviation of parameter `i`.
+pub(super) fn deviation(covariance: &DMatrix<f64>, i: usize) -> f64 {
+    covariance[(i, i)].max(0.0).sqrt()
 }
 
 /// Change of the shared parameters where one block of a window after another is left out.

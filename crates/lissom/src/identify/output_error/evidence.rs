@@ -1,17 +1,19 @@
 //! Which parameters beyond the simplest law the residual calls for.
 
-use nalgebra::{DMatrix, DVector};
-
-use super::covariance::Covariances;
-use super::normal::{Reduced, inverse};
-use super::search::Point;
-use super::{Fit, Fitting, Report};
-use crate::replay::Parameter;
+use super::coordinates::Body;
+use super::covariance::{Covariances, deviation};
+use super::normal::{inverse, normal_equations};
+use super::search::Stop;
+use super::stages::{Fit, Fitting, Report};
+use crate::replay::{Parameter, WindowSums};
 
 /// A parameter is called for where it would stand this many deviations from what it is without…
 const DEVIATIONS: f64 = 4.0;
-/// …and take at least this share of the cost away: what is smaller changes no figure.
-const SHARE: f64 = 1e-3;
+/// …and take at least this share of the cost away. Small as it is, it counts: damping against the frame
+/// that is left out goes into viscous friction, by many of its deviations.
+const SHARE: f64 = 1e-4;
+/// Share of the cost by which point masses may leave more than free modes.
+const RIGID_SHARE: f64 = 1e-3;
 /// A damper is there when it stands this many deviations from zero.
 const THERE: f64 = 2.0;
 /// Most groups added at a time.
@@ -32,62 +34,104 @@ pub struct Extension {
     pub added: bool,
 }
 
-/// Adds parameters to `free` while the residual calls for some, each time the group that takes most;
-/// tells whether it added any.
-pub(super) fn extend(
-    fitting: &Fitting<'_>,
-    fit: &mut Fit,
-    free: &mut Vec<Parameter>,
-    report: &mut Report,
-) -> bool {
-    let mut added = false;
+/// Adds parameters while the residual calls for some, each time the group that takes most away.
+pub(super) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     for _ in 0..MOST {
-        let found = promises(fitting, fit, free);
-        let called_for = |group: &&Vec<Extension>| {
+        let mut found = promises(fitting, fit);
+        let called_for = |(_, group): &(usize, &Vec<Extension>)| {
             group.iter().any(|e| e.value.abs() > DEVIATIONS * e.std && e.share > SHARE)
         };
-        let share = |group: &Vec<Extension>| group.first().map_or(0.0, |e| e.share);
-        let best = found.iter().filter(called_for).max_by(|a, b| share(a).total_cmp(&share(b)));
-        let Some(best) = best else { break };
-        added = true;
-        report.extensions.extend(best.iter().map(|e| Extension { added: true, ..*e }));
-        free.extend(best.iter().map(|e| e.parameter));
-        fitting.search(fit, free, report);
-        drop_dampers(fitting, fit, free, report);
+        let share = |group: &[Extension]| group.first().map_or(0.0, |e| e.share);
+        let best = found.iter().enumerate().filter(called_for);
+        let best = best.max_by(|a, b| share(a.1).total_cmp(&share(b.1))).map(|(k, _)| k);
+        let added = best.map(|k| found.remove(k));
+        report.refused = found.concat();
+        let Some(added) = added else { break };
+        fit.free.extend(added.iter().map(|e| e.parameter));
+        report.added.extend(added.into_iter().map(|e| Extension { added: true, ..e }));
+        fitting.search(fit, report);
+        drop_dampers(fitting, fit, report);
     }
-    added
 }
 
-/// What is not called for, with the figures of the test.
-pub(super) fn refused(fitting: &Fitting<'_>, fit: &Fit, free: &[Parameter]) -> Vec<Extension> {
-    promises(fitting, fit, free).into_iter().flatten().collect()
+/// Takes damping against the frame for dampers at the tips' points where these leave less than a damper
+/// for each mode: single ones of both kinds can hardly be told apart, and all of them can.
+pub(super) fn dampers_at_points(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+    let grounded = |p: &Parameter| matches!(p, Parameter::DampingGrounded(_));
+    let modes = fit.body.arm.modes.len();
+    let possible = fit.body.arm.shapes.len() == modes && fit.free.iter().any(grounded);
+    if !possible {
+        return;
+    }
+    let mut other = fit.clone();
+    other.free.retain(|p| !grounded(p));
+    let arm = &mut other.body.arm;
+    let mean = arm.modes.iter().map(|m| m.grounded_per_s).sum::<f64>() / modes as f64;
+    arm.modes.iter_mut().for_each(|m| m.grounded_per_s = 0.0);
+    arm.at_points_per_s = vec![mean.max(0.0); modes];
+    let points = (0..modes).map(Parameter::DampingAtPoint);
+    other.free.extend(points.filter(|p| !fit.free.contains(p)));
+    fitting.search(&mut other, report);
+    if fitting.cost(&other, &fit.noise) < fitting.cost(fit, &fit.noise) {
+        *fit = other;
+    }
 }
 
-/// What one step of a search with each group beside `free` promises: score tests, all from one
-/// replay.
-fn promises(fitting: &Fitting<'_>, fit: &Fit, free: &[Parameter]) -> Vec<Vec<Extension>> {
-    let groups = candidates(fit, free);
-    let all: Vec<Parameter> = free.iter().chain(groups.iter().flatten()).copied().collect();
-    let problem = fitting.problem(&all, &fit.noise, false);
-    let point = problem.at(fit.point.arm.clone(), fit.point.windows.clone());
-    let mut first = free.len();
+/// Lets the modes go each its own way where point masses at the tips leave more than noise.
+pub(super) fn relax(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+    // Before a search has ended anything promises to help.
+    let ended = report.stages.last().is_some_and(|s| s.stop != Stop::StepsUsedUp);
+    if fit.body.masses.is_none() || !ended {
+        return;
+    }
+    let free = Fit { body: Body::free(fit.body.arm.clone()), ..fit.clone() };
+    let promised = |fit: &Fit| {
+        let sums = fitting.point(fit, &fit.free).sums;
+        let (normal, right) = normal_equations(&sums, fit.coordinates());
+        right.dot(&(inverse(&normal) * &right)) / sums.iter().map(|s| s.cost).sum::<f64>()
+    };
+    if promised(&free) - promised(fit) > RIGID_SHARE {
+        *fit = free;
+        fitting.search(fit, report);
+    }
+}
+
+/// Takes the beam for point masses at the tips where that leaves no more than modes that go each its own
+/// way.
+pub(super) fn tighten(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+    let body = Body::of_masses(fitting.campaign, fit.body.arm.clone());
+    if fit.body.masses.is_some() || body.masses.is_none() {
+        return;
+    }
+    let mut tight = Fit { body, ..fit.clone() };
+    fitting.search(&mut tight, report);
+    if fitting.cost(&tight, &fit.noise) <= fitting.cost(fit, &fit.noise) * (1.0 + RIGID_SHARE) {
+        *fit = tight;
+    }
+}
+
+/// What one step of a search with each group beside the free parameters promises: score tests, all
+/// from one replay.
+pub(super) fn promises(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Extension>> {
+    let groups = candidates(fit);
+    let free = fit.coordinates();
+    let all: Vec<Parameter> = fit.free.iter().chain(groups.iter().flatten()).copied().collect();
+    let point = fitting.point(fit, &all);
+    let first_of_windows = fit.body.coordinates(&all).len();
+    let mut first = free;
     let mut found = Vec::new();
     for group in groups {
-        let kept: Vec<usize> = (0..free.len()).chain(first..first + group.len()).collect();
+        let kept: Vec<usize> = (0..free).chain(first..first + group.len()).collect();
         first += group.len();
-        let sums = point.sums.iter().map(|s| s.of(&kept, all.len())).collect();
-        found.push(score(&Point { sums, ..point.clone() }, free.len(), &group));
+        let sums: Vec<WindowSums> =
+            point.sums.iter().map(|s| s.of(&kept, first_of_windows)).collect();
+        found.push(score(&sums, free, &group));
     }
     found
 }
 
 /// Dampers that others beside them leave nothing of go.
-fn drop_dampers(
-    fitting: &Fitting<'_>,
-    fit: &mut Fit,
-    free: &mut Vec<Parameter>,
-    report: &mut Report,
-) {
+fn drop_dampers(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let damper = |p: &Parameter| {
         matches!(
             p,
@@ -96,30 +140,30 @@ fn drop_dampers(
                 | Parameter::DampingAtPoint(_)
         )
     };
-    if free.iter().filter(|p| damper(p)).count() <= fit.point.arm.modes.len() {
+    if fit.free.iter().filter(|p| damper(p)).count() <= fit.body.arm.modes.len() {
         return;
     }
-    let problem = fitting.problem(free, &fit.noise, false);
-    let point = problem.at(fit.point.arm.clone(), fit.point.windows.clone());
-    let covariance = Covariances::at(&point, free.len()).larger();
-    let std = |i: usize| covariance[(i, i)].max(0.0).sqrt();
-    let gone: Vec<Parameter> = (0..free.len())
-        .filter(|&i| damper(&free[i]) && free[i].of(&fit.point.arm) < THERE * std(i))
-        .map(|i| free[i])
+    let covariance = fitting.covariances(fit).larger();
+    let gone: Vec<Parameter> = (0..fit.free.len())
+        .filter(|&i| {
+            damper(&fit.free[i])
+                && fit.free[i].of(&fit.body.arm) < THERE * deviation(&covariance, i)
+        })
+        .map(|i| fit.free[i])
         .collect();
     if gone.is_empty() {
         return;
     }
-    free.retain(|p| !gone.contains(p));
+    fit.free.retain(|p| !gone.contains(p));
     for p in gone {
-        p.set(&mut fit.point.arm, 0.0);
+        p.set(&mut fit.body.arm, 0.0);
     }
-    fitting.search(fit, free, report);
+    fitting.search(fit, report);
 }
 
-/// Groups of parameters that may be added to `free`, each as a whole.
-fn candidates(fit: &Fit, free: &[Parameter]) -> Vec<Vec<Parameter>> {
-    let arm = &fit.point.arm;
+/// Groups of parameters that may be added to the free ones, each as a whole.
+fn candidates(fit: &Fit) -> Vec<Vec<Parameter>> {
+    let arm = &fit.body.arm;
     let modes = 0..arm.modes.len();
     let mut groups = vec![vec![Parameter::CommandLag], vec![Parameter::ViscousDifference]];
     groups.push(modes.clone().map(Parameter::DampingWithin).collect());
@@ -129,29 +173,21 @@ fn candidates(fit: &Fit, free: &[Parameter]) -> Vec<Vec<Parameter>> {
         modes.map(Parameter::DampingAtPoint).collect()
     });
     for group in &mut groups {
-        group.retain(|p| !free.contains(p));
+        group.retain(|p| !fit.free.contains(p));
     }
     groups.retain(|group| !group.is_empty());
     groups
 }
 
-/// The step that a search would make from `point` in the parameters of `group`, which follow
-/// `before` others.
-fn score(point: &Point, before: usize, group: &[Parameter]) -> Vec<Extension> {
+/// The step that a search would make in the parameters of `group`, which follow `before` others.
+fn score(sums: &[WindowSums], before: usize, group: &[Parameter]) -> Vec<Extension> {
     let shared = before + group.len();
-    let mut normal = DMatrix::zeros(shared, shared);
-    let mut right = DVector::zeros(shared);
-    for sums in &point.sums {
-        let reduced = Reduced::new(sums, shared, 0.0);
-        normal += reduced.normal;
-        right += reduced.right;
-    }
+    let (normal, right) = normal_equations(sums, shared);
     let step = inverse(&normal) * &right;
-    let covariance = Covariances::at(point, shared).larger();
-    let share = right.dot(&step) / point.cost();
+    let covariance = Covariances::at(sums, shared).larger();
+    let share = right.dot(&step) / sums.iter().map(|s| s.cost).sum::<f64>();
     let figure = |(k, parameter): (usize, &Parameter)| {
-        let i = before + k;
-        let (value, std) = (step[i], covariance[(i, i)].max(0.0).sqrt());
+        let (value, std) = (step[before + k], deviation(&covariance, before + k));
         Extension { parameter: *parameter, value, std, share, added: false }
     };
     group.iter().enumerate().map(figure).filter(|e| e.value.is_finite()).collect()

@@ -6,6 +6,8 @@ use crate::replay::WindowSums;
 
 /// Eigenvalue of the scaled matrix, relative to the largest, below which its direction is unknown.
 const RANK: f64 = 1e-14;
+/// Square of a pivot of the scaled matrix above which no direction is near that.
+const SOUND: f64 = 1e-11;
 
 /// `(H_pp − H_pz·H_zz⁻¹·H_zp)·δp = g_p − H_pz·H_zz⁻¹·g_z` of parameters p and the window's own z.
 pub(super) struct Reduced {
@@ -40,6 +42,14 @@ impl Reduced {
     }
 }
 
+/// Normal matrix and right side of the shared parameters, all windows' own unknowns eliminated.
+pub(super) fn normal_equations(sums: &[WindowSums], shared: usize) -> (DMatrix<f64>, DVector<f64>) {
+    let zero = (DMatrix::zeros(shared, shared), DVector::zeros(shared));
+    sums.iter()
+        .map(|s| Reduced::new(s, shared, 0.0))
+        .fold(zero, |(normal, right), r| (normal + r.normal, right + r.right))
+}
+
 /// Inverse of a symmetric positive matrix, scaled to a diagonal of ones first; directions that it
 /// does not determine are left out.
 pub(super) fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
@@ -52,6 +62,10 @@ pub(super) fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     if n == 0 || !scaled.iter().all(|v| v.is_finite()) {
         return DMatrix::zeros(n, n);
     }
+    // Nearly always sound, and ten times as fast.
+    if let Some(found) = sound_inverse(&scaled) {
+        return DMatrix::from_fn(n, n, |i, j| found[(i, j)] * scale[i] * scale[j]);
+    }
     let eigen = scaled.symmetric_eigen();
     let least = RANK * eigen.eigenvalues.max();
     let mut found = DMatrix::zeros(n, n);
@@ -62,6 +76,13 @@ pub(super) fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
         }
     }
     found
+}
+
+/// Inverse of a matrix with a diagonal of ones whose directions are all well determined.
+fn sound_inverse(scaled: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let factor = scaled.clone().cholesky()?;
+    let least = factor.l_dirty().diagonal().min();
+    (least * least > SOUND).then(|| factor.inverse())
 }
 
 #[cfg(test)]

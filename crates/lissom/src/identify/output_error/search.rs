@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::coordinates::{Body, in_coordinates};
 use super::normal::{Reduced, inverse};
 use crate::record::{Campaign, Run};
 use crate::replay::{ModalArm, Oscillator, Parameter, Sampling, Window, WindowSums, costs, sums};
@@ -24,16 +25,13 @@ const ROBUST: f64 = 10.0;
 /// Parameters, windows and what they leave.
 #[derive(Debug, Clone)]
 pub(in crate::identify::output_error) struct Point {
-    pub(super) arm: ModalArm,
+    pub(super) body: Body,
     pub(super) windows: Vec<Window>,
+    /// Derivatives in them are by the body's coordinates.
     pub(super) sums: Vec<WindowSums>,
 }
 
 impl Point {
-    pub(super) fn cost(&self) -> f64 {
-        self.sums.iter().map(|s| s.cost).sum()
-    }
-
     /// [`ROBUST`] times the median of the windows' costs per sample.
     fn usual(&self) -> f64 {
         let mut each: Vec<f64> = self.sums.iter().map(per_sample).collect();
@@ -97,10 +95,13 @@ pub(super) struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    /// Replays `windows` through `arm`.
-    pub(super) fn at(&self, arm: ModalArm, windows: Vec<Window>) -> Point {
-        let sums = sums(&arm, self.parameters, self.campaign, &windows, self.sampling);
-        Point { arm, windows, sums }
+    /// Replays `windows` through `body`.
+    pub(super) fn at(&self, body: Body, windows: Vec<Window>) -> Point {
+        let mut sums = sums(&body.arm, self.parameters, self.campaign, &windows, self.sampling);
+        if let Some(jacobian) = body.jacobian(self.parameters) {
+            sums.iter_mut().for_each(|s| *s = in_coordinates(s, &jacobian));
+        }
+        Point { body, windows, sums }
     }
 
     /// Lowers the cost from `point` by at most `steps` steps.
@@ -115,9 +116,9 @@ impl Problem<'_> {
             if step.promised < PROMISE {
                 return (point, iterations, Stop::Converged);
             }
-            let (arm, windows) = self.moved(&point, &step);
-            let after = if self.can_be_seen(&arm) {
-                let costs = costs(&arm, self.campaign, &windows, self.sampling);
+            let (body, windows) = self.moved(&point, &step);
+            let after = if can_be_seen(self.campaign, &body.arm) {
+                let costs = costs(&body.arm, self.campaign, &windows, self.sampling);
                 let samples = point.sums.iter().map(|s| s.samples);
                 costs.iter().zip(samples).map(|(c, n)| robust(*c, n, usual)).sum()
             } else {
@@ -129,7 +130,7 @@ impl Problem<'_> {
             let cost = if taken { after } else { before };
             iterations.push(Iteration { cost, promised: step.promised, damping, taken });
             if taken {
-                point = self.at(arm, windows);
+                point = self.at(body, windows);
                 damping *= (1.0 - (2.0 * gain - 1.0).powi(3)).max(1.0 / 3.0);
                 growth = 2.0;
             } else {
@@ -143,28 +144,17 @@ impl Problem<'_> {
         (point, iterations, Stop::StepsUsedUp)
     }
 
-    /// Whether every mode turns by less than [`LARGEST_TURN`] in a sample: faster ones are in no log, and
-    /// take ever shorter steps to follow.
-    pub(super) fn can_be_seen(&self, arm: &ModalArm) -> bool {
-        let sample_s = self.campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
-        let turn = |m: &Oscillator| m.omega_rad_s * sample_s;
-        let damped = |m: &Oscillator| (m.within_per_s.abs() + m.grounded_per_s.abs()) * sample_s;
-        arm.modes.iter().all(|m| turn(m) < LARGEST_TURN && damped(m) < LARGEST_TURN)
-            && arm.at_points_per_s.iter().all(|c| (c * sample_s).abs() < LARGEST_TURN)
-            && arm.coupling_nm_per_rad() / arm.inertia_kg_m2 * sample_s * sample_s
-                < LARGEST_TURN * LARGEST_TURN
-    }
-
-    fn moved(&self, point: &Point, step: &Step) -> (ModalArm, Vec<Window>) {
-        let mut arm = point.arm.clone();
-        for (p, change) in self.parameters.iter().zip(step.shared.iter()) {
-            let value = p.of(&arm);
-            let next = if p.is_scale() {
-                value * (change / value).clamp(-LARGEST_FACTOR, LARGEST_FACTOR).exp()
-            } else {
-                value + change
+    fn moved(&self, point: &Point, step: &Step) -> (Body, Vec<Window>) {
+        let mut body = point.body.clone();
+        let coordinates = body.coordinates(self.parameters);
+        for (coordinate, change) in coordinates.into_iter().zip(step.shared.iter()) {
+            let change = match body.scale(coordinate) {
+                Some(value) => {
+                    value * (change / value).clamp(-LARGEST_FACTOR, LARGEST_FACTOR).exp_m1()
+                }
+                None => *change,
             };
-            p.set(&mut arm, next);
+            body.shift(coordinate, change);
         }
         let windows = point
             .windows
@@ -178,11 +168,11 @@ impl Problem<'_> {
                 w
             })
             .collect();
-        (arm, windows)
+        (body, windows)
     }
 
     fn step(&self, point: &Point, damping: f64, usual: f64) -> Option<Step> {
-        let shared = self.parameters.len();
+        let shared = point.body.coordinates(self.parameters).len();
         let reduced: Vec<Reduced> =
             point.sums.iter().map(|s| Reduced::new(s, shared, damping)).collect();
         let mut normal = DMatrix::zeros(shared, shared);
@@ -213,6 +203,18 @@ impl Problem<'_> {
         }
         promised.is_finite().then_some(Step { shared: change, own, promised })
     }
+}
+
+/// Whether every mode turns by less than [`LARGEST_TURN`] in a sample: faster ones are in no log, and
+/// take ever shorter steps to follow.
+pub(super) fn can_be_seen(campaign: &Campaign, arm: &ModalArm) -> bool {
+    let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
+    let turn = |m: &Oscillator| m.omega_rad_s * sample_s;
+    let damped = |m: &Oscillator| (m.within_per_s.abs() + m.grounded_per_s.abs()) * sample_s;
+    let rigid = arm.coupling_nm_per_rad() / arm.inertia_kg_m2 * sample_s * sample_s;
+    arm.modes.iter().all(|m| turn(m) < LARGEST_TURN && damped(m) < LARGEST_TURN)
+        && arm.at_points_per_s.iter().all(|c| (c * sample_s).abs() < LARGEST_TURN)
+        && rigid < LARGEST_TURN * LARGEST_TURN
 }
 
 struct Step {

@@ -7,6 +7,9 @@ use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter};
 /// Smallest stiffness of a mode to start with, as a share of the coupling: its logarithm is moved.
 const LEAST_SHARE: f64 = 0.02;
 
+/// Share of every tip's motion below which a mode is none to start with.
+const NEGLIGIBLE: f64 = 0.05;
+
 /// Arms to start from, the likelier first: the motor's regression with the beam's own, with the modes of
 /// the rational model, and as a rigid axis where there is no tip. Empty where the motor's figures lack
 /// what it needs.
@@ -32,6 +35,7 @@ pub fn starts(
     [by_regression, by_responses]
         .into_iter()
         .flatten()
+        .map(shown)
         .filter(|(omega, ..)| omega.len() <= MOST_MODES)
         .map(|modes| with_modes(rigid.clone(), modes, &coupling))
         .collect()
@@ -39,6 +43,25 @@ pub fn starts(
 
 /// Frequencies, damping ratios, and shapes by tip.
 type Modes = (Vec<f64>, Vec<f64>, Vec<Vec<f64>>);
+
+/// Without modes that no tip shows beside the others: noise makes them, and they stand in the place of
+/// those that the fit adds where it needs them.
+fn shown((mut omega, mut ratios, mut shapes): Modes) -> Modes {
+    let share = |shapes: &[Vec<f64>], j: usize| {
+        shapes.iter().map(|row: &Vec<f64>| row[j].abs()).fold(0.0, f64::max)
+    };
+    for j in (0..omega.len()).rev() {
+        if omega.len() > 1 && share(&shapes, j) < NEGLIGIBLE {
+            omega.remove(j);
+            ratios.remove(j);
+            for row in &mut shapes {
+                let gone = row.remove(j);
+                row.last_mut().into_iter().for_each(|r| *r += gone);
+            }
+        }
+    }
+    (omega, ratios, shapes)
+}
 
 fn known(tip: &Tip) -> bool {
     tip.calibrated && tip.quantity != TipQuantity::Acceleration

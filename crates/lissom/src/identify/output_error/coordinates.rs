@@ -1,0 +1,156 @@
+//! What a search moves: parameters one by one, or a beam of point masses as a whole.
+
+use nalgebra::DMatrix;
+
+use crate::record::Campaign;
+use crate::replay::{BeamCoordinate, ModalArm, Parameter, PointMasses, WindowSums};
+
+/// One number that a search moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Coordinate {
+    Parameter(Parameter),
+    Beam(BeamCoordinate),
+}
+
+/// An arm, and its beam as point masses where it is taken for such.
+#[derive(Debug, Clone)]
+pub(super) struct Body {
+    pub(super) arm: ModalArm,
+    pub(super) masses: Option<PointMasses>,
+}
+
+impl Body {
+    /// With a beam of point masses where there are as many tips as modes, and all show angles.
+    pub(super) fn of_masses(campaign: &Campaign, arm: ModalArm) -> Self {
+        let angles = campaign.channels.tips.iter().all(|t| t.calibrated);
+        let mut body = Self { masses: PointMasses::nearest(&arm).filter(|_| angles), arm };
+        if let Some(masses) = &body.masses {
+            masses.put_into(&mut body.arm);
+        }
+        body
+    }
+
+    /// Lets dampers stand at the tips' points, where there are as many as modes.
+    pub(super) fn allow_dampers_at_points(&mut self) {
+        let modes = self.arm.modes.len();
+        if self.arm.shapes.len() == modes && self.arm.at_points_per_s.is_empty() {
+            self.arm.at_points_per_s = vec![0.0; modes];
+        }
+    }
+
+    /// With two of the modes turned into each other, where the beam is one of point masses.
+    pub(super) fn turned(mut self, first: usize, second: usize, angle_rad: f64) -> Self {
+        self.shift(Coordinate::Beam(BeamCoordinate::Turn(first, second)), angle_rad);
+        self
+    }
+
+    /// Whose modes know nothing of each other.
+    pub(super) fn free(arm: ModalArm) -> Self {
+        Self { arm, masses: None }
+    }
+
+    /// What moves when `parameters` may, in their order; the beam's own numbers stand where the first
+    /// of those that they replace would.
+    pub(super) fn coordinates(&self, parameters: &[Parameter]) -> Vec<Coordinate> {
+        let Some(masses) = &self.masses else {
+            return parameters.iter().copied().map(Coordinate::Parameter).collect();
+        };
+        let mut found = Vec::new();
+        let mut beam = Some(masses.coordinates());
+        for p in parameters {
+            if is_of_beam(*p) {
+                found.extend(beam.take().into_iter().flatten().map(Coordinate::Beam));
+            } else {
+                found.push(Coordinate::Parameter(*p));
+            }
+        }
+        found
+    }
+
+    /// Value of a coordinate where it is positive by nature.
+    pub(super) fn scale(&self, coordinate: Coordinate) -> Option<f64> {
+        match coordinate {
+            Coordinate::Parameter(p) => p.is_scale().then(|| p.of(&self.arm)),
+            Coordinate::Beam(b) => {
+                let masses = self.masses.as_ref()?;
+                match b {
+                    BeamCoordinate::Frequency(j) => Some(masses.omega_rad_s[j]),
+                    BeamCoordinate::Inertia(i) => Some(masses.inertia_kg_m2[i]),
+                    BeamCoordinate::Turn(..) => None,
+                }
+            }
+        }
+    }
+
+    /// Adds `change` to a coordinate.
+    pub(super) fn shift(&mut self, coordinate: Coordinate, change: f64) {
+        let b = match coordinate {
+            Coordinate::Beam(b) => b,
+            Coordinate::Parameter(p) => {
+                let value = p.of(&self.arm) + change;
+                p.set(&mut self.arm, value);
+                return;
+            }
+        };
+        let Some(masses) = &mut self.masses else { return };
+        masses.shift(b, change);
+        masses.put_into(&mut self.arm);
+    }
+
+    /// ∂parameter/∂coordinate; `None` where each is its own.
+    pub(super) fn jacobian(&self, parameters: &[Parameter]) -> Option<DMatrix<f64>> {
+        let masses = self.masses.as_ref()?;
+        let coordinates = self.coordinates(parameters);
+        let mut found = DMatrix::zeros(parameters.len(), coordinates.len());
+        for (c, coordinate) in coordinates.iter().enumerate() {
+            match coordinate {
+                Coordinate::Parameter(p) => {
+                    let own = parameters.iter().position(|q| q == p);
+                    own.into_iter().for_each(|row| found[(row, c)] = 1.0);
+                }
+                Coordinate::Beam(b) => {
+                    let by = masses.derivative(*b);
+                    for (row, p) in parameters.iter().enumerate() {
+                        found[(row, c)] = match *p {
+                            Parameter::Frequency(j) => by.omega[j],
+                            Parameter::Stiffness(j) => by.stiffness[j],
+                            Parameter::Shape(i, j) | Parameter::ShapeShare(i, j) => {
+                                by.shapes[(i, j)]
+                            }
+                            _ => 0.0,
+                        };
+                    }
+                }
+            }
+        }
+        Some(found)
+    }
+}
+
+/// Whether point masses have it from their own numbers.
+fn is_of_beam(p: Parameter) -> bool {
+    matches!(
+        p,
+        Parameter::Frequency(_)
+            | Parameter::Stiffness(_)
+            | Parameter::Shape(..)
+            | Parameter::ShapeShare(..)
+    )
+}
+
+/// Sums by parameters as sums by coordinates.
+pub(super) fn in_coordinates(sums: &WindowSums, jacobian: &DMatrix<f64>) -> WindowSums {
+    let (shared, fewer) = jacobian.shape();
+    let own = sums.gram.ncols() - shared;
+    let mut whole = DMatrix::identity(shared + own, fewer + own);
+    whole.view_mut((0, 0), (shared, fewer)).copy_from(jacobian);
+    whole.view_mut((0, fewer), (shared, own)).fill(0.0);
+    whole.view_mut((shared, 0), (own, fewer)).fill(0.0);
+    whole.view_mut((shared, fewer), (own, own)).fill_with_identity();
+    let turned = |m: &DMatrix<f64>| whole.tr_mul(&(m * &whole));
+    WindowSums {
+        gram: turned(&sums.gram),
+        blocks: sums.blocks.iter().map(turned).collect(),
+        ..sums.clone()
+    }
+}

@@ -1,0 +1,172 @@
+//! How many modes: those that the runs do not show go, those that they call for come.
+
+use super::coordinates::Body;
+use super::covariance::deviation;
+use super::stages::{Fit, Fitting, Report};
+use super::start::free_parameters;
+use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter};
+
+/// A mode is in doubt whose stiffness is not this many deviations from zero…
+const DEVIATIONS: f64 = 5.0;
+/// …or whose frequency is not known to this share.
+const FREQUENCY: f64 = 0.02;
+/// It goes where the cost rises by no more than this share without it.
+const SHARE: f64 = 2e-3;
+/// A mode put beyond the others begins at this many times the highest, with this share of what that one
+/// has and this damping ratio.
+const BEYOND: f64 = 3.0;
+const BEYOND_SHARE: f64 = 0.25;
+const BEYOND_DAMPING: f64 = 0.1;
+/// Angle by which point masses turn the two into each other \[rad\].
+const BEYOND_TURN: f64 = 0.4;
+/// Share of the coupling below which a mode is not felt.
+const UNFELT: f64 = 1e-3;
+
+/// Takes out one mode in doubt after another, as long as the residual allows it; tells whether the
+/// modes are others now.
+pub(super) fn prune(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) -> bool {
+    let mut changed = false;
+    while fit.body.arm.modes.len() > 1 {
+        let Some(mode) = doubtful(fitting, fit) else { break };
+        let before = fitting.cost(fit, &fit.noise);
+        let without = refitted(fitting, less(fit, mode), report);
+        if fitting.cost(&without, &fit.noise) <= before * (1.0 + SHARE) {
+            *fit = without;
+            changed = true;
+            continue;
+        }
+        // It stands for something: for a mode beyond the others, perhaps.
+        let beyond = with_one_more(fitting, &without, report);
+        if fitting.cost(&beyond, &fit.noise) > before * (1.0 - SHARE) {
+            break;
+        }
+        *fit = beyond;
+        changed = true;
+    }
+    changed
+}
+
+/// Adds modes above the others, up to as many as tips, while each takes more than noise away; tells
+/// whether it added any.
+pub(super) fn grow(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) -> bool {
+    let tips = fitting.campaign.channels.tips.len().min(MOST_MODES);
+    let mut grown = false;
+    while !fit.body.arm.modes.is_empty() && fit.body.arm.modes.len() < tips {
+        let beyond = with_one_more(fitting, fit, report);
+        let before = fitting.cost(fit, &fit.noise);
+        if fitting.cost(&beyond, &fit.noise) > before * (1.0 - SHARE) {
+            break;
+        }
+        *fit = beyond;
+        grown = true;
+    }
+    grown
+}
+
+/// Searched again, free what its modes make free.
+fn refitted(fitting: &Fitting<'_>, mut fit: Fit, report: &mut Report) -> Fit {
+    let extra = [Parameter::CommandLag, Parameter::ViscousDifference];
+    let extra: Vec<Parameter> = extra.into_iter().filter(|p| fit.free.contains(p)).collect();
+    fit.free = free_parameters(fitting.campaign, &fit.body.arm);
+    fit.free.extend(extra);
+    fitting.search(&mut fit, report);
+    fit
+}
+
+/// Searched with a mode above all others, which takes over a part of the highest: that one stands for
+/// all that were cut off with it. Point masses say how it may, but for a sign: both are tried.
+fn with_one_more(fitting: &Fitting<'_>, fit: &Fit, report: &mut Report) -> Fit {
+    let last = highest(&fit.body.arm);
+    let beyond = one_beyond(fit.clone(), last);
+    let new = beyond.body.arm.modes.len() - 1;
+    let body = Body::of_masses(fitting.campaign, beyond.body.arm.clone());
+    if body.masses.is_none() {
+        return refitted(fitting, beyond, report);
+    }
+    let turned = |angle: f64| Fit { body: body.clone().turned(last, new, angle), ..beyond.clone() };
+    let [a, b] = [BEYOND_TURN, -BEYOND_TURN].map(|t| refitted(fitting, turned(t), report));
+    if fitting.cost(&a, &fit.noise) < fitting.cost(&b, &fit.noise) { a } else { b }
+}
+
+/// The mode of the highest frequency.
+fn highest(arm: &ModalArm) -> usize {
+    let omega = |j: &usize| arm.modes[*j].omega_rad_s;
+    (0..arm.modes.len()).max_by(|a, b| omega(a).total_cmp(&omega(b))).unwrap_or(0)
+}
+
+fn one_beyond(mut fit: Fit, last: usize) -> Fit {
+    let arm = &mut fit.body.arm;
+    let cut = arm.modes[last];
+    arm.modes[last].stiffness_nm_per_rad *= 1.0 - BEYOND_SHARE;
+    arm.modes.push(Oscillator {
+        omega_rad_s: BEYOND * cut.omega_rad_s,
+        stiffness_nm_per_rad: BEYOND_SHARE * cut.stiffness_nm_per_rad,
+        // Its ringing must not outlast how well its frequency is known.
+        within_per_s: 2.0 * BEYOND_DAMPING * BEYOND * cut.omega_rad_s,
+        grounded_per_s: 0.0,
+    });
+    for row in &mut arm.shapes {
+        row.push(BEYOND_SHARE * row[last]);
+        row[last] *= 1.0 - BEYOND_SHARE;
+    }
+    for window in &mut fit.windows {
+        let still = [window.start[0], window.start[1]];
+        window.start.extend(still);
+    }
+    fit
+}
+
+/// Takes out modes that the motor hardly feels, and no tip shows: noise put them where they are, and
+/// no search would move them from there.
+pub(super) fn drop_unfelt(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+    let unfelt = |arm: &ModalArm| {
+        let least = UNFELT * arm.coupling_nm_per_rad();
+        let few = arm.modes.iter().position(|m| m.stiffness_nm_per_rad < least);
+        few.filter(|_| arm.modes.len() > 1)
+    };
+    let mut dropped = false;
+    while let Some(mode) = unfelt(&fit.body.arm) {
+        *fit = less(fit, mode);
+        dropped = true;
+    }
+    if dropped {
+        *fit = refitted(fitting, fit.clone(), report);
+    }
+}
+
+/// The mode that stands least.
+fn doubtful(fitting: &Fitting<'_>, fit: &Fit) -> Option<usize> {
+    let covariance = fitting.covariances(fit).larger();
+    let relative = |p: Parameter| {
+        let i = fit.free.iter().position(|q| *q == p)?;
+        Some(deviation(&covariance, i) / p.of(&fit.body.arm).abs())
+    };
+    let doubt = |j: usize| {
+        let stiffness = relative(Parameter::Stiffness(j))? * DEVIATIONS;
+        let frequency = relative(Parameter::Frequency(j))? / FREQUENCY;
+        Some((j, stiffness.max(frequency)))
+    };
+    let all = (0..fit.body.arm.modes.len()).filter_map(doubt);
+    all.filter(|(_, d)| *d > 1.0).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(j, _)| j)
+}
+
+/// Without one of its modes; the rest of Σr = 1 goes to the last that is left.
+fn less(fit: &Fit, mode: usize) -> Fit {
+    let mut fit = fit.clone();
+    fit.body.masses = None;
+    let arm = &mut fit.body.arm;
+    for (j, ratio) in arm.damping_ratios().into_iter().enumerate() {
+        let oscillator = &mut arm.modes[j];
+        oscillator.grounded_per_s = 2.0 * ratio * oscillator.omega_rad_s - oscillator.within_per_s;
+    }
+    arm.at_points_per_s.clear();
+    arm.modes.remove(mode);
+    for row in &mut arm.shapes {
+        let gone = row.remove(mode);
+        row.last_mut().into_iter().for_each(|r| *r += gone);
+    }
+    for window in &mut fit.windows {
+        window.start.drain(2 + 2 * mode..4 + 2 * mode);
+    }
+    fit
+}

@@ -1,0 +1,269 @@
+//! From short windows to whole runs, and what each step of the way left.
+
+use super::OutputErrorStart;
+use super::coordinates::Body;
+use super::covariance::Covariances;
+use super::data::Masks;
+use super::evidence::{self, Extension};
+use super::modes;
+use super::noise;
+use super::search::{Iteration, Point, Problem, Stop, can_be_seen};
+use super::start::free_parameters;
+use super::windows::{cut, widen};
+use crate::record::{Campaign, Run};
+use crate::replay::{
+    Blocks, ModalArm, Parameter, Sampling, SensorNoise, Window, WindowSums, costs,
+};
+
+/// Most steps of a stage before the last, which only leads to it.
+const STEPS_ON_THE_WAY: usize = 12;
+/// Samples replayed on that way, about.
+const SAMPLES_ON_THE_WAY: usize = 40_000;
+/// Most steps of the last stage.
+const MOST_STEPS: usize = 40;
+/// Most searches on end, each with the noise that the one before left, until no channel's falls by more
+/// than this.
+const MOST_ROUNDS: usize = 4;
+const SETTLED: f64 = 0.9;
+/// Each stage's windows are longer than the ones before by this factor.
+const WIDENING: f64 = 4.0;
+/// Samples of the first windows, at least, and their share of the slowest mode's period.
+const FIRST_SAMPLES: f64 = 80.0;
+const FIRST_PERIODS: f64 = 0.3;
+/// Windows are not widened further once the residual has grown by this factor: what the arm does
+/// not describe adds up over a window, and what a sensor adds does not.
+const GROWN: f64 = 1.5;
+
+/// One length of windows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StageReport {
+    /// Longest window \[s\].
+    pub window_s: f64,
+    /// Number of windows.
+    pub windows: usize,
+    /// Every step tried.
+    pub iterations: Vec<Iteration>,
+    /// Why it ended.
+    pub stop: Stop,
+    /// Noise that each channel was taken to have, motor first, then tips.
+    pub noise: Vec<SensorNoise>,
+    /// Deviation of each channel's residual, its share of the unknowns taken out.
+    pub residual: Vec<f64>,
+    /// The arm at its end.
+    pub arm: ModalArm,
+}
+
+/// A campaign as the fits see it.
+pub(super) struct Fitting<'a> {
+    pub(super) campaign: &'a Campaign,
+    pub(super) masks: &'a [Masks],
+    pub(super) blocks: &'a [Blocks],
+}
+
+/// Where a fit is.
+#[derive(Debug, Clone)]
+pub(super) struct Fit {
+    pub(super) body: Body,
+    pub(super) windows: Vec<Window>,
+    /// What is free.
+    pub(super) free: Vec<Parameter>,
+    /// Noise that each channel is taken to have.
+    pub(super) noise: Vec<SensorNoise>,
+    /// Deviation of each channel's residual, its share of the unknowns taken out.
+    pub(super) residual: Vec<f64>,
+    pub(super) whole_runs: bool,
+    pub(super) window_s: f64,
+}
+
+impl Fit {
+    /// How many numbers a search moves.
+    pub(super) fn coordinates(&self) -> usize {
+        self.body.coordinates(&self.free).len()
+    }
+}
+
+/// What was done.
+#[derive(Debug, Default)]
+pub(super) struct Report {
+    pub(super) stages: Vec<StageReport>,
+    /// Parameters that were added.
+    pub(super) added: Vec<Extension>,
+    /// Those that were not, when last tried.
+    pub(super) refused: Vec<Extension>,
+}
+
+impl Report {
+    /// Whether a residual is larger than that of the first windows by what no sensor adds.
+    fn grown(&self, residual: &[f64]) -> bool {
+        let first = self.stages.first().map_or(residual, |s| &s.residual);
+        first.iter().zip(residual).any(|(a, b)| *b > GROWN * a)
+    }
+}
+
+impl Fitting<'_> {
+    fn problem<'b>(
+        &'b self,
+        free: &'b [Parameter],
+        noise: &'b [SensorNoise],
+        robust: bool,
+    ) -> Problem<'b> {
+        let sampling = Sampling { noise, blocks: self.blocks, masks: self.masks };
+        Problem { campaign: self.campaign, parameters: free, sampling, robust }
+    }
+
+    /// Replays a fit, the parameters `free` moving.
+    pub(super) fn point(&self, fit: &Fit, free: &[Parameter]) -> Point {
+        self.problem(free, &fit.noise, false).at(fit.body.clone(), fit.windows.clone())
+    }
+
+    /// Covariances of the free parameters.
+    pub(super) fn covariances(&self, fit: &Fit) -> Covariances {
+        let found = Covariances::at(&self.point(fit, &fit.free).sums, fit.coordinates());
+        match fit.body.jacobian(&fit.free) {
+            Some(jacobian) => found.through(&jacobian),
+            None => found,
+        }
+    }
+
+    /// Cost of an arm and its windows where the noise is `noise`.
+    pub(super) fn cost(&self, fit: &Fit, noise: &[SensorNoise]) -> f64 {
+        let sampling = Sampling { noise, blocks: self.blocks, masks: self.masks };
+        costs(&fit.body.arm, self.campaign, &fit.windows, sampling).iter().sum()
+    }
+
+    /// From short windows to whole runs, as far as the arm describes them; parameters are added where
+    /// it does not.
+    pub(super) fn widen(&self, start: &OutputErrorStart, report: &mut Report) -> Option<Fit> {
+        let longest = self.campaign.runs.iter().map(duration_s).fold(0.0, f64::max);
+        let window_s =
+            start.first_window_s.unwrap_or_else(|| self.first_window_s(&start.arm)).min(longest);
+        let body = Body::of_masses(self.campaign, start.arm.clone());
+        let windows = some(cut(self.campaign, &body.arm, window_s));
+        if windows.is_empty() || !can_be_seen(self.campaign, &body.arm) {
+            return None;
+        }
+        let mut fit = Fit {
+            body,
+            windows,
+            free: free_parameters(self.campaign, &start.arm),
+            noise: noise::of_samples(self.campaign),
+            residual: Vec::new(),
+            whole_runs: window_s >= longest,
+            window_s,
+        };
+        self.search(&mut fit, report);
+        modes::drop_unfelt(self, &mut fit, report);
+        modes::grow(self, &mut fit, report);
+        evidence::extend(self, &mut fit, report);
+        while !fit.whole_runs {
+            let before = fit.clone();
+            fit.window_s = (fit.window_s * WIDENING).min(longest);
+            fit.whole_runs = fit.window_s >= longest;
+            let windows = widen(self.campaign, &fit.body.arm, &fit.windows, fit.window_s);
+            fit.windows = if fit.whole_runs { windows } else { some(windows) };
+            self.search(&mut fit, report);
+            if report.grown(&fit.residual) {
+                modes::grow(self, &mut fit, report);
+                evidence::extend(self, &mut fit, report);
+                evidence::relax(self, &mut fit, report);
+            }
+            if report.grown(&fit.residual) {
+                return Some(before);
+            }
+        }
+        Some(fit)
+    }
+
+    /// Searches from where the fit is and takes its noise from what is left.
+    pub(super) fn search(&self, fit: &mut Fit, report: &mut Report) {
+        for _ in 0..MOST_ROUNDS {
+            let stop = self.steps(fit, report, STEPS_ON_THE_WAY);
+            let to_the_end = fit.whole_runs || report.grown(&fit.residual);
+            if stop == Stop::StepsUsedUp && to_the_end {
+                self.steps(fit, report, MOST_STEPS);
+            }
+            let noise = self.noise_of(fit);
+            let before = std::mem::replace(&mut fit.noise, noise);
+            let same =
+                |(a, b): (&SensorNoise, &SensorNoise)| b.deviation() > SETTLED * a.deviation();
+            if before.iter().zip(&fit.noise).all(same) || !to_the_end {
+                break;
+            }
+        }
+    }
+
+    /// Noise for what follows: short windows leave each channel what it has. Over whole runs a channel
+    /// that the arm misses would count less and be missed by more: the channels keep the ratios of the
+    /// noise that their samples show.
+    fn noise_of(&self, fit: &Fit) -> Vec<SensorNoise> {
+        if !fit.whole_runs {
+            return fit.residual.iter().map(|r| SensorNoise::gaussian(*r)).collect();
+        }
+        let own = noise::of_samples(self.campaign);
+        let ratio = |(r, n): (&f64, &SensorNoise)| (r / n.deviation()).powi(2);
+        let squares: f64 = fit.residual.iter().zip(&own).map(ratio).sum();
+        let common = (squares / own.len() as f64).sqrt();
+        own.iter().map(|n| SensorNoise::gaussian(common * n.deviation())).collect()
+    }
+
+    /// At most `most` steps; tells why they ended.
+    fn steps(&self, fit: &mut Fit, report: &mut Report, most: usize) -> Stop {
+        let problem = self.problem(&fit.free, &fit.noise, !fit.whole_runs);
+        let start = problem.at(fit.body.clone(), std::mem::take(&mut fit.windows));
+        let (point, iterations, stop) = problem.search(start, most);
+        fit.residual = residual_deviation(&point, fit.coordinates());
+        report.stages.push(StageReport {
+            window_s: fit.window_s,
+            windows: point.windows.len(),
+            iterations,
+            stop,
+            noise: fit.noise.clone(),
+            residual: fit.residual.clone(),
+            arm: point.body.arm.clone(),
+        });
+        (fit.body, fit.windows) = (point.body, point.windows);
+        stop
+    }
+
+    fn first_window_s(&self, arm: &ModalArm) -> f64 {
+        let sample_s =
+            self.campaign.runs.iter().map(Run::sample_time_s).fold(f64::INFINITY, f64::min);
+        let slowest = arm.modes.iter().map(|m| m.omega_rad_s).fold(f64::INFINITY, f64::min);
+        let period_s = std::f64::consts::TAU / slowest;
+        (FIRST_SAMPLES * sample_s).max(FIRST_PERIODS * period_s)
+    }
+
+    /// The sensors' steps as what they are. They count once the fit is near: within one there is
+    /// nothing that would lead there.
+    pub(super) fn count_steps(&self, fit: &mut Fit, report: &mut Report) {
+        let steps = noise::steps(self.campaign);
+        let left = noise::residuals(self.campaign, fit, self.masks);
+        fit.noise = left.iter().zip(&steps).map(|(e, q)| noise::most_likely(e, *q)).collect();
+        self.steps(fit, report, STEPS_ON_THE_WAY);
+    }
+}
+
+/// Windows enough to find the way: every so manieth.
+fn some(windows: Vec<Window>) -> Vec<Window> {
+    let samples: usize = windows.iter().map(Window::len).sum();
+    windows.into_iter().step_by(samples.div_ceil(SAMPLES_ON_THE_WAY).max(1)).collect()
+}
+
+fn duration_s(run: &Run) -> f64 {
+    run.len() as f64 * run.sample_time_s()
+}
+
+/// Deviation of each channel's residual, its share of the unknowns taken out.
+fn residual_deviation(point: &Point, shared: usize) -> Vec<f64> {
+    let channels = point.sums.first().map_or(0, |s| s.squares.len());
+    let own = |s: &WindowSums| s.gram.ncols() - 1 - shared;
+    let unknowns = point.sums.iter().map(own).sum::<usize>() + shared;
+    (0..channels)
+        .map(|c| {
+            let readings: usize = point.sums.iter().map(|s| s.readings[c]).sum();
+            let free = (readings as f64 - unknowns as f64 / channels as f64).max(1.0);
+            let square: f64 = point.sums.iter().map(|s| s.squares[c]).sum();
+            (square / free).sqrt().max(f64::MIN_POSITIVE)
+        })
+        .collect()
+}

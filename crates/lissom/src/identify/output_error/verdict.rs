@@ -1,0 +1,74 @@
+//! What the output error's figures are worth, in findings.
+
+use super::{OutputError, StageReport};
+use crate::identify::Identified;
+use crate::identify::finding::{Finding, Severity, key};
+use crate::record::Campaign;
+use crate::replay::Parameter;
+
+/// The output error's figures, where its arm describes the runs.
+pub(crate) fn verdict(campaign: &Campaign, id: &mut Identified) {
+    let Some(oe) = &id.output_error else { return };
+    if oe.stands() {
+        id.friction = oe.friction(campaign.channels.command.back_emf_viscous);
+        id.inertia = oe.inertia();
+        id.findings.extend(added(oe));
+        id.findings.extend(modes_missing(campaign, oe));
+        return;
+    }
+    let (Some(first), Some(last)) = (oe.stages.first(), longest(oe)) else { return };
+    let grown = first.residual.iter().zip(&last.residual).map(|(a, b)| b / a).fold(0.0, f64::max);
+    id.findings.push(Finding::new(
+        "replay-departs",
+        Severity::Warning,
+        &[key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES],
+        format!(
+            "replayed over {:.2} s at a time the residual is {grown:.1} times that over {:.2} s: \
+             something moves the axis that the arm has not",
+            last.window_s, first.window_s
+        ),
+        "other friction than Coulomb and viscous, a load, backlash, a mode without a tip; the \
+         regression's figures are taken",
+    ));
+}
+
+/// The stage of the longest windows tried.
+fn longest(oe: &OutputError) -> Option<&StageReport> {
+    oe.stages.iter().max_by(|a, b| a.window_s.total_cmp(&b.window_s))
+}
+
+/// Fewer modes than tips: a mode that no run shows, whose inertia rides on the motor's.
+fn modes_missing(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
+    let (modes, tips) = (oe.arm.modes.len(), campaign.channels.tips.len());
+    (modes > 0 && modes < tips).then(|| {
+        Finding::new(
+            "modes-missing",
+            Severity::Warning,
+            &[key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES],
+            format!(
+                "{tips} tips are measured and the runs show {modes} modes: what the others add to \
+                 inertia and coupling is counted wrongly"
+            ),
+            "add runs above the modes found: a sweep, or sines at several times the highest",
+        )
+    })
+}
+
+/// What the output error added to the simplest law.
+fn added(oe: &OutputError) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    if let Some(lag) = oe.estimate(Parameter::CommandLag) {
+        findings.push(Finding::new(
+            "command-lag",
+            Severity::Info,
+            &[key::INERTIA, key::VISCOUS, key::RAW],
+            format!(
+                "the command acts {:.3} ms (± {:.3}) later than it is logged: counted in all figures",
+                1e3 * lag.value,
+                1e3 * lag.std
+            ),
+            "an amplifier's delay, or channels that are not sampled together",
+        ));
+    }
+    findings
+}
