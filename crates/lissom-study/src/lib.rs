@@ -8,6 +8,7 @@
 
 mod arm;
 mod bench;
+mod bound;
 mod campaign;
 mod csv;
 mod draw;
@@ -23,6 +24,7 @@ mod tables;
 mod trial;
 mod truth;
 
+pub use bound::Bound;
 pub use campaign::{Campaign, Definition, PlannedRun, Rejected, RunFacts, draw_campaign};
 pub use csv::rows;
 pub use law::Law;

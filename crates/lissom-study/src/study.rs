@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use lissom::identify::{Identified, IdentifyError, Options, identify};
 use rayon::prelude::*;
 
+use crate::bound::Bound;
 use crate::campaign::{Campaign, Rejected, RunFacts, draw_campaign};
 use crate::law::Law;
 use crate::score::{Score, score};
@@ -46,6 +47,8 @@ pub struct Scored {
     pub given_up: Vec<Stratum>,
     /// Figures against truth, or why nothing was identified at all.
     pub score: Result<Score, IdentifyError>,
+    /// What the true arm leaves of each channel, in its sensor's deviations: see [`Bound::left`].
+    pub left: Vec<f64>,
     /// Time of the simulation, repeated runs included.
     pub simulation: Duration,
     /// Time of the identification.
@@ -66,32 +69,36 @@ pub fn study(study: &Study, done: impl Fn() + Sync) -> Vec<Option<Scored>> {
     (0..study.campaigns)
         .into_par_iter()
         .map(|index| {
-            let scored = one(study, index);
+            let start = Instant::now();
+            let campaign = draw_campaign(study.seed, index, study.law);
+            let scored = campaign.map(|c| Scored::of(c, start.elapsed()));
             done();
             scored
         })
         .collect()
 }
 
-fn one(study: &Study, index: usize) -> Option<Scored> {
-    let start = Instant::now();
-    let campaign = draw_campaign(study.seed, index, study.law)?;
-    let simulation = start.elapsed();
-    let start = Instant::now();
-    let found = identified(&campaign);
-    let identification = start.elapsed();
-    Some(Scored {
-        index,
-        stratum: campaign.stratum,
-        coulomb_share: campaign.coulomb_share(),
-        stuck_share: campaign.stuck_share(),
-        samples: campaign.logs.runs.iter().map(lissom::record::Run::len).sum(),
-        score: found.map(|id| score(&Truth::of(&campaign), &id)),
-        runs: campaign.facts,
-        dropped: campaign.dropped,
-        rejected: campaign.rejected,
-        given_up: campaign.given_up,
-        simulation,
-        identification,
-    })
+impl Scored {
+    /// Identifies a campaign whose simulation took so long.
+    pub fn of(campaign: Campaign, simulation: Duration) -> Self {
+        let start = Instant::now();
+        let found = identified(&campaign);
+        let identification = start.elapsed();
+        let bound = Bound::of(&campaign);
+        Self {
+            index: campaign.index,
+            stratum: campaign.stratum,
+            coulomb_share: campaign.coulomb_share(),
+            stuck_share: campaign.stuck_share(),
+            samples: campaign.logs.runs.iter().map(lissom::record::Run::len).sum(),
+            score: found.map(|id| score(&Truth::of(&campaign), &id).with_bound(bound.as_ref())),
+            left: bound.map_or_else(Vec::new, |b| b.left),
+            runs: campaign.facts,
+            dropped: campaign.dropped,
+            rejected: campaign.rejected,
+            given_up: campaign.given_up,
+            simulation,
+            identification,
+        }
+    }
 }

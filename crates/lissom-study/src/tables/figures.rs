@@ -7,7 +7,7 @@ use crate::statistics::{Share, median, quantile};
 use crate::study::{Scored, Study};
 
 /// Rows of the tables: what they are called and which figures they hold.
-const ROWS: [(&str, &[Figure]); 8] = [
+pub(super) const ROWS: [(&str, &[Figure]); 8] = [
     ("Coulomb friction", &[Figure::Coulomb]),
     ("inertia", &[Figure::Inertia]),
     ("coupling", &[Figure::Coupling]),

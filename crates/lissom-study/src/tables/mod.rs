@@ -5,6 +5,7 @@ mod figures;
 mod goals;
 mod groups;
 mod laws;
+mod limit;
 mod markdown;
 mod responses;
 mod worst;
@@ -24,6 +25,7 @@ pub fn report(studies: &[(Study, Outcome)]) -> String {
             include_str!("preamble.md").trim_end().to_owned(),
             goals::section(studies),
             figures::section(study, outcome),
+            limit::section(outcome),
             responses::section(outcome),
             groups::section(outcome),
             worst::section(outcome),
