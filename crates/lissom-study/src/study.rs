@@ -1,5 +1,6 @@
 //! Many campaigns, side by side.
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use lissom::identify::{Identified, IdentifyError, Options, identify};
@@ -7,6 +8,7 @@ use rayon::prelude::*;
 
 use crate::bound::Bound;
 use crate::campaign::{Campaign, Rejected, RunFacts, draw_campaign};
+use crate::external::{ExternalError, simulated};
 use crate::law::Law;
 use crate::score::{Score, score};
 use crate::stratum::Stratum;
@@ -76,6 +78,33 @@ pub fn study(study: &Study, done: impl Fn() + Sync) -> Vec<Option<Scored>> {
             scored
         })
         .collect()
+}
+
+/// The campaigns of a study as the rig simulates them, and as another simulator did in `folder`.
+///
+/// # Errors
+/// Where its logs cannot be read.
+pub fn both(
+    study: &Study,
+    folder: &Path,
+    done: impl Fn() + Sync,
+) -> Result<[Vec<Option<Scored>>; 2], ExternalError> {
+    let pairs: Vec<Option<(Scored, Scored)>> = (0..study.campaigns)
+        .into_par_iter()
+        .map(|index| {
+            let start = Instant::now();
+            let Some(campaign) = draw_campaign(study.seed, index, study.law) else {
+                return Ok(None);
+            };
+            let took = start.elapsed();
+            let theirs = Scored::of(simulated(campaign.clone(), folder)?, took);
+            let ours = Scored::of(campaign, took);
+            done();
+            Ok(Some((ours, theirs)))
+        })
+        .collect::<Result<_, ExternalError>>()?;
+    let (ours, theirs) = pairs.into_iter().map(Option::unzip).unzip();
+    Ok([ours, theirs])
 }
 
 impl Scored {

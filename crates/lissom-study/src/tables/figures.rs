@@ -39,7 +39,7 @@ pub(super) fn section(study: &Study, outcome: &Outcome) -> String {
 }
 
 /// Errors, coverage and refusals of the figures that are `taken`.
-fn errors(all: &[(&Scored, &Score)], taken: impl Fn(&FigureScore) -> bool) -> String {
+pub(super) fn errors(all: &[(&Scored, &Score)], taken: impl Fn(&FigureScore) -> bool) -> String {
     let row = |(name, figures): &(&str, &[Figure])| {
         let of: Vec<&FigureScore> =
             all.iter().flat_map(|(_, score)| figures.iter().filter_map(|f| score.of(*f))).collect();

@@ -1,6 +1,7 @@
 //! The study's results as markdown.
 
 mod draws;
+mod external;
 mod figures;
 mod goals;
 mod groups;
@@ -9,6 +10,8 @@ mod limit;
 mod markdown;
 mod responses;
 mod worst;
+
+pub use external::report as external_report;
 
 use crate::law::Law;
 use crate::score::Score;
