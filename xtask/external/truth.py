@@ -133,7 +133,9 @@ def write(path, folder):
         rows = zip(currents.tolist(), counts.astype(np.int64).tolist())
         text = "\n".join(f"{i!r},{','.join(map(str, c))}" for i, c in rows)
         Path(folder, f"run-{k:02}.csv").write_text(text + "\n")
-        facts.append({"start": start.tolist(), "stuck_share": stuck, "limited": int((abs(currents) >= given["limit_a"]).sum())})
+        angles, rates = np.split(start, 2)
+        start = [angles[0], rates[0], *angles[1:], *rates[1:]]
+        facts.append({"start": start, "stuck_share": stuck, "limited": int((abs(currents) >= given["limit_a"]).sum())})
     Path(folder, "campaign.toml").write_text(campaign_toml(given, arm.masses, given["runs"]))
     Path(folder, "facts.json").write_text(json.dumps(facts))
     return given, arm

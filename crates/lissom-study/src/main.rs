@@ -133,10 +133,10 @@ fn export_all(args: &Args, folder: &Path) -> Result<(), Failure> {
 fn score_external(args: &Args, folder: &Path) -> Result<(), Failure> {
     let plan = external_plan(args)?;
     let bar = bar(&plan);
-    let [ours, theirs] = both(&plan, folder, || bar.inc(1))?;
+    let found = both(&plan, folder, || bar.inc(1))?;
     bar.finish_and_clear();
-    let text = external_report(&plan, &ours, &theirs);
-    written(args, "independent-truth", &text, &rows(&[(plan, theirs)]))
+    let text = external_report(&plan, &found);
+    written(args, "independent-truth", &text, &rows(&[(plan, found.theirs)]))
 }
 
 fn plans(args: &Args) -> Vec<Study> {

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use lissom::identify::{Identified, IdentifyError, Options, identify};
+use lissom::record::Run;
 use rayon::prelude::*;
 
 use crate::bound::Bound;
@@ -11,6 +12,7 @@ use crate::campaign::{Campaign, Rejected, RunFacts, draw_campaign};
 use crate::external::{ExternalError, simulated};
 use crate::law::Law;
 use crate::score::{Score, score};
+use crate::statistics::Share;
 use crate::stratum::Stratum;
 use crate::trial::Dropped;
 use crate::truth::Truth;
@@ -80,31 +82,59 @@ pub fn study(study: &Study, done: impl Fn() + Sync) -> Vec<Option<Scored>> {
         .collect()
 }
 
+/// The campaigns of a study by the rig and by another simulator.
+#[derive(Debug, Clone)]
+pub struct Both {
+    /// By the rig.
+    pub ours: Vec<Option<Scored>>,
+    /// By the other.
+    pub theirs: Vec<Option<Scored>>,
+    /// Readings in which both are alike, of campaigns whose sensors have steps and no noise.
+    pub alike: Share,
+}
+
 /// The campaigns of a study as the rig simulates them, and as another simulator did in `folder`.
 ///
 /// # Errors
 /// Where its logs cannot be read.
-pub fn both(
-    study: &Study,
-    folder: &Path,
-    done: impl Fn() + Sync,
-) -> Result<[Vec<Option<Scored>>; 2], ExternalError> {
-    let pairs: Vec<Option<(Scored, Scored)>> = (0..study.campaigns)
-        .into_par_iter()
-        .map(|index| {
-            let start = Instant::now();
-            let Some(campaign) = draw_campaign(study.seed, index, study.law) else {
-                return Ok(None);
-            };
-            let took = start.elapsed();
-            let theirs = Scored::of(simulated(campaign.clone(), folder)?, took);
-            let ours = Scored::of(campaign, took);
-            done();
-            Ok(Some((ours, theirs)))
-        })
-        .collect::<Result<_, ExternalError>>()?;
-    let (ours, theirs) = pairs.into_iter().map(Option::unzip).unzip();
-    Ok([ours, theirs])
+pub fn both(study: &Study, folder: &Path, done: impl Fn() + Sync) -> Result<Both, ExternalError> {
+    let one = |index| {
+        let start = Instant::now();
+        let Some(campaign) = draw_campaign(study.seed, index, study.law) else { return Ok(None) };
+        let took = start.elapsed();
+        let other = simulated(campaign.clone(), folder)?;
+        let without_noise = campaign.stratum.noise_steps.is_none();
+        let alike = if without_noise { alike(&campaign, &other) } else { Share { hits: 0, of: 0 } };
+        let pair = (Scored::of(campaign, took), Scored::of(other, took));
+        done();
+        Ok(Some((pair, alike)))
+    };
+    let pairs: Vec<_> =
+        (0..study.campaigns).into_par_iter().map(one).collect::<Result<_, ExternalError>>()?;
+    let shares = pairs.iter().flatten().map(|(_, share)| share);
+    let alike = shares.fold(Share { hits: 0, of: 0 }, |sum, share| Share {
+        hits: sum.hits + share.hits,
+        of: sum.of + share.of,
+    });
+    let (ours, theirs) = pairs.into_iter().map(|p| p.map(|(pair, _)| pair).unzip()).unzip();
+    Ok(Both { ours, theirs, alike })
+}
+
+/// Readings in which two logs of a campaign are within a thousandth of the finest step.
+fn alike(one: &Campaign, other: &Campaign) -> Share {
+    let bits = one.stratum.motor_bits.max(one.stratum.tip_bits);
+    let near = 1e-3 * std::f64::consts::TAU / f64::from(1_u32 << bits);
+    let mut share = Share { hits: 0, of: 0 };
+    for (a, b) in one.logs.runs.iter().zip(&other.logs.runs) {
+        let channels = |run: &Run| {
+            std::iter::once(run.motor().to_vec()).chain(run.tips().to_vec()).collect::<Vec<_>>()
+        };
+        for (a, b) in channels(a).iter().flatten().zip(channels(b).iter().flatten()) {
+            share.hits += usize::from((a - b).abs() < near);
+            share.of += 1;
+        }
+    }
+    share
 }
 
 impl Scored {
@@ -119,7 +149,7 @@ impl Scored {
             stratum: campaign.stratum,
             coulomb_share: campaign.coulomb_share(),
             stuck_share: campaign.stuck_share(),
-            samples: campaign.logs.runs.iter().map(lissom::record::Run::len).sum(),
+            samples: campaign.logs.runs.iter().map(Run::len).sum(),
             score: found.map(|id| score(&Truth::of(&campaign), &id).with_bound(bound.as_ref())),
             left: bound.map_or_else(Vec::new, |b| b.left),
             runs: campaign.facts,

@@ -6,10 +6,11 @@ use super::markdown::{percent, significant, table};
 use super::{Outcome, drawn, limit, scores, worst};
 use crate::score::FigureScore;
 use crate::statistics::{Share, median, quantile};
-use crate::study::Study;
+use crate::study::{Both, Study};
 
-/// The page about campaigns that the rig simulated (`ours`) and another simulator did (`theirs`).
-pub fn report(study: &Study, ours: &Outcome, theirs: &Outcome) -> String {
+/// The page about campaigns that the rig simulated and another simulator did.
+pub fn report(study: &Study, found: &Both) -> String {
+    let (ours, theirs) = (&found.ours, &found.theirs);
     let all = scores(theirs);
     let silent = all.iter().filter(|(_, s)| s.figures.iter().any(FigureScore::silently_wrong));
     let silent = Share { hits: silent.count(), of: all.len() };
@@ -20,7 +21,7 @@ pub fn report(study: &Study, ours: &Outcome, theirs: &Outcome) -> String {
              {}\n\nEvery figure given:",
             study.seed,
             all.len(),
-            left(theirs),
+            agreement(found),
         ),
         errors(&all, |f| f.estimate.is_some()),
         "The same campaigns by both simulators, other numbers for noise: median error (95th \
@@ -34,12 +35,15 @@ pub fn report(study: &Study, ours: &Outcome, theirs: &Outcome) -> String {
         + "\n"
 }
 
-/// How near the true arm's replay is to the other simulator's motion.
-fn left(theirs: &Outcome) -> String {
-    let all: Vec<f64> = drawn(theirs).iter().flat_map(|s| s.left.iter().copied()).collect();
+/// How near the rig and the true arm's replay are to the other simulator's motion.
+fn agreement(found: &Both) -> String {
+    let all: Vec<f64> = drawn(&found.theirs).iter().flat_map(|s| s.left.iter().copied()).collect();
     let at = |share| quantile(&all, share).map_or_else(|| "–".to_owned(), |v| format!("{v:.3}"));
     format!(
-        "The true arm's replay leaves {} of a sensor's deviation √(s² + q²/12) in median, {} to {} of the channels.",
+        "{} of {} readings without noise are the rig's. The true arm's replay of the logs leaves {} of a sensor's deviation \
+         √(s² + q²/12) in median, {} to {} of the channels.",
+        found.alike.hits,
+        found.alike.of,
         at(0.5),
         at(0.0),
         at(1.0)
