@@ -34,7 +34,7 @@ pub use score::{Figure, FigureScore, PointScore, Score, score};
 pub use single::describe;
 pub use statistics::{Share, median, quantile};
 pub use stratum::{Kind, Stratum};
-pub use study::{Both, Scored, Study, both, identified, study};
+pub use study::{Independent, Scored, Study, identified, independent, study};
 pub use tables::{external_report, report};
 pub use trial::Dropped;
 pub use truth::Truth;

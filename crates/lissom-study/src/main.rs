@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use lissom_study::{
-    Law, Study, both, describe, draw_campaign, export, external_report, report, rows, study,
+    Law, Study, describe, draw_campaign, export, external_report, independent, report, rows, study,
 };
 
 /// Accuracy of identification over random arms and campaigns.
@@ -32,7 +32,7 @@ struct Args {
     /// Write what the campaigns are to this folder, for another simulator, and do no more.
     #[arg(long, conflicts_with_all = ["only", "external"])]
     export: Option<PathBuf>,
-    /// Identify the logs that another simulator left in this folder, beside the rig's.
+    /// Identify the logs that another simulator left in this folder.
     #[arg(long, conflicts_with = "only")]
     external: Option<PathBuf>,
     /// Run this campaign alone and print everything about it.
@@ -133,10 +133,10 @@ fn export_all(args: &Args, folder: &Path) -> Result<(), Failure> {
 fn score_external(args: &Args, folder: &Path) -> Result<(), Failure> {
     let plan = external_plan(args)?;
     let bar = bar(&plan);
-    let found = both(&plan, folder, || bar.inc(1))?;
+    let found = independent(&plan, folder, || bar.inc(1))?;
     bar.finish_and_clear();
     let text = external_report(&plan, &found);
-    written(args, "independent-truth", &text, &rows(&[(plan, found.theirs)]))
+    written(args, "independent-truth", &text, &rows(&[(plan, found.outcome)]))
 }
 
 fn plans(args: &Args) -> Vec<Study> {

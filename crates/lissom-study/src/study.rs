@@ -82,42 +82,41 @@ pub fn study(study: &Study, done: impl Fn() + Sync) -> Vec<Option<Scored>> {
         .collect()
 }
 
-/// The campaigns of a study by the rig and by another simulator.
+/// Campaigns of a study as another simulator made them.
 #[derive(Debug, Clone)]
-pub struct Both {
-    /// By the rig.
-    pub ours: Vec<Option<Scored>>,
-    /// By the other.
-    pub theirs: Vec<Option<Scored>>,
-    /// Readings in which both are alike, of campaigns whose sensors have steps and no noise.
+pub struct Independent {
+    /// Every campaign, identified and scored.
+    pub outcome: Vec<Option<Scored>>,
+    /// Readings that are the rig's, of campaigns whose sensors have steps and no noise.
     pub alike: Share,
 }
 
-/// The campaigns of a study as the rig simulates them, and as another simulator did in `folder`.
+/// The study with the logs that another simulator left in `folder`.
 ///
 /// # Errors
-/// Where its logs cannot be read.
-pub fn both(study: &Study, folder: &Path, done: impl Fn() + Sync) -> Result<Both, ExternalError> {
+/// Where they cannot be read.
+pub fn independent(
+    study: &Study,
+    folder: &Path,
+    done: impl Fn() + Sync,
+) -> Result<Independent, ExternalError> {
     let one = |index| {
         let start = Instant::now();
-        let Some(campaign) = draw_campaign(study.seed, index, study.law) else { return Ok(None) };
+        let Some(rig) = draw_campaign(study.seed, index, study.law) else { return Ok(None) };
         let took = start.elapsed();
-        let other = simulated(campaign.clone(), folder)?;
-        let without_noise = campaign.stratum.noise_steps.is_none();
-        let alike = if without_noise { alike(&campaign, &other) } else { Share { hits: 0, of: 0 } };
-        let pair = (Scored::of(campaign, took), Scored::of(other, took));
+        let other = simulated(rig.clone(), folder)?;
+        let noise = rig.stratum.noise_steps.is_some();
+        let same = if noise { Share { hits: 0, of: 0 } } else { alike(&rig, &other) };
+        let scored = Scored::of(other, took);
         done();
-        Ok(Some((pair, alike)))
+        Ok(Some((scored, same)))
     };
-    let pairs: Vec<_> =
+    let all: Vec<Option<(Scored, Share)>> =
         (0..study.campaigns).into_par_iter().map(one).collect::<Result<_, ExternalError>>()?;
-    let shares = pairs.iter().flatten().map(|(_, share)| share);
-    let alike = shares.fold(Share { hits: 0, of: 0 }, |sum, share| Share {
-        hits: sum.hits + share.hits,
-        of: sum.of + share.of,
-    });
-    let (ours, theirs) = pairs.into_iter().map(|p| p.map(|(pair, _)| pair).unzip()).unzip();
-    Ok(Both { ours, theirs, alike })
+    let shares = || all.iter().flatten().map(|(_, share)| share);
+    let alike = Share { hits: shares().map(|s| s.hits).sum(), of: shares().map(|s| s.of).sum() };
+    let outcome = all.into_iter().map(|one| one.map(|(scored, _)| scored)).collect();
+    Ok(Independent { outcome, alike })
 }
 
 /// Readings in which two logs of a campaign are within a thousandth of the finest step.
