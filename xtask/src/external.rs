@@ -9,9 +9,6 @@ use std::{
 
 use crate::step::{Failure, ask, cargo, run};
 
-/// Campaigns of [`truth`].
-const CAMPAIGNS: &str = "100";
-
 /// A Python of its own, with the versions that `requirements.txt` pins.
 struct Python {
     program: PathBuf,
@@ -82,12 +79,12 @@ pub(crate) fn compare(root: &Path) -> Result<(), Failure> {
 }
 
 /// Random campaigns by a simulator in Python, identified and scored by the study.
-pub(crate) fn truth(root: &Path) -> Result<(), Failure> {
+pub(crate) fn truth(root: &Path, campaigns: &str) -> Result<(), Failure> {
     let python = Python::new(root)?;
     let folder = folder(root, "truth")?;
     let study = |what: &str| {
         let mut command = cargo(root, &["run", "--release", "--package", "lissom-study", "--"]);
-        command.args(["--campaigns", CAMPAIGNS, what]).arg(&folder);
+        command.args(["--campaigns", campaigns, what]).arg(&folder);
         command
     };
     run("campaigns to simulate", &mut study("--export"))?;

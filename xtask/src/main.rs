@@ -65,8 +65,8 @@ const RECIPES: &[Recipe] = &[
     },
     Recipe {
         name: "truth",
-        about: "a hundred random campaigns by a simulator in Python, identified; in that Python; half an hour",
-        takes: Takes::Flags(&[]),
+        about: "random campaigns by a simulator in Python, identified; in that Python; minutes",
+        takes: Takes::Arguments("how many; 100 where it is not said"),
         run: truth,
     },
     Recipe {
@@ -159,7 +159,7 @@ fn external(context: &Context) -> Result<(), Failure> {
 
 /// The study with logs that lissom's rig did not make.
 fn truth(context: &Context) -> Result<(), Failure> {
-    external::truth(&context.root)
+    external::truth(&context.root, context.flags.first().map_or("100", String::as_str))
 }
 
 /// The accuracy study; the law `lugre`, alone or among the wrong ones, needs the feature of that name.

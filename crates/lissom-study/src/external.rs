@@ -144,7 +144,8 @@ mod tests {
     fn exported_references_are_those_of_the_runs() {
         let number = |v: &Value| v.as_f64().unwrap();
         let mut kinds = std::collections::BTreeSet::new();
-        for campaign in (0..6).filter_map(|index| draw_campaign(1, index, Law::None)) {
+        // Sines, a chirp, a multisine.
+        for campaign in [6, 18, 30].map(|index| draw_campaign(1, index, Law::None).unwrap()) {
             for run in &campaign.definition.runs {
                 let (r, t) = (reference(run).unwrap(), 3.7);
                 let value = match r["kind"].as_str().unwrap() {

@@ -12,7 +12,7 @@ pub fn report(study: &Study, found: &Independent) -> String {
     let silent = all.iter().filter(|(_, s)| s.figures.iter().any(FigureScore::silently_wrong));
     let silent = Share { hits: silent.count(), of: all.len() };
     [
-        include_str!("external.md").trim_end().to_owned(),
+        include_str!("external.md").trim_end().replace("COUNT", &study.campaigns.to_string()),
         format!(
             "## Random arms\n\nSeed {}, {} campaigns identified. Campaigns with a figure silently wrong: {silent}. \
              {}\n\nEvery figure given:",
