@@ -37,8 +37,8 @@ def model(e, step_s, integrator):
     </mujoco>""")
 
 
-def run(e, step_s, integrator):
-    """Current and state [angles, rates] at every sample."""
+def run(e, step_s, integrator, sense=lambda angle: angle):
+    """Current and state [angles, rates] at every sample; the loop's sensor shows `sense` of the motor's angle."""
     made = model(e, step_s, integrator)
     data = mujoco.MjData(made)
     current, steps = e.controller(), round(e.sample_time_s / step_s)
@@ -48,7 +48,7 @@ def run(e, step_s, integrator):
     torque, angles, rates = data.qfrc_applied, data.qpos, data.qvel
     for k in range(e.samples):
         states[k, : made.nv], states[k, made.nv :] = angles, rates
-        currents[k] = current(k, angles[0])
+        currents[k] = current(k, sense(angles[0]))
         torque[0] = e.torque_constant_nm_per_a * currents[k] - load
         mujoco.mj_step(made, data, steps)
     return currents, states

@@ -7,6 +7,8 @@ RTOL = 1e-12
 ATOL = 1e-14
 # Pieces shorter than this share of a sample are rounding.
 LEAST = 1e-12
+# First piece of a slip from rest, as a share of a sample.
+HAIR = 1e-9
 
 
 class Joint:
@@ -63,6 +65,10 @@ class Joint:
         if self.way == 0:
             self.way = self.from_rest(torque, x)
         while end - at > LEAST * end:
+            if self.way and x[self.n] == 0.0:
+                # Off the zero that the event function would take for the next stop.
+                x = x + HAIR * end * self.field(torque)(at, x)
+                at += HAIR * end
             done = solve_ivp(self.field(torque), (at, end), x, method="DOP853", rtol=RTOL, atol=ATOL,
                              events=self.events(torque))
             if not done.success:

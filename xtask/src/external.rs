@@ -1,39 +1,93 @@
 //! The rig's experiments by other people's simulators: `xtask/external/compare.py` in a virtual
 //! environment of its own under `target`, with the versions that `requirements.txt` pins.
 
-use std::{fs, path::Path, process::Command};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
 
 use crate::step::{Failure, ask, cargo, run};
 
-/// Builds the environment where it is missing, lets lissom write its experiments, and compares.
-pub(crate) fn compare(root: &Path) -> Result<(), Failure> {
-    let scripts = root.join("xtask/external");
-    let folder = root.join("target/external");
+/// A Python of its own, with the versions that `requirements.txt` pins.
+struct Python {
+    program: PathBuf,
+    scripts: PathBuf,
+}
+
+impl Python {
+    /// Builds the environment where it is missing.
+    fn new(root: &Path) -> Result<Self, Failure> {
+        let scripts = root.join("xtask/external");
+        let environment = folder(root, "external")?.join("venv");
+        let bin = environment.join(if cfg!(windows) { "Scripts" } else { "bin" });
+        let python = Self { program: bin.join("python"), scripts };
+        if ask(Command::new(&python.program).arg("--version")).is_err() {
+            let system = if cfg!(windows) { "python" } else { "python3" };
+            let (found, _) = ask(Command::new(system).arg("--version")).unwrap_or_default();
+            if !found {
+                return Err(Failure::Missing { tool: "Python", install: "Python 3.11 or newer" });
+            }
+            let mut made = Command::new(system);
+            run("python: environment", made.args(["-m", "venv"]).arg(&environment))?;
+        }
+        let mut install = Command::new(&python.program);
+        install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
+        install.arg("--requirement").arg(python.scripts.join("requirements.txt"));
+        run("pip: pinned versions", &mut install)?;
+        Ok(python)
+    }
+
+    fn script(&self, name: &str) -> Command {
+        let mut command = Command::new(&self.program);
+        command.arg(self.scripts.join(name));
+        command
+    }
+}
+
+/// A folder under `target`, made where it is missing.
+fn folder(root: &Path, name: &str) -> Result<PathBuf, Failure> {
+    let folder = root.join("target").join(name);
     fs::create_dir_all(&folder)
         .map_err(|source| Failure::File { path: folder.display().to_string(), source })?;
-    let environment = folder.join("venv");
-    let bin = environment.join(if cfg!(windows) { "Scripts" } else { "bin" });
-    let python = || Command::new(bin.join("python"));
-    if ask(python().arg("--version")).is_err() {
-        let system = if cfg!(windows) { "python" } else { "python3" };
-        let (found, _) = ask(Command::new(system).arg("--version")).unwrap_or_default();
-        if !found {
-            return Err(Failure::Missing { tool: "Python", install: "Python 3.11 or newer" });
-        }
-        let mut made = Command::new(system);
-        run("python: environment", made.args(["-m", "venv"]).arg(&environment))?;
-    }
-    let mut install = python();
-    install.args([
-        "-m",
-        "pip",
-        "install",
-        "--quiet",
-        "--disable-pip-version-check",
-        "--requirement",
-    ]);
-    run("pip: pinned versions", install.arg(scripts.join("requirements.txt")))?;
+    Ok(folder)
+}
+
+/// Lets lissom write its experiments, compares the others' motions, and identifies a campaign that
+/// MuJoCo made.
+pub(crate) fn compare(root: &Path) -> Result<(), Failure> {
+    let python = Python::new(root)?;
+    let folder = folder(root, "external")?;
     let example = ["run", "--release", "--package", "lissom", "--example", "external", "--"];
     run("lissom's experiments", cargo(root, &example).arg(&folder))?;
-    run("MuJoCo and scipy beside lissom", python().arg(scripts.join("compare.py")).arg(&folder))
+    let mut compare = python.script("compare.py");
+    run("MuJoCo and scipy beside lissom", compare.arg(&folder))?;
+    let campaign = |what: &str| {
+        let mut command = python.script("mujoco_campaign.py");
+        command.arg(what).arg(&folder);
+        command
+    };
+    run("a campaign by MuJoCo", &mut campaign("write"))?;
+    for integrator in ["implicitfast", "RK4"] {
+        let own = folder.join("mujoco").join(integrator);
+        let identify = ["run", "--release", "--package", "lissom-cli", "--", "identify"];
+        let mut command = cargo(root, &identify);
+        command.arg(own.join("campaign.toml")).arg("--json").arg(own.join("result.json"));
+        run("its identification", &mut command)?;
+    }
+    run("its figures", &mut campaign("judge"))
+}
+
+/// Random campaigns by a simulator in Python, identified and scored by the study.
+pub(crate) fn truth(root: &Path, campaigns: &str) -> Result<(), Failure> {
+    let python = Python::new(root)?;
+    let folder = folder(root, "truth")?;
+    let study = |what: &str| {
+        let mut command = cargo(root, &["run", "--release", "--package", "lissom-study", "--"]);
+        command.args(["--campaigns", campaigns, what]).arg(&folder);
+        command
+    };
+    run("campaigns to simulate", &mut study("--export"))?;
+    run("their simulation", python.script("truth.py").arg(&folder))?;
+    run("their identification", study("--external").arg("--out").arg(&folder))
 }

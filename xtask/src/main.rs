@@ -59,9 +59,15 @@ const RECIPES: &[Recipe] = &[
     },
     Recipe {
         name: "external",
-        about: "the rig beside MuJoCo and scipy, in a Python of its own; minutes",
+        about: "the rig beside MuJoCo and scipy, and a campaign by MuJoCo; in a Python of its own; minutes",
         takes: Takes::Flags(&[]),
         run: external,
+    },
+    Recipe {
+        name: "truth",
+        about: "random campaigns by a simulator in Python, identified; in that Python; minutes",
+        takes: Takes::Arguments("how many; 100 where it is not said"),
+        run: truth,
     },
     Recipe {
         name: "study",
@@ -149,6 +155,11 @@ fn ci(context: &Context) -> Result<(), Failure> {
 /// The rig's experiments by other people's simulators.
 fn external(context: &Context) -> Result<(), Failure> {
     external::compare(&context.root)
+}
+
+/// The study with logs that lissom's rig did not make.
+fn truth(context: &Context) -> Result<(), Failure> {
+    external::truth(&context.root, context.flags.first().map_or("100", String::as_str))
 }
 
 /// The accuracy study; the law `lugre`, alone or among the wrong ones, needs the feature of that name.

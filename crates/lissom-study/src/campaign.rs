@@ -46,6 +46,8 @@ pub struct RunFacts {
     pub waited_s: f64,
     /// Largest current \[A\].
     pub peak_a: f64,
+    /// State at the log's first row, `[θ_m, θ̇_m, θ_i.., θ̇_i..]`.
+    pub start: Vec<f64>,
 }
 
 /// A campaign as it was simulated.
@@ -148,6 +150,7 @@ fn drawn(draw: &mut Draw, stratum: Stratum, law: Law, index: usize) -> Result<Ca
                     stuck_share: logged.stuck_share,
                     waited_s: logged.settled.waited_s,
                     peak_a: peak(&logged.run),
+                    start: logged.start,
                 });
                 logs.push(logged.run);
                 runs.push(PlannedRun { name, experiment, seed });
@@ -194,7 +197,8 @@ fn commonest(dropped: &[Dropped]) -> Dropped {
     dropped.iter().max_by_key(count).copied().unwrap_or(Dropped::Impossible)
 }
 
-fn peak(run: &Run) -> f64 {
+/// Largest current of a run \[A\].
+pub(crate) fn peak(run: &Run) -> f64 {
     run.command().iter().fold(0.0_f64, |most, i| most.max(i.abs()))
 }
 

@@ -25,7 +25,7 @@ const FIGURES: [(&str, Figure); 10] = [
 pub fn rows(studies: &[(Study, Vec<Option<Scored>>)]) -> String {
     let mut header = HEAD.to_owned();
     for (name, _) in FIGURES {
-        for column in ["_true", "", "_std", "_warned"] {
+        for column in ["_true", "", "_std", "_warned", "_bound"] {
             header.extend([",", name, column]);
         }
     }
@@ -67,10 +67,16 @@ fn row(study: &Study, scored: &Scored) -> String {
     cells.join(",")
 }
 
-fn figure_cells(figure: Option<&FigureScore>) -> [String; 4] {
+fn figure_cells(figure: Option<&FigureScore>) -> [String; 5] {
     let Some(f) = figure else { return Default::default() };
     let estimate = |of: fn(&lissom::identify::Estimate) -> f64| {
         f.estimate.as_ref().map_or_else(String::new, |e| of(e).to_string())
     };
-    [f.truth.to_string(), estimate(|e| e.value), estimate(|e| e.std), f.warned.to_string()]
+    [
+        f.truth.to_string(),
+        estimate(|e| e.value),
+        estimate(|e| e.std),
+        f.warned.to_string(),
+        f.bound.map_or_else(String::new, |b| b.to_string()),
+    ]
 }

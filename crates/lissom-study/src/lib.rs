@@ -8,9 +8,11 @@
 
 mod arm;
 mod bench;
+mod bound;
 mod campaign;
 mod csv;
 mod draw;
+mod external;
 mod law;
 mod plan;
 mod position_loop;
@@ -23,14 +25,16 @@ mod tables;
 mod trial;
 mod truth;
 
+pub use bound::Bound;
 pub use campaign::{Campaign, Definition, PlannedRun, Rejected, RunFacts, draw_campaign};
 pub use csv::rows;
+pub use external::{ExternalError, export, simulated};
 pub use law::Law;
 pub use score::{Figure, FigureScore, PointScore, Score, score};
 pub use single::describe;
 pub use statistics::{Share, median, quantile};
 pub use stratum::{Kind, Stratum};
-pub use study::{Scored, Study, identified, study};
-pub use tables::report;
+pub use study::{Independent, Scored, Study, identified, independent, study};
+pub use tables::{external_report, report};
 pub use trial::Dropped;
 pub use truth::Truth;

@@ -2,12 +2,14 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for a terminal")]
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
-use lissom_study::{Law, Study, describe, report, rows, study};
+use lissom_study::{
+    Law, Study, describe, draw_campaign, export, external_report, independent, report, rows, study,
+};
 
 /// Accuracy of identification over random arms and campaigns.
 #[derive(Debug, Parser)]
@@ -27,10 +29,19 @@ struct Args {
     /// The truth, or `wrong`: so many campaigns of true Coulomb friction and of each wrong law.
     #[arg(long, default_value = "none", value_parser = laws)]
     law: Laws,
+    /// Write what the campaigns are to this folder, for another simulator, and do no more.
+    #[arg(long, conflicts_with_all = ["only", "external"])]
+    export: Option<PathBuf>,
+    /// Identify the logs that another simulator left in this folder.
+    #[arg(long, conflicts_with = "only")]
+    external: Option<PathBuf>,
     /// Run this campaign alone and print everything about it.
     #[arg(long)]
     only: Option<usize>,
 }
+
+/// What a terminal is told.
+type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 /// One law, or all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,7 +72,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(args: &Args) -> Result<(), Box<dyn std::error::Error>> {
+fn run(args: &Args) -> Result<(), Failure> {
     if let Some(index) = args.only {
         let law = match args.law {
             Laws::One(law) => law,
@@ -71,7 +82,13 @@ fn run(args: &Args) -> Result<(), Box<dyn std::error::Error>> {
         print!("{text}");
         return Ok(());
     }
+    if let Some(folder) = &args.export {
+        return export_all(args, folder);
+    }
     let threads = rayon::ThreadPoolBuilder::new().num_threads(args.jobs).build()?;
+    if let Some(folder) = &args.external {
+        return threads.install(|| score_external(args, folder));
+    }
     let mut studies = Vec::new();
     for plan in plans(args) {
         let bar = bar(&plan);
@@ -80,13 +97,46 @@ fn run(args: &Args) -> Result<(), Box<dyn std::error::Error>> {
         studies.push((plan, outcome));
     }
     let name = if args.law == Laws::One(Law::None) { "accuracy" } else { "wrong-laws" };
-    let text = report(&studies);
+    written(args, name, &report(&studies), &rows(&studies))
+}
+
+fn written(args: &Args, name: &str, text: &str, rows: &str) -> Result<(), Failure> {
     print!("{text}");
     fs::create_dir_all(&args.out)?;
     fs::write(args.out.join(format!("{name}.md")), text)?;
-    fs::write(args.out.join(format!("{name}.csv")), rows(&studies))?;
+    fs::write(args.out.join(format!("{name}.csv")), rows)?;
     eprintln!("{name}.md and {name}.csv are in {}", args.out.display());
     Ok(())
+}
+
+/// The study of true Coulomb friction, which another simulator can make as well.
+fn external_plan(args: &Args) -> Result<Study, Failure> {
+    if args.law != Laws::One(Law::None) {
+        return Err("another simulator makes campaigns of true Coulomb friction only".into());
+    }
+    Ok(Study { campaigns: args.campaigns, seed: args.seed, law: Law::None })
+}
+
+fn export_all(args: &Args, folder: &Path) -> Result<(), Failure> {
+    let plan = external_plan(args)?;
+    let bar = bar(&plan);
+    for index in 0..plan.campaigns {
+        if let Some(campaign) = draw_campaign(plan.seed, index, plan.law) {
+            export(&campaign, plan.seed, folder)?;
+        }
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(())
+}
+
+fn score_external(args: &Args, folder: &Path) -> Result<(), Failure> {
+    let plan = external_plan(args)?;
+    let bar = bar(&plan);
+    let found = independent(&plan, folder, || bar.inc(1))?;
+    bar.finish_and_clear();
+    let text = external_report(&plan, &found);
+    written(args, "independent-truth", &text, &rows(&[(plan, found.outcome)]))
 }
 
 fn plans(args: &Args) -> Vec<Study> {

@@ -5,6 +5,8 @@ use std::fmt;
 use lissom::identify::{Estimate, Finding, Identified, ModeEstimate, RunKind, Severity, corrected};
 use num_complex::Complex64;
 
+use crate::bound::Bound;
+use crate::statistics::NORMAL_95;
 use crate::truth::Truth;
 
 /// A figure that identification gives.
@@ -74,6 +76,8 @@ pub struct FigureScore {
     pub estimate: Option<Estimate>,
     /// Whether a warning or refusal names it.
     pub warned: bool,
+    /// The least deviation that an unbiased estimator can have; `None` where it is not known.
+    pub bound: Option<f64>,
 }
 
 impl FigureScore {
@@ -85,6 +89,17 @@ impl FigureScore {
     /// Distance from the truth in deviations; infinite where none is claimed.
     pub fn deviations(&self) -> Option<f64> {
         self.estimate.map(|e| (e.value - self.truth) / e.std)
+    }
+
+    /// Width of its 95 % interval over that of the bound.
+    pub fn width_over_bound(&self) -> Option<f64> {
+        let [low, high] = self.estimate?.ci95();
+        Some((high - low) / (2.0 * NORMAL_95 * self.bound?))
+    }
+
+    /// Signed error over the bound.
+    pub fn error_over_bound(&self) -> Option<f64> {
+        Some((self.estimate?.value - self.truth) / self.bound?)
     }
 
     /// Whether the 95 % interval holds the truth.
@@ -157,6 +172,15 @@ impl Score {
         self.figures.iter().find(|f| f.figure == figure)
     }
 
+    /// With the bounds of its figures.
+    #[must_use]
+    pub fn with_bound(mut self, bound: Option<&Bound>) -> Self {
+        for figure in &mut self.figures {
+            figure.bound = bound.and_then(|b| b.std(figure.figure));
+        }
+        self
+    }
+
     /// The codes of the findings that say that the equation of motion does not hold: warnings and
     /// refusals about the campaign that name friction, inertia or coupling and are not about its
     /// data; and `offset`, which says that friction differs by direction.
@@ -180,6 +204,7 @@ pub fn score(truth: &Truth, id: &Identified) -> Score {
         truth,
         estimate,
         warned: named(figure),
+        bound: None,
     };
     let mut figures = vec![
         one(Figure::Coulomb, truth.coulomb_nm, id.friction.coulomb),
@@ -283,7 +308,7 @@ mod tests {
 
     fn coulomb(value: f64, std: f64, warned: bool) -> FigureScore {
         let estimate = Some(Estimate { value, std });
-        FigureScore { figure: Figure::Coulomb, truth: 1.0, estimate, warned }
+        FigureScore { figure: Figure::Coulomb, truth: 1.0, estimate, warned, bound: Some(0.02) }
     }
 
     #[test]
@@ -302,6 +327,14 @@ mod tests {
         assert_eq!(coulomb(1.019, 0.01, false).covers(), Some(true));
         assert_eq!(coulomb(1.021, 0.01, false).covers(), Some(false));
         assert!((coulomb(1.02, 0.01, false).error().unwrap() - 0.02).abs() < 1e-12);
+    }
+
+    #[test]
+    fn errors_and_widths_are_counted_in_bounds() {
+        let score = coulomb(1.03, 0.01, false);
+        assert!((score.width_over_bound().unwrap() - 0.5).abs() < 1e-6);
+        assert!((score.error_over_bound().unwrap() - 1.5).abs() < 1e-9);
+        assert_eq!(FigureScore { bound: None, ..score }.error_over_bound(), None);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use lissom::identify::{OutputError, starts};
 use lissom::replay::ModalArm;
 
+use crate::bound::Bound;
 use crate::campaign::{Campaign, draw_campaign};
 use crate::law::Law;
 use crate::score::{FigureScore, Score, score};
@@ -18,9 +19,13 @@ pub fn describe(seed: u64, index: usize, law: Law) -> Option<String> {
     match identified(&campaign) {
         Err(error) => lines.push(format!("nothing identified: {error}")),
         Ok(id) => {
-            let scored = score(&Truth::of(&campaign), &id);
+            let bound = Bound::of(&campaign);
+            let scored = score(&Truth::of(&campaign), &id).with_bound(bound.as_ref());
             lines.push(String::new());
             lines.push(figures(&scored));
+            if let Some(bound) = bound {
+                lines.push(format!("left by the true arm, in deviations: {:.4?}", bound.left));
+            }
             lines.push(format!("modes beyond those that there are: {}\n", scored.surplus_modes));
             lines.push(points(&scored));
             if let Some(replayed) = &id.output_error {
@@ -80,8 +85,8 @@ fn conditions(campaign: &Campaign, seed: u64) -> Vec<String> {
 
 fn figures(scored: &Score) -> String {
     let mut text = format!(
-        "{:18} {:>13} {:>13} {:>13} {:>10} {:>10}\n",
-        "figure", "true", "given", "deviation", "error", "deviations"
+        "{:18} {:>13} {:>13} {:>13} {:>13} {:>10} {:>10}\n",
+        "figure", "true", "given", "deviation", "bound", "error", "deviations"
     );
     for f in &scored.figures {
         let _ = writeln!(text, "{}", figure(f));
@@ -98,10 +103,11 @@ fn figure(f: &FigureScore) -> String {
         (false, false) => "",
     };
     format!(
-        "{name:18} {:13.6e} {:13.6e} {:13.3e} {:+9.3} % {:+10.2} {mark}",
+        "{name:18} {:13.6e} {:13.6e} {:13.3e} {:13.3e} {:+9.3} % {:+10.2} {mark}",
         f.truth,
         e.value,
         e.std,
+        f.bound.unwrap_or(f64::NAN),
         100.0 * f.error().unwrap_or(f64::NAN),
         f.deviations().unwrap_or(f64::NAN)
     )

@@ -1,13 +1,18 @@
 //! Many campaigns, side by side.
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use lissom::identify::{Identified, IdentifyError, Options, identify};
+use lissom::record::Run;
 use rayon::prelude::*;
 
+use crate::bound::Bound;
 use crate::campaign::{Campaign, Rejected, RunFacts, draw_campaign};
+use crate::external::{ExternalError, simulated};
 use crate::law::Law;
 use crate::score::{Score, score};
+use crate::statistics::Share;
 use crate::stratum::Stratum;
 use crate::trial::Dropped;
 use crate::truth::Truth;
@@ -46,6 +51,8 @@ pub struct Scored {
     pub given_up: Vec<Stratum>,
     /// Figures against truth, or why nothing was identified at all.
     pub score: Result<Score, IdentifyError>,
+    /// What the true arm leaves of each channel, in its sensor's deviations: see [`Bound::left`].
+    pub left: Vec<f64>,
     /// Time of the simulation, repeated runs included.
     pub simulation: Duration,
     /// Time of the identification.
@@ -66,32 +73,90 @@ pub fn study(study: &Study, done: impl Fn() + Sync) -> Vec<Option<Scored>> {
     (0..study.campaigns)
         .into_par_iter()
         .map(|index| {
-            let scored = one(study, index);
+            let start = Instant::now();
+            let campaign = draw_campaign(study.seed, index, study.law);
+            let scored = campaign.map(|c| Scored::of(c, start.elapsed()));
             done();
             scored
         })
         .collect()
 }
 
-fn one(study: &Study, index: usize) -> Option<Scored> {
-    let start = Instant::now();
-    let campaign = draw_campaign(study.seed, index, study.law)?;
-    let simulation = start.elapsed();
-    let start = Instant::now();
-    let found = identified(&campaign);
-    let identification = start.elapsed();
-    Some(Scored {
-        index,
-        stratum: campaign.stratum,
-        coulomb_share: campaign.coulomb_share(),
-        stuck_share: campaign.stuck_share(),
-        samples: campaign.logs.runs.iter().map(lissom::record::Run::len).sum(),
-        score: found.map(|id| score(&Truth::of(&campaign), &id)),
-        runs: campaign.facts,
-        dropped: campaign.dropped,
-        rejected: campaign.rejected,
-        given_up: campaign.given_up,
-        simulation,
-        identification,
-    })
+/// Campaigns of a study as another simulator made them.
+#[derive(Debug, Clone)]
+pub struct Independent {
+    /// Every campaign, identified and scored.
+    pub outcome: Vec<Option<Scored>>,
+    /// Readings that are the rig's, of campaigns whose sensors have steps and no noise.
+    pub alike: Share,
+}
+
+/// The study with the logs that another simulator left in `folder`.
+///
+/// # Errors
+/// Where they cannot be read.
+pub fn independent(
+    study: &Study,
+    folder: &Path,
+    done: impl Fn() + Sync,
+) -> Result<Independent, ExternalError> {
+    let one = |index| {
+        let start = Instant::now();
+        let Some(rig) = draw_campaign(study.seed, index, study.law) else { return Ok(None) };
+        let took = start.elapsed();
+        let other = simulated(rig.clone(), folder)?;
+        let noise = rig.stratum.noise_steps.is_some();
+        let same = if noise { Share { hits: 0, of: 0 } } else { alike(&rig, &other) };
+        let scored = Scored::of(other, took);
+        done();
+        Ok(Some((scored, same)))
+    };
+    let all: Vec<Option<(Scored, Share)>> =
+        (0..study.campaigns).into_par_iter().map(one).collect::<Result<_, ExternalError>>()?;
+    let shares = || all.iter().flatten().map(|(_, share)| share);
+    let alike = Share { hits: shares().map(|s| s.hits).sum(), of: shares().map(|s| s.of).sum() };
+    let outcome = all.into_iter().map(|one| one.map(|(scored, _)| scored)).collect();
+    Ok(Independent { outcome, alike })
+}
+
+/// Readings in which two logs of a campaign are within a thousandth of the finest step.
+fn alike(one: &Campaign, other: &Campaign) -> Share {
+    let bits = one.stratum.motor_bits.max(one.stratum.tip_bits);
+    let near = 1e-3 * std::f64::consts::TAU / f64::from(1_u32 << bits);
+    let mut share = Share { hits: 0, of: 0 };
+    for (a, b) in one.logs.runs.iter().zip(&other.logs.runs) {
+        let channels = |run: &Run| {
+            std::iter::once(run.motor().to_vec()).chain(run.tips().to_vec()).collect::<Vec<_>>()
+        };
+        for (a, b) in channels(a).iter().flatten().zip(channels(b).iter().flatten()) {
+            share.hits += usize::from((a - b).abs() < near);
+            share.of += 1;
+        }
+    }
+    share
+}
+
+impl Scored {
+    /// Identifies a campaign whose simulation took so long.
+    pub fn of(campaign: Campaign, simulation: Duration) -> Self {
+        let start = Instant::now();
+        let found = identified(&campaign);
+        let identification = start.elapsed();
+        let bound = Bound::of(&campaign);
+        Self {
+            index: campaign.index,
+            stratum: campaign.stratum,
+            coulomb_share: campaign.coulomb_share(),
+            stuck_share: campaign.stuck_share(),
+            samples: campaign.logs.runs.iter().map(Run::len).sum(),
+            score: found.map(|id| score(&Truth::of(&campaign), &id).with_bound(bound.as_ref())),
+            left: bound.map_or_else(Vec::new, |b| b.left),
+            runs: campaign.facts,
+            dropped: campaign.dropped,
+            rejected: campaign.rejected,
+            given_up: campaign.given_up,
+            simulation,
+            identification,
+        }
+    }
 }

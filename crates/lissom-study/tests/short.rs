@@ -144,7 +144,14 @@ fn tables_and_rows_hold_every_campaign() {
     let plan = Study { campaigns: CAMPAIGNS, seed: SEED, law: Law::None };
     let studies = vec![(plan, short().iter().cloned().map(Some).collect())];
     let text = report(&studies);
-    for section in ["## Goals", "## Figures", "## By campaign", "## Worst campaigns", "## Draws"] {
+    for section in [
+        "## Goals",
+        "## Figures",
+        "## Statistical limit",
+        "## By campaign",
+        "## Worst campaigns",
+        "## Draws",
+    ] {
         assert!(text.contains(section), "{section}");
     }
     assert!(!text.contains("NaN"), "{text}");

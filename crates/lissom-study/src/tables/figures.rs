@@ -7,7 +7,7 @@ use crate::statistics::{Share, median, quantile};
 use crate::study::{Scored, Study};
 
 /// Rows of the tables: what they are called and which figures they hold.
-const ROWS: [(&str, &[Figure]); 8] = [
+pub(super) const ROWS: [(&str, &[Figure]); 8] = [
     ("Coulomb friction", &[Figure::Coulomb]),
     ("inertia", &[Figure::Inertia]),
     ("coupling", &[Figure::Coupling]),
@@ -39,7 +39,7 @@ pub(super) fn section(study: &Study, outcome: &Outcome) -> String {
 }
 
 /// Errors, coverage and refusals of the figures that are `taken`.
-fn errors(all: &[(&Scored, &Score)], taken: impl Fn(&FigureScore) -> bool) -> String {
+pub(super) fn errors(all: &[(&Scored, &Score)], taken: impl Fn(&FigureScore) -> bool) -> String {
     let row = |(name, figures): &(&str, &[Figure])| {
         let of: Vec<&FigureScore> =
             all.iter().flat_map(|(_, score)| figures.iter().filter_map(|f| score.of(*f))).collect();

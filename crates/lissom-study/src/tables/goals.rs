@@ -11,6 +11,8 @@ use crate::study::Study;
 const CAMPAIGNS: f64 = 0.95;
 /// What nominal 95 % intervals are to cover.
 const COVERAGE: (f64, f64) = (0.93, 0.97);
+/// Largest width of intervals, and largest variance, over the Cramér-Rao bound's.
+const BEYOND_BOUND: f64 = 1.5;
 /// Largest share of campaigns with a figure silently wrong.
 const SILENT: f64 = 1e-3;
 /// Largest error of a corrected response, in median and anywhere.
@@ -41,6 +43,7 @@ pub(super) fn section(studies: &[(Study, Outcome)]) -> String {
         if studies.len() == 1 && study.law == Law::None {
             figures(&all, &mut goals);
             coverage(&all, &mut goals);
+            limit(&all, &mut goals);
             responses(&all, &mut goals);
             silence(&all, &mut goals);
         }
@@ -104,6 +107,27 @@ fn coverage(all: &[&Score], goals: &mut Vec<Goal>) {
         let asked = format!("95 % intervals of {} hold in 93 to 97 %", name(figure));
         let met = (COVERAGE.0..=COVERAGE.1).contains(&share.value());
         goals.push((asked, share.to_string(), met));
+    }
+}
+
+/// Intervals and variances beside the Cramér-Rao bound.
+fn limit(all: &[&Score], goals: &mut Vec<Goal>) {
+    let every =
+        [Figure::Coulomb, Figure::Inertia, Figure::Coupling, Figure::Viscous, Figure::Frequency(0)];
+    for figure in every {
+        let (found, name) = (of(all, figure), name(figure));
+        let mut goal = |asked: String, found: Option<f64>| {
+            let shown = found.map_or_else(|| "–".to_owned(), significant);
+            goals.push((asked, shown, found.is_some_and(|v| v <= BEYOND_BOUND)));
+        };
+        goal(
+            format!("intervals of {name} at most {BEYOND_BOUND} times the bound's, in median"),
+            median(&super::limit::widths(&found)),
+        );
+        goal(
+            format!("variance of {name} at most {BEYOND_BOUND} times the bound's"),
+            super::limit::variance(&found),
+        );
     }
 }
 

@@ -1,13 +1,17 @@
 //! The study's results as markdown.
 
 mod draws;
+mod external;
 mod figures;
 mod goals;
 mod groups;
 mod laws;
+mod limit;
 mod markdown;
 mod responses;
 mod worst;
+
+pub use external::report as external_report;
 
 use crate::law::Law;
 use crate::score::Score;
@@ -24,6 +28,7 @@ pub fn report(studies: &[(Study, Outcome)]) -> String {
             include_str!("preamble.md").trim_end().to_owned(),
             goals::section(studies),
             figures::section(study, outcome),
+            limit::section(outcome),
             responses::section(outcome),
             groups::section(outcome),
             worst::section(outcome),

@@ -106,7 +106,9 @@ impl Body {
             match coordinate {
                 Coordinate::Parameter(p) => {
                     let own = parameters.iter().position(|q| q == p);
-                    own.into_iter().for_each(|row| found[(row, c)] = 1.0);
+                    if let Some(row) = own {
+                        found[(row, c)] = 1.0;
+                    }
                 }
                 Coordinate::Beam(b) => {
                     let by = masses.derivative(*b);

@@ -99,7 +99,7 @@ impl Problem<'_> {
     pub(super) fn at(&self, body: Body, windows: Vec<Window>) -> Point {
         let mut sums = sums(&body.arm, self.parameters, self.campaign, &windows, self.sampling);
         if let Some(jacobian) = body.jacobian(self.parameters) {
-            sums.iter_mut().for_each(|s| *s = in_coordinates(s, &jacobian));
+            sums = sums.iter().map(|s| in_coordinates(s, &jacobian)).collect();
         }
         Point { body, windows, sums }
     }

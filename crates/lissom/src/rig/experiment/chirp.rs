@@ -51,6 +51,21 @@ impl Chirp {
         self.amplitude
     }
 
+    /// How the frequency moves.
+    pub fn sweep(&self) -> Sweep {
+        self.sweep
+    }
+
+    /// ω_a and ω_b \[rad/s\].
+    pub fn ends_rad_s(&self) -> (f64, f64) {
+        (self.from_rad_s, self.to_rad_s)
+    }
+
+    /// D \[s\].
+    pub fn duration_s(&self) -> f64 {
+        self.duration_s
+    }
+
     /// The higher of both frequencies \[rad/s\].
     pub fn highest_rad_s(&self) -> f64 {
         self.from_rad_s.max(self.to_rad_s)

@@ -164,6 +164,12 @@ impl Multisine {
         self.phasors.iter().fold(0.0, |m, p| m.max(p.norm()))
     }
 
+    /// Every line h with its phasor `a·e^{jφ_h}`, ascending.
+    pub fn lines(&self) -> impl Iterator<Item = (u32, Complex64)> + '_ {
+        let line = |(m, phasor): (usize, &Complex64)| (2 * m as u32 + 1, *phasor);
+        self.phasors.iter().enumerate().map(line).filter(|(_, phasor)| *phasor != Complex64::ZERO)
+    }
+
     /// Value at a time \[s\].
     pub fn value(&self, time_s: f64) -> f64 {
         self.at(self.omega_rad_s * time_s)

@@ -1,0 +1,271 @@
+//! The least deviations that any unbiased estimator can have on a campaign.
+
+use lissom::replay::{
+    Blocks, ModalArm, Parameter, Sampling, SensorNoise, Window, WindowSums, sums,
+};
+use lissom::rig::Sensor;
+use nalgebra::{DMatrix, DVector};
+
+use crate::campaign::Campaign;
+use crate::law::Law;
+use crate::score::Figure;
+
+/// Step of a derived figure's differences, as a share of a parameter's bound.
+const DIFFERENCE: f64 = 1e-3;
+
+/// Cramér-Rao bounds of a campaign's figures.
+///
+/// The logged command is replayed through the true arm, whole runs at a time, with exact derivatives
+/// of what every sensor shows by the unknowns: J, V, CF, offset, frequency, stiffness and damping of
+/// each mode, the tips' shares in the modes; the initial state of each run and each tip's zero. The
+/// inverse of `Σ gᵀ·g/σ²` over all readings is the bound of their covariance.
+///
+/// Of a sensor with noise of deviation s and a step q it is taken that σ² = s² + q²/12, as if steps
+/// were independent Gaussian noise. Readings in steps with little noise hold more than that.
+///
+/// # Source
+/// `[Kay1993, Sections 3.7, 3.8]`
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bound {
+    /// Deviations of the figures.
+    figures: Vec<(Figure, f64)>,
+    /// What is left of each channel's readings, over σ: one where the replay is the motion.
+    pub left: Vec<f64>,
+}
+
+impl Bound {
+    /// The bound of a campaign; `None` where the joint is not the one that is replayed, or the
+    /// readings leave a direction open.
+    pub fn of(campaign: &Campaign) -> Option<Self> {
+        let rig = &campaign.definition.rig;
+        if !matches!(campaign.law, Law::None | Law::Direction | Law::BeamDamping) {
+            return None;
+        }
+        let arm = ModalArm::of_arm(&rig.arm)?;
+        let tips = campaign.logs.channels.tips.len();
+        let noise: Vec<SensorNoise> = std::iter::once(rig.instruments.motor)
+            .chain((0..tips).map(|tip| rig.instruments.tip(tip)))
+            .map(|sensor| SensorNoise::gaussian(deviation(sensor)))
+            .collect();
+        let windows = campaign.facts.iter().enumerate().map(|(run, facts)| Window {
+            run,
+            samples: 0..=campaign.logs.runs[run].len() - 1,
+            start: modal_state(&arm, &facts.start),
+            zeros: vec![0.0; tips],
+        });
+        let windows: Vec<Window> = windows.collect();
+        let blocks = vec![Blocks { samples: f64::INFINITY, period: None }; windows.len()];
+        let masks = vec![vec![None; 1 + tips]; windows.len()];
+        let sampling = Sampling { noise: &noise, blocks: &blocks, masks: &masks };
+        let parameters = unknowns(&arm, campaign.law);
+        let sums = sums(&arm, &parameters, &campaign.logs, &windows, sampling);
+        let mut information = DMatrix::zeros(parameters.len(), parameters.len());
+        for (sums, window) in sums.iter().zip(&windows) {
+            information += of_window(sums, parameters.len(), window)?;
+        }
+        let covariance = inverse(&information)?;
+        let left = (0..=tips).map(|c| left(&sums, c) / noise[c].sigma).collect();
+        Some(Self { figures: figures(&arm, &parameters, &covariance), left })
+    }
+
+    /// The least deviation of a figure, in its own unit.
+    pub fn std(&self, figure: Figure) -> Option<f64> {
+        self.figures.iter().find(|(f, _)| *f == figure).map(|(_, std)| *std)
+    }
+}
+
+/// √(s² + q²/12) \[rad\].
+fn deviation(sensor: Sensor) -> f64 {
+    let noise = sensor.noise.map_or(0.0, |n| n.std());
+    let step = sensor.quantiser.map_or(0.0, |q| q.step());
+    SensorNoise { sigma: noise, step }.deviation()
+}
+
+/// `[θ, θ̇, ψ_1, ψ̇_1, …]` of `[θ, θ̇, θ_i.., θ̇_i..]`: `θ_i − θ = Σ r_ij·(ψ_j − θ)`.
+fn modal_state(arm: &ModalArm, state: &[f64]) -> Vec<f64> {
+    let n = arm.modes.len();
+    let shapes = DMatrix::from_fn(n, n, |i, j| arm.shapes[i][j]).lu();
+    let modal = |from: usize| {
+        let bent = DVector::from_fn(n, |i, _| state[2 + from * n + i] - state[from]);
+        // The shapes of distinct modes are independent.
+        let solved = shapes.solve(&bent).unwrap_or_else(|| DVector::zeros(n));
+        solved.add_scalar(state[from])
+    };
+    let (angles, rates) = (modal(0), modal(1));
+    let modes = angles.iter().zip(rates.iter()).flat_map(|(a, r)| [*a, *r]);
+    [state[0], state[1]].into_iter().chain(modes).collect()
+}
+
+/// What an estimator that knows the kind of damping has to find.
+fn unknowns(arm: &ModalArm, law: Law) -> Vec<Parameter> {
+    let modes = arm.modes.len();
+    let mut all =
+        vec![Parameter::Inertia, Parameter::Viscous, Parameter::Coulomb, Parameter::Offset];
+    for j in 0..modes {
+        all.extend([Parameter::Frequency(j), Parameter::Stiffness(j)]);
+        all.push(match law {
+            Law::BeamDamping => Parameter::DampingWithin(j),
+            _ => Parameter::DampingAtPoint(j),
+        });
+    }
+    let shares = |i| (0..modes.saturating_sub(1)).map(move |j| Parameter::ShapeShare(i, j));
+    all.extend((0..arm.shapes.len()).flat_map(shares));
+    all
+}
+
+/// `H_pp − H_pz·H_zz⁻¹·H_zp` of the parameters p and the window's own unknowns z.
+fn of_window(sums: &WindowSums, shared: usize, window: &Window) -> Option<DMatrix<f64>> {
+    let size = sums.gram.ncols() - 1;
+    // A joint that sticks has no velocity to find.
+    let velocity = shared + 1;
+    let stuck = window.start[1] == 0.0;
+    let own: Vec<usize> = (shared..size).filter(|z| !(stuck && *z == velocity)).collect();
+    let all = sums.gram.view((0, 0), (size, size));
+    let h_zp = all.select_rows(&own).columns(0, shared).into_owned();
+    let h_zz = all.select_rows(&own).select_columns(&own);
+    Some(all.view((0, 0), (shared, shared)) - h_zp.transpose() * inverse(&h_zz)? * h_zp)
+}
+
+/// Inverse of a symmetric positive matrix, scaled to a diagonal of ones first.
+fn inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let scale = matrix.diagonal().map(|d| 1.0 / d.sqrt());
+    let scaled = |m: &DMatrix<f64>| {
+        DMatrix::from_fn(m.nrows(), m.ncols(), |i, j| m[(i, j)] * scale[i] * scale[j])
+    };
+    Some(scaled(&scaled(matrix).cholesky()?.inverse()))
+}
+
+/// Root mean square of what is left of a channel \[rad\].
+fn left(sums: &[WindowSums], channel: usize) -> f64 {
+    let squares: f64 = sums.iter().map(|s| s.squares[channel]).sum();
+    let readings: usize = sums.iter().map(|s| s.readings[channel]).sum();
+    (squares / readings as f64).sqrt()
+}
+
+fn figures(
+    arm: &ModalArm,
+    parameters: &[Parameter],
+    covariance: &DMatrix<f64>,
+) -> Vec<(Figure, f64)> {
+    let std = |of: &dyn Fn(&ModalArm) -> f64| {
+        let slopes = parameters.iter().enumerate().map(|(i, p)| {
+            let step = DIFFERENCE * covariance[(i, i)].sqrt();
+            let with = |change: f64| {
+                let mut moved = arm.clone();
+                p.set(&mut moved, p.of(arm) + change);
+                of(&moved)
+            };
+            (with(step) - with(-step)) / (2.0 * step)
+        });
+        let slopes = DVector::from_iterator(parameters.len(), slopes);
+        slopes.dot(&(covariance * &slopes)).sqrt()
+    };
+    let mut all = vec![
+        (Figure::Coulomb, std(&|a| a.coulomb_nm)),
+        (Figure::Inertia, std(&|a| a.inertia_kg_m2)),
+        (Figure::Coupling, std(&ModalArm::coupling_nm_per_rad)),
+        (Figure::Viscous, std(&|a| Parameter::Viscous.of(a))),
+    ];
+    for j in 0..arm.modes.len() {
+        all.push((Figure::Frequency(j), std(&|a| a.modes[j].omega_rad_s)));
+        all.push((Figure::Damping(j), std(&|a| a.damping_ratios()[j])));
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use lissom::replay::predict;
+
+    use super::*;
+    use crate::campaign::draw_campaign;
+
+    /// Campaigns of seed 1 with one, two and three masses and noise of 0.3 steps or more.
+    const NOISY: [usize; 3] = [6, 5, 20];
+
+    fn campaign(masses: usize) -> Campaign {
+        let campaign = draw_campaign(1, NOISY[masses - 1], Law::None).unwrap();
+        assert_eq!(campaign.stratum.masses, masses);
+        assert!(campaign.stratum.noise_steps.unwrap() >= 0.3);
+        campaign
+    }
+
+    /// What the true arm leaves of the logs is the sensors' noise and steps, and nothing else: 2 % are
+    /// five deviations of the root mean square of 30 000 independent readings. Without noise those of
+    /// a sine are not: steps err alike in each of its periods.
+    #[test]
+    fn the_true_arm_leaves_the_noise() {
+        for masses in 1..=3 {
+            let bound = Bound::of(&campaign(masses)).unwrap();
+            assert!(
+                bound.left.iter().all(|r| (r - 1.0).abs() < 0.02),
+                "{masses}: {:?}",
+                bound.left
+            );
+        }
+    }
+
+    /// The information of one run from differences of predictions, by all unknowns at once.
+    #[test]
+    fn the_bound_is_that_of_differences() {
+        let mut one = campaign(1);
+        one.logs.runs.truncate(1);
+        one.facts.truncate(1);
+        let arm = ModalArm::of_arm(&one.definition.rig.arm).unwrap();
+        let parameters = unknowns(&arm, Law::None);
+        let window = Window {
+            run: 0,
+            samples: 0..=one.logs.runs[0].len() - 1,
+            start: modal_state(&arm, &one.facts[0].start),
+            zeros: vec![0.0],
+        };
+        assert!(window.start[1] != 0.0, "the joint slips at the start");
+        let rig = &one.definition.rig;
+        let sigma = [deviation(rig.instruments.motor), deviation(rig.instruments.tip(0))];
+        let shown = |arm: &ModalArm, window: &Window| {
+            let channels = predict(arm, &one.logs, window).unwrap().channels;
+            let weighed = channels.iter().zip(sigma);
+            weighed.flat_map(|(c, s)| c.iter().map(move |v| v / s)).collect::<Vec<f64>>()
+        };
+        let mut columns = Vec::new();
+        let mut column = |change: &dyn Fn(f64) -> Vec<f64>, step: f64| {
+            let pairs = change(step).into_iter().zip(change(-step));
+            columns.push(DVector::from_vec(pairs.map(|(a, b)| (a - b) / (2.0 * step)).collect()));
+        };
+        for p in &parameters {
+            let with = |change: f64| {
+                let mut moved = arm.clone();
+                p.set(&mut moved, p.of(&arm) + change);
+                shown(&moved, &window)
+            };
+            let size = if *p == Parameter::Offset { arm.coulomb_nm } else { p.of(&arm) };
+            column(&with, 1e-6 * size);
+        }
+        for i in 0..window.start.len() {
+            let with = |change: f64| {
+                let mut window = window.clone();
+                window.start[i] += change;
+                shown(&arm, &window)
+            };
+            column(&with, 1e-7);
+        }
+        let zero = |change: f64| {
+            let window = Window { zeros: vec![change], ..window.clone() };
+            shown(&arm, &window)
+        };
+        column(&zero, 1e-3);
+        let jacobian = DMatrix::from_columns(&columns);
+        let covariance = inverse(&(jacobian.transpose() * &jacobian)).unwrap();
+        let bound = Bound::of(&one).unwrap();
+        for (at, figure) in [
+            (0, Figure::Inertia),
+            (1, Figure::Viscous),
+            (2, Figure::Coulomb),
+            (4, Figure::Frequency(0)),
+            (5, Figure::Coupling),
+        ] {
+            let ratio = bound.std(figure).unwrap() / covariance[(at, at)].sqrt();
+            assert!((ratio - 1.0).abs() < 0.01, "{figure}: {ratio}");
+        }
+    }
+}

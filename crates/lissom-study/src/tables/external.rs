@@ -1,0 +1,44 @@
+//! Campaigns of another simulator.
+
+use super::figures::errors;
+use super::{drawn, limit, scores, worst};
+use crate::score::FigureScore;
+use crate::statistics::{Share, quantile};
+use crate::study::{Independent, Study};
+
+/// The page about campaigns that another simulator made.
+pub fn report(study: &Study, found: &Independent) -> String {
+    let all = scores(&found.outcome);
+    let silent = all.iter().filter(|(_, s)| s.figures.iter().any(FigureScore::silently_wrong));
+    let silent = Share { hits: silent.count(), of: all.len() };
+    [
+        include_str!("external.md").trim_end().replace("COUNT", &study.campaigns.to_string()),
+        format!(
+            "## Random arms\n\nSeed {}, {} campaigns identified. Campaigns with a figure silently wrong: {silent}. \
+             {}\n\nEvery figure given:",
+            study.seed,
+            all.len(),
+            agreement(found),
+        ),
+        errors(&all, |f| f.estimate.is_some()),
+        limit::section(&found.outcome),
+        worst::section(&found.outcome),
+    ]
+    .join("\n\n")
+        + "\n"
+}
+
+/// How near the rig and the true arm's replay are to the other simulator's motion.
+fn agreement(found: &Independent) -> String {
+    let all: Vec<f64> = drawn(&found.outcome).iter().flat_map(|s| s.left.iter().copied()).collect();
+    let at = |share| quantile(&all, share).map_or_else(|| "–".to_owned(), |v| format!("{v:.3}"));
+    format!(
+        "{} of {} readings without noise are the rig's. The true arm's replay of the logs leaves {} of a sensor's deviation \
+         √(s² + q²/12) in median, {} to {} of the channels.",
+        found.alike.hits,
+        found.alike.of,
+        at(0.5),
+        at(0.0),
+        at(1.0)
+    )
+}
