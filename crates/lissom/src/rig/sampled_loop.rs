@@ -67,6 +67,8 @@ pub struct Logged {
     pub run: Run,
     /// How the transient went.
     pub settled: Settled,
+    /// The true state at the log's first row, `[θ_m, θ̇_m, q_1.., q̇_1..]` of [`Arm`].
+    pub start: Vec<f64>,
     /// Part of the record in which the joint stuck \[1\].
     pub stuck_share: f64,
     /// What a user should know.
@@ -390,6 +392,7 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
             since as f64 * sample
         };
         let stuck_before = self.motion.stuck_s();
+        let start = self.motion.state().to_vec();
         self.range_rad = (f64::INFINITY, f64::NEG_INFINITY);
         let mut log = Log::new(rows, self.read_rad.len());
         for k in 0..rows * every {
@@ -410,7 +413,7 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
             Reference::Sine(sine) => run.with_omega(sine.omega_rad_s())?,
             _ => run,
         };
-        Ok(Logged { run, settled, stuck_share, findings })
+        Ok(Logged { run, settled, start, stuck_share, findings })
     }
 }
 
