@@ -43,7 +43,7 @@ pub(crate) struct PlanArgs {
     /// Of the beam's frequencies [0.1%]
     #[arg(long, value_name = "SHARE", value_parser = share)]
     frequency: Option<f64>,
-    /// Of the modes' damping [20%]: enough to tell which kind it is
+    /// Of the modes' damping [5%]: enough to tell which kind it is
     #[arg(long, value_name = "SHARE", value_parser = share)]
     damping: Option<f64>,
     /// Longest time of all runs together, with waiting [30 min]

@@ -32,9 +32,9 @@ fn run(run: &PlannedRun) -> Value {
         }
         PlannedMotion::Chirp { from_rad_s, to_rad_s, .. } => ("chirp", from_rad_s, to_rad_s, None),
     };
-    let without = run.without.map(|(figure, std)| {
-        json!({ "figure": figure.name(), "relative_std": finite(std) })
-    });
+    let without = run
+        .without
+        .map(|(figure, std)| json!({ "figure": figure.name(), "relative_std": finite(std) }));
     json!({
         "kind": kind,
         "from_rad_s": from,

@@ -7,9 +7,7 @@ use lissom::plan::{BETWEEN_S, Plan, PlannedMotion, PlannedRun};
 use crate::print;
 
 pub(super) fn report(arm: &Path, plan: &Plan, out: &Path) {
-    let head = [
-        "run", "rad/s", "amplitude", "periods", "logged", "waits", "current", "sticks",
-    ];
+    let head = ["run", "rad/s", "amplitude", "periods", "logged", "waits", "current", "sticks"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     rows.extend(plan.runs.iter().map(row));
     print::table(&rows);

@@ -117,9 +117,7 @@ impl Search<'_> {
     /// The pair that says the most for its time.
     fn best_pair(&self) -> Option<usize> {
         let none = self.goal.distance(&DMatrix::zeros(self.size, self.size));
-        let worth = |c: &Choice| {
-            (none / self.goal.distance(&c.information[0])).ln() / c.time_s[0]
-        };
+        let worth = |c: &Choice| (none / self.goal.distance(&c.information[0])).ln() / c.time_s[0];
         let pairs = self.choices.iter().enumerate().filter(|(_, c)| c.pair);
         let in_time = pairs.filter(|(_, c)| c.time_s[0] <= self.goal.within_s);
         in_time.max_by(|a, b| worth(a.1).total_cmp(&worth(b.1))).map(|(i, _)| i)
@@ -159,8 +157,7 @@ impl Search<'_> {
 
     /// Whether `other` is as good as a choice whose distance is `now`.
     fn as_good(&self, other: &Chosen, now: f64) -> bool {
-        self.fits(other)
-            && self.goal.distance(&self.information(other)) <= now * (1.0 + LEAST_GAIN)
+        self.fits(other) && self.goal.distance(&self.information(other)) <= now * (1.0 + LEAST_GAIN)
     }
 
     fn shorten(&self, chosen: &mut Chosen) {

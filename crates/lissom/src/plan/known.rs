@@ -52,8 +52,7 @@ impl Known {
         let inertia = |j: usize| stiffness[j] / (omega[j] * omega[j]);
         let motor = rig.arm.motor.inertia_kg_m2;
         let followed = |j: &usize| {
-            omega[*j] * rig.instruments.log_time_s() <= FASTEST
-                && inertia(*j) > LEAST_SHARE * motor
+            omega[*j] * rig.instruments.log_time_s() <= FASTEST && inertia(*j) > LEAST_SHARE * motor
         };
         let kept: Vec<usize> = (0..n).filter(followed).take(MOST_MODES).collect();
         let left_out: Vec<usize> = (0..n).filter(|j| !kept.contains(j)).collect();

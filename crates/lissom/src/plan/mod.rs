@@ -419,17 +419,15 @@ impl<'a> Planner<'a> {
 fn choice(set: &[Candidate], scale: &DVector<f64>) -> Choice {
     let stretches = set.iter().map(|c| c.information.len()).min().unwrap_or(0);
     let size = scale.len();
-    let scaled = |m: &DMatrix<f64>| {
-        DMatrix::from_fn(size, size, |i, j| m[(i, j)] * scale[i] * scale[j])
-    };
+    let scaled =
+        |m: &DMatrix<f64>| DMatrix::from_fn(size, size, |i, j| m[(i, j)] * scale[i] * scale[j]);
     let all = |k: usize| {
         let parts = set.iter().map(|c| scaled(&c.information[k]));
         parts.fold(DMatrix::zeros(size, size), |sum, part| sum + part)
     };
     let time = |k: usize| {
-        let one = |c: &Candidate| {
-            BETWEEN_S + c.run.waited_s + c.run.motion.stretch_s() * (k + 1) as f64
-        };
+        let one =
+            |c: &Candidate| BETWEEN_S + c.run.waited_s + c.run.motion.stretch_s() * (k + 1) as f64;
         set.iter().map(one).sum()
     };
     Choice {

@@ -196,8 +196,7 @@ fn band(known: &Known, rig: &Rig, travel_rad: f64) -> (f64, f64) {
     let lowest = corner.into_iter().chain(first).fold(f64::INFINITY, f64::min);
     let highest = corner.map(|c| 3.0 * c).into_iter().chain(last.map(|w| 1.6 * w));
     let highest = highest.fold(0.0, f64::max);
-    let (low, high) =
-        if highest > 0.0 { (0.2 * lowest, highest) } else { BAND_RAD_S };
+    let (low, high) = if highest > 0.0 { (0.2 * lowest, highest) } else { BAND_RAD_S };
     let fastest = NYQUIST * PI / rig.instruments.control_time_s();
     (low.min(0.05 * fastest), high.min(fastest))
 }

@@ -102,7 +102,9 @@ impl fmt::Display for PlanNote {
                 f,
                 "no sine with its triple fits: the third-harmonic method will have no figure"
             ),
-            Self::Unfit { reason, motions } => write!(f, "{motions} motions were dropped: they {reason}"),
+            Self::Unfit { reason, motions } => {
+                write!(f, "{motions} motions were dropped: they {reason}")
+            }
             Self::SceneLeftOut => write!(
                 f,
                 "planned for Coulomb friction alone and a free tip: rest, ripple, bristles and [tip] \
