@@ -365,6 +365,10 @@ impl<'a> Planner<'a> {
         if self.goal.pair && !self.choices.iter().zip(chosen).any(|(c, k)| c.pair && *k > 0) {
             notes.push(PlanNote::NoPair);
         }
+        let damped = self.known.arm.damping_ratios().iter().any(|ratio| *ratio > 0.0);
+        if damped && runs.iter().all(|r| matches!(r.motion, PlannedMotion::Sine { .. })) {
+            notes.push(PlanNote::SinesAlone);
+        }
         notes.extend(self.unreached(chosen, &expected, time_s));
         let covariance = information::covariance(&total);
         let deviation = |(i, p): (usize, &Parameter)| {

@@ -32,6 +32,8 @@ pub enum PlanNote {
     IdealSensor,
     /// No sine and its triple fits.
     NoPair,
+    /// Steady sines alone on a beam that is damped.
+    SinesAlone,
     /// Motions of no use.
     Unfit {
         /// Why.
@@ -51,14 +53,15 @@ impl PlanNote {
             Self::LeftOut { .. } => "modes-left-out",
             Self::IdealSensor => "ideal-sensor",
             Self::NoPair => "no-pair",
+            Self::SinesAlone => "sines-alone",
             Self::Unfit { .. } => "motions-of-no-use",
             Self::SceneLeftOut => "scene-left-out",
         }
     }
 
-    /// Whether a wish is not met.
+    /// Whether a wish is not met, or what is expected may not come.
     pub fn is_warning(&self) -> bool {
-        matches!(self, Self::Unreached { .. } | Self::NoPair)
+        matches!(self, Self::Unreached { .. } | Self::NoPair | Self::SinesAlone)
     }
 }
 
@@ -101,6 +104,11 @@ impl fmt::Display for PlanNote {
             Self::NoPair => write!(
                 f,
                 "no sine with its triple fits: the third-harmonic method will have no figure"
+            ),
+            Self::SinesAlone => write!(
+                f,
+                "steady sines alone hardly show which kind of damping a mode has: errors may be many \
+                 times the deviations expected; a sweep beside them tells"
             ),
             Self::Unfit { reason, motions } => {
                 write!(f, "{motions} motions were dropped: they {reason}")
