@@ -1,5 +1,5 @@
 //! Predicted against achieved: plan, make the runs on the rig, identify them.
-#![expect(clippy::unwrap_used, reason = "tests")]
+#![expect(clippy::unwrap_used, clippy::print_stdout, reason = "tests")]
 
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
