@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lissom::plan::{BETWEEN_S, Plan, PlannedMotion, PlannedRun};
+use lissom::plan::{BETWEEN_S, Plan, PlannedMotion, PlannedRun, percent};
 
 use crate::print;
 
@@ -11,8 +11,8 @@ pub(super) fn report(arm: &Path, plan: &Plan, out: &Path) {
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     rows.extend(plan.runs.iter().map(row));
     print::table(&rows);
-    for run in plan.runs.iter().filter(|run| run.in_words().is_some()) {
-        print::line(&format!("  {}: {}", kind(run), run.in_words().unwrap_or_default()));
+    for run in &plan.runs {
+        print::line(&format!("  {}: {}", kind(run), run.in_words()));
     }
     print::line(&format!(
         "\n{} in {:.0} s, {BETWEEN_S} s between runs counted",
@@ -23,9 +23,8 @@ pub(super) fn report(arm: &Path, plan: &Plan, out: &Path) {
     let head = ["figure", "expected", "wanted"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     rows.extend(plan.expected.iter().map(|e| {
-        let share = |v: f64| format!("{:.2} %", 100.0 * v);
-        let got = if e.std < 1.0 { share(e.std) } else { "not found".to_owned() };
-        vec![e.figure.name(), got, share(e.wanted)]
+        let got = if e.std < 1.0 { percent(e.std) } else { "not found".to_owned() };
+        vec![e.figure.name(), got, percent(e.wanted)]
     }));
     print::table(&rows);
     print::line("");

@@ -3,7 +3,7 @@
 use std::fmt::{self, Write as _};
 use std::path::Path;
 
-use lissom::plan::{Plan, PlannedMotion, PlannedRun};
+use lissom::plan::{Plan, PlannedMotion, PlannedRun, percent};
 
 use super::{WriteError, write_text};
 
@@ -41,10 +41,15 @@ fn put(text: &mut String, plan: &Plan) -> fmt::Result {
         why(text, run)?;
         entry(text, run)?;
     }
-    writeln!(text, "\n# Standard deviations expected, in the same order wanted:")?;
+    writeln!(text, "\n# Standard deviations expected:")?;
     for e in &plan.expected {
-        let (got, wanted) = (100.0 * e.std, 100.0 * e.wanted);
-        writeln!(text, "#   {}: {got:.2} %, {wanted:.2} %", e.figure.name())?;
+        writeln!(
+            text,
+            "#   {}: {}, {} wanted",
+            e.figure.name(),
+            percent(e.std),
+            percent(e.wanted)
+        )?;
     }
     for note in &plan.notes {
         writeln!(text, "# {}: {note}", if note.is_warning() { "warning" } else { "note" })?;
@@ -60,10 +65,7 @@ fn why(text: &mut String, run: &PlannedRun) -> fmt::Result {
         run.moved_rad,
         100.0 * run.stuck_share
     )?;
-    if let Some(without) = run.in_words() {
-        writeln!(text, "# {without}")?;
-    }
-    Ok(())
+    writeln!(text, "# {}", run.in_words())
 }
 
 fn entry(text: &mut String, run: &PlannedRun) -> fmt::Result {

@@ -210,7 +210,9 @@ fn a_written_plan_is_read_as_it_was_made() {
         longest_wait_s: 300.0,
     };
     let text = plan_text(&plan);
-    assert!(text.starts_with(PLAN_HEAD) && text.contains("without it inertia is known to 2.00 %"));
+    assert!(
+        text.starts_with(PLAN_HEAD) && text.contains("without it inertia is known to 2.0 % only")
+    );
     let read = PlanFile::from_text(Path::new("plan.toml"), &text).unwrap();
     assert_eq!(read.runs.len(), 3);
     for (made, read) in plan.runs.iter().zip(&read.runs) {

@@ -113,22 +113,33 @@ pub struct PlannedRun {
     pub stuck_share: f64,
     /// Whether it is made for a pair: a sine or its triple.
     pub paired: bool,
-    /// Why it is there: the figure that would lose most without it (without both of a pair), and its
-    /// relative deviation then. `None` where no figure would lose.
+    /// Why it is there: the figure that would be furthest from what is wanted of it without it (without
+    /// both of a pair), and its relative deviation then. `None` where all wishes would come true.
     pub without: Option<(Figure, f64)>,
 }
 
 impl PlannedRun {
     /// Why it is there.
-    pub fn in_words(&self) -> Option<String> {
-        let (figure, std) = self.without?;
-        let (name, it) = (figure.name(), if self.paired { "this pair" } else { "it" });
-        Some(if std >= 1.0 {
-            format!("without {it} {name} is not found")
-        } else {
-            format!("without {it} {name} is known to {:.2} % only", 100.0 * std)
-        })
+    pub fn in_words(&self) -> String {
+        let it = if self.paired { "this pair" } else { "it" };
+        match self.without {
+            None if self.paired => "for the third-harmonic method".to_owned(),
+            None => "no wish needs it alone".to_owned(),
+            Some((figure, std)) if std >= 1.0 => {
+                format!("without {it} {} is not found", figure.name())
+            }
+            Some((figure, std)) => {
+                format!("without {it} {} is known to {} only", figure.name(), percent(std))
+            }
+        }
     }
+}
+
+/// A share with two digits, such as `0.12 %`.
+pub fn percent(share: f64) -> String {
+    let size = 100.0 * share;
+    let digits = (1.0 - size.abs().log10().floor()).clamp(0.0, 9.0);
+    format!("{size:.*} %", digits as usize)
 }
 
 /// What a plan gives of one figure.

@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::known::Known;
 use super::sizing::Unfit;
-use super::{Candidate, Expected, Figure};
+use super::{Candidate, Expected, Figure, percent};
 use crate::rig::{JointFriction, Rig};
 
 /// Something that a user should know of a plan.
@@ -73,11 +73,11 @@ impl fmt::Display for PlanNote {
                 if expected.std >= 1.0 {
                     write!(f, "{name}: not to be found within {within_s} s by any motion tried")?;
                 } else {
-                    let (got, wanted) = (100.0 * expected.std, 100.0 * expected.wanted);
                     write!(
                         f,
-                        "{name}: {got:.2} % at best within {within_s} s, {wanted:.2} % was wanted; \
-                         it would take about {}",
+                        "{name}: {} at best within {within_s} s, {} was wanted; it would take about {}",
+                        percent(expected.std),
+                        percent(expected.wanted),
                         duration(*needed_s)
                     )?;
                 }
@@ -86,7 +86,7 @@ impl fmt::Display for PlanNote {
                     Figure::Viscous => " at the highest speed",
                     _ => "",
                 };
-                write!(f, "; it is {:.2} % of the largest torque{where_at}", 100.0 * share)
+                write!(f, "; it is {} of the largest torque{where_at}", percent(*share))
             }
             Self::LeftOut { omega_rad_s } => {
                 let all: Vec<String> = omega_rad_s.iter().map(|w| format!("{w:.4}")).collect();

@@ -106,7 +106,8 @@ impl<'a> Planner<'a> {
         Plan { runs, expected, parameters, time_s, notes, longest_wait_s }
     }
 
-    /// The figure that loses most without a part of the information.
+    /// The figure that is furthest from what is wanted of it without a part of the information; `None`
+    /// where all wishes would come true.
     fn without(
         &self,
         total: &DMatrix<f64>,
@@ -114,9 +115,9 @@ impl<'a> Planner<'a> {
         expected: &[Expected],
     ) -> Option<(Figure, f64)> {
         let ratios = self.goal.ratios(&(total - part));
-        let then = expected.iter().zip(ratios).map(|(e, r)| (e, r * e.wanted));
-        let worst = then.max_by(|a, b| (a.1 / a.0.std).total_cmp(&(b.1 / b.0.std)));
-        worst.filter(|(e, std)| *std > e.std).map(|(e, std)| (e.figure, std))
+        let then = expected.iter().zip(ratios).filter(|(_, ratio)| *ratio > 1.0);
+        let worst = then.max_by(|a, b| a.1.total_cmp(&b.1));
+        worst.map(|(e, ratio)| (e.figure, ratio * e.wanted))
     }
 
     /// Wishes that the time does not allow, with what stands in the way.
