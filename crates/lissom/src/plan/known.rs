@@ -1,5 +1,7 @@
 //! A rig as a replay sees it: what is known beforehand of an arm, its channels and their noise.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::PlanError;
@@ -31,6 +33,8 @@ pub(super) struct Known {
     pub(super) left_out_rad_s: Vec<f64>,
     /// Whether some sensor has neither steps nor noise.
     pub(super) ideal_sensor: bool,
+    /// Masses whose sensors count.
+    tips: Range<usize>,
     /// From q_i − θ_m to ψ_j − θ_m.
     to_modes: DMatrix<f64>,
 }
@@ -62,7 +66,7 @@ impl Known {
             within_per_s: within[j].max(0.0),
             grounded_per_s: grounded[j].max(0.0),
         };
-        let seen = if kept.is_empty() { 0 } else { masses };
+        let tips = tips(masses, kept.len());
         let delay_s = rig.instruments.delay.map_or(0.0, |d| d.delay_s());
         let arm = ModalArm {
             inertia_kg_m2: motor + left_out.iter().map(|j| inertia(*j)).sum::<f64>(),
@@ -70,20 +74,21 @@ impl Known {
             coulomb_nm: 0.5 * (rig.arm.coulomb.forward + rig.arm.coulomb.backward),
             offset_nm: 0.5 * (rig.arm.coulomb.forward - rig.arm.coulomb.backward),
             modes: kept.iter().map(mode).collect(),
-            shapes: (0..seen).map(|i| kept.iter().map(|j| r[(i, *j)]).collect()).collect(),
+            shapes: tips.clone().map(|i| kept.iter().map(|j| r[(i, *j)]).collect()).collect(),
             at_points_per_s: Vec::new(),
             command_lag_s: delay_s,
         };
-        let channels = channels(rig, seen);
+        let channels = channels(rig, tips.clone());
         let parameters = parameters(&channels, &arm);
         let sensors: Vec<Sensor> = std::iter::once(rig.instruments.motor)
-            .chain((0..seen).map(|i| rig.instruments.tip(i)))
+            .chain(tips.clone().map(|i| rig.instruments.tip(i)))
             .collect();
         Ok(Self {
             parameters,
             noise: sensors.iter().map(noise_of).collect(),
             ideal_sensor: sensors.contains(&Sensor::IDEAL),
             left_out_rad_s: left_out.iter().map(|j| omega[*j]).collect(),
+            tips,
             to_modes: inverse.select_rows(&kept),
             channels,
             arm,
@@ -95,7 +100,7 @@ impl Known {
         let run = &logged.run;
         // What the amplifier's dead zone swallows does not act.
         let acted = run.command().iter().map(|u| rig.instruments.amplifier.current_a(*u)).collect();
-        let tips = run.tips()[..self.channels.tips.len()].to_vec();
+        let tips = run.tips()[self.tips.clone()].to_vec();
         let run = Run::new(run.name(), run.time(), acted, run.motor().to_vec(), tips).ok()?;
         let window = Window {
             run: 0,
@@ -121,7 +126,17 @@ impl Known {
     }
 }
 
-fn channels(rig: &Rig, tips: usize) -> Channels {
+/// All masses' sensors; of more masses than modes that are followed the tip's alone, as the others of a
+/// lumped beam are in no laboratory.
+fn tips(masses: usize, modes: usize) -> Range<usize> {
+    match modes {
+        0 => 0..0,
+        _ if masses > MOST_MODES => masses - 1..masses,
+        _ => 0..masses,
+    }
+}
+
+fn channels(rig: &Rig, tips: Range<usize>) -> Channels {
     let instruments = &rig.instruments;
     let held = instruments.control_every.is_multiple_of(instruments.log_every);
     let tip = |i: usize| Tip {
@@ -138,7 +153,7 @@ fn channels(rig: &Rig, tips: usize) -> Channels {
             back_emf_viscous: 0.0,
             limit: instruments.amplifier.limit_a(),
         },
-        tips: (0..tips).map(tip).collect(),
+        tips: tips.map(tip).collect(),
     }
 }
 
