@@ -42,9 +42,9 @@ pub const BETWEEN_S: f64 = 5.0;
 const LONGEST_S: f64 = 300.0;
 /// See [`LONGEST_S`].
 const LONGEST_SHARE: f64 = 0.25;
-/// Most numbers that one simulation goes through, samples times states: a tenth of a second, as there
+/// Most numbers that one simulation goes through, samples times states: a fraction of a second, as there
 /// are some hundred.
-const WORK_MOST: f64 = 2e6;
+const WORK_MOST: f64 = 5e6;
 
 /// Why there is no plan.
 #[derive(Debug, Clone, PartialEq, Error)]
