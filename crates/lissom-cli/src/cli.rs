@@ -6,6 +6,7 @@ use clap::{Args, Parser, Subcommand};
 use lissom_io::units::{Dimension, parse_quantity};
 
 use crate::model::ModelArgs;
+use crate::plan::PlanArgs;
 
 /// Models and identifies flexible arms and drives whose joint has friction.
 #[derive(Debug, Parser)]
@@ -21,7 +22,7 @@ campaign.toml, and identifies them. Then describe your own logs in a campaign.to
 and an arm's dimensions in an arm.toml for `lissom model`.
 
 Exit codes: 0 done; 1 the input cannot be used; 2 wrong usage; 3 done, but the data refuse a
-figure (see the findings).";
+figure (see the findings), or the time a precision that was wished for.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -29,6 +30,8 @@ pub(crate) enum Command {
     Identify(IdentifyArgs),
     /// Turn an arm's dimensions into frequencies, matrices, transfer functions and plots
     Model(ModelArgs),
+    /// From rough numbers of an arm, the runs that give a wanted precision in the least time
+    Plan(PlanArgs),
     /// Run a campaign of experiments on a virtual arm and write its logs
     Rig(RigArgs),
     /// Remake Figures 6, 7 and 8 of the report on a virtual rig
@@ -61,7 +64,7 @@ pub(crate) struct IdentifyArgs {
 }
 
 /// A time greater than zero, in seconds.
-fn positive_time(text: &str) -> Result<f64, String> {
+pub(crate) fn positive_time(text: &str) -> Result<f64, String> {
     let hint = "hint: write a time with its unit, such as \"0.3 s\"";
     match parse_quantity(text, Dimension::TIME) {
         Ok(time_s) if time_s > 0.0 => Ok(time_s),

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use lissom::identify::IdentifyError;
+use lissom::plan::PlanError;
 use lissom::rig::RigError;
 use lissom_report::FigureError;
 use thiserror::Error;
@@ -31,6 +32,11 @@ pub(crate) enum Failure {
     /// An experiment that needs what the arm file does not have.
     #[error("{}: run `{run}` needs a controller, and [rig] has none", arm.display())]
     NoController { arm: PathBuf, run: String },
+    /// A plan moves the motor by its loop.
+    #[error("{}: [rig] has no controller, and a plan is made for a position loop", arm.display())]
+    LoopNeeded { arm: PathBuf },
+    #[error("{}: {source}", arm.display())]
+    Plan { arm: PathBuf, source: PlanError },
     /// A folder that holds something else.
     #[error("{}: holds {what}; nothing is written over", folder.display())]
     OtherCampaign { folder: PathBuf, what: String },
@@ -55,6 +61,11 @@ impl Failure {
                  or drive = \"current\" to the run"
                     .to_owned(),
             ),
+            Self::LoopNeeded { .. } => Some(
+                "add controller = { proportional = \"8 A/rad\", derivative = \"0.2 A*s/rad\" } to [rig]"
+                    .to_owned(),
+            ),
+            Self::Plan { source, .. } => Some(plan_hint(source).to_owned()),
             Self::OtherCampaign { .. } => {
                 Some("give another --out, or remove the folder if it is to go".to_owned())
             }
@@ -69,6 +80,19 @@ impl Failure {
             }
             _ => None,
         }
+    }
+}
+
+fn plan_hint(error: &PlanError) -> &'static str {
+    match error {
+        PlanError::NoTime { .. } => "allow more with --within",
+        PlanError::NoMotion { .. } => {
+            "check the current limit and the sensors in [rig], or allow more with --travel, --bend and \
+             --within"
+        }
+        PlanError::TooMuch { .. } => "give a longer sample_time in [rig], or fewer masses",
+        PlanError::Wish { .. } => "give a number greater than zero",
+        _ => "check the masses and stiffnesses in [beam]",
     }
 }
 

@@ -1,7 +1,7 @@
 //! The command `lissom`: parse, call the library, print.
 //!
 //! Exit codes: 0 done, 1 the input cannot be used, 2 wrong usage, 3 done but the verdict refuses a
-//! figure asked for.
+//! figure asked for or a wish of a plan cannot be met.
 
 mod cli;
 mod demo;
@@ -11,6 +11,7 @@ mod identify;
 mod model;
 mod output;
 mod page;
+mod plan;
 mod print;
 mod progress;
 mod reference;
@@ -25,6 +26,7 @@ fn main() -> ExitCode {
     let outcome = match cli::Cli::parse().command {
         cli::Command::Identify(args) => identify::run(&args),
         cli::Command::Model(args) => model::run(&args),
+        cli::Command::Plan(args) => plan::run(&args),
         cli::Command::Rig(args) => rig::run(&args),
         cli::Command::Figures(args) => report_figures::run(&args),
         cli::Command::Demo(args) => demo::run(&args),

@@ -3,7 +3,8 @@
 //! The way of the data, one direction only:
 //! [`beam`] and [`drive`] make an [`arm`]; the [`rig`] runs virtual experiments on it; a
 //! [`record`] holds logs, simulated or measured; [`spectrum`] turns them into phasors and
-//! responses; [`identify`] turns those into friction, parameters and a verdict.
+//! responses; [`identify`] turns those into friction, parameters and a verdict. [`plan`] says which
+//! experiments are worth making.
 //!
 //! SI units and rad/s throughout; no files, no printing.
 
@@ -13,6 +14,7 @@ pub mod drive;
 pub mod identify;
 pub mod lti;
 mod number;
+pub mod plan;
 pub mod record;
 pub mod replay;
 pub mod rig;

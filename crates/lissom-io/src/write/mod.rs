@@ -4,6 +4,7 @@ mod batch;
 mod campaign;
 mod csv;
 mod error;
+mod plan;
 #[cfg(test)]
 mod tests;
 
@@ -11,6 +12,7 @@ pub use batch::Batch;
 pub use campaign::{CampaignPlan, PlannedCommand, PlannedRun, campaign_text, write_campaign};
 pub use csv::{csv_text, write_csv};
 pub use error::WriteError;
+pub use plan::{PLAN_HEAD, plan_text, write_plan};
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Write};

@@ -2,13 +2,15 @@
 
 use std::path::Path;
 
+use lissom::plan::{Expected, Figure, Plan, PlanNote, PlannedMotion, PlannedRun as Motion};
 use lissom::record::{Hold, TipQuantity};
 use proptest::prelude::*;
 
 use super::{
-    Batch, CampaignPlan, PlannedCommand, PlannedRun, campaign_text, csv_text, write_campaign,
-    write_csv, write_json, write_text, write_whole,
+    Batch, CampaignPlan, PLAN_HEAD, PlannedCommand, PlannedRun, campaign_text, csv_text, plan_text,
+    write_campaign, write_csv, write_json, write_text, write_whole,
 };
+use crate::PlanFile;
 use crate::log::{ColumnRef, LogColumn, LogOptions, read_log_from};
 
 #[test]
@@ -169,5 +171,55 @@ proptest! {
         let log =
             read_log_from(text.as_bytes(), "a.csv", None, &[column], &LogOptions::default()).unwrap();
         prop_assert_eq!(&log.columns[0], &values);
+    }
+}
+
+/// Every kind of run, read back as the experiment that it is.
+#[test]
+fn a_written_plan_is_read_as_it_was_made() {
+    let run = |motion: PlannedMotion, record_s: f64| Motion {
+        motion,
+        amplitude_rad: 0.152,
+        record_s,
+        waited_s: 72.3,
+        peak_current_a: 0.51,
+        moved_rad: 0.14,
+        stuck_share: 0.08,
+        paired: false,
+        without: Some((Figure::Inertia, 0.02)),
+    };
+    let turns = |omega_rad_s: f64, periods: f64| periods * std::f64::consts::TAU / omega_rad_s;
+    let plan = Plan {
+        runs: vec![
+            run(PlannedMotion::Sine { omega_rad_s: 55.8 }, turns(55.8, 89.0)),
+            run(
+                PlannedMotion::Multisine { omega_rad_s: 5.14, to_rad_s: 61.3, phases: 2 },
+                turns(5.14, 9.0),
+            ),
+            run(PlannedMotion::Chirp { from_rad_s: 1.31, to_rad_s: 61.3, sweep_s: 20.0 }, 20.0),
+        ],
+        expected: vec![Expected {
+            figure: Figure::Coulomb,
+            value: 0.03,
+            std: 0.001,
+            wanted: 0.005,
+        }],
+        parameters: Vec::new(),
+        time_s: 123.0,
+        notes: vec![PlanNote::NoPair],
+        longest_wait_s: 300.0,
+    };
+    let text = plan_text(&plan);
+    assert!(
+        text.starts_with(PLAN_HEAD) && text.contains("without it inertia is known to 2.0 % only")
+    );
+    let read = PlanFile::from_text(Path::new("plan.toml"), &text).unwrap();
+    assert_eq!(read.runs.len(), 3);
+    for (made, read) in plan.runs.iter().zip(&read.runs) {
+        let asked =
+            made.motion.experiment(made.amplitude_rad, made.record_s, plan.longest_wait_s).unwrap();
+        assert_eq!(read.experiment.drive, asked.drive);
+        assert_eq!(read.experiment.settle, asked.settle);
+        assert!((read.experiment.record_s / asked.record_s - 1.0).abs() < 1e-12);
     }
 }

@@ -67,7 +67,7 @@ pub struct Logged {
     pub run: Run,
     /// How the transient went.
     pub settled: Settled,
-    /// State at the log's first row, `[θ_m, θ̇_m, θ_i.., θ̇_i..]`.
+    /// The true state at the log's first row, `[θ_m, θ̇_m, q_1.., q̇_1..]` of [`Arm`].
     pub start: Vec<f64>,
     /// Part of the record in which the joint stuck \[1\].
     pub stuck_share: f64,

@@ -1,0 +1,101 @@
+//! `lissom plan`: the runs worth making.
+
+mod args;
+mod json;
+mod table;
+
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
+use std::process::ExitCode;
+
+use lissom::plan::{Plan, Wishes, plan, reference_table};
+use lissom::rig::Rig;
+use lissom_io::ArmFile;
+use lissom_io::write::{self, Batch};
+
+pub(crate) use args::PlanArgs;
+
+use crate::cli::STDOUT;
+use crate::failure::Failure;
+use crate::{output, print, progress};
+
+/// Done, but a wish cannot be met.
+const UNREACHED: u8 = 3;
+
+pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
+    let to_stdout = args.json.as_deref() == Some(Path::new(STDOUT));
+    let json_file = args.json.as_deref().filter(|_| !to_stdout);
+    output::guard(json_file, None)?;
+    guard(args.out.as_deref(), json_file)?;
+    let file = ArmFile::read(&args.arm)?;
+    let rig = file.rig(&args.arm).map_err(lissom_io::Error::from)?;
+    if !file.has_controller() {
+        return Err(Failure::LoopNeeded { arm: args.arm.clone() });
+    }
+    let wishes = args.wishes();
+    let made = planned(&args.arm, &rig, &wishes)?;
+    let value = json::plan(&wishes, &made);
+    if let Some(folder) = &args.tables {
+        tables(folder, &rig, &made)?;
+    }
+    let mut batch = Batch::new();
+    if let Some(path) = &args.out {
+        batch.file(path, write::plan_text(&made).as_bytes())?;
+    }
+    if let Some(path) = json_file {
+        batch.file(path, write::json_text(path, &value)?.as_bytes())?;
+    }
+    batch.commit()?;
+    match (to_stdout, &args.out) {
+        (true, _) => print::json(&value),
+        // The plan itself, which says in comments what the table would.
+        (false, None) => print::line(write::plan_text(&made).trim_end()),
+        (false, Some(path)) => table::report(&args.arm, &made, path),
+    }
+    let reached = made.expected.iter().all(|e| e.std <= e.wanted);
+    Ok(if reached { ExitCode::SUCCESS } else { ExitCode::from(UNREACHED) })
+}
+
+fn planned(arm: &Path, rig: &Rig, wishes: &Wishes) -> Result<Plan, Failure> {
+    let bar = progress::bar(0, "motions tried");
+    bar.enable_steady_tick(std::time::Duration::from_millis(250));
+    let made = plan(rig, wishes, |done, all| {
+        bar.set_length(all as u64);
+        bar.set_position(done as u64);
+    });
+    bar.finish_and_clear();
+    made.map_err(|source| Failure::Plan { arm: arm.to_owned(), source })
+}
+
+/// Refuses to write over what is no earlier plan.
+fn guard(out: Option<&Path>, json: Option<&Path>) -> Result<(), Failure> {
+    let Some(out) = out else { return Ok(()) };
+    if json == Some(out) {
+        return Err(Failure::SameOutput { file: out.to_owned() });
+    }
+    let mut start = String::new();
+    let length = write::PLAN_HEAD.len() as u64;
+    // What cannot be read is left to the writing to refuse.
+    let other = out.is_file()
+        && File::open(out).is_ok_and(|f| {
+            f.take(length).read_to_string(&mut start).is_err() || start != write::PLAN_HEAD
+        });
+    if other { Err(Failure::NotAnOutput { file: out.to_owned() }) } else { Ok(()) }
+}
+
+/// A table of reference angles for each run.
+fn tables(folder: &Path, rig: &Rig, made: &Plan) -> Result<(), Failure> {
+    write::create_folder(folder)?;
+    for (index, run) in made.runs.iter().enumerate() {
+        let table = reference_table(run, rig.instruments.control_time_s())?;
+        let columns: [(&str, &[f64]); 3] =
+            [("t", &table.time_s), ("theta_ref", &table.reference_rad), ("log", &table.log)];
+        write::write_csv(&folder.join(table_name(index)), &columns)?;
+    }
+    Ok(())
+}
+
+fn table_name(index: usize) -> String {
+    format!("run-{:02}.csv", index + 1)
+}

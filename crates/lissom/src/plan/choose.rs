@@ -1,0 +1,245 @@
+//! Which of the runs, and how long: the least time that reaches the wishes.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Information that is there without any run: a deviation of 100 times the scale of each parameter, so
+/// that what no run shows has one at all.
+const BEFORE: f64 = 1e-4;
+/// A step has to better the sum of squares by this share.
+const LEAST_GAIN: f64 = 1e-4;
+/// Steps at most, and rounds of exchanges.
+const STEPS: usize = 200;
+/// See [`STEPS`].
+const ROUNDS: usize = 20;
+
+/// Something to choose: information and time after one, two, … stretches.
+#[derive(Debug, Clone)]
+pub(super) struct Choice {
+    pub(super) information: Vec<DMatrix<f64>>,
+    pub(super) time_s: Vec<f64>,
+    /// Whether it counts as a pair of sines.
+    pub(super) pair: bool,
+}
+
+/// What is to be reached: directions in the scaled parameters, and the deviation wanted along each.
+#[derive(Debug, Clone)]
+pub(super) struct Goal {
+    pub(super) wanted: Vec<(DVector<f64>, f64)>,
+    pub(super) within_s: f64,
+    pub(super) pair: bool,
+}
+
+/// How many stretches of each choice; zero leaves it out.
+pub(super) type Chosen = Vec<usize>;
+
+impl Goal {
+    /// Deviation over the wanted one, of each figure.
+    pub(super) fn ratios(&self, information: &DMatrix<f64>) -> Vec<f64> {
+        let n = information.nrows();
+        let with = information + DMatrix::identity(n, n) * BEFORE;
+        let scale = with.diagonal().map(|d| 1.0 / d.sqrt());
+        let scaled = DMatrix::from_fn(n, n, |i, j| with[(i, j)] * scale[i] * scale[j]);
+        let Some(cholesky) = scaled.cholesky() else {
+            return vec![f64::INFINITY; self.wanted.len()];
+        };
+        let ratio = |(along, wanted): &(DVector<f64>, f64)| {
+            let along = along.component_mul(&scale);
+            cholesky.solve(&along).dot(&along).max(0.0).sqrt() / wanted
+        };
+        self.wanted.iter().map(ratio).collect()
+    }
+
+    /// Sum of squares of the ratios, those that are reached counted as one.
+    fn distance(&self, information: &DMatrix<f64>) -> f64 {
+        self.ratios(information).iter().map(|r| r.max(1.0).powi(2)).sum()
+    }
+
+    fn is_reached(&self, information: &DMatrix<f64>) -> bool {
+        self.ratios(information).iter().all(|r| *r <= 1.0)
+    }
+}
+
+/// What all chosen runs say together.
+pub(super) fn information(choices: &[Choice], chosen: &Chosen, size: usize) -> DMatrix<f64> {
+    choices
+        .iter()
+        .zip(chosen)
+        .filter(|(_, k)| **k > 0)
+        .fold(DMatrix::zeros(size, size), |sum, (c, k)| sum + &c.information[k - 1])
+}
+
+/// Time of all chosen runs \[s\].
+pub(super) fn time_s(choices: &[Choice], chosen: &Chosen) -> f64 {
+    choices.iter().zip(chosen).filter(|(_, k)| **k > 0).map(|(c, k)| c.time_s[k - 1]).sum()
+}
+
+/// One run or a stretch of one after another, each time what brings the wishes nearest for its time;
+/// then what became needless goes, and what does the same in less time takes its place.
+pub(super) fn choose(choices: &[Choice], goal: &Goal) -> Chosen {
+    let size = goal.wanted.first().map_or(0, |(along, _)| along.len());
+    let search = Search { choices, goal, size };
+    let mut chosen = vec![0; choices.len()];
+    if goal.pair
+        && let Some(pair) = search.best_pair()
+    {
+        chosen[pair] = 1;
+    }
+    search.grow(&mut chosen);
+    for _ in 0..ROUNDS {
+        let before = chosen.clone();
+        search.shorten(&mut chosen);
+        search.exchange(&mut chosen);
+        if chosen == before {
+            break;
+        }
+    }
+    chosen
+}
+
+struct Search<'a> {
+    choices: &'a [Choice],
+    goal: &'a Goal,
+    size: usize,
+}
+
+impl Search<'_> {
+    fn information(&self, chosen: &Chosen) -> DMatrix<f64> {
+        information(self.choices, chosen, self.size)
+    }
+
+    /// Whether a choice is allowed beside the wishes: in time, and with its pair.
+    fn fits(&self, chosen: &Chosen) -> bool {
+        let pairs = self.choices.iter().zip(chosen).any(|(c, k)| c.pair && *k > 0);
+        let needs = self.goal.pair && self.choices.iter().any(|c| c.pair);
+        time_s(self.choices, chosen) <= self.goal.within_s && (pairs || !needs)
+    }
+
+    /// The pair that says the most for its time.
+    fn best_pair(&self) -> Option<usize> {
+        let none = self.goal.distance(&DMatrix::zeros(self.size, self.size));
+        let worth = |c: &Choice| (none / self.goal.distance(&c.information[0])).ln() / c.time_s[0];
+        let pairs = self.choices.iter().enumerate().filter(|(_, c)| c.pair);
+        let in_time = pairs.filter(|(_, c)| c.time_s[0] <= self.goal.within_s);
+        in_time.max_by(|a, b| worth(a.1).total_cmp(&worth(b.1))).map(|(i, _)| i)
+    }
+
+    fn grow(&self, chosen: &mut Chosen) {
+        for _ in 0..STEPS {
+            let information = self.information(chosen);
+            if self.goal.is_reached(&information) {
+                return;
+            }
+            let now = self.goal.distance(&information);
+            let spent = time_s(self.choices, chosen);
+            let mut best: Option<(f64, usize, usize)> = None;
+            for (i, choice) in self.choices.iter().enumerate() {
+                let had = chosen[i];
+                let (without, time) = match had {
+                    0 => (information.clone(), 0.0),
+                    k => (&information - &choice.information[k - 1], choice.time_s[k - 1]),
+                };
+                for k in had + 1..=choice.information.len() {
+                    let more = choice.time_s[k - 1] - time;
+                    if spent + more > self.goal.within_s {
+                        continue;
+                    }
+                    let then = self.goal.distance(&(&without + &choice.information[k - 1]));
+                    let worth = (now / then).ln() / more;
+                    if now > (1.0 + LEAST_GAIN) * then && best.is_none_or(|b| worth > b.0) {
+                        best = Some((worth, i, k));
+                    }
+                }
+            }
+            let Some((_, i, k)) = best else { return };
+            chosen[i] = k;
+        }
+    }
+
+    /// Whether `other` is as good as a choice whose distance is `now`.
+    fn as_good(&self, other: &Chosen, now: f64) -> bool {
+        self.fits(other) && self.goal.distance(&self.information(other)) <= now * (1.0 + LEAST_GAIN)
+    }
+
+    fn shorten(&self, chosen: &mut Chosen) {
+        let now = self.goal.distance(&self.information(chosen));
+        for i in 0..chosen.len() {
+            for k in 0..chosen[i] {
+                let mut other = chosen.clone();
+                other[i] = k;
+                if self.as_good(&other, now) {
+                    *chosen = other;
+                    break;
+                }
+            }
+        }
+    }
+
+    /// Each chosen run against every other that takes less time.
+    fn exchange(&self, chosen: &mut Chosen) {
+        let now = self.goal.distance(&self.information(chosen));
+        for i in 0..chosen.len() {
+            if chosen[i] == 0 {
+                continue;
+            }
+            let mut best = (time_s(self.choices, chosen), chosen.clone());
+            for (j, choice) in self.choices.iter().enumerate() {
+                for k in chosen[j] + 1..=choice.information.len() {
+                    let mut other = chosen.clone();
+                    other[i] = 0;
+                    other[j] = k;
+                    let time = time_s(self.choices, &other);
+                    if time < best.0 && self.as_good(&other, now) {
+                        best = (time, other);
+                    }
+                }
+            }
+            *chosen = best.1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn choice(a: f64, b: f64, time_s: f64) -> Choice {
+        let one = DMatrix::from_diagonal(&DVector::from_vec(vec![a, b]));
+        Choice {
+            information: vec![one.clone(), one * 2.0],
+            time_s: vec![time_s, 2.0 * time_s],
+            pair: false,
+        }
+    }
+
+    fn goal(within_s: f64) -> Goal {
+        let along = |i: usize| DVector::from_fn(2, |j, _| f64::from(i == j));
+        Goal { wanted: vec![(along(0), 0.1), (along(1), 0.1)], within_s, pair: false }
+    }
+
+    /// Each figure needs 100: two runs that show one figure each beat one that shows both slowly.
+    #[test]
+    fn the_least_time_is_chosen() {
+        let choices = [choice(100.0, 0.0, 1.0), choice(0.0, 100.0, 1.0), choice(60.0, 60.0, 4.0)];
+        assert_eq!(choose(&choices, &goal(100.0)), [1, 1, 0]);
+        assert_eq!(choose(&choices[2..], &goal(100.0)), [2]);
+        // One that does all is better than both.
+        let all = [choices[0].clone(), choices[1].clone(), choice(101.0, 101.0, 1.5)];
+        assert_eq!(choose(&all, &goal(100.0)), [0, 0, 1]);
+    }
+
+    #[test]
+    fn time_bounds_the_choice() {
+        let choices = [choice(10.0, 0.0, 1.0), choice(0.0, 100.0, 1.0)];
+        let chosen = choose(&choices, &goal(2.5));
+        assert!(time_s(&choices, &chosen) <= 2.5 && chosen[0] > 0);
+    }
+
+    #[test]
+    fn a_pair_is_kept_where_one_is_asked_for() {
+        let mut pair = choice(1.0, 1.0, 5.0);
+        pair.pair = true;
+        let choices = [choice(101.0, 101.0, 1.0), pair];
+        let goal = Goal { pair: true, ..goal(100.0) };
+        assert_eq!(choose(&choices, &goal), [1, 1]);
+    }
+}

@@ -1,0 +1,230 @@
+//! The motions that a plan chooses from.
+
+use std::f64::consts::{PI, TAU};
+
+use super::known::Known;
+use crate::rig::{Drive, Experiment, Multisine, Reference, Rig, RigError, Settle, Sweep};
+
+/// Sines keep off every mode that is damped less than this…
+const LIGHTLY: f64 = 0.1;
+/// …by this share of its frequency, with their triples: the true one may be elsewhere…
+const KEEP_OFF: f64 = 0.12;
+/// …and by so many half-widths.
+const HALF_WIDTHS: f64 = 4.0;
+/// Sines tried, each with its triple.
+const SINES: usize = 14;
+/// Periods of a sine and of a multisine that a run lasts at least…
+const PERIODS: f64 = 6.0;
+/// See [`PERIODS`].
+const MULTISINE_PERIODS: f64 = 3.0;
+/// …and its time \[s\]: a shorter run shows friction, but not which damping a mode has, and what is
+/// taken wrong there is wrong in all figures.
+const LEAST_S: f64 = 10.0;
+/// Lines of a multisine, at most: odd multiples of its frequency.
+const HIGHEST_LINE: f64 = 39.0;
+/// Seeds of multisines' phases.
+const PHASES: u64 = 3;
+/// Times of a sweep \[s\].
+const SWEEPS_S: [f64; 3] = [10.0, 20.0, 40.0];
+/// Nothing is driven above this share of the Nyquist frequency.
+const NYQUIST: f64 = 0.5;
+/// The band where neither beam nor current says one \[rad/s\].
+const BAND_RAD_S: (f64, f64) = (1.0, 30.0);
+
+/// What the motor is asked to do, but for its size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PlannedMotion {
+    /// A sine of this frequency \[rad/s\].
+    Sine {
+        /// ω0.
+        omega_rad_s: f64,
+    },
+    /// Odd multiples of a frequency up to another \[rad/s\].
+    Multisine {
+        /// The lowest line.
+        omega_rad_s: f64,
+        /// No line is higher.
+        to_rad_s: f64,
+        /// Seed of the phases.
+        phases: u64,
+    },
+    /// A logarithmic sweep from one frequency to another \[rad/s\].
+    Chirp {
+        /// At its start.
+        from_rad_s: f64,
+        /// At its end.
+        to_rad_s: f64,
+        /// How long it takes \[s\].
+        sweep_s: f64,
+    },
+}
+
+impl PlannedMotion {
+    /// Records come in multiples of this \[s\].
+    pub fn stretch_s(&self) -> f64 {
+        let whole = |omega_rad_s: f64, periods: f64| {
+            let period_s = TAU / omega_rad_s;
+            periods.max((LEAST_S / period_s).ceil()) * period_s
+        };
+        match *self {
+            Self::Sine { omega_rad_s } => whole(omega_rad_s, PERIODS),
+            Self::Multisine { omega_rad_s, .. } => whole(omega_rad_s, MULTISINE_PERIODS),
+            Self::Chirp { sweep_s, .. } => sweep_s,
+        }
+    }
+
+    /// Most such multiples.
+    pub(super) fn stretches(&self) -> usize {
+        match self {
+            Self::Sine { .. } | Self::Multisine { .. } => 4,
+            Self::Chirp { .. } => 1,
+        }
+    }
+
+    /// Periods of a record; `None` for a sweep.
+    pub fn periods(&self, record_s: f64) -> Option<usize> {
+        match *self {
+            Self::Sine { omega_rad_s } | Self::Multisine { omega_rad_s, .. } => {
+                Some((record_s * omega_rad_s / TAU).round() as usize)
+            }
+            Self::Chirp { .. } => None,
+        }
+    }
+
+    /// The motion as a signal.
+    ///
+    /// # Errors
+    /// [`RigError`] where the numbers make none.
+    pub fn reference(&self, amplitude_rad: f64) -> Result<Reference, RigError> {
+        match *self {
+            Self::Sine { omega_rad_s } => Reference::sine(omega_rad_s, amplitude_rad),
+            Self::Multisine { omega_rad_s, to_rad_s, phases } => {
+                let sum = Multisine::odd(omega_rad_s, to_rad_s, amplitude_rad, phases)?;
+                Ok(Reference::Multisine(sum))
+            }
+            Self::Chirp { from_rad_s, to_rad_s, sweep_s } => {
+                let ends = (from_rad_s, to_rad_s);
+                Reference::chirp(Sweep::Logarithmic, ends, amplitude_rad, sweep_s)
+            }
+        }
+    }
+
+    /// The experiment: sines wait for their transient to go, at most `longest_s`; all else begins at
+    /// once.
+    ///
+    /// # Errors
+    /// [`RigError`] where the numbers make none.
+    pub fn experiment(
+        &self,
+        amplitude_rad: f64,
+        record_s: f64,
+        longest_s: f64,
+    ) -> Result<Experiment, RigError> {
+        let settle = match (self, Settle::DETECTED) {
+            (Self::Sine { .. }, Settle::Detected { tolerance, .. }) => {
+                Settle::Detected { tolerance, longest_s }
+            }
+            _ => Settle::AtOnce,
+        };
+        let drive = Drive::Angle(self.reference(amplitude_rad)?);
+        Ok(Experiment::new(drive, record_s)?.settling(settle))
+    }
+}
+
+/// Motions that are made together or not at all: a sine with its triple, or one alone.
+pub(super) type Group = Vec<PlannedMotion>;
+
+/// All that a plan may choose from.
+pub(super) fn groups(known: &Known, rig: &Rig, travel_rad: f64, sines_alone: bool) -> Vec<Group> {
+    let (low, high) = band(known, rig, travel_rad);
+    let mut found: Vec<Group> = steps(low, high, SINES)
+        .into_iter()
+        .filter(|omega| is_clear(known, *omega))
+        .filter_map(|omega_rad_s| sine(known, omega_rad_s, high))
+        .collect();
+    if sines_alone {
+        return found;
+    }
+    let ends = [(low, high), (0.5 * (low + (low * high).sqrt()), high), (low, (low * high).sqrt())];
+    for (from_rad_s, to_rad_s) in ends.map(|(a, b)| (rounded(a), rounded(b))) {
+        found.extend(
+            SWEEPS_S.map(|sweep_s| vec![PlannedMotion::Chirp { from_rad_s, to_rad_s, sweep_s }]),
+        );
+        let to_rad_s = to_rad_s.min(rounded(HIGHEST_LINE * from_rad_s));
+        found.extend((1..=PHASES).map(|phases| {
+            vec![PlannedMotion::Multisine { omega_rad_s: from_rad_s, to_rad_s, phases }]
+        }));
+    }
+    found
+}
+
+/// A sine with its triple. One whose triple cannot be driven goes alone; one whose triple meets a mode
+/// is none.
+fn sine(known: &Known, omega_rad_s: f64, high: f64) -> Option<Group> {
+    let triple = exactly(3.0 * omega_rad_s);
+    let one = PlannedMotion::Sine { omega_rad_s };
+    if !is_clear(known, triple) {
+        None
+    } else if triple > high {
+        Some(vec![one])
+    } else {
+        Some(vec![one, PlannedMotion::Sine { omega_rad_s: triple }])
+    }
+}
+
+/// Whether a frequency is off every lightly damped mode.
+fn is_clear(known: &Known, omega_rad_s: f64) -> bool {
+    let ratios = known.arm.damping_ratios();
+    known.arm.modes.iter().zip(ratios).all(|(mode, ratio)| {
+        let off = (omega_rad_s / mode.omega_rad_s - 1.0).abs();
+        ratio > LIGHTLY || off > KEEP_OFF.max(HALF_WIDTHS * ratio)
+    })
+}
+
+/// Lowest and highest frequency of all: about those at which the whole travel takes the whole current,
+/// and about the modes.
+fn band(known: &Known, rig: &Rig, travel_rad: f64) -> (f64, f64) {
+    let arm = &known.arm;
+    let carried: f64 =
+        arm.modes.iter().map(|m| m.stiffness_nm_per_rad / m.omega_rad_s.powi(2)).sum();
+    let constant = rig.arm.motor.torque_constant_nm_per_a;
+    let left_nm = constant * rig.instruments.amplifier.most_a() - arm.coulomb_nm;
+    let corner = (left_nm / ((arm.inertia_kg_m2 + carried) * travel_rad)).sqrt();
+    let first = arm.modes.first().map(|m| m.omega_rad_s);
+    let last = arm.modes.last().map(|m| m.omega_rad_s);
+    let corner = Some(corner).filter(|c| c.is_finite() && *c > 0.0);
+    let lowest = corner.into_iter().chain(first).fold(f64::INFINITY, f64::min);
+    let highest = corner.map(|c| 3.0 * c).into_iter().chain(last.map(|w| 1.6 * w));
+    let highest = highest.fold(0.0, f64::max);
+    let (low, high) = if highest > 0.0 { (0.2 * lowest, highest) } else { BAND_RAD_S };
+    let fastest = NYQUIST * PI / rig.instruments.control_time_s();
+    (low.min(0.05 * fastest), high.min(fastest))
+}
+
+/// Frequencies in even steps of their logarithm.
+fn steps(low: f64, high: f64, count: usize) -> Vec<f64> {
+    let ratio = (high / low).powf(1.0 / (count - 1) as f64);
+    (0..count).map(|k| rounded(low * ratio.powf(k as f64))).collect()
+}
+
+/// To three digits: what a plan says is what was tried.
+pub(super) fn rounded(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
+/// A multiple of such a number without the tail of its binary digits.
+fn exactly(value: f64) -> f64 {
+    format!("{value:.6e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[expect(clippy::float_cmp, reason = "the same text, read twice")]
+    fn numbers_have_three_digits() {
+        assert_eq!([rounded(0.012_345), rounded(98_765.0), rounded(3.0)], [0.0123, 98_800.0, 3.0]);
+        assert_eq!([rounded(0.0), exactly(3.0 * 18.6)], [0.0, 55.8]);
+    }
+}

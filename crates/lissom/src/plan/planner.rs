@@ -1,0 +1,202 @@
+//! From motions that fit to a plan: what there is to choose from, and what the choice gives.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::choose::{self, Choice, Chosen, Goal};
+use super::information::covariance;
+use super::known::Known;
+use super::{
+    BETWEEN_S, Candidate, Expected, Figure, Kinds, Plan, PlanError, PlanNote, PlannedMotion,
+    PlannedRun, Unfit, Wishes, note,
+};
+use crate::replay::Parameter;
+use crate::rig::Rig;
+
+/// What there is to choose from, and what is to be reached.
+pub(super) struct Planner<'a> {
+    known: &'a Known,
+    rig: &'a Rig,
+    wishes: &'a Wishes,
+    /// Motions made together.
+    sets: Vec<&'a Vec<Candidate>>,
+    pub(super) choices: Vec<Choice>,
+    pub(super) goal: Goal,
+    /// What one is of each parameter, in which information is counted.
+    scale: DVector<f64>,
+}
+
+impl<'a> Planner<'a> {
+    pub(super) fn new(
+        known: &'a Known,
+        rig: &'a Rig,
+        wishes: &'a Wishes,
+        found: &'a [Result<Vec<Candidate>, Unfit>],
+    ) -> Result<Self, PlanError> {
+        let sets: Vec<&Vec<Candidate>> = found.iter().flatten().collect();
+        if sets.is_empty() {
+            let reasons = note::reasons(found);
+            let reasons = reasons.iter().map(|(why, n)| format!("{n} {why}")).collect();
+            return Err(PlanError::NoMotion { tried: found.len(), reasons });
+        }
+        let scale = scale(known);
+        let choices: Vec<Choice> = sets.iter().map(|set| choice(set, &scale)).collect();
+        let shortest_s = choices.iter().map(|c| c.time_s[0]).fold(f64::INFINITY, f64::min);
+        if shortest_s > wishes.within_s {
+            return Err(PlanError::NoTime { within_s: wishes.within_s, shortest_s });
+        }
+        let wanted = Figure::of(&known.arm).into_iter().map(|figure| {
+            let slope = |(p, s): (&Parameter, &f64)| figure.slope(&known.arm, *p) * s;
+            let slopes = known.parameters.iter().zip(&scale).map(slope);
+            let along = DVector::from_iterator(scale.len(), slopes) / figure.value(&known.arm);
+            (along, wishes.precision.of(figure))
+        });
+        let goal = Goal {
+            wanted: wanted.collect(),
+            within_s: wishes.within_s,
+            pair: wishes.kinds != Kinds::Any,
+        };
+        Ok(Self { known, rig, wishes, sets, choices, goal, scale })
+    }
+
+    pub(super) fn plan(
+        &self,
+        chosen: &Chosen,
+        mut notes: Vec<PlanNote>,
+        longest_wait_s: f64,
+    ) -> Plan {
+        let size = self.scale.len();
+        let total = choose::information(&self.choices, chosen, size);
+        let ratios = self.goal.ratios(&total);
+        let figures = Figure::of(&self.known.arm);
+        let expected: Vec<Expected> = figures
+            .iter()
+            .zip(&ratios)
+            .map(|(figure, ratio)| {
+                let wanted = self.wishes.precision.of(*figure);
+                let value = figure.value(&self.known.arm);
+                Expected { figure: *figure, value, std: ratio * wanted, wanted }
+            })
+            .collect();
+        let mut runs: Vec<PlannedRun> = Vec::new();
+        for (i, k) in chosen.iter().enumerate().filter(|(_, k)| **k > 0) {
+            let without = self.without(&total, &self.choices[i].information[k - 1], &expected);
+            runs.extend(self.sets[i].iter().map(|c| PlannedRun {
+                record_s: c.run.motion.stretch_s() * *k as f64,
+                without,
+                paired: self.choices[i].pair,
+                ..c.run.clone()
+            }));
+        }
+        runs.sort_by(|a, b| order(&a.motion).total_cmp(&order(&b.motion)));
+        let time_s = choose::time_s(&self.choices, chosen);
+        if self.goal.pair && !self.choices.iter().zip(chosen).any(|(c, k)| c.pair && *k > 0) {
+            notes.push(PlanNote::NoPair);
+        }
+        let damped = self.known.arm.damping_ratios().iter().any(|ratio| *ratio > 0.0);
+        if damped && runs.iter().all(|r| matches!(r.motion, PlannedMotion::Sine { .. })) {
+            notes.push(PlanNote::SinesAlone);
+        }
+        notes.extend(self.unreached(chosen, &expected, time_s));
+        let covariance = covariance(&total);
+        let deviation = |(i, p): (usize, &Parameter)| {
+            let std = covariance[(i, i)].sqrt() * self.scale[i];
+            (*p, p.of(&self.known.arm), std)
+        };
+        let parameters = self.known.parameters.iter().enumerate().map(deviation).collect();
+        Plan { runs, expected, parameters, time_s, notes, longest_wait_s }
+    }
+
+    /// The figure that is furthest from what is wanted of it without a part of the information; `None`
+    /// where all wishes would come true.
+    fn without(
+        &self,
+        total: &DMatrix<f64>,
+        part: &DMatrix<f64>,
+        expected: &[Expected],
+    ) -> Option<(Figure, f64)> {
+        let ratios = self.goal.ratios(&(total - part));
+        let then = expected.iter().zip(ratios).filter(|(_, ratio)| *ratio > 1.0);
+        let worst = then.max_by(|a, b| a.1.total_cmp(&b.1));
+        worst.map(|(e, ratio)| (e.figure, ratio * e.wanted))
+    }
+
+    /// Wishes that the time does not allow, with what stands in the way.
+    fn unreached(&self, chosen: &Chosen, expected: &[Expected], time_s: f64) -> Vec<PlanNote> {
+        let used = || {
+            let sets = self.sets.iter().zip(chosen).filter(|(_, k)| **k > 0);
+            sets.flat_map(|(set, _)| set.iter())
+        };
+        let constant = self.rig.arm.motor.torque_constant_nm_per_a;
+        let peak_nm = constant * used().map(|c| c.run.peak_current_a).fold(0.0, f64::max);
+        let speed = used().map(|c| c.speed_rad_s).fold(0.0, f64::max);
+        let share = |figure: Figure| match figure {
+            Figure::Viscous => Some(figure.value(&self.known.arm) * speed / peak_nm),
+            Figure::Coulomb => Some(figure.value(&self.known.arm) / peak_nm),
+            _ => None,
+        };
+        let missed = expected.iter().filter(|e| e.std > e.wanted);
+        missed
+            .map(|e| PlanNote::Unreached {
+                expected: *e,
+                within_s: self.wishes.within_s,
+                // Deviations fall with the root of the time.
+                needed_s: time_s * (e.std / e.wanted).powi(2),
+                torque_share: share(e.figure),
+            })
+            .collect()
+    }
+}
+
+/// Information and times of motions that are made together.
+fn choice(set: &[Candidate], scale: &DVector<f64>) -> Choice {
+    let stretches = set.iter().map(|c| c.information.len()).min().unwrap_or(0);
+    let size = scale.len();
+    let scaled =
+        |m: &DMatrix<f64>| DMatrix::from_fn(size, size, |i, j| m[(i, j)] * scale[i] * scale[j]);
+    let all = |k: usize| {
+        let parts = set.iter().map(|c| scaled(&c.information[k]));
+        parts.fold(DMatrix::zeros(size, size), |sum, part| sum + part)
+    };
+    let time = |k: usize| {
+        let one =
+            |c: &Candidate| BETWEEN_S + c.run.waited_s + c.run.motion.stretch_s() * (k + 1) as f64;
+        set.iter().map(one).sum()
+    };
+    Choice {
+        information: (0..stretches).map(all).collect(),
+        time_s: (0..stretches).map(time).collect(),
+        pair: set.len() > 1,
+    }
+}
+
+/// Sines first, then all else, by their lowest frequency.
+fn order(motion: &PlannedMotion) -> f64 {
+    match *motion {
+        PlannedMotion::Sine { omega_rad_s } => omega_rad_s,
+        PlannedMotion::Multisine { omega_rad_s, .. } => 1e6 * omega_rad_s,
+        PlannedMotion::Chirp { from_rad_s, .. } => 1e12 * from_rad_s,
+    }
+}
+
+/// Size of each parameter: its value, where that is a measure.
+fn scale(known: &Known) -> DVector<f64> {
+    let arm = &known.arm;
+    let positive = |value: f64, or: f64| if value > 0.0 { value } else { or };
+    let first = arm.modes.first().map_or(1.0, |m| m.omega_rad_s);
+    let size = |p: &Parameter| match *p {
+        Parameter::Viscous => positive(p.of(arm), 0.01 * arm.inertia_kg_m2 * first),
+        Parameter::Coulomb | Parameter::Offset => {
+            positive(arm.coulomb_nm, arm.inertia_kg_m2 * first * first)
+        }
+        // A damping ratio of a hundredth.
+        Parameter::DampingWithin(j) | Parameter::DampingGrounded(j) => {
+            0.02 * arm.modes[j].omega_rad_s
+        }
+        Parameter::Inertia | Parameter::Stiffness(_) | Parameter::Frequency(_) => {
+            positive(p.of(arm).abs(), 1.0)
+        }
+        Parameter::CommandLag => positive(p.of(arm), 1e-3),
+        _ => 1.0,
+    };
+    DVector::from_iterator(known.parameters.len(), known.parameters.iter().map(size))
+}
