@@ -7,6 +7,7 @@ use thiserror::Error;
 use super::channel_check::range;
 use super::constant_velocity::{self, ConstantVelocity};
 use super::finding::{Finding, Severity, key};
+use super::found_arm::FoundArm;
 use super::friction_waveform::FrictionWaveform;
 use super::identified::{Beam, Friction, Identified, ThirdHarmonic};
 use super::model::state_space;
@@ -223,10 +224,12 @@ pub fn identify(
         beam_model,
         motor_model,
         state_space,
+        arm: None,
         torque_per_command: campaign.channels.command.torque_per_command,
         findings,
     };
     verdict::conclude(campaign, &mut identified);
+    identified.arm = FoundArm::of(&identified, &usable);
     Ok(identified)
 }
 

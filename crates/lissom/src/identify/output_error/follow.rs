@@ -1,0 +1,34 @@
+//! The motion of a given arm along runs that it was not found from.
+
+use super::search::Problem;
+use super::windows::cut;
+use super::{data, noise};
+use crate::record::Campaign;
+use crate::replay::{Blocks, ModalArm, Sampling, SensorNoise, Window};
+
+/// Most steps of a window's search.
+const MOST_STEPS: usize = 40;
+
+/// Windows of about `length_s` (whole runs where that is longer), each with the initial state and the
+/// tips' zeros from which the arm's motion comes nearest to the log. Nothing of the arm is moved.
+pub(crate) fn follow(arm: &ModalArm, campaign: &Campaign, length_s: f64) -> Vec<Window> {
+    let masks = data::masks(campaign);
+    let blocks = vec![Blocks { samples: f64::INFINITY, period: None }; campaign.runs.len()];
+    let noise: Vec<SensorNoise> =
+        noise::of_samples(campaign).into_iter().map(weighable).collect();
+    let sampling = Sampling { noise: &noise, blocks: &blocks, masks: &masks };
+    let problem = Problem { campaign, parameters: &[], sampling, robust: false };
+    if !problem.can_be_seen(arm) {
+        return Vec::new();
+    }
+    let nearest = |window: Window| {
+        let point = problem.at(arm.clone(), vec![window]);
+        problem.search(point, MOST_STEPS).0.windows
+    };
+    cut(campaign, arm, length_s).into_iter().flat_map(nearest).collect()
+}
+
+/// A channel without any noise, which stands still, weighs nothing.
+fn weighable(noise: SensorNoise) -> SensorNoise {
+    if noise.sigma > 0.0 { noise } else { SensorNoise::gaussian(f64::MAX.sqrt()) }
+}
