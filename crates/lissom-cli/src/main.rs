@@ -16,6 +16,7 @@ mod progress;
 mod reference;
 mod report_figures;
 mod rig;
+mod validate;
 
 use std::process::ExitCode;
 
@@ -24,6 +25,7 @@ use clap::Parser as _;
 fn main() -> ExitCode {
     let outcome = match cli::Cli::parse().command {
         cli::Command::Identify(args) => identify::run(&args),
+        cli::Command::Validate(args) => validate::run(&args),
         cli::Command::Model(args) => model::run(&args),
         cli::Command::Rig(args) => rig::run(&args),
         cli::Command::Figures(args) => report_figures::run(&args),
