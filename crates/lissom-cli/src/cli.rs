@@ -106,7 +106,7 @@ pub(crate) struct ValidateArgs {
     /// Draw torque, motion, residuals and correlations into DIR as SVG and PNG
     #[arg(long, value_name = "DIR")]
     pub(crate) plots: Option<PathBuf>,
-    /// Length of the window that torque is averaged with, e.g. "20 ms"; chosen from the log when absent
+    /// Length of the window that torque is averaged with, e.g. "20 ms"; that of the logs used when absent
     #[arg(long, value_name = "TIME", value_parser = positive_time, allow_hyphen_values = true)]
     pub(crate) window: Option<f64>,
     /// Predict motion over this time alone, e.g. "0.5 s"; whole runs and shorter ones when absent

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use lissom::identify::{Severity, ValidationOptions, validate};
+use lissom_io::validation_json;
 use lissom_io::write::{self, Batch};
 use lissom_io::{CampaignFile, UnitNames, read_arm, read_campaign, read_campaign_like};
-use lissom_io::validation_json;
 
 use crate::cli::{STDOUT, ValidateArgs};
 use crate::failure::Failure;

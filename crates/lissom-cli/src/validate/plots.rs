@@ -34,7 +34,12 @@ pub(super) fn add_all(
         }
         let (name, _) = channel_name_unit(&campaign.channels, c);
         add(batch, folder, &format!("autocorrelation-{file}"), &autocorrelation(name, residual))?;
-        add(batch, folder, &format!("cross-correlation-{file}"), &cross_correlation(name, residual))?;
+        add(
+            batch,
+            folder,
+            &format!("cross-correlation-{file}"),
+            &cross_correlation(name, residual),
+        )?;
     }
     Ok(())
 }
@@ -47,8 +52,8 @@ fn worst(runs: &[TorqueRun]) -> Option<&TorqueRun> {
 fn torque(names: UnitNames, name: &str, run: &TorqueRun) -> LinePlot {
     let (what, label) = torque_axis(names);
     let time = run.time_s.clone();
-    LinePlot::new(format!("{what} of {name}"), Axis::linear("time (s)"), Axis::linear(label))
-        .subtitle("both sides under the same window")
+    LinePlot::new(format!("{what}, {name}"), Axis::linear("time (s)"), Axis::linear(label))
+        .subtitle("both under the same window; nothing is predicted while the motor rests")
         .trace(Trace::line("logged", Role::Raw, time.clone(), run.logged_nm.clone()))
         .trace(predicted(time, run.predicted_nm.clone()))
 }
@@ -56,7 +61,7 @@ fn torque(names: UnitNames, name: &str, run: &TorqueRun) -> LinePlot {
 fn torque_residual(names: UnitNames, name: &str, run: &TorqueRun) -> LinePlot {
     let (what, label) = torque_axis(names);
     let left = run.logged_nm.iter().zip(&run.predicted_nm).map(|(l, p)| l - p).collect();
-    let title = format!("{what} of {name}: logged minus predicted");
+    let title = format!("{what}, {name}: logged minus predicted");
     LinePlot::new(title, Axis::linear("time (s)"), Axis::linear(label)).trace(Trace::line(
         "",
         Role::Corrected,
@@ -75,9 +80,9 @@ fn torque_axis(names: UnitNames) -> (&'static str, String) {
     (title, format!("{axis} ({unit})"))
 }
 
-/// Gaps are where nothing is predicted.
+/// Dashed, so that what it covers shows; gaps are where nothing is predicted.
 fn predicted(time: Vec<f64>, values: Vec<f64>) -> Trace {
-    Trace::line("predicted", Role::Fitted, time, values)
+    Trace::new("predicted", Role::Fitted, TraceStyle::Dashes, time, values)
 }
 
 /// The run with the largest squared residual.
@@ -86,8 +91,7 @@ fn worst_motion(campaign: &Campaign, validation: &Validation, channel: usize) ->
     for s in &validation.stretches {
         let run = &campaign.runs[s.run];
         let logged = samples(run, channel).iter().skip(s.first);
-        sums[s.run] +=
-            logged.zip(&s.channels[channel]).map(|(y, p)| (y - p).powi(2)).sum::<f64>();
+        sums[s.run] += logged.zip(&s.channels[channel]).map(|(y, p)| (y - p).powi(2)).sum::<f64>();
     }
     (0..sums.len()).max_by(|a, b| sums[*a].total_cmp(&sums[*b]))
 }
@@ -117,40 +121,34 @@ fn motion(
             shown.push(*p);
             left.push(measured[s.first + i] - p);
         }
-        // Each stretch begins anew: the line breaks.
-        time.push(at(s.first + s.channels[channel].len()));
-        shown.push(f64::NAN);
-        left.push(f64::NAN);
     }
-    breakless(&mut time, &mut [&mut shown, &mut left]);
     let axis = || Axis::linear("time (s)");
     let all = (0..measured.len()).map(at).collect();
-    let both = LinePlot::new(format!("{name} of {}", run.name()), axis(), Axis::linear(format!("{name} ({unit})")))
+    let label = || Axis::linear(format!("{name} ({unit})"));
+    let both = LinePlot::new(format!("{name}, {}", run.name()), axis(), label())
         .trace(Trace::line("measured", Role::Raw, all, measured.to_vec()))
         .trace(predicted(time.clone(), shown));
-    let title = format!("{name} of {}: measured minus predicted", run.name());
-    let residual = LinePlot::new(title, axis(), Axis::linear(format!("{name} ({unit})")))
-        .trace(Trace::line("", Role::Corrected, time, left));
+    let title = format!("{name}, {}: measured minus predicted", run.name());
+    let residual =
+        LinePlot::new(title, axis(), label()).trace(Trace::line("", Role::Corrected, time, left));
     [both, residual]
-}
-
-/// The last break is none.
-fn breakless(time: &mut Vec<f64>, values: &mut [&mut Vec<f64>]) {
-    time.pop();
-    for v in values {
-        v.pop();
-    }
 }
 
 fn autocorrelation(name: &str, r: &ChannelResidual) -> LinePlot {
     let lags = (0..r.autocorrelation.len()).map(|k| k as f64).collect();
     let band = r.autocorrelation_band;
     LinePlot::new(
-        format!("Autocorrelation of what is left of {name}"),
+        format!("{name}: autocorrelation of what is left"),
         Axis::linear("lag (samples)"),
-        Axis::linear("correlation"),
+        Axis::linear("autocorrelation"),
     )
-    .trace(Trace::new("residual", Role::Corrected, TraceStyle::Columns, lags, r.autocorrelation.clone()))
+    .trace(Trace::new(
+        "residual",
+        Role::Corrected,
+        TraceStyle::Columns,
+        lags,
+        r.autocorrelation.clone(),
+    ))
     .band(Band::new("95 % of white noise", Role::Truth, 0.0, (-band, band)))
 }
 
@@ -158,10 +156,16 @@ fn cross_correlation(name: &str, r: &ChannelResidual) -> LinePlot {
     let lags = r.lags().into_iter().map(f64::from).collect();
     let band = r.cross_correlation_band;
     LinePlot::new(
-        format!("Cross-correlation of the command and what is left of {name}"),
+        format!("{name}: what is left beside the command"),
         Axis::linear("lag of the residual behind the command (samples)"),
-        Axis::linear("correlation"),
+        Axis::linear("cross-correlation"),
     )
-    .trace(Trace::new("residual", Role::Corrected, TraceStyle::Columns, lags, r.cross_correlation.clone()))
+    .trace(Trace::new(
+        "residual",
+        Role::Corrected,
+        TraceStyle::Columns,
+        lags,
+        r.cross_correlation.clone(),
+    ))
     .band(Band::new("95 % if independent", Role::Truth, 0.0, (-band, band)))
 }

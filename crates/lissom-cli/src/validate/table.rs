@@ -8,6 +8,8 @@ use crate::print;
 
 /// Runs and stretches that are told one by one.
 const SHOWN: usize = 8;
+/// Smallest probability that is told.
+const LEAST_PROBABILITY: f64 = 1e-4;
 /// Terms told that the residual looks like, and the least share.
 const TERMS: (usize, f64) = (3, 0.02);
 
@@ -40,7 +42,7 @@ fn torque(names: UnitNames, campaign: &Campaign, found: &FoundArm, t: &TorquePre
         100.0 * t.relative_error,
         t.logged_nm,
         names.torque_unit(),
-        percent(found.torque_error),
+        percent(found.torque_used.map(|t| t.relative_error)),
     ));
     print::line(&format!(
         "  under a window of {:.4} s, half power at {:.1} Hz; the motor rests for {:.1} % of the time, \
@@ -56,7 +58,10 @@ fn torque(names: UnitNames, campaign: &Campaign, found: &FoundArm, t: &TorquePre
     if let (Some(worst), Some(best)) = (stretches.first(), stretches.last()) {
         print::line(&format!(
             "  of {} the worst: {:.2} %, {} from {:.2} to {:.2} s, {}; the best: {:.2} %",
-            print::counted(stretches.len(), "stretch of one direction").replace("directions", "direction"),
+            match stretches.len() {
+                1 => "1 stretch of one direction".to_owned(),
+                n => format!("{n} stretches of one direction each"),
+            },
             100.0 * worst.relative_error,
             campaign.runs[worst.run].name(),
             worst.start_s,
@@ -74,10 +79,14 @@ fn torque(names: UnitNames, campaign: &Campaign, found: &FoundArm, t: &TorquePre
     if t.runs.len() > 1 {
         let mut rows = vec![vec!["run".to_owned(), format!("{what} left")]];
         let mut runs: Vec<_> = t.runs.iter().collect();
-        runs.sort_by(|a, b| b.relative_error.unwrap_or(0.0).total_cmp(&a.relative_error.unwrap_or(0.0)));
-        rows.extend(runs.iter().take(SHOWN).map(|r| {
-            vec![campaign.runs[r.run].name().to_owned(), percent(r.relative_error)]
-        }));
+        runs.sort_by(|a, b| {
+            b.relative_error.unwrap_or(0.0).total_cmp(&a.relative_error.unwrap_or(0.0))
+        });
+        rows.extend(
+            runs.iter()
+                .take(SHOWN)
+                .map(|r| vec![campaign.runs[r.run].name().to_owned(), percent(r.relative_error)]),
+        );
         print::table(&rows);
         if runs.len() > SHOWN {
             print::line(&format!("… and {} better ones", runs.len() - SHOWN));
@@ -98,7 +107,8 @@ fn motion(campaign: &Campaign, validation: &Validation) {
     }
     let mut rows = vec![heading];
     for h in &validation.horizons {
-        let over = if h.whole_runs { "whole runs".to_owned() } else { format!("{} s", shown(h.length_s)) };
+        let over =
+            if h.whole_runs { "whole runs".to_owned() } else { format!("{} s", shown(h.length_s)) };
         let mut row = vec![over, h.windows.to_string()];
         for fit in &h.channels {
             row.extend([format!("{:.2} %", fit.fit_percent), format!("{:.3e}", fit.residual_rms)]);
@@ -116,10 +126,17 @@ fn shown(seconds: f64) -> String {
 
 fn residuals(campaign: &Campaign, validation: &Validation) {
     let Some(h) = validation.horizons.get(validation.chosen) else { return };
-    let over = if h.whole_runs { "whole runs".to_owned() } else { format!("{} s", shown(h.length_s)) };
+    let over =
+        if h.whole_runs { "whole runs".to_owned() } else { format!("{} s", shown(h.length_s)) };
     print::line(&format!("\nwhat is left over {over}:"));
-    let heading =
-        ["channel", "rms", "sensor's noise", "its steps alone", "white by chance", "lags with the command"];
+    let heading = [
+        "channel",
+        "rms",
+        "sensor's noise",
+        "its steps alone",
+        "white by chance",
+        "lags with the command",
+    ];
     let mut rows = vec![heading.map(str::to_owned).to_vec()];
     for (c, r) in validation.residuals.iter().enumerate() {
         rows.push(residual_row(channel_name_unit(&campaign.channels, c), r));
@@ -138,7 +155,11 @@ fn residual_row((name, unit): (&str, &str), r: &ChannelResidual) -> Vec<String> 
         format!("{:.3e} {unit}", r.rms),
         format!("{:.3e} {unit}", r.sensor_noise),
         steps,
-        format!("p = {:.2e}", r.white_probability),
+        if r.white_probability < LEAST_PROBABILITY {
+            format!("p < {LEAST_PROBABILITY}")
+        } else {
+            format!("p = {:.4}", r.white_probability)
+        },
         format!("{:.0} % beyond the band", 100.0 * r.outside()),
     ]
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-use lissom::identify::{ArmSource, FoundArm};
+use lissom::identify::{ArmSource, FoundArm, TorqueUsed};
 use lissom::record::Channels;
 use lissom::replay::{ModalArm, Oscillator};
 use serde_json::{Map, Value, json};
@@ -55,7 +55,9 @@ pub(super) fn arm(channels: &Channels, names: UnitNames, found: &FoundArm) -> Va
     map.insert("modes".to_owned(), Value::Array(modes));
     map.insert("tips".to_owned(), Value::Array(tips));
     map.insert("damping_at_points_per_s".to_owned(), json!(a.at_points_per_s));
-    map.insert("torque_error".to_owned(), json!(found.torque_error));
+    let used = found.torque_used;
+    map.insert("torque_error".to_owned(), json!(used.map(|t| t.relative_error)));
+    map.insert("torque_window_s".to_owned(), json!(used.map(|t| t.window_s)));
     Value::Object(map)
 }
 
@@ -159,6 +161,12 @@ pub fn read_arm(path: &Path, channels: &Channels) -> Result<FoundArm, Error> {
     Ok(Reader { file, root }.arm(channels)?)
 }
 
+fn torque_used(table: &Value) -> Option<TorqueUsed> {
+    let relative_error = table["torque_error"].as_f64()?;
+    let window_s = table["torque_window_s"].as_f64().filter(|w| *w > 0.0)?;
+    Some(TorqueUsed { relative_error, window_s })
+}
+
 struct Reader {
     file: String,
     root: Value,
@@ -195,7 +203,8 @@ impl Reader {
             coulomb_nm: number(&format!("coulomb_{}", names.torque()))?,
             offset_nm: number(&format!("offset_{}", names.torque()))?,
             shapes: self.shapes(table, channels, modes.len())?,
-            at_points_per_s: self.numbers(&table["damping_at_points_per_s"], "damping_at_points_per_s")?,
+            at_points_per_s: self
+                .numbers(&table["damping_at_points_per_s"], "damping_at_points_per_s")?,
             command_lag_s: number("command_lag_s")?,
             modes,
         };
@@ -206,7 +215,7 @@ impl Reader {
         Ok(FoundArm {
             arm,
             source: source.ok_or_else(|| self.key("arm.from".to_owned(), "a method"))?,
-            torque_error: table["torque_error"].as_f64(),
+            torque_used: torque_used(table),
         })
     }
 

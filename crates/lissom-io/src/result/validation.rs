@@ -61,21 +61,22 @@ fn torque(campaign: &Campaign, names: UnitNames, found: &FoundArm, t: &TorquePre
             "relative_error": s.relative_error,
         })
     };
-    let term =
-        |c: &Cause| json!({ "term": c.kind.name(), "value": c.value, "share": c.share });
+    let term = |c: &Cause| json!({ "term": c.kind.name(), "value": c.value, "share": c.share });
     let runs = t.runs.iter();
     let mut map = Map::new();
     map.insert("relative_error".to_owned(), json!(t.relative_error));
-    map.insert("relative_error_of_logs_used".to_owned(), json!(found.torque_error));
+    map.insert(
+        "relative_error_of_logs_used".to_owned(),
+        json!(found.torque_used.map(|t| t.relative_error)),
+    );
     map.insert("relative_error_forward".to_owned(), json!(t.by_direction[0]));
     map.insert("relative_error_backward".to_owned(), json!(t.by_direction[1]));
     map.insert(format!("logged_rms_{}", names.torque()), json!(t.logged_nm));
     map.insert("window_s".to_owned(), json!(t.window_s));
     map.insert("half_power_hz".to_owned(), json!(t.half_power_hz));
     map.insert("rest_share".to_owned(), json!(t.rest_share));
-    let runs: Vec<Value> = runs
-        .map(|r| json!({ "run": name(r.run), "relative_error": r.relative_error }))
-        .collect();
+    let runs: Vec<Value> =
+        runs.map(|r| json!({ "run": name(r.run), "relative_error": r.relative_error })).collect();
     map.insert("runs".to_owned(), Value::Array(runs));
     map.insert("stretches".to_owned(), t.stretches.iter().map(stretch).collect());
     map.insert("residual_terms".to_owned(), t.causes.iter().map(term).collect());

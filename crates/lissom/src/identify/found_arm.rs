@@ -22,9 +22,18 @@ pub struct FoundArm {
     pub arm: ModalArm,
     /// Where they are from.
     pub source: ArmSource,
-    /// ‖logged − predicted‖/‖logged‖ of the torque of the logs used; `None` where the tips do not give
-    /// the coupling torque.
-    pub torque_error: Option<f64>,
+    /// The torque of the logs used as it predicts it; `None` where the tips do not give the coupling
+    /// torque.
+    pub torque_used: Option<TorqueUsed>,
+}
+
+/// How the torque of the logs used is predicted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TorqueUsed {
+    /// ‖logged − predicted‖/‖logged‖.
+    pub relative_error: f64,
+    /// Length of the window that both sides were averaged with \[s\].
+    pub window_s: f64,
 }
 
 impl FoundArm {
@@ -54,7 +63,8 @@ impl FoundArm {
     }
 
     fn with(arm: ModalArm, source: ArmSource, used: &Campaign, zeros: &[Vec<f64>]) -> Self {
-        let torque_error = torque(&arm, used, zeros, None).map(|t| t.relative_error);
-        Self { arm, source, torque_error }
+        let torque_used = torque(&arm, used, zeros, None)
+            .map(|t| TorqueUsed { relative_error: t.relative_error, window_s: t.window_s });
+        Self { arm, source, torque_used }
     }
 }

@@ -27,7 +27,7 @@ pub use constant_velocity::{
 pub use correct::{Response, corrected, ratio};
 pub use estimate::{Estimate, ModeEstimate};
 pub use finding::{Finding, Severity};
-pub use found_arm::{ArmSource, FoundArm};
+pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
 pub use identified::{Beam, Friction, Identified, ThirdHarmonic};
 pub use output_error::{
     Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, free_parameters,

@@ -14,8 +14,7 @@ const MOST_STEPS: usize = 40;
 pub(crate) fn follow(arm: &ModalArm, campaign: &Campaign, length_s: f64) -> Vec<Window> {
     let masks = data::masks(campaign);
     let blocks = vec![Blocks { samples: f64::INFINITY, period: None }; campaign.runs.len()];
-    let noise: Vec<SensorNoise> =
-        noise::of_samples(campaign).into_iter().map(weighable).collect();
+    let noise: Vec<SensorNoise> = noise::of_samples(campaign).into_iter().map(weighable).collect();
     let sampling = Sampling { noise: &noise, blocks: &blocks, masks: &masks };
     let problem = Problem { campaign, parameters: &[], sampling, robust: false };
     if !problem.can_be_seen(arm) {

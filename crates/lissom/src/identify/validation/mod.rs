@@ -28,7 +28,7 @@ const FITS_PERCENT: f64 = 90.0;
 /// What a user may ask for.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ValidationOptions {
-    /// Length of the window that torque is averaged with \[s\]; chosen from the log when `None`.
+    /// Length of the window that torque is averaged with \[s\]; that of the logs used when `None`.
     pub window_s: Option<f64>,
     /// Time to predict motion over from one initial state \[s\]; several when `None`.
     pub horizon_s: Option<f64>,
@@ -99,16 +99,15 @@ pub fn validate(
         .position(|f| f.horizon.channels.iter().all(|c| c.fit_percent >= FITS_PERCENT))
         .unwrap_or(predicted.len().saturating_sub(1));
     let zeros = predicted.first().map_or(Vec::new(), |f| zeros(campaign, &f.windows));
-    let torque = torque(arm, campaign, &zeros, options.window_s);
+    // The window of the logs used, so that both figures compare.
+    let window_s = options.window_s.or(found.torque_used.map(|used| used.window_s));
+    let torque = torque(arm, campaign, &zeros, window_s);
     if predicted.is_empty() && torque.is_none() {
         return Err(ValidationError::NothingMoves);
     }
     let horizons: Vec<Horizon> = predicted.iter().map(|f| f.horizon.clone()).collect();
-    let stretches = if predicted.is_empty() {
-        Vec::new()
-    } else {
-        predicted.swap_remove(chosen).stretches
-    };
+    let stretches =
+        if predicted.is_empty() { Vec::new() } else { predicted.swap_remove(chosen).stretches };
     let channels = if stretches.is_empty() { 0..0 } else { 0..tips + 1 };
     let residuals = channels.map(|c| channel_residual(campaign, &stretches, c)).collect();
     let mut validation =
@@ -121,9 +120,8 @@ pub fn validate(
 pub(super) fn zeros(campaign: &Campaign, windows: &[Window]) -> Vec<Vec<f64>> {
     let of_run = |run: usize| {
         let own: Vec<&Window> = windows.iter().filter(|w| w.run == run).collect();
-        let mean = |tip: usize| {
-            own.iter().map(|w| w.zeros[tip]).sum::<f64>() / own.len().max(1) as f64
-        };
+        let mean =
+            |tip: usize| own.iter().map(|w| w.zeros[tip]).sum::<f64>() / own.len().max(1) as f64;
         (0..campaign.channels.tips.len()).map(mean).collect()
     };
     (0..campaign.runs.len()).map(of_run).collect()

@@ -1,5 +1,5 @@
 use super::*;
-use crate::identify::ArmSource;
+use crate::identify::{ArmSource, TorqueUsed};
 use crate::record::{Axis, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
 use crate::replay::ModalArm;
 
@@ -22,7 +22,8 @@ fn rigid() -> ModalArm {
 }
 
 fn found(arm: ModalArm) -> FoundArm {
-    FoundArm { arm, source: ArmSource::Regression, torque_error: Some(0.01) }
+    let torque_used = Some(TorqueUsed { relative_error: 0.01, window_s: 0.04 });
+    FoundArm { arm, source: ArmSource::Regression, torque_used }
 }
 
 fn channels() -> Channels {
@@ -60,7 +61,14 @@ fn by_options(arm: &ModalArm, truth: &ModalArm) -> Validation {
 
 #[test]
 fn the_true_arm_leaves_what_the_sensor_adds() {
-    let v = by_options(&rigid(), &rigid());
+    for viscous in [[0.05, 0.05], [0.02, 0.12]] {
+        let arm = ModalArm { viscous_nm_s_per_rad: viscous, ..rigid() };
+        leaves_what_the_sensor_adds(&arm);
+    }
+}
+
+fn leaves_what_the_sensor_adds(arm: &ModalArm) {
+    let v = by_options(arm, arm);
     let torque = v.torque.unwrap();
     // 1 % by the choice of the window; the rest is the velocity's sign, known to a window's part.
     assert!(torque.relative_error < 0.03, "{}", torque.relative_error);

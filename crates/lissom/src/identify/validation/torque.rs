@@ -78,7 +78,7 @@ pub struct Stretch {
 /// Predicts the torque of every run, `zeros` what each tip of each run shows undeflected.
 ///
 /// ```text
-/// ⟨k·u(t − lag)⟩ = J·⟨θ̈⟩ + V̄·⟨θ̇⟩ + ⟨(C + ΔV·|θ̇|)·sgn θ̇⟩ + offset + Σκ_i·⟨θ − θ_i⟩ + κ'_i·⟨θ̇ − θ̇_i⟩
+/// ⟨k·u(t − lag)⟩ = J·⟨θ̈⟩ + V̄·⟨θ̇⟩ + ⟨C·sgn θ̇ + ΔV·|θ̇|⟩ + offset + Σκ_i·⟨θ − θ_i⟩ + κ'_i·⟨θ̇ − θ̇_i⟩
 /// ```
 ///
 /// with ⟨·⟩ the mean under a sin⁴ window, V̄ and ΔV half the sum and half the difference of viscous
@@ -261,15 +261,13 @@ impl Predictor<'_> {
         let mut causes = Causes::new(run, &speed.velocity);
         let rows = (0..run.len() - n)
             .map(|k| {
-                let dry = |i: usize| {
-                    let v = speed.velocity[i];
-                    speed.sign(i) * (self.arm.coulomb_nm + half * v.abs())
-                };
+                let bent =
+                    |i: usize| speed.sign(i) * self.arm.coulomb_nm + half * speed.velocity[i].abs();
                 let velocity = kernel.rate(k, |i| run.motor()[i]);
                 let acceleration = kernel.acceleration(k, |i| run.motor()[i]);
                 let predicted = self.arm.inertia_kg_m2 * acceleration
                     + mean * velocity
-                    + kernel.mean(k, dry)
+                    + kernel.mean(k, bent)
                     + self.arm.offset_nm
                     + self.coupling_torque(index, &kernel, k);
                 let resting = |i: usize| if speed.moves(i) { 0.0 } else { 1.0 };
@@ -283,7 +281,13 @@ impl Predictor<'_> {
                 if row.counts {
                     let by_delay = constant * kernel.rate(k, |i| run.command()[i]);
                     let sign = |i: usize| speed.sign(i);
-                    causes.add(row.residual(), &kernel, k, [by_delay, acceleration, velocity], &sign);
+                    causes.add(
+                        row.residual(),
+                        &kernel,
+                        k,
+                        [by_delay, acceleration, velocity],
+                        &sign,
+                    );
                 }
                 row
             })

@@ -6,6 +6,9 @@ use crate::identify::Severity::{Info, Refusal, Warning};
 use crate::identify::found_arm::FoundArm;
 use crate::record::Campaign;
 
+/// Of a torque of which less is left nothing is said: sensors (1 % by the choice of the window) and
+/// the velocity's sign about a reversal leave that of the true arm.
+const GOOD: f64 = 0.03;
 /// Torque left from which on a prediction is called bad…
 const BAD: f64 = 0.15;
 /// …and from which on it is none.
@@ -20,6 +23,8 @@ const NAMED: f64 = 0.19;
 const FOLLOWS: f64 = 0.2;
 /// Probability below which a residual is not white.
 const WHITE: f64 = 0.01;
+/// Relative difference of two windows under which figures still compare.
+const SAME_WINDOW: f64 = 0.2;
 /// A residual of up to this many times the sensor's own noise is as good as that.
 const NOISE: f64 = 1.5;
 /// Fit of whole runs below which the motion departs \[%\].
@@ -56,16 +61,21 @@ pub(super) fn findings(
 
 fn torque_findings(found: &FoundArm, torque: &TorquePrediction, findings: &mut Vec<Finding>) {
     let error = torque.relative_error;
+    if error < GOOD {
+        return;
+    }
     let hint = "look at what the residual looks like, and at the stretches where it is largest";
     if error > NONE {
-        let message = format!("{:.0} % of the torque is left: the figures do not hold", 100.0 * error);
+        let message =
+            format!("{:.0} % of the torque is left: the figures do not hold", 100.0 * error);
         findings.push(Finding::new("prediction-failed", Refusal, &[TORQUE], message, hint));
     } else if error > BAD {
         let message = format!("{:.0} % of the torque is left", 100.0 * error);
         findings.push(Finding::new("prediction-poor", Warning, &[TORQUE], message, hint));
     }
-    if let Some(used) = found.torque_error
-        && error > WORSE * used
+    if let Some(used) = found.torque_used
+        && (torque.window_s / used.window_s - 1.0).abs() < SAME_WINDOW
+        && error > WORSE * used.relative_error
     {
         findings.push(Finding::new(
             "prediction-worse",
@@ -75,8 +85,8 @@ fn torque_findings(found: &FoundArm, torque: &TorquePrediction, findings: &mut V
                 "{:.2} % of the torque is left, {:.1} times the {:.2} % of the logs that the figures \
                  are from",
                 100.0 * error,
-                error / used,
-                100.0 * used
+                error / used.relative_error,
+                100.0 * used.relative_error
             ),
             "the figures hold for the motion that they are from: identify from both kinds together",
         ));
@@ -141,6 +151,9 @@ fn residual_findings(campaign: &Campaign, validation: &Validation, findings: &mu
             None => "motor",
             Some(tip) => campaign.channels.tips[tip].name.as_str(),
         };
+        if r.rms < NOISE * r.sensor_noise {
+            continue;
+        }
         if r.outside() > FOLLOWS {
             findings.push(Finding::new(
                 "residual-follows-command",
@@ -154,7 +167,7 @@ fn residual_findings(campaign: &Campaign, validation: &Validation, findings: &mu
                  or friction",
             ));
         }
-        if r.white_probability < WHITE && r.rms > NOISE * r.sensor_noise {
+        if r.white_probability < WHITE {
             findings.push(Finding::new(
                 "residual-not-white",
                 Info,
