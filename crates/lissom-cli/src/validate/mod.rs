@@ -3,7 +3,7 @@
 mod plots;
 mod table;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 
 use lissom::identify::{Severity, ValidationOptions, validate};
@@ -55,6 +55,6 @@ fn log(args: &ValidateArgs) -> Result<CampaignFile, Failure> {
     }
 }
 
-fn is_toml(path: &PathBuf) -> bool {
+fn is_toml(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
 }

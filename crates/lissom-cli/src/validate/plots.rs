@@ -153,7 +153,7 @@ fn autocorrelation(name: &str, r: &ChannelResidual) -> LinePlot {
 }
 
 fn cross_correlation(name: &str, r: &ChannelResidual) -> LinePlot {
-    let lags = r.lags().into_iter().map(f64::from).collect();
+    let lags = r.lags().into_iter().map(|lag| lag as f64).collect();
     let band = r.cross_correlation_band;
     LinePlot::new(
         format!("{name}: what is left beside the command"),

@@ -1,6 +1,9 @@
 //! A validation in the terminal.
 
-use lissom::identify::{ArmSource, ChannelResidual, FoundArm, TorquePrediction, Validation};
+use lissom::identify::{
+    ArmSource, Cause, CauseKind, ChannelResidual, FoundArm, TorquePrediction, TorqueUsed,
+    Validation,
+};
 use lissom::record::Campaign;
 use lissom_io::{UnitNames, channel_name_unit};
 
@@ -38,15 +41,15 @@ fn percent(share: Option<f64>) -> String {
 fn torque(names: UnitNames, campaign: &Campaign, found: &FoundArm, t: &TorquePrediction) {
     let what = if names.torque_unit() == "N" { "force" } else { "torque" };
     print::line(&format!(
-        "\n{what} from the logged motion: {:.2} % left of {:.4} {} rms (logs used: {})",
+        "\n{what} from the logged motion: {:.2} % left of {:.4} {} rms{}",
         100.0 * t.relative_error,
         t.logged_nm,
         names.torque_unit(),
-        percent(found.torque_used.map(|t| t.relative_error)),
+        found.torque_used.map_or_else(String::new, used),
     ));
     print::line(&format!(
-        "  under a window of {:.4} s, half power at {:.1} Hz; the motor rests for {:.1} % of the time, \
-         which does not count",
+        "  under a window of {:.4} s, half power at {:.1} Hz; {:.1} % of the time does not count: the \
+         motor rests, or a sensor is at its end",
         t.window_s,
         t.half_power_hz,
         100.0 * t.rest_share
@@ -71,8 +74,9 @@ fn torque(names: UnitNames, campaign: &Campaign, found: &FoundArm, t: &TorquePre
         ));
     }
     let terms = t.causes.iter().filter(|c| c.share > TERMS.1).take(TERMS.0);
-    let told: Vec<String> =
-        terms.map(|c| format!("{} {:.0} %", c.kind.words(), 100.0 * c.share)).collect();
+    let told: Vec<String> = terms
+        .map(|c| format!("{} ({}) {:.0} %", c.kind.words(), size(names, c), 100.0 * c.share))
+        .collect();
     if !told.is_empty() {
         print::line(&format!("  its square looks like: {}", told.join(", ")));
     }
@@ -92,6 +96,25 @@ fn torque(names: UnitNames, campaign: &Campaign, found: &FoundArm, t: &TorquePre
             print::line(&format!("… and {} better ones", runs.len() - SHOWN));
         }
     }
+}
+
+fn used(used: TorqueUsed) -> String {
+    let error = 100.0 * used.relative_error;
+    format!("; of the logs used {error:.2} %, under {:.4} s", used.window_s)
+}
+
+/// How large a term would be, in its unit.
+fn size(names: UnitNames, cause: &Cause) -> String {
+    let unit = match cause.kind {
+        CauseKind::Delay => return format!("{:+.3} ms", 1e3 * cause.value),
+        CauseKind::Inertia => names.inertia_unit(),
+        CauseKind::Viscous | CauseKind::ViscousByDirection => names.viscous_unit(),
+        CauseKind::Position => names.coupling_unit(),
+        CauseKind::Coulomb | CauseKind::Offset | CauseKind::NearRest => {
+            names.torque_unit().to_owned()
+        }
+    };
+    format!("{:+.3e} {unit}", cause.value)
 }
 
 fn motion(campaign: &Campaign, validation: &Validation) {

@@ -46,6 +46,9 @@ fn predicts_the_force_of_the_other_log() {
     assert!(error > 0.5 * train.relative_residual);
 }
 
+/// The page that shows these figures.
+const PAGE: &str = include_str!("../../../../docs/measured.md");
+
 /// The published figures as an arm, in place of those found.
 fn published(found: &serde_json::Value) -> serde_json::Value {
     let mut result = found.clone();
@@ -78,6 +81,8 @@ fn the_other_logs_force_is_predicted_better_than_by_the_published_figures() {
         let (own, theirs) = (left(&found), left(&known));
         assert!(own < 0.9 * theirs, "{window}: {own} by lissom, {theirs} by the published figures");
         assert!(own < 0.05, "{window}: {own}");
+        let row = format!("| {window} | {:.2} % | {:.2} % |", 100.0 * own, 100.0 * theirs);
+        assert!(PAGE.contains(&row), "docs/measured.md has another row than {row}");
     }
 }
 

@@ -7,7 +7,6 @@ use thiserror::Error;
 use super::channel_check::range;
 use super::constant_velocity::{self, ConstantVelocity};
 use super::finding::{Finding, Severity, key};
-use super::found_arm::FoundArm;
 use super::friction_waveform::FrictionWaveform;
 use super::identified::{Beam, Friction, Identified, ThirdHarmonic};
 use super::model::state_space;
@@ -228,8 +227,7 @@ pub fn identify(
         torque_per_command: campaign.channels.command.torque_per_command,
         findings,
     };
-    verdict::conclude(campaign, &mut identified);
-    identified.arm = FoundArm::of(&identified, &usable);
+    verdict::conclude(campaign, &usable, &mut identified);
     Ok(identified)
 }
 

@@ -19,7 +19,7 @@ use super::Estimate;
 use crate::record::{Campaign, Run};
 use crate::replay::{ModalArm, Parameter, Sampling, SensorNoise, Window};
 use covariance::Covariances;
-use data::Masks;
+pub(crate) use data::{Masks, masks};
 pub use evidence::Extension;
 pub(crate) use follow::follow;
 pub use search::{Iteration, Stop};

@@ -91,9 +91,7 @@ pub fn validate(
     if arm.modes.len() > MOST_MODES {
         return Err(ValidationError::Modes { found: arm.modes.len() });
     }
-    let lengths_s = options.horizon_s.map_or_else(|| lengths_s(campaign), |h| vec![h]);
-    let mut predicted: Vec<Followed> =
-        lengths_s.into_iter().filter_map(|l| followed(arm, campaign, l)).collect();
+    let mut predicted = predicted(found, campaign, options.horizon_s);
     let chosen = predicted
         .iter()
         .position(|f| f.horizon.channels.iter().all(|c| c.fit_percent >= FITS_PERCENT))
@@ -114,6 +112,20 @@ pub fn validate(
         Validation { torque, horizons, chosen, stretches, residuals, findings: Vec::new() };
     validation.findings = verdict::findings(found, campaign, &validation);
     Ok(validation)
+}
+
+/// The motion over ever shorter times, or over the one asked for.
+fn predicted(found: &FoundArm, campaign: &Campaign, horizon_s: Option<f64>) -> Vec<Followed> {
+    let mut predicted: Vec<Followed> = Vec::new();
+    for length_s in lengths_s(campaign, horizon_s).into_iter().rev() {
+        let shorter = predicted.last().map_or(&[][..], |f| &f.windows);
+        predicted.extend(followed(&found.arm, campaign, length_s, shorter));
+    }
+    predicted.reverse();
+    if horizon_s.is_some() {
+        predicted.truncate(1);
+    }
+    predicted
 }
 
 /// What each tip of each run shows undeflected: the mean over its windows.

@@ -1,7 +1,7 @@
 //! Simulation: the logged command through the arm, beside the logged motion.
 
-use crate::identify::output_error::follow;
-use crate::record::Campaign;
+use crate::identify::output_error::{Masks, follow, masks};
+use crate::record::{Campaign, Run};
 use crate::replay::{ModalArm, Window, predict};
 
 /// Fewest samples of a horizon.
@@ -24,7 +24,7 @@ pub struct Horizon {
     pub channels: Vec<Fit>,
 }
 
-/// How near a channel's prediction is.
+/// How near a channel's prediction is, over readings within its sensor's range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fit {
     /// Root mean square of logged minus predicted, in the channel's unit.
@@ -51,21 +51,33 @@ pub(super) struct Followed {
     pub(super) stretches: Vec<PredictedStretch>,
 }
 
-/// Lengths to predict over: whole runs, then 1 and 3 times powers of ten below.
-pub(super) fn lengths_s(campaign: &Campaign) -> Vec<f64> {
+/// Lengths to predict over, the longest first: whole runs, or `longest_s`, then 1 and 3 times powers of
+/// ten below.
+pub(super) fn lengths_s(campaign: &Campaign, longest_s: Option<f64>) -> Vec<f64> {
     let durations = campaign.runs.iter().map(|r| r.len() as f64 * r.sample_time_s());
-    let longest = durations.fold(0.0, f64::max);
-    let sample_s = campaign.runs.iter().map(|r| r.sample_time_s()).fold(0.0, f64::max);
+    let longest = longest_s.unwrap_or_else(|| durations.fold(0.0, f64::max));
+    let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let least = LEAST_SAMPLES * sample_s;
-    let decade = 10_f64.powf(longest.log10().floor());
-    let below = (0..MOST).flat_map(|k| [3.0, 1.0].map(|m| m * decade / 10_f64.powi(k as i32)));
-    let shorter = below.filter(|l| *l >= least && *l * APART <= longest);
-    std::iter::once(longest).chain(shorter).take(MOST).collect()
+    let mut lengths = vec![longest];
+    let mut decade = 10_f64.powf(longest.log10().floor());
+    while lengths.len() < MOST && 3.0 * decade >= least {
+        let below = [3.0 * decade, decade];
+        lengths.extend(below.into_iter().filter(|l| *l >= least && *l * APART <= longest));
+        decade /= 10.0;
+    }
+    lengths.truncate(MOST);
+    lengths
 }
 
-/// Predicts every run over stretches of `length_s`; `None` where no stretch can be begun.
-pub(super) fn followed(arm: &ModalArm, campaign: &Campaign, length_s: f64) -> Option<Followed> {
-    let windows = follow(arm, campaign, length_s);
+/// Predicts every run over stretches of `length_s`, which begin where `shorter` ones have come to;
+/// `None` where no stretch can be begun.
+pub(super) fn followed(
+    arm: &ModalArm,
+    campaign: &Campaign,
+    length_s: f64,
+    shorter: &[Window],
+) -> Option<Followed> {
+    let windows = follow(arm, campaign, length_s, shorter);
     let stretches: Vec<PredictedStretch> = windows
         .iter()
         .filter_map(|w| {
@@ -76,7 +88,8 @@ pub(super) fn followed(arm: &ModalArm, campaign: &Campaign, length_s: f64) -> Op
     if stretches.is_empty() {
         return None;
     }
-    let channels = (0..=campaign.channels.tips.len()).map(|c| fit(campaign, &stretches, c));
+    let masks = masks(campaign);
+    let channels = (0..=campaign.channels.tips.len()).map(|c| fit(campaign, &masks, &stretches, c));
     let whole_runs =
         campaign.runs.iter().all(|r| r.len() as f64 * r.sample_time_s() <= length_s * (1.0 + 1e-9));
     let horizon =
@@ -98,21 +111,31 @@ pub(super) fn logged<'a>(
     &samples[stretch.first..stretch.first + stretch.channels[channel].len()]
 }
 
-fn fit(campaign: &Campaign, stretches: &[PredictedStretch], channel: usize) -> Fit {
+fn fit(
+    campaign: &Campaign,
+    masks: &[Masks],
+    stretches: &[PredictedStretch],
+    channel: usize,
+) -> Fit {
     let (mut left, mut power, mut number) = (0.0, 0.0, 0_usize);
     for of_run in stretches.chunk_by(|a, b| a.run == b.run) {
         let pairs = || {
-            of_run
-                .iter()
-                .flat_map(|s| logged(campaign, s, channel).iter().zip(&s.channels[channel]))
+            of_run.iter().flat_map(|s| {
+                logged(campaign, s, channel)
+                    .iter()
+                    .zip(&s.channels[channel])
+                    .zip(s.first..)
+                    .filter(|(_, k)| masks[s.run][channel].as_ref().is_none_or(|m| m[*k]))
+                    .map(|(pair, _)| pair)
+            })
         };
         let samples = pairs().count();
-        let mean = pairs().map(|(y, _)| y).sum::<f64>() / samples as f64;
+        let mean = pairs().map(|(y, _)| y).sum::<f64>() / samples.max(1) as f64;
         left += pairs().map(|(y, p)| (y - p).powi(2)).sum::<f64>();
         power += pairs().map(|(y, _)| (y - mean).powi(2)).sum::<f64>();
         number += samples;
     }
-    let residual_rms = (left / number as f64).sqrt();
+    let residual_rms = (left / number.max(1) as f64).sqrt();
     let fit_percent = if power > 0.0 { 100.0 * (1.0 - (left / power).sqrt()) } else { 0.0 };
     Fit { residual_rms, fit_percent }
 }

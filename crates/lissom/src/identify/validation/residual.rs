@@ -4,6 +4,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF as _};
 
 use super::motion::{PredictedStretch, logged};
 use crate::identify::channel_noise::channel_noise;
+use crate::identify::output_error::{Masks, masks};
 use crate::record::{Campaign, Run};
 
 /// Lags looked at, to either side.
@@ -51,8 +52,8 @@ pub struct ChannelResidual {
 
 impl ChannelResidual {
     /// The lags of the cross-correlation.
-    pub fn lags(&self) -> Vec<i32> {
-        let half = (self.cross_correlation.len() / 2) as i32;
+    pub fn lags(&self) -> Vec<isize> {
+        let half = (self.cross_correlation.len() / 2).cast_signed();
         (-half..=half).collect()
     }
 
@@ -70,7 +71,9 @@ pub(super) fn channel_residual(
     stretches: &[PredictedStretch],
     channel: usize,
 ) -> ChannelResidual {
-    let pairs: Vec<Pair> = stretches.iter().map(|s| Pair::new(campaign, s, channel)).collect();
+    let masks = masks(campaign);
+    let pairs: Vec<Pair> =
+        stretches.iter().map(|s| Pair::new(campaign, &masks, s, channel)).collect();
     let samples: usize = pairs.iter().map(|p| p.residual.len()).sum();
     let n = samples as f64;
     let power = |of: fn(&Pair) -> &[f64]| -> f64 {
@@ -115,10 +118,21 @@ struct Pair {
 }
 
 impl Pair {
-    fn new(campaign: &Campaign, stretch: &PredictedStretch, channel: usize) -> Self {
+    /// A reading at the end of its sensor's range leaves nothing.
+    fn new(
+        campaign: &Campaign,
+        masks: &[Masks],
+        stretch: &PredictedStretch,
+        channel: usize,
+    ) -> Self {
         let run = &campaign.runs[stretch.run];
         let logged = logged(campaign, stretch, channel).iter();
-        let residual = logged.zip(&stretch.channels[channel]).map(|(y, p)| y - p).collect();
+        let counts = |k: usize| masks[stretch.run][channel].as_ref().is_none_or(|m| m[k]);
+        let residual = logged
+            .zip(&stretch.channels[channel])
+            .zip(stretch.first..)
+            .map(|((y, p), k)| if counts(k) { y - p } else { 0.0 })
+            .collect();
         let n = stretch.channels[channel].len();
         Self {
             residual: centred(residual),
@@ -129,7 +143,9 @@ impl Pair {
 
 fn centred(mut x: Vec<f64>) -> Vec<f64> {
     let mean = x.iter().sum::<f64>() / x.len().max(1) as f64;
-    x.iter_mut().for_each(|v| *v -= mean);
+    for v in &mut x {
+        *v -= mean;
+    }
     x
 }
 

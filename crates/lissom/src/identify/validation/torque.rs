@@ -1,9 +1,12 @@
 //! Inverse dynamics: the torque that an arm's figures give for a logged motion, beside the torque
 //! logged.
 
+use std::ops::RangeInclusive;
+
 use super::cause::{Cause, Causes};
 use super::kernel::Kernel;
 use crate::identify::channel_noise::channel_noise;
+use crate::identify::output_error::{Masks, masks};
 use crate::record::{Campaign, Run, TipQuantity};
 use crate::replay::ModalArm;
 
@@ -35,7 +38,8 @@ pub struct TorquePrediction {
     pub by_direction: [Option<f64>; 2],
     /// Root mean square of the logged torque \[N·m\].
     pub logged_nm: f64,
-    /// Share of the rows that do not count: the motor rests, and what friction is then no figure says.
+    /// Share of the rows that do not count: the motor rests, and what friction is then no figure says,
+    /// or a sensor stands at the end of its range.
     pub rest_share: f64,
     /// One for each run.
     pub runs: Vec<TorqueRun>,
@@ -56,7 +60,7 @@ pub struct TorqueRun {
     pub time_s: Vec<f64>,
     /// Logged torque under it \[N·m\].
     pub logged_nm: Vec<f64>,
-    /// Predicted torque \[N·m\]; not a number where the motor rests.
+    /// Predicted torque \[N·m\]; not a number where a row does not count.
     pub predicted_nm: Vec<f64>,
 }
 
@@ -98,7 +102,8 @@ pub(in crate::identify) fn torque(
 ) -> Option<TorquePrediction> {
     let coupling = Coupling::new(arm, campaign)?;
     let window_s = window_s.or_else(|| chosen_window_s(arm, campaign))?;
-    let predictor = Predictor { arm, campaign, zeros, coupling, window_s };
+    let masks = masks(campaign);
+    let predictor = Predictor { arm, campaign, zeros, coupling, window_s, masks: &masks };
     let rows: Vec<RunRows> =
         (0..campaign.runs.len()).filter_map(|run| predictor.rows(run)).collect();
     let counted = || rows.iter().flat_map(|r| &r.rows).filter(|row| row.counts);
@@ -241,6 +246,7 @@ struct Predictor<'a> {
     zeros: &'a [Vec<f64>],
     coupling: Coupling,
     window_s: f64,
+    masks: &'a [Masks],
 }
 
 impl Predictor<'_> {
@@ -276,7 +282,7 @@ impl Predictor<'_> {
                     logged: constant * kernel.command(k, run.command()),
                     predicted,
                     velocity,
-                    counts: kernel.mean(k, resting) <= AT_REST,
+                    counts: kernel.mean(k, resting) <= AT_REST && self.reads(index, k..=k + n),
                 };
                 if row.counts {
                     let by_delay = constant * kernel.rate(k, |i| run.command()[i]);
@@ -293,6 +299,12 @@ impl Predictor<'_> {
             })
             .collect();
         Some(RunRows { run: index, half_power_hz: kernel.half_power_hz(), rows, causes })
+    }
+
+    /// Whether all sensors are within their ranges.
+    fn reads(&self, index: usize, mut samples: RangeInclusive<usize>) -> bool {
+        let masks = &self.masks[index];
+        samples.all(|i| masks.iter().flatten().all(|mask| mask[i]))
     }
 
     fn coupling_torque(&self, index: usize, kernel: &Kernel, k: usize) -> f64 {
