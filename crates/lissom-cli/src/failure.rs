@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use lissom::identify::IdentifyError;
+use lissom::identify::{IdentifyError, ValidationError};
 use lissom::plan::PlanError;
 use lissom::rig::RigError;
 use lissom_report::FigureError;
@@ -17,6 +17,11 @@ pub(crate) enum Failure {
     Write(#[from] lissom_io::WriteError),
     #[error("{}: {source}", campaign.display())]
     Identify { campaign: PathBuf, source: IdentifyError },
+    #[error("{}: {source}", log.display())]
+    Validate { log: PathBuf, source: ValidationError },
+    /// A log without anything that says what its columns are.
+    #[error("{}: is no campaign.toml, and nothing says what its columns are", log.display())]
+    UndescribedLog { log: PathBuf },
     #[error("{}: exists and is no earlier output; it is not written over", file.display())]
     NotAnOutput { file: PathBuf },
     #[error("{}: one name for two outputs", file.display())]
@@ -55,6 +60,20 @@ impl Failure {
                     .to_owned(),
             ),
             Self::Model { hint, .. } => Some((*hint).to_owned()),
+            Self::UndescribedLog { .. } => Some(
+                "add --like campaign.toml, the campaign that the result is from, or describe the log in \
+                 a campaign.toml of its own"
+                    .to_owned(),
+            ),
+            Self::Validate { source, .. } => Some(
+                match source {
+                    ValidationError::NothingMoves => {
+                        "the log needs a stretch in which the motor moves for a hundred samples"
+                    }
+                    _ => "describe the log as those that the result is from",
+                }
+                .to_owned(),
+            ),
             Self::VirtualRun { source, .. } => Some(rig_hint(source).to_owned()),
             Self::NoController { .. } => Some(
                 "add controller = { proportional = \"8 A/rad\", derivative = \"0.2 A*s/rad\" } to [rig], \

@@ -17,6 +17,7 @@ mod progress;
 mod reference;
 mod report_figures;
 mod rig;
+mod validate;
 
 use std::process::ExitCode;
 
@@ -25,6 +26,7 @@ use clap::Parser as _;
 fn main() -> ExitCode {
     let outcome = match cli::Cli::parse().command {
         cli::Command::Identify(args) => identify::run(&args),
+        cli::Command::Validate(args) => validate::run(&args),
         cli::Command::Model(args) => model::run(&args),
         cli::Command::Plan(args) => plan::run(&args),
         cli::Command::Rig(args) => rig::run(&args),

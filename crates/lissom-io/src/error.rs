@@ -9,6 +9,7 @@ use crate::config::ConfigError;
 use crate::log::LogError;
 use crate::model::FrequencyError;
 use crate::plan::PlanError;
+use crate::result::ResultError;
 use crate::units::UnitError;
 use crate::write::WriteError;
 
@@ -40,6 +41,9 @@ pub enum Error {
     /// Runs that make no campaign.
     #[error(transparent)]
     Record(#[from] RecordError),
+    /// A result that was read back.
+    #[error(transparent)]
+    Result(#[from] ResultError),
     /// Writing a file.
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -56,6 +60,7 @@ impl Error {
             Self::Plan(error) => error.hint(),
             Self::Frequencies(error) => error.hint(),
             Self::Campaign(error) => error.hint(),
+            Self::Result(error) => error.hint(),
             Self::Write(error) => error.hint(),
             // A reader makes no such run: see [`LogError`] and [`CampaignError`].
             Self::Record(_) => None,

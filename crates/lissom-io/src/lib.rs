@@ -4,6 +4,8 @@
 //!   [`Campaign`](lissom::record::Campaign): see [`campaign`] for the file, [`log`] for the logs.
 //! - [`ArmFile::read`] reads an `arm.toml`: see [`arm_file`]; [`model_json`] writes what comes of it.
 //! - [`PlanFile::read`] reads a `plan.toml`, the experiments of a virtual campaign: see [`plan`].
+//! - [`result_json`] writes what was identified, [`read_arm`] reads the arm in it back,
+//!   [`validation_json`] writes how well it predicts another log.
 //! - [`units`] reads quantities such as `"2.184 lbf*in/A"`.
 //! - [`mod@write`] writes files whole or not at all.
 //!
@@ -30,13 +32,15 @@ pub use arm_file::{
 };
 pub use campaign::{
     AnalysisOptions, CampaignError, CampaignFile, Known, ReadOptions, read_campaign,
-    read_campaign_with,
+    read_campaign_like, read_campaign_with,
 };
 pub use config::{ConfigError, Place, Rule};
 pub use error::Error;
 pub use log::LogError;
 pub use model::{FrequencyError, Model, model_json, read_frequencies};
 pub use plan::{PlanError, PlanFile, PlanRun};
-pub use result::{UnitNames, result_json};
+pub use result::{
+    ResultError, UnitNames, channel_name_unit, read_arm, result_json, validation_json,
+};
 pub use units::UnitError;
 pub use write::WriteError;

@@ -106,6 +106,8 @@ fn a_result_and_its_schema_name_the_same_keys() {
     }
     // What may be null is not: its keys were looked at too.
     check.holds(&[
+        "arm.modes[].damping_within_per_s",
+        "arm.tips[].shape",
         "methods.third_harmonic.fit.weighted_rms",
         "methods.regression.beam.modes",
         "methods.regression.viscous_by_direction.relative_residual",

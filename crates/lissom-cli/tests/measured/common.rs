@@ -85,6 +85,28 @@ pub(crate) fn identify(campaign: &str, data: &Path, file: &str, code: i32) -> se
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
+/// What `validate` gives as JSON, of a result that is written out first; it must end with `code`.
+pub(crate) fn validate(
+    result: &serde_json::Value,
+    campaign: &str,
+    data: &Path,
+    file: &str,
+    (code, more): (i32, &[&str]),
+) -> serde_json::Value {
+    let (folder, path) = place(campaign, data, file);
+    let found = folder.path().join("result.json");
+    std::fs::write(&found, result.to_string()).unwrap();
+    let output = assert_cmd::Command::cargo_bin("lissom")
+        .unwrap()
+        .args(["validate", found.to_str().unwrap(), path.to_str().unwrap(), "--json"])
+        .args(more)
+        .output()
+        .unwrap();
+    let talk = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{talk}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
 /// The campaign as the library reads it.
 pub(crate) fn read(campaign: &str, data: &Path, file: &str) -> lissom_io::CampaignFile {
     let (_folder, path) = place(campaign, data, file);

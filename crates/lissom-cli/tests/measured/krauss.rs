@@ -60,6 +60,8 @@ fn figures_are_per_unit_of_command_and_friction_is_seen() {
     assert!(common::has_finding(&result, "friction-visible"));
     assert!(result["friction"].get("coulomb_command").is_some());
     assert!(result["drive"].get("inertia_command_s2_per_rad").is_some());
+    // An accelerometer gives no coupling torque: nothing to predict another log with.
+    assert!(result["arm"].is_null());
 }
 
 #[test]

@@ -122,6 +122,19 @@ pub fn read_campaign(path: &Path) -> Result<CampaignFile, Error> {
 /// # Errors
 /// As [`read_campaign`].
 pub fn read_campaign_with(path: &Path, options: &ReadOptions) -> Result<CampaignFile, Error> {
+    read(path, None, options)
+}
+
+/// Reads `log` as the logs of the campaign at `path` are read, and none of these. The head that its
+/// `[analysis]` skips is skipped.
+///
+/// # Errors
+/// As [`read_campaign`].
+pub fn read_campaign_like(path: &Path, log: &Path) -> Result<CampaignFile, Error> {
+    read(path, Some(log), &ReadOptions::default())
+}
+
+fn read(path: &Path, log: Option<&Path>, options: &ReadOptions) -> Result<CampaignFile, Error> {
     let source = Source::read(path)?;
     let document = source.parse()?;
     let root = source.root(&document);
@@ -134,14 +147,20 @@ pub fn read_campaign_with(path: &Path, options: &ReadOptions) -> Result<Campaign
         Some(value) => analysis(&value.table()?)?,
         None => (AnalysisOptions::default(), None),
     };
-    let value = root.need("runs")?;
+    let (folder, runs) = match log {
+        Some(log) => (Path::new(""), vec![RunSpec::of_log(log, skip_s)]),
+        None => (source.folder(), runs(&root.need("runs")?, skip_s)?),
+    };
+    let campaign = load::load(folder, &signals, command, &runs, options)?;
+    Ok(CampaignFile { campaign, known, analysis })
+}
+
+fn runs(value: &Value<'_>, skip_s: Option<f64>) -> Result<Vec<RunSpec>, ConfigError> {
     let items = value.list("a list of runs, each a table [[runs]]")?;
     if items.is_empty() {
-        return Err(value.empty().into());
+        return Err(value.empty());
     }
-    let runs = items.iter().map(|item| run(item, skip_s)).collect::<Result<Vec<_>, _>>()?;
-    let campaign = load::load(source.folder(), &signals, command, &runs, options)?;
-    Ok(CampaignFile { campaign, known, analysis })
+    items.iter().map(|item| run(item, skip_s)).collect()
 }
 
 fn analysis(table: &Table<'_>) -> Result<(AnalysisOptions, Option<f64>), ConfigError> {
@@ -162,6 +181,14 @@ struct RunSpec {
     /// With its place in the campaign.
     omega_rad_s: Option<(f64, Place)>,
     skip_s: f64,
+}
+
+impl RunSpec {
+    /// A log by itself.
+    fn of_log(log: &Path, skip_s: Option<f64>) -> Self {
+        let name = log.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
+        Self { file: log.to_owned(), name, omega_rad_s: None, skip_s: skip_s.unwrap_or(0.0) }
+    }
 }
 
 fn run(value: &Value<'_>, skip_s: Option<f64>) -> Result<RunSpec, ConfigError> {

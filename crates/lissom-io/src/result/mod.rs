@@ -3,9 +3,13 @@
 //! Its schema is `docs/result.schema.json`. A figure is `{value, std, ci95}`, or `null` where it
 //! is refused; a finding then says why.
 
+mod arm;
 mod units;
+mod validation;
 
+pub use arm::{ResultError, read_arm};
 pub use units::UnitNames;
+pub use validation::{channel_name_unit, validation_json};
 
 use lissom::identify::{
     BeamRegression, Candidate, ConstantVelocity, Estimate, Finding, FrictionLine, Identified,
@@ -23,11 +27,12 @@ pub fn result_json(channels: &Channels, id: &Identified) -> Value {
     let constant = id.torque_per_command.unwrap_or(1.0);
     json!({
         "lissom": env!("CARGO_PKG_VERSION"),
-        "axis": match channels.axis { Axis::Rotary => "rotary", Axis::Linear => "linear" },
+        "axis": axis(channels.axis),
         "torque_per_command": id.torque_per_command,
         "friction": friction(names, constant, id),
         "drive": { (names.inertia_key()): figure(id.inertia) },
         "beam": beam(names, id),
+        "arm": id.arm.as_ref().map(|found| arm::arm(channels, names, found)),
         "methods": {
             "third_harmonic": id.third_harmonic.as_ref().map(|t| third(names, constant, t, &id.runs)),
             "output_error": id.output_error.as_ref().map(|o| replay(names, constant, channels, o)),
@@ -43,6 +48,13 @@ pub fn result_json(channels: &Channels, id: &Identified) -> Value {
         "runs": id.runs.iter().map(run).collect::<Vec<_>>(),
         "findings": id.findings.iter().map(finding).collect::<Vec<_>>(),
     })
+}
+
+fn axis(axis: Axis) -> &'static str {
+    match axis {
+        Axis::Rotary => "rotary",
+        Axis::Linear => "linear",
+    }
 }
 
 /// A figure as JSON.

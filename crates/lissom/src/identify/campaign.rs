@@ -223,10 +223,11 @@ pub fn identify(
         beam_model,
         motor_model,
         state_space,
+        arm: None,
         torque_per_command: campaign.channels.command.torque_per_command,
         findings,
     };
-    verdict::conclude(campaign, &mut identified);
+    verdict::conclude(campaign, &usable, &mut identified);
     Ok(identified)
 }
 

@@ -2,6 +2,7 @@
 
 use super::constant_velocity::ConstantVelocity;
 use super::finding::Finding;
+use super::found_arm::FoundArm;
 use super::output_error::OutputError;
 use super::rational::{BeamFit, MotorFit};
 use super::regression::{BeamRegression, MotorRegression};
@@ -86,6 +87,8 @@ pub struct Identified {
     pub motor_model: Option<MotorFit>,
     /// Both as one state space, from the command to the motor and to each tip that is an angle.
     pub state_space: Option<StateSpace>,
+    /// The arm that stands for these figures, to predict other logs with; `None` where they make none.
+    pub arm: Option<FoundArm>,
     /// Torque per command used; `None`: figures are per unit of command.
     pub torque_per_command: Option<f64>,
     /// What the data could not carry.

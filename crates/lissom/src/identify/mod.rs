@@ -7,6 +7,7 @@ mod constant_velocity;
 mod correct;
 mod estimate;
 mod finding;
+mod found_arm;
 mod friction_waveform;
 mod identified;
 mod model;
@@ -16,6 +17,7 @@ mod regression;
 mod response_table;
 mod run_analysis;
 mod third_harmonic;
+mod validation;
 mod verdict;
 
 pub use campaign::{IdentifyError, Options, Stage, identify};
@@ -25,6 +27,7 @@ pub use constant_velocity::{
 pub use correct::{Response, corrected, ratio};
 pub use estimate::{Estimate, ModeEstimate};
 pub use finding::{Finding, Severity};
+pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
 pub use identified::{Beam, Friction, Identified, ThirdHarmonic};
 pub use output_error::{
     Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, free_parameters,
@@ -38,3 +41,7 @@ pub use regression::{
 pub use response_table::ResponsePoint;
 pub use run_analysis::{RunAnalysis, RunKind, Sinusoidal};
 pub use third_harmonic::{PairFigure, RunPhasors, mean_figure, pair_figure};
+pub use validation::{
+    Cause, CauseKind, ChannelResidual, Fit, Horizon, PredictedStretch, Stretch, TorquePrediction,
+    TorqueRun, Validation, ValidationError, ValidationOptions, validate,
+};

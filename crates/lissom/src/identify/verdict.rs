@@ -2,6 +2,7 @@
 
 use super::constant_velocity::{alone, only_constant_velocities, stand_in};
 use super::finding::{Finding, Severity, key};
+use super::found_arm::FoundArm;
 use super::identified::{Beam, Friction, Identified};
 use super::output_error::{self, OutputError};
 use super::regression::{BeamRegression, MissingKind};
@@ -25,7 +26,8 @@ const DISAGREE: f64 = 0.15;
 const PRESENT: f64 = 3.0;
 
 /// Fills in the figures by the best method that the data carry, and the findings about them.
-pub(crate) fn conclude(campaign: &Campaign, id: &mut Identified) {
+/// `used` are the runs that the methods used.
+pub(crate) fn conclude(campaign: &Campaign, used: &Campaign, id: &mut Identified) {
     let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
     from_regression(id);
     output_error::verdict(campaign, id);
@@ -57,6 +59,7 @@ pub(crate) fn conclude(campaign: &Campaign, id: &mut Identified) {
     methods(id, constant);
     tips(campaign, id);
     id.findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
+    id.arm = FoundArm::of(id, used);
 }
 
 fn from_regression(id: &mut Identified) {

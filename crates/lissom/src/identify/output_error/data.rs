@@ -13,10 +13,10 @@ const FEWEST: f64 = 6.0;
 const MOST: f64 = 400.0;
 
 /// Readings of each channel that count, of one run.
-pub(super) type Masks = Vec<Option<Vec<bool>>>;
+pub(crate) type Masks = Vec<Option<Vec<bool>>>;
 
 /// Leaves out the readings of channels that stand at the ends of their range.
-pub(super) fn masks(campaign: &Campaign) -> Vec<Masks> {
+pub(crate) fn masks(campaign: &Campaign) -> Vec<Masks> {
     let of_run = |run: &Run| {
         std::iter::once(run.motor()).chain(run.tips().iter().map(Vec::as_slice)).map(mask).collect()
     };

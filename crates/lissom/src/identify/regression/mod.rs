@@ -14,3 +14,4 @@ pub use missing::{MissingKind, MissingTerm};
 pub use motor::{ByDirection, MotorRegression, motor_regression};
 pub(crate) use phases::{slip_sign, smoothing};
 pub use scan::Candidate;
+pub(crate) use window::Window;

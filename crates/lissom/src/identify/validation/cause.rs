@@ -1,0 +1,154 @@
+//! What a residual of torque looks like: how much of it each term would take away by itself.
+
+use super::kernel::Kernel;
+use crate::record::Run;
+
+/// What may be wrong or missing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CauseKind {
+    /// The command acts later than the figures have it.
+    Delay,
+    /// Inertia.
+    Inertia,
+    /// Viscous friction.
+    Viscous,
+    /// Viscous friction's difference by direction.
+    ViscousByDirection,
+    /// Coulomb friction.
+    Coulomb,
+    /// A constant torque.
+    Offset,
+    /// A torque that grows with position.
+    Position,
+    /// Friction that changes towards rest.
+    NearRest,
+}
+
+/// All, in the order of a row's terms.
+const KINDS: [CauseKind; 8] = [
+    CauseKind::Delay,
+    CauseKind::Inertia,
+    CauseKind::Viscous,
+    CauseKind::ViscousByDirection,
+    CauseKind::Coulomb,
+    CauseKind::Offset,
+    CauseKind::Position,
+    CauseKind::NearRest,
+];
+
+/// One term beside the residual.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cause {
+    /// Which.
+    pub kind: CauseKind,
+    /// Its coefficient: delay \[s\], inertia \[kg·m²\], viscous friction \[N·m·s/rad\], torque \[N·m\] or
+    /// torque per angle \[N·m/rad\], to be added to the figure.
+    pub value: f64,
+    /// Share of the squared residual that it takes away by itself.
+    pub share: f64,
+}
+
+impl CauseKind {
+    /// Its stable name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Delay => "delay",
+            Self::Inertia => "inertia",
+            Self::Viscous => "viscous",
+            Self::ViscousByDirection => "viscous-by-direction",
+            Self::Coulomb => "coulomb",
+            Self::Offset => "offset",
+            Self::Position => "position",
+            Self::NearRest => "near-rest",
+        }
+    }
+
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Delay => "a delay of the command",
+            Self::Inertia => "another inertia",
+            Self::Viscous => "other viscous friction",
+            Self::ViscousByDirection => "viscous friction that differs by direction",
+            Self::Coulomb => "other Coulomb friction",
+            Self::Offset => "a constant torque",
+            Self::Position => "a torque that grows with position",
+            Self::NearRest => "friction that changes towards rest",
+        }
+    }
+}
+
+/// Products of the residual with each term, summed over rows.
+#[derive(Debug, Clone)]
+pub(super) struct Causes {
+    speed: Vec<f64>,
+    position: Vec<f64>,
+    /// e^{−|v|/v̄}, v̄ the run's mean speed.
+    slowness: Vec<f64>,
+    with_residual: [f64; KINDS.len()],
+    squares: [f64; KINDS.len()],
+    residual: f64,
+}
+
+impl Causes {
+    /// Of a run whose velocity is known at every sample.
+    pub(super) fn new(run: &Run, velocity: &[f64]) -> Self {
+        let speed: Vec<f64> = velocity.iter().map(|v| v.abs()).collect();
+        let mean = speed.iter().sum::<f64>() / speed.len() as f64;
+        let middle = run.motor().iter().sum::<f64>() / run.len() as f64;
+        Self {
+            slowness: speed.iter().map(|v| (-v / mean.max(f64::MIN_POSITIVE)).exp()).collect(),
+            speed,
+            position: run.motor().iter().map(|x| x - middle).collect(),
+            with_residual: [0.0; KINDS.len()],
+            squares: [0.0; KINDS.len()],
+            residual: 0.0,
+        }
+    }
+
+    /// Adds a row: its residual, the rate of the logged torque, acceleration and velocity.
+    pub(super) fn add(
+        &mut self,
+        residual: f64,
+        kernel: &Kernel,
+        k: usize,
+        [by_delay, acceleration, velocity]: [f64; 3],
+        sign: &dyn Fn(usize) -> f64,
+    ) {
+        let near_rest = |i: usize| sign(i) * self.slowness[i];
+        let terms = [
+            by_delay,
+            acceleration,
+            velocity,
+            kernel.mean(k, |i| self.speed[i]),
+            kernel.mean(k, sign),
+            1.0,
+            kernel.mean(k, |i| self.position[i]),
+            kernel.mean(k, near_rest),
+        ];
+        for (i, term) in terms.into_iter().enumerate() {
+            self.with_residual[i] += residual * term;
+            self.squares[i] += term * term;
+        }
+        self.residual += residual * residual;
+    }
+
+    /// Over several runs, the largest share first.
+    pub(super) fn of(runs: &[&Self]) -> Vec<Cause> {
+        let residual: f64 = runs.iter().map(|r| r.residual).sum();
+        let mut causes: Vec<Cause> = KINDS
+            .into_iter()
+            .enumerate()
+            .map(|(i, kind)| {
+                let product: f64 = runs.iter().map(|r| r.with_residual[i]).sum();
+                let square: f64 = runs.iter().map(|r| r.squares[i]).sum();
+                let known = square > 0.0 && residual > 0.0;
+                let value = if known { product / square } else { 0.0 };
+                let share = if known { value * product / residual } else { 0.0 };
+                Cause { kind, value, share }
+            })
+            .collect();
+        causes.sort_by(|a, b| b.share.total_cmp(&a.share));
+        causes
+    }
+}

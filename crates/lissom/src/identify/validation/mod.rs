@@ -1,0 +1,143 @@
+//! How well an identified arm predicts logs that it was not found from.
+
+mod cause;
+mod kernel;
+mod motion;
+mod residual;
+mod torque;
+mod verdict;
+
+pub use cause::{Cause, CauseKind};
+pub use motion::{Fit, Horizon, PredictedStretch};
+pub use residual::ChannelResidual;
+pub(super) use torque::torque;
+pub use torque::{Stretch, TorquePrediction, TorqueRun};
+
+use thiserror::Error;
+
+use super::Finding;
+use super::found_arm::FoundArm;
+use crate::record::Campaign;
+use crate::replay::{MOST_MODES, Window};
+use motion::{Followed, followed, lengths_s};
+use residual::channel_residual;
+
+/// The residual is looked at over the longest time at which every channel still fits this well.
+const FITS_PERCENT: f64 = 90.0;
+
+/// What a user may ask for.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct ValidationOptions {
+    /// Length of the window that torque is averaged with \[s\]; that of the logs used when `None`.
+    pub window_s: Option<f64>,
+    /// Time to predict motion over from one initial state \[s\]; several when `None`.
+    pub horizon_s: Option<f64>,
+}
+
+/// Why a campaign cannot be predicted at all.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ValidationError {
+    /// The arm is one of other sensors.
+    #[error("the result has {expected} tips, and the log {found}")]
+    Tips {
+        /// Tips of the result.
+        expected: usize,
+        /// Tips of the log.
+        found: usize,
+    },
+    /// More modes than can be replayed.
+    #[error("the result has {found} modes; at most {MOST_MODES} can be followed")]
+    Modes {
+        /// Modes of the result.
+        found: usize,
+    },
+    /// Neither torque nor motion could be predicted.
+    #[error("the motor never moves for long enough to predict anything")]
+    NothingMoves,
+}
+
+/// How well a log was predicted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Validation {
+    /// Its torque; `None` where the tips do not give the coupling torque or nothing moves.
+    pub torque: Option<TorquePrediction>,
+    /// Its motion, over ever shorter times.
+    pub horizons: Vec<Horizon>,
+    /// Which of these the residuals are of.
+    pub chosen: usize,
+    /// The stretches predicted over that time.
+    pub stretches: Vec<PredictedStretch>,
+    /// What is left of each channel over that time, motor first, then tips.
+    pub residuals: Vec<ChannelResidual>,
+    /// What speaks against the figures.
+    pub findings: Vec<Finding>,
+}
+
+/// Predicts torque and motion of a campaign that `found` was not found from.
+///
+/// # Errors
+/// [`ValidationError`] where the arm does not belong to the campaign's channels or nothing moves.
+pub fn validate(
+    found: &FoundArm,
+    campaign: &Campaign,
+    options: &ValidationOptions,
+) -> Result<Validation, ValidationError> {
+    let arm = &found.arm;
+    let tips = campaign.channels.tips.len();
+    if arm.shapes.len() != tips {
+        return Err(ValidationError::Tips { expected: arm.shapes.len(), found: tips });
+    }
+    if arm.modes.len() > MOST_MODES {
+        return Err(ValidationError::Modes { found: arm.modes.len() });
+    }
+    let mut predicted = predicted(found, campaign, options.horizon_s);
+    let chosen = predicted
+        .iter()
+        .position(|f| f.horizon.channels.iter().all(|c| c.fit_percent >= FITS_PERCENT))
+        .unwrap_or(predicted.len().saturating_sub(1));
+    let zeros = predicted.first().map_or(Vec::new(), |f| zeros(campaign, &f.windows));
+    // The window of the logs used, so that both figures compare.
+    let window_s = options.window_s.or(found.torque_used.map(|used| used.window_s));
+    let torque = torque(arm, campaign, &zeros, window_s);
+    if predicted.is_empty() && torque.is_none() {
+        return Err(ValidationError::NothingMoves);
+    }
+    let horizons: Vec<Horizon> = predicted.iter().map(|f| f.horizon.clone()).collect();
+    let stretches =
+        if predicted.is_empty() { Vec::new() } else { predicted.swap_remove(chosen).stretches };
+    let channels = if stretches.is_empty() { 0..0 } else { 0..tips + 1 };
+    let residuals = channels.map(|c| channel_residual(campaign, &stretches, c)).collect();
+    let mut validation =
+        Validation { torque, horizons, chosen, stretches, residuals, findings: Vec::new() };
+    validation.findings = verdict::findings(found, campaign, &validation);
+    Ok(validation)
+}
+
+/// The motion over ever shorter times, or over the one asked for.
+fn predicted(found: &FoundArm, campaign: &Campaign, horizon_s: Option<f64>) -> Vec<Followed> {
+    let mut predicted: Vec<Followed> = Vec::new();
+    for length_s in lengths_s(campaign, horizon_s).into_iter().rev() {
+        let shorter = predicted.last().map_or(&[][..], |f| &f.windows);
+        predicted.extend(followed(&found.arm, campaign, length_s, shorter));
+    }
+    predicted.reverse();
+    if horizon_s.is_some() {
+        predicted.truncate(1);
+    }
+    predicted
+}
+
+/// What each tip of each run shows undeflected: the mean over its windows.
+pub(super) fn zeros(campaign: &Campaign, windows: &[Window]) -> Vec<Vec<f64>> {
+    let of_run = |run: usize| {
+        let own: Vec<&Window> = windows.iter().filter(|w| w.run == run).collect();
+        let mean =
+            |tip: usize| own.iter().map(|w| w.zeros[tip]).sum::<f64>() / own.len().max(1) as f64;
+        (0..campaign.channels.tips.len()).map(mean).collect()
+    };
+    (0..campaign.runs.len()).map(of_run).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,141 @@
+//! Simulation: the logged command through the arm, beside the logged motion.
+
+use crate::identify::output_error::{Masks, follow, masks};
+use crate::record::{Campaign, Run};
+use crate::replay::{ModalArm, Window, predict};
+
+/// Fewest samples of a horizon.
+const LEAST_SAMPLES: f64 = 100.0;
+/// Most horizons.
+const MOST: usize = 5;
+/// Horizons are 1 or 3 times a power of ten: this close to a run's length they say nothing more.
+const APART: f64 = 1.5;
+
+/// The motion predicted over one length of time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Horizon {
+    /// Longest stretch predicted from one initial state \[s\].
+    pub length_s: f64,
+    /// Whether runs were predicted from end to end.
+    pub whole_runs: bool,
+    /// Stretches predicted.
+    pub windows: usize,
+    /// Motor, then tips.
+    pub channels: Vec<Fit>,
+}
+
+/// How near a channel's prediction is, over readings within its sensor's range.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fit {
+    /// Root mean square of logged minus predicted, in the channel's unit.
+    pub residual_rms: f64,
+    /// `100·(1 − ‖y − ŷ‖/‖y − ȳ‖)`, ȳ the mean of each run \[%\].
+    pub fit_percent: f64,
+}
+
+/// A stretch predicted from one initial state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PredictedStretch {
+    /// Index of the run.
+    pub run: usize,
+    /// Its first sample.
+    pub first: usize,
+    /// Motor, then tips: one value a sample.
+    pub channels: Vec<Vec<f64>>,
+}
+
+/// A horizon with what it was judged by.
+pub(super) struct Followed {
+    pub(super) horizon: Horizon,
+    pub(super) windows: Vec<Window>,
+    pub(super) stretches: Vec<PredictedStretch>,
+}
+
+/// Lengths to predict over, the longest first: whole runs, or `longest_s`, then 1 and 3 times powers of
+/// ten below.
+pub(super) fn lengths_s(campaign: &Campaign, longest_s: Option<f64>) -> Vec<f64> {
+    let durations = campaign.runs.iter().map(|r| r.len() as f64 * r.sample_time_s());
+    let longest = longest_s.unwrap_or_else(|| durations.fold(0.0, f64::max));
+    let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
+    let least = LEAST_SAMPLES * sample_s;
+    let mut lengths = vec![longest];
+    let mut decade = 10_f64.powf(longest.log10().floor());
+    while lengths.len() < MOST && 3.0 * decade >= least {
+        let below = [3.0 * decade, decade];
+        lengths.extend(below.into_iter().filter(|l| *l >= least && *l * APART <= longest));
+        decade /= 10.0;
+    }
+    lengths.truncate(MOST);
+    lengths
+}
+
+/// Predicts every run over stretches of `length_s`, which begin where `shorter` ones have come to;
+/// `None` where no stretch can be begun.
+pub(super) fn followed(
+    arm: &ModalArm,
+    campaign: &Campaign,
+    length_s: f64,
+    shorter: &[Window],
+) -> Option<Followed> {
+    let windows = follow(arm, campaign, length_s, shorter);
+    let stretches: Vec<PredictedStretch> = windows
+        .iter()
+        .filter_map(|w| {
+            let channels = predict(arm, campaign, w)?.channels;
+            Some(PredictedStretch { run: w.run, first: *w.samples.start(), channels })
+        })
+        .collect();
+    if stretches.is_empty() {
+        return None;
+    }
+    let masks = masks(campaign);
+    let channels = (0..=campaign.channels.tips.len()).map(|c| fit(campaign, &masks, &stretches, c));
+    let whole_runs =
+        campaign.runs.iter().all(|r| r.len() as f64 * r.sample_time_s() <= length_s * (1.0 + 1e-9));
+    let horizon =
+        Horizon { length_s, whole_runs, windows: stretches.len(), channels: channels.collect() };
+    Some(Followed { horizon, windows, stretches })
+}
+
+/// The samples of a channel that a stretch predicts.
+pub(super) fn logged<'a>(
+    campaign: &'a Campaign,
+    stretch: &PredictedStretch,
+    channel: usize,
+) -> &'a [f64] {
+    let run = &campaign.runs[stretch.run];
+    let samples = match channel.checked_sub(1) {
+        None => run.motor(),
+        Some(tip) => &run.tips()[tip],
+    };
+    &samples[stretch.first..stretch.first + stretch.channels[channel].len()]
+}
+
+fn fit(
+    campaign: &Campaign,
+    masks: &[Masks],
+    stretches: &[PredictedStretch],
+    channel: usize,
+) -> Fit {
+    let (mut left, mut power, mut number) = (0.0, 0.0, 0_usize);
+    for of_run in stretches.chunk_by(|a, b| a.run == b.run) {
+        let pairs = || {
+            of_run.iter().flat_map(|s| {
+                logged(campaign, s, channel)
+                    .iter()
+                    .zip(&s.channels[channel])
+                    .zip(s.first..)
+                    .filter(|(_, k)| masks[s.run][channel].as_ref().is_none_or(|m| m[*k]))
+                    .map(|(pair, _)| pair)
+            })
+        };
+        let samples = pairs().count();
+        let mean = pairs().map(|(y, _)| y).sum::<f64>() / samples.max(1) as f64;
+        left += pairs().map(|(y, p)| (y - p).powi(2)).sum::<f64>();
+        power += pairs().map(|(y, _)| (y - mean).powi(2)).sum::<f64>();
+        number += samples;
+    }
+    let residual_rms = (left / number.max(1) as f64).sqrt();
+    let fit_percent = if power > 0.0 { 100.0 * (1.0 - (left / power).sqrt()) } else { 0.0 };
+    Fit { residual_rms, fit_percent }
+}

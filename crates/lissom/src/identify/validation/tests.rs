@@ -1,0 +1,118 @@
+use super::*;
+use crate::identify::{ArmSource, TorqueUsed};
+use crate::record::{Axis, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
+use crate::replay::ModalArm;
+
+/// Sample time of the logs \[s\].
+const T: f64 = 0.002;
+/// Step of the motor's sensor \[rad\].
+const STEP: f64 = 1e-4;
+
+fn rigid() -> ModalArm {
+    ModalArm {
+        inertia_kg_m2: 0.02,
+        viscous_nm_s_per_rad: [0.05, 0.05],
+        coulomb_nm: 0.3,
+        offset_nm: 0.02,
+        modes: Vec::new(),
+        shapes: Vec::new(),
+        at_points_per_s: Vec::new(),
+        command_lag_s: 0.0,
+    }
+}
+
+fn found(arm: ModalArm) -> FoundArm {
+    let torque_used = Some(TorqueUsed { relative_error: 0.01, window_s: 0.04 });
+    FoundArm { arm, source: ArmSource::Regression, torque_used }
+}
+
+fn channels() -> Channels {
+    let command = Command {
+        quantity: CommandQuantity::Current,
+        hold: Hold::Sampled,
+        torque_per_command: Some(0.5),
+        back_emf_viscous: 0.0,
+        limit: None,
+    };
+    Channels { axis: Axis::Rotary, command, tips: Vec::new() }
+}
+
+/// What `arm` shows under a command of two sines, replayed, with sensor steps.
+fn log_of(arm: &ModalArm) -> Campaign {
+    let n = 8000;
+    let command: Vec<f64> = (0..n)
+        .map(|k| T * f64::from(k))
+        .map(|s| 1.6 * (3.0 * s).sin() + 0.8 * (11.0 * s).sin())
+        .collect();
+    let run = |motor: Vec<f64>| {
+        Run::new("two sines", TimeBase::uniform(0.0, T), command.clone(), motor, vec![]).unwrap()
+    };
+    let blank = Campaign::new(channels(), vec![run(vec![0.0; n as usize])]).unwrap();
+    let start = vec![0.0, 0.5];
+    let window = Window { run: 0, samples: 0..=n as usize - 1, start, zeros: Vec::new() };
+    let motion = crate::replay::predict(arm, &blank, &window).unwrap();
+    let motor = motion.channels[0].iter().map(|x| (x / STEP).round() * STEP).collect();
+    Campaign::new(channels(), vec![run(motor)]).unwrap()
+}
+
+fn by_options(arm: &ModalArm, truth: &ModalArm) -> Validation {
+    validate(&found(arm.clone()), &log_of(truth), &ValidationOptions::default()).unwrap()
+}
+
+#[test]
+fn the_true_arm_leaves_what_the_sensor_adds() {
+    for viscous in [[0.05, 0.05], [0.02, 0.12]] {
+        let arm = ModalArm { viscous_nm_s_per_rad: viscous, ..rigid() };
+        leaves_what_the_sensor_adds(&arm);
+    }
+}
+
+fn leaves_what_the_sensor_adds(arm: &ModalArm) {
+    let v = by_options(arm, arm);
+    let torque = v.torque.unwrap();
+    // 1 % by the choice of the window; the rest is the velocity's sign, known to a window's part.
+    assert!(torque.relative_error < 0.03, "{}", torque.relative_error);
+    assert!(v.horizons[0].whole_runs && v.chosen == 0);
+    let rms = v.residuals[0].rms;
+    assert!(rms < 1.2 * STEP / 12.0_f64.sqrt(), "{rms}");
+    assert!((v.residuals[0].sensor_step / STEP - 1.0).abs() < 1e-6);
+    assert!(v.residuals[0].outside() < 0.2, "{}", v.residuals[0].outside());
+}
+
+/// Each figure off by a known amount is named as the cause, with that amount.
+#[test]
+fn what_is_wrong_is_named() {
+    let delayed = ModalArm { command_lag_s: 0.004, ..rigid() };
+    let stiff = ModalArm { coulomb_nm: 0.36, ..rigid() };
+    let heavy = ModalArm { inertia_kg_m2: 0.026, ..rigid() };
+    for (truth, kind, expected) in [
+        (delayed, CauseKind::Delay, 0.004),
+        (stiff, CauseKind::Coulomb, 0.06),
+        (heavy, CauseKind::Inertia, 0.006),
+    ] {
+        let v = by_options(&rigid(), &truth);
+        let cause = v.torque.as_ref().unwrap().causes[0];
+        assert_eq!(cause.kind, kind, "{:?}", v.torque.unwrap().causes);
+        assert!((cause.value / expected - 1.0).abs() < 0.15, "{cause:?}");
+        assert!(v.findings.iter().any(|f| f.code == "residual-torque"), "{:?}", v.findings);
+        assert!(v.findings.iter().any(|f| f.code == "prediction-worse"));
+    }
+}
+
+#[test]
+fn a_wrong_arm_departs_and_its_residual_is_not_white() {
+    let wrong = ModalArm { inertia_kg_m2: 0.026, coulomb_nm: 0.2, ..rigid() };
+    let v = by_options(&wrong, &rigid());
+    let first = v.horizons[0].channels[0];
+    let last = v.horizons.last().unwrap().channels[0];
+    assert!(first.fit_percent < last.fit_percent && first.residual_rms > last.residual_rms);
+    assert!(v.residuals[0].white_probability < 1e-6);
+    assert!(v.findings.iter().any(|f| f.code == "residual-not-white"));
+}
+
+#[test]
+fn an_arm_of_other_tips_is_refused() {
+    let other = ModalArm { shapes: vec![Vec::new()], ..rigid() };
+    let error = validate(&found(other), &log_of(&rigid()), &ValidationOptions::default());
+    assert_eq!(error, Err(ValidationError::Tips { expected: 1, found: 0 }));
+}

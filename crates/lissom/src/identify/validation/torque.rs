@@ -1,0 +1,352 @@
+//! Inverse dynamics: the torque that an arm's figures give for a logged motion, beside the torque
+//! logged.
+
+use std::ops::RangeInclusive;
+
+use super::cause::{Cause, Causes};
+use super::kernel::Kernel;
+use crate::identify::channel_noise::channel_noise;
+use crate::identify::output_error::{Masks, masks};
+use crate::record::{Campaign, Run, TipQuantity};
+use crate::replay::ModalArm;
+
+/// Noise of the motor's sensor may make this share of the torque, by the acceleration.
+const NOISE_SHARE: f64 = 0.01;
+/// Shortest window, in samples: half power at a tenth of the sampling rate.
+const LEAST_SAMPLES: usize = 10;
+/// Windows tried are longer than the one before by this factor.
+const LONGER: f64 = 1.1;
+/// Of a run a window is at most this share.
+const LONGEST: f64 = 0.1;
+/// The motor is taken to move where its speed is this many deviations of its noise.
+const MOVES: f64 = 3.0;
+/// A row counts where the motor rests under no more than this share of its window.
+const AT_REST: f64 = 0.1;
+/// Shortest stretch that is told, in windows.
+const STRETCH: usize = 3;
+
+/// The torque of a log as the figures give it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TorquePrediction {
+    /// Length of the window that both sides are averaged with \[s\].
+    pub window_s: f64,
+    /// Frequency at which it leaves half the power \[Hz\].
+    pub half_power_hz: f64,
+    /// ‖logged − predicted‖/‖logged‖ over all rows that count.
+    pub relative_error: f64,
+    /// The same while the motor moves forward, and backward; `None` where it does not.
+    pub by_direction: [Option<f64>; 2],
+    /// Root mean square of the logged torque \[N·m\].
+    pub logged_nm: f64,
+    /// Share of the rows that do not count: the motor rests, and what friction is then no figure says,
+    /// or a sensor stands at the end of its range.
+    pub rest_share: f64,
+    /// One for each run.
+    pub runs: Vec<TorqueRun>,
+    /// Each stretch of one direction that is long enough, errors relative to the whole log's torque.
+    pub stretches: Vec<Stretch>,
+    /// What the residual looks like, the largest share first.
+    pub causes: Vec<Cause>,
+}
+
+/// The torque of one run over time, one row a sample (or one in so many of a long run).
+#[derive(Debug, Clone, PartialEq)]
+pub struct TorqueRun {
+    /// Index of the run.
+    pub run: usize,
+    /// ‖logged − predicted‖/‖logged‖ of this run; `None` where no row counts.
+    pub relative_error: Option<f64>,
+    /// Middle of each window, from the run's first sample \[s\].
+    pub time_s: Vec<f64>,
+    /// Logged torque under it \[N·m\].
+    pub logged_nm: Vec<f64>,
+    /// Predicted torque \[N·m\]; not a number where a row does not count.
+    pub predicted_nm: Vec<f64>,
+}
+
+/// A stretch in which the motor moves one way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stretch {
+    /// Index of the run.
+    pub run: usize,
+    /// Begin, from the run's first sample \[s\].
+    pub start_s: f64,
+    /// End \[s\].
+    pub end_s: f64,
+    /// Whether the motor moves forward.
+    pub forward: bool,
+    /// Residual beside the logged torque of the whole log.
+    pub relative_error: f64,
+}
+
+/// Predicts the torque of every run, `zeros` what each tip of each run shows undeflected.
+///
+/// ```text
+/// ⟨k·u(t − lag)⟩ = J·⟨θ̈⟩ + V̄·⟨θ̇⟩ + ⟨C·sgn θ̇ + ΔV·|θ̇|⟩ + offset + Σκ_i·⟨θ − θ_i⟩ + κ'_i·⟨θ̇ − θ̇_i⟩
+/// ```
+///
+/// with ⟨·⟩ the mean under a sin⁴ window, V̄ and ΔV half the sum and half the difference of viscous
+/// friction forward and backward. Derivatives of what is measured are moved onto the window; a held
+/// command enters by its exact integral, so that half a sample of the hold is counted. Both sides
+/// go through the same window, which shifts no phase.
+///
+/// `window_s` is chosen where it is `None`: the shortest under which the noise of the motor's sensor
+/// makes at most 1 % of the torque by J·θ̈, and ten samples at least.
+///
+/// `None` where the arm has modes that the tips do not show, or no row counts.
+pub(in crate::identify) fn torque(
+    arm: &ModalArm,
+    campaign: &Campaign,
+    zeros: &[Vec<f64>],
+    window_s: Option<f64>,
+) -> Option<TorquePrediction> {
+    let coupling = Coupling::new(arm, campaign)?;
+    let window_s = window_s.or_else(|| chosen_window_s(arm, campaign))?;
+    let masks = masks(campaign);
+    let predictor = Predictor { arm, campaign, zeros, coupling, window_s, masks: &masks };
+    let rows: Vec<RunRows> =
+        (0..campaign.runs.len()).filter_map(|run| predictor.rows(run)).collect();
+    let counted = || rows.iter().flat_map(|r| &r.rows).filter(|row| row.counts);
+    let (mut left, mut power, mut number) = ([0.0; 2], [0.0; 2], 0_usize);
+    for row in counted() {
+        let side = usize::from(row.velocity < 0.0);
+        left[side] += row.residual().powi(2);
+        power[side] += row.logged * row.logged;
+        number += 1;
+    }
+    let all: usize = rows.iter().map(|r| r.rows.len()).sum();
+    let total = power[0] + power[1];
+    if number == 0 || total <= 0.0 {
+        return None;
+    }
+    let causes = Causes::of(&rows.iter().map(|r| &r.causes).collect::<Vec<_>>());
+    let logged_nm = (total / number as f64).sqrt();
+    Some(TorquePrediction {
+        window_s,
+        half_power_hz: rows.first()?.half_power_hz,
+        relative_error: ((left[0] + left[1]) / total).sqrt(),
+        by_direction: [0, 1].map(|i| (power[i] > 0.0).then(|| (left[i] / power[i]).sqrt())),
+        logged_nm,
+        rest_share: 1.0 - number as f64 / all as f64,
+        stretches: rows.iter().flat_map(|r| r.stretches(logged_nm, window_s)).collect(),
+        runs: rows.into_iter().map(RunRows::told).collect(),
+        causes,
+    })
+}
+
+/// The shortest window under which the sensor's noise is small.
+fn chosen_window_s(arm: &ModalArm, campaign: &Campaign) -> Option<f64> {
+    let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
+    let hold = campaign.channels.command.hold;
+    let of_run = |run: &Run| {
+        let t = run.sample_time_s();
+        let power: f64 = run.command().iter().map(|u| (constant * u).powi(2)).sum();
+        let allowed = NOISE_SHARE * (power / run.len() as f64).sqrt();
+        let noise = arm.inertia_kg_m2 * channel_noise(run.motor()).std;
+        let most = (LONGEST * run.len() as f64) as usize;
+        let mut n = LEAST_SAMPLES;
+        while n < most && noise * Kernel::new(n, t, hold, 0.0).acceleration_noise() > allowed {
+            n = (n as f64 * LONGER).ceil() as usize;
+        }
+        n as f64 * t
+    };
+    campaign.runs.iter().map(of_run).max_by(f64::total_cmp)
+}
+
+/// κ_i and κ'_i: torque per deflection of each tip and per its rate.
+struct Coupling {
+    per_angle: Vec<f64>,
+    per_rate: Vec<f64>,
+}
+
+impl Coupling {
+    /// `None` where the arm has modes and the tips do not show them all.
+    fn new(arm: &ModalArm, campaign: &Campaign) -> Option<Self> {
+        let none = vec![0.0; campaign.channels.tips.len()];
+        if arm.modes.is_empty() {
+            return Some(Self { per_angle: none.clone(), per_rate: none });
+        }
+        let known = campaign.channels.tips.iter();
+        if !known.into_iter().all(|t| t.calibrated && t.quantity != TipQuantity::Acceleration) {
+            return None;
+        }
+        let by_rate = |m: &crate::replay::Oscillator| {
+            m.stiffness_nm_per_rad * m.within_per_s / (m.omega_rad_s * m.omega_rad_s)
+        };
+        let mut damped = arm.clone();
+        for (to, from) in damped.modes.iter_mut().zip(&arm.modes) {
+            to.stiffness_nm_per_rad = by_rate(from);
+        }
+        Some(Self { per_angle: arm.coupling_by_tip()?, per_rate: damped.coupling_by_tip()? })
+    }
+}
+
+/// One place of the window.
+struct Row {
+    time_s: f64,
+    logged: f64,
+    predicted: f64,
+    velocity: f64,
+    counts: bool,
+}
+
+impl Row {
+    fn residual(&self) -> f64 {
+        self.logged - self.predicted
+    }
+}
+
+struct RunRows {
+    run: usize,
+    half_power_hz: f64,
+    rows: Vec<Row>,
+    causes: Causes,
+}
+
+impl RunRows {
+    fn told(self) -> TorqueRun {
+        let counted = || self.rows.iter().filter(|r| r.counts);
+        let power: f64 = counted().map(|r| r.logged * r.logged).sum();
+        let left: f64 = counted().map(|r| r.residual().powi(2)).sum();
+        TorqueRun {
+            run: self.run,
+            relative_error: (power > 0.0).then(|| (left / power).sqrt()),
+            time_s: self.rows.iter().map(|r| r.time_s).collect(),
+            logged_nm: self.rows.iter().map(|r| r.logged).collect(),
+            predicted_nm: self
+                .rows
+                .iter()
+                .map(|r| if r.counts { r.predicted } else { f64::NAN })
+                .collect(),
+        }
+    }
+
+    /// Rows on end that count and move one way.
+    fn stretches(&self, logged_nm: f64, window_s: f64) -> Vec<Stretch> {
+        let together = |a: &Row, b: &Row| a.counts == b.counts && a.velocity * b.velocity > 0.0;
+        let told = |rows: &[Row]| {
+            let (first, last) = (rows.first()?, rows.last()?);
+            let long = last.time_s - first.time_s >= STRETCH as f64 * window_s;
+            let left: f64 = rows.iter().map(|r| r.residual().powi(2)).sum();
+            (first.counts && long).then(|| Stretch {
+                run: self.run,
+                start_s: first.time_s,
+                end_s: last.time_s,
+                forward: first.velocity > 0.0,
+                relative_error: (left / rows.len() as f64).sqrt() / logged_nm,
+            })
+        };
+        self.rows.chunk_by(together).filter_map(told).collect()
+    }
+}
+
+struct Predictor<'a> {
+    arm: &'a ModalArm,
+    campaign: &'a Campaign,
+    zeros: &'a [Vec<f64>],
+    coupling: Coupling,
+    window_s: f64,
+    masks: &'a [Masks],
+}
+
+impl Predictor<'_> {
+    /// `None` for a run that is shorter than the window.
+    fn rows(&self, index: usize) -> Option<RunRows> {
+        let run = &self.campaign.runs[index];
+        let t = run.sample_time_s();
+        let n = ((self.window_s / t).round() as usize).max(LEAST_SAMPLES);
+        if n + 2 > run.len() {
+            return None;
+        }
+        let command = &self.campaign.channels.command;
+        let kernel = Kernel::new(n, t, command.hold, self.arm.command_lag_s);
+        let speed = Speed::new(run, &kernel);
+        let [forward, backward] = self.arm.viscous_nm_s_per_rad;
+        let (mean, half) = (0.5 * (forward + backward), 0.5 * (forward - backward));
+        let constant = command.torque_per_command.unwrap_or(1.0);
+        let mut causes = Causes::new(run, &speed.velocity);
+        let rows = (0..run.len() - n)
+            .map(|k| {
+                let bent =
+                    |i: usize| speed.sign(i) * self.arm.coulomb_nm + half * speed.velocity[i].abs();
+                let velocity = kernel.rate(k, |i| run.motor()[i]);
+                let acceleration = kernel.acceleration(k, |i| run.motor()[i]);
+                let predicted = self.arm.inertia_kg_m2 * acceleration
+                    + mean * velocity
+                    + kernel.mean(k, bent)
+                    + self.arm.offset_nm
+                    + self.coupling_torque(index, &kernel, k);
+                let resting = |i: usize| if speed.moves(i) { 0.0 } else { 1.0 };
+                let row = Row {
+                    time_s: (k as f64 + 0.5 * n as f64) * t,
+                    logged: constant * kernel.command(k, run.command()),
+                    predicted,
+                    velocity,
+                    counts: kernel.mean(k, resting) <= AT_REST && self.reads(index, k..=k + n),
+                };
+                if row.counts {
+                    let by_delay = constant * kernel.rate(k, |i| run.command()[i]);
+                    let sign = |i: usize| speed.sign(i);
+                    causes.add(
+                        row.residual(),
+                        &kernel,
+                        k,
+                        [by_delay, acceleration, velocity],
+                        &sign,
+                    );
+                }
+                row
+            })
+            .collect();
+        Some(RunRows { run: index, half_power_hz: kernel.half_power_hz(), rows, causes })
+    }
+
+    /// Whether all sensors are within their ranges.
+    fn reads(&self, index: usize, mut samples: RangeInclusive<usize>) -> bool {
+        let masks = &self.masks[index];
+        samples.all(|i| masks.iter().flatten().all(|mask| mask[i]))
+    }
+
+    fn coupling_torque(&self, index: usize, kernel: &Kernel, k: usize) -> f64 {
+        let run = &self.campaign.runs[index];
+        let tips = run.tips().iter().enumerate();
+        tips.map(|(i, tip)| {
+            let (per_angle, per_rate) = (self.coupling.per_angle[i], self.coupling.per_rate[i]);
+            if per_angle == 0.0 && per_rate == 0.0 {
+                return 0.0;
+            }
+            let zero = self.zeros.get(index).and_then(|z| z.get(i)).copied().unwrap_or(0.0);
+            let bent = |s: usize| match self.campaign.channels.tips[i].quantity {
+                TipQuantity::Deflection => zero - tip[s],
+                _ => run.motor()[s] - (tip[s] - zero),
+            };
+            per_angle * kernel.mean(k, bent) + per_rate * kernel.rate(k, bent)
+        })
+        .sum()
+    }
+}
+
+/// The motor's velocity at every sample, under the window about it.
+struct Speed {
+    velocity: Vec<f64>,
+    /// Below this it is not told from rest.
+    least: f64,
+}
+
+impl Speed {
+    fn new(run: &Run, kernel: &Kernel) -> Self {
+        let n = kernel.len();
+        let at = |i: usize| i.saturating_sub(n / 2).min(run.len() - 1 - n);
+        let velocity = (0..run.len()).map(|i| kernel.rate(at(i), |k| run.motor()[k])).collect();
+        let least = MOVES * kernel.rate_noise() * channel_noise(run.motor()).std;
+        Self { velocity, least }
+    }
+
+    fn moves(&self, i: usize) -> bool {
+        self.velocity[i].abs() > self.least
+    }
+
+    fn sign(&self, i: usize) -> f64 {
+        if self.moves(i) { self.velocity[i].signum() } else { 0.0 }
+    }
+}
