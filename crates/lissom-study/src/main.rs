@@ -27,6 +27,9 @@ struct Args {
     /// The truth, or `wrong`: so many campaigns of true Coulomb friction and of each wrong law.
     #[arg(long, default_value = "none", value_parser = laws)]
     law: Laws,
+    /// Leave the output error out: regression, law of friction and third harmonic alone.
+    #[arg(long)]
+    quick: bool,
     /// Run this campaign alone and print everything about it.
     #[arg(long)]
     only: Option<usize>,
@@ -67,7 +70,7 @@ fn run(args: &Args) -> Result<(), Box<dyn std::error::Error>> {
             Laws::One(law) => law,
             Laws::Wrong => return Err("--only needs one law".into()),
         };
-        let text = describe(args.seed, index, law).ok_or("every draw was rejected")?;
+        let text = describe(args.seed, index, law, args.quick).ok_or("every draw was rejected")?;
         print!("{text}");
         return Ok(());
     }
@@ -94,7 +97,8 @@ fn plans(args: &Args) -> Vec<Study> {
         Laws::One(law) => vec![law],
         Laws::Wrong => std::iter::once(Law::None).chain(Law::wrong()).collect(),
     };
-    laws.into_iter().map(|law| Study { campaigns: args.campaigns, seed: args.seed, law }).collect()
+    let (campaigns, seed, quick) = (args.campaigns, args.seed, args.quick);
+    laws.into_iter().map(|law| Study { campaigns, seed, law, quick }).collect()
 }
 
 fn bar(plan: &Study) -> ProgressBar {

@@ -21,6 +21,8 @@ pub struct Study {
     pub seed: u64,
     /// Truth of all campaigns.
     pub law: Law,
+    /// Leaves the output error out.
+    pub quick: bool,
 }
 
 /// A campaign that has been identified; its logs are gone.
@@ -52,12 +54,13 @@ pub struct Scored {
     pub identification: Duration,
 }
 
-/// Identifies a campaign as a user would, with no options.
+/// Identifies a campaign as a user would, with no options but perhaps `--quick`.
 ///
 /// # Errors
 /// [`IdentifyError`] where nothing can be said at all.
-pub fn identified(campaign: &Campaign) -> Result<Identified, IdentifyError> {
-    identify(&campaign.logs, &Options::default(), |_| {})
+pub fn identified(campaign: &Campaign, quick: bool) -> Result<Identified, IdentifyError> {
+    let options = Options { without_output_error: quick, ..Options::default() };
+    identify(&campaign.logs, &options, |_| {})
 }
 
 /// Runs the study on rayon's current threads; `done` is called after each campaign. `None`: a
@@ -78,7 +81,7 @@ fn one(study: &Study, index: usize) -> Option<Scored> {
     let campaign = draw_campaign(study.seed, index, study.law)?;
     let simulation = start.elapsed();
     let start = Instant::now();
-    let found = identified(&campaign);
+    let found = identified(&campaign, study.quick);
     let identification = start.elapsed();
     Some(Scored {
         index,

@@ -7,6 +7,7 @@ use thiserror::Error;
 use super::channel_check::range;
 use super::constant_velocity::{self, ConstantVelocity};
 use super::finding::{Finding, Severity, key};
+use super::friction_law::friction_law;
 use super::friction_waveform::FrictionWaveform;
 use super::identified::{Beam, Friction, Identified, ThirdHarmonic};
 use super::model::state_space;
@@ -152,6 +153,7 @@ pub fn identify(
     let regression = regression
         .filter(|r| r.relative_residual < RESIDUAL_REFUSED)
         .filter(|r| !alone || constant_velocity.is_none() || stands_alone(r));
+    let friction_law = regression.as_ref().and_then(|r| friction_law(&usable, r));
     progress(Stage::Beam);
     let any_beam_regression = beam_regression(&usable);
 
@@ -215,6 +217,7 @@ pub fn identify(
         third_harmonic,
         regression,
         regression_residual,
+        friction_law,
         constant_velocity,
         beam_regression,
         output_error,

@@ -7,6 +7,7 @@ mod constant_velocity;
 mod correct;
 mod estimate;
 mod finding;
+mod friction_law;
 mod friction_waveform;
 mod identified;
 mod model;
@@ -25,6 +26,7 @@ pub use constant_velocity::{
 pub use correct::{Response, corrected, ratio};
 pub use estimate::{Estimate, ModeEstimate};
 pub use finding::{Finding, Severity};
+pub use friction_law::{CurvePoint, FrictionLaw, LawCandidate, LawFit, LawTerm};
 pub use identified::{Beam, Friction, Identified, ThirdHarmonic};
 pub use output_error::{
     Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, free_parameters,
