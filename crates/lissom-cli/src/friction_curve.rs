@@ -1,13 +1,13 @@
 //! Friction against speed: the curve without a law, and the law chosen, in a plot and a table.
 
-use lissom::identify::{Estimate, FrictionLaw, Identified, LawTerm};
+use lissom::identify::{FrictionLaw, Identified, LawTerm};
 use lissom_io::UnitNames;
-use lissom_report::{Axis, Cells, LinePlot, Role, Table, Trace, TraceStyle};
+use lissom_report::{Axis, Cells, LinePlot, Role, Table, Trace};
 
 /// Points of the law's line.
 const LINE: i32 = 200;
-/// Bars and band: this many deviations.
-const BAND: f64 = 1.96;
+/// Bars: this many deviations.
+const BARS: f64 = 1.96;
 /// Directions, with their signs and colours.
 const DIRECTIONS: [(&str, f64, Role); 2] =
     [("forward", 1.0, Role::Corrected), ("backward", -1.0, Role::Other(0))];
@@ -20,22 +20,13 @@ pub(crate) fn plot(names: UnitNames, id: &Identified) -> Option<LinePlot> {
         Axis::linear(format!("speed ({}/s)", names.angle())),
         Axis::linear(format!("friction against the motion ({})", names.torque_unit())),
     )
-    .subtitle("points: without a law; dashed: their 95 % interval; line: the law chosen");
+    .subtitle("points: without a law, bars: their 95 % interval; line: the law chosen");
     for (name, sign, role) in DIRECTIONS {
         let points = || law.curve.iter().filter(move |p| p.direction * sign > 0.0);
         let speeds: Vec<f64> = points().map(|p| p.speed).collect();
-        let values = |f: &dyn Fn(Estimate) -> f64| points().map(|p| f(p.friction)).collect();
-        plot = plot.trace(Trace::new(
-            name,
-            role,
-            TraceStyle::Points,
-            speeds.clone(),
-            values(&|e| e.value),
-        ));
-        for side in [-BAND, BAND] {
-            let edge = values(&|e| e.value + side * e.std);
-            plot = plot.trace(Trace::new("", role, TraceStyle::Dashes, speeds.clone(), edge));
-        }
+        let values = points().map(|p| p.friction.value).collect();
+        let bars = points().map(|p| BARS * p.friction.std).collect();
+        plot = plot.trace(Trace::points_with_bars(name, role, speeds.clone(), values, bars));
         let (Some(from), Some(to)) = (speeds.first(), speeds.last()) else { continue };
         let at = |k: i32| from + (to - from) * f64::from(k) / f64::from(LINE);
         let line: Option<Vec<f64>> = (0..=LINE).map(|k| law.chosen.friction(at(k), sign)).collect();

@@ -5,7 +5,7 @@ use super::finding::{Finding, Severity, key};
 use super::friction_law::{LawFit, LawTerm};
 use super::identified::{Beam, Friction, Identified};
 use super::output_error::{OutputError, StageReport};
-use super::regression::{BeamRegression, MissingKind};
+use super::regression::{BeamRegression, MissingKind, MissingTerm};
 use super::run_analysis::RunKind;
 use super::{Estimate, Severity::Warning};
 use crate::record::{Campaign, CommandQuantity, Hold, TipQuantity};
@@ -407,13 +407,15 @@ fn friction(id: &mut Identified) {
 /// The law of friction that the data call for.
 fn law_finding(id: &Identified) -> Option<Finding> {
     let law = id.friction_law.as_ref().filter(|law| law.chosen.departs())?;
+    // The replay describes whole runs with its own law, and its figures are taken.
+    let replayed = id.output_error.as_ref().is_some_and(OutputError::stands);
     let of_friction = |(term, _): &&(LawTerm, Vec<Estimate>)| *term != LawTerm::CommandLag;
     let terms: Vec<String> = law.chosen.terms.iter().filter(of_friction).map(in_words).collect();
     let taken = law.candidates.iter().filter(|c| c.taken && c.term != LawTerm::CommandLag);
     let paired = taken.map(|c| c.paired).fold(f64::INFINITY, f64::min);
     Some(Finding::new(
         "friction-law",
-        Warning,
+        if replayed { Severity::Info } else { Warning },
         &[key::COULOMB, key::VISCOUS],
         format!(
             "friction is not Coulomb and one viscous constant: {}; what is left falls to {:.0} % of \
@@ -421,8 +423,12 @@ fn law_finding(id: &Identified) -> Option<Finding> {
             terms.join(", "),
             100.0 * law.relative_residual[1] / law.relative_residual[0]
         ),
-        "Coulomb and viscous friction are those of this law at speed, not at rest: use the friction \
-         curve at the speed that matters; runs at other speeds show whether the law holds there",
+        if replayed {
+            "the replay describes the runs without it: its figures are taken"
+        } else {
+            "Coulomb and viscous friction are those of this law at speed, not at rest: use the friction \
+             curve at the speed that matters; runs at other speeds show whether the law holds there"
+        },
     ))
 }
 
@@ -482,7 +488,10 @@ fn regression(id: &mut Identified) {
     }
     // The replay explains the runs: what one added term would do to the regression says nothing.
     let explained = id.output_error.as_ref().is_some_and(OutputError::stands);
-    if let Some(m) = r.missing.filter(|_| !explained) {
+    // A law of friction that was chosen says more than the one term that was tried for it.
+    let known = id.friction_law.as_ref().is_some_and(|law| law.chosen.departs());
+    let said = |m: &MissingTerm| m.kind == MissingKind::Stribeck && known;
+    if let Some(m) = r.missing.filter(|m| !explained && !said(m)) {
         let (what, hint) = match m.kind {
             MissingKind::Delay => (
                 format!("the command acts {:.2} ms later than it is logged", 1e3 * m.value),

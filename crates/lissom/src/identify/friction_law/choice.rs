@@ -6,6 +6,7 @@ use super::rows::{Block, Column, Cut, KINDS, Sampled, fixed};
 use super::{LawFit, ripple};
 use crate::identify::Estimate;
 use crate::identify::regression::{Cluster, Solution, Term, coupled_tips, solve};
+use crate::record::Run;
 
 /// Speeds over which friction near rest may change, as shares of the fastest.
 const NEAR_REST: [f64; 10] = [0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.3, 0.5, 0.8, 1.3];
@@ -17,6 +18,11 @@ const FOLDS: usize = 5;
 const PAIRED: f64 = 3.0;
 /// …and leave at most this share of the residual: a smaller one does not pay for a parameter.
 const RATIO: f64 = 0.9;
+/// A lag counts at the ends of a motion alone, and pays with less: it may leave this share…
+const LAG_RATIO: f64 = 0.97;
+/// …and must be known to this share of a sample. Taken before friction's law is settled it would stand in
+/// for it, and come out with either sign.
+const LAG_STD: f64 = 0.1;
 /// Most terms.
 const MOST: usize = 4;
 /// Friction at rest must be positive within this many deviations.
@@ -107,6 +113,8 @@ pub(super) fn choose(sampled: &Sampled<'_>, cut: &Cut, fastest: f64) -> Option<C
     let simplest = search.solution.relative_residual;
     while search.taken.len() < MOST && search.add_best() {}
     search.refine_near_rest();
+    search.settled = true;
+    while search.taken.len() < MOST && search.add_best() {}
     if search.taken.len() < MOST && search.offer_ripple() {
         while search.taken.len() < MOST && search.add_best() {}
     }
@@ -126,6 +134,8 @@ struct Search<'a> {
     open: Vec<Tried>,
     taken: Vec<Tried>,
     candidates: Vec<LawCandidate>,
+    /// Whether friction's law by speed is found.
+    settled: bool,
 }
 
 impl<'a> Search<'a> {
@@ -147,7 +157,18 @@ impl<'a> Search<'a> {
         terms.extend((3..first).map(Term::Plain));
         let solution = solved(&blocks, &terms)?;
         let (taken, candidates) = (Vec::new(), Vec::new());
-        Some(Self { sampled, cut: *cut, columns, blocks, terms, solution, open, taken, candidates })
+        Some(Self {
+            sampled,
+            cut: *cut,
+            columns,
+            blocks,
+            terms,
+            solution,
+            open,
+            taken,
+            candidates,
+            settled: false,
+        })
     }
 
     /// Tries every open term beside those taken and takes the best that is called for.
@@ -176,6 +197,9 @@ impl<'a> Search<'a> {
                 c.taken = c.term == best.term;
             }
         }
+        // Tried again beside the same terms: the last word counts.
+        let beside = self.taken.len();
+        self.candidates.retain(|c| c.beside != beside);
         self.candidates.extend(shown.into_iter().map(|c| c.1));
         let Some((_, i, _)) = best else { return false };
         let taken = self.open.remove(i);
@@ -208,8 +232,13 @@ impl<'a> Search<'a> {
         let stretch_ratio = (held.stretches / before.stretches).sqrt();
         let amplitude = amplitude(&solution, first, tried.terms.len());
         let (at_rest, at_rest_std) = self.at_rest(&solution, &terms, tried.term, first);
+        let (least, allowed) = match tried.term {
+            LawTerm::CommandLag => (LAG_RATIO, self.lag_allowed(&late(amplitude))),
+            _ => (RATIO, true),
+        };
         let taken = paired > PAIRED
-            && residual_ratio < RATIO
+            && allowed
+            && residual_ratio < least
             && stretch_ratio < 1.0
             && at_rest > -AT_REST * at_rest_std;
         let (term, beside) = (tried.term, self.taken.len());
@@ -246,6 +275,12 @@ impl<'a> Search<'a> {
         weight[first] = f64::from(matches!(tried, LawTerm::NearRest { .. }));
         let variance = weight.dot(&(&solution.covariance * &weight));
         (weight.dot(&solution.value), variance.max(0.0).sqrt())
+    }
+
+    fn lag_allowed(&self, lag: &Estimate) -> bool {
+        let runs = &self.sampled.campaign.runs;
+        let sample_s = runs.iter().map(Run::sample_time_s).fold(f64::INFINITY, f64::min);
+        self.settled && lag.value > 0.0 && lag.std < LAG_STD * sample_s
     }
 
     fn tips(&self) -> usize {
@@ -415,35 +450,45 @@ fn left_out(
     groups: usize,
     group: impl Fn(&Block) -> usize,
 ) -> Option<Vec<f64>> {
-    let width = blocks.first()?.cluster.products.ncols();
-    let empty = |sign: f64| Cluster::new(0, sign, width);
-    let mut sums: Vec<[Cluster; 2]> = vec![[empty(1.0), empty(-1.0)]; groups];
-    for b in blocks {
-        let sum = &mut sums[group(b)][usize::from(b.cluster.sign < 0.0)];
-        sum.products += &b.cluster.products;
-        sum.rows += b.cluster.rows;
-    }
-    let mut figures: Vec<Option<DVector<f64>>> = Vec::with_capacity(groups);
-    for g in 0..groups {
-        if sums[g].iter().all(|c| c.rows == 0) {
-            figures.push(None);
-            continue;
-        }
-        let mut others = [empty(1.0), empty(-1.0)];
-        for (h, sum) in sums.iter().enumerate().filter(|(h, _)| *h != g) {
-            let _ = h;
-            for (all, part) in others.iter_mut().zip(sum) {
-                all.products += &part.products;
-                all.rows += part.rows;
-            }
-        }
-        figures.push(Some(solve(&others, terms)?.value));
-    }
+    let figures = without_each(blocks, terms, groups, &group)?;
     let cost = |b: &Block| {
         let value = figures[group(b)].as_ref();
         value.map_or(0.0, |v| squared(&b.cluster.products, terms, v, b.cluster.sign))
     };
     Some(blocks.iter().map(cost).collect())
+}
+
+/// Figures with one group of blocks after another left out; `None` of groups without blocks.
+pub(super) fn without_each(
+    blocks: &[Block],
+    terms: &[Term],
+    groups: usize,
+    group: impl Fn(&Block) -> usize,
+) -> Option<Vec<Option<DVector<f64>>>> {
+    let width = blocks.first()?.cluster.products.ncols();
+    let empty = || [1.0, -1.0].map(|sign| Cluster::new(0, sign, width));
+    let mut sums: Vec<[Cluster; 2]> = vec![empty(); groups];
+    let mut all = empty();
+    for b in blocks {
+        let side = usize::from(b.cluster.sign < 0.0);
+        for sum in [&mut sums[group(b)][side], &mut all[side]] {
+            sum.products += &b.cluster.products;
+            sum.rows += b.cluster.rows;
+        }
+    }
+    let without = |own: &[Cluster; 2]| {
+        let mut others = all.clone();
+        for (others, own) in others.iter_mut().zip(own) {
+            others.products -= &own.products;
+            others.rows -= own.rows;
+        }
+        Some(solve(&others, terms)?.value)
+    };
+    let one = |own: &[Cluster; 2]| {
+        let rows: usize = own.iter().map(|c| c.rows).sum();
+        if rows == 0 { Some(None) } else { without(own).map(Some) }
+    };
+    sums.iter().map(one).collect()
 }
 
 /// ‖y − X·q‖² from the products of a block.

@@ -1,9 +1,9 @@
 //! Friction against speed without a law: hat functions, forward and backward, beside the linear part.
 
-use super::choice::solved;
-use super::rows::{Column, Cut, Sampled, fixed, hat};
+use super::choice::{solved, without_each};
+use super::rows::{Block, Column, Cut, Sampled, fixed, hat};
 use crate::identify::Estimate;
-use crate::identify::regression::Term;
+use crate::identify::regression::{Solution, Term};
 
 /// Ratio of one knot's speed to that of the next, from the fastest down.
 const RATIO: f64 = 2.0;
@@ -11,6 +11,8 @@ const RATIO: f64 = 2.0;
 const MOST: usize = 9;
 /// Quantiles of the windows' speeds at which the first and the last knot stand.
 const ENDS: [f64; 2] = [0.01, 0.99];
+/// Most groups of slip phases that are left out, one after another, for the deviation.
+const MOST_GROUPS: usize = 100;
 /// A knot is left out where fewer windows than this lie about it.
 const LEAST_ROWS: f64 = 20.0;
 
@@ -31,7 +33,7 @@ pub struct CurvePoint {
 /// The curve, and what it leaves; `beside` are columns of what is no friction by speed, with `terms`.
 ///
 /// A hat is one at its knot and zero at its neighbours, so that its coefficient is friction there. The
-/// deviation is by slip phases and runs, as the regression's. Speeds that no window has are left out.
+/// deviation is by leaving out slip phases, and no less than the regression's own. Speeds that no window has are left out.
 pub(super) fn curve(
     sampled: &Sampled<'_>,
     cut: &Cut,
@@ -62,6 +64,7 @@ pub(super) fn curve(
     all.extend((0..knots.len()).map(|j| Term::Forward(at + j)));
     all.extend((0..knots.len()).map(|j| Term::Backward(at + j)));
     let solution = solved(&blocks, &all)?;
+    let moved = jackknife(&blocks, &all, &solution)?;
     let back_emf = sampled.campaign.channels.command.back_emf_viscous;
     let mut points = Vec::new();
     for (d, sign) in [1.0, -1.0].into_iter().enumerate() {
@@ -73,13 +76,24 @@ pub(super) fn curve(
             if solution.inseparable[i] || windows == 0 {
                 continue;
             }
-            let std = solution.covariance[(i, i)].max(0.0).sqrt();
+            let by_phases = moved[i].max(solution.covariance[(i, i)]);
+            let std = by_phases.max(0.0).sqrt();
             let value = sign * solution.value[i] - back_emf * speed;
             let friction = Estimate { value, std };
             points.push(CurvePoint { direction: sign, speed: *speed, friction, windows });
         }
     }
     Some((points, solution.relative_residual))
+}
+
+/// Variance of every figure by leaving out one group of slip phases after another: residuals within a
+/// group may belong together as they like, and a few phases that carry much count fully.
+fn jackknife(blocks: &[Block], terms: &[Term], full: &Solution) -> Option<Vec<f64>> {
+    let phases = blocks.iter().map(|b| b.phase + 1).max()?;
+    let groups = phases.min(MOST_GROUPS);
+    let figures = without_each(blocks, terms, groups, |b| b.phase % groups)?;
+    let square = |i: usize| figures.iter().flatten().map(|v| (v[i] - full.value[i]).powi(2)).sum();
+    Some((0..terms.len()).map(square).collect())
 }
 
 /// Speeds of the knots, ascending; `about` gives the windows about a knot in either direction.

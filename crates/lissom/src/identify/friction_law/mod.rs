@@ -7,6 +7,8 @@ mod choice;
 mod curve;
 mod ripple;
 mod rows;
+#[cfg(test)]
+mod tests;
 
 pub use choice::{LawCandidate, LawTerm};
 pub use curve::CurvePoint;

@@ -9,8 +9,6 @@ const STEP: f64 = 0.25;
 const SMOOTH: f64 = 1.0 / 3.0;
 /// Rows looked at, about; windows overlap less in longer logs.
 const MOST_ROWS: usize = 40_000;
-/// `∫₀¹ sin⁴(πx) dx`.
-const WINDOW_MEAN: f64 = 0.375;
 
 /// What a row holds beside inertia, viscous and dry friction and the tips: `∫w·f` of a function of speed
 /// or angle, or what a lag of the command adds.
@@ -199,7 +197,9 @@ fn smooth(run: &Run, window_s: f64) -> usize {
 fn velocity(motor: &[f64], smooth: usize, sample_time_s: f64) -> Vec<f64> {
     let window = Window::new(smooth, sample_time_s);
     let (n, half) = (window.len(), window.len() / 2);
-    let scale = -1.0 / (WINDOW_MEAN * n as f64);
+    // What a ramp of one per second shows.
+    let ramp: f64 = window.first.iter().enumerate().map(|(k, w)| w * k as f64).sum();
+    let scale = 1.0 / (ramp * sample_time_s);
     let last = motor.len().saturating_sub(n + 1);
     let at = |k: usize| {
         let from = k.saturating_sub(half).min(last);
