@@ -111,5 +111,8 @@ fn constant_velocities_give_friction_near_the_published_figure() {
     assert!((viscous(0) / 166.7 - 1.0).abs() < 0.1, "{}", viscous(0));
     assert!((viscous(1) / 239.6 - 1.0).abs() < 0.1, "{}", viscous(1));
     // The regression stands, and its figures are the ones taken.
-    assert_eq!(result["friction"]["coulomb_n"], result["methods"]["regression"]["coulomb_n"]);
+    assert_eq!(
+        result["friction"]["coulomb_n"],
+        result["methods"]["friction_law"]["chosen"]["coulomb_n"]
+    );
 }
