@@ -153,7 +153,6 @@ pub fn identify(
     let regression = regression
         .filter(|r| r.relative_residual < RESIDUAL_REFUSED)
         .filter(|r| !alone || constant_velocity.is_none() || stands_alone(r));
-    let friction_law = regression.as_ref().and_then(|r| friction_law(&usable, r));
     progress(Stage::Beam);
     let any_beam_regression = beam_regression(&usable);
 
@@ -215,9 +214,9 @@ pub fn identify(
         inertia: None,
         beam: Beam::default(),
         third_harmonic,
+        friction_law: regression.as_ref().and_then(|r| friction_law(&usable, r)),
         regression,
         regression_residual,
-        friction_law,
         constant_velocity,
         beam_regression,
         output_error,

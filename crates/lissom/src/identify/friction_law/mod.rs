@@ -138,7 +138,7 @@ fn window_s(campaign: &Campaign, motor: &MotorRegression, inertia: f64) -> f64 {
             power += row.last().map_or(0.0, |y| y * y);
             rows += 1.0;
         });
-        if rows > 0.0 && inertia.abs() * noise < NOISE * (power / rows as f64).sqrt() {
+        if rows > 0.0 && inertia.abs() * noise < NOISE * (power / rows).sqrt() {
             break;
         }
         window_s *= LONGER;

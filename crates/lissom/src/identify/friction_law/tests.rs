@@ -83,8 +83,8 @@ fn stribeck_friction_is_found_with_its_speed() {
 
 #[test]
 fn the_curve_shows_a_law_that_is_no_candidate() {
-    // Friction that dips at a middle speed.
-    let dip = |v: f64| 0.1 * (-((v.abs() - 1.0) / 0.5).powi(2)).exp();
+    // Friction that dips at a middle speed, over some octaves: knots are one apart.
+    let dip = |v: f64| 0.1 * (-((v.abs() / 0.8).ln() / 1.2).powi(2)).exp();
     let law = law_of(|v, _| simple(v) - v.signum() * dip(v));
     for p in law.curve.iter().filter(|p| p.speed > 0.05) {
         // Straight between knots a factor of two apart.
