@@ -38,7 +38,7 @@ fn law_of(friction: impl Fn(f64, f64) -> f64) -> FrictionLaw {
         limit: None,
     };
     let channels = Channels { axis: Axis::Rotary, command, tips: vec![] };
-    let runs = vec![run("slow", 1.1, 3.7), run("fast", 2.3, 7.9)];
+    let runs = vec![run("run 1", 1.1, 3.7), run("run 2", 2.3, 7.9)];
     let campaign = Campaign::new(channels, runs).unwrap();
     friction_law(&campaign, &motor_regression(&campaign, &[]).unwrap()).unwrap()
 }
