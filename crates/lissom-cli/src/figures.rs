@@ -14,6 +14,7 @@ use lissom_report::{
 use num_complex::Complex64;
 
 use crate::failure::Failure;
+use crate::friction_curve;
 use crate::reference::Reference;
 
 /// Points of a model's line.
@@ -56,6 +57,9 @@ pub(crate) fn add_all(
     }
     if let Some(plot) = friction_plot(channels, names, id) {
         add(batch, folder, "friction-velocity", &plot)?;
+    }
+    if let Some(plot) = friction_curve::plot(names, id) {
+        add(batch, folder, "friction-curve", &plot)?;
     }
     Ok(())
 }

@@ -7,6 +7,7 @@ mod cli;
 mod demo;
 mod failure;
 mod figures;
+mod friction_curve;
 mod identify;
 mod model;
 mod output;

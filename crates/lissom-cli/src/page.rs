@@ -9,7 +9,7 @@ use lissom_report::{
 };
 
 use crate::reference::Reference;
-use crate::{figures, print};
+use crate::{figures, friction_curve, print};
 
 /// The page as HTML.
 pub(crate) fn page(
@@ -59,6 +59,22 @@ pub(crate) fn page(
                  window.",
             )
             .table(&table);
+    }
+    if let Some(plot) = friction_curve::plot(names, id) {
+        page = page.heading("Friction against speed").figure(
+            &plot,
+            "Friction at a few speeds, fitted together with the linear part on slip phases, no law \
+             assumed; speeds that no phase holds are not drawn. A constant load is in it.",
+        );
+    }
+    if let Some(law) = &id.friction_law {
+        page = page
+            .paragraph(
+                "A term is taken where it describes slip phases left out better by more than three \
+                 deviations, kinds of stretches left out better as well, leaves at most 0.9 of the \
+                 residual, and friction at rest stays positive.",
+            )
+            .table(&friction_curve::table(names, law));
     }
     if let Some(plot) = figures::friction_plot(&campaign.channels, names, id) {
         page = page

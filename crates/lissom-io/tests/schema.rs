@@ -3,8 +3,8 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use lissom::identify::{
-    ByDirection, ConstantVelocity, Estimate, FrictionLine, Identified, Options, Shape, SteadyPoint,
-    identify,
+    ByDirection, ConstantVelocity, Estimate, FrictionLine, Identified, LawCandidate, LawTerm,
+    Options, Shape, SteadyPoint, identify,
 };
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Tip, TipQuantity};
 use lissom::rig::{Experiment, Settle};
@@ -86,6 +86,12 @@ fn with_directions(mut id: Identified) -> Identified {
             command: figure,
         }],
     });
+    if let Some(law) = &mut id.friction_law {
+        let terms = [LawTerm::NearRest { speed: 0.1 }, LawTerm::Ripple { per_angle: 12.0 }];
+        law.chosen.terms = terms.map(|term| (term, vec![figure])).to_vec();
+        let tried = law.candidates[0];
+        law.candidates = terms.map(|term| LawCandidate { term, ..tried }).to_vec();
+    }
     if let Some(regression) = &mut id.regression {
         regression.viscous_by_direction = Some(ByDirection {
             forward: figure,
@@ -111,6 +117,8 @@ fn a_result_and_its_schema_name_the_same_keys() {
         "methods.third_harmonic.fit.weighted_rms",
         "methods.regression.beam.modes",
         "methods.regression.viscous_by_direction.relative_residual",
+        "methods.friction_law.candidates[].residual_ratio",
+        "friction.curve[].windows",
         "methods.constant_velocity.lines[].deviations",
         "methods.constant_velocity.points[].start_s",
         "models.motor.den",

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use lissom::identify::{OutputError, starts};
+use lissom::identify::{FrictionLaw, OutputError, starts};
 use lissom::replay::ModalArm;
 
 use crate::bound::Bound;
@@ -13,10 +13,10 @@ use crate::study::identified;
 use crate::truth::Truth;
 
 /// Draws, identifies and describes campaign `index`; `None` where every draw was rejected.
-pub fn describe(seed: u64, index: usize, law: Law) -> Option<String> {
+pub fn describe(seed: u64, index: usize, law: Law, quick: bool) -> Option<String> {
     let campaign = draw_campaign(seed, index, law)?;
     let mut lines = conditions(&campaign, seed);
-    match identified(&campaign) {
+    match identified(&campaign, quick) {
         Err(error) => lines.push(format!("nothing identified: {error}")),
         Ok(id) => {
             let bound = Bound::of(&campaign);
@@ -36,6 +36,7 @@ pub fn describe(seed: u64, index: usize, law: Law) -> Option<String> {
                 let from = starts(&campaign.logs, motor, beam, rational);
                 lines.extend(from.iter().map(|arm| format!("start {}", arm_line(arm))));
             }
+            lines.extend(id.friction_law.iter().map(friction));
             for f in &id.findings {
                 let run = f.run.as_deref().unwrap_or("campaign");
                 let affects = f.affects.join(" ");
@@ -91,6 +92,45 @@ fn figures(scored: &Score) -> String {
     for f in &scored.figures {
         let _ = writeln!(text, "{}", figure(f));
     }
+    text
+}
+
+/// The choice of friction's law, term by term, and the curve.
+fn friction(law: &FrictionLaw) -> String {
+    let [simplest, chosen, curve] = law.relative_residual.map(|r| 100.0 * r);
+    let mut text = format!(
+        "friction's law: windows of {:.4} s; {simplest:.3} % left by the simplest, {chosen:.3} % by \
+         the chosen, {curve:.3} % by the curve\n",
+        law.window_s
+    );
+    for c in &law.candidates {
+        let _ = writeln!(
+            text,
+            "{} beside {}: {:?} {:+.4e} ± {:.1e}, ratio {:.4}, paired {:+.2}, stretches {:.4}, at \
+             rest {:+.3e}",
+            if c.taken { "taken  " } else { "refused" },
+            c.beside,
+            c.term,
+            c.amplitude.value,
+            c.amplitude.std,
+            c.residual_ratio,
+            c.paired,
+            c.stretch_ratio,
+            c.at_rest
+        );
+    }
+    for p in &law.curve {
+        let _ = writeln!(
+            text,
+            "{:+} {:10.4e}: {:+.4e} ± {:.1e} in {} windows",
+            p.direction, p.speed, p.friction.value, p.friction.std, p.windows
+        );
+    }
+    let _ = writeln!(
+        text,
+        "inertia {:?}, coupling {:?}",
+        law.chosen.inertia, law.chosen.total_coupling
+    );
     text
 }
 

@@ -26,6 +26,8 @@ pub struct Study {
     pub seed: u64,
     /// Truth of all campaigns.
     pub law: Law,
+    /// Leaves the output error out.
+    pub quick: bool,
 }
 
 /// A campaign that has been identified; its logs are gone.
@@ -59,12 +61,13 @@ pub struct Scored {
     pub identification: Duration,
 }
 
-/// Identifies a campaign as a user would, with no options.
+/// Identifies a campaign as a user would, with no options but perhaps `--quick`.
 ///
 /// # Errors
 /// [`IdentifyError`] where nothing can be said at all.
-pub fn identified(campaign: &Campaign) -> Result<Identified, IdentifyError> {
-    identify(&campaign.logs, &Options::default(), |_| {})
+pub fn identified(campaign: &Campaign, quick: bool) -> Result<Identified, IdentifyError> {
+    let options = Options { without_output_error: quick, ..Options::default() };
+    identify(&campaign.logs, &options, |_| {})
 }
 
 /// Runs the study on rayon's current threads; `done` is called after each campaign. `None`: a
@@ -75,7 +78,7 @@ pub fn study(study: &Study, done: impl Fn() + Sync) -> Vec<Option<Scored>> {
         .map(|index| {
             let start = Instant::now();
             let campaign = draw_campaign(study.seed, index, study.law);
-            let scored = campaign.map(|c| Scored::of(c, start.elapsed()));
+            let scored = campaign.map(|c| Scored::of(c, start.elapsed(), study.quick));
             done();
             scored
         })
@@ -107,7 +110,7 @@ pub fn independent(
         let other = simulated(rig.clone(), folder)?;
         let noise = rig.stratum.noise_steps.is_some();
         let same = if noise { Share { hits: 0, of: 0 } } else { alike(&rig, &other) };
-        let scored = Scored::of(other, took);
+        let scored = Scored::of(other, took, study.quick);
         done();
         Ok(Some((scored, same)))
     };
@@ -138,9 +141,9 @@ fn alike(one: &Campaign, other: &Campaign) -> Share {
 
 impl Scored {
     /// Identifies a campaign whose simulation took so long.
-    pub fn of(campaign: Campaign, simulation: Duration) -> Self {
+    pub fn of(campaign: Campaign, simulation: Duration, quick: bool) -> Self {
         let start = Instant::now();
-        let found = identified(&campaign);
+        let found = identified(&campaign, quick);
         let identification = start.elapsed();
         let bound = Bound::of(&campaign);
         Self {

@@ -23,7 +23,7 @@ const SEED: u64 = 1;
 fn short() -> &'static [Scored] {
     static DONE: OnceLock<Vec<Scored>> = OnceLock::new();
     DONE.get_or_init(|| {
-        let plan = Study { campaigns: CAMPAIGNS, seed: SEED, law: Law::None };
+        let plan = Study { campaigns: CAMPAIGNS, seed: SEED, law: Law::None, quick: false };
         study(&plan, || ()).into_iter().map(Option::unwrap).collect()
     })
 }
@@ -120,7 +120,7 @@ fn campaigns_are_what_was_asked_for() {
 
 #[test]
 fn threads_change_nothing() {
-    let plan = Study { campaigns: 3, seed: SEED, law: Law::None };
+    let plan = Study { campaigns: 3, seed: SEED, law: Law::None, quick: false };
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let alone = one.install(|| study(&plan, || ()));
     for (alone, together) in alone.iter().flatten().zip(short()) {
@@ -141,7 +141,7 @@ fn another_law_is_another_truth_of_the_same_stratum() {
 
 #[test]
 fn tables_and_rows_hold_every_campaign() {
-    let plan = Study { campaigns: CAMPAIGNS, seed: SEED, law: Law::None };
+    let plan = Study { campaigns: CAMPAIGNS, seed: SEED, law: Law::None, quick: false };
     let studies = vec![(plan, short().iter().cloned().map(Some).collect())];
     let text = report(&studies);
     for section in [

@@ -4,6 +4,7 @@
 //! is refused; a finding then says why.
 
 mod arm;
+mod friction_law;
 mod units;
 mod validation;
 
@@ -39,6 +40,7 @@ pub fn result_json(channels: &Channels, id: &Identified) -> Value {
             "regression": id.regression.as_ref().map(|r| {
                 regression(names, constant, r, id.beam_regression.as_ref())
             }),
+            "friction_law": id.friction_law.as_ref().map(|l| friction_law::law(names, constant, l)),
             "constant_velocity": id.constant_velocity.as_ref().map(|c| {
                 classical(names, constant, c, &id.runs)
             }),
@@ -82,6 +84,8 @@ fn friction(names: UnitNames, constant: f64, id: &Identified) -> Value {
         map.insert(names.viscous_key("viscous_forward"), figure(Some(forward)));
         map.insert(names.viscous_key("viscous_backward"), figure(Some(backward)));
     }
+    let curve = id.friction_law.as_ref().map_or(&[][..], |law| &law.curve);
+    map.insert("curve".to_owned(), friction_law::curve(names, constant, curve));
     Value::Object(map)
 }
 

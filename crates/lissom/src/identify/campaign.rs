@@ -7,6 +7,7 @@ use thiserror::Error;
 use super::channel_check::range;
 use super::constant_velocity::{self, ConstantVelocity};
 use super::finding::{Finding, Severity, key};
+use super::friction_law::friction_law;
 use super::friction_waveform::FrictionWaveform;
 use super::identified::{Beam, Friction, Identified, ThirdHarmonic};
 use super::model::state_space;
@@ -174,11 +175,7 @@ pub fn identify(
     let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
     let table = |c: Option<Estimate>| response_table(campaign, &runs, c, &square, &findings);
     let mut third_harmonic = pairs(&runs, &findings);
-    let from_regression =
-        regression.as_ref().and_then(|r| r.coulomb).map(|c| c.scaled(1.0 / constant));
-    let best = from_regression
-        .filter(|c| c.value > 0.0)
-        .or(third_harmonic.as_ref().map(|t| t.coulomb_command));
+    let best = coulomb_command(regression.as_ref(), third_harmonic.as_ref(), constant);
     let from_replay = |run: usize| {
         let RunKind::Sinusoidal(steady) = &runs[run].kind else { return None };
         let run = kept.iter().position(|&k| k == run)?;
@@ -213,6 +210,7 @@ pub fn identify(
         inertia: None,
         beam: Beam::default(),
         third_harmonic,
+        friction_law: regression.as_ref().and_then(|r| friction_law(&usable, r)),
         regression,
         regression_residual,
         constant_velocity,
@@ -229,6 +227,16 @@ pub fn identify(
     };
     verdict::conclude(campaign, &usable, &mut identified);
     Ok(identified)
+}
+
+/// Coulomb friction in the command's unit, by the best method that needs no replay.
+fn coulomb_command(
+    regression: Option<&MotorRegression>,
+    third_harmonic: Option<&ThirdHarmonic>,
+    constant: f64,
+) -> Option<Estimate> {
+    let from_regression = regression.and_then(|r| r.coulomb).map(|c| c.scaled(1.0 / constant));
+    from_regression.filter(|c| c.value > 0.0).or(third_harmonic.map(|t| t.coulomb_command))
 }
 
 /// Both rational models as one state space.

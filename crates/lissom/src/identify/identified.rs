@@ -3,6 +3,7 @@
 use super::constant_velocity::ConstantVelocity;
 use super::finding::Finding;
 use super::found_arm::FoundArm;
+use super::friction_law::FrictionLaw;
 use super::output_error::OutputError;
 use super::rational::{BeamFit, MotorFit};
 use super::regression::{BeamRegression, MotorRegression};
@@ -70,6 +71,8 @@ pub struct Identified {
     pub regression: Option<MotorRegression>,
     /// ‖y − X·q‖/‖y‖ of the regression, also where it is refused; `None` without windows enough.
     pub regression_residual: Option<f64>,
+    /// Friction against speed, and its law; `None` without a regression.
+    pub friction_law: Option<FrictionLaw>,
     /// Steady velocities extrapolated to rest; `None` where no line goes through any and no run was
     /// made for them.
     pub constant_velocity: Option<ConstantVelocity>,

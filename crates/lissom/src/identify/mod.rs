@@ -8,6 +8,7 @@ mod correct;
 mod estimate;
 mod finding;
 mod found_arm;
+mod friction_law;
 mod friction_waveform;
 mod identified;
 mod model;
@@ -28,6 +29,7 @@ pub use correct::{Response, corrected, ratio};
 pub use estimate::{Estimate, ModeEstimate};
 pub use finding::{Finding, Severity};
 pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
+pub use friction_law::{CurvePoint, FrictionLaw, LawCandidate, LawFit, LawTerm};
 pub use identified::{Beam, Friction, Identified, ThirdHarmonic};
 pub use output_error::{
     Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, free_parameters,

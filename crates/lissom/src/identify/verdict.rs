@@ -3,9 +3,10 @@
 use super::constant_velocity::{alone, only_constant_velocities, stand_in};
 use super::finding::{Finding, Severity, key};
 use super::found_arm::FoundArm;
+use super::friction_law::{LawFit, LawTerm};
 use super::identified::{Beam, Friction, Identified};
 use super::output_error::{self, OutputError};
-use super::regression::{BeamRegression, MissingKind};
+use super::regression::{BeamRegression, MissingKind, MissingTerm};
 use super::run_analysis::RunKind;
 use super::{Estimate, Severity::Warning};
 use crate::record::{Campaign, CommandQuantity, Hold, TipQuantity};
@@ -52,6 +53,7 @@ pub(crate) fn conclude(campaign: &Campaign, used: &Campaign, id: &mut Identified
     refuse_the_unknown(id);
     command(campaign, id);
     friction(id);
+    id.findings.extend(law_finding(id));
     if !alone {
         regression(id);
     }
@@ -84,6 +86,30 @@ fn from_regression(id: &mut Identified) {
         viscous_by_direction: r.viscous_by_direction.map(|d| (d.forward, d.backward)),
     };
     id.inertia = r.inertia;
+    if let Some(law) = &id.friction_law
+        && law.chosen.departs()
+    {
+        from_law(&mut id.friction, &law.chosen);
+        id.inertia = law.chosen.inertia;
+    }
+}
+
+/// The figures under another law than Coulomb and one viscous constant.
+fn from_law(friction: &mut Friction, law: &LawFit) {
+    let sum = |a: Option<Estimate>, b: Option<Estimate>, sign: f64| {
+        let (a, b) = (a?, b?);
+        Some(Estimate { value: a.value + sign * b.value, std: a.std.hypot(b.std) })
+    };
+    let difference = law.term(|t| *t == LawTerm::ViscousByDirection);
+    let by_direction = |sign: f64| sum(law.viscous, difference, sign);
+    *friction = Friction {
+        coulomb: law.coulomb,
+        forward: sum(law.coulomb, law.offset, 1.0),
+        backward: sum(law.coulomb, law.offset, -1.0),
+        offset: law.offset,
+        viscous: law.viscous,
+        viscous_by_direction: by_direction(1.0).zip(by_direction(-1.0)),
+    };
 }
 
 fn beam(campaign: &Campaign, id: &mut Identified, alone: bool) {
@@ -100,8 +126,15 @@ fn beam(campaign: &Campaign, id: &mut Identified, alone: bool) {
         Some(r) if fitted.len() <= tips || complete(r) => r.modes.clone(),
         _ => fitted.to_vec(),
     };
-    let by_tip = id.regression.as_ref().map_or(Vec::new(), |r| r.coupling.clone());
-    let total = id.regression.as_ref().and_then(|r| r.total_coupling);
+    let mut by_tip = id.regression.as_ref().map_or(Vec::new(), |r| r.coupling.clone());
+    let mut total = id.regression.as_ref().and_then(|r| r.total_coupling);
+    if let Some(law) = &id.friction_law
+        && law.chosen.departs()
+        && !by_tip.is_empty()
+    {
+        by_tip.clone_from(&law.chosen.coupling);
+        total = law.chosen.total_coupling;
+    }
     let coupling = total.or_else(|| {
         // Without a calibrated tip: from the motor's response, where its model fits.
         let model = id.motor_model.as_ref().filter(|_| tips > 0 && by_tip.is_empty())?;
@@ -306,6 +339,55 @@ fn friction(id: &mut Identified) {
     }
 }
 
+/// The law of friction that the data call for.
+fn law_finding(id: &Identified) -> Option<Finding> {
+    let law = id.friction_law.as_ref().filter(|law| law.chosen.departs())?;
+    // The replay describes whole runs with its own law, and its figures are taken.
+    let replayed = id.output_error.as_ref().is_some_and(OutputError::stands);
+    let of_friction = |(term, _): &&(LawTerm, Vec<Estimate>)| *term != LawTerm::CommandLag;
+    let terms: Vec<String> = law.chosen.terms.iter().filter(of_friction).map(in_words).collect();
+    let taken = law.candidates.iter().filter(|c| c.taken && c.term != LawTerm::CommandLag);
+    let paired = taken.map(|c| c.paired).fold(f64::INFINITY, f64::min);
+    Some(Finding::new(
+        "friction-law",
+        if replayed { Severity::Info } else { Warning },
+        &[key::COULOMB, key::VISCOUS],
+        format!(
+            "friction is not Coulomb and one viscous constant: {}; what is left falls to {:.0} % of \
+             itself, and slip phases left out are described better by {paired:.0} deviations or more",
+            terms.join(", "),
+            100.0 * law.relative_residual[1] / law.relative_residual[0]
+        ),
+        if replayed {
+            "the replay describes the runs without it: its figures are taken"
+        } else {
+            "Coulomb and viscous friction are those of this law at speed, not at rest: use the friction \
+             curve at the speed that matters; runs at other speeds show whether the law holds there"
+        },
+    ))
+}
+
+/// A term of the law with its amplitude.
+fn in_words((term, amplitude): &(LawTerm, Vec<Estimate>)) -> String {
+    let a = amplitude.first().map_or(f64::NAN, |e| e.value);
+    match term {
+        LawTerm::ViscousByDirection => format!("viscous friction differs by ±{a:.3e} by direction"),
+        LawTerm::NearRest { speed } if a > 0.0 => {
+            format!("it rises by {a:.3e} towards rest, within {speed:.3e} per second (Stribeck)")
+        }
+        LawTerm::NearRest { speed } => {
+            format!("it falls by {:.3e} towards rest, within {speed:.3e} per second", -a)
+        }
+        LawTerm::Root => format!("it grows with the root of speed, by {a:.3e}"),
+        LawTerm::Ripple { per_angle } => {
+            let size = amplitude.iter().map(|e| e.value * e.value).sum::<f64>().sqrt();
+            let period = std::f64::consts::TAU / per_angle;
+            format!("it changes over the travel by ±{size:.3e} with a period of {period:.4e}")
+        }
+        LawTerm::CommandLag => format!("the command acts {:.3} ms later", 1e3 * a),
+    }
+}
+
 fn regression(id: &mut Identified) {
     let everything = [key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING];
     let Some(r) = &id.regression else {
@@ -341,7 +423,10 @@ fn regression(id: &mut Identified) {
     }
     // The replay explains the runs: what one added term would do to the regression says nothing.
     let explained = id.output_error.as_ref().is_some_and(OutputError::stands);
-    if let Some(m) = r.missing.filter(|_| !explained) {
+    // A law of friction that was chosen says more than the one term that was tried for it.
+    let known = id.friction_law.as_ref().is_some_and(|law| law.chosen.departs());
+    let said = |m: &MissingTerm| m.kind == MissingKind::Stribeck && known;
+    if let Some(m) = r.missing.filter(|m| !explained && !said(m)) {
         let (what, hint) = match m.kind {
             MissingKind::Delay => (
                 format!("the command acts {:.2} ms later than it is logged", 1e3 * m.value),

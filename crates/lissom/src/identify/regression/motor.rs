@@ -216,7 +216,7 @@ impl MotorRegression {
 }
 
 /// Tips whose angle from the motor's line is known.
-fn coupled_tips(campaign: &Campaign) -> Vec<usize> {
+pub(crate) fn coupled_tips(campaign: &Campaign) -> Vec<usize> {
     let tips = &campaign.channels.tips;
     (0..tips.len())
         .filter(|&i| tips[i].calibrated && tips[i].quantity != TipQuantity::Acceleration)
@@ -303,7 +303,13 @@ fn extra_columns(
 }
 
 /// One row: `[∫ẅθ, −∫ẇθ, ∫w, ∫w(θ_m − θ_i).., ∫wτ]`, scaled by the noise it carries.
-fn row(campaign: &Campaign, run: &Run, tips: &[usize], window: &Window, k: usize) -> Vec<f64> {
+pub(crate) fn row(
+    campaign: &Campaign,
+    run: &Run,
+    tips: &[usize],
+    window: &Window,
+    k: usize,
+) -> Vec<f64> {
     let t = run.sample_time_s();
     let n = window.len();
     let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);

@@ -54,12 +54,12 @@ pub(crate) enum Term {
 }
 
 impl Term {
-    fn column(self) -> usize {
+    pub(crate) fn column(self) -> usize {
         match self {
             Self::Plain(c) | Self::Signed(c) | Self::Forward(c) | Self::Backward(c) => c,
         }
     }
-    fn factor(self, sign: f64) -> f64 {
+    pub(crate) fn factor(self, sign: f64) -> f64 {
         match self {
             Self::Plain(_) => 1.0,
             Self::Signed(_) => sign,

@@ -1,0 +1,82 @@
+//! Friction against speed: the curve without a law, and the law chosen, in a plot and a table.
+
+use lissom::identify::{FrictionLaw, Identified, LawTerm};
+use lissom_io::UnitNames;
+use lissom_report::{Axis, Cells, LinePlot, Role, Table, Trace};
+
+/// Points of the law's line.
+const LINE: i32 = 200;
+/// Bars: this many deviations.
+const BARS: f64 = 1.96;
+/// Directions, with their signs and colours.
+const DIRECTIONS: [(&str, f64, Role); 2] =
+    [("forward", 1.0, Role::Corrected), ("backward", -1.0, Role::Other(0))];
+
+/// Both directions as magnitudes over speed; `None` without a curve.
+pub(crate) fn plot(names: UnitNames, id: &Identified) -> Option<LinePlot> {
+    let law = id.friction_law.as_ref().filter(|law| !law.curve.is_empty())?;
+    let mut plot = LinePlot::new(
+        "Friction against speed",
+        Axis::linear(format!("speed ({}/s)", names.angle())),
+        Axis::linear(format!("friction against the motion ({})", names.torque_unit())),
+    )
+    .subtitle("points: without a law, bars: their 95 % interval; line: the law chosen");
+    for (name, sign, role) in DIRECTIONS {
+        let points = || law.curve.iter().filter(move |p| p.direction * sign > 0.0);
+        let speeds: Vec<f64> = points().map(|p| p.speed).collect();
+        let values = points().map(|p| p.friction.value).collect();
+        let bars = points().map(|p| BARS * p.friction.std).collect();
+        plot = plot.trace(Trace::points_with_bars(name, role, speeds.clone(), values, bars));
+        let (Some(from), Some(to)) = (speeds.first(), speeds.last()) else { continue };
+        let at = |k: i32| from + (to - from) * f64::from(k) / f64::from(LINE);
+        let line: Option<Vec<f64>> = (0..=LINE).map(|k| law.chosen.friction(at(k), sign)).collect();
+        if let Some(line) = line {
+            plot = plot.trace(Trace::line("", role, (0..=LINE).map(at).collect(), line));
+        }
+    }
+    Some(plot)
+}
+
+/// Every term that was tried, with the figures of the test.
+pub(crate) fn table(names: UnitNames, law: &FrictionLaw) -> Table {
+    let mut table = Table::new(
+        "Terms tried beside Coulomb friction, one viscous constant and an offset",
+        &[
+            ("term", Cells::Text),
+            ("beside", Cells::Numbers),
+            ("amplitude", Cells::Numbers),
+            ("deviation", Cells::Numbers),
+            ("residual, ratio", Cells::Numbers),
+            ("phases left out, deviations", Cells::Numbers),
+            ("stretches left out, ratio", Cells::Numbers),
+            ("", Cells::Text),
+        ],
+    );
+    for c in &law.candidates {
+        table = table.row([
+            term(names, c.term),
+            c.beside.to_string(),
+            format!("{:.4e}", c.amplitude.value),
+            format!("{:.1e}", c.amplitude.std),
+            format!("{:.3}", c.residual_ratio),
+            format!("{:.1}", c.paired),
+            format!("{:.3}", c.stretch_ratio),
+            (if c.taken { "taken" } else { "" }).to_owned(),
+        ]);
+    }
+    table
+}
+
+/// A term in words.
+fn term(names: UnitNames, term: LawTerm) -> String {
+    let angle = names.angle();
+    match term {
+        LawTerm::ViscousByDirection => "viscous by direction".to_owned(),
+        LawTerm::NearRest { speed } => format!("near rest, within {speed:.3e} {angle}/s"),
+        LawTerm::Root => "root of speed".to_owned(),
+        LawTerm::Ripple { per_angle } => {
+            format!("ripple, period {:.3e} {angle}", std::f64::consts::TAU / per_angle)
+        }
+        LawTerm::CommandLag => "lag of the command (s)".to_owned(),
+    }
+}

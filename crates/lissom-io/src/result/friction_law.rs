@@ -1,0 +1,90 @@
+//! The friction curve and the choice of friction's law, as JSON.
+
+use lissom::identify::{CurvePoint, Estimate, FrictionLaw, LawCandidate, LawTerm};
+use serde_json::{Map, Value, json};
+
+use super::{UnitNames, figure, torque};
+
+/// `friction.curve`.
+pub(super) fn curve(names: UnitNames, constant: f64, points: &[CurvePoint]) -> Value {
+    let point = |p: &CurvePoint| {
+        let mut map = Map::new();
+        map.insert("direction".to_owned(), json!(direction(p.direction)));
+        map.insert(format!("speed_{}_per_s", names.angle()), json!(p.speed));
+        torque(&mut map, names, constant, "friction", Some(p.friction));
+        map.insert("windows".to_owned(), json!(p.windows));
+        Value::Object(map)
+    };
+    points.iter().map(point).collect()
+}
+
+fn direction(sign: f64) -> &'static str {
+    if sign > 0.0 { "forward" } else { "backward" }
+}
+
+/// `methods.friction_law`.
+pub(super) fn law(names: UnitNames, constant: f64, law: &FrictionLaw) -> Value {
+    let [simplest, chosen, curve] = law.relative_residual;
+    let fit = &law.chosen;
+    let mut map = Map::new();
+    torque(&mut map, names, constant, "coulomb", fit.coulomb);
+    torque(&mut map, names, constant, "offset", fit.offset);
+    map.insert(names.viscous_key("viscous"), figure(fit.viscous));
+    map.insert(names.inertia_key(), figure(fit.inertia));
+    map.insert(names.coupling_key("coupling"), figure(fit.total_coupling));
+    let terms = fit.terms.iter().map(|(term, amplitudes)| {
+        let mut map = named(names, *term);
+        let all: Vec<Value> = amplitudes.iter().map(|e| figure(Some(*e))).collect();
+        map.insert(amplitude_key(names, *term), Value::Array(all));
+        Value::Object(map)
+    });
+    map.insert("terms".to_owned(), terms.collect());
+    json!({
+        "window_s": law.window_s,
+        "relative_residual": { "simplest": simplest, "chosen": chosen, "curve": curve },
+        "chosen": map,
+        "candidates": law.candidates.iter().map(|c| candidate(names, c)).collect::<Vec<_>>(),
+    })
+}
+
+fn candidate(names: UnitNames, c: &LawCandidate) -> Value {
+    let mut map = named(names, c.term);
+    map.insert("beside_terms".to_owned(), json!(c.beside));
+    map.insert(amplitude_key(names, c.term), figure(Some(c.amplitude)));
+    map.insert("residual_ratio".to_owned(), json!(c.residual_ratio));
+    map.insert("paired_deviations".to_owned(), json!(c.paired));
+    map.insert("stretch_ratio".to_owned(), json!(c.stretch_ratio));
+    let at_rest = Estimate { value: c.at_rest, std: c.at_rest_std };
+    map.insert(format!("at_rest_{}", names.torque()), figure(Some(at_rest)));
+    map.insert("taken".to_owned(), json!(c.taken));
+    Value::Object(map)
+}
+
+/// A term's name and what is in it beside its amplitude.
+fn named(names: UnitNames, term: LawTerm) -> Map<String, Value> {
+    let mut map = Map::new();
+    map.insert("term".to_owned(), json!(term.name()));
+    match term {
+        LawTerm::NearRest { speed } => {
+            map.insert(format!("speed_{}_per_s", names.angle()), json!(speed));
+        }
+        LawTerm::Ripple { per_angle } => {
+            let period = std::f64::consts::TAU / per_angle;
+            map.insert(format!("period_{}", names.angle()), json!(period));
+        }
+        LawTerm::ViscousByDirection | LawTerm::Root | LawTerm::CommandLag => {}
+    }
+    map
+}
+
+/// `amplitude` with its unit.
+fn amplitude_key(names: UnitNames, term: LawTerm) -> String {
+    match term {
+        LawTerm::ViscousByDirection => names.viscous_key("amplitude"),
+        LawTerm::NearRest { .. } | LawTerm::Ripple { .. } => {
+            format!("amplitude_{}", names.torque())
+        }
+        LawTerm::Root => format!("amplitude_{}_per_root_{}_per_s", names.torque(), names.angle()),
+        LawTerm::CommandLag => "amplitude_s".to_owned(),
+    }
+}

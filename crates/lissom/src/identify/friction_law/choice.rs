@@ -1,0 +1,503 @@
+//! The simplest law of friction that the data do not reject.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::rows::{Block, Column, Cut, KINDS, Sampled, fixed};
+use super::{LawFit, ripple};
+use crate::identify::Estimate;
+use crate::identify::regression::{Cluster, Solution, Term, coupled_tips, solve};
+use crate::record::Run;
+
+/// Speeds over which friction near rest may change, as shares of the fastest.
+const NEAR_REST: [f64; 10] = [0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.3, 0.5, 0.8, 1.3];
+/// A speed that was taken is looked for between its neighbours on the list in so many steps.
+const FINER: i32 = 8;
+/// Phases are dealt to this many folds.
+const FOLDS: usize = 5;
+/// A term must do better on phases left out by this many deviations of the difference…
+const PAIRED: f64 = 3.0;
+/// …and leave at most this share of the residual: a smaller one does not pay for a parameter.
+const RATIO: f64 = 0.9;
+/// A lag counts at the ends of a motion alone, and pays with less: it may leave this share…
+const LAG_RATIO: f64 = 0.97;
+/// …and must be known to this share of a sample. Taken before friction's law is settled it would stand in
+/// for it, and come out with either sign.
+const LAG_STD: f64 = 0.1;
+/// Most terms.
+const MOST: usize = 4;
+/// Friction at rest must be positive within this many deviations.
+const AT_REST: f64 = 2.0;
+
+/// A term beside Coulomb friction, one viscous constant and an offset.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LawTerm {
+    /// `s·D·v`: viscous friction V + D forward, V − D backward.
+    ViscousByDirection,
+    /// `s·A·e^{−|v|/v_s}`: friction at rest is C + A (A > 0: Stribeck).
+    NearRest {
+        /// v_s \[rad/s\].
+        speed: f64,
+    },
+    /// `s·A·√|v|`.
+    Root,
+    /// `s·(A_1·cos kθ + A_2·sin kθ)`.
+    Ripple {
+        /// k, radians of ripple per radian of angle (1/m on linear axes).
+        per_angle: f64,
+    },
+    /// The command acts later than it is logged; its amplitude is that time \[s\].
+    CommandLag,
+}
+
+impl LawTerm {
+    /// Its name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ViscousByDirection => "viscous-by-direction",
+            Self::NearRest { .. } => "near-rest",
+            Self::Root => "root",
+            Self::Ripple { .. } => "ripple",
+            Self::CommandLag => "command-lag",
+        }
+    }
+}
+
+/// A term that was tried, beside others that were in the law already.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LawCandidate {
+    /// Which.
+    pub term: LawTerm,
+    /// How many terms the law had before.
+    pub beside: usize,
+    /// Its amplitude; of a ripple that of cosine and sine together.
+    pub amplitude: Estimate,
+    /// What is left with it beside what is left without, as a ratio.
+    pub residual_ratio: f64,
+    /// By how many deviations phases that were left out are described better.
+    pub paired: f64,
+    /// The same residual on stretches of a kind (direction, speed, side of the travel) left out
+    /// altogether, as a ratio.
+    pub stretch_ratio: f64,
+    /// Friction at rest in the direction where it is less, with this term.
+    pub at_rest: f64,
+    /// Deviation of that.
+    pub at_rest_std: f64,
+    /// Whether it was taken.
+    pub taken: bool,
+}
+
+/// What was chosen.
+pub(super) struct Choice {
+    pub(super) fit: LawFit,
+    pub(super) candidates: Vec<LawCandidate>,
+    pub(super) simplest: f64,
+    pub(super) residual: f64,
+    /// Columns and terms of what is not friction by speed: a lag and a ripple, for the curve.
+    pub(super) columns: Vec<Column>,
+    pub(super) lag: Vec<Term>,
+}
+
+/// One candidate, as columns and terms of a regression.
+struct Tried {
+    term: LawTerm,
+    terms: Vec<Term>,
+}
+
+/// Adds one term after another while some are called for.
+///
+/// Of the terms that do better on phases left out, on kinds of stretches left out and in what is left,
+/// and with which friction at rest stays positive, the one that does best on phases left out is taken.
+/// A test by deviations alone would take them all: in a log of seconds everything is significant.
+pub(super) fn choose(sampled: &Sampled<'_>, cut: &Cut, fastest: f64) -> Option<Choice> {
+    let mut search = Search::new(sampled, cut, fastest)?;
+    let simplest = search.solution.relative_residual;
+    while search.taken.len() < MOST && search.add_best() {}
+    search.refine_near_rest();
+    search.settled = true;
+    while search.taken.len() < MOST && search.add_best() {}
+    if search.taken.len() < MOST && search.offer_ripple() {
+        while search.taken.len() < MOST && search.add_best() {}
+    }
+    let fit = search.fit();
+    let (columns, lag) = search.beside_friction();
+    let residual = search.solution.relative_residual;
+    Some(Choice { fit, candidates: search.candidates, simplest, residual, columns, lag })
+}
+
+struct Search<'a> {
+    sampled: &'a Sampled<'a>,
+    cut: Cut,
+    columns: Vec<Column>,
+    blocks: Vec<Block>,
+    terms: Vec<Term>,
+    solution: Solution,
+    open: Vec<Tried>,
+    taken: Vec<Tried>,
+    candidates: Vec<LawCandidate>,
+    /// Whether friction's law by speed is found.
+    settled: bool,
+}
+
+impl<'a> Search<'a> {
+    fn new(sampled: &'a Sampled<'a>, cut: &Cut, fastest: f64) -> Option<Self> {
+        let first = fixed(sampled.campaign);
+        let mut columns = vec![Column::Lag, Column::Root];
+        columns.extend(NEAR_REST.map(|share| Column::NearRest(share * fastest)));
+        let mut open = vec![
+            Tried { term: LawTerm::ViscousByDirection, terms: vec![Term::Signed(1)] },
+            Tried { term: LawTerm::CommandLag, terms: vec![Term::Plain(first)] },
+            Tried { term: LawTerm::Root, terms: vec![Term::Signed(first + 1)] },
+        ];
+        open.extend(NEAR_REST.iter().enumerate().map(|(i, share)| Tried {
+            term: LawTerm::NearRest { speed: share * fastest },
+            terms: vec![Term::Signed(first + 2 + i)],
+        }));
+        let blocks = sampled.blocks(&columns, &[], cut);
+        let mut terms = vec![Term::Plain(0), Term::Plain(1), Term::Signed(2), Term::Plain(2)];
+        terms.extend((3..first).map(Term::Plain));
+        let solution = solved(&blocks, &terms)?;
+        let (taken, candidates) = (Vec::new(), Vec::new());
+        Some(Self {
+            sampled,
+            cut: *cut,
+            columns,
+            blocks,
+            terms,
+            solution,
+            open,
+            taken,
+            candidates,
+            settled: false,
+        })
+    }
+
+    /// Tries every open term beside those taken and takes the best that is called for.
+    fn add_best(&mut self) -> bool {
+        let Some(before) = Held::of(&self.blocks, &self.terms) else { return false };
+        let mut best: Option<(f64, usize, LawCandidate)> = None;
+        let mut shown: Vec<(f64, LawCandidate)> = Vec::new();
+        for (i, tried) in self.open.iter().enumerate() {
+            let Some((cost, candidate)) = self.figures(&before, tried) else { continue };
+            if candidate.taken && best.as_ref().is_none_or(|b| cost < b.0) {
+                best = Some((cost, i, candidate));
+            }
+            // Of terms of a kind only the best is worth telling.
+            let same = |c: &(f64, LawCandidate)| c.1.term.name() == candidate.term.name();
+            match shown.iter_mut().find(|c| same(c)) {
+                Some(other) if other.0 <= cost => {}
+                Some(other) => *other = (cost, candidate),
+                None => shown.push((cost, candidate)),
+            }
+        }
+        if let Some((_, _, best)) = &best {
+            for (_, c) in &mut shown {
+                if c.term.name() == best.term.name() {
+                    *c = *best;
+                }
+                c.taken = c.term == best.term;
+            }
+        }
+        // Tried again beside the same terms: the last word counts.
+        let beside = self.taken.len();
+        self.candidates.retain(|c| c.beside != beside);
+        self.candidates.extend(shown.into_iter().map(|c| c.1));
+        let Some((_, i, _)) = best else { return false };
+        let taken = self.open.remove(i);
+        self.terms.extend(&taken.terms);
+        // Root and near rest are two shapes of one thing.
+        let by_speed = |t: &LawTerm| matches!(t, LawTerm::Root | LawTerm::NearRest { .. });
+        let gone =
+            |t: &LawTerm| t.name() == taken.term.name() || (by_speed(t) && by_speed(&taken.term));
+        self.open.retain(|t| !gone(&t.term));
+        self.taken.push(taken);
+        match solved(&self.blocks, &self.terms) {
+            Some(solution) => self.solution = solution,
+            None => return false,
+        }
+        true
+    }
+
+    /// Cost on phases left out, and all figures; `taken` says whether it may be.
+    fn figures(&self, before: &Held, tried: &Tried) -> Option<(f64, LawCandidate)> {
+        let mut terms = self.terms.clone();
+        let first = terms.len();
+        terms.extend(&tried.terms);
+        let solution = solved(&self.blocks, &terms)?;
+        if solution.inseparable[first] {
+            return None;
+        }
+        let held = Held::of(&self.blocks, &terms)?;
+        let residual_ratio = solution.relative_residual / self.solution.relative_residual;
+        let paired = before.paired(&held);
+        let stretch_ratio = (held.stretches / before.stretches).sqrt();
+        let amplitude = amplitude(&solution, first, tried.terms.len());
+        let (at_rest, at_rest_std) = self.at_rest(&solution, &terms, tried.term, first);
+        let (least, allowed) = match tried.term {
+            LawTerm::CommandLag => (LAG_RATIO, self.lag_allowed(&late(amplitude))),
+            _ => (RATIO, true),
+        };
+        let taken = paired > PAIRED
+            && allowed
+            && residual_ratio < least
+            && stretch_ratio < 1.0
+            && at_rest > -AT_REST * at_rest_std;
+        let (term, beside) = (tried.term, self.taken.len());
+        let candidate = LawCandidate {
+            term,
+            beside,
+            amplitude: if term == LawTerm::CommandLag { late(amplitude) } else { amplitude },
+            residual_ratio,
+            paired,
+            stretch_ratio,
+            at_rest,
+            at_rest_std,
+            taken,
+        };
+        Some((held.phases(), candidate))
+    }
+
+    /// Friction at rest in the direction where it is less, with its deviation.
+    fn at_rest(
+        &self,
+        solution: &Solution,
+        terms: &[Term],
+        tried: LawTerm,
+        first: usize,
+    ) -> (f64, f64) {
+        let mut weight = DVector::zeros(terms.len());
+        weight[2] = 1.0;
+        weight[3] = -solution.value[3].signum();
+        let mut at = 4 + self.tips();
+        for t in &self.taken {
+            weight[at] = f64::from(matches!(t.term, LawTerm::NearRest { .. }));
+            at += t.terms.len();
+        }
+        weight[first] = f64::from(matches!(tried, LawTerm::NearRest { .. }));
+        let variance = weight.dot(&(&solution.covariance * &weight));
+        (weight.dot(&solution.value), variance.max(0.0).sqrt())
+    }
+
+    fn lag_allowed(&self, lag: &Estimate) -> bool {
+        let runs = &self.sampled.campaign.runs;
+        let sample_s = runs.iter().map(Run::sample_time_s).fold(f64::INFINITY, f64::min);
+        self.settled && lag.value > 0.0 && lag.std < LAG_STD * sample_s
+    }
+
+    fn tips(&self) -> usize {
+        fixed(self.sampled.campaign) - 3
+    }
+
+    /// Adds the strongest ripple of what is left to what may be tried.
+    fn offer_ripple(&mut self) -> bool {
+        let value: Vec<f64> = self.solution.value.iter().copied().collect();
+        let Some(k) = ripple::strongest(self.sampled, &self.columns, &self.terms, &value) else {
+            return false;
+        };
+        let at = fixed(self.sampled.campaign) + self.columns.len();
+        self.columns.extend([Column::Cosine(k), Column::Sine(k)]);
+        self.blocks = self.sampled.blocks(&self.columns, &[], &self.cut);
+        let terms = vec![Term::Signed(at), Term::Signed(at + 1)];
+        self.open.push(Tried { term: LawTerm::Ripple { per_angle: k }, terms });
+        true
+    }
+
+    /// Moves the speed of a term near rest to where least is left.
+    fn refine_near_rest(&mut self) {
+        let near = |t: &Tried| matches!(t.term, LawTerm::NearRest { .. });
+        let Some(found) = self.taken.iter().position(near) else { return };
+        let LawTerm::NearRest { speed } = self.taken[found].term else { return };
+        let own = self.taken[found].terms[0];
+        let at = fixed(self.sampled.campaign) + self.columns.len();
+        let step = (NEAR_REST[1] / NEAR_REST[0]).ln() / f64::from(FINER);
+        let speeds: Vec<f64> =
+            (-FINER..=FINER).map(|k| speed * (f64::from(k) * step).exp()).collect();
+        let mut columns = self.columns.clone();
+        columns.extend(speeds.iter().map(|v| Column::NearRest(*v)));
+        let blocks = self.sampled.blocks(&columns, &[], &self.cut);
+        let with = |i: usize| {
+            let other = Term::Signed(at + i);
+            self.terms.iter().map(|t| if *t == own { other } else { *t }).collect::<Vec<_>>()
+        };
+        let solutions = (0..speeds.len()).filter_map(|i| Some((i, solved(&blocks, &with(i))?)));
+        let best = solutions.min_by(|a, b| a.1.relative_residual.total_cmp(&b.1.relative_residual));
+        let Some((i, solution)) = best else { return };
+        (self.terms, self.solution) = (with(i), solution);
+        (self.columns, self.blocks) = (columns, blocks);
+        let taken = &mut self.taken[found];
+        taken.terms = vec![Term::Signed(at + i)];
+        taken.term = LawTerm::NearRest { speed: speeds[i] };
+    }
+
+    fn fit(&self) -> LawFit {
+        let s = &self.solution;
+        let figure = |i: usize| (!s.inseparable[i]).then(|| amplitude(s, i, 1));
+        let channels = &self.sampled.campaign.channels;
+        let back_emf = channels.command.back_emf_viscous;
+        let tips = self.tips();
+        let known = coupled_tips(self.sampled.campaign);
+        let mut coupling = vec![None; if tips == 0 { 0 } else { channels.tips.len() }];
+        known.iter().enumerate().for_each(|(i, tip)| coupling[*tip] = figure(4 + i));
+        let separable = (4..4 + tips).all(|i| !s.inseparable[i]);
+        let total = (tips > 0 && separable).then(|| {
+            let block = s.covariance.view((4, 4), (tips, tips));
+            Estimate { value: s.value.rows(4, tips).sum(), std: block.sum().max(0.0).sqrt() }
+        });
+        let mut at = 4 + tips;
+        let mut terms = Vec::new();
+        for t in &self.taken {
+            let found = (at..at + t.terms.len()).map(|i| amplitude(s, i, 1));
+            let found = found.map(|e| if t.term == LawTerm::CommandLag { late(e) } else { e });
+            terms.push((t.term, found.collect()));
+            at += t.terms.len();
+        }
+        LawFit {
+            terms,
+            inertia: figure(0),
+            viscous: figure(1).map(|e| Estimate { value: e.value - back_emf, ..e }),
+            coulomb: figure(2),
+            offset: figure(3),
+            coupling,
+            total_coupling: total,
+        }
+    }
+
+    /// Columns and terms that were taken and are no friction by speed.
+    fn beside_friction(&self) -> (Vec<Column>, Vec<Term>) {
+        let first = fixed(self.sampled.campaign);
+        let beside = |t: &&Tried| matches!(t.term, LawTerm::CommandLag | LawTerm::Ripple { .. });
+        let (mut columns, mut terms) = (Vec::new(), Vec::new());
+        for term in self.taken.iter().filter(beside).flat_map(|t| &t.terms) {
+            let at = first + columns.len();
+            columns.push(self.columns[term.column() - first]);
+            terms.push(if matches!(term, Term::Signed(_)) {
+                Term::Signed(at)
+            } else {
+                Term::Plain(at)
+            });
+        }
+        (columns, terms)
+    }
+}
+
+/// `∫wτ(t) = ∫w·(equation) − Δ∫ẇτ` for τ that acts Δ later.
+fn late(e: Estimate) -> Estimate {
+    Estimate { value: -e.value, std: e.std }
+}
+
+/// The length of `count` amplitudes from `first` on, with its deviation.
+fn amplitude(s: &Solution, first: usize, count: usize) -> Estimate {
+    let value = s.value.rows(first, count);
+    if count == 1 {
+        let std = s.covariance[(first, first)].max(0.0).sqrt();
+        return Estimate { value: value[0], std };
+    }
+    let size = value.norm();
+    let block = s.covariance.view((first, first), (count, count));
+    let direction = value / size.max(f64::MIN_POSITIVE);
+    Estimate { value: size, std: direction.dot(&(block * &direction)).max(0.0).sqrt() }
+}
+
+/// Least squares with a covariance by phases.
+pub(super) fn solved(blocks: &[Block], terms: &[Term]) -> Option<Solution> {
+    let mut clusters: Vec<Cluster> = Vec::new();
+    let mut phase = None;
+    for b in blocks {
+        match clusters.last_mut() {
+            Some(last) if phase == Some(b.phase) => {
+                last.products += &b.cluster.products;
+                last.rows += b.cluster.rows;
+            }
+            _ => clusters.push(b.cluster.clone()),
+        }
+        phase = Some(b.phase);
+    }
+    solve(&clusters, terms)
+}
+
+/// Squared residuals on what was left out.
+struct Held {
+    /// Of each block, with its phase left out.
+    each: Vec<f64>,
+    /// Sum, with each kind of stretch left out.
+    stretches: f64,
+}
+
+impl Held {
+    fn of(blocks: &[Block], terms: &[Term]) -> Option<Self> {
+        let each = left_out(blocks, terms, FOLDS, |b| b.phase % FOLDS)?;
+        let stretches = left_out(blocks, terms, KINDS, |b| b.kind)?.iter().sum();
+        Some(Self { each, stretches })
+    }
+
+    fn phases(&self) -> f64 {
+        self.each.iter().sum()
+    }
+
+    /// By how many deviations `other` is better, block by block.
+    fn paired(&self, other: &Self) -> f64 {
+        let n = self.each.len() as f64;
+        let better: Vec<f64> = self.each.iter().zip(&other.each).map(|(a, b)| a - b).collect();
+        let mean = better.iter().sum::<f64>() / n;
+        let square: f64 = better.iter().map(|b| (b - mean).powi(2)).sum();
+        mean / (square / (n * (n - 1.0))).sqrt().max(f64::MIN_POSITIVE)
+    }
+}
+
+/// Squared residual of every block with the figures of the groups that it is not in.
+fn left_out(
+    blocks: &[Block],
+    terms: &[Term],
+    groups: usize,
+    group: impl Fn(&Block) -> usize,
+) -> Option<Vec<f64>> {
+    let figures = without_each(blocks, terms, groups, &group)?;
+    let cost = |b: &Block| {
+        let value = figures[group(b)].as_ref();
+        value.map_or(0.0, |v| squared(&b.cluster.products, terms, v, b.cluster.sign))
+    };
+    Some(blocks.iter().map(cost).collect())
+}
+
+/// Figures with one group of blocks after another left out; `None` of groups without blocks.
+pub(super) fn without_each(
+    blocks: &[Block],
+    terms: &[Term],
+    groups: usize,
+    group: impl Fn(&Block) -> usize,
+) -> Option<Vec<Option<DVector<f64>>>> {
+    let width = blocks.first()?.cluster.products.ncols();
+    let empty = || [1.0, -1.0].map(|sign| Cluster::new(0, sign, width));
+    let mut sums: Vec<[Cluster; 2]> = vec![empty(); groups];
+    let mut all = empty();
+    for b in blocks {
+        let side = usize::from(b.cluster.sign < 0.0);
+        for sum in [&mut sums[group(b)][side], &mut all[side]] {
+            sum.products += &b.cluster.products;
+            sum.rows += b.cluster.rows;
+        }
+    }
+    let without = |own: &[Cluster; 2]| {
+        let mut others = all.clone();
+        for (others, own) in others.iter_mut().zip(own) {
+            others.products -= &own.products;
+            others.rows -= own.rows;
+        }
+        Some(solve(&others, terms)?.value)
+    };
+    let one = |own: &[Cluster; 2]| {
+        let rows: usize = own.iter().map(|c| c.rows).sum();
+        if rows == 0 { Some(None) } else { without(own).map(Some) }
+    };
+    sums.iter().map(one).collect()
+}
+
+/// ‖y − X·q‖² from the products of a block.
+fn squared(products: &DMatrix<f64>, terms: &[Term], value: &DVector<f64>, sign: f64) -> f64 {
+    let right = products.ncols() - 1;
+    let mut q = DVector::zeros(products.ncols());
+    for (t, v) in terms.iter().zip(value.iter()) {
+        q[t.column()] += t.factor(sign) * v;
+    }
+    q[right] = -1.0;
+    q.dot(&(products * &q)).max(0.0)
+}

@@ -1,0 +1,147 @@
+//! Friction against speed: the curve without a law, and the simplest law that the data do not reject.
+//!
+//! Both are least squares on windows in slip phases, as in the regression, with windows as short as
+//! the sensor allows: what friction does near rest is lost in long ones.
+
+mod choice;
+mod curve;
+mod ripple;
+mod rows;
+#[cfg(test)]
+mod tests;
+
+pub use choice::{LawCandidate, LawTerm};
+pub use curve::CurvePoint;
+
+use super::Estimate;
+use super::channel_noise::channel_noise;
+use super::regression::MotorRegression;
+use crate::record::{Campaign, Run};
+use rows::{Cut, Sampled};
+
+/// Fewest samples in a window.
+const LEAST_SAMPLES: f64 = 20.0;
+/// Ratio of one window tried to that before it.
+const LONGER: f64 = std::f64::consts::SQRT_2;
+/// Share of the windowed torque that the sensor's noise may make by way of the inertia.
+const NOISE: f64 = 0.02;
+/// Quantile of the windows' speeds that counts as the fastest.
+const FASTEST: f64 = 0.98;
+
+/// What the slip phases say of friction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrictionLaw {
+    /// Length of the windows \[s\].
+    pub window_s: f64,
+    /// Friction against speed without a law, ascending in speed within a direction.
+    pub curve: Vec<CurvePoint>,
+    /// Every term that was tried, in the order of trying.
+    pub candidates: Vec<LawCandidate>,
+    /// Figures under the law chosen.
+    pub chosen: LawFit,
+    /// ‖y − X·q‖/‖y‖ with Coulomb and one viscous constant, with the law chosen, and with the curve.
+    pub relative_residual: [f64; 3],
+}
+
+/// Figures of the motor's equation under a law of friction
+/// `τ_F = s·(C + Σ A_k·g_k) + O + V·v + s·D·v`, s the direction: (forward, backward) V ± D.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LawFit {
+    /// Terms beside C, V and O, with their amplitudes: two of a ripple, else one.
+    pub terms: Vec<(LawTerm, Vec<Estimate>)>,
+    /// Inertia J.
+    pub inertia: Option<Estimate>,
+    /// Mean viscous friction V, back-EMF taken out.
+    pub viscous: Option<Estimate>,
+    /// C.
+    pub coulomb: Option<Estimate>,
+    /// O.
+    pub offset: Option<Estimate>,
+    /// κ_i of each tip of the campaign, `None` where its angle is not known; empty where none is.
+    pub coupling: Vec<Option<Estimate>>,
+    /// Their sum.
+    pub total_coupling: Option<Estimate>,
+}
+
+impl LawFit {
+    /// Friction against the motion at a speed in a direction (+1 or −1), ripple left out: positive
+    /// where it brakes.
+    pub fn friction(&self, speed: f64, direction: f64) -> Option<f64> {
+        let mut sum = self.coulomb?.value + self.viscous?.value * speed;
+        sum += direction * self.offset.map_or(0.0, |o| o.value);
+        for (term, amplitude) in &self.terms {
+            let a = amplitude.first()?.value;
+            sum += match *term {
+                LawTerm::ViscousByDirection => direction * a * speed,
+                LawTerm::NearRest { speed: fall } => a * (-speed / fall).exp(),
+                LawTerm::Root => a * speed.sqrt(),
+                LawTerm::CommandLag | LawTerm::Ripple { .. } => 0.0,
+            };
+        }
+        Some(sum)
+    }
+
+    /// A term's first amplitude, where it is in the law.
+    pub fn term(&self, wanted: impl Fn(&LawTerm) -> bool) -> Option<Estimate> {
+        let found = self.terms.iter().find(|(term, _)| wanted(term))?;
+        found.1.first().copied()
+    }
+
+    /// Whether it is another law of friction than Coulomb and one viscous constant.
+    pub fn departs(&self) -> bool {
+        self.terms.iter().any(|(term, _)| *term != LawTerm::CommandLag)
+    }
+}
+
+/// Curve and law of a campaign whose motor's figures are roughly known; `None` where slip phases are
+/// too few or too short.
+pub(super) fn friction_law(campaign: &Campaign, motor: &MotorRegression) -> Option<FrictionLaw> {
+    let inertia = motor.inertia?.value;
+    let window_s = window_s(campaign, motor, inertia);
+    let sampled = Sampled::new(campaign, window_s);
+    let places = sampled.places();
+    let mut speeds: Vec<f64> = places.iter().map(|p| p.speed).collect();
+    let mut angles: Vec<f64> = places.iter().map(|p| p.angle).collect();
+    speeds.sort_by(f64::total_cmp);
+    angles.sort_by(f64::total_cmp);
+    let quantile = |x: &[f64], q: f64| x.get((q * x.len() as f64) as usize).copied();
+    let fastest = quantile(&speeds, FASTEST).filter(|v| *v > 0.0)?;
+    let cut = Cut {
+        middle: quantile(&angles, 0.5)?,
+        thirds: [quantile(&speeds, 1.0 / 3.0)?, quantile(&speeds, 2.0 / 3.0)?],
+    };
+    let choice = choice::choose(&sampled, &cut, fastest)?;
+    let (curve, by_curve) = curve::curve(&sampled, &cut, &speeds, &choice.columns, &choice.lag)?;
+    Some(FrictionLaw {
+        window_s,
+        curve,
+        relative_residual: [choice.simplest, choice.residual, by_curve],
+        candidates: choice.candidates,
+        chosen: choice.fit,
+    })
+}
+
+/// The shortest window in which the motor's sensor makes no more than [`NOISE`] of the torque, and no
+/// longer than the regression's.
+fn window_s(campaign: &Campaign, motor: &MotorRegression, inertia: f64) -> f64 {
+    let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
+    // White noise σ in the angle makes σ·√T of every scaled row.
+    let noise = campaign
+        .runs
+        .iter()
+        .map(|run| channel_noise(run.motor()).std * run.sample_time_s().sqrt())
+        .fold(0.0, f64::max);
+    let mut window_s = LEAST_SAMPLES * sample_s;
+    while window_s * LONGER < motor.window_s {
+        let (mut power, mut rows) = (0.0, 0.0);
+        Sampled::new(campaign, window_s).rows(&[], &[], |_, row| {
+            power += row.last().map_or(0.0, |y| y * y);
+            rows += 1.0;
+        });
+        if rows > 0.0 && inertia.abs() * noise < NOISE * (power / rows).sqrt() {
+            break;
+        }
+        window_s *= LONGER;
+    }
+    window_s
+}
