@@ -38,6 +38,15 @@ impl Body {
         }
     }
 
+    /// Adds `change_rad_s` to a mode's frequency.
+    pub(super) fn tune(&mut self, mode: usize, change_rad_s: f64) {
+        let own = match self.masses {
+            Some(_) => Coordinate::Beam(BeamCoordinate::Frequency(mode)),
+            None => Coordinate::Parameter(Parameter::Frequency(mode)),
+        };
+        self.shift(own, change_rad_s);
+    }
+
     /// With two of the modes turned into each other, where the beam is one of point masses.
     pub(super) fn turned(mut self, first: usize, second: usize, angle_rad: f64) -> Self {
         self.shift(Coordinate::Beam(BeamCoordinate::Turn(first, second)), angle_rad);

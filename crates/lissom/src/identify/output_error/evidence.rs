@@ -14,7 +14,7 @@ const DEVIATIONS: f64 = 4.0;
 const SHARE: f64 = 1e-4;
 /// Share of the cost by which point masses may leave more than free modes.
 const RIGID_SHARE: f64 = 1e-3;
-/// A damper is there when it stands this many deviations from zero.
+/// A kind of dampers is there when one of them stands this many deviations from zero.
 const THERE: f64 = 2.0;
 /// Most groups added at a time.
 const MOST: usize = 3;
@@ -130,32 +130,26 @@ pub(super) fn promises(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Extension>> 
     found
 }
 
-/// Dampers that others beside them leave nothing of go.
+/// A kind of dampers of which those of another kind leave nothing goes, as a whole: one damper of a
+/// kind stands for the others where they cannot be told apart.
 fn drop_dampers(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
-    let damper = |p: &Parameter| {
-        matches!(
-            p,
-            Parameter::DampingWithin(_)
-                | Parameter::DampingGrounded(_)
-                | Parameter::DampingAtPoint(_)
-        )
-    };
-    if fit.free.iter().filter(|p| damper(p)).count() <= fit.body.arm.modes.len() {
+    let kinds: [fn(&Parameter) -> bool; 3] = [
+        |p| matches!(p, Parameter::DampingWithin(_)),
+        |p| matches!(p, Parameter::DampingGrounded(_)),
+        |p| matches!(p, Parameter::DampingAtPoint(_)),
+    ];
+    if kinds.iter().filter(|kind| fit.free.iter().any(kind)).count() < 2 {
         return;
     }
     let covariance = fitting.covariances(fit).larger();
-    let gone: Vec<Parameter> = (0..fit.free.len())
-        .filter(|&i| {
-            damper(&fit.free[i])
-                && fit.free[i].of(&fit.body.arm) < THERE * deviation(&covariance, i)
-        })
-        .map(|i| fit.free[i])
-        .collect();
-    if gone.is_empty() {
+    let nothing = |kind: &fn(&Parameter) -> bool| {
+        let mut own = fit.free.iter().enumerate().filter(|(_, p)| kind(p));
+        own.all(|(i, p)| p.of(&fit.body.arm) < THERE * deviation(&covariance, i))
+    };
+    let Some(gone) = kinds.iter().find(|kind| fit.free.iter().any(kind) && nothing(kind)) else {
         return;
-    }
-    fit.free.retain(|p| !gone.contains(p));
-    for p in gone {
+    };
+    for p in fit.free.extract_if(.., |p| gone(p)) {
         p.set(&mut fit.body.arm, 0.0);
     }
     fitting.search(fit, report);

@@ -113,6 +113,7 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
     let mut report = Report::default();
     let mut fit = fitting.widen(start, &mut report)?;
     modes::grow(&fitting, &mut fit, &mut report);
+    modes::undamp(&fitting, &mut fit, &mut report);
     evidence::tighten(&fitting, &mut fit, &mut report);
     fit.body.allow_dampers_at_points();
     evidence::extend(&fitting, &mut fit, &mut report);

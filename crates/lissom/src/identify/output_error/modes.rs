@@ -12,13 +12,17 @@ const DEVIATIONS: f64 = 5.0;
 const FREQUENCY: f64 = 0.02;
 /// It goes where the cost rises by no more than this share without it.
 const SHARE: f64 = 2e-3;
-/// A mode put beyond the others begins at this many times the highest, with this share of what that one
-/// has and this damping ratio.
-const BEYOND: f64 = 3.0;
+/// A mode put beyond the others begins at one of these times the highest, with this share of what that
+/// one has and this damping ratio.
+const BEYOND: [f64; 2] = [2.0, 4.0];
 const BEYOND_SHARE: f64 = 0.25;
 const BEYOND_DAMPING: f64 = 0.1;
+/// Times its frequency at which it is tried again.
+const RETUNED: [f64; 8] = [0.5, 0.6, 0.72, 0.85, 1.18, 1.4, 1.7, 2.0];
 /// Angle by which point masses turn the two into each other \[rad\].
 const BEYOND_TURN: f64 = 0.4;
+/// Damping ratio from which on a mode is tried without.
+const DAMPED: f64 = 0.005;
 /// Share of the coupling below which a mode is not felt.
 const UNFELT: f64 = 1e-3;
 
@@ -64,28 +68,76 @@ pub(super) fn grow(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) ->
 }
 
 /// Searched again, free what its modes make free.
-fn refitted(fitting: &Fitting<'_>, mut fit: Fit, report: &mut Report) -> Fit {
-    let extra = [Parameter::CommandLag, Parameter::ViscousDifference];
-    let extra: Vec<Parameter> = extra.into_iter().filter(|p| fit.free.contains(p)).collect();
-    fit.free = free_parameters(fitting.campaign, &fit.body.arm);
-    fit.free.extend(extra);
+fn refitted(fitting: &Fitting<'_>, fit: Fit, report: &mut Report) -> Fit {
+    let mut fit = refreed(fitting, fit);
     fitting.search(&mut fit, report);
     fit
 }
 
+/// Free what its modes make free.
+fn refreed(fitting: &Fitting<'_>, mut fit: Fit) -> Fit {
+    let extra = [Parameter::CommandLag, Parameter::ViscousDifference];
+    let extra: Vec<Parameter> = extra.into_iter().filter(|p| fit.free.contains(p)).collect();
+    fit.free = free_parameters(fitting.campaign, &fit.body.arm);
+    fit.free.extend(extra);
+    fit
+}
+
 /// Searched with a mode above all others, which takes over a part of the highest: that one stands for
-/// all that were cut off with it. Point masses say how it may, but for a sign: both are tried.
+/// all that were cut off with it.
+///
+/// Where it rings at a wrong frequency a search is caught there. So a few steps are made from each of
+/// some frequencies, and of both ways in which point masses may have it, on a part of the windows.
 fn with_one_more(fitting: &Fitting<'_>, fit: &Fit, report: &mut Report) -> Fit {
     let last = highest(&fit.body.arm);
-    let beyond = one_beyond(fit.clone(), last);
-    let new = beyond.body.arm.modes.len() - 1;
-    let body = Body::of_masses(fitting.campaign, beyond.body.arm.clone());
-    if body.masses.is_none() {
-        return refitted(fitting, beyond, report);
+    let mut best: Option<(f64, Fit)> = None;
+    for times in BEYOND {
+        let beyond = one_beyond(fit.clone(), last, times);
+        let new = beyond.body.arm.modes.len() - 1;
+        let body = Body::of_masses(fitting.campaign, beyond.body.arm.clone());
+        let bodies = match body.masses {
+            Some(_) => {
+                [BEYOND_TURN, -BEYOND_TURN].map(|t| body.clone().turned(last, new, t)).into()
+            }
+            None => vec![beyond.body.clone()],
+        };
+        for body in bodies {
+            let start = refreed(fitting, Fit { body, ..beyond.clone() });
+            let Some((cost, body)) = fitting.probe(&start) else { continue };
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                best = Some((cost, Fit { body, ..start }));
+            }
+        }
     }
-    let turned = |angle: f64| Fit { body: body.clone().turned(last, new, angle), ..beyond.clone() };
-    let [a, b] = [BEYOND_TURN, -BEYOND_TURN].map(|t| refitted(fitting, turned(t), report));
-    if fitting.cost(&a, &fit.noise) < fitting.cost(&b, &fit.noise) { a } else { b }
+    let Some((_, start)) = best else { return fit.clone() };
+    let found = refitted(fitting, start, report);
+    match retuned(fitting, &found) {
+        Some(other) => refitted(fitting, other, report),
+        None => found,
+    }
+}
+
+/// The highest mode at another frequency, if a few steps from there come to less than from here: now
+/// that the other figures are about right the cost tells.
+fn retuned(fitting: &Fitting<'_>, fit: &Fit) -> Option<Fit> {
+    let mode = highest(&fit.body.arm);
+    let (mut least, _) = fitting.probe(fit)?;
+    let mut found = None;
+    for times in RETUNED {
+        let mut other = fit.clone();
+        let change = (times - 1.0) * fit.body.arm.modes[mode].omega_rad_s;
+        other.body.tune(mode, change);
+        for window in &mut other.windows {
+            let (angle, speed) = (window.start[0], window.start[1]);
+            window.start[2 + 2 * mode..4 + 2 * mode].copy_from_slice(&[angle, speed]);
+        }
+        let Some((cost, body)) = fitting.probe(&other) else { continue };
+        if cost < least {
+            least = cost;
+            found = Some(Fit { body, ..other });
+        }
+    }
+    found
 }
 
 /// The mode of the highest frequency.
@@ -94,15 +146,15 @@ fn highest(arm: &ModalArm) -> usize {
     (0..arm.modes.len()).max_by(|a, b| omega(a).total_cmp(&omega(b))).unwrap_or(0)
 }
 
-fn one_beyond(mut fit: Fit, last: usize) -> Fit {
+fn one_beyond(mut fit: Fit, last: usize, times: f64) -> Fit {
     let arm = &mut fit.body.arm;
     let cut = arm.modes[last];
     arm.modes[last].stiffness_nm_per_rad *= 1.0 - BEYOND_SHARE;
     arm.modes.push(Oscillator {
-        omega_rad_s: BEYOND * cut.omega_rad_s,
+        omega_rad_s: times * cut.omega_rad_s,
         stiffness_nm_per_rad: BEYOND_SHARE * cut.stiffness_nm_per_rad,
         // Its ringing must not outlast how well its frequency is known.
-        within_per_s: 2.0 * BEYOND_DAMPING * BEYOND * cut.omega_rad_s,
+        within_per_s: 2.0 * BEYOND_DAMPING * times * cut.omega_rad_s,
         grounded_per_s: 0.0,
     });
     for row in &mut arm.shapes {
@@ -114,6 +166,22 @@ fn one_beyond(mut fit: Fit, last: usize) -> Fit {
         window.start.extend(still);
     }
     fit
+}
+
+/// Tries the highest mode without damping of its own: from where modes begin, one that nothing drives
+/// may be caught at a damping that is not there.
+pub(super) fn undamp(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+    let ratios = fit.body.arm.damping_ratios();
+    let mode = highest(&fit.body.arm);
+    if ratios.len() < 2 || ratios[mode] < DAMPED {
+        return;
+    }
+    let mut other = fit.clone();
+    other.body.arm.modes[mode].within_per_s = 0.0;
+    fitting.search(&mut other, report);
+    if fitting.cost(&other, &fit.noise) < fitting.cost(fit, &fit.noise) {
+        *fit = other;
+    }
 }
 
 /// Takes out modes that the motor hardly feels, and no tip shows: noise put them where they are, and

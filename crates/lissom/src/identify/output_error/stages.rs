@@ -19,6 +19,9 @@ use crate::replay::{
 const STEPS_ON_THE_WAY: usize = 12;
 /// Samples replayed on that way, about.
 const SAMPLES_ON_THE_WAY: usize = 40_000;
+/// Steps of a probe, and samples replayed for it, about.
+const STEPS_OF_A_PROBE: usize = 8;
+const SAMPLES_OF_A_PROBE: usize = 15_000;
 /// Most steps of the last stage.
 const MOST_STEPS: usize = 40;
 /// Most searches on end, each with the noise that the one before left, until no channel's falls by more
@@ -223,6 +226,20 @@ impl Fitting<'_> {
         });
         (fit.body, fit.windows) = (point.body, point.windows);
         stop
+    }
+
+    /// A few steps on a part of the windows: the cost that they come to, and the body. `None` where a
+    /// mode is too fast for the samples.
+    pub(super) fn probe(&self, fit: &Fit) -> Option<(f64, Body)> {
+        if !can_be_seen(self.campaign, &fit.body.arm) {
+            return None;
+        }
+        let samples: usize = fit.windows.iter().map(Window::len).sum();
+        let every = samples.div_ceil(SAMPLES_OF_A_PROBE).min(fit.windows.len()).max(1);
+        let windows = fit.windows.iter().step_by(every).cloned().collect();
+        let problem = self.problem(&fit.free, &fit.noise, !fit.whole_runs);
+        let (point, ..) = problem.search(problem.at(fit.body.clone(), windows), STEPS_OF_A_PROBE);
+        Some((point.sums.iter().map(|s| s.cost).sum(), point.body))
     }
 
     fn first_window_s(&self, arm: &ModalArm) -> f64 {
