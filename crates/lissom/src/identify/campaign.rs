@@ -11,13 +11,14 @@ use super::friction_law::friction_law;
 use super::friction_waveform::FrictionWaveform;
 use super::identified::{Beam, Friction, Identified, ThirdHarmonic};
 use super::model::state_space;
+use super::models::{beam_model, figures_model};
 use super::output_error::{OutputError, OutputErrorStart, output_error, starts};
-use super::rational::{BeamFit, MotorData, MotorFit, Pole, TipData, fit_beam, fit_motor};
+use super::rational::{BeamFit, MotorFit};
 use super::regression::{BeamRegression, MotorRegression, beam_regression, motor_regression};
-use super::response_table::{ResponsePoint, response_table, tip_model, weak_points};
+use super::response_table::{ResponsePoint, response_table, weak_points};
 use super::run_analysis::{RunAnalysis, RunKind, analyse};
 use super::third_harmonic::{PairFigure, mean_figure, pair_figure};
-use super::{Estimate, verdict};
+use super::{Estimate, models, verdict};
 use crate::lti::StateSpace;
 use crate::record::{Axis, Campaign, Run, TipQuantity};
 
@@ -27,8 +28,6 @@ const HARMONICS: usize = 9;
 const TRIPLE: f64 = 2e-3;
 /// Windowed torque that the regression may leave before its figures are refused.
 const RESIDUAL_REFUSED: f64 = 0.6;
-/// Windowed torque (or acceleration) that a regression may leave for its figures to make a model.
-const EXPLAINED: f64 = 0.05;
 /// Relative difference from that model at which a band is flagged.
 const CONTRADICTED: f64 = 0.1;
 /// Sinusoidal runs from which on the rational models are fitted to the responses.
@@ -197,9 +196,9 @@ pub fn identify(
     }
     let poles = beam_model.as_ref().map(BeamFit::modal_poles);
     let poles = poles.as_deref();
-    let motor_model = motor_model.or_else(|| self::motor_model(&responses, constant, poles));
+    let motor_model = motor_model.or_else(|| models::motor_model(&responses, constant, poles));
     if let Some(third) = &mut third_harmonic {
-        third.motor = self::motor_model(&table(Some(third.coulomb_command)), constant, poles);
+        third.motor = models::motor_model(&table(Some(third.coulomb_command)), constant, poles);
     }
     findings.extend(contradicted);
     findings.extend(weak_points(&responses, &runs));
@@ -272,34 +271,6 @@ fn constant_channels(campaign: &Campaign) -> Vec<(String, usize)> {
     }));
     constant.retain(|(_, runs)| *runs > 0);
     constant
-}
-
-/// The model that the regressions' figures make, where they explain all: a rigid axis without
-/// tips, or one tip that follows one mode.
-fn figures_model(
-    campaign: &Campaign,
-    motor: Option<&MotorRegression>,
-    beam: Option<&BeamRegression>,
-) -> Option<(MotorFit, Option<BeamFit>)> {
-    let motor = motor.filter(|m| m.relative_residual < EXPLAINED)?;
-    let (inertia, viscous) = (motor.inertia?, motor.viscous?);
-    let mode = match (campaign.channels.tips.len(), beam) {
-        (0, _) => None,
-        (1, Some(beam)) if beam.relative_residual[0] < EXPLAINED => {
-            let mode = *beam.modes.first()?;
-            let pole = Pole {
-                omega_rad_s: mode.natural_frequency_rad_s.value,
-                damping_ratio: mode.damping_ratio.value,
-            };
-            Some((mode, (pole, motor.total_coupling?)))
-        }
-        _ => return None,
-    };
-    let command = &campaign.channels.command;
-    let constant = command.torque_per_command.unwrap_or(1.0);
-    let through = mode.map(|m| m.1);
-    let model = MotorFit::of_figures(inertia, viscous, through, constant, command.back_emf_viscous);
-    (inertia.value > 0.0).then(|| (model, mode.map(|m| BeamFit::of_mode(m.0))))
 }
 
 /// Flags the bands whose corrected response the regression's figures contradict, and says so.
@@ -459,45 +430,4 @@ fn pairs(runs: &[RunAnalysis], findings: &[Finding]) -> Option<ThirdHarmonic> {
     let stuck = |i: usize| runs[i].stuck_share.unwrap_or(0.0);
     let (coulomb_command, spread_command) = mean_figure(&chosen, |p| stuck(p.run))?;
     Some(ThirdHarmonic { pairs, coulomb_command, spread_command, used, motor: None })
-}
-
-fn beam_model(campaign: &Campaign, responses: &[ResponsePoint]) -> Option<BeamFit> {
-    let tips = &campaign.channels.tips;
-    if tips.is_empty() {
-        return None;
-    }
-    let complete: Vec<&ResponsePoint> =
-        responses.iter().filter(|p| p.tips.iter().all(Option::is_some)).collect();
-    let omega: Vec<f64> = complete.iter().map(|p| p.omega_rad_s).collect();
-    let data: Vec<TipData> = tips
-        .iter()
-        .enumerate()
-        .map(|(i, tip)| {
-            let modelled: Vec<_> = complete
-                .iter()
-                .filter_map(|p| Some(tip_model(tip.quantity, tip.calibrated, p.tips[i]?)))
-                .collect();
-            let form = modelled.first().map(|m| m.0)?;
-            Some(TipData { form, response: modelled.into_iter().map(|m| m.1).collect() })
-        })
-        .collect::<Option<_>>()?;
-    fit_beam(&omega, &data)
-}
-
-fn motor_model(
-    responses: &[ResponsePoint],
-    constant: f64,
-    poles: Option<&[super::Pole]>,
-) -> Option<MotorFit> {
-    let sound: Vec<_> = responses
-        .iter()
-        .filter(|p| !p.flagged)
-        .filter_map(|p| Some((p.omega_rad_s, p.motor_corrected?)))
-        .collect();
-    let data = MotorData {
-        omega_rad_s: sound.iter().map(|p| p.0).collect(),
-        response: sound.iter().map(|p| p.1).collect(),
-        torque_per_command: constant,
-    };
-    fit_motor(&data, poles)
 }

@@ -12,6 +12,7 @@ mod friction_law;
 mod friction_waveform;
 mod identified;
 mod model;
+mod models;
 mod output_error;
 mod rational;
 mod regression;

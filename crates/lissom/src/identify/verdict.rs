@@ -3,10 +3,10 @@
 use super::constant_velocity::{alone, only_constant_velocities, stand_in};
 use super::finding::{Finding, Severity, key};
 use super::found_arm::FoundArm;
-use super::friction_law::{LawFit, LawTerm};
+use super::friction_law;
 use super::identified::{Beam, Friction, Identified};
-use super::output_error::{self, OutputError};
-use super::regression::{BeamRegression, MissingKind, MissingTerm};
+use super::output_error;
+use super::regression::{self, BeamRegression};
 use super::run_analysis::RunKind;
 use super::{Estimate, Severity::Warning};
 use crate::record::{Campaign, CommandQuantity, Hold, TipQuantity};
@@ -15,8 +15,6 @@ use crate::record::{Campaign, CommandQuantity, Hold, TipQuantity};
 pub(super) const UNCERTAIN: f64 = 0.2;
 /// …and beyond this share it is refused.
 const UNKNOWN: f64 = 1.0;
-/// Windowed torque left by the regression from which on its figures are called uncertain.
-const RESIDUAL: f64 = 0.15;
 /// Weighted residual of the motor's rational model from which on its coupling is not taken.
 const MODEL_MISFIT: f64 = 3.0;
 /// Share of the tips' windowed acceleration below which their own equations explain it all.
@@ -53,9 +51,9 @@ pub(crate) fn conclude(campaign: &Campaign, used: &Campaign, id: &mut Identified
     refuse_the_unknown(id);
     command(campaign, id);
     friction(id);
-    id.findings.extend(law_finding(id));
+    id.findings.extend(friction_law::finding(id));
     if !alone {
-        regression(id);
+        regression::findings(id);
     }
     model(id);
     methods(id, constant);
@@ -89,27 +87,9 @@ fn from_regression(id: &mut Identified) {
     if let Some(law) = &id.friction_law
         && law.chosen.departs()
     {
-        from_law(&mut id.friction, &law.chosen);
+        id.friction = friction_law::friction(&law.chosen);
         id.inertia = law.chosen.inertia;
     }
-}
-
-/// The figures under another law than Coulomb and one viscous constant.
-fn from_law(friction: &mut Friction, law: &LawFit) {
-    let sum = |a: Option<Estimate>, b: Option<Estimate>, sign: f64| {
-        let (a, b) = (a?, b?);
-        Some(Estimate { value: a.value + sign * b.value, std: a.std.hypot(b.std) })
-    };
-    let difference = law.term(|t| *t == LawTerm::ViscousByDirection);
-    let by_direction = |sign: f64| sum(law.viscous, difference, sign);
-    *friction = Friction {
-        coulomb: law.coulomb,
-        forward: sum(law.coulomb, law.offset, 1.0),
-        backward: sum(law.coulomb, law.offset, -1.0),
-        offset: law.offset,
-        viscous: law.viscous,
-        viscous_by_direction: by_direction(1.0).zip(by_direction(-1.0)),
-    };
 }
 
 fn beam(campaign: &Campaign, id: &mut Identified, alone: bool) {
@@ -336,152 +316,6 @@ fn friction(id: &mut Identified) {
             ),
             "the two are the same to a motion log; a load from another orientation tells them apart",
         ));
-    }
-}
-
-/// The law of friction that the data call for.
-fn law_finding(id: &Identified) -> Option<Finding> {
-    let law = id.friction_law.as_ref().filter(|law| law.chosen.departs())?;
-    // The replay describes whole runs with its own law, and its figures are taken.
-    let replayed = id.output_error.as_ref().is_some_and(OutputError::stands);
-    let of_friction = |(term, _): &&(LawTerm, Vec<Estimate>)| *term != LawTerm::CommandLag;
-    let terms: Vec<String> = law.chosen.terms.iter().filter(of_friction).map(in_words).collect();
-    let taken = law.candidates.iter().filter(|c| c.taken && c.term != LawTerm::CommandLag);
-    let paired = taken.map(|c| c.paired).fold(f64::INFINITY, f64::min);
-    Some(Finding::new(
-        "friction-law",
-        if replayed { Severity::Info } else { Warning },
-        &[key::COULOMB, key::VISCOUS],
-        format!(
-            "friction is not Coulomb and one viscous constant: {}; what is left falls to {:.0} % of \
-             itself, and slip phases left out are described better by {paired:.0} deviations or more",
-            terms.join(", "),
-            100.0 * law.relative_residual[1] / law.relative_residual[0]
-        ),
-        if replayed {
-            "the replay describes the runs without it: its figures are taken"
-        } else {
-            "Coulomb and viscous friction are those of this law at speed, not at rest: use the friction \
-             curve at the speed that matters; runs at other speeds show whether the law holds there"
-        },
-    ))
-}
-
-/// A term of the law with its amplitude.
-fn in_words((term, amplitude): &(LawTerm, Vec<Estimate>)) -> String {
-    let a = amplitude.first().map_or(f64::NAN, |e| e.value);
-    match term {
-        LawTerm::ViscousByDirection => format!("viscous friction differs by ±{a:.3e} by direction"),
-        LawTerm::NearRest { speed } if a > 0.0 => {
-            format!("it rises by {a:.3e} towards rest, within {speed:.3e} per second (Stribeck)")
-        }
-        LawTerm::NearRest { speed } => {
-            format!("it falls by {:.3e} towards rest, within {speed:.3e} per second", -a)
-        }
-        LawTerm::Root => format!("it grows with the root of speed, by {a:.3e}"),
-        LawTerm::Ripple { per_angle } => {
-            let size = amplitude.iter().map(|e| e.value * e.value).sum::<f64>().sqrt();
-            let period = std::f64::consts::TAU / per_angle;
-            format!("it changes over the travel by ±{size:.3e} with a period of {period:.4e}")
-        }
-        LawTerm::CommandLag => format!("the command acts {:.3} ms later", 1e3 * a),
-    }
-}
-
-fn regression(id: &mut Identified) {
-    let everything = [key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING];
-    let Some(r) = &id.regression else {
-        let message = match id.regression_residual {
-            Some(residual) => format!(
-                "the motor's equation leaves {:.0} % of the windowed torque: no figure of it stands",
-                100.0 * residual
-            ),
-            None => "too few slip phases are long enough for a window".to_owned(),
-        };
-        let hint = "longer moves in both directions at a measured current; a flexible beam needs its tip \
-                    measured; check columns, units and signs";
-        id.findings.push(Finding::new(
-            "regression-refused",
-            Severity::Refusal,
-            &everything,
-            message,
-            hint,
-        ));
-        return;
-    };
-    if r.relative_residual > RESIDUAL {
-        id.findings.push(Finding::new(
-            "unexplained-torque",
-            Severity::Warning,
-            &everything,
-            format!(
-                "the motor's equation leaves {:.0} % of the windowed torque",
-                100.0 * r.relative_residual
-            ),
-            "a delay, a load, other friction or a flexible mode without a tip; check units and signs",
-        ));
-    }
-    // The replay explains the runs: what one added term would do to the regression says nothing.
-    let explained = id.output_error.as_ref().is_some_and(OutputError::stands);
-    // A law of friction that was chosen says more than the one term that was tried for it.
-    let known = id.friction_law.as_ref().is_some_and(|law| law.chosen.departs());
-    let said = |m: &MissingTerm| m.kind == MissingKind::Stribeck && known;
-    if let Some(m) = r.missing.filter(|m| !explained && !said(m)) {
-        let (what, hint) = match m.kind {
-            MissingKind::Delay => (
-                format!("the command acts {:.2} ms later than it is logged", 1e3 * m.value),
-                "shift the channels against each other, or log the current where it is measured",
-            ),
-            MissingKind::Position => (
-                format!("a torque grows with position, {:.3e} per unit", m.value),
-                "gravity, a spring, cogging or a wrongly scaled tip: the equation has no such term",
-            ),
-            MissingKind::Stribeck => (
-                format!("friction changes with speed, by {:.3e} towards rest", m.value),
-                "Stribeck friction or presliding: one constant and one slope do not describe it",
-            ),
-        };
-        id.findings.push(Finding::new(
-            "missing-term",
-            Warning,
-            &everything,
-            format!(
-                "it looks as if {what}: with that the residual falls to {:.0} % of itself \
-                 ({:.0} deviations); the figures take it up and are off by more than they say",
-                100.0 * m.residual_ratio,
-                m.deviations
-            ),
-            hint,
-        ));
-    }
-    if let Some(d) = r.viscous_by_direction.filter(|_| !explained) {
-        id.findings.push(Finding::new(
-            "viscous-by-direction",
-            Warning,
-            &[key::VISCOUS, key::OFFSET],
-            format!(
-                "viscous friction differs by direction: {:.4e} forward, {:.4e} backward; the \
-                 residual falls from {:.1} % to {:.1} %, and of the offset {:.4e} is left",
-                d.forward.value,
-                d.backward.value,
-                100.0 * r.relative_residual,
-                100.0 * d.relative_residual,
-                d.offset.value
-            ),
-            "the scalar figure is the mean of both; the offset depends on which law is taken",
-        ));
-    }
-    let negative = r.coupling.iter().flatten().any(Estimate::is_negative);
-    if negative && r.coupling.iter().flatten().count() == 1 {
-        let finding = Finding::new(
-            "coupling-sign",
-            Severity::Refusal,
-            &[key::COUPLING, key::MODES],
-            "the beam would push the motor away from itself: the tip's sign looks reversed"
-                .to_owned(),
-            "give the tip a negative scale in the campaign",
-        );
-        id.findings.insert(0, finding);
     }
 }
 

@@ -1,8 +1,9 @@
 //! The simplest law of friction that the data do not reject.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
-use super::rows::{Block, Column, Cut, KINDS, Sampled, fixed};
+use super::held::Held;
+use super::rows::{Block, Column, Cut, Sampled, fixed};
 use super::{LawFit, ripple};
 use crate::identify::Estimate;
 use crate::identify::regression::{Cluster, Solution, Term, coupled_tips, solve};
@@ -12,8 +13,6 @@ use crate::record::Run;
 const NEAR_REST: [f64; 10] = [0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.3, 0.5, 0.8, 1.3];
 /// A speed that was taken is looked for between its neighbours on the list in so many steps.
 const FINER: i32 = 8;
-/// Phases are dealt to this many folds.
-const FOLDS: usize = 5;
 /// A term must do better on phases left out by this many deviations of the difference…
 const PAIRED: f64 = 3.0;
 /// …and leave at most this share of the residual: a smaller one does not pay for a parameter.
@@ -412,92 +411,4 @@ pub(super) fn solved(blocks: &[Block], terms: &[Term]) -> Option<Solution> {
         phase = Some(b.phase);
     }
     solve(&clusters, terms)
-}
-
-/// Squared residuals on what was left out.
-struct Held {
-    /// Of each block, with its phase left out.
-    each: Vec<f64>,
-    /// Sum, with each kind of stretch left out.
-    stretches: f64,
-}
-
-impl Held {
-    fn of(blocks: &[Block], terms: &[Term]) -> Option<Self> {
-        let each = left_out(blocks, terms, FOLDS, |b| b.phase % FOLDS)?;
-        let stretches = left_out(blocks, terms, KINDS, |b| b.kind)?.iter().sum();
-        Some(Self { each, stretches })
-    }
-
-    fn phases(&self) -> f64 {
-        self.each.iter().sum()
-    }
-
-    /// By how many deviations `other` is better, block by block.
-    fn paired(&self, other: &Self) -> f64 {
-        let n = self.each.len() as f64;
-        let better: Vec<f64> = self.each.iter().zip(&other.each).map(|(a, b)| a - b).collect();
-        let mean = better.iter().sum::<f64>() / n;
-        let square: f64 = better.iter().map(|b| (b - mean).powi(2)).sum();
-        mean / (square / (n * (n - 1.0))).sqrt().max(f64::MIN_POSITIVE)
-    }
-}
-
-/// Squared residual of every block with the figures of the groups that it is not in.
-fn left_out(
-    blocks: &[Block],
-    terms: &[Term],
-    groups: usize,
-    group: impl Fn(&Block) -> usize,
-) -> Option<Vec<f64>> {
-    let figures = without_each(blocks, terms, groups, &group)?;
-    let cost = |b: &Block| {
-        let value = figures[group(b)].as_ref();
-        value.map_or(0.0, |v| squared(&b.cluster.products, terms, v, b.cluster.sign))
-    };
-    Some(blocks.iter().map(cost).collect())
-}
-
-/// Figures with one group of blocks after another left out; `None` of groups without blocks.
-pub(super) fn without_each(
-    blocks: &[Block],
-    terms: &[Term],
-    groups: usize,
-    group: impl Fn(&Block) -> usize,
-) -> Option<Vec<Option<DVector<f64>>>> {
-    let width = blocks.first()?.cluster.products.ncols();
-    let empty = || [1.0, -1.0].map(|sign| Cluster::new(0, sign, width));
-    let mut sums: Vec<[Cluster; 2]> = vec![empty(); groups];
-    let mut all = empty();
-    for b in blocks {
-        let side = usize::from(b.cluster.sign < 0.0);
-        for sum in [&mut sums[group(b)][side], &mut all[side]] {
-            sum.products += &b.cluster.products;
-            sum.rows += b.cluster.rows;
-        }
-    }
-    let without = |own: &[Cluster; 2]| {
-        let mut others = all.clone();
-        for (others, own) in others.iter_mut().zip(own) {
-            others.products -= &own.products;
-            others.rows -= own.rows;
-        }
-        Some(solve(&others, terms)?.value)
-    };
-    let one = |own: &[Cluster; 2]| {
-        let rows: usize = own.iter().map(|c| c.rows).sum();
-        if rows == 0 { Some(None) } else { without(own).map(Some) }
-    };
-    sums.iter().map(one).collect()
-}
-
-/// ‖y − X·q‖² from the products of a block.
-fn squared(products: &DMatrix<f64>, terms: &[Term], value: &DVector<f64>, sign: f64) -> f64 {
-    let right = products.ncols() - 1;
-    let mut q = DVector::zeros(products.ncols());
-    for (t, v) in terms.iter().zip(value.iter()) {
-        q[t.column()] += t.factor(sign) * v;
-    }
-    q[right] = -1.0;
-    q.dot(&(products * &q)).max(0.0)
 }

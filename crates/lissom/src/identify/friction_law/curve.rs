@@ -1,6 +1,7 @@
 //! Friction against speed without a law: hat functions, forward and backward, beside the linear part.
 
-use super::choice::{solved, without_each};
+use super::choice::solved;
+use super::held::without_each;
 use super::rows::{Block, Column, Cut, Sampled, fixed, hat};
 use crate::identify::Estimate;
 use crate::identify::regression::{Solution, Term};

@@ -5,13 +5,16 @@
 
 mod choice;
 mod curve;
+mod held;
 mod ripple;
 mod rows;
 #[cfg(test)]
 mod tests;
+mod verdict;
 
 pub use choice::{LawCandidate, LawTerm};
 pub use curve::CurvePoint;
+pub(crate) use verdict::{finding, friction};
 
 use super::Estimate;
 use super::channel_noise::channel_noise;

@@ -7,6 +7,7 @@ mod motor;
 mod normal;
 mod phases;
 mod scan;
+mod verdict;
 mod window;
 
 pub use beam::{BeamRegression, beam_regression};
@@ -16,4 +17,5 @@ pub(crate) use motor::{coupled_tips, row};
 pub(crate) use normal::{Cluster, Solution, Term, solve};
 pub(crate) use phases::{slip_phases, slip_sign, smoothing};
 pub use scan::Candidate;
+pub(crate) use verdict::findings;
 pub(crate) use window::Window;

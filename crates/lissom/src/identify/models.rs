@@ -1,0 +1,80 @@
+//! The models that figures or responses make.
+
+use super::rational::{BeamFit, MotorData, MotorFit, Pole, TipData, fit_beam, fit_motor};
+use super::regression::{BeamRegression, MotorRegression};
+use super::response_table::{ResponsePoint, tip_model};
+use crate::record::Campaign;
+
+/// Windowed torque (or acceleration) that a regression may leave for its figures to make a model.
+const EXPLAINED: f64 = 0.05;
+
+/// The model that the regressions' figures make, where they explain all: a rigid axis without
+/// tips, or one tip that follows one mode.
+pub(super) fn figures_model(
+    campaign: &Campaign,
+    motor: Option<&MotorRegression>,
+    beam: Option<&BeamRegression>,
+) -> Option<(MotorFit, Option<BeamFit>)> {
+    let motor = motor.filter(|m| m.relative_residual < EXPLAINED)?;
+    let (inertia, viscous) = (motor.inertia?, motor.viscous?);
+    let mode = match (campaign.channels.tips.len(), beam) {
+        (0, _) => None,
+        (1, Some(beam)) if beam.relative_residual[0] < EXPLAINED => {
+            let mode = *beam.modes.first()?;
+            let pole = Pole {
+                omega_rad_s: mode.natural_frequency_rad_s.value,
+                damping_ratio: mode.damping_ratio.value,
+            };
+            Some((mode, (pole, motor.total_coupling?)))
+        }
+        _ => return None,
+    };
+    let command = &campaign.channels.command;
+    let constant = command.torque_per_command.unwrap_or(1.0);
+    let through = mode.map(|m| m.1);
+    let model = MotorFit::of_figures(inertia, viscous, through, constant, command.back_emf_viscous);
+    (inertia.value > 0.0).then(|| (model, mode.map(|m| BeamFit::of_mode(m.0))))
+}
+
+/// The beam's modes from its tips' responses to the motor.
+pub(super) fn beam_model(campaign: &Campaign, responses: &[ResponsePoint]) -> Option<BeamFit> {
+    let tips = &campaign.channels.tips;
+    if tips.is_empty() {
+        return None;
+    }
+    let complete: Vec<&ResponsePoint> =
+        responses.iter().filter(|p| p.tips.iter().all(Option::is_some)).collect();
+    let omega: Vec<f64> = complete.iter().map(|p| p.omega_rad_s).collect();
+    let data: Vec<TipData> = tips
+        .iter()
+        .enumerate()
+        .map(|(i, tip)| {
+            let modelled: Vec<_> = complete
+                .iter()
+                .filter_map(|p| Some(tip_model(tip.quantity, tip.calibrated, p.tips[i]?)))
+                .collect();
+            let form = modelled.first().map(|m| m.0)?;
+            Some(TipData { form, response: modelled.into_iter().map(|m| m.1).collect() })
+        })
+        .collect::<Option<_>>()?;
+    fit_beam(&omega, &data)
+}
+
+/// Motor and coupling from its corrected responses.
+pub(super) fn motor_model(
+    responses: &[ResponsePoint],
+    constant: f64,
+    poles: Option<&[super::Pole]>,
+) -> Option<MotorFit> {
+    let sound: Vec<_> = responses
+        .iter()
+        .filter(|p| !p.flagged)
+        .filter_map(|p| Some((p.omega_rad_s, p.motor_corrected?)))
+        .collect();
+    let data = MotorData {
+        omega_rad_s: sound.iter().map(|p| p.0).collect(),
+        response: sound.iter().map(|p| p.1).collect(),
+        torque_per_command: constant,
+    };
+    fit_motor(&data, poles)
+}

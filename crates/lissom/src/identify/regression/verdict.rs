@@ -1,0 +1,106 @@
+//! What the regression's figures are worth, in findings.
+
+use super::{MissingKind, MissingTerm};
+use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::{Estimate, Identified, OutputError};
+
+/// Windowed torque left by the regression from which on its figures are called uncertain.
+const RESIDUAL: f64 = 0.15;
+
+/// What speaks against the regression's figures.
+pub(crate) fn findings(id: &mut Identified) {
+    let everything = [key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING];
+    let Some(r) = &id.regression else {
+        let message = match id.regression_residual {
+            Some(residual) => format!(
+                "the motor's equation leaves {:.0} % of the windowed torque: no figure of it stands",
+                100.0 * residual
+            ),
+            None => "too few slip phases are long enough for a window".to_owned(),
+        };
+        let hint = "longer moves in both directions at a measured current; a flexible beam needs its tip \
+                    measured; check columns, units and signs";
+        id.findings.push(Finding::new(
+            "regression-refused",
+            Severity::Refusal,
+            &everything,
+            message,
+            hint,
+        ));
+        return;
+    };
+    if r.relative_residual > RESIDUAL {
+        id.findings.push(Finding::new(
+            "unexplained-torque",
+            Severity::Warning,
+            &everything,
+            format!(
+                "the motor's equation leaves {:.0} % of the windowed torque",
+                100.0 * r.relative_residual
+            ),
+            "a delay, a load, other friction or a flexible mode without a tip; check units and signs",
+        ));
+    }
+    // The replay explains the runs: what one added term would do to the regression says nothing.
+    let explained = id.output_error.as_ref().is_some_and(OutputError::stands);
+    // A law of friction that was chosen says more than the one term that was tried for it.
+    let known = id.friction_law.as_ref().is_some_and(|law| law.chosen.departs());
+    let said = |m: &MissingTerm| m.kind == MissingKind::Stribeck && known;
+    if let Some(m) = r.missing.filter(|m| !explained && !said(m)) {
+        let (what, hint) = match m.kind {
+            MissingKind::Delay => (
+                format!("the command acts {:.2} ms later than it is logged", 1e3 * m.value),
+                "shift the channels against each other, or log the current where it is measured",
+            ),
+            MissingKind::Position => (
+                format!("a torque grows with position, {:.3e} per unit", m.value),
+                "gravity, a spring, cogging or a wrongly scaled tip: the equation has no such term",
+            ),
+            MissingKind::Stribeck => (
+                format!("friction changes with speed, by {:.3e} towards rest", m.value),
+                "Stribeck friction or presliding: one constant and one slope do not describe it",
+            ),
+        };
+        id.findings.push(Finding::new(
+            "missing-term",
+            Severity::Warning,
+            &everything,
+            format!(
+                "it looks as if {what}: with that the residual falls to {:.0} % of itself \
+                 ({:.0} deviations); the figures take it up and are off by more than they say",
+                100.0 * m.residual_ratio,
+                m.deviations
+            ),
+            hint,
+        ));
+    }
+    if let Some(d) = r.viscous_by_direction.filter(|_| !explained) {
+        id.findings.push(Finding::new(
+            "viscous-by-direction",
+            Severity::Warning,
+            &[key::VISCOUS, key::OFFSET],
+            format!(
+                "viscous friction differs by direction: {:.4e} forward, {:.4e} backward; the \
+                 residual falls from {:.1} % to {:.1} %, and of the offset {:.4e} is left",
+                d.forward.value,
+                d.backward.value,
+                100.0 * r.relative_residual,
+                100.0 * d.relative_residual,
+                d.offset.value
+            ),
+            "the scalar figure is the mean of both; the offset depends on which law is taken",
+        ));
+    }
+    let negative = r.coupling.iter().flatten().any(Estimate::is_negative);
+    if negative && r.coupling.iter().flatten().count() == 1 {
+        let finding = Finding::new(
+            "coupling-sign",
+            Severity::Refusal,
+            &[key::COUPLING, key::MODES],
+            "the beam would push the motor away from itself: the tip's sign looks reversed"
+                .to_owned(),
+            "give the tip a negative scale in the campaign",
+        );
+        id.findings.insert(0, finding);
+    }
+}
