@@ -25,7 +25,7 @@ type Outcome = Vec<Option<Scored>>;
 pub fn report(studies: &[(Study, Outcome)]) -> String {
     let sections = match studies {
         [(study, outcome)] if study.law == Law::None => vec![
-            include_str!("preamble.md").trim_end().to_owned(),
+            preamble(study),
             goals::section(studies),
             figures::section(study, outcome),
             limit::section(outcome),
@@ -47,4 +47,12 @@ fn drawn(outcome: &Outcome) -> Vec<&Scored> {
 /// Those that were identified, with their scores.
 fn scores(outcome: &Outcome) -> Vec<(&Scored, &Score)> {
     drawn(outcome).into_iter().filter_map(|one| Some((one, one.score.as_ref().ok()?))).collect()
+}
+
+/// What is drawn, and the command that makes the page.
+fn preamble(study: &Study) -> String {
+    include_str!("preamble.md")
+        .trim_end()
+        .replace("{campaigns}", &study.campaigns.to_string())
+        .replace("{seed}", &study.seed.to_string())
 }
