@@ -12,6 +12,9 @@ const DEVIATIONS: f64 = 4.0;
 /// …and take at least this share of the cost away. Small as it is, it counts: damping against the frame
 /// that is left out goes into viscous friction, by many of its deviations.
 const SHARE: f64 = 1e-4;
+/// A group that takes this share of the cost is called for whatever its deviations: what it lacks is in
+/// them.
+const LARGE: f64 = 0.02;
 /// Share of the cost by which point masses may leave more than free modes.
 const RIGID_SHARE: f64 = 1e-3;
 /// A kind of dampers is there when one of them stands this many deviations from zero.
@@ -38,10 +41,11 @@ pub struct Extension {
 pub(super) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     for _ in 0..MOST {
         let mut found = promises(fitting, fit);
-        let called_for = |(_, group): &(usize, &Vec<Extension>)| {
-            group.iter().any(|e| e.value.abs() > DEVIATIONS * e.std && e.share > SHARE)
-        };
         let share = |group: &[Extension]| group.first().map_or(0.0, |e| e.share);
+        let called_for = |(_, group): &(usize, &Vec<Extension>)| {
+            let stands = |e: &Extension| e.value.abs() > DEVIATIONS * e.std && e.share > SHARE;
+            share(group) > LARGE || group.iter().any(stands)
+        };
         let best = found.iter().enumerate().filter(called_for);
         let best = best.max_by(|a, b| share(a.1).total_cmp(&share(b.1))).map(|(k, _)| k);
         let added = best.map(|k| found.remove(k));
@@ -85,11 +89,7 @@ pub(super) fn relax(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
         return;
     }
     let free = Fit { body: Body::free(fit.body.arm.clone()), ..fit.clone() };
-    let promised = |fit: &Fit| {
-        let sums = fitting.point(fit, &fit.free).sums;
-        let (normal, right) = normal_equations(&sums, fit.coordinates());
-        right.dot(&(inverse(&normal) * &right)) / sums.iter().map(|s| s.cost).sum::<f64>()
-    };
+    let promised = |fit: &Fit| promised(&fitting.point(fit, &fit.free).sums, fit.coordinates());
     if promised(&free) - promised(fit) > RIGID_SHARE {
         *fit = free;
         fitting.search(fit, report);
@@ -118,6 +118,9 @@ pub(super) fn promises(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Extension>> 
     let all: Vec<Parameter> = fit.free.iter().chain(groups.iter().flatten()).copied().collect();
     let point = fitting.point(fit, &all);
     let first_of_windows = fit.body.coordinates(&all).len();
+    let own: Vec<usize> = (0..free).collect();
+    let alone: Vec<WindowSums> = point.sums.iter().map(|s| s.of(&own, first_of_windows)).collect();
+    let alone = promised(&alone, free);
     let mut first = free;
     let mut found = Vec::new();
     for group in groups {
@@ -125,7 +128,7 @@ pub(super) fn promises(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Extension>> 
         first += group.len();
         let sums: Vec<WindowSums> =
             point.sums.iter().map(|s| s.of(&kept, first_of_windows)).collect();
-        found.push(score(&sums, free, &group));
+        found.push(score(&sums, free, &group, alone));
     }
     found
 }
@@ -173,13 +176,20 @@ fn candidates(fit: &Fit) -> Vec<Vec<Parameter>> {
     groups
 }
 
-/// The step that a search would make in the parameters of `group`, which follow `before` others.
-fn score(sums: &[WindowSums], before: usize, group: &[Parameter]) -> Vec<Extension> {
+/// Share of the cost that one step in the first `shared` coordinates promises to take.
+fn promised(sums: &[WindowSums], shared: usize) -> f64 {
+    let (normal, right) = normal_equations(sums, shared);
+    right.dot(&(inverse(&normal) * &right)) / sums.iter().map(|s| s.cost).sum::<f64>()
+}
+
+/// The step that a search would make in the parameters of `group`, which follow `before` others that
+/// promise `alone` by themselves.
+fn score(sums: &[WindowSums], before: usize, group: &[Parameter], alone: f64) -> Vec<Extension> {
     let shared = before + group.len();
     let (normal, right) = normal_equations(sums, shared);
     let step = inverse(&normal) * &right;
     let covariance = Covariances::at(sums, shared).larger();
-    let share = right.dot(&step) / sums.iter().map(|s| s.cost).sum::<f64>();
+    let share = right.dot(&step) / sums.iter().map(|s| s.cost).sum::<f64>() - alone;
     let figure = |(k, parameter): (usize, &Parameter)| {
         let (value, std) = (step[before + k], deviation(&covariance, before + k));
         Extension { parameter: *parameter, value, std, share, added: false }
