@@ -10,7 +10,7 @@ use lissom::replay::{ModalArm, Oscillator};
 use serde_json::{Map, Value, json};
 use thiserror::Error;
 
-use super::UnitNames;
+use super::{UnitNames, dry_terms};
 use crate::error::Error;
 
 /// Relative difference of torque constants beyond which they are two.
@@ -51,6 +51,7 @@ pub(super) fn arm(channels: &Channels, names: UnitNames, found: &FoundArm) -> Va
     map.insert(names.viscous_key("viscous_backward"), json!(a.viscous_nm_s_per_rad[1]));
     map.insert(format!("coulomb_{}", names.torque()), json!(a.coulomb_nm));
     map.insert(format!("offset_{}", names.torque()), json!(a.offset_nm));
+    dry_terms::write(&mut map, names, &a.dry_terms);
     map.insert("command_lag_s".to_owned(), json!(a.command_lag_s));
     map.insert("modes".to_owned(), Value::Array(modes));
     map.insert("tips".to_owned(), Value::Array(tips));
@@ -167,7 +168,7 @@ fn torque_used(table: &Value) -> Option<TorqueUsed> {
     Some(TorqueUsed { relative_error, window_s })
 }
 
-struct Reader {
+pub(super) struct Reader {
     file: String,
     root: Value,
 }
@@ -202,6 +203,7 @@ impl Reader {
             ],
             coulomb_nm: number(&format!("coulomb_{}", names.torque()))?,
             offset_nm: number(&format!("offset_{}", names.torque()))?,
+            dry_terms: dry_terms::read(self, table, names)?,
             shapes: self.shapes(table, channels, modes.len())?,
             at_points_per_s: self
                 .numbers(&table["damping_at_points_per_s"], "damping_at_points_per_s")?,
@@ -290,7 +292,11 @@ impl Reader {
         tips.iter().map(shape).collect()
     }
 
-    fn list<'a>(&self, table: &'a Value, key: &str) -> Result<&'a Vec<Value>, ResultError> {
+    pub(super) fn list<'a>(
+        &self,
+        table: &'a Value,
+        key: &str,
+    ) -> Result<&'a Vec<Value>, ResultError> {
         table[key].as_array().ok_or_else(|| self.key(format!("arm.{key}"), "a list"))
     }
 
@@ -299,11 +305,11 @@ impl Reader {
         numbers.ok_or_else(|| self.key(format!("arm.{key}"), "a list of numbers"))
     }
 
-    fn number(&self, table: &Value, at: &str, key: &str) -> Result<f64, ResultError> {
+    pub(super) fn number(&self, table: &Value, at: &str, key: &str) -> Result<f64, ResultError> {
         table[key].as_f64().ok_or_else(|| self.key(format!("{at}.{key}"), "a number"))
     }
 
-    fn key(&self, key: String, expected: &'static str) -> ResultError {
+    pub(super) fn key(&self, key: String, expected: &'static str) -> ResultError {
         ResultError::Key { file: self.file.clone(), key, expected }
     }
 }

@@ -4,6 +4,7 @@
 //! is refused; a finding then says why.
 
 mod arm;
+mod dry_terms;
 mod friction_law;
 mod units;
 mod validation;

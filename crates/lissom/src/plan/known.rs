@@ -9,7 +9,7 @@ use crate::identify::free_parameters;
 use crate::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, Tip, TipQuantity,
 };
-use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter, SensorNoise, Window};
+use crate::replay::{DryTerms, MOST_MODES, ModalArm, Oscillator, Parameter, SensorNoise, Window};
 use crate::rig::{Logged, Rig, Sensor};
 
 /// Modes of more than this many radians a sample are not followed: six samples a period.
@@ -76,6 +76,7 @@ impl Known {
             modes: kept.iter().map(mode).collect(),
             shapes: tips.clone().map(|i| kept.iter().map(|j| r[(i, *j)]).collect()).collect(),
             at_points_per_s: Vec::new(),
+            dry_terms: DryTerms::default(),
             command_lag_s: delay_s,
         };
         let channels = channels(rig, tips.clone());

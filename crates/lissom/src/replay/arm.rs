@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
+use super::dry_terms::DryTerms;
 use crate::arm::Arm;
 
 /// Most modes of a replayed arm.
@@ -48,6 +49,8 @@ pub struct ModalArm {
     pub coulomb_nm: f64,
     /// (F_+ + F_−)/2: a constant load, or friction's difference by direction \[N·m\].
     pub offset_nm: f64,
+    /// What dry friction has beyond these, part of F_±.
+    pub dry_terms: DryTerms,
     /// The beam's modes.
     pub modes: Vec<Oscillator>,
     /// r_ij of tip i (outer) and mode j.
@@ -88,6 +91,7 @@ impl ModalArm {
             viscous_nm_s_per_rad: [arm.motor.viscous_nm_s_per_rad; 2],
             coulomb_nm: 0.5 * (arm.coulomb.forward + arm.coulomb.backward),
             offset_nm: 0.5 * (arm.coulomb.forward - arm.coulomb.backward),
+            dry_terms: DryTerms::default(),
             modes: (0..n)
                 .map(|j| Oscillator {
                     omega_rad_s: omega[j],

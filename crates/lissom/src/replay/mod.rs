@@ -5,6 +5,9 @@
 //! the motor comes to rest or reverses, tangents jump (saltation).
 
 mod arm;
+mod dry_terms;
+mod events;
+mod friction;
 mod motion;
 mod noise;
 mod parameter;
@@ -17,6 +20,7 @@ mod transition;
 mod window;
 
 pub use arm::{MOST_MODES, ModalArm, Oscillator};
+pub use dry_terms::{DryTerms, NearRest, Ripple};
 pub use noise::SensorNoise;
 pub use parameter::Parameter;
 pub use point_masses::{BeamCoordinate, BeamDerivative, PointMasses};

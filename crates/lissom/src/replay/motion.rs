@@ -1,22 +1,21 @@
-//! The replayed arm in motion: stick, slip, the events between them, and the tangents.
+//! The replayed arm in motion: whole pieces of samples stuck or slipping, and their tangents.
 
+use super::friction::{Ends, Friction, sign};
+use super::parameter::Parameter;
 use super::rates::{Phases, Rates};
-use super::series::{Ramp, Terms, add, reach_s, tangent, terms, times, value};
+use super::series::{Ramp, add, times};
 use super::transition::Transition;
-use crate::lti::first_root::{ORDER_MOST, first_used_up};
 use crate::rig::Mode;
 
-/// Events within one piece of a sample after which the joint is held until its end: it chatters.
-const MOST_EVENTS: usize = 50;
-/// Rounding of an acceleration, relative to the terms it is a sum of.
-const ROUNDING: f64 = 1e-13;
+/// Halvings of a piece, at most, where friction changes with speed or angle.
+const HALVINGS: usize = 6;
 
-/// Which tangent is which: those of the matrices' parameters come first, then those of the torque,
+/// Which tangent is which: those of the matrices' parameters come first, then those of friction,
 /// the lag, and the initial state.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Columns {
-    pub(super) coulomb: Option<usize>,
-    pub(super) offset: Option<usize>,
+    /// First column of friction's parameters.
+    pub(super) friction: usize,
     pub(super) lag: Option<usize>,
     /// First column of the initial state.
     pub(super) initial: usize,
@@ -35,8 +34,14 @@ impl Torque {
     pub(super) fn held(torque: f64) -> Self {
         Self { from: torque, to: torque, by_lag: [0.0; 2] }
     }
-    fn ramp(self, duration_s: f64) -> Ramp {
+    pub(super) fn ramp(self, duration_s: f64) -> Ramp {
         Ramp { from: self.from, slope: (self.to - self.from) / duration_s }
+    }
+    /// Between two shares of its duration.
+    fn part(self, from: f64, to: f64) -> Self {
+        let at = |share: f64| self.from + share * (self.to - self.from);
+        let lag = |share: f64| self.by_lag[0] + share * (self.by_lag[1] - self.by_lag[0]);
+        Self { from: at(from), to: at(to), by_lag: [lag(from), lag(to)] }
     }
 }
 
@@ -44,10 +49,9 @@ impl Torque {
 #[derive(Debug, Clone)]
 pub(super) struct Mover<const D: usize> {
     pub(super) phases: Phases<D>,
-    pub(super) coulomb: f64,
-    pub(super) offset: f64,
+    pub(super) friction: Friction,
     pub(super) columns: Columns,
-    /// Forward, backward, stuck: for each duration.
+    /// Forward, backward, stuck: for each duration, and for its halves where friction needs them.
     pub(super) pieces: Vec<[Transition<D>; 3]>,
 }
 
@@ -64,51 +68,64 @@ pub(super) struct Motion<const D: usize> {
 }
 
 impl<const D: usize> Motion<D> {
-    fn rub(&mut self, mean_torque: f64, duration_s: f64) {
+    pub(super) fn rub(&mut self, mean_torque: f64, duration_s: f64) {
         if let Some(impulse) = &mut self.friction_impulse {
             *impulse += mean_torque * duration_s;
         }
     }
 }
 
-/// Forward is +1, backward −1.
-fn sign(direction: usize) -> f64 {
-    if direction == 0 { 1.0 } else { -1.0 }
+/// Which way it slips: 0 forward, 1 backward.
+pub(super) fn direction(mode: Mode) -> Option<usize> {
+    match mode {
+        Mode::Forward => Some(0),
+        Mode::Backward => Some(1),
+        Mode::Stick => None,
+    }
 }
 
 impl<const D: usize> Mover<D> {
-    /// Adds the transitions for one more duration and gives its number.
+    /// Adds the transitions for one more duration and gives its number; those of its halves follow.
     pub(super) fn prepare(&mut self, duration_s: f64) -> usize {
-        let of = |rates: &Rates<D>| Transition::new(rates, duration_s);
-        let [forward, backward] = &self.phases.slip;
-        self.pieces.push([of(forward), of(backward), of(&self.phases.stick)]);
-        self.pieces.len() - 1
+        let first = self.pieces.len();
+        for halvings in 0..=self.halvings() {
+            let part_s = duration_s / f64::from(1_u32 << halvings);
+            let of = |rates: &Rates<D>| Transition::new(rates, part_s);
+            let [forward, backward] = &self.phases.slip;
+            self.pieces.push([of(forward), of(backward), of(&self.phases.stick)]);
+        }
+        first
     }
 
-    /// Signed friction torque while slipping.
-    fn friction(&self, direction: usize) -> f64 {
-        sign(direction) * self.coulomb + self.offset
+    fn halvings(&self) -> usize {
+        if self.friction.terms.is_empty() { 0 } else { HALVINGS }
+    }
+
+    /// The parameter of friction whose tangent is at `column`.
+    pub(super) fn of_friction(&self, column: usize) -> Option<Parameter> {
+        let own = column.checked_sub(self.columns.friction)?;
+        self.friction.parameters.get(own).copied()
     }
 
     /// Acceleration that the motor has, or would have, slipping in `direction` under `torque`.
     pub(super) fn acceleration(&self, x: &[f64; D], torque: f64, direction: usize) -> f64 {
         let rates = &self.phases.slip[direction];
         let pull: f64 = rates.a[1].iter().zip(x).map(|(a, x)| a * x).sum();
-        pull + rates.b[1] * (torque - self.friction(direction))
+        pull + rates.b[1] * (torque - self.friction.torque(x, direction))
     }
 
     /// Friction's torque on the motor now: what holds it, or what it slips against.
     pub(super) fn friction_torque(&self, motion: &Motion<D>, torque: f64) -> f64 {
         match motion.mode {
-            Mode::Forward => self.friction(0),
-            Mode::Backward => self.friction(1),
+            Mode::Forward => self.friction.torque(&motion.x, 0),
+            Mode::Backward => self.friction.torque(&motion.x, 1),
             Mode::Stick => self.held(&motion.x, torque),
         }
     }
 
     /// The torque that holds a stuck motor.
     fn held(&self, x: &[f64; D], torque: f64) -> f64 {
-        self.acceleration(x, torque, 0) / self.phases.slip[0].b[1] + self.friction(0)
+        self.acceleration(x, torque, 0) / self.phases.slip[0].b[1] + self.friction.torque(x, 0)
     }
 
     /// The motor's acceleration now.
@@ -120,8 +137,38 @@ impl<const D: usize> Mover<D> {
         }
     }
 
-    /// Moves on over prepared piece number `piece`.
+    /// Moves on over prepared piece number `piece`, in parts where friction changes on the way.
     pub(super) fn advance(&self, motion: &mut Motion<D>, piece: usize, torque: Torque) {
+        if self.halvings() == 0 {
+            self.part(motion, piece, torque);
+            return;
+        }
+        let all = 1_usize << HALVINGS;
+        let share = |parts: usize| parts as f64 / all as f64;
+        let mut done = 0;
+        while done < all {
+            self.settle(motion, torque.part(share(done), 1.0).from);
+            let halvings = (0..HALVINGS).find(|h| {
+                let duration_s = self.pieces[piece + h][2].duration_s;
+                let now = torque.part(share(done), 1.0).from;
+                done % (all >> h) == 0 && duration_s <= self.step_s(motion, now, duration_s)
+            });
+            let halvings = halvings.unwrap_or(HALVINGS);
+            let next = done + (all >> halvings);
+            self.part(motion, piece + halvings, torque.part(share(done), share(next)));
+            done = next;
+        }
+    }
+
+    /// Longest step within `within_s` over which friction may be taken for linear in time.
+    pub(super) fn step_s(&self, motion: &Motion<D>, torque: f64, within_s: f64) -> f64 {
+        let Some(direction) = direction(motion.mode) else { return f64::INFINITY };
+        let acceleration = self.acceleration(&motion.x, torque, direction);
+        let pushed = (acceleration, self.phases.slip[direction].b[1]);
+        self.friction.step_s(&motion.x, direction, pushed, within_s)
+    }
+
+    fn part(&self, motion: &mut Motion<D>, piece: usize, torque: Torque) {
         self.settle(motion, torque.from);
         let transitions = &self.pieces[piece];
         let done = match motion.mode {
@@ -141,7 +188,7 @@ impl<const D: usize> Mover<D> {
         }
     }
 
-    fn mode_at_rest(&self, x: &[f64; D], torque: f64) -> Mode {
+    pub(super) fn mode_at_rest(&self, x: &[f64; D], torque: f64) -> Mode {
         if self.acceleration(x, torque, 0) > 0.0 {
             Mode::Forward
         } else if self.acceleration(x, torque, 1) < 0.0 {
@@ -177,9 +224,12 @@ impl<const D: usize> Mover<D> {
         direction: usize,
     ) -> bool {
         let sign = sign(direction);
-        let net = torque.from - self.friction(direction);
+        let net = torque.from - self.friction.torque(&motion.x, direction);
         let change = torque.to - torque.from;
-        let next = piece.own.apply(&motion.x, net, change);
+        let mut next = piece.own.apply(&motion.x, net, change);
+        let ends = self.friction.over((&motion.x, &next), &piece.own.ramp, direction);
+        let rises = ends.to - ends.from;
+        add(&mut next, -rises, &piece.own.ramp);
         let keeps = sign * next[1] > 0.0 && sign * motion.x[1] > 0.0;
         // It may dip below zero and come back where it falls first and rises last.
         let dips = || {
@@ -189,191 +239,43 @@ impl<const D: usize> Mover<D> {
         if !keeps || dips() {
             return false;
         }
-        self.move_tangents(motion, piece, Some((direction, net, change, torque.by_lag)));
-        motion.rub(self.friction(direction), piece.duration_s);
+        self.move_tangents(motion, piece, Some((&ends, net, change - rises, torque.by_lag)));
+        motion.rub(0.5 * (ends.from + ends.to), piece.duration_s);
         motion.x = next;
         true
     }
 
-    /// Tangents over a whole piece; `slip` is the direction, the net torque and its change.
+    /// Tangents over a whole piece; `slip` is friction's ends, the net torque and its change.
     fn move_tangents(
         &self,
         motion: &mut Motion<D>,
         piece: &Transition<D>,
-        slip: Option<(usize, f64, f64, [f64; 2])>,
+        slip: Option<(&Ends, f64, f64, [f64; 2])>,
     ) {
-        let columns = self.columns;
         let (net, change) = slip.map_or((0.0, 0.0), |s| (s.1, s.2));
+        let constant = self.friction.terms.is_empty();
         for (k, s) in motion.tangents.iter_mut().enumerate() {
+            let start = *s;
             *s = times(&piece.own.phi, s);
             if let Some(by) = piece.by_parameter.get(k) {
                 let own = by.apply(&motion.x, net, change);
                 add(s, 1.0, &own);
             }
-        }
-        let Some((direction, _, _, by_lag)) = slip else { return };
-        if let Some(k) = columns.coulomb {
-            add(&mut motion.tangents[k], -sign(direction), &piece.own.push);
-        }
-        if let Some(k) = columns.offset {
-            add(&mut motion.tangents[k], -1.0, &piece.own.push);
-        }
-        if let Some(k) = columns.lag
-            && by_lag.iter().any(|b| *b != 0.0)
-        {
-            add(&mut motion.tangents[k], by_lag[0], &piece.own.push);
-            add(&mut motion.tangents[k], by_lag[1] - by_lag[0], &piece.own.ramp);
-        }
-    }
-
-    /// Moves on over `duration_s` from event to event.
-    fn through_events(&self, motion: &mut Motion<D>, torque: Torque, duration_s: f64) {
-        let by_lag = Ramp {
-            from: torque.by_lag[0],
-            slope: (torque.by_lag[1] - torque.by_lag[0]) / duration_s,
-        };
-        let (mut done, mut events) = (0.0, 0);
-        let whole = torque.ramp(duration_s);
-        while done < duration_s {
-            let ramp = whole.after(done);
-            let rates = self.rates(motion.mode);
-            let net = self.net(motion.mode, ramp);
-            let series = terms(rates, &motion.x, net);
-            let most = reach_s(rates).min(duration_s - done);
-            let event = if events < MOST_EVENTS {
-                self.event(motion.mode, &series, ramp, most)
-            } else {
-                None
-            };
-            let time_s = event.unwrap_or(most);
-            self.series_tangents(motion, &series, net, by_lag.after(done), time_s);
-            let before = self.friction_torque(motion, ramp.from);
-            motion.x = value(&series, time_s);
-            let after = self.friction_torque(motion, ramp.after(time_s).from);
-            motion.rub(0.5 * (before + after), time_s);
-            if motion.mode == Mode::Stick {
-                motion.stuck_s += time_s;
+            let Some((ends, _, _, by_lag)) = slip else { continue };
+            if self.columns.lag == Some(k) && by_lag.iter().any(|b| *b != 0.0) {
+                add(s, by_lag[0], &piece.own.push);
+                add(s, by_lag[1] - by_lag[0], &piece.own.ramp);
             }
-            // The rest of the piece may be less than the rounding of its end.
-            done = if event.is_none() && most >= duration_s - done {
-                duration_s
-            } else {
-                done + time_s
-            };
-            if event.is_some() {
-                events += 1;
-                self.pass(motion, ramp.after(time_s).from, events >= MOST_EVENTS);
+            let own = self.of_friction(k);
+            if constant && own.is_none() {
+                continue;
             }
-        }
-    }
-
-    fn rates(&self, mode: Mode) -> &Rates<D> {
-        match mode {
-            Mode::Forward => &self.phases.slip[0],
-            Mode::Backward => &self.phases.slip[1],
-            Mode::Stick => &self.phases.stick,
-        }
-    }
-
-    fn net(&self, mode: Mode, torque: Ramp) -> Ramp {
-        match mode {
-            Mode::Forward => torque.less(self.friction(0)),
-            Mode::Backward => torque.less(self.friction(1)),
-            Mode::Stick => torque,
-        }
-    }
-
-    /// Time within `most` at which the motor comes to rest or is let go.
-    fn event(&self, mode: Mode, series: &Terms<D>, torque: Ramp, most: f64) -> Option<f64> {
-        let mut c = [0.0; ORDER_MOST + 1];
-        match mode {
-            Mode::Stick => {
-                let let_go = |direction: usize| {
-                    let mut c = [0.0; ORDER_MOST + 1];
-                    let rates = &self.phases.slip[direction];
-                    let s = sign(direction);
-                    for (c, x) in c.iter_mut().zip(series) {
-                        *c = -s * rates.a[1].iter().zip(x).map(|(a, x)| a * x).sum::<f64>();
-                    }
-                    let net = torque.less(self.friction(direction));
-                    c[0] -= s * rates.b[1] * net.from;
-                    c[1] -= s * rates.b[1] * net.slope;
-                    first_used_up(&c, most, self.rounding(&series[0], torque.from))
-                };
-                let (a, b) = (let_go(0), let_go(1));
-                match (a, b) {
-                    (Some(a), Some(b)) => Some(a.min(b)),
-                    (a, b) => a.or(b),
-                }
-            }
-            Mode::Forward | Mode::Backward => {
-                let s = if mode == Mode::Forward { 1.0 } else { -1.0 };
-                for (c, x) in c.iter_mut().zip(series) {
-                    *c = s * x[1];
-                }
-                first_used_up(&c, most, self.rounding(&series[0], torque.from) * most)
-            }
-        }
-    }
-
-    /// Rounding of the motor's acceleration at `x` under `torque`.
-    fn rounding(&self, x: &[f64; D], torque: f64) -> f64 {
-        let rates = &self.phases.slip[0];
-        let pulls = rates.a[1].iter().zip(x).map(|(a, x)| (a * x).abs()).sum::<f64>();
-        ROUNDING * (pulls + rates.b[1] * (torque.abs() + self.coulomb.abs()))
-    }
-
-    /// From one mode to the next at an event, and what that does to the tangents.
-    ///
-    /// The event's time depends on the parameters: with f before and after it, tangents change by
-    /// (f⁻ − f⁺)·dσ, and `dσ = −s_v/θ̈⁻` where the motor comes to rest. Only θ̈ jumps: s_v becomes
-    /// zero in a stick and is multiplied by θ̈⁺/θ̈⁻ in a reversal. Let go, θ̈ begins at zero, and
-    /// nothing jumps.
-    fn pass(&self, motion: &mut Motion<D>, torque: f64, chatters: bool) {
-        if motion.mode == Mode::Stick {
-            // At the threshold itself rounding decides the sign: the side nearer to it lets go.
-            let forward = self.acceleration(&motion.x, torque, 0);
-            let backward = -self.acceleration(&motion.x, torque, 1);
-            motion.mode = if forward >= backward { Mode::Forward } else { Mode::Backward };
-            return;
-        }
-        let before = self.motor_acceleration(motion, torque);
-        motion.x[1] = 0.0;
-        motion.mode = if chatters { Mode::Stick } else { self.mode_at_rest(&motion.x, torque) };
-        let after = self.motor_acceleration(motion, torque);
-        let ratio = if before == 0.0 { 0.0 } else { after / before };
-        for s in &mut motion.tangents {
-            s[1] *= ratio;
-        }
-    }
-
-    fn series_tangents(
-        &self,
-        motion: &mut Motion<D>,
-        series: &Terms<D>,
-        net: Ramp,
-        by_lag: Ramp,
-        time_s: f64,
-    ) {
-        let rates = self.rates(motion.mode);
-        let constant = |from: f64| Ramp { from, slope: 0.0 };
-        let (direction, slipping) = match motion.mode {
-            Mode::Forward => (1.0, 1.0),
-            Mode::Backward => (-1.0, 1.0),
-            Mode::Stick => (0.0, 0.0),
-        };
-        for (k, s) in motion.tangents.iter_mut().enumerate() {
-            let net_by = if self.columns.coulomb == Some(k) {
-                constant(-direction)
-            } else if self.columns.offset == Some(k) {
-                constant(-slipping)
-            } else if self.columns.lag == Some(k) {
-                by_lag
-            } else {
-                constant(0.0)
-            };
-            let by = rates.by_parameter.get(k);
-            *s = tangent(rates, series, net, s, by, net_by, time_s);
+            let (push, ramp) = (&piece.own.push, &piece.own.ramp);
+            let [from, to] = self.friction.tangent(ends, own, &start, |from| {
+                [0, 1].map(|i| s[i] - from * (push[i] - ramp[i]))
+            });
+            add(s, -from, push);
+            add(s, from - to, ramp);
         }
     }
 

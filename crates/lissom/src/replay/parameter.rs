@@ -25,6 +25,16 @@ pub enum Parameter {
     Coulomb,
     /// Offset.
     Offset,
+    /// A, what friction near rest has beyond Coulomb's.
+    NearRest,
+    /// v_s, the speed over which it goes.
+    NearRestSpeed,
+    /// Cosine of a ripple.
+    RippleCosine(usize),
+    /// Sine of a ripple.
+    RippleSine(usize),
+    /// Waves of a ripple per angle.
+    RippleRate(usize),
     /// Lag of the command.
     CommandLag,
     /// r of a tip (first) and a mode (second).
@@ -61,7 +71,13 @@ impl Parameter {
             | Self::DampingWithin(_)
             | Self::DampingGrounded(_)
             | Self::DampingAtPoint(_) => Enters::Matrices,
-            Self::Coulomb | Self::Offset => Enters::Torque,
+            Self::Coulomb
+            | Self::Offset
+            | Self::NearRest
+            | Self::NearRestSpeed
+            | Self::RippleCosine(_)
+            | Self::RippleSine(_)
+            | Self::RippleRate(_) => Enters::Torque,
             Self::CommandLag => Enters::Lag,
             Self::Shape(..) | Self::ShapeShare(..) => Enters::Output,
         }
@@ -69,7 +85,10 @@ impl Parameter {
 
     /// Whether it is positive by nature and spans decades, so that a search moves its logarithm.
     pub fn is_scale(self) -> bool {
-        matches!(self, Self::Inertia | Self::Frequency(_) | Self::Stiffness(_))
+        matches!(
+            self,
+            Self::Inertia | Self::Frequency(_) | Self::Stiffness(_) | Self::NearRestSpeed
+        )
     }
 
     /// Its name in results, modes and tips counted from one.
@@ -85,6 +104,11 @@ impl Parameter {
             Self::DampingAtPoint(i) => format!("damping-at-point-{}", i + 1),
             Self::Coulomb => "coulomb".to_owned(),
             Self::Offset => "offset".to_owned(),
+            Self::NearRest => "near-rest".to_owned(),
+            Self::NearRestSpeed => "near-rest-speed".to_owned(),
+            Self::RippleCosine(i) => format!("ripple-cosine-{}", i + 1),
+            Self::RippleSine(i) => format!("ripple-sine-{}", i + 1),
+            Self::RippleRate(i) => format!("ripple-rate-{}", i + 1),
             Self::CommandLag => "command-lag".to_owned(),
             Self::Shape(i, j) | Self::ShapeShare(i, j) => format!("shape-{}-{}", i + 1, j + 1),
         }
@@ -104,6 +128,11 @@ impl Parameter {
             Self::DampingAtPoint(i) => arm.at_points_per_s[i],
             Self::Coulomb => arm.coulomb_nm,
             Self::Offset => arm.offset_nm,
+            Self::NearRest => arm.dry_terms.near_rest.map_or(0.0, |n| n.torque_nm),
+            Self::NearRestSpeed => arm.dry_terms.near_rest.map_or(0.0, |n| n.speed_rad_s),
+            Self::RippleCosine(i) => arm.dry_terms.ripples[i].cosine_nm,
+            Self::RippleSine(i) => arm.dry_terms.ripples[i].sine_nm,
+            Self::RippleRate(i) => arm.dry_terms.ripples[i].per_rad,
             Self::CommandLag => arm.command_lag_s,
             Self::Shape(i, j) | Self::ShapeShare(i, j) => arm.shapes[i][j],
         }
@@ -126,6 +155,15 @@ impl Parameter {
             Self::DampingAtPoint(i) => arm.at_points_per_s[i] = value,
             Self::Coulomb => arm.coulomb_nm = value,
             Self::Offset => arm.offset_nm = value,
+            Self::NearRest => {
+                arm.dry_terms.near_rest.iter_mut().for_each(|n| n.torque_nm = value);
+            }
+            Self::NearRestSpeed => {
+                arm.dry_terms.near_rest.iter_mut().for_each(|n| n.speed_rad_s = value);
+            }
+            Self::RippleCosine(i) => arm.dry_terms.ripples[i].cosine_nm = value,
+            Self::RippleSine(i) => arm.dry_terms.ripples[i].sine_nm = value,
+            Self::RippleRate(i) => arm.dry_terms.ripples[i].per_rad = value,
             Self::CommandLag => arm.command_lag_s = value,
             Self::Shape(i, j) => arm.shapes[i][j] = value,
             Self::ShapeShare(i, j) => {

@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use super::*;
 use crate::arm::Arm;
 use crate::beam::{LumpedBeam, Span};
-use crate::drive::{Coulomb, Motor};
+use crate::drive::{Coulomb, DryFriction, Falloff, Motor};
 use crate::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
 };
@@ -42,7 +42,14 @@ fn command() -> Vec<f64> {
 
 /// The event engine's own log of that command, from rest, beginning once the motor turns.
 fn campaign(arm: &Arm, hold: Hold, quantity: TipQuantity) -> (Campaign, Vec<Vec<f64>>, f64) {
-    let mut motion = Hybrid::at_rest(arm);
+    log_of(Hybrid::at_rest(arm), hold, quantity)
+}
+
+fn log_of(
+    mut motion: Hybrid<'_>,
+    hold: Hold,
+    quantity: TipQuantity,
+) -> (Campaign, Vec<Vec<f64>>, f64) {
     let (mut motor, mut tips, mut states) = (Vec::new(), vec![Vec::new(); 2], Vec::new());
     let command = command();
     for u in &command {
@@ -128,23 +135,34 @@ const PARAMETERS: [Parameter; 15] = [
     Parameter::ShapeShare(1, 0),
 ];
 
-/// Derivatives of every channel at every sample: the engine's, and by central differences.
 fn derivatives_hold(hold: Hold, quantity: TipQuantity, lag_s: f64) {
     let mut model = ModalArm::of_arm(&arm()).unwrap();
     model.command_lag_s = lag_s;
     model.at_points_per_s[1] = 0.4;
+    derivatives_of(&model, &PARAMETERS, hold, quantity, 1e-6, [2e-6, 1e-3]);
+}
+
+/// Derivatives of every channel at every sample: the replay's, and by central differences.
+fn derivatives_of(
+    model: &ModalArm,
+    parameters: &[Parameter],
+    hold: Hold,
+    quantity: TipQuantity,
+    relative: f64,
+    tolerance: [f64; 2],
+) {
     let (campaign, states, _) = campaign(&arm(), hold, quantity);
     let from = states.iter().position(|x| x[1].abs() > 0.05).unwrap();
-    let window = window(&model, &states, from, SAMPLES - 1);
+    let window = window(model, &states, from, SAMPLES - 1);
     let sampling = Sampling {
         noise: &[SensorNoise::gaussian(1.0); 3],
         blocks: &[Blocks { samples: 1.0, period: None }],
         masks: &[vec![None; 3]],
     };
-    let base = predict(&model, &campaign, &window).unwrap();
+    let base = predict(model, &campaign, &window).unwrap();
     // With blocks of one sample and residuals put in one channel at a time, scores are derivatives.
     let moved = |model: &ModalArm, window: &Window| predict(model, &campaign, window).unwrap();
-    let rows = derivative_rows(&model, &campaign, &window, &base, sampling);
+    let rows = derivative_rows((model, parameters), &campaign, &window, &base, sampling);
     let compare = |what: &str, column: usize, step: f64, above: &Prediction, below: &Prediction| {
         let mut largest: f64 = 0.0;
         let mut errors = Vec::new();
@@ -159,18 +177,18 @@ fn derivatives_hold(hold: Hold, quantity: TipQuantity, lag_s: f64) {
         errors.sort_by(f64::total_cmp);
         let (worst, usual) = (errors[errors.len() - 1], errors[errors.len() / 2]);
         // Differences across an event that moves past a sample are off there, and only there.
-        assert!(usual < 2e-6 * largest, "{what}: median {usual} of {largest}");
-        assert!(worst < 1e-3 * largest, "{what}: worst {worst} of {largest}");
+        assert!(usual < tolerance[0] * largest, "{what}: median {usual} of {largest}");
+        assert!(worst < tolerance[1] * largest, "{what}: worst {worst} of {largest}");
     };
-    for (column, p) in PARAMETERS.iter().enumerate() {
-        let at = p.of(&model);
+    for (column, p) in parameters.iter().enumerate() {
+        let at = p.of(model);
         let usual = match p {
             Parameter::DampingWithin(_)
             | Parameter::DampingGrounded(_)
             | Parameter::DampingAtPoint(_) => 1.0,
             _ => 1e-3,
         };
-        let step = 1e-6 * at.abs().max(usual);
+        let step = relative * at.abs().max(usual);
         let with = |value: f64| {
             let mut model = model.clone();
             p.set(&mut model, value);
@@ -182,15 +200,15 @@ fn derivatives_hold(hold: Hold, quantity: TipQuantity, lag_s: f64) {
         let with = |change: f64| {
             let mut window = window.clone();
             window.start[i] += change;
-            moved(&model, &window)
+            moved(model, &window)
         };
-        compare(&format!("state {i}"), PARAMETERS.len() + i, 1e-6, &with(1e-6), &with(-1e-6));
+        compare(&format!("state {i}"), parameters.len() + i, 1e-6, &with(1e-6), &with(-1e-6));
     }
 }
 
 /// ∂ŷ of each sample and channel: a residual of one in that channel alone leaves its row as score.
 fn derivative_rows(
-    model: &ModalArm,
+    (model, parameters): (&ModalArm, &[Parameter]),
     campaign: &Campaign,
     window: &Window,
     base: &Prediction,
@@ -209,7 +227,7 @@ fn derivative_rows(
         let tips = (0..2).map(|i| shifted(i + 1, &run.tips()[i])).collect();
         let run = Run::new("r", run.time(), run.command().to_vec(), shifted(0, run.motor()), tips);
         let campaign = Campaign::new(campaign.channels.clone(), vec![run.unwrap()]).unwrap();
-        let sums = sums(model, &PARAMETERS, &campaign, std::slice::from_ref(window), sampling);
+        let sums = sums(model, parameters, &campaign, std::slice::from_ref(window), sampling);
         for (row, block) in rows.iter_mut().zip(&sums[0].blocks) {
             let last = block.ncols() - 1;
             row.push(block.column(last).iter().take(last).copied().collect());
@@ -227,4 +245,73 @@ fn derivatives_are_exact_through_stick_and_slip() {
 fn derivatives_are_exact_with_a_lag() {
     derivatives_hold(Hold::Sampled, TipQuantity::Deflection, 0.0013);
     derivatives_hold(Hold::Measured, TipQuantity::Angle, 0.0013);
+}
+
+/// Friction that rises towards rest and changes over the travel.
+fn with_terms(model: &ModalArm) -> ModalArm {
+    let mut model = model.clone();
+    let (share, per_rad, phase) = (0.2, 9.0, 0.4_f64);
+    let size = share * model.coulomb_nm;
+    model.dry_terms = DryTerms {
+        near_rest: Some(NearRest { torque_nm: 0.02, speed_rad_s: 0.15 }),
+        ripples: vec![Ripple {
+            per_rad,
+            cosine_nm: size * phase.cos(),
+            sine_nm: -size * phase.sin(),
+        }],
+    };
+    model
+}
+
+#[test]
+fn derivatives_are_exact_under_further_terms_of_friction() {
+    let mut model = with_terms(&ModalArm::of_arm(&arm()).unwrap());
+    model.command_lag_s = 0.0013;
+    let parameters = [
+        Parameter::Inertia,
+        Parameter::NearRest,
+        Parameter::Coulomb,
+        Parameter::Frequency(0),
+        Parameter::NearRestSpeed,
+        Parameter::RippleSine(0),
+        Parameter::Offset,
+        Parameter::RippleCosine(0),
+        Parameter::RippleRate(0),
+        Parameter::CommandLag,
+    ];
+    // Steps over which friction is linear end elsewhere when parameters move, and the lag moves all of
+    // them: what tangents leave out is of the size of what such steps miss.
+    let within = [1e-3, 0.03];
+    derivatives_of(&model, &parameters, Hold::Sampled, TipQuantity::Angle, 1e-4, within);
+    derivatives_of(&model, &parameters, Hold::Measured, TipQuantity::Acceleration, 1e-4, within);
+}
+
+/// Against the event engine's own series of such friction: what is left is the step over which the
+/// replay takes friction for linear.
+#[test]
+fn replays_further_terms_of_friction_as_the_event_engine_does() {
+    let arm = arm_of(crate::beam::Damping::Modal { ratios: vec![0.02, 0.01] }, 0.0);
+    let plain = ModalArm::of_arm(&arm).unwrap();
+    let sliding = Coulomb::symmetric(0.045).unwrap();
+    let rest = Coulomb::symmetric(0.065).unwrap();
+    let stribeck = DryFriction::from(sliding).with_rest(rest, 0.15, Falloff::Exponential).unwrap();
+    let ripple = DryFriction::from(sliding).with_ripple(0.2, 9.0, 0.4).unwrap();
+    let whole = with_terms(&plain);
+    let near = DryTerms { ripples: vec![], ..whole.dry_terms.clone() };
+    let waves = DryTerms { near_rest: None, ..whole.dry_terms };
+    for (friction, dry_terms) in [(stribeck, near), (ripple, waves)] {
+        let model = ModalArm { offset_nm: 0.0, dry_terms, ..plain.clone() };
+        let motion = Hybrid::at_rest(&arm).with_friction(friction);
+        let (campaign, states, _) = log_of(motion, Hold::Sampled, TipQuantity::Angle);
+        let from = states.iter().position(|x| x[1] != 0.0).unwrap();
+        let apart = |model: &ModalArm| {
+            let window = window(model, &states, from, SAMPLES - 1);
+            let found = predict(model, &campaign, &window).unwrap();
+            let logged = &campaign.runs[0].motor()[from..];
+            let apart = found.channels[0].iter().zip(logged).map(|(a, b)| (a - b).abs());
+            apart.fold(0.0, f64::max)
+        };
+        let (with, without) = (apart(&model), apart(&ModalArm { offset_nm: 0.0, ..plain.clone() }));
+        assert!(with < 1e-3 * without, "{with} {without}");
+    }
 }

@@ -3,7 +3,8 @@
 use std::ops::RangeInclusive;
 
 use super::arm::ModalArm;
-use super::motion::{Columns, Motion, Mover, Torque};
+use super::friction::Friction;
+use super::motion::{Columns, Motion, Mover, Torque, direction};
 use super::parameter::{Enters, Parameter};
 use super::rates::Phases;
 use crate::record::{Channels, Hold, Run, TipQuantity};
@@ -20,7 +21,7 @@ pub(super) struct Replayer<'a, const D: usize> {
     parameters: &'a [Parameter],
     /// Where each parameter's tangent is; `None` where it has none.
     tangent_of: Vec<Option<usize>>,
-    shapes: &'a [Vec<f64>],
+    arm: &'a ModalArm,
     sample_time_s: f64,
     /// Whole samples and the share of one by which the command acts later.
     lag_samples: isize,
@@ -47,38 +48,27 @@ impl<'a, const D: usize> Replayer<'a, D> {
     ) -> Self {
         let phases = Phases::new(arm, parameters);
         let matrices = phases.stick.by_parameter.len();
-        let mut next = matrices;
-        let mut column = |p: Parameter| {
-            parameters.contains(&p).then(|| {
-                next += 1;
-                next - 1
-            })
-        };
-        let coulomb = column(Parameter::Coulomb);
-        let offset = column(Parameter::Offset);
-        let lag = column(Parameter::CommandLag);
-        let columns = Columns { coulomb, offset, lag, initial: next };
+        let friction = Friction::new(arm, parameters);
+        let own = |p: Parameter| friction.parameters.iter().position(|q| *q == p);
+        let own = |p: Parameter| own(p).map(|i| matrices + i);
+        let lag = parameters.contains(&Parameter::CommandLag);
+        let lag = lag.then_some(matrices + friction.parameters.len());
+        let initial = matrices + friction.parameters.len() + usize::from(lag.is_some());
+        let columns = Columns { friction: matrices, lag, initial };
         let mut inside = 0;
         let tangent_of = parameters
             .iter()
-            .map(|p| match (p.enters(arm), p) {
-                (Enters::Matrices, _) => {
+            .map(|p| match p.enters(arm) {
+                Enters::Matrices => {
                     inside += 1;
                     Some(inside - 1)
                 }
-                (_, Parameter::Coulomb) => coulomb,
-                (_, Parameter::Offset) => offset,
-                (_, Parameter::CommandLag) => lag,
-                _ => None,
+                Enters::Torque => own(*p),
+                Enters::Lag => lag,
+                Enters::Output => None,
             })
             .collect();
-        let mut mover = Mover {
-            phases,
-            coulomb: arm.coulomb_nm,
-            offset: arm.offset_nm,
-            columns,
-            pieces: Vec::new(),
-        };
+        let mut mover = Mover { phases, friction, columns, pieces: Vec::new() };
         let samples = arm.command_lag_s / sample_time_s;
         let held = channels.command.hold == Hold::Sampled;
         let (mut lag_samples, mut lag_share) = (samples.floor(), samples - samples.floor());
@@ -96,7 +86,7 @@ impl<'a, const D: usize> Replayer<'a, D> {
             channels,
             parameters,
             tangent_of,
-            shapes: &arm.shapes,
+            arm,
             sample_time_s,
             lag_samples: lag_samples as isize,
             lag_share,
@@ -226,13 +216,13 @@ impl<'a, const D: usize> Replayer<'a, D> {
 
     /// Share of the modes that the tip sees beside its angle, `1 − Σr`, of an acceleration.
     fn left(&self, tip: usize) -> f64 {
-        1.0 - self.shapes[tip].iter().sum::<f64>()
+        1.0 - self.arm.shapes[tip].iter().sum::<f64>()
     }
 
     /// What a tip shows, as a row on the state, and its value.
     fn tip(&self, seen: &Seen<'_, D>, tip: usize) -> ([f64; D], f64) {
         let mut c = [0.0; D];
-        let shape = &self.shapes[tip];
+        let shape = &self.arm.shapes[tip];
         let x = &seen.motion.x;
         let dot = |c: &[f64; D]| c.iter().zip(x).map(|(a, b)| a * b).sum::<f64>();
         match self.channels.tips[tip].quantity {
@@ -256,8 +246,13 @@ impl<'a, const D: usize> Replayer<'a, D> {
                 let left = self.left(tip);
                 let motor = self.mover.motor_acceleration(seen.motion, seen.torque);
                 if let Some(d) = direction(seen.motion.mode) {
-                    for (c, a) in c.iter_mut().zip(&self.mover.phases.slip[d].a[1]) {
+                    let rates = &self.mover.phases.slip[d];
+                    for (c, a) in c.iter_mut().zip(&rates.a[1]) {
                         *c += left * a;
+                    }
+                    let friction = self.mover.friction.slopes(x, d);
+                    for (c, f) in c.iter_mut().zip(friction) {
+                        *c -= left * rates.b[1] * f;
                     }
                 }
                 (c, oscillators + left * motor)
@@ -282,7 +277,7 @@ impl<'a, const D: usize> Replayer<'a, D> {
             match *p {
                 Parameter::Shape(i, j) if i == tip => row[index] += shown(j),
                 Parameter::ShapeShare(i, j) if i == tip => {
-                    row[index] += shown(j) - shown(self.shapes[tip].len() - 1);
+                    row[index] += shown(j) - shown(self.arm.shapes[tip].len() - 1);
                 }
                 _ => {}
             }
@@ -295,29 +290,19 @@ impl<'a, const D: usize> Replayer<'a, D> {
         for (index, p) in self.parameters.iter().enumerate() {
             let Some(k) = self.tangent_of[index] else { continue };
             if let Some((da, _)) = self.mover.phases.stick.by_parameter.get(k) {
-                let shape = self.shapes[tip].iter().enumerate();
+                let shape = self.arm.shapes[tip].iter().enumerate();
                 row[index] += shape.map(|(j, r)| r * dot(&da[3 + 2 * j])).sum::<f64>();
             }
             let Some(d) = slip else { continue };
             let rates = &self.mover.phases.slip[d];
-            let sign = if d == 0 { 1.0 } else { -1.0 };
+            let friction = &self.mover.friction;
             row[index] += left
-                * match p {
-                    Parameter::Coulomb => -sign * rates.b[1],
-                    Parameter::Offset => -rates.b[1],
+                * match p.enters(self.arm) {
+                    Enters::Torque => -rates.b[1] * friction.by(*p, x, d),
                     _ => rates.by_parameter.get(k).map_or(0.0, |(da, db)| {
-                        let friction = sign * self.mover.coulomb + self.mover.offset;
-                        dot(&da[1]) + db[1] * (seen.torque - friction)
+                        dot(&da[1]) + db[1] * (seen.torque - friction.torque(x, d))
                     }),
                 };
         }
-    }
-}
-
-fn direction(mode: Mode) -> Option<usize> {
-    match mode {
-        Mode::Forward => Some(0),
-        Mode::Backward => Some(1),
-        Mode::Stick => None,
     }
 }

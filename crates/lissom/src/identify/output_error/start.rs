@@ -2,7 +2,7 @@
 
 use crate::identify::{BeamFit, BeamRegression, MotorRegression};
 use crate::record::{Campaign, Tip, TipQuantity};
-use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter};
+use crate::replay::{DryTerms, MOST_MODES, ModalArm, Oscillator, Parameter};
 
 /// Smallest stiffness of a mode to start with, as a share of the coupling: its logarithm is moved.
 const LEAST_SHARE: f64 = 0.02;
@@ -79,6 +79,7 @@ fn rigid(campaign: &Campaign, motor: &MotorRegression) -> Option<ModalArm> {
         modes: Vec::new(),
         shapes: vec![Vec::new(); campaign.channels.tips.len()],
         at_points_per_s: Vec::new(),
+        dry_terms: DryTerms::default(),
         command_lag_s: 0.0,
     })
 }

@@ -1,7 +1,7 @@
 use super::*;
 use crate::identify::{ArmSource, TorqueUsed};
 use crate::record::{Axis, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
-use crate::replay::ModalArm;
+use crate::replay::{DryTerms, ModalArm};
 
 /// Sample time of the logs \[s\].
 const T: f64 = 0.002;
@@ -17,6 +17,7 @@ fn rigid() -> ModalArm {
         modes: Vec::new(),
         shapes: Vec::new(),
         at_points_per_s: Vec::new(),
+        dry_terms: DryTerms::default(),
         command_lag_s: 0.0,
     }
 }

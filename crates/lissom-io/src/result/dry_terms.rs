@@ -1,0 +1,65 @@
+//! What an arm's dry friction has beyond Coulomb's, as JSON: written into `arm` and read back.
+
+use std::f64::consts::TAU;
+
+use lissom::replay::{DryTerms, NearRest, Ripple};
+use serde_json::{Map, Value, json};
+
+use super::UnitNames;
+use super::arm::{Reader, ResultError};
+
+/// Puts `near_rest` and `ripples` into the table of an arm.
+pub(super) fn write(map: &mut Map<String, Value>, names: UnitNames, terms: &DryTerms) {
+    let near = terms
+        .near_rest
+        .map(|n| json!({ (amplitude(names)): n.torque_nm, (speed(names)): n.speed_rad_s }));
+    let ripple = |r: &Ripple| {
+        json!({
+            (period(names)): TAU / r.per_rad,
+            (format!("cosine_{}", names.torque())): r.cosine_nm,
+            (format!("sine_{}", names.torque())): r.sine_nm,
+        })
+    };
+    map.insert("near_rest".to_owned(), json!(near));
+    map.insert("ripples".to_owned(), terms.ripples.iter().map(ripple).collect());
+}
+
+/// Reads them.
+pub(super) fn read(of: &Reader, table: &Value, names: UnitNames) -> Result<DryTerms, ResultError> {
+    let positive = |value: f64, key: String| {
+        if value > 0.0 { Ok(value) } else { Err(of.key(key, "greater than zero")) }
+    };
+    let near = &table["near_rest"];
+    let near_rest = if near.is_null() {
+        None
+    } else {
+        let at = "arm.near_rest";
+        let speed = speed(names);
+        let speed_rad_s = positive(of.number(near, at, &speed)?, format!("{at}.{speed}"))?;
+        Some(NearRest { torque_nm: of.number(near, at, &amplitude(names))?, speed_rad_s })
+    };
+    let ripple = |r: &Value| {
+        let at = "arm.ripples[]";
+        let number = |key: &str| of.number(r, at, key);
+        let period = period(names);
+        Ok(Ripple {
+            per_rad: TAU / positive(number(&period)?, format!("{at}.{period}"))?,
+            cosine_nm: number(&format!("cosine_{}", names.torque()))?,
+            sine_nm: number(&format!("sine_{}", names.torque()))?,
+        })
+    };
+    let ripples = of.list(table, "ripples")?.iter().map(ripple).collect::<Result<_, _>>()?;
+    Ok(DryTerms { near_rest, ripples })
+}
+
+fn amplitude(names: UnitNames) -> String {
+    format!("amplitude_{}", names.torque())
+}
+
+fn speed(names: UnitNames) -> String {
+    format!("speed_{}_per_s", names.angle())
+}
+
+fn period(names: UnitNames) -> String {
+    format!("period_{}", names.angle())
+}

@@ -1,0 +1,126 @@
+//! What dry friction has beyond one Coulomb constant: a change near rest, ripple over the travel.
+
+use super::parameter::Parameter;
+
+/// Largest share of its range by which an argument of the law may move over a step that is replayed
+/// with friction linear in time: friction is then off by less than a thousandth of the term.
+const STEP: f64 = 0.1;
+/// Largest (rate × step) at which friction that falls with speed lets the speed grow.
+const GROWTH: f64 = 0.3;
+/// Speeds at which friction near rest has nothing left, over its own.
+const GONE: f64 = 9.0;
+
+/// Dry friction's terms beside Coulomb and offset:
+/// `s·(A·e^{−|θ̇|/v_s} + Σ_i B_i·cos k_iθ + C_i·sin k_iθ)`, s the direction of motion.
+///
+/// # Source
+/// Exponential falloff after Tustin; with A > 0 the Stribeck effect, with A < 0 friction that grows less
+/// than in proportion. Symbols as in `[Armstrong1994, Section 2]`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct DryTerms {
+    /// Change near rest.
+    pub near_rest: Option<NearRest>,
+    /// Waves over the angle.
+    pub ripples: Vec<Ripple>,
+}
+
+/// `s·A·e^{−|θ̇|/v_s}`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NearRest {
+    /// A \[N·m\]: friction at rest is C + A.
+    pub torque_nm: f64,
+    /// v_s \[rad/s\].
+    pub speed_rad_s: f64,
+}
+
+/// `s·(B·cos kθ + C·sin kθ)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ripple {
+    /// k: waves per turn, or radians per metre.
+    pub per_rad: f64,
+    /// B \[N·m\].
+    pub cosine_nm: f64,
+    /// C \[N·m\].
+    pub sine_nm: f64,
+}
+
+/// Where the law is asked for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub(super) angle: f64,
+    /// Speed in the direction of motion, not negative.
+    pub(super) speed: f64,
+    /// +1 or −1.
+    pub(super) sign: f64,
+}
+
+impl DryTerms {
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.near_rest.is_none() && self.ripples.is_empty()
+    }
+
+    /// Their torque against the motor, signed.
+    pub(super) fn torque_nm(&self, at: Place) -> f64 {
+        let near = self.near_rest.map_or(0.0, |n| n.torque_nm * n.falloff(at.speed));
+        let wave = |r: &Ripple| {
+            let (sine, cosine) = (r.per_rad * at.angle).sin_cos();
+            r.cosine_nm * cosine + r.sine_nm * sine
+        };
+        at.sign * (near + self.ripples.iter().map(wave).sum::<f64>())
+    }
+
+    /// Derivatives of that by the angle and by the velocity.
+    pub(super) fn slopes(&self, at: Place) -> [f64; 2] {
+        let wave = |r: &Ripple| {
+            let (sine, cosine) = (r.per_rad * at.angle).sin_cos();
+            r.per_rad * (r.sine_nm * cosine - r.cosine_nm * sine)
+        };
+        let near =
+            self.near_rest.map_or(0.0, |n| n.torque_nm * n.falloff(at.speed) / n.speed_rad_s);
+        [at.sign * self.ripples.iter().map(wave).sum::<f64>(), -near]
+    }
+
+    /// Derivative of the torque by one of the terms' own numbers.
+    pub(super) fn by(&self, parameter: Parameter, at: Place) -> f64 {
+        let ripple = |i: usize| self.ripples[i].per_rad * at.angle;
+        at.sign
+            * match (parameter, self.near_rest) {
+                (Parameter::NearRest, Some(n)) => n.falloff(at.speed),
+                (Parameter::NearRestSpeed, Some(n)) => {
+                    n.torque_nm * n.falloff(at.speed) * at.speed / n.speed_rad_s.powi(2)
+                }
+                (Parameter::RippleCosine(i), _) => ripple(i).cos(),
+                (Parameter::RippleSine(i), _) => ripple(i).sin(),
+                (Parameter::RippleRate(i), _) => {
+                    let (r, (sine, cosine)) = (&self.ripples[i], ripple(i).sin_cos());
+                    at.angle * (r.sine_nm * cosine - r.cosine_nm * sine)
+                }
+                _ => 0.0,
+            }
+    }
+
+    /// Longest step over which friction may be taken for linear in time \[s\], for a motor that turns at
+    /// `turning`, slows down to the place's speed at most, accelerates by `acceleration`, and by
+    /// `per_torque` more per torque.
+    pub(super) fn step_s(
+        &self,
+        at: Place,
+        turning: f64,
+        acceleration: f64,
+        per_torque: f64,
+    ) -> f64 {
+        let near = self.near_rest.filter(|n| at.speed < GONE * n.speed_rad_s).map(|n| {
+            let moves = STEP * n.speed_rad_s / acceleration.abs();
+            moves.min(GROWTH * n.speed_rad_s / (per_torque * n.torque_nm).abs())
+        });
+        let turns = self.ripples.iter().map(|r| STEP / (r.per_rad * turning).abs());
+        turns.chain(near).fold(f64::INFINITY, f64::min)
+    }
+}
+
+impl NearRest {
+    fn falloff(&self, speed: f64) -> f64 {
+        (-speed / self.speed_rad_s).exp()
+    }
+}

@@ -1,0 +1,203 @@
+//! The replayed arm from event to event within a piece of a sample, by Taylor series.
+
+use super::friction::{Ends, sign};
+use super::motion::{Motion, Mover, Torque, direction};
+use super::rates::Rates;
+use super::series::{Ramp, Terms, reach_s, tangent, terms, value};
+use crate::lti::first_root::{ORDER_MOST, first_used_up};
+use crate::rig::Mode;
+
+/// Events within one piece of a sample after which the joint is held until its end: it chatters.
+const MOST_EVENTS: usize = 50;
+/// Rounding of an acceleration, relative to the terms it is a sum of.
+const ROUNDING: f64 = 1e-13;
+/// Shortest stretch over which friction is taken for linear in time, over the piece.
+const SHORTEST: f64 = 1.0 / 64.0;
+
+/// A stretch that one series describes.
+struct Stretch<const D: usize> {
+    series: Terms<D>,
+    /// Net torque on the motor.
+    net: Ramp,
+    /// What the lag makes of the torque.
+    by_lag: Ramp,
+    duration_s: f64,
+    /// Friction's ends while it slips, with the responses to a torque and to a ramp at the end.
+    friction: Option<(Ends, [f64; D], [f64; D])>,
+}
+
+impl<const D: usize> Mover<D> {
+    /// Moves on over `duration_s` from event to event.
+    pub(super) fn through_events(&self, motion: &mut Motion<D>, torque: Torque, duration_s: f64) {
+        let by_lag = Ramp {
+            from: torque.by_lag[0],
+            slope: (torque.by_lag[1] - torque.by_lag[0]) / duration_s,
+        };
+        let (mut done, mut events) = (0.0, 0);
+        let whole = torque.ramp(duration_s);
+        while done < duration_s {
+            let left_s = duration_s - done;
+            let ramp = whole.after(done);
+            let most = self.reach_s(motion, ramp.from, left_s, SHORTEST * duration_s);
+            let stretch = self.stretch(motion, ramp, by_lag.after(done), most);
+            let event = if events < MOST_EVENTS {
+                self.event(motion.mode, &stretch.series, ramp, most)
+            } else {
+                None
+            };
+            let time_s = event.unwrap_or(most);
+            self.series_tangents(motion, &stretch, time_s);
+            let before = self.friction_torque(motion, ramp.from);
+            motion.x = value(&stretch.series, time_s);
+            let after = self.friction_torque(motion, ramp.after(time_s).from);
+            motion.rub(0.5 * (before + after), time_s);
+            if motion.mode == Mode::Stick {
+                motion.stuck_s += time_s;
+            }
+            // The rest of the piece may be less than the rounding of its end.
+            done = if event.is_none() && most >= left_s { duration_s } else { done + time_s };
+            if event.is_some() {
+                events += 1;
+                self.pass(motion, ramp.after(time_s).from, events >= MOST_EVENTS);
+            }
+        }
+    }
+
+    /// How far one series reaches, with friction linear in time.
+    fn reach_s(&self, motion: &Motion<D>, torque: f64, left_s: f64, shortest_s: f64) -> f64 {
+        let mut most = reach_s(self.rates(motion.mode)).min(left_s);
+        while most > shortest_s && most > self.step_s(motion, torque, most) {
+            most *= 0.5;
+        }
+        most
+    }
+
+    fn stretch(
+        &self,
+        motion: &Motion<D>,
+        torque: Ramp,
+        by_lag: Ramp,
+        duration_s: f64,
+    ) -> Stretch<D> {
+        let rates = self.rates(motion.mode);
+        let Some(direction) = direction(motion.mode) else {
+            let series = terms(rates, &motion.x, torque);
+            return Stretch { series, net: torque, by_lag, duration_s, friction: None };
+        };
+        let mut net = torque.less(self.friction.torque(&motion.x, direction));
+        let mut series = terms(rates, &motion.x, net);
+        let unit = |net: Ramp| value(&terms(rates, &[0.0; D], net), duration_s);
+        let (mut push, mut ramp) = ([0.0; D], [0.0; D]);
+        if !self.friction.terms.is_empty() {
+            push = unit(Ramp { from: 1.0, slope: 0.0 });
+            ramp = unit(Ramp { from: 0.0, slope: 1.0 / duration_s });
+        }
+        let base = value(&series, duration_s);
+        let ends = self.friction.over((&motion.x, &base), &ramp, direction);
+        if ends.to != ends.from {
+            net.slope -= (ends.to - ends.from) / duration_s;
+            series = terms(rates, &motion.x, net);
+        }
+        let friction = Some((ends, push, ramp));
+        Stretch { series, net, by_lag, duration_s, friction }
+    }
+
+    fn rates(&self, mode: Mode) -> &Rates<D> {
+        match mode {
+            Mode::Forward => &self.phases.slip[0],
+            Mode::Backward => &self.phases.slip[1],
+            Mode::Stick => &self.phases.stick,
+        }
+    }
+
+    /// Time within `most` at which the motor comes to rest or is let go.
+    fn event(&self, mode: Mode, series: &Terms<D>, torque: Ramp, most: f64) -> Option<f64> {
+        let mut c = [0.0; ORDER_MOST + 1];
+        match mode {
+            Mode::Stick => {
+                let let_go = |direction: usize| {
+                    let mut c = [0.0; ORDER_MOST + 1];
+                    let rates = &self.phases.slip[direction];
+                    let s = sign(direction);
+                    for (c, x) in c.iter_mut().zip(series) {
+                        *c = -s * rates.a[1].iter().zip(x).map(|(a, x)| a * x).sum::<f64>();
+                    }
+                    let net = torque.less(self.friction.torque(&series[0], direction));
+                    c[0] -= s * rates.b[1] * net.from;
+                    c[1] -= s * rates.b[1] * net.slope;
+                    first_used_up(&c, most, self.rounding(&series[0], torque.from))
+                };
+                let (a, b) = (let_go(0), let_go(1));
+                match (a, b) {
+                    (Some(a), Some(b)) => Some(a.min(b)),
+                    (a, b) => a.or(b),
+                }
+            }
+            Mode::Forward | Mode::Backward => {
+                let s = if mode == Mode::Forward { 1.0 } else { -1.0 };
+                for (c, x) in c.iter_mut().zip(series) {
+                    *c = s * x[1];
+                }
+                first_used_up(&c, most, self.rounding(&series[0], torque.from) * most)
+            }
+        }
+    }
+
+    /// Rounding of the motor's acceleration at `x` under `torque`.
+    fn rounding(&self, x: &[f64; D], torque: f64) -> f64 {
+        let rates = &self.phases.slip[0];
+        let pulls = rates.a[1].iter().zip(x).map(|(a, x)| (a * x).abs()).sum::<f64>();
+        ROUNDING * (pulls + rates.b[1] * (torque.abs() + self.friction.coulomb.abs()))
+    }
+
+    /// From one mode to the next at an event, and what that does to the tangents.
+    ///
+    /// The event's time depends on the parameters: with f before and after it, tangents change by
+    /// (f⁻ − f⁺)·dσ, and `dσ = −s_v/θ̈⁻` where the motor comes to rest. Only θ̈ jumps: s_v becomes
+    /// zero in a stick and is multiplied by θ̈⁺/θ̈⁻ in a reversal. Let go, θ̈ begins at zero, and
+    /// nothing jumps.
+    fn pass(&self, motion: &mut Motion<D>, torque: f64, chatters: bool) {
+        if motion.mode == Mode::Stick {
+            // At the threshold itself rounding decides the sign: the side nearer to it lets go.
+            let forward = self.acceleration(&motion.x, torque, 0);
+            let backward = -self.acceleration(&motion.x, torque, 1);
+            motion.mode = if forward >= backward { Mode::Forward } else { Mode::Backward };
+            return;
+        }
+        let before = self.motor_acceleration(motion, torque);
+        motion.x[1] = 0.0;
+        motion.mode = if chatters { Mode::Stick } else { self.mode_at_rest(&motion.x, torque) };
+        let after = self.motor_acceleration(motion, torque);
+        let ratio = if before == 0.0 { 0.0 } else { after / before };
+        for s in &mut motion.tangents {
+            s[1] *= ratio;
+        }
+    }
+
+    fn series_tangents(&self, motion: &mut Motion<D>, stretch: &Stretch<D>, time_s: f64) {
+        let rates = self.rates(motion.mode);
+        let still = Ramp { from: 0.0, slope: 0.0 };
+        let constant = self.friction.terms.is_empty();
+        for (k, s) in motion.tangents.iter_mut().enumerate() {
+            let by = rates.by_parameter.get(k);
+            let mut net_by = if self.columns.lag == Some(k) { stretch.by_lag } else { still };
+            let own = self.of_friction(k);
+            if let Some((ends, push, ramp)) = &stretch.friction
+                && !(constant && own.is_none())
+            {
+                let [from, to] = self.friction.tangent(ends, own, s, |from| {
+                    // Constant friction asks for nothing at its end.
+                    if constant {
+                        return [0.0; 2];
+                    }
+                    let t = stretch.duration_s;
+                    let end = tangent(rates, &stretch.series, stretch.net, s, by, net_by, t);
+                    [0, 1].map(|i| end[i] - from * (push[i] - ramp[i]))
+                });
+                net_by.from -= from;
+                net_by.slope -= (to - from) / stretch.duration_s;
+            }
+            *s = tangent(rates, &stretch.series, stretch.net, s, by, net_by, time_s);
+        }
+    }
+}

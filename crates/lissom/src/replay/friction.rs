@@ -1,0 +1,147 @@
+//! Dry friction as the replayed motor feels it, and over a step on which it is linear in time.
+
+use super::arm::ModalArm;
+use super::dry_terms::{DryTerms, Place};
+use super::parameter::Parameter;
+
+/// Most rounds until friction at the end of a step and the motion there agree, and the share of the
+/// Coulomb friction within which they do.
+const ROUNDS: usize = 40;
+const AGREE: f64 = 1e-14;
+
+/// Coulomb friction, offset and further terms, with what they depend on.
+#[derive(Debug, Clone)]
+pub(super) struct Friction {
+    pub(super) coulomb: f64,
+    offset: f64,
+    pub(super) terms: DryTerms,
+    /// Those of the parameters that enter it.
+    pub(super) parameters: Vec<Parameter>,
+}
+
+/// Friction over a step: its torque at both ends, and the derivatives of that by angle and velocity.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ends {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    places: [Place; 2],
+    slopes: [[f64; 2]; 2],
+    /// How much less the end's friction changes because the motion there changes with it: 1 + κ.
+    stiffer: f64,
+}
+
+/// Forward is +1, backward −1.
+pub(super) fn sign(direction: usize) -> f64 {
+    if direction == 0 { 1.0 } else { -1.0 }
+}
+
+fn place<const D: usize>(x: &[f64; D], direction: usize) -> Place {
+    let sign = sign(direction);
+    Place { angle: x[0], speed: (sign * x[1]).max(0.0), sign }
+}
+
+impl Friction {
+    pub(super) fn new(arm: &ModalArm, parameters: &[Parameter]) -> Self {
+        let enters = |p: &Parameter| p.enters(arm) == super::parameter::Enters::Torque;
+        Self {
+            coulomb: arm.coulomb_nm,
+            offset: arm.offset_nm,
+            terms: arm.dry_terms.clone(),
+            parameters: parameters.iter().copied().filter(enters).collect(),
+        }
+    }
+
+    /// Signed torque while slipping.
+    pub(super) fn torque<const D: usize>(&self, x: &[f64; D], direction: usize) -> f64 {
+        let constant = sign(direction) * self.coulomb + self.offset;
+        if self.terms.is_empty() { constant } else { constant + self.beyond(place(x, direction)) }
+    }
+
+    fn beyond(&self, at: Place) -> f64 {
+        self.terms.torque_nm(at)
+    }
+
+    /// Derivatives of it by angle and velocity.
+    pub(super) fn slopes<const D: usize>(&self, x: &[f64; D], direction: usize) -> [f64; 2] {
+        self.terms.slopes(place(x, direction))
+    }
+
+    /// Its derivative by a parameter of its own.
+    pub(super) fn by<const D: usize>(&self, p: Parameter, x: &[f64; D], direction: usize) -> f64 {
+        self.by_at(p, place(x, direction))
+    }
+
+    fn by_at(&self, p: Parameter, at: Place) -> f64 {
+        match p {
+            Parameter::Coulomb => at.sign,
+            Parameter::Offset => 1.0,
+            _ => self.terms.by(p, at),
+        }
+    }
+
+    /// Longest step over which it may be taken for linear in time \[s\].
+    pub(super) fn step_s<const D: usize>(
+        &self,
+        x: &[f64; D],
+        direction: usize,
+        (acceleration, per_torque): (f64, f64),
+        within_s: f64,
+    ) -> f64 {
+        let mut at = place(x, direction);
+        // Within the step it may come closer to rest.
+        at.speed = (at.speed - acceleration.abs() * within_s).max(0.0);
+        self.terms.step_s(at, x[1].abs(), acceleration, per_torque)
+    }
+
+    /// Over a step from `x` whose end would be `base` if friction stayed what it is at `x`, and whose
+    /// end moves by −`ramp` per torque that friction grows by.
+    pub(super) fn over<const D: usize>(
+        &self,
+        (x, base): (&[f64; D], &[f64; D]),
+        ramp: &[f64; D],
+        direction: usize,
+    ) -> Ends {
+        let from = self.torque(x, direction);
+        let first = place(x, direction);
+        if self.terms.is_empty() {
+            let none = [[0.0; 2]; 2];
+            return Ends { from, to: from, places: [first; 2], slopes: none, stiffer: 1.0 };
+        }
+        let constant = from - self.beyond(first);
+        let (mut to, mut last, mut turned) = (from, first, false);
+        for _ in 0..ROUNDS {
+            let end = [0, 1].map(|i| base[i] - ramp[i] * (to - from));
+            last = place(&end, direction);
+            turned = sign(direction) * end[1] < 0.0;
+            let next = constant + self.beyond(last);
+            let agrees = (next - to).abs() <= AGREE * self.coulomb.abs();
+            to = next;
+            if agrees {
+                break;
+            }
+        }
+        let mut slopes = [self.terms.slopes(first), self.terms.slopes(last)];
+        if turned {
+            // Beyond the reversal friction counts as it is at rest.
+            slopes[1][1] = 0.0;
+        }
+        let stiffer = 1.0 + slopes[1][0] * ramp[0] + slopes[1][1] * ramp[1];
+        Ends { from, to, places: [first, last], slopes, stiffer }
+    }
+
+    /// What both ends change by, for a tangent that is `start` and, if the end's friction did not change
+    /// with it, would be `end_of(d)` for d at the beginning.
+    pub(super) fn tangent<const D: usize>(
+        &self,
+        ends: &Ends,
+        own: Option<Parameter>,
+        start: &[f64; D],
+        end_of: impl FnOnce(f64) -> [f64; 2],
+    ) -> [f64; 2] {
+        let own = |k: usize| own.map_or(0.0, |p| self.by_at(p, ends.places[k]));
+        let change =
+            |k: usize, s: &[f64]| own(k) + ends.slopes[k][0] * s[0] + ends.slopes[k][1] * s[1];
+        let first = change(0, &start[..2]);
+        [first, change(1, &end_of(first)) / ends.stiffer]
+    }
+}
