@@ -1,6 +1,8 @@
 //! The friction curve and the choice of friction's law, as JSON.
 
-use lissom::identify::{CurvePoint, Estimate, FrictionLaw, LawCandidate, LawTerm};
+use lissom::identify::{
+    CurvePoint, Estimate, Friction, FrictionLaw, LawCandidate, LawTerm, RippleEstimate,
+};
 use serde_json::{Map, Value, json};
 
 use super::{UnitNames, figure, torque};
@@ -20,6 +22,28 @@ pub(super) fn curve(names: UnitNames, constant: f64, points: &[CurvePoint]) -> V
 
 fn direction(sign: f64) -> &'static str {
     if sign > 0.0 { "forward" } else { "backward" }
+}
+
+/// `friction.near_rest` and `friction.ripples`, where there are any.
+pub(super) fn terms(map: &mut Map<String, Value>, names: UnitNames, constant: f64, f: &Friction) {
+    if let Some(near) = f.near_rest {
+        let mut own = Map::new();
+        torque(&mut own, names, constant, "amplitude", Some(near.torque));
+        own.insert(format!("speed_{}_per_s", names.angle()), figure(Some(near.speed)));
+        map.insert("near_rest".to_owned(), Value::Object(own));
+    }
+    let ripple = |r: &RippleEstimate| {
+        let mut own = Map::new();
+        torque(&mut own, names, constant, "amplitude", Some(r.torque));
+        // Relative deviations of a frequency and its period are the same.
+        let value = std::f64::consts::TAU / r.per_angle.value;
+        let period = Estimate { value, std: value * r.per_angle.std / r.per_angle.value };
+        own.insert(format!("period_{}", names.angle()), figure(Some(period)));
+        Value::Object(own)
+    };
+    if !f.ripples.is_empty() {
+        map.insert("ripples".to_owned(), f.ripples.iter().map(ripple).collect());
+    }
 }
 
 /// `methods.friction_law`.

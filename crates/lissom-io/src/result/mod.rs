@@ -85,6 +85,7 @@ fn friction(names: UnitNames, constant: f64, id: &Identified) -> Value {
         map.insert(names.viscous_key("viscous_forward"), figure(Some(forward)));
         map.insert(names.viscous_key("viscous_backward"), figure(Some(backward)));
     }
+    friction_law::terms(&mut map, names, constant, f);
     let curve = id.friction_law.as_ref().map_or(&[][..], |law| &law.curve);
     map.insert("curve".to_owned(), friction_law::curve(names, constant, curve));
     Value::Object(map)

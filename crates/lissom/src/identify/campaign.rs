@@ -7,7 +7,7 @@ use thiserror::Error;
 use super::channel_check::range;
 use super::constant_velocity::{self, ConstantVelocity};
 use super::finding::{Finding, Severity, key};
-use super::friction_law::friction_law;
+use super::friction_law::{FrictionLaw, friction_law};
 use super::friction_waveform::FrictionWaveform;
 use super::identified::{Beam, Friction, Identified, ThirdHarmonic};
 use super::model::state_space;
@@ -152,6 +152,7 @@ pub fn identify(
     let regression = regression
         .filter(|r| r.relative_residual < RESIDUAL_REFUSED)
         .filter(|r| !alone || constant_velocity.is_none() || stands_alone(r));
+    let friction_law = regression.as_ref().and_then(|r| friction_law(&usable, r));
     progress(Stage::Beam);
     let any_beam_regression = beam_regression(&usable);
 
@@ -164,7 +165,8 @@ pub fn identify(
     } else {
         progress(Stage::OutputError);
         let beam = any_beam_regression.as_ref();
-        replayed(&usable, &runs, &kept, regression.as_ref(), beam, beam_model.as_ref())
+        let law = friction_law.as_ref();
+        replayed(&usable, &runs, &kept, regression.as_ref(), beam, beam_model.as_ref(), law)
     };
 
     let beam_regression =
@@ -209,7 +211,7 @@ pub fn identify(
         inertia: None,
         beam: Beam::default(),
         third_harmonic,
-        friction_law: regression.as_ref().and_then(|r| friction_law(&usable, r)),
+        friction_law,
         regression,
         regression_residual,
         constant_velocity,
@@ -363,6 +365,7 @@ fn replayed(
     motor: Option<&MotorRegression>,
     beam: Option<&BeamRegression>,
     rational: Option<&BeamFit>,
+    law: Option<&FrictionLaw>,
 ) -> Option<OutputError> {
     let omega = |&i: &usize| match &runs[i].kind {
         RunKind::Sinusoidal(s) => Some(s.omega_rad_s),
@@ -372,7 +375,8 @@ fn replayed(
     let mut nearest: Option<OutputError> = None;
     for arm in starts(usable, motor?, beam, rational) {
         let omega_rad_s = omega_rad_s.clone();
-        let start = OutputErrorStart { arm, omega_rad_s, first_window_s: None };
+        let law = law.map_or(Vec::new(), FrictionLaw::tried);
+        let start = OutputErrorStart { arm, omega_rad_s, first_window_s: None, law };
         let Some(found) = output_error(usable, &start) else { continue };
         if found.stands() {
             return Some(found);

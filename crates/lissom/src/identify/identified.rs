@@ -43,6 +43,28 @@ pub struct Friction {
     pub viscous: Option<Estimate>,
     /// Viscous friction forward and backward, where the data reject one constant.
     pub viscous_by_direction: Option<(Estimate, Estimate)>,
+    /// What friction has near rest beyond Coulomb's, where the data call for it.
+    pub near_rest: Option<NearRestEstimate>,
+    /// Waves over the travel, where the data show them.
+    pub ripples: Vec<RippleEstimate>,
+}
+
+/// `s·A·e^{−|v|/v_s}`, s the direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NearRestEstimate {
+    /// A: friction at rest is C + A.
+    pub torque: Estimate,
+    /// v_s.
+    pub speed: Estimate,
+}
+
+/// `s·A·cos(k·θ + φ)`, s the direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RippleEstimate {
+    /// A.
+    pub torque: Estimate,
+    /// k, radians of ripple per radian of angle (1/m on linear axes).
+    pub per_angle: Estimate,
 }
 
 /// The beam's figures.

@@ -31,7 +31,7 @@ pub use estimate::{Estimate, ModeEstimate};
 pub use finding::{Finding, Severity};
 pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
 pub use friction_law::{CurvePoint, FrictionLaw, LawCandidate, LawFit, LawTerm};
-pub use identified::{Beam, Friction, Identified, ThirdHarmonic};
+pub use identified::{Beam, Friction, Identified, NearRestEstimate, RippleEstimate, ThirdHarmonic};
 pub use output_error::{
     Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, free_parameters,
     output_error, starts,

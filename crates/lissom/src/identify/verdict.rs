@@ -82,6 +82,7 @@ fn from_regression(id: &mut Identified) {
         offset: r.offset,
         viscous: r.viscous_by_direction.map(|d| d.mean).or(r.viscous),
         viscous_by_direction: r.viscous_by_direction.map(|d| (d.forward, d.backward)),
+        ..Friction::default()
     };
     id.inertia = r.inertia;
     if let Some(law) = &id.friction_law

@@ -60,14 +60,19 @@ impl DryTerms {
         self.near_rest.is_none() && self.ripples.is_empty()
     }
 
-    /// Their torque against the motor, signed.
-    pub(super) fn torque_nm(&self, at: Place) -> f64 {
-        let near = self.near_rest.map_or(0.0, |n| n.torque_nm * n.falloff(at.speed));
+    /// Torque against the motion at an angle and a speed: without s.
+    pub fn braking_nm(&self, angle_rad: f64, speed_rad_s: f64) -> f64 {
+        let near = self.near_rest.map_or(0.0, |n| n.torque_nm * n.falloff(speed_rad_s));
         let wave = |r: &Ripple| {
-            let (sine, cosine) = (r.per_rad * at.angle).sin_cos();
+            let (sine, cosine) = (r.per_rad * angle_rad).sin_cos();
             r.cosine_nm * cosine + r.sine_nm * sine
         };
-        at.sign * (near + self.ripples.iter().map(wave).sum::<f64>())
+        near + self.ripples.iter().map(wave).sum::<f64>()
+    }
+
+    /// Their torque on the motor, signed.
+    pub(super) fn torque_nm(&self, at: Place) -> f64 {
+        at.sign * self.braking_nm(at.angle, at.speed)
     }
 
     /// Derivatives of that by the angle and by the velocity.

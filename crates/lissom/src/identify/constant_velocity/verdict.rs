@@ -82,5 +82,6 @@ fn friction_near_rest(found: &ConstantVelocity) -> Friction {
         offset: half(forward.value - backward.value),
         viscous: found.viscous,
         viscous_by_direction: differ.then_some((f.viscous, b.viscous)),
+        ..Friction::default()
     }
 }

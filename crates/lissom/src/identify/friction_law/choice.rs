@@ -13,6 +13,8 @@ use crate::record::Run;
 const NEAR_REST: [f64; 10] = [0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.3, 0.5, 0.8, 1.3];
 /// A speed that was taken is looked for between its neighbours on the list in so many steps.
 const FINER: i32 = 8;
+/// One such step: a neighbour on the list is half as much again.
+pub(super) const NEAR_REST_STEP: f64 = 0.05;
 /// A term must do better on phases left out by this many deviations of the difference…
 const PAIRED: f64 = 3.0;
 /// …and leave at most this share of the residual: a smaller one does not pay for a parameter.

@@ -66,6 +66,20 @@ pub struct LawFit {
     pub total_coupling: Option<Estimate>,
 }
 
+impl FrictionLaw {
+    /// Terms that were tried last of their kind, those of the law first.
+    pub(crate) fn tried(&self) -> Vec<LawTerm> {
+        let chosen = self.chosen.terms.iter().map(|(term, _)| *term);
+        let mut found: Vec<LawTerm> = chosen.collect();
+        for c in self.candidates.iter().rev() {
+            if found.iter().all(|t| t.name() != c.term.name()) {
+                found.push(c.term);
+            }
+        }
+        found
+    }
+}
+
 impl LawFit {
     /// Friction against the motion at a speed in a direction (+1 or −1), ripple left out: positive
     /// where it brakes.

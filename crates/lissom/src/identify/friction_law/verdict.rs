@@ -1,8 +1,11 @@
 //! What the law gives for figures, and the finding that names it.
 
+use super::choice::NEAR_REST_STEP;
 use super::{LawFit, LawTerm};
 use crate::identify::finding::{Finding, Severity, key};
-use crate::identify::{Estimate, Friction, Identified, OutputError};
+use crate::identify::{
+    Estimate, Friction, Identified, NearRestEstimate, OutputError, RippleEstimate,
+};
 
 /// Friction's figures under another law than Coulomb and one viscous constant.
 pub(crate) fn friction(law: &LawFit) -> Friction {
@@ -12,7 +15,26 @@ pub(crate) fn friction(law: &LawFit) -> Friction {
     };
     let difference = law.term(|t| *t == LawTerm::ViscousByDirection);
     let by_direction = |sign: f64| sum(law.viscous, difference, sign);
+    let near_rest = law.terms.iter().find_map(|(term, amplitude)| match term {
+        LawTerm::NearRest { speed } => {
+            let speed = Estimate { value: *speed, std: NEAR_REST_STEP * speed };
+            Some(NearRestEstimate { torque: *amplitude.first()?, speed })
+        }
+        _ => None,
+    });
+    let ripple = |(term, amplitude): &(LawTerm, Vec<Estimate>)| match (term, &amplitude[..]) {
+        (LawTerm::Ripple { per_angle }, [cosine, sine]) => Some(RippleEstimate {
+            torque: Estimate {
+                value: cosine.value.hypot(sine.value),
+                std: cosine.std.hypot(sine.std),
+            },
+            per_angle: Estimate { value: *per_angle, std: 0.0 },
+        }),
+        _ => None,
+    };
     Friction {
+        near_rest,
+        ripples: law.terms.iter().filter_map(ripple).collect(),
         coulomb: law.coulomb,
         forward: sum(law.coulomb, law.offset, 1.0),
         backward: sum(law.coulomb, law.offset, -1.0),
@@ -22,36 +44,53 @@ pub(crate) fn friction(law: &LawFit) -> Friction {
     }
 }
 
-/// The law of friction that the data call for.
+/// The law of friction that the data call for: that of the replay where it describes the runs.
 pub(crate) fn finding(id: &Identified) -> Option<Finding> {
+    let replay = id.output_error.as_ref().filter(|oe| oe.stands());
+    let by_replay = replay.map_or(Vec::new(), OutputError::law_terms);
+    if !by_replay.is_empty() {
+        let message = format!(
+            "friction is not Coulomb and one viscous constant: {}; with that the replay describes the \
+             runs from end to end",
+            in_words(&by_replay)
+        );
+        return Some(told(Severity::Warning, message, AT_SPEED));
+    }
     let law = id.friction_law.as_ref().filter(|law| law.chosen.departs())?;
-    // The replay describes whole runs with its own law, and its figures are taken.
-    let replayed = id.output_error.as_ref().is_some_and(OutputError::stands);
-    let of_friction = |(term, _): &&(LawTerm, Vec<Estimate>)| *term != LawTerm::CommandLag;
-    let terms: Vec<String> = law.chosen.terms.iter().filter(of_friction).map(in_words).collect();
     let taken = law.candidates.iter().filter(|c| c.taken && c.term != LawTerm::CommandLag);
     let paired = taken.map(|c| c.paired).fold(f64::INFINITY, f64::min);
-    Some(Finding::new(
-        "friction-law",
-        if replayed { Severity::Info } else { Severity::Warning },
-        &[key::COULOMB, key::VISCOUS],
-        format!(
-            "friction is not Coulomb and one viscous constant: {}; what is left falls to {:.0} % of \
-             itself, and slip phases left out are described better by {paired:.0} deviations or more",
-            terms.join(", "),
-            100.0 * law.relative_residual[1] / law.relative_residual[0]
-        ),
-        if replayed {
-            "the replay describes the runs without it: its figures are taken"
-        } else {
-            "Coulomb and viscous friction are those of this law at speed, not at rest: use the friction \
-             curve at the speed that matters; runs at other speeds show whether the law holds there"
-        },
-    ))
+    let message = format!(
+        "friction is not Coulomb and one viscous constant: {}; what is left falls to {:.0} % of \
+         itself, and slip phases left out are described better by {paired:.0} deviations or more",
+        in_words(&law.chosen.terms),
+        100.0 * law.relative_residual[1] / law.relative_residual[0]
+    );
+    Some(match replay {
+        // The replay describes whole runs with the simplest law, and its figures are taken.
+        Some(_) => {
+            let hint = "the replay describes the runs without it: its figures are taken";
+            told(Severity::Info, message, hint)
+        }
+        None => told(Severity::Warning, message, AT_SPEED),
+    })
+}
+
+const AT_SPEED: &str = "Coulomb and viscous friction are those of this law at speed, not at rest: use \
+                        the friction curve at the speed that matters; runs at other speeds show \
+                        whether the law holds there";
+
+fn told(severity: Severity, message: String, hint: &'static str) -> Finding {
+    Finding::new("friction-law", severity, &[key::COULOMB, key::VISCOUS], message, hint)
+}
+
+/// Terms of friction with their amplitudes.
+fn in_words(terms: &[(LawTerm, Vec<Estimate>)]) -> String {
+    let of_friction = terms.iter().filter(|(term, _)| *term != LawTerm::CommandLag);
+    of_friction.map(term_in_words).collect::<Vec<_>>().join(", ")
 }
 
 /// A term of the law with its amplitude.
-fn in_words((term, amplitude): &(LawTerm, Vec<Estimate>)) -> String {
+fn term_in_words((term, amplitude): &(LawTerm, Vec<Estimate>)) -> String {
     let a = amplitude.first().map_or(f64::NAN, |e| e.value);
     match term {
         LawTerm::ViscousByDirection => format!("viscous friction differs by ±{a:.3e} by direction"),

@@ -2,6 +2,7 @@
 
 use super::coordinates::Body;
 use super::covariance::{Covariances, deviation};
+use super::law;
 use super::normal::{inverse, normal_equations};
 use super::search::Stop;
 use super::stages::{Fit, Fitting, Report};
@@ -15,6 +16,8 @@ const SHARE: f64 = 1e-4;
 /// A group that takes this share of the cost is called for whatever its deviations: what it lacks is in
 /// them.
 const LARGE: f64 = 0.02;
+/// Residual beside the noise of the samples from which on friction may have another law.
+const BEYOND_NOISE: f64 = 1.2;
 /// Share of the cost by which point masses may leave more than free modes.
 const RIGID_SHARE: f64 = 1e-3;
 /// A kind of dampers is there when one of them stands this many deviations from zero.
@@ -48,6 +51,10 @@ pub(super) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) 
         };
         let best = found.iter().enumerate().filter(called_for);
         let best = best.max_by(|a, b| share(a.1).total_cmp(&share(b.1))).map(|(k, _)| k);
+        let least = best.map_or(LARGE, |k| share(&found[k]).max(LARGE));
+        if add_to_law(fitting, fit, report, least) {
+            continue;
+        }
         let added = best.map(|k| found.remove(k));
         report.refused = found.concat();
         let Some(added) = added else { break };
@@ -56,6 +63,27 @@ pub(super) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) 
         fitting.search(fit, report);
         drop_dampers(fitting, fit, report);
     }
+}
+
+/// Adds a term to friction's law where more than the sensors' noise is left, and it promises to take
+/// more than the share `least` of that; tells whether it did.
+fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: f64) -> bool {
+    if fitting.beyond_noise(fit) < BEYOND_NOISE {
+        return false;
+    }
+    let Some((trial, found)) = law::best(fitting, fit) else { return false };
+    if found.first().is_none_or(|e| e.share <= least) {
+        return false;
+    }
+    let mut with = fit.clone();
+    trial.put_into(&mut with);
+    fitting.search(&mut with, report);
+    if fitting.cost(&with, &fit.noise) > (1.0 - LARGE) * fitting.cost(fit, &fit.noise) {
+        return false;
+    }
+    *fit = with;
+    report.added.extend(found.into_iter().map(|e| Extension { added: true, ..e }));
+    true
 }
 
 /// Takes damping against the frame for dampers at the tips' points where these leave less than a damper
@@ -113,7 +141,15 @@ pub(super) fn tighten(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report)
 /// What one step of a search with each group beside the free parameters promises: score tests, all
 /// from one replay.
 pub(super) fn promises(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Extension>> {
-    let groups = candidates(fit);
+    scores(fitting, fit, candidates(fit))
+}
+
+/// The same of one group.
+pub(super) fn promise(fitting: &Fitting<'_>, fit: &Fit, group: &[Parameter]) -> Vec<Extension> {
+    scores(fitting, fit, vec![group.to_vec()]).concat()
+}
+
+fn scores(fitting: &Fitting<'_>, fit: &Fit, groups: Vec<Vec<Parameter>>) -> Vec<Vec<Extension>> {
     let free = fit.coordinates();
     let all: Vec<Parameter> = fit.free.iter().chain(groups.iter().flatten()).copied().collect();
     let point = fitting.point(fit, &all);

@@ -1,7 +1,9 @@
 //! The output error's arm as figures of friction, drive and beam.
 
 use super::OutputError;
-use crate::identify::{Beam, Estimate, Friction, ModeEstimate};
+use crate::identify::{
+    Beam, Estimate, Friction, LawTerm, ModeEstimate, NearRestEstimate, RippleEstimate,
+};
 use crate::record::{Channels, TipQuantity};
 use crate::replay::{ModalArm, Parameter};
 
@@ -23,7 +25,41 @@ impl OutputError {
             offset: self.estimate(Parameter::Offset),
             viscous: Some(self.figure(mean)),
             viscous_by_direction: split.then(|| (viscous(0), viscous(1))),
+            near_rest: self.near_rest(),
+            ripples: self.ripples(),
         }
+    }
+
+    fn near_rest(&self) -> Option<NearRestEstimate> {
+        let torque = self.estimate(Parameter::NearRest)?;
+        Some(NearRestEstimate { torque, speed: self.estimate(Parameter::NearRestSpeed)? })
+    }
+
+    fn ripples(&self) -> Vec<RippleEstimate> {
+        let size = |arm: &ModalArm, i: usize| {
+            let r = arm.dry_terms.ripples[i];
+            r.cosine_nm.hypot(r.sine_nm)
+        };
+        let ripple = |i: usize| RippleEstimate {
+            torque: self.figure(|arm| size(arm, i)),
+            per_angle: self.figure(|arm| Parameter::RippleRate(i).of(arm)),
+        };
+        (0..self.arm.dry_terms.ripples.len()).map(ripple).collect()
+    }
+
+    /// What its friction has beyond Coulomb's and one viscous constant, as terms of a law.
+    pub fn law_terms(&self) -> Vec<(LawTerm, Vec<Estimate>)> {
+        let mut terms = Vec::new();
+        if let Some(difference) = self.estimate(Parameter::ViscousDifference) {
+            terms.push((LawTerm::ViscousByDirection, vec![difference]));
+        }
+        if let Some(n) = self.near_rest() {
+            terms.push((LawTerm::NearRest { speed: n.speed.value }, vec![n.torque]));
+        }
+        for r in self.ripples() {
+            terms.push((LawTerm::Ripple { per_angle: r.per_angle.value }, vec![r.torque]));
+        }
+        terms
     }
 
     /// Inertia J.

@@ -1,7 +1,7 @@
 //! The motion of a given arm along runs that it was not found from.
 
 use super::coordinates::Body;
-use super::search::{Problem, can_be_seen};
+use super::search::{Problem, is_possible};
 use super::windows::widen;
 use super::{data, noise};
 use crate::record::Campaign;
@@ -26,7 +26,7 @@ pub(crate) fn follow(
     let noise: Vec<SensorNoise> = noise::of_samples(campaign).into_iter().map(weighable).collect();
     let sampling = Sampling { noise: &noise, blocks: &blocks, masks: &masks };
     let problem = Problem { campaign, parameters: &[], sampling, robust: false };
-    if !can_be_seen(campaign, arm) {
+    if !is_possible(campaign, arm) {
         return Vec::new();
     }
     let nearest = |window: Window| {

@@ -7,6 +7,7 @@ mod data;
 mod evidence;
 mod figures;
 mod follow;
+mod law;
 mod modes;
 mod noise;
 mod normal;
@@ -18,7 +19,7 @@ mod windows;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::Estimate;
+use super::{Estimate, LawTerm};
 use crate::record::Campaign;
 use crate::replay::{ModalArm, Parameter, SensorNoise, Window};
 use covariance::deviation;
@@ -27,7 +28,7 @@ pub use evidence::Extension;
 pub(crate) use follow::follow;
 pub use search::{Iteration, Stop};
 pub use stages::StageReport;
-use stages::{Fit, Fitting, Report};
+use stages::{Fitting, Report};
 pub use start::{free_parameters, starts};
 pub(crate) use verdict::verdict;
 
@@ -95,6 +96,9 @@ pub struct OutputErrorStart {
     /// Length of the first windows \[s\]; chosen from the arm when `None`. Short ones find the way from
     /// a start that is wrong by factors.
     pub first_window_s: Option<f64>,
+    /// Terms of friction that slip phases show: speeds and periods to try, where the residual calls for
+    /// another law.
+    pub law: Vec<LawTerm>,
 }
 
 /// Moves the figures of an arm until the replayed command shows the logged angles.
@@ -109,7 +113,8 @@ pub struct OutputErrorStart {
 pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<OutputError> {
     let masks = data::masks(campaign);
     let blocks = data::blocks(campaign, &start.omega_rad_s);
-    let fitting = Fitting { campaign, masks: &masks, blocks: &blocks };
+    let law = &start.law;
+    let fitting = Fitting { campaign, masks: &masks, blocks: &blocks, law };
     let mut report = Report::default();
     let mut fit = fitting.widen(start, &mut report)?;
     modes::grow(&fitting, &mut fit, &mut report);
@@ -123,7 +128,7 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         report.refused = evidence::promises(&fitting, &fit).concat();
     }
     fitting.count_steps(&mut fit, &mut report);
-    let beyond_noise = beyond_noise(campaign, &fit);
+    let beyond_noise = fitting.beyond_noise(&fit);
     fit.noise.iter_mut().for_each(|n| *n = SensorNoise::gaussian(n.deviation()));
     let found = fitting.covariances(&fit);
     report.added.append(&mut report.refused);
@@ -140,10 +145,4 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         extensions: report.added,
         whole_runs: fit.whole_runs,
     })
-}
-
-/// Largest ratio of a channel's residual to the noise that its samples show by themselves.
-fn beyond_noise(campaign: &Campaign, fit: &Fit) -> f64 {
-    let noise = noise::of_samples(campaign);
-    fit.residual.iter().zip(&noise).map(|(r, n)| r / n.sigma).fold(0.0, f64::max)
 }

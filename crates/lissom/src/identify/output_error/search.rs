@@ -117,7 +117,7 @@ impl Problem<'_> {
                 return (point, iterations, Stop::Converged);
             }
             let (body, windows) = self.moved(&point, &step);
-            let after = if can_be_seen(self.campaign, &body.arm) {
+            let after = if is_possible(self.campaign, &body.arm) {
                 let costs = costs(&body.arm, self.campaign, &windows, self.sampling);
                 let samples = point.sums.iter().map(|s| s.samples);
                 costs.iter().zip(samples).map(|(c, n)| robust(*c, n, usual)).sum()
@@ -205,14 +205,23 @@ impl Problem<'_> {
     }
 }
 
-/// Whether every mode turns by less than [`LARGEST_TURN`] in a sample: faster ones are in no log, and
+/// Whether friction with all of its terms brakes, at rest and at speed: else nothing holds the motor and
+/// it is pushed both ways.
+fn brakes(arm: &ModalArm) -> bool {
+    let near = arm.dry_terms.near_rest.map_or(0.0, |n| n.torque_nm.min(0.0));
+    let waves: f64 = arm.dry_terms.ripples.iter().map(|r| r.cosine_nm.hypot(r.sine_nm)).sum();
+    arm.dry_terms.is_empty() || arm.coulomb_nm + near > waves
+}
+
+/// Whether a search may go there: friction brakes, and every mode turns by less than [`LARGEST_TURN`] in a sample: faster ones are in no log, and
 /// take ever shorter steps to follow.
-pub(super) fn can_be_seen(campaign: &Campaign, arm: &ModalArm) -> bool {
+pub(super) fn is_possible(campaign: &Campaign, arm: &ModalArm) -> bool {
     let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let turn = |m: &Oscillator| m.omega_rad_s * sample_s;
     let damped = |m: &Oscillator| (m.within_per_s.abs() + m.grounded_per_s.abs()) * sample_s;
     let rigid = arm.coupling_nm_per_rad() / arm.inertia_kg_m2 * sample_s * sample_s;
-    arm.modes.iter().all(|m| turn(m) < LARGEST_TURN && damped(m) < LARGEST_TURN)
+    brakes(arm)
+        && arm.modes.iter().all(|m| turn(m) < LARGEST_TURN && damped(m) < LARGEST_TURN)
         && arm.at_points_per_s.iter().all(|c| (c * sample_s).abs() < LARGEST_TURN)
         && rigid < LARGEST_TURN * LARGEST_TURN
 }

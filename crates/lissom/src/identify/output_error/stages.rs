@@ -7,9 +7,10 @@ use super::data::Masks;
 use super::evidence::{self, Extension};
 use super::modes;
 use super::noise;
-use super::search::{Iteration, Point, Problem, Stop, can_be_seen};
+use super::search::{Iteration, Point, Problem, Stop, is_possible};
 use super::start::free_parameters;
 use super::windows::{cut, widen};
+use crate::identify::LawTerm;
 use crate::record::{Campaign, Run};
 use crate::replay::{
     Blocks, ModalArm, Parameter, Sampling, SensorNoise, Window, WindowSums, costs,
@@ -61,6 +62,8 @@ pub(super) struct Fitting<'a> {
     pub(super) campaign: &'a Campaign,
     pub(super) masks: &'a [Masks],
     pub(super) blocks: &'a [Blocks],
+    /// Terms of friction that slip phases show.
+    pub(super) law: &'a [LawTerm],
 }
 
 /// Where a fit is.
@@ -119,6 +122,12 @@ impl Fitting<'_> {
         self.problem(free, &fit.noise, false).at(fit.body.clone(), fit.windows.clone())
     }
 
+    /// Largest ratio of a channel's residual to the noise that its samples show by themselves.
+    pub(super) fn beyond_noise(&self, fit: &Fit) -> f64 {
+        let noise = noise::of_samples(self.campaign);
+        fit.residual.iter().zip(&noise).map(|(r, n)| r / n.sigma).fold(0.0, f64::max)
+    }
+
     /// Covariances of the free parameters.
     pub(super) fn covariances(&self, fit: &Fit) -> Covariances {
         let found = Covariances::at(&self.point(fit, &fit.free).sums, fit.coordinates());
@@ -142,7 +151,7 @@ impl Fitting<'_> {
             start.first_window_s.unwrap_or_else(|| self.first_window_s(&start.arm)).min(longest);
         let body = Body::of_masses(self.campaign, start.arm.clone());
         let windows = some(cut(self.campaign, &body.arm, window_s));
-        if windows.is_empty() || !can_be_seen(self.campaign, &body.arm) {
+        if windows.is_empty() || !is_possible(self.campaign, &body.arm) {
             return None;
         }
         let mut fit = Fit {
@@ -231,7 +240,7 @@ impl Fitting<'_> {
     /// A few steps on a part of the windows: the cost that they come to, and the body. `None` where a
     /// mode is too fast for the samples.
     pub(super) fn probe(&self, fit: &Fit) -> Option<(f64, Body)> {
-        if !can_be_seen(self.campaign, &fit.body.arm) {
+        if !is_possible(self.campaign, &fit.body.arm) {
             return None;
         }
         let samples: usize = fit.windows.iter().map(Window::len).sum();

@@ -8,6 +8,8 @@ use crate::replay::{ModalArm, Window, predict};
 
 /// A window begins where the motor's speed is at least this share of its usual one.
 const MOVES: f64 = 0.1;
+/// Quantile of the speeds that counts as the fastest.
+const FASTEST: f64 = 0.98;
 /// Shortest window worth replaying, in samples.
 const LEAST_SAMPLES: usize = 20;
 
@@ -67,6 +69,14 @@ pub(super) fn widen(
         }
     }
     windows
+}
+
+/// The speed that the motor exceeds for a fiftieth of its time.
+pub(super) fn fastest_rad_s(campaign: &Campaign) -> f64 {
+    let speeds = |run: &Run| Speed::new(run).velocity;
+    let mut all: Vec<f64> = campaign.runs.iter().flat_map(speeds).map(f64::abs).collect();
+    all.sort_by(f64::total_cmp);
+    all.get((FASTEST * all.len() as f64) as usize).copied().unwrap_or(0.0)
 }
 
 /// The motor's velocity from lines through neighbouring samples.

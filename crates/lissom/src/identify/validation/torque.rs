@@ -267,8 +267,11 @@ impl Predictor<'_> {
         let mut causes = Causes::new(run, &speed.velocity);
         let rows = (0..run.len() - n)
             .map(|k| {
-                let bent =
-                    |i: usize| speed.sign(i) * self.arm.coulomb_nm + half * speed.velocity[i].abs();
+                let bent = |i: usize| {
+                    let dry = self.arm.coulomb_nm
+                        + self.arm.dry_terms.braking_nm(run.motor()[i], speed.velocity[i].abs());
+                    speed.sign(i) * dry + half * speed.velocity[i].abs()
+                };
                 let velocity = kernel.rate(k, |i| run.motor()[i]);
                 let acceleration = kernel.acceleration(k, |i| run.motor()[i]);
                 let predicted = self.arm.inertia_kg_m2 * acceleration
