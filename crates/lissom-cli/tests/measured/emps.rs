@@ -97,6 +97,8 @@ fn published(found: &serde_json::Value) -> serde_json::Value {
     arm["coulomb_n"] = PUBLISHED[2].1.into();
     arm["offset_n"] = PUBLISHED[3].1.into();
     arm["command_lag_s"] = 0.0.into();
+    arm["near_rest"] = serde_json::Value::Null;
+    arm["ripples"] = serde_json::json!([]);
     result
 }
 

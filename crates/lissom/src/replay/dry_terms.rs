@@ -1,12 +1,18 @@
 //! What dry friction has beyond one Coulomb constant: a change near rest, ripple over the travel.
 
+use std::ops::Neg;
+
 use super::parameter::Parameter;
 
 /// Largest share of its range by which an argument of the law may move over a step that is replayed
-/// with friction linear in time: friction is then off by less than a thousandth of the term.
-const STEP: f64 = 0.1;
-/// Largest (rate × step) at which friction that falls with speed lets the speed grow.
-const GROWTH: f64 = 0.3;
+/// with friction linear in time, its mean over the step right.
+const STEP: f64 = 0.4;
+/// Largest (rate × step) at which friction that falls with speed lets the speed grow, and the same where
+/// the motor has just been let go: what it errs by there grows with it.
+const GROWTH: f64 = 0.5;
+const LET_GO: f64 = 0.1;
+/// Share of its speed by which the law is continued beyond a reversal.
+const BEYOND: f64 = -0.5;
 /// Speeds at which friction near rest has nothing left, over its own.
 const GONE: f64 = 9.0;
 
@@ -48,7 +54,7 @@ pub struct Ripple {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub(super) angle: f64,
-    /// Speed in the direction of motion, not negative.
+    /// Speed in the direction of motion; negative just beyond a reversal, where the law is continued.
     pub(super) speed: f64,
     /// +1 or −1.
     pub(super) sign: f64,
@@ -117,7 +123,8 @@ impl DryTerms {
     ) -> f64 {
         let near = self.near_rest.filter(|n| at.speed < GONE * n.speed_rad_s).map(|n| {
             let moves = STEP * n.speed_rad_s / acceleration.abs();
-            moves.min(GROWTH * n.speed_rad_s / (per_torque * n.torque_nm).abs())
+            let growth = if at.speed < n.speed_rad_s { LET_GO } else { GROWTH };
+            moves.min(growth * n.speed_rad_s / (per_torque * n.torque_nm).abs())
         });
         let turns = self.ripples.iter().map(|r| STEP / (r.per_rad * turning).abs());
         turns.chain(near).fold(f64::INFINITY, f64::min)
@@ -126,6 +133,6 @@ impl DryTerms {
 
 impl NearRest {
     fn falloff(&self, speed: f64) -> f64 {
-        (-speed / self.speed_rad_s).exp()
+        (speed / self.speed_rad_s).max(BEYOND).neg().exp()
     }
 }

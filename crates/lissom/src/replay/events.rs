@@ -1,6 +1,6 @@
 //! The replayed arm from event to event within a piece of a sample, by Taylor series.
 
-use super::friction::{Ends, sign};
+use super::friction::{Ends, Held, sign};
 use super::motion::{Motion, Mover, Torque, direction};
 use super::rates::Rates;
 use super::series::{Ramp, Terms, reach_s, tangent, terms, value};
@@ -92,10 +92,18 @@ impl<const D: usize> Mover<D> {
             push = unit(Ramp { from: 1.0, slope: 0.0 });
             ramp = unit(Ramp { from: 0.0, slope: 1.0 / duration_s });
         }
-        let base = value(&series, duration_s);
-        let ends = self.friction.over((&motion.x, &base), &ramp, direction);
-        if ends.to != ends.from {
-            net.slope -= (ends.to - ends.from) / duration_s;
+        let held = Held {
+            from: &motion.x,
+            to: value(&series, duration_s),
+            push: &push,
+            ramp: &ramp,
+            acceleration: self.acceleration(&motion.x, torque.from, direction),
+            duration_s,
+        };
+        let ends = self.friction.over(&held, direction);
+        if !self.friction.terms.is_empty() {
+            let slope = torque.slope - (ends.to - ends.from) / duration_s;
+            net = Ramp { from: torque.from - ends.from, slope };
             series = terms(rates, &motion.x, net);
         }
         let friction = Some((ends, push, ramp));

@@ -1,6 +1,6 @@
 //! The replayed arm in motion: whole pieces of samples stuck or slipping, and their tangents.
 
-use super::friction::{Ends, Friction, sign};
+use super::friction::{Ends, Friction, Held, sign};
 use super::parameter::Parameter;
 use super::rates::{Phases, Rates};
 use super::series::{Ramp, add, times};
@@ -224,12 +224,24 @@ impl<const D: usize> Mover<D> {
         direction: usize,
     ) -> bool {
         let sign = sign(direction);
-        let net = torque.from - self.friction.torque(&motion.x, direction);
+        let first = self.friction.torque(&motion.x, direction);
         let change = torque.to - torque.from;
-        let mut next = piece.own.apply(&motion.x, net, change);
-        let ends = self.friction.over((&motion.x, &next), &piece.own.ramp, direction);
+        let mut next = piece.own.apply(&motion.x, torque.from - first, change);
+        let ends = self.friction.over(
+            &Held {
+                from: &motion.x,
+                to: next,
+                push: &piece.own.push,
+                ramp: &piece.own.ramp,
+                acceleration: self.acceleration(&motion.x, torque.from, direction),
+                duration_s: piece.duration_s,
+            },
+            direction,
+        );
         let rises = ends.to - ends.from;
+        add(&mut next, first - ends.from, &piece.own.push);
         add(&mut next, -rises, &piece.own.ramp);
+        let net = torque.from - ends.from;
         let keeps = sign * next[1] > 0.0 && sign * motion.x[1] > 0.0;
         // It may dip below zero and come back where it falls first and rises last.
         let dips = || {
