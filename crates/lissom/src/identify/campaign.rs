@@ -245,7 +245,7 @@ fn corrected<'a>(
     let general: Vec<usize> = general(runs).into_iter().filter_map(place).collect();
     Replayed {
         sinusoidal: runs.iter().enumerate().map(sinusoidal).collect(),
-        bands: found.stands().then(|| ReplayedBands::new(found, usable, &general)),
+        bands: if found.stands() { ReplayedBands::new(found, usable, &general) } else { None },
     }
 }
 

@@ -5,8 +5,8 @@ use num_complex::Complex64;
 use super::correct::Response;
 use super::output_error::OutputError;
 use crate::record::{Campaign, Hold};
-use crate::replay::predict;
-use crate::spectrum::{Band, Bin, Lines, average, hold_factor, in_bands};
+use crate::replay::{ModalArm, Window, predict};
+use crate::spectrum::{Band, Bin, Lines, average, groups, hold_factor};
 
 /// A band's frequency is another's to this share.
 const NEAR: f64 = 0.03;
@@ -22,11 +22,27 @@ pub(crate) struct ReplayedBands<'a> {
 
 impl<'a> ReplayedBands<'a> {
     /// Of `runs` of the campaign that was replayed; those cut into several windows are left out.
-    pub(crate) fn new(found: &'a OutputError, campaign: &Campaign, runs: &[usize]) -> Self {
+    /// `None` where nothing drives a band.
+    pub(crate) fn new(found: &'a OutputError, campaign: &Campaign, runs: &[usize]) -> Option<Self> {
         let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
-        let records: Vec<Lines> =
-            runs.iter().filter_map(|&run| beyond(found, campaign, run, constant)).collect();
-        Self { found, constant, beyond: in_bands(&records, following) }
+        let lines = |arm: &ModalArm| -> Vec<Vec<Bin>> {
+            let windows = runs.iter().filter_map(|&run| whole(found, run));
+            let beyond = windows.filter_map(|w| beyond(arm, campaign, w, constant));
+            groups(&beyond.collect::<Vec<_>>())
+        };
+        let bands: Option<Vec<Band>> = lines(&found.arm).iter().map(|b| following(b)).collect();
+        let mut beyond = bands?;
+        let by_parameters = found.variances(&|arm| {
+            let response = |(band, bins): (&Band, &Vec<Bin>)| {
+                let own = constant * arm.motor_response(band.omega_rad_s);
+                Some(own + average(bins)?.response)
+            };
+            beyond.iter().zip(&lines(arm)).map(response).collect()
+        })?;
+        for (band, variance) in beyond.iter_mut().zip(by_parameters) {
+            band.std = band.std.hypot(variance.sqrt());
+        }
+        Some(Self { found, constant, beyond })
     }
 
     /// `Ĝ(ω) = G(ω) + Σ E·U* / Σ|U|²` over the lines of the band at ω.
@@ -34,7 +50,8 @@ impl<'a> ReplayedBands<'a> {
     /// G is the arm's response, E the spectrum of what the motor shows beyond the arm's motion, U that
     /// of the command without friction, as held and as late as it acted. E holds the sensor's noise
     /// and what the arm has not, but no transient, no friction, and nothing of the change of G within
-    /// the band: those are in the arm's motion. `None` where no band is.
+    /// the band: those are in the arm's motion. What is wrong in the arm's parameters is in G and,
+    /// with the other sign, in E; what remains of it counts in the deviation. `None` where no band is.
     pub(crate) fn response(&self, omega_rad_s: f64) -> Option<Response> {
         let distance = |b: &&Band| (b.omega_rad_s / omega_rad_s - 1.0).abs();
         let band = self.beyond.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
@@ -43,12 +60,17 @@ impl<'a> ReplayedBands<'a> {
     }
 }
 
+/// The window of a run that was replayed in one.
+fn whole(found: &OutputError, run: usize) -> Option<&Window> {
+    let mut windows = found.windows.iter().filter(|w| w.run == run);
+    let window = windows.next()?;
+    windows.next().is_none().then_some(window)
+}
+
 /// Spectra of the command without friction, and of the motor beyond the arm's motion.
-fn beyond(found: &OutputError, campaign: &Campaign, index: usize, constant: f64) -> Option<Lines> {
-    let mut windows = found.windows.iter().filter(|w| w.run == index);
-    let (Some(window), None) = (windows.next(), windows.next()) else { return None };
-    let motion = predict(&found.arm, campaign, window)?;
-    let run = &campaign.runs[index];
+fn beyond(arm: &ModalArm, campaign: &Campaign, window: &Window, constant: f64) -> Option<Lines> {
+    let motion = predict(arm, campaign, window)?;
+    let run = &campaign.runs[window.run];
     let span = *window.samples.start()..*window.samples.end();
     let friction: Vec<f64> = motion.friction_nm.iter().map(|f| f / constant).collect();
     let logged = &run.motor()[span.clone()];
@@ -56,14 +78,14 @@ fn beyond(found: &OutputError, campaign: &Campaign, index: usize, constant: f64)
     let mut lines = Lines::new(&run.command()[span], &left, run.sample_time_s());
     let friction = Lines::new(&friction, &left, run.sample_time_s());
     for (bin, friction) in lines.bins.iter_mut().zip(&friction.bins) {
-        // Friction is a mean over each sample, as a held command is.
         let hold = hold_factor(bin.omega_rad_s, run.sample_time_s());
         let held = match campaign.channels.command.hold {
             Hold::Sampled => hold,
             Hold::Measured => Complex64::ONE,
         };
-        let late = Complex64::from_polar(1.0, -bin.omega_rad_s * found.arm.command_lag_s);
-        bin.input = bin.input * held * late - friction.input * hold;
+        let late = Complex64::from_polar(1.0, -bin.omega_rad_s * arm.command_lag_s);
+        // Friction is known by its mean over each sample: turned half a sample forward, and lower.
+        bin.input = bin.input * held * late - friction.input / hold.conj();
     }
     Some(lines)
 }

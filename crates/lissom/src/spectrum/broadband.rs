@@ -25,7 +25,7 @@ pub struct Band {
     pub std: f64,
     /// Coherence γ², 0 to 1.
     pub coherence: f64,
-    /// The input's mean power per bin, relative to its strongest band.
+    /// The input's mean power per bin; of [`broadband`] relative to its strongest band.
     pub input_power: f64,
 }
 
@@ -76,31 +76,32 @@ impl Lines {
 /// Identification: A Frequency Domain Approach*, ch. 2 (`[Pintelon2012]`).
 pub fn broadband(records: &[(&[f64], &[f64], f64)]) -> Vec<Band> {
     let lines: Vec<Lines> = records.iter().map(|(u, y, t)| Lines::new(u, y, *t)).collect();
-    in_bands(&lines, average)
+    let mut bands: Vec<Band> = groups(&lines).iter().filter_map(|bins| average(bins)).collect();
+    let strongest = bands.iter().map(|b| b.input_power).fold(f64::MIN_POSITIVE, f64::max);
+    for band in &mut bands {
+        band.input_power /= strongest;
+    }
+    driven(&bands)
 }
 
-/// The same of lines, with what the lines of each band make of it.
-pub fn in_bands(records: &[Lines], average: impl Fn(&[Bin]) -> Option<Band>) -> Vec<Band> {
+/// The lines of all records by band of logarithmic width, a few at least in each.
+pub fn groups(records: &[Lines]) -> Vec<Vec<Bin>> {
     let mut bins: Vec<Bin> = records.iter().flat_map(|r| r.bins.iter().copied()).collect();
     bins.sort_by(|a, b| a.omega_rad_s.total_cmp(&b.omega_rad_s));
     let widest = records.iter().map(|r| r.step_rad_s).fold(0.0, f64::max);
     let ratio = 10_f64.powf(1.0 / BANDS_PER_DECADE);
-    let mut bands = Vec::new();
+    let mut groups = Vec::new();
     let mut from = 0;
     while from < bins.len() {
         let start = bins[from].omega_rad_s;
         let to_omega = (start * ratio).max(start + widest * (LEAST_BINS as f64 - 0.5));
         let to = from + bins[from..].partition_point(|b| b.omega_rad_s < to_omega);
         if to - from >= LEAST_BINS {
-            bands.extend(average(&bins[from..to]));
+            groups.push(bins[from..to].to_vec());
         }
         from = to.max(from + 1);
     }
-    let strongest = bands.iter().map(|b| b.input_power).fold(f64::MIN_POSITIVE, f64::max);
-    for band in &mut bands {
-        band.input_power /= strongest;
-    }
-    driven(&bands)
+    groups
 }
 
 /// The bands from the first to the last in which the input is not far weaker than next to it.
