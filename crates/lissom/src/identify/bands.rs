@@ -8,7 +8,7 @@ use super::finding::{Finding, Severity, key};
 use super::rational::MotorFit;
 use super::regression::slip_sign;
 use super::replayed_bands::ReplayedBands;
-use super::response_table::ResponsePoint;
+use super::response_table::{ResponsePoint, STUCK_LEAST, sticking_error};
 use super::run_analysis::{RunAnalysis, RunKind};
 use crate::record::{Campaign, Hold};
 use crate::spectrum::{Band, broadband, hold_factor};
@@ -43,7 +43,7 @@ pub(crate) fn bands(
     let motor = |i: usize| campaign.runs[i].motor().to_vec();
     let raw = records.spectrum(&|i| campaign.runs[i].command().to_vec(), &motor);
     let square = match (replayed, coulomb_command) {
-        (None, Some(c)) => records.spectrum(&|i| records.without_friction(i, c.value), &motor),
+        (None, Some(c)) => square_wave(&records, sure(c, runs, &records.runs)),
         _ => Vec::new(),
     };
     let tips: Vec<Vec<Band>> = (0..campaign.channels.tips.len())
@@ -52,10 +52,11 @@ pub(crate) fn bands(
     raw.iter()
         .filter(|b| b.coherence > COHERENCE && b.input_power > POWER)
         .map(|b| {
-            let w = b.omega_rad_s;
+            let square = nearest(&square, b.omega_rad_s);
+            let w = square.map_or(b.omega_rad_s, |c| c.omega_rad_s);
             let motor_corrected = match replayed {
                 Some(replayed) => replayed.response(w),
-                None => nearest(&square, w).map(|c| records.per_held(c, w)),
+                None => square.map(|c| records.per_held(c, w)),
             };
             ResponsePoint {
                 omega_rad_s: w,
@@ -66,10 +67,30 @@ pub(crate) fn bands(
                     .iter()
                     .map(|t| nearest(t, w).map(|b| Response { value: b.response, std: b.std }))
                     .collect(),
-                flagged: motor_corrected.is_none_or(|r| uncertain(&r)),
+                flagged: motor_corrected.is_none(),
             }
         })
         .collect()
+}
+
+/// Friction with what takes it for a square wave adds to its deviation where the joint sticks.
+fn sure(coulomb_command: Estimate, runs: &[RunAnalysis], general: &[usize]) -> Estimate {
+    let stuck = general.iter().filter_map(|&i| runs[i].stuck_share).fold(STUCK_LEAST, f64::max);
+    let std = coulomb_command.std.hypot(sticking_error(stuck) * coulomb_command.value);
+    Estimate { std, ..coulomb_command }
+}
+
+/// Bands of the command without a square wave; the deviation counts that of friction.
+fn square_wave(records: &Records<'_>, coulomb_command: Estimate) -> Vec<Band> {
+    let motor = |i: usize| records.campaign.runs[i].motor().to_vec();
+    let with = |c: f64| records.spectrum(&|i| records.without_friction(i, c), &motor);
+    let more = with(coulomb_command.value + coulomb_command.std);
+    let mut bands = with(coulomb_command.value);
+    for band in &mut bands {
+        let moved = nearest(&more, band.omega_rad_s).map(|m| (m.response - band.response).norm());
+        band.std = band.std.hypot(moved.unwrap_or(f64::INFINITY));
+    }
+    bands
 }
 
 /// Runs whose spectra are averaged.
@@ -114,23 +135,24 @@ fn nearest(bands: &[Band], w: f64) -> Option<Band> {
     bands.iter().find(near).copied()
 }
 
-fn uncertain(response: &Response) -> bool {
-    let relative = response.std / response.value.norm();
-    relative.is_nan() || relative > UNCERTAIN
-}
-
-/// Says how many bands are flagged for their deviation.
-pub(crate) fn uncertain_bands(points: &[ResponsePoint]) -> Option<Finding> {
-    let bands: Vec<&ResponsePoint> = points.iter().filter(|p| p.run.is_none()).collect();
-    let is_uncertain = |p: &&&ResponsePoint| p.motor_corrected.as_ref().is_some_and(uncertain);
-    let number = bands.iter().filter(is_uncertain).count();
+/// Flags the bands that are hardly known, and says so.
+pub(crate) fn uncertain(responses: &mut [ResponsePoint]) -> Option<Finding> {
+    let (mut number, mut all) = (0, 0);
+    for point in responses.iter_mut().filter(|p| p.run.is_none()) {
+        all += 1;
+        let Some(corrected) = point.motor_corrected else { continue };
+        let relative = corrected.std / corrected.value.norm();
+        if relative.is_nan() || relative > UNCERTAIN {
+            point.flagged = true;
+            number += 1;
+        }
+    }
     let message = format!(
-        "{number} of {} bands of the corrected response are uncertain by more than {:.0} %: they are \
-         flagged",
-        bands.len(),
+        "{number} of {all} bands of the corrected response are uncertain by more than {:.0} %: they \
+         are flagged",
         100.0 * UNCERTAIN
     );
-    let hint = "hardly driven there: take the model's response, or add a run that is";
+    let hint = "hardly driven there: take the model's response, or add a run that drives it";
     let affects = [key::CORRECTED];
     (number > 0).then(|| Finding::new("bands-uncertain", Severity::Info, &affects, message, hint))
 }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use thiserror::Error;
 
-use super::bands::{against, general, uncertain_bands};
+use super::bands::{against, general, uncertain};
 use super::channel_check::range;
 use super::constant_velocity::{self, ConstantVelocity};
 use super::finding::{Finding, Severity, key};
@@ -201,7 +201,8 @@ pub fn identify(
         third.motor = models::motor_model(&table(Some(third.coulomb_command)), constant, poles);
     }
     findings.extend(contradicted);
-    findings.extend(uncertain_bands(&responses));
+    // After the models: they weigh each band by its deviation.
+    findings.extend(uncertain(&mut responses));
     findings.extend(weak_points(&responses, &runs));
     let state_space =
         motor_model.as_ref().map(|m| joined(campaign, m, constant, beam_model.as_ref()));

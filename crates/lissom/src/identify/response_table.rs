@@ -13,7 +13,7 @@ use crate::record::{Campaign, TipQuantity};
 use crate::spectrum::Phasor;
 
 /// Sticking shares below this are not measured: what (30) leaves where nothing sticks.
-const STUCK_LEAST: f64 = 0.015;
+pub(super) const STUCK_LEAST: f64 = 0.015;
 /// A corrected point uncertain by more than this share is flagged.
 const WEAK: f64 = 0.5;
 
@@ -101,7 +101,7 @@ fn sinusoidal(
 /// Relative error of friction's fundamental in (30) where the joint sticks for `share` of the
 /// cycle: sticking begins at each reversal and lasts π·share in phase; the square wave is late by
 /// half of that.
-fn sticking_error(share: f64) -> f64 {
+pub(super) fn sticking_error(share: f64) -> f64 {
     0.5 * PI * share
 }
 
