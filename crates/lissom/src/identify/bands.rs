@@ -55,7 +55,7 @@ pub(crate) fn bands(
             let square = nearest(&square, b.omega_rad_s);
             let w = square.map_or(b.omega_rad_s, |c| c.omega_rad_s);
             let motor_corrected = match replayed {
-                Some(replayed) => replayed.response(w),
+                Some(replayed) => replayed.motor(w),
                 None => square.map(|c| records.per_held(c, w)),
             };
             ResponsePoint {
@@ -65,7 +65,12 @@ pub(crate) fn bands(
                 motor_corrected,
                 tips: tips
                     .iter()
-                    .map(|t| nearest(t, w).map(|b| Response { value: b.response, std: b.std }))
+                    .enumerate()
+                    .map(|(k, bands)| {
+                        let measured = nearest(bands, w)?;
+                        let measured = Response { value: measured.response, std: measured.std };
+                        Some(replayed.and_then(|r| r.tip(k, w)).unwrap_or(measured))
+                    })
                     .collect(),
                 flagged: motor_corrected.is_none(),
             }

@@ -233,7 +233,7 @@ pub fn identify(
 /// Responses without friction of the runs that were replayed, the `kept` ones of `runs`.
 fn corrected<'a>(
     found: &'a OutputError,
-    usable: &Campaign,
+    usable: &'a Campaign,
     runs: &[RunAnalysis],
     kept: &[usize],
 ) -> Replayed<'a> {
