@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use thiserror::Error;
 
+use super::bands::{against, general, uncertain};
 use super::channel_check::range;
 use super::constant_velocity::{self, ConstantVelocity};
 use super::finding::{Finding, Severity, key};
@@ -15,7 +16,8 @@ use super::models::{beam_model, figures_model};
 use super::output_error::{OutputError, OutputErrorStart, output_error, starts};
 use super::rational::{BeamFit, MotorFit};
 use super::regression::{BeamRegression, MotorRegression, beam_regression, motor_regression};
-use super::response_table::{ResponsePoint, response_table, weak_points};
+use super::replayed_bands::ReplayedBands;
+use super::response_table::{Replayed, response_table, weak_points};
 use super::run_analysis::{RunAnalysis, RunKind, analyse};
 use super::third_harmonic::{PairFigure, mean_figure, pair_figure};
 use super::{Estimate, models, verdict};
@@ -28,8 +30,6 @@ const HARMONICS: usize = 9;
 const TRIPLE: f64 = 2e-3;
 /// Windowed torque that the regression may leave before its figures are refused.
 const RESIDUAL_REFUSED: f64 = 0.6;
-/// Relative difference from that model at which a band is flagged.
-const CONTRADICTED: f64 = 0.1;
 /// Sinusoidal runs from which on the rational models are fitted to the responses.
 const STEPPED: usize = 4;
 /// Relative deviation, and share of the torque left, up to which a regression on constant velocities
@@ -157,7 +157,7 @@ pub fn identify(
     let any_beam_regression = beam_regression(&usable);
 
     // Tips' responses to the motor know nothing of friction.
-    let square = |_: usize| None;
+    let square = Replayed::default();
     let shown = response_table(campaign, &runs, None, &square, &findings);
     let mut beam_model = beam_model(campaign, &shown);
     let output_error = if options.without_output_error {
@@ -177,19 +177,17 @@ pub fn identify(
     let table = |c: Option<Estimate>| response_table(campaign, &runs, c, &square, &findings);
     let mut third_harmonic = pairs(&runs, &findings);
     let best = coulomb_command(regression.as_ref(), third_harmonic.as_ref(), constant);
-    let from_replay = |run: usize| {
-        let RunKind::Sinusoidal(steady) = &runs[run].kind else { return None };
-        let run = kept.iter().position(|&k| k == run)?;
-        let found = output_error.as_ref()?;
-        FrictionWaveform { found, campaign: &usable, run, steady }.response()
-    };
-    let mut responses = response_table(campaign, &runs, best, &from_replay, &findings);
+    let replay = output_error.as_ref();
+    let replay = replay.map_or_else(Replayed::default, |o| corrected(o, &usable, &runs, &kept));
+    let mut responses = response_table(campaign, &runs, best, &replay, &findings);
     let stepped = responses.iter().filter(|p| p.run.is_some()).count() >= STEPPED;
     let figures = figures_model(campaign, regression.as_ref(), beam_regression.as_ref());
     let mut motor_model = None;
     let mut contradicted = None;
     if let Some((motor, beam)) = &figures {
-        contradicted = against(&mut responses, motor);
+        if replay.bands.is_none() {
+            contradicted = against(&mut responses, motor);
+        }
         if !stepped {
             // Bands of a sweep or of ordinary moves are poorer than the figures of the regression.
             motor_model = Some(motor.clone());
@@ -203,6 +201,8 @@ pub fn identify(
         third.motor = models::motor_model(&table(Some(third.coulomb_command)), constant, poles);
     }
     findings.extend(contradicted);
+    // After the models: they weigh each band by its deviation.
+    findings.extend(uncertain(&mut responses));
     findings.extend(weak_points(&responses, &runs));
     let state_space =
         motor_model.as_ref().map(|m| joined(campaign, m, constant, beam_model.as_ref()));
@@ -228,6 +228,26 @@ pub fn identify(
     };
     verdict::conclude(campaign, &usable, &mut identified);
     Ok(identified)
+}
+
+/// Responses without friction of the runs that were replayed, the `kept` ones of `runs`.
+fn corrected<'a>(
+    found: &'a OutputError,
+    usable: &'a Campaign,
+    runs: &[RunAnalysis],
+    kept: &[usize],
+) -> Replayed<'a> {
+    let place = |run: usize| kept.iter().position(|&k| k == run);
+    let sinusoidal = |(index, run): (usize, &RunAnalysis)| {
+        let RunKind::Sinusoidal(steady) = &run.kind else { return None };
+        let run = place(index)?;
+        FrictionWaveform { found, campaign: usable, run, steady }.response()
+    };
+    let general: Vec<usize> = general(runs).into_iter().filter_map(place).collect();
+    Replayed {
+        sinusoidal: runs.iter().enumerate().map(sinusoidal).collect(),
+        bands: if found.stands() { ReplayedBands::new(found, usable, &general) } else { None },
+    }
 }
 
 /// Coulomb friction in the command's unit, by the best method that needs no replay.
@@ -273,32 +293,6 @@ fn constant_channels(campaign: &Campaign) -> Vec<(String, usize)> {
     }));
     constant.retain(|(_, runs)| *runs > 0);
     constant
-}
-
-/// Flags the bands whose corrected response the regression's figures contradict, and says so.
-fn against(responses: &mut [ResponsePoint], model: &MotorFit) -> Option<Finding> {
-    let mut number = 0;
-    let bands = responses.iter_mut().filter(|p| p.run.is_none());
-    let mut all = 0;
-    for point in bands {
-        all += 1;
-        let Some(corrected) = point.motor_corrected else { continue };
-        let expected = model.transfer_function.response(point.omega_rad_s);
-        let distance = (corrected.value - expected).norm();
-        if distance > CONTRADICTED * expected.norm() {
-            point.flagged = true;
-            number += 1;
-        }
-    }
-    let message = format!(
-        "{number} of {all} bands of the corrected response differ by more than {:.0} % from what \
-         the regression's figures give: they are flagged",
-        100.0 * CONTRADICTED
-    );
-    let hint = "hardly driven there, or biased by the loop: take the model's response";
-    let affects = [key::CORRECTED];
-    (number > 0)
-        .then(|| Finding::new("bands-contradicted", Severity::Info, &affects, message, hint))
 }
 
 /// Says which tips are dead in every run.

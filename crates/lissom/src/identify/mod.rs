@@ -1,5 +1,6 @@
 //! From records to friction, parameters and a verdict.
 
+mod bands;
 mod campaign;
 mod channel_check;
 mod channel_noise;
@@ -16,6 +17,7 @@ mod models;
 mod output_error;
 mod rational;
 mod regression;
+mod replayed_bands;
 mod response_table;
 mod run_analysis;
 mod third_harmonic;

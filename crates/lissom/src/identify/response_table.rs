@@ -2,23 +2,18 @@
 
 use std::f64::consts::PI;
 
-use num_complex::Complex64;
-
+use super::bands::bands;
 use super::correct::{Response, corrected, ratio};
 use super::finding::{Finding, key};
 use super::rational::TipForm;
-use super::regression::slip_sign;
+use super::replayed_bands::ReplayedBands;
 use super::run_analysis::{RunAnalysis, RunKind};
 use super::{Estimate, Severity};
-use crate::record::{Campaign, Hold, TipQuantity};
-use crate::spectrum::{Band, Phasor, broadband, hold_factor};
+use crate::record::{Campaign, TipQuantity};
+use crate::spectrum::Phasor;
 
-/// Least coherence at which a band of a broadband record is worth showing.
-const COHERENCE: f64 = 0.3;
-/// Least power of the input in a band, relative to the strongest.
-const POWER: f64 = 1e-3;
 /// Sticking shares below this are not measured: what (30) leaves where nothing sticks.
-const STUCK_LEAST: f64 = 0.015;
+pub(super) const STUCK_LEAST: f64 = 0.015;
 /// A corrected point uncertain by more than this share is flagged.
 const WEAK: f64 = 0.5;
 
@@ -39,23 +34,33 @@ pub struct ResponsePoint {
     pub flagged: bool,
 }
 
-/// Builds the table. `replayed` gives the corrected response of a sinusoidal run where friction is known
-/// over time; elsewhere it is taken for a square wave of `coulomb_command` (CF/K), if that is known.
+/// What the replay says of friction.
+#[derive(Default)]
+pub(crate) struct Replayed<'a> {
+    /// Corrected response of each run: of sinusoidal ones where friction is known over time.
+    pub(crate) sinusoidal: Vec<Option<Response>>,
+    /// Those of the other runs, where an arm was found that describes them from end to end.
+    pub(crate) bands: Option<ReplayedBands<'a>>,
+}
+
+/// Builds the table. Where the replay says nothing friction is taken for a square wave of
+/// `coulomb_command` (CF/K), if that is known.
 pub(crate) fn response_table(
     campaign: &Campaign,
     runs: &[RunAnalysis],
     coulomb_command: Option<Estimate>,
-    replayed: &dyn Fn(usize) -> Option<Response>,
+    replayed: &Replayed<'_>,
     findings: &[Finding],
 ) -> Vec<ResponsePoint> {
     let mut points: Vec<ResponsePoint> = runs
         .iter()
         .enumerate()
         .filter_map(|(index, run)| {
-            sinusoidal(index, run, coulomb_command, replayed(index), findings)
+            let of_replay = replayed.sinusoidal.get(index).copied().flatten();
+            sinusoidal(index, run, coulomb_command, of_replay, findings)
         })
         .collect();
-    points.extend(bands(campaign, runs, coulomb_command));
+    points.extend(bands(campaign, runs, coulomb_command, replayed.bands.as_ref()));
     points.sort_by(|a, b| a.omega_rad_s.total_cmp(&b.omega_rad_s));
     points
 }
@@ -96,7 +101,7 @@ fn sinusoidal(
 /// Relative error of friction's fundamental in (30) where the joint sticks for `share` of the
 /// cycle: sticking begins at each reversal and lasts π·share in phase; the square wave is late by
 /// half of that.
-fn sticking_error(share: f64) -> f64 {
+pub(super) fn sticking_error(share: f64) -> f64 {
     0.5 * PI * share
 }
 
@@ -130,78 +135,6 @@ pub(crate) fn weak_points(points: &[ResponsePoint], runs: &[RunAnalysis]) -> Vec
 
 fn tip_response(tip: Phasor, motor: Phasor) -> Option<Response> {
     (tip.value.norm() > 0.0).then(|| ratio(tip, motor))
-}
-
-/// Bands of all runs that are not sinusoidal, friction taken out of the command in time.
-fn bands(
-    campaign: &Campaign,
-    runs: &[RunAnalysis],
-    coulomb_command: Option<Estimate>,
-) -> Vec<ResponsePoint> {
-    let general: Vec<usize> = (0..runs.len())
-        .filter(|&i| runs[i].usable && matches!(runs[i].kind, RunKind::General))
-        .collect();
-    if general.is_empty() {
-        return Vec::new();
-    }
-    let hold = campaign.channels.command.hold;
-    let spectrum = |input: &dyn Fn(usize) -> Vec<f64>, output: &dyn Fn(usize) -> Vec<f64>| {
-        let series: Vec<(Vec<f64>, Vec<f64>, f64)> = general
-            .iter()
-            .map(|&i| (input(i), output(i), campaign.runs[i].sample_time_s()))
-            .collect();
-        broadband(&series.iter().map(|(u, y, t)| (&u[..], &y[..], *t)).collect::<Vec<_>>())
-    };
-    let run = |i: usize| &campaign.runs[i];
-    let motor = |i: usize| run(i).motor().to_vec();
-    // The hold delays by half a sample: runs of different sampling get the mean of theirs.
-    let sample_time =
-        general.iter().map(|&i| run(i).sample_time_s()).sum::<f64>() / general.len() as f64;
-    let held = |w: f64| match hold {
-        Hold::Sampled => hold_factor(w, sample_time),
-        Hold::Measured => Complex64::ONE,
-    };
-    let raw = spectrum(&|i| run(i).command().to_vec(), &motor);
-    let without_friction = coulomb_command.map(|c| {
-        spectrum(
-            &|i| {
-                let sign = slip_sign(run(i).motor(), run(i).sample_time_s());
-                run(i).command().iter().zip(sign).map(|(u, s)| u - c.value * s).collect()
-            },
-            &motor,
-        )
-    });
-    let tips: Vec<Vec<Band>> = (0..campaign.channels.tips.len())
-        .map(|k| spectrum(&motor, &|i| run(i).tips()[k].clone()))
-        .collect();
-    let nearest = |bands: &[Band], w: f64| {
-        bands
-            .iter()
-            .find(|b| (b.omega_rad_s / w - 1.0).abs() < 0.03 && b.coherence > COHERENCE)
-            .copied()
-    };
-    raw.iter()
-        .filter(|b| b.coherence > COHERENCE && b.input_power > POWER)
-        .map(|b| {
-            let w = b.omega_rad_s;
-            let per_held = |b: Band, w: f64| {
-                let factor = held(w);
-                Response { value: b.response / factor, std: b.std / factor.norm() }
-            };
-            let corrected = without_friction.as_deref().and_then(|c| nearest(c, w));
-            ResponsePoint {
-                omega_rad_s: w,
-                run: None,
-                motor_raw: per_held(*b, w),
-                motor_corrected: corrected.map(|c| per_held(c, w)),
-                tips: tips
-                    .iter()
-                    .map(|t| nearest(t, w).map(|b| Response { value: b.response, std: b.std }))
-                    .collect(),
-                flagged: corrected.is_none(),
-            }
-        })
-        .collect()
 }
 
 /// Form of a tip's model and its responses in that form: θ_i/θ_m for angles and deflections.

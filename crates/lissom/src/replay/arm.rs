@@ -22,6 +22,13 @@ pub struct Oscillator {
     pub grounded_per_s: f64,
 }
 
+impl Oscillator {
+    /// `d·s + ω²`: what the motor's angle does to it.
+    fn driven(&self, s: Complex64) -> Complex64 {
+        s * self.within_per_s + self.omega_rad_s * self.omega_rad_s
+    }
+}
+
 /// An arm as its motor feels it.
 ///
 /// ```text
@@ -151,27 +158,41 @@ impl ModalArm {
     pub fn motor_response(&self, omega_rad_s: f64) -> Complex64 {
         let s = Complex64::new(0.0, omega_rad_s);
         let [forward, backward] = self.viscous_nm_s_per_rad;
+        let rigid = s * (s * self.inertia_kg_m2 + 0.5 * (forward + backward));
+        let pull = |(m, psi): (&Oscillator, &Complex64)| {
+            let square = m.omega_rad_s * m.omega_rad_s;
+            m.stiffness_nm_per_rad * m.driven(s) / square * (1.0 - psi)
+        };
+        let follow = self.follow(s);
+        1.0 / self.modes.iter().zip(follow.iter()).map(pull).fold(rigid, |sum, p| sum + p)
+    }
+
+    /// θ_i/θ_m of a tip at ω, `1 + Σ r_ij·(ψ_j/θ − 1)` at s = jω.
+    ///
+    /// # Panics
+    /// Where there is no such tip.
+    pub fn tip_response(&self, tip: usize, omega_rad_s: f64) -> Complex64 {
+        let follow = self.follow(Complex64::new(0.0, omega_rad_s));
+        let shown = self.shapes[tip].iter().zip(follow.iter()).map(|(r, psi)| r * (psi - 1.0));
+        shown.fold(Complex64::ONE, |sum, p| sum + p)
+    }
+
+    /// ψ_j/θ of every mode.
+    fn follow(&self, s: Complex64) -> DVector<Complex64> {
         let n = self.modes.len();
         let points = self.points_in_modes();
         let own = |m: &Oscillator| {
             let both = m.within_per_s + m.grounded_per_s;
             s * (s + both) + m.omega_rad_s * m.omega_rad_s
         };
-        let driven = |m: &Oscillator| s * m.within_per_s + m.omega_rad_s * m.omega_rad_s;
         let left = DMatrix::from_fn(n, n, |i, j| {
             let points = s * points.as_ref().map_or(0.0, |p| p[(i, j)]);
             if i == j { own(&self.modes[i]) + points } else { points }
         });
-        let right = DVector::from_fn(n, |j, _| driven(&self.modes[j]));
+        let right = DVector::from_fn(n, |j, _| self.modes[j].driven(s));
         // A factorisation of nothing is refused by the library.
         let solved = if n == 0 { None } else { left.lu().solve(&right) };
-        let follow = solved.unwrap_or_else(|| DVector::zeros(n));
-        let rigid = s * (s * self.inertia_kg_m2 + 0.5 * (forward + backward));
-        let pull = |(m, psi): (&Oscillator, &Complex64)| {
-            let square = m.omega_rad_s * m.omega_rad_s;
-            m.stiffness_nm_per_rad * driven(m) / square * (1.0 - psi)
-        };
-        1.0 / self.modes.iter().zip(follow.iter()).map(pull).fold(rigid, |sum, p| sum + p)
+        solved.unwrap_or_else(|| DVector::zeros(n))
     }
 
     /// Modes and shapes of `θ̈_i = −Σ_l K_il·(θ_l − θ_m) − …`, the rows of K by tip, ascending in

@@ -25,8 +25,46 @@ pub struct Band {
     pub std: f64,
     /// Coherence γ², 0 to 1.
     pub coherence: f64,
-    /// The input's mean power per bin, relative to its strongest band.
+    /// The input's mean power per bin; of [`broadband`] relative to its strongest band.
     pub input_power: f64,
+}
+
+/// A line of the spectra of an input and an output.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bin {
+    /// Frequency \[rad/s\].
+    pub omega_rad_s: f64,
+    /// The input's.
+    pub input: Complex64,
+    /// The output's.
+    pub output: Complex64,
+}
+
+/// The lines of one record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lines {
+    /// From one line to the next \[rad/s\].
+    pub step_rad_s: f64,
+    /// From the second line up to 0.8 of the Nyquist frequency: above it the samples say little of the
+    /// signal.
+    pub bins: Vec<Bin>,
+}
+
+impl Lines {
+    /// Of as many samples as both have.
+    pub fn new(input: &[f64], output: &[f64], sample_time_s: f64) -> Self {
+        let n = input.len().min(output.len());
+        let fft = FftPlanner::new().plan_fft_forward(n);
+        let transform = |x: &[f64]| {
+            let mut z = tapered(&x[..n]);
+            fft.process(&mut z);
+            z
+        };
+        let (u, y) = (transform(input), transform(output));
+        let step_rad_s = std::f64::consts::TAU / (n as f64 * sample_time_s);
+        let bin = |k: usize| Bin { omega_rad_s: k as f64 * step_rad_s, input: u[k], output: y[k] };
+        Self { step_rad_s, bins: (2..n * 2 / 5).map(bin).collect() }
+    }
 }
 
 /// H1 estimate `S_yu/S_uu` of the response from `input` to `output` over one or more records with
@@ -37,41 +75,33 @@ pub struct Band {
 /// Cross-spectral averaging over neighbouring bins and records; Pintelon & Schoukens, *System
 /// Identification: A Frequency Domain Approach*, ch. 2 (`[Pintelon2012]`).
 pub fn broadband(records: &[(&[f64], &[f64], f64)]) -> Vec<Band> {
-    let mut bins = Vec::new();
-    let mut planner = FftPlanner::new();
-    let mut widest = 0.0_f64;
-    for &(input, output, sample_time) in records {
-        let n = input.len().min(output.len());
-        let fft = planner.plan_fft_forward(n);
-        let transform = |x: &[f64]| {
-            let mut z = tapered(&x[..n]);
-            fft.process(&mut z);
-            z
-        };
-        let (u, y) = (transform(input), transform(output));
-        let step = std::f64::consts::TAU / (n as f64 * sample_time);
-        widest = widest.max(step);
-        // Up to 0.8 of the Nyquist frequency: above it the samples say little of the signal.
-        bins.extend((2..n * 2 / 5).map(|k| (k as f64 * step, u[k], y[k])));
-    }
-    bins.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let ratio = 10_f64.powf(1.0 / BANDS_PER_DECADE);
-    let mut bands = Vec::new();
-    let mut from = 0;
-    while from < bins.len() {
-        let start = bins[from].0;
-        let to_omega = (start * ratio).max(start + widest * (LEAST_BINS as f64 - 0.5));
-        let to = from + bins[from..].partition_point(|b| b.0 < to_omega);
-        if to - from >= LEAST_BINS {
-            bands.extend(average(&bins[from..to]));
-        }
-        from = to.max(from + 1);
-    }
+    let lines: Vec<Lines> = records.iter().map(|(u, y, t)| Lines::new(u, y, *t)).collect();
+    let mut bands: Vec<Band> = groups(&lines).iter().filter_map(|bins| average(bins)).collect();
     let strongest = bands.iter().map(|b| b.input_power).fold(f64::MIN_POSITIVE, f64::max);
     for band in &mut bands {
         band.input_power /= strongest;
     }
     driven(&bands)
+}
+
+/// The lines of all records by band of logarithmic width, a few at least in each.
+pub fn groups(records: &[Lines]) -> Vec<Vec<Bin>> {
+    let mut bins: Vec<Bin> = records.iter().flat_map(|r| r.bins.iter().copied()).collect();
+    bins.sort_by(|a, b| a.omega_rad_s.total_cmp(&b.omega_rad_s));
+    let widest = records.iter().map(|r| r.step_rad_s).fold(0.0, f64::max);
+    let ratio = 10_f64.powf(1.0 / BANDS_PER_DECADE);
+    let mut groups = Vec::new();
+    let mut from = 0;
+    while from < bins.len() {
+        let start = bins[from].omega_rad_s;
+        let to_omega = (start * ratio).max(start + widest * (LEAST_BINS as f64 - 0.5));
+        let to = from + bins[from..].partition_point(|b| b.omega_rad_s < to_omega);
+        if to - from >= LEAST_BINS {
+            groups.push(bins[from..to].to_vec());
+        }
+        from = to.max(from + 1);
+    }
+    groups
 }
 
 /// The bands from the first to the last in which the input is not far weaker than next to it.
@@ -85,14 +115,16 @@ fn driven(bands: &[Band]) -> Vec<Band> {
     bands.get(first..=last).map_or_else(Vec::new, <[Band]>::to_vec)
 }
 
-fn average(bins: &[(f64, Complex64, Complex64)]) -> Option<Band> {
+/// H1 of the lines of one band; `None` where either is silent.
+pub fn average(bins: &[Bin]) -> Option<Band> {
     let (mut uu, mut yy, mut omega) = (0.0, 0.0, 0.0);
     let mut yu = Complex64::ZERO;
-    for &(w, u, y) in bins {
-        uu += u.norm_sqr();
-        yy += y.norm_sqr();
-        yu += y * u.conj();
-        omega += w * u.norm_sqr();
+    for bin in bins {
+        let power = bin.input.norm_sqr();
+        uu += power;
+        yy += bin.output.norm_sqr();
+        yu += bin.output * bin.input.conj();
+        omega += bin.omega_rad_s * power;
     }
     if uu <= 0.0 || yy <= 0.0 {
         return None;

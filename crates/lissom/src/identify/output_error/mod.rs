@@ -17,7 +17,8 @@ mod start;
 mod verdict;
 mod windows;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
+use num_complex::Complex64;
 
 use super::{Estimate, LawTerm};
 use crate::record::Campaign;
@@ -66,23 +67,44 @@ impl OutputError {
         Some(Estimate { value: parameter.of(&self.arm), std: deviation(&self.covariance, i) })
     }
 
-    /// Any figure of the arm, its deviation from the parameters' by differences over half a
-    /// deviation of each.
+    /// Any figure of the arm, its deviation from the parameters'.
     pub fn figure(&self, of: impl Fn(&ModalArm) -> f64) -> Estimate {
-        let slopes = DVector::from_iterator(
-            self.parameters.len(),
-            self.parameters.iter().enumerate().map(|(i, p)| {
-                let half = 0.5 * deviation(&self.covariance, i);
-                let with = |change: f64| {
-                    let mut arm = self.arm.clone();
-                    p.set(&mut arm, p.of(&self.arm) + change);
-                    of(&arm)
+        let variances = self.variances(&|arm| Some(vec![Complex64::from(of(arm))]));
+        // Without free parameters there is nothing to vary.
+        let variance = variances.map_or(f64::NAN, |v| v.first().copied().unwrap_or(0.0));
+        Estimate { value: of(&self.arm), std: variance.sqrt() }
+    }
+
+    /// What the parameters' covariance gives quantities of the arm: `E|Δ|²` of each, by differences over
+    /// half a deviation of each parameter to both sides. `None` where they cannot be had of an arm beside.
+    pub(crate) fn variances(
+        &self,
+        of: &dyn Fn(&ModalArm) -> Option<Vec<Complex64>>,
+    ) -> Option<Vec<f64>> {
+        let slopes = |(i, p): (usize, &Parameter)| {
+            let half = 0.5 * deviation(&self.covariance, i);
+            let with = |change: f64| {
+                let mut arm = self.arm.clone();
+                p.set(&mut arm, p.of(&self.arm) + change);
+                of(&arm)
+            };
+            let (above, below) = (with(half)?, with(-half)?);
+            let slope = |(a, b)| if half > 0.0 { (a - b) / (2.0 * half) } else { Complex64::ZERO };
+            Some(above.iter().zip(&below).map(slope).collect())
+        };
+        let slopes: Vec<Vec<Complex64>> =
+            self.parameters.iter().enumerate().map(slopes).collect::<Option<_>>()?;
+        let quantities = slopes.first().map_or(0, Vec::len);
+        let variance = |k: usize| {
+            let pairs = slopes.iter().enumerate().flat_map(|(i, a)| {
+                let with = move |(j, b): (usize, &Vec<Complex64>)| {
+                    self.covariance[(i, j)] * (a[k] * b[k].conj()).re
                 };
-                if half > 0.0 { (with(half) - with(-half)) / (2.0 * half) } else { 0.0 }
-            }),
-        );
-        let variance = slopes.dot(&(&self.covariance * &slopes));
-        Estimate { value: of(&self.arm), std: variance.max(0.0).sqrt() }
+                slopes.iter().enumerate().map(with)
+            });
+            pairs.sum::<f64>().max(0.0)
+        };
+        Some((0..quantities).map(variance).collect())
     }
 }
 
