@@ -113,13 +113,15 @@ impl Fitting<'_> {
         noise: &'b [SensorNoise],
         robust: bool,
     ) -> Problem<'b> {
-        let sampling = Sampling { noise, blocks: self.blocks, masks: self.masks };
+        let sampling = Sampling { noise, blocks: &[], masks: self.masks };
         Problem { campaign: self.campaign, parameters: free, sampling, robust }
     }
 
-    /// Replays a fit, the parameters `free` moving.
+    /// Replays a fit, the parameters `free` moving, with sums by blocks.
     pub(super) fn point(&self, fit: &Fit, free: &[Parameter]) -> Point {
-        self.problem(free, &fit.noise, false).at(fit.body.clone(), fit.windows.clone())
+        let mut problem = self.problem(free, &fit.noise, false);
+        problem.sampling.blocks = self.blocks;
+        problem.at(fit.body.clone(), fit.windows.clone())
     }
 
     /// Largest ratio of a channel's residual to the noise that its samples show by themselves.
@@ -139,7 +141,7 @@ impl Fitting<'_> {
 
     /// Cost of an arm and its windows where the noise is `noise`.
     pub(super) fn cost(&self, fit: &Fit, noise: &[SensorNoise]) -> f64 {
-        let sampling = Sampling { noise, blocks: self.blocks, masks: self.masks };
+        let sampling = Sampling { noise, blocks: &[], masks: self.masks };
         costs(&fit.body.arm, self.campaign, &fit.windows, sampling).iter().sum()
     }
 
