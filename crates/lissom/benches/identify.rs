@@ -64,7 +64,12 @@ fn start(campaign: &Campaign, omega_rad_s: &[Option<f64>]) -> OutputErrorStart {
     let motor = motor_regression(campaign, &[]).unwrap();
     let beam = beam_regression(campaign);
     let arm = starts(campaign, &motor, beam.as_ref(), None).remove(0);
-    OutputErrorStart { arm, omega_rad_s: omega_rad_s.to_vec(), first_window_s: None }
+    OutputErrorStart {
+        arm,
+        omega_rad_s: omega_rad_s.to_vec(),
+        first_window_s: None,
+        law: Vec::new(),
+    }
 }
 
 /// An arm, what is free of it, and how well that is known.

@@ -24,7 +24,7 @@ pub(crate) fn follow(
     let masks = data::masks(campaign);
     let noise: Vec<SensorNoise> = noise::of_samples(campaign).into_iter().map(weighable).collect();
     let sampling = Sampling { noise: &noise, blocks: &[], masks: &masks };
-    let problem = Problem { campaign, parameters: &[], sampling, robust: false };
+    let problem = Problem { campaign, parameters: &[], sampling, robust: false, near_enough: 0.0 };
     if !is_possible(campaign, arm) {
         return Vec::new();
     }
