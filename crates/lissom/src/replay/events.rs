@@ -93,8 +93,9 @@ impl<const D: usize> Mover<D> {
         }
         let base = value(&series, duration_s);
         let ends = self.friction.over((&motion.x, &base), &ramp, direction);
-        if ends.to != ends.from {
-            net.slope -= (ends.to - ends.from) / duration_s;
+        let rises = ends.to - ends.from;
+        if rises != 0.0 {
+            net.slope -= rises / duration_s;
             series = terms(rates, &motion.x, net, duration_s);
         }
         let friction = Some((ends, push, ramp));

@@ -1,5 +1,10 @@
 //! Derivatives of the state by every unknown of a window, eight unknowns at a time.
 
+#![expect(
+    clippy::inline_always,
+    reason = "loops over unknowns, compiled for vectors chosen at run time"
+)]
+
 use super::rates::Rates;
 use super::series::{Ramp, Terms, input, orders};
 use super::transition::Transition;
@@ -74,7 +79,7 @@ impl<const D: usize> Tangents<D> {
     /// What torques add that are parameters themselves is left out.
     pub(super) fn over(&mut self, piece: &Transition<D>, x: &[f64; D], from: f64, change: f64) {
         let next = &mut self.next;
-        self.arch.dispatch(Piece { packs: &self.packs, next, piece, x, from, change });
+        self.arch.dispatch(Over { packs: &self.packs, next, piece, x, from, change });
         std::mem::swap(&mut self.packs, &mut self.next);
     }
 
@@ -91,7 +96,7 @@ impl<const D: usize> Tangents<D> {
 
 /// For whatever vectors the machine has: they change no result, as nothing is contracted or
 /// reordered.
-struct Piece<'a, const D: usize> {
+struct Over<'a, const D: usize> {
     packs: &'a [Pack<D>],
     next: &'a mut [Pack<D>],
     piece: &'a Transition<D>,
@@ -100,7 +105,7 @@ struct Piece<'a, const D: usize> {
     change: f64,
 }
 
-impl<const D: usize> pulp::WithSimd for Piece<'_, D> {
+impl<const D: usize> pulp::WithSimd for Over<'_, D> {
     type Output = ();
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
@@ -108,13 +113,11 @@ impl<const D: usize> pulp::WithSimd for Piece<'_, D> {
             let by = self.piece.by_parameter.get(k);
             for (i, new) in next.iter_mut().enumerate() {
                 let mut sum = [0.0; LANES];
-                for j in 0..D {
-                    add(&mut sum, self.piece.own.phi[j][i], &old[j]);
+                for (column, old) in self.piece.own.phi.iter().zip(old) {
+                    add(&mut sum, column[i], old);
                 }
                 if let Some(by) = by {
-                    for j in 0..D {
-                        add(&mut sum, self.x[j], &by.phi[i][j]);
-                    }
+                    add_products(&mut sum, self.x, &by.phi[i]);
                     add(&mut sum, self.from, &by.push[i]);
                     add(&mut sum, self.change, &by.ramp[i]);
                 }
@@ -176,13 +179,9 @@ impl<const D: usize> pulp::WithSimd for Along<'_, D> {
                 let share = 1.0 / (n as f64 + 1.0);
                 for (i, next) in term.iter_mut().enumerate() {
                     let mut sum = [0.0; LANES];
-                    for j in 0..D {
-                        add(&mut sum, self.rates.a[i][j], &old[j]);
-                    }
+                    add_products(&mut sum, &self.rates.a[i], &old);
                     if let Some((a, b)) = by {
-                        for j in 0..D {
-                            add(&mut sum, self.terms[n][j], &a[i][j]);
-                        }
+                        add_products(&mut sum, &self.terms[n], &a[i]);
                         add(&mut sum, input(n, self.net), &b[i]);
                     }
                     *next = sum.map(|v| v * share);
@@ -197,5 +196,12 @@ impl<const D: usize> pulp::WithSimd for Along<'_, D> {
 fn add(sum: &mut Lanes, s: f64, x: &Lanes) {
     for (sum, x) in sum.iter_mut().zip(x) {
         *sum += s * x;
+    }
+}
+
+#[inline(always)]
+fn add_products<const D: usize>(sum: &mut Lanes, x: &[f64; D], rows: &[Lanes; D]) {
+    for (x, row) in x.iter().zip(rows) {
+        add(sum, *x, row);
     }
 }
