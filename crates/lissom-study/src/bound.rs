@@ -1,8 +1,6 @@
 //! The least deviations that any unbiased estimator can have on a campaign.
 
-use lissom::replay::{
-    Blocks, ModalArm, Parameter, Sampling, SensorNoise, Window, WindowSums, sums,
-};
+use lissom::replay::{ModalArm, Parameter, Sampling, SensorNoise, Window, WindowSums, sums};
 use lissom::rig::Sensor;
 use nalgebra::{DMatrix, DVector};
 
@@ -54,9 +52,8 @@ impl Bound {
             zeros: vec![0.0; tips],
         });
         let windows: Vec<Window> = windows.collect();
-        let blocks = vec![Blocks { samples: f64::INFINITY, period: None }; windows.len()];
         let masks = vec![vec![None; 1 + tips]; windows.len()];
-        let sampling = Sampling { noise: &noise, blocks: &blocks, masks: &masks };
+        let sampling = Sampling { noise: &noise, blocks: &[], masks: &masks };
         let parameters = unknowns(&arm, campaign.law);
         let sums = sums(&arm, &parameters, &campaign.logs, &windows, sampling);
         let mut information = DMatrix::zeros(parameters.len(), parameters.len());

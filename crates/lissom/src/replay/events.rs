@@ -3,7 +3,7 @@
 use super::friction::{Ends, Held, sign};
 use super::motion::{Motion, Mover, Torque, direction};
 use super::rates::Rates;
-use super::series::{Ramp, Terms, reach_s, tangent, terms, value};
+use super::series::{Ramp, Terms, reach_s, terms, value};
 use crate::lti::first_root::{ORDER_MOST, first_used_up};
 use crate::rig::Mode;
 
@@ -81,16 +81,15 @@ impl<const D: usize> Mover<D> {
     ) -> Stretch<D> {
         let rates = self.rates(motion.mode);
         let Some(direction) = direction(motion.mode) else {
-            let series = terms(rates, &motion.x, torque);
+            let series = terms(rates, &motion.x, torque, duration_s);
             return Stretch { series, net: torque, by_lag, duration_s, friction: None };
         };
         let mut net = torque.less(self.friction.torque(&motion.x, direction));
-        let mut series = terms(rates, &motion.x, net);
-        let unit = |net: Ramp| value(&terms(rates, &[0.0; D], net), duration_s);
+        let mut series = terms(rates, &motion.x, net, duration_s);
         let (mut push, mut ramp) = ([0.0; D], [0.0; D]);
         if !self.friction.terms.is_empty() {
-            push = unit(Ramp { from: 1.0, slope: 0.0 });
-            ramp = unit(Ramp { from: 0.0, slope: 1.0 / duration_s });
+            push = from_rest(rates, Ramp { from: 1.0, slope: 0.0 }, duration_s);
+            ramp = from_rest(rates, Ramp { from: 0.0, slope: 1.0 / duration_s }, duration_s);
         }
         let held = Held {
             from: &motion.x,
@@ -104,7 +103,7 @@ impl<const D: usize> Mover<D> {
         if !self.friction.terms.is_empty() {
             let slope = torque.slope - (ends.to - ends.from) / duration_s;
             net = Ramp { from: torque.from - ends.from, slope };
-            series = terms(rates, &motion.x, net);
+            series = terms(rates, &motion.x, net, duration_s);
         }
         let friction = Some((ends, push, ramp));
         Stretch { series, net, by_lag, duration_s, friction }
@@ -177,35 +176,51 @@ impl<const D: usize> Mover<D> {
         motion.mode = if chatters { Mode::Stick } else { self.mode_at_rest(&motion.x, torque) };
         let after = self.motor_acceleration(motion, torque);
         let ratio = if before == 0.0 { 0.0 } else { after / before };
-        for s in &mut motion.tangents {
-            s[1] *= ratio;
-        }
+        motion.tangents.scale(1, ratio);
     }
 
     fn series_tangents(&self, motion: &mut Motion<D>, stretch: &Stretch<D>, time_s: f64) {
+        if motion.tangents.is_empty() {
+            return;
+        }
         let rates = self.rates(motion.mode);
-        let still = Ramp { from: 0.0, slope: 0.0 };
-        let constant = self.friction.terms.is_empty();
-        for (k, s) in motion.tangents.iter_mut().enumerate() {
-            let by = rates.by_parameter.get(k);
-            let mut net_by = if self.columns.lag == Some(k) { stretch.by_lag } else { still };
-            let own = self.of_friction(k);
-            if let Some((ends, push, ramp)) = &stretch.friction
-                && !(constant && own.is_none())
-            {
-                let [from, to] = self.friction.tangent(ends, own, s, |from| {
-                    // Constant friction asks for nothing at its end.
-                    if constant {
-                        return [0.0; 2];
-                    }
-                    let t = stretch.duration_s;
-                    let end = tangent(rates, &stretch.series, stretch.net, s, by, net_by, t);
-                    [0, 1].map(|i| end[i] - from * (push[i] - ramp[i]))
-                });
-                net_by.from -= from;
-                net_by.slope -= (to - from) / stretch.duration_s;
-            }
-            *s = tangent(rates, &stretch.series, stretch.net, s, by, net_by, time_s);
+        let torques = self.torques_by(motion, stretch);
+        motion.tangents.along(rates, &stretch.series, stretch.net, time_s);
+        let push = from_rest(rates, Ramp { from: 1.0, slope: 0.0 }, time_s);
+        let slope = from_rest(rates, Ramp { from: 0.0, slope: 1.0 }, time_s);
+        for (k, torque) in torques {
+            motion.tangents.add(k, torque.from, &push);
+            motion.tangents.add(k, torque.slope, &slope);
         }
     }
+
+    /// Derivatives of the net torque by the unknowns that it depends on.
+    fn torques_by(&self, motion: &Motion<D>, stretch: &Stretch<D>) -> Vec<(usize, Ramp)> {
+        let mut found: Vec<_> = self.columns.lag.iter().map(|k| (*k, stretch.by_lag)).collect();
+        let Some((ends, push, ramp)) = &stretch.friction else { return found };
+        // Constant friction asks for nothing at its end.
+        let end = (!self.friction.terms.is_empty()).then(|| {
+            let mut end = motion.tangents.clone();
+            let rates = self.rates(motion.mode);
+            end.along(rates, &stretch.series, stretch.net, stretch.duration_s);
+            end
+        });
+        for (k, own) in &self.columns.friction {
+            let lag = if self.columns.lag == Some(*k) { stretch.by_lag } else { Ramp::NONE };
+            let end_of = |from: f64| {
+                let Some(end) = &end else { return [0.0; 2] };
+                let (end, rises) = (end.motor(*k), lag.slope * stretch.duration_s);
+                [0, 1].map(|i| end[i] + (lag.from - from) * push[i] + (rises + from) * ramp[i])
+            };
+            let start = motion.tangents.motor(*k);
+            let [from, to] = self.friction.tangent(ends, *own, &start, end_of);
+            found.push((*k, Ramp { from: -from, slope: (from - to) / stretch.duration_s }));
+        }
+        found
+    }
+}
+
+/// State after `time_s` from rest under a torque alone.
+fn from_rest<const D: usize>(rates: &Rates<D>, torque: Ramp, time_s: f64) -> [f64; D] {
+    value(&terms(rates, &[0.0; D], torque, time_s), time_s)
 }

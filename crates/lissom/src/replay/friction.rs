@@ -15,8 +15,6 @@ pub(super) struct Friction {
     pub(super) coulomb: f64,
     offset: f64,
     pub(super) terms: DryTerms,
-    /// Those of the parameters that enter it.
-    pub(super) parameters: Vec<Parameter>,
 }
 
 /// Friction over a step, linear in time: its ends, and the derivatives of that by angle and velocity.
@@ -73,14 +71,8 @@ fn place(x: &[f64], direction: usize) -> Place {
 }
 
 impl Friction {
-    pub(super) fn new(arm: &ModalArm, parameters: &[Parameter]) -> Self {
-        let enters = |p: &Parameter| p.enters(arm) == super::parameter::Enters::Torque;
-        Self {
-            coulomb: arm.coulomb_nm,
-            offset: arm.offset_nm,
-            terms: arm.dry_terms.clone(),
-            parameters: parameters.iter().copied().filter(enters).collect(),
-        }
+    pub(super) fn new(arm: &ModalArm) -> Self {
+        Self { coulomb: arm.coulomb_nm, offset: arm.offset_nm, terms: arm.dry_terms.clone() }
     }
 
     /// Signed torque while slipping.
@@ -155,19 +147,19 @@ impl Friction {
         Ends { from: ends[0], to: ends[1], places: [first, last], slopes, stiffer }
     }
 
-    /// What both ends change by, for a tangent that is `start` and, if the end's friction did not change
+    /// What both ends change by, for a tangent of the motor that is `start` and, if the end's friction did not change
     /// with it, would be `end_of(d)` for d at the beginning.
-    pub(super) fn tangent<const D: usize>(
+    pub(super) fn tangent(
         &self,
         ends: &Ends,
         own: Option<Parameter>,
-        start: &[f64; D],
+        start: &[f64; 2],
         end_of: impl FnOnce(f64) -> [f64; 2],
     ) -> [f64; 2] {
         let own = |k: usize| own.map_or(0.0, |p| self.by_at(p, ends.places[k]));
         let change =
-            |k: usize, s: &[f64]| own(k) + ends.slopes[k][0] * s[0] + ends.slopes[k][1] * s[1];
-        let first = change(0, &start[..2]);
+            |k: usize, s: &[f64; 2]| own(k) + ends.slopes[k][0] * s[0] + ends.slopes[k][1] * s[1];
+        let first = change(0, start);
         [first, change(1, &end_of(first)) / ends.stiffer]
     }
 }

@@ -8,6 +8,7 @@ mod arm;
 mod dry_terms;
 mod events;
 mod friction;
+mod losses;
 mod motion;
 mod noise;
 mod parameter;
@@ -16,6 +17,7 @@ mod prediction;
 mod rates;
 mod series;
 mod sums;
+mod tangents;
 mod transition;
 mod window;
 

@@ -3,22 +3,20 @@
 use super::friction::{Ends, Friction, Held, sign};
 use super::parameter::Parameter;
 use super::rates::{Phases, Rates};
-use super::series::{Ramp, add, times};
+use super::series::{Ramp, add};
+use super::tangents::Tangents;
 use super::transition::Transition;
 use crate::rig::Mode;
 
 /// Halvings of a piece, at most, where friction changes with speed or angle.
 const HALVINGS: usize = 6;
 
-/// Which tangent is which: those of the matrices' parameters come first, then those of friction,
-/// the lag, and the initial state.
-#[derive(Debug, Clone, Copy)]
+/// Unknowns whose tangents the torque on the motor moves.
+#[derive(Debug, Clone)]
 pub(super) struct Columns {
-    /// First column of friction's parameters.
-    pub(super) friction: usize,
+    /// Those that friction changes with, and the parameters of its own among them.
+    pub(super) friction: Vec<(usize, Option<Parameter>)>,
     pub(super) lag: Option<usize>,
-    /// First column of the initial state.
-    pub(super) initial: usize,
 }
 
 /// The motor's torque over a piece of a sample, linear in time \[N·m\].
@@ -59,7 +57,7 @@ pub(super) struct Mover<const D: usize> {
 #[derive(Debug, Clone)]
 pub(super) struct Motion<const D: usize> {
     pub(super) x: [f64; D],
-    pub(super) tangents: Vec<[f64; D]>,
+    pub(super) tangents: Tangents<D>,
     pub(super) mode: Mode,
     /// Time spent stuck \[s\].
     pub(super) stuck_s: f64,
@@ -99,12 +97,6 @@ impl<const D: usize> Mover<D> {
 
     fn halvings(&self) -> usize {
         if self.friction.terms.is_empty() { 0 } else { HALVINGS }
-    }
-
-    /// The parameter of friction whose tangent is at `column`.
-    pub(super) fn of_friction(&self, column: usize) -> Option<Parameter> {
-        let own = column.checked_sub(self.columns.friction)?;
-        self.friction.parameters.get(own).copied()
     }
 
     /// Acceleration that the motor has, or would have, slipping in `direction` under `torque`.
@@ -200,7 +192,7 @@ impl<const D: usize> Mover<D> {
 
     /// Tries a whole piece without leaving the stick.
     fn stays(&self, motion: &mut Motion<D>, piece: &Transition<D>, torque: Torque) -> bool {
-        let next = times(&piece.own.phi, &motion.x);
+        let next = piece.own.apply(&motion.x, 0.0, 0.0);
         let held = self.acceleration(&next, torque.to, 0) <= 0.0
             && self.acceleration(&next, torque.to, 1) >= 0.0;
         if held {
@@ -265,29 +257,24 @@ impl<const D: usize> Mover<D> {
         slip: Option<(&Ends, f64, f64, [f64; 2])>,
     ) {
         let (net, change) = slip.map_or((0.0, 0.0), |s| (s.1, s.2));
-        let constant = self.friction.terms.is_empty();
-        for (k, s) in motion.tangents.iter_mut().enumerate() {
-            let start = *s;
-            *s = times(&piece.own.phi, s);
-            if let Some(by) = piece.by_parameter.get(k) {
-                let own = by.apply(&motion.x, net, change);
-                add(s, 1.0, &own);
-            }
-            let Some((ends, _, _, by_lag)) = slip else { continue };
-            if self.columns.lag == Some(k) && by_lag.iter().any(|b| *b != 0.0) {
-                add(s, by_lag[0], &piece.own.push);
-                add(s, by_lag[1] - by_lag[0], &piece.own.ramp);
-            }
-            let own = self.of_friction(k);
-            if constant && own.is_none() {
-                continue;
-            }
-            let (push, ramp) = (&piece.own.push, &piece.own.ramp);
-            let [from, to] = self.friction.tangent(ends, own, &start, |from| {
-                [0, 1].map(|i| s[i] - from * (push[i] - ramp[i]))
+        motion.tangents.over(piece, &motion.x, net, change);
+        let Some((ends, _, _, by_lag)) = slip.filter(|_| !motion.tangents.is_empty()) else {
+            return;
+        };
+        let (push, ramp) = (&piece.own.push, &piece.own.ramp);
+        if let Some(k) = self.columns.lag
+            && by_lag.iter().any(|b| *b != 0.0)
+        {
+            motion.tangents.add(k, by_lag[0], push);
+            motion.tangents.add(k, by_lag[1] - by_lag[0], ramp);
+        }
+        for (k, own) in &self.columns.friction {
+            let (start, end) = (motion.tangents.before(*k), motion.tangents.motor(*k));
+            let [from, to] = self.friction.tangent(ends, *own, &start, |from| {
+                [0, 1].map(|i| end[i] - from * (push[i] - ramp[i]))
             });
-            add(s, -from, push);
-            add(s, from - to, ramp);
+            motion.tangents.add(*k, -from, push);
+            motion.tangents.add(*k, from - to, ramp);
         }
     }
 
@@ -297,6 +284,6 @@ impl<const D: usize> Mover<D> {
         let old = self.motor_acceleration(motion, before);
         self.settle(motion, after);
         let new = self.motor_acceleration(motion, after);
-        motion.tangents[k][1] += old - new;
+        *motion.tangents.entry(1, k) += old - new;
     }
 }

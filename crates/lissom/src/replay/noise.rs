@@ -58,9 +58,18 @@ impl SensorNoise {
             return Loss { cost: slope * error, slope, curvature: 1.0 / (self.sigma * self.sigma) };
         }
         let (e, h) = (error.abs() / self.sigma, 0.5 * self.step / self.sigma);
-        let (log, slope, curvature) = log_probability(e, h);
+        self.stepped_loss(error, log_probability(e, h), log_probability(0.0, h).0)
+    }
+
+    /// From `ln P` and its derivatives at the error, for σ = 1, and `ln P(0)`.
+    pub(super) fn stepped_loss(
+        &self,
+        error: f64,
+        (log, slope, curvature): (f64, f64, f64),
+        log_zero: f64,
+    ) -> Loss {
+        let h = 0.5 * self.step / self.sigma;
         let least = LEAST_CURVATURE / (1.0 + h * h / 3.0);
-        let (log_zero, ..) = log_probability(0.0, h);
         Loss {
             cost: 2.0 * (log_zero - log),
             slope: slope.copysign(error) / self.sigma,
@@ -70,7 +79,7 @@ impl SensorNoise {
 }
 
 /// `ln P`, `−d ln P/de` and `−d² ln P/de²` for σ = 1, at e ≥ 0 and half a step h.
-fn log_probability(e: f64, h: f64) -> (f64, f64, f64) {
+pub(super) fn log_probability(e: f64, h: f64) -> (f64, f64, f64) {
     let density = |x: f64| (-0.5 * x * x).exp() / (2.0 * std::f64::consts::PI).sqrt();
     let root = std::f64::consts::SQRT_2;
     let (near, far) = (e - h, e + h);

@@ -2,15 +2,16 @@
 
 use super::arm::ModalArm;
 use super::parameter::{Enters, Parameter};
+use super::tangents::{LANES, MatrixPack, Pack};
 use crate::number::{Dual, Number};
 
-/// `ẋ = A·x + b·τ` of the state `[θ, θ̇, ψ_1, ψ̇_1, …]`, with dA/dp and db/dp of every parameter that
-/// enters them.
+/// `ẋ = A·x + b·τ` of the state `[θ, θ̇, ψ_1, ψ̇_1, …]`, with dA/dp and db/dp of every parameter.
 #[derive(Debug, Clone)]
 pub(super) struct Rates<const D: usize> {
     pub(super) a: [[f64; D]; D],
     pub(super) b: [f64; D],
-    pub(super) by_parameter: Vec<([[f64; D]; D], [f64; D])>,
+    /// By [`LANES`] parameters at a time; zero of those that do not enter.
+    pub(super) by_parameter: Vec<(MatrixPack<D>, Pack<D>)>,
     /// Bound on the rates \[1/s\], for steps of a series.
     pub(super) rate_per_s: f64,
 }
@@ -20,6 +21,34 @@ pub(super) struct Rates<const D: usize> {
 pub(super) struct Phases<const D: usize> {
     pub(super) slip: [Rates<D>; 2],
     pub(super) stick: Rates<D>,
+}
+
+impl<const D: usize> Rates<D> {
+    /// dA/dp of parameter `k`, one row of it, times `x`.
+    pub(super) fn row_by(&self, k: usize, row: usize, x: &[f64; D]) -> f64 {
+        let (a, _) = &self.by_parameter[k / LANES];
+        a[row].iter().zip(x).map(|(lanes, x)| lanes[k % LANES] * x).sum()
+    }
+
+    /// One entry of db/dp of parameter `k`.
+    pub(super) fn push_by(&self, k: usize, row: usize) -> f64 {
+        self.by_parameter[k / LANES].1[row][k % LANES]
+    }
+}
+
+/// Puts the slopes of A and b into one lane.
+fn put<const D: usize>(
+    (a, b): &mut (MatrixPack<D>, Pack<D>),
+    lane: usize,
+    da: &[[Dual<f64>; D]; D],
+    db: &[Dual<f64>; D],
+) {
+    for (lanes, z) in a.iter_mut().flatten().zip(da.iter().flatten()) {
+        lanes[lane] = z.slope;
+    }
+    for (lanes, z) in b.iter_mut().zip(db) {
+        lanes[lane] = z.slope;
+    }
 }
 
 /// Numbers of an arm that enter its matrices.
@@ -33,21 +62,19 @@ struct Entries<N> {
 }
 
 impl<const D: usize> Phases<D> {
-    /// `parameters` are those that the derivatives are wanted of; only those that enter matrices
-    /// count, in their order.
+    /// `parameters` are those that the derivatives are wanted of.
     pub(super) fn new(arm: &ModalArm, parameters: &[Parameter]) -> Self {
-        let inside: Vec<Parameter> =
-            parameters.iter().copied().filter(|p| p.enters(arm) == Enters::Matrices).collect();
         let rates = |direction: usize, stuck: bool| {
             let value = matrices::<f64, D>(&entries(arm, direction, None), stuck);
-            let by_parameter = inside
-                .iter()
-                .map(|p| {
+            let zero = ([[[0.0; LANES]; D]; D], [[0.0; LANES]; D]);
+            let mut by_parameter = vec![zero; parameters.len().div_ceil(LANES)];
+            for (k, p) in parameters.iter().enumerate() {
+                if p.enters(arm) == Enters::Matrices {
                     let (a, b) =
                         matrices::<Dual<f64>, D>(&entries(arm, direction, Some(*p)), stuck);
-                    (a.map(|row| row.map(|z| z.slope)), b.map(|z| z.slope))
-                })
-                .collect();
+                    put(&mut by_parameter[k / LANES], k % LANES, &a, &b);
+                }
+            }
             Rates { a: value.0, b: value.1, by_parameter, rate_per_s: rate(arm) }
         };
         Self { slip: [rates(0, false), rates(1, false)], stick: rates(0, true) }

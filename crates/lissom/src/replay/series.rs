@@ -1,12 +1,14 @@
-//! The motion within a phase as a Taylor series in time, with its tangents.
+//! The motion within a phase as a Taylor series in time.
 
 use super::rates::Rates;
 use crate::lti::first_root::ORDER_MOST;
 
 /// Largest (rate × step): 2²⁵/25! is 2e-18.
 const REACH: f64 = 2.0;
+/// A term of a series below this share of the whole does not count.
+const LEAST: f64 = 1e-19;
 
-/// Net torque on the motor, linear in time, with its derivative by some of the parameters.
+/// Net torque on the motor, linear in time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ramp {
     /// At the beginning \[N·m\].
@@ -16,6 +18,8 @@ pub(super) struct Ramp {
 }
 
 impl Ramp {
+    pub(super) const NONE: Self = Self { from: 0.0, slope: 0.0 };
+
     pub(super) fn after(self, time_s: f64) -> Self {
         Self { from: self.from + self.slope * time_s, ..self }
     }
@@ -50,11 +54,27 @@ pub(super) fn reach_s<const D: usize>(rates: &Rates<D>) -> f64 {
     REACH / rates.rate_per_s
 }
 
-/// `(n + 1)·x_{n+1} = A·x_n + b·w_n`, w_0 and w_1 of the ramp.
-pub(super) fn terms<const D: usize>(rates: &Rates<D>, x: &[f64; D], net: Ramp) -> Terms<D> {
+/// Orders that count over `time_s`: with `r` the rates' bound, what is left of `(r·t)ⁿ/n!` is below
+/// rounding.
+pub(super) fn orders<const D: usize>(rates: &Rates<D>, time_s: f64) -> usize {
+    let (mut left, mut n) = (1.0, 0);
+    while n < ORDER_MOST && left > LEAST {
+        n += 1;
+        left *= rates.rate_per_s * time_s / n as f64;
+    }
+    n
+}
+
+/// `(n + 1)·x_{n+1} = A·x_n + b·w_n`, w_0 and w_1 of the ramp; as many as count within `most_s`.
+pub(super) fn terms<const D: usize>(
+    rates: &Rates<D>,
+    x: &[f64; D],
+    net: Ramp,
+    most_s: f64,
+) -> Terms<D> {
     let mut terms = [[0.0; D]; ORDER_MOST + 1];
     terms[0] = *x;
-    for n in 0..ORDER_MOST {
+    for n in 0..orders(rates, most_s) {
         let mut next = times(&rates.a, &terms[n]);
         add(&mut next, input(n, net), &rates.b);
         terms[n + 1] = next.map(|v| v / (n as f64 + 1.0));
@@ -62,7 +82,8 @@ pub(super) fn terms<const D: usize>(rates: &Rates<D>, x: &[f64; D], net: Ramp) -
     terms
 }
 
-fn input(n: usize, net: Ramp) -> f64 {
+/// Torque's coefficient of order `n`.
+pub(super) fn input(n: usize, net: Ramp) -> f64 {
     match n {
         0 => net.from,
         1 => net.slope,
@@ -79,30 +100,4 @@ pub(super) fn value<const D: usize>(terms: &Terms<D>, time_s: f64) -> [f64; D] {
         }
     }
     x
-}
-
-/// The tangent at `time_s` that is `start` now: of the parameter whose derivatives of A and b are
-/// `by`, and by which the net torque changes as `net_by`.
-pub(super) fn tangent<const D: usize>(
-    rates: &Rates<D>,
-    terms: &Terms<D>,
-    net: Ramp,
-    start: &[f64; D],
-    by: Option<&([[f64; D]; D], [f64; D])>,
-    net_by: Ramp,
-    time_s: f64,
-) -> [f64; D] {
-    let (mut term, mut sum, mut power) = (*start, *start, 1.0);
-    for (n, x) in terms.iter().enumerate().take(ORDER_MOST) {
-        let mut next = times(&rates.a, &term);
-        add(&mut next, input(n, net_by), &rates.b);
-        if let Some((da, db)) = by {
-            add(&mut next, 1.0, &times(da, x));
-            add(&mut next, input(n, net), db);
-        }
-        term = next.map(|v| v / (n as f64 + 1.0));
-        power *= time_s;
-        add(&mut sum, power, &term);
-    }
-    sum
 }

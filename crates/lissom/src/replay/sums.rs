@@ -2,14 +2,19 @@
 
 use std::ops::RangeInclusive;
 
-use nalgebra::DMatrix;
+use nalgebra::{Const, DMatrix, DMatrixView, Dyn, MatrixView};
 use rayon::prelude::*;
 
 use super::arm::{MOST_MODES, ModalArm};
+use super::losses::Losses;
 use super::noise::SensorNoise;
 use super::parameter::Parameter;
 use super::window::Replayer;
 use crate::record::{Campaign, Run};
+
+/// Most numbers in the rows that are gathered before their products are summed: they stay near the
+/// processor.
+const MOST_NUMBERS: usize = 8192;
 
 /// A stretch of a run with its own initial state.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +56,7 @@ impl Window {
 pub struct WindowSums {
     /// Σ rowᵀ·row.
     pub gram: DMatrix<f64>,
-    /// The same over the samples of each block.
+    /// The same over the samples of each block, where [`Sampling::blocks`] are given.
     pub blocks: Vec<DMatrix<f64>>,
     /// Σ of squared residuals of each channel, not weighted.
     pub squares: Vec<f64>,
@@ -73,7 +78,7 @@ pub struct WindowSums {
 pub struct Sampling<'a> {
     /// Noise of each channel, motor first, then tips.
     pub noise: &'a [SensorNoise],
-    /// How the samples of each run go into blocks.
+    /// How the samples of each run go into blocks; empty where no sums of theirs are wanted.
     pub blocks: &'a [Blocks],
     /// Readings of each run and channel that count; `None` where all do.
     pub masks: &'a [Vec<Option<Vec<bool>>>],
@@ -145,6 +150,7 @@ fn costs_of<const D: usize>(
     sampling: Sampling<'_>,
 ) -> Vec<f64> {
     let replayers = replayers::<D>(arm, &[], campaign, windows);
+    let losses = losses(sampling);
     let of_window = |window: &Window| {
         let run = &campaign.runs[window.run];
         let mut cost = 0.0;
@@ -154,13 +160,18 @@ fn costs_of<const D: usize>(
                 if counts(mask.as_ref(), seen.sample) {
                     let predicted = replayer.output(seen, channel, None);
                     let residual = window.residual(run, channel, seen.sample, predicted);
-                    cost += sampling.noise[channel].loss(residual).cost;
+                    cost += losses[channel].cost(residual);
                 }
             }
         });
         cost
     };
     windows.par_iter().map(of_window).collect()
+}
+
+/// Those of each channel.
+fn losses(sampling: Sampling<'_>) -> Vec<Losses> {
+    sampling.noise.iter().copied().map(Losses::new).collect()
 }
 
 /// The one made for the run's sample time.
@@ -185,11 +196,12 @@ fn sums_of<const D: usize>(
     sampling: Sampling<'_>,
 ) -> Vec<WindowSums> {
     let replayers = replayers::<D>(arm, parameters, campaign, windows);
+    let losses = losses(sampling);
     windows
         .par_iter()
         .map(|window| {
             let replayer = replayer_of(&replayers, &campaign.runs[window.run]);
-            sum_up(replayer, campaign, window, sampling)
+            sum_up(replayer, campaign, window, sampling, &losses)
         })
         .collect()
 }
@@ -218,6 +230,7 @@ fn sum_up<const D: usize>(
     campaign: &Campaign,
     window: &Window,
     sampling: Sampling<'_>,
+    losses: &[Losses],
 ) -> WindowSums {
     let run = &campaign.runs[window.run];
     let channels = 1 + run.tips().len();
@@ -234,13 +247,13 @@ fn sum_up<const D: usize>(
         samples: 0,
     };
     let mut row = vec![0.0; unknowns + 1];
-    let blocks = sampling.blocks[window.run];
+    let blocks = sampling.blocks.get(window.run);
     let masks = &sampling.masks[window.run];
     let first = *window.samples.start();
-    let mut block = 0;
+    let mut block = None;
     replayer.walk(run, window.samples.clone(), start(window), true, |seen| {
-        let own = blocks.of(seen.sample, first);
-        if own != block {
+        let own = blocks.map(|b| b.of(seen.sample, first));
+        if own != block || rows.len() > MOST_NUMBERS {
             found.add(&mut rows, block);
             block = own;
         }
@@ -252,7 +265,7 @@ fn sum_up<const D: usize>(
             let residual = window.residual(run, channel, seen.sample, predicted);
             found.squares[channel] += residual * residual;
             found.readings[channel] += 1;
-            let loss = sampling.noise[channel].loss(residual);
+            let loss = losses[channel].loss(residual);
             found.cost += loss.cost;
             let variance = sampling.noise[channel].deviation().powi(2);
             found.slopes += loss.slope * loss.slope * variance;
@@ -264,6 +277,9 @@ fn sum_up<const D: usize>(
         found.samples += 1;
     });
     found.add(&mut rows, block);
+    for block in &found.blocks {
+        found.gram += block;
+    }
     found
 }
 
@@ -278,20 +294,27 @@ impl WindowSums {
         Self { gram: some(&self.gram), blocks, ..self.clone() }
     }
 
-    /// Adds the products of the gathered rows, which are of one block, and empties them.
-    fn add(&mut self, rows: &mut Vec<f64>, block: usize) {
+    /// Adds the products of the gathered rows, which are of one block if of any, and empties them.
+    fn add(&mut self, rows: &mut Vec<f64>, block: Option<usize>) {
         if rows.is_empty() {
             return;
         }
         let width = self.gram.ncols();
         // Rows lie one after another: columns of a matrix that is width × rows.
-        let columns = nalgebra::DMatrixView::from_slice(rows, width, rows.len() / width);
-        let products = columns * columns.transpose();
-        if self.blocks.len() <= block {
-            self.blocks.resize(block + 1, DMatrix::zeros(width, width));
-        }
-        self.gram += &products;
-        self.blocks[block] += products;
+        let (count, unit, wide) = (rows.len() / width, Const::<1>, Dyn(width));
+        let columns = DMatrixView::from_slice(rows, width, count);
+        let transposed =
+            MatrixView::from_slice_with_strides_generic(rows, Dyn(count), wide, wide, unit);
+        let sums = match block {
+            None => &mut self.gram,
+            Some(block) => {
+                if self.blocks.len() <= block {
+                    self.blocks.resize(block + 1, DMatrix::zeros(width, width));
+                }
+                &mut self.blocks[block]
+            }
+        };
+        sums.gemm(1.0, &columns, &transposed, 1.0);
         rows.clear();
     }
 }

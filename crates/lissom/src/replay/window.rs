@@ -7,6 +7,7 @@ use super::friction::Friction;
 use super::motion::{Columns, Motion, Mover, Torque, direction};
 use super::parameter::{Enters, Parameter};
 use super::rates::Phases;
+use super::tangents::Tangents;
 use crate::record::{Channels, Hold, Run, TipQuantity};
 use crate::rig::Mode;
 
@@ -19,8 +20,6 @@ pub(super) struct Replayer<'a, const D: usize> {
     mover: Mover<D>,
     channels: &'a Channels,
     parameters: &'a [Parameter],
-    /// Where each parameter's tangent is; `None` where it has none.
-    tangent_of: Vec<Option<usize>>,
     arm: &'a ModalArm,
     sample_time_s: f64,
     /// Whole samples and the share of one by which the command acts later.
@@ -47,27 +46,15 @@ impl<'a, const D: usize> Replayer<'a, D> {
         sample_time_s: f64,
     ) -> Self {
         let phases = Phases::new(arm, parameters);
-        let matrices = phases.stick.by_parameter.len();
-        let friction = Friction::new(arm, parameters);
-        let own = |p: Parameter| friction.parameters.iter().position(|q| *q == p);
-        let own = |p: Parameter| own(p).map(|i| matrices + i);
-        let lag = parameters.contains(&Parameter::CommandLag);
-        let lag = lag.then_some(matrices + friction.parameters.len());
-        let initial = matrices + friction.parameters.len() + usize::from(lag.is_some());
-        let columns = Columns { friction: matrices, lag, initial };
-        let mut inside = 0;
-        let tangent_of = parameters
-            .iter()
-            .map(|p| match p.enters(arm) {
-                Enters::Matrices => {
-                    inside += 1;
-                    Some(inside - 1)
-                }
-                Enters::Torque => own(*p),
-                Enters::Lag => lag,
-                Enters::Output => None,
-            })
-            .collect();
+        let friction = Friction::new(arm);
+        let rubs = |p: &Parameter| p.enters(arm) == Enters::Torque;
+        let own = |k: usize| (k, parameters.get(k).copied().filter(rubs));
+        let mut by = (0..parameters.len() + D).map(own).collect::<Vec<_>>();
+        if friction.terms.is_empty() {
+            by.retain(|(_, own)| own.is_some());
+        }
+        let lag = parameters.iter().position(|p| *p == Parameter::CommandLag);
+        let columns = Columns { friction: by, lag };
         let mut mover = Mover { phases, friction, columns, pieces: Vec::new() };
         let samples = arm.command_lag_s / sample_time_s;
         let held = channels.command.hold == Hold::Sampled;
@@ -85,7 +72,6 @@ impl<'a, const D: usize> Replayer<'a, D> {
             mover,
             channels,
             parameters,
-            tangent_of,
             arm,
             sample_time_s,
             lag_samples: lag_samples as isize,
@@ -110,12 +96,10 @@ impl<'a, const D: usize> Replayer<'a, D> {
         with_tangents: bool,
         mut see: impl FnMut(&Seen<'_, D>),
     ) -> Motion<D> {
-        let initial = self.mover.columns.initial;
-        let mut tangents = vec![[0.0; D]; if with_tangents { initial + D } else { 0 }];
+        let shared = self.parameters.len();
+        let mut tangents = Tangents::new(if with_tangents { shared + D } else { 0 });
         if with_tangents {
-            for (i, column) in tangents[initial..].iter_mut().enumerate() {
-                column[i] = 1.0;
-            }
+            (0..D).for_each(|i| *tangents.entry(i, shared + i) = 1.0);
         }
         let mode = Mode::of(start[1]);
         let friction_impulse = (!with_tangents).then_some(0.0);
@@ -195,20 +179,11 @@ impl<'a, const D: usize> Replayer<'a, D> {
             self.tip(seen, channel - 1)
         };
         let Some(row) = row else { return value };
-        let dot = |s: &[f64; D]| c.iter().zip(s).map(|(a, b)| a * b).sum::<f64>();
-        row.fill(0.0);
-        for (g, column) in row.iter_mut().zip(&self.tangent_of) {
-            if let Some(k) = column {
-                *g = dot(&seen.motion.tangents[*k]);
-            }
-        }
-        let shared = self.parameters.len();
-        let initial = &seen.motion.tangents[self.mover.columns.initial..];
-        for (g, s) in row[shared..].iter_mut().zip(initial) {
-            *g = dot(s);
-        }
+        let own = self.parameters.len() + D;
+        seen.motion.tangents.seen(&c, &mut row[..own]);
+        row[own..].fill(0.0);
         if channel > 0 {
-            row[shared + D + channel - 1] = 1.0;
+            row[own + channel - 1] = 1.0;
             self.direct(seen, channel - 1, row);
         }
         value
@@ -288,20 +263,23 @@ impl<'a, const D: usize> Replayer<'a, D> {
         let left = self.left(tip);
         let slip = direction(seen.motion.mode);
         for (index, p) in self.parameters.iter().enumerate() {
-            let Some(k) = self.tangent_of[index] else { continue };
-            if let Some((da, _)) = self.mover.phases.stick.by_parameter.get(k) {
+            let enters = p.enters(self.arm);
+            if enters == Enters::Matrices {
                 let shape = self.arm.shapes[tip].iter().enumerate();
-                row[index] += shape.map(|(j, r)| r * dot(&da[3 + 2 * j])).sum::<f64>();
+                let by = |j: usize| self.mover.phases.stick.row_by(index, 3 + 2 * j, x);
+                row[index] += shape.map(|(j, r)| r * by(j)).sum::<f64>();
             }
             let Some(d) = slip else { continue };
             let rates = &self.mover.phases.slip[d];
             let friction = &self.mover.friction;
             row[index] += left
-                * match p.enters(self.arm) {
+                * match enters {
                     Enters::Torque => -rates.b[1] * friction.by(*p, x, d),
-                    _ => rates.by_parameter.get(k).map_or(0.0, |(da, db)| {
-                        dot(&da[1]) + db[1] * (seen.torque - friction.torque(x, d))
-                    }),
+                    Enters::Matrices => {
+                        rates.row_by(index, 1, x)
+                            + rates.push_by(index, 1) * (seen.torque - friction.torque(x, d))
+                    }
+                    Enters::Lag | Enters::Output => 0.0,
                 };
         }
     }

@@ -8,7 +8,7 @@ use crate::record::{Channels, TipQuantity};
 use crate::replay::{ModalArm, Parameter};
 
 /// Residual beside the sensors' noise beyond which something else is in it.
-const BEYOND: f64 = 3.0;
+pub(super) const BEYOND: f64 = 3.0;
 
 impl OutputError {
     /// Friction, the damping of the command's back-EMF taken out.

@@ -5,7 +5,7 @@ use super::search::{Problem, is_possible};
 use super::windows::widen;
 use super::{data, noise};
 use crate::record::Campaign;
-use crate::replay::{Blocks, ModalArm, Sampling, SensorNoise, Window};
+use crate::replay::{ModalArm, Sampling, SensorNoise, Window};
 
 /// Most steps of a window's search.
 const MOST_STEPS: usize = 40;
@@ -22,10 +22,9 @@ pub(crate) fn follow(
     shorter: &[Window],
 ) -> Vec<Window> {
     let masks = data::masks(campaign);
-    let blocks = vec![Blocks { samples: f64::INFINITY, period: None }; campaign.runs.len()];
     let noise: Vec<SensorNoise> = noise::of_samples(campaign).into_iter().map(weighable).collect();
-    let sampling = Sampling { noise: &noise, blocks: &blocks, masks: &masks };
-    let problem = Problem { campaign, parameters: &[], sampling, robust: false };
+    let sampling = Sampling { noise: &noise, blocks: &[], masks: &masks };
+    let problem = Problem { campaign, parameters: &[], sampling, robust: false, near_enough: 0.0 };
     if !is_possible(campaign, arm) {
         return Vec::new();
     }

@@ -136,7 +136,8 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
     let masks = data::masks(campaign);
     let blocks = data::blocks(campaign, &start.omega_rad_s);
     let law = &start.law;
-    let fitting = Fitting { campaign, masks: &masks, blocks: &blocks, law };
+    let noise = noise::of_samples(campaign);
+    let fitting = Fitting { campaign, masks: &masks, blocks: &blocks, law, noise: &noise };
     let mut report = Report::default();
     let mut fit = fitting.widen(start, &mut report)?;
     modes::grow(&fitting, &mut fit, &mut report);

@@ -63,7 +63,8 @@ fn weight(sums: &WindowSums, usual: f64) -> f64 {
 /// Why a search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stop {
-    /// A further step promises nothing that counts beside the noise.
+    /// A further step promises nothing that counts beside the noise, nor, where what is left is no
+    /// noise or the stage only leads to the next, beside what is left.
     Converged,
     /// No step, however short, lowers the cost: it has a kink there.
     NoStepHelps,
@@ -92,6 +93,8 @@ pub(super) struct Problem<'a> {
     pub(super) sampling: Sampling<'a>,
     /// Whether windows that fit far worse than the others count less.
     pub(super) robust: bool,
+    /// Share of the cost below which a step is not worth a replay, whatever it is beside the noise.
+    pub(super) near_enough: f64,
 }
 
 impl Problem<'_> {
@@ -113,7 +116,8 @@ impl Problem<'_> {
             let Some(step) = self.step(&point, damping, usual) else {
                 return (point, iterations, Stop::NoStepHelps);
             };
-            if step.promised < PROMISE {
+            let before = point.robust_cost(usual);
+            if step.promised < PROMISE.max(self.near_enough * before) {
                 return (point, iterations, Stop::Converged);
             }
             let (body, windows) = self.moved(&point, &step);
@@ -124,7 +128,6 @@ impl Problem<'_> {
             } else {
                 f64::INFINITY
             };
-            let before = point.robust_cost(usual);
             let gain = (before - after) / step.promised;
             let taken = after < before;
             let cost = if taken { after } else { before };

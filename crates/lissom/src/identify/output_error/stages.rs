@@ -5,6 +5,7 @@ use super::coordinates::Body;
 use super::covariance::Covariances;
 use super::data::Masks;
 use super::evidence::{self, Extension};
+use super::figures::BEYOND;
 use super::modes;
 use super::noise;
 use super::search::{Iteration, Point, Problem, Stop, is_possible};
@@ -23,6 +24,9 @@ const SAMPLES_ON_THE_WAY: usize = 40_000;
 /// Steps of a probe, and samples replayed for it, about.
 const STEPS_OF_A_PROBE: usize = 8;
 const SAMPLES_OF_A_PROBE: usize = 15_000;
+/// On the way, and where more than noise is left, a step is not worth a replay that promises less
+/// than this share of the cost.
+const NEAR_ENOUGH: f64 = 1e-4;
 /// Most steps of the last stage.
 const MOST_STEPS: usize = 40;
 /// Most searches on end, each with the noise that the one before left, until no channel's falls by more
@@ -64,6 +68,8 @@ pub(super) struct Fitting<'a> {
     pub(super) blocks: &'a [Blocks],
     /// Terms of friction that slip phases show.
     pub(super) law: &'a [LawTerm],
+    /// Noise that the samples show by themselves.
+    pub(super) noise: &'a [SensorNoise],
 }
 
 /// Where a fit is.
@@ -111,21 +117,24 @@ impl Fitting<'_> {
         &'b self,
         free: &'b [Parameter],
         noise: &'b [SensorNoise],
-        robust: bool,
+        whole_runs: bool,
     ) -> Problem<'b> {
-        let sampling = Sampling { noise, blocks: self.blocks, masks: self.masks };
-        Problem { campaign: self.campaign, parameters: free, sampling, robust }
-    }
-
-    /// Replays a fit, the parameters `free` moving.
-    pub(super) fn point(&self, fit: &Fit, free: &[Parameter]) -> Point {
-        self.problem(free, &fit.noise, false).at(fit.body.clone(), fit.windows.clone())
+        let sampling = Sampling { noise, blocks: &[], masks: self.masks };
+        let robust = !whole_runs;
+        let near_enough = if robust { NEAR_ENOUGH } else { 0.0 };
+        Problem { campaign: self.campaign, parameters: free, sampling, robust, near_enough }
     }
 
     /// Largest ratio of a channel's residual to the noise that its samples show by themselves.
     pub(super) fn beyond_noise(&self, fit: &Fit) -> f64 {
-        let noise = noise::of_samples(self.campaign);
-        fit.residual.iter().zip(&noise).map(|(r, n)| r / n.sigma).fold(0.0, f64::max)
+        fit.residual.iter().zip(self.noise).map(|(r, n)| r / n.sigma).fold(0.0, f64::max)
+    }
+
+    /// Replays a fit, the parameters `free` moving, with sums by blocks.
+    pub(super) fn point(&self, fit: &Fit, free: &[Parameter]) -> Point {
+        let mut problem = self.problem(free, &fit.noise, true);
+        problem.sampling.blocks = self.blocks;
+        problem.at(fit.body.clone(), fit.windows.clone())
     }
 
     /// Covariances of the free parameters.
@@ -139,7 +148,7 @@ impl Fitting<'_> {
 
     /// Cost of an arm and its windows where the noise is `noise`.
     pub(super) fn cost(&self, fit: &Fit, noise: &[SensorNoise]) -> f64 {
-        let sampling = Sampling { noise, blocks: self.blocks, masks: self.masks };
+        let sampling = Sampling { noise, blocks: &[], masks: self.masks };
         costs(&fit.body.arm, self.campaign, &fit.windows, sampling).iter().sum()
     }
 
@@ -158,7 +167,7 @@ impl Fitting<'_> {
             body,
             windows,
             free: free_parameters(self.campaign, &start.arm),
-            noise: noise::of_samples(self.campaign),
+            noise: self.noise.to_vec(),
             residual: Vec::new(),
             whole_runs: window_s >= longest,
             window_s,
@@ -211,16 +220,19 @@ impl Fitting<'_> {
         if !fit.whole_runs {
             return fit.residual.iter().map(|r| SensorNoise::gaussian(*r)).collect();
         }
-        let own = noise::of_samples(self.campaign);
+        let own = self.noise;
         let ratio = |(r, n): (&f64, &SensorNoise)| (r / n.deviation()).powi(2);
-        let squares: f64 = fit.residual.iter().zip(&own).map(ratio).sum();
+        let squares: f64 = fit.residual.iter().zip(own).map(ratio).sum();
         let common = (squares / own.len() as f64).sqrt();
         own.iter().map(|n| SensorNoise::gaussian(common * n.deviation())).collect()
     }
 
     /// At most `most` steps; tells why they ended.
     fn steps(&self, fit: &mut Fit, report: &mut Report, most: usize) -> Stop {
-        let problem = self.problem(&fit.free, &fit.noise, !fit.whole_runs);
+        let mut problem = self.problem(&fit.free, &fit.noise, fit.whole_runs);
+        if self.beyond_noise(fit) > BEYOND {
+            problem.near_enough = NEAR_ENOUGH;
+        }
         let start = problem.at(fit.body.clone(), std::mem::take(&mut fit.windows));
         let (point, iterations, stop) = problem.search(start, most);
         fit.residual = residual_deviation(&point, fit.coordinates());
@@ -246,7 +258,8 @@ impl Fitting<'_> {
         let samples: usize = fit.windows.iter().map(Window::len).sum();
         let every = samples.div_ceil(SAMPLES_OF_A_PROBE).min(fit.windows.len()).max(1);
         let windows = fit.windows.iter().step_by(every).cloned().collect();
-        let problem = self.problem(&fit.free, &fit.noise, !fit.whole_runs);
+        let mut problem = self.problem(&fit.free, &fit.noise, fit.whole_runs);
+        problem.near_enough = NEAR_ENOUGH;
         let (point, ..) = problem.search(problem.at(fit.body.clone(), windows), STEPS_OF_A_PROBE);
         Some((point.sums.iter().map(|s| s.cost).sum(), point.body))
     }

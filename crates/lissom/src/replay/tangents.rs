@@ -1,0 +1,207 @@
+//! Derivatives of the state by every unknown of a window, eight unknowns at a time.
+
+#![expect(
+    clippy::inline_always,
+    reason = "loops over unknowns, compiled for vectors chosen at run time"
+)]
+
+use super::rates::Rates;
+use super::series::{Ramp, Terms, input, orders};
+use super::transition::Transition;
+
+/// Unknowns that are worked on together: their loops become vectors.
+pub(super) const LANES: usize = 8;
+/// A number of each of them.
+pub(super) type Lanes = [f64; LANES];
+
+/// `∂x/∂u` of [`LANES`] unknowns u, state by state.
+pub(super) type Pack<const D: usize> = [Lanes; D];
+
+/// Derivatives of a matrix and a vector by [`LANES`] parameters, row by row.
+pub(super) type MatrixPack<const D: usize> = [[Lanes; D]; D];
+
+/// Tangents of the unknowns in their order: the parameters, then the initial state.
+#[derive(Debug, Clone)]
+pub(super) struct Tangents<const D: usize> {
+    packs: Vec<Pack<D>>,
+    /// Where they go in a step.
+    next: Vec<Pack<D>>,
+    arch: pulp::Arch,
+}
+
+impl<const D: usize> Tangents<D> {
+    /// All zero, of `unknowns` unknowns.
+    pub(super) fn new(unknowns: usize) -> Self {
+        let packs = vec![[[0.0; LANES]; D]; unknowns.div_ceil(LANES)];
+        Self { next: packs.clone(), packs, arch: pulp::Arch::new() }
+    }
+
+    /// Derivative of one state by one unknown.
+    pub(super) fn entry(&mut self, state: usize, unknown: usize) -> &mut f64 {
+        &mut self.packs[unknown / LANES][state][unknown % LANES]
+    }
+
+    /// Whether there is none.
+    pub(super) fn is_empty(&self) -> bool {
+        self.packs.is_empty()
+    }
+
+    /// Derivatives of the motor's angle and velocity by one unknown.
+    pub(super) fn motor(&self, unknown: usize) -> [f64; 2] {
+        [0, 1].map(|state| self.packs[unknown / LANES][state][unknown % LANES])
+    }
+
+    /// The same before the last whole piece.
+    pub(super) fn before(&self, unknown: usize) -> [f64; 2] {
+        [0, 1].map(|state| self.next[unknown / LANES][state][unknown % LANES])
+    }
+
+    /// Adds `s·x` to the tangent of one unknown.
+    pub(super) fn add(&mut self, unknown: usize, s: f64, x: &[f64; D]) {
+        for (lanes, x) in self.packs[unknown / LANES].iter_mut().zip(x) {
+            lanes[unknown % LANES] += s * x;
+        }
+    }
+
+    /// Multiplies the derivatives of one state.
+    pub(super) fn scale(&mut self, state: usize, factor: f64) {
+        for pack in &mut self.packs {
+            pack[state].iter_mut().for_each(|v| *v *= factor);
+        }
+    }
+
+    /// `Σ c_i·∂x_i/∂u` of every unknown, into `row`.
+    pub(super) fn seen(&self, c: &[f64; D], row: &mut [f64]) {
+        self.arch.dispatch(Seen { packs: &self.packs, c, row });
+    }
+
+    /// Over a whole piece from the state `x` under the net torque `from`, which changes by `change`.
+    /// What torques add that are parameters themselves is left out.
+    pub(super) fn over(&mut self, piece: &Transition<D>, x: &[f64; D], from: f64, change: f64) {
+        let next = &mut self.next;
+        self.arch.dispatch(Over { packs: &self.packs, next, piece, x, from, change });
+        std::mem::swap(&mut self.packs, &mut self.next);
+    }
+
+    /// The same along a series, after `time_s`.
+    pub(super) fn along(&mut self, rates: &Rates<D>, terms: &Terms<D>, net: Ramp, time_s: f64) {
+        self.arch.dispatch(Along { packs: &mut self.packs, rates, terms, net, time_s });
+    }
+
+    /// Its numbers, [`LANES`] unknowns at a time.
+    pub(super) fn packs(&self) -> &[Pack<D>] {
+        &self.packs
+    }
+}
+
+/// For whatever vectors the machine has: they change no result, as nothing is contracted or
+/// reordered.
+struct Over<'a, const D: usize> {
+    packs: &'a [Pack<D>],
+    next: &'a mut [Pack<D>],
+    piece: &'a Transition<D>,
+    x: &'a [f64; D],
+    from: f64,
+    change: f64,
+}
+
+impl<const D: usize> pulp::WithSimd for Over<'_, D> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        for (k, (old, next)) in self.packs.iter().zip(self.next).enumerate() {
+            let by = self.piece.by_parameter.get(k);
+            for (i, new) in next.iter_mut().enumerate() {
+                let mut sum = [0.0; LANES];
+                for (column, old) in self.piece.own.phi.iter().zip(old) {
+                    add(&mut sum, column[i], old);
+                }
+                if let Some(by) = by {
+                    add_products(&mut sum, self.x, &by.phi[i]);
+                    add(&mut sum, self.from, &by.push[i]);
+                    add(&mut sum, self.change, &by.ramp[i]);
+                }
+                *new = sum;
+            }
+        }
+    }
+}
+
+struct Seen<'a, const D: usize> {
+    packs: &'a [Pack<D>],
+    c: &'a [f64; D],
+    row: &'a mut [f64],
+}
+
+impl<const D: usize> pulp::WithSimd for Seen<'_, D> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        // Speeds are seen by no angle.
+        let mut counts = [(0.0, 0); D];
+        let mut some = 0;
+        for (i, c) in self.c.iter().enumerate().filter(|(_, c)| **c != 0.0) {
+            counts[some] = (*c, i);
+            some += 1;
+        }
+        for (pack, row) in self.packs.iter().zip(self.row.chunks_mut(LANES)) {
+            let mut sum = [0.0; LANES];
+            for (c, i) in &counts[..some] {
+                add(&mut sum, *c, &pack[*i]);
+            }
+            match row.first_chunk_mut::<LANES>() {
+                Some(whole) => *whole = sum,
+                None => row.copy_from_slice(&sum[..row.len()]),
+            }
+        }
+    }
+}
+
+struct Along<'a, const D: usize> {
+    packs: &'a mut [Pack<D>],
+    rates: &'a Rates<D>,
+    terms: &'a Terms<D>,
+    net: Ramp,
+    time_s: f64,
+}
+
+impl<const D: usize> pulp::WithSimd for Along<'_, D> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        let most = orders(self.rates, self.time_s);
+        for (k, pack) in self.packs.iter_mut().enumerate() {
+            let by = self.rates.by_parameter.get(k);
+            let (mut term, mut power) = (*pack, 1.0);
+            for n in 0..most {
+                let old = term;
+                power *= self.time_s;
+                let share = 1.0 / (n as f64 + 1.0);
+                for (i, next) in term.iter_mut().enumerate() {
+                    let mut sum = [0.0; LANES];
+                    add_products(&mut sum, &self.rates.a[i], &old);
+                    if let Some((a, b)) = by {
+                        add_products(&mut sum, &self.terms[n], &a[i]);
+                        add(&mut sum, input(n, self.net), &b[i]);
+                    }
+                    *next = sum.map(|v| v * share);
+                    add(&mut pack[i], power, next);
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn add(sum: &mut Lanes, s: f64, x: &Lanes) {
+    for (sum, x) in sum.iter_mut().zip(x) {
+        *sum += s * x;
+    }
+}
+
+#[inline(always)]
+fn add_products<const D: usize>(sum: &mut Lanes, x: &[f64; D], rows: &[Lanes; D]) {
+    for (x, row) in x.iter().zip(rows) {
+        add(sum, *x, row);
+    }
+}
