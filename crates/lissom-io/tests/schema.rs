@@ -4,9 +4,10 @@
 
 use lissom::identify::{
     ByDirection, ConstantVelocity, Estimate, FrictionLine, Identified, LawCandidate, LawTerm,
-    Options, Shape, SteadyPoint, identify,
+    NearRestEstimate, Options, RippleEstimate, Shape, SteadyPoint, identify,
 };
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Tip, TipQuantity};
+use lissom::replay::{DryTerms, NearRest, Ripple};
 use lissom::rig::{Experiment, Settle};
 use lissom_io::result_json;
 use lissom_testmodels::SchemaCheck;
@@ -92,6 +93,14 @@ fn with_directions(mut id: Identified) -> Identified {
         let tried = law.candidates[0];
         law.candidates = terms.map(|term| LawCandidate { term, ..tried }).to_vec();
     }
+    id.friction.near_rest = Some(NearRestEstimate { torque: figure, speed: figure });
+    id.friction.ripples = vec![RippleEstimate { torque: figure, per_angle: figure }];
+    if let Some(found) = &mut id.arm {
+        found.arm.dry_terms = DryTerms {
+            near_rest: Some(NearRest { torque_nm: 0.1, speed_rad_s: 0.2 }),
+            ripples: vec![Ripple { per_rad: 9.0, cosine_nm: 0.1, sine_nm: 0.0 }],
+        };
+    }
     if let Some(regression) = &mut id.regression {
         regression.viscous_by_direction = Some(ByDirection {
             forward: figure,
@@ -119,6 +128,10 @@ fn a_result_and_its_schema_name_the_same_keys() {
         "methods.regression.viscous_by_direction.relative_residual",
         "methods.friction_law.candidates[].residual_ratio",
         "friction.curve[].windows",
+        "friction.near_rest",
+        "friction.ripples[]",
+        "arm.near_rest",
+        "arm.ripples[]",
         "methods.constant_velocity.lines[].deviations",
         "methods.constant_velocity.points[].start_s",
         "models.motor.den",

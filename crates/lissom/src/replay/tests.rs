@@ -287,7 +287,7 @@ fn derivatives_are_exact_under_further_terms_of_friction() {
 }
 
 /// Against the event engine's own series of such friction: what is left is the step over which the
-/// replay takes friction for linear,
+/// replay takes friction for linear.
 #[test]
 fn replays_further_terms_of_friction_as_the_event_engine_does() {
     let arm = arm_of(crate::beam::Damping::Modal { ratios: vec![0.02, 0.01] }, 0.0);

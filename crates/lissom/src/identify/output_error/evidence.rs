@@ -71,7 +71,7 @@ fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: 
     if fitting.beyond_noise(fit) < BEYOND_NOISE {
         return false;
     }
-    let Some((trial, found)) = law::best(fitting, fit) else { return false };
+    let Some((trial, found)) = law::best(fitting, fit, least) else { return false };
     if found.first().is_none_or(|e| e.share <= least) {
         return false;
     }
@@ -144,12 +144,12 @@ pub(super) fn promises(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Extension>> 
     scores(fitting, fit, candidates(fit))
 }
 
-/// The same of one group.
-pub(super) fn promise(fitting: &Fitting<'_>, fit: &Fit, group: &[Parameter]) -> Vec<Extension> {
-    scores(fitting, fit, vec![group.to_vec()]).concat()
-}
-
-fn scores(fitting: &Fitting<'_>, fit: &Fit, groups: Vec<Vec<Parameter>>) -> Vec<Vec<Extension>> {
+/// The same of some groups.
+pub(super) fn scores(
+    fitting: &Fitting<'_>,
+    fit: &Fit,
+    groups: Vec<Vec<Parameter>>,
+) -> Vec<Vec<Extension>> {
     let free = fit.coordinates();
     let all: Vec<Parameter> = fit.free.iter().chain(groups.iter().flatten()).copied().collect();
     let point = fitting.point(fit, &all);

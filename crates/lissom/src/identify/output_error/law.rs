@@ -12,6 +12,9 @@ use crate::replay::{DryTerms, NearRest, Parameter, Ripple};
 const NEAR_REST: [f64; 4] = [0.02, 0.06, 0.2, 0.6];
 /// Most ripples.
 const MOST_RIPPLES: usize = 2;
+/// Half waves over the travel, from two on, at which ripples are looked for, and how many at once.
+const RIPPLES: usize = 46;
+const AT_ONCE: usize = 8;
 
 /// A term of friction that may be added: the arm's terms with it, still without effect, and the numbers
 /// that it makes free: its amplitude first, and what else it has.
@@ -31,16 +34,69 @@ impl LawTrial {
 }
 
 /// The trial that one step of a search promises to take most of the cost with, and that promise.
-pub(super) fn best(fitting: &Fitting<'_>, fit: &Fit) -> Option<(LawTrial, Vec<Extension>)> {
+///
+/// Ripples at frequencies that slip phases did not show are looked for where nothing else promises more
+/// than the share `least`.
+pub(super) fn best(
+    fitting: &Fitting<'_>,
+    fit: &Fit,
+    least: f64,
+) -> Option<(LawTrial, Vec<Extension>)> {
     let promise = |trial: LawTrial| {
         let mut with = fit.clone();
         with.body.arm.dry_terms = trial.terms.clone();
-        let found = evidence::promise(fitting, &with, &trial.amplitude);
+        let found = evidence::scores(fitting, &with, vec![trial.amplitude.clone()]).concat();
         (trial, found)
     };
-    let share = |found: &[Extension]| found.first().map_or(0.0, |e| e.share);
     let all = trials(fitting, fit).into_iter().map(promise);
-    all.max_by(|a, b| share(&a.1).total_cmp(&share(&b.1)))
+    let best = all.max_by(|a, b| share(&a.1).total_cmp(&share(&b.1)));
+    if best.as_ref().is_some_and(|b| share(&b.1) > least) {
+        return best;
+    }
+    let terms = &fit.body.arm.dry_terms;
+    let open = terms.ripples.len() < MOST_RIPPLES;
+    let found = open.then(|| strongest_ripple(fitting, fit)).flatten()?;
+    Some(promise(rippled(terms, found)))
+}
+
+fn share(found: &[Extension]) -> f64 {
+    found.first().map_or(0.0, |e| e.share)
+}
+
+/// Waves per angle at which a ripple promises most, over the frequencies that the travel tells apart.
+fn strongest_ripple(fitting: &Fitting<'_>, fit: &Fit) -> Option<f64> {
+    let angles = || fitting.campaign.runs.iter().flat_map(|run| run.motor());
+    let low = angles().copied().fold(f64::INFINITY, f64::min);
+    let high = angles().copied().fold(f64::NEG_INFINITY, f64::max);
+    let half_wave = std::f64::consts::PI / (high - low);
+    let all: Vec<f64> = (2..2 + RIPPLES).map(|waves| waves as f64 * half_wave).collect();
+    let promised = all.chunks(AT_ONCE).flat_map(|some| {
+        let mut with = fit.clone();
+        let ripples = &mut with.body.arm.dry_terms.ripples;
+        let first = ripples.len();
+        ripples.extend(some.iter().map(|k| still(*k)));
+        let groups = (first..first + some.len()).map(amplitude).collect();
+        let found = evidence::scores(fitting, &with, groups);
+        some.iter().copied().zip(found).collect::<Vec<_>>()
+    });
+    promised.max_by(|a, b| share(&a.1).total_cmp(&share(&b.1))).map(|(k, _)| k)
+}
+
+/// A ripple without effect.
+fn still(per_rad: f64) -> Ripple {
+    Ripple { per_rad, cosine_nm: 0.0, sine_nm: 0.0 }
+}
+
+fn amplitude(ripple: usize) -> Vec<Parameter> {
+    vec![Parameter::RippleCosine(ripple), Parameter::RippleSine(ripple)]
+}
+
+/// One more ripple.
+fn rippled(terms: &DryTerms, per_rad: f64) -> LawTrial {
+    let new = terms.ripples.len();
+    let mut terms = terms.clone();
+    terms.ripples.push(still(per_rad));
+    LawTrial { terms, amplitude: amplitude(new), shape: Parameter::RippleRate(new) }
 }
 
 fn trials(fitting: &Fitting<'_>, fit: &Fit) -> Vec<LawTrial> {
@@ -61,20 +117,12 @@ fn trials(fitting: &Fitting<'_>, fit: &Fit) -> Vec<LawTrial> {
             });
         }
     }
-    let new = terms.ripples.len();
     let known = |k: f64| terms.ripples.iter().any(|r| (r.per_rad / k).ln().abs() < SQRT_2.ln());
-    for term in fitting.law.iter().filter(|_| new < MOST_RIPPLES) {
-        let LawTerm::Ripple { per_angle } = *term else { continue };
-        if known(per_angle) {
-            continue;
-        }
-        let mut terms = terms.clone();
-        terms.ripples.push(Ripple { per_rad: per_angle, cosine_nm: 0.0, sine_nm: 0.0 });
-        found.push(LawTrial {
-            terms,
-            amplitude: vec![Parameter::RippleCosine(new), Parameter::RippleSine(new)],
-            shape: Parameter::RippleRate(new),
-        });
+    if terms.ripples.len() < MOST_RIPPLES {
+        found.extend(fitting.law.iter().filter_map(|term| match *term {
+            LawTerm::Ripple { per_angle } if !known(per_angle) => Some(rippled(terms, per_angle)),
+            _ => None,
+        }));
     }
     found
 }
