@@ -5,7 +5,8 @@ use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
 use lissom::identify::{Estimate, Identified, Options, identify};
-use lissom::plan::{Expected, Figure, Kinds, Plan, Wishes, expected_covariance, plan};
+use lissom::information::expected_covariance;
+use lissom::plan::{Expected, Figure, Kinds, Plan, Wishes, plan};
 use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, Tip, TipQuantity,
 };

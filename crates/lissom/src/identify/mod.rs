@@ -35,8 +35,7 @@ pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
 pub use friction_law::{CurvePoint, FrictionLaw, LawCandidate, LawFit, LawTerm};
 pub use identified::{Beam, Friction, Identified, NearRestEstimate, RippleEstimate, ThirdHarmonic};
 pub use output_error::{
-    Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, free_parameters,
-    output_error, starts,
+    Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, output_error, starts,
 };
 pub use rational::{BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_beam, fit_motor};
 pub use regression::{

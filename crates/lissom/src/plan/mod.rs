@@ -6,7 +6,6 @@
 //! chosen that reach the wanted deviations soonest.
 
 mod choose;
-mod information;
 mod known;
 mod motion;
 mod note;
@@ -19,11 +18,10 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use thiserror::Error;
 
+use crate::information::growing_information;
 use crate::replay::Parameter;
 use crate::rig::{Rig, Scene};
 use choose::choose;
-pub use information::expected_covariance;
-use information::growing_information;
 use known::Known;
 pub use motion::PlannedMotion;
 use motion::{Group, groups};
@@ -256,7 +254,7 @@ fn longest_wait_s(rig: &Rig, wishes: &Wishes, all: &[Group]) -> Result<f64, Plan
 
 fn candidate(
     rig: &Rig,
-    known: &Known,
+    known: &Known<'_>,
     limits: &Limits,
     motion: &PlannedMotion,
     share: f64,

@@ -135,7 +135,12 @@ impl PlannedMotion {
 pub(super) type Group = Vec<PlannedMotion>;
 
 /// All that a plan may choose from.
-pub(super) fn groups(known: &Known, rig: &Rig, travel_rad: f64, sines_alone: bool) -> Vec<Group> {
+pub(super) fn groups(
+    known: &Known<'_>,
+    rig: &Rig,
+    travel_rad: f64,
+    sines_alone: bool,
+) -> Vec<Group> {
     let (low, high) = band(known, rig, travel_rad);
     let mut found: Vec<Group> = steps(low, high, SINES)
         .into_iter()
@@ -160,7 +165,7 @@ pub(super) fn groups(known: &Known, rig: &Rig, travel_rad: f64, sines_alone: boo
 
 /// A sine with its triple. One whose triple cannot be driven goes alone; one whose triple meets a mode
 /// is none.
-fn sine(known: &Known, omega_rad_s: f64, high: f64) -> Option<Group> {
+fn sine(known: &Known<'_>, omega_rad_s: f64, high: f64) -> Option<Group> {
     let triple = exactly(3.0 * omega_rad_s);
     let one = PlannedMotion::Sine { omega_rad_s };
     if !is_clear(known, triple) {
@@ -173,7 +178,7 @@ fn sine(known: &Known, omega_rad_s: f64, high: f64) -> Option<Group> {
 }
 
 /// Whether a frequency is off every lightly damped mode.
-fn is_clear(known: &Known, omega_rad_s: f64) -> bool {
+fn is_clear(known: &Known<'_>, omega_rad_s: f64) -> bool {
     let ratios = known.arm.damping_ratios();
     known.arm.modes.iter().zip(ratios).all(|(mode, ratio)| {
         let off = (omega_rad_s / mode.omega_rad_s - 1.0).abs();
@@ -183,7 +188,7 @@ fn is_clear(known: &Known, omega_rad_s: f64) -> bool {
 
 /// Lowest and highest frequency of all: about those at which the whole travel takes the whole current,
 /// and about the modes.
-fn band(known: &Known, rig: &Rig, travel_rad: f64) -> (f64, f64) {
+fn band(known: &Known<'_>, rig: &Rig, travel_rad: f64) -> (f64, f64) {
     let arm = &known.arm;
     let carried: f64 =
         arm.modes.iter().map(|m| m.stiffness_nm_per_rad / m.omega_rad_s.powi(2)).sum();

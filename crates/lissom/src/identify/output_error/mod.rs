@@ -10,7 +10,6 @@ mod follow;
 mod law;
 mod modes;
 mod noise;
-mod normal;
 mod search;
 mod stages;
 mod start;
@@ -21,6 +20,7 @@ use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use super::{Estimate, LawTerm};
+use crate::information::{self as normal, propagated};
 use crate::record::Campaign;
 use crate::replay::{ModalArm, Parameter, SensorNoise, Window};
 use covariance::deviation;
@@ -30,8 +30,11 @@ pub(crate) use follow::follow;
 pub use search::{Iteration, Stop};
 pub use stages::StageReport;
 use stages::{Fitting, Report};
-pub use start::{free_parameters, starts};
+pub use start::starts;
 pub(crate) use verdict::verdict;
+
+/// Differences for the slopes of figures are taken over this many deviations.
+const HALF: f64 = 0.5;
 
 /// What the output error gives.
 #[derive(Debug, Clone)]
@@ -69,10 +72,8 @@ impl OutputError {
 
     /// Any figure of the arm, its deviation from the parameters'.
     pub fn figure(&self, of: impl Fn(&ModalArm) -> f64) -> Estimate {
-        let variances = self.variances(&|arm| Some(vec![Complex64::from(of(arm))]));
-        // Without free parameters there is nothing to vary.
-        let variance = variances.map_or(f64::NAN, |v| v.first().copied().unwrap_or(0.0));
-        Estimate { value: of(&self.arm), std: variance.sqrt() }
+        let std = propagated(&self.arm, &self.parameters, &self.covariance, HALF, &of);
+        Estimate { value: of(&self.arm), std }
     }
 
     /// What the parameters' covariance gives quantities of the arm: `E|Δ|²` of each, by differences over

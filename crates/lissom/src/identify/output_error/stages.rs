@@ -9,12 +9,11 @@ use super::figures::BEYOND;
 use super::modes;
 use super::noise;
 use super::search::{Iteration, Point, Problem, Stop, is_possible};
-use super::start::free_parameters;
 use super::windows::{cut, widen};
 use crate::identify::LawTerm;
 use crate::record::{Campaign, Run};
 use crate::replay::{
-    Blocks, ModalArm, Parameter, Sampling, SensorNoise, Window, WindowSums, costs,
+    Blocks, ModalArm, Parameter, Sampling, SensorNoise, Window, WindowSums, costs, free_parameters,
 };
 
 /// Most steps of a stage before the last, which only leads to it.
@@ -166,7 +165,7 @@ impl Fitting<'_> {
         let mut fit = Fit {
             body,
             windows,
-            free: free_parameters(self.campaign, &start.arm),
+            free: free_parameters(&self.campaign.channels, &start.arm),
             noise: self.noise.to_vec(),
             residual: Vec::new(),
             whole_runs: window_s >= longest,
