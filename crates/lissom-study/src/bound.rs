@@ -1,6 +1,6 @@
 //! The least deviations that any unbiased estimator can have on a campaign.
 
-use lissom::information::{Inverse, inverted, normal_equations, propagated};
+use lissom::information::{Inverse, inverted, propagated, without_own};
 use lissom::replay::{
     ArmModes, ModalArm, Parameter, Sampling, SensorNoise, Window, WindowSums, sums,
 };
@@ -60,7 +60,12 @@ impl Bound {
         let sampling = Sampling { noise: &noise, blocks: &[], masks: &masks };
         let parameters = unknowns(&arm, campaign.law);
         let sums = sums(&arm, &parameters, &campaign.logs, &windows, sampling);
-        let (information, _) = normal_equations(&sums, parameters.len());
+        let shared = parameters.len();
+        let of_window = |(sums, window): (&WindowSums, &Window)| {
+            let size = sums.gram.ncols() - 1;
+            without_own(&sums.gram.view((0, 0), (size, size)).into_owned(), shared, window)
+        };
+        let information: DMatrix<f64> = sums.iter().zip(&windows).map(of_window).sum();
         let Inverse { matrix: covariance, lost } = inverted(&information);
         if lost.contains(&true) {
             return None;

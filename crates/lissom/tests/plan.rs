@@ -102,6 +102,7 @@ fn found(id: &Identified, figure: Figure) -> Option<Estimate> {
         Figure::Inertia => id.inertia,
         Figure::Coupling => id.beam.coupling,
         Figure::Frequency(j) => mode(j).map(|m| m.natural_frequency_rad_s),
+        Figure::Offset => id.friction.offset,
         Figure::Damping(j) => {
             mode(j).map(|m| m.damping_ratio.scaled(2.0 * m.natural_frequency_rad_s.value))
         }

@@ -48,14 +48,15 @@ pub fn growing_information(
     let masks = vec![vec![None; noise.len()]; campaign.runs.len()];
     let blocks = vec![Blocks { samples, period: None }; campaign.runs.len()];
     let sampling = Sampling { noise: &noise, blocks: &blocks, masks: &masks };
-    let of_window = |sums: &WindowSums| {
+    let of_window = |(sums, window): (&WindowSums, &Window)| {
         let size = sums.gram.ncols() - 1;
         let mut gram = DMatrix::zeros(size, size);
         let grow = |block: &DMatrix<f64>| {
             gram += block.view((0, 0), (size, size));
-            without_own(&gram, parameters.len())
+            without_own(&gram, parameters.len(), window)
         };
         sums.blocks.iter().map(grow).collect()
     };
-    sums(arm, parameters, campaign, windows, sampling).iter().map(of_window).collect()
+    let found = sums(arm, parameters, campaign, windows, sampling);
+    found.iter().zip(windows).map(of_window).collect()
 }

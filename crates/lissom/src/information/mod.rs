@@ -5,11 +5,13 @@
 //! [inverted](inverse), and [`propagated`] turns the covariance into the deviation of any figure.
 
 mod expected;
+mod figure;
 mod inverse;
 mod propagated;
 mod reduced;
 
 pub use expected::{expected_covariance, growing_information};
+pub use figure::Figure;
 pub use inverse::{Inverse, covariance, inverse, inverted};
 pub use propagated::{along, propagated, slopes};
 pub use reduced::{Reduced, normal_equations, without_own};

@@ -3,7 +3,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::inverse;
-use crate::replay::WindowSums;
+use crate::replay::{Window, WindowSums};
+
+/// Where the motor's velocity stands among a window's own unknowns.
+const VELOCITY: usize = 1;
 
 /// `(H_pp − H_pz·H_zz⁻¹·H_zp)·δp = g_p − H_pz·H_zz⁻¹·g_z` of parameters p and the window's own z.
 #[derive(Debug, Clone)]
@@ -50,11 +53,14 @@ pub fn normal_equations(sums: &[WindowSums], shared: usize) -> (DMatrix<f64>, DV
         .fold(zero, |(normal, right), r| (normal + r.normal, right + r.right))
 }
 
-/// `H_pp − H_pz·H_zz⁻¹·H_zp` where the first `shared` rows and columns are p.
-pub fn without_own(gram: &DMatrix<f64>, shared: usize) -> DMatrix<f64> {
-    let own = gram.ncols() - shared;
-    let h_zp = gram.view((shared, 0), (own, shared));
-    let h_zz = gram.view((shared, shared), (own, own)).into_owned();
+/// `H_pp − H_pz·H_zz⁻¹·H_zp` where the first `shared` rows and columns are p: what a window says of the
+/// parameters. A joint that sticks where it begins has no velocity to find.
+pub fn without_own(gram: &DMatrix<f64>, shared: usize, window: &Window) -> DMatrix<f64> {
+    let stuck = window.start.get(1) == Some(&0.0);
+    let own: Vec<usize> =
+        (shared..gram.ncols()).filter(|z| !(stuck && *z == shared + VELOCITY)).collect();
+    let h_zp = gram.select_rows(&own).columns(0, shared).into_owned();
+    let h_zz = gram.select_rows(&own).select_columns(&own);
     gram.view((0, 0), (shared, shared)) - h_zp.transpose() * inverse(&h_zz) * h_zp
 }
 
@@ -65,6 +71,7 @@ mod tests {
     #[test]
     fn an_unknown_of_the_window_costs_its_share() {
         let gram = DMatrix::from_row_slice(2, 2, &[4.0, 2.0, 2.0, 2.0]);
-        assert!((without_own(&gram, 1)[(0, 0)] - 2.0).abs() < 1e-12);
+        let window = Window { run: 0, samples: 0..=9, start: vec![0.0, 1.0], zeros: vec![] };
+        assert!((without_own(&gram, 1, &window)[(0, 0)] - 2.0).abs() < 1e-12);
     }
 }

@@ -93,7 +93,7 @@ impl ModalArm {
     }
 
     /// r⁻¹·diag(c)·r, where there are dampers at points.
-    fn points_in_modes(&self) -> Option<DMatrix<f64>> {
+    pub(crate) fn points_in_modes(&self) -> Option<DMatrix<f64>> {
         let n = self.modes.len();
         if n == 0 || self.at_points_per_s.len() != n {
             return None;
