@@ -286,6 +286,18 @@ pub(crate) fn figure_rows(
     rows
 }
 
+/// What the logs separate, in words.
+pub(crate) fn verdict(names: UnitNames, id: &Identified) {
+    let words = id.separability.as_ref().map_or(Vec::new(), |found| found.words(names.axis));
+    if words.is_empty() {
+        return;
+    }
+    line("\nverdict");
+    for text in words {
+        line(&format!("  {text}"));
+    }
+}
+
 /// The findings, gravest first, those of one kind together.
 pub(crate) fn findings(findings: &[Finding]) {
     if findings.is_empty() {

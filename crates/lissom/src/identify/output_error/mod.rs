@@ -1,6 +1,7 @@
 //! Output error: the logged command replayed through an arm whose figures are moved until it shows
 //! the logged angles.
 
+mod by_run;
 mod coordinates;
 mod covariance;
 mod data;
@@ -23,6 +24,7 @@ use super::{Estimate, LawTerm};
 use crate::information::{self as normal, propagated};
 use crate::record::Campaign;
 use crate::replay::{ModalArm, Parameter, SensorNoise, Window};
+pub use by_run::ByRun;
 use covariance::deviation;
 pub(crate) use data::{Masks, masks};
 pub use evidence::Extension;
@@ -49,6 +51,10 @@ pub struct OutputError {
     pub white: DMatrix<f64>,
     /// By blocks left out.
     pub blocks: DMatrix<f64>,
+    /// What each run says of them.
+    pub by_run: ByRun,
+    /// Noise of each channel by which residuals were weighed, motor first, then tips.
+    pub noise: Vec<SensorNoise>,
     /// Windows of the last stage, with the states at which they begin.
     pub windows: Vec<Window>,
     /// Every length of windows, in order.
@@ -154,7 +160,9 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
     fitting.count_steps(&mut fit, &mut report);
     let beyond_noise = fitting.beyond_noise(&fit);
     fit.noise.iter_mut().for_each(|n| *n = SensorNoise::gaussian(n.deviation()));
-    let found = fitting.covariances(&fit);
+    let sums = fitting.point(&fit, &fit.free).sums;
+    let found = fit.covariances(&sums);
+    let by_run = fit.by_run(&sums);
     report.added.append(&mut report.refused);
     Some(OutputError {
         point_masses: fit.body.masses.is_some(),
@@ -162,6 +170,8 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         covariance: found.larger(),
         white: found.white,
         blocks: found.blocks,
+        by_run,
+        noise: fit.noise,
         windows: fit.windows,
         parameters: fit.free,
         beyond_noise,

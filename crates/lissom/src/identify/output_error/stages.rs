@@ -1,6 +1,7 @@
 //! From short windows to whole runs, and what each step of the way left.
 
 use super::OutputErrorStart;
+use super::by_run::ByRun;
 use super::coordinates::Body;
 use super::covariance::Covariances;
 use super::data::Masks;
@@ -91,6 +92,20 @@ impl Fit {
     pub(super) fn coordinates(&self) -> usize {
         self.body.coordinates(&self.free).len()
     }
+
+    /// Covariances of the free parameters, from sums by what they move.
+    pub(super) fn covariances(&self, sums: &[WindowSums]) -> Covariances {
+        let found = Covariances::at(sums, self.coordinates());
+        match self.body.jacobian(&self.free) {
+            Some(jacobian) => found.through(&jacobian),
+            None => found,
+        }
+    }
+
+    /// The same sums run by run.
+    pub(super) fn by_run(&self, sums: &[WindowSums]) -> ByRun {
+        ByRun::of(sums, &self.windows, self.coordinates(), self.body.jacobian(&self.free))
+    }
 }
 
 /// What was done.
@@ -138,11 +153,7 @@ impl Fitting<'_> {
 
     /// Covariances of the free parameters.
     pub(super) fn covariances(&self, fit: &Fit) -> Covariances {
-        let found = Covariances::at(&self.point(fit, &fit.free).sums, fit.coordinates());
-        match fit.body.jacobian(&fit.free) {
-            Some(jacobian) => found.through(&jacobian),
-            None => found,
-        }
+        fit.covariances(&self.point(fit, &fit.free).sums)
     }
 
     /// Cost of an arm and its windows where the noise is `noise`.
