@@ -49,9 +49,6 @@ fn found(rig: &Rig, runs: Vec<Run>) -> Identified {
     for line in verdict(&id).words(Axis::Rotary) {
         println!("{line}");
     }
-    for run in &verdict(&id).runs {
-        println!("{run:?}");
-    }
     id
 }
 

@@ -21,11 +21,13 @@ const SUFFERS: f64 = 3.0;
 impl Separability {
     /// The verdict, a sentence or two for each thing to know.
     pub fn words(&self, axis: Axis) -> Vec<String> {
-        let mut lines: Vec<String> = self.least_known().into_iter().collect();
+        let stands_out = self.stands_out();
+        let mut lines: Vec<String> =
+            stands_out.iter().map(|run| format!("Run {}: {}.", run.run, spoils(run))).collect();
+        lines.extend(self.least_known());
         lines.extend(self.suffering());
-        match self.stands_out() {
-            Some(run) => lines.push(format!("Run {}: {}.", run.run, spoils(run))),
-            None => lines.extend(self.runs.iter().filter_map(carries)),
+        if stands_out.is_none() {
+            lines.extend(self.runs.iter().filter_map(carries));
         }
         lines.extend(self.run_to_add.as_ref().map(|run| worth_adding(run, axis)));
         lines
