@@ -149,6 +149,7 @@ fn plan_values(rig: &Rig) -> impl Fn(Figure) -> f64 {
     let arm = rig.arm.clone();
     let modes = arm.beam().natural_frequencies_rad_s();
     move |figure| match figure {
+        Figure::Offset => 0.5 * (arm.coulomb.forward - arm.coulomb.backward),
         Figure::Coulomb => 0.5 * (arm.coulomb.forward + arm.coulomb.backward),
         Figure::Viscous => arm.motor.viscous_nm_s_per_rad,
         Figure::Inertia => arm.motor.inertia_kg_m2,

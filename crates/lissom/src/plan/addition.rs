@@ -83,7 +83,7 @@ fn half_range(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// Every motion that a plan would try, each as large as the bounds allow, with the information that the
-/// replay gives of it.
+/// replay gives of it; none where friction has terms beside Coulomb's and the viscous one.
 ///
 /// The motor is taken to follow its reference: nothing is known of the controller. The torque that this
 /// takes, averaged over each sample, is what the replay is given.
@@ -100,6 +100,10 @@ pub fn additions(
         travel_rad: bounds.travel_rad,
         command_time_s: bounds.sample_time_s,
     };
+    // What overcomes these is no torque that grows with the amplitude beside one that does not.
+    if !arm.dry_terms.is_empty() {
+        return Vec::new();
+    }
     if !(bounds.travel_rad > 0.0 && bounds.torque_nm > arm.coulomb_nm + arm.offset_nm.abs()) {
         return Vec::new();
     }
