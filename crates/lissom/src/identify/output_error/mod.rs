@@ -89,7 +89,7 @@ impl OutputError {
         of: &dyn Fn(&ModalArm) -> Option<Vec<Complex64>>,
     ) -> Option<Vec<f64>> {
         let slopes = |(i, p): (usize, &Parameter)| {
-            let half = 0.5 * deviation(&self.covariance, i);
+            let half = HALF * deviation(&self.covariance, i);
             let with = |change: f64| {
                 let mut arm = self.arm.clone();
                 p.set(&mut arm, p.of(&self.arm) + change);
