@@ -47,6 +47,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         print::line("");
         print::figures(names, &id, reference);
         print::constant_velocity(names, &id);
+        print::verdict(names.axis, &id);
         print::findings(&id.findings);
     }
     Ok(code(&id))

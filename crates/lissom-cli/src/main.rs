@@ -19,6 +19,7 @@ mod reference;
 mod report_figures;
 mod rig;
 mod validate;
+mod verdict;
 
 use std::process::ExitCode;
 

@@ -9,7 +9,7 @@ use lissom_report::{
 };
 
 use crate::reference::Reference;
-use crate::{figures, friction_curve, print};
+use crate::{figures, friction_curve, print, verdict};
 
 /// The page as HTML.
 pub(crate) fn page(
@@ -33,6 +33,7 @@ pub(crate) fn page(
         .summary(&summary)
         .heading("Figures")
         .key_figures("Drive and beam", &key_figures(names, id, reference));
+    page = verdict::section(page, names, id);
     let bode = figures::bode_plots(&campaign.channels, names, id, reference);
     if !bode.is_empty() {
         page = page.heading("Frequency responses");

@@ -2,7 +2,7 @@
 #![expect(clippy::print_stderr, reason = "the command's printer")]
 
 use lissom::identify::{ConstantVelocity, Estimate, Finding, Identified, RunKind, Severity};
-use lissom::record::{Campaign, Hold};
+use lissom::record::{Axis, Campaign, Hold};
 use lissom_io::UnitNames;
 use lissom_report::{interval, with_uncertainty};
 use serde_json::Value;
@@ -284,6 +284,18 @@ pub(crate) fn figure_rows(
         add("  damping ratio", Some(mode.damping_ratio), "1".to_owned(), None);
     }
     rows
+}
+
+/// What the logs separate, in words.
+pub(crate) fn verdict(axis: Axis, id: &Identified) {
+    let words = id.separability.as_ref().map_or(Vec::new(), |found| found.words(axis));
+    if words.is_empty() {
+        return;
+    }
+    line("\nverdict");
+    for text in words {
+        line(&format!("  {text}"));
+    }
 }
 
 /// The findings, gravest first, those of one kind together.

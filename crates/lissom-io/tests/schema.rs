@@ -4,8 +4,10 @@
 
 use lissom::identify::{
     ByDirection, ConstantVelocity, Estimate, FrictionLine, Identified, LawCandidate, LawTerm,
-    NearRestEstimate, Options, RippleEstimate, Shape, SteadyPoint, identify,
+    NearRestEstimate, Options, RippleEstimate, RunToAdd, Shape, SteadyPoint, identify,
 };
+use lissom::information::Figure;
+use lissom::plan::PlannedMotion;
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Tip, TipQuantity};
 use lissom::replay::{DryTerms, NearRest, Ripple};
 use lissom::rig::{Experiment, Settle};
@@ -101,6 +103,16 @@ fn with_directions(mut id: Identified) -> Identified {
             ripples: vec![Ripple { per_rad: 9.0, cosine_nm: 0.1, sine_nm: 0.0 }],
         };
     }
+    if let Some(verdict) = &mut id.separability {
+        verdict.run_to_add = Some(RunToAdd {
+            motion: PlannedMotion::Sine { omega_rad_s: 2.0 },
+            amplitude_rad: 0.3,
+            record_s: 20.0,
+            figure: Figure::Viscous,
+            std_now: 0.1,
+            std_then: 0.02,
+        });
+    }
     if let Some(regression) = &mut id.regression {
         regression.viscous_by_direction = Some(ByDirection {
             forward: figure,
@@ -121,6 +133,9 @@ fn a_result_and_its_schema_name_the_same_keys() {
     }
     // What may be null is not: its keys were looked at too.
     check.holds(&[
+        "verdict.directions[].parts[].share_of_variance",
+        "verdict.runs[].figures[].std_growth_without",
+        "verdict.run_to_add.record_s",
         "arm.modes[].damping_within_per_s",
         "arm.tips[].shape",
         "methods.third_harmonic.fit.weighted_rms",

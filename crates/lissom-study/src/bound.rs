@@ -1,8 +1,10 @@
 //! The least deviations that any unbiased estimator can have on a campaign.
 
-use lissom::replay::{ModalArm, Parameter, Sampling, SensorNoise, Window, WindowSums, sums};
-use lissom::rig::Sensor;
-use nalgebra::{DMatrix, DVector};
+use lissom::information::{Inverse, inverted, propagated, without_own};
+use lissom::replay::{
+    ArmModes, ModalArm, Parameter, Sampling, SensorNoise, Window, WindowSums, sums,
+};
+use nalgebra::DMatrix;
 
 use crate::campaign::Campaign;
 use crate::law::Law;
@@ -40,15 +42,17 @@ impl Bound {
             return None;
         }
         let arm = ModalArm::of_arm(&rig.arm)?;
+        let modes = ArmModes::of(&rig.arm)?;
+        let all: Vec<usize> = (0..arm.modes.len()).collect();
         let tips = campaign.logs.channels.tips.len();
         let noise: Vec<SensorNoise> = std::iter::once(rig.instruments.motor)
             .chain((0..tips).map(|tip| rig.instruments.tip(tip)))
-            .map(|sensor| SensorNoise::gaussian(deviation(sensor)))
+            .map(|sensor| SensorNoise::gaussian(sensor.deviation()))
             .collect();
         let windows = campaign.facts.iter().enumerate().map(|(run, facts)| Window {
             run,
             samples: 0..=campaign.logs.runs[run].len() - 1,
-            start: modal_state(&arm, &facts.start),
+            start: modes.state(&all, &facts.start),
             zeros: vec![0.0; tips],
         });
         let windows: Vec<Window> = windows.collect();
@@ -56,11 +60,16 @@ impl Bound {
         let sampling = Sampling { noise: &noise, blocks: &[], masks: &masks };
         let parameters = unknowns(&arm, campaign.law);
         let sums = sums(&arm, &parameters, &campaign.logs, &windows, sampling);
-        let mut information = DMatrix::zeros(parameters.len(), parameters.len());
-        for (sums, window) in sums.iter().zip(&windows) {
-            information += of_window(sums, parameters.len(), window)?;
+        let shared = parameters.len();
+        let of_window = |(sums, window): (&WindowSums, &Window)| {
+            let size = sums.gram.ncols() - 1;
+            without_own(&sums.gram.view((0, 0), (size, size)).into_owned(), shared, window)
+        };
+        let information: DMatrix<f64> = sums.iter().zip(&windows).map(of_window).sum();
+        let Inverse { matrix: covariance, lost } = inverted(&information);
+        if lost.contains(&true) {
+            return None;
         }
-        let covariance = inverse(&information)?;
         let left = (0..=tips).map(|c| left(&sums, c) / noise[c].sigma).collect();
         Some(Self { figures: figures(&arm, &parameters, &covariance), left })
     }
@@ -69,28 +78,6 @@ impl Bound {
     pub fn std(&self, figure: Figure) -> Option<f64> {
         self.figures.iter().find(|(f, _)| *f == figure).map(|(_, std)| *std)
     }
-}
-
-/// √(s² + q²/12) \[rad\].
-fn deviation(sensor: Sensor) -> f64 {
-    let noise = sensor.noise.map_or(0.0, |n| n.std());
-    let step = sensor.quantiser.map_or(0.0, |q| q.step());
-    SensorNoise { sigma: noise, step }.deviation()
-}
-
-/// `[θ, θ̇, ψ_1, ψ̇_1, …]` of `[θ, θ̇, θ_i.., θ̇_i..]`: `θ_i − θ = Σ r_ij·(ψ_j − θ)`.
-fn modal_state(arm: &ModalArm, state: &[f64]) -> Vec<f64> {
-    let n = arm.modes.len();
-    let shapes = DMatrix::from_fn(n, n, |i, j| arm.shapes[i][j]).lu();
-    let modal = |from: usize| {
-        let bent = DVector::from_fn(n, |i, _| state[2 + from * n + i] - state[from]);
-        // The shapes of distinct modes are independent.
-        let solved = shapes.solve(&bent).unwrap_or_else(|| DVector::zeros(n));
-        solved.add_scalar(state[from])
-    };
-    let (angles, rates) = (modal(0), modal(1));
-    let modes = angles.iter().zip(rates.iter()).flat_map(|(a, r)| [*a, *r]);
-    [state[0], state[1]].into_iter().chain(modes).collect()
 }
 
 /// What an estimator that knows the kind of damping has to find.
@@ -110,28 +97,6 @@ fn unknowns(arm: &ModalArm, law: Law) -> Vec<Parameter> {
     all
 }
 
-/// `H_pp − H_pz·H_zz⁻¹·H_zp` of the parameters p and the window's own unknowns z.
-fn of_window(sums: &WindowSums, shared: usize, window: &Window) -> Option<DMatrix<f64>> {
-    let size = sums.gram.ncols() - 1;
-    // A joint that sticks has no velocity to find.
-    let velocity = shared + 1;
-    let stuck = window.start[1] == 0.0;
-    let own: Vec<usize> = (shared..size).filter(|z| !(stuck && *z == velocity)).collect();
-    let all = sums.gram.view((0, 0), (size, size));
-    let h_zp = all.select_rows(&own).columns(0, shared).into_owned();
-    let h_zz = all.select_rows(&own).select_columns(&own);
-    Some(all.view((0, 0), (shared, shared)) - h_zp.transpose() * inverse(&h_zz)? * h_zp)
-}
-
-/// Inverse of a symmetric positive matrix, scaled to a diagonal of ones first.
-fn inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    let scale = matrix.diagonal().map(|d| 1.0 / d.sqrt());
-    let scaled = |m: &DMatrix<f64>| {
-        DMatrix::from_fn(m.nrows(), m.ncols(), |i, j| m[(i, j)] * scale[i] * scale[j])
-    };
-    Some(scaled(&scaled(matrix).cholesky()?.inverse()))
-}
-
 /// Root mean square of what is left of a channel \[rad\].
 fn left(sums: &[WindowSums], channel: usize) -> f64 {
     let squares: f64 = sums.iter().map(|s| s.squares[channel]).sum();
@@ -144,19 +109,8 @@ fn figures(
     parameters: &[Parameter],
     covariance: &DMatrix<f64>,
 ) -> Vec<(Figure, f64)> {
-    let std = |of: &dyn Fn(&ModalArm) -> f64| {
-        let slopes = parameters.iter().enumerate().map(|(i, p)| {
-            let step = DIFFERENCE * covariance[(i, i)].sqrt();
-            let with = |change: f64| {
-                let mut moved = arm.clone();
-                p.set(&mut moved, p.of(arm) + change);
-                of(&moved)
-            };
-            (with(step) - with(-step)) / (2.0 * step)
-        });
-        let slopes = DVector::from_iterator(parameters.len(), slopes);
-        slopes.dot(&(covariance * &slopes)).sqrt()
-    };
+    let std =
+        |of: &dyn Fn(&ModalArm) -> f64| propagated(arm, parameters, covariance, DIFFERENCE, of);
     let mut all = vec![
         (Figure::Coulomb, std(&|a| a.coulomb_nm)),
         (Figure::Inertia, std(&|a| a.inertia_kg_m2)),
@@ -172,7 +126,9 @@ fn figures(
 
 #[cfg(test)]
 mod tests {
+    use lissom::information::inverse;
     use lissom::replay::predict;
+    use nalgebra::DVector;
 
     use super::*;
     use crate::campaign::draw_campaign;
@@ -213,12 +169,12 @@ mod tests {
         let window = Window {
             run: 0,
             samples: 0..=one.logs.runs[0].len() - 1,
-            start: modal_state(&arm, &one.facts[0].start),
+            start: ArmModes::of(&one.definition.rig.arm).unwrap().state(&[0], &one.facts[0].start),
             zeros: vec![0.0],
         };
         assert!(window.start[1] != 0.0, "the joint slips at the start");
         let rig = &one.definition.rig;
-        let sigma = [deviation(rig.instruments.motor), deviation(rig.instruments.tip(0))];
+        let sigma = [rig.instruments.motor.deviation(), rig.instruments.tip(0).deviation()];
         let shown = |arm: &ModalArm, window: &Window| {
             let channels = predict(arm, &one.logs, window).unwrap().channels;
             let weighed = channels.iter().zip(sigma);
@@ -252,7 +208,7 @@ mod tests {
         };
         column(&zero, 1e-3);
         let jacobian = DMatrix::from_columns(&columns);
-        let covariance = inverse(&(jacobian.transpose() * &jacobian)).unwrap();
+        let covariance = inverse(&(jacobian.transpose() * &jacobian));
         let bound = Bound::of(&one).unwrap();
         for (at, figure) in [
             (0, Figure::Inertia),

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use lissom::record::{Axis, Channels, Command, CommandQuantity, Hold, Run, Tip, TipQuantity};
+use lissom::record::Run;
 use lissom::rig::{Experiment, Rig};
 
 use crate::bench::Bench;
@@ -161,7 +161,8 @@ fn drawn(draw: &mut Draw, stratum: Stratum, law: Law, index: usize) -> Result<Ca
     if logs.len() < runs_least(stratum.kind) {
         return Err(Rejected::FewRuns(commonest(&dropped)));
     }
-    let logs = lissom::record::Campaign::new(channels(&bench.rig), logs)
+    let channels = bench.rig.channels(0..bench.rig.arm.beam().len());
+    let logs = lissom::record::Campaign::new(channels, logs)
         .map_err(|error| Rejected::Impossible(error.to_string()))?;
     let definition = Definition { rig: bench.rig, runs };
     let campaign = Campaign {
@@ -200,24 +201,4 @@ fn commonest(dropped: &[Dropped]) -> Dropped {
 /// Largest current of a run \[A\].
 pub(crate) fn peak(run: &Run) -> f64 {
     run.command().iter().fold(0.0_f64, |most, i| most.max(i.abs()))
-}
-
-/// What an engineer would write into `campaign.toml`.
-fn channels(rig: &Rig) -> Channels {
-    let tip = |mass: usize| Tip {
-        name: format!("tip {}", mass + 1),
-        quantity: TipQuantity::Angle,
-        calibrated: true,
-    };
-    Channels {
-        axis: Axis::Rotary,
-        command: Command {
-            quantity: CommandQuantity::Current,
-            hold: Hold::Sampled,
-            torque_per_command: Some(rig.arm.motor.torque_constant_nm_per_a),
-            back_emf_viscous: 0.0,
-            limit: rig.instruments.amplifier.limit_a(),
-        },
-        tips: (0..rig.arm.beam().len()).map(tip).collect(),
-    }
 }

@@ -15,13 +15,13 @@ use std::time::Duration;
 use criterion::{Criterion, criterion_group, criterion_main};
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
-use lissom::identify::{
-    OutputErrorStart, beam_regression, free_parameters, motor_regression, output_error, starts,
-};
+use lissom::identify::{OutputErrorStart, beam_regression, motor_regression, output_error, starts};
 use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, Tip, TipQuantity,
 };
-use lissom::replay::{ModalArm, Parameter, Sampling, SensorNoise, Window, costs, sums};
+use lissom::replay::{
+    ModalArm, Parameter, Sampling, SensorNoise, Window, costs, free_parameters, sums,
+};
 use lissom::rig::{Experiment, Rig, Settle};
 use lissom_testmodels::{report_arm, report_rig};
 
@@ -188,7 +188,7 @@ fn three_masses(c: &mut Criterion) {
     }];
     let arm = ModalArm::of_arm(&rig.arm).unwrap();
     let campaign = Campaign::new(channels(&rig, 3), vec![logged.run]).unwrap();
-    let parameters = free_parameters(&campaign, &arm);
+    let parameters = free_parameters(&campaign.channels, &arm);
     let case = Case {
         campaign: &campaign,
         arm: &arm,

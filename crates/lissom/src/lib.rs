@@ -12,6 +12,7 @@ pub mod arm;
 pub mod beam;
 pub mod drive;
 pub mod identify;
+pub mod information;
 pub mod lti;
 mod number;
 pub mod plan;

@@ -5,7 +5,8 @@ use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
 use lissom::identify::{Estimate, Identified, Options, identify};
-use lissom::plan::{Expected, Figure, Kinds, Plan, Wishes, expected_covariance, plan};
+use lissom::information::expected_covariance;
+use lissom::plan::{Expected, Figure, Kinds, Plan, Wishes, plan};
 use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, Tip, TipQuantity,
 };
@@ -101,6 +102,7 @@ fn found(id: &Identified, figure: Figure) -> Option<Estimate> {
         Figure::Inertia => id.inertia,
         Figure::Coupling => id.beam.coupling,
         Figure::Frequency(j) => mode(j).map(|m| m.natural_frequency_rad_s),
+        Figure::Offset => id.friction.offset,
         Figure::Damping(j) => {
             mode(j).map(|m| m.damping_ratio.scaled(2.0 * m.natural_frequency_rad_s.value))
         }
@@ -147,6 +149,7 @@ fn plan_values(rig: &Rig) -> impl Fn(Figure) -> f64 {
     let arm = rig.arm.clone();
     let modes = arm.beam().natural_frequencies_rad_s();
     move |figure| match figure {
+        Figure::Offset => 0.5 * (arm.coulomb.forward - arm.coulomb.backward),
         Figure::Coulomb => 0.5 * (arm.coulomb.forward + arm.coulomb.backward),
         Figure::Viscous => arm.motor.viscous_nm_s_per_rad,
         Figure::Inertia => arm.motor.inertia_kg_m2,

@@ -159,6 +159,7 @@ fn report(out: &Path, campaign: &lissom::record::Campaign, id: &Identified, rows
         table.push(line);
     }
     print::table(&table);
+    print::verdict(campaign.channels.axis, id);
     print::findings(&id.findings);
     print::line("");
     print::line(&format!(

@@ -8,6 +8,7 @@ mod dry_terms;
 mod friction_law;
 mod units;
 mod validation;
+mod verdict;
 
 pub use arm::{ResultError, read_arm};
 pub use units::UnitNames;
@@ -34,6 +35,7 @@ pub fn result_json(channels: &Channels, id: &Identified) -> Value {
         "friction": friction(names, constant, id),
         "drive": { (names.inertia_key()): figure(id.inertia) },
         "beam": beam(names, id),
+        "verdict": id.separability.as_ref().map(|s| verdict::verdict(channels.axis, names, s)),
         "arm": id.arm.as_ref().map(|found| arm::arm(channels, names, found)),
         "methods": {
             "third_harmonic": id.third_harmonic.as_ref().map(|t| third(names, constant, t, &id.runs)),

@@ -222,6 +222,7 @@ pub fn identify(
         beam_model,
         motor_model,
         state_space,
+        separability: None,
         arm: None,
         torque_per_command: campaign.channels.command.torque_per_command,
         findings,

@@ -9,6 +9,7 @@ use super::rational::{BeamFit, MotorFit};
 use super::regression::{BeamRegression, MotorRegression};
 use super::response_table::ResponsePoint;
 use super::run_analysis::RunAnalysis;
+use super::separability::Separability;
 use super::third_harmonic::PairFigure;
 use super::{Estimate, ModeEstimate};
 use crate::lti::StateSpace;
@@ -112,6 +113,8 @@ pub struct Identified {
     pub motor_model: Option<MotorFit>,
     /// Both as one state space, from the command to the motor and to each tip that is an angle.
     pub state_space: Option<StateSpace>,
+    /// Which of these the logs separate, run by run; `None` without a covariance.
+    pub separability: Option<Separability>,
     /// The arm that stands for these figures, to predict other logs with; `None` where they make none.
     pub arm: Option<FoundArm>,
     /// Torque per command used; `None`: figures are per unit of command.

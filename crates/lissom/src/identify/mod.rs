@@ -20,6 +20,7 @@ mod regression;
 mod replayed_bands;
 mod response_table;
 mod run_analysis;
+mod separability;
 mod third_harmonic;
 mod validation;
 mod verdict;
@@ -35,8 +36,8 @@ pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
 pub use friction_law::{CurvePoint, FrictionLaw, LawCandidate, LawFit, LawTerm};
 pub use identified::{Beam, Friction, Identified, NearRestEstimate, RippleEstimate, ThirdHarmonic};
 pub use output_error::{
-    Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, free_parameters,
-    output_error, starts,
+    ByRun, Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, output_error,
+    starts,
 };
 pub use rational::{BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_beam, fit_motor};
 pub use regression::{
@@ -45,6 +46,7 @@ pub use regression::{
 };
 pub use response_table::ResponsePoint;
 pub use run_analysis::{RunAnalysis, RunKind, Sinusoidal};
+pub use separability::{Carried, Direction, FigureKnown, Part, RunShare, RunToAdd, Separability};
 pub use third_harmonic::{PairFigure, RunPhasors, mean_figure, pair_figure};
 pub use validation::{
     Cause, CauseKind, ChannelResidual, Fit, Horizon, PredictedStretch, Stretch, TorquePrediction,

@@ -8,6 +8,7 @@ use super::identified::{Beam, Friction, Identified};
 use super::output_error;
 use super::regression::{self, BeamRegression};
 use super::run_analysis::RunKind;
+use super::separability::Separability;
 use super::{Estimate, Severity::Warning};
 use crate::record::{Campaign, CommandQuantity, Hold, TipQuantity};
 
@@ -58,6 +59,8 @@ pub(crate) fn conclude(campaign: &Campaign, used: &Campaign, id: &mut Identified
     model(id);
     methods(id, constant);
     tips(campaign, id);
+    id.separability = Separability::of(id, used);
+    id.findings.extend(id.separability.as_ref().and_then(Separability::finding));
     id.findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
     id.arm = FoundArm::of(id, used);
 }

@@ -5,8 +5,8 @@
 //! each of them says of every figure comes from the replay's exact derivatives; of all, those are
 //! chosen that reach the wanted deviations soonest.
 
+mod addition;
 mod choose;
-mod information;
 mod known;
 mod motion;
 mod note;
@@ -19,20 +19,21 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use thiserror::Error;
 
+pub use crate::information::Figure;
+use crate::information::growing_information;
 use crate::replay::Parameter;
 use crate::rig::{Rig, Scene};
+pub use addition::{Addition, Bounds, additions};
 use choose::choose;
-pub use information::expected_covariance;
-use information::growing_information;
 use known::Known;
 pub use motion::PlannedMotion;
-use motion::{Group, groups};
+use motion::{Group, Reach, groups};
 pub use note::PlanNote;
 use planner::Planner;
 use sizing::Limits;
 pub use sizing::Unfit;
 pub use table::{ReferenceTable, reference_table};
-pub use wish::{Figure, Kinds, Precision, Wishes};
+pub use wish::{Kinds, Precision, Wishes};
 
 /// Sizes of a motion, as shares of the largest.
 const SHARES: [f64; 2] = [1.0, 0.4];
@@ -197,7 +198,13 @@ pub fn plan(
     check(wishes)?;
     let plain = Rig { scene: Scene::default(), ..rig.clone() };
     let known = Known::of(&plain)?;
-    let all = groups(&known, &plain, wishes.travel_rad, wishes.kinds == Kinds::Sines);
+    let reach = Reach {
+        arm: &known.arm,
+        torque_nm: rig.arm.motor.torque_constant_nm_per_a * rig.instruments.amplifier.most_a(),
+        travel_rad: wishes.travel_rad,
+        command_time_s: rig.instruments.control_time_s(),
+    };
+    let all = groups(&reach, wishes.kinds == Kinds::Sines);
     let longest_s = longest_wait_s(&plain, wishes, &all)?;
     let limits = Limits::of(&plain, wishes, longest_s);
     let tried: Vec<(&Group, f64)> =
@@ -256,7 +263,7 @@ fn longest_wait_s(rig: &Rig, wishes: &Wishes, all: &[Group]) -> Result<f64, Plan
 
 fn candidate(
     rig: &Rig,
-    known: &Known,
+    known: &Known<'_>,
     limits: &Limits,
     motion: &PlannedMotion,
     share: f64,

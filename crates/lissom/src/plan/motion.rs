@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::known::Known;
-use crate::rig::{Drive, Experiment, Multisine, Reference, Rig, RigError, Settle, Sweep};
+use crate::replay::ModalArm;
+use crate::rig::{Drive, Experiment, Multisine, Reference, RigError, Settle, Sweep};
 
 /// Sines keep off every mode that is damped less than this…
 const LIGHTLY: f64 = 0.1;
@@ -134,13 +134,25 @@ impl PlannedMotion {
 /// Motions that are made together or not at all: a sine with its triple, or one alone.
 pub(super) type Group = Vec<PlannedMotion>;
 
+/// What bounds the frequencies worth driving.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reach<'a> {
+    pub(super) arm: &'a ModalArm,
+    /// Largest torque \[N·m\].
+    pub(super) torque_nm: f64,
+    /// Largest angle from where the motor begins \[rad\].
+    pub(super) travel_rad: f64,
+    /// Time between two commands \[s\].
+    pub(super) command_time_s: f64,
+}
+
 /// All that a plan may choose from.
-pub(super) fn groups(known: &Known, rig: &Rig, travel_rad: f64, sines_alone: bool) -> Vec<Group> {
-    let (low, high) = band(known, rig, travel_rad);
+pub(super) fn groups(reach: &Reach<'_>, sines_alone: bool) -> Vec<Group> {
+    let (low, high) = band(reach);
     let mut found: Vec<Group> = steps(low, high, SINES)
         .into_iter()
-        .filter(|omega| is_clear(known, *omega))
-        .filter_map(|omega_rad_s| sine(known, omega_rad_s, high))
+        .filter(|omega| is_clear(reach.arm, *omega))
+        .filter_map(|omega_rad_s| sine(reach.arm, omega_rad_s, high))
         .collect();
     if sines_alone {
         return found;
@@ -160,10 +172,10 @@ pub(super) fn groups(known: &Known, rig: &Rig, travel_rad: f64, sines_alone: boo
 
 /// A sine with its triple. One whose triple cannot be driven goes alone; one whose triple meets a mode
 /// is none.
-fn sine(known: &Known, omega_rad_s: f64, high: f64) -> Option<Group> {
+fn sine(arm: &ModalArm, omega_rad_s: f64, high: f64) -> Option<Group> {
     let triple = exactly(3.0 * omega_rad_s);
     let one = PlannedMotion::Sine { omega_rad_s };
-    if !is_clear(known, triple) {
+    if !is_clear(arm, triple) {
         None
     } else if triple > high {
         Some(vec![one])
@@ -173,9 +185,9 @@ fn sine(known: &Known, omega_rad_s: f64, high: f64) -> Option<Group> {
 }
 
 /// Whether a frequency is off every lightly damped mode.
-fn is_clear(known: &Known, omega_rad_s: f64) -> bool {
-    let ratios = known.arm.damping_ratios();
-    known.arm.modes.iter().zip(ratios).all(|(mode, ratio)| {
+fn is_clear(arm: &ModalArm, omega_rad_s: f64) -> bool {
+    let ratios = arm.damping_ratios();
+    arm.modes.iter().zip(ratios).all(|(mode, ratio)| {
         let off = (omega_rad_s / mode.omega_rad_s - 1.0).abs();
         ratio > LIGHTLY || off > KEEP_OFF.max(HALF_WIDTHS * ratio)
     })
@@ -183,13 +195,12 @@ fn is_clear(known: &Known, omega_rad_s: f64) -> bool {
 
 /// Lowest and highest frequency of all: about those at which the whole travel takes the whole current,
 /// and about the modes.
-fn band(known: &Known, rig: &Rig, travel_rad: f64) -> (f64, f64) {
-    let arm = &known.arm;
+fn band(reach: &Reach<'_>) -> (f64, f64) {
+    let arm = reach.arm;
     let carried: f64 =
         arm.modes.iter().map(|m| m.stiffness_nm_per_rad / m.omega_rad_s.powi(2)).sum();
-    let constant = rig.arm.motor.torque_constant_nm_per_a;
-    let left_nm = constant * rig.instruments.amplifier.most_a() - arm.coulomb_nm;
-    let corner = (left_nm / ((arm.inertia_kg_m2 + carried) * travel_rad)).sqrt();
+    let left_nm = reach.torque_nm - arm.coulomb_nm;
+    let corner = (left_nm / ((arm.inertia_kg_m2 + carried) * reach.travel_rad)).sqrt();
     let first = arm.modes.first().map(|m| m.omega_rad_s);
     let last = arm.modes.last().map(|m| m.omega_rad_s);
     let corner = Some(corner).filter(|c| c.is_finite() && *c > 0.0);
@@ -197,7 +208,7 @@ fn band(known: &Known, rig: &Rig, travel_rad: f64) -> (f64, f64) {
     let highest = corner.map(|c| 3.0 * c).into_iter().chain(last.map(|w| 1.6 * w));
     let highest = highest.fold(0.0, f64::max);
     let (low, high) = if highest > 0.0 { (0.2 * lowest, highest) } else { BAND_RAD_S };
-    let fastest = NYQUIST * PI / rig.instruments.control_time_s();
+    let fastest = NYQUIST * PI / reach.command_time_s;
     (low.min(0.05 * fastest), high.min(fastest))
 }
 

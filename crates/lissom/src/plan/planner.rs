@@ -3,18 +3,18 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::choose::{self, Choice, Chosen, Goal};
-use super::information::covariance;
 use super::known::Known;
 use super::{
     BETWEEN_S, Candidate, Expected, Figure, Kinds, Plan, PlanError, PlanNote, PlannedMotion,
     PlannedRun, Unfit, Wishes, note,
 };
+use crate::information::covariance;
 use crate::replay::Parameter;
 use crate::rig::Rig;
 
 /// What there is to choose from, and what is to be reached.
 pub(super) struct Planner<'a> {
-    known: &'a Known,
+    known: &'a Known<'a>,
     rig: &'a Rig,
     wishes: &'a Wishes,
     /// Motions made together.
@@ -27,7 +27,7 @@ pub(super) struct Planner<'a> {
 
 impl<'a> Planner<'a> {
     pub(super) fn new(
-        known: &'a Known,
+        known: &'a Known<'a>,
         rig: &'a Rig,
         wishes: &'a Wishes,
         found: &'a [Result<Vec<Candidate>, Unfit>],
@@ -38,7 +38,8 @@ impl<'a> Planner<'a> {
             let reasons = reasons.iter().map(|(why, n)| format!("{n} {why}")).collect();
             return Err(PlanError::NoMotion { tried: found.len(), reasons });
         }
-        let scale = scale(known);
+        let sizes = known.parameters.iter().map(|p| p.size(&known.arm));
+        let scale = DVector::from_iterator(known.parameters.len(), sizes);
         let choices: Vec<Choice> = sets.iter().map(|set| choice(set, &scale)).collect();
         let shortest_s = choices.iter().map(|c| c.time_s[0]).fold(f64::INFINITY, f64::min);
         if shortest_s > wishes.within_s {
@@ -176,27 +177,4 @@ fn order(motion: &PlannedMotion) -> f64 {
         PlannedMotion::Multisine { omega_rad_s, .. } => 1e6 * omega_rad_s,
         PlannedMotion::Chirp { from_rad_s, .. } => 1e12 * from_rad_s,
     }
-}
-
-/// Size of each parameter: its value, where that is a measure.
-fn scale(known: &Known) -> DVector<f64> {
-    let arm = &known.arm;
-    let positive = |value: f64, or: f64| if value > 0.0 { value } else { or };
-    let first = arm.modes.first().map_or(1.0, |m| m.omega_rad_s);
-    let size = |p: &Parameter| match *p {
-        Parameter::Viscous => positive(p.of(arm), 0.01 * arm.inertia_kg_m2 * first),
-        Parameter::Coulomb | Parameter::Offset => {
-            positive(arm.coulomb_nm, arm.inertia_kg_m2 * first * first)
-        }
-        // A damping ratio of a hundredth.
-        Parameter::DampingWithin(j) | Parameter::DampingGrounded(j) => {
-            0.02 * arm.modes[j].omega_rad_s
-        }
-        Parameter::Inertia | Parameter::Stiffness(_) | Parameter::Frequency(_) => {
-            positive(p.of(arm).abs(), 1.0)
-        }
-        Parameter::CommandLag => positive(p.of(arm), 1e-3),
-        _ => 1.0,
-    };
-    DVector::from_iterator(known.parameters.len(), known.parameters.iter().map(size))
 }

@@ -1,79 +1,6 @@
 //! What a plan is to reach, and within which bounds.
 
-use crate::replay::{ModalArm, Parameter};
-
-/// A figure of an arm whose precision may be wished for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Figure {
-    /// Coulomb friction, mean of both directions.
-    Coulomb,
-    /// Viscous friction.
-    Viscous,
-    /// Inertia of the motor's side.
-    Inertia,
-    /// Coupling between motor and beam.
-    Coupling,
-    /// Frequency of a mode, motor clamped.
-    Frequency(usize),
-    /// Damping of a mode, of the kind that it has: against the fixed frame or within the beam.
-    Damping(usize),
-}
-
-impl Figure {
-    /// All that an arm has.
-    pub(super) fn of(arm: &ModalArm) -> Vec<Self> {
-        let mut all = vec![Self::Coulomb, Self::Viscous, Self::Inertia];
-        if !arm.modes.is_empty() {
-            all.push(Self::Coupling);
-        }
-        all.extend((0..arm.modes.len()).map(Self::Frequency));
-        all.extend((0..arm.modes.len()).map(Self::Damping));
-        all.retain(|figure| figure.value(arm) > 0.0);
-        all
-    }
-
-    /// What it is called.
-    pub fn name(self) -> String {
-        match self {
-            Self::Coulomb => "Coulomb friction".to_owned(),
-            Self::Viscous => "viscous friction".to_owned(),
-            Self::Inertia => "inertia".to_owned(),
-            Self::Coupling => "coupling".to_owned(),
-            Self::Frequency(j) => format!("frequency of mode {}", j + 1),
-            Self::Damping(j) => format!("damping of mode {}", j + 1),
-        }
-    }
-
-    /// Its value in SI.
-    pub fn value(self, arm: &ModalArm) -> f64 {
-        match self {
-            Self::Coulomb => arm.coulomb_nm,
-            Self::Viscous => Parameter::Viscous.of(arm),
-            Self::Inertia => arm.inertia_kg_m2,
-            Self::Coupling => arm.coupling_nm_per_rad(),
-            Self::Frequency(j) => arm.modes[j].omega_rad_s,
-            Self::Damping(j) => arm.modes[j].within_per_s + arm.modes[j].grounded_per_s,
-        }
-    }
-
-    /// Its derivative by a parameter; damping against the fixed frame stands for all of a mode that has
-    /// some.
-    pub(super) fn slope(self, arm: &ModalArm, parameter: Parameter) -> f64 {
-        let of = match (self, parameter) {
-            (Self::Coulomb, Parameter::Coulomb)
-            | (Self::Viscous, Parameter::Viscous)
-            | (Self::Inertia, Parameter::Inertia)
-            | (Self::Coupling, Parameter::Stiffness(_)) => true,
-            (Self::Frequency(j), Parameter::Frequency(k))
-            | (Self::Damping(j), Parameter::DampingGrounded(k)) => j == k,
-            (Self::Damping(j), Parameter::DampingWithin(k)) => {
-                j == k && arm.modes[j].grounded_per_s <= 0.0
-            }
-            _ => false,
-        };
-        f64::from(of)
-    }
-}
+use crate::information::Figure;
 
 /// Wanted standard deviations, relative to the figures.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -127,7 +54,7 @@ impl Precision {
     /// What is wanted of a figure.
     pub fn of(&self, figure: Figure) -> f64 {
         match figure {
-            Figure::Coulomb => self.coulomb,
+            Figure::Coulomb | Figure::Offset => self.coulomb,
             Figure::Viscous => self.viscous,
             Figure::Inertia => self.inertia,
             Figure::Coupling => self.coupling,

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
+use super::arm_modes::ArmModes;
 use super::dry_terms::DryTerms;
 use crate::arm::Arm;
 
@@ -74,43 +75,8 @@ impl ModalArm {
     /// `None` for an arm without distinct modes, with more than [`MOST_MODES`], or whose payload turns
     /// beside dampers at masses.
     pub fn of_arm(arm: &Arm) -> Option<Self> {
-        let d = arm.dynamics();
-        let (n, masses) = (d.len(), arm.beam().len());
-        if n > MOST_MODES {
-            return None;
-        }
-        let (omega, shapes) = Self::modes_of(&-&d.elastic)?;
-        let r = DMatrix::from_fn(n, n, |i, j| shapes[i][j]);
-        let inverse = r.clone().try_inverse()?;
-        let within = match &d.relative {
-            Some(m) => -(&inverse * m * &r).diagonal(),
-            None => DVector::zeros(n),
-        };
-        let at_points_per_s = match &d.absolute {
-            None if n == masses => vec![0.0; n],
-            None => Vec::new(),
-            Some(m) if n == masses => m.diagonal().iter().map(|g| -g).collect(),
-            Some(_) => return None,
-        };
-        let stiffness = -(r.transpose() * &d.coupling);
-        Some(Self {
-            inertia_kg_m2: arm.motor.inertia_kg_m2,
-            viscous_nm_s_per_rad: [arm.motor.viscous_nm_s_per_rad; 2],
-            coulomb_nm: 0.5 * (arm.coulomb.forward + arm.coulomb.backward),
-            offset_nm: 0.5 * (arm.coulomb.forward - arm.coulomb.backward),
-            dry_terms: DryTerms::default(),
-            modes: (0..n)
-                .map(|j| Oscillator {
-                    omega_rad_s: omega[j],
-                    stiffness_nm_per_rad: stiffness[j],
-                    within_per_s: within[j],
-                    grounded_per_s: 0.0,
-                })
-                .collect(),
-            shapes: shapes[..masses].to_vec(),
-            at_points_per_s,
-            command_lag_s: 0.0,
-        })
+        let modes = ArmModes::of(arm)?;
+        if modes.omega_rad_s().len() > MOST_MODES { None } else { modes.whole() }
     }
 
     /// ζ_j of every mode with the motor clamped, to first order in the dampers at points.
@@ -127,7 +93,7 @@ impl ModalArm {
     }
 
     /// r⁻¹·diag(c)·r, where there are dampers at points.
-    fn points_in_modes(&self) -> Option<DMatrix<f64>> {
+    pub(crate) fn points_in_modes(&self) -> Option<DMatrix<f64>> {
         let n = self.modes.len();
         if n == 0 || self.at_points_per_s.len() != n {
             return None;

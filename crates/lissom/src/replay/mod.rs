@@ -5,6 +5,7 @@
 //! the motor comes to rest or reverses, tangents jump (saltation).
 
 mod arm;
+mod arm_modes;
 mod dry_terms;
 mod events;
 mod friction;
@@ -22,9 +23,10 @@ mod transition;
 mod window;
 
 pub use arm::{MOST_MODES, ModalArm, Oscillator};
+pub use arm_modes::ArmModes;
 pub use dry_terms::{DryTerms, NearRest, Ripple};
 pub use noise::SensorNoise;
-pub use parameter::Parameter;
+pub use parameter::{Parameter, free_parameters};
 pub use point_masses::{BeamCoordinate, BeamDerivative, PointMasses};
 pub use prediction::{Prediction, predict};
 pub use sums::{Blocks, Sampling, Window, WindowSums, costs, sums};

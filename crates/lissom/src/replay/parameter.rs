@@ -1,6 +1,7 @@
 //! Parameters of a replayed arm, each by name.
 
 use super::arm::ModalArm;
+use crate::record::Channels;
 
 /// One number of a [`ModalArm`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,6 +92,25 @@ impl Parameter {
         )
     }
 
+    /// Its natural size in an arm, in its own unit: its value where that is a measure.
+    pub fn size(self, arm: &ModalArm) -> f64 {
+        let positive = |value: f64, or: f64| if value > 0.0 { value } else { or };
+        let first = arm.modes.first().map_or(1.0, |m| m.omega_rad_s);
+        match self {
+            Self::Viscous => positive(self.of(arm), 0.01 * arm.inertia_kg_m2 * first),
+            Self::Coulomb | Self::Offset => {
+                positive(arm.coulomb_nm, arm.inertia_kg_m2 * first * first)
+            }
+            // A damping ratio of a hundredth.
+            Self::DampingWithin(j) | Self::DampingGrounded(j) => 0.02 * arm.modes[j].omega_rad_s,
+            Self::Inertia | Self::Stiffness(_) | Self::Frequency(_) => {
+                positive(self.of(arm).abs(), 1.0)
+            }
+            Self::CommandLag => positive(self.of(arm), 1e-3),
+            _ => 1.0,
+        }
+    }
+
     /// Its name in results, modes and tips counted from one.
     pub fn name(self) -> String {
         match self {
@@ -174,4 +194,27 @@ impl Parameter {
             }
         }
     }
+}
+
+/// The parameters of an arm that channels can show, with Coulomb friction, one viscous
+/// constant and damping within the beam.
+pub fn free_parameters(channels: &Channels, arm: &ModalArm) -> Vec<Parameter> {
+    let mut free =
+        vec![Parameter::Inertia, Parameter::Viscous, Parameter::Coulomb, Parameter::Offset];
+    let modes = arm.modes.len();
+    for j in 0..modes {
+        free.extend([
+            Parameter::Frequency(j),
+            Parameter::Stiffness(j),
+            Parameter::DampingWithin(j),
+        ]);
+    }
+    for (i, tip) in channels.tips.iter().enumerate() {
+        if tip.calibrated {
+            free.extend((0..modes.saturating_sub(1)).map(|j| Parameter::ShapeShare(i, j)));
+        } else {
+            free.extend((0..modes).map(|j| Parameter::Shape(i, j)));
+        }
+    }
+    free
 }

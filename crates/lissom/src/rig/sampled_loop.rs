@@ -1,5 +1,7 @@
 //! The sampled loop of 5.1 and 6.1: an arm, its instruments and a controller.
 
+use std::ops::Range;
+
 use super::controller::{ControlLaw, Controller, Sensed};
 use super::error::positive;
 use super::experiment::{Drive, Experiment, Reference, Settle};
@@ -9,7 +11,7 @@ use super::logging::Log;
 use super::settling::Settling;
 use super::{HeldArm, Motion, RigError, Scene};
 use crate::arm::Arm;
-use crate::record::Run;
+use crate::record::{Axis, Channels, Command, CommandQuantity, Hold, Run, Tip, TipQuantity};
 
 /// Angle beyond which a loop is taken for unstable, as a multiple of the largest of: the
 /// reference's amplitude, [`LEAST_RAD`], [`STEPS`] steps of the motor's sensor, the start's
@@ -79,6 +81,28 @@ impl Rig {
     /// An arm with a free tip and Coulomb friction of its own.
     pub fn new(arm: Arm, instruments: Instruments, controller: ControlLaw) -> Self {
         Self { arm, scene: Scene::default(), instruments, controller }
+    }
+
+    /// What its logs hold, of the masses `tips` alone: the commanded current and angles.
+    pub fn channels(&self, tips: Range<usize>) -> Channels {
+        let instruments = &self.instruments;
+        let held = instruments.control_every.is_multiple_of(instruments.log_every);
+        let tip = |mass: usize| Tip {
+            name: format!("theta_{}", mass + 1),
+            quantity: TipQuantity::Angle,
+            calibrated: true,
+        };
+        Channels {
+            axis: Axis::Rotary,
+            command: Command {
+                quantity: CommandQuantity::Current,
+                hold: if held { Hold::Sampled } else { Hold::Measured },
+                torque_per_command: Some(self.arm.motor.torque_constant_nm_per_a),
+                back_emf_viscous: 0.0,
+                limit: instruments.amplifier.limit_a(),
+            },
+            tips: tips.map(tip).collect(),
+        }
     }
 
     /// Carries out an experiment with the rig's own controller.

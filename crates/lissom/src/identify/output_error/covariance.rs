@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::normal::{Reduced, inverse};
+use crate::information::{Reduced, inverse};
 use crate::replay::WindowSums;
 
 /// Two covariances of the same figures.

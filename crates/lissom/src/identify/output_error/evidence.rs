@@ -3,9 +3,9 @@
 use super::coordinates::Body;
 use super::covariance::{Covariances, deviation};
 use super::law;
-use super::normal::{inverse, normal_equations};
 use super::search::Stop;
 use super::stages::{Fit, Fitting, Report};
+use crate::information::{inverse, normal_equations};
 use crate::replay::{Parameter, WindowSums};
 
 /// A parameter is called for where it would stand this many deviations from what it is without…

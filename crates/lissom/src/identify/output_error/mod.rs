@@ -1,6 +1,7 @@
 //! Output error: the logged command replayed through an arm whose figures are moved until it shows
 //! the logged angles.
 
+mod by_run;
 mod coordinates;
 mod covariance;
 mod data;
@@ -10,7 +11,6 @@ mod follow;
 mod law;
 mod modes;
 mod noise;
-mod normal;
 mod search;
 mod stages;
 mod start;
@@ -21,8 +21,10 @@ use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use super::{Estimate, LawTerm};
+use crate::information::{self as normal, propagated};
 use crate::record::Campaign;
 use crate::replay::{ModalArm, Parameter, SensorNoise, Window};
+pub use by_run::ByRun;
 use covariance::deviation;
 pub(crate) use data::{Masks, masks};
 pub use evidence::Extension;
@@ -30,8 +32,11 @@ pub(crate) use follow::follow;
 pub use search::{Iteration, Stop};
 pub use stages::StageReport;
 use stages::{Fitting, Report};
-pub use start::{free_parameters, starts};
+pub use start::starts;
 pub(crate) use verdict::verdict;
+
+/// Differences for the slopes of figures are taken over this many deviations.
+const HALF: f64 = 0.5;
 
 /// What the output error gives.
 #[derive(Debug, Clone)]
@@ -46,6 +51,10 @@ pub struct OutputError {
     pub white: DMatrix<f64>,
     /// By blocks left out.
     pub blocks: DMatrix<f64>,
+    /// What each run says of them.
+    pub by_run: ByRun,
+    /// Noise of each channel by which residuals were weighed, motor first, then tips.
+    pub noise: Vec<SensorNoise>,
     /// Windows of the last stage, with the states at which they begin.
     pub windows: Vec<Window>,
     /// Every length of windows, in order.
@@ -69,10 +78,8 @@ impl OutputError {
 
     /// Any figure of the arm, its deviation from the parameters'.
     pub fn figure(&self, of: impl Fn(&ModalArm) -> f64) -> Estimate {
-        let variances = self.variances(&|arm| Some(vec![Complex64::from(of(arm))]));
-        // Without free parameters there is nothing to vary.
-        let variance = variances.map_or(f64::NAN, |v| v.first().copied().unwrap_or(0.0));
-        Estimate { value: of(&self.arm), std: variance.sqrt() }
+        let std = propagated(&self.arm, &self.parameters, &self.covariance, HALF, &of);
+        Estimate { value: of(&self.arm), std }
     }
 
     /// What the parameters' covariance gives quantities of the arm: `E|Δ|²` of each, by differences over
@@ -82,7 +89,7 @@ impl OutputError {
         of: &dyn Fn(&ModalArm) -> Option<Vec<Complex64>>,
     ) -> Option<Vec<f64>> {
         let slopes = |(i, p): (usize, &Parameter)| {
-            let half = 0.5 * deviation(&self.covariance, i);
+            let half = HALF * deviation(&self.covariance, i);
             let with = |change: f64| {
                 let mut arm = self.arm.clone();
                 p.set(&mut arm, p.of(&self.arm) + change);
@@ -153,7 +160,9 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
     fitting.count_steps(&mut fit, &mut report);
     let beyond_noise = fitting.beyond_noise(&fit);
     fit.noise.iter_mut().for_each(|n| *n = SensorNoise::gaussian(n.deviation()));
-    let found = fitting.covariances(&fit);
+    let sums = fitting.point(&fit, &fit.free).sums;
+    let found = fit.covariances(&sums);
+    let by_run = fit.by_run(&sums);
     report.added.append(&mut report.refused);
     Some(OutputError {
         point_masses: fit.body.masses.is_some(),
@@ -161,6 +170,8 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         covariance: found.larger(),
         white: found.white,
         blocks: found.blocks,
+        by_run,
+        noise: fit.noise,
         windows: fit.windows,
         parameters: fit.free,
         beyond_noise,

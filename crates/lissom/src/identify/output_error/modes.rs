@@ -3,8 +3,7 @@
 use super::coordinates::Body;
 use super::covariance::deviation;
 use super::stages::{Fit, Fitting, Report};
-use super::start::free_parameters;
-use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter};
+use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
 
 /// A mode is in doubt whose stiffness is not this many deviations from zero…
 const DEVIATIONS: f64 = 5.0;
@@ -77,7 +76,7 @@ fn refitted(fitting: &Fitting<'_>, fit: Fit, report: &mut Report) -> Fit {
 /// Free what its modes make free.
 fn refreed(fitting: &Fitting<'_>, mut fit: Fit) -> Fit {
     let extra: Vec<Parameter> = fit.free.iter().copied().filter(|p| is_extra(*p)).collect();
-    fit.free = free_parameters(fitting.campaign, &fit.body.arm);
+    fit.free = free_parameters(&fitting.campaign.channels, &fit.body.arm);
     fit.free.extend(extra);
     fit
 }

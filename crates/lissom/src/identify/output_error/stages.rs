@@ -1,6 +1,7 @@
 //! From short windows to whole runs, and what each step of the way left.
 
 use super::OutputErrorStart;
+use super::by_run::ByRun;
 use super::coordinates::Body;
 use super::covariance::Covariances;
 use super::data::Masks;
@@ -9,12 +10,11 @@ use super::figures::BEYOND;
 use super::modes;
 use super::noise;
 use super::search::{Iteration, Point, Problem, Stop, is_possible};
-use super::start::free_parameters;
 use super::windows::{cut, widen};
 use crate::identify::LawTerm;
 use crate::record::{Campaign, Run};
 use crate::replay::{
-    Blocks, ModalArm, Parameter, Sampling, SensorNoise, Window, WindowSums, costs,
+    Blocks, ModalArm, Parameter, Sampling, SensorNoise, Window, WindowSums, costs, free_parameters,
 };
 
 /// Most steps of a stage before the last, which only leads to it.
@@ -92,6 +92,20 @@ impl Fit {
     pub(super) fn coordinates(&self) -> usize {
         self.body.coordinates(&self.free).len()
     }
+
+    /// Covariances of the free parameters, from sums by what they move.
+    pub(super) fn covariances(&self, sums: &[WindowSums]) -> Covariances {
+        let found = Covariances::at(sums, self.coordinates());
+        match self.body.jacobian(&self.free) {
+            Some(jacobian) => found.through(&jacobian),
+            None => found,
+        }
+    }
+
+    /// The same sums run by run.
+    pub(super) fn by_run(&self, sums: &[WindowSums]) -> ByRun {
+        ByRun::of(sums, &self.windows, self.coordinates(), self.body.jacobian(&self.free))
+    }
 }
 
 /// What was done.
@@ -139,11 +153,7 @@ impl Fitting<'_> {
 
     /// Covariances of the free parameters.
     pub(super) fn covariances(&self, fit: &Fit) -> Covariances {
-        let found = Covariances::at(&self.point(fit, &fit.free).sums, fit.coordinates());
-        match fit.body.jacobian(&fit.free) {
-            Some(jacobian) => found.through(&jacobian),
-            None => found,
-        }
+        fit.covariances(&self.point(fit, &fit.free).sums)
     }
 
     /// Cost of an arm and its windows where the noise is `noise`.
@@ -166,7 +176,7 @@ impl Fitting<'_> {
         let mut fit = Fit {
             body,
             windows,
-            free: free_parameters(self.campaign, &start.arm),
+            free: free_parameters(&self.campaign.channels, &start.arm),
             noise: self.noise.to_vec(),
             residual: Vec::new(),
             whole_runs: window_s >= longest,

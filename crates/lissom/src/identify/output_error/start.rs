@@ -2,7 +2,7 @@
 
 use crate::identify::{BeamFit, BeamRegression, MotorRegression};
 use crate::record::{Campaign, Tip, TipQuantity};
-use crate::replay::{DryTerms, MOST_MODES, ModalArm, Oscillator, Parameter};
+use crate::replay::{DryTerms, MOST_MODES, ModalArm, Oscillator};
 
 /// Smallest stiffness of a mode to start with, as a share of the coupling: its logarithm is moved.
 const LEAST_SHARE: f64 = 0.02;
@@ -120,27 +120,4 @@ fn with_modes(mut arm: ModalArm, (omega, ratios, shapes): Modes, coupling: &[f64
         if omega.len() == shapes.len() { vec![0.0; omega.len()] } else { Vec::new() };
     arm.shapes = shapes;
     arm
-}
-
-/// The parameters of an arm that a campaign's channels can show, with Coulomb friction, one viscous
-/// constant and damping within the beam.
-pub fn free_parameters(campaign: &Campaign, arm: &ModalArm) -> Vec<Parameter> {
-    let mut free =
-        vec![Parameter::Inertia, Parameter::Viscous, Parameter::Coulomb, Parameter::Offset];
-    let modes = arm.modes.len();
-    for j in 0..modes {
-        free.extend([
-            Parameter::Frequency(j),
-            Parameter::Stiffness(j),
-            Parameter::DampingWithin(j),
-        ]);
-    }
-    for (i, tip) in campaign.channels.tips.iter().enumerate() {
-        if tip.calibrated {
-            free.extend((0..modes.saturating_sub(1)).map(|j| Parameter::ShapeShare(i, j)));
-        } else {
-            free.extend((0..modes).map(|j| Parameter::Shape(i, j)));
-        }
-    }
-    free
 }

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use nalgebra::{DMatrix, DVector};
+
 use super::missing::{MissingTerm, missing_term};
 use super::normal::{Cluster, Solution, Term, solve};
 use super::phases::{slip_phases, smoothing};
@@ -63,7 +65,17 @@ pub struct MotorRegression {
     pub viscous_by_direction: Option<ByDirection>,
     /// A term that the equation lacks, where the data call for one.
     pub missing: Option<MissingTerm>,
-    parameters: Vec<f64>,
+    /// J, V, CF, offset, κ_i of the tips whose angle is known, as the logs have them.
+    pub(crate) terms: Terms,
+}
+
+/// Terms of the motor's equation together.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Terms {
+    pub(crate) values: Vec<f64>,
+    pub(crate) covariance: DMatrix<f64>,
+    /// Changes, up to a factor, that the logs do not show.
+    pub(crate) lost: Vec<DVector<f64>>,
 }
 
 /// Viscous friction forward and backward, with what else they change.
@@ -175,7 +187,11 @@ pub fn motor_regression(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRe
         }),
         missing,
         candidates: found.candidates,
-        parameters: solution.value.iter().copied().collect(),
+        terms: Terms {
+            values: solution.value.iter().copied().collect(),
+            covariance: solution.covariance.clone(),
+            lost: solution.lost.clone(),
+        },
     })
 }
 
@@ -197,17 +213,18 @@ impl MotorRegression {
     /// ‖y − X·q‖/‖y‖ on their slip phases, at this fit's window. `None` where no phase holds one.
     pub fn prediction_error(&self, campaign: &Campaign) -> Option<f64> {
         let tips = coupled_tips(campaign);
-        if self.parameters.len() != 4 + tips.len() {
+        let values = &self.terms.values;
+        if values.len() != 4 + tips.len() {
             return None;
         }
         let (mut left, mut power) = (0.0, 0.0);
         for c in clusters(campaign, &tips, self.window_s) {
             let last = c.products.ncols() - 1;
-            let mut q = vec![self.parameters[0], self.parameters[1]];
-            q.push(c.sign * self.parameters[2] + self.parameters[3]);
-            q.extend(&self.parameters[4..]);
+            let mut q = vec![values[0], values[1]];
+            q.push(c.sign * values[2] + values[3]);
+            q.extend(&values[4..]);
             q.push(-1.0);
-            let q = nalgebra::DVector::from_vec(q);
+            let q = DVector::from_vec(q);
             left += q.dot(&(&c.products * &q));
             power += c.products[(last, last)];
         }

@@ -76,6 +76,8 @@ pub(crate) struct Solution {
     pub(crate) value: DVector<f64>,
     /// Covariance: clusters and runs each taken as independent, the larger variance of the two.
     pub(crate) covariance: DMatrix<f64>,
+    /// Changes of all terms, up to a factor, that the rows do not show.
+    pub(crate) lost: Vec<DVector<f64>>,
     /// Terms that the rows cannot tell from others.
     pub(crate) inseparable: Vec<bool>,
     /// ‖y − X·q‖/‖y‖.
@@ -120,12 +122,14 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
     }
     let mut inseparable: Vec<bool> = (0..p).map(|i| normal[(i, i)] <= 0.0).collect();
     let mut inverse = DMatrix::zeros(p, p);
+    let mut lost = Vec::new();
     for (k, &lambda) in eigen.eigenvalues.iter().enumerate() {
         let v = eigen.eigenvectors.column(k);
         if lambda > RANK * largest {
             inverse += v * v.transpose() / lambda;
         } else {
             (0..p).filter(|&i| v[i].abs() > SHARE).for_each(|i| inseparable[i] = true);
+            lost.push(v.component_div(&scale));
         }
     }
     let inverse = DMatrix::from_fn(p, p, |i, j| inverse[(i, j)] / (scale[i] * scale[j]));
@@ -148,6 +152,7 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
     Some(Solution {
         value,
         covariance,
+        lost,
         inseparable,
         relative_residual: (left.max(0.0) / power).sqrt(),
         rows,
@@ -215,6 +220,9 @@ mod tests {
     fn one_direction_cannot_tell_friction_from_a_load() {
         let s = solve(&clusters(false), &TERMS).unwrap();
         assert_eq!(s.inseparable, [false, true, true]);
+        // Friction up and the load down by as much, or the other way round.
+        let [lost] = &s.lost[..] else { panic!("{:?}", s.lost) };
+        assert!((lost[1] + lost[2]).abs() < 1e-9 * lost[1].abs() && lost[0].abs() < 1e-9);
         assert!((s.value[0] - 2.0).abs() < 1e-12);
     }
 }

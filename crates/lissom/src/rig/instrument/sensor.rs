@@ -42,6 +42,14 @@ impl Sensor {
         self.quantiser.map_or((noisy, false), |q| (q.read(noisy), q.exceeded(noisy)))
     }
 
+    /// √(s² + q²/12) of noise with deviation s and steps of q, as if a reading's error were spread evenly
+    /// over a step \[rad\].
+    pub fn deviation(&self) -> f64 {
+        let step = self.quantiser.map_or(0.0, |q| q.step());
+        let noise = self.noise.map_or(0.0, |n| n.std());
+        (noise * noise + step * step / 12.0).sqrt()
+    }
+
     /// Its step or the deviation of its noise, whichever is larger \[rad\].
     pub fn resolution(&self) -> f64 {
         let step = self.quantiser.map_or(0.0, |q| q.step());

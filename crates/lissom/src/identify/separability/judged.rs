@@ -1,0 +1,130 @@
+//! Figures with their covariance in shares of their sizes, from either method.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{FigureKnown, correlation};
+use crate::identify::output_error::OutputError;
+use crate::identify::{Estimate, Identified};
+use crate::information::{Figure, inverse, slopes};
+use crate::record::Campaign;
+
+/// Differences for the slopes of figures are taken over this many deviations of a parameter.
+const HALF: f64 = 0.5;
+/// Share of a lost direction from which on a figure takes part in it.
+pub(super) const TAKES_PART: f64 = 0.01;
+
+/// Figures and their covariance.
+pub(super) struct Judged {
+    pub(super) figures: Vec<Figure>,
+    /// ∂(figure/size)/∂parameter, a column a figure.
+    pub(super) slopes: DMatrix<f64>,
+    /// In shares of the sizes.
+    pub(super) covariance: DMatrix<f64>,
+    /// Changes of the figures that the logs do not show, in shares of the sizes, of length one.
+    pub(super) lost: Vec<DVector<f64>>,
+}
+
+impl Judged {
+    /// The figures that the output error moved.
+    pub(super) fn of_replay(oe: &OutputError, used: &Campaign) -> Self {
+        let back_emf = used.channels.command.back_emf_viscous;
+        let arm = &oe.arm;
+        let all = Figure::of(arm).into_iter().chain([Figure::Offset]);
+        let (mut figures, mut columns) = (Vec::new(), Vec::new());
+        for figure in all {
+            let size = match figure {
+                Figure::Viscous => (figure.value(arm) - back_emf).abs(),
+                _ => figure.size(arm),
+            };
+            let of = |a: &_| figure.value(a) / size;
+            let column = slopes(arm, &oe.parameters, &oe.covariance, HALF, of);
+            let moved = column.iter().any(|s| *s != 0.0);
+            if moved && column.iter().all(|s| s.is_finite()) {
+                figures.push(figure);
+                columns.push(column);
+            }
+        }
+        let slopes = matrix(oe.parameters.len(), &columns);
+        let covariance = slopes.tr_mul(&(&oe.covariance * &slopes));
+        Self { figures, slopes, covariance, lost: Vec::new() }
+    }
+
+    /// Those of the regression on slip phases, with the deviations that it states; none where another
+    /// friction law took its place.
+    pub(super) fn of_regression(id: &Identified) -> Self {
+        let departs = id.friction_law.as_ref().is_some_and(|law| law.chosen.departs());
+        let Some(r) = id.regression.as_ref().filter(|_| !departs) else {
+            return Self::none();
+        };
+        let values = &r.terms.values;
+        let n = values.len();
+        let coupling: f64 = values[4..].iter().sum();
+        let coulomb = values[2].abs();
+        let all: [(Figure, &[usize], f64, Option<Estimate>); 5] = [
+            (Figure::Coulomb, &[2], coulomb, r.coulomb),
+            (Figure::Viscous, &[1], r.viscous.map_or(values[1], |v| v.value).abs(), r.viscous),
+            (Figure::Inertia, &[0], values[0].abs(), r.inertia),
+            (Figure::Coupling, &(4..n).collect::<Vec<_>>(), coupling.abs(), r.total_coupling),
+            (Figure::Offset, &[3], coulomb, r.offset),
+        ];
+        let all = all.iter().filter(|(_, terms, size, _)| !terms.is_empty() && *size > 0.0);
+        let (mut figures, mut columns, mut stated) = (Vec::new(), Vec::new(), Vec::new());
+        for (figure, terms, size, estimate) in all {
+            figures.push(*figure);
+            columns.push(DVector::from_fn(
+                n,
+                |i, _| {
+                    if terms.contains(&i) { 1.0 / size } else { 0.0 }
+                },
+            ));
+            stated.push(estimate.map(|e| e.std / size));
+        }
+        let slopes = matrix(n, &columns);
+        let plain = slopes.tr_mul(&(&r.terms.covariance * &slopes));
+        // What the choice of the window adds is in the stated deviations alone.
+        let stretch = |i: usize| stated[i].map_or(1.0, |s| s / plain[(i, i)].sqrt());
+        let covariance = DMatrix::from_fn(plain.nrows(), plain.ncols(), |i, j| {
+            plain[(i, j)] * stretch(i) * stretch(j)
+        });
+        let of_figures = |change: &DVector<f64>| {
+            let found = slopes.tr_mul(change);
+            (found.norm() > 0.0).then(|| found.normalize())
+        };
+        let lost = r.terms.lost.iter().filter_map(of_figures).collect();
+        Self { figures, slopes, covariance, lost }
+    }
+
+    fn none() -> Self {
+        let none = || DMatrix::zeros(0, 0);
+        Self { figures: Vec::new(), slopes: none(), covariance: none(), lost: Vec::new() }
+    }
+
+    /// Whether a figure takes part in a change that the logs do not show.
+    fn is_lost(&self, figure: usize) -> bool {
+        self.lost.iter().any(|change| change[figure].abs() > TAKES_PART)
+    }
+
+    pub(super) fn known(&self) -> Vec<FigureKnown> {
+        let information = inverse(&self.covariance);
+        let known = |(i, figure): (usize, &Figure)| FigureKnown {
+            figure: *figure,
+            std: if self.is_lost(i) { f64::INFINITY } else { self.covariance[(i, i)].sqrt() },
+            alone: 1.0 / information[(i, i)].sqrt(),
+        };
+        self.figures.iter().enumerate().map(known).collect()
+    }
+
+    /// Largest eigenvalue of the correlation matrix over the least.
+    pub(super) fn condition(&self) -> f64 {
+        if self.figures.is_empty() || !self.lost.is_empty() {
+            return f64::INFINITY;
+        }
+        let values = correlation(&self.covariance).symmetric_eigenvalues();
+        let least = values.min();
+        if least > 0.0 { values.max() / least } else { f64::INFINITY }
+    }
+}
+
+fn matrix(rows: usize, columns: &[DVector<f64>]) -> DMatrix<f64> {
+    DMatrix::from_fn(rows, columns.len(), |i, j| columns[j][i])
+}

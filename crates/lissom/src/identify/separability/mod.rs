@@ -1,0 +1,130 @@
+//! Which figures the logs separate, by the covariance: the direction that they tell least about, what each
+//! run carries, which run spoils what, and which to add.
+
+mod direction;
+mod judged;
+mod run_to_add;
+mod runs;
+mod words;
+
+use nalgebra::DMatrix;
+
+pub use direction::{Direction, Part};
+use judged::Judged;
+pub use run_to_add::RunToAdd;
+pub use runs::{Carried, RunShare};
+
+use super::Identified;
+use super::finding::{Finding, Severity, key};
+use super::found_arm::ArmSource;
+use crate::information::Figure;
+use crate::record::Campaign;
+
+/// Relative deviation up to which a figure is sharp: where all are, nothing is left to separate.
+const SHARP: f64 = 0.01;
+
+/// A figure beside the others. Deviations are shares of its [size](Figure::size).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FigureKnown {
+    /// Which.
+    pub figure: Figure,
+    /// Its deviation; infinite where the logs do not tell it from others.
+    pub std: f64,
+    /// The deviation that it would have if the other figures were known.
+    pub alone: f64,
+}
+
+/// What the logs separate.
+///
+/// The covariance is the one that the figures' deviations are from, each figure in shares of its own
+/// size: F = S⁻¹·G·C·Gᵀ·S⁻¹ with C the parameters' covariance, G the figures' slopes, S the sizes. The
+/// deviation of `alone` is 1/√(F⁻¹)_ii.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Separability {
+    /// The method whose covariance it is.
+    pub source: ArmSource,
+    /// Every figure; empty where no method has a covariance of those that stand.
+    pub figures: Vec<FigureKnown>,
+    /// Condition of the figures' correlation matrix; infinite where some cannot be told apart.
+    pub condition: f64,
+    /// The principal directions of F, least known first.
+    pub directions: Vec<Direction>,
+    /// What each run carries, of an output error on two runs or more.
+    pub runs: Vec<RunShare>,
+    /// The further run that would say most about the figure that leads the first direction; `None` where
+    /// all are sharp, without an output error that stands, or where no run tried would help.
+    pub run_to_add: Option<RunToAdd>,
+}
+
+impl Separability {
+    /// Of the method that the figures are from; `used` are the runs that it used.
+    pub(super) fn of(id: &Identified, used: &Campaign) -> Option<Self> {
+        let by_replay = id.output_error.as_ref().map(|oe| (oe, Judged::of_replay(oe, used)));
+        let runs = by_replay
+            .as_ref()
+            .map_or(Vec::new(), |(oe, judged)| runs::shares(judged, &oe.by_run, used));
+        let stands = by_replay.filter(|(oe, _)| oe.stands());
+        let replay = stands.as_ref().map(|(oe, _)| *oe);
+        let (source, judged) = match stands {
+            Some((_, judged)) => (ArmSource::OutputError, judged),
+            None => (ArmSource::Regression, Judged::of_regression(id)),
+        };
+        let covariance = &judged.covariance;
+        let mut directions = direction::lost(&judged);
+        directions.extend(direction::of(&judged.figures, covariance));
+        let found = Self {
+            source,
+            figures: judged.known(),
+            condition: judged.condition(),
+            run_to_add: replay.and_then(|oe| {
+                RunToAdd::of(oe, used, &judged, directions.first().filter(|d| d.std > SHARP)?)
+            }),
+            directions,
+            runs,
+        };
+        (!found.figures.is_empty() || !found.runs.is_empty()).then_some(found)
+    }
+
+    /// Whether every figure is known to 1 % or better.
+    pub fn is_sharp(&self) -> bool {
+        self.figures.iter().all(|f| f.std <= SHARP)
+    }
+
+    /// The run that fits the others least, where it does not fit. One at a time: it is in the figures that
+    /// all others are compared with.
+    pub fn stands_out(&self) -> Option<&RunShare> {
+        let spoil = self.runs.iter().filter(|run| run.spoils());
+        spoil.max_by(|a, b| a.residual.total_cmp(&b.residual))
+    }
+
+    /// The run that does not fit the others, as a finding.
+    pub(super) fn finding(&self) -> Option<Finding> {
+        let run = self.stands_out()?;
+        let affects: Vec<&'static str> = run.moved().map(|c| key_of(c.figure)).collect();
+        let hint = "another load or friction in this run, a loose part, a sensor's scale: leave it out or make \
+             it again, then identify anew";
+        let finding =
+            Finding::new("run-stands-out", Severity::Warning, &affects, words::spoils(run), hint);
+        Some(finding.of(&run.run))
+    }
+}
+
+/// The result's key of a figure.
+fn key_of(figure: Figure) -> &'static str {
+    match figure {
+        Figure::Coulomb => key::COULOMB,
+        Figure::Viscous => key::VISCOUS,
+        Figure::Inertia => key::INERTIA,
+        Figure::Coupling => key::COUPLING,
+        Figure::Frequency(_) | Figure::Damping(_) => key::MODES,
+        Figure::Offset => key::OFFSET,
+    }
+}
+
+/// With ones on its diagonal.
+fn correlation(covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    let n = covariance.nrows();
+    DMatrix::from_fn(n, n, |i, j| {
+        covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt()
+    })
+}

@@ -1,0 +1,70 @@
+//! The further run that would say most about what the logs tell least.
+
+use super::direction::Direction;
+use super::judged::Judged;
+use crate::identify::output_error::OutputError;
+use crate::information::Figure;
+use crate::plan::{Addition, Bounds, PlannedMotion, additions};
+use crate::record::Campaign;
+
+/// A shorter run is as good whose deviation is larger by no more than this factor.
+const AS_GOOD: f64 = 1.1;
+/// A run is worth its time that leaves no more than this share of the deviation.
+const WORTH: f64 = 0.9;
+
+/// A run worth adding.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunToAdd {
+    /// What the motor is asked to do.
+    pub motion: PlannedMotion,
+    /// Amplitude of the reference \[rad\].
+    pub amplitude_rad: f64,
+    /// Time to log \[s\].
+    pub record_s: f64,
+    /// The figure that it is for: the one that moves most along the direction least known.
+    pub figure: Figure,
+    /// Deviation of that now, in shares of its [size](Figure::size)…
+    pub std_now: f64,
+    /// …and with the run.
+    pub std_then: f64,
+}
+
+impl RunToAdd {
+    /// Of the motions that a plan would try, within what the logs went to.
+    pub(super) fn of(
+        oe: &OutputError,
+        used: &Campaign,
+        judged: &Judged,
+        worst: &Direction,
+    ) -> Option<Self> {
+        let figure = worst.parts.first()?.figure;
+        let at = judged.figures.iter().position(|f| *f == figure)?;
+        let bounds = Bounds::of(used)?;
+        let tried = additions(&oe.arm, &oe.parameters, &used.channels, &oe.noise, &bounds);
+        let column = judged.slopes.columns(at, 1).into_owned();
+        let white = |addition: Option<&Addition>| {
+            let more = addition.map(|a| &a.information);
+            oe.by_run.covariance(&column, None, more)[(0, 0)].sqrt()
+        };
+        let now = white(None);
+        let share = tried.iter().map(|addition| white(Some(addition)) / now);
+        let all: Vec<(f64, &Addition)> = share.zip(&tried).filter(|(s, _)| s.is_finite()).collect();
+        let best = all.iter().map(|(share, _)| *share).reduce(f64::min)?;
+        let as_good = all.iter().filter(|(share, _)| *share <= AS_GOOD * best);
+        let order = |a: &&(f64, &Addition), b: &&(f64, &Addition)| {
+            (a.1.record_s, a.0)
+                .partial_cmp(&(b.1.record_s, b.0))
+                .unwrap_or(std::cmp::Ordering::Equal)
+        };
+        let (share, chosen) = *as_good.min_by(order)?;
+        let std_now = judged.covariance[(at, at)].sqrt();
+        (share <= WORTH).then_some(Self {
+            motion: chosen.motion,
+            amplitude_rad: chosen.amplitude_rad,
+            record_s: chosen.record_s,
+            figure,
+            std_now,
+            std_then: share * std_now,
+        })
+    }
+}

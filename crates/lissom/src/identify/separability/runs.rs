@@ -1,0 +1,90 @@
+//! What each run carries, and which does not fit the others.
+
+use nalgebra::DMatrix;
+
+use super::judged::Judged;
+use crate::identify::output_error::ByRun;
+use crate::information::Figure;
+use crate::record::Campaign;
+
+/// A run stands out whose residual is this many times that of the others…
+const RESIDUAL: f64 = 1.5;
+/// …and without which a figure would move by this many of its deviations…
+const DEVIATIONS: f64 = 3.0;
+/// …and by this share of itself.
+const MOVES: f64 = 1e-3;
+/// A run carries a figure whose deviation grows by this factor without it.
+const CARRIES: f64 = 2.0;
+
+/// What a run says beside the others.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunShare {
+    /// Its name.
+    pub run: String,
+    /// Root mean square of its residual over that of the others, at the figures that these have without
+    /// it.
+    pub residual: f64,
+    /// What it carries of each figure.
+    pub figures: Vec<Carried>,
+}
+
+/// A figure with and without a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Carried {
+    /// Which.
+    pub figure: Figure,
+    /// Its deviation without the run over that with it; infinite where the others do not show it.
+    pub growth: f64,
+    /// By how much it would move without the run, to first order, in shares of its size…
+    pub change: f64,
+    /// …and in the deviations that it has then.
+    pub deviations: f64,
+}
+
+impl RunShare {
+    /// Whether its residual is beyond that of the others and figures move by it.
+    pub fn spoils(&self) -> bool {
+        self.residual > RESIDUAL && self.moved().next().is_some()
+    }
+
+    /// Figures that would be others without it.
+    pub fn moved(&self) -> impl Iterator<Item = &Carried> {
+        self.figures.iter().filter(|c| c.deviations.abs() > DEVIATIONS && c.change.abs() > MOVES)
+    }
+
+    /// Figures that are known from it above all.
+    pub fn carries(&self) -> impl Iterator<Item = &Carried> {
+        self.figures.iter().filter(|c| c.growth > CARRIES)
+    }
+}
+
+/// One for each run of two or more.
+pub(super) fn shares(judged: &Judged, by_run: &ByRun, used: &Campaign) -> Vec<RunShare> {
+    let all = by_run.covariance(&judged.slopes, None, None);
+    let share = |run: usize| {
+        let beside = by_run.beside_others(run)?;
+        Some(RunShare {
+            run: used.runs[run].name().to_owned(),
+            residual: beside.residual,
+            figures: carried(judged, by_run, (run, beside.noise), &all),
+        })
+    };
+    by_run.runs().filter_map(share).collect()
+}
+
+fn carried(
+    judged: &Judged,
+    by_run: &ByRun,
+    (run, noise): (usize, f64),
+    all: &DMatrix<f64>,
+) -> Vec<Carried> {
+    let without = by_run.covariance(&judged.slopes, Some(run), None);
+    let change = by_run.change_without(&judged.slopes, run);
+    let of_figure = |(i, figure): (usize, &Figure)| Carried {
+        figure: *figure,
+        growth: (without[(i, i)] / all[(i, i)]).sqrt(),
+        change: change[i],
+        deviations: change[i] / (noise * without[(i, i)].sqrt()),
+    };
+    judged.figures.iter().enumerate().map(of_figure).collect()
+}

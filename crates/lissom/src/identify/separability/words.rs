@@ -1,0 +1,175 @@
+//! What the logs separate, in words.
+
+use super::direction::{Direction, Part};
+use super::runs::{Carried, RunShare};
+use super::{FigureKnown, RunToAdd, Separability};
+use crate::information::Figure;
+use crate::plan::{PlannedMotion, percent};
+use crate::record::Axis;
+
+/// Deviations of a 95 % interval.
+const NORMAL_95: f64 = 1.96;
+/// Change of the leading figure by which a direction without deviation is told.
+const TOLD: f64 = 0.1;
+/// Changes beyond this share are told as such.
+const LARGE: f64 = 0.2;
+/// Figures named that a run moves.
+const TOLD_MOST: usize = 3;
+/// A figure suffers from the others where its deviation is this many times that with them known.
+const SUFFERS: f64 = 3.0;
+
+impl Separability {
+    /// The verdict, a sentence or two for each thing to know.
+    pub fn words(&self, axis: Axis) -> Vec<String> {
+        let stands_out = self.stands_out();
+        let mut lines: Vec<String> =
+            stands_out.iter().map(|run| format!("Run {}: {}.", run.run, spoils(run))).collect();
+        lines.extend(self.least_known());
+        lines.extend(self.suffering());
+        if stands_out.is_none() {
+            lines.extend(self.runs.iter().filter_map(carries));
+        }
+        lines.extend(self.run_to_add.as_ref().map(|run| worth_adding(run, axis)));
+        lines
+    }
+
+    fn least_known(&self) -> Option<String> {
+        let worst = self.directions.first()?;
+        if self.is_sharp() {
+            let least = self.figures.iter().max_by(|a, b| a.std.total_cmp(&b.std))?;
+            return Some(format!(
+                "Nothing is left to separate: every figure is known to 1 % or better, the least {} to \
+                 ± {} (± {} with 95 %).",
+                least.figure.name(),
+                percent(least.std),
+                percent(NORMAL_95 * least.std)
+            ));
+        }
+        if worst.std.is_infinite() {
+            return Some(format!(
+                "The logs do not tell these apart: {}; they would be the same.",
+                moved(&worst.parts, TOLD / worst.parts.first()?.weight)
+            ));
+        }
+        Some(format!("{}{}", told(worst)?, self.best_known()))
+    }
+
+    fn best_known(&self) -> String {
+        let best = self.directions.last().filter(|_| self.directions.len() > 1);
+        let name = best.and_then(|d| Some((d, d.parts.first()?.figure.name())));
+        name.map_or_else(String::new, |(d, name)| {
+            let together = if d.parts.len() > 1 { " with what goes along" } else { "" };
+            format!(" Best known is {name}{together}, to ± {}.", percent(d.std))
+        })
+    }
+
+    /// What the leading figure would be if the others were known.
+    fn suffering(&self) -> Option<String> {
+        let lead = self.directions.first()?.parts.first()?.figure;
+        let known = self.figures.iter().find(|f| f.figure == lead)?;
+        let FigureKnown { std, alone, .. } = *known;
+        (!self.is_sharp() && std.is_finite() && std > SUFFERS * alone).then(|| {
+            format!(
+                "Were the other figures known, {} would be known to ± {}: what is missing is not \
+                 signal but a motion that tells them apart.",
+                lead.name(),
+                percent(alone)
+            )
+        })
+    }
+}
+
+/// A direction that is known badly.
+fn told(worst: &Direction) -> Option<String> {
+    let first = worst.parts.first()?;
+    Some(if worst.parts.len() == 1 {
+        let std = worst.std * first.weight;
+        format!("The logs tell least about {}: ± {}.", first.figure.name(), percent(std))
+    } else {
+        format!(
+            "The logs tell least about {} (one deviation): they hardly show such a change.",
+            moved(&worst.parts, worst.std)
+        )
+    })
+}
+
+/// "viscous friction up by 10 % with Coulomb friction down by 0.8 %".
+fn moved(parts: &[Part], length: f64) -> String {
+    let part = |p: &Part| {
+        let change = p.weight * length;
+        let way = if change < 0.0 { "down" } else { "up" };
+        let of = if p.figure == Figure::Offset { " of Coulomb friction" } else { "" };
+        format!("{} {way} by {}{of}", p.figure.name(), percent(change.abs()))
+    };
+    match parts {
+        [] => String::new(),
+        [first] => part(first),
+        [first, others @ ..] => {
+            let others: Vec<String> = others.iter().map(part).collect();
+            format!("{} together with {}", part(first), others.join(" and "))
+        }
+    }
+}
+
+/// What a run alone tells.
+fn carries(run: &RunShare) -> Option<String> {
+    let carried: Vec<&Carried> = run.carries().collect();
+    let names = |of: &dyn Fn(&Carried) -> bool| {
+        let names: Vec<String> =
+            carried.iter().filter(|c| of(c)).map(|c| c.figure.name()).collect();
+        (!names.is_empty()).then(|| names.join(", "))
+    };
+    let alone = names(&|c| c.growth.is_infinite());
+    let mostly = names(&|c| c.growth.is_finite());
+    let growth = carried.iter().map(|c| c.growth).filter(|g| g.is_finite()).fold(0.0, f64::max);
+    let alone = alone.map(|names| format!("alone tells {names}"));
+    let mostly = mostly
+        .map(|names| format!("carries {names}: without it deviations grow up to {growth:.1}-fold"));
+    let all: Vec<String> = alone.into_iter().chain(mostly).collect();
+    (!all.is_empty()).then(|| format!("Run {} {}.", run.run, all.join(" and ")))
+}
+
+/// What a run spoils.
+pub(super) fn spoils(run: &RunShare) -> String {
+    let mut moved: Vec<&Carried> = run.moved().collect();
+    moved.sort_by(|a, b| b.deviations.abs().total_cmp(&a.deviations.abs()));
+    let change = |c: &&Carried| {
+        let name = c.figure.name();
+        // One step does not tell how far a large change goes.
+        if c.change.abs() > LARGE {
+            return format!("{name} by more than {}", percent(LARGE));
+        }
+        let sign = if c.change < 0.0 { "−" } else { "+" };
+        format!("{name} by {sign}{}", percent(c.change.abs()))
+    };
+    let moved: Vec<String> = moved.iter().take(TOLD_MOST).map(change).collect();
+    format!(
+        "with the figures of the other runs its residual is {:.1} times theirs; left out, it would move {}",
+        run.residual,
+        moved.join(", ")
+    )
+}
+
+fn worth_adding(run: &RunToAdd, axis: Axis) -> String {
+    let unit = match axis {
+        Axis::Rotary => "rad",
+        Axis::Linear => "m",
+    };
+    let motion = match run.motion {
+        PlannedMotion::Sine { omega_rad_s } => format!("a sine at {omega_rad_s} rad/s"),
+        PlannedMotion::Multisine { omega_rad_s, to_rad_s, .. } => {
+            format!("a multisine from {omega_rad_s} to {to_rad_s} rad/s")
+        }
+        PlannedMotion::Chirp { from_rad_s, to_rad_s, .. } => {
+            format!("a sweep from {from_rad_s} to {to_rad_s} rad/s")
+        }
+    };
+    format!(
+        "Worth adding: {motion} with {} {unit} for {:.0} s: {} from ± {} to about ± {}.",
+        run.amplitude_rad,
+        run.record_s,
+        run.figure.name(),
+        percent(run.std_now),
+        percent(run.std_then)
+    )
+}

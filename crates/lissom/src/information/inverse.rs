@@ -1,0 +1,98 @@
+//! Inverses of information matrices, some of whose directions may be unknown.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Eigenvalue of the scaled matrix, relative to the largest, below which its direction is unknown.
+const RANK: f64 = 1e-14;
+/// Square of a pivot of the scaled matrix above which no direction is near that.
+const SOUND: f64 = 1e-11;
+/// Share of a parameter in an unknown direction from which on it counts as lost.
+const TAKES_PART: f64 = 1e-6;
+
+/// Pseudo-inverse of an information matrix.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Inverse {
+    /// Zero along directions that are unknown.
+    pub matrix: DMatrix<f64>,
+    /// Parameters that take part in such a direction.
+    pub lost: Vec<bool>,
+}
+
+/// Inverse of a symmetric positive matrix, scaled to a diagonal of ones first; directions that it does
+/// not determine are left out.
+pub fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    inverted(matrix).matrix
+}
+
+/// Inverse of an information matrix; a parameter that takes part in a direction which is unknown has an
+/// infinite variance.
+pub fn covariance(information: &DMatrix<f64>) -> DMatrix<f64> {
+    let Inverse { mut matrix, lost } = inverted(information);
+    for (i, _) in lost.iter().enumerate().filter(|(_, lost)| **lost) {
+        matrix[(i, i)] = f64::INFINITY;
+    }
+    matrix
+}
+
+/// The inverse that [`inverse`] gives, and which parameters it lost.
+pub fn inverted(matrix: &DMatrix<f64>) -> Inverse {
+    let n = matrix.nrows();
+    let scale = DVector::from_fn(n, |i, _| {
+        let d = matrix[(i, i)];
+        if d > 0.0 && d.is_finite() { 1.0 / d.sqrt() } else { 0.0 }
+    });
+    let scaled = DMatrix::from_fn(n, n, |i, j| matrix[(i, j)] * scale[i] * scale[j]);
+    if n == 0 || !scaled.iter().all(|v| v.is_finite()) {
+        return Inverse { matrix: DMatrix::zeros(n, n), lost: vec![true; n] };
+    }
+    // Nearly always sound, and ten times as fast.
+    if let Some(found) = sound_inverse(&scaled) {
+        let matrix = DMatrix::from_fn(n, n, |i, j| found[(i, j)] * scale[i] * scale[j]);
+        return Inverse { matrix, lost: vec![false; n] };
+    }
+    let eigen = scaled.symmetric_eigen();
+    let least = RANK * eigen.eigenvalues.max();
+    let mut found = DMatrix::zeros(n, n);
+    let mut lost = vec![false; n];
+    for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
+        if *value > least {
+            let v = vector.component_mul(&scale);
+            found.ger(1.0 / value, &v, &v, 1.0);
+        } else {
+            for (lost, share) in lost.iter_mut().zip(&vector) {
+                *lost |= share.abs() > TAKES_PART;
+            }
+        }
+    }
+    Inverse { matrix: found, lost }
+}
+
+/// Inverse of a matrix with a diagonal of ones whose directions are all well determined.
+fn sound_inverse(scaled: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let factor = scaled.clone().cholesky()?;
+    let least = factor.l_dirty().diagonal().min();
+    (least * least > SOUND).then(|| factor.inverse())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_inverse_leaves_out_what_is_unknown() {
+        let m = DMatrix::from_row_slice(3, 3, &[4e6, 0.0, 2e3, 0.0, 0.0, 0.0, 2e3, 0.0, 9.0]);
+        let i = inverse(&m);
+        let back = &m * &i * &m;
+        assert!((back - &m).norm() < 1e-6 && i[(1, 1)] == 0.0);
+    }
+
+    #[test]
+    fn what_is_not_shown_is_not_known() {
+        let m = DMatrix::from_row_slice(3, 3, &[4e6, 0.0, 2e3, 0.0, 0.0, 0.0, 2e3, 0.0, 9.0]);
+        let c = covariance(&m);
+        assert!(c[(1, 1)].is_infinite() && (c[(0, 0)] * (4e6 - 4e6 / 9.0) - 1.0).abs() < 1e-9);
+        // Two parameters of which only the sum is shown.
+        let sum = covariance(&DMatrix::from_element(2, 2, 1.0));
+        assert!(sum[(0, 0)].is_infinite() && sum[(1, 1)].is_infinite());
+    }
+}

@@ -1,0 +1,42 @@
+//! Deviations of figures from the covariance of the parameters (delta method).
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::replay::{ModalArm, Parameter};
+
+/// ∂figure/∂parameter of an arm, by differences over `share` of each parameter's deviation to either
+/// side; zero by a parameter without deviation.
+pub fn slopes(
+    arm: &ModalArm,
+    parameters: &[Parameter],
+    covariance: &DMatrix<f64>,
+    share: f64,
+    figure: impl Fn(&ModalArm) -> f64,
+) -> DVector<f64> {
+    let slope = |(i, p): (usize, &Parameter)| {
+        let step = share * covariance[(i, i)].max(0.0).sqrt();
+        let with = |change: f64| {
+            let mut moved = arm.clone();
+            p.set(&mut moved, p.of(arm) + change);
+            figure(&moved)
+        };
+        if step > 0.0 { (with(step) - with(-step)) / (2.0 * step) } else { 0.0 }
+    };
+    DVector::from_iterator(parameters.len(), parameters.iter().enumerate().map(slope))
+}
+
+/// √(gᵀ·C·g) of a figure with [`slopes`] g.
+pub fn propagated(
+    arm: &ModalArm,
+    parameters: &[Parameter],
+    covariance: &DMatrix<f64>,
+    share: f64,
+    figure: impl Fn(&ModalArm) -> f64,
+) -> f64 {
+    along(&slopes(arm, parameters, covariance, share, figure), covariance)
+}
+
+/// √(gᵀ·C·g): the deviation of what has the slopes g.
+pub fn along(slopes: &DVector<f64>, covariance: &DMatrix<f64>) -> f64 {
+    slopes.dot(&(covariance * slopes)).max(0.0).sqrt()
+}
