@@ -368,7 +368,14 @@ fn replayed(
     };
     let omega_rad_s: Vec<Option<f64>> = kept.iter().map(omega).collect();
     let mut nearest: Option<OutputError> = None;
-    for arm in starts(usable, motor?, beam, rational) {
+    let plain = starts(usable, motor?, beam, rational);
+    let lawful = law.filter(|law| law.chosen.departs()).into_iter().flat_map(|law| {
+        let mut arms = plain.clone();
+        let back_emf = usable.channels.command.back_emf_viscous;
+        arms.retain_mut(|arm| law.chosen.put_into(arm, back_emf));
+        arms
+    });
+    for arm in lawful.chain(plain.iter().cloned()) {
         let omega_rad_s = omega_rad_s.clone();
         let law = law.map_or(Vec::new(), FrictionLaw::tried);
         let start = OutputErrorStart { arm, omega_rad_s, first_window_s: None, law };

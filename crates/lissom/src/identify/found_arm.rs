@@ -1,11 +1,10 @@
 //! The arm that stands for a result: what predicts other logs.
 
-use super::friction_law::{LawFit, LawTerm};
 use super::identified::Identified;
 use super::output_error::starts;
 use super::validation::{torque, zeros};
 use crate::record::Campaign;
-use crate::replay::{ModalArm, NearRest, Ripple};
+use crate::replay::ModalArm;
 
 /// Which method an arm is from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,7 +60,7 @@ impl FoundArm {
             arm.offset_nm = split.offset.value;
         }
         if let Some(law) = id.friction_law.as_ref().filter(|law| law.chosen.departs()) {
-            follow(&mut arm, &law.chosen, used);
+            law.chosen.put_into(&mut arm, used.channels.command.back_emf_viscous);
         }
         Some(Self::with(arm, ArmSource::Regression, used, &[]))
     }
@@ -70,47 +69,5 @@ impl FoundArm {
         let torque_used = torque(&arm, used, zeros, None)
             .map(|t| TorqueUsed { relative_error: t.relative_error, window_s: t.window_s });
         Self { arm, source, torque_used }
-    }
-}
-
-/// Takes the motor's figures under a law of friction where the replay knows all of its terms.
-fn follow(arm: &mut ModalArm, law: &LawFit, used: &Campaign) {
-    let root = law.terms.iter().any(|(term, _)| *term == LawTerm::Root);
-    let (Some(inertia), Some(viscous), Some(coulomb)) = (law.inertia, law.viscous, law.coulomb)
-    else {
-        return;
-    };
-    if root {
-        return;
-    }
-    let back_emf = used.channels.command.back_emf_viscous;
-    arm.inertia_kg_m2 = inertia.value;
-    arm.viscous_nm_s_per_rad = [viscous.value + back_emf; 2];
-    arm.coulomb_nm = coulomb.value;
-    arm.offset_nm = law.offset.map_or(0.0, |o| o.value);
-    if let Some(total) = law.total_coupling {
-        let factor = total.value / arm.coupling_nm_per_rad();
-        arm.modes.iter_mut().for_each(|m| m.stiffness_nm_per_rad *= factor);
-    }
-    for (term, amplitude) in &law.terms {
-        match (*term, &amplitude[..]) {
-            (LawTerm::ViscousByDirection, [d]) => {
-                arm.viscous_nm_s_per_rad[0] += d.value;
-                arm.viscous_nm_s_per_rad[1] -= d.value;
-            }
-            (LawTerm::NearRest { speed }, [a]) => {
-                let near = NearRest { torque_nm: a.value, speed_rad_s: speed };
-                arm.dry_terms.near_rest = Some(near);
-            }
-            (LawTerm::Ripple { per_angle }, [cosine, sine]) => {
-                arm.dry_terms.ripples.push(Ripple {
-                    per_rad: per_angle,
-                    cosine_nm: cosine.value,
-                    sine_nm: sine.value,
-                });
-            }
-            (LawTerm::CommandLag, [lag]) => arm.command_lag_s = lag.value,
-            _ => {}
-        }
     }
 }

@@ -66,6 +66,22 @@ impl DryTerms {
         self.near_rest.is_none() && self.ripples.is_empty()
     }
 
+    /// All numbers in them.
+    pub(super) fn parameters(&self) -> Vec<Parameter> {
+        let mut found = Vec::new();
+        if self.near_rest.is_some() {
+            found.extend([Parameter::NearRest, Parameter::NearRestSpeed]);
+        }
+        for i in 0..self.ripples.len() {
+            found.extend([
+                Parameter::RippleCosine(i),
+                Parameter::RippleSine(i),
+                Parameter::RippleRate(i),
+            ]);
+        }
+        found
+    }
+
     /// Torque against the motion at an angle and a speed: without s.
     pub fn braking_nm(&self, angle_rad: f64, speed_rad_s: f64) -> f64 {
         let near = self.near_rest.map_or(0.0, |n| n.torque_nm * n.falloff(speed_rad_s));

@@ -216,5 +216,6 @@ pub fn free_parameters(channels: &Channels, arm: &ModalArm) -> Vec<Parameter> {
             free.extend((0..modes).map(|j| Parameter::Shape(i, j)));
         }
     }
+    free.extend(arm.dry_terms.parameters());
     free
 }

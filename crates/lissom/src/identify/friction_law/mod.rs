@@ -3,6 +3,7 @@
 //! Both are least squares on windows in slip phases, as in the regression, with windows as short as
 //! the sensor allows: what friction does near rest is lost in long ones.
 
+mod arm;
 mod choice;
 mod curve;
 mod held;

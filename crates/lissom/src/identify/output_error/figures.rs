@@ -1,6 +1,6 @@
 //! The output error's arm as figures of friction, drive and beam.
 
-use super::OutputError;
+use super::{AT_NOISE, OutputError};
 use crate::identify::{
     Beam, Estimate, Friction, LawTerm, ModeEstimate, NearRestEstimate, RippleEstimate,
 };
@@ -91,10 +91,12 @@ impl OutputError {
         }
     }
 
-    /// Whether the arm describes the runs from end to end: the residual of whole runs is that of
-    /// short windows, and no more than a few times what the sensors show of noise by themselves.
+    /// Whether the arm describes the runs: from end to end, the residual of whole runs being that of
+    /// short windows and no more than a few times what the sensors show of noise by themselves; or over
+    /// shorter windows to that noise.
     pub fn stands(&self) -> bool {
         let finite = self.covariance.diagonal().iter().all(|v| v.is_finite() && *v > 0.0);
-        self.whole_runs && self.beyond_noise < BEYOND && finite && self.arm.inertia_kg_m2 > 0.0
+        let most = if self.whole_runs { BEYOND } else { AT_NOISE };
+        self.beyond_noise < most && finite && self.arm.inertia_kg_m2 > 0.0
     }
 }

@@ -38,6 +38,9 @@ pub(crate) use verdict::verdict;
 /// Differences for the slopes of figures are taken over this many deviations.
 const HALF: f64 = 0.5;
 
+/// Residual beside the sensors' noise below which nothing else is in it.
+const AT_NOISE: f64 = 1.25;
+
 /// What the output error gives.
 #[derive(Debug, Clone)]
 pub struct OutputError {
@@ -146,12 +149,18 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
     let noise = noise::of_samples(campaign);
     let fitting = Fitting { campaign, masks: &masks, blocks: &blocks, law, noise: &noise };
     let mut report = Report::default();
-    let mut fit = fitting.widen(start, &mut report)?;
+    let mut fit = fitting.begin(start, &mut report)?;
+    fitting.widen(&mut fit, &mut report);
     modes::grow(&fitting, &mut fit, &mut report);
     modes::undamp(&fitting, &mut fit, &mut report);
     evidence::tighten(&fitting, &mut fit, &mut report);
     fit.body.allow_dampers_at_points();
+    let added = report.added.len();
     evidence::extend(&fitting, &mut fit, &mut report);
+    if report.added.len() > added {
+        // It may describe longer windows.
+        fitting.widen(&mut fit, &mut report);
+    }
     evidence::dampers_at_points(&fitting, &mut fit, &mut report);
     evidence::relax(&fitting, &mut fit, &mut report);
     if modes::prune(&fitting, &mut fit, &mut report) {

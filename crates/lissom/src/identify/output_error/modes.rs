@@ -75,24 +75,11 @@ fn refitted(fitting: &Fitting<'_>, fit: Fit, report: &mut Report) -> Fit {
 
 /// Free what its modes make free.
 fn refreed(fitting: &Fitting<'_>, mut fit: Fit) -> Fit {
-    let extra: Vec<Parameter> = fit.free.iter().copied().filter(|p| is_extra(*p)).collect();
+    let extra = [Parameter::CommandLag, Parameter::ViscousDifference];
+    let extra: Vec<Parameter> = extra.into_iter().filter(|p| fit.free.contains(p)).collect();
     fit.free = free_parameters(&fitting.campaign.channels, &fit.body.arm);
     fit.free.extend(extra);
     fit
-}
-
-/// Whether it was added to the simplest law and is none of the beam's.
-fn is_extra(p: Parameter) -> bool {
-    matches!(
-        p,
-        Parameter::CommandLag
-            | Parameter::ViscousDifference
-            | Parameter::NearRest
-            | Parameter::NearRestSpeed
-            | Parameter::RippleCosine(_)
-            | Parameter::RippleSine(_)
-            | Parameter::RippleRate(_)
-    )
 }
 
 /// Searched with a mode above all others, which takes over a part of the highest: that one stands for

@@ -1,5 +1,6 @@
 //! From short windows to whole runs, and what each step of the way left.
 
+use super::AT_NOISE;
 use super::OutputErrorStart;
 use super::by_run::ByRun;
 use super::coordinates::Body;
@@ -35,6 +36,8 @@ const MOST_ROUNDS: usize = 4;
 const SETTLED: f64 = 0.9;
 /// Each stage's windows are longer than the ones before by this factor.
 const WIDENING: f64 = 4.0;
+/// By this one after a search that was caught.
+const SLOWER: f64 = 1.6;
 /// Samples of the first windows, at least, and their share of the slowest mode's period.
 const FIRST_SAMPLES: f64 = 80.0;
 const FIRST_PERIODS: f64 = 0.3;
@@ -119,10 +122,13 @@ pub(super) struct Report {
 }
 
 impl Report {
-    /// Whether a residual is larger than that of the first windows by what no sensor adds.
+    /// Whether a residual is larger than the least that there was by what no sensor adds.
     fn grown(&self, residual: &[f64]) -> bool {
-        let first = self.stages.first().map_or(residual, |s| &s.residual);
-        first.iter().zip(residual).any(|(a, b)| *b > GROWN * a)
+        let least = |channel: usize| {
+            let each = self.stages.iter().filter_map(|s| s.residual.get(channel));
+            each.copied().fold(f64::INFINITY, f64::min)
+        };
+        residual.iter().enumerate().any(|(channel, r)| *r > GROWN * least(channel))
     }
 }
 
@@ -162,10 +168,9 @@ impl Fitting<'_> {
         costs(&fit.body.arm, self.campaign, &fit.windows, sampling).iter().sum()
     }
 
-    /// From short windows to whole runs, as far as the arm describes them; parameters are added where
-    /// it does not.
-    pub(super) fn widen(&self, start: &OutputErrorStart, report: &mut Report) -> Option<Fit> {
-        let longest = self.campaign.runs.iter().map(duration_s).fold(0.0, f64::max);
+    /// Searches on the first windows, short ones.
+    pub(super) fn begin(&self, start: &OutputErrorStart, report: &mut Report) -> Option<Fit> {
+        let longest = self.longest_s();
         let window_s =
             start.first_window_s.unwrap_or_else(|| self.first_window_s(&start.arm)).min(longest);
         let body = Body::of_masses(self.campaign, start.arm.clone());
@@ -173,10 +178,14 @@ impl Fitting<'_> {
         if windows.is_empty() || !is_possible(self.campaign, &body.arm) {
             return None;
         }
+        let mut free = free_parameters(&self.campaign.channels, &start.arm);
+        let [forward, backward] = start.arm.viscous_nm_s_per_rad;
+        free.extend((forward != backward).then_some(Parameter::ViscousDifference));
+        free.extend((start.arm.command_lag_s != 0.0).then_some(Parameter::CommandLag));
         let mut fit = Fit {
             body,
             windows,
-            free: free_parameters(&self.campaign.channels, &start.arm),
+            free,
             noise: self.noise.to_vec(),
             residual: Vec::new(),
             whole_runs: window_s >= longest,
@@ -186,30 +195,47 @@ impl Fitting<'_> {
         modes::drop_unfelt(self, &mut fit, report);
         modes::grow(self, &mut fit, report);
         evidence::extend(self, &mut fit, report);
+        Some(fit)
+    }
+
+    fn longest_s(&self) -> f64 {
+        self.campaign.runs.iter().map(duration_s).fold(0.0, f64::max)
+    }
+
+    /// To whole runs, as far as the arm describes them; parameters are added where it does not.
+    pub(super) fn widen(&self, fit: &mut Fit, report: &mut Report) {
+        let longest = self.longest_s();
+        let mut factor = WIDENING;
         while !fit.whole_runs {
             let before = fit.clone();
-            fit.window_s = (fit.window_s * WIDENING).min(longest);
+            fit.window_s = (fit.window_s * factor).min(longest);
             fit.whole_runs = fit.window_s >= longest;
             let windows = widen(self.campaign, &fit.body.arm, &fit.windows, fit.window_s);
             fit.windows = if fit.whole_runs { windows } else { some(windows) };
-            self.search(&mut fit, report);
+            self.search(fit, report);
             if report.grown(&fit.residual) {
-                modes::grow(self, &mut fit, report);
-                evidence::extend(self, &mut fit, report);
-                evidence::relax(self, &mut fit, report);
+                modes::grow(self, fit, report);
+                evidence::extend(self, fit, report);
+                evidence::relax(self, fit, report);
             }
             if report.grown(&fit.residual) {
-                return Some(before);
+                *fit = before;
+                if factor < WIDENING || self.beyond_noise(fit) > AT_NOISE {
+                    return;
+                }
+                // The windows before are described to the noise: this search was caught on the way.
+                factor = SLOWER;
             }
         }
-        Some(fit)
     }
 
     /// Searches from where the fit is and takes its noise from what is left.
     pub(super) fn search(&self, fit: &mut Fit, report: &mut Report) {
         for _ in 0..MOST_ROUNDS {
             let stop = self.steps(fit, report, STEPS_ON_THE_WAY);
-            let to_the_end = fit.whole_runs || report.grown(&fit.residual);
+            // Another law is there to the end or not at all.
+            let lawful = !fit.body.arm.dry_terms.is_empty();
+            let to_the_end = fit.whole_runs || lawful || report.grown(&fit.residual);
             if stop == Stop::StepsUsedUp && to_the_end {
                 self.steps(fit, report, MOST_STEPS);
             }

@@ -9,27 +9,39 @@ use crate::replay::Parameter;
 /// The output error's figures, where its arm describes the runs.
 pub(crate) fn verdict(campaign: &Campaign, id: &mut Identified) {
     let Some(oe) = &id.output_error else { return };
+    let departs = departs(oe);
     if oe.stands() {
         id.friction = oe.friction(campaign.channels.command.back_emf_viscous);
         id.inertia = oe.inertia();
         id.findings.extend(added(oe));
         id.findings.extend(modes_missing(campaign, oe));
-        return;
     }
-    let (Some(first), Some(last)) = (oe.stages.first(), longest(oe)) else { return };
+    id.findings.extend(departs);
+}
+
+/// The arm does not describe the runs from end to end.
+fn departs(oe: &OutputError) -> Option<Finding> {
+    if oe.whole_runs && oe.stands() {
+        return None;
+    }
+    let (first, last) = (oe.stages.first()?, longest(oe)?);
     let grown = first.residual.iter().zip(&last.residual).map(|(a, b)| b / a).fold(0.0, f64::max);
-    id.findings.push(Finding::new(
+    let taken = if oe.stands() {
+        "the figures are those of the windows that it describes"
+    } else {
+        "the regression's figures are taken"
+    };
+    Some(Finding::new(
         "replay-departs",
         Severity::Warning,
         &[key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES],
         format!(
             "replayed over {:.2} s at a time the residual is {grown:.1} times that over {:.2} s: \
-             something moves the axis that the arm has not",
+             something moves the axis that the arm has not; {taken}",
             last.window_s, first.window_s
         ),
-        "other friction than Coulomb and viscous, a load, backlash, a mode without a tip; the \
-         regression's figures are taken",
-    ));
+        "other friction than Coulomb and viscous, a load, backlash, a mode without a tip",
+    ))
 }
 
 /// The stage of the longest windows tried.
