@@ -27,6 +27,11 @@ pub enum Law {
 }
 
 impl Law {
+    /// Whether lissom's simplest equations have it: an alarm about the law is then a false one.
+    pub fn is_described(self) -> bool {
+        matches!(self, Self::None | Self::BeamDamping)
+    }
+
     /// All wrong ones that this build can simulate.
     pub fn wrong() -> Vec<Self> {
         let mut laws =

@@ -20,8 +20,8 @@ const GONE: f64 = 9.0;
 /// `s·(A·e^{−|θ̇|/v_s} + Σ_i B_i·cos k_iθ + C_i·sin k_iθ)`, s the direction of motion.
 ///
 /// # Source
-/// Exponential falloff after Tustin; with A > 0 the Stribeck effect, with A < 0 friction that grows less
-/// than in proportion. Symbols as in `[Armstrong1994, Section 2]`.
+/// `[Armstrong1994]` for the falloff: with A > 0 the Stribeck effect, with A < 0 friction that grows less
+/// than in proportion.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DryTerms {
     /// Change near rest.

@@ -6,6 +6,7 @@ use super::evidence::{self, Extension};
 use super::stages::{Fit, Fitting};
 use super::windows::fastest_rad_s;
 use crate::identify::LawTerm;
+use crate::record::Run;
 use crate::replay::{DryTerms, NearRest, Parameter, Ripple};
 
 /// Speeds over which friction near rest is tried to change, as shares of the fastest.
@@ -65,7 +66,7 @@ fn share(found: &[Extension]) -> f64 {
 
 /// Waves per angle at which a ripple promises most, over the frequencies that the travel tells apart.
 fn strongest_ripple(fitting: &Fitting<'_>, fit: &Fit) -> Option<f64> {
-    let angles = || fitting.campaign.runs.iter().flat_map(|run| run.motor());
+    let angles = || fitting.campaign.runs.iter().flat_map(Run::motor);
     let low = angles().copied().fold(f64::INFINITY, f64::min);
     let high = angles().copied().fold(f64::NEG_INFINITY, f64::max);
     let half_wave = std::f64::consts::PI / (high - low);

@@ -179,8 +179,8 @@ impl Fitting<'_> {
             return None;
         }
         let mut free = free_parameters(&self.campaign.channels, &start.arm);
-        let [forward, backward] = start.arm.viscous_nm_s_per_rad;
-        free.extend((forward != backward).then_some(Parameter::ViscousDifference));
+        let apart = |arm: &ModalArm| Parameter::ViscousDifference.of(arm);
+        free.extend((apart(&start.arm) != 0.0).then_some(Parameter::ViscousDifference));
         free.extend((start.arm.command_lag_s != 0.0).then_some(Parameter::CommandLag));
         let mut fit = Fit {
             body,
