@@ -267,6 +267,14 @@ pub(crate) fn figure_rows(
         add("  forward", Some(forward), names.viscous_unit(), None);
         add("  backward", Some(backward), names.viscous_unit(), None);
     }
+    if let Some(near) = f.near_rest {
+        add("friction near rest, more", Some(near.torque), torque(), None);
+        add("  over a speed of", Some(near.speed), format!("{}/s", names.angle()), None);
+    }
+    for ripple in &f.ripples {
+        add("friction's ripple", Some(ripple.torque), torque(), None);
+        add("  period", Some(ripple.period()), names.angle().to_owned(), None);
+    }
     let inertia = reference.map(|r| r.inertia_kg_m2);
     add(names.inertia_name(), id.inertia, names.inertia_unit(), inertia);
     if !id.beam.coupling_by_tip.is_empty() || id.beam.coupling.is_some() {

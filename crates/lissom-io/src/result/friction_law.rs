@@ -35,10 +35,7 @@ pub(super) fn terms(map: &mut Map<String, Value>, names: UnitNames, constant: f6
     let ripple = |r: &RippleEstimate| {
         let mut own = Map::new();
         torque(&mut own, names, constant, "amplitude", Some(r.torque));
-        // Relative deviations of a frequency and its period are the same.
-        let value = std::f64::consts::TAU / r.per_angle.value;
-        let period = Estimate { value, std: value * r.per_angle.std / r.per_angle.value };
-        own.insert(format!("period_{}", names.angle()), figure(Some(period)));
+        own.insert(format!("period_{}", names.angle()), figure(Some(r.period())));
         Value::Object(own)
     };
     if !f.ripples.is_empty() {

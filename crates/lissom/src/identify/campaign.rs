@@ -177,7 +177,7 @@ pub fn identify(
     let table = |c: Option<Estimate>| response_table(campaign, &runs, c, &square, &findings);
     let mut third_harmonic = pairs(&runs, &findings);
     let best = coulomb_command(regression.as_ref(), third_harmonic.as_ref(), constant);
-    let replay = output_error.as_ref();
+    let replay = output_error.as_ref().filter(|o| o.describes_whole_runs());
     let replay = replay.map_or_else(Replayed::default, |o| corrected(o, &usable, &runs, &kept));
     let mut responses = response_table(campaign, &runs, best, &replay, &findings);
     let stepped = responses.iter().filter(|p| p.run.is_some()).count() >= STEPPED;
@@ -247,7 +247,7 @@ fn corrected<'a>(
     let general: Vec<usize> = general(runs).into_iter().filter_map(place).collect();
     Replayed {
         sinusoidal: runs.iter().enumerate().map(sinusoidal).collect(),
-        bands: if found.stands() { ReplayedBands::new(found, usable, &general) } else { None },
+        bands: ReplayedBands::new(found, usable, &general),
     }
 }
 

@@ -35,18 +35,17 @@ impl FrictionWaveform<'_> {
     /// is from what acted.
     ///
     /// Spectra are taken with Hann's window over whole periods, which keeps what is not yet periodic to
-    /// itself. Friction's jumps lie between samples: of the ratio they leave up to some 0.1 %. Where the
-    /// arm describes the runs from end to end, only what the motor shows beyond the arm's motion is
-    /// divided, `G_arm + (θ_m − θ_arm)/(i − f)`.
+    /// itself. Friction's jumps lie between samples: of the ratio they leave up to some 0.1 %. So only
+    /// what the motor shows beyond the arm's motion is divided, `G_arm + (θ_m − θ_arm)/(i − f)`.
     ///
     /// The deviation is that of the noise ([`Self::noise`]) and of the arm's parameters. `None` where
     /// the replay covers too few periods.
     pub(crate) fn response(&self) -> Option<Response> {
         let arm = &self.found.arm;
         let net = self.net(arm)?;
-        let spectrum = Spectrum::new(self, &net);
+        let spectrum = Spectrum::new(self, arm, &net);
         let by_parameters = self.found.variances(&|arm| {
-            let spectrum = Spectrum::new(self, &self.net(arm)?);
+            let spectrum = Spectrum::new(self, arm, &self.net(arm)?);
             Some(vec![self.value(arm, &spectrum.at(0.0))])
         })?;
         let by_parameters = by_parameters.first().copied().unwrap_or(0.0);
@@ -55,11 +54,7 @@ impl FrictionWaveform<'_> {
     }
 
     fn value(&self, arm: &ModalArm, line: &Line) -> Complex64 {
-        if self.found.stands() {
-            self.own(arm, 0.0) + line.beyond / line.command
-        } else {
-            line.motor / line.command
-        }
+        self.own(arm, 0.0) + line.beyond / line.command
     }
 
     /// The arm's response `shift` rad/s beside the fundamental.
@@ -68,28 +63,17 @@ impl FrictionWaveform<'_> {
         constant * arm.motor_response(self.steady.omega_rad_s + shift)
     }
 
-    /// Variance by what the lines beside the fundamental hold, the arm's own response taken out.
-    ///
-    /// Where the arm describes the runs, also by what the harmonics hold: a sensor's steps err alike in
-    /// every period, on these lines alone. And no less than what the fundamental itself holds beyond
+    /// Variance by what the lines beside the fundamental hold beyond the arm's motion, and by what the
+    /// harmonics hold: a sensor's steps err alike in every period, on these lines alone. And no less than what the fundamental itself holds beyond
     /// the arm's: noise of the sensor comes back through the loop, and is then no less in the command.
     fn noise(&self, spectrum: &Spectrum, periods: usize) -> f64 {
-        let stands = self.found.stands();
-        let left = |shift: f64| {
-            let line = spectrum.at(shift);
-            let own = self.own(&self.found.arm, shift);
-            let left = if stands { line.beyond } else { line.motor - own * line.command };
-            left.norm_sqr()
-        };
+        let left = |shift: f64| spectrum.at(shift).beyond.norm_sqr();
         let mean = |powers: &[f64]| powers.iter().sum::<f64>() / powers.len().max(1) as f64;
         let line = std::f64::consts::TAU / spectrum.length_s();
         let beside = (2..=LINES.min(periods - 1)).map(|lines| lines as f64 * line);
         let beside: Vec<f64> = beside.flat_map(|shift| [left(-shift), left(shift)]).collect();
         let fundamental = spectrum.at(0.0);
         let power = fundamental.command.norm_sqr();
-        if !stands {
-            return mean(&beside) / power;
-        }
         let omega = self.steady.omega_rad_s;
         let highest = 0.8 * std::f64::consts::PI / spectrum.sample_time_s;
         let harmonics = (2..=HARMONICS).map(f64::from).filter(|h| h * omega < highest);
@@ -125,7 +109,6 @@ struct Net {
 
 /// Spectra at one frequency.
 struct Line {
-    motor: Complex64,
     /// What the motor shows beyond the arm's motion.
     beyond: Complex64,
     /// The command without friction.
@@ -146,7 +129,7 @@ struct Spectrum {
 }
 
 impl Spectrum {
-    fn new(of: &FrictionWaveform<'_>, net: &Net) -> Self {
+    fn new(of: &FrictionWaveform<'_>, arm: &ModalArm, net: &Net) -> Self {
         let run = &of.campaign.runs[of.run];
         let channel = &of.campaign.channels.command;
         let len = net.len.min(net.friction.len()).min(run.len() - net.begin);
@@ -166,7 +149,7 @@ impl Spectrum {
             command: windowed(&run.command()[span], 1.0),
             friction: windowed(&net.friction[..len], 1.0 / constant),
             hold: channel.hold,
-            lag_s: of.found.arm.command_lag_s,
+            lag_s: arm.command_lag_s,
         }
     }
 
@@ -190,7 +173,6 @@ impl Spectrum {
         let late = Complex64::from_polar(1.0, -omega * self.lag_s);
         let motor = line(&self.motor);
         Line {
-            motor,
             beyond: motor - line(&self.of_arm),
             // Friction is known by its mean over each sample: turned half a sample forward, and lower.
             command: logged * late - line(&self.friction) / hold.conj(),

@@ -68,6 +68,14 @@ pub struct RippleEstimate {
     pub per_angle: Estimate,
 }
 
+impl RippleEstimate {
+    /// 2π/k: relative deviations of a frequency and its period are the same.
+    pub fn period(&self) -> Estimate {
+        let value = std::f64::consts::TAU / self.per_angle.value;
+        Estimate { value, std: value * self.per_angle.std / self.per_angle.value }
+    }
+}
+
 /// The beam's figures.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Beam {

@@ -26,7 +26,10 @@ impl<'a> ReplayedBands<'a> {
         campaign: &'a Campaign,
         runs: &[usize],
     ) -> Option<Self> {
-        let windows = runs.iter().filter_map(|&run| whole(found, run)).collect();
+        let windows: Vec<&Window> = runs.iter().filter_map(|&run| whole(found, run)).collect();
+        if windows.is_empty() {
+            return None;
+        }
         let replayed = Replayed { found, campaign, windows };
         let channels = 0..=campaign.channels.tips.len();
         let follow = |channel: &Vec<Vec<Bin>>| channel.iter().map(|b| following(b)).collect();

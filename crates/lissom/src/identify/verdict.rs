@@ -52,7 +52,7 @@ pub(crate) fn conclude(campaign: &Campaign, used: &Campaign, id: &mut Identified
     refuse_the_unknown(id);
     command(campaign, id);
     friction(id);
-    id.findings.extend(friction_law::finding(id));
+    id.findings.extend(friction_law::finding(campaign.channels.axis, id));
     if !alone {
         regression::findings(id);
     }

@@ -13,7 +13,7 @@ mod reduced;
 pub use expected::{expected_covariance, growing_information};
 pub use figure::Figure;
 pub use inverse::{Inverse, covariance, inverse, inverted};
-pub use propagated::{along, propagated, slopes};
+pub use propagated::{along, beside, propagated, slopes};
 pub use reduced::{Reduced, normal_equations, without_own};
 
 #[cfg(doc)]

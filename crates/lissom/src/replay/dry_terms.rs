@@ -128,7 +128,7 @@ impl DryTerms {
     }
 
     /// Longest step over which friction may be taken for linear in time \[s\], for a motor that turns at
-    /// `turning`, slows down to the place's speed at most, accelerates by `acceleration`, and by
+    /// `turning` at most, slows down to the place's speed at most, accelerates by `acceleration`, and by
     /// `per_torque` more per torque.
     pub(super) fn step_s(
         &self,

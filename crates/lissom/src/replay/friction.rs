@@ -114,7 +114,8 @@ impl Friction {
         let mut at = place(x, direction);
         // Within the step it may come closer to rest.
         at.speed = (at.speed - acceleration.abs() * within_s).max(0.0);
-        self.terms.step_s(at, x[1].abs(), acceleration, per_torque)
+        let turning = x[1].abs() + acceleration.abs() * within_s;
+        self.terms.step_s(at, turning, acceleration, per_torque)
     }
 
     /// Over a step.
@@ -134,7 +135,7 @@ impl Friction {
             let (last, middle) = (at(&end), at(&step.middle(end)));
             let bent = moving * (2.0 * middle - from - last) / 3.0;
             let next = [from + bent, last + bent];
-            let agrees = (next[1] - ends[1]).abs() <= AGREE * self.coulomb.abs();
+            let agrees = (next[1] - ends[1]).abs() <= AGREE * (from.abs() + self.coulomb.abs());
             ends = next;
             end = step.end(from, ends);
             if agrees {

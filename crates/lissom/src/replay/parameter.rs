@@ -98,14 +98,18 @@ impl Parameter {
         let first = arm.modes.first().map_or(1.0, |m| m.omega_rad_s);
         match self {
             Self::Viscous => positive(self.of(arm), 0.01 * arm.inertia_kg_m2 * first),
-            Self::Coulomb | Self::Offset => {
-                positive(arm.coulomb_nm, arm.inertia_kg_m2 * first * first)
-            }
+            Self::Coulomb
+            | Self::Offset
+            | Self::NearRest
+            | Self::RippleCosine(_)
+            | Self::RippleSine(_) => positive(arm.coulomb_nm, arm.inertia_kg_m2 * first * first),
             // A damping ratio of a hundredth.
             Self::DampingWithin(j) | Self::DampingGrounded(j) => 0.02 * arm.modes[j].omega_rad_s,
-            Self::Inertia | Self::Stiffness(_) | Self::Frequency(_) => {
-                positive(self.of(arm).abs(), 1.0)
-            }
+            Self::Inertia
+            | Self::Stiffness(_)
+            | Self::Frequency(_)
+            | Self::NearRestSpeed
+            | Self::RippleRate(_) => positive(self.of(arm).abs(), 1.0),
             Self::CommandLag => positive(self.of(arm), 1e-3),
             _ => 1.0,
         }

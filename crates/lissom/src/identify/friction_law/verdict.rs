@@ -6,6 +6,7 @@ use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::{
     Estimate, Friction, Identified, NearRestEstimate, OutputError, RippleEstimate,
 };
+use crate::record::Axis;
 
 /// Friction's figures under another law than Coulomb and one viscous constant.
 pub(crate) fn friction(law: &LawFit) -> Friction {
@@ -45,14 +46,15 @@ pub(crate) fn friction(law: &LawFit) -> Friction {
 }
 
 /// The law of friction that the data call for: that of the replay where it describes the runs.
-pub(crate) fn finding(id: &Identified) -> Option<Finding> {
+pub(crate) fn finding(axis: Axis, id: &Identified) -> Option<Finding> {
     let replay = id.output_error.as_ref().filter(|oe| oe.stands());
     let by_replay = replay.map_or(Vec::new(), OutputError::law_terms);
     if !by_replay.is_empty() {
+        let whole = replay.is_some_and(OutputError::describes_whole_runs);
         let message = format!(
-            "friction is not Coulomb and one viscous constant: {}; with that the replay describes the \
-             runs from end to end",
-            in_words(&by_replay)
+            "friction is not Coulomb and one viscous constant: {}; with that the replay describes {}",
+            in_words(axis, &by_replay),
+            if whole { "the runs from end to end" } else { "stretches of the runs" }
         );
         return Some(told(Severity::Warning, message, AT_SPEED));
     }
@@ -62,7 +64,7 @@ pub(crate) fn finding(id: &Identified) -> Option<Finding> {
     let message = format!(
         "friction is not Coulomb and one viscous constant: {}; what is left falls to {:.0} % of \
          itself, and slip phases left out are described better by {paired:.0} deviations or more",
-        in_words(&law.chosen.terms),
+        in_words(axis, &law.chosen.terms),
         100.0 * law.relative_residual[1] / law.relative_residual[0]
     );
     Some(match replay {
@@ -84,27 +86,33 @@ fn told(severity: Severity, message: String, hint: &'static str) -> Finding {
 }
 
 /// Terms of friction with their amplitudes.
-fn in_words(terms: &[(LawTerm, Vec<Estimate>)]) -> String {
+fn in_words(axis: Axis, terms: &[(LawTerm, Vec<Estimate>)]) -> String {
     let of_friction = terms.iter().filter(|(term, _)| *term != LawTerm::CommandLag);
-    of_friction.map(term_in_words).collect::<Vec<_>>().join(", ")
+    of_friction.map(|term| term_in_words(axis, term)).collect::<Vec<_>>().join(", ")
 }
 
 /// A term of the law with its amplitude.
-fn term_in_words((term, amplitude): &(LawTerm, Vec<Estimate>)) -> String {
+fn term_in_words(axis: Axis, (term, amplitude): &(LawTerm, Vec<Estimate>)) -> String {
+    let angle = match axis {
+        Axis::Rotary => "rad",
+        Axis::Linear => "m",
+    };
     let a = amplitude.first().map_or(f64::NAN, |e| e.value);
     match term {
         LawTerm::ViscousByDirection => format!("viscous friction differs by ±{a:.3e} by direction"),
         LawTerm::NearRest { speed } if a > 0.0 => {
-            format!("it rises by {a:.3e} towards rest, within {speed:.3e} per second (Stribeck)")
+            format!("it rises by {a:.3e} towards rest, within {speed:.3e} {angle}/s (Stribeck)")
         }
         LawTerm::NearRest { speed } => {
-            format!("it falls by {:.3e} towards rest, within {speed:.3e} per second", -a)
+            format!("it falls by {:.3e} towards rest, within {speed:.3e} {angle}/s", -a)
         }
         LawTerm::Root => format!("it grows with the root of speed, by {a:.3e}"),
         LawTerm::Ripple { per_angle } => {
             let size = amplitude.iter().map(|e| e.value * e.value).sum::<f64>().sqrt();
             let period = std::f64::consts::TAU / per_angle;
-            format!("it changes over the travel by ±{size:.3e} with a period of {period:.4e}")
+            format!(
+                "it changes over the travel by ±{size:.3e} with a period of {period:.4e} {angle}"
+            )
         }
         LawTerm::CommandLag => format!("the command acts {:.3} ms later", 1e3 * a),
     }

@@ -30,7 +30,7 @@ const MOST: usize = 3;
 pub struct Extension {
     /// Which.
     pub parameter: Parameter,
-    /// Its value where it was added, else the one that a single step promises.
+    /// The one that a single step promises.
     pub value: f64,
     /// Deviation of that.
     pub std: f64,
@@ -78,12 +78,13 @@ fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: 
     let mut with = fit.clone();
     trial.put_into(&mut with);
     fitting.search(&mut with, report);
-    if fitting.cost(&with, &fit.noise) > (1.0 - LARGE) * fitting.cost(fit, &fit.noise) {
-        return false;
+    let better = fitting.cost(&with, &fit.noise) <= (1.0 - LARGE) * fitting.cost(fit, &fit.noise);
+    if better {
+        *fit = with;
+        report.law_changed();
+        report.added.extend(found.into_iter().map(|e| Extension { added: true, ..e }));
     }
-    *fit = with;
-    report.added.extend(found.into_iter().map(|e| Extension { added: true, ..e }));
-    true
+    better
 }
 
 /// Takes damping against the frame for dampers at the tips' points where these leave less than a damper
@@ -230,5 +231,6 @@ fn score(sums: &[WindowSums], before: usize, group: &[Parameter], alone: f64) ->
         let (value, std) = (step[before + k], deviation(&covariance, before + k));
         Extension { parameter: *parameter, value, std, share, added: false }
     };
-    group.iter().enumerate().map(figure).filter(|e| e.value.is_finite()).collect()
+    let finite = |e: &Extension| e.value.is_finite() && e.share.is_finite();
+    group.iter().enumerate().map(figure).filter(finite).collect()
 }

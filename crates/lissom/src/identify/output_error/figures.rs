@@ -91,6 +91,11 @@ impl OutputError {
         }
     }
 
+    /// Whether the arm stands and describes the runs from end to end.
+    pub fn describes_whole_runs(&self) -> bool {
+        self.whole_runs && self.stands()
+    }
+
     /// Whether the arm describes the runs: from end to end, the residual of whole runs being that of
     /// short windows and no more than a few times what the sensors show of noise by themselves; or over
     /// shorter windows to that noise.

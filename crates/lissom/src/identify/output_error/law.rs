@@ -13,6 +13,9 @@ use crate::replay::{DryTerms, NearRest, Parameter, Ripple};
 const NEAR_REST: [f64; 4] = [0.02, 0.06, 0.2, 0.6];
 /// Most ripples.
 const MOST_RIPPLES: usize = 2;
+/// Residual beside the noise from which on ripples are looked for at all periods: a mode that is missing
+/// leaves less.
+const FAR: f64 = 3.0;
 /// Half waves over the travel, from two on, at which ripples are looked for, and how many at once.
 const RIPPLES: usize = 46;
 const AT_ONCE: usize = 8;
@@ -55,7 +58,7 @@ pub(super) fn best(
         return best;
     }
     let terms = &fit.body.arm.dry_terms;
-    let open = terms.ripples.len() < MOST_RIPPLES;
+    let open = terms.ripples.len() < MOST_RIPPLES && fitting.beyond_noise(fit) > FAR;
     let found = open.then(|| strongest_ripple(fitting, fit)).flatten()?;
     Some(promise(rippled(terms, found)))
 }
@@ -69,6 +72,9 @@ fn strongest_ripple(fitting: &Fitting<'_>, fit: &Fit) -> Option<f64> {
     let angles = || fitting.campaign.runs.iter().flat_map(Run::motor);
     let low = angles().copied().fold(f64::INFINITY, f64::min);
     let high = angles().copied().fold(f64::NEG_INFINITY, f64::max);
+    if low >= high {
+        return None;
+    }
     let half_wave = std::f64::consts::PI / (high - low);
     let all: Vec<f64> = (2..2 + RIPPLES).map(|waves| waves as f64 * half_wave).collect();
     let promised = all.chunks(AT_ONCE).flat_map(|some| {
@@ -109,7 +115,8 @@ fn trials(fitting: &Fitting<'_>, fit: &Fit) -> Vec<LawTrial> {
             LawTerm::NearRest { speed } => Some(*speed),
             _ => None,
         });
-        for speed_rad_s in seen.chain(NEAR_REST.map(|share| share * fastest)) {
+        let speeds = seen.chain(NEAR_REST.map(|share| share * fastest));
+        for speed_rad_s in speeds.filter(|speed| *speed > 0.0) {
             let near_rest = Some(NearRest { torque_nm: 0.0, speed_rad_s });
             found.push(LawTrial {
                 terms: DryTerms { near_rest, ..terms.clone() },

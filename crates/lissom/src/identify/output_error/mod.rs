@@ -21,7 +21,7 @@ use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use super::{Estimate, LawTerm};
-use crate::information::{self as normal, propagated};
+use crate::information::{beside, propagated};
 use crate::record::Campaign;
 use crate::replay::{ModalArm, Parameter, SensorNoise, Window};
 pub use by_run::ByRun;
@@ -93,12 +93,8 @@ impl OutputError {
     ) -> Option<Vec<f64>> {
         let slopes = |(i, p): (usize, &Parameter)| {
             let half = HALF * deviation(&self.covariance, i);
-            let with = |change: f64| {
-                let mut arm = self.arm.clone();
-                p.set(&mut arm, p.of(&self.arm) + change);
-                of(&arm)
-            };
-            let (above, below) = (with(half)?, with(-half)?);
+            let (half, [above, below]) = beside(&self.arm, *p, half);
+            let (above, below) = (of(&above)?, of(&below)?);
             let slope = |(a, b)| if half > 0.0 { (a - b) / (2.0 * half) } else { Complex64::ZERO };
             Some(above.iter().zip(&below).map(slope).collect())
         };
@@ -138,7 +134,7 @@ pub struct OutputErrorStart {
 /// In stages: windows with an initial state each, short at first, so that sticking and slipping
 /// follow the log; then ever longer ones, until they are whole runs or the residual grows because the
 /// arm does not describe what happens. Parameters beyond the simplest law (lag, viscous friction by
-/// direction, the other kind of damping) are added where the residual calls for them. At the end the
+/// direction, the other kind of damping, friction near rest, ripple) are added where the residual calls for them. At the end the
 /// sensors' steps are counted as what they are.
 ///
 /// `None` where no window can be cut or nothing is left of the search.

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::coordinates::{Body, in_coordinates};
-use super::normal::{Reduced, inverse};
+use crate::information::{Reduced, inverse};
 use crate::record::{Campaign, Run};
 use crate::replay::{ModalArm, Oscillator, Parameter, Sampling, Window, WindowSums, costs, sums};
 
@@ -213,7 +213,8 @@ impl Problem<'_> {
 fn brakes(arm: &ModalArm) -> bool {
     let near = arm.dry_terms.near_rest.map_or(0.0, |n| n.torque_nm.min(0.0));
     let waves: f64 = arm.dry_terms.ripples.iter().map(|r| r.cosine_nm.hypot(r.sine_nm)).sum();
-    arm.dry_terms.is_empty() || arm.coulomb_nm + near > waves
+    let turns = arm.dry_terms.ripples.iter().all(|r| r.per_rad > 0.0);
+    arm.dry_terms.is_empty() || (turns && arm.coulomb_nm + near > waves)
 }
 
 /// Whether a search may go there: friction brakes, and every mode turns by less than [`LARGEST_TURN`] in a sample: faster ones are in no log, and

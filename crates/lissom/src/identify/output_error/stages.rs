@@ -115,6 +115,8 @@ impl Fit {
 #[derive(Debug, Default)]
 pub(super) struct Report {
     pub(super) stages: Vec<StageReport>,
+    /// First of them under the law that friction has now.
+    under_law: usize,
     /// Parameters that were added.
     pub(super) added: Vec<Extension>,
     /// Those that were not, when last tried.
@@ -122,13 +124,16 @@ pub(super) struct Report {
 }
 
 impl Report {
-    /// Whether a residual is larger than the least that there was by what no sensor adds.
+    /// Whether a residual is larger than that of the first windows, under the law that they are under
+    /// now, by what no sensor adds.
     fn grown(&self, residual: &[f64]) -> bool {
-        let least = |channel: usize| {
-            let each = self.stages.iter().filter_map(|s| s.residual.get(channel));
-            each.copied().fold(f64::INFINITY, f64::min)
-        };
-        residual.iter().enumerate().any(|(channel, r)| *r > GROWN * least(channel))
+        let first = self.stages.get(self.under_law).map_or(residual, |s| &s.residual);
+        first.iter().zip(residual).any(|(a, b)| *b > GROWN * a)
+    }
+
+    /// Friction has another law from the last stage on.
+    pub(super) fn law_changed(&mut self) {
+        self.under_law = self.stages.len().saturating_sub(1);
     }
 }
 

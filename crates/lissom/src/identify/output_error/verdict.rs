@@ -21,7 +21,7 @@ pub(crate) fn verdict(campaign: &Campaign, id: &mut Identified) {
 
 /// The arm does not describe the runs from end to end.
 fn departs(oe: &OutputError) -> Option<Finding> {
-    if oe.whole_runs && oe.stands() {
+    if oe.describes_whole_runs() {
         return None;
     }
     let (first, last) = (oe.stages.first()?, longest(oe)?);
