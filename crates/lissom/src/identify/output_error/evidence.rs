@@ -18,6 +18,8 @@ const SHARE: f64 = 1e-4;
 const LARGE: f64 = 0.02;
 /// Residual beside the noise of the samples from which on friction may have another law.
 const BEYOND_NOISE: f64 = 1.2;
+/// Share of what is beyond the noise that another law may leave: a term takes some of anything else too.
+const LAW_LEAVES: f64 = 0.7;
 /// Share of the cost by which point masses may leave more than free modes.
 const RIGID_SHARE: f64 = 1e-3;
 /// A kind of dampers is there when one of them stands this many deviations from zero.
@@ -78,7 +80,7 @@ fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: 
     let mut with = fit.clone();
     trial.put_into(&mut with);
     fitting.search(&mut with, report);
-    let better = fitting.cost(&with, &fit.noise) <= (1.0 - LARGE) * fitting.cost(fit, &fit.noise);
+    let better = fitting.excess(&with) <= LAW_LEAVES * fitting.excess(fit);
     if better {
         *fit = with;
         report.law_changed();

@@ -150,6 +150,12 @@ impl Fitting<'_> {
         Problem { campaign: self.campaign, parameters: free, sampling, robust, near_enough }
     }
 
+    /// Squares of the residuals beyond the noise that the samples show by themselves, in that noise.
+    pub(super) fn excess(&self, fit: &Fit) -> f64 {
+        let each = fit.residual.iter().zip(self.noise);
+        each.map(|(r, n)| ((r / n.sigma).powi(2) - 1.0).max(0.0)).sum()
+    }
+
     /// Largest ratio of a channel's residual to the noise that its samples show by themselves.
     pub(super) fn beyond_noise(&self, fit: &Fit) -> f64 {
         fit.residual.iter().zip(self.noise).map(|(r, n)| r / n.sigma).fold(0.0, f64::max)
