@@ -55,9 +55,9 @@ pub(crate) fn page(
         page = page
             .heading("Regression on slip phases")
             .paragraph(
-                "The window's length is the one about which the figures depend on it least: \
+                "The window's length is the one about which the figures are best known: \
                  sensitivity is their relative change from the next shorter to the next longer \
-                 window.",
+                 window and their relative deviation, together.",
             )
             .table(&table);
     }

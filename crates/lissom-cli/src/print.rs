@@ -141,7 +141,7 @@ pub(crate) fn runs(id: &Identified) {
         line(&format!("{} of other motion", counted(general, "run")));
     }
     if let Some(r) = &id.regression {
-        let how = if r.window_given { "given" } else { "chosen where the figures move least" };
+        let how = if r.window_given { "given" } else { "chosen where the figures are best known" };
         line(&format!(
             "regression: {} rows in {} slip phases, window {:.4} s ({how}; motion up to {:.3} Hz), \
              {:.2} % of the torque left",

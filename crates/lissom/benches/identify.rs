@@ -2,10 +2,11 @@
 //! the replay with three masses.
 //!
 //! `cargo bench -p lissom --bench identify`. One evaluation of the cost is a replay of all runs from
-//! end to end; with its derivatives beside the same by central differences of the cost, over a
-//! hundredth of each parameter's deviation. How far these would take each parameter elsewhere, in its
-//! deviations (as a share of the gradient where that is steeper), goes to standard error, as do the output error's figures and the work that its search
-//! did. `RAYON_NUM_THREADS=1` measures one core.
+//! end to end: the baseline of both estimators. With its derivatives it stands beside the same by
+//! central differences of the cost, over a hundredth of each parameter's deviation. How far these
+//! would take each parameter elsewhere, in its deviations (as a share of the gradient where that is
+//! steeper), goes to standard error, as do the figures of both estimators and the work that the
+//! search did. `RAYON_NUM_THREADS=1` measures one core.
 #![expect(clippy::unwrap_used, reason = "the models are fixed and valid")]
 #![expect(clippy::print_stderr, reason = "accuracy beside speed")]
 
@@ -16,13 +17,11 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::identify::{OutputErrorStart, beam_regression, motor_regression, output_error, starts};
-use lissom::record::{
-    Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, Tip, TipQuantity,
-};
+use lissom::record::{Campaign, Run};
 use lissom::replay::{
-    ModalArm, Parameter, Sampling, SensorNoise, Window, costs, free_parameters, sums,
+    ArmModes, ModalArm, Parameter, Sampling, SensorNoise, Window, costs, free_parameters, sums,
 };
-use lissom::rig::{Experiment, Rig, Settle};
+use lissom::rig::{Experiment, Settle};
 use lissom_testmodels::{report_arm, report_rig};
 
 const OMEGA_RAD_S: [f64; 15] =
@@ -42,28 +41,15 @@ fn campaign() -> (Campaign, Vec<Option<f64>>) {
     let of_amplitude = |a: f64| OMEGA_RAD_S.iter().map(move |w| (a, *w));
     let runs: Vec<Run> =
         [0.5, 1.0].into_iter().flat_map(of_amplitude).map(|(a, w)| run(a, w)).collect();
-    let channels = channels(&rig, 1);
+    let channels = rig.channels(0..1);
     let omega = OMEGA_RAD_S.iter().chain(&OMEGA_RAD_S).map(|w| Some(*w)).collect();
     (Campaign::new(channels, runs).unwrap(), omega)
-}
-
-fn channels(rig: &Rig, tips: usize) -> Channels {
-    let command = Command {
-        quantity: CommandQuantity::Current,
-        hold: Hold::Sampled,
-        torque_per_command: Some(rig.arm.motor.torque_constant_nm_per_a),
-        back_emf_viscous: 0.0,
-        limit: rig.instruments.amplifier.limit_a(),
-    };
-    let tip =
-        |i: usize| Tip { name: i.to_string(), quantity: TipQuantity::Angle, calibrated: true };
-    Channels { axis: Axis::Rotary, command, tips: (0..tips).map(tip).collect() }
 }
 
 fn start(campaign: &Campaign, omega_rad_s: &[Option<f64>]) -> OutputErrorStart {
     let motor = motor_regression(campaign, &[]).unwrap();
     let beam = beam_regression(campaign);
-    let arm = starts(campaign, &motor, beam.as_ref(), None).remove(0);
+    let arm = starts(campaign, &motor, beam.as_ref(), None, None).remove(0);
     OutputErrorStart {
         arm,
         omega_rad_s: omega_rad_s.to_vec(),
@@ -167,7 +153,10 @@ fn demo(c: &mut Criterion) {
 
     let mut group = c.benchmark_group("demo's campaign");
     group.sample_size(10).measurement_time(Duration::from_secs(2));
-    group.bench_function("regression", |b| b.iter(|| motor_regression(&campaign, &[])));
+    group.bench_function("regression of the motor", |b| {
+        b.iter(|| motor_regression(&campaign, &[]));
+    });
+    group.bench_function("regression of the beam", |b| b.iter(|| beam_regression(&campaign)));
     group.bench_function("output error", |b| b.iter(|| output_error(&campaign, &start)));
     group.finish();
 }
@@ -180,14 +169,15 @@ fn three_masses(c: &mut Criterion) {
     let mut rig = report_rig(Some(14));
     rig.arm = Arm::new(beam, report.motor, report.coulomb).unwrap();
     let logged = rig.run("sine", &Experiment::sine(3.0, 0.7, 60.0).unwrap(), 0).unwrap();
+    let modes = ArmModes::of(&rig.arm).unwrap();
     let windows = [Window {
         run: 0,
         samples: 0..=logged.run.len() - 1,
-        start: vec![0.0; 8],
+        start: modes.state(&[0, 1, 2], &logged.start),
         zeros: vec![0.0; 3],
     }];
     let arm = ModalArm::of_arm(&rig.arm).unwrap();
-    let campaign = Campaign::new(channels(&rig, 3), vec![logged.run]).unwrap();
+    let campaign = Campaign::new(rig.channels(0..3), vec![logged.run]).unwrap();
     let parameters = free_parameters(&campaign.channels, &arm);
     let case = Case {
         campaign: &campaign,

@@ -201,10 +201,11 @@ fn one_direction_only_refuses_coulomb_and_offset() {
         .map(|r| {
             // A constant push large enough that the axis never turns back, its angle a ramp more.
             let t = r.sample_time_s();
-            let ramp = |k: usize| 20.0 * k as f64 * t;
-            let motor = r.motor().iter().enumerate().map(|(k, x)| x + ramp(k)).collect();
-            // The torque that goes with the ramp: V·20 at 0.01, and friction always forward.
-            let command = r.command().iter().map(|u| u + 1.0).collect();
+            let ramp = |k: usize| 40.0 * k as f64 * t;
+            let motor: Vec<f64> = r.motor().iter().enumerate().map(|(k, x)| x + ramp(k)).collect();
+            assert!(motor.windows(2).all(|w| w[1] > w[0]), "{} turns back", r.name());
+            // The torque that goes with the ramp: V·40 at 0.01, and friction always forward.
+            let command = r.command().iter().map(|u| u + 2.0).collect();
             Run::new(r.name(), r.time(), command, motor, vec![]).unwrap()
         })
         .collect();

@@ -15,7 +15,7 @@ use super::model::state_space;
 use super::models::{beam_model, figures_model};
 use super::output_error::{OutputError, OutputErrorStart, output_error, starts};
 use super::rational::{BeamFit, MotorFit};
-use super::regression::{BeamRegression, MotorRegression, beam_regression, motor_regression};
+use super::regression::{MotorRegression, beam_regression, motor_regression};
 use super::replayed_bands::ReplayedBands;
 use super::response_table::{Replayed, response_table, weak_points};
 use super::run_analysis::{RunAnalysis, RunKind, analyse};
@@ -23,6 +23,7 @@ use super::third_harmonic::{PairFigure, mean_figure, pair_figure};
 use super::{Estimate, models, verdict};
 use crate::lti::StateSpace;
 use crate::record::{Axis, Campaign, Run, TipQuantity};
+use crate::replay::ModalArm;
 
 /// Harmonics fitted to a periodic run.
 const HARMONICS: usize = 9;
@@ -145,13 +146,12 @@ pub fn identify(
         return Err(IdentifyError::NothingMoves { runs: campaign.runs.len(), constant });
     }
     progress(Stage::Regression);
-    let regression = motor_regression(&usable, &options.window_s);
-    let regression_residual = regression.as_ref().map(|r| r.relative_residual);
     // Of constant velocities alone it stands where their transitions show the inertia.
     let alone = !runs.iter().any(|r| r.usable && !r.is_constant_velocity());
-    let regression = regression
-        .filter(|r| r.relative_residual < RESIDUAL_REFUSED)
+    let any_regression = motor_regression(&usable, &options.window_s)
         .filter(|r| !alone || constant_velocity.is_none() || stands_alone(r));
+    let regression_residual = any_regression.as_ref().map(|r| r.relative_residual);
+    let regression = any_regression.clone().filter(|r| r.relative_residual < RESIDUAL_REFUSED);
     let friction_law = regression.as_ref().and_then(|r| friction_law(&usable, r));
     progress(Stage::Beam);
     let any_beam_regression = beam_regression(&usable);
@@ -160,23 +160,25 @@ pub fn identify(
     let square = Replayed::default();
     let shown = response_table(campaign, &runs, None, &square, &findings);
     let mut beam_model = beam_model(campaign, &shown);
-    let output_error = if options.without_output_error {
-        None
-    } else {
+    let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
+    let mut third_harmonic = pairs(&runs, &findings);
+    let best = coulomb_command(regression.as_ref(), third_harmonic.as_ref(), constant);
+    let replayable = any_regression.filter(|_| !options.without_output_error);
+    let output_error = replayable.and_then(|motor| {
         progress(Stage::OutputError);
-        let beam = any_beam_regression.as_ref();
-        let law = friction_law.as_ref();
-        replayed(&usable, &runs, &kept, regression.as_ref(), beam, beam_model.as_ref(), law)
-    };
+        // Without a tip's angle: friction as a square wave is near enough to start with.
+        let without_friction = response_table(campaign, &runs, best, &square, &findings);
+        let response = models::motor_model(&without_friction, constant, beam_model.as_ref());
+        let (beam, tips) = (any_beam_regression.as_ref(), beam_model.as_ref());
+        let plain = starts(&usable, &motor, beam, tips, response.as_ref());
+        replayed(&usable, &runs, &kept, &plain, friction_law.as_ref())
+    });
 
     let beam_regression =
         any_beam_regression.filter(|b| b.relative_residual.iter().all(|r| *r < BEAM_RESIDUAL));
 
     progress(Stage::Responses);
-    let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
     let table = |c: Option<Estimate>| response_table(campaign, &runs, c, &square, &findings);
-    let mut third_harmonic = pairs(&runs, &findings);
-    let best = coulomb_command(regression.as_ref(), third_harmonic.as_ref(), constant);
     let replay = output_error.as_ref().filter(|o| o.describes_whole_runs());
     let replay = replay.map_or_else(Replayed::default, |o| corrected(o, &usable, &runs, &kept));
     let mut responses = response_table(campaign, &runs, best, &replay, &findings);
@@ -194,11 +196,11 @@ pub fn identify(
             beam_model = beam.clone().or(beam_model);
         }
     }
-    let poles = beam_model.as_ref().map(BeamFit::modal_poles);
-    let poles = poles.as_deref();
-    let motor_model = motor_model.or_else(|| models::motor_model(&responses, constant, poles));
+    let motor_model =
+        motor_model.or_else(|| models::motor_model(&responses, constant, beam_model.as_ref()));
     if let Some(third) = &mut third_harmonic {
-        third.motor = models::motor_model(&table(Some(third.coulomb_command)), constant, poles);
+        third.motor =
+            models::motor_model(&table(Some(third.coulomb_command)), constant, beam_model.as_ref());
     }
     findings.extend(contradicted);
     // After the models: they weigh each band by its deviation.
@@ -357,9 +359,7 @@ fn replayed(
     usable: &Campaign,
     runs: &[RunAnalysis],
     kept: &[usize],
-    motor: Option<&MotorRegression>,
-    beam: Option<&BeamRegression>,
-    rational: Option<&BeamFit>,
+    plain: &[ModalArm],
     law: Option<&FrictionLaw>,
 ) -> Option<OutputError> {
     let omega = |&i: &usize| match &runs[i].kind {
@@ -368,9 +368,8 @@ fn replayed(
     };
     let omega_rad_s: Vec<Option<f64>> = kept.iter().map(omega).collect();
     let mut nearest: Option<OutputError> = None;
-    let plain = starts(usable, motor?, beam, rational);
     let lawful = law.filter(|law| law.chosen.departs()).into_iter().flat_map(|law| {
-        let mut arms = plain.clone();
+        let mut arms = plain.to_vec();
         let back_emf = usable.channels.command.back_emf_viscous;
         arms.retain_mut(|arm| law.chosen.put_into(arm, back_emf));
         arms

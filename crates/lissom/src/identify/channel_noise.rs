@@ -20,6 +20,9 @@ pub(crate) struct ChannelNoise {
     pub(crate) step: f64,
     /// Deviation of all noise: rounding, step/√12, and what the sensor adds.
     pub(crate) std: f64,
+    /// Deviation of what is independent from sample to sample: less than that of all noise where the
+    /// motion takes many samples for a step.
+    pub(crate) independent: f64,
 }
 
 /// Step and noise of uniform samples of a smooth motion.
@@ -37,12 +40,12 @@ pub(crate) fn channel_noise(x: &[f64]) -> ChannelNoise {
         .map(|w| (w[0] - 4.0 * w[1] + 6.0 * w[2] - 4.0 * w[3] + w[4]).abs())
         .collect();
     if fourth.is_empty() {
-        return ChannelNoise { step, std: step / 12.0_f64.sqrt() };
+        return ChannelNoise { step, std: step / 12.0_f64.sqrt(), independent: 0.0 };
     }
     let middle = fourth.len() / 2;
     let (_, median, _) = fourth.select_nth_unstable_by(middle, f64::total_cmp);
     let spread = *median / (NORMAL_MEDIAN * FOURTH_DIFFERENCE.sqrt());
-    ChannelNoise { step, std: spread.max(step / 12.0_f64.sqrt()) }
+    ChannelNoise { step, std: spread.max(step / 12.0_f64.sqrt()), independent: spread }
 }
 
 /// The sensor's step, or 0.
@@ -102,6 +105,9 @@ mod tests {
 
     #[test]
     fn a_channel_at_rest_has_none() {
-        assert_eq!(channel_noise(&[1.0; 50]), ChannelNoise { step: 0.0, std: 0.0 });
+        assert_eq!(
+            channel_noise(&[1.0; 50]),
+            ChannelNoise { step: 0.0, std: 0.0, independent: 0.0 }
+        );
     }
 }

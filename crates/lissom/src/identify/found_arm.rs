@@ -51,7 +51,8 @@ impl FoundArm {
             return None;
         };
         let beam = id.beam_regression.as_ref();
-        let mut arm = starts(used, motor, beam, id.beam_model.as_ref()).into_iter().next()?;
+        // Without a tip's angle slip phases give no arm: what starts a replay there is not one yet.
+        let mut arm = starts(used, motor, beam, id.beam_model.as_ref(), None).into_iter().next()?;
         if let Some(split) = motor.viscous_by_direction {
             let back_emf = used.channels.command.back_emf_viscous;
             arm.viscous_nm_s_per_rad = [split.forward.value, split.backward.value];

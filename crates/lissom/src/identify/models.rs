@@ -60,11 +60,11 @@ pub(super) fn beam_model(campaign: &Campaign, responses: &[ResponsePoint]) -> Op
     fit_beam(&omega, &data)
 }
 
-/// Motor and coupling from its corrected responses.
+/// Motor and coupling from its corrected responses, the beam's modes where they are known.
 pub(super) fn motor_model(
     responses: &[ResponsePoint],
     constant: f64,
-    poles: Option<&[super::Pole]>,
+    beam: Option<&BeamFit>,
 ) -> Option<MotorFit> {
     let sound: Vec<_> = responses
         .iter()
@@ -76,5 +76,5 @@ pub(super) fn motor_model(
         response: sound.iter().map(|p| p.1).collect(),
         torque_per_command: constant,
     };
-    fit_motor(&data, poles)
+    fit_motor(&data, beam.map(BeamFit::modal_poles).as_deref())
 }

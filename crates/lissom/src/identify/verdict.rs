@@ -5,7 +5,7 @@ use super::finding::{Finding, Severity, key};
 use super::found_arm::FoundArm;
 use super::friction_law;
 use super::identified::{Beam, Friction, Identified};
-use super::output_error;
+use super::output_error::{self, OutputError};
 use super::regression::{self, BeamRegression};
 use super::run_analysis::RunKind;
 use super::separability::Separability;
@@ -35,7 +35,9 @@ pub(crate) fn conclude(campaign: &Campaign, used: &Campaign, id: &mut Identified
         id.friction.coulomb =
             id.third_harmonic.as_ref().map(|t| t.coulomb_command.scaled(constant));
     }
+    let replayed = id.output_error.as_ref().is_some_and(OutputError::stands);
     if id.regression.is_none()
+        && !replayed
         && let Some(motor) = &id.motor_model
     {
         let back_emf = campaign.channels.command.back_emf_viscous;

@@ -1,7 +1,9 @@
 //! Rows of the motor's equation on short windows, with columns of friction by speed and angle.
 
-use crate::identify::regression::{Cluster, Window, coupled_tips, row, slip_phases, smoothing};
-use crate::record::{Campaign, Hold, Run};
+use crate::identify::regression::{
+    Cluster, MotorEquation, Rows, Window, coupled_tips, slip_phases, smoothing,
+};
+use crate::record::{Campaign, Run};
 
 /// Windows overlap by all but this part of their length.
 const STEP: f64 = 0.25;
@@ -135,12 +137,14 @@ impl<'a> Sampled<'a> {
         let tips = coupled_tips(self.campaign);
         let functions: Vec<Vec<Vec<f64>>> =
             (0..self.campaign.runs.len()).map(|run| self.functions(run, columns, knots)).collect();
+        let mut row = Vec::new();
         self.each(|index, phase, sign, k, window| {
             let run = &self.campaign.runs[index];
-            let mut row = row(self.campaign, run, &tips, window, k);
+            let equation = MotorEquation { campaign: self.campaign, run, tips: &tips, window };
+            equation.fill(k, &mut row);
             let right = row.len() - 1;
             let more = columns.iter().zip(&functions[index]).map(|(column, f)| match column {
-                Column::Lag => lag(self.campaign, run, window, k),
+                Column::Lag => equation.later(k),
                 _ => integral(&window.value, &f[k..=k + window.len()], run.sample_time_s()),
             });
             row.splice(right..right, more.map(|v| v * window.row_scale));
@@ -211,21 +215,6 @@ fn velocity(motor: &[f64], smooth: usize, sample_time_s: f64) -> Vec<f64> {
 
 fn integral(weight: &[f64], f: &[f64], sample_time_s: f64) -> f64 {
     weight.iter().zip(f).map(|(w, f)| w * f).sum::<f64>() * sample_time_s
-}
-
-/// `∫ẇτ`.
-fn lag(campaign: &Campaign, run: &Run, window: &Window, k: usize) -> f64 {
-    let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
-    let command = &run.command()[k..=k + window.len()];
-    constant
-        * match campaign.channels.command.hold {
-            // Held: ∫ẇ over each interval is the difference of w.
-            Hold::Sampled => {
-                let steps = window.value.windows(2).zip(command);
-                steps.map(|(w, u)| (w[1] - w[0]) * u).sum::<f64>()
-            }
-            Hold::Measured => integral(&window.first, command, run.sample_time_s()),
-        }
 }
 
 /// One at knot `j`, falling to zero at its neighbours; beyond the first and the last knot it stays.

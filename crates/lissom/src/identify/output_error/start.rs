@@ -1,6 +1,6 @@
 //! Where the output error starts: the figures of the regressions as an arm.
 
-use crate::identify::{BeamFit, BeamRegression, MotorRegression};
+use crate::identify::{BeamFit, BeamRegression, Estimate, MotorFit, MotorRegression};
 use crate::record::{Campaign, Tip, TipQuantity};
 use crate::replay::{DryTerms, MOST_MODES, ModalArm, Oscillator};
 
@@ -10,28 +10,37 @@ const LEAST_SHARE: f64 = 0.02;
 /// Share of every tip's motion below which a mode is none to start with.
 const NEGLIGIBLE: f64 = 0.05;
 
-/// Arms to start from, the likelier first: the motor's regression with the beam's own, with the modes of
-/// the rational model, and as a rigid axis where there is no tip. Empty where the motor's figures lack
-/// what it needs.
+/// Arms to start from, the likelier or simpler first. With a tip's angle: the motor's regression with the
+/// beam's own, and with the modes of the rational model `tips`. Without one: a rigid axis where there is
+/// no tip at all, and what the motor's rational model `response` has, where it has modes. Empty where
+/// the motor's figures lack what it needs.
 pub fn starts(
     campaign: &Campaign,
     motor: &MotorRegression,
     beam: Option<&BeamRegression>,
-    rational: Option<&BeamFit>,
+    tips: Option<&BeamFit>,
+    response: Option<&MotorFit>,
 ) -> Vec<ModalArm> {
     let Some(rigid) = rigid(campaign, motor) else { return Vec::new() };
+    if !campaign.channels.tips.iter().any(known) {
+        let flexible = response.and_then(|r| flexible(&rigid, campaign, r, tips));
+        let rigid = campaign.channels.tips.is_empty().then_some(rigid);
+        return rigid.into_iter().chain(flexible).collect();
+    }
     let coupling: Option<Vec<f64>> =
         motor.coupling.iter().map(|c| c.map(|e| e.value)).collect::<Option<_>>();
-    let angles = campaign.channels.tips.iter().any(known);
-    let Some(coupling) = coupling.filter(|_| angles) else {
-        return if campaign.channels.tips.is_empty() { vec![rigid] } else { Vec::new() };
-    };
+    let Some(coupling) = coupling else { return Vec::new() };
     let by_regression = beam.and_then(|b| {
         let (omega, shapes) = ModalArm::modes_of(&b.stiffness)?;
         let ratios = b.modes.iter().map(|m| m.damping_ratio.value).collect();
         Some((omega, ratios, shapes))
     });
-    let by_responses = rational.and_then(modes_of_responses);
+    let by_responses = tips.and_then(modes_of_responses).map(|(omega, ratios, mut shapes)| {
+        for row in &mut shapes {
+            whole(row);
+        }
+        (omega, ratios, shapes)
+    });
     [by_regression, by_responses]
         .into_iter()
         .flatten()
@@ -39,6 +48,48 @@ pub fn starts(
         .filter(|(omega, ..)| omega.len() <= MOST_MODES)
         .map(|modes| with_modes(rigid.clone(), modes, &coupling))
         .collect()
+}
+
+/// An axis with the modes that its own response shows, and each tip's part in them by `tips`, whose
+/// modes these are then. Its inertia is that of the response: slip phases alone count the beam's with it.
+fn flexible(
+    rigid: &ModalArm,
+    campaign: &Campaign,
+    response: &MotorFit,
+    tips: Option<&BeamFit>,
+) -> Option<ModalArm> {
+    let channels = &campaign.channels.tips;
+    let count = response.poles.len();
+    let sound = response.inertia.value > 0.0 && response.coupling.iter().all(|c| c.value > 0.0);
+    if count == 0 || count > MOST_MODES || !sound {
+        return None;
+    }
+    let shapes = if channels.is_empty() {
+        Vec::new()
+    } else {
+        let (omega, _, mut shapes) = modes_of_responses(tips?)?;
+        if omega.len() != count {
+            return None;
+        }
+        for (_, row) in channels.iter().zip(&mut shapes).filter(|(tip, _)| tip.calibrated) {
+            whole(row);
+        }
+        shapes
+    };
+    let modes = response.poles.iter().zip(&response.coupling).map(|(pole, coupling)| Oscillator {
+        omega_rad_s: pole.omega_rad_s,
+        stiffness_nm_per_rad: coupling.value,
+        within_per_s: (2.0 * pole.damping_ratio * pole.omega_rad_s).max(0.0),
+        grounded_per_s: 0.0,
+    });
+    Some(ModalArm {
+        inertia_kg_m2: response.inertia.value,
+        viscous_nm_s_per_rad: [response.viscous.value.max(0.0); 2],
+        modes: modes.collect(),
+        at_points_per_s: if count == shapes.len() { vec![0.0; count] } else { Vec::new() },
+        shapes,
+        ..rigid.clone()
+    })
 }
 
 /// Frequencies, damping ratios, and shapes by tip.
@@ -71,9 +122,11 @@ fn rigid(campaign: &Campaign, motor: &MotorRegression) -> Option<ModalArm> {
     let inertia = motor.inertia?.value;
     let back_emf = campaign.channels.command.back_emf_viscous;
     let coulomb = motor.coulomb?.value;
+    // With less than none a replay runs away.
+    let viscous = (motor.viscous.map_or(0.0, |v| v.value) + back_emf).max(0.0);
     (inertia > 0.0 && coulomb.is_finite()).then(|| ModalArm {
         inertia_kg_m2: inertia,
-        viscous_nm_s_per_rad: [motor.viscous.map_or(0.0, |v| v.value) + back_emf; 2],
+        viscous_nm_s_per_rad: [viscous; 2],
         coulomb_nm: coulomb,
         offset_nm: motor.offset.map_or(0.0, |o| o.value),
         modes: Vec::new(),
@@ -84,24 +137,23 @@ fn rigid(campaign: &Campaign, motor: &MotorRegression) -> Option<ModalArm> {
     })
 }
 
-/// `r_ij = (residue of tip i in mode j)/ω_j²`, the rest of Σr = 1 given to the last mode.
+/// `r_ij = (residue of tip i in mode j)/ω_j²`.
 fn modes_of_responses(fit: &BeamFit) -> Option<Modes> {
     let poles: Vec<_> = fit.mode_poles.iter().map(|&k| fit.poles[k]).collect();
     let square = |j: usize| poles[j].omega_rad_s * poles[j].omega_rad_s;
-    let shapes = fit
-        .residues
-        .iter()
-        .map(|tip| {
-            let mut row: Vec<f64> =
-                fit.mode_poles.iter().enumerate().map(|(j, &k)| tip[k].value / square(j)).collect();
-            let sum: f64 = row.iter().sum();
-            row.last_mut().into_iter().for_each(|r| *r += 1.0 - sum);
-            row
-        })
-        .collect();
+    let of_tip = |tip: &Vec<Estimate>| {
+        fit.mode_poles.iter().enumerate().map(|(j, &k)| tip[k].value / square(j)).collect()
+    };
+    let shapes = fit.residues.iter().map(of_tip).collect();
     let omega: Vec<f64> = poles.iter().map(|p| p.omega_rad_s).collect();
     let ratios = poles.iter().map(|p| p.damping_ratio).collect();
     (!omega.is_empty()).then_some((omega, ratios, shapes))
+}
+
+/// The rest of Σr = 1 goes to the last mode.
+fn whole(row: &mut [f64]) {
+    let sum: f64 = row.iter().sum();
+    row.last_mut().into_iter().for_each(|r| *r += 1.0 - sum);
 }
 
 fn with_modes(mut arm: ModalArm, (omega, ratios, shapes): Modes, coupling: &[f64]) -> ModalArm {

@@ -15,6 +15,7 @@ pub(crate) fn verdict(campaign: &Campaign, id: &mut Identified) {
         id.inertia = oe.inertia();
         id.findings.extend(added(oe));
         id.findings.extend(modes_missing(campaign, oe));
+        id.findings.extend(modes_by_the_motor(campaign, oe));
     }
     id.findings.extend(departs);
 }
@@ -47,6 +48,24 @@ fn departs(oe: &OutputError) -> Option<Finding> {
 /// The stage of the longest windows tried.
 fn longest(oe: &OutputError) -> Option<&StageReport> {
     oe.stages.iter().max_by(|a, b| a.window_s.total_cmp(&b.window_s))
+}
+
+/// Modes that no tip shows.
+fn modes_by_the_motor(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
+    let modes = oe.arm.modes.len();
+    (modes > 0 && campaign.channels.tips.is_empty()).then(|| {
+        Finding::new(
+            "modes-by-the-motor",
+            Severity::Info,
+            &[key::COUPLING, key::MODES],
+            format!(
+                "{modes} flexible {} from the motor's motion alone: modes that it hardly feels ride on \
+                 its inertia",
+                if modes == 1 { "mode" } else { "modes" }
+            ),
+            "measure a tip to see how the arm itself moves",
+        )
+    })
 }
 
 /// Fewer modes than tips: a mode that no run shows, whose inertia rides on the motor's.

@@ -1,10 +1,15 @@
 //! The beam's own equation (13) on windows: natural frequencies and damping.
 
-use nalgebra::DMatrix;
+use std::sync::Arc;
 
-use super::normal::{Cluster, Term, solve};
+use nalgebra::DMatrix;
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+
+use super::motor_rows::behind;
+use super::normal::{Cluster, Rows, Term, solve};
+use super::row_noise::{Part, RunNoise, products};
 use super::scan::{Candidate, SYSTEMATIC, Scan, scan};
-use super::window::{Window, dot};
+use super::window::{Window, dot, dot_from};
 use crate::identify::{Estimate, ModeEstimate};
 use crate::record::{Campaign, Run, TipQuantity};
 
@@ -60,9 +65,12 @@ pub fn beam_regression(campaign: &Campaign) -> Option<BeamRegression> {
     let terms: Vec<Term> = (0..n + 2).map(Term::Plain).collect();
     let counts: Vec<bool> = (0..n + 2).map(|i| i < n).collect();
     let sample_time = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
+    let noise: Vec<RunNoise> = campaign.runs.par_iter().map(RunNoise::of).collect();
     let scans: Vec<Scan> = (0..n)
         .map(|i| {
-            scan(sample_time, &[], &counts, |length| solve(&clusters(campaign, i, length), &terms))
+            scan(sample_time, &[], &counts, |length| {
+                solve(&clusters(campaign, &noise, i, length), &terms)
+            })
         })
         .collect::<Option<_>>()?;
     let stiffness = DMatrix::from_fn(n, n, |i, j| scans[i].solution.value[j]);
@@ -158,56 +166,85 @@ fn deviations(
 }
 
 /// Sums of blocks of windows over every run, for tip `i`.
-fn clusters(campaign: &Campaign, i: usize, length_s: f64) -> Vec<Cluster> {
-    let n = campaign.channels.tips.len();
-    let mut out = Vec::new();
-    for (index, run) in campaign.runs.iter().enumerate() {
-        let t = run.sample_time_s();
-        let len = (length_s / t).round() as usize;
-        if len < 4 || len >= run.len() {
-            continue;
-        }
-        let window = Window::new(len, t);
-        let step = ((len as f64 * STEP) as usize).max(1);
-        let starts: Vec<usize> = (0..run.len() - len).step_by(step).collect();
-        for block in starts.chunks(BLOCK) {
-            let mut cluster = Cluster::new(index, 0.0, n + 3);
-            for &k in block {
-                cluster.add(&row(campaign, run, i, &window, k));
-            }
-            out.push(cluster);
-        }
-    }
-    out
+fn clusters(campaign: &Campaign, noise: &[RunNoise], i: usize, length_s: f64) -> Vec<Cluster> {
+    let columns = campaign.channels.tips.len() + 3;
+    let windows = Window::of_runs(&campaign.runs, length_s);
+    let of_run = |(index, window): (usize, &Option<Arc<Window>>)| {
+        let (Some(window), run) = (window, &campaign.runs[index]) else { return Vec::new() };
+        let step = ((window.len() as f64 * STEP) as usize).max(1);
+        let equation = BeamEquation { campaign, run, tip: i, window };
+        let noise = equation.noise(&noise[index]);
+        let starts: Vec<usize> = (0..run.len() - window.len()).step_by(step).collect();
+        let cluster = |block: &[usize]| {
+            let mut cluster = Cluster::new(index, 0.0, columns);
+            cluster.add_windows(block.iter().copied(), &equation, &noise);
+            cluster
+        };
+        starts.chunks(BLOCK).map(cluster).collect()
+    };
+    windows.par_iter().enumerate().flat_map_iter(of_run).collect()
 }
 
-fn row(campaign: &Campaign, run: &Run, i: usize, window: &Window, k: usize) -> Vec<f64> {
-    let t = run.sample_time_s();
-    let span = k..=k + window.len();
-    let motor = &run.motor()[span.clone()];
-    // Angle of a point, from the motor's first: keeps ∫ẅ·const at rounding of small numbers.
-    let angle = |j: usize| -> Vec<f64> {
-        let tip = &run.tips()[j][span.clone()];
-        let deflection = campaign.channels.tips[j].quantity == TipQuantity::Deflection;
-        tip.iter()
-            .zip(motor)
-            .map(|(x, m)| if deflection { x + m - motor[0] } else { x - motor[0] })
-            .collect()
-    };
-    let mut row: Vec<f64> = (0..run.tips().len())
-        .map(|j| {
-            let difference: f64 = angle(j)
-                .iter()
-                .zip(motor)
-                .zip(&window.value)
-                .map(|((x, m), w)| w * (m - motor[0] - x))
-                .sum();
-            difference * t
-        })
-        .collect();
-    let own = angle(i);
-    row.push(dot(&window.first, &own) * t);
-    row.push(window.held.iter().sum());
-    row.push(dot(&window.second, &own) * t);
-    row.into_iter().map(|v| v * window.row_scale).collect()
+/// `[∫w(θ_m − θ_j).., ∫ẇθ_i, ∫w, ∫ẅθ_i]`, scaled by the noise that it carries.
+struct BeamEquation<'a> {
+    campaign: &'a Campaign,
+    run: &'a Run,
+    tip: usize,
+    window: &'a Window,
+}
+
+impl Rows for BeamEquation<'_> {
+    #[inline(always)]
+    fn fill(&self, k: usize, row: &mut Vec<f64>) {
+        let Self { campaign, run, window, .. } = *self;
+        row.clear();
+        for j in 0..run.tips().len() {
+            row.push(behind(campaign, run, j, window, k));
+        }
+        row.push(self.own(&window.first, k));
+        row.push(window.area);
+        row.push(self.own(&window.second, k));
+        for value in row {
+            *value *= window.row_scale;
+        }
+    }
+}
+
+impl BeamEquation<'_> {
+    /// What noise adds to a row's products, in expectation.
+    fn noise(&self, of_run: &RunNoise) -> DMatrix<f64> {
+        let window = self.window;
+        let tips = &self.campaign.channels.tips;
+        let (n, own) = (tips.len(), self.tip);
+        let deflection = |j: usize| tips[j].quantity == TipQuantity::Deflection;
+        let mut of_motor: Vec<Part<'_>> = Vec::new();
+        let mut of_tips: Vec<Vec<Part<'_>>> = vec![Vec::new(); n];
+        for (j, of_tip) in of_tips.iter_mut().enumerate() {
+            of_tip.push((j, &window.value, -1.0));
+            if !deflection(j) {
+                of_motor.push((j, &window.value, 1.0));
+            }
+        }
+        for (column, weight) in [(n, &window.first), (n + 2, &window.second)] {
+            of_tips[own].push((column, weight, 1.0));
+            if deflection(own) {
+                of_motor.push((column, weight, 1.0));
+            }
+        }
+        let of_tips = of_run.tips.iter().copied().zip(of_tips);
+        let noise = products(n + 3, of_tips.chain([(of_run.motor, of_motor)]));
+        noise * (self.run.sample_time_s() * window.row_scale).powi(2)
+    }
+
+    /// ∫weight·θ_i, the angle from the motor's first: keeps ∫ẅ·const at rounding of small numbers.
+    #[inline(always)]
+    fn own(&self, weight: &[f64], k: usize) -> f64 {
+        let span = k..=k + self.window.len();
+        let (motor, tip) = (&self.run.motor()[span.clone()], &self.run.tips()[self.tip][span]);
+        self.run.sample_time_s()
+            * match self.campaign.channels.tips[self.tip].quantity {
+                TipQuantity::Deflection => dot(weight, tip) + dot_from(weight, motor, motor[0]),
+                _ => dot_from(weight, tip, motor[0]),
+            }
+    }
 }

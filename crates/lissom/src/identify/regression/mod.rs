@@ -1,11 +1,14 @@
 //! Regression on slip phases: inertia, friction and coupling without differentiating a
 //! measurement.
+#![expect(clippy::inline_always, reason = "compiled for wide registers as one: half the time")]
 
 mod beam;
 mod missing;
 mod motor;
+mod motor_rows;
 mod normal;
 mod phases;
+mod row_noise;
 mod scan;
 mod verdict;
 mod window;
@@ -13,8 +16,8 @@ mod window;
 pub use beam::{BeamRegression, beam_regression};
 pub use missing::{MissingKind, MissingTerm};
 pub use motor::{ByDirection, MotorRegression, motor_regression};
-pub(crate) use motor::{coupled_tips, row};
-pub(crate) use normal::{Cluster, Solution, Term, solve};
+pub(crate) use motor_rows::{MotorEquation, coupled_tips};
+pub(crate) use normal::{Cluster, Rows, Solution, Term, solve};
 pub(crate) use phases::{slip_phases, slip_sign, smoothing};
 pub use scan::Candidate;
 pub(crate) use verdict::findings;

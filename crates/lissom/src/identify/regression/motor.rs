@@ -5,29 +5,16 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 
 use super::missing::{MissingTerm, missing_term};
+use super::motor_rows::{DRY, INERTIA, MotorRows, TIPS, VISCOUS};
 use super::normal::{Cluster, Solution, Term, solve};
-use super::phases::{slip_phases, smoothing};
 use super::scan::{Candidate, SYSTEMATIC, Scan, scan};
-use super::window::{Window, dot};
 use crate::identify::Estimate;
-use crate::record::{Campaign, Hold, Run, TipQuantity};
+use crate::record::{Campaign, Run};
 
-/// Windows overlap by all but this part of their length.
-const STEP: f64 = 0.25;
-/// The velocity is smoothed over no more than this part of the window's length.
-const SMOOTH: f64 = 1.0 / 3.0;
 /// Directional viscous terms are reported when they differ by this many deviations…
 const DIRECTION_DEVIATIONS: f64 = 4.0;
 /// …and leave at most this share of the residual.
 const DIRECTION_RESIDUAL: f64 = 0.9;
-
-/// Columns of a row; tips follow after these.
-const INERTIA: usize = 0;
-const VISCOUS: usize = 1;
-const DRY: usize = 2;
-const TIPS: usize = 3;
-/// Columns that [`missing_term`] tries.
-const EXTRA: usize = 3;
 
 /// Figures of the motor's equation, in torque (or force) as the command's constant gives it.
 #[derive(Debug, Clone, PartialEq)]
@@ -124,16 +111,16 @@ pub struct ByDirection {
 /// `[Feliu1989, eqs. (14), (15)]` is the equation; the way of fitting it is this project's own
 /// (DESIGN.md, "How does the regression work?").
 pub fn motor_regression(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRegression> {
-    let tips = coupled_tips(campaign);
+    let equation = MotorRows::of(campaign);
+    let tips = &equation.tips;
     let mut terms =
         vec![Term::Plain(INERTIA), Term::Plain(VISCOUS), Term::Signed(DRY), Term::Plain(DRY)];
     terms.extend((0..tips.len()).map(|i| Term::Plain(TIPS + i)));
     // The offset is small by nature: it does not take part in the choice of the window.
     let counts: Vec<bool> = (0..terms.len()).map(|i| i != 3).collect();
     let sample_time = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
-    let found = scan(sample_time, window_s, &counts, |length| {
-        solve(&clusters(campaign, &tips, length), &terms)
-    })?;
+    let found =
+        scan(sample_time, window_s, &counts, |length| solve(&equation.clusters(length), &terms))?;
     let chosen = &found.candidates[found.chosen];
     let solution = &found.solution;
     let figure = |i: usize| {
@@ -159,12 +146,12 @@ pub fn motor_regression(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRe
     let back_emf = campaign.channels.command.back_emf_viscous;
     let viscous = |e: Estimate| Estimate { value: e.value - back_emf, std: e.std };
     let missing = missing_term(
-        &clusters_with(campaign, &tips, chosen.window_s, true),
+        &equation.clusters_with_more(chosen.window_s),
         &terms,
         solution,
         TIPS + tips.len(),
     );
-    let by_direction = by_direction(&clusters(campaign, &tips, chosen.window_s), &terms, solution);
+    let by_direction = by_direction(&equation.clusters(chosen.window_s), &terms, solution);
     Some(MotorRegression {
         window_s: chosen.window_s,
         window_given: !window_s.is_empty(),
@@ -212,13 +199,13 @@ impl MotorRegression {
     /// Relative error with which these figures predict the windowed torque of other records:
     /// ‖y − X·q‖/‖y‖ on their slip phases, at this fit's window. `None` where no phase holds one.
     pub fn prediction_error(&self, campaign: &Campaign) -> Option<f64> {
-        let tips = coupled_tips(campaign);
+        let equation = MotorRows::of(campaign);
         let values = &self.terms.values;
-        if values.len() != 4 + tips.len() {
+        if values.len() != 4 + equation.tips.len() {
             return None;
         }
         let (mut left, mut power) = (0.0, 0.0);
-        for c in clusters(campaign, &tips, self.window_s) {
+        for c in equation.clusters(self.window_s) {
             let last = c.products.ncols() - 1;
             let mut q = vec![values[0], values[1]];
             q.push(c.sign * values[2] + values[3]);
@@ -230,128 +217,6 @@ impl MotorRegression {
         }
         (power > 0.0).then(|| (left.max(0.0) / power).sqrt())
     }
-}
-
-/// Tips whose angle from the motor's line is known.
-pub(crate) fn coupled_tips(campaign: &Campaign) -> Vec<usize> {
-    let tips = &campaign.channels.tips;
-    (0..tips.len())
-        .filter(|&i| tips[i].calibrated && tips[i].quantity != TipQuantity::Acceleration)
-        .collect()
-}
-
-/// Sums of every slip phase of every run, for one length of window.
-fn clusters(campaign: &Campaign, tips: &[usize], length_s: f64) -> Vec<Cluster> {
-    clusters_with(campaign, tips, length_s, false)
-}
-
-/// The same, with the columns of [`missing_term`] before the right side if `extra`.
-fn clusters_with(campaign: &Campaign, tips: &[usize], length_s: f64, extra: bool) -> Vec<Cluster> {
-    let columns = TIPS + tips.len() + 1 + if extra { EXTRA } else { 0 };
-    let origin = campaign.runs.first().map_or(0.0, |run| run.motor()[0]);
-    let mut out = Vec::new();
-    for (index, run) in campaign.runs.iter().enumerate() {
-        let t = run.sample_time_s();
-        let n = (length_s / t).round() as usize;
-        if n < 4 || n >= run.len() {
-            continue;
-        }
-        let window = Window::new(n, t);
-        let smooth = smoothing(run.motor()).min((n as f64 * SMOOTH) as usize).max(4);
-        let step = ((n as f64 * STEP) as usize).max(1);
-        let slowness = if extra { slowness(run, smooth) } else { Vec::new() };
-        for phase in slip_phases(run.motor(), smooth, t) {
-            if phase.to - phase.from <= n {
-                continue;
-            }
-            let mut cluster = Cluster::new(index, phase.sign, columns);
-            for k in (phase.from..phase.to - n).step_by(step) {
-                let mut row = row(campaign, run, tips, &window, k);
-                if extra {
-                    let right = row.len() - 1;
-                    let more = extra_columns(campaign, run, &window, k, origin, &slowness);
-                    row.splice(right..right, more.map(|v| v * window.row_scale));
-                }
-                cluster.add(&row);
-            }
-            out.push(cluster);
-        }
-    }
-    out
-}
-
-/// `e^{−|v|/v̄}` at every sample, v̄ the run's mean speed.
-fn slowness(run: &Run, smooth: usize) -> Vec<f64> {
-    let x = run.motor();
-    let last = x.len() - 1;
-    let speed: Vec<f64> = (0..x.len())
-        .map(|k| {
-            let (from, to) = (k.saturating_sub(smooth / 2), (k + smooth / 2).min(last));
-            ((x[to] - x[from]) / (to - from).max(1) as f64).abs()
-        })
-        .collect();
-    let mean = speed.iter().sum::<f64>() / speed.len() as f64;
-    speed.iter().map(|v| (-v / mean.max(f64::MIN_POSITIVE)).exp()).collect()
-}
-
-/// `[∫ẇτ, ∫wθ, ∫w·e^{−|v|/v̄}]`.
-fn extra_columns(
-    campaign: &Campaign,
-    run: &Run,
-    window: &Window,
-    k: usize,
-    origin: f64,
-    slowness: &[f64],
-) -> [f64; EXTRA] {
-    let t = run.sample_time_s();
-    let n = window.len();
-    let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
-    let command = &run.command()[k..=k + n];
-    let by_delay = match campaign.channels.command.hold {
-        // Held: ∫ẇ over each interval is the difference of w.
-        Hold::Sampled => {
-            window.value.windows(2).zip(command).map(|(w, u)| (w[1] - w[0]) * u).sum::<f64>()
-        }
-        Hold::Measured => dot(&window.first, command) * t,
-    };
-    let motor = &run.motor()[k..=k + n];
-    let by_position: f64 = motor.iter().zip(&window.value).map(|(x, w)| w * (x - origin)).sum();
-    [constant * by_delay, by_position * t, dot(&window.value, &slowness[k..=k + n]) * t]
-}
-
-/// One row: `[∫ẅθ, −∫ẇθ, ∫w, ∫w(θ_m − θ_i).., ∫wτ]`, scaled by the noise it carries.
-pub(crate) fn row(
-    campaign: &Campaign,
-    run: &Run,
-    tips: &[usize],
-    window: &Window,
-    k: usize,
-) -> Vec<f64> {
-    let t = run.sample_time_s();
-    let n = window.len();
-    let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
-    // Angles from the window's first: w̄ and ẅ integrate constants to zero only up to rounding.
-    let motor: Vec<f64> = run.motor()[k..=k + n].iter().map(|x| x - run.motor()[k]).collect();
-    let mut row = Vec::with_capacity(TIPS + tips.len() + 1);
-    row.push(dot(&window.second, &motor) * t);
-    row.push(-dot(&window.first, &motor) * t);
-    row.push(window.held.iter().sum());
-    for &i in tips {
-        let tip = &run.tips()[i][k..=k + n];
-        let deflected = dot(&window.value, tip) * t;
-        row.push(match campaign.channels.tips[i].quantity {
-            TipQuantity::Deflection => -deflected,
-            _ => dot(&window.value, &run.motor()[k..=k + n]) * t - deflected,
-        });
-    }
-    row.push(
-        constant
-            * match campaign.channels.command.hold {
-                Hold::Sampled => dot(&window.held, &run.command()[k..k + n]),
-                Hold::Measured => dot(&window.value, &run.command()[k..=k + n]) * t,
-            },
-    );
-    row.into_iter().map(|v| v * window.row_scale).collect()
 }
 
 /// Viscous friction by direction, if the data call for it.

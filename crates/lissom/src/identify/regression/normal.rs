@@ -19,22 +19,60 @@ pub(crate) struct Cluster {
     pub(crate) rows: usize,
     /// (p + 1)² products.
     pub(crate) products: DMatrix<f64>,
+    /// What the sensors' noise adds to these, in expectation.
+    pub(crate) noise: DMatrix<f64>,
+}
+
+/// An equation, window by window.
+pub(crate) trait Rows {
+    /// Makes `row` that of the window which begins at sample `k`: regressors first, right side last.
+    fn fill(&self, k: usize, row: &mut Vec<f64>);
+}
+
+struct Adding<'a, I, R> {
+    cluster: &'a mut Cluster,
+    starts: I,
+    equation: &'a R,
+}
+
+impl<I: Iterator<Item = usize>, R: Rows> pulp::WithSimd for Adding<'_, I, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        let mut row = Vec::with_capacity(self.cluster.products.ncols());
+        for k in self.starts {
+            self.equation.fill(k, &mut row);
+            self.cluster.add(&row);
+        }
+    }
 }
 
 impl Cluster {
     pub(crate) fn new(run: usize, sign: f64, columns: usize) -> Self {
-        Self { run, sign, rows: 0, products: DMatrix::zeros(columns, columns) }
+        let zeros = DMatrix::zeros(columns, columns);
+        Self { run, sign, rows: 0, noise: zeros.clone(), products: zeros }
+    }
+
+    /// Adds the rows of windows from `starts` on, to each of whose products the sensors' noise adds `noise`.
+    ///
+    /// Compiled for the widest registers that there are.
+    pub(crate) fn add_windows(
+        &mut self,
+        starts: impl Iterator<Item = usize>,
+        equation: &impl Rows,
+        noise: &DMatrix<f64>,
+    ) {
+        let before = self.rows;
+        pulp::Arch::new().dispatch(Adding { cluster: &mut *self, starts, equation });
+        self.noise += noise * (self.rows - before) as f64;
     }
 
     /// Adds one row, regressors first, right side last.
+    #[inline(always)]
     pub(crate) fn add(&mut self, row: &[f64]) {
-        for (i, &a) in row.iter().enumerate() {
-            for (j, &b) in row[..=i].iter().enumerate() {
-                self.products[(i, j)] += a * b;
-                if i != j {
-                    self.products[(j, i)] += a * b;
-                }
-            }
+        for (mut column, &a) in self.products.column_iter_mut().zip(row) {
+            column.iter_mut().zip(row).for_each(|(sum, b)| *sum += a * b);
         }
         self.rows += 1;
     }
@@ -69,6 +107,11 @@ impl Term {
     }
 }
 
+/// Noise fills a direction of the regressors with this share of it.
+const FILLED: f64 = 0.6;
+/// Motion is never taken for less than this share.
+const LEAST_MOTION: f64 = 0.05;
+
 /// A least-squares solution.
 #[derive(Debug, Clone)]
 pub(crate) struct Solution {
@@ -89,30 +132,25 @@ pub(crate) struct Solution {
 }
 
 /// Solves for `terms` from the clusters' sums; `None` without rows or a right side of zero.
+///
+/// The sensors' noise is taken out of the regressors' products, in those directions that it does not
+/// fill: in the others the figures fall short by its share there, and what that may be counts in their
+/// covariance.
 pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
     let p = terms.len();
     let right_column = clusters.first()?.products.ncols() - 1;
-    let parts: Vec<(usize, DMatrix<f64>, DVector<f64>)> = clusters
-        .iter()
-        .filter(|c| c.rows > 0)
-        .map(|c| {
-            let f = |t: &Term| t.factor(c.sign);
-            let x = DMatrix::from_fn(p, p, |i, j| {
-                c.products[(terms[i].column(), terms[j].column())] * f(&terms[i]) * f(&terms[j])
-            });
-            let y = DVector::from_fn(p, |i, _| {
-                c.products[(terms[i].column(), right_column)] * f(&terms[i])
-            });
-            (c.run, x, y)
-        })
-        .collect();
+    let parts: Vec<Part> =
+        clusters.iter().filter(|c| c.rows > 0).map(|c| Part::of(c, terms)).collect();
     let rows: usize = clusters.iter().map(|c| c.rows).sum();
     let power: f64 = clusters.iter().map(|c| c.products[(right_column, right_column)]).sum();
     if rows == 0 || power <= 0.0 {
         return None;
     }
-    let normal = parts.iter().fold(DMatrix::zeros(p, p), |sum, part| sum + &part.1);
-    let right = parts.iter().fold(DVector::zeros(p), |sum, part| sum + &part.2);
+    let sum = |of: &dyn Fn(&Part) -> &DMatrix<f64>| {
+        parts.iter().fold(DMatrix::zeros(p, p), |sum, part| sum + of(part))
+    };
+    let (normal, noise) = (sum(&|part| &part.normal), sum(&|part| &part.noise));
+    let right = parts.iter().fold(DVector::zeros(p), |sum, part| sum + &part.right);
     let scale = DVector::from_fn(p, |i, _| normal[(i, i)].max(f64::MIN_POSITIVE).sqrt());
     let scaled = DMatrix::from_fn(p, p, |i, j| normal[(i, j)] / (scale[i] * scale[j]));
     let eigen = scaled.symmetric_eigen();
@@ -121,33 +159,49 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
         return None;
     }
     let mut inseparable: Vec<bool> = (0..p).map(|i| normal[(i, i)] <= 0.0).collect();
-    let mut inverse = DMatrix::zeros(p, p);
-    let mut lost = Vec::new();
+    let (mut kept, mut lost) = (Vec::new(), Vec::new());
     for (k, &lambda) in eigen.eigenvalues.iter().enumerate() {
         let v = eigen.eigenvectors.column(k);
         if lambda > RANK * largest {
-            inverse += v * v.transpose() / lambda;
+            kept.push(v.component_div(&scale) / lambda.sqrt());
         } else {
             (0..p).filter(|&i| v[i].abs() > SHARE).for_each(|i| inseparable[i] = true);
             lost.push(v.component_div(&scale));
         }
     }
-    let inverse = DMatrix::from_fn(p, p, |i, j| inverse[(i, j)] / (scale[i] * scale[j]));
+    // Directions in which all products are one, and noise has a share of each.
+    let white = DMatrix::from_columns(&kept);
+    let shares = (white.transpose() * &noise * &white).symmetric_eigen();
+    let directions = &white * &shares.eigenvectors;
+    let taken_out = shares.eigenvalues.map(|share| if share < FILLED { share } else { 0.0 });
+    let stretched = DMatrix::from_diagonal(&taken_out.map(|share| 1.0 / (1.0 - share)));
+    let inverse = &directions * stretched * directions.transpose();
     let value: DVector<f64> = &inverse * &right;
 
-    let by_cluster = sandwich(&inverse, parts.iter().map(|(_, x, y)| y - x * &value));
-    let runs = parts.iter().map(|part| part.0).max().unwrap_or(0) + 1;
+    let out = DMatrix::from_diagonal(&taken_out.map(|share| f64::from(share > 0.0)));
+    let out = &normal * &directions * out * directions.transpose();
+    let score = |part: &Part| {
+        &part.right - &part.normal * &value + &out * (&part.noise * (out.transpose() * &value))
+    };
+    let scores: Vec<DVector<f64>> = parts.iter().map(score).collect();
+    let by_cluster = sandwich(&inverse, scores.iter().cloned());
+    let runs = parts.iter().map(|part| part.run).max().unwrap_or(0) + 1;
     let mut by_run = vec![DVector::zeros(p); runs];
-    for (run, x, y) in &parts {
-        by_run[*run] += y - x * &value;
+    for (part, score) in parts.iter().zip(&scores) {
+        by_run[part.run] += score;
     }
     let present = by_run.iter().filter(|g| g.norm() > 0.0).count();
     // Fewer runs than this say little of their own scatter.
-    let covariance = if present > p + 1 {
+    let mut covariance = if present > p + 1 {
         larger(&by_cluster, &sandwich(&inverse, by_run.into_iter()))
     } else {
         by_cluster
     };
+    for (k, &share) in shares.eigenvalues.iter().enumerate().filter(|(_, s)| **s >= FILLED) {
+        let direction = directions.column(k);
+        let short = direction.dot(&right) * share / (1.0 - share).max(LEAST_MOTION);
+        covariance.ger(short * short, &direction, &direction, 1.0);
+    }
     let left = power - 2.0 * value.dot(&right) + value.dot(&(&normal * &value));
     Some(Solution {
         value,
@@ -158,6 +212,33 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
         rows,
         clusters: parts.len(),
     })
+}
+
+/// What a cluster adds to the normal equations of some terms.
+struct Part {
+    run: usize,
+    normal: DMatrix<f64>,
+    noise: DMatrix<f64>,
+    right: DVector<f64>,
+}
+
+impl Part {
+    fn of(cluster: &Cluster, terms: &[Term]) -> Self {
+        let p = terms.len();
+        let right_column = cluster.products.ncols() - 1;
+        let f = |i: usize| terms[i].factor(cluster.sign);
+        let column = |i: usize| terms[i].column();
+        let of = |products: &DMatrix<f64>| {
+            DMatrix::from_fn(p, p, |i, j| products[(column(i), column(j))] * f(i) * f(j))
+        };
+        let right = |i: usize| cluster.products[(column(i), right_column)] * f(i);
+        Self {
+            run: cluster.run,
+            normal: of(&cluster.products),
+            noise: of(&cluster.noise),
+            right: DVector::from_fn(p, |i, _| right(i)),
+        }
+    }
 }
 
 /// `N⁻¹·(Σ g·gᵀ)·N⁻¹` with g the score of each group, and C/(C − 1) for their number.
@@ -224,5 +305,37 @@ mod tests {
         let [lost] = &s.lost[..] else { panic!("{:?}", s.lost) };
         assert!((lost[1] + lost[2]).abs() < 1e-9 * lost[1].abs() && lost[0].abs() < 1e-9);
         assert!((s.value[0] - 2.0).abs() < 1e-12);
+    }
+
+    /// y = 2·x + 0.3·z seen with noise of deviation `noise` in x: the sums of many rows, in expectation.
+    fn noisy(noise: f64) -> Vec<Cluster> {
+        (0..20)
+            .map(|c| {
+                let mut cluster = Cluster::new(0, 1.0, 3);
+                for r in 0..50 {
+                    let (x, z) = (f64::from(c * 50 + r).sin(), f64::from(c * 50 + r).cos());
+                    cluster.add(&[x, z, 2.0 * x + 0.3 * z]);
+                }
+                let share = 50.0 * noise * noise;
+                cluster.products[(0, 0)] += share;
+                cluster.noise[(0, 0)] = share;
+                cluster
+            })
+            .collect()
+    }
+    const BOTH: [Term; 2] = [Term::Plain(0), Term::Plain(1)];
+
+    #[test]
+    fn noise_in_a_regressor_does_not_shrink_its_figure() {
+        let s = solve(&noisy(0.5), &BOTH).unwrap();
+        assert!((s.value[0] - 2.0).abs() < 1e-9 && (s.value[1] - 0.3).abs() < 1e-9, "{}", s.value);
+    }
+
+    #[test]
+    fn a_regressor_that_is_noise_falls_short_and_says_so() {
+        let s = solve(&noisy(3.0), &BOTH).unwrap();
+        let (short, std) = (2.0 - s.value[0], s.covariance[(0, 0)].sqrt());
+        assert!(short > 1.0 && short < 1.5 * std, "{} {std}", s.value);
+        assert!((s.value[1] - 0.3).abs() < 0.1);
     }
 }

@@ -21,11 +21,14 @@ pub(crate) fn slip_phases(motor: &[f64], smooth: usize, sample_time_s: f64) -> V
     let window = Window::new(smooth, sample_time_s);
     let n = window.len();
     let half = n / 2;
+    let rising = &window.first[..n.div_ceil(2)];
     let mut phases: Vec<Phase> = Vec::new();
     for k in half..motor.len().saturating_sub(n - half) {
-        // From the middle: a motor at rest then has a velocity of exactly zero.
-        let moved = motor[k - half..=k - half + n].iter().map(|x| x - motor[k]);
-        let velocity: f64 = -moved.zip(&window.first).map(|(x, w)| x * w).sum::<f64>();
+        // ẇ is odd about the middle, and zero there. A motor at rest has a velocity of exactly zero.
+        let seen = &motor[k - half..=k - half + n];
+        let pairs = seen.iter().rev().zip(seen);
+        let velocity: f64 =
+            pairs.zip(rising).map(|((after, before), w)| w * (after - before)).sum();
         if velocity == 0.0 {
             continue;
         }
@@ -39,15 +42,20 @@ pub(crate) fn slip_phases(motor: &[f64], smooth: usize, sample_time_s: f64) -> V
 }
 
 /// Fewest samples over which a velocity is smoothed.
-const LEAST_SAMPLES: usize = 8;
+pub(super) const LEAST_SAMPLES: usize = 8;
 /// The motor moves by this many times its sensor's noise within the smoothing.
 const STEPS: f64 = 10.0;
 
-/// Samples over which the motor's velocity is smoothed: enough that it moves by several times the
-/// sensor's steps or noise at its usual speed, and no more, so that no reversal is smoothed away.
+/// Samples over which the motor's velocity is smoothed: [`needed_smoothing`], and a few at least.
+pub(crate) fn smoothing(motor: &[f64]) -> usize {
+    needed_smoothing(motor).max(LEAST_SAMPLES)
+}
+
+/// Samples over which the motor moves by several times its sensor's steps or noise at its usual speed:
+/// the velocity over them has a sure sign. No more, so that no reversal is smoothed away.
 ///
 /// Noise is taken from second differences, whose expectation for white noise σ is √6·σ.
-pub(crate) fn smoothing(motor: &[f64]) -> usize {
+pub(super) fn needed_smoothing(motor: &[f64]) -> usize {
     let rms = |sum: f64, n: usize| (sum / n.max(1) as f64).sqrt();
     let second = motor.windows(3).map(|w| (w[2] - 2.0 * w[1] + w[0]).powi(2)).sum();
     let noise = rms(second, motor.len() - 2) / 6.0_f64.sqrt();
@@ -56,7 +64,7 @@ pub(crate) fn smoothing(motor: &[f64]) -> usize {
     let moved = motor.windows(reach + 1).map(|w| (w[reach] - w[0]).powi(2)).sum();
     let speed = rms(moved, motor.len() - reach) / reach as f64;
     let samples = STEPS * noise / speed.max(f64::MIN_POSITIVE);
-    (samples.min(motor.len() as f64) as usize).max(LEAST_SAMPLES)
+    samples.min(motor.len() as f64) as usize
 }
 
 /// Direction of motion at every sample: +1, −1, or 0 where the smoothed velocity has no sign.

@@ -1,4 +1,4 @@
-//! Choice of the window's length: the one about which the figures depend on it least.
+//! Choice of the window's length: the one about which the figures are best known.
 
 use super::normal::Solution;
 
@@ -26,8 +26,8 @@ pub struct Candidate {
     pub clusters: usize,
     /// ‖y − X·q‖/‖y‖.
     pub relative_residual: f64,
-    /// Root mean square relative change of the figures from the next shorter to the next longer
-    /// window; infinite at the ends of the list.
+    /// Root mean square of the figures' relative change from the next shorter to the next longer
+    /// window and of their relative deviations; infinite at the ends of the list.
     pub sensitivity: f64,
 }
 
@@ -93,9 +93,11 @@ fn choose(tried: &[(f64, Solution)], counts: &[bool], given: Option<f64>) -> Opt
         let mut number = 0.0;
         for (i, _) in counts.iter().enumerate().filter(|(_, c)| **c) {
             // A figure that is zero within its scatter must not decide.
-            let size = here.value[i].abs().max(3.0 * here.covariance[(i, i)].max(0.0).sqrt());
+            let variance = here.covariance[(i, i)].max(0.0);
+            let size = here.value[i].abs().max(3.0 * variance.sqrt());
             if !here.inseparable[i] && size > 0.0 {
-                sum += ((after.value[i] - before.value[i]) / size).powi(2);
+                let change = after.value[i] - before.value[i];
+                sum += (change * change + variance) / (size * size);
                 number += 1.0;
             }
         }

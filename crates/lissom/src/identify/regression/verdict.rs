@@ -10,7 +10,12 @@ const RESIDUAL: f64 = 0.15;
 /// What speaks against the regression's figures.
 pub(crate) fn findings(id: &mut Identified) {
     let everything = [key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING];
+    // The replay explains the runs: what is left of the regression says nothing then.
+    let explained = id.output_error.as_ref().is_some_and(OutputError::stands);
     let Some(r) = &id.regression else {
+        if explained {
+            return;
+        }
         let message = match id.regression_residual {
             Some(residual) => format!(
                 "the motor's equation leaves {:.0} % of the windowed torque: no figure of it stands",
@@ -29,7 +34,7 @@ pub(crate) fn findings(id: &mut Identified) {
         ));
         return;
     };
-    if r.relative_residual > RESIDUAL {
+    if r.relative_residual > RESIDUAL && !explained {
         id.findings.push(Finding::new(
             "unexplained-torque",
             Severity::Warning,
@@ -41,8 +46,6 @@ pub(crate) fn findings(id: &mut Identified) {
             "a delay, a load, other friction or a flexible mode without a tip; check units and signs",
         ));
     }
-    // The replay explains the runs: what one added term would do to the regression says nothing.
-    let explained = id.output_error.as_ref().is_some_and(OutputError::stands);
     // A law of friction that was chosen says more than the one term that was tried for it.
     let known = id.friction_law.as_ref().is_some_and(|law| law.chosen.departs());
     let said = |m: &MissingTerm| m.kind == MissingKind::Stribeck && known;

@@ -1,6 +1,12 @@
 //! The smooth window of the regression.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
+
+use crate::record::Run;
+
+/// Fewest sample intervals in a window.
+const LEAST_SAMPLES: usize = 4;
 
 /// `w(x) = sin⁴(πx)` on a span of n samples, with derivatives and integrals.
 ///
@@ -16,6 +22,8 @@ pub(crate) struct Window {
     pub(crate) second: Vec<f64>,
     /// ∫w over each sample interval \[s\], length n: what a held signal is weighted with.
     pub(crate) held: Vec<f64>,
+    /// ∫w over all of it \[s\].
+    pub(crate) area: f64,
     /// 1/√∫ẅ²: scales a row to the noise that white noise in the angle puts into it.
     pub(crate) row_scale: f64,
 }
@@ -25,25 +33,42 @@ impl Window {
     pub(crate) fn new(n: usize, sample_time_s: f64) -> Self {
         let length = n as f64 * sample_time_s;
         let rate = PI / length;
-        let at = |k: usize| (PI * k as f64 / n as f64).sin_cos();
-        let value = (0..=n).map(|k| at(k).0.powi(4)).collect();
-        let first = (0..=n).map(|k| 4.0 * rate * at(k).0.powi(3) * at(k).1).collect();
-        let second: Vec<f64> = (0..=n)
-            .map(|k| {
-                let (s, c) = at(k);
-                rate * rate * (12.0 * s * s * c * c - 4.0 * s.powi(4))
-            })
-            .collect();
-        // ∫ sin⁴(πx) dx = 3x/8 − sin(2πx)/(4π) + sin(4πx)/(32π)
+        let waves: Vec<_> = (0..=n).map(|k| (PI * k as f64 / n as f64).sin_cos()).collect();
+        let at = |f: &dyn Fn(f64, f64) -> f64| waves.iter().map(|(s, c)| f(*s, *c)).collect();
+        let value = at(&|s, _| s.powi(4));
+        let first = at(&|s, c| 4.0 * rate * s.powi(3) * c);
+        let second: Vec<f64> = at(&|s, c| rate * rate * (12.0 * s * s * c * c - 4.0 * s.powi(4)));
+        // ∫ sin⁴y dy = 3y/8 − sin(2y)/4 + sin(4y)/32, with sin 2y = 2·s·c, sin 4y = 2·sin 2y·cos 2y.
         let integral = |k: usize| {
-            let x = k as f64 / n as f64;
-            length
-                * (0.375 * x - (2.0 * PI * x).sin() / (4.0 * PI)
-                    + (4.0 * PI * x).sin() / (32.0 * PI))
+            let (s, c) = waves[k];
+            let y = PI * k as f64 / n as f64;
+            (0.375 * y - 0.5 * s * c + 0.125 * s * c * (1.0 - 2.0 * s * s)) / rate
         };
-        let held = (0..n).map(|k| integral(k + 1) - integral(k)).collect();
+        let held: Vec<f64> = (0..n).map(|k| integral(k + 1) - integral(k)).collect();
         let power: f64 = second.iter().map(|v| v * v).sum::<f64>() * sample_time_s;
-        Self { value, first, second, held, row_scale: 1.0 / power.sqrt() }
+        let area = held.iter().sum();
+        Self { value, first, second, held, area, row_scale: 1.0 / power.sqrt() }
+    }
+
+    /// Windows of one length in seconds for every run, shared where the sample times are the same;
+    /// `None` where a run does not hold one.
+    pub(crate) fn of_runs(runs: &[Run], length_s: f64) -> Vec<Option<Arc<Self>>> {
+        let mut made: Vec<(f64, Arc<Self>)> = Vec::new();
+        let of = |run: &Run| {
+            let t = run.sample_time_s();
+            let n = (length_s / t).round() as usize;
+            if n < LEAST_SAMPLES || n >= run.len() {
+                return None;
+            }
+            let known = made.iter().find(|(time, _)| time.total_cmp(&t).is_eq());
+            if let Some((_, window)) = known {
+                return Some(Arc::clone(window));
+            }
+            let window = Arc::new(Self::new(n, t));
+            made.push((t, Arc::clone(&window)));
+            Some(window)
+        };
+        runs.iter().map(of).collect()
     }
 
     /// Sample intervals spanned.
@@ -53,8 +78,44 @@ impl Window {
 }
 
 /// Σ a·b over the shorter of two slices.
+#[inline(always)]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
+    sum(a, b, b, |a, b, _| a * b)
+}
+
+/// Σ a·(b − origin) over the shorter of two slices.
+#[inline(always)]
+pub(crate) fn dot_from(a: &[f64], b: &[f64], origin: f64) -> f64 {
+    sum(a, b, b, |a, b, _| a * (b - origin))
+}
+
+/// Σ a·(b − c) over the shortest of three slices.
+#[inline(always)]
+pub(crate) fn dot_difference(a: &[f64], b: &[f64], c: &[f64]) -> f64 {
+    sum(a, b, c, |a, b, c| a * (b - c))
+}
+
+/// Sums kept side by side: a single one would wait for each addition.
+const LANES: usize = 8;
+
+/// Σ f(a, b, c) over the shortest of three slices. Inlined, to be
+/// compiled for the widest registers that there are.
+#[inline(always)]
+fn sum(a: &[f64], b: &[f64], c: &[f64], f: impl Fn(f64, f64, f64) -> f64) -> f64 {
+    let n = a.len().min(b.len()).min(c.len());
+    let ((a, a_rest), (b, b_rest), (c, c_rest)) =
+        (a[..n].as_chunks::<LANES>(), b[..n].as_chunks::<LANES>(), c[..n].as_chunks::<LANES>());
+    let mut sums = [0.0; LANES];
+    for ((a, b), c) in a.iter().zip(b).zip(c) {
+        for lane in 0..LANES {
+            sums[lane] += f(a[lane], b[lane], c[lane]);
+        }
+    }
+    let mut rest = 0.0;
+    for ((a, b), c) in a_rest.iter().zip(b_rest).zip(c_rest) {
+        rest += f(*a, *b, *c);
+    }
+    sums.iter().sum::<f64>() + rest
 }
 
 #[cfg(test)]
@@ -80,6 +141,23 @@ mod tests {
     #[test]
     fn held_weights_sum_to_the_integral() {
         let w = Window::new(37, 0.01);
-        assert!((w.held.iter().sum::<f64>() - 0.375 * 0.37).abs() < 1e-14);
+        assert!((w.area - 0.375 * 0.37).abs() < 1e-14);
+    }
+
+    #[test]
+    fn sums_side_by_side_are_the_sums() {
+        let of = |shift: f64| (0..37).map(|k| (f64::from(k) + shift).sin()).collect::<Vec<f64>>();
+        let (a, b, c) = (of(0.0), of(0.3), of(1.7));
+        for n in [0, 1, 7, 8, 9, 16, 37] {
+            let (a, b, c) = (&a[..n], &b[..n], &c[..n]);
+            let one = |f: &dyn Fn(usize) -> f64| (0..n).map(f).sum::<f64>();
+            let pairs = [
+                (dot(a, b), one(&|k| a[k] * b[k])),
+                (dot_from(a, b, 0.4), one(&|k| a[k] * (b[k] - 0.4))),
+                (dot_difference(a, b, c), one(&|k| a[k] * (b[k] - c[k]))),
+            ];
+            assert!(pairs.iter().all(|(x, y)| (x - y).abs() < 1e-14), "{n} {pairs:?}");
+        }
+        assert!((dot(&a[..5], &b) - dot(&a[..5], &b[..5])).abs() < 1e-15);
     }
 }

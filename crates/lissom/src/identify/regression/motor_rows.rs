@@ -1,0 +1,268 @@
+//! The motor's equation on windows within slip phases.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use nalgebra::DMatrix;
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+
+use super::normal::{Cluster, Rows};
+use super::phases::{LEAST_SAMPLES, Phase, needed_smoothing, slip_phases};
+use super::row_noise::{Part, RunNoise, products};
+use super::window::{Window, dot, dot_difference, dot_from};
+use crate::record::{Campaign, Hold, Run, TipQuantity};
+
+/// Windows overlap by all but this part of their length.
+const STEP: f64 = 0.25;
+/// The velocity is smoothed over no more than this part of the window's length.
+const SMOOTH: f64 = 1.0 / 3.0;
+/// A window is too short where that is less than this part of what a sure sign needs.
+const SURE: f64 = 0.4;
+/// And over this many samples at least.
+const LEAST_SMOOTH: usize = 4;
+
+/// A phase longer than this part of all motion is taken in pieces: an axis that hardly turns back has few
+/// phases, and their scatter would say little.
+const PIECES: usize = 16;
+
+/// Columns of a row; tips follow after these.
+pub(super) const INERTIA: usize = 0;
+pub(super) const VISCOUS: usize = 1;
+pub(super) const DRY: usize = 2;
+pub(super) const TIPS: usize = 3;
+/// Columns that [`super::missing::missing_term`] tries.
+const EXTRA: usize = 3;
+
+/// Tips whose angle from the motor's line is known.
+pub(crate) fn coupled_tips(campaign: &Campaign) -> Vec<usize> {
+    let tips = &campaign.channels.tips;
+    (0..tips.len())
+        .filter(|&i| tips[i].calibrated && tips[i].quantity != TipQuantity::Acceleration)
+        .collect()
+}
+
+/// The motor's equation on the windows of all runs.
+pub(super) struct MotorRows<'a> {
+    campaign: &'a Campaign,
+    pub(super) tips: Vec<usize>,
+    runs: Vec<Slipping<'a>>,
+    /// Samples of a phase beyond which it is taken in pieces.
+    longest: usize,
+}
+
+impl<'a> MotorRows<'a> {
+    pub(super) fn of(campaign: &'a Campaign) -> Self {
+        let runs: Vec<Slipping<'_>> = campaign.runs.par_iter().map(Slipping::of).collect();
+        let phases = runs.iter().flat_map(|run| &run.phases);
+        let motion: usize = phases.map(|phase| phase.to - phase.from).sum();
+        Self { campaign, tips: coupled_tips(campaign), runs, longest: (motion / PIECES).max(1) }
+    }
+
+    /// Sums of every slip phase of every run, for one length of window.
+    pub(super) fn clusters(&self, length_s: f64) -> Vec<Cluster> {
+        self.of_runs(length_s, false)
+    }
+
+    /// The same, with the columns of [`super::missing::missing_term`] before the right side.
+    pub(super) fn clusters_with_more(&self, length_s: f64) -> Vec<Cluster> {
+        self.of_runs(length_s, true)
+    }
+
+    fn of_runs(&self, length_s: f64, more: bool) -> Vec<Cluster> {
+        let windows = Window::of_runs(&self.campaign.runs, length_s);
+        let of_run = |(index, window): (usize, &Option<Arc<Window>>)| {
+            window.as_ref().map_or_else(Vec::new, |w| self.of_run(index, w, more))
+        };
+        windows.par_iter().enumerate().flat_map_iter(of_run).collect()
+    }
+
+    fn of_run(&self, index: usize, window: &Window, more: bool) -> Vec<Cluster> {
+        let (campaign, slipping) = (self.campaign, &self.runs[index]);
+        let (run, n) = (slipping.run, window.len());
+        let columns = TIPS + self.tips.len() + 1 + if more { EXTRA } else { 0 };
+        let step = ((n as f64 * STEP) as usize).max(1);
+        let (phases, smooth) = slipping.phases(n);
+        let plain = MotorEquation { campaign, run, tips: &self.tips, window };
+        let origin = campaign.runs.first().map_or(0.0, |run| run.motor()[0]);
+        let with_more = more.then(|| WithMore { plain, origin, slowness: slowness(run, smooth) });
+        let mut noise = plain.noise(&slipping.noise);
+        if more {
+            // That of the further columns is left in: they are only tried.
+            let right = noise.ncols() - 1;
+            noise = noise.insert_columns(right, EXTRA, 0.0).insert_rows(right, EXTRA, 0.0);
+        }
+        let cluster = |sign: f64, windows: &[usize]| {
+            let mut cluster = Cluster::new(index, sign, columns);
+            let windows = windows.iter().copied();
+            match &with_more {
+                Some(rows) => cluster.add_windows(windows, rows, &noise),
+                None => cluster.add_windows(windows, &plain, &noise),
+            }
+            cluster
+        };
+        let mut clusters = Vec::new();
+        for phase in phases.iter().filter(|phase| phase.to - phase.from > n) {
+            let windows: Vec<usize> = (phase.from..phase.to - n).step_by(step).collect();
+            let pieces = (phase.to - phase.from).div_ceil(self.longest);
+            let pieces = windows.chunks(windows.len().div_ceil(pieces));
+            clusters.extend(pieces.map(|piece| cluster(phase.sign, piece)));
+        }
+        clusters
+    }
+}
+
+/// A run with the slip phases that its own smoothing shows.
+struct Slipping<'a> {
+    run: &'a Run,
+    needed: usize,
+    smooth: usize,
+    phases: Vec<Phase>,
+    noise: RunNoise,
+}
+
+impl<'a> Slipping<'a> {
+    fn of(run: &'a Run) -> Self {
+        let needed = needed_smoothing(run.motor());
+        let smooth = needed.max(LEAST_SAMPLES);
+        let phases = slip_phases(run.motor(), smooth, run.sample_time_s());
+        Self { run, needed, smooth, phases, noise: RunNoise::of(run) }
+    }
+
+    /// Phases for windows of `n` samples, and what they are smoothed over; none where the velocity
+    /// within so short a window has no sure sign.
+    fn phases(&self, n: usize) -> (Cow<'_, [Phase]>, usize) {
+        let most = (n as f64 * SMOOTH) as usize;
+        let smooth = self.smooth.min(most).max(LEAST_SMOOTH);
+        let phases = if SURE * self.needed as f64 > smooth as f64 {
+            Cow::Owned(Vec::new())
+        } else if smooth == self.smooth {
+            Cow::Borrowed(&self.phases[..])
+        } else {
+            Cow::Owned(slip_phases(self.run.motor(), smooth, self.run.sample_time_s()))
+        };
+        (phases, smooth)
+    }
+}
+
+/// `[∫ẅθ, −∫ẇθ, ∫w, ∫w(θ_m − θ_i).., ∫wτ]`, scaled by the noise that it carries.
+#[derive(Clone, Copy)]
+pub(crate) struct MotorEquation<'a> {
+    pub(crate) campaign: &'a Campaign,
+    pub(crate) run: &'a Run,
+    /// [`coupled_tips`].
+    pub(crate) tips: &'a [usize],
+    pub(crate) window: &'a Window,
+}
+
+impl Rows for MotorEquation<'_> {
+    #[inline(always)]
+    fn fill(&self, k: usize, row: &mut Vec<f64>) {
+        let Self { campaign, run, window, .. } = *self;
+        let (t, n) = (run.sample_time_s(), window.len());
+        let motor = &run.motor()[k..=k + n];
+        row.clear();
+        // From the window's first: ẇ and ẅ integrate constants to zero only up to rounding.
+        row.push(dot_from(&window.second, motor, motor[0]) * t);
+        row.push(-dot_from(&window.first, motor, motor[0]) * t);
+        row.push(window.area);
+        for &i in self.tips {
+            row.push(behind(campaign, run, i, window, k));
+        }
+        let torque = match campaign.channels.command.hold {
+            Hold::Sampled => dot(&window.held, &run.command()[k..k + n]),
+            Hold::Measured => dot(&window.value, &run.command()[k..=k + n]) * t,
+        };
+        row.push(self.torque_per_command() * torque);
+        for value in row {
+            *value *= window.row_scale;
+        }
+    }
+}
+
+impl MotorEquation<'_> {
+    /// What noise adds to a row's products, in expectation.
+    fn noise(&self, of_run: &RunNoise) -> DMatrix<f64> {
+        let window = self.window;
+        let mut of_motor: Vec<Part<'_>> =
+            vec![(INERTIA, &window.second, 1.0), (VISCOUS, &window.first, -1.0)];
+        let mut channels = Vec::with_capacity(1 + self.tips.len());
+        for (place, &i) in self.tips.iter().enumerate() {
+            let column = TIPS + place;
+            if self.campaign.channels.tips[i].quantity != TipQuantity::Deflection {
+                of_motor.push((column, &window.value, 1.0));
+            }
+            let of_tip: Vec<Part<'_>> = vec![(column, &window.value, -1.0)];
+            channels.push((of_run.tips[i], of_tip));
+        }
+        channels.push((of_run.motor, of_motor));
+        let noise = products(TIPS + self.tips.len() + 1, channels);
+        noise * (self.run.sample_time_s() * window.row_scale).powi(2)
+    }
+
+    fn torque_per_command(&self) -> f64 {
+        self.campaign.channels.command.torque_per_command.unwrap_or(1.0)
+    }
+
+    /// `∫ẇτ`: what a torque that acts later leaves, by its delay.
+    pub(crate) fn later(&self, k: usize) -> f64 {
+        let window = self.window;
+        let command = &self.run.command()[k..=k + window.len()];
+        self.torque_per_command()
+            * match self.campaign.channels.command.hold {
+                // Held: ∫ẇ over each interval is the difference of w.
+                Hold::Sampled => {
+                    let steps = window.value.windows(2).zip(command);
+                    steps.map(|(w, u)| (w[1] - w[0]) * u).sum::<f64>()
+                }
+                Hold::Measured => dot(&window.first, command) * self.run.sample_time_s(),
+            }
+    }
+}
+
+/// `∫w(θ_m − θ_i)`.
+#[inline(always)]
+pub(super) fn behind(campaign: &Campaign, run: &Run, i: usize, window: &Window, k: usize) -> f64 {
+    let span = k..=k + window.len();
+    let (motor, tip) = (&run.motor()[span.clone()], &run.tips()[i][span]);
+    run.sample_time_s()
+        * match campaign.channels.tips[i].quantity {
+            TipQuantity::Deflection => -dot(&window.value, tip),
+            _ => dot_difference(&window.value, motor, tip),
+        }
+}
+
+/// `[∫ẇτ, ∫wθ, ∫w·e^{−|v|/v̄}]` before the right side.
+struct WithMore<'a> {
+    plain: MotorEquation<'a>,
+    /// Where positions are counted from.
+    origin: f64,
+    slowness: Vec<f64>,
+}
+
+impl Rows for WithMore<'_> {
+    fn fill(&self, k: usize, row: &mut Vec<f64>) {
+        let MotorEquation { run, window, .. } = self.plain;
+        let t = run.sample_time_s();
+        let span = k..=k + window.len();
+        let by_position = dot_from(&window.value, &run.motor()[span.clone()], self.origin);
+        let by_slowness = dot(&window.value, &self.slowness[span]);
+        let more = [self.plain.later(k), by_position * t, by_slowness * t];
+        self.plain.fill(k, row);
+        let right = row.len() - 1;
+        row.splice(right..right, more.map(|v| v * window.row_scale));
+    }
+}
+
+/// `e^{−|v|/v̄}` at every sample, v̄ the run's mean speed.
+fn slowness(run: &Run, smooth: usize) -> Vec<f64> {
+    let x = run.motor();
+    let last = x.len() - 1;
+    let speed: Vec<f64> = (0..x.len())
+        .map(|k| {
+            let (from, to) = (k.saturating_sub(smooth / 2), (k + smooth / 2).min(last));
+            ((x[to] - x[from]) / (to - from).max(1) as f64).abs()
+        })
+        .collect();
+    let mean = speed.iter().sum::<f64>() / speed.len() as f64;
+    speed.iter().map(|v| (-v / mean.max(f64::MIN_POSITIVE)).exp()).collect()
+}

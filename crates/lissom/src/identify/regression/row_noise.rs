@@ -1,0 +1,39 @@
+//! What the sensors' noise adds to the products of a row's columns.
+
+use nalgebra::DMatrix;
+
+use super::window::dot;
+use crate::identify::channel_noise::channel_noise;
+use crate::record::Run;
+
+/// Deviation of what is independent from sample to sample in each channel of a run.
+pub(super) struct RunNoise {
+    pub(super) motor: f64,
+    pub(super) tips: Vec<f64>,
+}
+
+impl RunNoise {
+    pub(super) fn of(run: &Run) -> Self {
+        let of = |channel: &[f64]| channel_noise(channel).independent;
+        Self { motor: of(run.motor()), tips: run.tips().iter().map(|tip| of(tip)).collect() }
+    }
+}
+
+/// A column's weights on the samples of a channel, and their sign.
+pub(super) type Part<'a> = (usize, &'a [f64], f64);
+
+/// Expected products of `columns` columns, each channel given by its noise's deviation and its parts.
+pub(super) fn products<'a>(
+    columns: usize,
+    channels: impl IntoIterator<Item = (f64, Vec<Part<'a>>)>,
+) -> DMatrix<f64> {
+    let mut sum = DMatrix::zeros(columns, columns);
+    for (std, parts) in channels {
+        for (i, a, left) in &parts {
+            for (j, b, right) in &parts {
+                sum[(*i, *j)] += std * std * left * right * dot(a, b);
+            }
+        }
+    }
+    sum
+}
