@@ -21,10 +21,6 @@ const SURE: f64 = 0.4;
 /// And over this many samples at least.
 const LEAST_SMOOTH: usize = 4;
 
-/// A phase longer than this part of all motion is taken in pieces: an axis that hardly turns back has few
-/// phases, and their scatter would say little.
-const PIECES: usize = 16;
-
 /// Columns of a row; tips follow after these.
 pub(super) const INERTIA: usize = 0;
 pub(super) const VISCOUS: usize = 1;
@@ -46,16 +42,12 @@ pub(super) struct MotorRows<'a> {
     campaign: &'a Campaign,
     pub(super) tips: Vec<usize>,
     runs: Vec<Slipping<'a>>,
-    /// Samples of a phase beyond which it is taken in pieces.
-    longest: usize,
 }
 
 impl<'a> MotorRows<'a> {
     pub(super) fn of(campaign: &'a Campaign) -> Self {
-        let runs: Vec<Slipping<'_>> = campaign.runs.par_iter().map(Slipping::of).collect();
-        let phases = runs.iter().flat_map(|run| &run.phases);
-        let motion: usize = phases.map(|phase| phase.to - phase.from).sum();
-        Self { campaign, tips: coupled_tips(campaign), runs, longest: (motion / PIECES).max(1) }
+        let runs = campaign.runs.par_iter().map(Slipping::of).collect();
+        Self { campaign, tips: coupled_tips(campaign), runs }
     }
 
     /// Sums of every slip phase of every run, for one length of window.
@@ -91,23 +83,16 @@ impl<'a> MotorRows<'a> {
             let right = noise.ncols() - 1;
             noise = noise.insert_columns(right, EXTRA, 0.0).insert_rows(right, EXTRA, 0.0);
         }
-        let cluster = |sign: f64, windows: &[usize]| {
-            let mut cluster = Cluster::new(index, sign, columns);
-            let windows = windows.iter().copied();
+        let cluster = |phase: &Phase| {
+            let mut cluster = Cluster::new(index, phase.sign, columns);
+            let windows = (phase.from..phase.to - n).step_by(step);
             match &with_more {
                 Some(rows) => cluster.add_windows(windows, rows, &noise),
                 None => cluster.add_windows(windows, &plain, &noise),
             }
             cluster
         };
-        let mut clusters = Vec::new();
-        for phase in phases.iter().filter(|phase| phase.to - phase.from > n) {
-            let windows: Vec<usize> = (phase.from..phase.to - n).step_by(step).collect();
-            let pieces = (phase.to - phase.from).div_ceil(self.longest);
-            let pieces = windows.chunks(windows.len().div_ceil(pieces));
-            clusters.extend(pieces.map(|piece| cluster(phase.sign, piece)));
-        }
-        clusters
+        phases.iter().filter(|phase| phase.to - phase.from > n).map(cluster).collect()
     }
 }
 
