@@ -4,6 +4,7 @@ use std::fmt;
 
 use lissom::record::Run;
 use lissom::rig::{Experiment, Rig};
+use serde::{Deserialize, Serialize};
 
 use crate::bench::Bench;
 use crate::draw::Draw;
@@ -38,7 +39,7 @@ pub struct PlannedRun {
 }
 
 /// What the rig knows of a run and its log does not say.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunFacts {
     /// Share of the record in which the joint stuck \[1\].
     pub stuck_share: f64,
@@ -93,7 +94,7 @@ pub(crate) fn sliding(rig: &Rig) -> f64 {
 }
 
 /// Why a draw was rejected.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Rejected {
     /// The beam's last mode has fewer than six samples a period.
     FastMode,

@@ -40,7 +40,7 @@ fn row(study: &Study, scored: &Scored) -> String {
     let stratum = &scored.stratum;
     let score = scored.score.as_ref().ok();
     let mut codes: Vec<&str> =
-        score.map_or(Vec::new(), |s| s.findings.iter().map(|f| f.0).collect());
+        score.map_or(Vec::new(), |s| s.findings.iter().map(|f| f.code.as_str()).collect());
     codes.sort_unstable();
     codes.dedup();
     let mut cells = vec![

@@ -4,11 +4,12 @@ use std::fmt;
 
 use lissom::drive::{Coulomb, DriveError, DryFriction, Falloff, LuGre};
 use lissom::rig::JointFriction;
+use serde::{Deserialize, Serialize};
 
 use crate::draw::Draw;
 
 /// What the truth departs from lissom's own equations in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum, Serialize, Deserialize)]
 pub enum Law {
     /// Nothing: one Coulomb constant, dampers at the masses.
     None,
@@ -27,6 +28,12 @@ pub enum Law {
 }
 
 impl Law {
+    /// Its name on the command line.
+    pub(crate) fn option(self) -> String {
+        let value = clap::ValueEnum::to_possible_value(&self);
+        value.map_or_else(String::new, |v| v.get_name().to_owned())
+    }
+
     /// Whether lissom's simplest equations have it: an alarm about the law is then a false one.
     pub fn is_described(self) -> bool {
         matches!(self, Self::None | Self::BeamDamping)

@@ -8,7 +8,8 @@ use std::process::ExitCode;
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use lissom_study::{
-    Law, Study, describe, draw_campaign, export, external_report, independent, report, rows, study,
+    Kept, Law, Scored, Study, describe, draw_campaign, export, external_report, independent,
+    report, rows, study,
 };
 
 /// Accuracy of identification over random arms and campaigns.
@@ -35,6 +36,9 @@ struct Args {
     /// Identify the logs that another simulator left in this folder.
     #[arg(long, conflicts_with = "only")]
     external: Option<PathBuf>,
+    /// Go on with a study that was stopped: take the campaigns that it left in the folder.
+    #[arg(long, conflicts_with_all = ["only", "export", "external"])]
+    resume: bool,
     /// Leave the output error out: regression, law of friction and third harmonic alone.
     #[arg(long)]
     quick: bool,
@@ -92,14 +96,22 @@ fn run(args: &Args) -> Result<(), Failure> {
     if let Some(folder) = &args.external {
         return threads.install(|| score_external(args, folder));
     }
+    let name = if args.law == Laws::One(Law::None) { "accuracy" } else { "wrong-laws" };
+    fs::create_dir_all(&args.out)?;
+    let path = args.out.join(format!("{name}.cbor"));
+    let kept = if args.resume { Kept::resume(&path)? } else { Kept::create(&path)? };
     let mut studies = Vec::new();
     for plan in plans(args) {
         let bar = bar(&plan);
-        let outcome = threads.install(|| study(&plan, || bar.inc(1)));
+        let known = |index| kept.known(&plan, index).inspect(|_| bar.inc(1));
+        let done = |index, scored: Option<&Scored>| {
+            bar.inc(1);
+            kept.keep(&plan, index, scored)
+        };
+        let outcome = threads.install(|| study(&plan, known, done))?;
         bar.finish_and_clear();
         studies.push((plan, outcome));
     }
-    let name = if args.law == Laws::One(Law::None) { "accuracy" } else { "wrong-laws" };
     written(args, name, &report(&studies), &rows(&studies))
 }
 

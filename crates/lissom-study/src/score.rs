@@ -4,13 +4,14 @@ use std::fmt;
 
 use lissom::identify::{Estimate, Finding, Identified, ModeEstimate, RunKind, Severity, corrected};
 use num_complex::Complex64;
+use serde::{Deserialize, Serialize};
 
 use crate::bound::Bound;
 use crate::statistics::NORMAL_95;
 use crate::truth::Truth;
 
 /// A figure that identification gives.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Figure {
     /// Coulomb friction.
     Coulomb,
@@ -66,13 +67,14 @@ impl fmt::Display for Figure {
 const SILENT: f64 = 5.0;
 
 /// One figure of one campaign.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FigureScore {
     /// Which.
     pub figure: Figure,
     /// Its truth.
     pub truth: f64,
     /// What was given; `None`: refused.
+    #[serde(with = "estimate")]
     pub estimate: Option<Estimate>,
     /// Whether a warning or refusal names it.
     pub warned: bool,
@@ -123,7 +125,7 @@ impl FigureScore {
 }
 
 /// One frequency of the motor's response; errors are |Ĝ − G|/|G|.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PointScore {
     /// Frequency \[rad/s\].
     pub omega_rad_s: f64,
@@ -141,15 +143,26 @@ pub struct PointScore {
     pub vouched: bool,
 }
 
+/// A finding, as far as it counts here.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FindingScore {
+    /// Its code.
+    pub code: String,
+    /// Whether it is a warning or a refusal.
+    pub warns: bool,
+    /// Whether it names a figure of the equation of motion.
+    pub about_equation: bool,
+}
+
 /// All scores of one campaign.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Score {
     /// Figures, two of each mode at the end.
     pub figures: Vec<FigureScore>,
     /// Points of the motor's response.
     pub points: Vec<PointScore>,
-    /// Findings: code, severity, and whether it names a figure of the equation of motion.
-    pub findings: Vec<(&'static str, Severity, bool)>,
+    /// What was said beside the figures.
+    pub findings: Vec<FindingScore>,
     /// Modes given beyond those that there are.
     pub surplus_modes: usize,
 }
@@ -184,11 +197,12 @@ impl Score {
     /// The codes of the findings that say that the equation of motion does not hold: warnings and
     /// refusals about the campaign that name friction, inertia or coupling and are not about its
     /// data; and `offset`, which says that friction differs by direction.
-    pub fn law_alarms(&self) -> Vec<&'static str> {
-        let speaks = |f: &&(&'static str, Severity, bool)| {
-            f.0 == "offset" || (f.2 && f.1 >= Severity::Warning && !ABOUT_DATA.contains(&f.0))
+    pub fn law_alarms(&self) -> Vec<&str> {
+        let speaks = |f: &&FindingScore| {
+            let about_data = ABOUT_DATA.contains(&f.code.as_str());
+            f.code == "offset" || (f.about_equation && f.warns && !about_data)
         };
-        self.findings.iter().filter(speaks).map(|f| f.0).collect()
+        self.findings.iter().filter(speaks).map(|f| f.code.as_str()).collect()
     }
 }
 
@@ -220,8 +234,18 @@ pub fn score(truth: &Truth, id: &Identified) -> Score {
     Score {
         figures,
         points: points(truth, id),
-        findings: id.findings.iter().map(|f| (f.code, f.severity, about_equation(f))).collect(),
+        findings: id.findings.iter().map(FindingScore::of).collect(),
         surplus_modes: id.beam.modes.len().saturating_sub(truth.modes.len()),
+    }
+}
+
+impl FindingScore {
+    fn of(finding: &Finding) -> Self {
+        Self {
+            code: finding.code.to_owned(),
+            warns: finding.severity >= Severity::Warning,
+            about_equation: about_equation(finding),
+        }
     }
 }
 
@@ -277,6 +301,27 @@ fn points(truth: &Truth, id: &Identified) -> Vec<PointScore> {
             }
         })
         .collect()
+}
+
+/// An estimate as its value and deviation: the library's own type is not made for files.
+mod estimate {
+    use lissom::identify::Estimate;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[expect(clippy::ref_option, reason = "serde's signature")]
+    pub(super) fn serialize<S: Serializer>(
+        of: &Option<Estimate>,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        of.map(|e| (e.value, e.std)).serialize(to)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<Option<Estimate>, D::Error> {
+        let pair = Option::<(f64, f64)>::deserialize(from)?;
+        Ok(pair.map(|(value, std)| Estimate { value, std }))
+    }
 }
 
 #[cfg(test)]
@@ -339,14 +384,14 @@ mod tests {
 
     #[test]
     fn alarms_speak_of_the_law() {
-        let alarms = |code, severity, about| {
-            let findings = vec![(code, severity, about)];
+        let alarms = |code: &str, warns, about_equation| {
+            let findings = vec![FindingScore { code: code.to_owned(), warns, about_equation }];
             Score { figures: vec![], points: vec![], findings, surplus_modes: 0 }.law_alarms().len()
         };
-        assert_eq!(alarms("missing-term", Severity::Warning, true), 1);
-        assert_eq!(alarms("missing-term", Severity::Info, true), 0);
-        assert_eq!(alarms("sticking", Severity::Warning, false), 0);
-        assert_eq!(alarms("poor-excitation", Severity::Refusal, true), 0);
-        assert_eq!(alarms("offset", Severity::Info, false), 1);
+        assert_eq!(alarms("missing-term", true, true), 1);
+        assert_eq!(alarms("missing-term", false, true), 0);
+        assert_eq!(alarms("sticking", true, false), 0);
+        assert_eq!(alarms("poor-excitation", true, true), 0);
+        assert_eq!(alarms("offset", false, false), 1);
     }
 }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
+
 use crate::draw::Draw;
 
 /// Share of friction in the campaign's peak torque, CF/τ_max \[1\].
@@ -10,7 +12,7 @@ pub(crate) const COULOMB_SHARE: (f64, f64) = (0.05, 0.60);
 const PLANNED_SHARE: (f64, f64) = (0.05, 0.80);
 
 /// What kind of runs a campaign has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Kind {
     /// Stepped sines, at frequencies and their triples.
     Sines,
@@ -42,7 +44,7 @@ impl fmt::Display for Kind {
 ///
 /// Draws outside the envelope are drawn again with the same stratum, so that a corner where draws
 /// fail often (much friction, coarse encoders) is not thinned out.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Stratum {
     /// Masses n, 1 to 3.
     pub masses: usize,

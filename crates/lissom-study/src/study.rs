@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use lissom::identify::{Identified, IdentifyError, Options, identify};
 use lissom::record::Run;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::bound::Bound;
 use crate::campaign::{Campaign, Rejected, RunFacts, draw_campaign};
@@ -31,7 +32,7 @@ pub struct Study {
 }
 
 /// A campaign that has been identified; its logs are gone.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Scored {
     /// Its place in the study.
     pub index: usize,
@@ -52,7 +53,7 @@ pub struct Scored {
     /// Strata that all draws failed for.
     pub given_up: Vec<Stratum>,
     /// Figures against truth, or why nothing was identified at all.
-    pub score: Result<Score, IdentifyError>,
+    pub score: Result<Score, String>,
     /// What the true arm leaves of each channel, in its sensor's deviations: see [`Bound::left`].
     pub left: Vec<f64>,
     /// Time of the simulation, repeated runs included.
@@ -70,19 +71,31 @@ pub fn identified(campaign: &Campaign, quick: bool) -> Result<Identified, Identi
     identify(&campaign.logs, &options, |_| {})
 }
 
-/// Runs the study on rayon's current threads; `done` is called after each campaign. `None`: a
-/// campaign whose draws were all rejected.
-pub fn study(study: &Study, done: impl Fn() + Sync) -> Vec<Option<Scored>> {
-    (0..study.campaigns)
-        .into_par_iter()
-        .map(|index| {
-            let start = Instant::now();
-            let campaign = draw_campaign(study.seed, index, study.law);
-            let scored = campaign.map(|c| Scored::of(c, start.elapsed(), study.quick));
-            done();
-            scored
-        })
-        .collect()
+/// Runs the study on rayon's current threads, but for the campaigns that `known` has; `done` is
+/// called with each one that is made. `None`: a campaign whose draws were all rejected.
+///
+/// # Errors
+/// Those of `done`, which end the study.
+pub fn study<E: Send>(
+    study: &Study,
+    known: impl Fn(usize) -> Option<Option<Scored>> + Sync,
+    done: impl Fn(usize, Option<&Scored>) -> Result<(), E> + Sync,
+) -> Result<Vec<Option<Scored>>, E> {
+    let one = |index| {
+        if let Some(known) = known(index) {
+            return Ok(known);
+        }
+        let start = Instant::now();
+        let campaign = draw_campaign(study.seed, index, study.law);
+        let scored = campaign.map(|c| Scored::of(c, start.elapsed(), study.quick));
+        done(index, scored.as_ref())?;
+        Ok(scored)
+    };
+    // One after the other: what a stopped study leaves is its first campaigns.
+    let numbered = (0..study.campaigns).par_bridge().map(|index| Ok((index, one(index)?)));
+    let mut all = numbered.collect::<Result<Vec<_>, E>>()?;
+    all.sort_by_key(|(index, _)| *index);
+    Ok(all.into_iter().map(|(_, scored)| scored).collect())
 }
 
 /// Campaigns of a study as another simulator made them.
@@ -152,7 +165,9 @@ impl Scored {
             coulomb_share: campaign.coulomb_share(),
             stuck_share: campaign.stuck_share(),
             samples: campaign.logs.runs.iter().map(Run::len).sum(),
-            score: found.map(|id| score(&Truth::of(&campaign), &id).with_bound(bound.as_ref())),
+            score: found
+                .map(|id| score(&Truth::of(&campaign), &id).with_bound(bound.as_ref()))
+                .map_err(|error| error.to_string()),
             left: bound.map_or_else(Vec::new, |b| b.left),
             runs: campaign.facts,
             dropped: campaign.dropped,

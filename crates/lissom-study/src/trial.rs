@@ -4,6 +4,7 @@ use std::fmt;
 
 use lissom::record::Run;
 use lissom::rig::{Experiment, Logged, RigError, RigFinding};
+use serde::{Deserialize, Serialize};
 
 use crate::bench::Bench;
 use crate::plan::Idea;
@@ -24,7 +25,7 @@ const SMALLER: f64 = 0.75;
 const TRIES: usize = 8;
 
 /// Why a run was given up.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Dropped {
     /// The loop ran away.
     Unstable,

@@ -4,6 +4,8 @@
 //! more. `cargo xtask study` has the full figures.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
+use std::convert::Infallible;
+use std::fs;
 use std::sync::OnceLock;
 
 use lissom::drive::Coulomb;
@@ -11,8 +13,8 @@ use lissom::identify::{Options, identify};
 use lissom::record::Campaign;
 use lissom::rig::{Sensor, Settle};
 use lissom_study::{
-    Figure, FigureScore, Kind, Law, Score, Scored, Study, Truth, draw_campaign, median, report,
-    rows, score, study,
+    Figure, FigureScore, Kept, Kind, Law, Score, Scored, Study, Truth, draw_campaign, median,
+    report, rows, score, study,
 };
 
 /// Campaigns identified, and those that are only drawn.
@@ -20,11 +22,15 @@ const CAMPAIGNS: usize = 6;
 const DRAWN: usize = 12;
 const SEED: u64 = 1;
 
+fn made(plan: &Study) -> Vec<Option<Scored>> {
+    study(plan, |_| None, |_, _| Ok::<(), Infallible>(())).unwrap()
+}
+
 fn short() -> &'static [Scored] {
     static DONE: OnceLock<Vec<Scored>> = OnceLock::new();
     DONE.get_or_init(|| {
         let plan = Study { campaigns: CAMPAIGNS, seed: SEED, law: Law::None, quick: false };
-        study(&plan, || ()).into_iter().map(Option::unwrap).collect()
+        made(&plan).into_iter().map(Option::unwrap).collect()
     })
 }
 
@@ -122,11 +128,39 @@ fn campaigns_are_what_was_asked_for() {
 fn threads_change_nothing() {
     let plan = Study { campaigns: 3, seed: SEED, law: Law::None, quick: false };
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    let alone = one.install(|| study(&plan, || ()));
+    let alone = one.install(|| made(&plan));
     for (alone, together) in alone.iter().flatten().zip(short()) {
         // Debug text tells every bit, NaN as well.
         assert_eq!(format!("{:?}", alone.score), format!("{:?}", together.score));
     }
+}
+
+/// A study that was stopped in the middle of a campaign goes on with those before it.
+#[test]
+fn a_stopped_study_leaves_its_campaigns() {
+    let plan = Study { campaigns: 3, seed: SEED, law: Law::None, quick: false };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("accuracy.cbor");
+    let kept = Kept::create(&path).unwrap();
+    kept.keep(&plan, 0, Some(&short()[0])).unwrap();
+    kept.keep(&plan, 1, None).unwrap();
+    kept.keep(&plan, 2, Some(&short()[2])).unwrap();
+    let whole = fs::read(&path).unwrap();
+    fs::write(&path, &whole[..whole.len() - 100]).unwrap();
+
+    let resumed = Kept::resume(&path).unwrap();
+    let first = resumed.known(&plan, 0).unwrap().unwrap();
+    assert_eq!(format!("{first:?}"), format!("{:?}", short()[0]));
+    assert!(resumed.known(&plan, 1).unwrap().is_none());
+    assert!(resumed.known(&plan, 2).is_none());
+    assert!(resumed.known(&Study { quick: true, ..plan }, 0).is_none());
+    resumed.keep(&plan, 2, Some(&short()[2])).unwrap();
+    assert_eq!(fs::read(&path).unwrap(), whole);
+
+    let garbage = folder.path().join("garbage.cbor");
+    fs::write(&garbage, "index,law\n").unwrap();
+    let error = Kept::resume(&garbage).unwrap_err().to_string();
+    assert!(error.contains("byte 0") && error.contains("--resume"), "{error}");
 }
 
 #[test]

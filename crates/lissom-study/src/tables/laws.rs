@@ -29,10 +29,21 @@ pub(super) fn section(studies: &[(Study, Outcome)]) -> String {
         std::iter::once("finding").chain(names.iter().map(String::as_str)).collect();
     format!(
         "{}\n\n{}\n\nWhat flagged them, in shares of the campaigns:\n\n{}",
-        include_str!("laws.md").trim_end(),
+        include_str!("laws.md").trim_end().replace("{command}", &command(studies)),
         table(&header, &rows),
         table(&code_header, &code_rows)
     )
+}
+
+/// What makes the page.
+fn command(studies: &[(Study, Outcome)]) -> String {
+    let law = match studies {
+        [(only, _)] => only.law.option(),
+        _ => "wrong".to_owned(),
+    };
+    let study = studies.first().map(|(study, _)| study);
+    let (campaigns, seed) = study.map_or((0, 0), |s| (s.campaigns, s.seed));
+    format!("cargo xtask study --law {law} --campaigns {campaigns} --seed {seed}")
 }
 
 fn row((study, outcome): &(Study, Outcome)) -> Vec<String> {
