@@ -33,10 +33,9 @@ pub(crate) struct ChannelNoise {
 /// of rounding alone good to a factor of two.
 pub(crate) fn channel_noise(x: &[f64]) -> ChannelNoise {
     let step = step(x);
-    let pieces = x.len().div_ceil(SAMPLES);
     let mut fourth: Vec<f64> = x
         .windows(5)
-        .step_by(pieces.max(1))
+        .step_by(apart(x))
         .map(|w| (w[0] - 4.0 * w[1] + 6.0 * w[2] - 4.0 * w[3] + w[4]).abs())
         .collect();
     if fourth.is_empty() {
@@ -48,18 +47,27 @@ pub(crate) fn channel_noise(x: &[f64]) -> ChannelNoise {
     ChannelNoise { step, std: spread.max(step / 12.0_f64.sqrt()), independent: spread }
 }
 
+/// Samples from one that is looked at to the next.
+fn apart(x: &[f64]) -> usize {
+    x.len().div_ceil(SAMPLES).max(1)
+}
+
 /// The sensor's step, or 0.
 fn step(x: &[f64]) -> f64 {
     let (least, most) =
         x.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
     let floor = ROUNDING * (most - least);
-    let moves = || x.windows(2).map(|w| (w[1] - w[0]).abs()).filter(|d| *d > floor);
-    let step = moves().fold(f64::INFINITY, f64::min);
+    let moves = |every: usize| {
+        x.windows(2).step_by(every).map(|w| (w[1] - w[0]).abs()).filter(|d| *d > floor)
+    };
+    let step = moves(1).fold(f64::INFINITY, f64::min);
     if !step.is_finite() {
         return 0.0;
     }
-    let whole = moves().filter(|d| (d / step - (d / step).round()).abs() < WHOLE).count();
-    if whole as f64 >= MULTIPLES * moves().count() as f64 { step } else { 0.0 }
+    let is_whole = |d: f64| (d / step - (d / step).round()).abs() < WHOLE;
+    let (whole, all) =
+        moves(apart(x)).fold((0, 0), |(whole, all), d| (whole + i32::from(is_whole(d)), all + 1));
+    if f64::from(whole) >= MULTIPLES * f64::from(all) { step } else { 0.0 }
 }
 
 #[cfg(test)]

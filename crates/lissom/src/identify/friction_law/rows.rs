@@ -207,7 +207,7 @@ fn velocity(motor: &[f64], smooth: usize, sample_time_s: f64) -> Vec<f64> {
     let last = motor.len().saturating_sub(n + 1);
     let at = |k: usize| {
         let from = k.saturating_sub(half).min(last);
-        let moved = motor[from..].iter().zip(&window.first).map(|(x, w)| (x - motor[from]) * w);
+        let moved = motor[from..].iter().zip(&*window.first).map(|(x, w)| (x - motor[from]) * w);
         scale * moved.sum::<f64>()
     };
     (0..motor.len()).map(at).collect()

@@ -9,7 +9,7 @@ use super::motor_rows::behind;
 use super::normal::{Cluster, Rows, Term, solve};
 use super::row_noise::{Part, RunNoise, products};
 use super::scan::{Candidate, SYSTEMATIC, Scan, scan};
-use super::window::{Window, dot, dot_from};
+use super::window::{Weights, Window};
 use crate::identify::{Estimate, ModeEstimate};
 use crate::record::{Campaign, Run, TipQuantity};
 
@@ -238,13 +238,12 @@ impl BeamEquation<'_> {
 
     /// ∫weight·θ_i, the angle from the motor's first: keeps ∫ẅ·const at rounding of small numbers.
     #[inline(always)]
-    fn own(&self, weight: &[f64], k: usize) -> f64 {
-        let span = k..=k + self.window.len();
-        let (motor, tip) = (&self.run.motor()[span.clone()], &self.run.tips()[self.tip][span]);
+    fn own(&self, weight: &Weights, k: usize) -> f64 {
+        let (motor, tip) = (&self.run.motor()[k..], &self.run.tips()[self.tip][k..]);
         self.run.sample_time_s()
             * match self.campaign.channels.tips[self.tip].quantity {
-                TipQuantity::Deflection => dot(weight, tip) + dot_from(weight, motor, motor[0]),
-                _ => dot_from(weight, tip, motor[0]),
+                TipQuantity::Deflection => weight.dot(tip) + weight.dot_from(motor, motor[0]),
+                _ => weight.dot_from(tip, motor[0]),
             }
     }
 }

@@ -9,7 +9,7 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIter
 use super::normal::{Cluster, Rows};
 use super::phases::{LEAST_SAMPLES, Phase, needed_smoothing, slip_phases};
 use super::row_noise::{Part, RunNoise, products};
-use super::window::{Window, dot, dot_difference, dot_from};
+use super::window::Window;
 use crate::record::{Campaign, Hold, Run, TipQuantity};
 
 /// Windows overlap by all but this part of their length.
@@ -143,19 +143,18 @@ impl Rows for MotorEquation<'_> {
     #[inline(always)]
     fn fill(&self, k: usize, row: &mut Vec<f64>) {
         let Self { campaign, run, window, .. } = *self;
-        let (t, n) = (run.sample_time_s(), window.len());
-        let motor = &run.motor()[k..=k + n];
+        let (t, motor, command) = (run.sample_time_s(), &run.motor()[k..], &run.command()[k..]);
         row.clear();
         // From the window's first: ẇ and ẅ integrate constants to zero only up to rounding.
-        row.push(dot_from(&window.second, motor, motor[0]) * t);
-        row.push(-dot_from(&window.first, motor, motor[0]) * t);
+        row.push(window.second.dot_from(motor, motor[0]) * t);
+        row.push(-window.first.dot_from(motor, motor[0]) * t);
         row.push(window.area);
         for &i in self.tips {
             row.push(behind(campaign, run, i, window, k));
         }
         let torque = match campaign.channels.command.hold {
-            Hold::Sampled => dot(&window.held, &run.command()[k..k + n]),
-            Hold::Measured => dot(&window.value, &run.command()[k..=k + n]) * t,
+            Hold::Sampled => window.held.dot(command),
+            Hold::Measured => window.value.dot(command) * t,
         };
         row.push(self.torque_per_command() * torque);
         for value in row {
@@ -199,7 +198,7 @@ impl MotorEquation<'_> {
                     let steps = window.value.windows(2).zip(command);
                     steps.map(|(w, u)| (w[1] - w[0]) * u).sum::<f64>()
                 }
-                Hold::Measured => dot(&window.first, command) * self.run.sample_time_s(),
+                Hold::Measured => window.first.dot(command) * self.run.sample_time_s(),
             }
     }
 }
@@ -207,12 +206,11 @@ impl MotorEquation<'_> {
 /// `∫w(θ_m − θ_i)`.
 #[inline(always)]
 pub(super) fn behind(campaign: &Campaign, run: &Run, i: usize, window: &Window, k: usize) -> f64 {
-    let span = k..=k + window.len();
-    let (motor, tip) = (&run.motor()[span.clone()], &run.tips()[i][span]);
+    let (motor, tip) = (&run.motor()[k..], &run.tips()[i][k..]);
     run.sample_time_s()
         * match campaign.channels.tips[i].quantity {
-            TipQuantity::Deflection => -dot(&window.value, tip),
-            _ => dot_difference(&window.value, motor, tip),
+            TipQuantity::Deflection => -window.value.dot(tip),
+            _ => window.value.dot_difference(motor, tip),
         }
 }
 
@@ -228,9 +226,8 @@ impl Rows for WithMore<'_> {
     fn fill(&self, k: usize, row: &mut Vec<f64>) {
         let MotorEquation { run, window, .. } = self.plain;
         let t = run.sample_time_s();
-        let span = k..=k + window.len();
-        let by_position = dot_from(&window.value, &run.motor()[span.clone()], self.origin);
-        let by_slowness = dot(&window.value, &self.slowness[span]);
+        let by_position = window.value.dot_from(&run.motor()[k..], self.origin);
+        let by_slowness = window.value.dot(&self.slowness[k..]);
         let more = [self.plain.later(k), by_position * t, by_slowness * t];
         self.plain.fill(k, row);
         let right = row.len() - 1;

@@ -1,5 +1,7 @@
 //! Choice of the window's length: the one about which the figures are best known.
 
+use std::collections::VecDeque;
+
 use super::normal::Solution;
 
 /// Fewest samples in a window.
@@ -8,6 +10,8 @@ const LEAST_SAMPLES: f64 = 10.0;
 const RATIO: f64 = std::f64::consts::SQRT_2;
 /// Fewest clusters (phases, blocks) that a candidate must rest on.
 const LEAST_CLUSTERS: usize = 4;
+/// Scatter of a window's figures over the least sensitivity from which on no shorter one is tried.
+const HOPELESS: f64 = 1.5;
 /// Most candidates: √2⁴⁰ is a factor of a million in length.
 const MOST_CANDIDATES: i32 = 40;
 
@@ -41,8 +45,11 @@ pub(crate) struct Scan {
     pub(crate) change: Vec<f64>,
 }
 
-/// Tries windows from ten samples on, each √2 longer than the one before, until too few phases
-/// hold one; takes the one with the least sensitivity in the figures marked by `counts`.
+/// Tries windows each √2 shorter than the one before, from the longest of which a few phases hold one
+/// down to ten samples; takes the one with the least sensitivity in the figures marked by `counts`.
+///
+/// The shorter a window, the more its figures scatter: none is tried beyond one whose scatter alone
+/// is well over the least sensitivity.
 ///
 /// With `given` lengths only these are taken, each between neighbours that tell its sensitivity.
 pub(crate) fn scan(
@@ -64,16 +71,56 @@ pub(crate) fn scan(
         });
         return scans.min_by(|a, b| a.sensitivity().total_cmp(&b.sensitivity()));
     }
-    let mut tried: Vec<(f64, Solution)> = Vec::new();
-    for k in 0..MOST_CANDIDATES {
+    let mut tried: VecDeque<(f64, Solution)> = VecDeque::new();
+    let mut least = f64::INFINITY;
+    for k in (0..MOST_CANDIDATES).rev() {
         let length = shortest * RATIO.powi(k);
         match usable(length) {
-            Some(solution) => tried.push((length, solution)),
+            Some(solution) => tried.push_front((length, solution)),
             None if !tried.is_empty() => break,
-            None => {}
+            None => continue,
+        }
+        let tried = tried.make_contiguous();
+        if tried.len() > 2 {
+            least = least.min(sensitivity(tried, 1, counts));
+        }
+        if scatter(&tried[0].1, counts).is_some_and(|s| s > HOPELESS * least) {
+            break;
         }
     }
-    choose(&tried, counts, None)
+    choose(tried.make_contiguous(), counts, None)
+}
+
+/// Root mean square over the figures that count of what `of` says of each, relative to its size; `None`
+/// where all of them are inseparable.
+fn relative(s: &Solution, counts: &[bool], of: impl Fn(usize, f64) -> f64) -> Option<f64> {
+    let (mut sum, mut number) = (0.0, 0.0);
+    for (i, _) in counts.iter().enumerate().filter(|(_, c)| **c) {
+        // A figure that is zero within its scatter must not decide.
+        let variance = s.covariance[(i, i)].max(0.0);
+        let size = s.value[i].abs().max(3.0 * variance.sqrt());
+        if !s.inseparable[i] && size > 0.0 {
+            sum += of(i, variance) / (size * size);
+            number += 1.0;
+        }
+    }
+    (number > 0.0).then(|| (sum / number).sqrt())
+}
+
+/// Root mean square of the figures' relative deviations.
+fn scatter(s: &Solution, counts: &[bool]) -> Option<f64> {
+    relative(s, counts, |_, variance| variance)
+}
+
+/// Root mean square of the figures' relative change from neighbour to neighbour and of their relative
+/// deviations; infinite at the ends.
+fn sensitivity(tried: &[(f64, Solution)], k: usize, counts: &[bool]) -> f64 {
+    if k == 0 || k + 1 >= tried.len() {
+        return f64::INFINITY;
+    }
+    let (before, here, after) = (&tried[k - 1].1, &tried[k].1, &tried[k + 1].1);
+    let change = |i: usize| after.value[i] - before.value[i];
+    relative(here, counts, |i, variance| change(i) * change(i) + variance).unwrap_or(f64::INFINITY)
 }
 
 impl Scan {
@@ -84,25 +131,6 @@ impl Scan {
 
 /// Takes the length `given`, or the one with the least sensitivity.
 fn choose(tried: &[(f64, Solution)], counts: &[bool], given: Option<f64>) -> Option<Scan> {
-    let sensitivity = |k: usize| {
-        if k == 0 || k + 1 >= tried.len() {
-            return f64::INFINITY;
-        }
-        let (before, here, after) = (&tried[k - 1].1, &tried[k].1, &tried[k + 1].1);
-        let mut sum = 0.0;
-        let mut number = 0.0;
-        for (i, _) in counts.iter().enumerate().filter(|(_, c)| **c) {
-            // A figure that is zero within its scatter must not decide.
-            let variance = here.covariance[(i, i)].max(0.0);
-            let size = here.value[i].abs().max(3.0 * variance.sqrt());
-            if !here.inseparable[i] && size > 0.0 {
-                let change = after.value[i] - before.value[i];
-                sum += (change * change + variance) / (size * size);
-                number += 1.0;
-            }
-        }
-        if number > 0.0 { (sum / number).sqrt() } else { f64::INFINITY }
-    };
     let candidates: Vec<Candidate> = tried
         .iter()
         .enumerate()
@@ -111,7 +139,7 @@ fn choose(tried: &[(f64, Solution)], counts: &[bool], given: Option<f64>) -> Opt
             rows: s.rows,
             clusters: s.clusters,
             relative_residual: s.relative_residual,
-            sensitivity: sensitivity(k),
+            sensitivity: sensitivity(tried, k, counts),
         })
         .collect();
     let chosen = if let Some(length) = given {

@@ -1,6 +1,7 @@
 //! The smooth window of the regression.
 
 use std::f64::consts::PI;
+use std::ops::Deref;
 use std::sync::Arc;
 
 use crate::record::Run;
@@ -15,13 +16,13 @@ const LEAST_SAMPLES: usize = 4;
 #[derive(Debug, Clone)]
 pub(crate) struct Window {
     /// w at samples 0..=n.
-    pub(crate) value: Vec<f64>,
+    pub(crate) value: Weights,
     /// ẇ at samples 0..=n \[1/s\].
-    pub(crate) first: Vec<f64>,
+    pub(crate) first: Weights,
     /// ẅ at samples 0..=n \[1/s²\].
-    pub(crate) second: Vec<f64>,
+    pub(crate) second: Weights,
     /// ∫w over each sample interval \[s\], length n: what a held signal is weighted with.
-    pub(crate) held: Vec<f64>,
+    pub(crate) held: Weights,
     /// ∫w over all of it \[s\].
     pub(crate) area: f64,
     /// 1/√∫ẅ²: scales a row to the noise that white noise in the angle puts into it.
@@ -35,8 +36,8 @@ impl Window {
         let rate = PI / length;
         let waves: Vec<_> = (0..=n).map(|k| (PI * k as f64 / n as f64).sin_cos()).collect();
         let at = |f: &dyn Fn(f64, f64) -> f64| waves.iter().map(|(s, c)| f(*s, *c)).collect();
-        let value = at(&|s, _| s.powi(4));
-        let first = at(&|s, c| 4.0 * rate * s.powi(3) * c);
+        let value: Vec<f64> = at(&|s, _| s.powi(4));
+        let first: Vec<f64> = at(&|s, c| 4.0 * rate * s.powi(3) * c);
         let second: Vec<f64> = at(&|s, c| rate * rate * (12.0 * s * s * c * c - 4.0 * s.powi(4)));
         // ∫ sin⁴y dy = 3y/8 − sin(2y)/4 + sin(4y)/32, with sin 2y = 2·s·c, sin 4y = 2·sin 2y·cos 2y.
         let integral = |k: usize| {
@@ -47,6 +48,7 @@ impl Window {
         let held: Vec<f64> = (0..n).map(|k| integral(k + 1) - integral(k)).collect();
         let power: f64 = second.iter().map(|v| v * v).sum::<f64>() * sample_time_s;
         let area = held.iter().sum();
+        let [value, first, second, held] = [value, first, second, held].map(Weights::new);
         Self { value, first, second, held, area, row_scale: 1.0 / power.sqrt() }
     }
 
@@ -77,22 +79,50 @@ impl Window {
     }
 }
 
+/// Numbers to weigh samples with, and zeros after them: sums go by whole groups of lanes.
+#[derive(Debug, Clone)]
+pub(crate) struct Weights {
+    padded: Vec<f64>,
+    len: usize,
+}
+
+impl Deref for Weights {
+    type Target = [f64];
+
+    fn deref(&self) -> &[f64] {
+        &self.padded[..self.len]
+    }
+}
+
+impl Weights {
+    fn new(mut weights: Vec<f64>) -> Self {
+        let len = weights.len();
+        weights.resize(len.next_multiple_of(LANES), 0.0);
+        Self { padded: weights, len }
+    }
+
+    /// Σ w·x over the first samples of `x`; those that follow save time.
+    #[inline(always)]
+    pub(crate) fn dot(&self, x: &[f64]) -> f64 {
+        sum(&self.padded, x, x, |w, x, _| w * x)
+    }
+
+    /// Σ w·(x − origin) over the first samples of `x`; those that follow save time.
+    #[inline(always)]
+    pub(crate) fn dot_from(&self, x: &[f64], origin: f64) -> f64 {
+        sum(&self.padded, x, x, |w, x, _| w * (x - origin))
+    }
+
+    /// Σ w·(x − y) over the first samples of both; those that follow save time.
+    #[inline(always)]
+    pub(crate) fn dot_difference(&self, x: &[f64], y: &[f64]) -> f64 {
+        sum(&self.padded, x, y, |w, x, y| w * (x - y))
+    }
+}
+
 /// Σ a·b over the shorter of two slices.
-#[inline(always)]
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     sum(a, b, b, |a, b, _| a * b)
-}
-
-/// Σ a·(b − origin) over the shorter of two slices.
-#[inline(always)]
-pub(crate) fn dot_from(a: &[f64], b: &[f64], origin: f64) -> f64 {
-    sum(a, b, b, |a, b, _| a * (b - origin))
-}
-
-/// Σ a·(b − c) over the shortest of three slices.
-#[inline(always)]
-pub(crate) fn dot_difference(a: &[f64], b: &[f64], c: &[f64]) -> f64 {
-    sum(a, b, c, |a, b, c| a * (b - c))
 }
 
 /// Sums kept side by side: a single one would wait for each addition.
@@ -149,14 +179,19 @@ mod tests {
         let of = |shift: f64| (0..37).map(|k| (f64::from(k) + shift).sin()).collect::<Vec<f64>>();
         let (a, b, c) = (of(0.0), of(0.3), of(1.7));
         for n in [0, 1, 7, 8, 9, 16, 37] {
-            let (a, b, c) = (&a[..n], &b[..n], &c[..n]);
+            let weights = Weights::new(a[..n].to_vec());
+            assert_eq!(weights[..], a[..n]);
             let one = |f: &dyn Fn(usize) -> f64| (0..n).map(f).sum::<f64>();
-            let pairs = [
-                (dot(a, b), one(&|k| a[k] * b[k])),
-                (dot_from(a, b, 0.4), one(&|k| a[k] * (b[k] - 0.4))),
-                (dot_difference(a, b, c), one(&|k| a[k] * (b[k] - c[k]))),
-            ];
-            assert!(pairs.iter().all(|(x, y)| (x - y).abs() < 1e-14), "{n} {pairs:?}");
+            // With samples behind the last one that counts, and without.
+            for most in [n, 37] {
+                let (b, c) = (&b[..most], &c[..most]);
+                let pairs = [
+                    (weights.dot(b), one(&|k| a[k] * b[k])),
+                    (weights.dot_from(b, 0.4), one(&|k| a[k] * (b[k] - 0.4))),
+                    (weights.dot_difference(b, c), one(&|k| a[k] * (b[k] - c[k]))),
+                ];
+                assert!(pairs.iter().all(|(x, y)| (x - y).abs() < 1e-14), "{n} {pairs:?}");
+            }
         }
         assert!((dot(&a[..5], &b) - dot(&a[..5], &b[..5])).abs() < 1e-15);
     }

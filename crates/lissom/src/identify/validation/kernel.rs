@@ -27,7 +27,7 @@ impl Kernel {
         let (whole, share) = (samples.floor(), samples - samples.floor());
         // Of a held command the weight of whole intervals, of a measured one that of its samples.
         let undelayed: Vec<f64> = match hold {
-            Hold::Sampled => window.held.clone(),
+            Hold::Sampled => window.held.to_vec(),
             Hold::Measured => window.value.iter().map(|w| w * sample_time_s).collect(),
         };
         let at = |i: usize| undelayed.get(i).copied().unwrap_or(0.0);
