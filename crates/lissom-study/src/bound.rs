@@ -118,8 +118,8 @@ fn figures(
         (Figure::Viscous, std(&|a| Parameter::Viscous.of(a))),
     ];
     for j in 0..arm.modes.len() {
-        all.push((Figure::Frequency(j), std(&|a| a.modes[j].omega_rad_s)));
-        all.push((Figure::Damping(j), std(&|a| a.damping_ratios()[j])));
+        all.push((Figure::Frequency(j), std(&|a| a.clamped_modes()[j].0)));
+        all.push((Figure::Damping(j), std(&|a| a.clamped_modes()[j].1)));
     }
     all
 }

@@ -183,8 +183,8 @@ fn stages(found: &OutputError, campaign: &Campaign) -> String {
     let truth = truth.as_ref().map_or_else(String::new, arm_line);
     let _ = writeln!(
         text,
-        "whole runs {}, {:.2} times the noise, point masses {}\ntrue {truth}",
-        found.whole_runs, found.beyond_noise, found.point_masses
+        "whole runs {}, {:.2} times the noise, left over {:.4?}, point masses {}\ntrue {truth}",
+        found.whole_runs, found.beyond_noise, found.left_over, found.point_masses
     );
     text
 }

@@ -16,6 +16,9 @@ use crate::error::Error;
 /// Relative difference of torque constants beyond which they are two.
 const SAME: f64 = 1e-9;
 
+/// No machine has a larger number in SI.
+const LARGEST: f64 = 1e12;
+
 /// Names of the methods an arm can be from.
 const SOURCES: [(&str, ArmSource); 2] =
     [("output_error", ArmSource::OutputError), ("regression", ArmSource::Regression)];
@@ -253,9 +256,14 @@ impl Reader {
             let key = "arm.modes[].natural_frequency_rad_s".to_owned();
             return Err(self.key(key, "greater than zero"));
         }
+        let stiffness = names.coupling_key("stiffness");
+        let stiffness_nm_per_rad = number(&stiffness)?;
+        if stiffness_nm_per_rad <= 0.0 {
+            return Err(self.key(format!("arm.modes[].{stiffness}"), "greater than zero"));
+        }
         Ok(Oscillator {
             omega_rad_s,
-            stiffness_nm_per_rad: number(&names.coupling_key("stiffness"))?,
+            stiffness_nm_per_rad,
             within_per_s: number("damping_within_per_s")?,
             grounded_per_s: number("damping_grounded_per_s")?,
         })
@@ -306,7 +314,12 @@ impl Reader {
     }
 
     pub(super) fn number(&self, table: &Value, at: &str, key: &str) -> Result<f64, ResultError> {
-        table[key].as_f64().ok_or_else(|| self.key(format!("{at}.{key}"), "a number"))
+        let number =
+            table[key].as_f64().ok_or_else(|| self.key(format!("{at}.{key}"), "a number"))?;
+        if number.abs() > LARGEST {
+            return Err(self.key(format!("{at}.{key}"), "a number that a machine may have"));
+        }
+        Ok(number)
     }
 
     pub(super) fn key(&self, key: String, expected: &'static str) -> ResultError {

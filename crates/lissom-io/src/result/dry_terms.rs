@@ -8,6 +8,9 @@ use serde_json::{Map, Value, json};
 use super::UnitNames;
 use super::arm::{Reader, ResultError};
 
+/// Shortest period of a ripple, in radians or metres: a replay follows each wave.
+const SHORTEST: f64 = 1e-6;
+
 /// Puts `near_rest` and `ripples` into the table of an arm.
 pub(super) fn write(map: &mut Map<String, Value>, names: UnitNames, terms: &DryTerms) {
     let near = terms
@@ -29,6 +32,9 @@ pub(super) fn read(of: &Reader, table: &Value, names: UnitNames) -> Result<DryTe
     let positive = |value: f64, key: String| {
         if value > 0.0 { Ok(value) } else { Err(of.key(key, "greater than zero")) }
     };
+    let wide = |value: f64, key: String| {
+        if value >= SHORTEST { Ok(value) } else { Err(of.key(key, "1e-6 or more")) }
+    };
     let near = &table["near_rest"];
     let near_rest = if near.is_null() {
         None
@@ -43,7 +49,7 @@ pub(super) fn read(of: &Reader, table: &Value, names: UnitNames) -> Result<DryTe
         let number = |key: &str| of.number(r, at, key);
         let period = period(names);
         Ok(Ripple {
-            per_rad: TAU / positive(number(&period)?, format!("{at}.{period}"))?,
+            per_rad: TAU / wide(number(&period)?, format!("{at}.{period}"))?,
             cosine_nm: number(&format!("cosine_{}", names.torque()))?,
             sine_nm: number(&format!("sine_{}", names.torque()))?,
         })

@@ -15,7 +15,7 @@ use super::model::state_space;
 use super::models::{beam_model, figures_model};
 use super::output_error::{OutputError, OutputErrorStart, output_error, starts};
 use super::rational::{BeamFit, MotorFit};
-use super::regression::{MotorRegression, beam_regression, motor_regression};
+use super::regression::{MotorRegression, beam_regression, coupled_tips, motor_regression};
 use super::replayed_bands::ReplayedBands;
 use super::response_table::{Replayed, response_table, weak_points};
 use super::run_analysis::{RunAnalysis, RunKind, analyse};
@@ -124,9 +124,7 @@ pub fn identify(
     options: &Options,
     mut progress: impl FnMut(Stage),
 ) -> Result<Identified, IdentifyError> {
-    if let Some(&found_s) = options.window_s.iter().find(|w| !(**w > 0.0 && w.is_finite())) {
-        return Err(IdentifyError::Window { found_s });
-    }
+    possible(options)?;
     let harmonics = options.harmonics.unwrap_or(HARMONICS).max(1);
     let mut findings = Vec::new();
     let mut runs = Vec::with_capacity(campaign.runs.len());
@@ -166,10 +164,13 @@ pub fn identify(
     let replayable = any_regression.filter(|_| !options.without_output_error);
     let output_error = replayable.and_then(|motor| {
         progress(Stage::OutputError);
-        // Without a tip's angle: friction as a square wave is near enough to start with.
-        let without_friction = response_table(campaign, &runs, best, &square, &findings);
-        let response = models::motor_model(&without_friction, constant, beam_model.as_ref());
         let (beam, tips) = (any_beam_regression.as_ref(), beam_model.as_ref());
+        // Without a tip's angle: friction as a square wave is near enough to start with.
+        let response = || {
+            let table = response_table(campaign, &runs, best, &square, &findings);
+            models::motor_model(&table, constant, tips)
+        };
+        let response = if coupled_tips(&usable).is_empty() { response() } else { None };
         let plain = starts(&usable, &motor, beam, tips, response.as_ref());
         replayed(&usable, &runs, &kept, &plain, friction_law.as_ref())
     });
@@ -231,6 +232,13 @@ pub fn identify(
     };
     verdict::conclude(campaign, &usable, &mut identified);
     Ok(identified)
+}
+
+fn possible(options: &Options) -> Result<(), IdentifyError> {
+    match options.window_s.iter().find(|w| !(**w > 0.0 && w.is_finite())) {
+        Some(&found_s) => Err(IdentifyError::Window { found_s }),
+        None => Ok(()),
+    }
 }
 
 /// Responses without friction of the runs that were replayed, the `kept` ones of `runs`.

@@ -17,6 +17,7 @@ mod models;
 mod output_error;
 mod rational;
 mod regression;
+mod repeated_run;
 mod replayed_bands;
 mod response_table;
 mod run_analysis;

@@ -8,6 +8,7 @@ use super::constant_velocity::{
 };
 use super::finding::{Finding, Severity, key};
 use super::regression::slip_sign;
+use super::repeated_run::repeats;
 use super::third_harmonic::RunPhasors;
 use crate::record::{Campaign, Hold, Note, Run};
 use crate::spectrum::{
@@ -118,7 +119,8 @@ pub(crate) fn analyse(
     } else {
         Vec::new()
     };
-    let usable = channels(campaign, run, dead, !steady.is_empty(), findings);
+    let usable = channels(campaign, run, dead, !steady.is_empty(), findings)
+        && !repeats(campaign, index, findings);
     at_rest(run, findings);
     let saturated_share = saturation(campaign, run, findings);
     time_base(run, findings);

@@ -28,6 +28,11 @@ impl Oscillator {
     fn driven(&self, s: Complex64) -> Complex64 {
         s * self.within_per_s + self.omega_rad_s * self.omega_rad_s
     }
+
+    /// All of its own damping, 2ζω with the motor clamped.
+    fn damping_per_s(&self) -> f64 {
+        self.within_per_s + self.grounded_per_s
+    }
 }
 
 /// An arm as its motor feels it.
@@ -79,7 +84,36 @@ impl ModalArm {
         if modes.omega_rad_s().len() > MOST_MODES { None } else { modes.whole() }
     }
 
-    /// ζ_j of every mode with the motor clamped, to first order in the dampers at points.
+    /// Natural frequency |s| \[rad/s\] and damping ratio −Re s/|s| of each mode with the motor clamped,
+    /// ascending. Dampers at points couple the oscillators: |s| is not their ω then.
+    pub fn clamped_modes(&self) -> Vec<(f64, f64)> {
+        let n = self.modes.len();
+        let coupled = self.points_in_modes().and_then(|points| {
+            // ω_j·ψ_j beside ψ̇_j: of one size.
+            let a = DMatrix::from_fn(2 * n, 2 * n, |i, k| match (i < n, k < n) {
+                (true, false) if k - n == i => self.modes[i].omega_rad_s,
+                (false, true) if i - n == k => -self.modes[k].omega_rad_s,
+                (false, false) => {
+                    let own = if i == k { self.modes[i - n].damping_per_s() } else { 0.0 };
+                    -own - points[(i - n, k - n)]
+                }
+                _ => 0.0,
+            });
+            let finite = a.iter().all(|v| v.is_finite());
+            let poles = finite.then(|| a.complex_eigenvalues())?;
+            let upper: Vec<_> = poles.iter().filter(|s| s.im > 0.0).copied().collect();
+            let modes = upper.iter().map(|s| (s.norm(), -s.re / s.norm())).collect::<Vec<_>>();
+            (modes.len() == n).then_some(modes)
+        });
+        let mut modes = coupled.unwrap_or_else(|| {
+            let omega = self.modes.iter().map(|m| m.omega_rad_s);
+            omega.zip(self.damping_ratios()).collect()
+        });
+        modes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        modes
+    }
+
+    /// ζ_j of every oscillator with the motor clamped, to first order in the dampers at points.
     pub fn damping_ratios(&self) -> Vec<f64> {
         let at_points = self.points_in_modes();
         self.modes
@@ -87,7 +121,7 @@ impl ModalArm {
             .enumerate()
             .map(|(j, m)| {
                 let points = at_points.as_ref().map_or(0.0, |p| p[(j, j)]);
-                0.5 * (m.within_per_s + m.grounded_per_s + points) / m.omega_rad_s
+                0.5 * (m.damping_per_s() + points) / m.omega_rad_s
             })
             .collect()
     }
@@ -147,10 +181,7 @@ impl ModalArm {
     fn follow(&self, s: Complex64) -> DVector<Complex64> {
         let n = self.modes.len();
         let points = self.points_in_modes();
-        let own = |m: &Oscillator| {
-            let both = m.within_per_s + m.grounded_per_s;
-            s * (s + both) + m.omega_rad_s * m.omega_rad_s
-        };
+        let own = |m: &Oscillator| s * (s + m.damping_per_s()) + m.omega_rad_s * m.omega_rad_s;
         let left = DMatrix::from_fn(n, n, |i, j| {
             let points = s * points.as_ref().map_or(0.0, |p| p[(i, j)]);
             if i == j { own(&self.modes[i]) + points } else { points }

@@ -91,6 +91,24 @@ fn window(model: &ModalArm, states: &[Vec<f64>], from: usize, to: usize) -> Wind
     Window { run: 0, samples: from..=to, start: modal(model, &states[from]), zeros: vec![0.0; 2] }
 }
 
+/// Dampers that differ along the beam couple its modes: their poles are those of the beam, not of
+/// oscillators side by side.
+#[test]
+fn clamped_modes_are_the_poles_of_the_beam() {
+    let arm = arm_of(crate::beam::Damping::None, 4.0);
+    let mut poles: Vec<_> = arm.beam().poles().s.into_iter().filter(|s| s.im > 0.0).collect();
+    poles.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+    let model = ModalArm::of_arm(&arm).unwrap();
+    let modes = model.clamped_modes();
+    assert_eq!(modes.len(), poles.len());
+    for ((omega, ratio), s) in modes.iter().zip(&poles) {
+        assert!((omega / s.norm() - 1.0).abs() < 1e-12, "{omega} {s}");
+        assert!((ratio + s.re / s.norm()).abs() < 1e-12, "{ratio} {s}");
+    }
+    let apart = modes[0].0 / model.modes[0].omega_rad_s - 1.0;
+    assert!(apart.abs() > 1e-4, "{apart}");
+}
+
 #[test]
 fn replays_what_the_event_engine_does() {
     let dampers = arm_of(crate::beam::Damping::None, 1.0);

@@ -1,5 +1,7 @@
 //! Which parameters beyond the simplest law the residual calls for.
 
+use nalgebra::DVector;
+
 use super::coordinates::Body;
 use super::covariance::{Covariances, deviation};
 use super::law;
@@ -24,6 +26,9 @@ const LAW_LEAVES: f64 = 0.7;
 const RIGID_SHARE: f64 = 1e-3;
 /// A kind of dampers is there when one of them stands this many deviations from zero.
 const THERE: f64 = 2.0;
+/// A group with a parameter this many deviations from what it is without, and yet not called for, is
+/// undecided.
+const UNDECIDED: f64 = 2.5;
 /// Most groups added at a time.
 const MOST: usize = 3;
 
@@ -70,7 +75,7 @@ pub(super) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) 
 /// Adds a term to friction's law where more than the sensors' noise is left, and it promises to take
 /// more than the share `least` of that; tells whether it did.
 fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: f64) -> bool {
-    if fitting.beyond_noise(fit) < BEYOND_NOISE {
+    if !fitting.tries_laws || fitting.beyond_noise(fit) < BEYOND_NOISE {
         return false;
     }
     let Some((trial, found)) = law::best(fitting, fit, least) else { return false };
@@ -120,8 +125,8 @@ pub(super) fn relax(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
         return;
     }
     let free = Fit { body: Body::free(fit.body.arm.clone()), ..fit.clone() };
-    let promised = |fit: &Fit| promised(&fitting.point(fit, &fit.free).sums, fit.coordinates());
-    if promised(&free) - promised(fit) > RIGID_SHARE {
+    let promised = |fit: &Fit| Promised::of(&fitting.point(fit, &fit.free).sums, fit.coordinates());
+    if promised(&free).share - promised(fit).share > RIGID_SHARE {
         *fit = free;
         fitting.search(fit, report);
     }
@@ -147,19 +152,42 @@ pub(super) fn promises(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Extension>> 
     scores(fitting, fit, candidates(fit))
 }
 
+/// By how much each group that the residual neither calls for nor has nothing of would move the free
+/// parameters: what they do not know of themselves for want of an answer.
+pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Vec<DVector<f64>> {
+    let stands = |e: &Extension| e.value.abs() > UNDECIDED * e.std;
+    let moved = |p: Promise| p.group.iter().any(stands).then_some(p.moved);
+    let moved = all_scores(fitting, fit, candidates(fit)).into_iter().filter_map(moved);
+    match fit.body.jacobian(&fit.free) {
+        Some(jacobian) => moved.map(|m| &jacobian * m).collect(),
+        None => moved.collect(),
+    }
+}
+
 /// The same of some groups.
 pub(super) fn scores(
     fitting: &Fitting<'_>,
     fit: &Fit,
     groups: Vec<Vec<Parameter>>,
 ) -> Vec<Vec<Extension>> {
+    all_scores(fitting, fit, groups).into_iter().map(|promise| promise.group).collect()
+}
+
+/// What a group of parameters promises.
+struct Promise {
+    group: Vec<Extension>,
+    /// Change of the coordinates that are free without it, beside the change without it.
+    moved: DVector<f64>,
+}
+
+fn all_scores(fitting: &Fitting<'_>, fit: &Fit, groups: Vec<Vec<Parameter>>) -> Vec<Promise> {
     let free = fit.coordinates();
     let all: Vec<Parameter> = fit.free.iter().chain(groups.iter().flatten()).copied().collect();
     let point = fitting.point(fit, &all);
     let first_of_windows = fit.body.coordinates(&all).len();
     let own: Vec<usize> = (0..free).collect();
     let alone: Vec<WindowSums> = point.sums.iter().map(|s| s.of(&own, first_of_windows)).collect();
-    let alone = promised(&alone, free);
+    let alone = Promised::of(&alone, free);
     let mut first = free;
     let mut found = Vec::new();
     for group in groups {
@@ -167,7 +195,7 @@ pub(super) fn scores(
         first += group.len();
         let sums: Vec<WindowSums> =
             point.sums.iter().map(|s| s.of(&kept, first_of_windows)).collect();
-        found.push(score(&sums, free, &group, alone));
+        found.push(score(&sums, free, &group, &alone));
     }
     found
 }
@@ -215,24 +243,37 @@ fn candidates(fit: &Fit) -> Vec<Vec<Parameter>> {
     groups
 }
 
-/// Share of the cost that one step in the first `shared` coordinates promises to take.
-fn promised(sums: &[WindowSums], shared: usize) -> f64 {
-    let (normal, right) = normal_equations(sums, shared);
-    right.dot(&(inverse(&normal) * &right)) / sums.iter().map(|s| s.cost).sum::<f64>()
+/// One step of a search in all coordinates.
+struct Promised {
+    step: DVector<f64>,
+    /// Share of the cost that it promises to take.
+    share: f64,
+}
+
+impl Promised {
+    /// In the first `shared` coordinates.
+    fn of(sums: &[WindowSums], shared: usize) -> Self {
+        let (normal, right) = normal_equations(sums, shared);
+        let step = inverse(&normal) * &right;
+        let share = right.dot(&step) / sums.iter().map(|s| s.cost).sum::<f64>();
+        Self { step, share }
+    }
 }
 
 /// The step that a search would make in the parameters of `group`, which follow `before` others that
 /// promise `alone` by themselves.
-fn score(sums: &[WindowSums], before: usize, group: &[Parameter], alone: f64) -> Vec<Extension> {
+fn score(sums: &[WindowSums], before: usize, group: &[Parameter], alone: &Promised) -> Promise {
     let shared = before + group.len();
-    let (normal, right) = normal_equations(sums, shared);
-    let step = inverse(&normal) * &right;
+    let Promised { step, share } = Promised::of(sums, shared);
     let covariance = Covariances::at(sums, shared).larger();
-    let share = right.dot(&step) / sums.iter().map(|s| s.cost).sum::<f64>() - alone;
+    let share = share - alone.share;
     let figure = |(k, parameter): (usize, &Parameter)| {
         let (value, std) = (step[before + k], deviation(&covariance, before + k));
         Extension { parameter: *parameter, value, std, share, added: false }
     };
     let finite = |e: &Extension| e.value.is_finite() && e.share.is_finite();
-    group.iter().enumerate().map(figure).filter(finite).collect()
+    Promise {
+        group: group.iter().enumerate().map(figure).filter(finite).collect(),
+        moved: step.rows(0, before) - &alone.step,
+    }
 }

@@ -70,12 +70,9 @@ impl OutputError {
     /// Modes and coupling.
     pub fn beam(&self, channels: &Channels) -> Beam {
         let modes = (0..self.arm.modes.len()).map(|j| ModeEstimate {
-            natural_frequency_rad_s: self.figure(|arm| arm.modes[j].omega_rad_s),
-            damping_ratio: self.figure(|arm| arm.damping_ratios()[j]),
+            natural_frequency_rad_s: self.figure(|arm| arm.clamped_modes()[j].0),
+            damping_ratio: self.figure(|arm| arm.clamped_modes()[j].1),
         });
-        let mut modes: Vec<ModeEstimate> = modes.collect();
-        let omega = |m: &ModeEstimate| m.natural_frequency_rad_s.value;
-        modes.sort_by(|a, b| omega(a).total_cmp(&omega(b)));
         let tips = &channels.tips;
         let known = |i: usize| tips[i].calibrated && tips[i].quantity != TipQuantity::Acceleration;
         let by_tip = self.arm.coupling_by_tip().map_or(Vec::new(), |found| {
@@ -84,7 +81,7 @@ impl OutputError {
             (0..found.len()).map(|i| known(i).then(|| figure(i))).collect()
         });
         Beam {
-            modes,
+            modes: modes.collect(),
             coupling: (!self.arm.modes.is_empty())
                 .then(|| self.figure(ModalArm::coupling_nm_per_rad)),
             coupling_by_tip: by_tip,

@@ -9,6 +9,7 @@ mod evidence;
 mod figures;
 mod follow;
 mod law;
+mod left_over;
 mod modes;
 mod noise;
 mod search;
@@ -29,9 +30,10 @@ use covariance::deviation;
 pub(crate) use data::{Masks, masks};
 pub use evidence::Extension;
 pub(crate) use follow::follow;
+use left_over::left_over;
 pub use search::{Iteration, Stop};
 pub use stages::StageReport;
-use stages::{Fitting, Report};
+use stages::{Fit, Fitting, Report};
 pub use start::starts;
 pub(crate) use verdict::verdict;
 
@@ -48,7 +50,8 @@ pub struct OutputError {
     pub arm: ModalArm,
     /// What was free.
     pub parameters: Vec<Parameter>,
-    /// Covariance of these, in their own units.
+    /// Covariance of these, in their own units; what an undecided term of the equation would move them
+    /// by counts in it.
     pub covariance: DMatrix<f64>,
     /// As if the residual were white.
     pub white: DMatrix<f64>,
@@ -70,6 +73,8 @@ pub struct OutputError {
     pub whole_runs: bool,
     /// Residual of the last stage beside the noise of the samples alone: the largest ratio of a channel.
     pub beyond_noise: f64,
+    /// Share of each channel's squared residual, motor first, that is slower than what its sensor adds.
+    pub left_over: Vec<f64>,
 }
 
 impl OutputError {
@@ -135,7 +140,8 @@ pub struct OutputErrorStart {
 /// follow the log; then ever longer ones, until they are whole runs or the residual grows because the
 /// arm does not describe what happens. Parameters beyond the simplest law (lag, viscous friction by
 /// direction, the other kind of damping, friction near rest, ripple) are added where the residual calls for them. At the end the
-/// sensors' steps are counted as what they are.
+/// sensors' steps are counted as what they are. Where more than the sensors' noise is left then, it is
+/// done again more slowly, from other frequencies of the highest mode, too.
 ///
 /// `None` where no window can be cut or nothing is left of the search.
 pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<OutputError> {
@@ -143,36 +149,48 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
     let blocks = data::blocks(campaign, &start.omega_rad_s);
     let law = &start.law;
     let noise = noise::of_samples(campaign);
-    let fitting = Fitting { campaign, masks: &masks, blocks: &blocks, law, noise: &noise };
+    let fitting = Fitting {
+        campaign,
+        masks: &masks,
+        blocks: &blocks,
+        law,
+        noise: &noise,
+        widening: stages::WIDENING,
+        tries_laws: true,
+    };
     let mut report = Report::default();
-    let mut fit = fitting.begin(start, &mut report)?;
-    fitting.widen(&mut fit, &mut report);
-    modes::grow(&fitting, &mut fit, &mut report);
-    modes::undamp(&fitting, &mut fit, &mut report);
-    evidence::tighten(&fitting, &mut fit, &mut report);
-    fit.body.allow_dampers_at_points();
-    let added = report.added.len();
-    evidence::extend(&fitting, &mut fit, &mut report);
-    if report.added.len() > added {
-        // It may describe longer windows.
-        fitting.widen(&mut fit, &mut report);
+    let mut fit = fitted(&fitting, start, &mut report)?;
+    let mut left = left_over(campaign, &fit, &masks);
+    if fit.whole_runs && is_left(&left) {
+        // Not for another law: that has had its trial.
+        let slowly = Fitting { widening: stages::SLOWER, tries_laws: false, ..fitting };
+        for arm in modes::starts_again(&fitting, &fit) {
+            let again = OutputErrorStart { arm, ..start.clone() };
+            let mut other_report = Report::default();
+            let Some(other) = fitted(&slowly, &again, &mut other_report) else { continue };
+            let other_left = left_over(campaign, &other, &masks);
+            if other.whole_runs && most(&other_left) < most(&left) {
+                (fit, report, left) = (other, other_report, other_left);
+            }
+            if !is_left(&left) {
+                break;
+            }
+        }
     }
-    evidence::dampers_at_points(&fitting, &mut fit, &mut report);
-    evidence::relax(&fitting, &mut fit, &mut report);
-    if modes::prune(&fitting, &mut fit, &mut report) {
-        report.refused = evidence::promises(&fitting, &fit).concat();
-    }
-    fitting.count_steps(&mut fit, &mut report);
     let beyond_noise = fitting.beyond_noise(&fit);
     fit.noise.iter_mut().for_each(|n| *n = SensorNoise::gaussian(n.deviation()));
     let sums = fitting.point(&fit, &fit.free).sums;
     let found = fit.covariances(&sums);
     let by_run = fit.by_run(&sums);
+    let mut covariance = found.larger();
+    for moved in evidence::undecided(&fitting, &fit) {
+        covariance.ger(1.0, &moved, &moved, 1.0);
+    }
     report.added.append(&mut report.refused);
     Some(OutputError {
         point_masses: fit.body.masses.is_some(),
         arm: fit.body.arm,
-        covariance: found.larger(),
+        covariance,
         white: found.white,
         blocks: found.blocks,
         by_run,
@@ -180,8 +198,46 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         windows: fit.windows,
         parameters: fit.free,
         beyond_noise,
+        left_over: left,
         stages: report.stages,
         extensions: report.added,
         whole_runs: fit.whole_runs,
     })
+}
+
+/// From a start to an arm that whole runs and the sensors' steps have shaped.
+fn fitted(fitting: &Fitting<'_>, start: &OutputErrorStart, report: &mut Report) -> Option<Fit> {
+    let mut fit = fitting.begin(start, report)?;
+    fitting.widen(&mut fit, report);
+    modes::grow(fitting, &mut fit, report);
+    modes::undamp(fitting, &mut fit, report);
+    evidence::tighten(fitting, &mut fit, report);
+    fit.body.allow_dampers_at_points();
+    let added = report.added.len();
+    evidence::extend(fitting, &mut fit, report);
+    if report.added.len() > added {
+        // It may describe longer windows.
+        fitting.widen(&mut fit, report);
+    }
+    evidence::dampers_at_points(fitting, &mut fit, report);
+    evidence::relax(fitting, &mut fit, report);
+    if modes::prune(fitting, &mut fit, report) {
+        report.refused = evidence::promises(fitting, &fit).concat();
+    }
+    fitting.count_steps(&mut fit, report);
+    Some(fit)
+}
+
+/// Share of a channel's squared residual that is slower than its sensor's noise, from which on the arm
+/// has not all that moves.
+const LEFT: f64 = 0.003;
+
+/// Whether more than the sensors' noise is left.
+fn is_left(shares: &[f64]) -> bool {
+    most(shares) > LEFT
+}
+
+/// The largest of some shares.
+fn most(shares: &[f64]) -> f64 {
+    shares.iter().copied().fold(0.0, f64::max)
 }

@@ -18,6 +18,9 @@ const BEYOND_SHARE: f64 = 0.25;
 const BEYOND_DAMPING: f64 = 0.1;
 /// Times its frequency at which it is tried again.
 const RETUNED: [f64; 8] = [0.5, 0.6, 0.72, 0.85, 1.18, 1.4, 1.7, 2.0];
+/// The same where a search was caught near it, and how often it is then begun again.
+const NEARER: [f64; 5] = [1.0, 0.97, 1.03, 0.93, 1.07];
+const AGAIN: usize = 4;
 /// Angle by which point masses turn the two into each other \[rad\].
 const BEYOND_TURN: f64 = 0.4;
 /// Damping ratio from which on a mode is tried without.
@@ -119,24 +122,47 @@ fn with_one_more(fitting: &Fitting<'_>, fit: &Fit, report: &mut Report) -> Fit {
 /// The highest mode at another frequency, if a few steps from there come to less than from here: now
 /// that the other figures are about right the cost tells.
 fn retuned(fitting: &Fitting<'_>, fit: &Fit) -> Option<Fit> {
+    let (least, _) = fitting.probe(fit)?;
+    let others = RETUNED.iter().filter_map(|times| probed(fitting, fit, *times));
+    let others = others.filter(|(cost, _)| *cost < least);
+    others.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, other)| other)
+}
+
+/// What a few steps make of a fit whose highest mode is put at so many `times` its frequency, and their
+/// cost.
+fn probed(fitting: &Fitting<'_>, fit: &Fit, times: f64) -> Option<(f64, Fit)> {
     let mode = highest(&fit.body.arm);
-    let (mut least, _) = fitting.probe(fit)?;
-    let mut found = None;
-    for times in RETUNED {
-        let mut other = fit.clone();
-        let change = (times - 1.0) * fit.body.arm.modes[mode].omega_rad_s;
-        other.body.tune(mode, change);
-        for window in &mut other.windows {
-            let (angle, speed) = (window.start[0], window.start[1]);
-            window.start[2 + 2 * mode..4 + 2 * mode].copy_from_slice(&[angle, speed]);
-        }
-        let Some((cost, body)) = fitting.probe(&other) else { continue };
-        if cost < least {
-            least = cost;
-            found = Some(Fit { body, ..other });
-        }
+    let mut other = fit.clone();
+    other.body.tune(mode, (times - 1.0) * fit.body.arm.modes[mode].omega_rad_s);
+    for window in &mut other.windows {
+        let (angle, speed) = (window.start[0], window.start[1]);
+        window.start[2 + 2 * mode..4 + 2 * mode].copy_from_slice(&[angle, speed]);
     }
-    found
+    let (cost, body) = fitting.probe(&other)?;
+    Some((cost, Fit { body, ..other }))
+}
+
+/// Arms from which to try again where a search was caught: the same one, and those that a few steps on
+/// short windows make of it with its highest mode elsewhere, the likeliest first.
+pub(super) fn starts_again(fitting: &Fitting<'_>, fit: &Fit) -> Vec<ModalArm> {
+    if fit.body.arm.modes.is_empty() {
+        return Vec::new();
+    }
+    let undamped = |mut arm: ModalArm| {
+        for mode in &mut arm.modes {
+            mode.within_per_s = mode.within_per_s.max(0.0);
+            mode.grounded_per_s = 0.0;
+        }
+        arm.at_points_per_s.fill(0.0);
+        arm
+    };
+    let mut short = fit.clone();
+    short.body = Body::of_masses(fitting.campaign, undamped(fit.body.arm.clone()));
+    fitting.shorten(&mut short);
+    let mut tried: Vec<(f64, Fit)> =
+        NEARER.iter().chain(&RETUNED).filter_map(|times| probed(fitting, &short, *times)).collect();
+    tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+    tried.into_iter().take(AGAIN).map(|(_, fit)| undamped(fit.body.arm)).collect()
 }
 
 /// The mode of the highest frequency.

@@ -35,9 +35,9 @@ const MOST_STEPS: usize = 40;
 const MOST_ROUNDS: usize = 4;
 const SETTLED: f64 = 0.9;
 /// Each stage's windows are longer than the ones before by this factor.
-const WIDENING: f64 = 4.0;
+pub(super) const WIDENING: f64 = 4.0;
 /// By this one after a search that was caught.
-const SLOWER: f64 = 1.6;
+pub(super) const SLOWER: f64 = 1.6;
 /// Samples of the first windows, at least, and their share of the slowest mode's period.
 const FIRST_SAMPLES: f64 = 80.0;
 const FIRST_PERIODS: f64 = 0.3;
@@ -73,6 +73,10 @@ pub(super) struct Fitting<'a> {
     pub(super) law: &'a [LawTerm],
     /// Noise that the samples show by themselves.
     pub(super) noise: &'a [SensorNoise],
+    /// Factor by which each stage's windows are longer than the ones before.
+    pub(super) widening: f64,
+    /// Whether other laws of friction are tried.
+    pub(super) tries_laws: bool,
 }
 
 /// Where a fit is.
@@ -209,6 +213,13 @@ impl Fitting<'_> {
         Some(fit)
     }
 
+    /// Back on windows as short as the first.
+    pub(super) fn shorten(&self, fit: &mut Fit) {
+        fit.window_s = self.first_window_s(&fit.body.arm).min(self.longest_s());
+        fit.whole_runs = fit.window_s >= self.longest_s();
+        fit.windows = some(cut(self.campaign, &fit.body.arm, fit.window_s));
+    }
+
     fn longest_s(&self) -> f64 {
         self.campaign.runs.iter().map(duration_s).fold(0.0, f64::max)
     }
@@ -216,7 +227,7 @@ impl Fitting<'_> {
     /// To whole runs, as far as the arm describes them; parameters are added where it does not.
     pub(super) fn widen(&self, fit: &mut Fit, report: &mut Report) {
         let longest = self.longest_s();
-        let mut factor = WIDENING;
+        let mut factor = self.widening;
         while !fit.whole_runs {
             let before = fit.clone();
             fit.window_s = (fit.window_s * factor).min(longest);

@@ -1,7 +1,8 @@
 //! Where the output error starts: the figures of the regressions as an arm.
 
+use crate::identify::regression::coupled_tips;
 use crate::identify::{BeamFit, BeamRegression, Estimate, MotorFit, MotorRegression};
-use crate::record::{Campaign, Tip, TipQuantity};
+use crate::record::Campaign;
 use crate::replay::{DryTerms, MOST_MODES, ModalArm, Oscillator};
 
 /// Smallest stiffness of a mode to start with, as a share of the coupling: its logarithm is moved.
@@ -22,7 +23,7 @@ pub fn starts(
     response: Option<&MotorFit>,
 ) -> Vec<ModalArm> {
     let Some(rigid) = rigid(campaign, motor) else { return Vec::new() };
-    if !campaign.channels.tips.iter().any(known) {
+    if coupled_tips(campaign).is_empty() {
         let flexible = response.and_then(|r| flexible(&rigid, campaign, r, tips));
         let rigid = campaign.channels.tips.is_empty().then_some(rigid);
         return rigid.into_iter().chain(flexible).collect();
@@ -112,10 +113,6 @@ fn shown((mut omega, mut ratios, mut shapes): Modes) -> Modes {
         }
     }
     (omega, ratios, shapes)
-}
-
-fn known(tip: &Tip) -> bool {
-    tip.calibrated && tip.quantity != TipQuantity::Acceleration
 }
 
 fn rigid(campaign: &Campaign, motor: &MotorRegression) -> Option<ModalArm> {

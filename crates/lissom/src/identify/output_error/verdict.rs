@@ -1,6 +1,6 @@
 //! What the output error's figures are worth, in findings.
 
-use super::{OutputError, StageReport};
+use super::{OutputError, StageReport, is_left};
 use crate::identify::Identified;
 use crate::identify::finding::{Finding, Severity, key};
 use crate::record::Campaign;
@@ -16,6 +16,7 @@ pub(crate) fn verdict(campaign: &Campaign, id: &mut Identified) {
         id.findings.extend(added(oe));
         id.findings.extend(modes_missing(campaign, oe));
         id.findings.extend(modes_by_the_motor(campaign, oe));
+        id.findings.extend(more_than_noise(campaign, oe));
     }
     id.findings.extend(departs);
 }
@@ -42,6 +43,29 @@ fn departs(oe: &OutputError) -> Option<Finding> {
             last.window_s, first.window_s
         ),
         "other friction than Coulomb and viscous, a load, backlash, a mode without a tip",
+    ))
+}
+
+/// Whole runs are described, and yet not to the noise of the sensors.
+fn more_than_noise(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
+    if !oe.whole_runs || !is_left(&oe.left_over) {
+        return None;
+    }
+    let (channel, share) = oe.left_over.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
+    let name = match channel.checked_sub(1) {
+        None => "the motor".to_owned(),
+        Some(tip) => format!("tip {}", campaign.channels.tips[tip].name),
+    };
+    Some(Finding::new(
+        "more-than-noise",
+        Severity::Warning,
+        &[key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES],
+        format!(
+            "{:.1} % of what the replay leaves of {name} is slower than its sensor's noise: something \
+             small moves that the arm has not, or the highest mode stands at a wrong frequency",
+            100.0 * share
+        ),
+        "the intervals do not count it: add runs near the highest mode, and look at lissom validate",
     ))
 }
 
