@@ -145,7 +145,8 @@ fn probed(fitting: &Fitting<'_>, fit: &Fit, times: f64) -> Option<(f64, Fit)> {
 /// Arms from which to try again where a search was caught: the same one, and those that a few steps on
 /// short windows make of it with its highest mode elsewhere, the likeliest first.
 pub(super) fn starts_again(fitting: &Fitting<'_>, fit: &Fit) -> Vec<ModalArm> {
-    if fit.body.arm.modes.is_empty() {
+    // A single mode is driven or not there: what one leaves is something else.
+    if fit.body.arm.modes.len() < 2 {
         return Vec::new();
     }
     let undamped = |mut arm: ModalArm| {
