@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use lissom::identify::{FrictionLaw, OutputError, starts};
+use lissom::identify::{Candidate, FrictionLaw, OutputError, starts};
 use lissom::replay::ModalArm;
 
 use crate::bound::Bound;
@@ -36,6 +36,9 @@ pub fn describe(seed: u64, index: usize, law: Law, quick: bool) -> Option<String
                 let from = starts(&campaign.logs, motor, beam, rational, id.motor_model.as_ref());
                 lines.extend(from.iter().map(|arm| format!("start {}", arm_line(arm))));
             }
+            lines.extend(id.regression.iter().map(|r| candidates("motor", &r.candidates)));
+            let beam = id.beam_regression.iter().flat_map(|b| &b.candidates);
+            lines.extend(beam.map(|tried| candidates("beam", tried)));
             lines.extend(id.friction_law.iter().map(friction));
             for f in &id.findings {
                 let run = f.run.as_deref().unwrap_or("campaign");
@@ -48,6 +51,17 @@ pub fn describe(seed: u64, index: usize, law: Law, quick: bool) -> Option<String
         }
     }
     Some(lines.join("\n") + "\n")
+}
+
+/// Windows that a regression tried.
+fn candidates(of: &str, tried: &[Candidate]) -> String {
+    let line = |c: &Candidate| {
+        let Candidate { window_s, rows, clusters, relative_residual, sensitivity } = c;
+        format!(
+            "{of} {window_s:7.3} s {rows:6} rows {clusters:5} phases {relative_residual:9.2e} left, {sensitivity:9.2e}"
+        )
+    };
+    tried.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
 fn conditions(campaign: &Campaign, seed: u64) -> Vec<String> {

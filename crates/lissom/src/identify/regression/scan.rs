@@ -10,8 +10,10 @@ const LEAST_SAMPLES: f64 = 10.0;
 const RATIO: f64 = std::f64::consts::SQRT_2;
 /// Fewest clusters (phases, blocks) that a candidate must rest on.
 const LEAST_CLUSTERS: usize = 4;
-/// Scatter of a window's figures over the least sensitivity from which on no shorter one is tried.
+/// No shorter window is tried where the figures' scatter is so many times the least sensitivity…
 const HOPELESS: f64 = 1.5;
+/// …has grown twice on end, and rests on more rows than this: few rows scatter anyhow, and cost little.
+const MANY_ROWS: usize = 2000;
 /// Most candidates: √2⁴⁰ is a factor of a million in length.
 const MOST_CANDIDATES: i32 = 40;
 
@@ -48,8 +50,8 @@ pub(crate) struct Scan {
 /// Tries windows each √2 shorter than the one before, from the longest of which a few phases hold one
 /// down to ten samples; takes the one with the least sensitivity in the figures marked by `counts`.
 ///
-/// The shorter a window, the more its figures scatter: none is tried beyond one whose scatter alone
-/// is well over the least sensitivity.
+/// Below some length the figures scatter the more the shorter a window is: none is tried beyond one
+/// whose growing scatter alone is well over the least sensitivity.
 ///
 /// With `given` lengths only these are taken, each between neighbours that tell its sensitivity.
 pub(crate) fn scan(
@@ -73,18 +75,18 @@ pub(crate) fn scan(
     }
     let mut tried: VecDeque<(f64, Solution)> = VecDeque::new();
     let mut least = f64::INFINITY;
+    let mut scatters = [f64::INFINITY; 3];
     for k in (0..MOST_CANDIDATES).rev() {
         let length = shortest * RATIO.powi(k);
-        match usable(length) {
-            Some(solution) => tried.push_front((length, solution)),
-            None if !tried.is_empty() => break,
-            None => continue,
-        }
-        let tried = tried.make_contiguous();
+        let Some(solution) = usable(length) else { continue };
+        let rows = solution.rows;
+        scatters = [scatters[1], scatters[2], scatter(&solution, counts).unwrap_or(0.0)];
+        tried.push_front((length, solution));
         if tried.len() > 2 {
-            least = least.min(sensitivity(tried, 1, counts));
+            least = least.min(sensitivity(tried.make_contiguous(), 1, counts));
         }
-        if scatter(&tried[0].1, counts).is_some_and(|s| s > HOPELESS * least) {
+        let rises = scatters.is_sorted_by(|longer, shorter| longer < shorter);
+        if rows > MANY_ROWS && rises && scatters[2] > HOPELESS * least {
             break;
         }
     }
