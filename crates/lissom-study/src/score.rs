@@ -139,7 +139,7 @@ pub struct PointScore {
     pub corrected: Option<f64>,
     /// The same in its deviations.
     pub deviations: Option<f64>,
-    /// Whether nothing speaks against it.
+    /// Whether it is vouched for: nothing speaks against it, and its 95 % interval is within 5 %.
     pub vouched: bool,
 }
 
@@ -297,7 +297,7 @@ fn points(truth: &Truth, id: &Identified) -> Vec<PointScore> {
                 third_harmonic: by_report,
                 corrected: given.map(|r| off(r.value)),
                 deviations: given.map(|r| (r.value - exact).norm() / r.std),
-                vouched: given.is_some() && !point.flagged,
+                vouched: point.is_vouched_for(),
             }
         })
         .collect()

@@ -49,9 +49,9 @@ fn campaign() -> (Campaign, Vec<Option<f64>>) {
 fn start(campaign: &Campaign, omega_rad_s: &[Option<f64>]) -> OutputErrorStart {
     let motor = motor_regression(campaign, &[]).unwrap();
     let beam = beam_regression(campaign);
-    let arm = starts(campaign, &motor, beam.as_ref(), None, None).remove(0);
+    let arms = starts(campaign, &motor, beam.as_ref(), None, None);
     OutputErrorStart {
-        arm,
+        arms,
         omega_rad_s: omega_rad_s.to_vec(),
         first_window_s: None,
         law: Vec::new(),

@@ -326,6 +326,7 @@ fn responses(channels: &Channels, id: &Identified) -> Value {
         "omega_rad_s": points.iter().map(|p| p.omega_rad_s).collect::<Vec<_>>(),
         "run": points.iter().map(|p| p.run.map(|r| &id.runs[r].name)).collect::<Vec<_>>(),
         "flagged": points.iter().map(|p| p.flagged).collect::<Vec<_>>(),
+        "vouched_for": points.iter().map(ResponsePoint::is_vouched_for).collect::<Vec<_>>(),
         "motor_raw": series(points, |p| Some(p.motor_raw)),
         "motor_corrected": series(points, |p| p.motor_corrected),
         "tips": tips,

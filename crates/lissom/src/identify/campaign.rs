@@ -361,8 +361,8 @@ fn kept(runs: &[RunAnalysis]) -> Vec<usize> {
     (0..runs.len()).filter(|&i| kept(&runs[i])).collect()
 }
 
-/// The output error on the usable runs, the `kept` ones of `runs`: from one start after another until
-/// its arm describes them; else the one that comes nearest.
+/// The output error on the usable runs, the `kept` ones of `runs`: from the arms `plain`, with the law of
+/// friction that slip phases show before them where it has more than Coulomb's.
 fn replayed(
     usable: &Campaign,
     runs: &[RunAnalysis],
@@ -375,29 +375,15 @@ fn replayed(
         RunKind::ConstantVelocity | RunKind::General => None,
     };
     let omega_rad_s: Vec<Option<f64>> = kept.iter().map(omega).collect();
-    let mut nearest: Option<OutputError> = None;
     let lawful = law.filter(|law| law.chosen.departs()).into_iter().flat_map(|law| {
         let mut arms = plain.to_vec();
         let back_emf = usable.channels.command.back_emf_viscous;
         arms.retain_mut(|arm| law.chosen.put_into(arm, back_emf));
         arms
     });
-    for arm in lawful.chain(plain.iter().cloned()) {
-        let omega_rad_s = omega_rad_s.clone();
-        let law = law.map_or(Vec::new(), FrictionLaw::tried);
-        let start = OutputErrorStart { arm, omega_rad_s, first_window_s: None, law };
-        let Some(found) = output_error(usable, &start) else { continue };
-        if found.stands() {
-            return Some(found);
-        }
-        let nearer = |n: &OutputError| {
-            (found.whole_runs, -found.beyond_noise) > (n.whole_runs, -n.beyond_noise)
-        };
-        if nearest.as_ref().is_none_or(nearer) {
-            nearest = Some(found);
-        }
-    }
-    nearest
+    let arms = lawful.chain(plain.iter().cloned()).collect();
+    let law = law.map_or(Vec::new(), FrictionLaw::tried);
+    output_error(usable, &OutputErrorStart { arms, omega_rad_s, first_window_s: None, law })
 }
 
 /// Every pair of runs at ω0 and 3ω0; each run meets the triple nearest to it in amplitude.

@@ -16,6 +16,9 @@ use crate::spectrum::Phasor;
 pub(super) const STUCK_LEAST: f64 = 0.015;
 /// A corrected point uncertain by more than this share is flagged.
 const WEAK: f64 = 0.5;
+/// A corrected point is vouched for whose 95 % interval, so many deviations to a side, is within this share.
+const VOUCHED: f64 = 0.05;
+const INTERVAL: f64 = 1.96;
 
 /// One frequency of the campaign's responses.
 #[derive(Debug, Clone)]
@@ -32,6 +35,15 @@ pub struct ResponsePoint {
     pub tips: Vec<Option<Response>>,
     /// Whether a finding speaks against the corrected point.
     pub flagged: bool,
+}
+
+impl ResponsePoint {
+    /// Whether the corrected point is vouched for: nothing speaks against it, and its 95 % interval is
+    /// within 5 % of it.
+    pub fn is_vouched_for(&self) -> bool {
+        let known = |r: Response| INTERVAL * r.std <= VOUCHED * r.value.norm();
+        !self.flagged && self.motor_corrected.is_some_and(known)
+    }
 }
 
 /// What the replay says of friction.

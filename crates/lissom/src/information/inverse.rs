@@ -24,6 +24,31 @@ pub fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     inverted(matrix).matrix
 }
 
+/// R with `R·Rᵀ` the [`inverse`] of a symmetric positive matrix; a column for each direction, zero where
+/// it is unknown.
+pub fn inverse_root(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    let (scale, scaled) = scaled(matrix);
+    if !scaled.iter().all(|v| v.is_finite()) {
+        return DMatrix::zeros(matrix.nrows(), matrix.nrows());
+    }
+    let eigen = scaled.symmetric_eigen();
+    let least = RANK * eigen.eigenvalues.max();
+    let root = |value: f64| if value > least { 1.0 / value.sqrt() } else { 0.0 };
+    let roots = eigen.eigenvalues.map(root);
+    DMatrix::from_diagonal(&scale) * eigen.eigenvectors * DMatrix::from_diagonal(&roots)
+}
+
+/// One over the root of a matrix' diagonal, and the matrix so scaled that its diagonal is ones.
+fn scaled(matrix: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
+    let n = matrix.nrows();
+    let scale = DVector::from_fn(n, |i, _| {
+        let d = matrix[(i, i)];
+        if d > 0.0 && d.is_finite() { 1.0 / d.sqrt() } else { 0.0 }
+    });
+    let scaled = DMatrix::from_fn(n, n, |i, j| matrix[(i, j)] * scale[i] * scale[j]);
+    (scale, scaled)
+}
+
 /// Inverse of an information matrix; a parameter that takes part in a direction which is unknown has an
 /// infinite variance.
 pub fn covariance(information: &DMatrix<f64>) -> DMatrix<f64> {
@@ -37,11 +62,7 @@ pub fn covariance(information: &DMatrix<f64>) -> DMatrix<f64> {
 /// The inverse that [`inverse`] gives, and which parameters it lost.
 pub fn inverted(matrix: &DMatrix<f64>) -> Inverse {
     let n = matrix.nrows();
-    let scale = DVector::from_fn(n, |i, _| {
-        let d = matrix[(i, i)];
-        if d > 0.0 && d.is_finite() { 1.0 / d.sqrt() } else { 0.0 }
-    });
-    let scaled = DMatrix::from_fn(n, n, |i, j| matrix[(i, j)] * scale[i] * scale[j]);
+    let (scale, scaled) = scaled(matrix);
     if n == 0 || !scaled.iter().all(|v| v.is_finite()) {
         return Inverse { matrix: DMatrix::zeros(n, n), lost: vec![true; n] };
     }
@@ -84,6 +105,8 @@ mod tests {
         let i = inverse(&m);
         let back = &m * &i * &m;
         assert!((back - &m).norm() < 1e-6 && i[(1, 1)] == 0.0);
+        let root = inverse_root(&m);
+        assert!((&root * root.transpose() - &i).norm() < 1e-12 * i.norm());
     }
 
     #[test]

@@ -12,7 +12,7 @@ mod reduced;
 
 pub use expected::{expected_covariance, growing_information};
 pub use figure::Figure;
-pub use inverse::{Inverse, covariance, inverse, inverted};
+pub use inverse::{Inverse, covariance, inverse, inverse_root, inverted};
 pub use propagated::{along, beside, propagated, slopes};
 pub use reduced::{Reduced, normal_equations, without_own};
 

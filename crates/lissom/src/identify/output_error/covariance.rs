@@ -2,16 +2,18 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::information::{Reduced, inverse};
+use crate::information::{Reduced, inverse, inverse_root};
 use crate::replay::WindowSums;
+
+/// Share of a direction that other blocks than one have, at least, as far as rounding lets it be told.
+const LEAST_REST: f64 = 1e-9;
 
 /// Two covariances of the same figures.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Covariances {
     /// As if residuals were white, of the deviation that they have.
     pub(super) white: DMatrix<f64>,
-    /// By leaving out one block of samples after another (jackknife): residuals within a block may
-    /// belong together as they like.
+    /// By blocks of samples: residuals within a block may belong together as they like.
     pub(super) blocks: DMatrix<f64>,
 }
 
@@ -19,8 +21,7 @@ impl Covariances {
     /// From sums of which the first `shared` columns are the parameters.
     ///
     /// White: `N⁻¹·s²`, N the normal matrix with the windows' own unknowns eliminated. Blocks:
-    /// `Σ δ_b·δ_bᵀ`, δ_b the change of the parameters without block b, to first order in the
-    /// residuals and exactly in what the block adds to N: few blocks that carry much count fully.
+    /// `Σ δ_b·δ_bᵀ` of what each block's residuals move the parameters by, [`moved_by_blocks`].
     pub(super) fn at(sums: &[WindowSums], shared: usize) -> Self {
         let reduced: Vec<Reduced> = sums.iter().map(|s| Reduced::new(s, shared, 0.0)).collect();
         let zero = DMatrix::zeros(shared, shared);
@@ -34,7 +35,7 @@ impl Covariances {
             rows += sums.readings.iter().sum::<usize>();
             unknowns += sums.gram.ncols() - 1 - shared;
             let others = &normal - &own.normal;
-            for change in without_each_block(sums, &others, shared) {
+            for change in moved_by_blocks(sums, &others, shared) {
                 blocks.ger(1.0, &change, &change, 1.0);
             }
         }
@@ -65,9 +66,15 @@ pub(super) fn deviation(covariance: &DMatrix<f64>, i: usize) -> f64 {
     covariance[(i, i)].max(0.0).sqrt()
 }
 
-/// Change of the shared parameters where one block of a window after another is left out.
+/// What the residuals of one block of a window after another move the shared parameters by.
 /// `others` is the normal matrix of all other windows.
-fn without_each_block<'a>(
+///
+/// `L⁻ᵀ·(I − P)^(−1/2)·L⁻¹·g_b` with `M = L·Lᵀ` the whole normal matrix, g_b the block's slope and
+/// `P = L⁻¹·M_b·L⁻ᵀ` its share in M by directions. A block that all of a direction hangs on leaves
+/// hardly a residual along it: white residuals have the slope's variance `P·(I − P)`, so that with the root
+/// the sum over blocks is that of white residuals where they are white (HC2 of \[MacKinnon1985\]). Leaving
+/// the blocks out instead, with `(I − P)⁻¹`, gives the deviation that such a direction has without its block.
+fn moved_by_blocks<'a>(
     sums: &'a WindowSums,
     others: &'a DMatrix<f64>,
     shared: usize,
@@ -76,9 +83,13 @@ fn without_each_block<'a>(
     let mut all = sums.gram.view((0, 0), (size, size)).into_owned();
     let mut corner = all.view_mut((0, 0), (shared, shared));
     corner += others;
+    let root = inverse_root(&all);
     sums.blocks.iter().map(move |block| {
-        let left = &all - block.view((0, 0), (size, size));
-        let score = block.column(size).rows(0, size).into_owned();
-        (inverse(&left) * -score).rows(0, shared).into_owned()
+        let share = root.transpose() * block.view((0, 0), (size, size)) * &root;
+        let score = root.transpose() * block.column(size).rows(0, size);
+        let eigen = share.symmetric_eigen();
+        let rest = eigen.eigenvalues.map(|p| 1.0 / (1.0 - p).max(LEAST_REST).sqrt());
+        let along = (eigen.eigenvectors.transpose() * score).component_mul(&rest);
+        (&root * (eigen.eigenvectors * along)).rows(0, shared).into_owned()
     })
 }

@@ -26,9 +26,10 @@ const LAW_LEAVES: f64 = 0.7;
 const RIGID_SHARE: f64 = 1e-3;
 /// A kind of dampers is there when one of them stands this many deviations from zero.
 const THERE: f64 = 2.0;
-/// A group with a parameter this many deviations from what it is without, and yet not called for, is
-/// undecided.
-const UNDECIDED: f64 = 2.5;
+/// Deviations at which a group is as likely to be there as not.
+const EVEN: f64 = 3.0;
+/// A group less likely than this counts as not there.
+const UNLIKELY: f64 = 0.01;
 /// Most groups added at a time.
 const MOST: usize = 3;
 
@@ -152,12 +153,15 @@ pub(super) fn promises(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Extension>> 
     scores(fitting, fit, candidates(fit))
 }
 
-/// By how much each group that the residual neither calls for nor has nothing of would move the free
-/// parameters: what they do not know of themselves for want of an answer.
+/// By how much each group that is not free would move the free parameters, times the root of how likely it
+/// is to be there: what they do not know of themselves for want of an answer. Their outer products are
+/// what it adds to the covariance, the mean over both answers.
 pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Vec<DVector<f64>> {
-    let stands = |e: &Extension| e.value.abs() > UNDECIDED * e.std;
-    let moved = |p: Promise| p.group.iter().any(stands).then_some(p.moved);
-    let moved = all_scores(fitting, fit, candidates(fit)).into_iter().filter_map(moved);
+    let weighed = |p: Promise| {
+        let likely = p.likelihood();
+        (likely > UNLIKELY).then(|| p.moved * likely.sqrt())
+    };
+    let moved = all_scores(fitting, fit, candidates(fit)).into_iter().filter_map(weighed);
     match fit.body.jacobian(&fit.free) {
         Some(jacobian) => moved.map(|m| &jacobian * m).collect(),
         None => moved.collect(),
@@ -178,6 +182,16 @@ struct Promise {
     group: Vec<Extension>,
     /// Change of the coordinates that are free without it, beside the change without it.
     moved: DVector<f64>,
+}
+
+impl Promise {
+    /// How likely the group is to be there: `1/(1 + exp((9 − d²)/2))`, d the most deviations of its
+    /// parameters; the likelihoods' ratio is exp(d²/2), and nobody knows beforehand.
+    fn likelihood(&self) -> f64 {
+        let deviations = |e: &Extension| if e.std > 0.0 { e.value / e.std } else { 0.0 };
+        let square = self.group.iter().map(|e| deviations(e).powi(2)).fold(0.0, f64::max);
+        1.0 / (1.0 + (0.5 * (EVEN * EVEN - square)).exp())
+    }
 }
 
 fn all_scores(fitting: &Fitting<'_>, fit: &Fit, groups: Vec<Vec<Parameter>>) -> Vec<Promise> {
@@ -202,7 +216,7 @@ fn all_scores(fitting: &Fitting<'_>, fit: &Fit, groups: Vec<Vec<Parameter>>) -> 
 
 /// A kind of dampers of which those of another kind leave nothing goes, as a whole: one damper of a
 /// kind stands for the others where they cannot be told apart.
-fn drop_dampers(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+pub(super) fn drop_dampers(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let kinds: [fn(&Parameter) -> bool; 3] = [
         |p| matches!(p, Parameter::DampingWithin(_)),
         |p| matches!(p, Parameter::DampingGrounded(_)),

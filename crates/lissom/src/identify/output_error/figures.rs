@@ -1,5 +1,7 @@
 //! The output error's arm as figures of friction, drive and beam.
 
+use nalgebra::DMatrix;
+
 use super::{AT_NOISE, OutputError};
 use crate::identify::{
     Beam, Estimate, Friction, LawTerm, ModeEstimate, NearRestEstimate, RippleEstimate,
@@ -97,8 +99,18 @@ impl OutputError {
     /// short windows and no more than a few times what the sensors show of noise by themselves; or over
     /// shorter windows to that noise.
     pub fn stands(&self) -> bool {
-        let finite = self.covariance.diagonal().iter().all(|v| v.is_finite() && *v > 0.0);
-        let most = if self.whole_runs { BEYOND } else { AT_NOISE };
-        self.beyond_noise < most && finite && self.arm.inertia_kg_m2 > 0.0
+        stands(&self.arm, &self.covariance, self.whole_runs, self.beyond_noise)
     }
+}
+
+/// The same of an arm that may yet be another.
+pub(super) fn stands(
+    arm: &ModalArm,
+    covariance: &DMatrix<f64>,
+    whole_runs: bool,
+    beyond_noise: f64,
+) -> bool {
+    let finite = covariance.diagonal().iter().all(|v| v.is_finite() && *v > 0.0);
+    let most = if whole_runs { BEYOND } else { AT_NOISE };
+    beyond_noise < most && finite && arm.inertia_kg_m2 > 0.0
 }

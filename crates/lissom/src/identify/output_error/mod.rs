@@ -1,6 +1,7 @@
 //! Output error: the logged command replayed through an arm whose figures are moved until it shows
 //! the logged angles.
 
+mod attempts;
 mod by_run;
 mod coordinates;
 mod covariance;
@@ -30,10 +31,9 @@ use covariance::deviation;
 pub(crate) use data::{Masks, masks};
 pub use evidence::Extension;
 pub(crate) use follow::follow;
-use left_over::left_over;
 pub use search::{Iteration, Stop};
+use stages::Fitting;
 pub use stages::StageReport;
-use stages::{Fit, Fitting, Report};
 pub use start::starts;
 pub(crate) use verdict::verdict;
 
@@ -122,8 +122,8 @@ impl OutputError {
 /// Where an output error begins and what it may know.
 #[derive(Debug, Clone)]
 pub struct OutputErrorStart {
-    /// The arm to start from.
-    pub arm: ModalArm,
+    /// Arms to start from, the likelier or simpler first.
+    pub arms: Vec<ModalArm>,
     /// Frequency of each run that is a sinusoid in steady state \[rad/s\].
     pub omega_rad_s: Vec<Option<f64>>,
     /// Length of the first windows \[s\]; chosen from the arm when `None`. Short ones find the way from
@@ -136,6 +136,7 @@ pub struct OutputErrorStart {
 
 /// Moves the figures of an arm until the replayed command shows the logged angles.
 ///
+/// From one of the arms after another, until one describes the runs; else the one that comes nearest.
 /// In stages: windows with an initial state each, short at first, so that sticking and slipping
 /// follow the log; then ever longer ones, until they are whole runs or the residual grows because the
 /// arm does not describe what happens. Parameters beyond the simplest law (lag, viscous friction by
@@ -158,25 +159,7 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         widening: stages::WIDENING,
         tries_laws: true,
     };
-    let mut report = Report::default();
-    let mut fit = fitted(&fitting, start, &mut report)?;
-    let mut left = left_over(campaign, &fit, &masks);
-    if fit.whole_runs && is_left(&left) {
-        // Not for another law: that has had its trial.
-        let slowly = Fitting { widening: stages::SLOWER, tries_laws: false, ..fitting };
-        for arm in modes::starts_again(&fitting, &fit) {
-            let again = OutputErrorStart { arm, ..start.clone() };
-            let mut other_report = Report::default();
-            let Some(other) = fitted(&slowly, &again, &mut other_report) else { continue };
-            let other_left = left_over(campaign, &other, &masks);
-            if other.whole_runs && most(&other_left) < most(&left) {
-                (fit, report, left) = (other, other_report, other_left);
-            }
-            if !is_left(&left) {
-                break;
-            }
-        }
-    }
+    let attempts::Attempt { mut fit, mut report, left } = attempts::best(&fitting, start)?;
     let beyond_noise = fitting.beyond_noise(&fit);
     fit.noise.iter_mut().for_each(|n| *n = SensorNoise::gaussian(n.deviation()));
     let sums = fitting.point(&fit, &fit.free).sums;
@@ -203,41 +186,4 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         extensions: report.added,
         whole_runs: fit.whole_runs,
     })
-}
-
-/// From a start to an arm that whole runs and the sensors' steps have shaped.
-fn fitted(fitting: &Fitting<'_>, start: &OutputErrorStart, report: &mut Report) -> Option<Fit> {
-    let mut fit = fitting.begin(start, report)?;
-    fitting.widen(&mut fit, report);
-    modes::grow(fitting, &mut fit, report);
-    modes::undamp(fitting, &mut fit, report);
-    evidence::tighten(fitting, &mut fit, report);
-    fit.body.allow_dampers_at_points();
-    let added = report.added.len();
-    evidence::extend(fitting, &mut fit, report);
-    if report.added.len() > added {
-        // It may describe longer windows.
-        fitting.widen(&mut fit, report);
-    }
-    evidence::dampers_at_points(fitting, &mut fit, report);
-    evidence::relax(fitting, &mut fit, report);
-    if modes::prune(fitting, &mut fit, report) {
-        report.refused = evidence::promises(fitting, &fit).concat();
-    }
-    fitting.count_steps(&mut fit, report);
-    Some(fit)
-}
-
-/// Share of a channel's squared residual that is slower than its sensor's noise, from which on the arm
-/// has not all that moves.
-const LEFT: f64 = 0.003;
-
-/// Whether more than the sensors' noise is left.
-fn is_left(shares: &[f64]) -> bool {
-    most(shares) > LEFT
-}
-
-/// The largest of some shares.
-fn most(shares: &[f64]) -> f64 {
-    shares.iter().copied().fold(0.0, f64::max)
 }

@@ -3,9 +3,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::coordinates::{Body, in_coordinates};
+use super::windows::fastest_rad_s;
 use crate::information::{Reduced, inverse};
 use crate::record::{Campaign, Run};
-use crate::replay::{ModalArm, Oscillator, Parameter, Sampling, Window, WindowSums, costs, sums};
+use crate::replay::{
+    ModalArm, Oscillator, Parameter, Ripple, Sampling, Window, WindowSums, costs, sums,
+};
 
 /// Damping of the first step, relative to the diagonal.
 const FIRST_DAMPING: f64 = 1e-3;
@@ -19,6 +22,11 @@ const LARGEST_FACTOR: f64 = 0.7;
 
 /// Largest angle that a mode may turn by in a sample \[rad\], half as much again as Nyquist's.
 const LARGEST_TURN: f64 = 4.5;
+/// Largest phase of a ripple that may pass in a sample at the fastest speed \[rad\]: at slow ones it is
+/// seen still.
+const FASTEST_RIPPLE: f64 = 16.0;
+/// Speed over which friction near rest may change, at least, as a share of the fastest.
+const SLOWEST_LAW: f64 = 1e-3;
 /// A window whose cost per sample is this many times the usual one counts half in a robust search.
 const ROBUST: f64 = 10.0;
 
@@ -208,26 +216,37 @@ impl Problem<'_> {
     }
 }
 
-/// Whether friction with all of its terms brakes, at rest and at speed: else nothing holds the motor and
-/// it is pushed both ways.
-fn brakes(arm: &ModalArm) -> bool {
-    let near = arm.dry_terms.near_rest.map_or(0.0, |n| n.torque_nm.min(0.0));
-    let waves: f64 = arm.dry_terms.ripples.iter().map(|r| r.cosine_nm.hypot(r.sine_nm)).sum();
-    let turns = arm.dry_terms.ripples.iter().all(|r| r.per_rad > 0.0);
-    arm.dry_terms.is_empty() || (turns && arm.coulomb_nm + near > waves)
+/// Whether friction with all of its terms brakes, at rest and at speed, else nothing holds the motor and
+/// it is pushed both ways; and whether the runs can show its terms: a change within speeds that no log
+/// resolves, or waves that pass within a sample, take ever shorter steps to follow.
+fn is_braking(campaign: &Campaign, arm: &ModalArm, sample_s: f64) -> bool {
+    let terms = &arm.dry_terms;
+    if terms.is_empty() {
+        return true;
+    }
+    let fastest = fastest_rad_s(campaign);
+    let near = terms.near_rest.map_or(0.0, |n| n.torque_nm.min(0.0));
+    let waves: f64 = terms.ripples.iter().map(|r| r.cosine_nm.hypot(r.sine_nm)).sum();
+    let turns = |r: &Ripple| {
+        let turn = r.per_rad * fastest * sample_s;
+        turn > 0.0 && turn < FASTEST_RIPPLE
+    };
+    terms.near_rest.is_none_or(|n| n.speed_rad_s > SLOWEST_LAW * fastest)
+        && terms.ripples.iter().all(turns)
+        && arm.coulomb_nm + near > waves
 }
 
-/// Whether a search may go there: friction brakes, and every mode turns by less than [`LARGEST_TURN`] in a sample: faster ones are in no log, and
-/// take ever shorter steps to follow.
+/// Whether a search may go there: friction brakes, and every mode turns by less than [`LARGEST_TURN`] in
+/// a sample: faster ones are in no log, and take ever shorter steps to follow.
 pub(super) fn is_possible(campaign: &Campaign, arm: &ModalArm) -> bool {
     let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let turn = |m: &Oscillator| m.omega_rad_s * sample_s;
     let damped = |m: &Oscillator| (m.within_per_s.abs() + m.grounded_per_s.abs()) * sample_s;
     let rigid = arm.coupling_nm_per_rad() / arm.inertia_kg_m2 * sample_s * sample_s;
-    brakes(arm)
-        && arm.modes.iter().all(|m| turn(m) < LARGEST_TURN && damped(m) < LARGEST_TURN)
+    arm.modes.iter().all(|m| turn(m) < LARGEST_TURN && damped(m) < LARGEST_TURN)
         && arm.at_points_per_s.iter().all(|c| (c * sample_s).abs() < LARGEST_TURN)
         && rigid < LARGEST_TURN * LARGEST_TURN
+        && is_braking(campaign, arm, sample_s)
 }
 
 struct Step {

@@ -1,7 +1,6 @@
 //! From short windows to whole runs, and what each step of the way left.
 
 use super::AT_NOISE;
-use super::OutputErrorStart;
 use super::by_run::ByRun;
 use super::coordinates::Body;
 use super::covariance::Covariances;
@@ -184,20 +183,29 @@ impl Fitting<'_> {
     }
 
     /// Searches on the first windows, short ones.
-    pub(super) fn begin(&self, start: &OutputErrorStart, report: &mut Report) -> Option<Fit> {
+    pub(super) fn begin(&self, arm: &ModalArm, window_s: f64, report: &mut Report) -> Option<Fit> {
+        let mut fit = self.first_fit(arm, window_s)?;
+        self.search(&mut fit, report);
+        modes::drop_unfelt(self, &mut fit, report);
+        modes::grow(self, &mut fit, report);
+        evidence::extend(self, &mut fit, report);
+        Some(fit)
+    }
+
+    /// A fit before its first step; `None` where no window can be cut.
+    pub(super) fn first_fit(&self, arm: &ModalArm, window_s: f64) -> Option<Fit> {
         let longest = self.longest_s();
-        let window_s =
-            start.first_window_s.unwrap_or_else(|| self.first_window_s(&start.arm)).min(longest);
-        let body = Body::of_masses(self.campaign, start.arm.clone());
+        let window_s = window_s.min(longest);
+        let body = Body::of_masses(self.campaign, arm.clone());
         let windows = some(cut(self.campaign, &body.arm, window_s));
         if windows.is_empty() || !is_possible(self.campaign, &body.arm) {
             return None;
         }
-        let mut free = free_parameters(&self.campaign.channels, &start.arm);
-        let apart = |arm: &ModalArm| Parameter::ViscousDifference.of(arm);
-        free.extend((apart(&start.arm) != 0.0).then_some(Parameter::ViscousDifference));
-        free.extend((start.arm.command_lag_s != 0.0).then_some(Parameter::CommandLag));
-        let mut fit = Fit {
+        let mut free = free_parameters(&self.campaign.channels, arm);
+        let apart = Parameter::ViscousDifference.of(arm);
+        free.extend((apart != 0.0).then_some(Parameter::ViscousDifference));
+        free.extend((arm.command_lag_s != 0.0).then_some(Parameter::CommandLag));
+        Some(Fit {
             body,
             windows,
             free,
@@ -205,12 +213,7 @@ impl Fitting<'_> {
             residual: Vec::new(),
             whole_runs: window_s >= longest,
             window_s,
-        };
-        self.search(&mut fit, report);
-        modes::drop_unfelt(self, &mut fit, report);
-        modes::grow(self, &mut fit, report);
-        evidence::extend(self, &mut fit, report);
-        Some(fit)
+        })
     }
 
     /// Back on windows as short as the first.
@@ -322,7 +325,7 @@ impl Fitting<'_> {
         Some((point.sums.iter().map(|s| s.cost).sum(), point.body))
     }
 
-    fn first_window_s(&self, arm: &ModalArm) -> f64 {
+    pub(super) fn first_window_s(&self, arm: &ModalArm) -> f64 {
         let sample_s =
             self.campaign.runs.iter().map(Run::sample_time_s).fold(f64::INFINITY, f64::min);
         let slowest = arm.modes.iter().map(|m| m.omega_rad_s).fold(f64::INFINITY, f64::min);

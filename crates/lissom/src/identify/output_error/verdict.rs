@@ -1,6 +1,7 @@
 //! What the output error's figures are worth, in findings.
 
-use super::{OutputError, StageReport, is_left};
+use super::attempts::is_left;
+use super::{OutputError, StageReport};
 use crate::identify::Identified;
 use crate::identify::finding::{Finding, Severity, key};
 use crate::record::Campaign;

@@ -1,0 +1,138 @@
+//! One search after another, from this arm and from that, until one comes to an arm that describes the
+//! runs.
+
+use super::OutputErrorStart;
+use super::figures::stands;
+use super::left_over::left_over;
+use super::stages::{Fit, Fitting, Report, SLOWER};
+use super::{evidence, modes};
+use crate::replay::ModalArm;
+
+/// An arm is tried after the others where a few steps on short windows leave this many times what they
+/// leave from the best.
+const FAR: f64 = 3.0;
+/// Share of a channel's squared residual that is slower than its sensor's noise, from which on the arm
+/// has not all that moves.
+const LEFT: f64 = 0.003;
+
+/// Where a search has come to.
+pub(super) struct Attempt {
+    pub(super) fit: Fit,
+    pub(super) report: Report,
+    /// Share of each channel's squared residual, motor first, that is slower than what its sensor adds.
+    pub(super) left: Vec<f64>,
+}
+
+/// The first attempt that describes the runs, else the one that comes nearest. Where more than the
+/// sensors' noise is left it is made again more slowly, from other frequencies of the highest mode, too.
+pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<Attempt> {
+    let arms = likely_first(fitting, start);
+    let mut best: Option<Attempt> = None;
+    for arm in arms {
+        let Some(found) = attempt(fitting, &arm, start.first_window_s) else { continue };
+        let stands = found.stands(fitting);
+        if stands || best.as_ref().is_none_or(|b| found.nearness(fitting) > b.nearness(fitting)) {
+            best = Some(found);
+        }
+        if stands {
+            break;
+        }
+    }
+    best.map(|caught| again(fitting, caught, start.first_window_s))
+}
+
+/// Whether some channel's share is more than its sensor's noise leaves.
+pub(super) fn is_left(shares: &[f64]) -> bool {
+    most(shares) > LEFT
+}
+
+/// The arms to start from. Those go last, the farther the later, from which a few steps on the same short
+/// windows come nowhere near what they come to from the best: a search from there takes long and ends
+/// elsewhere.
+fn likely_first(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Vec<ModalArm> {
+    if start.arms.len() < 2 {
+        return start.arms.clone();
+    }
+    let window_s = |arm: &ModalArm| fitting.first_window_s(arm);
+    let shortest = start.arms.iter().map(window_s).fold(f64::INFINITY, f64::min);
+    let window_s = start.first_window_s.unwrap_or(shortest);
+    let cost = |arm: &ModalArm| {
+        let fit = fitting.first_fit(arm, window_s)?;
+        fitting.probe(&fit).map(|(cost, _)| cost)
+    };
+    let costs: Vec<f64> = start.arms.iter().map(|a| cost(a).unwrap_or(f64::INFINITY)).collect();
+    let near = FAR * costs.iter().copied().fold(f64::INFINITY, f64::min);
+    let mut order: Vec<usize> = (0..costs.len()).collect();
+    let rank = |i: &usize| if costs[*i] <= near { 0.0 } else { costs[*i] };
+    order.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
+    order.into_iter().map(|i| start.arms[i].clone()).collect()
+}
+
+/// From an arm to one that whole runs and the sensors' steps have shaped.
+fn attempt(fitting: &Fitting<'_>, arm: &ModalArm, first_window_s: Option<f64>) -> Option<Attempt> {
+    let mut report = Report::default();
+    let window_s = first_window_s.unwrap_or_else(|| fitting.first_window_s(arm));
+    let mut fit = fitting.begin(arm, window_s, &mut report)?;
+    fitting.widen(&mut fit, &mut report);
+    modes::grow(fitting, &mut fit, &mut report);
+    modes::undamp(fitting, &mut fit, &mut report);
+    evidence::tighten(fitting, &mut fit, &mut report);
+    fit.body.allow_dampers_at_points();
+    let added = report.added.len();
+    evidence::extend(fitting, &mut fit, &mut report);
+    if report.added.len() > added {
+        // It may describe longer windows.
+        fitting.widen(&mut fit, &mut report);
+    }
+    evidence::dampers_at_points(fitting, &mut fit, &mut report);
+    evidence::drop_dampers(fitting, &mut fit, &mut report);
+    evidence::relax(fitting, &mut fit, &mut report);
+    if modes::prune(fitting, &mut fit, &mut report) {
+        report.refused = evidence::promises(fitting, &fit).concat();
+    }
+    fitting.count_steps(&mut fit, &mut report);
+    let left = left_over(fitting.campaign, &fit, fitting.masks);
+    Some(Attempt { fit, report, left })
+}
+
+/// The same once more where its search was caught, if a slower one comes to less.
+fn again(fitting: &Fitting<'_>, caught: Attempt, first_window_s: Option<f64>) -> Attempt {
+    let mut best = caught;
+    if !best.fit.whole_runs || !is_left(&best.left) {
+        return best;
+    }
+    // Not for another law: that has had its trial.
+    let slowly = Fitting { widening: SLOWER, tries_laws: false, ..*fitting };
+    for arm in modes::starts_again(fitting, &best.fit) {
+        let Some(other) = attempt(&slowly, &arm, first_window_s) else { continue };
+        if other.fit.whole_runs && most(&other.left) < most(&best.left) {
+            best = other;
+        }
+        if !is_left(&best.left) {
+            break;
+        }
+    }
+    best
+}
+
+impl Attempt {
+    fn stands(&self, fitting: &Fitting<'_>) -> bool {
+        let covariance = fitting.covariances(&self.fit).larger();
+        stands(
+            &self.fit.body.arm,
+            &covariance,
+            self.fit.whole_runs,
+            fitting.beyond_noise(&self.fit),
+        )
+    }
+
+    /// How near it comes, for comparison: whole runs before parts of them.
+    fn nearness(&self, fitting: &Fitting<'_>) -> (bool, f64) {
+        (self.fit.whole_runs, -fitting.beyond_noise(&self.fit))
+    }
+}
+
+/// The largest of some shares.
+fn most(shares: &[f64]) -> f64 {
+    shares.iter().copied().fold(0.0, f64::max)
+}
