@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::bands::bands;
-use super::correct::{Response, corrected, ratio};
+use super::correct::{Response, corrected_by_harmonics, ratio};
 use super::finding::{Finding, key};
 use super::rational::TipForm;
 use super::replayed_bands::ReplayedBands;
@@ -93,13 +93,10 @@ fn sinusoidal(
     });
     let square = |c: Estimate| {
         let stuck = run.stuck_share.unwrap_or(0.0).max(STUCK_LEAST);
-        corrected(
-            motor,
-            command,
-            Estimate { std: c.std.hypot(sticking_error(stuck) * c.value), ..c },
-        )
+        let c = Estimate { std: c.std.hypot(sticking_error(stuck) * c.value), ..c };
+        corrected_by_harmonics(&s.motor, command, c)
     };
-    let motor_corrected = replayed.or_else(|| coulomb_command.map(square));
+    let motor_corrected = replayed.or_else(|| coulomb_command.and_then(square));
     Some(ResponsePoint {
         omega_rad_s: s.omega_rad_s,
         run: Some(index),

@@ -25,11 +25,12 @@ pub(super) struct Attempt {
 
 /// The first attempt that describes the runs, else the one that comes nearest. Where more than the
 /// sensors' noise is left it is made again more slowly, from other frequencies of the highest mode, too.
+/// Where no other law of friction describes the runs either: one under the simplest law.
 pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<Attempt> {
     let arms = likely_first(fitting, start);
     let mut best: Option<Attempt> = None;
-    for arm in arms {
-        let Some(found) = attempt(fitting, &arm, start.first_window_s) else { continue };
+    for arm in &arms {
+        let Some(found) = attempt(fitting, arm, start.first_window_s) else { continue };
         let stands = found.stands(fitting);
         if stands || best.as_ref().is_none_or(|b| found.nearness(fitting) > b.nearness(fitting)) {
             best = Some(found);
@@ -38,7 +39,16 @@ pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<At
             break;
         }
     }
-    best.map(|caught| again(fitting, caught, start.first_window_s))
+    let found = again(fitting, best?, start.first_window_s);
+    let lawful = !found.fit.body.arm.dry_terms.is_empty();
+    if !lawful || found.stands(fitting) {
+        return Some(found);
+    }
+    // Terms that do not describe the runs bend every figure: which run does not fit the others is seen
+    // under the simplest law.
+    let plainly = Fitting { tries_laws: false, ..*fitting };
+    let plain = arms.iter().find(|arm| arm.dry_terms.is_empty());
+    plain.and_then(|arm| attempt(&plainly, arm, start.first_window_s)).or(Some(found))
 }
 
 /// Whether some channel's share is more than its sensor's noise leaves.

@@ -28,8 +28,8 @@ const RIGID_SHARE: f64 = 1e-3;
 const THERE: f64 = 2.0;
 /// Deviations at which a group is as likely to be there as not.
 const EVEN: f64 = 3.0;
-/// A group less likely than this counts as not there.
-const UNLIKELY: f64 = 0.01;
+/// With fewer deviations than these nothing speaks for a group, as in any test at 5 %.
+const SPEAKS: f64 = 2.0;
 /// Most groups added at a time.
 const MOST: usize = 3;
 
@@ -158,8 +158,8 @@ pub(super) fn promises(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Extension>> 
 /// what it adds to the covariance, the mean over both answers.
 pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Vec<DVector<f64>> {
     let weighed = |p: Promise| {
-        let likely = p.likelihood();
-        (likely > UNLIKELY).then(|| p.moved * likely.sqrt())
+        let likely = p.likelihood().sqrt();
+        (p.deviations() > SPEAKS).then(|| p.moved * likely)
     };
     let moved = all_scores(fitting, fit, candidates(fit)).into_iter().filter_map(weighed);
     match fit.body.jacobian(&fit.free) {
@@ -185,12 +185,16 @@ struct Promise {
 }
 
 impl Promise {
-    /// How likely the group is to be there: `1/(1 + exp((9 − d²)/2))`, d the most deviations of its
-    /// parameters; the likelihoods' ratio is exp(d²/2), and nobody knows beforehand.
+    /// The most that a parameter of the group stands from zero, in its deviations.
+    fn deviations(&self) -> f64 {
+        let of = |e: &Extension| if e.std > 0.0 { (e.value / e.std).abs() } else { 0.0 };
+        self.group.iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// How likely the group is to be there: `1/(1 + exp((9 − d²)/2))`. The likelihoods' ratio is
+    /// exp(d²/2), and beforehand a group is held for as rare as lets d = 3 decide nothing.
     fn likelihood(&self) -> f64 {
-        let deviations = |e: &Extension| if e.std > 0.0 { e.value / e.std } else { 0.0 };
-        let square = self.group.iter().map(|e| deviations(e).powi(2)).fold(0.0, f64::max);
-        1.0 / (1.0 + (0.5 * (EVEN * EVEN - square)).exp())
+        1.0 / (1.0 + (0.5 * (EVEN * EVEN - self.deviations().powi(2))).exp())
     }
 }
 
