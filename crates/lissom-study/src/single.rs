@@ -236,7 +236,7 @@ fn points(scored: &Score) -> String {
             percent(p.third_harmonic),
             percent(p.corrected),
             p.deviations.unwrap_or(f64::NAN),
-            if p.vouched { "" } else { "flagged" }
+            if p.vouched { "" } else { "not vouched for" }
         );
     }
     text

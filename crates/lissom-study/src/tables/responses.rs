@@ -39,8 +39,8 @@ pub(super) fn section(outcome: &Outcome) -> String {
     let worst_good = Share::count(&worst, |e| *e <= 0.05);
     format!(
         "## Frequency response\n\nθ_m/i against the exact response of the arm without Coulomb friction, \
-         |Ĝ − G|/|G|. Corrected figures are of the points that nothing speaks against. (30) is the \
-         report's correction with the third harmonic's friction, of the same points where it exists.\n\n\
+         |Ĝ − G|/|G|. Corrected figures are of the points that are vouched for: nothing speaks against \
+         them, and their 95 % interval is within 5 %. (30) is the report's correction with the third harmonic's friction, of the same points where it exists.\n\n\
          {}\n\nPer campaign: median at most 1 % in {median_good}, worst at most 5 % in {worst_good}.",
         table(&header, &rows)
     )
