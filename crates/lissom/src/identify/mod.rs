@@ -40,7 +40,10 @@ pub use output_error::{
     ByRun, Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, output_error,
     starts,
 };
-pub use rational::{BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_beam, fit_motor};
+pub use rational::{
+    BeamFit, Damping, MotorData, MotorFit, Pole, SharedPoles, SharedPolesError, Spurious, TipData,
+    TipForm, fit_beam, fit_motor, fit_shared_poles, fit_shared_poles_by_evidence,
+};
 pub use regression::{
     BeamRegression, ByDirection, Candidate, MissingKind, MissingTerm, MotorRegression,
     beam_regression, motor_regression,

@@ -2,9 +2,17 @@
 
 mod beam;
 mod motor;
+mod refine;
+mod relocate;
+mod shared_poles;
+mod weighted;
 
 pub use beam::{BeamFit, TipData, TipForm, fit_beam};
 pub use motor::{MotorData, MotorFit, fit_motor};
+pub use shared_poles::{
+    Damping, SharedPoles, SharedPolesError, Spurious, fit_shared_poles,
+    fit_shared_poles_by_evidence,
+};
 
 use num_complex::Complex64;
 

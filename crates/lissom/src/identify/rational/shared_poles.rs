@@ -1,0 +1,296 @@
+//! Responses of several outputs to one input, with poles that all of them share.
+
+use nalgebra::DMatrix;
+use num_complex::Complex64;
+use thiserror::Error;
+
+use super::refine::{Point, refined};
+use super::relocate::relocated;
+use super::weighted::Weighted;
+use super::{Pole, information};
+use crate::identify::{Estimate, Response};
+
+/// Damping ratio of the poles that vector fitting begins with.
+const START_DAMPING: f64 = 0.01;
+/// Most relocations, and the change of every frequency below which they end: refining does the rest.
+const RELOCATIONS: usize = 12;
+const NEAR: f64 = 0.02;
+/// Another pair of poles is looked for until so many in a row say less than they cost.
+const IN_VAIN: usize = 2;
+/// A pole more damped than this is none of a beam.
+const MOST_DAMPING: f64 = 0.25;
+/// A pole is there when one of its gains is this many deviations from zero.
+const PRESENT: f64 = 4.0;
+
+/// What the poles may have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Damping {
+    /// None: even powers of s only, as properties 1 and 2 have it.
+    None,
+    /// A ratio of each pole's own.
+    Small,
+}
+
+impl Damping {
+    /// Unknowns of a pole.
+    pub(super) fn unknowns(self) -> usize {
+        match self {
+            Self::None => 1,
+            Self::Small => 2,
+        }
+    }
+}
+
+/// Why responses cannot be fitted.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SharedPolesError {
+    /// There is nothing to fit.
+    #[error("no output: give one response at least")]
+    NoOutput,
+    /// A frequency that is none.
+    #[error("frequency {index} is {found_rad_s} rad/s: all must be finite and positive")]
+    Frequency {
+        /// Its place, from 0.
+        index: usize,
+        /// What it is \[rad/s\].
+        found_rad_s: f64,
+    },
+    /// An output on another grid.
+    #[error(
+        "output {output} has {found} responses for {expected} frequencies: all must share one grid"
+    )]
+    Grid {
+        /// Its place, from 0.
+        output: usize,
+        /// Responses it has.
+        found: usize,
+        /// Frequencies there are.
+        expected: usize,
+    },
+    /// A response that is no number, or has no deviation.
+    #[error(
+        "output {output}, point {index}: a response needs a finite value and a deviation above zero"
+    )]
+    Response {
+        /// The output's place, from 0.
+        output: usize,
+        /// The point's, from 0.
+        index: usize,
+    },
+    /// More unknowns than data.
+    #[error("{unknowns} unknowns and {readings} readings: too few frequencies for so many poles")]
+    TooFew {
+        /// Numbers to find.
+        unknowns: usize,
+        /// Real numbers to find them from.
+        readings: usize,
+    },
+    /// The search ended nowhere.
+    #[error("no {modes} pairs of poles can be told apart: try fewer")]
+    NotFound {
+        /// Pairs of poles asked for.
+        modes: usize,
+    },
+}
+
+/// Why a pole is no mode of the beam: it mends the model's edges, or stands for noise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spurious {
+    /// Outside the data's frequencies.
+    Outside,
+    /// Its damping ratio is above 0.25, or below zero by more than two deviations.
+    Damped,
+    /// No output has a gain of it four deviations from zero.
+    Unfelt,
+}
+
+/// Poles that all outputs share, and their residues.
+///
+/// `H_i(s) = Σ_k ρ_ik·ω_k²/(s² + 2ζ_kω_k·s + ω_k²)`: relative degree two at least, ρ_ik real.
+#[derive(Debug, Clone)]
+pub struct SharedPoles {
+    /// Poles, ascending.
+    pub poles: Vec<Pole>,
+    /// `ρ_ik`, output i (outer) and pole k, in the response's unit: their sum is the response at rest.
+    pub static_gains: Vec<Vec<f64>>,
+    /// Covariance of ln ω_k (and ζ_k where damped), pole by pole, then of ρ_ik, output by output: from the
+    /// responses' deviations, stretched where more is left.
+    pub covariance: DMatrix<f64>,
+    /// Root mean square of the residuals in the responses' deviations, the unknowns counted: one where the
+    /// model is as good as the data.
+    pub weighted_rms: f64,
+    /// What the poles were allowed to have.
+    pub damping: Damping,
+    /// The data's frequencies \[rad/s\]: the lowest and the highest.
+    pub range_rad_s: (f64, f64),
+    /// Bayesian information criterion.
+    criterion: f64,
+}
+
+/// Fits `modes` pairs of poles to the responses of outputs (outer) at `omega_rad_s`, each weighted by its
+/// deviation.
+///
+/// No start is needed: poles spread over the data's frequencies are relocated by relaxed vector fitting,
+/// and then refined with the residues by Gauss-Newton, to the most likely ones.
+///
+/// ```
+/// # use {lissom::identify::{Pole, Response}, num_complex::Complex64};
+/// # let omega: Vec<f64> = (0..200).map(|k| 1.03_f64.powi(k)).collect();
+/// # let poles = [(6.6, 0.005), (41.0, 0.01)].map(|(omega_rad_s, damping_ratio)| Pole { omega_rad_s, damping_ratio });
+/// # let at = |gains: [f64; 2]| omega.iter().map(|&w| { let value: Complex64 = poles.iter().zip(gains).map(|(p, g)| g * p.omega_rad_s.powi(2) / p.denominator(w)).sum(); Response { value, std: 1e-3 * value.norm() } }).collect::<Vec<_>>();
+/// # let (middle, tip) = (at([0.7, 0.3]), at([1.2, -0.2]));
+/// use lissom::identify::{Damping, fit_shared_poles}; // a beam's middle and tip, modes at 6.6 and 41 rad/s
+/// let fit = fit_shared_poles(&omega, &[middle, tip], 2, Damping::Small)?;
+/// assert!((fit.poles[1].omega_rad_s - 41.0).abs() < 1e-6 && (fit.static_gains[1][1] + 0.2).abs() < 1e-8);
+/// # Ok::<(), lissom::identify::SharedPolesError>(())
+/// ```
+///
+/// # Errors
+/// Outputs on different grids, responses without deviation, more unknowns than readings, poles that cannot
+/// be told apart.
+///
+/// # Source
+/// `[Feliu1989, eq. (19)]`, step 4 of Section 4: one denominator for all points.
+///
+/// # Differences from the source
+/// Poles may be damped; residues are real, so that a damped mode keeps the undamped one's shape.
+pub fn fit_shared_poles(
+    omega_rad_s: &[f64],
+    outputs: &[Vec<Response>],
+    modes: usize,
+    damping: Damping,
+) -> Result<SharedPoles, SharedPolesError> {
+    fit(&Weighted::new(omega_rad_s, outputs)?, modes, damping)
+}
+
+/// The same with as many pairs of poles, up to `most`, as the Bayesian information criterion asks for. None
+/// is added to a model that is as good as its data.
+///
+/// # Errors
+/// As [`fit_shared_poles`], of one pair of poles.
+pub fn fit_shared_poles_by_evidence(
+    omega_rad_s: &[f64],
+    outputs: &[Vec<Response>],
+    most: usize,
+    damping: Damping,
+) -> Result<SharedPoles, SharedPolesError> {
+    let data = Weighted::new(omega_rad_s, outputs)?;
+    let mut best = fit(&data, 1, damping)?;
+    let mut in_vain = 0;
+    for modes in 2..=most {
+        if best.weighted_rms <= 1.0 || in_vain == IN_VAIN {
+            break;
+        }
+        match fit(&data, modes, damping) {
+            Ok(found) if found.criterion < best.criterion => (best, in_vain) = (found, 0),
+            _ => in_vain += 1,
+        }
+    }
+    Ok(best)
+}
+
+fn fit(data: &Weighted, modes: usize, damping: Damping) -> Result<SharedPoles, SharedPolesError> {
+    let unknowns = modes * (damping.unknowns() + data.outputs.len());
+    let readings = data.readings();
+    // Vector fitting has two unknowns of each pole in every output, and two of each in σ.
+    if unknowns >= readings || 4 * modes >= 2 * data.omega.len() {
+        return Err(SharedPolesError::TooFew { unknowns, readings });
+    }
+    let (low, high) = data.range();
+    let start = |k: usize| Pole {
+        omega_rad_s: low * (high / low).powf((k as f64 + 0.5) / modes as f64),
+        damping_ratio: START_DAMPING,
+    };
+    let poles = settled(data, (0..modes).map(start).collect());
+    let point = poles.and_then(|poles| refined(data, poles, damping));
+    let found = point.and_then(|point| SharedPoles::of(data, point, unknowns, damping));
+    found.ok_or(SharedPolesError::NotFound { modes })
+}
+
+/// Relocated until they stand nearly still.
+fn settled(data: &Weighted, mut poles: Vec<Pole>) -> Option<Vec<Pole>> {
+    for _ in 0..RELOCATIONS {
+        let next = relocated(data, &poles)?;
+        let change = |(a, b): (&Pole, &Pole)| (a.omega_rad_s / b.omega_rad_s).ln().abs();
+        let most = next.iter().zip(&poles).map(change).fold(0.0, f64::max);
+        poles = next;
+        if most < NEAR {
+            break;
+        }
+    }
+    Some(poles)
+}
+
+impl SharedPoles {
+    fn of(data: &Weighted, point: Point, unknowns: usize, damping: Damping) -> Option<Self> {
+        let readings = data.readings();
+        let weighted_rms = (point.cost / (readings - unknowns) as f64).sqrt();
+        let covariance = point.covariance()? * weighted_rms.max(1.0).powi(2);
+        let gains = point.static_gains.iter().map(|g| g.iter().copied().collect()).collect();
+        Some(Self {
+            poles: point.poles,
+            static_gains: gains,
+            covariance,
+            weighted_rms,
+            damping,
+            range_rad_s: data.range(),
+            criterion: information(readings, unknowns, point.cost),
+        })
+    }
+
+    /// Deviation of unknown `i` of the covariance.
+    fn deviation(&self, i: usize) -> f64 {
+        self.covariance[(i, i)].max(0.0).sqrt()
+    }
+
+    /// Natural frequency of pole `k` \[rad/s\].
+    pub fn natural_frequency_rad_s(&self, k: usize) -> Estimate {
+        let value = self.poles[k].omega_rad_s;
+        Estimate { value, std: value * self.deviation(k * self.damping.unknowns()) }
+    }
+
+    /// Damping ratio of pole `k`; zero, and known, where none is allowed.
+    pub fn damping_ratio(&self, k: usize) -> Estimate {
+        let std = match self.damping {
+            Damping::None => 0.0,
+            Damping::Small => self.deviation(k * self.damping.unknowns() + 1),
+        };
+        Estimate { value: self.poles[k].damping_ratio, std }
+    }
+
+    /// `ρ_ik` of output `i` and pole `k`.
+    pub fn static_gain(&self, i: usize, k: usize) -> Estimate {
+        let modes = self.poles.len();
+        let at = modes * self.damping.unknowns() + i * modes + k;
+        Estimate { value: self.static_gains[i][k], std: self.deviation(at) }
+    }
+
+    /// Why pole `k` is no mode of the beam; `None` of those that are.
+    pub fn spurious(&self, k: usize) -> Option<Spurious> {
+        let pole = self.poles[k];
+        let (low, high) = self.range_rad_s;
+        let damping = self.damping_ratio(k);
+        let felt = |i: usize| {
+            let gain = self.static_gain(i, k);
+            gain.value.abs() > PRESENT * gain.std
+        };
+        if !(low..=high).contains(&pole.omega_rad_s) {
+            Some(Spurious::Outside)
+        } else if damping.value > MOST_DAMPING || damping.value < -2.0 * damping.std {
+            Some(Spurious::Damped)
+        } else if !(0..self.static_gains.len()).any(felt) {
+            Some(Spurious::Unfelt)
+        } else {
+            None
+        }
+    }
+
+    /// Response of output `i` at a frequency.
+    pub fn response(&self, i: usize, omega_rad_s: f64) -> Complex64 {
+        let part = |(pole, gain): (&Pole, &f64)| {
+            gain * pole.omega_rad_s * pole.omega_rad_s / pole.denominator(omega_rad_s)
+        };
+        self.poles.iter().zip(&self.static_gains[i]).map(part).sum()
+    }
+}

@@ -1,0 +1,68 @@
+//! Responses as a fit sees them: each over the deviation of its real and of its imaginary part, 1/√2 of
+//! the response's own, `√E|Ĝ − G|²`.
+
+use std::f64::consts::SQRT_2;
+
+use num_complex::Complex64;
+
+use super::shared_poles::SharedPolesError;
+use crate::identify::Response;
+
+/// Responses of outputs to one input, on one grid of frequencies.
+pub(super) struct Weighted {
+    pub(super) omega: Vec<f64>,
+    pub(super) outputs: Vec<Output>,
+}
+
+/// One output.
+pub(super) struct Output {
+    /// √2/σ.
+    pub(super) weights: Vec<f64>,
+    /// Response times that.
+    pub(super) weighted: Vec<Complex64>,
+}
+
+impl Output {
+    /// Σ|H·√2/σ|².
+    pub(super) fn squares(&self) -> f64 {
+        self.weighted.iter().map(Complex64::norm_sqr).sum()
+    }
+}
+
+impl Weighted {
+    pub(super) fn new(omega: &[f64], outputs: &[Vec<Response>]) -> Result<Self, SharedPolesError> {
+        if outputs.is_empty() {
+            return Err(SharedPolesError::NoOutput);
+        }
+        if let Some(index) = omega.iter().position(|w| !(w.is_finite() && *w > 0.0)) {
+            return Err(SharedPolesError::Frequency { index, found_rad_s: omega[index] });
+        }
+        let output = |(output, responses): (usize, &Vec<Response>)| {
+            let (found, expected) = (responses.len(), omega.len());
+            if found != expected {
+                return Err(SharedPolesError::Grid { output, found, expected });
+            }
+            let sound = |r: &Response| r.value.is_finite() && r.std.is_finite() && r.std > 0.0;
+            if let Some(index) = responses.iter().position(|r| !sound(r)) {
+                return Err(SharedPolesError::Response { output, index });
+            }
+            Ok(Output {
+                weights: responses.iter().map(|r| SQRT_2 / r.std).collect(),
+                weighted: responses.iter().map(|r| r.value * (SQRT_2 / r.std)).collect(),
+            })
+        };
+        let outputs = outputs.iter().enumerate().map(output).collect::<Result<_, _>>()?;
+        Ok(Self { omega: omega.to_vec(), outputs })
+    }
+
+    /// The lowest and the highest frequency.
+    pub(super) fn range(&self) -> (f64, f64) {
+        let low = self.omega.iter().copied().fold(f64::INFINITY, f64::min);
+        (low, self.omega.iter().copied().fold(0.0, f64::max))
+    }
+
+    /// Real numbers in all responses.
+    pub(super) fn readings(&self) -> usize {
+        2 * self.omega.len() * self.outputs.len()
+    }
+}
