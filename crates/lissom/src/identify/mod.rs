@@ -6,6 +6,7 @@ mod channel_check;
 mod channel_noise;
 mod constant_velocity;
 mod correct;
+mod equivalent;
 mod estimate;
 mod finding;
 mod found_arm;
@@ -31,6 +32,7 @@ pub use constant_velocity::{
     ConstantVelocity, FrictionLine, LineError, Shape, SteadyPoint, constant_velocity,
 };
 pub use correct::{Response, corrected, ratio};
+pub use equivalent::{EquivalentBeam, EquivalentError, equivalent_beam};
 pub use estimate::{Estimate, ModeEstimate};
 pub use finding::{Finding, Severity};
 pub use found_arm::{ArmSource, FoundArm, TorqueUsed};

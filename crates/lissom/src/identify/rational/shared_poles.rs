@@ -33,7 +33,7 @@ pub enum Damping {
 
 impl Damping {
     /// Unknowns of a pole.
-    pub(super) fn unknowns(self) -> usize {
+    pub(crate) fn unknowns(self) -> usize {
         match self {
             Self::None => 1,
             Self::Small => 2,

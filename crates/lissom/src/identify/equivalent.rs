@@ -1,0 +1,143 @@
+//! The lumped arm that behaves as a distributed one, from its points' responses: step 5 of Section 4.
+
+use nalgebra::{DMatrix, DVector};
+use thiserror::Error;
+
+use super::rational::SharedPoles;
+
+/// The matrix of the points' gains counts as singular where its least singular value is not this many
+/// deviations from zero…
+const DEVIATIONS: f64 = 4.0;
+/// …or this share of the largest.
+const DEPENDENT: f64 = 1e-10;
+
+/// `Θ̈ = Â·Θ + B̂·θ_m` (17): N_v points of a beam whose responses show N_v modes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EquivalentBeam {
+    /// Â, points × points \[1/s²\].
+    pub a: DMatrix<f64>,
+    /// Deviations of its elements.
+    pub a_std: DMatrix<f64>,
+    /// B̂ \[1/s²\].
+    pub b: DVector<f64>,
+    /// Deviations of its elements.
+    pub b_std: DVector<f64>,
+}
+
+/// Why there is no equivalent beam.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum EquivalentError {
+    /// Each mode needs a point of its own.
+    #[error("{modes} modes and {points} points: step 5 of Section 4 takes as many points as modes")]
+    PointsAndModes {
+        /// Points measured.
+        points: usize,
+        /// Modes of the fit.
+        modes: usize,
+    },
+    /// μ of (22) cannot be inverted.
+    #[error(
+        "points {first} and {second} move too much alike in these modes (the gains' least singular value is {ratio:.1e} \
+         of the largest): put one of them elsewhere"
+    )]
+    TooClose {
+        /// One of the pair that is most alike, from 0.
+        first: usize,
+        /// The other.
+        second: usize,
+        /// Least singular value of the gains over the largest.
+        ratio: f64,
+    },
+}
+
+/// Â and B̂ of (17) from transfer functions with shared poles.
+///
+/// With ρ_ik the static gain of point i in mode k, R their matrix and Ω² = diag(ω_k²): the modes move by
+/// `η̈ = Ω²·(θ_m − η)` and the points by Θ = R·η, so that `Â = −R·Ω²·R⁻¹` and `B̂ = R·Ω²·1`. That is what
+/// (21)-(23) come to in exact numbers; polynomials of ω² would lose half of the digits. Deviations are to
+/// first order in the fit's covariance. What the modes left out add to the points' gains at rest is not in
+/// it, so that Â·1 + B̂ is zero only as far as R·1 is one.
+///
+/// # Errors
+/// Other than as many points as modes; two points whose gains cannot be told apart.
+///
+/// # Source
+/// `[Feliu1989, Section 4, step 5, eqs. (19)-(23)]`
+///
+/// # Differences from the source
+/// Damping of the poles is left out, as (17) has none.
+pub fn equivalent_beam(fit: &SharedPoles) -> Result<EquivalentBeam, EquivalentError> {
+    let (points, modes) = (fit.static_gains.len(), fit.poles.len());
+    if points != modes {
+        return Err(EquivalentError::PointsAndModes { points, modes });
+    }
+    let gains = DMatrix::from_fn(points, modes, |i, k| fit.static_gains[i][k]);
+    let inverse = inverted(fit, &gains)?;
+    let squares = DVector::from_fn(modes, |k, _| fit.poles[k].omega_rad_s.powi(2));
+    let stiff = DMatrix::from_diagonal(&squares);
+    let a = -&gains * &stiff * &inverse;
+    let b = &gains * &squares;
+    // By each unknown of the fit: dÂ = −dR·Ω²·R⁻¹ − R·dΩ²·R⁻¹ − Â·dR·R⁻¹, dB̂ = dR·Ω²·1 + R·dΩ²·1.
+    let unknowns = fit.damping.unknowns();
+    let slopes: Vec<(DMatrix<f64>, DVector<f64>)> = (0..fit.covariance.nrows())
+        .map(|unknown| {
+            let mut d_gains = DMatrix::zeros(points, modes);
+            let mut d_squares = DVector::zeros(modes);
+            match unknown.checked_sub(modes * unknowns) {
+                Some(gain) => d_gains[(gain / modes, gain % modes)] = 1.0,
+                None if unknown.is_multiple_of(unknowns) => {
+                    let k = unknown / unknowns;
+                    d_squares[k] = 2.0 * squares[k];
+                }
+                None => {}
+            }
+            let d_stiff = DMatrix::from_diagonal(&d_squares);
+            let moved = &d_gains * &stiff + &gains * d_stiff + &a * &d_gains;
+            (-moved * &inverse, d_gains * &squares + &gains * d_squares)
+        })
+        .collect();
+    let std = |of: &dyn Fn(usize) -> f64| {
+        let slope = DVector::from_fn(slopes.len(), |u, _| of(u));
+        slope.dot(&(&fit.covariance * &slope)).max(0.0).sqrt()
+    };
+    let a_std = DMatrix::from_fn(points, points, |i, j| std(&|u| slopes[u].0[(i, j)]));
+    let b_std = DVector::from_fn(points, |i, _| std(&|u| slopes[u].1[i]));
+    Ok(EquivalentBeam { a, a_std, b, b_std })
+}
+
+/// R⁻¹, where the data tell the points apart.
+fn inverted(fit: &SharedPoles, gains: &DMatrix<f64>) -> Result<DMatrix<f64>, EquivalentError> {
+    let points = gains.nrows();
+    let refused = |ratio: f64| {
+        let (first, second) = most_alike(gains);
+        EquivalentError::TooClose { first, second, ratio }
+    };
+    let decomposed = gains.clone().svd(true, true);
+    let (Some(left), Some(right)) = (&decomposed.u, &decomposed.v_t) else {
+        return Err(refused(f64::NAN));
+    };
+    let (at, least) = decomposed.singular_values.argmin();
+    let ratio = least / decomposed.singular_values.max();
+    // dσ = uᵀ·dR·v.
+    let first = fit.covariance.nrows() - points * points;
+    let slope = DVector::from_fn(fit.covariance.nrows(), |u, _| {
+        let gain = u.checked_sub(first);
+        gain.map_or(0.0, |g| left[(g / points, at)] * right[(at, g % points)])
+    });
+    let std = slope.dot(&(&fit.covariance * &slope)).max(0.0).sqrt();
+    if points > 1 && (ratio < DEPENDENT || least < DEVIATIONS * std) {
+        return Err(refused(ratio));
+    }
+    gains.clone().try_inverse().ok_or_else(|| refused(ratio))
+}
+
+/// The two points whose rows of gains point the same way most nearly.
+fn most_alike(gains: &DMatrix<f64>) -> (usize, usize) {
+    let cosine = |i: usize, j: usize| {
+        let (a, b) = (gains.row(i), gains.row(j));
+        a.dot(&b).abs() / (a.norm() * b.norm())
+    };
+    let pairs = (0..gains.nrows()).flat_map(|j| (0..j).map(move |i| (i, j)));
+    pairs.max_by(|p, q| cosine(p.0, p.1).total_cmp(&cosine(q.0, q.1))).unwrap_or((0, 0))
+}
