@@ -174,6 +174,7 @@ fn what_cannot_be_fitted_is_refused() {
         fit_shared_poles(omega, outputs, modes, Damping::Small).map(|_| ()).unwrap_err()
     };
     assert_eq!(fit(&omega, &[], 1), SharedPolesError::NoOutput);
+    assert_eq!(fit(&omega, &good, 0), SharedPolesError::NoPoles);
     let mut short = good.clone();
     short[1].pop();
     assert_eq!(

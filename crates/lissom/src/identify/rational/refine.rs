@@ -62,7 +62,12 @@ pub(super) fn refined(data: &Weighted, mut poles: Vec<Pole>, damping: Damping) -
         let Some(better) = halved else { break };
         point = better;
     }
-    Some(point)
+    let ascending = |a: &Pole, b: &Pole| a.omega_rad_s <= b.omega_rad_s;
+    if point.poles.is_sorted_by(ascending) {
+        return Some(point);
+    }
+    point.poles.sort_by(|a, b| a.omega_rad_s.total_cmp(&b.omega_rad_s));
+    Point::new(data, point.poles, damping)
 }
 
 /// Largest change of ln ω in a step.

@@ -48,6 +48,9 @@ pub enum SharedPolesError {
     /// There is nothing to fit.
     #[error("no output: give one response at least")]
     NoOutput,
+    /// There is nothing to find.
+    #[error("no poles asked for: one pair at least")]
+    NoPoles,
     /// A frequency that is none.
     #[error("frequency {index} is {found_rad_s} rad/s: all must be finite and positive")]
     Frequency {
@@ -191,6 +194,9 @@ pub fn fit_shared_poles_by_evidence(
 }
 
 fn fit(data: &Weighted, modes: usize, damping: Damping) -> Result<SharedPoles, SharedPolesError> {
+    if modes == 0 {
+        return Err(SharedPolesError::NoPoles);
+    }
     let unknowns = modes * (damping.unknowns() + data.outputs.len());
     let readings = data.readings();
     // Vector fitting has two unknowns of each pole in every output, and two of each in σ.
