@@ -33,7 +33,7 @@ pub fn describe(seed: u64, index: usize, law: Law, quick: bool) -> Option<String
             }
             if let Some(motor) = &id.regression {
                 let (beam, rational) = (id.beam_regression.as_ref(), id.beam_model.as_ref());
-                let from = starts(&campaign.logs, motor, beam, rational, id.motor_model.as_ref());
+                let from = starts(&campaign.logs, motor, beam, rational);
                 lines.extend(from.iter().map(|arm| format!("start {}", arm_line(arm))));
             }
             lines.extend(id.regression.iter().map(|r| candidates("motor", &r.candidates)));

@@ -3,6 +3,7 @@
 use num_complex::Complex64;
 
 use super::Estimate;
+use super::channel_noise::channel_noise;
 use super::correct::Response;
 use super::finding::{Finding, Severity, key};
 use super::rational::MotorFit;
@@ -10,8 +11,8 @@ use super::regression::slip_sign;
 use super::replayed_bands::ReplayedBands;
 use super::response_table::{ResponsePoint, STUCK_LEAST, sticking_error};
 use super::run_analysis::{RunAnalysis, RunKind};
-use crate::record::{Campaign, Hold};
-use crate::spectrum::{Band, broadband, hold_factor};
+use crate::record::{Campaign, Hold, Run};
+use crate::spectrum::{Band, broadband, hold_factor, noise_power};
 
 /// Least coherence at which a band of a broadband record is worth showing.
 const COHERENCE: f64 = 0.3;
@@ -85,15 +86,19 @@ fn sure(coulomb_command: Estimate, runs: &[RunAnalysis], general: &[usize]) -> E
     Estimate { std, ..coulomb_command }
 }
 
-/// Bands of the command without a square wave; the deviation counts that of friction.
+/// Bands of the command without a square wave. The deviation counts that of friction, and the share that the
+/// sensor's noise has in what the motor shows: the loop brings it back as a command, as coherent as motion is,
+/// and draws the response to what the controller makes of it.
 fn square_wave(records: &Records<'_>, coulomb_command: Estimate) -> Vec<Band> {
     let motor = |i: usize| records.campaign.runs[i].motor().to_vec();
     let with = |c: f64| records.spectrum(&|i| records.without_friction(i, c), &motor);
     let more = with(coulomb_command.value + coulomb_command.std);
     let mut bands = with(coulomb_command.value);
+    let noise = records.motor_noise();
     for band in &mut bands {
         let moved = nearest(&more, band.omega_rad_s).map(|m| (m.response - band.response).norm());
-        band.std = band.std.hypot(moved.unwrap_or(f64::INFINITY));
+        let of_noise = band.response.norm() * (noise / band.output_power).sqrt();
+        band.std = band.std.hypot(moved.unwrap_or(f64::INFINITY)).hypot(of_noise);
     }
     bands
 }
@@ -114,6 +119,15 @@ impl Records<'_> {
         let series: Vec<(Vec<f64>, Vec<f64>, f64)> =
             self.runs.iter().map(|&i| (input(i), output(i), time(i))).collect();
         broadband(&series.iter().map(|(u, y, t)| (&u[..], &y[..], *t)).collect::<Vec<_>>())
+    }
+
+    /// Mean power per bin of the noise in the motor's angle.
+    fn motor_noise(&self) -> f64 {
+        let runs: Vec<&Run> = self.runs.iter().map(|&i| &self.campaign.runs[i]).collect();
+        let samples: Vec<usize> = runs.iter().map(|run| run.len()).collect();
+        let times: Vec<f64> = runs.iter().map(|run| run.sample_time_s()).collect();
+        let stds: Vec<f64> = runs.iter().map(|run| channel_noise(run.motor()).std).collect();
+        noise_power(&samples, &times, &stds)
     }
 
     fn without_friction(&self, run: usize, coulomb_command: f64) -> Vec<f64> {

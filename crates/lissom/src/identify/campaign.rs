@@ -13,14 +13,18 @@ use super::friction_waveform::FrictionWaveform;
 use super::identified::{Beam, Friction, Identified, ThirdHarmonic};
 use super::model::state_space;
 use super::models::{beam_model, figures_model};
-use super::output_error::{OutputError, OutputErrorStart, output_error, starts};
+use super::output_error::{
+    OutputError, OutputErrorStart, output_error, starts, starts_by_motor, starts_by_responses,
+};
 use super::rational::{BeamFit, MotorFit};
-use super::regression::{MotorRegression, beam_regression, coupled_tips, motor_regression};
+use super::regression::{
+    BeamRegression, MotorRegression, beam_regression, coupled_tips, motor_regression,
+};
 use super::replayed_bands::ReplayedBands;
 use super::response_table::{Replayed, response_table, weak_points};
 use super::run_analysis::{RunAnalysis, RunKind, analyse};
 use super::third_harmonic::{PairFigure, mean_figure, pair_figure};
-use super::{Estimate, models, verdict};
+use super::{Estimate, ModeEstimate, models, verdict};
 use crate::lti::StateSpace;
 use crate::record::{Axis, Campaign, Run, TipQuantity};
 use crate::replay::ModalArm;
@@ -38,6 +42,9 @@ const STEPPED: usize = 4;
 const ALONE: f64 = 0.15;
 /// Share of the beam's windowed acceleration that its regression may leave.
 const BEAM_RESIDUAL: f64 = 0.1;
+/// Least damping ratio of a mode that it may show: one that feeds on nothing and grows is none of a beam, and
+/// its frequencies are as wrong.
+const LEAST_DAMPING: f64 = -0.05;
 
 /// What a user may ask for.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -165,18 +172,27 @@ pub fn identify(
     let output_error = replayable.and_then(|motor| {
         progress(Stage::OutputError);
         let (beam, tips) = (any_beam_regression.as_ref(), beam_model.as_ref());
-        // Without a tip's angle: friction as a square wave is near enough to start with.
-        let response = || {
-            let table = response_table(campaign, &runs, best, &square, &findings);
-            models::motor_model(&table, constant, tips)
+        // Responses of the motor without friction: as a square wave it is near enough to start with.
+        let table = || response_table(campaign, &runs, best, &square, &findings);
+        let plain = if coupled_tips(&usable).is_empty() {
+            let response = models::motor_model(&table(), constant, tips);
+            starts_by_motor(&usable, &motor, tips, response.as_ref())
+        } else {
+            let mut arms = starts(&usable, &motor, beam, tips);
+            if let Some((omega_rad_s, tips)) = models::tip_responses(&usable, &shown) {
+                let motor_data = models::motor_data(&table(), constant);
+                arms.extend(starts_by_responses(&usable, &motor, &omega_rad_s, &tips, &motor_data));
+            }
+            arms
         };
-        let response = if coupled_tips(&usable).is_empty() { response() } else { None };
-        let plain = starts(&usable, &motor, beam, tips, response.as_ref());
         replayed(&usable, &runs, &kept, &plain, friction_law.as_ref())
     });
 
-    let beam_regression =
-        any_beam_regression.filter(|b| b.relative_residual.iter().all(|r| *r < BEAM_RESIDUAL));
+    let stands = |b: &BeamRegression| {
+        let damped = |m: &ModeEstimate| m.damping_ratio.value > LEAST_DAMPING;
+        b.relative_residual.iter().all(|r| *r < BEAM_RESIDUAL) && b.modes.iter().all(damped)
+    };
+    let beam_regression = any_beam_regression.filter(stands);
 
     progress(Stage::Responses);
     let table = |c: Option<Estimate>| response_table(campaign, &runs, c, &square, &findings);

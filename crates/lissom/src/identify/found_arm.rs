@@ -1,7 +1,7 @@
 //! The arm that stands for a result: what predicts other logs.
 
 use super::identified::Identified;
-use super::output_error::starts;
+use super::output_error::{starts, starts_by_motor};
 use super::validation::{torque, zeros};
 use crate::record::Campaign;
 use crate::replay::ModalArm;
@@ -52,7 +52,12 @@ impl FoundArm {
         };
         let beam = id.beam_regression.as_ref();
         // Without a tip's angle slip phases give no arm: what starts a replay there is not one yet.
-        let mut arm = starts(used, motor, beam, id.beam_model.as_ref(), None).into_iter().next()?;
+        let arms = if used.channels.tips.is_empty() {
+            starts_by_motor(used, motor, None, None)
+        } else {
+            starts(used, motor, beam, id.beam_model.as_ref())
+        };
+        let mut arm = arms.into_iter().next()?;
         if let Some(split) = motor.viscous_by_direction {
             let back_emf = used.channels.command.back_emf_viscous;
             arm.viscous_nm_s_per_rad = [split.forward.value, split.backward.value];

@@ -40,7 +40,7 @@ pub use friction_law::{CurvePoint, FrictionLaw, LawCandidate, LawFit, LawTerm};
 pub use identified::{Beam, Friction, Identified, NearRestEstimate, RippleEstimate, ThirdHarmonic};
 pub use output_error::{
     ByRun, Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, output_error,
-    starts,
+    starts, starts_by_motor, starts_by_responses,
 };
 pub use rational::{
     BeamFit, Damping, MotorData, MotorFit, Pole, SharedPoles, SharedPolesError, Spurious, TipData,

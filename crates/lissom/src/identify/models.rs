@@ -1,9 +1,10 @@
 //! The models that figures or responses make.
 
-use super::rational::{BeamFit, MotorData, MotorFit, Pole, TipData, fit_beam, fit_motor};
+use super::Response;
+use super::rational::{BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_beam, fit_motor};
 use super::regression::{BeamRegression, MotorRegression};
 use super::response_table::{ResponsePoint, tip_model};
-use crate::record::Campaign;
+use crate::record::{Campaign, Tip};
 
 /// Windowed torque (or acceleration) that a regression may leave for its figures to make a model.
 const EXPLAINED: f64 = 0.05;
@@ -66,15 +67,39 @@ pub(super) fn motor_model(
     constant: f64,
     beam: Option<&BeamFit>,
 ) -> Option<MotorFit> {
+    let data = motor_data(responses, constant);
+    fit_motor(&data, beam.map(BeamFit::modal_poles).as_deref())
+}
+
+/// The motor's corrected responses that nothing speaks against.
+pub(super) fn motor_data(responses: &[ResponsePoint], constant: f64) -> MotorData {
     let sound: Vec<_> = responses
         .iter()
         .filter(|p| !p.flagged)
         .filter_map(|p| Some((p.omega_rad_s, p.motor_corrected?)))
         .collect();
-    let data = MotorData {
+    MotorData {
         omega_rad_s: sound.iter().map(|p| p.0).collect(),
         response: sound.iter().map(|p| p.1).collect(),
         torque_per_command: constant,
+    }
+}
+
+/// Frequencies, and θ_i/θ_m of every tip at them; `None` where a tip's angle is not known.
+pub(super) fn tip_responses(
+    campaign: &Campaign,
+    responses: &[ResponsePoint],
+) -> Option<(Vec<f64>, Vec<Vec<Response>>)> {
+    let tips = &campaign.channels.tips;
+    let complete = responses.iter().filter(|p| p.tips.iter().all(Option::is_some));
+    let complete: Vec<&ResponsePoint> = complete.collect();
+    let of_tip = |(i, tip): (usize, &Tip)| -> Option<Vec<Response>> {
+        let angle = |p: &&ResponsePoint| match tip_model(tip.quantity, tip.calibrated, p.tips[i]?) {
+            (TipForm::Angle, response) => tip.calibrated.then_some(response),
+            (TipForm::SecondDerivative, _) => None,
+        };
+        complete.iter().map(angle).collect()
     };
-    fit_motor(&data, beam.map(BeamFit::modal_poles).as_deref())
+    let outputs = tips.iter().enumerate().map(of_tip).collect::<Option<_>>()?;
+    Some((complete.iter().map(|p| p.omega_rad_s).collect(), outputs))
 }

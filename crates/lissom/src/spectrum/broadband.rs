@@ -27,6 +27,8 @@ pub struct Band {
     pub coherence: f64,
     /// The input's mean power per bin; of [`broadband`] relative to its strongest band.
     pub input_power: f64,
+    /// The output's mean power per bin.
+    pub output_power: f64,
 }
 
 /// A line of the spectra of an input and an output.
@@ -104,6 +106,19 @@ pub fn groups(records: &[Lines]) -> Vec<Vec<Bin>> {
     groups
 }
 
+/// Mean power per bin that white noise of deviations `stds` adds to the outputs of records of as many
+/// `samples` with their sample times: a record of n samples has n·σ² in each bin, and bins in proportion to
+/// its duration.
+pub fn noise_power(samples: &[usize], sample_time_s: &[f64], stds: &[f64]) -> f64 {
+    let (mut power, mut bins) = (0.0, 0.0);
+    for ((n, t), std) in samples.iter().zip(sample_time_s).zip(stds) {
+        let n = *n as f64;
+        power += n * t * n * std * std;
+        bins += n * t;
+    }
+    power / bins
+}
+
 /// The bands from the first to the last in which the input is not far weaker than next to it.
 fn driven(bands: &[Band]) -> Vec<Band> {
     let beside = |b: &Band, low: f64, high: f64| {
@@ -140,6 +155,7 @@ pub fn average(bins: &[Bin]) -> Option<Band> {
         std: variance.sqrt(),
         coherence,
         input_power: uu / m,
+        output_power: yy / m,
     })
 }
 

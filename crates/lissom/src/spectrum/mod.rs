@@ -5,7 +5,7 @@ mod frequency;
 mod harmonics;
 mod steady;
 
-pub use broadband::{Band, Bin, Lines, average, broadband, groups};
+pub use broadband::{Band, Bin, Lines, average, broadband, groups, noise_power};
 pub use frequency::find_frequency;
 pub use harmonics::{Harmonics, Phasor, hold_factor, least_squares};
 pub use steady::{Steady, SteadyError, steady_state};

@@ -6,11 +6,13 @@ use super::figures::stands;
 use super::left_over::left_over;
 use super::stages::{Fit, Fitting, Report, SLOWER};
 use super::{evidence, modes};
-use crate::replay::ModalArm;
+use crate::replay::{ModalArm, Oscillator};
 
 /// An arm is tried after the others where a few steps on short windows leave this many times what they
 /// leave from the best.
 const FAR: f64 = 3.0;
+/// Modes are the same to this share.
+const ALIKE: f64 = 0.05;
 /// Share of a channel's squared residual that is slower than its sensor's noise, from which on the arm
 /// has not all that moves.
 const LEFT: f64 = 0.003;
@@ -58,7 +60,7 @@ pub(super) fn is_left(shares: &[f64]) -> bool {
 
 /// The arms to start from. Those go last, the farther the later, from which a few steps on the same short
 /// windows come nowhere near what they come to from the best: a search from there takes long and ends
-/// elsewhere.
+/// elsewhere. One that these steps bring to the modes of an arm before it is none of its own.
 fn likely_first(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Vec<ModalArm> {
     if start.arms.len() < 2 {
         return start.arms.clone();
@@ -66,16 +68,33 @@ fn likely_first(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Vec<ModalArm
     let window_s = |arm: &ModalArm| fitting.first_window_s(arm);
     let shortest = start.arms.iter().map(window_s).fold(f64::INFINITY, f64::min);
     let window_s = start.first_window_s.unwrap_or(shortest);
-    let cost = |arm: &ModalArm| {
-        let fit = fitting.first_fit(arm, window_s)?;
-        fitting.probe(&fit).map(|(cost, _)| cost)
+    let probed = |arm: &ModalArm| {
+        let found = fitting.first_fit(arm, window_s).and_then(|fit| fitting.probe(&fit));
+        found.map_or((f64::INFINITY, arm.clone()), |(cost, body)| (cost, body.arm))
     };
-    let costs: Vec<f64> = start.arms.iter().map(|a| cost(a).unwrap_or(f64::INFINITY)).collect();
-    let near = FAR * costs.iter().copied().fold(f64::INFINITY, f64::min);
-    let mut order: Vec<usize> = (0..costs.len()).collect();
-    let rank = |i: &usize| if costs[*i] <= near { 0.0 } else { costs[*i] };
+    let probed: Vec<(f64, ModalArm)> = start.arms.iter().map(probed).collect();
+    let near = FAR * probed.iter().map(|p| p.0).fold(f64::INFINITY, f64::min);
+    let mut order: Vec<usize> = (0..probed.len()).collect();
+    let rank = |i: &usize| if probed[*i].0 <= near { 0.0 } else { probed[*i].0 };
     order.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
-    order.into_iter().map(|i| start.arms[i].clone()).collect()
+    let mut kept: Vec<usize> = Vec::new();
+    for i in order {
+        if !kept.iter().any(|k| are_alike(&probed[*k].1, &probed[i].1)) {
+            kept.push(i);
+        }
+    }
+    kept.into_iter().map(|i| start.arms[i].clone()).collect()
+}
+
+/// Whether two arms have the same modes, and both or neither a law of friction beyond the simplest.
+fn are_alike(a: &ModalArm, b: &ModalArm) -> bool {
+    let near = |(p, q): (&Oscillator, &Oscillator)| {
+        (p.omega_rad_s / q.omega_rad_s - 1.0).abs() < ALIKE
+            && (p.stiffness_nm_per_rad / q.stiffness_nm_per_rad - 1.0).abs() < ALIKE
+    };
+    a.dry_terms.is_empty() == b.dry_terms.is_empty()
+        && a.modes.len() == b.modes.len()
+        && a.modes.iter().zip(&b.modes).all(near)
 }
 
 /// From an arm to one that whole runs and the sensors' steps have shaped.

@@ -11,7 +11,8 @@ const LEAST_REST: f64 = 1e-9;
 /// Two covariances of the same figures.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Covariances {
-    /// As if residuals were white, of the deviation that they have.
+    /// As if residuals were white, of the deviation that they have or, where they have less, of the one that
+    /// the fit takes them to have.
     pub(super) white: DMatrix<f64>,
     /// By blocks of samples: residuals within a block may belong together as they like.
     pub(super) blocks: DMatrix<f64>,
@@ -20,7 +21,9 @@ pub(super) struct Covariances {
 impl Covariances {
     /// From sums of which the first `shared` columns are the parameters.
     ///
-    /// White: `N⁻¹·s²`, N the normal matrix with the windows' own unknowns eliminated. Blocks:
+    /// White: `N⁻¹·s²`, N the normal matrix with the windows' own unknowns eliminated, s² ≥ 1 the squares of
+    /// the costs' slopes over their curvatures: less than one where a sensor's noise is less than a fit ever
+    /// takes it to be, and then too few readings near its steps' edges are left to tell by how much. Blocks:
     /// `Σ δ_b·δ_bᵀ` of what each block's residuals move the parameters by, [`moved_by_blocks`].
     pub(super) fn at(sums: &[WindowSums], shared: usize) -> Self {
         let reduced: Vec<Reduced> = sums.iter().map(|s| Reduced::new(s, shared, 0.0)).collect();
@@ -40,7 +43,10 @@ impl Covariances {
             }
         }
         let free = rows.saturating_sub(unknowns).max(1) as f64;
-        Self { white: inverse(&normal) * (slopes / curvatures * rows as f64 / free), blocks }
+        Self {
+            white: inverse(&normal) * ((slopes / curvatures).max(1.0) * rows as f64 / free),
+            blocks,
+        }
     }
 
     /// Of parameters that depend on those of this covariance by `jacobian`.

@@ -96,9 +96,12 @@ fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: 
 }
 
 /// Takes damping against the frame for dampers at the tips' points where these leave less than a damper
-/// for each mode: single ones of both kinds can hardly be told apart, and all of them can.
+/// for each mode: single ones of both kinds can hardly be told apart, and all of them can. Alone where that
+/// leaves hardly more than with damping within the beam beside them: each mode damped against the frame by
+/// itself is not what dampers at points do, and damping within makes up for some of that.
 pub(super) fn dampers_at_points(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let grounded = |p: &Parameter| matches!(p, Parameter::DampingGrounded(_));
+    let within = |p: &Parameter| matches!(p, Parameter::DampingWithin(_));
     let modes = fit.body.arm.modes.len();
     let possible = fit.body.arm.shapes.len() == modes && fit.free.iter().any(grounded);
     if !possible {
@@ -112,9 +115,21 @@ pub(super) fn dampers_at_points(fitting: &Fitting<'_>, fit: &mut Fit, report: &m
     arm.at_points_per_s = vec![mean.max(0.0); modes];
     let points = (0..modes).map(Parameter::DampingAtPoint);
     other.free.extend(points.filter(|p| !fit.free.contains(p)));
+    let mut alone = other.clone();
     fitting.search(&mut other, report);
-    if fitting.cost(&other, &fit.noise) < fitting.cost(fit, &fit.noise) {
-        *fit = other;
+    let mut least = fitting.cost(fit, &fit.noise);
+    let cost = fitting.cost(&other, &fit.noise);
+    if cost < least {
+        (*fit, least) = (other, cost);
+    }
+    let fewer = alone.free.extract_if(.., |p| within(p)).count();
+    if fewer > 0 {
+        alone.body.arm.modes.iter_mut().for_each(|m| m.within_per_s = 0.0);
+        fitting.search(&mut alone, report);
+        let worth = EVEN * EVEN * fewer as f64;
+        if fitting.cost(&alone, &fit.noise) < least + worth {
+            *fit = alone;
+        }
     }
 }
 
@@ -219,7 +234,7 @@ fn all_scores(fitting: &Fitting<'_>, fit: &Fit, groups: Vec<Vec<Parameter>>) -> 
 }
 
 /// A kind of dampers of which those of another kind leave nothing goes, as a whole: one damper of a
-/// kind stands for the others where they cannot be told apart.
+/// kind stands for the others where they cannot be told apart. Not where the others cannot do without it.
 pub(super) fn drop_dampers(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let kinds: [fn(&Parameter) -> bool; 3] = [
         |p| matches!(p, Parameter::DampingWithin(_)),
@@ -237,10 +252,21 @@ pub(super) fn drop_dampers(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Re
     let Some(gone) = kinds.iter().find(|kind| fit.free.iter().any(kind) && nothing(kind)) else {
         return;
     };
-    for p in fit.free.extract_if(.., |p| gone(p)) {
-        p.set(&mut fit.body.arm, 0.0);
+    let mut without = fit.clone();
+    let dropped: Vec<Parameter> = without.free.extract_if(.., |p| gone(p)).collect();
+    for p in &dropped {
+        p.set(&mut without.body.arm, 0.0);
     }
-    fitting.search(fit, report);
+    // What is left may have been less than none to make up for them: a replay would run away.
+    for p in without.free.iter().filter(|p| kinds.iter().any(|kind| kind(p))) {
+        let least = p.of(&without.body.arm).max(0.0);
+        p.set(&mut without.body.arm, least);
+    }
+    fitting.search(&mut without, report);
+    let worth = EVEN * EVEN * dropped.len() as f64;
+    if fitting.cost(&without, &fit.noise) < fitting.cost(fit, &fit.noise) + worth {
+        *fit = without;
+    }
 }
 
 /// Groups of parameters that may be added to the free ones, each as a whole.

@@ -34,7 +34,7 @@ pub(crate) use follow::follow;
 pub use search::{Iteration, Stop};
 use stages::Fitting;
 pub use stages::StageReport;
-pub use start::starts;
+pub use start::{starts, starts_by_motor, starts_by_responses};
 pub(crate) use verdict::verdict;
 
 /// Differences for the slopes of figures are taken over this many deviations.
@@ -59,7 +59,7 @@ pub struct OutputError {
     pub blocks: DMatrix<f64>,
     /// What each run says of them.
     pub by_run: ByRun,
-    /// Noise of each channel by which residuals were weighed, motor first, then tips.
+    /// Noise of each channel, its sensor's steps counted with it, motor first, then tips.
     pub noise: Vec<SensorNoise>,
     /// Windows of the last stage, with the states at which they begin.
     pub windows: Vec<Window>,
@@ -159,10 +159,10 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         widening: stages::WIDENING,
         tries_laws: true,
     };
-    let attempts::Attempt { mut fit, mut report, left } = attempts::best(&fitting, start)?;
+    let attempts::Attempt { fit, mut report, left } = attempts::best(&fitting, start)?;
     let beyond_noise = fitting.beyond_noise(&fit);
-    fit.noise.iter_mut().for_each(|n| *n = SensorNoise::gaussian(n.deviation()));
     let sums = fitting.point(&fit, &fit.free).sums;
+    let noise = fit.noise.iter().map(|n| SensorNoise::gaussian(n.deviation())).collect();
     let found = fit.covariances(&sums);
     let by_run = fit.by_run(&sums);
     let mut covariance = found.larger();
@@ -177,7 +177,7 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         white: found.white,
         blocks: found.blocks,
         by_run,
-        noise: fit.noise,
+        noise,
         windows: fit.windows,
         parameters: fit.free,
         beyond_noise,

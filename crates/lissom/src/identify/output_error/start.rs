@@ -1,33 +1,35 @@
 //! Where the output error starts: the figures of the regressions as an arm.
 
-use crate::identify::regression::coupled_tips;
-use crate::identify::{BeamFit, BeamRegression, Estimate, MotorFit, MotorRegression};
+use std::ops::Range;
+
+use crate::identify::rational::{Damping, Pole, fit_shared_poles};
+use crate::identify::{
+    BeamFit, BeamRegression, Estimate, MotorData, MotorFit, MotorRegression, Response, fit_motor,
+};
 use crate::record::Campaign;
 use crate::replay::{DryTerms, MOST_MODES, ModalArm, Oscillator};
 
 /// Smallest stiffness of a mode to start with, as a share of the coupling: its logarithm is moved.
 const LEAST_SHARE: f64 = 0.02;
 
+/// A pole is none to start with that lies beyond the responses' frequencies by more than this factor…
+const BEYOND: f64 = 3.0;
+/// …or is damped otherwise.
+const POSSIBLE: Range<f64> = -0.05..0.25;
+
 /// Share of every tip's motion below which a mode is none to start with.
 const NEGLIGIBLE: f64 = 0.05;
 
-/// Arms to start from, the likelier or simpler first. With a tip's angle: the motor's regression with the
-/// beam's own, and with the modes of the rational model `tips`. Without one: a rigid axis where there is
-/// no tip at all, and what the motor's rational model `response` has, where it has modes. Empty where
-/// the motor's figures lack what it needs.
+/// Arms to start from where a tip's angle is known, the likelier first: the motor's regression with the
+/// beam's own, and with the modes of the rational model `tips`. Empty where the motor's figures lack what
+/// it needs.
 pub fn starts(
     campaign: &Campaign,
     motor: &MotorRegression,
     beam: Option<&BeamRegression>,
     tips: Option<&BeamFit>,
-    response: Option<&MotorFit>,
 ) -> Vec<ModalArm> {
     let Some(rigid) = rigid(campaign, motor) else { return Vec::new() };
-    if coupled_tips(campaign).is_empty() {
-        let flexible = response.and_then(|r| flexible(&rigid, campaign, r, tips));
-        let rigid = campaign.channels.tips.is_empty().then_some(rigid);
-        return rigid.into_iter().chain(flexible).collect();
-    }
     let coupling: Option<Vec<f64>> =
         motor.coupling.iter().map(|c| c.map(|e| e.value)).collect::<Option<_>>();
     let Some(coupling) = coupling else { return Vec::new() };
@@ -49,6 +51,78 @@ pub fn starts(
         .filter(|(omega, ..)| omega.len() <= MOST_MODES)
         .map(|modes| with_modes(rigid.clone(), modes, &coupling))
         .collect()
+}
+
+/// Arms to start from where no tip's angle is known, the simpler first: a rigid axis where there is no tip
+/// at all, and what the motor's rational model `response` has, where it has modes.
+pub fn starts_by_motor(
+    campaign: &Campaign,
+    motor: &MotorRegression,
+    tips: Option<&BeamFit>,
+    response: Option<&MotorFit>,
+) -> Vec<ModalArm> {
+    let Some(rigid) = rigid(campaign, motor) else { return Vec::new() };
+    let flexible = response.and_then(|r| flexible(&rigid, campaign, r, tips));
+    let rigid = campaign.channels.tips.is_empty().then_some(rigid);
+    rigid.into_iter().chain(flexible).collect()
+}
+
+/// Arms to start from by responses alone, with one mode, two, … as many as there are tips: poles that the
+/// `tips`' responses θ_i/θ_m at `omega_rad_s` share, and the coupling through them that the motor's response
+/// shows. Slip phases need a tip that is read finely for the coupling, and the beam's own equation motions that
+/// every mode takes part in.
+pub fn starts_by_responses(
+    campaign: &Campaign,
+    motor: &MotorRegression,
+    omega_rad_s: &[f64],
+    tips: &[Vec<Response>],
+    response: &MotorData,
+) -> Vec<ModalArm> {
+    let Some(rigid) = rigid(campaign, motor) else { return Vec::new() };
+    let found = |modes: usize| {
+        let fit = fit_shared_poles(omega_rad_s, tips, modes, Damping::Small).ok()?;
+        let (low, high) = fit.range_rad_s;
+        let near = low / BEYOND..high * BEYOND;
+        let is_mode =
+            |p: &Pole| near.contains(&p.omega_rad_s) && POSSIBLE.contains(&p.damping_ratio);
+        let kept: Vec<usize> = (0..modes).filter(|k| is_mode(&fit.poles[*k])).collect();
+        let poles: Vec<Pole> = kept.iter().map(|k| fit.poles[*k]).collect();
+        let of_kept = |row: &Vec<f64>| kept.iter().map(|k| row[*k]).collect();
+        let shapes = fit.static_gains.iter().map(of_kept).collect();
+        coupled(&rigid, &poles, shapes, response)
+    };
+    (1..=tips.len().min(MOST_MODES)).filter_map(found).collect()
+}
+
+/// An axis with modes of which each tip has a share, and the coupling that its response shows with them.
+fn coupled(
+    rigid: &ModalArm,
+    poles: &[Pole],
+    mut shapes: Vec<Vec<f64>>,
+    response: &MotorData,
+) -> Option<ModalArm> {
+    if poles.is_empty() {
+        return None;
+    }
+    let fit = fit_motor(response, Some(poles))?;
+    let total: f64 = fit.coupling.iter().map(|c| c.value.max(0.0)).sum();
+    let least = LEAST_SHARE * total;
+    let modes = poles.iter().zip(&fit.coupling).map(|(pole, coupling)| Oscillator {
+        omega_rad_s: pole.omega_rad_s,
+        stiffness_nm_per_rad: coupling.value.max(least),
+        within_per_s: (2.0 * pole.damping_ratio * pole.omega_rad_s).max(0.0),
+        grounded_per_s: 0.0,
+    });
+    shapes.iter_mut().for_each(|row| whole(row));
+    let all = if poles.len() == shapes.len() { poles.len() } else { 0 };
+    let inertia = Some(fit.inertia.value).filter(|j| *j > 0.0);
+    (total > 0.0).then(|| ModalArm {
+        inertia_kg_m2: inertia.unwrap_or(rigid.inertia_kg_m2),
+        modes: modes.collect(),
+        at_points_per_s: vec![0.0; all],
+        shapes,
+        ..rigid.clone()
+    })
 }
 
 /// An axis with the modes that its own response shows, and each tip's part in them by `tips`, whose

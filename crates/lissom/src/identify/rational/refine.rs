@@ -76,7 +76,7 @@ fn largest(step: &DVector<f64>, damping: Damping) -> f64 {
 }
 
 impl Point {
-    fn new(data: &Weighted, poles: Vec<Pole>, damping: Damping) -> Option<Self> {
+    pub(super) fn new(data: &Weighted, poles: Vec<Pole>, damping: Damping) -> Option<Self> {
         let (count, unknowns) = (poles.len(), poles.len() * damping.unknowns());
         let columns = columns(data, &poles, damping);
         let each: Vec<OneOutput> = data

@@ -7,7 +7,7 @@ use thiserror::Error;
 use super::refine::{Point, refined};
 use super::relocate::relocated;
 use super::weighted::Weighted;
-use super::{Pole, information};
+use super::{Pole, information, trial_frequencies};
 use crate::identify::{Estimate, Response};
 
 /// Damping ratio of the poles that vector fitting begins with.
@@ -15,6 +15,8 @@ const START_DAMPING: f64 = 0.01;
 /// Most relocations, and the change of every frequency below which they end: refining does the rest.
 const RELOCATIONS: usize = 12;
 const NEAR: f64 = 0.02;
+/// Residuals in the responses' deviations from which on vector fitting may have come to the wrong poles.
+const POOR: f64 = 1.5;
 /// Another pair of poles is looked for until so many in a row say less than they cost.
 const IN_VAIN: usize = 2;
 /// A pole more damped than this is none of a beam.
@@ -135,7 +137,8 @@ pub struct SharedPoles {
 /// deviation.
 ///
 /// No start is needed: poles spread over the data's frequencies are relocated by relaxed vector fitting,
-/// and then refined with the residues by Gauss-Newton, to the most likely ones.
+/// and then refined with the residues by Gauss-Newton, to the most likely ones. Where that leaves more than
+/// the responses' deviations, or frequencies are too few for it, poles are also put in one after another.
 ///
 /// ```
 /// # use {lissom::identify::{Pole, Response}, num_complex::Complex64};
@@ -199,19 +202,51 @@ fn fit(data: &Weighted, modes: usize, damping: Damping) -> Result<SharedPoles, S
     }
     let unknowns = modes * (damping.unknowns() + data.outputs.len());
     let readings = data.readings();
-    // Vector fitting has two unknowns of each pole in every output, and two of each in σ.
-    if unknowns >= readings || 4 * modes >= 2 * data.omega.len() {
+    // Each pole takes two frequencies to be seen at: its height and its width.
+    if unknowns >= readings || 2 * modes > data.omega.len() {
         return Err(SharedPolesError::TooFew { unknowns, readings });
     }
+    let found = |point: Option<Point>| SharedPoles::of(data, point?, unknowns, damping);
+    // Vector fitting has two unknowns of each pole in every output, and two of each in σ.
+    let together = 4 * modes < 2 * data.omega.len();
+    let together = together.then(|| found(relocated_and_refined(data, modes, damping))).flatten();
+    if let Some(fit) = &together
+        && fit.weighted_rms < POOR
+    {
+        return together.ok_or(SharedPolesError::NotFound { modes });
+    }
+    let by_one = found(one_after_another(data, modes, damping));
+    let found = together.into_iter().chain(by_one);
+    let best = found.min_by(|a, b| a.weighted_rms.total_cmp(&b.weighted_rms));
+    best.ok_or(SharedPolesError::NotFound { modes })
+}
+
+/// From poles spread over the data.
+fn relocated_and_refined(data: &Weighted, modes: usize, damping: Damping) -> Option<Point> {
     let (low, high) = data.range();
     let start = |k: usize| Pole {
         omega_rad_s: low * (high / low).powf((k as f64 + 0.5) / modes as f64),
         damping_ratio: START_DAMPING,
     };
-    let poles = settled(data, (0..modes).map(start).collect());
-    let point = poles.and_then(|poles| refined(data, poles, damping));
-    let found = point.and_then(|point| SharedPoles::of(data, point, unknowns, damping));
-    found.ok_or(SharedPolesError::NotFound { modes })
+    refined(data, settled(data, (0..modes).map(start).collect())?, damping)
+}
+
+/// One pole after another, each from the best of many frequencies: slower, and for data that hold too
+/// little for a relocation, or where one has come to nothing.
+fn one_after_another(data: &Weighted, modes: usize, damping: Damping) -> Option<Point> {
+    let trials = trial_frequencies(&data.omega);
+    let mut best: Option<Point> = None;
+    for _ in 0..modes {
+        let before = best.map_or_else(Vec::new, |point| point.poles);
+        let with = |omega_rad_s: f64| {
+            let more = Pole { omega_rad_s, damping_ratio: START_DAMPING };
+            Point::new(data, before.iter().copied().chain([more]).collect(), damping)
+        };
+        let found = trials.iter().filter_map(|w| with(*w));
+        let start = found.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+        best = refined(data, start.poles, damping);
+    }
+    best
 }
 
 /// Relocated until they stand nearly still.
