@@ -16,6 +16,7 @@ mod identified;
 mod model;
 mod models;
 mod output_error;
+mod payload;
 mod rational;
 mod regression;
 mod repeated_run;
@@ -42,6 +43,7 @@ pub use output_error::{
     ByRun, Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, output_error,
     starts, starts_by_motor, starts_by_responses,
 };
+pub use payload::LoadedArm;
 pub use rational::{
     BeamFit, Damping, MotorData, MotorFit, Pole, SharedPoles, SharedPolesError, Spurious, TipData,
     TipForm, fit_beam, fit_motor, fit_shared_poles, fit_shared_poles_by_evidence,

@@ -9,6 +9,7 @@ mod arm_modes;
 mod dry_terms;
 mod events;
 mod friction;
+mod loaded;
 mod losses;
 mod motion;
 mod noise;
