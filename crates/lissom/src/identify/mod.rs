@@ -32,7 +32,10 @@ pub use constant_velocity::{
     ConstantVelocity, FrictionLine, LineError, Shape, SteadyPoint, constant_velocity,
 };
 pub use correct::{Response, corrected, ratio};
-pub use equivalent::{EquivalentBeam, EquivalentError, equivalent_beam};
+pub use equivalent::{
+    EquivalentArm, EquivalentBeam, EquivalentError, ResponseZero, StrainlessForm, equivalent_arm,
+    equivalent_beam, response_zeros,
+};
 pub use estimate::{Estimate, ModeEstimate};
 pub use finding::{Finding, Severity};
 pub use found_arm::{ArmSource, FoundArm, TorqueUsed};

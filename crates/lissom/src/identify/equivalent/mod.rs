@@ -3,7 +3,14 @@
 use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
 
+mod arm;
+mod zeros;
+
+pub use arm::{EquivalentArm, equivalent_arm};
+pub use zeros::{ResponseZero, response_zeros};
+
 use super::rational::SharedPoles;
+use crate::beam::{ModalForm, completed};
 
 /// The matrix of the points' gains counts as singular where its least singular value is not this many
 /// deviations from zero…
@@ -22,6 +29,46 @@ pub struct EquivalentBeam {
     pub b: DVector<f64>,
     /// Deviations of its elements.
     pub b_std: DVector<f64>,
+    /// R: ρ_ik of point i in mode k.
+    gains: DMatrix<f64>,
+    /// R⁻¹.
+    inverse: DMatrix<f64>,
+    /// ω_k² of each mode.
+    squares: DVector<f64>,
+}
+
+/// (17)-(18) that turning the arm as one body strains nothing in.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StrainlessForm {
+    /// Â \[1/s²\].
+    pub a: DMatrix<f64>,
+    /// B̂ \[1/s²\], −Â·1.
+    pub b: DVector<f64>,
+    /// Ĥ \[N·m/rad\]; zeros where no coupling was given.
+    pub h: DVector<f64>,
+    /// ĥ_{n+1} \[N·m/rad\], −ΣĤ.
+    pub h_motor: f64,
+    /// What the last mode was given at each point: one less the sum of the gains fitted.
+    pub given: DVector<f64>,
+}
+
+impl EquivalentBeam {
+    /// The form for use as an arm: what the gains of a point lack of one is given to the last mode, as
+    /// [`TruncatedBeam`](crate::beam::TruncatedBeam) does. Where modes are left out the gains fitted do not
+    /// add up to one, and (17) as fitted would strain a beam that turns as one body, even at rest.
+    ///
+    /// `coupling` is c_k of each mode \[N·m/rad\], or nothing where it is not known. `None` where the
+    /// completed gains cannot be inverted.
+    pub fn strainless(&self, coupling: &[f64]) -> Option<StrainlessForm> {
+        let gains = completed(self.gains.clone());
+        let given = (&gains - &self.gains).column(self.squares.len() - 1).into_owned();
+        let inverse = gains.clone().try_inverse()?;
+        let known = |k: usize, _| coupling.get(k).copied().unwrap_or(0.0);
+        let coupling = DVector::from_fn(self.squares.len(), known);
+        let ModalForm { a, b, h, h_motor } =
+            ModalForm::new(&gains, &inverse, &self.squares, &coupling);
+        a.iter().all(|v| v.is_finite()).then_some(StrainlessForm { a, b, h, h_motor, given })
+    }
 }
 
 /// Why there is no equivalent beam.
@@ -49,6 +96,25 @@ pub enum EquivalentError {
         /// Least singular value of the gains over the largest.
         ratio: f64,
     },
+    /// The motor's response does not hold step 6.
+    #[error(
+        "{frequencies} frequencies of the motor, {unknowns} unknowns: inertia, viscous friction and coupling \
+         cannot be found"
+    )]
+    MotorTooFew {
+        /// Frequencies of its response.
+        frequencies: usize,
+        /// J, V and c_k of each mode.
+        unknowns: usize,
+    },
+    /// A response of the motor that is no number, is zero, has no deviation, or no frequency.
+    #[error(
+        "the motor's response at point {index} needs a finite value, a deviation above zero and a frequency"
+    )]
+    MotorResponse {
+        /// Its place, from 0.
+        index: usize,
+    },
 }
 
 /// Â and B̂ of (17) from transfer functions with shared poles.
@@ -75,35 +141,45 @@ pub fn equivalent_beam(fit: &SharedPoles) -> Result<EquivalentBeam, EquivalentEr
     let gains = DMatrix::from_fn(points, modes, |i, k| fit.static_gains[i][k]);
     let inverse = inverted(fit, &gains)?;
     let squares = DVector::from_fn(modes, |k, _| fit.poles[k].omega_rad_s.powi(2));
-    let stiff = DMatrix::from_diagonal(&squares);
-    let a = -&gains * &stiff * &inverse;
-    let b = &gains * &squares;
-    // By each unknown of the fit: dÂ = −dR·Ω²·R⁻¹ − R·dΩ²·R⁻¹ − Â·dR·R⁻¹, dB̂ = dR·Ω²·1 + R·dΩ²·1.
-    let unknowns = fit.damping.unknowns();
+    let form = ModalForm::new(&gains, &inverse, &squares, &DVector::zeros(modes));
+    let (a, b) = (form.a, form.b);
+    // dÂ = −dR·Ω²·R⁻¹ − R·dΩ²·R⁻¹ − Â·dR·R⁻¹, dB̂ = dR·Ω²·1 + R·dΩ²·1.
     let slopes: Vec<(DMatrix<f64>, DVector<f64>)> = (0..fit.covariance.nrows())
         .map(|unknown| {
-            let mut d_gains = DMatrix::zeros(points, modes);
-            let mut d_squares = DVector::zeros(modes);
-            match unknown.checked_sub(modes * unknowns) {
-                Some(gain) => d_gains[(gain / modes, gain % modes)] = 1.0,
-                None if unknown.is_multiple_of(unknowns) => {
-                    let k = unknown / unknowns;
-                    d_squares[k] = 2.0 * squares[k];
-                }
-                None => {}
-            }
-            let d_stiff = DMatrix::from_diagonal(&d_squares);
-            let moved = &d_gains * &stiff + &gains * d_stiff + &a * &d_gains;
-            (-moved * &inverse, d_gains * &squares + &gains * d_squares)
+            let (d_gains, d_squares) = moved(fit, unknown);
+            let by_gains = &d_gains * DMatrix::from_diagonal(&squares) + &a * &d_gains;
+            let by_squares = &gains * DMatrix::from_diagonal(&d_squares);
+            (-(by_gains + by_squares) * &inverse, d_gains * &squares + &gains * d_squares)
         })
         .collect();
-    let std = |of: &dyn Fn(usize) -> f64| {
-        let slope = DVector::from_fn(slopes.len(), |u, _| of(u));
-        slope.dot(&(&fit.covariance * &slope)).max(0.0).sqrt()
-    };
-    let a_std = DMatrix::from_fn(points, points, |i, j| std(&|u| slopes[u].0[(i, j)]));
-    let b_std = DVector::from_fn(points, |i, _| std(&|u| slopes[u].1[i]));
-    Ok(EquivalentBeam { a, a_std, b, b_std })
+    let a_std = DMatrix::from_fn(points, points, |i, j| {
+        deviation(&fit.covariance, |u| slopes[u].0[(i, j)])
+    });
+    let b_std = DVector::from_fn(points, |i, _| deviation(&fit.covariance, |u| slopes[u].1[i]));
+    Ok(EquivalentBeam { a, a_std, b, b_std, gains, inverse, squares })
+}
+
+/// What one unknown of the fit moves: R, and ω_k².
+fn moved(fit: &SharedPoles, unknown: usize) -> (DMatrix<f64>, DVector<f64>) {
+    let (points, modes) = (fit.static_gains.len(), fit.poles.len());
+    let unknowns = fit.damping.unknowns();
+    let mut d_gains = DMatrix::zeros(points, modes);
+    let mut d_squares = DVector::zeros(modes);
+    match unknown.checked_sub(modes * unknowns) {
+        Some(gain) if gain < points * modes => d_gains[(gain / modes, gain % modes)] = 1.0,
+        None if unknown.is_multiple_of(unknowns) => {
+            let k = unknown / unknowns;
+            d_squares[k] = 2.0 * fit.poles[k].omega_rad_s.powi(2);
+        }
+        _ => {}
+    }
+    (d_gains, d_squares)
+}
+
+/// Deviation of what has the slope `by` by each unknown.
+fn deviation(covariance: &DMatrix<f64>, by: impl Fn(usize) -> f64) -> f64 {
+    let slope = DVector::from_fn(covariance.nrows(), |u, _| by(u));
+    slope.dot(&(covariance * &slope)).max(0.0).sqrt()
 }
 
 /// R⁻¹, where the data tell the points apart.
@@ -121,11 +197,10 @@ fn inverted(fit: &SharedPoles, gains: &DMatrix<f64>) -> Result<DMatrix<f64>, Equ
     let ratio = least / decomposed.singular_values.max();
     // dσ = uᵀ·dR·v.
     let first = fit.covariance.nrows() - points * points;
-    let slope = DVector::from_fn(fit.covariance.nrows(), |u, _| {
+    let std = deviation(&fit.covariance, |u| {
         let gain = u.checked_sub(first);
         gain.map_or(0.0, |g| left[(g / points, at)] * right[(at, g % points)])
     });
-    let std = slope.dot(&(&fit.covariance * &slope)).max(0.0).sqrt();
     if points > 1 && (ratio < DEPENDENT || least < DEVIATIONS * std) {
         return Err(refused(ratio));
     }
