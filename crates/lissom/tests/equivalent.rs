@@ -261,6 +261,21 @@ fn points_that_move_alike_are_refused() {
     let fit = fit_shared_poles(&omega, &outputs, 3, Damping::None).unwrap();
     let refused = equivalent_beam(&fit).unwrap_err();
     assert!(matches!(refused, EquivalentError::TooClose { first: 1, second: 2, .. }), "{refused}");
+    // Where the second would do better, and there it does.
+    let best = beam().best_point(&[0.2, 0.449_99, 0.45], 1).unwrap();
+    println!("{best:?}");
+    assert!(best.least > 100.0 * best.least_now);
+    for position in [0.1, 0.15, 0.25, 0.35, 0.4] {
+        let others = beam().best_point(&[0.2, position, 0.45], 1).unwrap();
+        assert!(others.least_now <= best.least * 1.001 && others.position_m == best.position_m);
+    }
+    let mut points = [0.2, best.position_m, 0.45];
+    points.sort_by(f64::total_cmp);
+    let moved = beam().truncated(&points).unwrap();
+    let (omega_moved, outputs_moved) = measured(&moved, 0.01, 2);
+    let fit = fit_shared_poles(&omega_moved, &outputs_moved, 3, Damping::None).unwrap();
+    assert!(equivalent_beam(&fit).is_ok());
+    assert!(beam().best_point(&[0.2, 0.5], 0).is_err() && beam().best_point(&[0.2], 1).is_err());
     let fewer = fit_shared_poles(&omega, &outputs[..2], 3, Damping::None).unwrap();
     let refused = equivalent_beam(&fewer).unwrap_err();
     assert_eq!(refused, EquivalentError::PointsAndModes { points: 2, modes: 3 });

@@ -4,6 +4,7 @@
 //! matrix runs along the beam once, by the recursion of `chain`. A [`DistributedBeam`] has its mass along
 //! it (Section 4); a [`TruncatedBeam`] keeps the first of its modes, in the form (17)-(18).
 
+mod best_point;
 mod bracket;
 mod chain;
 mod counted;
@@ -29,6 +30,7 @@ mod truncated;
 mod winding;
 mod zeros;
 
+pub use best_point::BestPoint;
 pub use damped::{Roots, motor_poles};
 pub use distributed::{DistributedBeam, Piece};
 pub use dynamics::BeamDynamics;

@@ -86,7 +86,7 @@ pub enum EquivalentError {
     /// μ of (22) cannot be inverted.
     #[error(
         "points {first} and {second} move too much alike in these modes (the gains' least singular value is {ratio:.1e} \
-         of the largest): put one of them elsewhere"
+         of the largest): mode {mode} is not told apart"
     )]
     TooClose {
         /// One of the pair that is most alike, from 0.
@@ -95,6 +95,10 @@ pub enum EquivalentError {
         second: usize,
         /// Least singular value of the gains over the largest.
         ratio: f64,
+        /// The mode, from 0, that has the largest part in the motion that no point shows: one of the two
+        /// should sit where this mode moves it by another size or sign. A beam of known dimensions says
+        /// where: [`DistributedBeam::best_point`](crate::beam::DistributedBeam::best_point).
+        mode: usize,
     },
     /// The motor's response does not hold step 6.
     #[error(
@@ -185,16 +189,17 @@ fn deviation(covariance: &DMatrix<f64>, by: impl Fn(usize) -> f64) -> f64 {
 /// R⁻¹, where the data tell the points apart.
 fn inverted(fit: &SharedPoles, gains: &DMatrix<f64>) -> Result<DMatrix<f64>, EquivalentError> {
     let points = gains.nrows();
-    let refused = |ratio: f64| {
+    let refused = |ratio: f64, mode: usize| {
         let (first, second) = most_alike(gains);
-        EquivalentError::TooClose { first, second, ratio }
+        EquivalentError::TooClose { first, second, ratio, mode }
     };
     let decomposed = gains.clone().svd(true, true);
     let (Some(left), Some(right)) = (&decomposed.u, &decomposed.v_t) else {
-        return Err(refused(f64::NAN));
+        return Err(refused(f64::NAN, 0));
     };
     let (at, least) = decomposed.singular_values.argmin();
     let ratio = least / decomposed.singular_values.max();
+    let mode = right.row(at).transpose().iamax();
     // dσ = uᵀ·dR·v.
     let first = fit.covariance.nrows() - points * points;
     let std = deviation(&fit.covariance, |u| {
@@ -202,9 +207,9 @@ fn inverted(fit: &SharedPoles, gains: &DMatrix<f64>) -> Result<DMatrix<f64>, Equ
         gain.map_or(0.0, |g| left[(g / points, at)] * right[(at, g % points)])
     });
     if points > 1 && (ratio < DEPENDENT || least < DEVIATIONS * std) {
-        return Err(refused(ratio));
+        return Err(refused(ratio, mode));
     }
-    gains.clone().try_inverse().ok_or_else(|| refused(ratio))
+    gains.clone().try_inverse().ok_or_else(|| refused(ratio, mode))
 }
 
 /// The two points whose rows of gains point the same way most nearly.
