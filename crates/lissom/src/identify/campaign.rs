@@ -7,6 +7,7 @@ use thiserror::Error;
 use super::bands::{against, general, uncertain};
 use super::channel_check::range;
 use super::constant_velocity::{self, ConstantVelocity};
+use super::equivalent::{Equivalent, EquivalentData, equivalent};
 use super::finding::{Finding, Severity, key};
 use super::friction_law::{FrictionLaw, friction_law};
 use super::friction_waveform::FrictionWaveform;
@@ -17,7 +18,7 @@ use super::output_error::{OutputError, OutputErrorStart, output_error, starts};
 use super::rational::{BeamFit, MotorFit};
 use super::regression::{MotorRegression, beam_regression, coupled_tips, motor_regression};
 use super::replayed_bands::ReplayedBands;
-use super::response_table::{Replayed, response_table, weak_points};
+use super::response_table::{Replayed, ResponsePoint, response_table, weak_points};
 use super::run_analysis::{RunAnalysis, RunKind, analyse};
 use super::third_harmonic::{PairFigure, mean_figure, pair_figure};
 use super::{Estimate, models, verdict};
@@ -207,6 +208,7 @@ pub fn identify(
     // After the models: they weigh each band by its deviation.
     findings.extend(uncertain(&mut responses));
     findings.extend(weak_points(&responses, &runs));
+    let equivalent = equivalent_arm(campaign, &responses, &mut findings);
     let state_space =
         motor_model.as_ref().map(|m| joined(campaign, m, constant, beam_model.as_ref()));
     let mut identified = Identified {
@@ -225,6 +227,7 @@ pub fn identify(
         beam_model,
         motor_model,
         state_space,
+        equivalent,
         separability: None,
         arm: None,
         torque_per_command: campaign.channels.command.torque_per_command,
@@ -269,6 +272,33 @@ fn coulomb_command(
 ) -> Option<Estimate> {
     let from_regression = regression.and_then(|r| r.coulomb).map(|c| c.scaled(1.0 / constant));
     from_regression.filter(|c| c.value > 0.0).or(third_harmonic.map(|t| t.coulomb_command))
+}
+
+/// The equivalent arm of more than one point, or why there is none.
+fn equivalent_arm(
+    campaign: &Campaign,
+    responses: &[ResponsePoint],
+    findings: &mut Vec<Finding>,
+) -> Option<Equivalent> {
+    let data = EquivalentData::of_campaign(campaign, responses).ok()?;
+    if data.names.len() < 2 {
+        return None;
+    }
+    match equivalent(&data, None) {
+        Ok(found) => Some(found),
+        Err(refusal) => {
+            let (message, hint) = (refusal.to_string(), refusal.hint());
+            let affects = [key::EQUIVALENT];
+            findings.push(Finding::new(
+                "equivalent-refused",
+                Severity::Info,
+                &affects,
+                message,
+                hint,
+            ));
+            None
+        }
+    }
 }
 
 /// Both rational models as one state space.

@@ -4,9 +4,15 @@ use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
 
 mod arm;
+mod findings;
+mod refusal;
+mod responses;
+mod whole;
 mod zeros;
 
 pub use arm::{EquivalentArm, equivalent_arm};
+pub use refusal::{EquivalentRefusal, PartOutside};
+pub use whole::{Equivalent, EquivalentData, equivalent};
 pub use zeros::{ResponseZero, response_zeros};
 
 use super::rational::SharedPoles;
