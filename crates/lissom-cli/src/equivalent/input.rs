@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lissom::identify::{EquivalentData, Estimate, Identified, MotorData, Response};
+use lissom::identify::{Deviations, EquivalentData, Estimate, Identified, MotorData, Response};
 use lissom::record::{Axis, CommandQuantity};
 use lissom_io::units::{Dimension, parse_any_unit, parse_quantity};
 use lissom_io::{MeasuredResponse, UnitNames, read_campaign, read_responses};
@@ -83,7 +83,11 @@ impl Input {
             omega_rad_s: read.omega_rad_s.clone(),
             outputs: read.points.iter().map(with_deviations).collect(),
             motor,
-            deviations_known,
+            deviations: if deviations_known {
+                Deviations::Measured
+            } else {
+                Deviations::FromResidual
+            },
         };
         let names = UnitNames { torque_known: constant.is_some(), axis: Axis::Rotary, command };
         Ok(Self { data, names, identified: None })

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lissom::identify::{Equivalent, Response};
+use lissom::identify::{Deviations, Equivalent, Response};
 use lissom_io::write::Batch;
 use lissom_report::{BodePlot, Figure as _, FrequencyAxis, Role, Series, Style, svg_to_png};
 use num_complex::Complex64;
@@ -75,6 +75,10 @@ fn measured(label: &str, role: Role, omega_rad_s: &[f64], all: &[Response], bars
     if bars { series.with_std(all.iter().map(|r| r.std).collect()) } else { series }
 }
 
+fn with_bars(input: &Input) -> bool {
+    input.data.deviations != Deviations::FromResidual
+}
+
 fn points(input: &Input, found: &Equivalent) -> BodePlot {
     let data = &input.data;
     let roles = [Role::Corrected, Role::Raw];
@@ -87,7 +91,7 @@ fn points(input: &Input, found: &Equivalent) -> BodePlot {
         .frequency_axis(FrequencyAxis::Both);
     let grid = grid(&data.omega_rad_s);
     for (i, name) in data.names.iter().enumerate() {
-        let bars = data.deviations_known;
+        let bars = with_bars(input);
         plot = plot.series(measured(name, role(i), &data.omega_rad_s, &data.outputs[i], bars));
     }
     for i in 0..data.names.len() {
@@ -102,7 +106,7 @@ fn motor(input: &Input, found: &Equivalent) -> Option<BodePlot> {
     let unit = format!("{}/{}", input.names.angle(), input.names.command_unit());
     let grid = grid(&motor.omega_rad_s);
     let line = grid.iter().map(|w| arm.motor_response(*w)).collect();
-    let bars = input.data.deviations_known;
+    let bars = with_bars(input);
     let title = format!("Motor: {} per {}", input.names.motion(), input.names.command_name());
     Some(
         BodePlot::new(title, unit)

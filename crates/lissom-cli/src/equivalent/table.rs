@@ -1,11 +1,15 @@
 //! An equivalent arm for people.
 
 use lissom::beam::RootClass;
-use lissom::identify::{Equivalent, Estimate, ResponseZero, StrainlessForm};
+use lissom::identify::{Deviations, Equivalent, Estimate, ResponseZero, StrainlessForm};
 use lissom_report::{interval, with_uncertainty};
 
 use super::input::{Input, Known};
+use crate::model::significant;
 use crate::print;
+
+/// Digits of figures that stand without deviation.
+const DIGITS: usize = 7;
 
 pub(super) fn print(input: &Input, found: &Equivalent) {
     head(input, found);
@@ -34,7 +38,7 @@ fn head(input: &Input, found: &Equivalent) {
         data.omega_rad_s.len(),
         data.names.join(", ")
     ));
-    let left = if found.deviations_known {
+    let left = if found.deviations != Deviations::FromResidual {
         format!("{:.2} of the deviations left", found.fit.weighted_rms)
     } else {
         "deviations from what is left".to_owned()
@@ -144,7 +148,7 @@ fn as_fitted(input: &Input, found: &Equivalent) {
 }
 
 fn for_use(input: &Input, found: &Equivalent, form: &StrainlessForm) {
-    let number = |x: f64| format!("{x:.6}");
+    let number = |x: f64| significant(x, DIGITS).replace('-', "−");
     let mut rows = vec![heading(found, "for use: turning as one body strains nothing")];
     for i in 0..found.points.len() {
         let mut row = vec![equation(found, i)];

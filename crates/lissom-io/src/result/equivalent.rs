@@ -4,7 +4,7 @@
 
 use lissom::Matrix;
 use lissom::beam::RootClass;
-use lissom::identify::{Equivalent, EquivalentArm, Estimate, ResponseZero, Spurious};
+use lissom::identify::{Deviations, Equivalent, EquivalentArm, Estimate, ResponseZero, Spurious};
 use serde_json::{Map, Value, json};
 
 use super::{UnitNames, figure};
@@ -22,7 +22,7 @@ pub fn equivalent_json(names: UnitNames, found: &Equivalent) -> Value {
 /// The arm alone.
 pub(super) fn equivalent(names: UnitNames, found: &Equivalent) -> Value {
     let point = |i: usize| found.names[i].as_str();
-    let rms = found.deviations_known.then_some(found.fit.weighted_rms);
+    let known = found.deviations != Deviations::FromResidual;
     json!({
         "points": found.points.iter().map(|i| point(*i)).collect::<Vec<_>>(),
         "modes": modes(names, found),
@@ -31,7 +31,7 @@ pub(super) fn equivalent(names: UnitNames, found: &Equivalent) -> Value {
             "a_per_s2": figures(&found.beam.a, &found.beam.a_std),
             "b_per_s2": column(found.beam.b.as_slice(), found.beam.b_std.as_slice()),
         },
-        "torque": found.arm.as_ref().map(|arm| torque(names, found.deviations_known, arm)),
+        "torque": found.arm.as_ref().map(|arm| torque(names, known, arm)),
         "strainless": strainless(names, found),
         "zeros": (0..found.zeros.len())
             .map(|i| json!({
@@ -41,9 +41,13 @@ pub(super) fn equivalent(names: UnitNames, found: &Equivalent) -> Value {
             .collect::<Vec<_>>(),
         "lowest_rad_s": found.fit.range_rad_s.0,
         "highest_rad_s": found.fit.range_rad_s.1,
-        "weighted_rms": rms,
+        "weighted_rms": known.then_some(found.fit.weighted_rms),
         "relative_residual": found.relative_residual,
-        "deviations": if found.deviations_known { "measured" } else { "from_residual" },
+        "deviations": match found.deviations {
+            Deviations::Measured => "measured",
+            Deviations::Floored => "floored",
+            Deviations::FromResidual => "from_residual",
+        },
     })
 }
 
@@ -96,7 +100,8 @@ fn strainless(names: UnitNames, found: &Equivalent) -> Value {
     let known = found.arm.is_some();
     map.insert(names.coupling_key("h"), json!(known.then(|| form.h.as_slice())));
     map.insert(names.coupling_key("h_motor"), json!(known.then_some(form.h_motor)));
-    map.insert("given_to_last_mode".to_owned(), json!(form.given.as_slice()));
+    map.insert("missing".to_owned(), json!(form.missing.as_slice()));
+    map.insert("given_to_last_mode".to_owned(), json!(form.given_to_last));
     Value::Object(map)
 }
 

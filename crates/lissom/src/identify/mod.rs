@@ -33,9 +33,9 @@ pub use constant_velocity::{
 };
 pub use correct::{Response, corrected, ratio};
 pub use equivalent::{
-    Equivalent, EquivalentArm, EquivalentBeam, EquivalentData, EquivalentError, EquivalentRefusal,
-    PartOutside, ResponseZero, StrainlessForm, equivalent, equivalent_arm, equivalent_beam,
-    response_zeros,
+    Deviations, Equivalent, EquivalentArm, EquivalentBeam, EquivalentData, EquivalentError,
+    EquivalentRefusal, PartOutside, ResponseZero, StrainlessForm, equivalent, equivalent_arm,
+    equivalent_beam, response_zeros,
 };
 pub use estimate::{Estimate, ModeEstimate};
 pub use finding::{Finding, Severity};

@@ -1,7 +1,7 @@
 //! What to know of an equivalent arm.
 
 use super::EquivalentError;
-use super::whole::{Equivalent, EquivalentData};
+use super::whole::{Deviations, Equivalent, EquivalentData};
 use crate::identify::finding::key;
 use crate::identify::rational::Spurious;
 use crate::identify::{Estimate, Finding, Severity};
@@ -54,21 +54,22 @@ pub(super) fn findings(
         add("equivalent-points-left-out", Severity::Info, message, hint);
     }
     let rms = whole.fit.weighted_rms;
-    if data.deviations_known && rms > MISFIT {
+    let known = data.deviations != Deviations::FromResidual;
+    if known && rms > MISFIT {
         let message = format!(
             "the points' responses lie {rms:.1} times their deviations off the model: there is more in them \
              than modes of an arm, or the deviations are too small. Intervals count it"
         );
         let hint = "look at the plot: a misfit at one frequency is a disturbance, one everywhere a wrong deviation";
         add("equivalent-misfit", Severity::Warning, message, hint);
-    } else if data.deviations_known && rms < TOO_GOOD {
+    } else if data.deviations == Deviations::Measured && rms < TOO_GOOD {
         let message =
             format!("the model leaves {rms:.2} of the deviations: they are larger than the errors");
         let hint = "intervals are wider than they need to be";
         add("equivalent-deviations-large", Severity::Info, message, hint);
     }
     if let Some(arm) = &whole.arm {
-        if data.deviations_known && arm.weighted_rms > MISFIT {
+        if known && arm.weighted_rms > MISFIT {
             let message = format!(
                 "the motor's response lies {:.1} times its deviations off the model: friction left in it, or modes \
                  that are not in the arm. Intervals count it",
@@ -93,7 +94,8 @@ pub(super) fn findings(
         let hint = "give the motor's response at more frequencies";
         add("equivalent-without-torque", Severity::Warning, error.to_string(), hint);
     }
-    let given = whole.strainless.as_ref().map_or(0.0, |s| s.given.amax());
+    let lacks = whole.strainless.iter().flat_map(|s| s.missing.iter().zip(&s.given_to_last));
+    let given = lacks.filter(|(_, to_last)| **to_last).map(|(m, _)| m.abs()).fold(0.0, f64::max);
     if given > GIVEN {
         let message = format!(
             "the points' gains add up to one but for {given:.3}: for use as an arm the last mode is given the rest, \
@@ -109,6 +111,6 @@ pub(super) fn findings(
 fn named(arm: &super::EquivalentArm) -> Vec<(String, Estimate)> {
     let coupling = arm.coupling.iter().enumerate();
     let coupling = coupling.map(|(k, c)| (format!("the coupling of mode {}", k + 1), *c));
-    let motor = [("inertia".to_owned(), arm.inertia), ("viscous friction".to_owned(), arm.viscous)];
+    let motor = [("the inertia".to_owned(), arm.inertia), ("the viscous friction".to_owned(), arm.viscous)];
     motor.into_iter().chain(coupling).collect()
 }

@@ -12,7 +12,7 @@ mod zeros;
 
 pub use arm::{EquivalentArm, equivalent_arm};
 pub use refusal::{EquivalentRefusal, PartOutside};
-pub use whole::{Equivalent, EquivalentData, equivalent};
+pub use whole::{Deviations, Equivalent, EquivalentData, equivalent};
 pub use zeros::{ResponseZero, response_zeros};
 
 use super::rational::SharedPoles;
@@ -23,6 +23,8 @@ use crate::beam::{ModalForm, completed};
 const DEVIATIONS: f64 = 4.0;
 /// …or this share of the largest.
 const DEPENDENT: f64 = 1e-10;
+/// Gains whose sum is within so many deviations of one are those of all modes there are.
+const COMPLETE: f64 = 3.0;
 
 /// `Θ̈ = Â·Θ + B̂·θ_m` (17): N_v points of a beam whose responses show N_v modes.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,6 +43,10 @@ pub struct EquivalentBeam {
     inverse: DMatrix<f64>,
     /// ω_k² of each mode.
     squares: DVector<f64>,
+    /// R with rows that add up to one.
+    completed: DMatrix<f64>,
+    /// Rows whose last gain was given what they lacked.
+    given_to_last: Vec<bool>,
 }
 
 /// (17)-(18) that turning the arm as one body strains nothing in.
@@ -54,27 +60,51 @@ pub struct StrainlessForm {
     pub h: DVector<f64>,
     /// ĥ_{n+1} \[N·m/rad\], −ΣĤ.
     pub h_motor: f64,
-    /// What the last mode was given at each point: one less the sum of the gains fitted.
-    pub given: DVector<f64>,
+    /// What the gains fitted lack of one at each point.
+    pub missing: DVector<f64>,
+    /// Whether the data say that a point lacks it, so that its last mode was given all of it.
+    pub given_to_last: Vec<bool>,
 }
 
 impl EquivalentBeam {
-    /// The form for use as an arm: what the gains of a point lack of one is given to the last mode, as
-    /// [`TruncatedBeam`](crate::beam::TruncatedBeam) does. Where modes are left out the gains fitted do not
-    /// add up to one, and (17) as fitted would strain a beam that turns as one body, even at rest.
+    /// The form for use as an arm, with gains that add up to one at every point.
+    ///
+    /// Where modes are left out the gains fitted do not, and (17) as fitted would strain a beam that turns as
+    /// one body, even at rest. What a point's gains lack of one is given to its last mode, as
+    /// [`TruncatedBeam`](crate::beam::TruncatedBeam) does; where it is within three deviations of nothing the
+    /// sum is taken for known, and moves all of the point's gains as their covariance has it.
     ///
     /// `coupling` is c_k of each mode \[N·m/rad\], or nothing where it is not known. `None` where the
-    /// completed gains cannot be inverted.
+    /// gains cannot be inverted then.
     pub fn strainless(&self, coupling: &[f64]) -> Option<StrainlessForm> {
-        let gains = completed(self.gains.clone());
-        let given = (&gains - &self.gains).column(self.squares.len() - 1).into_owned();
-        let inverse = gains.clone().try_inverse()?;
+        let inverse = self.completed.clone().try_inverse()?;
         let known = |k: usize, _| coupling.get(k).copied().unwrap_or(0.0);
         let coupling = DVector::from_fn(self.squares.len(), known);
         let ModalForm { a, b, h, h_motor } =
-            ModalForm::new(&gains, &inverse, &self.squares, &coupling);
-        a.iter().all(|v| v.is_finite()).then_some(StrainlessForm { a, b, h, h_motor, given })
+            ModalForm::new(&self.completed, &inverse, &self.squares, &coupling);
+        let missing = self.gains.column_sum().map(|sum| 1.0 - sum);
+        let given_to_last = self.given_to_last.clone();
+        let sound = a.iter().all(|v| v.is_finite());
+        sound.then_some(StrainlessForm { a, b, h, h_motor, missing, given_to_last })
     }
+}
+
+/// Gains that add up to one at every point, and which points' last mode was given what they lack.
+fn with_sum_of_one(fit: &SharedPoles, gains: &DMatrix<f64>) -> (DMatrix<f64>, Vec<bool>) {
+    let (points, modes) = gains.shape();
+    let mut all = completed(gains.clone());
+    let mut given = vec![true; points];
+    let first = fit.covariance.nrows() - points * modes;
+    for i in 0..points {
+        let at = first + i * modes;
+        let moves = fit.covariance.view((at, at), (modes, modes)).column_sum();
+        let (missing, variance) = (1.0 - gains.row(i).sum(), moves.sum());
+        if missing * missing <= COMPLETE * COMPLETE * variance && variance > 0.0 {
+            all.set_row(i, &(gains.row(i) + moves.transpose() * (missing / variance)));
+            given[i] = false;
+        }
+    }
+    (all, given)
 }
 
 /// Why there is no equivalent beam.
@@ -166,7 +196,8 @@ pub fn equivalent_beam(fit: &SharedPoles) -> Result<EquivalentBeam, EquivalentEr
         deviation(&fit.covariance, |u| slopes[u].0[(i, j)])
     });
     let b_std = DVector::from_fn(points, |i, _| deviation(&fit.covariance, |u| slopes[u].1[i]));
-    Ok(EquivalentBeam { a, a_std, b, b_std, gains, inverse, squares })
+    let (completed, given_to_last) = with_sum_of_one(fit, &gains);
+    Ok(EquivalentBeam { a, a_std, b, b_std, gains, inverse, squares, completed, given_to_last })
 }
 
 /// What one unknown of the fit moves: R, and ω_k².

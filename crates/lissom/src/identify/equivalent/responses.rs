@@ -1,7 +1,7 @@
 //! Responses of a campaign as Section 4 takes them.
 
 use super::refusal::EquivalentRefusal;
-use super::whole::EquivalentData;
+use super::whole::{Deviations, EquivalentData};
 use crate::identify::response_table::{ResponsePoint, tip_model};
 use crate::identify::{MotorData, Response, TipForm};
 use crate::record::{Campaign, Channels};
@@ -57,7 +57,7 @@ impl EquivalentData {
             omega_rad_s: rows.iter().map(|r| r.0).collect(),
             outputs: (0..angles.len()).map(|i| rows.iter().map(|r| r.1[i]).collect()).collect(),
             motor: Some(motor).filter(|m| !m.response.is_empty()),
-            deviations_known: true,
+            deviations: Deviations::Floored,
         })
     }
 }

@@ -21,6 +21,17 @@ const UNEVEN: f64 = 0.1;
 /// …where they are this many deviations, rms.
 const DEVIATIONS: f64 = 3.0;
 
+/// Where the deviations of responses are from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Deviations {
+    /// Measured.
+    Measured,
+    /// Measured, and no less than a share of the response.
+    Floored,
+    /// Not known: all of a size, and what the model leaves says which.
+    FromResidual,
+}
+
 /// Responses of points of a beam, and of its motor.
 #[derive(Debug, Clone)]
 pub struct EquivalentData {
@@ -32,8 +43,8 @@ pub struct EquivalentData {
     pub outputs: Vec<Vec<Response>>,
     /// θ_m per command, friction taken out; `None`: step 5 alone.
     pub motor: Option<MotorData>,
-    /// Whether the deviations were measured; if not, what the model leaves says how large they are.
-    pub deviations_known: bool,
+    /// Where the deviations are from.
+    pub deviations: Deviations,
 }
 
 /// An equivalent arm and how far it holds.
@@ -61,8 +72,8 @@ pub struct Equivalent {
     pub names: Vec<String>,
     /// What the model of all poles leaves of the points' responses, as a share of each, rms.
     pub relative_residual: f64,
-    /// Whether the deviations were measured.
-    pub deviations_known: bool,
+    /// Where the deviations are from.
+    pub deviations: Deviations,
     /// What to know of it.
     pub findings: Vec<Finding>,
 }
@@ -141,7 +152,7 @@ pub fn equivalent(
         beam,
         arm,
         strainless,
-        deviations_known: data.deviations_known,
+        deviations: data.deviations,
         findings: Vec::new(),
     };
     whole.findings = findings::findings(data, &whole, found.len(), no_torque);
@@ -202,7 +213,7 @@ fn uneven(
         let beyond = share > UNEVEN && imaginary > DEVIATIONS && imaginary > real;
         if beyond && worst.as_ref().is_none_or(|w| w.share < share) {
             let name = data.names.get(output).cloned().unwrap_or_default();
-            let deviations = data.deviations_known.then_some(imaginary);
+            let deviations = (data.deviations != Deviations::FromResidual).then_some(imaginary);
             worst = Some(PartOutside { name, share, deviations });
         }
     }
