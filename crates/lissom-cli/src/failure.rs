@@ -24,7 +24,7 @@ pub(crate) enum Failure {
     UndescribedLog { log: PathBuf },
     /// Responses that make no equivalent arm.
     #[error("{}: {source}", input.display())]
-    Equivalent { input: PathBuf, source: EquivalentRefusal, place: Option<String> },
+    Equivalent { input: PathBuf, source: Box<EquivalentRefusal>, place: Option<String> },
     /// What was asked for of an equivalent arm makes no sense.
     #[error("{0}")]
     EquivalentAsked(String, &'static str),

@@ -163,6 +163,15 @@ fn exact_responses_give_the_whole_arm() {
         assert!(form.missing.amax() < 1e-8);
         assert!((&form.a - &truth.a).amax() < 1e-8 * truth.a.amax());
         assert!((&form.h - &truth.h).amax() < 1e-8 * truth.h.amax());
+        let names: Vec<&str> = ["a", "b", "c", "d", "e", "f"][..points].to_vec();
+        let space = found.state_space(&names, "rad");
+        for w in [0.3, 1.7, 2.9].map(|share| share * truth.natural_frequencies_rad_s[0]) {
+            let shown = space.response(w).unwrap();
+            let motor = found.motor_response(w);
+            assert!((shown[(0, 0)] / motor - 1.0).norm() < 1e-7);
+            let angles = truth.response(Complex64::new(0.0, w)).angles;
+            assert!((shown[(points, 0)] / motor / angles[points - 1] - 1.0).norm() < 1e-7);
+        }
         assert!((form.h.sum() + form.h_motor).abs() < 1e-12 * form.h_motor);
     }
 }

@@ -56,7 +56,11 @@ impl Input {
         let id = identified(path, &file, None, quick)?;
         let data =
             EquivalentData::of_campaign(&file.campaign, &id.responses).map_err(|source| {
-                Failure::Equivalent { input: path.to_owned(), source, place: None }
+                Failure::Equivalent {
+                    input: path.to_owned(),
+                    source: Box::new(source),
+                    place: None,
+                }
             })?;
         let names = UnitNames::new(&file.campaign.channels);
         let back_emf = file.campaign.channels.command.back_emf_viscous;

@@ -6,6 +6,7 @@ mod plots;
 mod table;
 
 pub(crate) use args::EquivalentArgs;
+pub(crate) use table::brief;
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -31,7 +32,8 @@ pub(crate) fn run(args: &EquivalentArgs) -> Result<ExitCode, Failure> {
         Ok(found) => found,
         Err(source) => {
             let place = better_place(args, &source)?;
-            return Err(Failure::Equivalent { input: args.inputs[0].clone(), source, place });
+            let (input, source) = (args.inputs[0].clone(), Box::new(source));
+            return Err(Failure::Equivalent { input, source, place });
         }
     };
     let mut batch = Batch::new();

@@ -2,6 +2,7 @@
 
 use lissom::beam::RootClass;
 use lissom::identify::{Deviations, Equivalent, Estimate, ResponseZero, StrainlessForm};
+use lissom_io::UnitNames;
 use lissom_report::{interval, with_uncertainty};
 
 use super::input::{Input, Known};
@@ -23,10 +24,18 @@ pub(super) fn print(input: &Input, found: &Equivalent) {
     as_fitted(input, found);
     if let Some(form) = &found.strainless {
         print::line("");
-        for_use(input, found, form);
+        for_use(input.names, found, form);
     }
     print::line("");
     zeros(found);
+}
+
+/// The arm that `identify` gives beside its figures.
+pub(crate) fn brief(names: UnitNames, found: &Equivalent) {
+    let Some(form) = &found.strainless else { return };
+    let modes = print::counted(found.modes.len(), "mode");
+    print::line(&format!("\nequivalent arm of {modes}, with intervals by `lissom equivalent`"));
+    for_use(names, found, form);
 }
 
 fn head(input: &Input, found: &Equivalent) {
@@ -124,8 +133,8 @@ fn equation(found: &Equivalent, i: usize) -> String {
     format!("θ̈({}) [1/s²] =", found.names[found.points[i]])
 }
 
-fn torque_name(input: &Input) -> String {
-    format!("torque [{}] =", input.names.coupling_unit())
+fn torque_name(names: UnitNames) -> String {
+    format!("torque [{}] =", names.coupling_unit())
 }
 
 fn as_fitted(input: &Input, found: &Equivalent) {
@@ -142,12 +151,12 @@ fn as_fitted(input: &Input, found: &Equivalent) {
     if let Some(arm) = &found.arm {
         let h = arm.h.iter().map(|h| shown(*h));
         let h = h.chain([shown(arm.h_motor)]);
-        rows.push(std::iter::once(torque_name(input)).chain(h).collect());
+        rows.push(std::iter::once(torque_name(input.names)).chain(h).collect());
     }
     print::table(&rows);
 }
 
-fn for_use(input: &Input, found: &Equivalent, form: &StrainlessForm) {
+fn for_use(names: UnitNames, found: &Equivalent, form: &StrainlessForm) {
     let number = |x: f64| significant(x, DIGITS).replace('-', "−");
     let mut rows = vec![heading(found, "for use: turning as one body strains nothing")];
     for i in 0..found.points.len() {
@@ -158,7 +167,7 @@ fn for_use(input: &Input, found: &Equivalent, form: &StrainlessForm) {
     }
     if found.arm.is_some() {
         let h = form.h.iter().map(|x| number(*x)).chain([number(form.h_motor)]);
-        rows.push(std::iter::once(torque_name(input)).chain(h).collect());
+        rows.push(std::iter::once(torque_name(names)).chain(h).collect());
     }
     print::table(&rows);
 }

@@ -62,7 +62,7 @@ impl Columns {
         for (index, name) in names.iter().enumerate() {
             let split = Split::of(name);
             if let Some(unit) = split.frequency() {
-                let rad_s = rate(file, name, unit.as_deref())?;
+                let rad_s = rate(file, name, &unit)?;
                 if let Some((first, _)) = frequency {
                     let (first, second) = (names[first].clone(), name.clone());
                     let file = file.to_owned();
@@ -109,8 +109,8 @@ impl Split {
         self.words.iter().map(|w| w.to_lowercase()).collect()
     }
 
-    /// Whether it is a frequency, and with which unit.
-    fn frequency(&self) -> Option<Option<String>> {
+    /// The unit of a frequency, empty where it has none; `None` where it is no frequency.
+    fn frequency(&self) -> Option<String> {
         let words = self.lower();
         let (first, rest) = words.split_first()?;
         let is_part = |w: &String| w != "rad" && part_of(w).is_some();
@@ -118,12 +118,12 @@ impl Split {
             return None;
         }
         match (&self.unit, rest) {
-            (Some(unit), []) => Some(Some(unit.clone())),
-            (None, []) => Some(None),
+            (Some(unit), []) => Some(unit.clone()),
+            (None, []) => Some(String::new()),
             (None, rest) => {
                 let per: Vec<&str> =
                     rest.iter().map(String::as_str).filter(|w| *w != "per").collect();
-                Some(Some(per.join("/")))
+                Some(per.join("/"))
             }
             // A response that is called so.
             (Some(_), _) => None,
@@ -139,7 +139,7 @@ impl Split {
         while let Some(found) = count.checked_sub(1).and_then(|i| part_of(&lower[i])) {
             part = Some(match (part, found) {
                 (Some(Part::Decibel), Part::Magnitude) => Part::Decibel,
-                (Some(Part::Phase), Part::Phase) | (None, Part::Phase) => Part::Phase,
+                (Some(Part::Phase) | None, Part::Phase) => Part::Phase,
                 (None, found) => found,
                 // Of another output's name.
                 (Some(_), _) => break,
@@ -181,21 +181,18 @@ fn part_of(word: &str) -> Option<Part> {
 }
 
 /// rad/s of one unit of a frequency.
-fn rate(file: &str, column: &str, unit: Option<&str>) -> Result<f64, ResponseError> {
+fn rate(file: &str, column: &str, unit: &str) -> Result<f64, ResponseError> {
     let (file, column) = (file.to_owned(), column.to_owned());
-    match unit.map(str::to_lowercase).as_deref() {
-        None | Some("") => Err(ResponseError::NoUnit { file, column }),
-        Some("hz") => Ok(TAU),
-        Some("khz") => Ok(1e3 * TAU),
-        Some("rad/s" | "rad/sec" | "1/s") => Ok(1.0),
-        Some(_) => {
-            let unit = unit.unwrap_or_default();
-            parse_unit(unit, Dimension::RATE).map_err(|_| ResponseError::Unit {
-                file,
-                column,
-                unit: unit.to_owned(),
-            })
-        }
+    match unit.to_lowercase().as_str() {
+        "" => Err(ResponseError::NoUnit { file, column }),
+        "hz" => Ok(TAU),
+        "khz" => Ok(1e3 * TAU),
+        "rad/s" | "rad/sec" | "1/s" => Ok(1.0),
+        _ => parse_unit(unit, Dimension::RATE).map_err(|_| ResponseError::Unit {
+            file,
+            column,
+            unit: unit.to_owned(),
+        }),
     }
 }
 

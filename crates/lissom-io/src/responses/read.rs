@@ -174,13 +174,11 @@ fn read_table(path: &Path) -> Result<Table, ResponseError> {
             if cell.is_empty() {
                 return Err(ResponseError::MissingCell { file, row, column: column() });
             }
-            match number(cell, decimal_comma).filter(|v| v.is_finite()) {
-                Some(value) => values[index].push(value),
-                None => {
-                    let (column, found) = (column(), cell.to_owned());
-                    return Err(ResponseError::NotANumber { file, row, column, found });
-                }
-            }
+            let Some(value) = number(cell, decimal_comma).filter(|v| v.is_finite()) else {
+                let (column, found) = (column(), cell.to_owned());
+                return Err(ResponseError::NotANumber { file, row, column, found });
+            };
+            values[index].push(value);
         }
         let frequency = &values[columns.frequency];
         let (last, column) = (frequency.len() - 1, names[columns.frequency].clone());
@@ -306,7 +304,11 @@ impl Output<'_> {
             name: self.name.clone(),
             response,
             std: std.transpose()?,
-            dimension: self.first.dimension,
+            dimension: self
+                .first
+                .dimension
+                .or(self.second.dimension)
+                .or(self.std.and_then(|s| s.dimension)),
         })
     }
 }

@@ -129,9 +129,7 @@ pub fn identify(
     let harmonics = options.harmonics.unwrap_or(HARMONICS).max(1);
     let mut findings = Vec::new();
     let mut runs = Vec::with_capacity(campaign.runs.len());
-    let dead: Vec<bool> = (0..campaign.channels.tips.len())
-        .map(|i| campaign.runs.iter().all(|run| range(&run.tips()[i]) <= 0.0))
-        .collect();
+    let dead = dead_everywhere(campaign);
     for index in 0..campaign.runs.len() {
         progress(Stage::Run(index, campaign.runs.len()));
         runs.push(analyse(campaign, index, harmonics, &dead, &mut findings));
@@ -334,6 +332,12 @@ fn constant_channels(campaign: &Campaign) -> Vec<(String, usize)> {
     }));
     constant.retain(|(_, runs)| *runs > 0);
     constant
+}
+
+/// Which tips are constant in every run.
+fn dead_everywhere(campaign: &Campaign) -> Vec<bool> {
+    let dead = |i: usize| campaign.runs.iter().all(|run| range(&run.tips()[i]) <= 0.0);
+    (0..campaign.channels.tips.len()).map(dead).collect()
 }
 
 /// Says which tips are dead in every run.

@@ -4,8 +4,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{EquivalentBeam, EquivalentError, StrainlessForm, deviation, equivalent_beam, moved};
 use crate::beam::ModalForm;
+use crate::identify::model::{CoupledMode, modal};
 use crate::identify::rational::{CouplingFit, MotorData, Pole, SharedPoles, fit_coupling};
 use crate::identify::{Estimate, Response};
+use crate::lti::StateSpace;
 
 /// (17)-(18) and (14): an arm of as many points as modes, and its motor.
 ///
@@ -120,6 +122,23 @@ impl EquivalentArm {
     pub fn strainless(&self) -> Option<StrainlessForm> {
         let coupling: Vec<f64> = self.coupling.iter().map(|c| c.value).collect();
         self.beam.strainless(&coupling)
+    }
+
+    /// The form for use as a state space, from the command to the motor's angle and those of the points, called
+    /// `names`: in the modes' own coordinates, with their damping where it is above zero. `unit` is that of
+    /// angles, `rad` or `m`.
+    pub fn state_space(&self, names: &[&str], unit: &str) -> StateSpace {
+        let each = self.poles.iter().zip(&self.coupling);
+        let mode = |(pole, c): (&Pole, &Estimate)| {
+            let damping_ratio = pole.damping_ratio.max(0.0);
+            CoupledMode { pole: Pole { damping_ratio, ..*pole }, coupling: c.value }
+        };
+        let modes: Vec<CoupledMode> = each.map(mode).collect();
+        let rows = self.beam.completed.row_iter().map(|row| row.iter().copied().collect());
+        let points: Vec<(String, Vec<f64>)> =
+            names.iter().map(|name| (*name).to_owned()).zip(rows).collect();
+        let motor = [self.inertia.value, self.viscous.value];
+        modal(motor, self.torque_per_command, &modes, &points, unit)
     }
 
     /// θ_m per command at a frequency.

@@ -111,6 +111,7 @@ pub(super) fn findings(
 fn named(arm: &super::EquivalentArm) -> Vec<(String, Estimate)> {
     let coupling = arm.coupling.iter().enumerate();
     let coupling = coupling.map(|(k, c)| (format!("the coupling of mode {}", k + 1), *c));
-    let motor = [("the inertia".to_owned(), arm.inertia), ("the viscous friction".to_owned(), arm.viscous)];
+    let motor =
+        [("the inertia".to_owned(), arm.inertia), ("the viscous friction".to_owned(), arm.viscous)];
     motor.into_iter().chain(coupling).collect()
 }

@@ -93,15 +93,15 @@ impl EquivalentBeam {
 fn with_sum_of_one(fit: &SharedPoles, gains: &DMatrix<f64>) -> (DMatrix<f64>, Vec<bool>) {
     let (points, modes) = gains.shape();
     let mut all = completed(gains.clone());
-    let mut given = vec![true; points];
     let first = fit.covariance.nrows() - points * modes;
-    for i in 0..points {
+    let mut given = vec![true; points];
+    for (i, given) in given.iter_mut().enumerate() {
         let at = first + i * modes;
         let moves = fit.covariance.view((at, at), (modes, modes)).column_sum();
         let (missing, variance) = (1.0 - gains.row(i).sum(), moves.sum());
         if missing * missing <= COMPLETE * COMPLETE * variance && variance > 0.0 {
             all.set_row(i, &(gains.row(i) + moves.transpose() * (missing / variance)));
-            given[i] = false;
+            *given = false;
         }
     }
     (all, given)
