@@ -9,8 +9,8 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use lissom::beam::{DistributedBeam, Piece, TruncatedBeam};
 use lissom::identify::{
-    Damping, EquivalentError, Estimate, MotorData, Response, SharedPoles, equivalent_arm,
-    equivalent_beam, fit_shared_poles, response_zeros,
+    Damping, Deviations, EquivalentData, EquivalentError, Estimate, MotorData, Response,
+    SharedPoles, equivalent, equivalent_arm, equivalent_beam, fit_shared_poles, response_zeros,
 };
 use num_complex::Complex64;
 use rand_distr::{Distribution, StandardNormal};
@@ -293,4 +293,41 @@ fn points_that_move_alike_are_refused() {
     let fewer = fit_shared_poles(&omega, &outputs[..2], 3, Damping::None).unwrap();
     let refused = equivalent_beam(&fewer).unwrap_err();
     assert_eq!(refused, EquivalentError::PointsAndModes { points: 2, modes: 3 });
+}
+
+/// Two points of a beam whose third mode lies beyond the frequencies: what it does within them is neither the
+/// modes' coupling nor lost from the inertia.
+#[test]
+fn modes_beyond_the_frequencies_are_counted_with_the_inertia() {
+    let whole = truncated(5);
+    let poles = &whole.natural_frequencies_rad_s;
+    let (low, high) = (0.3 * poles[0], 0.6 * poles[2]);
+    let omega: Vec<f64> = (0..300).map(|i| low * (high / low).powf(f64::from(i) / 299.0)).collect();
+    let two = beam().truncated(&[0.27, 0.45]).unwrap();
+    let (mut coupling, mut inertia) = (Vec::new(), Vec::new());
+    for seed in 0..20 {
+        let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
+        let mut noisy = |value: Complex64| {
+            let error = Complex64::new(normal(), normal()) * (0.01 * value.norm() * FRAC_1_SQRT_2);
+            Response { value: value + error, std: 0.01 * value.norm() }
+        };
+        let angle = |w: f64, i: usize| whole.response(Complex64::new(0.0, w)).angles[i];
+        let data = EquivalentData {
+            names: vec!["middle".to_owned(), "tip".to_owned()],
+            omega_rad_s: omega.clone(),
+            outputs: [2, 4].map(|i| omega.iter().map(|w| noisy(angle(*w, i))).collect()).to_vec(),
+            motor: Some(motor(&whole, &omega, 0.01, seed)),
+            deviations: Deviations::Measured,
+        };
+        let found = equivalent(&data, None).unwrap();
+        assert!(found.findings.iter().any(|f| f.code == "equivalent-spurious-pole"));
+        let arm = found.arm.unwrap();
+        coupling.push(arm.h_motor.value / two.h_motor - 1.0);
+        let exact = MOTOR.0 + two.residual_inertia_kg_m2;
+        inertia.push((arm.inertia.value - exact) / arm.inertia.std);
+    }
+    let (coupling, inertia) = (median(coupling), median(inertia));
+    println!("ĥ off by {coupling:.1e}, J by {inertia:.2} deviations (medians)");
+    assert!(coupling.abs() < 2e-2 && inertia.abs() < 2.0);
 }

@@ -47,10 +47,10 @@ fn head(input: &Input, found: &Equivalent) {
         data.omega_rad_s.len(),
         data.names.join(", ")
     ));
-    let left = if found.deviations != Deviations::FromResidual {
-        format!("{:.2} of the deviations left", found.fit.weighted_rms)
-    } else {
+    let left = if found.deviations == Deviations::FromResidual {
         "deviations from what is left".to_owned()
+    } else {
+        format!("{:.2} of the deviations left", found.fit.weighted_rms)
     };
     let poles = print::counted(found.fit.poles.len(), "pole");
     let modes = print::counted(found.modes.len(), "mode");

@@ -55,6 +55,15 @@ pub fn equivalent_arm(
     fit: &SharedPoles,
     motor: &MotorData,
 ) -> Result<EquivalentArm, EquivalentError> {
+    arm_below(fit, motor, &[])
+}
+
+/// The same where poles `beyond` the frequencies measured carry torque within them.
+pub(super) fn arm_below(
+    fit: &SharedPoles,
+    motor: &MotorData,
+    beyond: &[Pole],
+) -> Result<EquivalentArm, EquivalentError> {
     let beam = equivalent_beam(fit)?;
     let sound = |(w, r): (&f64, &Response)| {
         let value = r.value.is_finite() && r.value.norm() > 0.0;
@@ -68,8 +77,8 @@ pub fn equivalent_arm(
     }
     let modes = fit.poles.len();
     let (frequencies, unknowns) = (motor.response.len(), 2 + modes);
-    let coupled =
-        fit_coupling(motor, fit).ok_or(EquivalentError::MotorTooFew { frequencies, unknowns })?;
+    let coupled = fit_coupling(motor, fit, beyond)
+        .ok_or(EquivalentError::MotorTooFew { frequencies, unknowns })?;
     let covariance = joined(fit, &coupled);
     let first = fit.covariance.nrows();
     let figure = |i: usize| Estimate {

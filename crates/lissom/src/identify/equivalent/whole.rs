@@ -2,14 +2,15 @@
 
 use nalgebra::DMatrix;
 
+use super::arm::arm_below;
 use super::refusal::{EquivalentRefusal, PartOutside};
 use super::{
-    EquivalentArm, EquivalentBeam, EquivalentError, ResponseZero, StrainlessForm, equivalent_arm,
-    equivalent_beam, findings, response_zeros,
+    EquivalentArm, EquivalentBeam, EquivalentError, ResponseZero, StrainlessForm, equivalent_beam,
+    findings, response_zeros,
 };
 use crate::identify::rational::{
-    Damping, MotorData, SharedPoles, Spurious, fit_shared_poles, fit_shared_poles_by_evidence,
-    information,
+    Damping, MotorData, Pole, SharedPoles, Spurious, fit_shared_poles,
+    fit_shared_poles_by_evidence, information,
 };
 use crate::identify::{Finding, Response};
 
@@ -128,7 +129,12 @@ pub fn equivalent(
         modes_rad_s: kept.poles.iter().map(|p| p.omega_rad_s).collect(),
     };
     let beam = equivalent_beam(&kept).map_err(refused)?;
-    let arm = data.motor.as_ref().map(|motor| equivalent_arm(&kept, motor)).transpose();
+    let above = |(pole, why): &(&Pole, &Option<Spurious>)| {
+        **why == Some(Spurious::Outside) && pole.omega_rad_s > fit.range_rad_s.1
+    };
+    let beyond: Vec<Pole> =
+        fit.poles.iter().zip(&spurious).filter(above).map(|(pole, _)| *pole).collect();
+    let arm = data.motor.as_ref().map(|motor| arm_below(&kept, motor, &beyond)).transpose();
     let (arm, no_torque) = match arm {
         Ok(arm) => (arm, None),
         Err(

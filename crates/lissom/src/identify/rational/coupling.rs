@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use super::motor::Rows;
-use super::{Damping, MotorData, SharedPoles};
+use super::{Damping, MotorData, Pole, SharedPoles};
 
 /// J, V and c_k of `K/G = J·s² + V·s + Σ c_k(s² + 2ζ_kω_k·s)/(s² + 2ζ_kω_k·s + ω_k²)`.
 pub(crate) struct CouplingFit {
@@ -22,10 +22,18 @@ pub(crate) struct CouplingFit {
 /// Step 6(c): the torque per angle is linear in J, V and c_k once the poles are known. `None` where the
 /// frequencies are too few, or a response is zero.
 ///
+/// `beyond` are poles that stand for modes above the frequencies measured: they carry torque within them, and
+/// below them turn with the motor, so that J has c/ω² of each.
+///
 /// # Source
 /// `[Feliu1989, Section 4, step 6(c)]`
-pub(crate) fn fit_coupling(data: &MotorData, fit: &SharedPoles) -> Option<CouplingFit> {
-    let rows = Rows::new(data, &fit.poles, 0.0)?;
+pub(crate) fn fit_coupling(
+    data: &MotorData,
+    fit: &SharedPoles,
+    beyond: &[Pole],
+) -> Option<CouplingFit> {
+    let poles: Vec<Pole> = fit.poles.iter().chain(beyond).copied().collect();
+    let rows = Rows::new(data, &poles, 0.0)?;
     let (value, inverse) = rows.solved()?;
     let left = &rows.b - &rows.a * &value;
     let free = rows.b.len() - value.len();
@@ -43,6 +51,13 @@ pub(crate) fn fit_coupling(data: &MotorData, fit: &SharedPoles) -> Option<Coupli
             by_poles.set_column(k * unknowns + unknown, &(&inverse * right));
         }
     }
+    let figures = 2 + fit.poles.len();
+    let within = DMatrix::from_fn(figures, value.len(), |i, j| match j.checked_sub(figures) {
+        Some(b) if i == 0 => beyond[b].omega_rad_s.powi(-2),
+        _ => f64::from(i == j),
+    });
+    let (value, by_poles) = (&within * value, &within * by_poles);
+    let covariance = &within * covariance * within.transpose();
     let sound = value.iter().chain(&by_poles).all(|v| v.is_finite()) && weighted_rms.is_finite();
     sound.then_some(CouplingFit { value, covariance, by_poles, weighted_rms })
 }
