@@ -28,6 +28,14 @@ pub enum EquivalentRefusal {
         /// Names of the points.
         names: Vec<String>,
     },
+    /// Not a name for each point.
+    #[error("{names} names for {points} points")]
+    Names {
+        /// Names given.
+        names: usize,
+        /// Points measured.
+        points: usize,
+    },
     /// No point's angle is known.
     #[error("no tip is an angle, or a deflection that makes one")]
     NoAngle,
@@ -93,6 +101,7 @@ impl EquivalentRefusal {
                 }
                 _ => "measure about the resonances, at more frequencies",
             },
+            Self::Names { .. } => "give each point a name",
             Self::NoAngle => {
                 "measure angles of points of the beam, or deflections in rad or with a radius: accelerations and \
                  unscaled signals do not say how far a point moves"
@@ -106,7 +115,7 @@ impl EquivalentRefusal {
                  the channels, their sampling and the phase's sign and unit"
             }
             Self::FewerPoints { .. } => {
-                "measure as many points as modes, or keep the lowest modes with --modes N"
+                "measure as many points as modes, or keep the lowest modes: `lissom equivalent` with --modes N"
             }
             Self::Beam { .. } => {
                 "put one of the two where this mode moves it by another size or sign; `lissom equivalent --arm \

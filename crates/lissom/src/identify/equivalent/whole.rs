@@ -94,7 +94,10 @@ pub fn equivalent(
     data: &EquivalentData,
     modes: Option<usize>,
 ) -> Result<Equivalent, EquivalentRefusal> {
-    let points = data.outputs.len();
+    let (points, names) = (data.outputs.len(), data.names.len());
+    if points != names {
+        return Err(EquivalentRefusal::Names { names, points });
+    }
     let most = POLES_LEAST.max(2 * points + 2);
     let (omega, outputs) = (&data.omega_rad_s, &data.outputs);
     let fit = fit_shared_poles_by_evidence(omega, outputs, most, Damping::Small)

@@ -1,6 +1,6 @@
 //! Zeros of the points' responses, with deviations.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Schur};
 use num_complex::Complex64;
 
 use super::deviation;
@@ -8,6 +8,8 @@ use crate::beam::{RootClass, class};
 use crate::identify::Estimate;
 use crate::identify::rational::SharedPoles;
 
+/// Sweeps for the eigenvalues at most.
+const SWEEPS: usize = 10_000;
 /// Newton's steps at most.
 const STEPS: usize = 40;
 /// Imaginary part of s², as a share of its size, that eigenvalues of a real root may have by rounding.
@@ -51,7 +53,8 @@ pub fn response_zeros(fit: &SharedPoles, output: usize) -> Vec<ResponseZero> {
         let own = if i == k { 1.0 } else { 0.0 };
         -squares[i] * (own - residues[k] / total)
     });
-    let mut roots: Vec<Complex64> = matrix.complex_eigenvalues().iter().copied().collect();
+    let Some(schur) = Schur::try_new(matrix, f64::EPSILON, SWEEPS) else { return Vec::new() };
+    let mut roots: Vec<Complex64> = schur.complex_eigenvalues().iter().copied().collect();
     roots.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
     let (low, high) = fit.range_rad_s;
     let mut zeros: Vec<ResponseZero> = roots
