@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 use lissom_io::units::{Dimension, parse_quantity};
 
+use crate::equivalent::EquivalentArgs;
 use crate::model::ModelArgs;
 use crate::plan::PlanArgs;
 
@@ -30,6 +31,8 @@ pub(crate) enum Command {
     Identify(IdentifyArgs),
     /// Predict a log that was not used, to see how far a result holds
     Validate(ValidateArgs),
+    /// From logs or frequency responses of points of a beam, the lumped arm that behaves the same
+    Equivalent(EquivalentArgs),
     /// Turn an arm's dimensions into frequencies, matrices, transfer functions and plots
     Model(ModelArgs),
     /// From rough numbers of an arm, the runs that give a wanted precision in the least time

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use lissom::identify::{IdentifyError, ValidationError};
+use lissom::identify::{EquivalentRefusal, IdentifyError, ValidationError};
 use lissom::plan::PlanError;
 use lissom::rig::RigError;
 use lissom_report::FigureError;
@@ -22,6 +22,12 @@ pub(crate) enum Failure {
     /// A log without anything that says what its columns are.
     #[error("{}: is no campaign.toml, and nothing says what its columns are", log.display())]
     UndescribedLog { log: PathBuf },
+    /// Responses that make no equivalent arm.
+    #[error("{}: {source}", input.display())]
+    Equivalent { input: PathBuf, source: Box<EquivalentRefusal>, place: Option<String> },
+    /// What was asked for of an equivalent arm makes no sense.
+    #[error("{0}")]
+    EquivalentAsked(String, &'static str),
     #[error("{}: exists and is no earlier output; it is not written over", file.display())]
     NotAnOutput { file: PathBuf },
     #[error("{}: one name for two outputs", file.display())]
@@ -59,7 +65,10 @@ impl Failure {
                 "put the input before `--json FILE`, or remove the file if it is to go"
                     .to_owned(),
             ),
-            Self::Model { hint, .. } => Some((*hint).to_owned()),
+            Self::Model { hint, .. } | Self::EquivalentAsked(_, hint) => Some((*hint).to_owned()),
+            Self::Equivalent { source, place, .. } => {
+                Some(place.clone().unwrap_or_else(|| source.hint().to_owned()))
+            }
             Self::UndescribedLog { .. } => Some(
                 "add --like campaign.toml, the campaign that the result is from, or describe the log in \
                  a campaign.toml of its own"

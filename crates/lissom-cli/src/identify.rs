@@ -10,7 +10,7 @@ use lissom_io::{CampaignFile, UnitNames, read_campaign, result_json};
 use crate::cli::{IdentifyArgs, STDOUT};
 use crate::failure::Failure;
 use crate::reference::Reference;
-use crate::{figures, output, page, print, progress};
+use crate::{equivalent, figures, output, page, print, progress};
 
 /// The verdict refuses a figure asked for.
 pub(crate) const REFUSED: u8 = 3;
@@ -47,6 +47,9 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         print::line("");
         print::figures(names, &id, reference);
         print::constant_velocity(names, &id);
+        if let Some(found) = &id.equivalent {
+            equivalent::brief(names, found);
+        }
         print::verdict(names.axis, &id);
         print::findings(&id.findings);
     }

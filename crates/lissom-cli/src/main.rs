@@ -5,6 +5,7 @@
 
 mod cli;
 mod demo;
+mod equivalent;
 mod failure;
 mod figures;
 mod friction_curve;
@@ -29,6 +30,7 @@ fn main() -> ExitCode {
     let outcome = match cli::Cli::parse().command {
         cli::Command::Identify(args) => identify::run(&args),
         cli::Command::Validate(args) => validate::run(&args),
+        cli::Command::Equivalent(args) => equivalent::run(&args),
         cli::Command::Model(args) => model::run(&args),
         cli::Command::Plan(args) => plan::run(&args),
         cli::Command::Rig(args) => rig::run(&args),

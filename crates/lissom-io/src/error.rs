@@ -9,6 +9,7 @@ use crate::config::ConfigError;
 use crate::log::LogError;
 use crate::model::FrequencyError;
 use crate::plan::PlanError;
+use crate::responses::ResponseError;
 use crate::result::ResultError;
 use crate::units::UnitError;
 use crate::write::WriteError;
@@ -41,6 +42,9 @@ pub enum Error {
     /// Runs that make no campaign.
     #[error(transparent)]
     Record(#[from] RecordError),
+    /// Tables of frequency responses.
+    #[error(transparent)]
+    Responses(#[from] ResponseError),
     /// A result that was read back.
     #[error(transparent)]
     Result(#[from] ResultError),
@@ -60,6 +64,7 @@ impl Error {
             Self::Plan(error) => error.hint(),
             Self::Frequencies(error) => error.hint(),
             Self::Campaign(error) => error.hint(),
+            Self::Responses(error) => error.hint(),
             Self::Result(error) => error.hint(),
             Self::Write(error) => error.hint(),
             // A reader makes no such run: see [`LogError`] and [`CampaignError`].

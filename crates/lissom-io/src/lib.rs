@@ -4,6 +4,7 @@
 //!   [`Campaign`](lissom::record::Campaign): see [`campaign`] for the file, [`log`] for the logs.
 //! - [`ArmFile::read`] reads an `arm.toml`: see [`arm_file`]; [`model_json`] writes what comes of it.
 //! - [`PlanFile::read`] reads a `plan.toml`, the experiments of a virtual campaign: see [`plan`].
+//! - [`read_responses`] reads tables of frequency responses: see [`responses`].
 //! - [`result_json`] writes what was identified, [`read_arm`] reads the arm in it back,
 //!   [`validation_json`] writes how well it predicts another log.
 //! - [`units`] reads quantities such as `"2.184 lbf*in/A"`.
@@ -21,6 +22,7 @@ pub mod log;
 pub mod model;
 mod nearest;
 pub mod plan;
+pub mod responses;
 pub mod result;
 pub mod units;
 pub mod write;
@@ -39,8 +41,10 @@ pub use error::Error;
 pub use log::LogError;
 pub use model::{FrequencyError, Model, model_json, read_frequencies};
 pub use plan::{PlanError, PlanFile, PlanRun};
+pub use responses::{FrequencyResponses, MeasuredResponse, ResponseError, read_responses};
 pub use result::{
-    ResultError, UnitNames, channel_name_unit, read_arm, result_json, validation_json,
+    ResultError, UnitNames, channel_name_unit, equivalent_json, read_arm, result_json,
+    validation_json,
 };
 pub use units::UnitError;
 pub use write::WriteError;

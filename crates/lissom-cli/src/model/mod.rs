@@ -11,6 +11,7 @@ mod shape;
 mod table;
 
 pub(crate) use args::ModelArgs;
+pub(crate) use number::shown as significant;
 
 use std::path::Path;
 use std::process::ExitCode;

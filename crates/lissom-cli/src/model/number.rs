@@ -6,7 +6,7 @@ use num_complex::Complex64;
 const PLAIN: std::ops::Range<f64> = 1e-3..1e6;
 
 /// `digits` significant digits.
-pub(super) fn shown(value: f64, digits: usize) -> String {
+pub(crate) fn shown(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".to_owned() } else { value.to_string() };
     }

@@ -7,7 +7,7 @@ use crate::nearest::nearest;
 
 /// What separates cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Delimiter {
+pub(crate) enum Delimiter {
     Char(char),
     Blanks,
 }
@@ -17,7 +17,7 @@ impl Delimiter {
 
     /// The delimiter of a row: tab before semicolon before comma before blanks. A comma that is
     /// the decimal sign separates nothing.
-    pub(super) fn of(row: &str, decimal_comma: bool) -> Self {
+    pub(crate) fn of(row: &str, decimal_comma: bool) -> Self {
         let row = row.trim_matches(' ');
         Self::ALL
             .into_iter()
@@ -27,7 +27,7 @@ impl Delimiter {
     }
 
     /// The cells of a row, trimmed and without quotes. A delimiter at the end opens no cell.
-    pub(super) fn split(self, row: &str) -> Cells<'_> {
+    pub(crate) fn split(self, row: &str) -> Cells<'_> {
         let rest = match self {
             Self::Char('\t') => row.trim_start_matches(' ').trim_end(),
             Self::Char(c) => {
@@ -41,7 +41,7 @@ impl Delimiter {
 }
 
 /// The cells of a row.
-pub(super) struct Cells<'a> {
+pub(crate) struct Cells<'a> {
     delimiter: Delimiter,
     rest: Option<&'a str>,
 }
@@ -76,7 +76,7 @@ fn unquoted(cell: &str) -> &str {
 }
 
 /// A cell as a number, finite or not.
-pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<f64> {
+pub(crate) fn number(cell: &str, decimal_comma: bool) -> Option<f64> {
     if decimal_comma && cell.contains(',') {
         if cell.contains('.') {
             return None;
@@ -87,7 +87,7 @@ pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<f64> {
 }
 
 /// Whether most cells of the row are no numbers.
-pub(super) fn is_header(row: &str, delimiter: Delimiter, decimal_comma: bool) -> bool {
+pub(crate) fn is_header(row: &str, delimiter: Delimiter, decimal_comma: bool) -> bool {
     let (mut words, mut numbers) = (0_usize, 0_usize);
     for cell in delimiter.split(row).filter(|cell| !cell.is_empty()) {
         if number(cell, decimal_comma).is_some() {
@@ -106,7 +106,7 @@ pub(super) fn is_words(row: &str, delimiter: Delimiter, decimal_comma: bool) -> 
 }
 
 /// The comment line without its mark, if `line` is one.
-pub(super) fn comment(line: &str) -> Option<&str> {
+pub(crate) fn comment(line: &str) -> Option<&str> {
     let line = line.trim_start();
     line.starts_with(['#', '%']).then(|| line.trim_start_matches(['#', '%']))
 }

@@ -22,6 +22,7 @@ mod thin;
 mod time;
 
 pub use error::LogError;
+pub(crate) use layout::{Delimiter, comment, is_header, number};
 pub use read::{read_log, read_log_from};
 pub use time::{Pieces, TimeGrid, cut_at_gaps};
 

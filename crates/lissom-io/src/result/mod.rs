@@ -5,12 +5,14 @@
 
 mod arm;
 mod dry_terms;
+mod equivalent;
 mod friction_law;
 mod units;
 mod validation;
 mod verdict;
 
 pub use arm::{ResultError, read_arm};
+pub use equivalent::equivalent_json;
 pub use units::UnitNames;
 pub use validation::{channel_name_unit, validation_json};
 
@@ -50,6 +52,7 @@ pub fn result_json(channels: &Channels, id: &Identified) -> Value {
         },
         "frequency_response": responses(channels, id),
         "models": models(channels, id),
+        "equivalent": id.equivalent.as_ref().map(|e| equivalent::equivalent(names, e)),
         "runs": id.runs.iter().map(run).collect::<Vec<_>>(),
         "findings": id.findings.iter().map(finding).collect::<Vec<_>>(),
     })

@@ -4,6 +4,7 @@
 //! matrix runs along the beam once, by the recursion of `chain`. A [`DistributedBeam`] has its mass along
 //! it (Section 4); a [`TruncatedBeam`] keeps the first of its modes, in the form (17)-(18).
 
+mod best_point;
 mod bracket;
 mod chain;
 mod counted;
@@ -13,6 +14,7 @@ mod dynamics;
 mod frequencies;
 mod lumped;
 mod matrices;
+mod modal_form;
 mod modes;
 mod payload;
 mod piece;
@@ -28,12 +30,14 @@ mod truncated;
 mod winding;
 mod zeros;
 
+pub use best_point::BestPoint;
 pub use damped::{Roots, motor_poles};
 pub use distributed::{DistributedBeam, Piece};
 pub use dynamics::BeamDynamics;
 pub use frequencies::Base;
 pub use lumped::LumpedBeam;
 pub use matrices::{BeamMatrices, MOST_MASSES};
+pub(crate) use modal_form::{ModalForm, completed};
 pub use modes::Mode;
 pub use payload::zero_shift;
 pub use properties::{MOST_CHECKED, Property, properties};

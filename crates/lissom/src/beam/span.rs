@@ -181,6 +181,14 @@ pub enum BeamError {
         /// Smallest over largest singular value of the modes' shares at the points.
         condition: f64,
     },
+    /// Points that are not on the beam.
+    #[error("points must lie on the beam, beyond {base_m} m and up to {tip_m} m from the axis")]
+    Points {
+        /// Where the beam begins \[m\].
+        base_m: f64,
+        /// Where it ends \[m\].
+        tip_m: f64,
+    },
     /// Ratios by mode and dampers at masses at once.
     #[error("damping ratios by mode stand beside dampers at masses: no mode keeps its ratio then")]
     ModalWithDampers,

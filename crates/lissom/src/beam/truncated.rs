@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
+use super::modal_form::{ModalForm, completed};
 use super::response::BeamResponse;
 use super::{BeamError, DistributedBeam, Mode};
 
@@ -54,10 +55,7 @@ const DEPENDENT: f64 = 1e-10;
 impl TruncatedBeam {
     fn new(modes: &[Mode], points_m: Vec<f64>, inertia: f64) -> Result<Self, BeamError> {
         let n = modes.len();
-        let plain = |i: usize, k: usize| modes[k].share[i];
-        let shares = DMatrix::from_fn(n, n, |i, k| {
-            if k + 1 < n { plain(i, k) } else { 1.0 - (0..k).map(|j| plain(i, j)).sum::<f64>() }
-        });
+        let shares = completed(DMatrix::from_fn(n, n, |i, k| modes[k].share[i]));
         let values = shares.singular_values();
         let condition = values.min() / values.max();
         if condition.is_nan() || condition < DEPENDENT {
@@ -65,22 +63,17 @@ impl TruncatedBeam {
         }
         let inverse =
             shares.clone().try_inverse().ok_or(BeamError::PointsTooClose { condition })?;
-        let square: Vec<f64> = modes.iter().map(|m| m.natural_frequency_rad_s.powi(2)).collect();
-        let diagonal = DMatrix::from_fn(n, n, |i, k| if i == k { square[i] } else { 0.0 });
-        let b = DVector::from_fn(n, |i, _| (0..n).map(|k| shares[(i, k)] * square[k]).sum());
-        // Θ = R·η with η̈_k + ω_k²·η_k = ω_k²·θ_m, and C_t = Σ c_k·(θ_m − η_k).
-        let stiffness: Vec<f64> = (0..n).map(|k| modes[k].inertia_kg_m2 * square[k]).collect();
-        let h = DVector::from_fn(n, |i, _| {
-            -(0..n).map(|k| stiffness[k] * inverse[(k, i)]).sum::<f64>()
-        });
+        let squares = DVector::from_fn(n, |k, _| modes[k].natural_frequency_rad_s.powi(2));
+        let coupling = DVector::from_fn(n, |k, _| modes[k].inertia_kg_m2 * squares[k]);
+        let ModalForm { a, b, h, h_motor } = ModalForm::new(&shares, &inverse, &squares, &coupling);
         let carried: f64 = modes.iter().map(|m| m.inertia_kg_m2).sum();
         Ok(Self {
             points_m,
             natural_frequencies_rad_s: modes.iter().map(|m| m.natural_frequency_rad_s).collect(),
-            a: -(&shares * diagonal * &inverse),
+            a,
             b,
             h,
-            h_motor: stiffness.iter().sum(),
+            h_motor,
             residual_inertia_kg_m2: inertia - carried,
             inertias: modes.iter().map(|m| m.inertia_kg_m2).collect(),
             shares,

@@ -7,6 +7,7 @@ use thiserror::Error;
 use super::bands::{against, general, uncertain};
 use super::channel_check::range;
 use super::constant_velocity::{self, ConstantVelocity};
+use super::equivalent::{Equivalent, EquivalentData, equivalent};
 use super::finding::{Finding, Severity, key};
 use super::friction_law::{FrictionLaw, friction_law};
 use super::friction_waveform::FrictionWaveform;
@@ -21,7 +22,7 @@ use super::regression::{
     BeamRegression, MotorRegression, beam_regression, coupled_tips, motor_regression,
 };
 use super::replayed_bands::ReplayedBands;
-use super::response_table::{Replayed, response_table, weak_points};
+use super::response_table::{Replayed, ResponsePoint, response_table, weak_points};
 use super::run_analysis::{RunAnalysis, RunKind, analyse};
 use super::third_harmonic::{PairFigure, mean_figure, pair_figure};
 use super::{Estimate, ModeEstimate, models, verdict};
@@ -135,9 +136,7 @@ pub fn identify(
     let harmonics = options.harmonics.unwrap_or(HARMONICS).max(1);
     let mut findings = Vec::new();
     let mut runs = Vec::with_capacity(campaign.runs.len());
-    let dead: Vec<bool> = (0..campaign.channels.tips.len())
-        .map(|i| campaign.runs.iter().all(|run| range(&run.tips()[i]) <= 0.0))
-        .collect();
+    let dead = dead_everywhere(campaign);
     for index in 0..campaign.runs.len() {
         progress(Stage::Run(index, campaign.runs.len()));
         runs.push(analyse(campaign, index, harmonics, &dead, &mut findings));
@@ -223,6 +222,7 @@ pub fn identify(
     // After the models: they weigh each band by its deviation.
     findings.extend(uncertain(&mut responses));
     findings.extend(weak_points(&responses, &runs));
+    let equivalent = equivalent_arm(campaign, &responses, &mut findings);
     let state_space =
         motor_model.as_ref().map(|m| joined(campaign, m, constant, beam_model.as_ref()));
     let mut identified = Identified {
@@ -241,6 +241,7 @@ pub fn identify(
         beam_model,
         motor_model,
         state_space,
+        equivalent,
         separability: None,
         arm: None,
         torque_per_command: campaign.channels.command.torque_per_command,
@@ -287,6 +288,33 @@ fn coulomb_command(
     from_regression.filter(|c| c.value > 0.0).or(third_harmonic.map(|t| t.coulomb_command))
 }
 
+/// The equivalent arm of more than one point, or why there is none.
+fn equivalent_arm(
+    campaign: &Campaign,
+    responses: &[ResponsePoint],
+    findings: &mut Vec<Finding>,
+) -> Option<Equivalent> {
+    let data = EquivalentData::of_campaign(campaign, responses).ok()?;
+    if data.names.len() < 2 {
+        return None;
+    }
+    match equivalent(&data, None) {
+        Ok(found) => Some(found),
+        Err(refusal) => {
+            let (message, hint) = (refusal.to_string(), refusal.hint());
+            let affects = [key::EQUIVALENT];
+            findings.push(Finding::new(
+                "equivalent-refused",
+                Severity::Info,
+                &affects,
+                message,
+                hint,
+            ));
+            None
+        }
+    }
+}
+
 /// Both rational models as one state space.
 fn joined(
     campaign: &Campaign,
@@ -320,6 +348,12 @@ fn constant_channels(campaign: &Campaign) -> Vec<(String, usize)> {
     }));
     constant.retain(|(_, runs)| *runs > 0);
     constant
+}
+
+/// Which tips are constant in every run.
+fn dead_everywhere(campaign: &Campaign) -> Vec<bool> {
+    let dead = |i: usize| campaign.runs.iter().all(|run| range(&run.tips()[i]) <= 0.0);
+    (0..campaign.channels.tips.len()).map(dead).collect()
 }
 
 /// Says which tips are dead in every run.

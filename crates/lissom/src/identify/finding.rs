@@ -59,5 +59,6 @@ pub(crate) mod key {
     pub(crate) const CLASSICAL: &str = "methods.constant_velocity";
     pub(crate) const RAW: &str = "frequency_response.motor_raw";
     pub(crate) const CORRECTED: &str = "frequency_response.motor_corrected";
+    pub(crate) const EQUIVALENT: &str = "equivalent";
     pub(crate) const TIPS: &str = "frequency_response.tips";
 }

@@ -1,6 +1,7 @@
 //! What identification gives.
 
 use super::constant_velocity::ConstantVelocity;
+use super::equivalent::Equivalent;
 use super::finding::Finding;
 use super::found_arm::FoundArm;
 use super::friction_law::FrictionLaw;
@@ -121,6 +122,8 @@ pub struct Identified {
     pub motor_model: Option<MotorFit>,
     /// Both as one state space, from the command to the motor and to each tip that is an angle.
     pub state_space: Option<StateSpace>,
+    /// The equivalent arm of Section 4, where more than one tip's angle is known and the data carry it.
+    pub equivalent: Option<Equivalent>,
     /// Which of these the logs separate, run by run; `None` without a covariance.
     pub separability: Option<Separability>,
     /// The arm that stands for these figures, to predict other logs with; `None` where they make none.

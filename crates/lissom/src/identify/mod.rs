@@ -33,7 +33,11 @@ pub use constant_velocity::{
     ConstantVelocity, FrictionLine, LineError, Shape, SteadyPoint, constant_velocity,
 };
 pub use correct::{Response, corrected, ratio};
-pub use equivalent::{EquivalentBeam, EquivalentError, equivalent_beam};
+pub use equivalent::{
+    Deviations, Equivalent, EquivalentArm, EquivalentBeam, EquivalentData, EquivalentError,
+    EquivalentRefusal, PartOutside, ResponseZero, StrainlessForm, equivalent, equivalent_arm,
+    equivalent_beam, response_zeros,
+};
 pub use estimate::{Estimate, ModeEstimate};
 pub use finding::{Finding, Severity};
 pub use found_arm::{ArmSource, FoundArm, TorqueUsed};

@@ -2,15 +2,19 @@
 
 use nalgebra::DMatrix;
 
-use super::rational::{BeamFit, MotorFit};
+use super::rational::{BeamFit, MotorFit, Pole};
 use crate::lti::StateSpace;
 
-/// `ẋ = A·x + B·u` with `x = [θ_m, θ̇_m, q_1, q̇_1, …]`, u the command, y = θ_m and each tip.
-///
-/// Each mode follows the motor, `q̈_k = ω_k²(θ_m − q_k) − 2ζ_kω_k·q̇_k`, and pulls it back with
-/// `c_k(θ_m − q_k)`; a tip is `Σ (r_ik/ω_k²)·q_k`. `tips` holds the residues r_ik of tips that
-/// are angles, with their names, `unit` their unit (`rad`, `m`); the modes' poles must be those of `motor`.
-/// Poles of the beam that are no modes are left out.
+/// A mode that follows the motor, and pulls it back with `c(θ_m − q)`.
+pub(crate) struct CoupledMode {
+    pub(crate) pole: Pole,
+    /// c.
+    pub(crate) coupling: f64,
+}
+
+/// The state space of [`modal`], of rational fits. `tips` holds the residues r_ik of tips that are angles,
+/// with their names; the modes' poles must be those of `motor`. Poles of the beam that are no modes are left
+/// out.
 pub(crate) fn state_space(
     motor: &MotorFit,
     torque_per_command: f64,
@@ -18,19 +22,45 @@ pub(crate) fn state_space(
     tips: &[(usize, String)],
     unit: &str,
 ) -> StateSpace {
-    let modes = motor.poles.len();
-    let n = 2 + 2 * modes;
-    let (j, v) = (motor.inertia.value, motor.viscous.value);
+    let coupled = motor.poles.iter().zip(&motor.coupling);
+    let modes: Vec<CoupledMode> =
+        coupled.map(|(pole, c)| CoupledMode { pole: *pole, coupling: c.value }).collect();
+    let gains = |tip: usize| -> Vec<f64> {
+        let Some(residues) = beam.and_then(|b| b.residues.get(tip)) else { return Vec::new() };
+        let modal = beam.map_or(&[][..], |b| &b.mode_poles);
+        let each = modal.iter().zip(&motor.poles);
+        each.map(|(&at, pole)| {
+            let w2 = pole.omega_rad_s * pole.omega_rad_s;
+            residues[at].value / w2
+        })
+        .collect()
+    };
+    let tips: Vec<(String, Vec<f64>)> =
+        tips.iter().map(|(tip, name)| (name.clone(), gains(*tip))).collect();
+    modal([motor.inertia.value, motor.viscous.value], torque_per_command, &modes, &tips, unit)
+}
+
+/// `ẋ = A·x + B·u` with `x = [θ_m, θ̇_m, q_1, q̇_1, …]`, u the command, y = θ_m and each tip.
+///
+/// Each mode follows the motor, `q̈_k = ω_k²(θ_m − q_k) − 2ζ_kω_k·q̇_k`, and pulls it back with
+/// `c_k(θ_m − q_k)`; a tip is `Σ ρ_ik·q_k`, by its name and gains. `unit` is the angles' (`rad`, `m`).
+pub(crate) fn modal(
+    [j, v]: [f64; 2],
+    torque_per_command: f64,
+    modes: &[CoupledMode],
+    tips: &[(String, Vec<f64>)],
+    unit: &str,
+) -> StateSpace {
+    let n = 2 + 2 * modes.len();
     let mut a = DMatrix::zeros(n, n);
     a[(0, 1)] = 1.0;
     a[(1, 1)] = -v / j;
     let mut states = vec![format!("motor_{unit}"), format!("motor_{unit}_per_s")];
-    for (k, pole) in motor.poles.iter().enumerate() {
+    for (k, CoupledMode { pole, coupling }) in modes.iter().enumerate() {
         let (q, w2) = (2 + 2 * k, pole.omega_rad_s * pole.omega_rad_s);
-        let c = motor.coupling[k].value;
         // The damping acts on the mode's own velocity, so that C_t is c(θ_m − q).
-        a[(1, 0)] -= c / j;
-        a[(1, q)] += c / j;
+        a[(1, 0)] -= coupling / j;
+        a[(1, q)] += coupling / j;
         a[(q, q + 1)] = 1.0;
         a[(q + 1, 0)] = w2;
         a[(q + 1, q)] = -w2;
@@ -43,13 +73,9 @@ pub(crate) fn state_space(
     let mut c = DMatrix::zeros(1 + tips.len(), n);
     c[(0, 0)] = 1.0;
     let mut outputs = vec![format!("motor_{unit}")];
-    for (row, (tip, name)) in tips.iter().enumerate() {
-        if let Some(residues) = beam.and_then(|b| b.residues.get(*tip)) {
-            let modal = beam.map_or(&[][..], |b| &b.mode_poles);
-            for (k, (&at, pole)) in modal.iter().zip(&motor.poles).enumerate() {
-                let w2 = pole.omega_rad_s * pole.omega_rad_s;
-                c[(1 + row, 2 + 2 * k)] = residues[at].value / w2;
-            }
+    for (row, (name, gains)) in tips.iter().enumerate() {
+        for (k, gain) in gains.iter().enumerate() {
+            c[(1 + row, 2 + 2 * k)] = *gain;
         }
         outputs.push(format!("{name}_{unit}"));
     }
@@ -61,7 +87,7 @@ pub(crate) fn state_space(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::identify::{MotorData, Pole, Response, fit_motor};
+    use crate::identify::{MotorData, Response, fit_motor};
     use crate::lti::TransferFunction;
 
     #[test]

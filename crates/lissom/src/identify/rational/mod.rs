@@ -1,6 +1,7 @@
 //! Rational models fitted to responses: beam as (36), motor as (35), any number of modes.
 
 mod beam;
+mod coupling;
 mod motor;
 mod refine;
 mod relocate;
@@ -8,6 +9,7 @@ mod shared_poles;
 mod weighted;
 
 pub use beam::{BeamFit, TipData, TipForm, fit_beam};
+pub(crate) use coupling::{CouplingFit, fit_coupling};
 pub use motor::{MotorData, MotorFit, fit_motor};
 pub use shared_poles::{
     Damping, SharedPoles, SharedPolesError, Spurious, fit_shared_poles,

@@ -138,31 +138,67 @@ fn coupling_shape(pole: &Pole, omega: f64) -> Complex64 {
     1.0 - pole.omega_rad_s * pole.omega_rad_s / pole.denominator(omega)
 }
 
-fn solve(data: &MotorData, poles: &[Pole]) -> Option<Solution> {
-    let (m, p) = (data.response.len(), 2 + poles.len());
-    if 2 * m < p + 2 {
-        return None;
-    }
-    let mut a = DMatrix::zeros(2 * m, p);
-    let mut b = DVector::zeros(2 * m);
-    for (i, (&w, r)) in data.omega_rad_s.iter().zip(&data.response).enumerate() {
-        let inverse = data.torque_per_command / r.value;
-        let relative = (r.std / r.value.norm()).hypot(FLOOR);
-        let weight = 1.0 / (inverse.norm() * relative);
-        let s = Complex64::new(0.0, w);
-        let columns = [s * s, s].into_iter().chain(poles.iter().map(|p| coupling_shape(p, w)));
-        for (k, z) in columns.enumerate() {
-            (a[(2 * i, k)], a[(2 * i + 1, k)]) = (weight * z.re, weight * z.im);
+/// The equation in its unknowns J, V and c_k: two rows a frequency, real part first.
+pub(super) struct Rows {
+    pub(super) a: DMatrix<f64>,
+    pub(super) b: DVector<f64>,
+    /// One over the deviation of the torque per angle, of each frequency.
+    pub(super) weights: Vec<f64>,
+}
+
+impl Rows {
+    /// Responses are trusted to the share `floor` of their size at best. `None` where there are too few.
+    pub(super) fn new(data: &MotorData, poles: &[Pole], floor: f64) -> Option<Self> {
+        let (m, p) = (data.response.len(), 2 + poles.len());
+        if 2 * m < p + 2 {
+            return None;
         }
-        (b[2 * i], b[2 * i + 1]) = (weight * inverse.re, weight * inverse.im);
+        let mut a = DMatrix::zeros(2 * m, p);
+        let mut b = DVector::zeros(2 * m);
+        let mut weights = Vec::with_capacity(m);
+        for (i, (&w, r)) in data.omega_rad_s.iter().zip(&data.response).enumerate() {
+            let inverse = data.torque_per_command / r.value;
+            let relative = (r.std / r.value.norm()).hypot(floor);
+            let weight = 1.0 / (inverse.norm() * relative);
+            let s = Complex64::new(0.0, w);
+            let columns = [s * s, s].into_iter().chain(poles.iter().map(|p| coupling_shape(p, w)));
+            for (k, z) in columns.enumerate() {
+                (a[(2 * i, k)], a[(2 * i + 1, k)]) = (weight * z.re, weight * z.im);
+            }
+            (b[2 * i], b[2 * i + 1]) = (weight * inverse.re, weight * inverse.im);
+            weights.push(weight);
+        }
+        let sound = a.iter().chain(b.iter()).all(|v| v.is_finite());
+        sound.then_some(Self { a, b, weights })
     }
-    if !(a.iter().chain(b.iter()).all(|v| v.is_finite())) {
-        return None;
+
+    /// Least squares, and (AᵀA)⁻¹. The columns are brought to one size: c_k and J differ by orders.
+    pub(super) fn solved(&self) -> Option<(DVector<f64>, DMatrix<f64>)> {
+        let sizes = DVector::from_fn(self.a.ncols(), |k, _| match self.a.column(k).norm() {
+            0.0 => 1.0,
+            size => size,
+        });
+        let mut scaled = self.a.clone();
+        for (mut column, size) in scaled.column_iter_mut().zip(&sizes) {
+            column /= *size;
+        }
+        let normal = scaled.tr_mul(&scaled);
+        let value = scaled.svd(true, true).solve(&self.b, 1e-13).ok()?;
+        let mut covariance = normal.pseudo_inverse(1e-15).ok()?;
+        for (j, mut column) in covariance.column_iter_mut().enumerate() {
+            for (i, v) in column.iter_mut().enumerate() {
+                *v /= sizes[i] * sizes[j];
+            }
+        }
+        Some((value.component_div(&sizes), covariance))
     }
-    let value = a.clone().svd(true, true).solve(&b, 1e-13).ok()?;
-    let cost = (&b - &a * &value).norm_squared();
-    let covariance = (a.transpose() * &a).pseudo_inverse(1e-15).ok()?;
-    Some(Solution { value, covariance, cost, rows: 2 * m })
+}
+
+fn solve(data: &MotorData, poles: &[Pole]) -> Option<Solution> {
+    let rows = Rows::new(data, poles, FLOOR)?;
+    let (value, covariance) = rows.solved()?;
+    let cost = (&rows.b - &rows.a * &value).norm_squared();
+    Some(Solution { value, covariance, cost, rows: rows.b.len() })
 }
 
 /// The one pole that explains the response best, refined on ever finer grids.

@@ -307,6 +307,28 @@ impl SharedPoles {
         Estimate { value: self.static_gains[i][k], std: self.deviation(at) }
     }
 
+    /// The same fit with these poles and outputs alone, in this order: those left out stay in the figures'
+    /// deviations, and their part of the responses is gone. `None` where a place is none.
+    pub fn only(&self, poles: &[usize], outputs: &[usize]) -> Option<Self> {
+        let (modes, unknowns) = (self.poles.len(), self.damping.unknowns());
+        let there = |places: &[usize], count: usize| places.iter().all(|p| *p < count);
+        if !there(poles, modes) || !there(outputs, self.static_gains.len()) {
+            return None;
+        }
+        let of_poles = poles.iter().flat_map(|k| (0..unknowns).map(move |u| k * unknowns + u));
+        let of_gains = outputs
+            .iter()
+            .flat_map(|i| poles.iter().map(move |k| modes * unknowns + i * modes + k));
+        let at: Vec<usize> = of_poles.chain(of_gains).collect();
+        let gains = |i: &usize| poles.iter().map(|&k| self.static_gains[*i][k]).collect();
+        Some(Self {
+            poles: poles.iter().map(|&k| self.poles[k]).collect(),
+            static_gains: outputs.iter().map(gains).collect(),
+            covariance: self.covariance.select_rows(&at).select_columns(&at),
+            ..self.clone()
+        })
+    }
+
     /// Why pole `k` is no mode of the beam; `None` of those that are.
     pub fn spurious(&self, k: usize) -> Option<Spurious> {
         let pole = self.poles[k];

@@ -1,0 +1,102 @@
+//! `lissom equivalent CAMPAIGN|FRF...`: Section 4 from measured responses.
+
+mod args;
+mod input;
+mod plots;
+mod table;
+
+pub(crate) use args::EquivalentArgs;
+pub(crate) use table::brief;
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use lissom::beam::BestPoint;
+use lissom::identify::{EquivalentError, EquivalentRefusal, equivalent};
+use lissom_io::write::{self, Batch};
+use lissom_io::{ArmFile, BeamKind, equivalent_json};
+
+use self::input::Input;
+use crate::cli::STDOUT;
+use crate::failure::Failure;
+use crate::{output, print};
+
+pub(crate) fn run(args: &EquivalentArgs) -> Result<ExitCode, Failure> {
+    let json = args.json.as_deref();
+    let json_file = json.filter(|path| *path != Path::new(STDOUT));
+    output::guard(json_file, None)?;
+    let picture = args.plot.as_deref().map(plots::Picture::of).transpose()?;
+    let input = Input::read(args)?;
+    let found = equivalent(&input.data, args.modes.map(usize::from));
+    let found = match found {
+        Ok(found) => found,
+        Err(source) => {
+            let place = better_place(args, &source)?;
+            let (input, source) = (args.inputs[0].clone(), Box::new(source));
+            return Err(Failure::Equivalent { input, source, place });
+        }
+    };
+    let mut batch = Batch::new();
+    if let Some(path) = json_file {
+        let value = equivalent_json(input.names, &found);
+        batch.file(path, write::json_text(path, &value)?.as_bytes())?;
+    }
+    if let Some(picture) = &picture {
+        plots::add_all(&mut batch, picture, &input, &found)?;
+    }
+    batch.commit()?;
+    if json.is_some() && json_file.is_none() {
+        print::json(&equivalent_json(input.names, &found));
+    } else {
+        table::print(&input, &found);
+        print::findings(&found.findings);
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Where one of two points that move alike should sit, on a beam of known dimensions.
+fn better_place(
+    args: &EquivalentArgs,
+    refusal: &EquivalentRefusal,
+) -> Result<Option<String>, Failure> {
+    let EquivalentRefusal::Beam { source, names, .. } = refusal else { return Ok(None) };
+    let (EquivalentError::TooClose { first, second, .. }, Some(path)) = (source, &args.arm) else {
+        return Ok(None);
+    };
+    let file = ArmFile::read(path)?;
+    if file.beam(path).map_err(lissom_io::Error::from)?.kind() != BeamKind::Distributed {
+        let reason =
+            "has point masses, and a place is looked for along a beam with mass".to_owned();
+        let hint = "give density or mass_per_length in [beam]";
+        return Err(Failure::Model { arm: path.clone(), reason, hint });
+    }
+    let beam = file.distributed_beam(path).map_err(lissom_io::Error::from)?;
+    let mut points_m = Vec::new();
+    for name in names {
+        let Some((_, place)) = args.at.iter().find(|(n, _)| n == name) else {
+            let words = format!("--at does not say where {name} sits");
+            return Err(Failure::EquivalentAsked(
+                words,
+                "give --at NAME=LENGTH once for each point",
+            ));
+        };
+        points_m.push(*place);
+    }
+    let mut best: Option<(usize, BestPoint)> = None;
+    for moved in [*first, *second] {
+        let found = beam.best_point(&points_m, moved).map_err(|source| Failure::Model {
+            arm: path.clone(),
+            reason: source.to_string(),
+            hint: "give the points' distances from the axis with --at",
+        })?;
+        if best.is_none_or(|(_, b)| found.least > b.least) {
+            best = Some((moved, found));
+        }
+    }
+    Ok(best.map(|(moved, found)| {
+        format!(
+            "put {} at {:.4} m in place of {:.4} m: the gains' least singular value is then {:.3} in place of {:.1e}",
+            names[moved], found.position_m, points_m[moved], found.least, found.least_now
+        )
+    }))
+}

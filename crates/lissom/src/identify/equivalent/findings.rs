@@ -1,0 +1,117 @@
+//! What to know of an equivalent arm.
+
+use super::EquivalentError;
+use super::whole::{Deviations, Equivalent, EquivalentData};
+use crate::identify::finding::key;
+use crate::identify::rational::Spurious;
+use crate::identify::{Estimate, Finding, Severity};
+
+/// A model that leaves more than so many deviations is not all there is…
+const MISFIT: f64 = 2.0;
+/// …and one that leaves less than this share of them says that they are too large.
+const TOO_GOOD: f64 = 0.5;
+/// What the last mode is given is told from this size on.
+const GIVEN: f64 = 0.02;
+
+pub(super) fn findings(
+    data: &EquivalentData,
+    whole: &Equivalent,
+    modes_found: usize,
+    no_torque: Option<EquivalentError>,
+) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    let mut add = |code, severity, message: String, hint| {
+        findings.push(Finding::new(code, severity, &[key::EQUIVALENT], message, hint));
+    };
+    for (pole, why) in whole.fit.poles.iter().zip(&whole.spurious) {
+        let why = match why {
+            Some(Spurious::Outside) => "lies outside the frequencies measured",
+            Some(Spurious::Damped) => "is damped as no mode of a beam is",
+            Some(Spurious::Unfelt) => "moves no point by four deviations",
+            None => continue,
+        };
+        let message =
+            format!("a pole at {:.4} rad/s {why}: it is none of the arm's modes", pole.omega_rad_s);
+        let hint = "nothing, where it stands for modes beyond the frequencies or for noise";
+        add("equivalent-spurious-pole", Severity::Info, message, hint);
+    }
+    if whole.modes.len() < modes_found {
+        let message = format!("{} of {modes_found} modes are kept", whole.modes.len());
+        let hint = "the arm holds below the first mode left out";
+        add("equivalent-modes-left-out", Severity::Info, message, hint);
+    }
+    let unused: Vec<&str> = (0..data.names.len())
+        .filter(|i| !whole.points.contains(i))
+        .map(|i| data.names[i].as_str())
+        .collect();
+    if !unused.is_empty() {
+        let message = format!(
+            "{} modes take as many points: {} not in the arm, its response is in the poles",
+            whole.modes.len(),
+            format_args!("{} {}", unused.join(", "), if unused.len() == 1 { "is" } else { "are" })
+        );
+        let hint = "measure at higher frequencies, to see as many modes as points";
+        add("equivalent-points-left-out", Severity::Info, message, hint);
+    }
+    let rms = whole.fit.weighted_rms;
+    let known = data.deviations != Deviations::FromResidual;
+    if known && rms > MISFIT {
+        let message = format!(
+            "the points' responses lie {rms:.1} times their deviations off the model: there is more in them \
+             than modes of an arm, or the deviations are too small. Intervals count it"
+        );
+        let hint = "look at the plot: a misfit at one frequency is a disturbance, one everywhere a wrong deviation";
+        add("equivalent-misfit", Severity::Warning, message, hint);
+    } else if data.deviations == Deviations::Measured && rms < TOO_GOOD {
+        let message =
+            format!("the model leaves {rms:.2} of the deviations: they are larger than the errors");
+        let hint = "intervals are wider than they need to be";
+        add("equivalent-deviations-large", Severity::Info, message, hint);
+    }
+    if let Some(arm) = &whole.arm {
+        if known && arm.weighted_rms > MISFIT {
+            let message = format!(
+                "the motor's response lies {:.1} times its deviations off the model: friction left in it, or modes \
+                 that are not in the arm. Intervals count it",
+                arm.weighted_rms
+            );
+            let hint = "look at the plot of the motor";
+            add("equivalent-motor-misfit", Severity::Warning, message, hint);
+        }
+        let negative: Vec<String> = named(arm)
+            .into_iter()
+            .filter(|(_, figure)| figure.is_negative())
+            .map(|(name, _)| name)
+            .collect();
+        if !negative.is_empty() {
+            let message = format!("{} below zero: no arm has that", negative.join(", "));
+            let hint =
+                "check the motor's response: its sign, the torque constant, friction taken out";
+            add("equivalent-implausible", Severity::Warning, message, hint);
+        }
+    }
+    if let Some(error) = no_torque {
+        let hint = "give the motor's response at more frequencies";
+        add("equivalent-without-torque", Severity::Warning, error.to_string(), hint);
+    }
+    let lacks = whole.strainless.iter().flat_map(|s| s.missing.iter().zip(&s.given_to_last));
+    let given = lacks.filter(|(_, to_last)| **to_last).map(|(m, _)| m.abs()).fold(0.0, f64::max);
+    if given > GIVEN {
+        let message = format!(
+            "the points' gains add up to one but for {given:.3}: for use as an arm the last mode is given the rest, \
+             so that turning as one body strains nothing"
+        );
+        let hint =
+            "the last mode's part of the responses is then as wrong as that; the others' stay";
+        add("equivalent-completed", Severity::Info, message, hint);
+    }
+    findings
+}
+
+fn named(arm: &super::EquivalentArm) -> Vec<(String, Estimate)> {
+    let coupling = arm.coupling.iter().enumerate();
+    let coupling = coupling.map(|(k, c)| (format!("the coupling of mode {}", k + 1), *c));
+    let motor =
+        [("the inertia".to_owned(), arm.inertia), ("the viscous friction".to_owned(), arm.viscous)];
+    motor.into_iter().chain(coupling).collect()
+}

@@ -1,0 +1,260 @@
+//! The lumped arm that behaves as a distributed one, from its points' responses: step 5 of Section 4.
+
+use nalgebra::{DMatrix, DVector};
+use thiserror::Error;
+
+mod arm;
+mod findings;
+mod refusal;
+mod responses;
+mod whole;
+mod zeros;
+
+pub use arm::{EquivalentArm, equivalent_arm};
+pub use refusal::{EquivalentRefusal, PartOutside};
+pub use whole::{Deviations, Equivalent, EquivalentData, equivalent};
+pub use zeros::{ResponseZero, response_zeros};
+
+use super::rational::SharedPoles;
+use crate::beam::{ModalForm, completed};
+
+/// The matrix of the points' gains counts as singular where its least singular value is not this many
+/// deviations from zero…
+const DEVIATIONS: f64 = 4.0;
+/// …or this share of the largest.
+const DEPENDENT: f64 = 1e-10;
+/// Gains whose sum is within so many deviations of one are those of all modes there are.
+const COMPLETE: f64 = 3.0;
+
+/// `Θ̈ = Â·Θ + B̂·θ_m` (17): N_v points of a beam whose responses show N_v modes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EquivalentBeam {
+    /// Â, points × points \[1/s²\].
+    pub a: DMatrix<f64>,
+    /// Deviations of its elements.
+    pub a_std: DMatrix<f64>,
+    /// B̂ \[1/s²\].
+    pub b: DVector<f64>,
+    /// Deviations of its elements.
+    pub b_std: DVector<f64>,
+    /// R: ρ_ik of point i in mode k.
+    gains: DMatrix<f64>,
+    /// R⁻¹.
+    inverse: DMatrix<f64>,
+    /// ω_k² of each mode.
+    squares: DVector<f64>,
+    /// R with rows that add up to one.
+    completed: DMatrix<f64>,
+    /// Rows whose last gain was given what they lacked.
+    given_to_last: Vec<bool>,
+}
+
+/// (17)-(18) that turning the arm as one body strains nothing in.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StrainlessForm {
+    /// Â \[1/s²\].
+    pub a: DMatrix<f64>,
+    /// B̂ \[1/s²\], −Â·1.
+    pub b: DVector<f64>,
+    /// Ĥ \[N·m/rad\]; zeros where no coupling was given.
+    pub h: DVector<f64>,
+    /// ĥ_{n+1} \[N·m/rad\], −ΣĤ.
+    pub h_motor: f64,
+    /// What the gains fitted lack of one at each point.
+    pub missing: DVector<f64>,
+    /// Whether the data say that a point lacks it, so that its last mode was given all of it.
+    pub given_to_last: Vec<bool>,
+}
+
+impl EquivalentBeam {
+    /// The form for use as an arm, with gains that add up to one at every point.
+    ///
+    /// Where modes are left out the gains fitted do not, and (17) as fitted would strain a beam that turns as
+    /// one body, even at rest. What a point's gains lack of one is given to its last mode, as
+    /// [`TruncatedBeam`](crate::beam::TruncatedBeam) does; where it is within three deviations of nothing the
+    /// sum is taken for known, and moves all of the point's gains as their covariance has it.
+    ///
+    /// `coupling` is c_k of each mode \[N·m/rad\], or nothing where it is not known. `None` where the
+    /// gains cannot be inverted then.
+    pub fn strainless(&self, coupling: &[f64]) -> Option<StrainlessForm> {
+        let inverse = self.completed.clone().try_inverse()?;
+        let known = |k: usize, _| coupling.get(k).copied().unwrap_or(0.0);
+        let coupling = DVector::from_fn(self.squares.len(), known);
+        let ModalForm { a, b, h, h_motor } =
+            ModalForm::new(&self.completed, &inverse, &self.squares, &coupling);
+        let missing = self.gains.column_sum().map(|sum| 1.0 - sum);
+        let given_to_last = self.given_to_last.clone();
+        let sound = a.iter().all(|v| v.is_finite());
+        sound.then_some(StrainlessForm { a, b, h, h_motor, missing, given_to_last })
+    }
+}
+
+/// Gains that add up to one at every point, and which points' last mode was given what they lack.
+fn with_sum_of_one(fit: &SharedPoles, gains: &DMatrix<f64>) -> (DMatrix<f64>, Vec<bool>) {
+    let (points, modes) = gains.shape();
+    let mut all = completed(gains.clone());
+    let first = fit.covariance.nrows() - points * modes;
+    let mut given = vec![true; points];
+    for (i, given) in given.iter_mut().enumerate() {
+        let at = first + i * modes;
+        let moves = fit.covariance.view((at, at), (modes, modes)).column_sum();
+        let (missing, variance) = (1.0 - gains.row(i).sum(), moves.sum());
+        if missing * missing <= COMPLETE * COMPLETE * variance && variance > 0.0 {
+            all.set_row(i, &(gains.row(i) + moves.transpose() * (missing / variance)));
+            *given = false;
+        }
+    }
+    (all, given)
+}
+
+/// Why there is no equivalent beam.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum EquivalentError {
+    /// Each mode needs a point of its own.
+    #[error("{modes} modes and {points} points: step 5 of Section 4 takes as many points as modes")]
+    PointsAndModes {
+        /// Points measured.
+        points: usize,
+        /// Modes of the fit.
+        modes: usize,
+    },
+    /// μ of (22) cannot be inverted.
+    #[error(
+        "points {first} and {second} move too much alike in these modes (the gains' least singular value is {ratio:.1e} \
+         of the largest): mode {mode} is not told apart"
+    )]
+    TooClose {
+        /// One of the pair that is most alike, from 0.
+        first: usize,
+        /// The other.
+        second: usize,
+        /// Least singular value of the gains over the largest.
+        ratio: f64,
+        /// The mode, from 0, that has the largest part in the motion that no point shows: one of the two
+        /// should sit where this mode moves it by another size or sign. A beam of known dimensions says
+        /// where: [`DistributedBeam::best_point`](crate::beam::DistributedBeam::best_point).
+        mode: usize,
+    },
+    /// The motor's response does not hold step 6.
+    #[error(
+        "{frequencies} frequencies of the motor, {unknowns} unknowns: inertia, viscous friction and coupling \
+         cannot be found"
+    )]
+    MotorTooFew {
+        /// Frequencies of its response.
+        frequencies: usize,
+        /// J, V and c_k of each mode.
+        unknowns: usize,
+    },
+    /// A response of the motor that is no number, is zero, has no deviation, or no frequency.
+    #[error(
+        "the motor's response at point {index} needs a finite value, a deviation above zero and a frequency"
+    )]
+    MotorResponse {
+        /// Its place, from 0.
+        index: usize,
+    },
+}
+
+/// Â and B̂ of (17) from transfer functions with shared poles.
+///
+/// With ρ_ik the static gain of point i in mode k, R their matrix and Ω² = diag(ω_k²): the modes move by
+/// `η̈ = Ω²·(θ_m − η)` and the points by Θ = R·η, so that `Â = −R·Ω²·R⁻¹` and `B̂ = R·Ω²·1`. That is what
+/// (21)-(23) come to in exact numbers; polynomials of ω² would lose half of the digits. Deviations are to
+/// first order in the fit's covariance. What the modes left out add to the points' gains at rest is not in
+/// it, so that Â·1 + B̂ is zero only as far as R·1 is one.
+///
+/// # Errors
+/// Other than as many points as modes; two points whose gains cannot be told apart.
+///
+/// # Source
+/// `[Feliu1989, Section 4, step 5, eqs. (19)-(23)]`
+///
+/// # Differences from the source
+/// Damping of the poles is left out, as (17) has none.
+pub fn equivalent_beam(fit: &SharedPoles) -> Result<EquivalentBeam, EquivalentError> {
+    let (points, modes) = (fit.static_gains.len(), fit.poles.len());
+    if points != modes {
+        return Err(EquivalentError::PointsAndModes { points, modes });
+    }
+    let gains = DMatrix::from_fn(points, modes, |i, k| fit.static_gains[i][k]);
+    let inverse = inverted(fit, &gains)?;
+    let squares = DVector::from_fn(modes, |k, _| fit.poles[k].omega_rad_s.powi(2));
+    let form = ModalForm::new(&gains, &inverse, &squares, &DVector::zeros(modes));
+    let (a, b) = (form.a, form.b);
+    // dÂ = −dR·Ω²·R⁻¹ − R·dΩ²·R⁻¹ − Â·dR·R⁻¹, dB̂ = dR·Ω²·1 + R·dΩ²·1.
+    let slopes: Vec<(DMatrix<f64>, DVector<f64>)> = (0..fit.covariance.nrows())
+        .map(|unknown| {
+            let (d_gains, d_squares) = moved(fit, unknown);
+            let by_gains = &d_gains * DMatrix::from_diagonal(&squares) + &a * &d_gains;
+            let by_squares = &gains * DMatrix::from_diagonal(&d_squares);
+            (-(by_gains + by_squares) * &inverse, d_gains * &squares + &gains * d_squares)
+        })
+        .collect();
+    let a_std = DMatrix::from_fn(points, points, |i, j| {
+        deviation(&fit.covariance, |u| slopes[u].0[(i, j)])
+    });
+    let b_std = DVector::from_fn(points, |i, _| deviation(&fit.covariance, |u| slopes[u].1[i]));
+    let (completed, given_to_last) = with_sum_of_one(fit, &gains);
+    Ok(EquivalentBeam { a, a_std, b, b_std, gains, inverse, squares, completed, given_to_last })
+}
+
+/// What one unknown of the fit moves: R, and ω_k².
+fn moved(fit: &SharedPoles, unknown: usize) -> (DMatrix<f64>, DVector<f64>) {
+    let (points, modes) = (fit.static_gains.len(), fit.poles.len());
+    let unknowns = fit.damping.unknowns();
+    let mut d_gains = DMatrix::zeros(points, modes);
+    let mut d_squares = DVector::zeros(modes);
+    match unknown.checked_sub(modes * unknowns) {
+        Some(gain) if gain < points * modes => d_gains[(gain / modes, gain % modes)] = 1.0,
+        None if unknown.is_multiple_of(unknowns) => {
+            let k = unknown / unknowns;
+            d_squares[k] = 2.0 * fit.poles[k].omega_rad_s.powi(2);
+        }
+        _ => {}
+    }
+    (d_gains, d_squares)
+}
+
+/// Deviation of what has the slope `by` by each unknown.
+fn deviation(covariance: &DMatrix<f64>, by: impl Fn(usize) -> f64) -> f64 {
+    let slope = DVector::from_fn(covariance.nrows(), |u, _| by(u));
+    slope.dot(&(covariance * &slope)).max(0.0).sqrt()
+}
+
+/// R⁻¹, where the data tell the points apart.
+fn inverted(fit: &SharedPoles, gains: &DMatrix<f64>) -> Result<DMatrix<f64>, EquivalentError> {
+    let points = gains.nrows();
+    let refused = |ratio: f64, mode: usize| {
+        let (first, second) = most_alike(gains);
+        EquivalentError::TooClose { first, second, ratio, mode }
+    };
+    let decomposed = gains.clone().svd(true, true);
+    let (Some(left), Some(right)) = (&decomposed.u, &decomposed.v_t) else {
+        return Err(refused(f64::NAN, 0));
+    };
+    let (at, least) = decomposed.singular_values.argmin();
+    let ratio = least / decomposed.singular_values.max();
+    let mode = right.row(at).transpose().iamax();
+    // dσ = uᵀ·dR·v.
+    let first = fit.covariance.nrows() - points * points;
+    let std = deviation(&fit.covariance, |u| {
+        let gain = u.checked_sub(first);
+        gain.map_or(0.0, |g| left[(g / points, at)] * right[(at, g % points)])
+    });
+    if points > 1 && (ratio < DEPENDENT || least < DEVIATIONS * std) {
+        return Err(refused(ratio, mode));
+    }
+    gains.clone().try_inverse().ok_or_else(|| refused(ratio, mode))
+}
+
+/// The two points whose rows of gains point the same way most nearly.
+fn most_alike(gains: &DMatrix<f64>) -> (usize, usize) {
+    let cosine = |i: usize, j: usize| {
+        let (a, b) = (gains.row(i), gains.row(j));
+        a.dot(&b).abs() / (a.norm() * b.norm())
+    };
+    let pairs = (0..gains.nrows()).flat_map(|j| (0..j).map(move |i| (i, j)));
+    pairs.max_by(|p, q| cosine(p.0, p.1).total_cmp(&cosine(q.0, q.1))).unwrap_or((0, 0))
+}

@@ -1,0 +1,174 @@
+//! Why there is no equivalent arm, and what to do about it.
+
+use thiserror::Error;
+
+use super::EquivalentError;
+use crate::identify::rational::SharedPolesError;
+
+/// A response with more than damping in its imaginary part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PartOutside {
+    /// Name of the point.
+    pub name: String,
+    /// Imaginary part that no damping explains, as a share of the response, median.
+    pub share: f64,
+    /// The same in deviations, rms; `None` where these are not known.
+    pub deviations: Option<f64>,
+}
+
+/// Why responses make no equivalent arm.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum EquivalentRefusal {
+    /// No poles can be fitted.
+    #[error("{}", fit_words(source, names))]
+    Fit {
+        /// Why.
+        source: SharedPolesError,
+        /// Names of the points.
+        names: Vec<String>,
+    },
+    /// Not a name for each point.
+    #[error("{names} names for {points} points")]
+    Names {
+        /// Names given.
+        names: usize,
+        /// Points measured.
+        points: usize,
+    },
+    /// No point's angle is known.
+    #[error("no tip is an angle, or a deflection that makes one")]
+    NoAngle,
+    /// Nothing but noise.
+    #[error(
+        "the responses are all noise: of {poles} poles fitted none stands four deviations clear of it, or none \
+         describes the responses better than nothing does"
+    )]
+    Noise {
+        /// Poles tried.
+        poles: usize,
+    },
+    /// What moves lies outside the frequencies.
+    #[error(
+        "no mode lies within the frequencies measured, {:.4} to {:.4} rad/s",
+        range_rad_s.0,
+        range_rad_s.1
+    )]
+    NoModeWithin {
+        /// The lowest and the highest frequency \[rad/s\].
+        range_rad_s: (f64, f64),
+    },
+    /// A response that is not even in s, however it is damped.
+    #[error("{}", uneven_words(.0))]
+    Uneven(PartOutside),
+    /// Each mode needs a point of its own.
+    #[error(
+        "{points} {} for {} modes, at {} rad/s: each mode needs a point of its own",
+        if *points == 1 { "point" } else { "points" },
+        modes_rad_s.len(),
+        listed(modes_rad_s)
+    )]
+    FewerPoints {
+        /// Points measured.
+        points: usize,
+        /// The modes' frequencies \[rad/s\].
+        modes_rad_s: Vec<f64>,
+    },
+    /// The points' gains cannot be inverted.
+    #[error("{}", beam_words(source, names, modes_rad_s))]
+    Beam {
+        /// Why.
+        source: EquivalentError,
+        /// Names of the points in it.
+        names: Vec<String>,
+        /// The modes' frequencies \[rad/s\].
+        modes_rad_s: Vec<f64>,
+    },
+}
+
+impl EquivalentRefusal {
+    /// What to do about it.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Fit { source, .. } => match source {
+                SharedPolesError::NoOutput => "give a response of one point at least",
+                SharedPolesError::Grid { .. } => "measure all points at the same frequencies",
+                SharedPolesError::TooFew { .. } => {
+                    "measure at more frequencies: five for each mode at least"
+                }
+                SharedPolesError::Frequency { .. } | SharedPolesError::Response { .. } => {
+                    "leave out what is no number, and points whose deviation is zero"
+                }
+                _ => "measure about the resonances, at more frequencies",
+            },
+            Self::Names { .. } => "give each point a name",
+            Self::NoAngle => {
+                "measure angles of points of the beam, or deflections in rad or with a radius: accelerations and \
+                 unscaled signals do not say how far a point moves"
+            }
+            Self::Noise { .. } => "drive the motor harder, average longer, and check the sensors",
+            Self::NoModeWithin { .. } => {
+                "measure over the resonances of the beam with the motor clamped"
+            }
+            Self::Uneven(_) => {
+                "responses must be of a point's angle to the motor's angle, without delay between the two: check \
+                 the channels, their sampling and the phase's sign and unit"
+            }
+            Self::FewerPoints { .. } => {
+                "measure as many points as modes, or keep the lowest modes: `lissom equivalent` with --modes N"
+            }
+            Self::Beam { .. } => {
+                "put one of the two where this mode moves it by another size or sign; `lissom equivalent --arm \
+                 ARM --at NAME=LENGTH` says where on a beam of known dimensions"
+            }
+        }
+    }
+}
+
+fn listed(numbers: &[f64]) -> String {
+    numbers.iter().map(|w| format!("{w:.4}")).collect::<Vec<_>>().join(", ")
+}
+
+fn name(names: &[String], place: usize) -> &str {
+    names.get(place).map_or("?", String::as_str)
+}
+
+fn fit_words(error: &SharedPolesError, names: &[String]) -> String {
+    match error {
+        SharedPolesError::Grid { output, found, expected } => format!(
+            "{} has {found} responses for {expected} frequencies: all points must share one grid",
+            name(names, *output)
+        ),
+        SharedPolesError::Response { output, index } => format!(
+            "{}, frequency {}: a response needs a finite value and a deviation above zero",
+            name(names, *output),
+            index + 1
+        ),
+        other => other.to_string(),
+    }
+}
+
+fn uneven_words(part: &PartOutside) -> String {
+    let deviations =
+        part.deviations.map_or(String::new(), |d| format!(" ({d:.1} times its deviations)"));
+    format!(
+        "{} has {:.0} % of its size in an imaginary part that no damping explains{deviations}: the response of \
+         an arm has even powers of s only",
+        part.name,
+        100.0 * part.share
+    )
+}
+
+fn beam_words(error: &EquivalentError, names: &[String], modes_rad_s: &[f64]) -> String {
+    match error {
+        EquivalentError::TooClose { first, second, ratio, mode } => format!(
+            "{} and {} move too much alike in these modes (the gains' least singular value is {ratio:.1e} of the \
+             largest): mode {}{} is not told apart",
+            name(names, *first),
+            name(names, *second),
+            mode + 1,
+            modes_rad_s.get(*mode).map_or(String::new(), |w| format!(" at {w:.4} rad/s"))
+        ),
+        other => other.to_string(),
+    }
+}

@@ -1,0 +1,259 @@
+//! Section 4 from measured responses to the arm, judged on the way.
+
+use nalgebra::DMatrix;
+
+use super::arm::arm_below;
+use super::refusal::{EquivalentRefusal, PartOutside};
+use super::{
+    EquivalentArm, EquivalentBeam, EquivalentError, ResponseZero, StrainlessForm, equivalent_beam,
+    findings, response_zeros,
+};
+use crate::identify::rational::{
+    Damping, MotorData, Pole, SharedPoles, Spurious, fit_shared_poles,
+    fit_shared_poles_by_evidence, information,
+};
+use crate::identify::{Finding, Response};
+
+/// Pairs of poles looked for, whatever the number of points.
+const POLES_LEAST: usize = 8;
+/// Imaginary parts that damping does not explain are none of an arm's from this share of a response (its
+/// median) on…
+const UNEVEN: f64 = 0.1;
+/// …where they are this many deviations, rms.
+const DEVIATIONS: f64 = 3.0;
+
+/// Where the deviations of responses are from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Deviations {
+    /// Measured.
+    Measured,
+    /// Measured, and no less than a share of the response.
+    Floored,
+    /// Not known: all of a size, and what the model leaves says which.
+    FromResidual,
+}
+
+/// Responses of points of a beam, and of its motor.
+#[derive(Debug, Clone)]
+pub struct EquivalentData {
+    /// Names of the points.
+    pub names: Vec<String>,
+    /// Frequencies \[rad/s\].
+    pub omega_rad_s: Vec<f64>,
+    /// θ_i/θ_m of each point (outer) at each frequency.
+    pub outputs: Vec<Vec<Response>>,
+    /// θ_m per command, friction taken out; `None`: step 5 alone.
+    pub motor: Option<MotorData>,
+    /// Where the deviations are from.
+    pub deviations: Deviations,
+}
+
+/// An equivalent arm and how far it holds.
+#[derive(Debug, Clone)]
+pub struct Equivalent {
+    /// All poles found.
+    pub fit: SharedPoles,
+    /// Why each of them is no mode; `None` of those that are.
+    pub spurious: Vec<Option<Spurious>>,
+    /// Those of the arm.
+    pub modes: Vec<usize>,
+    /// Its points, places in [`EquivalentData::names`].
+    pub points: Vec<usize>,
+    /// The poles of the arm at its points.
+    pub kept: SharedPoles,
+    /// Â and B̂ as fitted.
+    pub beam: EquivalentBeam,
+    /// Ĥ, ĥ, J and V too; `None` without a motor's response that holds them.
+    pub arm: Option<EquivalentArm>,
+    /// The form for use as an arm.
+    pub strainless: Option<StrainlessForm>,
+    /// Zeros of every point's response, with the modes of the arm.
+    pub zeros: Vec<Vec<ResponseZero>>,
+    /// Names of the points measured.
+    pub names: Vec<String>,
+    /// What the model of all poles leaves of the points' responses, as a share of each, rms.
+    pub relative_residual: f64,
+    /// Where the deviations are from.
+    pub deviations: Deviations,
+    /// What to know of it.
+    pub findings: Vec<Finding>,
+}
+
+/// Steps 1 to 6 of Section 4.
+///
+/// Poles by evidence, those that are no modes left out; as many points as modes, the ones that tell them
+/// apart best; Â, B̂ (step 5), and with the motor's response Ĥ, ĥ, J and V (step 6). `modes` keeps the
+/// lowest so many.
+///
+/// # Errors
+/// [`EquivalentRefusal`], which says why and what to do.
+///
+/// # Source
+/// `[Feliu1989, Section 4]`
+pub fn equivalent(
+    data: &EquivalentData,
+    modes: Option<usize>,
+) -> Result<Equivalent, EquivalentRefusal> {
+    let (points, names) = (data.outputs.len(), data.names.len());
+    if points != names {
+        return Err(EquivalentRefusal::Names { names, points });
+    }
+    let most = POLES_LEAST.max(2 * points + 2);
+    let (omega, outputs) = (&data.omega_rad_s, &data.outputs);
+    let fit = fit_shared_poles_by_evidence(omega, outputs, most, Damping::Small)
+        .map_err(|source| EquivalentRefusal::Fit { source, names: data.names.clone() })?;
+    let spurious: Vec<Option<Spurious>> = (0..fit.poles.len()).map(|k| fit.spurious(k)).collect();
+    let found: Vec<usize> = (0..spurious.len()).filter(|k| spurious[*k].is_none()).collect();
+    if found.is_empty() || is_noise(data, &fit) {
+        let outside = spurious.iter().all(|s| *s == Some(Spurious::Outside));
+        return Err(if outside && !is_noise(data, &fit) {
+            EquivalentRefusal::NoModeWithin { range_rad_s: fit.range_rad_s }
+        } else {
+            EquivalentRefusal::Noise { poles: fit.poles.len() }
+        });
+    }
+    uneven(data, &fit, &spurious)?;
+    let kept_modes: Vec<usize> =
+        found.iter().copied().take(modes.unwrap_or(found.len()).max(1)).collect();
+    let count = kept_modes.len();
+    if points < count {
+        let modes_rad_s = kept_modes.iter().map(|&k| fit.poles[k].omega_rad_s).collect();
+        return Err(EquivalentRefusal::FewerPoints { points, modes_rad_s });
+    }
+    let chosen = told_apart(&fit, &kept_modes, points);
+    let every: Vec<usize> = (0..points).collect();
+    let (Some(kept), Some(all)) = (fit.only(&kept_modes, &chosen), fit.only(&kept_modes, &every))
+    else {
+        return Err(EquivalentRefusal::Noise { poles: fit.poles.len() });
+    };
+    let refused = |source| EquivalentRefusal::Beam {
+        source,
+        names: chosen.iter().map(|&i| data.names[i].clone()).collect(),
+        modes_rad_s: kept.poles.iter().map(|p| p.omega_rad_s).collect(),
+    };
+    let beam = equivalent_beam(&kept).map_err(refused)?;
+    let above = |(pole, why): &(&Pole, &Option<Spurious>)| {
+        **why == Some(Spurious::Outside) && pole.omega_rad_s > fit.range_rad_s.1
+    };
+    let beyond: Vec<Pole> =
+        fit.poles.iter().zip(&spurious).filter(above).map(|(pole, _)| *pole).collect();
+    let arm = data.motor.as_ref().map(|motor| arm_below(&kept, motor, &beyond)).transpose();
+    let (arm, no_torque) = match arm {
+        Ok(arm) => (arm, None),
+        Err(
+            error @ (EquivalentError::MotorTooFew { .. } | EquivalentError::MotorResponse { .. }),
+        ) => (None, Some(error)),
+        Err(error) => return Err(refused(error)),
+    };
+    let strainless = match &arm {
+        Some(arm) => arm.strainless(),
+        None => beam.strainless(&[]),
+    };
+    let mut whole = Equivalent {
+        relative_residual: relative_residual(data, &fit),
+        names: data.names.clone(),
+        zeros: (0..points).map(|i| response_zeros(&all, i)).collect(),
+        fit,
+        spurious,
+        modes: kept_modes,
+        points: chosen,
+        kept,
+        beam,
+        arm,
+        strainless,
+        deviations: data.deviations,
+        findings: Vec::new(),
+    };
+    whole.findings = findings::findings(data, &whole, found.len(), no_torque);
+    Ok(whole)
+}
+
+/// Σ|H − fit|²/|H|² over all responses, its mean's root.
+fn relative_residual(data: &EquivalentData, fit: &SharedPoles) -> f64 {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for (output, responses) in data.outputs.iter().enumerate() {
+        for (w, r) in data.omega_rad_s.iter().zip(responses) {
+            let share = (r.value - fit.response(output, *w)).norm_sqr() / r.value.norm_sqr();
+            if share.is_finite() {
+                (sum, count) = (sum + share, count + 1.0);
+            }
+        }
+    }
+    f64::sqrt(sum / f64::max(count, 1.0))
+}
+
+/// Whether nothing at all describes the responses as well as the fit does.
+fn is_noise(data: &EquivalentData, fit: &SharedPoles) -> bool {
+    let readings = 2 * data.omega_rad_s.len() * data.outputs.len();
+    let unknowns = fit.covariance.nrows();
+    let part = |r: &Response| 2.0 * r.value.norm_sqr() / (r.std * r.std);
+    let nothing: f64 = data.outputs.iter().flatten().map(part).sum();
+    let left = fit.weighted_rms.powi(2) * readings.saturating_sub(unknowns) as f64;
+    information(readings, 0, nothing) <= information(readings, unknowns, left)
+}
+
+/// Refuses responses that no arm has: on the imaginary axis they are real but for damping.
+fn uneven(
+    data: &EquivalentData,
+    fit: &SharedPoles,
+    spurious: &[Option<Spurious>],
+) -> Result<(), EquivalentRefusal> {
+    // Poles more damped than any of a beam would explain a delay.
+    let beams = spurious.iter().filter(|s| **s != Some(Spurious::Damped)).count();
+    let refitted = (beams < spurious.len() && beams > 0)
+        .then(|| fit_shared_poles(&data.omega_rad_s, &data.outputs, beams, Damping::Small).ok());
+    let fit = refitted.flatten().unwrap_or_else(|| fit.clone());
+    let mut worst: Option<PartOutside> = None;
+    for (output, responses) in data.outputs.iter().enumerate() {
+        let left = |(w, r): (&f64, &Response)| (r.value - fit.response(output, *w), *r);
+        let left: Vec<_> = data.omega_rad_s.iter().zip(responses).map(left).collect();
+        let mut shares: Vec<f64> = left
+            .iter()
+            .map(|(d, r)| d.im.abs() / r.value.norm())
+            .filter(|s| s.is_finite())
+            .collect();
+        shares.sort_by(f64::total_cmp);
+        let share = shares.get(shares.len() / 2).copied().unwrap_or(0.0);
+        let rms = |part: fn(&num_complex::Complex64) -> f64| {
+            let squares = left.iter().map(|(d, r)| 2.0 * (part(d) / r.std).powi(2));
+            (squares.sum::<f64>() / left.len().max(1) as f64).sqrt()
+        };
+        let (imaginary, real) = (rms(|d| d.im), rms(|d| d.re));
+        let beyond = share > UNEVEN && imaginary > DEVIATIONS && imaginary > real;
+        if beyond && worst.as_ref().is_none_or(|w| w.share < share) {
+            let name = data.names.get(output).cloned().unwrap_or_default();
+            let deviations = (data.deviations != Deviations::FromResidual).then_some(imaginary);
+            worst = Some(PartOutside { name, share, deviations });
+        }
+    }
+    worst.map_or(Ok(()), |part| Err(EquivalentRefusal::Uneven(part)))
+}
+
+/// As many points as modes, those that span the most: one after the other the point whose gains are farthest
+/// from what the chosen ones have, each mode in its own size.
+fn told_apart(fit: &SharedPoles, modes: &[usize], points: usize) -> Vec<usize> {
+    let mut gains = DMatrix::from_fn(points, modes.len(), |i, k| fit.static_gains[i][modes[k]]);
+    if points <= modes.len() {
+        return (0..points).collect();
+    }
+    for mut column in gains.column_iter_mut() {
+        let size = column.norm();
+        if size > 0.0 {
+            column /= size;
+        }
+    }
+    let mut chosen: Vec<usize> = Vec::new();
+    while chosen.len() < modes.len() {
+        let free = (0..points).filter(|i| !chosen.contains(i));
+        let farthest = free.max_by(|a, b| gains.row(*a).norm().total_cmp(&gains.row(*b).norm()));
+        let Some(next) = farthest else { break };
+        let direction = gains.row(next).normalize();
+        for mut row in gains.row_iter_mut() {
+            let along = row.dot(&direction);
+            row -= &direction * along;
+        }
+        chosen.push(next);
+    }
+    chosen.sort_unstable();
+    chosen
+}

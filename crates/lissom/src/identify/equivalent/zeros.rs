@@ -1,0 +1,136 @@
+//! Zeros of the points' responses, with deviations.
+
+use nalgebra::{DMatrix, Schur};
+use num_complex::Complex64;
+
+use super::deviation;
+use crate::beam::{RootClass, class};
+use crate::identify::Estimate;
+use crate::identify::rational::SharedPoles;
+
+/// Sweeps for the eigenvalues at most.
+const SWEEPS: usize = 10_000;
+/// Newton's steps at most.
+const STEPS: usize = 40;
+/// Imaginary part of s², as a share of its size, that eigenvalues of a real root may have by rounding.
+const MEET: f64 = 1e-7;
+
+/// A zero of θ_i/θ_m, damping left out: a root in s².
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ResponseZero {
+    /// The root s² \[1/s²\]; of a conjugate pair the one with the positive imaginary part.
+    pub square: Complex64,
+    /// a: on the imaginary axis; b: a real pair; c: four.
+    pub class: RootClass,
+    /// |s| \[rad/s\].
+    pub omega_rad_s: Estimate,
+    /// Whether |s| lies outside the data's frequencies: modes left out may move it anywhere.
+    pub outside: bool,
+}
+
+/// Zeros of output `output`'s response `Σ_k ρ_ik·ω_k²/(s² + ω_k²)`, by their size.
+///
+/// Roots are the eigenvalues of `diag(−ω_k²)` less a matrix of rank one, refined by Newton's method.
+/// Deviations are to first order: `dz = −Σ dr_k/(z + ω_k²)/f′ + Σ r_k·dω_k²/(z + ω_k²)²/f′`, f the sum,
+/// z = s², r_k = ρ_ik·ω_k², and `d|s| = Re(dz/z)·|s|/2`.
+///
+/// # Source
+/// `[Feliu1989, Section 3, property 1; eq. (19)]`
+pub fn response_zeros(fit: &SharedPoles, output: usize) -> Vec<ResponseZero> {
+    let modes = fit.poles.len();
+    let Some(gains) = fit.static_gains.get(output) else { return Vec::new() };
+    let squares: Vec<f64> = fit.poles.iter().map(|p| p.omega_rad_s.powi(2)).collect();
+    let residues: Vec<f64> = gains.iter().zip(&squares).map(|(g, s)| g * s).collect();
+    let size: f64 = residues.iter().map(|r| r.abs()).sum();
+    if modes < 2 || size == 0.0 || !size.is_finite() {
+        return Vec::new();
+    }
+    // Residues that cancel leave a zero at infinity.
+    let total: f64 = residues.iter().sum();
+    let total = total.abs().max(f64::EPSILON * size).copysign(total);
+    // Σ r_k/(z + ω_k²) = 0 has the roots of D − D·1·rᵀ/Σr, D = −Ω², but one at zero.
+    let matrix = DMatrix::from_fn(modes, modes, |i, k| {
+        let own = if i == k { 1.0 } else { 0.0 };
+        -squares[i] * (own - residues[k] / total)
+    });
+    let Some(schur) = Schur::try_new(matrix, f64::EPSILON, SWEEPS) else { return Vec::new() };
+    let mut roots: Vec<Complex64> = schur.complex_eigenvalues().iter().copied().collect();
+    roots.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+    let (low, high) = fit.range_rad_s;
+    let mut zeros: Vec<ResponseZero> = roots
+        .into_iter()
+        .skip(1)
+        .filter(|z| z.is_finite() && z.im >= -MEET * z.norm())
+        .map(|z| refined(&residues, &squares, z))
+        .map(|square| {
+            let value = square.norm().sqrt();
+            let std = spread(fit, output, &residues, &squares, square);
+            let outside = !(low..=high).contains(&value);
+            ResponseZero {
+                square,
+                class: class(square),
+                omega_rad_s: Estimate { value, std },
+                outside,
+            }
+        })
+        .collect();
+    zeros.sort_by(|a, b| a.omega_rad_s.value.total_cmp(&b.omega_rad_s.value));
+    zeros
+}
+
+/// Σ r_k/(z + ω_k²) and its derivative.
+fn value(residues: &[f64], squares: &[f64], z: Complex64) -> (Complex64, Complex64) {
+    let each = residues.iter().zip(squares);
+    each.fold(Default::default(), |(f, slope), (r, s)| {
+        let inverse = 1.0 / (z + s);
+        (f + r * inverse, slope - r * inverse * inverse)
+    })
+}
+
+fn refined(residues: &[f64], squares: &[f64], mut z: Complex64) -> Complex64 {
+    // Two real ones stay real.
+    if z.im.abs() < MEET * z.norm() {
+        z.im = 0.0;
+    }
+    for _ in 0..STEPS {
+        let (f, slope) = value(residues, squares, z);
+        let step = f / slope;
+        if !step.is_finite() || step.norm() > 0.1 * z.norm() {
+            break;
+        }
+        z -= step;
+        if step.norm() <= f64::EPSILON * z.norm() {
+            break;
+        }
+    }
+    z
+}
+
+fn spread(
+    fit: &SharedPoles,
+    output: usize,
+    residues: &[f64],
+    squares: &[f64],
+    z: Complex64,
+) -> f64 {
+    let (modes, unknowns) = (fit.poles.len(), fit.damping.unknowns());
+    let slope = value(residues, squares, z).1;
+    let size = z.norm().sqrt();
+    // By r_k at constant ω_k², and by ω_k² at constant r_k.
+    let by_residue = |k: usize| -1.0 / ((z + squares[k]) * slope);
+    let by_square = |k: usize| residues[k] / ((z + squares[k]).powi(2) * slope);
+    let first = modes * unknowns + output * modes;
+    deviation(&fit.covariance, |u| {
+        let dz = if u < modes * unknowns {
+            let k = u / unknowns;
+            let moved = by_residue(k) * residues[k] + by_square(k) * squares[k];
+            if u.is_multiple_of(unknowns) { 2.0 * moved } else { Complex64::default() }
+        } else {
+            match u.checked_sub(first) {
+                Some(k) if k < modes => by_residue(k) * squares[k],
+                _ => Complex64::default(),
+            }
+        };
+        0.5 * size * (dz / z).re
+    })
+}
