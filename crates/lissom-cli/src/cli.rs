@@ -7,6 +7,7 @@ use lissom_io::units::{Dimension, parse_quantity};
 
 use crate::equivalent::EquivalentArgs;
 use crate::model::ModelArgs;
+use crate::payload::PayloadArgs;
 use crate::plan::PlanArgs;
 
 /// Models and identifies flexible arms and drives whose joint has friction.
@@ -33,6 +34,8 @@ pub(crate) enum Command {
     Validate(ValidateArgs),
     /// From logs or frequency responses of points of a beam, the lumped arm that behaves the same
     Equivalent(EquivalentArgs),
+    /// From logs with one payload, modes and the tip's response with others
+    Payload(PayloadArgs),
     /// Turn an arm's dimensions into frequencies, matrices, transfer functions and plots
     Model(ModelArgs),
     /// From rough numbers of an arm, the runs that give a wanted precision in the least time

@@ -27,7 +27,7 @@ pub(crate) enum Failure {
     Equivalent { input: PathBuf, source: Box<EquivalentRefusal>, place: Option<String> },
     /// What was asked for of an equivalent arm makes no sense.
     #[error("{0}")]
-    EquivalentAsked(String, &'static str),
+    Asked(String, &'static str),
     #[error("{}: exists and is no earlier output; it is not written over", file.display())]
     NotAnOutput { file: PathBuf },
     #[error("{}: one name for two outputs", file.display())]
@@ -65,7 +65,7 @@ impl Failure {
                 "put the input before `--json FILE`, or remove the file if it is to go"
                     .to_owned(),
             ),
-            Self::Model { hint, .. } | Self::EquivalentAsked(_, hint) => Some((*hint).to_owned()),
+            Self::Model { hint, .. } | Self::Asked(_, hint) => Some((*hint).to_owned()),
             Self::Equivalent { source, place, .. } => {
                 Some(place.clone().unwrap_or_else(|| source.hint().to_owned()))
             }

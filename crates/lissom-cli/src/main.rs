@@ -13,6 +13,8 @@ mod identify;
 mod model;
 mod output;
 mod page;
+mod payload;
+mod picture;
 mod plan;
 mod print;
 mod progress;
@@ -31,6 +33,7 @@ fn main() -> ExitCode {
         cli::Command::Identify(args) => identify::run(&args),
         cli::Command::Validate(args) => validate::run(&args),
         cli::Command::Equivalent(args) => equivalent::run(&args),
+        cli::Command::Payload(args) => payload::run(&args),
         cli::Command::Model(args) => model::run(&args),
         cli::Command::Plan(args) => plan::run(&args),
         cli::Command::Rig(args) => rig::run(&args),

@@ -43,8 +43,8 @@ pub use model::{FrequencyError, Model, model_json, read_frequencies};
 pub use plan::{PlanError, PlanFile, PlanRun};
 pub use responses::{FrequencyResponses, MeasuredResponse, ResponseError, read_responses};
 pub use result::{
-    ResultError, UnitNames, channel_name_unit, equivalent_json, read_arm, result_json,
-    validation_json,
+    PayloadPrediction, PredictedPayload, ResultError, UnitNames, channel_name_unit,
+    equivalent_json, payload_json, read_arm, result_json, validation_json,
 };
 pub use units::UnitError;
 pub use write::WriteError;

@@ -39,12 +39,12 @@ impl Input {
         if args.inputs.iter().any(|p| is_toml(p)) {
             if args.inputs.len() > 1 {
                 let words = "a campaign.toml stands by itself".to_owned();
-                return Err(Failure::EquivalentAsked(words, "give one campaign, or tables alone"));
+                return Err(Failure::Asked(words, "give one campaign, or tables alone"));
             }
             if args.torque_constant.is_some() {
                 let words = "a campaign has its torque constant itself".to_owned();
                 let hint = "write torque_constant into its [drive]";
-                return Err(Failure::EquivalentAsked(words, hint));
+                return Err(Failure::Asked(words, hint));
             }
             return Self::campaign(&args.inputs[0], args.quick);
         }
@@ -74,7 +74,7 @@ impl Input {
         if !deviations_known && all().any(|r| r.std.is_some()) {
             let words = "some responses have a deviation and some have none".to_owned();
             let hint = "give each its std column, or none";
-            return Err(Failure::EquivalentAsked(words, hint));
+            return Err(Failure::Asked(words, hint));
         }
         let (command, constant) = command(read.motor.as_ref(), args.torque_constant.as_deref())?;
         let motor = read.motor.as_ref().map(|motor| MotorData {
@@ -137,7 +137,7 @@ fn command(
     };
     let hint = "give a torque per current or voltage as the response has it, such as \"0.25 N*m/A\", or \"0.25 N*m\" \
                 per unit of another command";
-    let wrong = |why: String| Failure::EquivalentAsked(format!("--torque-constant: {why}"), hint);
+    let wrong = |why: String| Failure::Asked(format!("--torque-constant: {why}"), hint);
     let unit = text.trim_start_matches(|c: char| !c.is_alphabetic() || c == 'e' || c == 'E');
     let dimension = parse_any_unit(unit).map_err(|e| wrong(e.to_string()))?.1;
     let per = if dimension == Dimension::TORQUE_PER_CURRENT {

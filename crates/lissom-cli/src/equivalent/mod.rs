@@ -19,13 +19,14 @@ use lissom_io::{ArmFile, BeamKind, equivalent_json};
 use self::input::Input;
 use crate::cli::STDOUT;
 use crate::failure::Failure;
+use crate::picture::Picture;
 use crate::{output, print};
 
 pub(crate) fn run(args: &EquivalentArgs) -> Result<ExitCode, Failure> {
     let json = args.json.as_deref();
     let json_file = json.filter(|path| *path != Path::new(STDOUT));
     output::guard(json_file, None)?;
-    let picture = args.plot.as_deref().map(plots::Picture::of).transpose()?;
+    let picture = args.plot.as_deref().map(Picture::of).transpose()?;
     let input = Input::read(args)?;
     let found = equivalent(&input.data, args.modes.map(usize::from));
     let found = match found {
@@ -75,10 +76,7 @@ fn better_place(
     for name in names {
         let Some((_, place)) = args.at.iter().find(|(n, _)| n == name) else {
             let words = format!("--at does not say where {name} sits");
-            return Err(Failure::EquivalentAsked(
-                words,
-                "give --at NAME=LENGTH once for each point",
-            ));
+            return Err(Failure::Asked(words, "give --at NAME=LENGTH once for each point"));
         };
         points_m.push(*place);
     }

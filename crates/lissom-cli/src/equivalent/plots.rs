@@ -1,53 +1,16 @@
 //! Bode plots of the responses and of the fit.
 
-use std::path::{Path, PathBuf};
-
 use lissom::identify::{Deviations, Equivalent, Response};
 use lissom_io::write::Batch;
-use lissom_report::{BodePlot, Figure as _, FrequencyAxis, Role, Series, Style, svg_to_png};
+use lissom_report::{BodePlot, FrequencyAxis, Role, Series, Style};
 use num_complex::Complex64;
 
 use super::input::Input;
 use crate::failure::Failure;
+use crate::picture::Picture;
 
 /// Points of a model's line.
 const LINE: i32 = 1500;
-/// Scale of the PNG.
-const PNG_SCALE: f32 = 2.0;
-
-/// A file to draw into, of a kind that can be drawn.
-pub(super) struct Picture {
-    path: PathBuf,
-    png: bool,
-}
-
-impl Picture {
-    pub(super) fn of(path: &Path) -> Result<Self, Failure> {
-        let is = |kind: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(kind));
-        if !is("png") && !is("svg") {
-            let words = format!("{}: is neither .svg nor .png", path.display());
-            return Err(Failure::EquivalentAsked(words, "end the plot's name in .svg or .png"));
-        }
-        Ok(Self { path: path.to_owned(), png: is("png") })
-    }
-
-    /// The file beside it for the motor's response.
-    fn motor(&self) -> PathBuf {
-        let stem = self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        self.path.with_file_name(format!("{stem}-motor.{}", if self.png { "png" } else { "svg" }))
-    }
-
-    fn draw(&self, batch: &mut Batch, path: &Path, plot: &BodePlot) -> Result<(), Failure> {
-        let svg = plot.to_svg()?;
-        if self.png {
-            batch.file(path, &svg_to_png(&svg, PNG_SCALE)?)?;
-        } else {
-            batch.file(path, svg.as_bytes())?;
-        }
-        Ok(())
-    }
-}
-
 /// Adds the points' plot, and the motor's where there is one.
 pub(super) fn add_all(
     batch: &mut Batch,
@@ -55,9 +18,9 @@ pub(super) fn add_all(
     input: &Input,
     found: &Equivalent,
 ) -> Result<(), Failure> {
-    picture.draw(batch, &picture.path, &points(input, found))?;
+    picture.draw(batch, &points(input, found))?;
     if let Some(plot) = motor(input, found) {
-        picture.draw(batch, &picture.motor(), &plot)?;
+        picture.beside("motor").draw(batch, &plot)?;
     }
     Ok(())
 }

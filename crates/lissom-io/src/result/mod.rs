@@ -7,12 +7,14 @@ mod arm;
 mod dry_terms;
 mod equivalent;
 mod friction_law;
+mod payload;
 mod units;
 mod validation;
 mod verdict;
 
 pub use arm::{ResultError, read_arm};
 pub use equivalent::equivalent_json;
+pub use payload::{PayloadPrediction, PredictedPayload, payload_json};
 pub use units::UnitNames;
 pub use validation::{channel_name_unit, validation_json};
 

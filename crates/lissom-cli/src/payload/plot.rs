@@ -1,0 +1,26 @@
+//! The tip's responses with each payload.
+
+use lissom::identify::Response;
+use lissom_io::{PayloadPrediction, PredictedPayload};
+use lissom_report::{BodePlot, FrequencyAxis, Role, Series, Style};
+
+/// One line for each payload.
+pub(super) fn tip(found: &PayloadPrediction) -> BodePlot {
+    let title = format!("{}, per motor angle", found.tip);
+    let plot = BodePlot::new(title, "")
+        .subtitle(format!("identified with {:.6} kg, predicted with others", found.mass_kg))
+        .frequency_axis(FrequencyAxis::Both);
+    found.payloads.iter().enumerate().fold(plot, |plot, (i, payload)| {
+        plot.series(line(
+            &found.omega_rad_s,
+            payload,
+            Role::Other(u8::try_from(i % 100).unwrap_or(0)),
+        ))
+    })
+}
+
+fn line(omega_rad_s: &[f64], payload: &PredictedPayload, role: Role) -> Series {
+    let values = payload.tip.iter().map(|r: &Response| r.value).collect();
+    let name = format!("{:.6} kg", payload.mass_kg);
+    Series::new(name, role, Style::Line, omega_rad_s.to_vec(), values)
+}
