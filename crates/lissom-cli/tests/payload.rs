@@ -71,9 +71,9 @@ fn another_payload_is_that_of_the_arm_built_with_it() {
     let mut check = SchemaCheck::new(include_str!("../../../docs/payload.schema.json"), "payload");
     check.look_at(&json);
     check.holds(&["payloads[].modes[].damping_ratio.ci95", "payloads[].tip[].std"]);
-    assert!(fs::read_to_string(at.join("tip.svg")).unwrap().contains("0.120000 kg"));
+    assert!(fs::read_to_string(at.join("tip.svg")).unwrap().contains("0.12 kg"));
     let table = done(at, &with(&["--to", "120 g"]));
-    assert!(table.contains("with 0.120000 kg, the motor held:"), "{table}");
+    assert!(table.contains("with 0.12 kg, the motor held:"), "{table}");
 
     assert!(refused(at, &with(&["--to", "1 g", "--mass", "9 kg"])).contains("cannot be predicted"));
     assert!(refused(at, &with(&["--to", "60 g", "--tip", "elbow"])).contains("--tip elbow"));

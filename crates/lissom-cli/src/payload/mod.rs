@@ -18,8 +18,10 @@ use crate::cli::STDOUT;
 use crate::failure::Failure;
 use crate::identify::identified;
 use crate::picture::Picture;
-use crate::{output, print};
+use crate::{model, output, print};
 
+/// Digits of a mass.
+const DIGITS: usize = 6;
 /// Frequencies of the responses, logarithmic, and how far they go beyond the modes either way.
 const FREQUENCIES: i32 = 400;
 const BEYOND: f64 = 3.0;
@@ -130,21 +132,23 @@ fn predicted(
         })?;
         payloads.push(PredictedPayload { mass_kg, loaded, tip });
     }
+    let caveat = payloads.first().map(|p| p.loaded.caveat());
     Ok(PayloadPrediction {
         tip: channels.tips[place.tip].name.clone(),
         distance_m: place.distance_m,
         mass_kg: args.mass,
         omega_rad_s,
         payloads,
-        findings: id.findings.clone(),
+        findings: caveat.into_iter().chain(id.findings.iter().cloned()).collect(),
     })
 }
 
 fn table(found: &PayloadPrediction) {
     let at = found.distance_m.map_or_else(String::new, |r| format!(", {r:.4} m from the axis"));
-    print::line(&format!("{}: identified with {:.6} kg{at}", found.tip, found.mass_kg));
+    print::line(&format!("{}: identified with {} kg{at}", found.tip, significant(found.mass_kg)));
     for payload in &found.payloads {
-        print::line(&format!("\nwith {:.6} kg, the motor held:", payload.mass_kg));
+        let mass = significant(payload.mass_kg);
+        print::line(&format!("\nwith {mass} kg, the motor held:"));
         print::line("                          value             95 % interval");
         for (k, mode) in payload.loaded.modes.iter().enumerate() {
             let (f, ratio) = (mode.natural_frequency_rad_s, mode.damping_ratio);
@@ -159,4 +163,9 @@ fn table(found: &PayloadPrediction) {
             }
         }
     }
+}
+
+/// A mass as people write it, \[kg\].
+fn significant(mass_kg: f64) -> String {
+    model::significant(mass_kg, DIGITS)
 }

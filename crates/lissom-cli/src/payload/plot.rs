@@ -1,5 +1,6 @@
 //! The tip's responses with each payload.
 
+use super::significant;
 use lissom::identify::Response;
 use lissom_io::{PayloadPrediction, PredictedPayload};
 use lissom_report::{BodePlot, FrequencyAxis, Role, Series, Style};
@@ -8,7 +9,10 @@ use lissom_report::{BodePlot, FrequencyAxis, Role, Series, Style};
 pub(super) fn tip(found: &PayloadPrediction) -> BodePlot {
     let title = format!("{}, per motor angle", found.tip);
     let plot = BodePlot::new(title, "")
-        .subtitle(format!("identified with {:.6} kg, predicted with others", found.mass_kg))
+        .subtitle(format!(
+            "identified with {} kg, predicted with others",
+            significant(found.mass_kg)
+        ))
         .frequency_axis(FrequencyAxis::Both);
     found.payloads.iter().enumerate().fold(plot, |plot, (i, payload)| {
         plot.series(line(
@@ -21,6 +25,6 @@ pub(super) fn tip(found: &PayloadPrediction) -> BodePlot {
 
 fn line(omega_rad_s: &[f64], payload: &PredictedPayload, role: Role) -> Series {
     let values = payload.tip.iter().map(|r: &Response| r.value).collect();
-    let name = format!("{:.6} kg", payload.mass_kg);
+    let name = format!("{} kg", significant(payload.mass_kg));
     Series::new(name, role, Style::Line, omega_rad_s.to_vec(), values)
 }

@@ -1,6 +1,7 @@
 //! What another payload does to an arm that was identified with one.
 
 use super::correct::Response;
+use super::finding::{Finding, Severity, key};
 use super::output_error::OutputError;
 use super::{Estimate, ModeEstimate};
 use crate::replay::ModalArm;
@@ -14,6 +15,19 @@ pub struct LoadedArm {
     pub modes: Vec<ModeEstimate>,
     /// The arm.
     pub arm: ModalArm,
+}
+
+impl LoadedArm {
+    /// What its intervals do not count.
+    pub fn caveat(&self) -> Finding {
+        let message = format!(
+            "modes above the {} found bend under another load, too: the highest mode's interval does not count them",
+            self.modes.len()
+        );
+        let hint = "of a beam with mass along it trust the modes below the highest; to know that one find one more: \
+                    runs near its frequency, a tip more";
+        Finding::new("payload-highest-mode", Severity::Info, &[key::MODES], message, hint)
+    }
 }
 
 impl OutputError {
