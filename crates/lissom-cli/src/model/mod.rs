@@ -11,7 +11,7 @@ mod shape;
 mod table;
 
 pub(crate) use args::ModelArgs;
-pub(crate) use number::shown as significant;
+pub(crate) use number::{shown as significant, trimmed};
 
 use std::path::Path;
 use std::process::ExitCode;

@@ -24,7 +24,7 @@ pub(crate) fn shown(value: f64, digits: usize) -> String {
 }
 
 /// At most `digits` significant digits, without zeros at the end.
-pub(super) fn trimmed(value: f64, digits: usize) -> String {
+pub(crate) fn trimmed(value: f64, digits: usize) -> String {
     let text = shown(value, digits);
     if !text.contains('.') || text.contains('e') {
         return text;

@@ -17,10 +17,11 @@ use lissom_report::{interval, with_uncertainty};
 use crate::cli::STDOUT;
 use crate::failure::Failure;
 use crate::identify::identified;
+use crate::model::trimmed;
 use crate::picture::Picture;
-use crate::{model, output, print};
+use crate::{output, print};
 
-/// Digits of a mass.
+/// Most digits of a mass.
 const DIGITS: usize = 6;
 /// Frequencies of the responses, logarithmic, and how far they go beyond the modes either way.
 const FREQUENCIES: i32 = 400;
@@ -145,9 +146,13 @@ fn predicted(
 
 fn table(found: &PayloadPrediction) {
     let at = found.distance_m.map_or_else(String::new, |r| format!(", {r:.4} m from the axis"));
-    print::line(&format!("{}: identified with {} kg{at}", found.tip, significant(found.mass_kg)));
+    print::line(&format!(
+        "{}: identified with {} kg{at}",
+        found.tip,
+        trimmed(found.mass_kg, DIGITS)
+    ));
     for payload in &found.payloads {
-        let mass = significant(payload.mass_kg);
+        let mass = trimmed(payload.mass_kg, DIGITS);
         print::line(&format!("\nwith {mass} kg, the motor held:"));
         print::line("                          value             95 % interval");
         for (k, mode) in payload.loaded.modes.iter().enumerate() {
@@ -163,9 +168,4 @@ fn table(found: &PayloadPrediction) {
             }
         }
     }
-}
-
-/// A mass as people write it, \[kg\].
-fn significant(mass_kg: f64) -> String {
-    model::significant(mass_kg, DIGITS)
 }

@@ -1,9 +1,11 @@
 //! The tip's responses with each payload.
 
-use super::significant;
 use lissom::identify::Response;
 use lissom_io::{PayloadPrediction, PredictedPayload};
 use lissom_report::{BodePlot, FrequencyAxis, Role, Series, Style};
+
+use super::DIGITS;
+use crate::model::trimmed;
 
 /// One line for each payload.
 pub(super) fn tip(found: &PayloadPrediction) -> BodePlot {
@@ -11,7 +13,7 @@ pub(super) fn tip(found: &PayloadPrediction) -> BodePlot {
     let plot = BodePlot::new(title, "")
         .subtitle(format!(
             "identified with {} kg, predicted with others",
-            significant(found.mass_kg)
+            trimmed(found.mass_kg, DIGITS)
         ))
         .frequency_axis(FrequencyAxis::Both);
     found.payloads.iter().enumerate().fold(plot, |plot, (i, payload)| {
@@ -25,6 +27,6 @@ pub(super) fn tip(found: &PayloadPrediction) -> BodePlot {
 
 fn line(omega_rad_s: &[f64], payload: &PredictedPayload, role: Role) -> Series {
     let values = payload.tip.iter().map(|r: &Response| r.value).collect();
-    let name = format!("{} kg", significant(payload.mass_kg));
+    let name = format!("{} kg", trimmed(payload.mass_kg, DIGITS));
     Series::new(name, role, Style::Line, omega_rad_s.to_vec(), values)
 }

@@ -21,18 +21,21 @@ const POSSIBLE: Range<f64> = -0.05..0.25;
 const NEGLIGIBLE: f64 = 0.05;
 
 /// Arms to start from where a tip's angle is known, the likelier first: the motor's regression with the
-/// beam's own, and with the modes of the rational model `tips`. Empty where the motor's figures lack what
-/// it needs.
+/// beam's own, and with the modes of the rational model `tips`. Empty where no tip's angle is known, or the
+/// motor's figures lack what it needs.
 pub fn starts(
     campaign: &Campaign,
     motor: &MotorRegression,
     beam: Option<&BeamRegression>,
     tips: Option<&BeamFit>,
 ) -> Vec<ModalArm> {
-    let Some(rigid) = rigid(campaign, motor) else { return Vec::new() };
-    let coupling: Option<Vec<f64>> =
-        motor.coupling.iter().map(|c| c.map(|e| e.value)).collect::<Option<_>>();
-    let Some(coupling) = coupling else { return Vec::new() };
+    let coupling: Option<Vec<f64>> = motor.coupling.iter().map(|c| c.map(|e| e.value)).collect();
+    let (Some(rigid), Some(coupling)) = (rigid(campaign, motor), coupling) else {
+        return Vec::new();
+    };
+    if coupling.is_empty() {
+        return Vec::new();
+    }
     let by_regression = beam.and_then(|b| {
         let (omega, shapes) = ModalArm::modes_of(&b.stiffness)?;
         let ratios = b.modes.iter().map(|m| m.damping_ratio.value).collect();
