@@ -68,15 +68,10 @@ impl Place {
             let words = format!("{}: has no tip", args.campaign.display());
             return refused(words, "a payload is predicted at a point that is measured");
         };
-        let tip = match &args.tip {
-            None => last,
-            Some(name) => match names.iter().position(|n| n == name) {
-                Some(tip) => tip,
-                None => {
-                    let words = format!("--tip {name}: the campaign has {}", names.join(", "));
-                    return refused(words, "name one of its tips");
-                }
-            },
+        let named = |name: &String| names.iter().position(|n| n == name);
+        let Some(tip) = args.tip.as_ref().map_or(Some(last), named) else {
+            let words = format!("--tip is none of the campaign's: {}", names.join(", "));
+            return refused(words, "name one of them");
         };
         match (channels.axis, args.at) {
             (Axis::Rotary, None) => refused(

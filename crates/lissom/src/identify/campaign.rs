@@ -14,16 +14,13 @@ use super::friction_waveform::FrictionWaveform;
 use super::identified::{Beam, Friction, Identified, ThirdHarmonic};
 use super::model::state_space;
 use super::models::{beam_model, figures_model};
-use super::output_error::{
-    OutputError, OutputErrorStart, output_error, starts, starts_by_motor, starts_by_responses,
-};
+use super::output_error::{OutputError, OutputErrorStart, output_error};
 use super::rational::{BeamFit, MotorFit};
-use super::regression::{
-    BeamRegression, MotorRegression, beam_regression, coupled_tips, motor_regression,
-};
+use super::regression::{BeamRegression, MotorRegression, beam_regression, motor_regression};
 use super::replayed_bands::ReplayedBands;
 use super::response_table::{Replayed, ResponsePoint, response_table, weak_points};
 use super::run_analysis::{RunAnalysis, RunKind, analyse};
+use super::starting_arms::starting_arms;
 use super::third_harmonic::{PairFigure, mean_figure, pair_figure};
 use super::{Estimate, ModeEstimate, models, verdict};
 use crate::lti::StateSpace;
@@ -170,28 +167,14 @@ pub fn identify(
     let replayable = any_regression.filter(|_| !options.without_output_error);
     let output_error = replayable.and_then(|motor| {
         progress(Stage::OutputError);
-        let (beam, tips) = (any_beam_regression.as_ref(), beam_model.as_ref());
         // Responses of the motor without friction: as a square wave it is near enough to start with.
         let table = || response_table(campaign, &runs, best, &square, &findings);
-        let plain = if coupled_tips(&usable).is_empty() {
-            let response = models::motor_model(&table(), constant, tips);
-            starts_by_motor(&usable, &motor, tips, response.as_ref())
-        } else {
-            let mut arms = starts(&usable, &motor, beam, tips);
-            if let Some((omega_rad_s, tips)) = models::tip_responses(&usable, &shown) {
-                let motor_data = models::motor_data(&table(), constant);
-                arms.extend(starts_by_responses(&usable, &motor, &omega_rad_s, &tips, &motor_data));
-            }
-            arms
-        };
+        let (beam, tips) = (any_beam_regression.as_ref(), beam_model.as_ref());
+        let plain = starting_arms(&usable, &motor, beam, tips, &shown, table);
         replayed(&usable, &runs, &kept, &plain, friction_law.as_ref())
     });
 
-    let stands = |b: &BeamRegression| {
-        let damped = |m: &ModeEstimate| m.damping_ratio.value > LEAST_DAMPING;
-        b.relative_residual.iter().all(|r| *r < BEAM_RESIDUAL) && b.modes.iter().all(damped)
-    };
-    let beam_regression = any_beam_regression.filter(stands);
+    let beam_regression = any_beam_regression.filter(beam_stands);
 
     progress(Stage::Responses);
     let table = |c: Option<Estimate>| response_table(campaign, &runs, c, &square, &findings);
@@ -249,6 +232,12 @@ pub fn identify(
     };
     verdict::conclude(campaign, &usable, &mut identified);
     Ok(identified)
+}
+
+/// Whether the beam's regression leaves little, and all its modes fade.
+fn beam_stands(b: &BeamRegression) -> bool {
+    let damped = |m: &ModeEstimate| m.damping_ratio.value > LEAST_DAMPING;
+    b.relative_residual.iter().all(|r| *r < BEAM_RESIDUAL) && b.modes.iter().all(damped)
 }
 
 fn possible(options: &Options) -> Result<(), IdentifyError> {

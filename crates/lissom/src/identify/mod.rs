@@ -24,6 +24,7 @@ mod replayed_bands;
 mod response_table;
 mod run_analysis;
 mod separability;
+mod starting_arms;
 mod third_harmonic;
 mod validation;
 mod verdict;

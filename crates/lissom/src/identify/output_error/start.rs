@@ -116,7 +116,9 @@ fn coupled(
         within_per_s: (2.0 * pole.damping_ratio * pole.omega_rad_s).max(0.0),
         grounded_per_s: 0.0,
     });
-    shapes.iter_mut().for_each(|row| whole(row));
+    for row in &mut shapes {
+        whole(row);
+    }
     let all = if poles.len() == shapes.len() { poles.len() } else { 0 };
     let inertia = Some(fit.inertia.value).filter(|j| *j > 0.0);
     (total > 0.0).then(|| ModalArm {
