@@ -50,6 +50,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         if let Some(found) = &id.equivalent {
             equivalent::brief(names, found);
         }
+        geometry::print(&id, reference);
         print::verdict(names.axis, &id);
         print::findings(&id.findings);
     }

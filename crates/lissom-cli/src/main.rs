@@ -9,6 +9,7 @@ mod equivalent;
 mod failure;
 mod figures;
 mod friction_curve;
+mod geometry;
 mod identify;
 mod model;
 mod output;

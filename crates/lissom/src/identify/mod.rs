@@ -12,6 +12,7 @@ mod finding;
 mod found_arm;
 mod friction_law;
 mod friction_waveform;
+mod geometry;
 mod identified;
 mod model;
 mod models;
@@ -43,6 +44,7 @@ pub use estimate::{Estimate, ModeEstimate};
 pub use finding::{Finding, Severity};
 pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
 pub use friction_law::{CurvePoint, FrictionLaw, LawCandidate, LawFit, LawTerm};
+pub use geometry::{ArmQuantity, Explanation, GeometryCheck, geometry_check};
 pub use identified::{Beam, Friction, Identified, NearRestEstimate, RippleEstimate, ThirdHarmonic};
 pub use output_error::{
     ByRun, Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, output_error,
