@@ -10,7 +10,7 @@ use lissom_io::{CampaignFile, UnitNames, read_campaign, result_json};
 use crate::cli::{IdentifyArgs, STDOUT};
 use crate::failure::Failure;
 use crate::reference::Reference;
-use crate::{equivalent, figures, output, page, print, progress};
+use crate::{equivalent, figures, geometry, output, page, print, progress};
 
 /// The verdict refuses a figure asked for.
 pub(crate) const REFUSED: u8 = 3;
