@@ -13,7 +13,9 @@ pub(crate) fn print(id: &Identified, reference: Option<&Reference>) {
     let (Some(arm), Some(found)) = (arm, found) else { return };
     if let Some(check) = geometry_check(arm, found) {
         print::line("");
-        lines(&check).iter().for_each(|line| print::line(line));
+        for line in lines(&check) {
+            print::line(&line);
+        }
     }
 }
 
