@@ -79,7 +79,7 @@ pub enum ResponseError {
         names: Vec<String>,
     },
     /// One half of a response.
-    #[error("{file}: {} has a {has} and no {missing}", excerpt(output))]
+    #[error("{file}: {} has the {has} and no {missing}", excerpt(output))]
     Half {
         /// The file.
         file: String,

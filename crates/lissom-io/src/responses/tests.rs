@@ -80,8 +80,8 @@ fn errors_name_file_row_and_column() {
         "f_hz,coherence\n1,2\n",
         "no column is part of a response; the columns are f_hz, coherence",
     );
-    one("f_hz,tip_re\n1,2\n", "tip has a real part and no imaginary part");
-    one("f_hz,tip_db,tip_re\n1,2,3\n", "tip has a real part and no imaginary part");
+    one("f_hz,tip_re\n1,2\n", "tip has the real part and no imaginary part");
+    one("f_hz,tip_db,tip_re\n1,2,3\n", "tip has the real part and no imaginary part");
     one("f_hz,re,im,re\n1,2,3,4\n", "a has its real part twice");
     one("f_hz,re,im\n", "a.csv: the table has no rows of numbers");
     one("f_hz,re,im\n1,2,x\n", "row 2, column im: \"x\" is not a finite number");

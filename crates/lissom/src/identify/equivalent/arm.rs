@@ -23,7 +23,8 @@ pub struct EquivalentArm {
     pub h: Vec<Estimate>,
     /// ĥ_{n+1} \[N·m/rad\].
     pub h_motor: Estimate,
-    /// c_k of each mode \[N·m/rad\]: `C_t/θ_m = Σ c_k·s²/(s² + ω_k²)`.
+    /// c_k of each mode \[N·m/rad\]: `C_t/θ_m = Σ c_k·(s² + d_k·s)/(s² + d_k·s + ω_k²)`,
+    /// `d_k = 2ζ_kω_k`.
     pub coupling: Vec<Estimate>,
     /// J \[kg·m²\], with what the modes left out carry of the beam's inertia.
     pub inertia: Estimate,

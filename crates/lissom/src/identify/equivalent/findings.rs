@@ -10,6 +10,8 @@ use crate::identify::{Estimate, Finding, Severity};
 const MISFIT: f64 = 2.0;
 /// …and one that leaves less than this share of them says that they are too large.
 const TOO_GOOD: f64 = 0.5;
+/// From this share on a point's response is none of its angle to the motor's.
+const WRONG: f64 = 0.5;
 /// What the last mode is given is told from this size on.
 const GIVEN: f64 = 0.02;
 
@@ -96,7 +98,13 @@ pub(super) fn findings(
     }
     let lacks = whole.strainless.iter().flat_map(|s| s.missing.iter().zip(&s.given_to_last));
     let given = lacks.filter(|(_, to_last)| **to_last).map(|(m, _)| m.abs()).fold(0.0, f64::max);
-    if given > GIVEN {
+    if given > WRONG {
+        let message = format!(
+            "a point's gains add up to one but for {given:.3}: with the motor turned slowly it does not turn with it"
+        );
+        let hint = "an angle of the wrong sign or in another unit than the motor's: the form for use as an arm is none";
+        add("equivalent-no-angle", Severity::Warning, message, hint);
+    } else if given > GIVEN {
         let message = format!(
             "the points' gains add up to one but for {given:.3}: for use as an arm the last mode is given the rest, \
              so that turning as one body strains nothing"
