@@ -25,7 +25,7 @@ pub(crate) enum Failure {
     /// Responses that make no equivalent arm.
     #[error("{}: {source}", input.display())]
     Equivalent { input: PathBuf, source: Box<EquivalentRefusal>, place: Option<String> },
-    /// What was asked for of an equivalent arm makes no sense.
+    /// What was asked for makes no sense, or cannot be had; and the way out.
     #[error("{0}")]
     Asked(String, &'static str),
     #[error("{}: exists and is no earlier output; it is not written over", file.display())]
