@@ -105,23 +105,36 @@ fn attempt(fitting: &Fitting<'_>, arm: &ModalArm, first_window_s: Option<f64>) -
     fitting.widen(&mut fit, &mut report);
     modes::grow(fitting, &mut fit, &mut report);
     modes::undamp(fitting, &mut fit, &mut report);
-    evidence::tighten(fitting, &mut fit, &mut report);
-    fit.body.allow_dampers_at_points();
-    let added = report.added.len();
-    evidence::extend(fitting, &mut fit, &mut report);
-    if report.added.len() > added {
-        // It may describe longer windows.
-        fitting.widen(&mut fit, &mut report);
+    settle(fitting, &mut fit, &mut report);
+    while let Some(mut joined) = modes::twins_joined(fitting, &fit, &mut report) {
+        settle(fitting, &mut joined, &mut report);
+        if !modes::leaves_no_more(fitting, &joined, &fit) {
+            break;
+        }
+        fit = joined;
     }
-    evidence::dampers_at_points(fitting, &mut fit, &mut report);
-    evidence::drop_dampers(fitting, &mut fit, &mut report);
-    evidence::relax(fitting, &mut fit, &mut report);
     if modes::prune(fitting, &mut fit, &mut report) {
+        settle(fitting, &mut fit, &mut report);
         report.refused = evidence::promises(fitting, &fit).concat();
     }
     fitting.count_steps(&mut fit, &mut report);
     let left = left_over(fitting.campaign, &fit, fitting.masks);
     Some(Attempt { fit, report, left })
+}
+
+/// Which kinds of dampers there are, and whether the beam is one of point masses.
+fn settle(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+    evidence::tighten(fitting, fit, report);
+    fit.body.allow_dampers_at_points();
+    let added = report.added.len();
+    evidence::extend(fitting, fit, report);
+    if report.added.len() > added {
+        // It may describe longer windows.
+        fitting.widen(fit, report);
+    }
+    evidence::dampers_at_points(fitting, fit, report);
+    evidence::drop_dampers(fitting, fit, report);
+    evidence::relax(fitting, fit, report);
 }
 
 /// The same once more where its search was caught, if a slower one comes to less.

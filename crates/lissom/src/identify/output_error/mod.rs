@@ -13,6 +13,7 @@ mod law;
 mod left_over;
 mod modes;
 mod noise;
+mod repeats;
 mod search;
 mod stages;
 mod start;
@@ -141,7 +142,7 @@ pub struct OutputErrorStart {
 /// follow the log; then ever longer ones, until they are whole runs or the residual grows because the
 /// arm does not describe what happens. Parameters beyond the simplest law (lag, viscous friction by
 /// direction, the other kind of damping, friction near rest, ripple) are added where the residual calls for them. At the end the
-/// sensors' steps are counted as what they are. Where more than the sensors' noise is left then, it is
+/// sensors' steps are counted as what they are, and readings that only repeat a step once. Where more than the sensors' noise is left then, it is
 /// done again more slowly, from other frequencies of the highest mode, too.
 ///
 /// `None` where no window can be cut or nothing is left of the search.
@@ -159,7 +160,12 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         widening: stages::WIDENING,
         tries_laws: true,
     };
-    let attempts::Attempt { fit, mut report, left } = attempts::best(&fitting, start)?;
+    let attempts::Attempt { mut fit, mut report, left } = attempts::best(&fitting, start)?;
+    let without_repeats = repeats::without_repeats(campaign, &fit, &masks);
+    let fitting = Fitting { masks: without_repeats.as_deref().unwrap_or(&masks), ..fitting };
+    if without_repeats.is_some() {
+        fitting.count_steps(&mut fit, &mut report);
+    }
     let beyond_noise = fitting.beyond_noise(&fit);
     let sums = fitting.point(&fit, &fit.free).sums;
     let noise = fit.noise.iter().map(|n| SensorNoise::gaussian(n.deviation())).collect();

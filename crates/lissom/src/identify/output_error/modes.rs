@@ -11,6 +11,8 @@ const DEVIATIONS: f64 = 5.0;
 const FREQUENCY: f64 = 0.02;
 /// It goes where the cost rises by no more than this share without it.
 const SHARE: f64 = 2e-3;
+/// Frequencies this near to each other are one mode's, in doubt.
+const TWINS: f64 = 0.01;
 /// A mode put beyond the others begins at one of these times the highest, with this share of what that
 /// one has and this damping ratio.
 const BEYOND: [f64; 2] = [2.0, 4.0];
@@ -34,15 +36,15 @@ pub(super) fn prune(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) -
     let mut changed = false;
     while fit.body.arm.modes.len() > 1 {
         let Some(mode) = doubtful(fitting, fit) else { break };
-        let before = fitting.cost(fit, &fit.noise);
         let without = refitted(fitting, less(fit, mode), report);
-        if fitting.cost(&without, &fit.noise) <= before * (1.0 + SHARE) {
+        if leaves_no_more(fitting, &without, fit) {
             *fit = without;
             changed = true;
             continue;
         }
         // It stands for something: for a mode beyond the others, perhaps.
         let beyond = with_one_more(fitting, &without, report);
+        let before = fitting.cost(fit, &fit.noise);
         if fitting.cost(&beyond, &fit.noise) > before * (1.0 - SHARE) {
             break;
         }
@@ -242,6 +244,28 @@ fn doubtful(fitting: &Fitting<'_>, fit: &Fit) -> Option<usize> {
     };
     let all = (0..fit.body.arm.modes.len()).filter_map(doubt);
     all.filter(|(_, d)| *d > 1.0).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(j, _)| j)
+}
+
+/// With two modes of one frequency taken for one, searched again: a start had one too many, and a search
+/// brought both to the one there is. `None` where no two are alike.
+pub(super) fn twins_joined(fitting: &Fitting<'_>, fit: &Fit, report: &mut Report) -> Option<Fit> {
+    let modes = &fit.body.arm.modes;
+    let alike =
+        |[i, j]: &[usize; 2]| (modes[*i].omega_rad_s / modes[*j].omega_rad_s - 1.0).abs() < TWINS;
+    let mut pairs = (0..modes.len()).flat_map(|i| (0..i).map(move |j| [i, j]));
+    let [gone, stays] = pairs.find(alike)?;
+    let mut fit = fit.clone();
+    let arm = &mut fit.body.arm;
+    arm.modes[stays].stiffness_nm_per_rad += arm.modes[gone].stiffness_nm_per_rad;
+    for row in &mut arm.shapes {
+        row[stays] += std::mem::take(&mut row[gone]);
+    }
+    Some(refitted(fitting, less(&fit, gone), report))
+}
+
+/// Whether `other`, of a mode less, leaves as little as `fit` does.
+pub(super) fn leaves_no_more(fitting: &Fitting<'_>, other: &Fit, fit: &Fit) -> bool {
+    fitting.cost(other, &fit.noise) <= fitting.cost(fit, &fit.noise) * (1.0 + SHARE)
 }
 
 /// Without one of its modes; the rest of Σr = 1 goes to the last that is left.

@@ -12,6 +12,8 @@ const LOOKED_AT: usize = 4000;
 const LEAST_SHARE: f64 = 0.1;
 /// Steps of less than this many deviations are as good as none.
 const STEP_COUNTS: f64 = 0.5;
+/// Noise within this share of the least is as good as none.
+const AT_LEAST: f64 = 1.1;
 /// Golden section of ln σ down to a factor of 1 %.
 const GOLDEN_STEPS: usize = 24;
 
@@ -83,4 +85,9 @@ pub(super) fn most_likely(residuals: &[f64], step: f64) -> SensorNoise {
         if unlikely(a) < unlikely(b) { high = b } else { low = a }
     }
     SensorNoise { sigma: (0.5 * (low + high)).exp(), step }
+}
+
+/// Whether a sensor shows its steps and hardly any noise: less, at any rate, than it is ever taken to have.
+pub(super) fn is_least(noise: &SensorNoise) -> bool {
+    noise.step > 0.0 && noise.sigma < AT_LEAST * LEAST_SHARE * noise.step
 }
