@@ -3,16 +3,14 @@
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
-use crate::beam::{
-    BeamDynamics, BeamError, LumpedBeam, Roots, current_to_angle, motor_function, motor_poles,
-};
+use crate::beam::{Beam, BeamDynamics, BeamError, Roots, angle_per_current};
 use crate::drive::{Coulomb, Motor};
 use crate::lti::{StateSpace, ZeroPoleGain};
 
 /// A single-link flexible arm with a friction joint.
 ///
-/// State `x = [θ_m, θ̇_m, q_1..q_k, q̇_1..q̇_k]`: q are the angles θ_1 … θ_n of the masses and, where
-/// the payload needs a torque to turn, the tip's slope.
+/// State `x = [θ_m, θ̇_m, q_1..q_k, q̇_1..q̇_k]`: q are the angles θ_1 … θ_n of the masses or points and,
+/// where the payload needs a torque to turn, the tip's slope.
 ///
 /// # Source
 /// `[Feliu1989, eqs. (13)-(15)]`
@@ -22,7 +20,7 @@ pub struct Arm {
     pub motor: Motor,
     /// Its Coulomb friction.
     pub coulomb: Coulomb,
-    beam: LumpedBeam,
+    beam: Beam,
     dynamics: BeamDynamics,
 }
 
@@ -32,13 +30,14 @@ impl Arm {
     /// # Errors
     /// [`BeamError::TooManyMasses`] where the beam is longer than matrices are made for: its own
     /// methods need none. [`BeamError::OutOfRange`] where a matrix leaves the range of a double.
-    pub fn new(beam: LumpedBeam, motor: Motor, coulomb: Coulomb) -> Result<Self, BeamError> {
+    pub fn new(beam: impl Into<Beam>, motor: Motor, coulomb: Coulomb) -> Result<Self, BeamError> {
+        let beam = beam.into();
         let dynamics = beam.dynamics()?;
         Ok(Self { motor, coulomb, beam, dynamics })
     }
 
     /// The beam.
-    pub fn beam(&self) -> &LumpedBeam {
+    pub fn beam(&self) -> &Beam {
         &self.beam
     }
 
@@ -179,7 +178,7 @@ impl Arm {
     /// # Source
     /// `[Feliu1989, eqs. (13)-(15)]`
     pub fn poles(&self) -> Roots {
-        motor_poles(&self.beam, &self.motor)
+        self.beam.motor_poles(&self.motor)
     }
 
     /// θ_m/i \[rad/A\], Coulomb friction left out: its zeros are the beam's poles.
@@ -187,12 +186,13 @@ impl Arm {
     /// # Source
     /// `[Feliu1989, eqs. (13)-(15)]`; the form of (35).
     pub fn motor_function(&self) -> ZeroPoleGain {
-        motor_function(&self.beam, &self.motor)
+        self.beam.motor_function(&self.motor)
     }
 
     /// θ_i/i \[rad/A\] of mass `mass`, from 0 at the base; `None` where there is no such mass.
     pub fn angle_function(&self, mass: usize) -> Option<ZeroPoleGain> {
-        current_to_angle(&self.beam, &self.motor, mass)
+        let angle = self.beam.angle_function(mass)?;
+        Some(angle_per_current(&angle, &self.motor_function(), &self.motor))
     }
 
     /// The coupled arm (13)-(15) as one state space, Coulomb friction left out.

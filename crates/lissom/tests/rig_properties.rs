@@ -77,7 +77,7 @@ fn torques() -> impl Strategy<Value = Vec<f64>> {
 
 /// Kinetic and elastic energy \[J\].
 fn stored(arm: &Arm, x: &[f64]) -> f64 {
-    let beam = arm.beam();
+    let beam = arm.beam().lumped().unwrap();
     let (n, at) = (beam.len(), beam.position_m());
     let stiffness = beam.matrices().unwrap().ei_a;
     let mut sum = arm.motor.inertia_kg_m2 * x[1] * x[1];

@@ -223,4 +223,20 @@ impl LumpedBeam {
     pub fn dynamics(&self) -> Result<BeamDynamics, BeamError> {
         BeamDynamics::of(self)
     }
+
+    /// M of its coordinates, angles: diagonal but for the tip's angle and slope \[kg·m²\].
+    pub(crate) fn mass_matrix(&self) -> DMatrix<f64> {
+        let (n, load, at) = (self.len(), self.payload(), self.position_m());
+        let size = n + usize::from(load.turns());
+        let mass = MassMatrix::of(self, size);
+        let lever = |i: usize| at.get(i).copied().unwrap_or(1.0);
+        let mut angular = DMatrix::from_fn(size, size, |i, j| {
+            if i == j { mass.diagonal[i] * lever(i) * lever(i) } else { 0.0 }
+        });
+        if mass.turns {
+            angular[(n - 1, n)] = mass.beside * at[n - 1];
+            angular[(n, n - 1)] = mass.beside * at[n - 1];
+        }
+        angular
+    }
 }

@@ -2,7 +2,8 @@
 //!
 //! A [`LumpedBeam`] is massless between point masses (Sections 2 and 3). Whatever does not need a
 //! matrix runs along the beam once, by the recursion of `chain`. A [`DistributedBeam`] has its mass along
-//! it (Section 4); a [`TruncatedBeam`] keeps the first of its modes, in the form (17)-(18).
+//! it (Section 4); a [`TruncatedBeam`] keeps the first of its modes, in the form (17)-(18). A [`ModalBeam`] is known
+//! by its modes alone. The [`Beam`] of an arm is lumped or modal.
 
 mod best_point;
 mod bracket;
@@ -14,8 +15,10 @@ mod dynamics;
 mod frequencies;
 mod lumped;
 mod matrices;
+mod modal;
 mod modal_form;
 mod modes;
+mod of_arm;
 mod payload;
 mod piece;
 mod properties;
@@ -37,8 +40,10 @@ pub use dynamics::BeamDynamics;
 pub use frequencies::Base;
 pub use lumped::LumpedBeam;
 pub use matrices::{BeamMatrices, MOST_MASSES};
-pub(crate) use modal_form::{ModalForm, completed};
+pub use modal::{KnownMode, ModalBeam};
+pub(crate) use modal_form::{ModalForm, completed, zero_squares};
 pub use modes::Mode;
+pub use of_arm::Beam;
 pub use payload::zero_shift;
 pub use properties::{MOST_CHECKED, Property, properties};
 pub use response::BeamResponse;

@@ -1,6 +1,7 @@
 //! Modes seen at as many points, in the form (17)-(18).
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Schur};
+use num_complex::Complex64;
 
 /// Â, B̂, Ĥ and ĥ of modes `η̈_k = ω_k²·(θ_m − η_k)` that points see as Θ = R·η and the motor as
 /// `C_t = Σ c_k·(θ_m − η_k)`.
@@ -34,6 +35,31 @@ impl ModalForm {
             h_motor: coupling.sum(),
         }
     }
+}
+
+/// Sweeps for the eigenvalues at most.
+const SWEEPS: usize = 10_000;
+
+/// The roots in z = s² of `Σ_k r_k/(z + ω_k²)`, by their size; none where the residues r_k vanish or no
+/// eigenvalues are found. Residues that cancel leave one near infinity.
+///
+/// They are the eigenvalues of `D − D·1·rᵀ/Σr`, D = −Ω², but one that is zero.
+pub(crate) fn zero_squares(residues: &[f64], squares: &[f64]) -> Vec<Complex64> {
+    let size: f64 = residues.iter().map(|r| r.abs()).sum();
+    if residues.len() < 2 || size == 0.0 || !size.is_finite() {
+        return Vec::new();
+    }
+    let total: f64 = residues.iter().sum();
+    let total = total.abs().max(f64::EPSILON * size).copysign(total);
+    let modes = residues.len();
+    let matrix = DMatrix::from_fn(modes, modes, |i, k| {
+        let own = if i == k { 1.0 } else { 0.0 };
+        -squares[i] * (own - residues[k] / total)
+    });
+    let Some(schur) = Schur::try_new(matrix, f64::EPSILON, SWEEPS) else { return Vec::new() };
+    let mut roots: Vec<Complex64> = schur.complex_eigenvalues().iter().copied().collect();
+    roots.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+    roots.into_iter().skip(1).filter(|z| z.is_finite()).collect()
 }
 
 /// Shares with what their rows lack of one given to the last mode: turning the arm as one body then strains

@@ -181,6 +181,44 @@ pub enum BeamError {
         /// Smallest over largest singular value of the modes' shares at the points.
         condition: f64,
     },
+    /// A beam by its modes without one.
+    #[error("the beam has no modes")]
+    NoModes,
+    /// A beam by its modes needs as many points as modes.
+    #[error(
+        "mode {mode} has gains for {points} points, and there are {modes} modes: each needs as many gains"
+    )]
+    ModesAndPoints {
+        /// Number of the mode, from 1.
+        mode: usize,
+        /// Its gains.
+        points: usize,
+        /// Modes given.
+        modes: usize,
+    },
+    /// A number of a mode that it cannot have.
+    #[error("mode {mode}: {quantity} = {found} is out of range")]
+    KnownMode {
+        /// Number of the mode, from 1.
+        mode: usize,
+        /// Which quantity, with its unit.
+        quantity: &'static str,
+        /// The number found.
+        found: f64,
+    },
+    /// Gains that strain a beam that turns as one body.
+    #[error(
+        "the gains of point {point} add up to {sum}, not to one: turning as one body would bend the beam"
+    )]
+    GainsSum {
+        /// Number of the point, from 1.
+        point: usize,
+        /// Their sum.
+        sum: f64,
+    },
+    /// Something at the tip of a beam that is known by its modes alone.
+    #[error("a beam known by its modes has no tip that something could act on")]
+    NoTip,
     /// Points that are not on the beam.
     #[error("points must lie on the beam, beyond {base_m} m and up to {tip_m} m from the axis")]
     Points {

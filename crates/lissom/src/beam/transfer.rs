@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 
 use super::damped::quadratic;
-use super::{Base, Damping, LumpedBeam, motor_poles};
+use super::{Base, Damping, LumpedBeam, Roots, motor_poles};
 use crate::drive::Motor;
 use crate::lti::ZeroPoleGain;
 
@@ -49,7 +49,7 @@ impl LumpedBeam {
         points + self.damping().proportional().0 * self.inertia_kg_m2()
     }
 
-    fn coupling_zeros(&self, squares: &[Complex64]) -> super::Roots {
+    fn coupling_zeros(&self, squares: &[Complex64]) -> Roots {
         let (alpha, beta) = self.damping().proportional();
         let points = self.spans().iter().any(|s| s.damping_n_s_per_m > 0.0);
         let modal = matches!(self.damping(), Damping::Modal { .. });
@@ -60,14 +60,14 @@ impl LumpedBeam {
             if beta > 0.0 {
                 s.push(Complex64::from(-1.0 / beta));
             }
-            return super::Roots { s, missing: 0 };
+            return Roots { s, missing: 0 };
         }
         self.coupling_zeros_together(squares)
     }
 }
 
 /// `Π(−p)/Π(−z)`, real: what makes the value at s = 0 one.
-fn ratio(poles: &[Complex64], zeros: &[Complex64]) -> f64 {
+pub(super) fn ratio(poles: &[Complex64], zeros: &[Complex64]) -> f64 {
     let mut value = Complex64::from(1.0);
     for k in 0..poles.len().max(zeros.len()) {
         if let Some(p) = poles.get(k) {
@@ -85,7 +85,11 @@ fn ratio(poles: &[Complex64], zeros: &[Complex64]) -> f64 {
 /// # Source
 /// `[Feliu1989, eqs. (13)-(15)]`; the form of (35).
 pub fn motor_function(beam: &LumpedBeam, motor: &Motor) -> ZeroPoleGain {
-    let (zeros, poles) = (beam.poles(), motor_poles(beam, motor));
+    driven(beam.poles(), motor_poles(beam, motor), motor)
+}
+
+/// θ_m/i from the poles of the beam and those of the whole arm.
+pub(super) fn driven(zeros: Roots, poles: Roots, motor: &Motor) -> ZeroPoleGain {
     ZeroPoleGain {
         zeros: zeros.s,
         poles: poles.s,

@@ -60,8 +60,8 @@ pub struct GeometryCheck {
 /// another: the factor that brings the figures nearest, by their covariance and no better than 0.1 % each.
 ///
 /// What the modes that were not found carry of the inertia belongs to J. A factor's deviation is stretched where the
-/// number does not explain the difference. `None` where `described` has fewer modes than were found, or none
-/// were.
+/// number does not explain the difference. `None` where `described` is known by its modes, or has fewer
+/// than were found, or none were.
 pub fn geometry_check(described: &Arm, found: &OutputError) -> Option<GeometryCheck> {
     let modes = found.arm.modes.len();
     let figures = 1 + 2 * modes;
@@ -122,7 +122,7 @@ impl Problem<'_> {
             Some(ArmQuantity::MotorInertia) => factor,
             _ => 1.0,
         };
-        let beam = self.described.beam();
+        let beam = self.described.beam().lumped()?;
         let beam = match quantity {
             Some(quantity) => scaled(beam, quantity, factor).ok()?,
             None => beam.clone(),

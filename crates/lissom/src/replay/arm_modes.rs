@@ -65,18 +65,25 @@ impl<'a> ArmModes<'a> {
         }
     }
 
-    /// All modes and masses, dampers where they are; `None` for a payload that turns beside dampers at
-    /// masses.
+    /// All modes and masses, dampers where they are: at masses, or against the frame in each mode. `None` for
+    /// a payload that turns beside dampers at masses.
     pub(super) fn whole(&self) -> Option<ModalArm> {
         let (n, masses) = (self.omega_rad_s.len(), self.arm.beam().len());
+        let by_modes = self.arm.beam().lumped().is_none();
         let at_points_per_s = match &self.dynamics.absolute {
+            _ if by_modes => Vec::new(),
             None if n == masses => vec![0.0; n],
             None => Vec::new(),
             Some(m) if n == masses => m.diagonal().iter().map(|g| -g).collect(),
             Some(_) => return None,
         };
         let within = self.damping(self.dynamics.relative.as_ref());
-        let mode = |j: usize| Oscillator { within_per_s: within[j], ..self.undamped(j) };
+        let grounded = self.damping(self.dynamics.absolute.as_ref().filter(|_| by_modes));
+        let mode = |j: usize| Oscillator {
+            within_per_s: within[j],
+            grounded_per_s: grounded[j],
+            ..self.undamped(j)
+        };
         let row = |i: usize| self.shapes.row(i).iter().copied().collect();
         Some(ModalArm {
             modes: (0..n).map(mode).collect(),

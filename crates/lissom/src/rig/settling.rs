@@ -64,8 +64,8 @@ impl Decays {
         };
         let shapes = || {
             // Angles of the masses in each mode, the largest 1 rad.
-            let position = arm.beam().position_m();
-            let mut shapes = DMatrix::from_fn(n, n, |i, m| modes[m].shape[i] / position[i]);
+            let position = |i: usize| arm.beam().position_m().get(i).copied().unwrap_or(1.0);
+            let mut shapes = DMatrix::from_fn(n, n, |i, m| modes[m].shape[i] / position(i));
             for mut column in shapes.column_iter_mut() {
                 column /= column.amax();
             }

@@ -1,15 +1,12 @@
 //! Zeros of the points' responses, with deviations.
 
-use nalgebra::{DMatrix, Schur};
 use num_complex::Complex64;
 
 use super::deviation;
-use crate::beam::{RootClass, class};
+use crate::beam::{RootClass, class, zero_squares};
 use crate::identify::Estimate;
 use crate::identify::rational::SharedPoles;
 
-/// Sweeps for the eigenvalues at most.
-const SWEEPS: usize = 10_000;
 /// Newton's steps at most.
 const STEPS: usize = 40;
 /// Imaginary part of s², as a share of its size, that eigenvalues of a real root may have by rounding.
@@ -30,37 +27,20 @@ pub struct ResponseZero {
 
 /// Zeros of output `output`'s response `Σ_k ρ_ik·ω_k²/(s² + ω_k²)`, by their size.
 ///
-/// Roots are the eigenvalues of `diag(−ω_k²)` less a matrix of rank one, refined by Newton's method.
+/// Roots are eigenvalues, refined by Newton's method.
 /// Deviations are to first order: `dz = −Σ dr_k/(z + ω_k²)/f′ + Σ r_k·dω_k²/(z + ω_k²)²/f′`, f the sum,
 /// z = s², r_k = ρ_ik·ω_k², and `d|s| = Re(dz/z)·|s|/2`.
 ///
 /// # Source
 /// `[Feliu1989, Section 3, property 1; eq. (19)]`
 pub fn response_zeros(fit: &SharedPoles, output: usize) -> Vec<ResponseZero> {
-    let modes = fit.poles.len();
     let Some(gains) = fit.static_gains.get(output) else { return Vec::new() };
     let squares: Vec<f64> = fit.poles.iter().map(|p| p.omega_rad_s.powi(2)).collect();
     let residues: Vec<f64> = gains.iter().zip(&squares).map(|(g, s)| g * s).collect();
-    let size: f64 = residues.iter().map(|r| r.abs()).sum();
-    if modes < 2 || size == 0.0 || !size.is_finite() {
-        return Vec::new();
-    }
-    // Residues that cancel leave a zero at infinity.
-    let total: f64 = residues.iter().sum();
-    let total = total.abs().max(f64::EPSILON * size).copysign(total);
-    // Σ r_k/(z + ω_k²) = 0 has the roots of D − D·1·rᵀ/Σr, D = −Ω², but one at zero.
-    let matrix = DMatrix::from_fn(modes, modes, |i, k| {
-        let own = if i == k { 1.0 } else { 0.0 };
-        -squares[i] * (own - residues[k] / total)
-    });
-    let Some(schur) = Schur::try_new(matrix, f64::EPSILON, SWEEPS) else { return Vec::new() };
-    let mut roots: Vec<Complex64> = schur.complex_eigenvalues().iter().copied().collect();
-    roots.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
     let (low, high) = fit.range_rad_s;
-    let mut zeros: Vec<ResponseZero> = roots
+    let mut zeros: Vec<ResponseZero> = zero_squares(&residues, &squares)
         .into_iter()
-        .skip(1)
-        .filter(|z| z.is_finite() && z.im >= -MEET * z.norm())
+        .filter(|z| z.im >= -MEET * z.norm())
         .map(|z| refined(&residues, &squares, z))
         .map(|square| {
             let value = square.norm().sqrt();

@@ -54,7 +54,7 @@ impl Modal {
         if k > MOST_COORDINATES {
             return None;
         }
-        let mass = masses(arm);
+        let mass = arm.beam().mass_matrix();
         let d = arm.dynamics();
         let lower = mass.clone().cholesky()?.l();
         // L⁻¹·K·L⁻ᵀ = −Lᵀ·E·L⁻ᵀ.
@@ -196,25 +196,6 @@ impl Modal {
         let torque_gap = (arm.coupling_torque(&x) - torque.dot(&z)).abs();
         gap <= AGREES * size && torque_gap <= AGREES * torque_size
     }
-}
-
-/// M in angles: diagonal but for the tip's angle and slope.
-fn masses(arm: &Arm) -> DMatrix<f64> {
-    let (beam, k) = (arm.beam(), arm.dynamics().len());
-    let (n, load) = (beam.len(), beam.payload());
-    let at = beam.position_m();
-    let mut mass = DMatrix::zeros(k, k);
-    for (i, span) in beam.spans().iter().enumerate() {
-        mass[(i, i)] = span.mass_kg * at[i] * at[i];
-    }
-    mass[(n - 1, n - 1)] += load.mass_kg * at[n - 1] * at[n - 1];
-    if k > n {
-        mass[(n, n)] = load.inertia_kg_m2 + load.mass_kg * load.offset_m * load.offset_m;
-        let beside = load.mass_kg * load.offset_m * at[n - 1];
-        mass[(n - 1, n)] = beside;
-        mass[(n, n - 1)] = beside;
-    }
-    mass
 }
 
 #[cfg(test)]

@@ -185,9 +185,14 @@ impl<'a> Hybrid<'a> {
     /// The same arm with a world at its tip.
     ///
     /// # Errors
-    /// [`RigError`] where a friction of it is negative.
+    /// [`RigError`] where a friction of it is negative, or the beam is known by its modes and has no tip.
     pub fn with_world(mut self, world: TipWorld) -> Result<Self, RigError> {
         world.check()?;
+        if self.arm.beam().lumped().is_none() && !world.is_empty() {
+            return Err(RigError::Unsupported {
+                what: "a world at the tip of a beam by its modes",
+            });
+        }
         let tip = self.state[self.tip_index()];
         self.touching = world.walls.iter().map(|w| w.depth(tip) > 0.0).collect();
         self.tip_mode = Mode::of(self.state[self.tip_rate_index()]);

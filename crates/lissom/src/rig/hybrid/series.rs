@@ -24,7 +24,7 @@ impl Hybrid<'_> {
         self.arm.dynamics().force[self.arm.beam().len() - 1]
     }
     fn tip_radius_m(&self) -> f64 {
-        self.arm.beam().position_m()[self.arm.beam().len() - 1]
+        self.arm.beam().position_m().last().copied().unwrap_or(0.0)
     }
     pub(super) fn tip_rubs(&self) -> bool {
         self.world.as_ref().is_some_and(|w| w.coulomb_n > 0.0)
