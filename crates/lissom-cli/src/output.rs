@@ -1,7 +1,7 @@
 //! Keeps a slip of the fingers (`--json run.csv campaign.toml`) from costing a log.
 
 use std::fs::File;
-use std::io::{BufRead as _, BufReader};
+use std::io::{BufRead as _, BufReader, Read as _};
 use std::path::Path;
 
 use crate::failure::Failure;
@@ -30,4 +30,15 @@ fn begins_otherwise(path: &Path, first: u8) -> bool {
     let mut reader = BufReader::new(file);
     let Ok(start) = reader.fill_buf() else { return false };
     start.iter().find(|b| !b.is_ascii_whitespace()).is_some_and(|b| *b != first)
+}
+
+/// Refuses to write over a file that does not begin with `head`, which our own of this kind do.
+pub(crate) fn guard_headed(path: &Path, head: &str) -> Result<(), Failure> {
+    let mut start = String::new();
+    // What cannot be read is left to the writing to refuse.
+    let other = path.is_file()
+        && File::open(path).is_ok_and(|f| {
+            f.take(head.len() as u64).read_to_string(&mut start).is_err() || start != head
+        });
+    if other { Err(Failure::NotAnOutput { file: path.to_owned() }) } else { Ok(()) }
 }

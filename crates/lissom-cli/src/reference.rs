@@ -38,7 +38,7 @@ impl Reference {
             return Ok(None);
         };
         let Some(drive) = &arm.drive else { return Ok(None) };
-        let whole = if arm.beam.is_some() {
+        let whole = if arm.beam_kind(path).is_ok() {
             Some(arm.simulated_arm(path).map_err(lissom_io::Error::from)?)
         } else {
             None

@@ -284,6 +284,8 @@ fn a_model_and_its_schema_name_the_same_keys() {
     let many =
         "[beam]\nflexural_rigidity = 2\nspans = [{ length = 0.01, mass = 0.01, count = 300 }]\n";
     check.look_at(&json(many, &all[..4]));
+    let modes = "[beam]\nmodes = [{ frequency = 1, coupling = 0.5, gains = [1] }]\n";
+    check.look_at(&json(&format!("{modes}{DRIVE}"), &all[..2]));
     check.holds(&[
         "ei_a",
         "modes[].share",

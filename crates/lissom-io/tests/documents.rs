@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use lissom_io::{ArmFile, BeamKind, BeamSpec, PlanFile, read_campaign};
+use lissom_io::{ArmFile, BeamKind, PlanFile, read_campaign};
 
 /// Columns of the log that stands in for those that the documents name.
 const COLUMNS: [&str; 8] = ["t", "i", "theta_m", "theta_t", "u", "v", "x", "y"];
@@ -50,13 +50,14 @@ fn read_as_campaign(block: &str) {
 fn read_as_arm(block: &str) {
     let path = Path::new("arm.toml");
     let file = ArmFile::from_text(path, block).unwrap();
-    match file.beam.as_ref().map(BeamSpec::kind) {
+    match file.beam_kind(path).ok() {
         Some(BeamKind::Lumped) => drop(file.lumped_beam(path).unwrap()),
         Some(BeamKind::Distributed) => drop(file.distributed_beam(path).unwrap()),
+        Some(BeamKind::Modal) => drop(file.modal_beam(path).unwrap()),
         None => {}
     }
     file.motor(path).unwrap();
-    if file.rig.is_some() && file.beam.is_some() {
+    if file.rig.is_some() && file.beam_kind(path).is_ok() {
         file.rig(path).unwrap();
     }
 }

@@ -1,6 +1,6 @@
 //! Random arms about the sizes of real rigs.
 
-use lissom::beam::{BeamError, Damping, LumpedBeam, Span};
+use lissom::beam::{BeamError, Damping, LumpedBeam, Roots, Span};
 use lissom::drive::Motor;
 use num_complex::Complex64;
 
@@ -51,7 +51,7 @@ pub(crate) fn random_arm(
     for span in &mut spans {
         span.damping_n_s_per_m = 2.0 * damping_ratio * first * span.mass_kg * draw.decade(0.5, 2.0);
     }
-    let found = clamped_modes(&LumpedBeam::new(&spans)?)[0].1;
+    let found = clamped_modes(LumpedBeam::new(&spans)?.poles())[0].1;
     for span in &mut spans {
         span.damping_n_s_per_m *= damping_ratio / found;
     }
@@ -79,10 +79,10 @@ fn random_spans(draw: &mut Draw, masses: usize) -> Vec<Span> {
     spans
 }
 
-/// Natural frequency |s| \[rad/s\] and damping ratio −Re s/|s| of each mode, motor clamped,
-/// ascending.
-pub(crate) fn clamped_modes(beam: &LumpedBeam) -> Vec<(f64, f64)> {
-    let mut upper: Vec<Complex64> = beam.poles().s.into_iter().filter(|s| s.im > 0.0).collect();
+/// Natural frequency |s| \[rad/s\] and damping ratio −Re s/|s| of each mode, from the poles with the motor
+/// clamped, ascending.
+pub(crate) fn clamped_modes(poles: Roots) -> Vec<(f64, f64)> {
+    let mut upper: Vec<Complex64> = poles.s.into_iter().filter(|s| s.im > 0.0).collect();
     upper.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
     upper.iter().map(|s| (s.norm(), -s.re / s.norm())).collect()
 }
@@ -98,7 +98,7 @@ mod tests {
             let masses = 1 + index % 3;
             let inside = index % 2 == 0;
             let (beam, motor) = random_arm(&mut draw, masses, 0.03, inside).unwrap();
-            let modes = clamped_modes(&beam);
+            let modes = clamped_modes(beam.poles());
             assert_eq!(modes.len(), masses);
             let (first, ratio) = modes[0];
             assert!((FIRST_RAD_S.0 * 0.99..FIRST_RAD_S.1 * 1.01).contains(&first), "{first}");

@@ -50,7 +50,7 @@ impl Bench {
     pub(crate) fn draw(draw: &mut Draw, stratum: &Stratum, law: Law) -> Result<Self, Rejected> {
         let inside = law == Law::BeamDamping;
         let (beam, motor) = random_arm(draw, stratum.masses, stratum.damping_ratio, inside)?;
-        let modes_rad_s: Vec<f64> = clamped_modes(&beam).iter().map(|m| m.0).collect();
+        let modes_rad_s: Vec<f64> = clamped_modes(beam.poles()).iter().map(|m| m.0).collect();
         let (first, last) = (modes_rad_s[0], modes_rad_s[modes_rad_s.len() - 1]);
         if last * stratum.sample_time_s > LAST_MODE {
             return Err(Rejected::FastMode);

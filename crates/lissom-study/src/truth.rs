@@ -32,7 +32,7 @@ impl Truth {
             viscous_nm_s_per_rad: arm.motor.viscous_nm_s_per_rad,
             inertia_kg_m2: arm.motor.inertia_kg_m2,
             coupling_nm_per_rad: arm.dynamics().coupling_motor,
-            modes: clamped_modes(arm.beam()),
+            modes: clamped_modes(arm.beam().poles()),
             arm: arm.clone(),
         }
     }

@@ -20,6 +20,9 @@ pub(crate) struct EquivalentArgs {
     /// Draw data and fit into FILE.svg or FILE.png, the motor's beside it
     #[arg(long, value_name = "FILE")]
     pub(crate) plot: Option<PathBuf>,
+    /// Write the arm into an arm.toml that `lissom model` and `lissom rig` take
+    #[arg(long, value_name = "FILE")]
+    pub(crate) save_arm: Option<PathBuf>,
     /// Keep the lowest N modes; all that are found when absent
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=100))]
     pub(crate) modes: Option<u16>,

@@ -30,6 +30,8 @@ pub(super) struct Known {
     pub(super) inertia: Option<Estimate>,
     pub(super) viscous: Option<Estimate>,
     pub(super) coupling: Option<Estimate>,
+    /// Coulomb friction forward and backward \[N·m\].
+    pub(super) coulomb: Option<[f64; 2]>,
     pub(super) modes_rad_s: Vec<Estimate>,
 }
 
@@ -105,6 +107,7 @@ impl Known {
             inertia: id.inertia,
             viscous,
             coupling: id.beam.coupling,
+            coulomb: id.friction.forward.zip(id.friction.backward).map(|(f, b)| [f.value, b.value]),
             modes_rad_s: id.beam.modes.iter().map(|m| m.natural_frequency_rad_s).collect(),
         }
     }

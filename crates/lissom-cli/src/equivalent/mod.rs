@@ -1,6 +1,7 @@
 //! `lissom equivalent CAMPAIGN|FRF...`: Section 4 from measured responses.
 
 mod args;
+mod arm;
 mod input;
 mod plots;
 mod table;
@@ -26,6 +27,9 @@ pub(crate) fn run(args: &EquivalentArgs) -> Result<ExitCode, Failure> {
     let json = args.json.as_deref();
     let json_file = json.filter(|path| *path != Path::new(STDOUT));
     output::guard(json_file, None)?;
+    if let Some(path) = &args.save_arm {
+        output::guard_headed(path, write::ARM_HEAD)?;
+    }
     let picture = args.plot.as_deref().map(Picture::of).transpose()?;
     let input = Input::read(args)?;
     let found = equivalent(&input.data, args.modes.map(usize::from));
@@ -41,6 +45,9 @@ pub(crate) fn run(args: &EquivalentArgs) -> Result<ExitCode, Failure> {
     if let Some(path) = json_file {
         let value = equivalent_json(input.names, &found);
         batch.file(path, write::json_text(path, &value)?.as_bytes())?;
+    }
+    if let Some(path) = &args.save_arm {
+        batch.file(path, arm::text(&args.inputs[0], &input, &found)?.as_bytes())?;
     }
     if let Some(picture) = &picture {
         plots::add_all(&mut batch, picture, &input, &found)?;
@@ -65,7 +72,7 @@ fn better_place(
         return Ok(None);
     };
     let file = ArmFile::read(path)?;
-    if file.beam(path).map_err(lissom_io::Error::from)?.kind() != BeamKind::Distributed {
+    if file.beam_kind(path).map_err(lissom_io::Error::from)? != BeamKind::Distributed {
         let reason =
             "has point masses, and a place is looked for along a beam with mass".to_owned();
         let hint = "give density or mass_per_length in [beam]";

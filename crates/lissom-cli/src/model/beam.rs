@@ -1,9 +1,10 @@
-//! A beam of either kind, with its load.
+//! A beam of any kind, with its load.
 
 use std::path::Path;
 
 use lissom::beam::{
-    Base, BeamError, BeamResponse, Damping, DistributedBeam, LumpedBeam, Payload, Piece, Zeros,
+    Base, BeamError, BeamResponse, Damping, DistributedBeam, LumpedBeam, ModalBeam, Payload, Piece,
+    Zeros,
 };
 use lissom_io::{ArmError, ArmFile, BeamKind};
 use num_complex::Complex64;
@@ -18,13 +19,15 @@ pub(super) const MOST_DENSE: usize = 200;
 pub(super) enum Beam {
     Lumped(LumpedBeam),
     Distributed(DistributedBeam),
+    Modal(ModalBeam),
 }
 
 impl Beam {
     pub(super) fn of(file: &ArmFile, path: &Path) -> Result<Self, ArmError> {
-        match file.beam(path)?.kind() {
+        match file.beam_kind(path)? {
             BeamKind::Lumped => file.lumped_beam(path).map(Self::Lumped),
             BeamKind::Distributed => file.distributed_beam(path).map(Self::Distributed),
+            BeamKind::Modal => file.modal_beam(path).map(Self::Modal),
         }
     }
 
@@ -32,17 +35,22 @@ impl Beam {
         match self {
             Self::Lumped(_) => BeamKind::Lumped,
             Self::Distributed(_) => BeamKind::Distributed,
+            Self::Modal(_) => BeamKind::Modal,
         }
     }
 
     pub(super) fn len(&self) -> usize {
-        self.position_m().len()
+        match self {
+            Self::Modal(beam) => beam.len(),
+            _ => self.position_m().len(),
+        }
     }
 
     pub(super) fn position_m(&self) -> &[f64] {
         match self {
             Self::Lumped(beam) => beam.position_m(),
             Self::Distributed(beam) => beam.position_m(),
+            Self::Modal(_) => &[],
         }
     }
 
@@ -50,29 +58,31 @@ impl Beam {
         match self {
             Self::Lumped(beam) => beam.spans().iter().map(|s| s.mass_kg).collect(),
             Self::Distributed(beam) => beam.pieces().iter().map(|p| p.end_mass_kg).collect(),
+            Self::Modal(_) => Vec::new(),
         }
     }
 
     pub(super) fn mass_along_kg(&self) -> f64 {
         match self {
-            Self::Lumped(_) => 0.0,
+            Self::Lumped(_) | Self::Modal(_) => 0.0,
             Self::Distributed(beam) => {
                 beam.pieces().iter().map(|p| p.mass_per_length_kg_per_m * p.length_m).sum()
             }
         }
     }
 
-    /// Least and largest EI.
-    pub(super) fn rigidity_n_m2(&self) -> (f64, f64) {
+    /// Least and largest EI; `None` where there are no spans.
+    pub(super) fn rigidity_n_m2(&self) -> Option<(f64, f64)> {
         let range = |(low, high): (f64, f64), ei: f64| (low.min(ei), high.max(ei));
         let start = (f64::INFINITY, 0.0);
         match self {
             Self::Lumped(beam) => {
-                beam.spans().iter().map(|s| s.flexural_rigidity_n_m2).fold(start, range)
+                Some(beam.spans().iter().map(|s| s.flexural_rigidity_n_m2).fold(start, range))
             }
             Self::Distributed(beam) => {
-                beam.pieces().iter().map(|p| p.flexural_rigidity_n_m2).fold(start, range)
+                Some(beam.pieces().iter().map(|p| p.flexural_rigidity_n_m2).fold(start, range))
             }
+            Self::Modal(_) => None,
         }
     }
 
@@ -80,6 +90,7 @@ impl Beam {
         match self {
             Self::Lumped(beam) => beam.hub_radius_m(),
             Self::Distributed(beam) => beam.hub_radius_m(),
+            Self::Modal(_) => 0.0,
         }
     }
 
@@ -87,6 +98,7 @@ impl Beam {
         match self {
             Self::Lumped(beam) => *beam.payload(),
             Self::Distributed(beam) => *beam.payload(),
+            Self::Modal(_) => Payload::default(),
         }
     }
 
@@ -94,6 +106,8 @@ impl Beam {
         match self {
             Self::Lumped(beam) => beam.damping(),
             Self::Distributed(beam) => beam.damping(),
+            // It is that of each mode, and stands in the table of frequencies.
+            Self::Modal(_) => &Damping::None,
         }
     }
 
@@ -104,6 +118,7 @@ impl Beam {
                 *beam.damping() == Damping::None
                     && beam.pieces().iter().all(|p| p.end_damping_n_s_per_m == 0.0)
             }
+            Self::Modal(beam) => beam.is_undamped(),
         }
     }
 
@@ -111,6 +126,7 @@ impl Beam {
         match self {
             Self::Lumped(beam) => beam.inertia_kg_m2(),
             Self::Distributed(beam) => beam.inertia_kg_m2(),
+            Self::Modal(beam) => beam.inertia_kg_m2(),
         }
     }
 
@@ -118,6 +134,7 @@ impl Beam {
         match self {
             Self::Lumped(beam) => beam.frequencies_rad_s(base, count),
             Self::Distributed(beam) => beam.frequencies_rad_s(base, count),
+            Self::Modal(beam) => beam.frequencies_rad_s(base, count),
         }
     }
 
@@ -125,6 +142,7 @@ impl Beam {
         match self {
             Self::Lumped(beam) => beam.response(s),
             Self::Distributed(beam) => beam.response(s),
+            Self::Modal(beam) => beam.response(s),
         }
     }
 
@@ -138,6 +156,7 @@ impl Beam {
             }
             Self::Lumped(beam) => beam.zeros(beam.len() - 1),
             Self::Distributed(beam) => beam.zeros_below(beam.length_m(), omega_rad_s),
+            Self::Modal(beam) => beam.zeros(beam.len() - 1),
         }
     }
 
@@ -151,6 +170,7 @@ impl Beam {
         match self {
             Self::Lumped(beam) => beam.spans().last().map_or(0.0, |s| s.mass_kg),
             Self::Distributed(beam) => beam.pieces().last().map_or(0.0, |p| p.end_mass_kg),
+            Self::Modal(_) => 0.0,
         }
     }
 
@@ -176,6 +196,7 @@ impl Beam {
                 Self::Distributed(beam) => {
                     beam.clone().with_payload(payload).map(Self::Distributed)
                 }
+                Self::Modal(_) => Err(BeamError::NoTip),
             };
         }
         match self {
@@ -197,6 +218,7 @@ impl Beam {
                     .with_damping(beam.damping().clone())
                     .map(Self::Distributed)
             }
+            Self::Modal(_) => Err(BeamError::NoTip),
         }
     }
 }

@@ -6,8 +6,8 @@ use std::path::Path;
 use indicatif::ProgressBar;
 use lissom::arm::Arm;
 use lissom::beam::{
-    Base, BeamError, Damping, LumpedBeam, MOST_CHECKED, MOST_MASSES, angle_per_current,
-    motor_function, properties,
+    Base, Beam as ArmBeam, BeamError, Damping, LumpedBeam, MOST_CHECKED, MOST_MASSES, ModalBeam,
+    angle_per_current, properties,
 };
 use lissom::drive::{Coulomb, Motor};
 use lissom::lti::{StateSpace, ZeroPoleGain};
@@ -82,6 +82,7 @@ impl Task<'_> {
         match beam {
             Beam::Lumped(lumped) => self.lumped(lumped, &mut model)?,
             Beam::Distributed(_) => self.distributed(&mut model),
+            Beam::Modal(modal) => self.modal(modal, &mut model)?,
         }
         if model.tip_zeros.is_none() && beam.kind() == BeamKind::Distributed {
             model.warnings.push(
@@ -167,6 +168,29 @@ impl Task<'_> {
         }
         self.step("matrices");
         model.matrices = Some(beam.matrices().map_err(|e| self.failed(e))?);
+        let beam = beam.clone().into();
+        self.state_space(&beam, model)?;
+        self.step("transfer functions");
+        self.functions(&beam, model);
+        Ok(())
+    }
+
+    /// Modes are what is known; there are no matrices of dimensions.
+    fn modal(&self, beam: &ModalBeam, model: &mut Model) -> Result<(), Failure> {
+        self.step("modes");
+        model.modes = Some(beam.modes(usize::MAX));
+        model.notes.push(
+            "the beam is known by its modes: it has no lengths and masses, and points go by number;              shapes are in angles"
+                .to_owned(),
+        );
+        let beam = beam.clone().into();
+        self.state_space(&beam, model)?;
+        self.step("transfer functions");
+        self.functions(&beam, model);
+        Ok(())
+    }
+
+    fn state_space(&self, beam: &ArmBeam, model: &mut Model) -> Result<(), Failure> {
         if let Some((motor, coulomb)) = self.drive {
             let arm = Arm::new(beam.clone(), motor, coulomb).map_err(|e| self.failed(e))?;
             let space = arm.state_space();
@@ -180,12 +204,10 @@ impl Task<'_> {
             }
             model.state_space = Some(space);
         }
-        self.step("transfer functions");
-        self.functions(beam, model);
         Ok(())
     }
 
-    fn functions(&self, beam: &LumpedBeam, model: &mut Model) {
+    fn functions(&self, beam: &ArmBeam, model: &mut Model) {
         let listed = self.listed();
         if listed.len() < beam.len() {
             model.notes.push(format!(
@@ -193,7 +215,7 @@ impl Task<'_> {
                  the tip alone (--all gives every mass)"
             ));
         }
-        let motor = self.drive.map(|(motor, _)| (motor, motor_function(beam, &motor)));
+        let motor = self.drive.map(|(motor, _)| (motor, beam.motor_function(&motor)));
         let function = |from, to: String, roots| Function { from, to, roots, lowest: false };
         let name = |mass: usize| format!("theta_{}", mass + 1);
         let (mut angles, mut driven) = (Vec::new(), Vec::new());
@@ -331,6 +353,11 @@ impl Task<'_> {
             Beam::Distributed(_) => model.notes.push(
                 "no --properties: Section 3 is about beams with point masses, and this one has its \
                  mass along it"
+                    .to_owned(),
+            ),
+            Beam::Modal(_) => model.notes.push(
+                "no --properties: Section 3 is about beams with point masses, and this one is known by \
+                 its modes"
                     .to_owned(),
             ),
             Beam::Lumped(beam) if beam.len() > MOST_CHECKED => model.notes.push(format!(

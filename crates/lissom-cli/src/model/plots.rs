@@ -11,7 +11,7 @@ use num_complex::Complex64;
 use super::args::Omega;
 use super::build::{Task, motor_response};
 use super::payload::of_class;
-use super::shape;
+use super::shape::{self, Shape};
 use crate::failure::Failure;
 use crate::{figures, progress};
 
@@ -39,7 +39,10 @@ pub(super) fn add_all(
     if let Some(motor) = motor {
         figures::add(batch, folder, "bode-motor", &motor)?;
     }
-    figures::add(batch, folder, "modes", &modes(task, model))?;
+    let shapes = shape::shapes(task.beam, DRAWN);
+    if !shapes.is_empty() {
+        figures::add(batch, folder, "modes", &modes(shapes, model))?;
+    }
     if let Some(cases) = &model.payload_study {
         figures::add(batch, folder, "payload", &payload(cases))?;
     }
@@ -108,13 +111,13 @@ fn bode(task: &Task<'_>, model: &Model) -> (BodePlot, Option<BodePlot>) {
 }
 
 /// The shapes of the first modes.
-fn modes(task: &Task<'_>, model: &Model) -> LinePlot {
+fn modes(shapes: Vec<Shape>, model: &Model) -> LinePlot {
     let mut plot = LinePlot::new(
         "Modes with the motor clamped",
         Axis::linear("distance from the motor's axis (m)"),
         Axis::linear("deflection, largest 1"),
     );
-    for (k, shape) in shape::shapes(task.beam, DRAWN).into_iter().enumerate() {
+    for (k, shape) in shapes.into_iter().enumerate() {
         let role = Role::Other(u8::try_from(k).unwrap_or(0));
         let omega = model.natural_frequencies_rad_s.get(k).copied().unwrap_or(0.0);
         let label = format!("{} rad/s", super::number::shown(omega, 4));

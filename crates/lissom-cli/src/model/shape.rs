@@ -23,6 +23,8 @@ pub(super) fn shapes(beam: &Beam, count: usize) -> Vec<Shape> {
     let mut shapes = match beam {
         Beam::Lumped(beam) => beam.modes(count).iter().map(|m| lumped(beam, m)).collect(),
         Beam::Distributed(beam) => distributed(beam, count),
+        // Points without places have no line.
+        Beam::Modal(_) => Vec::new(),
     };
     for shape in &mut shapes {
         // Between the masses the line may go further than they do.

@@ -54,6 +54,9 @@ fn what(task: &Task<'_>, model: &Model) {
     let points = model.mass_kg.iter().filter(|m| **m > 0.0).count();
     let heavy = model.mass_kg.iter().sum::<f64>();
     line(&match model.kind {
+        BeamKind::Modal => {
+            format!("a beam known by {}, at as many points", counted(model.len(), "mode"))
+        }
         BeamKind::Lumped => format!(
             "{} on {} of massless beam, {} kg in all",
             if model.len() == 1 { "1 mass".to_owned() } else { format!("{} masses", model.len()) },
@@ -74,14 +77,15 @@ fn what(task: &Task<'_>, model: &Model) {
             )
         }
     });
-    let (soft, stiff) = task.beam.rigidity_n_m2();
-    #[expect(clippy::float_cmp, reason = "the same number twice")]
-    let rigidity = if soft == stiff {
-        shown(soft, DIGITS)
-    } else {
-        format!("{} to {}", shown(soft, DIGITS), shown(stiff, DIGITS))
-    };
-    line(&format!("EI {rigidity} N·m²"));
+    if let Some((soft, stiff)) = task.beam.rigidity_n_m2() {
+        #[expect(clippy::float_cmp, reason = "the same number twice")]
+        let rigidity = if soft == stiff {
+            shown(soft, DIGITS)
+        } else {
+            format!("{} to {}", shown(soft, DIGITS), shown(stiff, DIGITS))
+        };
+        line(&format!("EI {rigidity} N·m²"));
+    }
     if model.hub_radius_m > 0.0 {
         line(&format!("it begins {} from the axis", metres(model.hub_radius_m)));
     }
@@ -169,7 +173,7 @@ fn zeros(model: &Model, found: &Zeros, most: usize) {
     let once: Vec<&Complex64> =
         found.z.iter().filter(|z| class(**z) != RootClass::Quadruple || z.im > 0.0).collect();
     let below = match model.kind {
-        BeamKind::Lumped => String::new(),
+        BeamKind::Lumped | BeamKind::Modal => String::new(),
         BeamKind::Distributed => {
             let highest = model.natural_frequencies_rad_s.last().copied().unwrap_or(0.0);
             format!(" below {} rad/s", shown(highest, DIGITS))

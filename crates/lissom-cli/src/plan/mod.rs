@@ -4,8 +4,6 @@ mod args;
 mod json;
 mod table;
 
-use std::fs::File;
-use std::io::Read as _;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -74,14 +72,7 @@ fn guard(out: Option<&Path>, json: Option<&Path>) -> Result<(), Failure> {
     if json == Some(out) {
         return Err(Failure::SameOutput { file: out.to_owned() });
     }
-    let mut start = String::new();
-    let length = write::PLAN_HEAD.len() as u64;
-    // What cannot be read is left to the writing to refuse.
-    let other = out.is_file()
-        && File::open(out).is_ok_and(|f| {
-            f.take(length).read_to_string(&mut start).is_err() || start != write::PLAN_HEAD
-        });
-    if other { Err(Failure::NotAnOutput { file: out.to_owned() }) } else { Ok(()) }
+    output::guard_headed(out, write::PLAN_HEAD)
 }
 
 /// A table of reference angles for each run.

@@ -48,6 +48,8 @@ pub enum BeamKind {
     Lumped,
     /// Along its length, and at points where the file names masses.
     Distributed,
+    /// Not said: the beam is known by its modes.
+    Modal,
 }
 
 impl BeamSpec {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use lissom::arm::Arm;
-use lissom::beam::{BeamError, DistributedBeam, LumpedBeam, Piece, Span};
+use lissom::beam::{Beam, BeamError, DistributedBeam, LumpedBeam, ModalBeam, Piece, Span};
 use lissom::drive::{Coulomb, DriveError, Motor};
 use lissom::rig::RigError;
 use thiserror::Error;
@@ -31,6 +31,12 @@ pub enum ArmError {
     /// A beam of point masses, where one with mass along its length is needed.
     #[error("{}: the beam has point masses; here it must have mass along its length", file.display())]
     Lumped {
+        /// The file.
+        file: PathBuf,
+    },
+    /// A beam known by its modes, where one of spans is needed.
+    #[error("{}: the beam is known by its modes; here it must have spans", file.display())]
+    Modal {
         /// The file.
         file: PathBuf,
     },
@@ -73,6 +79,14 @@ impl ArmError {
             Self::Lumped { .. } => {
                 Some("add `mass_per_length`, or `density` and `section`, to [beam]".to_owned())
             }
+            Self::Modal { .. } => Some("give `spans` in place of `modes` in [beam]".to_owned()),
+            Self::Beam { source: BeamError::GainsSum { .. }, .. } => Some(
+                "give what a point's gains lack of one to the highest mode: it stands for those left out"
+                    .to_owned(),
+            ),
+            Self::Beam { source: BeamError::NoTip, .. } => {
+                Some("describe the beam by its spans, or leave out [tip]".to_owned())
+            }
             Self::Beam { source: BeamError::TooManyMasses { .. }, .. } => {
                 Some("use fewer spans".to_owned())
             }
@@ -102,7 +116,10 @@ impl ArmFile {
     /// # Errors
     /// [`ArmError`] where `[beam]` or `[drive]` is absent or its numbers make no arm.
     pub fn arm(&self, path: &Path) -> Result<Arm, ArmError> {
-        let beam = self.lumped_beam(path)?;
+        let beam: Beam = match self.beam_kind(path)? {
+            BeamKind::Modal => self.modal_beam(path)?.into(),
+            _ => self.lumped_beam(path)?.into(),
+        };
         let (motor, coulomb) = self.motor(path)?.ok_or_else(|| absent(path, "drive"))?;
         Arm::new(beam, motor, coulomb)
             .map_err(|source| ArmError::Beam { file: path.to_owned(), source })
@@ -120,18 +137,42 @@ impl ArmFile {
         Ok(Some((motor.map_err(failed)?, coulomb.map_err(failed)?)))
     }
 
-    /// The table `[beam]`; `path` names the file in errors.
+    /// How the table `[beam]` describes the beam; `path` names the file in errors.
     ///
     /// # Errors
     /// [`ArmError::MissingTable`] where it is absent.
+    pub fn beam_kind(&self, path: &Path) -> Result<BeamKind, ArmError> {
+        match (&self.modes, &self.beam) {
+            (Some(_), _) => Ok(BeamKind::Modal),
+            (None, Some(beam)) => Ok(beam.kind()),
+            (None, None) => Err(absent(path, "beam")),
+        }
+    }
+
+    /// The beam by its spans; `path` names the file in errors.
+    ///
+    /// # Errors
+    /// [`ArmError::MissingTable`] where `[beam]` is absent, [`ArmError::Modal`] where it has modes.
     pub fn beam(&self, path: &Path) -> Result<&BeamSpec, ArmError> {
-        self.beam.as_ref().ok_or_else(|| absent(path, "beam"))
+        match self.beam_kind(path)? {
+            BeamKind::Modal => Err(ArmError::Modal { file: path.to_owned() }),
+            _ => self.beam.as_ref().ok_or_else(|| absent(path, "beam")),
+        }
+    }
+
+    /// The beam by its modes; `path` names the file in errors.
+    ///
+    /// # Errors
+    /// [`ArmError`] where `[beam]` has none, or their numbers make no beam.
+    pub fn modal_beam(&self, path: &Path) -> Result<ModalBeam, ArmError> {
+        let modes = self.modes.clone().ok_or_else(|| absent(path, "beam"))?;
+        ModalBeam::new(modes).map_err(|source| ArmError::Beam { file: path.to_owned(), source })
     }
 
     /// The beam of point masses that the file describes; `path` names the file in errors.
     ///
     /// # Errors
-    /// [`ArmError`] where `[beam]` is absent, has mass along its length or its numbers make no
+    /// [`ArmError`] where `[beam]` is absent, has modes or mass along its length, or its numbers make no
     /// beam.
     pub fn lumped_beam(&self, path: &Path) -> Result<LumpedBeam, ArmError> {
         let beam = self.beam(path)?;

@@ -57,7 +57,7 @@ impl ArmFile {
     /// # Errors
     /// As [`arm`](Self::arm).
     pub fn simulated_arm(&self, path: &Path) -> Result<Arm, ArmError> {
-        if self.beam(path)?.kind() != BeamKind::Distributed {
+        if self.beam_kind(path)? != BeamKind::Distributed {
             return self.arm(path);
         }
         let count = self.rig.as_ref().and_then(|rig| rig.masses).unwrap_or(MASSES);

@@ -39,6 +39,13 @@
 //!                                           # or { ratio = 0.01 }, { ratios = [0.01, 0.02] }
 //! ```
 //!
+//! A beam whose dimensions nobody knows may be given by its modes, as many as points:
+//!
+//! ```toml
+//! [beam]
+//! modes = [{ frequency = "6.8 Hz", damping_ratio = 0.004, coupling = "0.5 N*m", gains = [1] }]
+//! ```
+//!
 //! Every key is in `docs/arm.md`.
 
 mod beam;
@@ -46,6 +53,7 @@ mod build;
 mod build_rig;
 mod drive;
 mod material;
+mod modes;
 mod rig;
 #[cfg(test)]
 mod tests;
@@ -60,14 +68,18 @@ pub use tip::{SignalSpec, TipSpec};
 
 use std::path::Path;
 
+use lissom::beam::KnownMode;
+
 use crate::config::{ConfigError, Source};
 use crate::error::Error;
 
 /// What an `arm.toml` says, in SI.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ArmFile {
-    /// The beam.
+    /// The beam, by its spans.
     pub beam: Option<BeamSpec>,
+    /// The beam, by its modes, in place of that.
+    pub modes: Option<Vec<KnownMode>>,
     /// The motor.
     pub drive: Option<DriveSpec>,
     /// The world at the tip.
@@ -104,8 +116,14 @@ impl ArmFile {
         let document = source.parse()?;
         let root = source.root(&document);
         root.only(&["beam", "drive", "tip", "rig"])?;
+        let table = root.get("beam").map(|v| v.table()).transpose()?;
+        let (by_modes, by_spans) = match table {
+            Some(table) if table.get("modes").is_some() => (Some(table), None),
+            other => (None, other),
+        };
         Ok(Self {
-            beam: root.get("beam").map(|v| beam::beam(&v.table()?)).transpose()?,
+            beam: by_spans.map(|t| beam::beam(&t)).transpose()?,
+            modes: by_modes.map(|t| modes::modes(&t)).transpose()?,
             drive: root.get("drive").map(|v| drive::drive(&v.table()?)).transpose()?,
             tip: root.get("tip").map(|v| tip::tip(&v.table()?)).transpose()?,
             rig: root.get("rig").map(|v| rig::rig(&v.table()?)).transpose()?,

@@ -93,14 +93,17 @@ pub struct PayloadCase {
 }
 
 impl Model {
-    /// Number of masses, or of pieces of a distributed beam.
+    /// Number of masses, of pieces of a distributed beam, or of points of one known by its modes.
     pub fn len(&self) -> usize {
-        self.position_m.len()
+        match self.kind {
+            BeamKind::Modal => self.natural_frequencies_rad_s.len(),
+            _ => self.position_m.len(),
+        }
     }
 
     /// Never true of a beam.
     pub fn is_empty(&self) -> bool {
-        self.position_m.is_empty()
+        self.len() == 0
     }
 
     /// Length from clamp to tip \[m\].
@@ -112,23 +115,25 @@ impl Model {
 /// The model as JSON, SI and rad/s throughout.
 pub fn model_json(model: &Model) -> Value {
     let m = model.matrices.as_ref();
+    let dimensions = model.kind != BeamKind::Modal;
     json!({
         "lissom": env!("CARGO_PKG_VERSION"),
         "kind": match model.kind {
             BeamKind::Lumped => "lumped",
             BeamKind::Distributed => "distributed",
+            BeamKind::Modal => "modal",
         },
         "n": model.len(),
-        "length_m": model.length_m(),
-        "hub_radius_m": model.hub_radius_m,
+        "length_m": dimensions.then(|| model.length_m()),
+        "hub_radius_m": dimensions.then_some(model.hub_radius_m),
         "mass_kg": model.mass_kg,
         "mass_along_kg": model.mass_along_kg,
         "position_m": model.position_m,
-        "payload": {
+        "payload": dimensions.then(|| json!({
             "mass_kg": model.payload.mass_kg,
             "inertia_kg_m2": model.payload.inertia_kg_m2,
             "offset_m": model.payload.offset_m,
-        },
+        })),
         "inertia_kg_m2": model.inertia_kg_m2,
         "ei_a": m.map(|m| rows(&m.ei_a)),
         "ei_b": m.map(|m| m.ei_b.as_slice()),

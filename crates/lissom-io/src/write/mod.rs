@@ -1,5 +1,6 @@
 //! Writing files whole or not at all.
 
+mod arm;
 mod batch;
 mod campaign;
 mod csv;
@@ -8,6 +9,7 @@ mod plan;
 #[cfg(test)]
 mod tests;
 
+pub use arm::{ARM_HEAD, WrittenArm, arm_text};
 pub use batch::Batch;
 pub use campaign::{CampaignPlan, PlannedCommand, PlannedRun, campaign_text, write_campaign};
 pub use csv::{csv_text, write_csv};

@@ -9,7 +9,7 @@ use super::response::BeamResponse;
 use super::roots::together;
 use super::transfer::{driven, ratio};
 use super::zeros::log_slope;
-use super::{Base, BeamDynamics, BeamError, Mode, Roots};
+use super::{Base, BeamDynamics, BeamError, Mode, Roots, Zeros};
 use crate::drive::Motor;
 use crate::lti::ZeroPoleGain;
 use crate::number::{Dual, Number, Scaled};
@@ -239,9 +239,7 @@ impl ModalBeam {
 
     /// θ_i/θ_m of point `point`, from 0; `None` where there is no such point.
     pub fn angle_function(&self, point: usize) -> Option<ZeroPoleGain> {
-        let squares: Vec<f64> = self.modes.iter().map(|m| m.omega_rad_s.powi(2)).collect();
-        let own = self.gains.row_iter().nth(point)?;
-        let residues: Vec<f64> = own.iter().zip(&squares).map(|(g, w)| g * w).collect();
+        let (residues, squares) = self.residues(point)?;
         let from = starts(&zero_squares(&residues, &squares));
         let function = |s: Complex64| {
             let s = Jet::variable(s);
@@ -253,6 +251,19 @@ impl ModalBeam {
         let (zeros, poles) = (sorted(zeros), self.poles().s);
         let gain = ratio(&poles, &zeros);
         Some(ZeroPoleGain { zeros, poles, gain, missing })
+    }
+
+    /// Zeros of θ_i/θ_m in s², damping left out; `None` where there is no such point.
+    pub fn zeros(&self, point: usize) -> Option<Zeros> {
+        let (residues, squares) = self.residues(point)?;
+        Some(Zeros { z: zero_squares(&residues, &squares), missing: 0 })
+    }
+
+    /// ρ_ik·ω_k² of a point, and ω_k².
+    fn residues(&self, point: usize) -> Option<(Vec<f64>, Vec<f64>)> {
+        let squares: Vec<f64> = self.modes.iter().map(|m| m.omega_rad_s.powi(2)).collect();
+        let own = self.gains.row_iter().nth(point)?;
+        Some((own.iter().zip(&squares).map(|(g, w)| g * w).collect(), squares))
     }
 
     /// `Π (s² + 2ζ_kω_k·s + ω_k²)/ω_k²`.

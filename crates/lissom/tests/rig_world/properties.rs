@@ -153,7 +153,7 @@ fn law() -> impl Strategy<Value = DryFriction> {
 
 /// Kinetic and elastic energy of arm and walls \[J\].
 fn stored(arm: &Arm, world: &TipWorld, x: &[f64]) -> f64 {
-    let beam = arm.beam();
+    let beam = arm.beam().lumped().unwrap();
     let (n, at) = (beam.len(), beam.position_m());
     let stiffness = beam.matrices().unwrap().ei_a;
     let mut sum = arm.motor.inertia_kg_m2 * x[1] * x[1];

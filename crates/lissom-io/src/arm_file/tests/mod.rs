@@ -1,6 +1,7 @@
 #![expect(clippy::float_cmp, reason = "these numbers are exact")]
 
 mod beam;
+mod modes;
 mod rig;
 
 use std::f64::consts::{PI, TAU};

@@ -1,9 +1,9 @@
 //! The coupling torque of the equivalent beam, and the motor that it loads: step 6 of Section 4.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, DVectorView};
 
 use super::{EquivalentBeam, EquivalentError, StrainlessForm, deviation, equivalent_beam, moved};
-use crate::beam::ModalForm;
+use crate::beam::{BeamError, KnownMode, ModalBeam, ModalForm};
 use crate::identify::model::{CoupledMode, modal};
 use crate::identify::rational::{CouplingFit, MotorData, Pole, SharedPoles, fit_coupling};
 use crate::identify::{Estimate, Response};
@@ -149,6 +149,28 @@ impl EquivalentArm {
             names.iter().map(|name| (*name).to_owned()).zip(rows).collect();
         let motor = [self.inertia.value, self.viscous.value];
         modal(motor, self.torque_per_command, &modes, &points, unit)
+    }
+
+    /// The same as a beam known by its modes, for an [`Arm`](crate::arm::Arm): damping that came out below zero
+    /// is none.
+    ///
+    /// # Errors
+    /// [`BeamError`] where a mode's coupling is not above zero, or gains that add up to one at every point cannot
+    /// tell the modes apart.
+    pub fn modal_beam(&self) -> Result<ModalBeam, BeamError> {
+        let each = self.poles.iter().zip(&self.coupling).zip(self.beam.completed.column_iter());
+        let mode = |((pole, c), gains): ((&Pole, &Estimate), DVectorView<'_, f64>)| KnownMode {
+            omega_rad_s: pole.omega_rad_s,
+            damping_ratio: pole.damping_ratio.max(0.0),
+            coupling_nm_per_rad: c.value,
+            gains: gains.iter().copied().collect(),
+        };
+        ModalBeam::new(each.map(mode).collect())
+    }
+
+    /// Torque per command used.
+    pub fn torque_per_command(&self) -> f64 {
+        self.torque_per_command
     }
 
     /// θ_m per command at a frequency.

@@ -1,0 +1,61 @@
+//! Writing an `arm.toml` of a beam that is known by its modes.
+
+use std::fmt::{self, Write as _};
+
+use lissom::beam::ModalBeam;
+use lissom::drive::{Coulomb, Motor};
+
+/// What a written arm begins with.
+pub const ARM_HEAD: &str = "# Written by `lissom equivalent`";
+
+/// What an `arm.toml` says of an equivalent arm.
+#[derive(Debug, Clone, Copy)]
+pub struct WrittenArm<'a> {
+    /// Its motor.
+    pub motor: Motor,
+    /// Coulomb friction, where it is known.
+    pub coulomb: Option<Coulomb>,
+    /// Its beam.
+    pub beam: &'a ModalBeam,
+    /// Names of the beam's points.
+    pub points: &'a [&'a str],
+}
+
+/// The text of an `arm.toml` that [`ArmFile`](crate::ArmFile) reads, every number with all of its digits.
+pub fn arm_text(arm: &WrittenArm<'_>) -> String {
+    let mut text = String::new();
+    // Writing to a string does not fail.
+    let _ = put(&mut text, arm);
+    text
+}
+
+fn put(text: &mut String, arm: &WrittenArm<'_>) -> fmt::Result {
+    writeln!(text, "{ARM_HEAD}: the arm of Section 4, by its modes.")?;
+    writeln!(text, "[beam]")?;
+    let points: Vec<String> =
+        arm.points.iter().map(|name| name.escape_default().to_string()).collect();
+    writeln!(text, "# gains are of the points {}", points.join(", "))?;
+    writeln!(text, "modes = [")?;
+    for mode in arm.beam.known_modes() {
+        let gains: Vec<String> = mode.gains.iter().map(|g| format!("{g:?}")).collect();
+        writeln!(
+            text,
+            "  {{ omega_rad_s = {:?}, damping_ratio = {:?}, coupling = \"{:?} N*m\", gains = [{}] }},",
+            mode.omega_rad_s,
+            mode.damping_ratio,
+            mode.coupling_nm_per_rad,
+            gains.join(", ")
+        )?;
+    }
+    writeln!(text, "]\n\n[drive]")?;
+    writeln!(text, "inertia = \"{:?} kg*m^2\"", arm.motor.inertia_kg_m2)?;
+    writeln!(text, "viscous = \"{:?} N*m*s/rad\"", arm.motor.viscous_nm_s_per_rad)?;
+    writeln!(text, "torque_constant = \"{:?} N*m/A\"", arm.motor.torque_constant_nm_per_a)?;
+    match arm.coulomb {
+        Some(Coulomb { forward, backward }) => writeln!(
+            text,
+            "coulomb = {{ forward = \"{forward:?} N*m\", backward = \"{backward:?} N*m\" }}"
+        ),
+        None => writeln!(text, "# coulomb = \"0.03 N*m\"  # responses do not tell it"),
+    }
+}
