@@ -3,6 +3,7 @@
 mod beam;
 mod coupling;
 mod motor;
+mod products;
 mod refine;
 mod relocate;
 mod shared_poles;

@@ -5,6 +5,7 @@ use num_complex::Complex64;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::Pole;
+use super::products::products;
 use super::shared_poles::Damping;
 use super::weighted::{Output, Weighted};
 
@@ -199,21 +200,27 @@ impl OneOutput {
         };
         let measured = DVector::from_fn(2 * points, |i, _| value(i));
         let basis = rows.columns(0, count);
-        let factor = basis.tr_mul(&basis).cholesky()?;
+        let products = products(&rows);
+        let factor = products.view((0, 0), (count, count)).into_owned().cholesky()?;
         let gains = factor.solve(&basis.tr_mul(&measured));
         let left = measured - basis * &gains;
-        let unknowns = (rows.ncols() - count) / count;
-        let mut slopes = rows.columns_range(count..).into_owned();
-        for (column, mut slope) in slopes.column_iter_mut().enumerate() {
-            slope *= gains[column / unknowns];
+        // Slopes are those of the columns times the gains.
+        let slopes = rows.columns_range(count..);
+        let unknowns = slopes.ncols();
+        let scale = DVector::from_fn(unknowns, |i, _| gains[i * count / unknowns]);
+        let mut across = products.view((0, count), (count, unknowns)).into_owned();
+        for (mut column, scale) in across.column_iter_mut().zip(&scale) {
+            column *= *scale;
         }
-        let across = basis.tr_mul(&slopes);
+        let normal = DMatrix::from_fn(unknowns, unknowns, |i, j| {
+            products[(count + i, count + j)] * scale[i] * scale[j]
+        });
         let eliminated = factor.l().solve_lower_triangular(&across)?;
         Some(Self {
             cost: left.norm_squared(),
-            normal: slopes.tr_mul(&slopes) - eliminated.tr_mul(&eliminated),
+            normal: normal - eliminated.tr_mul(&eliminated),
             // Left is across the basis: nothing of it is eliminated.
-            right: slopes.tr_mul(&left),
+            right: slopes.tr_mul(&left).component_mul(&scale),
             gains,
             own: Own { factor, across },
         })

@@ -5,6 +5,7 @@ use num_complex::Complex64;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::Pole;
+use super::products::products;
 use super::weighted::{Output, Weighted};
 
 /// Rounding that a normal matrix with a diagonal of ones is raised by.
@@ -97,11 +98,9 @@ fn without_numerator(data: &Weighted, basis: &Basis, output: &Output) -> Option<
         constant[i] = -value.re;
         constant[points + i] = -value.im;
     }
-    let rows = DMatrix::from_vec(2 * points, all, rows);
-    let numerator = rows.columns(0, own);
-    let sigma = rows.columns(own, own + 1);
-    let across = numerator.tr_mul(&rows);
-    let (own_part, shared) = (across.columns(0, own), across.columns(own, own + 1));
+    let products = products(&DMatrix::from_vec(2 * points, all, rows));
+    let (own_part, rest) = (products.view((0, 0), (own, own)), own + 1);
+    let shared = products.view((0, own), (own, rest));
     let scale = DVector::from_fn(own, |i, _| 1.0 / own_part[(i, i)].sqrt());
     let mut scaled = DMatrix::from_fn(own, own, |i, j| own_part[(i, j)] * scale[i] * scale[j]);
     for i in 0..own {
@@ -112,7 +111,7 @@ fn without_numerator(data: &Weighted, basis: &Basis, output: &Output) -> Option<
         row *= *scale;
     }
     let eliminated = scaled.cholesky()?.l().solve_lower_triangular(&shared)?;
-    Some(sigma.tr_mul(&sigma) - eliminated.tr_mul(&eliminated))
+    Some(products.view((own, own), (rest, rest)) - eliminated.tr_mul(&eliminated))
 }
 
 fn solved(normal: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
