@@ -1,9 +1,13 @@
 //! Responses of two outputs at 1000 frequencies with 1 % of noise, fitted with shared poles: lissom beside
-//! the crates `vecfit` (both outputs at once) and `dsmc` (each output by itself). Prints what each fit
-//! leaves, in deviations of the noise, before the times.
+//! the crates `vecfit` (both outputs at once) and `dsmc` (each output by itself), and, where the interpreter that
+//! `LISSOM_PYTHON` names (`python3` without it) has what `requirements.txt` asks for, scikit-rf and a vector fit in numpy
+//! (`peers.py`). Prints what each fit leaves, in deviations of the noise, before the times.
 
 use std::f64::consts::FRAC_1_SQRT_2;
+use std::fmt::Write as _;
 use std::hint::black_box;
+use std::io::Write as _;
+use std::process::{Command, Stdio};
 
 use criterion::Criterion;
 use dsmc::FrequencyResponse;
@@ -106,6 +110,37 @@ impl Case {
         self.measured.iter().map(of).collect()
     }
 
+    /// Fits in Python, each with its median time in s.
+    fn python(&self) -> Option<Vec<(String, f64, Vec<Vec<Complex64>>)>> {
+        let program = std::env::var("LISSOM_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+        let mut rows = String::new();
+        for (i, omega) in self.omega.iter().enumerate() {
+            write!(rows, "{omega:?}").unwrap();
+            for r in self.measured.iter().map(|m| m[i]) {
+                write!(rows, " {:?} {:?} {:?}", r.value.re, r.value.im, r.std).unwrap();
+            }
+            rows.push('\n');
+        }
+        let mut command = Command::new(program);
+        command.arg(concat!(env!("CARGO_MANIFEST_DIR"), "/peers.py")).arg(self.modes.to_string());
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
+        let mut child = command.spawn().ok()?;
+        // A script that ends early says so by its status.
+        let _ = child.stdin.take()?.write_all(rows.as_bytes());
+        let output = child.wait_with_output().ok().filter(|o| o.status.success())?;
+        let text = String::from_utf8(output.stdout).ok()?;
+        let of_line = |line: &str| {
+            let mut words = line.split(' ');
+            let name = words.next()?.to_owned();
+            let numbers: Vec<f64> = words.map(|w| w.parse().ok()).collect::<Option<_>>()?;
+            let (seconds, values) = numbers.split_first()?;
+            let values: Vec<Complex64> =
+                values.as_chunks::<2>().0.iter().map(|[re, im]| Complex64::new(*re, *im)).collect();
+            Some((name, *seconds, values.chunks(FREQUENCIES).map(<[_]>::to_vec).collect()))
+        };
+        text.lines().map(of_line).collect()
+    }
+
     /// What a fit leaves of the data, and how far it is from the truth; root mean squares, in deviations.
     fn left(&self, fit: &[Vec<Complex64>]) -> (f64, f64) {
         let (mut data, mut truth) = (0.0, 0.0);
@@ -128,12 +163,21 @@ fn main() {
     let mut criterion = Criterion::default().configure_from_args().sample_size(20);
     let fits: [(&str, Fit); 3] =
         [("lissom", Case::lissom), ("vecfit", Case::vecfit), ("dsmc", Case::dsmc)];
-    println!("{:>5} {:8} {:>12} {:>12}", "modes", "fit", "left of data", "off truth");
+    println!("{:>5} {:9} {:>12} {:>12}", "modes", "fit", "left of data", "off truth");
     let cases = [2, 5, 10].map(Case::new);
     for case in &cases {
         for (name, fit) in fits {
             let (data, truth) = case.left(&fit(case));
-            println!("{:5} {name:8} {data:12.3} {truth:12.3}", case.modes);
+            println!("{:5} {name:9} {data:12.3} {truth:12.3}", case.modes);
+        }
+        let Some(found) = case.python() else {
+            println!("{:5} no Python with requirements.txt: see LISSOM_PYTHON", case.modes);
+            continue;
+        };
+        for (name, seconds, fit) in found {
+            let (data, truth) = case.left(&fit);
+            let ms = 1e3 * seconds;
+            println!("{:5} {name:9} {data:12.3} {truth:12.3} {ms:9.2} ms, median", case.modes);
         }
     }
     for case in &cases {

@@ -145,13 +145,9 @@ pub fn motor_regression(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRe
     let total_coupling = total(&found, 4..4 + tips.len());
     let back_emf = campaign.channels.command.back_emf_viscous;
     let viscous = |e: Estimate| Estimate { value: e.value - back_emf, std: e.std };
-    let missing = missing_term(
-        &equation.clusters_with_more(chosen.window_s),
-        &terms,
-        solution,
-        TIPS + tips.len(),
-    );
-    let by_direction = by_direction(&equation.clusters(chosen.window_s), &terms, solution);
+    let clusters = equation.clusters_with_more(chosen.window_s);
+    let missing = missing_term(&clusters, &terms, solution, TIPS + tips.len());
+    let by_direction = by_direction(&clusters, &terms, solution);
     Some(MotorRegression {
         window_s: chosen.window_s,
         window_given: !window_s.is_empty(),

@@ -146,8 +146,9 @@ impl Rows for MotorEquation<'_> {
         let (t, motor, command) = (run.sample_time_s(), &run.motor()[k..], &run.command()[k..]);
         row.clear();
         // From the window's first: ẇ and ẅ integrate constants to zero only up to rounding.
-        row.push(window.second.dot_from(motor, motor[0]) * t);
-        row.push(-window.first.dot_from(motor, motor[0]) * t);
+        let (second, first) = window.second.dots_from(&window.first, motor, motor[0]);
+        row.push(second * t);
+        row.push(-first * t);
         row.push(window.area);
         for &i in self.tips {
             row.push(behind(campaign, run, i, window, k));

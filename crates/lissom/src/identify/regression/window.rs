@@ -113,6 +113,12 @@ impl Weights {
         sum(&self.padded, x, x, |w, x, _| w * (x - origin))
     }
 
+    /// Σ w·(x − origin) and Σ v·(x − origin) with other weights v of the same length, in one pass.
+    #[inline(always)]
+    pub(crate) fn dots_from(&self, other: &Self, x: &[f64], origin: f64) -> (f64, f64) {
+        sums(&self.padded, &other.padded, x, |w, v, x| (w * (x - origin), v * (x - origin)))
+    }
+
     /// Σ w·(x − y) over the first samples of both; those that follow save time.
     #[inline(always)]
     pub(crate) fn dot_difference(&self, x: &[f64], y: &[f64]) -> f64 {
@@ -132,20 +138,29 @@ const LANES: usize = 8;
 /// compiled for the widest registers that there are.
 #[inline(always)]
 fn sum(a: &[f64], b: &[f64], c: &[f64], f: impl Fn(f64, f64, f64) -> f64) -> f64 {
+    sums(a, b, c, |a, b, c| (f(a, b, c), 0.0)).0
+}
+
+/// Both Σ of the pairs f(a, b, c) over the shortest of three slices.
+#[inline(always)]
+fn sums(a: &[f64], b: &[f64], c: &[f64], f: impl Fn(f64, f64, f64) -> (f64, f64)) -> (f64, f64) {
     let n = a.len().min(b.len()).min(c.len());
     let ((a, a_rest), (b, b_rest), (c, c_rest)) =
         (a[..n].as_chunks::<LANES>(), b[..n].as_chunks::<LANES>(), c[..n].as_chunks::<LANES>());
-    let mut sums = [0.0; LANES];
+    let (mut first, mut second) = ([0.0; LANES], [0.0; LANES]);
     for ((a, b), c) in a.iter().zip(b).zip(c) {
         for lane in 0..LANES {
-            sums[lane] += f(a[lane], b[lane], c[lane]);
+            let (x, y) = f(a[lane], b[lane], c[lane]);
+            first[lane] += x;
+            second[lane] += y;
         }
     }
-    let mut rest = 0.0;
+    let mut rest = (0.0, 0.0);
     for ((a, b), c) in a_rest.iter().zip(b_rest).zip(c_rest) {
-        rest += f(*a, *b, *c);
+        let (x, y) = f(*a, *b, *c);
+        rest = (rest.0 + x, rest.1 + y);
     }
-    sums.iter().sum::<f64>() + rest
+    (first.iter().sum::<f64>() + rest.0, second.iter().sum::<f64>() + rest.1)
 }
 
 #[cfg(test)]
@@ -188,6 +203,7 @@ mod tests {
                 let pairs = [
                     (weights.dot(b), one(&|k| a[k] * b[k])),
                     (weights.dot_from(b, 0.4), one(&|k| a[k] * (b[k] - 0.4))),
+                    (weights.dots_from(&weights, b, 0.4).1, one(&|k| a[k] * (b[k] - 0.4))),
                     (weights.dot_difference(b, c), one(&|k| a[k] * (b[k] - c[k]))),
                 ];
                 assert!(pairs.iter().all(|(x, y)| (x - y).abs() < 1e-14), "{n} {pairs:?}");
