@@ -110,12 +110,7 @@ fn coupled(
     let fit = fit_motor(response, Some(poles))?;
     let total: f64 = fit.coupling.iter().map(|c| c.value.max(0.0)).sum();
     let least = LEAST_SHARE * total;
-    let modes = poles.iter().zip(&fit.coupling).map(|(pole, coupling)| Oscillator {
-        omega_rad_s: pole.omega_rad_s,
-        stiffness_nm_per_rad: coupling.value.max(least),
-        within_per_s: (2.0 * pole.damping_ratio * pole.omega_rad_s).max(0.0),
-        grounded_per_s: 0.0,
-    });
+    let modes = poles.iter().zip(&fit.coupling).map(|(p, c)| oscillator(p, c.value.max(least)));
     for row in &mut shapes {
         whole(row);
     }
@@ -156,12 +151,8 @@ fn flexible(
         }
         shapes
     };
-    let modes = response.poles.iter().zip(&response.coupling).map(|(pole, coupling)| Oscillator {
-        omega_rad_s: pole.omega_rad_s,
-        stiffness_nm_per_rad: coupling.value,
-        within_per_s: (2.0 * pole.damping_ratio * pole.omega_rad_s).max(0.0),
-        grounded_per_s: 0.0,
-    });
+    let modes = response.poles.iter().zip(&response.coupling);
+    let modes = modes.map(|(pole, coupling)| oscillator(pole, coupling.value));
     Some(ModalArm {
         inertia_kg_m2: response.inertia.value,
         viscous_nm_s_per_rad: [response.viscous.value.max(0.0); 2],
@@ -226,6 +217,16 @@ fn modes_of_responses(fit: &BeamFit) -> Option<Modes> {
     (!omega.is_empty()).then_some((omega, ratios, shapes))
 }
 
+/// A mode damped within the beam, if at all.
+fn oscillator(pole: &Pole, stiffness_nm_per_rad: f64) -> Oscillator {
+    Oscillator {
+        omega_rad_s: pole.omega_rad_s,
+        stiffness_nm_per_rad,
+        within_per_s: (2.0 * pole.damping_ratio * pole.omega_rad_s).max(0.0),
+        grounded_per_s: 0.0,
+    }
+}
+
 /// The rest of Σr = 1 goes to the last mode.
 fn whole(row: &mut [f64]) {
     let sum: f64 = row.iter().sum();
@@ -235,14 +236,10 @@ fn whole(row: &mut [f64]) {
 fn with_modes(mut arm: ModalArm, (omega, ratios, shapes): Modes, coupling: &[f64]) -> ModalArm {
     let total: f64 = coupling.iter().sum();
     for (j, &omega_rad_s) in omega.iter().enumerate() {
-        let ratio = ratios.get(j).copied().unwrap_or(0.0);
+        let damping_ratio = ratios.get(j).copied().unwrap_or(0.0);
         let stiffness: f64 = coupling.iter().zip(&shapes).map(|(k, r)| k * r[j]).sum();
-        arm.modes.push(Oscillator {
-            omega_rad_s,
-            stiffness_nm_per_rad: stiffness.max(LEAST_SHARE * total.abs()),
-            within_per_s: (2.0 * ratio * omega_rad_s).max(0.0),
-            grounded_per_s: 0.0,
-        });
+        let pole = Pole { omega_rad_s, damping_ratio };
+        arm.modes.push(oscillator(&pole, stiffness.max(LEAST_SHARE * total.abs())));
     }
     arm.at_points_per_s =
         if omega.len() == shapes.len() { vec![0.0; omega.len()] } else { Vec::new() };
