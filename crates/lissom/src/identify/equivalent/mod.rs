@@ -5,6 +5,7 @@ use thiserror::Error;
 
 mod arm;
 mod findings;
+mod imaginary;
 mod refusal;
 mod responses;
 mod whole;

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use super::EquivalentError;
+use crate::identify::Estimate;
 use crate::identify::rational::SharedPolesError;
 
 /// A response with more than damping in its imaginary part.
@@ -14,6 +15,8 @@ pub struct PartOutside {
     pub share: f64,
     /// The same in deviations, rms; `None` where these are not known.
     pub deviations: Option<f64>,
+    /// The delay that the response shows, where it explains that part \[s\].
+    pub delay_s: Option<Estimate>,
 }
 
 /// Why responses make no equivalent arm.
@@ -151,12 +154,20 @@ fn fit_words(error: &SharedPolesError, names: &[String]) -> String {
 fn uneven_words(part: &PartOutside) -> String {
     let deviations =
         part.deviations.map_or(String::new(), |d| format!(" ({d:.1} times its deviations)"));
+    let late = part.delay_s.map_or(String::new(), |late| {
+        format!(", as if it came {:.3} ms {}", 1e3 * late.value.abs(), side(late.value))
+    });
     format!(
-        "{} has {:.0} % of its size in an imaginary part that no damping explains{deviations}: the response of \
-         an arm has even powers of s only",
+        "{} has {:.0} % of its size in an imaginary part that no damping explains{deviations}{late}: the response \
+         of an arm has even powers of s only",
         part.name,
         100.0 * part.share
     )
+}
+
+/// Which way a delay is.
+pub(super) fn side(delay_s: f64) -> &'static str {
+    if delay_s > 0.0 { "late" } else { "early" }
 }
 
 fn beam_words(error: &EquivalentError, names: &[String], modes_rad_s: &[f64]) -> String {

@@ -6,21 +6,15 @@ use super::arm::arm_below;
 use super::refusal::{EquivalentRefusal, PartOutside};
 use super::{
     EquivalentArm, EquivalentBeam, EquivalentError, ResponseZero, StrainlessForm, equivalent_beam,
-    findings, response_zeros,
+    findings, imaginary, response_zeros,
 };
 use crate::identify::rational::{
-    Damping, MotorData, Pole, SharedPoles, Spurious, fit_shared_poles,
-    fit_shared_poles_by_evidence, information,
+    MotorData, Pole, SharedPoles, Spurious, fit_shared_poles_with_delays, information,
 };
 use crate::identify::{Finding, Response};
 
 /// Pairs of poles looked for, whatever the number of points.
 const POLES_LEAST: usize = 8;
-/// Imaginary parts that damping does not explain are none of an arm's from this share of a response (its
-/// median) on…
-const UNEVEN: f64 = 0.1;
-/// …where they are this many deviations, rms.
-const DEVIATIONS: f64 = 3.0;
 
 /// Where the deviations of responses are from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -71,6 +65,8 @@ pub struct Equivalent {
     pub zeros: Vec<Vec<ResponseZero>>,
     /// Names of the points measured.
     pub names: Vec<String>,
+    /// Imaginary parts that no damping explains, where they stand clear of the noise.
+    pub imaginary: Vec<PartOutside>,
     /// What the model of all poles leaves of the points' responses, as a share of each, rms.
     pub relative_residual: f64,
     /// Where the deviations are from.
@@ -100,7 +96,7 @@ pub fn equivalent(
     }
     let most = POLES_LEAST.max(2 * points + 2);
     let (omega, outputs) = (&data.omega_rad_s, &data.outputs);
-    let fit = fit_shared_poles_by_evidence(omega, outputs, most, Damping::Small)
+    let fit = fit_shared_poles_with_delays(omega, outputs, most)
         .map_err(|source| EquivalentRefusal::Fit { source, names: data.names.clone() })?;
     let spurious: Vec<Option<Spurious>> = (0..fit.poles.len()).map(|k| fit.spurious(k)).collect();
     let found: Vec<usize> = (0..spurious.len()).filter(|k| spurious[*k].is_none()).collect();
@@ -112,7 +108,7 @@ pub fn equivalent(
             EquivalentRefusal::Noise { poles: fit.poles.len() }
         });
     }
-    uneven(data, &fit, &spurious)?;
+    let imaginary = imaginary::parts(data, &fit, &spurious)?;
     let kept_modes: Vec<usize> =
         found.iter().copied().take(modes.unwrap_or(found.len()).max(1)).collect();
     let count = kept_modes.len();
@@ -161,6 +157,7 @@ pub fn equivalent(
         beam,
         arm,
         strainless,
+        imaginary,
         deviations: data.deviations,
         findings: Vec::new(),
     };
@@ -190,43 +187,6 @@ fn is_noise(data: &EquivalentData, fit: &SharedPoles) -> bool {
     let nothing: f64 = data.outputs.iter().flatten().map(part).sum();
     let left = fit.weighted_rms.powi(2) * readings.saturating_sub(unknowns) as f64;
     information(readings, 0, nothing) <= information(readings, unknowns, left)
-}
-
-/// Refuses responses that no arm has: on the imaginary axis they are real but for damping.
-fn uneven(
-    data: &EquivalentData,
-    fit: &SharedPoles,
-    spurious: &[Option<Spurious>],
-) -> Result<(), EquivalentRefusal> {
-    // Poles more damped than any of a beam would explain a delay.
-    let beams = spurious.iter().filter(|s| **s != Some(Spurious::Damped)).count();
-    let refitted = (beams < spurious.len() && beams > 0)
-        .then(|| fit_shared_poles(&data.omega_rad_s, &data.outputs, beams, Damping::Small).ok());
-    let fit = refitted.flatten().unwrap_or_else(|| fit.clone());
-    let mut worst: Option<PartOutside> = None;
-    for (output, responses) in data.outputs.iter().enumerate() {
-        let left = |(w, r): (&f64, &Response)| (r.value - fit.response(output, *w), *r);
-        let left: Vec<_> = data.omega_rad_s.iter().zip(responses).map(left).collect();
-        let mut shares: Vec<f64> = left
-            .iter()
-            .map(|(d, r)| d.im.abs() / r.value.norm())
-            .filter(|s| s.is_finite())
-            .collect();
-        shares.sort_by(f64::total_cmp);
-        let share = shares.get(shares.len() / 2).copied().unwrap_or(0.0);
-        let rms = |part: fn(&num_complex::Complex64) -> f64| {
-            let squares = left.iter().map(|(d, r)| 2.0 * (part(d) / r.std).powi(2));
-            (squares.sum::<f64>() / left.len().max(1) as f64).sqrt()
-        };
-        let (imaginary, real) = (rms(|d| d.im), rms(|d| d.re));
-        let beyond = share > UNEVEN && imaginary > DEVIATIONS && imaginary > real;
-        if beyond && worst.as_ref().is_none_or(|w| w.share < share) {
-            let name = data.names.get(output).cloned().unwrap_or_default();
-            let deviations = (data.deviations != Deviations::FromResidual).then_some(imaginary);
-            worst = Some(PartOutside { name, share, deviations });
-        }
-    }
-    worst.map_or(Ok(()), |part| Err(EquivalentRefusal::Uneven(part)))
 }
 
 /// As many points as modes, those that span the most: one after the other the point whose gains are farthest

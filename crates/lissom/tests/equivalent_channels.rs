@@ -1,0 +1,179 @@
+//! Responses with a delay, with damping within the beam, with a phase turned round.
+#![expect(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "tests; what they measure is for docs"
+)]
+
+use std::f64::consts::FRAC_1_SQRT_2;
+
+use lissom::identify::{
+    Deviations, Equivalent, EquivalentData, EquivalentRefusal, Response, Severity, equivalent,
+};
+use num_complex::Complex64;
+use rand_distr::{Distribution, StandardNormal};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use rand_xoshiro::rand_core::SeedableRng;
+
+const OMEGA: [f64; 2] = [45.0, 170.0];
+const GAINS: [[f64; 2]; 2] = [[0.6, 0.4], [1.15, -0.15]];
+
+/// What is wrong, or not even, about the responses.
+#[derive(Clone, Copy)]
+struct Channels {
+    damping: f64,
+    /// Of the damping, what is within the beam.
+    within: f64,
+    delays_s: [f64; 2],
+    noise: f64,
+    seed: u64,
+    deviations: Deviations,
+}
+
+const CLEAN: Channels = Channels {
+    damping: 0.005,
+    within: 0.0,
+    delays_s: [0.0; 2],
+    noise: 0.01,
+    seed: 1,
+    deviations: Deviations::Measured,
+};
+
+fn data(of: Channels) -> EquivalentData {
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(of.seed);
+    let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
+    let omega: Vec<f64> = (0..400).map(|i| 10.0 * 35f64.powf(f64::from(i) / 399.0)).collect();
+    let mut response = |i: usize, w: f64| {
+        let s = Complex64::new(0.0, w);
+        let part = |k: usize| {
+            let (square, turn) = (OMEGA[k] * OMEGA[k], 2.0 * of.damping * OMEGA[k] * s);
+            GAINS[i][k] * (square + of.within * turn) / (s * s + turn + square)
+        };
+        let value = (part(0) + part(1)) * (-s * of.delays_s[i]).exp();
+        let error = Complex64::new(normal(), normal()) * (of.noise * value.norm() * FRAC_1_SQRT_2);
+        let std = match of.deviations {
+            Deviations::FromResidual => 1e-6,
+            _ => of.noise.max(1e-3),
+        };
+        Response { value: value + error, std: std * value.norm() }
+    };
+    let outputs = (0..2).map(|i| omega.iter().map(|w| response(i, *w)).collect()).collect();
+    EquivalentData {
+        names: vec!["elbow".to_owned(), "tip".to_owned()],
+        omega_rad_s: omega,
+        outputs,
+        motor: None,
+        deviations: of.deviations,
+    }
+}
+
+fn codes(found: &Equivalent) -> Vec<&str> {
+    found.findings.iter().map(|f| f.code).collect()
+}
+
+/// Largest error of a frequency or gain in its deviations, and of a frequency as a share.
+fn off(found: &Equivalent) -> (f64, f64) {
+    assert_eq!(found.modes.len(), 2, "{:?}", found.fit.poles);
+    let (mut worst, mut share) = (0.0_f64, 0.0_f64);
+    for (k, omega) in OMEGA.iter().enumerate() {
+        let figure = found.kept.natural_frequency_rad_s(k);
+        worst = worst.max((figure.value - omega).abs() / figure.std);
+        share = share.max((figure.value / omega - 1.0).abs());
+        for (i, gains) in GAINS.iter().enumerate() {
+            let gain = found.kept.static_gain(i, k);
+            worst = worst.max((gain.value - gains[k]).abs() / gain.std);
+        }
+    }
+    (worst, share)
+}
+
+/// What the fit has of a code: its message.
+fn said<'a>(found: &'a Equivalent, code: &str) -> Option<&'a str> {
+    found.findings.iter().find(|f| f.code == code).map(|f| f.message.as_str())
+}
+
+#[test]
+fn a_delay_is_found_and_taken_out() {
+    for (delay_ms, noise) in [(0.02, 0.01), (-0.3, 0.01), (0.3, 0.0), (1.0, 1e-3)] {
+        for deviations in [Deviations::Measured, Deviations::FromResidual] {
+            let delays_s = [1e-3 * delay_ms, 2e-4 * delay_ms];
+            let of = Channels { delays_s, noise, deviations, ..CLEAN };
+            let found = equivalent(&data(of), None).unwrap();
+            let (worst, share) = off(&found);
+            println!("{delay_ms} ms, noise {noise}: {worst:.2} deviations, {share:.1e} off");
+            let late = found.fit.delays_s[0].unwrap();
+            assert!((late.value - delays_s[0]).abs() < 4.0 * late.std, "{late:?}");
+            assert!(worst < 4.0 && said(&found, "equivalent-delay").unwrap().contains("elbow"));
+            if noise == 0.0 {
+                assert!(share < 1e-9);
+            }
+        }
+    }
+}
+
+/// More than a tenth of the response is none of an arm's, however well a delay describes it.
+#[test]
+fn a_long_delay_is_refused() {
+    let refused = equivalent(&data(Channels { delays_s: [5e-3; 2], ..CLEAN }), None).unwrap_err();
+    let EquivalentRefusal::Uneven(part) = &refused else { panic!("{refused}") };
+    assert!((part.delay_s.unwrap().value - 5e-3).abs() < 1e-4);
+    assert!(refused.to_string().contains("ms late"), "{refused}");
+}
+
+#[test]
+fn damping_within_the_beam_is_in_the_fit() {
+    for (damping, noise) in [(0.01, 0.0), (0.01, 1e-3), (0.03, 0.01)] {
+        for deviations in [Deviations::Measured, Deviations::FromResidual] {
+            let of = Channels { damping, within: 1.0, noise, deviations, ..CLEAN };
+            let found = equivalent(&data(of), None).unwrap();
+            let (worst, share) = off(&found);
+            println!("ζ {damping}, noise {noise}: {worst:.2} deviations, {share:.1e} off");
+            assert!(worst < 4.0 && said(&found, "equivalent-terms-in-s").is_some());
+            assert!(!codes(&found).contains(&"equivalent-spurious-pole"));
+            assert!(!found.findings.iter().any(|f| f.severity == Severity::Warning));
+            if noise == 0.0 {
+                assert!(share < 1e-10);
+            }
+        }
+    }
+}
+
+/// To first order they are the same terms in s: figures are right, or there is a warning.
+#[test]
+fn delay_and_damping_within_at_once_do_not_pass_silently() {
+    for delay_ms in [-1.0, -0.3, 0.1, 0.3, 1.0] {
+        for noise in [1e-3, 0.01] {
+            let delays_s = [1e-3 * delay_ms; 2];
+            let of = Channels { damping: 0.01, within: 1.0, delays_s, noise, ..CLEAN };
+            let Ok(found) = equivalent(&data(of), None) else { continue };
+            let warned = found.findings.iter().any(|f| f.severity == Severity::Warning);
+            println!("{delay_ms} ms, noise {noise}: {:?} {:?}", off(&found), codes(&found));
+            assert!(warned || off(&found).0 < 4.0);
+        }
+    }
+}
+
+#[test]
+fn clean_responses_stay_as_they_were() {
+    for deviations in [Deviations::Measured, Deviations::FromResidual] {
+        for seed in 0..20 {
+            let found = equivalent(&data(Channels { seed, deviations, ..CLEAN }), None).unwrap();
+            assert!(found.findings.is_empty() && off(&found).0 < 4.5, "{seed} {:?}", codes(&found));
+        }
+    }
+}
+
+/// A phase that is off by the same angle everywhere is neither a delay nor damping.
+#[test]
+fn a_turned_phase_is_told_of() {
+    for deviations in [Deviations::Measured, Deviations::FromResidual] {
+        let mut data = data(Channels { deviations, ..CLEAN });
+        for response in data.outputs.iter_mut().flatten() {
+            response.value *= Complex64::from_polar(1.0, 0.02);
+        }
+        let found = equivalent(&data, None).unwrap();
+        println!("{:?} {:?}", off(&found), codes(&found));
+        let warned = found.findings.iter().any(|f| f.severity == Severity::Warning);
+        assert!(warned || off(&found).0 < 4.0);
+    }
+}
