@@ -154,11 +154,14 @@ fn of_phase(
         let shares = (0..whole.kept.poles.len()).flat_map(|k| {
             let each = whole.kept.in_s.iter().zip(&whole.kept.static_gains);
             each.map(move |(terms, gains)| terms[k].value.abs() / gains[k].abs())
+        let outputs = 0..whole.fit.static_gains.len();
+        let hidden_s = outputs.map(|i| whole.fit.hidden_delay_s(i)).fold(0.0, f64::max);
         });
         let largest = shares.filter(|s| s.is_finite()).fold(0.0, f64::max);
         let message = format!(
-            "residues have terms in s, of up to {largest:.4} of their size at the resonance: damping within the beam, \
-             or of a shape of its own"
+            "residues have terms in s, of up to {largest:.4} of their gains: damping within the beam, or of a shape of \
+             its own. A delay of up to {:.4} ms may stand behind them: the gains' intervals count it",
+            1e3 * hidden_s
         );
         let hint = "nothing: they are in the fit; `lissom identify` finds an arm with such damping from logs";
         add("equivalent-terms-in-s", Severity::Info, message, hint);

@@ -52,9 +52,11 @@ pub(crate) fn fit_shared_poles_with_delays(
     Ok(match (late, within) {
         (Some(late), Some(within)) => {
             let handicap = if within.damps() { CALLED_FOR } else { -CALLED_FOR };
-            if within.criterion < late.criterion + handicap { within } else { late }
+            let taken = within.criterion < late.criterion + handicap;
+            if taken { within.counting_hidden_delays() } else { late }
         }
-        (Some(one), None) | (None, Some(one)) => one,
+        (None, Some(within)) => within.counting_hidden_delays(),
+        (Some(late), None) => late,
         (None, None) => plain,
     })
 }
@@ -100,6 +102,41 @@ impl SharedPoles {
         }
         let found = across / size;
         if found.is_finite() { found.clamp(0.0, self.poles[k].damping_ratio.max(0.0)) } else { 0.0 }
+    }
+
+    /// Largest delay of output `i` \[s\] that terms in s leave room for: with `2ζ_w = κ_ik/ρ_ik + τ_i·ω_k` the damping
+    /// within the beam stays between none and all of every mode.
+    pub(crate) fn hidden_delay_s(&self, i: usize) -> f64 {
+        let (mut early, mut late) = (f64::INFINITY, f64::INFINITY);
+        for k in (0..self.poles.len()).filter(|k| self.spurious(*k).is_none()) {
+            let (pole, gain) = (self.poles[k], self.static_gains[i][k]);
+            let (ratio, std) = (self.in_s[i][k].value / gain, (self.in_s[i][k].std / gain).abs());
+            let most = 2.0 * pole.damping_ratio.max(0.0);
+            if (ratio + std).is_finite() {
+                early = early.min((ratio + std).max(0.0) / pole.omega_rad_s);
+                late = late.min((most - ratio + std).max(0.0) / pole.omega_rad_s);
+            }
+        }
+        let most = early.max(late);
+        if most.is_finite() { most } else { 0.0 }
+    }
+
+    /// Gains' deviations with what such a delay does to them beside terms in s, `ρ_ik·(τ_i·ω_k)²/2`.
+    fn counting_hidden_delays(mut self) -> Self {
+        let modes = self.poles.len();
+        for i in 0..self.static_gains.len() {
+            let late_s = self.hidden_delay_s(i);
+            let each = self.static_gains[i].iter().zip(&self.poles);
+            let error: Vec<f64> =
+                each.map(|(g, p)| 0.5 * g * (late_s * p.omega_rad_s).powi(2)).collect();
+            let first = modes * (self.damping.unknowns() + i);
+            for (k, a) in error.iter().enumerate() {
+                for (l, b) in error.iter().enumerate() {
+                    self.covariance[(first + k, first + l)] += a * b;
+                }
+            }
+        }
+        self
     }
 
     /// Whether damping of a beam can make the terms in s what they are, within three deviations.
