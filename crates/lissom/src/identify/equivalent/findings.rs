@@ -11,8 +11,6 @@ use crate::identify::{Estimate, Finding, Severity};
 const MISFIT: f64 = 2.0;
 /// …and one that leaves less than this share of them says that they are too large.
 const TOO_GOOD: f64 = 0.5;
-/// From this share on a point's response is none of its angle to the motor's.
-const WRONG: f64 = 0.5;
 /// What the last mode is given is told from this size on.
 const GIVEN: f64 = 0.02;
 
@@ -20,6 +18,7 @@ pub(super) fn findings(
     data: &EquivalentData,
     whole: &Equivalent,
     modes_found: usize,
+    given: f64,
     no_torque: Option<EquivalentError>,
 ) -> Vec<Finding> {
     let mut findings = Vec::new();
@@ -98,13 +97,12 @@ pub(super) fn findings(
         let hint = "give the motor's response at more frequencies";
         add("equivalent-without-torque", Severity::Warning, error.to_string(), hint);
     }
-    let lacks = whole.strainless.iter().flat_map(|s| s.missing.iter().zip(&s.given_to_last));
-    let given = lacks.filter(|(_, to_last)| **to_last).map(|(m, _)| m.abs()).fold(0.0, f64::max);
-    if given > WRONG {
+    if whole.strainless.is_none() && given > 0.0 {
         let message = format!(
-            "a point's gains add up to one but for {given:.3}: with the motor turned slowly it does not turn with it"
+            "a point's gains add up to one but for {given:.3}: with the motor turned slowly it does not turn with it. \
+             The form for use as an arm and the state space are not given"
         );
-        let hint = "an angle of the wrong sign or in another unit than the motor's: the form for use as an arm is none";
+        let hint = "check for an angle of the wrong sign or in another unit than the motor's";
         add("equivalent-no-angle", Severity::Warning, message, hint);
     } else if given > GIVEN {
         let message = format!(
@@ -154,10 +152,10 @@ fn of_phase(
         let shares = (0..whole.kept.poles.len()).flat_map(|k| {
             let each = whole.kept.in_s.iter().zip(&whole.kept.static_gains);
             each.map(move |(terms, gains)| terms[k].value.abs() / gains[k].abs())
-        let outputs = 0..whole.fit.static_gains.len();
-        let hidden_s = outputs.map(|i| whole.fit.hidden_delay_s(i)).fold(0.0, f64::max);
         });
         let largest = shares.filter(|s| s.is_finite()).fold(0.0, f64::max);
+        let outputs = 0..whole.fit.static_gains.len();
+        let hidden_s = outputs.map(|i| whole.fit.hidden_delay_s(i)).fold(0.0, f64::max);
         let message = format!(
             "residues have terms in s, of up to {largest:.4} of their gains: damping within the beam, or of a shape of \
              its own. A delay of up to {:.4} ms may stand behind them: the gains' intervals count it",

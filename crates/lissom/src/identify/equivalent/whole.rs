@@ -18,6 +18,9 @@ const POLES_LEAST: usize = 8;
 
 /// Where the deviations of responses are from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// A point is no angle whose gains, modes left out and all, lack more than this of one.
+const NO_ANGLE: f64 = 0.5;
+
 pub enum Deviations {
     /// Measured.
     Measured,
@@ -59,7 +62,7 @@ pub struct Equivalent {
     pub beam: EquivalentBeam,
     /// Ĥ, ĥ, J and V too; `None` without a motor's response that holds them.
     pub arm: Option<EquivalentArm>,
-    /// The form for use as an arm.
+    /// The form for use as an arm; `None` where a point is no angle.
     pub strainless: Option<StrainlessForm>,
     /// Zeros of every point's response, with the modes of the arm.
     pub zeros: Vec<Vec<ResponseZero>>,
@@ -141,7 +144,7 @@ pub fn equivalent(
         ) => (None, Some(error)),
         Err(error) => return Err(refused(error)),
     };
-    let strainless = match &arm {
+    let form = match &arm {
         Some(arm) => arm.strainless(),
         None => beam.strainless(&[]),
     };
@@ -160,8 +163,11 @@ pub fn equivalent(
         imaginary,
         deviations: data.deviations,
         findings: Vec::new(),
+    // Turned slowly, points that are no angles would not turn with the motor: there is no form for use.
+    let given = beam.given();
+    let strainless = form.filter(|_| given <= NO_ANGLE);
     };
-    whole.findings = findings::findings(data, &whole, found.len(), no_torque);
+    whole.findings = findings::findings(data, &whole, found.len(), given, no_torque);
     Ok(whole)
 }
 
