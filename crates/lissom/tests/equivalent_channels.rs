@@ -175,3 +175,71 @@ fn a_turned_phase_is_told_of() {
         assert!(warned || off(&found).0 < 4.0);
     }
 }
+
+/// With the phase's sign turned the responses are of poles that gain energy.
+#[test]
+fn a_turned_sign_of_the_phase_is_said() {
+    for deviations in [Deviations::Measured, Deviations::FromResidual] {
+        for turned in [&[0, 1][..], &[1]] {
+            let mut data = data(Channels { deviations, damping: 0.01, ..CLEAN });
+            for &i in turned {
+                for response in &mut data.outputs[i] {
+                    response.value.im = -response.value.im;
+                }
+            }
+            let refused = equivalent(&data, None).unwrap_err();
+            println!("{refused}");
+            let names: Vec<&str> = turned.iter().map(|i| ["elbow", "tip"][*i]).collect();
+            assert!(
+                matches!(&refused, EquivalentRefusal::TurnedRound { names: n } if *n == names),
+                "{refused}"
+            );
+            assert!(refused.hint().contains("sign of the phase"));
+        }
+    }
+    // Noise alone is no phase of either sign.
+    for seed in 0..5 {
+        let mut data = data(Channels { seed, ..CLEAN });
+        let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+        for response in data.outputs.iter_mut().flatten() {
+            let (re, im) = (StandardNormal.sample(&mut random), StandardNormal.sample(&mut random));
+            *response = Response { value: Complex64::new(re, im), std: 1.5 };
+        }
+        let refused = equivalent(&data, None).unwrap_err();
+        assert!(matches!(refused, EquivalentRefusal::Noise { .. }), "{refused}");
+    }
+}
+
+/// The unit of a response is no matter as long as doubles hold it, and said where they do not.
+#[test]
+fn sizes_are_no_matter_until_doubles_end() {
+    let plain = equivalent(&data(CLEAN), None).unwrap();
+    for exponent in [-150, -40, 40, 150] {
+        let mut data = data(CLEAN);
+        for response in data.outputs.iter_mut().flatten() {
+            response.value *= 10f64.powi(exponent);
+            response.std *= 10f64.powi(exponent);
+        }
+        match equivalent(&data, None) {
+            Ok(found) => {
+                let (a, b) = (&found.kept.poles, &plain.kept.poles);
+                assert!(
+                    a.iter()
+                        .zip(b)
+                        .all(|(a, b)| (a.omega_rad_s / b.omega_rad_s - 1.0).abs() < 1e-9)
+                );
+                // No angle per angle: there is no form for use, and that is said.
+                assert!(found.strainless.is_none());
+                assert!(said(&found, "equivalent-no-angle").unwrap().contains("are not given"));
+            }
+            Err(refused) => {
+                assert!(matches!(refused, EquivalentRefusal::Size { .. }), "{refused}");
+                assert_eq!(exponent.abs(), 150);
+            }
+        }
+    }
+    let mut slip = data(CLEAN);
+    slip.outputs[1][6].std = 1e-300;
+    let refused = equivalent(&slip, None).unwrap_err().to_string();
+    assert!(refused.contains("tip, frequency 7") && refused.contains("1.0e-300"), "{refused}");
+}

@@ -8,6 +8,8 @@ mod findings;
 mod imaginary;
 mod refusal;
 mod responses;
+mod sound;
+mod turned_round;
 mod whole;
 mod zeros;
 
@@ -68,8 +70,6 @@ pub struct StrainlessForm {
 }
 
 impl EquivalentBeam {
-    /// The form for use as an arm, with gains that add up to one at every point.
-    ///
     /// Most that a point's gains lack of one where its last mode was given it.
     fn given(&self) -> f64 {
         let missing = self.gains.column_sum().map(|sum| (1.0 - sum).abs());
@@ -77,6 +77,8 @@ impl EquivalentBeam {
         each.filter(|(_, to_last)| **to_last).map(|(m, _)| *m).fold(0.0, f64::max)
     }
 
+    /// The form for use as an arm, with gains that add up to one at every point.
+    ///
     /// Where modes are left out the gains fitted do not, and (17) as fitted would strain a beam that turns as
     /// one body, even at rest. What a point's gains lack of one is given to its last mode, as
     /// [`TruncatedBeam`](crate::beam::TruncatedBeam) does; where it is within three deviations of nothing the

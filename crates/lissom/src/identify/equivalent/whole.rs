@@ -4,6 +4,8 @@ use nalgebra::DMatrix;
 
 use super::arm::arm_below;
 use super::refusal::{EquivalentRefusal, PartOutside};
+use super::sound::sound;
+use super::turned_round::turned_round;
 use super::{
     EquivalentArm, EquivalentBeam, EquivalentError, ResponseZero, StrainlessForm, equivalent_beam,
     findings, imaginary, response_zeros,
@@ -16,11 +18,11 @@ use crate::identify::{Finding, Response};
 /// Pairs of poles looked for, whatever the number of points.
 const POLES_LEAST: usize = 8;
 
-/// Where the deviations of responses are from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 /// A point is no angle whose gains, modes left out and all, lack more than this of one.
 const NO_ANGLE: f64 = 0.5;
 
+/// Where the deviations of responses are from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Deviations {
     /// Measured.
     Measured,
@@ -97,6 +99,19 @@ pub fn equivalent(
     if points != names {
         return Err(EquivalentRefusal::Names { names, points });
     }
+    sound(data)?;
+    let found = judged(data, modes);
+    let suspect = match &found {
+        Err(refusal) => refusal.may_be_a_turned_phase(),
+        Ok(whole) => whole.may_be_a_turned_phase(),
+    };
+    let turned = if suspect { turned_round(data) } else { Vec::new() };
+    if turned.is_empty() { found } else { Err(EquivalentRefusal::TurnedRound { names: turned }) }
+}
+
+/// Of sound numbers.
+fn judged(data: &EquivalentData, modes: Option<usize>) -> Result<Equivalent, EquivalentRefusal> {
+    let points = data.outputs.len();
     let most = POLES_LEAST.max(2 * points + 2);
     let (omega, outputs) = (&data.omega_rad_s, &data.outputs);
     let fit = fit_shared_poles_with_delays(omega, outputs, most)
@@ -148,6 +163,9 @@ pub fn equivalent(
         Some(arm) => arm.strainless(),
         None => beam.strainless(&[]),
     };
+    // Turned slowly, points that are no angles would not turn with the motor: there is no form for use.
+    let given = beam.given();
+    let strainless = form.filter(|_| given <= NO_ANGLE);
     let mut whole = Equivalent {
         relative_residual: relative_residual(data, &fit),
         names: data.names.clone(),
@@ -163,12 +181,22 @@ pub fn equivalent(
         imaginary,
         deviations: data.deviations,
         findings: Vec::new(),
-    // Turned slowly, points that are no angles would not turn with the motor: there is no form for use.
-    let given = beam.given();
-    let strainless = form.filter(|_| given <= NO_ANGLE);
     };
     whole.findings = findings::findings(data, &whole, found.len(), given, no_torque);
     Ok(whole)
+}
+
+impl Equivalent {
+    /// Whether what is odd about it may come of a phase's sign.
+    fn may_be_a_turned_phase(&self) -> bool {
+        let below = |k: usize| {
+            let ratio = self.fit.damping_ratio(k);
+            ratio.value < -2.0 * ratio.std
+        };
+        self.imaginary.iter().any(|part| part.delay_s.is_none())
+            || self.findings.iter().any(|f| f.code == "equivalent-misfit")
+            || (0..self.fit.poles.len()).any(below)
+    }
 }
 
 /// Σ|H − fit|²/|H|² over all responses, its mean's root.
