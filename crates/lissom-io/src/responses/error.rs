@@ -341,7 +341,7 @@ impl ResponseError {
                 "a point's response is an angle per angle of the motor; the motor's, called motor, an angle per \
                  current, voltage or command"
             }
-            Self::NotANumber { .. } | Self::MissingCell { .. } => {
+            Self::NotANumber { .. } | Self::MissingCell { .. } | Self::ZeroResponse { .. } => {
                 "leave the row out where nothing was measured"
             }
             Self::ExtraCell { .. } => {
@@ -358,7 +358,6 @@ impl ResponseError {
                 "a magnitude in dB is called so: tip_db; one below zero with its sign is a real part; leave the row \
                  out where nothing was measured"
             }
-            Self::ZeroResponse { .. } => "leave the row out where nothing was measured",
             Self::TooLargeResponse { .. } => {
                 "check the unit: a magnitude that is not in dB is called tip_mag"
             }

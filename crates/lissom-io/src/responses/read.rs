@@ -152,7 +152,7 @@ fn text(path: &Path) -> Result<String, ResponseError> {
     }
     String::from_utf8(bytes).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let row = 1 + before.iter().filter(|b| **b == b'\n').count();
+        let row = before.split(|b| *b == b'\n').count();
         ResponseError::Encoding { file: file(), encoding: "WINDOWS-1252 (or Latin-1)", row }
     })
 }

@@ -82,7 +82,7 @@ fn by_evidence(
         }
         match fit(data, modes, damping, search) {
             Ok(found) if best.as_ref().is_ok_and(|b| found.criterion >= b.criterion) => {
-                in_vain += 1
+                in_vain += 1;
             }
             Ok(found) => (best, in_vain) = (Ok(found), 0),
             Err(_) => in_vain += 1,

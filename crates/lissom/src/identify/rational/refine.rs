@@ -57,7 +57,7 @@ pub(super) fn refined_with_delays(
         let point = refined(data, poles, damping)?;
         let each = data.outputs.iter().zip(&point.own_figures);
         let late = each.map(|(output, own)| match output.delay_s {
-            Some(_) => own.iter().last().copied().unwrap_or(0.0),
+            Some(_) => own.iter().next_back().copied().unwrap_or(0.0),
             None => 0.0,
         });
         let late: Vec<f64> = late.collect();
