@@ -2,7 +2,9 @@
 
 use std::fs::File;
 use std::io::{BufRead as _, BufReader, Read as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+use lissom_io::write::Batch;
 
 use crate::failure::Failure;
 
@@ -18,6 +20,24 @@ pub(crate) fn guard(json: Option<&Path>, report: Option<&Path>) -> Result<(), Fa
         }
     }
     Ok(())
+}
+
+/// Refuses, before any work, one name for two outputs and files that cannot be written.
+pub(crate) fn ready(files: &[&Path]) -> Result<(), Failure> {
+    let whole = |path: &Path| -> PathBuf {
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
+        let folder = folder.unwrap_or(Path::new(".")).canonicalize();
+        match (folder, path.file_name()) {
+            (Ok(folder), Some(name)) => folder.join(name),
+            _ => path.to_owned(),
+        }
+    };
+    for (i, file) in files.iter().enumerate() {
+        if files[..i].iter().any(|other| whole(other) == whole(file)) {
+            return Err(Failure::SameOutput { file: (*file).to_owned() });
+        }
+    }
+    files.iter().try_for_each(|file| Ok(Batch::probe(file)?))
 }
 
 /// Whether `path` is a file with a first character other than `first`, blanks left out. What

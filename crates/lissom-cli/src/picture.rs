@@ -27,6 +27,11 @@ impl Picture {
         Ok(Self { path: path.to_owned(), png: is("png") })
     }
 
+    /// Where it goes.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// The file beside it of the same kind, for something else.
     pub(crate) fn beside(&self, what: &str) -> Self {
         let stem = self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned();

@@ -177,6 +177,46 @@ fn refusals_say_why() {
     refused(at, &["two.csv", "campaign.toml"]);
     refused(at, &["two.csv", "--torque-constant", "0.25 m"]);
     refused(at, &["two.csv", "--plot", "bode.pdf"]);
+    // Before any work: the table is not read.
+    for pair in [["x.svg", "./x.svg"], ["x-motor.svg", "x.svg"]] {
+        let said = refused(at, &["absent.csv", "--json", pair[0], "--plot", pair[1]]);
+        assert!(said.contains("one name for two outputs"), "{said}");
+    }
+    assert!(refused(at, &["absent.csv", "--json", "no/a.json"]).contains("cannot be written"));
+    // Where they are not needed, too.
+    write("good.csv", &table(&ruler(&[0.15, 0.3, 0.45]), 3, 0.01));
+    let said = refused(at, &["good.csv", "--arm", "absent.toml", "--at", "p1=0.2 m"]);
+    assert!(said.contains("absent.toml"), "{said}");
+    let said = refused(at, &["good.csv", "--arm", "arm.toml", "--at", "p9=0.2 m"]);
+    assert!(said.contains("--at p9: there is no such point; there are p1, p2, p3"), "{said}");
+    refused(at, &["good.csv", "--arm", "arm.toml", "--at", "p1=0.2 m", "--at", "p1=0.3 m"]);
+}
+
+/// A point that turns the other way round is no angle: no form for use is given, and the finding says so.
+#[test]
+fn a_point_of_the_wrong_sign_gives_no_form_for_use() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = table(&ruler(&[0.45]), 1, 0.01);
+    let turned = text.lines().enumerate().map(|(i, line)| {
+        let cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        let sign = |cell: &String| (-cell.parse::<f64>().unwrap()).to_string();
+        let cells: Vec<String> = cells
+            .iter()
+            .enumerate()
+            .map(|(k, cell)| if i > 0 && (k == 1 || k == 2) { sign(cell) } else { cell.clone() })
+            .collect();
+        cells.join(",")
+    });
+    std::fs::write(folder.path().join("r.csv"), turned.collect::<Vec<_>>().join("\n")).unwrap();
+    let mut command = lissom();
+    let text = done(command.current_dir(folder.path()).args(["equivalent", "r.csv", "--json"]));
+    let found: Value = serde_json::from_str(&text).unwrap();
+    assert!(found["equivalent"]["torque"].is_object());
+    assert!(found["equivalent"]["strainless"].is_null());
+    assert!(found["equivalent"]["state_space"].is_null());
+    let findings = found["findings"].as_array().unwrap();
+    let said = findings.iter().find(|f| f["code"] == "equivalent-no-angle").unwrap();
+    assert!(said["message"].as_str().unwrap().contains("state space are not given"));
 }
 
 /// The report's arm of two masses from a virtual campaign: friction, 12 bits, 3 ms. Both frequencies within

@@ -87,3 +87,23 @@ fn another_payload_is_that_of_the_arm_built_with_it() {
             .contains("neither .svg nor .png")
     );
 }
+
+/// What can be said at once is said before the runs are identified.
+#[test]
+fn what_is_wrong_is_said_before_the_work() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    fs::write(at.join("run.csv"), "t,i,theta\n0,0,0\n").unwrap();
+    let asked = ["payload", "campaign.toml", "--mass", "50 g", "--at", "25 cm", "--to", "120 g"];
+    let said = refused(at, &[&asked[..], &["--json", "no/where.json"]].concat());
+    assert!(said.contains("no/where.json: cannot be written"), "{said}");
+    let said = refused(at, &[&asked[..], &["--plot", "no/where.svg"]].concat());
+    assert!(said.contains("no/where.svg: cannot be written"), "{said}");
+    let said = refused(at, &[&asked[..], &["--plot", "a.svg", "--json", "a.svg"]].concat());
+    assert!(said.contains("one name for two outputs"), "{said}");
+    let said = refused(at, &["payload", "run.csv", "--mass", "50 g", "--to", "120 g"]);
+    assert!(
+        said.contains("run.csv: is no campaign.toml") && !said.contains("TOML parse"),
+        "{said}"
+    );
+}

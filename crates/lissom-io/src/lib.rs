@@ -41,7 +41,9 @@ pub use error::Error;
 pub use log::LogError;
 pub use model::{FrequencyError, Model, model_json, read_frequencies};
 pub use plan::{PlanError, PlanFile, PlanRun};
-pub use responses::{FrequencyResponses, MeasuredResponse, ResponseError, read_responses};
+pub use responses::{
+    FrequencyResponses, MeasuredResponse, Positive, ResponseError, read_responses,
+};
 pub use result::{
     PayloadPrediction, PredictedPayload, ResultError, UnitNames, channel_name_unit,
     equivalent_json, payload_json, read_arm, result_json, validation_json,

@@ -12,7 +12,7 @@ pub(crate) use table::brief;
 use std::path::Path;
 use std::process::ExitCode;
 
-use lissom::beam::BestPoint;
+use lissom::beam::{BestPoint, DistributedBeam};
 use lissom::identify::{EquivalentError, EquivalentRefusal, equivalent};
 use lissom_io::write::{self, Batch};
 use lissom_io::{ArmFile, BeamKind, equivalent_json};
@@ -31,12 +31,18 @@ pub(crate) fn run(args: &EquivalentArgs) -> Result<ExitCode, Failure> {
         output::guard_headed(path, write::ARM_HEAD)?;
     }
     let picture = args.plot.as_deref().map(Picture::of).transpose()?;
+    let beside = picture.as_ref().map(|p| p.beside("motor"));
+    let pictures = picture.iter().chain(&beside).map(Picture::path);
+    let outputs = json_file.into_iter().chain(args.save_arm.as_deref()).chain(pictures);
+    output::ready(&outputs.collect::<Vec<_>>())?;
+    let beam = args.arm.as_deref().map(beam).transpose()?;
     let input = Input::read(args)?;
+    known(args, &input.data.names)?;
     let found = equivalent(&input.data, args.modes.map(usize::from));
     let found = match found {
         Ok(found) => found,
         Err(source) => {
-            let place = better_place(args, &source)?;
+            let place = better_place(args, beam.as_ref(), &source)?;
             let (input, source) = (args.inputs[0].clone(), Box::new(source));
             return Err(Failure::Equivalent { input, source, place });
         }
@@ -62,23 +68,46 @@ pub(crate) fn run(args: &EquivalentArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Where one of two points that move alike should sit, on a beam of known dimensions.
-fn better_place(
-    args: &EquivalentArgs,
-    refusal: &EquivalentRefusal,
-) -> Result<Option<String>, Failure> {
-    let EquivalentRefusal::Beam { source, names, .. } = refusal else { return Ok(None) };
-    let (EquivalentError::TooClose { first, second, .. }, Some(path)) = (source, &args.arm) else {
-        return Ok(None);
-    };
+/// The beam of known dimensions.
+fn beam(path: &Path) -> Result<DistributedBeam, Failure> {
     let file = ArmFile::read(path)?;
-    if file.beam_kind(path).map_err(lissom_io::Error::from)? != BeamKind::Distributed {
+    if file.beam_kind(path).map_err(lissom_io::Error::from)? == BeamKind::Lumped {
         let reason =
             "has point masses, and a place is looked for along a beam with mass".to_owned();
         let hint = "give density or mass_per_length in [beam]";
-        return Err(Failure::Model { arm: path.clone(), reason, hint });
+        return Err(Failure::Model { arm: path.to_owned(), reason, hint });
     }
-    let beam = file.distributed_beam(path).map_err(lissom_io::Error::from)?;
+    Ok(file.distributed_beam(path).map_err(lissom_io::Error::from)?)
+}
+
+/// Refuses places of points that are none, or two of one.
+fn known(args: &EquivalentArgs, names: &[String]) -> Result<(), Failure> {
+    for (i, (name, _)) in args.at.iter().enumerate() {
+        if !names.contains(name) {
+            let words =
+                format!("--at {name}: there is no such point; there are {}", names.join(", "));
+            return Err(Failure::Asked(words, "give --at NAME=LENGTH once for each point"));
+        }
+        if args.at[..i].iter().any(|(other, _)| other == name) {
+            let words = format!("--at {name}: is given twice");
+            return Err(Failure::Asked(words, "give --at NAME=LENGTH once for each point"));
+        }
+    }
+    Ok(())
+}
+
+/// Where one of two points that move alike should sit, on a beam of known dimensions.
+fn better_place(
+    args: &EquivalentArgs,
+    beam: Option<&DistributedBeam>,
+    refusal: &EquivalentRefusal,
+) -> Result<Option<String>, Failure> {
+    let EquivalentRefusal::Beam { source, names, .. } = refusal else { return Ok(None) };
+    let (EquivalentError::TooClose { first, second, .. }, Some(beam), Some(path)) =
+        (source, beam, &args.arm)
+    else {
+        return Ok(None);
+    };
     let mut points_m = Vec::new();
     for name in names {
         let Some((_, place)) = args.at.iter().find(|(n, _)| n == name) else {

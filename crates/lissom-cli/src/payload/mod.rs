@@ -32,6 +32,14 @@ pub(crate) fn run(args: &PayloadArgs) -> Result<ExitCode, Failure> {
     let json_file = json.filter(|path| *path != Path::new(STDOUT));
     output::guard(json_file, None)?;
     let picture = args.plot.as_deref().map(Picture::of).transpose()?;
+    let outputs = json_file.into_iter().chain(picture.as_ref().map(Picture::path));
+    output::ready(&outputs.collect::<Vec<_>>())?;
+    let is_toml = args.campaign.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
+    if !is_toml && args.campaign.is_file() {
+        let words = format!("{}: is no campaign.toml", args.campaign.display());
+        let hint = "give the campaign.toml that describes the logs: columns, units, what is known of the drive";
+        return Err(Failure::Asked(words, hint));
+    }
     let file = read_campaign(&args.campaign)?;
     let place = Place::of(args, &file.campaign.channels)?;
     let id = identified(&args.campaign, &file, None, false)?;

@@ -6,6 +6,17 @@ use thiserror::Error;
 
 use crate::excerpt::excerpt;
 
+/// What must be greater than zero.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Positive {
+    /// A frequency.
+    Frequency,
+    /// A deviation.
+    Deviation,
+    /// A magnitude.
+    Magnitude,
+}
+
 /// Why tables of frequency responses cannot be used. Rows are lines of the file, from 1.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -18,9 +29,25 @@ pub enum ResponseError {
         /// Why.
         source: io::Error,
     },
-    /// Not a text file, or one of a size that no table has.
-    #[error("{file}: is no text of less than {most} bytes")]
+    /// Not a text file.
+    #[error("{file}: is no text")]
     NotText {
+        /// The file.
+        file: String,
+    },
+    /// Text in another encoding than UTF-8.
+    #[error("{file}: is text in {encoding}, and not in UTF-8 (line {row})")]
+    Encoding {
+        /// The file.
+        file: String,
+        /// The encoding.
+        encoding: &'static str,
+        /// The first line that shows it.
+        row: usize,
+    },
+    /// A size that no table has.
+    #[error("{file}: has {most} bytes or more")]
+    TooLarge {
         /// The file.
         file: String,
         /// Bytes that a table may have.
@@ -148,7 +175,24 @@ pub enum ResponseError {
         /// The column.
         column: String,
     },
-    /// A frequency or deviation that is none, or a response of zero.
+    /// More cells than the header has names.
+    #[error(
+        "{file}: row {row}, column {column}: \"{}\" stands beyond the {names} columns of the header",
+        excerpt(found)
+    )]
+    ExtraCell {
+        /// The file.
+        file: String,
+        /// The row.
+        row: usize,
+        /// The column, from 1.
+        column: usize,
+        /// What stands there.
+        found: String,
+        /// Columns that the header names.
+        names: usize,
+    },
+    /// A frequency, deviation or magnitude that is none.
     #[error("{file}: row {row}, column {}: {found} must be greater than zero", excerpt(column))]
     NotPositive {
         /// The file.
@@ -159,6 +203,48 @@ pub enum ResponseError {
         column: String,
         /// The number.
         found: f64,
+        /// What it is.
+        what: Positive,
+    },
+    /// A response of nothing.
+    #[error("{file}: row {row}: the response of {} is zero", excerpt(output))]
+    ZeroResponse {
+        /// The file.
+        file: String,
+        /// The row.
+        row: usize,
+        /// The output.
+        output: String,
+    },
+    /// A magnitude beyond all numbers.
+    #[error(
+        "{file}: row {row}, column {}: the response is too large for a number",
+        excerpt(column)
+    )]
+    TooLargeResponse {
+        /// The file.
+        file: String,
+        /// The row.
+        row: usize,
+        /// The column.
+        column: String,
+    },
+    /// A deviation beside which all others count nothing.
+    #[error(
+        "{file}: row {row}, column {}: a deviation of {found:e}, where the others are about {others:.1e}",
+        excerpt(column)
+    )]
+    TinyDeviation {
+        /// The file.
+        file: String,
+        /// The row.
+        row: usize,
+        /// The column.
+        column: String,
+        /// The number.
+        found: f64,
+        /// Median of all in the column.
+        others: f64,
     },
     /// Frequencies that do not rise.
     #[error("{file}: row {row}, column {}: {after} follows {before}", excerpt(column))]
@@ -225,6 +311,13 @@ impl ResponseError {
         let hint = match self {
             Self::Read { .. } => "give a campaign.toml, or tables of frequency responses",
             Self::NotText { .. } => "save the table as comma-separated text in UTF-8",
+            Self::Encoding { encoding, .. } => {
+                let name = encoding.split(' ').next().unwrap_or(encoding);
+                return Some(format!(
+                    "save it as \"CSV UTF-8\", or: iconv -f {name} -t UTF-8 FILE > NEW"
+                ));
+            }
+            Self::TooLarge { .. } => "give a table with one row a frequency",
             Self::NoHeader { .. } => {
                 "begin with a row of names, such as omega_rad_s,tip_re,tip_im or frequency_hz,tip_db,tip_deg"
             }
@@ -248,10 +341,29 @@ impl ResponseError {
                 "a point's response is an angle per angle of the motor; the motor's, called motor, an angle per \
                  current, voltage or command"
             }
-            Self::NotANumber { .. } | Self::MissingCell { .. } => {
+            Self::NotANumber { .. } | Self::MissingCell { .. } | Self::ZeroResponse { .. } => {
                 "leave the row out where nothing was measured"
             }
-            Self::NotPositive { .. } => "leave the row out: it holds no response",
+            Self::ExtraCell { .. } => {
+                "one cell for each name in the header; numbers with decimal commas need semicolons between them"
+            }
+            Self::NotPositive { what: Positive::Frequency, .. } => {
+                "leave the row out: a response at rest has no place among frequencies"
+            }
+            Self::NotPositive { what: Positive::Deviation, .. } => {
+                "give each response the deviation that it has; where none is known leave the column out, and what \
+                 the model leaves says how large errors are"
+            }
+            Self::NotPositive { what: Positive::Magnitude, .. } => {
+                "a magnitude in dB is called so: tip_db; one below zero with its sign is a real part; leave the row \
+                 out where nothing was measured"
+            }
+            Self::TooLargeResponse { .. } => {
+                "check the unit: a magnitude that is not in dB is called tip_mag"
+            }
+            Self::TinyDeviation { .. } => {
+                "correct the cell: with it the fit would heed no other frequency"
+            }
             Self::NotAscending { .. } => "sort the rows by frequency, one row each",
             Self::NoRows { .. } => "below the header, one row for each frequency",
             Self::Grid { .. } | Self::GridLength { .. } => {

@@ -11,5 +11,5 @@ mod read;
 #[cfg(test)]
 mod tests;
 
-pub use error::ResponseError;
+pub use error::{Positive, ResponseError};
 pub use read::{FrequencyResponses, MeasuredResponse, read_responses};

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use num_complex::Complex64;
 
-use super::ResponseError;
 use super::columns::{Columns, Part, PartColumn};
+use super::{Positive, ResponseError};
 use crate::log::{Delimiter, comment, is_header, number};
 use crate::units::Dimension;
 
@@ -15,6 +15,10 @@ use crate::units::Dimension;
 const MOST: u64 = 1 << 28;
 /// Frequencies of two tables are the same to this share.
 const SAME: f64 = 1e-6;
+/// A deviation is a slip that is below this share of its response…
+const TINY: f64 = 1e-9;
+/// …and of the median of all.
+const SMALLER: f64 = 1e-6;
 /// The name of the motor's response.
 const MOTOR: &str = "motor";
 
@@ -136,11 +140,30 @@ fn text(path: &Path) -> Result<String, ResponseError> {
     }
     let mut bytes = Vec::new();
     opened.take(MOST).read_to_end(&mut bytes).map_err(failed)?;
-    let control = |b: &u8| b.is_ascii_control() && !matches!(b, b'\t' | b'\r' | b'\n' | b'\x0C');
-    if bytes.len() as u64 == MOST || bytes.iter().any(control) {
-        return Err(ResponseError::NotText { file: file(), most: MOST });
+    if bytes.len() as u64 == MOST {
+        return Err(ResponseError::TooLarge { file: file(), most: MOST });
     }
-    String::from_utf8(bytes).map_err(|_| ResponseError::NotText { file: file(), most: MOST })
+    if wide(&bytes) {
+        return Err(ResponseError::Encoding { file: file(), encoding: "UTF-16", row: 1 });
+    }
+    let control = |b: &u8| b.is_ascii_control() && !matches!(b, b'\t' | b'\r' | b'\n' | b'\x0C');
+    if bytes.iter().any(control) {
+        return Err(ResponseError::NotText { file: file() });
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let row = before.split(|b| *b == b'\n').count();
+        ResponseError::Encoding { file: file(), encoding: "WINDOWS-1252 (or Latin-1)", row }
+    })
+}
+
+/// Whether text has two bytes a character: by its mark, or by zeros in every other place.
+fn wide(bytes: &[u8]) -> bool {
+    let marked = bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]);
+    let zeros = |odd: usize| bytes.iter().skip(odd).step_by(2).filter(|b| **b == 0).count();
+    let half = bytes.len() / 2;
+    let (even, odd) = (zeros(0), zeros(1));
+    marked || half > 4 && (even == 0 && 10 * odd > 9 * half || odd == 0 && 10 * even > 9 * half)
 }
 
 fn read_table(path: &Path) -> Result<Table, ResponseError> {
@@ -168,6 +191,11 @@ fn read_table(path: &Path) -> Result<Table, ResponseError> {
         std::iter::once(columns.frequency).chain(columns.parts.iter().map(|p| p.index)).collect();
     for (row, line) in lines {
         let cells: Vec<&str> = delimiter.split(line).collect();
+        let beyond = cells.iter().enumerate().skip(names.len());
+        if let Some((at, found)) = beyond.into_iter().find(|(_, cell)| !cell.is_empty()) {
+            let (column, found, names) = (at + 1, (*found).to_owned(), names.len());
+            return Err(ResponseError::ExtraCell { file, row, column, found, names });
+        }
         for &index in &wanted {
             let column = || names[index].clone();
             let cell = cells.get(index).copied().unwrap_or("");
@@ -184,7 +212,8 @@ fn read_table(path: &Path) -> Result<Table, ResponseError> {
         let (last, column) = (frequency.len() - 1, names[columns.frequency].clone());
         let found = frequency[last];
         if found <= 0.0 {
-            return Err(ResponseError::NotPositive { file, row, column, found });
+            let what = Positive::Frequency;
+            return Err(ResponseError::NotPositive { file, row, column, found, what });
         }
         if let Some(before) = last.checked_sub(1).map(|i| frequency[i]).filter(|b| *b >= found) {
             return Err(ResponseError::NotAscending { file, row, column, before, after: found });
@@ -278,25 +307,36 @@ impl Output<'_> {
                 _ => Complex64::new(a, b),
             }
         };
-        let positive = |column: &PartColumn, found: f64, i: usize| {
-            let (file, row, column) = (file.to_owned(), rows[i], names[column.index].clone());
-            if found > 0.0 && found.is_finite() {
-                Ok(())
-            } else {
-                Err(ResponseError::NotPositive { file, row, column, found })
-            }
+        let cell =
+            |column: &PartColumn, i: usize| (file.to_owned(), rows[i], names[column.index].clone());
+        let positive = |column: &PartColumn, found: f64, i: usize, what: Positive| {
+            let (file, row, column) = cell(column, i);
+            let error = ResponseError::NotPositive { file, row, column, found, what };
+            if found > 0.0 { Ok(()) } else { Err(error) }
         };
         let response: Vec<Complex64> = (0..rows.len()).map(value).collect();
         for (i, value) in response.iter().enumerate() {
-            positive(self.first, value.norm(), i)?;
             if self.first.part == Part::Magnitude {
-                positive(self.first, at(self.first, i), i)?;
+                positive(self.first, at(self.first, i), i, Positive::Magnitude)?;
+            }
+            let (file, row, column) = cell(self.first, i);
+            if !value.norm().is_finite() {
+                return Err(ResponseError::TooLargeResponse { file, row, column });
+            }
+            if value.norm() == 0.0 {
+                let output = self.name.clone();
+                return Err(ResponseError::ZeroResponse { file, row, output });
             }
         }
         let std = self.std.map(|column| {
             let all: Vec<f64> = (0..rows.len()).map(|i| at(column, i)).collect();
-            for (i, found) in all.iter().enumerate() {
-                positive(column, *found, i)?;
+            let others = median(&all);
+            for (i, &found) in all.iter().enumerate() {
+                positive(column, found, i, Positive::Deviation)?;
+                if found < TINY * response[i].norm() && found < SMALLER * others {
+                    let (file, row, column) = cell(column, i);
+                    return Err(ResponseError::TinyDeviation { file, row, column, found, others });
+                }
             }
             Ok(all)
         });
@@ -311,4 +351,10 @@ impl Output<'_> {
                 .or(self.std.and_then(|s| s.dimension)),
         })
     }
+}
+
+fn median(of: &[f64]) -> f64 {
+    let mut sorted = of.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
 }

@@ -88,7 +88,12 @@ fn errors_name_file_row_and_column() {
     one("f_hz,re,im\n1,2,inf\n", "row 2, column im: \"inf\" is not a finite number");
     one("f_hz,re,im\n1,2\n", "row 2, column im: the cell is missing");
     one("f_hz,re,im\n1,2,3\n\n0,2,3\n", "row 4, column f_hz: 0 must be greater than zero");
-    one("f_hz,re,im\n1,0,0\n", "row 2, column re: 0 must be greater than zero");
+    one(
+        "f_hz,re,im\n1,2,3,4\n",
+        "row 2, column 4: \"4\" stands beyond the 3 columns of the header",
+    );
+    one("f_hz,re,im\n1,0,0\n", "row 2: the response of a is zero");
+    one("f_hz,db,deg\n1,9999,0\n", "row 2, column db: the response is too large for a number");
     one("f_hz,mag,deg\n1,-1,0\n", "row 2, column mag: -1 must be greater than zero");
     one("f_hz,re,im,std\n1,2,3,0\n", "row 2, column std: 0 must be greater than zero");
     one("f_hz,re,im\n2,2,3\n1,2,3\n", "row 3, column f_hz: 1 follows 2");
@@ -107,4 +112,46 @@ fn errors_name_file_row_and_column() {
     let nothing: [&str; 0] = [];
     assert!(read_responses(&nothing).is_err() && read_responses(&["/nowhere.csv"]).is_err());
     assert!(read_responses(&[std::env::temp_dir()]).is_err());
+}
+
+#[test]
+fn hints_fit_what_is_wrong() {
+    let hint = |text: &str| read(&[("a.csv", text)]).unwrap_err().hint().unwrap();
+    assert!(hint("f_hz,re,im\n0,2,3\n").contains("at rest"));
+    assert!(hint("f_hz,re,im,std\n1,2,3,0\n").contains("leave the column out"));
+    assert!(hint("f_hz,mag,deg\n1,-3,0\n").contains("tip_db"));
+    assert!(hint("f_hz,re,im\n0,5,1,2\n").contains("semicolons"));
+    // An empty cell at the end of rows is none too many.
+    assert!(read(&[("a.csv", "f_hz,re,im\n1,2,3,\n")]).is_ok());
+    let said = read(&[("a.csv", "f_hz,re,im,std\n1,2,3,.1\n2,2,3,1e-300\n3,2,3,.1\n")]);
+    let said = said.unwrap_err().to_string();
+    assert!(
+        said.ends_with(
+            "row 3, column std: a deviation of 1e-300, where the others are about 1.0e-1"
+        ),
+        "{said}"
+    );
+}
+
+#[test]
+fn other_encodings_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.csv");
+    let wide: Vec<u8> = "f_hz,re,im\n1,2,3\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let marked: Vec<u8> = [0xFF, 0xFE].into_iter().chain(wide.iter().copied()).collect();
+    let turned: Vec<u8> = wide.chunks(2).flat_map(|pair| [pair[1], pair[0]]).collect();
+    for (bytes, encoding) in [
+        (wide, "UTF-16"),
+        (marked, "UTF-16"),
+        (turned, "UTF-16"),
+        (b"f_hz,mag,phase [\xB0]\n1,2,3\n".to_vec(), "WINDOWS-1252"),
+    ] {
+        std::fs::write(&path, bytes).unwrap();
+        let error = read_responses(&[&path]).unwrap_err();
+        assert!(
+            error.to_string().contains(encoding) && error.to_string().contains("UTF-8"),
+            "{error}"
+        );
+        assert!(error.hint().unwrap().contains("iconv"));
+    }
 }

@@ -33,7 +33,7 @@ pub(super) fn equivalent(names: UnitNames, found: &Equivalent) -> Value {
         },
         "torque": found.arm.as_ref().map(|arm| torque(names, known, arm)),
         "strainless": strainless(names, found),
-        "state_space": found.arm.as_ref().map(|arm| {
+        "state_space": found.arm.as_ref().filter(|_| found.strainless.is_some()).map(|arm| {
             let names_of: Vec<&str> = found.points.iter().map(|i| point(*i)).collect();
             crate::model::state_space(&arm.state_space(&names_of, names.angle()))
         }),

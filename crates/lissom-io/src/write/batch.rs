@@ -37,6 +37,14 @@ impl Batch {
         super::create_folder(path)
     }
 
+    /// Whether a file may be written at `path`: before work that would be lost otherwise. Leaves nothing.
+    ///
+    /// # Errors
+    /// As [`Batch::file`].
+    pub fn probe(path: &Path) -> Result<(), WriteError> {
+        Self::new().file(path, b"")
+    }
+
     /// Writes a file that has not its name yet.
     ///
     /// # Errors

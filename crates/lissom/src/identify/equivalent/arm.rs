@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, DVectorView};
 use super::{EquivalentBeam, EquivalentError, StrainlessForm, deviation, equivalent_beam, moved};
 use crate::beam::{BeamError, KnownMode, ModalBeam, ModalForm};
 use crate::identify::model::{CoupledMode, modal};
-use crate::identify::rational::{CouplingFit, MotorData, Pole, SharedPoles, fit_coupling};
+use crate::identify::rational::{CouplingFit, MotorData, Pole, SharedPoles, coupled, fit_coupling};
 use crate::identify::{Estimate, Response};
 use crate::lti::StateSpace;
 
@@ -23,7 +23,9 @@ pub struct EquivalentArm {
     pub h: Vec<Estimate>,
     /// ĥ_{n+1} \[N·m/rad\].
     pub h_motor: Estimate,
-    /// c_k of each mode \[N·m/rad\]: `C_t/θ_m = Σ c_k·(s² + d_k·s)/(s² + d_k·s + ω_k²)`,
+    /// ζ_w of each mode: what of its damping ratio is within the beam.
+    pub damping_within: Vec<f64>,
+    /// c_k of each mode \[N·m/rad\]: without damping within the beam, `C_t/θ_m = Σ c_k·(s² + d_k·s)/(s² + d_k·s + ω_k²)`,
     /// `d_k = 2ζ_kω_k`.
     pub coupling: Vec<Estimate>,
     /// J \[kg·m²\], with what the modes left out carry of the beam's inertia.
@@ -99,6 +101,7 @@ pub(super) fn arm_below(
     let h_std = |i: usize| deviation(&covariance, |u| slopes[u][i]);
     let h_motor_std = deviation(&covariance, |u| f64::from(u >= first + 2));
     Ok(EquivalentArm {
+        damping_within: (0..modes).map(|k| fit.damping_within(k)).collect(),
         poles: fit.poles.clone(),
         h: h.iter().enumerate().map(|(i, &value)| Estimate { value, std: h_std(i) }).collect(),
         h_motor: Estimate { value: h_motor, std: h_motor_std },
@@ -176,12 +179,11 @@ impl EquivalentArm {
     /// θ_m per command at a frequency.
     pub fn motor_response(&self, omega_rad_s: f64) -> num_complex::Complex64 {
         let s = num_complex::Complex64::new(0.0, omega_rad_s);
-        let through = |(pole, c): (&Pole, &Estimate)| {
-            let square = pole.omega_rad_s * pole.omega_rad_s;
-            c.value * (1.0 - square / pole.denominator(omega_rad_s))
+        let each = self.poles.iter().zip(&self.damping_within).zip(&self.coupling);
+        let through = |((pole, within), c): ((&Pole, &f64), &Estimate)| {
+            c.value * coupled(pole, *within, omega_rad_s)
         };
-        let coupled: num_complex::Complex64 =
-            self.poles.iter().zip(&self.coupling).map(through).sum();
-        self.torque_per_command / (s * (s * self.inertia.value + self.viscous.value) + coupled)
+        let torque: num_complex::Complex64 = each.map(through).sum();
+        self.torque_per_command / (s * (s * self.inertia.value + self.viscous.value) + torque)
     }
 }

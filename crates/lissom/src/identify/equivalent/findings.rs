@@ -1,17 +1,16 @@
 //! What to know of an equivalent arm.
 
 use super::EquivalentError;
+use super::refusal::side;
 use super::whole::{Deviations, Equivalent, EquivalentData};
 use crate::identify::finding::key;
-use crate::identify::rational::Spurious;
+use crate::identify::rational::{Damping, Spurious};
 use crate::identify::{Estimate, Finding, Severity};
 
 /// A model that leaves more than so many deviations is not all there is…
 const MISFIT: f64 = 2.0;
 /// …and one that leaves less than this share of them says that they are too large.
 const TOO_GOOD: f64 = 0.5;
-/// From this share on a point's response is none of its angle to the motor's.
-const WRONG: f64 = 0.5;
 /// What the last mode is given is told from this size on.
 const GIVEN: f64 = 0.02;
 
@@ -19,6 +18,7 @@ pub(super) fn findings(
     data: &EquivalentData,
     whole: &Equivalent,
     modes_found: usize,
+    given: f64,
     no_torque: Option<EquivalentError>,
 ) -> Vec<Finding> {
     let mut findings = Vec::new();
@@ -55,6 +55,7 @@ pub(super) fn findings(
         let hint = "measure at higher frequencies, to see as many modes as points";
         add("equivalent-points-left-out", Severity::Info, message, hint);
     }
+    of_phase(whole, &mut add);
     let rms = whole.fit.weighted_rms;
     let known = data.deviations != Deviations::FromResidual;
     if known && rms > MISFIT {
@@ -96,13 +97,12 @@ pub(super) fn findings(
         let hint = "give the motor's response at more frequencies";
         add("equivalent-without-torque", Severity::Warning, error.to_string(), hint);
     }
-    let lacks = whole.strainless.iter().flat_map(|s| s.missing.iter().zip(&s.given_to_last));
-    let given = lacks.filter(|(_, to_last)| **to_last).map(|(m, _)| m.abs()).fold(0.0, f64::max);
-    if given > WRONG {
+    if whole.strainless.is_none() && given > 0.0 {
         let message = format!(
-            "a point's gains add up to one but for {given:.3}: with the motor turned slowly it does not turn with it"
+            "a point's gains add up to one but for {given:.3}: with the motor turned slowly it does not turn with it. \
+             The form for use as an arm and the state space are not given"
         );
-        let hint = "an angle of the wrong sign or in another unit than the motor's: the form for use as an arm is none";
+        let hint = "check for an angle of the wrong sign or in another unit than the motor's";
         add("equivalent-no-angle", Severity::Warning, message, hint);
     } else if given > GIVEN {
         let message = format!(
@@ -114,6 +114,56 @@ pub(super) fn findings(
         add("equivalent-completed", Severity::Info, message, hint);
     }
     findings
+}
+
+/// What imaginary parts show beside the damping of poles.
+fn of_phase(
+    whole: &Equivalent,
+    add: &mut impl FnMut(&'static str, Severity, String, &'static str),
+) {
+    for part in &whole.imaginary {
+        let Some(late) = part.delay_s else {
+            let deviations =
+                part.deviations.map_or(String::new(), |d| format!(", {d:.1} deviations,"));
+            let message = format!(
+                "{} has {:.2} % of its size{deviations} in an imaginary part that no damping explains: frequencies \
+                 and gains may be off by more than their intervals",
+                part.name,
+                100.0 * part.share
+            );
+            let hint =
+                "check the phase of the channels: filters, sampling, a delay between the two";
+            add("equivalent-imaginary-part", Severity::Warning, message, hint);
+            continue;
+        };
+        let message = format!(
+            "{} comes {:.4} ms ± {:.4} ms {} against the motor: the delay was taken out, and intervals count that \
+             it is estimated",
+            part.name,
+            1e3 * late.value.abs(),
+            1e3 * late.std,
+            side(late.value)
+        );
+        let hint = "sample both channels at one time, with one filter, or correct the responses by it: damping \
+                    within the beam may look like a small delay";
+        add("equivalent-delay", Severity::Warning, message, hint);
+    }
+    if whole.fit.damping == Damping::Within {
+        let shares = (0..whole.kept.poles.len()).flat_map(|k| {
+            let each = whole.kept.in_s.iter().zip(&whole.kept.static_gains);
+            each.map(move |(terms, gains)| terms[k].value.abs() / gains[k].abs())
+        });
+        let largest = shares.filter(|s| s.is_finite()).fold(0.0, f64::max);
+        let outputs = 0..whole.fit.static_gains.len();
+        let hidden_s = outputs.map(|i| whole.fit.hidden_delay_s(i)).fold(0.0, f64::max);
+        let message = format!(
+            "residues have terms in s, of up to {largest:.4} of their gains: damping within the beam, or of a shape of \
+             its own. A delay of up to {:.4} ms may stand behind them: the gains' intervals count it",
+            1e3 * hidden_s
+        );
+        let hint = "nothing: they are in the fit; `lissom identify` finds an arm with such damping from logs";
+        add("equivalent-terms-in-s", Severity::Info, message, hint);
+    }
 }
 
 fn named(arm: &super::EquivalentArm) -> Vec<(String, Estimate)> {

@@ -5,8 +5,11 @@ use thiserror::Error;
 
 mod arm;
 mod findings;
+mod imaginary;
 mod refusal;
 mod responses;
+mod sound;
+mod turned_round;
 mod whole;
 mod zeros;
 
@@ -67,6 +70,13 @@ pub struct StrainlessForm {
 }
 
 impl EquivalentBeam {
+    /// Most that a point's gains lack of one where its last mode was given it.
+    fn given(&self) -> f64 {
+        let missing = self.gains.column_sum().map(|sum| (1.0 - sum).abs());
+        let each = missing.iter().zip(&self.given_to_last);
+        each.filter(|(_, to_last)| **to_last).map(|(m, _)| *m).fold(0.0, f64::max)
+    }
+
     /// The form for use as an arm, with gains that add up to one at every point.
     ///
     /// Where modes are left out the gains fitted do not, and (17) as fitted would strain a beam that turns as

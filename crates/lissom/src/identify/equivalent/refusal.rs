@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use super::EquivalentError;
+use crate::identify::Estimate;
 use crate::identify::rational::SharedPolesError;
 
 /// A response with more than damping in its imaginary part.
@@ -14,6 +15,8 @@ pub struct PartOutside {
     pub share: f64,
     /// The same in deviations, rms; `None` where these are not known.
     pub deviations: Option<f64>,
+    /// The delay that the response shows, where it explains that part \[s\].
+    pub delay_s: Option<Estimate>,
 }
 
 /// Why responses make no equivalent arm.
@@ -35,6 +38,42 @@ pub enum EquivalentRefusal {
         names: usize,
         /// Points measured.
         points: usize,
+    },
+    /// A response with the phase's sign turned.
+    #[error(
+        "{} {} clearly better with the phase's sign turned: as given {} would be of poles that gain energy",
+        names.join(", "),
+        if names.len() == 1 { "fits" } else { "fit" },
+        if names.len() == 1 { "it" } else { "they" }
+    )]
+    TurnedRound {
+        /// Names of the points.
+        names: Vec<String>,
+    },
+    /// Numbers whose products leave doubles.
+    #[error("{name} is of size {size:.1e}: that is no response of an arm")]
+    Size {
+        /// Of which response, or that it is a frequency.
+        name: String,
+        /// Its size.
+        size: f64,
+    },
+    /// A deviation that is none of its response.
+    #[error(
+        "{name}, frequency {} ({omega_rad_s:.6} rad/s): a deviation of {std:.1e} for a response of size {size:.1e}",
+        index + 1
+    )]
+    Deviation {
+        /// Name of the point, or `motor`.
+        name: String,
+        /// Place of the frequency, from 0.
+        index: usize,
+        /// The frequency \[rad/s\].
+        omega_rad_s: f64,
+        /// The deviation.
+        std: f64,
+        /// Of the response.
+        size: f64,
     },
     /// No point's angle is known.
     #[error("no tip is an angle, or a deflection that makes one")]
@@ -87,6 +126,18 @@ pub enum EquivalentRefusal {
 }
 
 impl EquivalentRefusal {
+    /// Whether a phase's sign may be the reason behind it.
+    pub(super) fn may_be_a_turned_phase(&self) -> bool {
+        match self {
+            Self::Noise { .. }
+            | Self::NoModeWithin { .. }
+            | Self::Uneven(_)
+            | Self::FewerPoints { .. } => true,
+            Self::Beam { source, .. } => matches!(source, EquivalentError::TooClose { .. }),
+            _ => false,
+        }
+    }
+
     /// What to do about it.
     pub fn hint(&self) -> &'static str {
         match self {
@@ -102,6 +153,17 @@ impl EquivalentRefusal {
                 _ => "measure about the resonances, at more frequencies",
             },
             Self::Names { .. } => "give each point a name",
+            Self::TurnedRound { .. } => {
+                "change the sign of the phase, or of the imaginary part: with e^(+jωt) a response lags at negative \
+                 phases"
+            }
+            Self::Size { .. } => {
+                "check the units: points' responses are angle per angle of the motor, about one at rest"
+            }
+            Self::Deviation { .. } => {
+                "correct it; where no deviations are known leave them all out: `lissom equivalent` then has them \
+                 from what the model leaves"
+            }
             Self::NoAngle => {
                 "measure angles of points of the beam, or deflections in rad or with a radius: accelerations and \
                  unscaled signals do not say how far a point moves"
@@ -151,12 +213,20 @@ fn fit_words(error: &SharedPolesError, names: &[String]) -> String {
 fn uneven_words(part: &PartOutside) -> String {
     let deviations =
         part.deviations.map_or(String::new(), |d| format!(" ({d:.1} times its deviations)"));
+    let late = part.delay_s.map_or(String::new(), |late| {
+        format!(", as if it came {:.3} ms {}", 1e3 * late.value.abs(), side(late.value))
+    });
     format!(
-        "{} has {:.0} % of its size in an imaginary part that no damping explains{deviations}: the response of \
-         an arm has even powers of s only",
+        "{} has {:.0} % of its size in an imaginary part that no damping explains{deviations}{late}: the response \
+         of an arm has even powers of s only",
         part.name,
         100.0 * part.share
     )
+}
+
+/// Which way a delay is.
+pub(super) fn side(delay_s: f64) -> &'static str {
+    if delay_s > 0.0 { "late" } else { "early" }
 }
 
 fn beam_words(error: &EquivalentError, names: &[String], modes_rad_s: &[f64]) -> String {

@@ -4,23 +4,22 @@ use nalgebra::DMatrix;
 
 use super::arm::arm_below;
 use super::refusal::{EquivalentRefusal, PartOutside};
+use super::sound::sound;
+use super::turned_round::turned_round;
 use super::{
     EquivalentArm, EquivalentBeam, EquivalentError, ResponseZero, StrainlessForm, equivalent_beam,
-    findings, response_zeros,
+    findings, imaginary, response_zeros,
 };
 use crate::identify::rational::{
-    Damping, MotorData, Pole, SharedPoles, Spurious, fit_shared_poles,
-    fit_shared_poles_by_evidence, information,
+    MotorData, Pole, SharedPoles, Spurious, fit_shared_poles_with_delays, information,
 };
 use crate::identify::{Finding, Response};
 
 /// Pairs of poles looked for, whatever the number of points.
 const POLES_LEAST: usize = 8;
-/// Imaginary parts that damping does not explain are none of an arm's from this share of a response (its
-/// median) on…
-const UNEVEN: f64 = 0.1;
-/// …where they are this many deviations, rms.
-const DEVIATIONS: f64 = 3.0;
+
+/// A point is no angle whose gains, modes left out and all, lack more than this of one.
+const NO_ANGLE: f64 = 0.5;
 
 /// Where the deviations of responses are from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,12 +64,14 @@ pub struct Equivalent {
     pub beam: EquivalentBeam,
     /// Ĥ, ĥ, J and V too; `None` without a motor's response that holds them.
     pub arm: Option<EquivalentArm>,
-    /// The form for use as an arm.
+    /// The form for use as an arm; `None` where a point is no angle.
     pub strainless: Option<StrainlessForm>,
     /// Zeros of every point's response, with the modes of the arm.
     pub zeros: Vec<Vec<ResponseZero>>,
     /// Names of the points measured.
     pub names: Vec<String>,
+    /// Imaginary parts that no damping explains, where they stand clear of the noise.
+    pub imaginary: Vec<PartOutside>,
     /// What the model of all poles leaves of the points' responses, as a share of each, rms.
     pub relative_residual: f64,
     /// Where the deviations are from.
@@ -98,9 +99,22 @@ pub fn equivalent(
     if points != names {
         return Err(EquivalentRefusal::Names { names, points });
     }
+    sound(data)?;
+    let found = judged(data, modes);
+    let suspect = match &found {
+        Err(refusal) => refusal.may_be_a_turned_phase(),
+        Ok(whole) => whole.may_be_a_turned_phase(),
+    };
+    let turned = if suspect { turned_round(data) } else { Vec::new() };
+    if turned.is_empty() { found } else { Err(EquivalentRefusal::TurnedRound { names: turned }) }
+}
+
+/// Of sound numbers.
+fn judged(data: &EquivalentData, modes: Option<usize>) -> Result<Equivalent, EquivalentRefusal> {
+    let points = data.outputs.len();
     let most = POLES_LEAST.max(2 * points + 2);
     let (omega, outputs) = (&data.omega_rad_s, &data.outputs);
-    let fit = fit_shared_poles_by_evidence(omega, outputs, most, Damping::Small)
+    let fit = fit_shared_poles_with_delays(omega, outputs, most)
         .map_err(|source| EquivalentRefusal::Fit { source, names: data.names.clone() })?;
     let spurious: Vec<Option<Spurious>> = (0..fit.poles.len()).map(|k| fit.spurious(k)).collect();
     let found: Vec<usize> = (0..spurious.len()).filter(|k| spurious[*k].is_none()).collect();
@@ -112,7 +126,7 @@ pub fn equivalent(
             EquivalentRefusal::Noise { poles: fit.poles.len() }
         });
     }
-    uneven(data, &fit, &spurious)?;
+    let imaginary = imaginary::parts(data, &fit, &spurious)?;
     let kept_modes: Vec<usize> =
         found.iter().copied().take(modes.unwrap_or(found.len()).max(1)).collect();
     let count = kept_modes.len();
@@ -145,10 +159,13 @@ pub fn equivalent(
         ) => (None, Some(error)),
         Err(error) => return Err(refused(error)),
     };
-    let strainless = match &arm {
+    let form = match &arm {
         Some(arm) => arm.strainless(),
         None => beam.strainless(&[]),
     };
+    // Turned slowly, points that are no angles would not turn with the motor: there is no form for use.
+    let given = beam.given();
+    let strainless = form.filter(|_| given <= NO_ANGLE);
     let mut whole = Equivalent {
         relative_residual: relative_residual(data, &fit),
         names: data.names.clone(),
@@ -161,11 +178,25 @@ pub fn equivalent(
         beam,
         arm,
         strainless,
+        imaginary,
         deviations: data.deviations,
         findings: Vec::new(),
     };
-    whole.findings = findings::findings(data, &whole, found.len(), no_torque);
+    whole.findings = findings::findings(data, &whole, found.len(), given, no_torque);
     Ok(whole)
+}
+
+impl Equivalent {
+    /// Whether what is odd about it may come of a phase's sign.
+    fn may_be_a_turned_phase(&self) -> bool {
+        let below = |k: usize| {
+            let ratio = self.fit.damping_ratio(k);
+            ratio.value < -2.0 * ratio.std
+        };
+        self.imaginary.iter().any(|part| part.delay_s.is_none())
+            || self.findings.iter().any(|f| f.code == "equivalent-misfit")
+            || (0..self.fit.poles.len()).any(below)
+    }
 }
 
 /// Σ|H − fit|²/|H|² over all responses, its mean's root.
@@ -190,43 +221,6 @@ fn is_noise(data: &EquivalentData, fit: &SharedPoles) -> bool {
     let nothing: f64 = data.outputs.iter().flatten().map(part).sum();
     let left = fit.weighted_rms.powi(2) * readings.saturating_sub(unknowns) as f64;
     information(readings, 0, nothing) <= information(readings, unknowns, left)
-}
-
-/// Refuses responses that no arm has: on the imaginary axis they are real but for damping.
-fn uneven(
-    data: &EquivalentData,
-    fit: &SharedPoles,
-    spurious: &[Option<Spurious>],
-) -> Result<(), EquivalentRefusal> {
-    // Poles more damped than any of a beam would explain a delay.
-    let beams = spurious.iter().filter(|s| **s != Some(Spurious::Damped)).count();
-    let refitted = (beams < spurious.len() && beams > 0)
-        .then(|| fit_shared_poles(&data.omega_rad_s, &data.outputs, beams, Damping::Small).ok());
-    let fit = refitted.flatten().unwrap_or_else(|| fit.clone());
-    let mut worst: Option<PartOutside> = None;
-    for (output, responses) in data.outputs.iter().enumerate() {
-        let left = |(w, r): (&f64, &Response)| (r.value - fit.response(output, *w), *r);
-        let left: Vec<_> = data.omega_rad_s.iter().zip(responses).map(left).collect();
-        let mut shares: Vec<f64> = left
-            .iter()
-            .map(|(d, r)| d.im.abs() / r.value.norm())
-            .filter(|s| s.is_finite())
-            .collect();
-        shares.sort_by(f64::total_cmp);
-        let share = shares.get(shares.len() / 2).copied().unwrap_or(0.0);
-        let rms = |part: fn(&num_complex::Complex64) -> f64| {
-            let squares = left.iter().map(|(d, r)| 2.0 * (part(d) / r.std).powi(2));
-            (squares.sum::<f64>() / left.len().max(1) as f64).sqrt()
-        };
-        let (imaginary, real) = (rms(|d| d.im), rms(|d| d.re));
-        let beyond = share > UNEVEN && imaginary > DEVIATIONS && imaginary > real;
-        if beyond && worst.as_ref().is_none_or(|w| w.share < share) {
-            let name = data.names.get(output).cloned().unwrap_or_default();
-            let deviations = (data.deviations != Deviations::FromResidual).then_some(imaginary);
-            worst = Some(PartOutside { name, share, deviations });
-        }
-    }
-    worst.map_or(Ok(()), |part| Err(EquivalentRefusal::Uneven(part)))
 }
 
 /// As many points as modes, those that span the most: one after the other the point whose gains are farthest

@@ -6,7 +6,7 @@ use num_complex::Complex64;
 use super::motor::Rows;
 use super::{Damping, MotorData, Pole, SharedPoles};
 
-/// J, V and c_k of `K/G = J·s² + V·s + Σ c_k(s² + 2ζ_kω_k·s)/(s² + 2ζ_kω_k·s + ω_k²)`.
+/// J, V and c_k, which have the shape of [`coupled`]: without damping within the beam, of `K/G = J·s² + V·s + Σ c_k(s² + 2ζ_kω_k·s)/(s² + 2ζ_kω_k·s + ω_k²)`.
 pub(crate) struct CouplingFit {
     /// J, V, then c_k of each pole.
     pub(crate) value: DVector<f64>,
@@ -33,7 +33,11 @@ pub(crate) fn fit_coupling(
     beyond: &[Pole],
 ) -> Option<CouplingFit> {
     let poles: Vec<Pole> = fit.poles.iter().chain(beyond).copied().collect();
-    let rows = Rows::new(data, &poles, 0.0)?;
+    let shape = |k: usize, w: f64| {
+        let within = if k < fit.poles.len() { fit.damping_within(k) } else { 0.0 };
+        coupled(&poles[k], within, w)
+    };
+    let rows = Rows::of_shapes(data, poles.len(), 0.0, shape)?;
     let (value, inverse) = rows.solved()?;
     let left = &rows.b - &rows.a * &value;
     let free = rows.b.len() - value.len();
@@ -62,6 +66,14 @@ pub(crate) fn fit_coupling(
     sound.then_some(CouplingFit { value, covariance, by_poles, weighted_rms })
 }
 
+/// Torque per angle and c_k of a mode, `(1 + 2ζ_w·s/ω)·(s² + 2(ζ − ζ_w)ω·s)/(s² + 2ζω·s + ω²)`: ζ_w of its damping
+/// is within the beam.
+pub(crate) fn coupled(pole: &Pole, within: f64, omega_rad_s: f64) -> Complex64 {
+    let w = pole.omega_rad_s;
+    let through = Complex64::new(1.0, 2.0 * within * omega_rad_s / w);
+    through * (1.0 - through * (w * w) / pole.denominator(omega_rad_s))
+}
+
 /// Column of pole k by ln ω_k, or by ζ_k.
 fn slope(
     data: &MotorData,
@@ -79,7 +91,7 @@ fn slope(
             _ => share * share * turned,
         }
     };
-    debug_assert!(unknown == 0 || fit.damping == Damping::Small);
+    debug_assert!(unknown == 0 || fit.damping != Damping::None);
     let each = data.omega_rad_s.iter().zip(weights);
     let parts = each.flat_map(|(&omega, weight)| {
         let z = at(omega) * *weight;

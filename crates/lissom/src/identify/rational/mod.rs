@@ -2,6 +2,7 @@
 
 mod beam;
 mod coupling;
+mod evidence;
 mod motor;
 mod products;
 mod refine;
@@ -10,12 +11,11 @@ mod shared_poles;
 mod weighted;
 
 pub use beam::{BeamFit, TipData, TipForm, fit_beam};
-pub(crate) use coupling::{CouplingFit, fit_coupling};
+pub(crate) use coupling::{CouplingFit, coupled, fit_coupling};
+pub use evidence::fit_shared_poles_by_evidence;
+pub(crate) use evidence::fit_shared_poles_with_delays;
 pub use motor::{MotorData, MotorFit, fit_motor};
-pub use shared_poles::{
-    Damping, SharedPoles, SharedPolesError, Spurious, fit_shared_poles,
-    fit_shared_poles_by_evidence,
-};
+pub use shared_poles::{Damping, SharedPoles, SharedPolesError, Spurious, fit_shared_poles};
 
 use num_complex::Complex64;
 

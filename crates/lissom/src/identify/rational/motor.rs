@@ -149,7 +149,17 @@ pub(super) struct Rows {
 impl Rows {
     /// Responses are trusted to the share `floor` of their size at best. `None` where there are too few.
     pub(super) fn new(data: &MotorData, poles: &[Pole], floor: f64) -> Option<Self> {
-        let (m, p) = (data.response.len(), 2 + poles.len());
+        Self::of_shapes(data, poles.len(), floor, |k, w| coupling_shape(&poles[k], w))
+    }
+
+    /// The same with the torque per angle and c_k of each of `count` poles as `shape` has it.
+    pub(super) fn of_shapes(
+        data: &MotorData,
+        count: usize,
+        floor: f64,
+        shape: impl Fn(usize, f64) -> Complex64,
+    ) -> Option<Self> {
+        let (m, p) = (data.response.len(), 2 + count);
         if 2 * m < p + 2 {
             return None;
         }
@@ -161,7 +171,7 @@ impl Rows {
             let relative = (r.std / r.value.norm()).hypot(floor);
             let weight = 1.0 / (inverse.norm() * relative);
             let s = Complex64::new(0.0, w);
-            let columns = [s * s, s].into_iter().chain(poles.iter().map(|p| coupling_shape(p, w)));
+            let columns = [s * s, s].into_iter().chain((0..count).map(|k| shape(k, w)));
             for (k, z) in columns.enumerate() {
                 (a[(2 * i, k)], a[(2 * i + 1, k)]) = (weight * z.re, weight * z.im);
             }

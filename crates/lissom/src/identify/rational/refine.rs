@@ -19,12 +19,19 @@ const SHARE: f64 = 1e-12;
 const HALVINGS: usize = 12;
 /// Largest change of a frequency's logarithm in one step.
 const LARGEST: f64 = 0.2;
+/// Most times that the responses are turned back by their delays.
+const TURNS: usize = 40;
+/// Delays are found where this much of a turn \[rad\] is left at the highest frequency…
+const STILL: f64 = 1e-9;
+/// …and they move by no more than this at a time.
+const FARTHEST: f64 = 0.5;
 
 /// Poles with the residues that are best at them.
 pub(super) struct Point {
     pub(super) poles: Vec<Pole>,
-    /// `ρ_ik = r_ik/ω_k²` of output i (outer) and pole k.
-    pub(super) static_gains: Vec<DVector<f64>>,
+    /// Of output i (outer): `ρ_ik = r_ik/ω_k²` of each pole k, then κ_ik of each where the residues have terms in
+    /// s, then the delay not yet taken out where one is looked for, in 1/ω of the highest frequency.
+    pub(super) own_figures: Vec<DVector<f64>>,
     /// Squares of the residuals, each part in its deviations.
     pub(super) cost: f64,
     /// By ln ω_k and, of damped poles, ζ_k, the gains eliminated.
@@ -37,6 +44,36 @@ pub(super) struct Point {
 struct Own {
     factor: Cholesky<f64, Dyn>,
     across: DMatrix<f64>,
+}
+
+/// The same with the delays of the outputs that look for one: what is left of each is taken out of the data
+/// until nothing is. `data` is turned back by them.
+pub(super) fn refined_with_delays(
+    data: &mut Weighted,
+    mut poles: Vec<Pole>,
+    damping: Damping,
+) -> Option<Point> {
+    let highest = data.range().1;
+    for _ in 0..TURNS {
+        let point = refined(data, poles, damping)?;
+        let each = data.outputs.iter().zip(&point.own_figures);
+        let late = each.map(|(output, own)| match output.delay_s {
+            Some(_) => own.iter().next_back().copied().unwrap_or(0.0),
+            None => 0.0,
+        });
+        let late: Vec<f64> = late.collect();
+        let most = late.iter().fold(0.0, |most: f64, l| most.max(l.abs()));
+        if most < STILL {
+            return Some(point);
+        }
+        let share = (FARTHEST / most).min(1.0);
+        for (output, late) in late.iter().enumerate() {
+            data.turn_back(output, share * late / highest);
+            data.outputs[output].model = point.weighted_model(data, output);
+        }
+        poles = point.poles;
+    }
+    None
 }
 
 /// Gauss-Newton on the poles, the gains being linear (variable projection), from `poles`. `None` where two
@@ -83,11 +120,11 @@ impl Point {
         let each: Vec<OneOutput> = data
             .outputs
             .par_iter()
-            .map(|output| OneOutput::new(data, output, &columns, count))
+            .map(|output| OneOutput::new(data, output, &columns, count, damping))
             .collect::<Option<_>>()?;
         let mut found = Self {
             poles,
-            static_gains: Vec::new(),
+            own_figures: Vec::new(),
             cost: 0.0,
             normal: DMatrix::zeros(unknowns, unknowns),
             right: DVector::zeros(unknowns),
@@ -97,7 +134,7 @@ impl Point {
             found.normal += one.normal;
             found.right += one.right;
             found.cost += one.cost;
-            found.static_gains.push(one.gains);
+            found.own_figures.push(one.figures);
             found.own.push(one.own);
         }
         (found.cost.is_finite()).then_some(found)
@@ -109,45 +146,75 @@ impl Point {
             omega_rad_s: pole.omega_rad_s * (share * step[unknowns * k]).exp(),
             damping_ratio: match damping {
                 Damping::None => 0.0,
-                Damping::Small => pole.damping_ratio + share * step[unknowns * k + 1],
+                Damping::Small | Damping::Within => {
+                    pole.damping_ratio + share * step[unknowns * k + 1]
+                }
             },
         };
         self.poles.iter().enumerate().map(moved).collect()
     }
 
-    /// Covariance of ln ω_k (and ζ_k), pole by pole, and then of the static gains, output by output,
-    /// where each response has the deviation it claims.
+    /// The model of one output without delay, as the data are weighted.
+    fn weighted_model(&self, data: &Weighted, output: usize) -> Vec<Complex64> {
+        let (figures, count) = (&self.own_figures[output], self.poles.len());
+        let delayed = usize::from(data.outputs[output].delay_s.is_some());
+        let in_s = figures.len() - delayed > count;
+        let at = |(omega, weight): (&f64, &f64)| {
+            let part = |(k, pole): (usize, &Pole)| {
+                let w = pole.omega_rad_s;
+                let term = if in_s { figures[count + k] * w * omega } else { 0.0 };
+                Complex64::new(figures[k] * w * w, term) / pole.denominator(*omega)
+            };
+            weight * self.poles.iter().enumerate().map(part).sum::<Complex64>()
+        };
+        data.omega.iter().zip(&data.outputs[output].weights).map(at).collect()
+    }
+
+    /// Where the figures of each output begin in the covariance, and its size.
+    pub(super) fn places(&self) -> (Vec<usize>, usize) {
+        let mut next = self.normal.nrows();
+        let mut begin = |figures: &DVector<f64>| {
+            next += figures.len();
+            next - figures.len()
+        };
+        let places = self.own_figures.iter().map(&mut begin).collect();
+        (places, next)
+    }
+
+    /// Covariance of ln ω_k (and ζ_k), pole by pole, and then of each output's own figures, where each response
+    /// has the deviation it claims.
     pub(super) fn covariance(&self) -> Option<DMatrix<f64>> {
-        let (poles, modes) = (self.normal.nrows(), self.poles.len());
+        let poles = self.normal.nrows();
         let of_poles = self.normal.clone().cholesky()?.inverse();
-        let size = poles + modes * self.own.len();
+        let (places, size) = self.places();
         let mut all = DMatrix::zeros(size, size);
         all.view_mut((0, 0), (poles, poles)).copy_from(&of_poles);
-        // ∂gains/∂poles of the best gains.
+        // ∂figures/∂poles of the best figures.
         let slopes: Vec<DMatrix<f64>> =
             self.own.iter().map(|own| -own.factor.solve(&own.across)).collect();
         for (i, slope) in slopes.iter().enumerate() {
-            let at = poles + i * modes;
+            let (at, own) = (places[i], slope.nrows());
             let with_poles = slope * &of_poles;
-            all.view_mut((at, 0), (modes, poles)).copy_from(&with_poles);
-            all.view_mut((0, at), (poles, modes)).copy_from(&with_poles.transpose());
+            all.view_mut((at, 0), (own, poles)).copy_from(&with_poles);
+            all.view_mut((0, at), (poles, own)).copy_from(&with_poles.transpose());
             for (j, other) in slopes.iter().enumerate() {
                 let mut block = &with_poles * other.transpose();
                 if i == j {
                     block += self.own[i].factor.inverse();
                 }
-                all.view_mut((at, poles + j * modes), (modes, modes)).copy_from(&block);
+                all.view_mut((at, places[j]), block.shape()).copy_from(&block);
             }
         }
         Some(all)
     }
 }
 
-/// `ψ_k = ω_k²/D_k` of all poles, then its slopes by ln ω_k and ζ_k pole by pole; real parts above
-/// imaginary ones.
+/// `ψ_k = ω_k²/D_k` of all poles, and `s/ω_k` times that where residues have terms in s; then their slopes by
+/// ln ω_k and ζ_k pole by pole, in the same order. Real parts stand above imaginary ones.
 fn columns(data: &Weighted, poles: &[Pole], damping: Damping) -> DMatrix<f64> {
     let (points, count, unknowns) = (data.omega.len(), poles.len(), damping.unknowns());
-    let mut columns = DMatrix::zeros(2 * points, count * (1 + unknowns));
+    let terms = damping.terms();
+    let mut columns = DMatrix::zeros(2 * points, terms * count * (1 + unknowns));
     for (k, pole) in poles.iter().enumerate() {
         let w = pole.omega_rad_s;
         let square = w * w;
@@ -158,26 +225,26 @@ fn columns(data: &Weighted, poles: &[Pole], damping: Damping) -> DMatrix<f64> {
                 * (2.0
                     - inverse * Complex64::new(2.0 * square, 2.0 * pole.damping_ratio * w * omega));
             let by_damping = -value * inverse * Complex64::new(0.0, 2.0 * w * omega);
-            let slopes = [by_log, by_damping];
-            let all = std::iter::once((k, value)).chain(
-                slopes
-                    .into_iter()
-                    .take(unknowns)
-                    .enumerate()
-                    .map(|(u, z)| (count + unknowns * k + u, z)),
-            );
-            for (column, z) in all {
-                columns[(i, column)] = z.re;
-                columns[(points + i, column)] = z.im;
+            let turn = Complex64::new(0.0, omega / w);
+            let plain = [value, by_log, by_damping];
+            let turned = [turn * value, turn * (by_log - value), turn * by_damping];
+            for (term, all) in [plain, turned].into_iter().take(terms).enumerate() {
+                let first = terms * count + unknowns * (term * count + k);
+                let places =
+                    std::iter::once(term * count + k).chain((0..unknowns).map(|u| first + u));
+                for (column, z) in places.zip(all) {
+                    columns[(i, column)] = z.re;
+                    columns[(points + i, column)] = z.im;
+                }
             }
         }
     }
     columns
 }
 
-/// What one output says of the poles, its gains at their best.
+/// What one output says of the poles, its own figures at their best.
 struct OneOutput {
-    gains: DVector<f64>,
+    figures: DVector<f64>,
     cost: f64,
     normal: DMatrix<f64>,
     right: DVector<f64>,
@@ -185,8 +252,14 @@ struct OneOutput {
 }
 
 impl OneOutput {
-    fn new(data: &Weighted, output: &Output, columns: &DMatrix<f64>, count: usize) -> Option<Self> {
-        let points = data.omega.len();
+    fn new(
+        data: &Weighted,
+        output: &Output,
+        columns: &DMatrix<f64>,
+        count: usize,
+        damping: Damping,
+    ) -> Option<Self> {
+        let (points, gains) = (data.omega.len(), damping.terms() * count);
         let mut rows = columns.clone();
         for mut column in rows.column_iter_mut() {
             let (re, im) = column.as_mut_slice().split_at_mut(points);
@@ -195,33 +268,39 @@ impl OneOutput {
                 *im *= weight;
             }
         }
-        let value = |i: usize| {
-            if i < points { output.weighted[i].re } else { output.weighted[i - points].im }
-        };
-        let measured = DVector::from_fn(2 * points, |i, _| value(i));
-        let basis = rows.columns(0, count);
-        let products = products(&rows);
-        let factor = products.view((0, 0), (count, count)).into_owned().cholesky()?;
-        let gains = factor.solve(&basis.tr_mul(&measured));
-        let left = measured - basis * &gains;
-        // Slopes are those of the columns times the gains.
-        let slopes = rows.columns_range(count..);
-        let unknowns = slopes.ncols();
-        let scale = DVector::from_fn(unknowns, |i, _| gains[i * count / unknowns]);
-        let mut across = products.view((0, count), (count, unknowns)).into_owned();
-        for (mut column, scale) in across.column_iter_mut().zip(&scale) {
-            column *= *scale;
+        let part = |i: usize, value: Complex64| if i < points { value.re } else { value.im };
+        let measured = DVector::from_fn(2 * points, |i, _| part(i, output.weighted[i % points]));
+        let mut basis = rows.columns(0, gains).into_owned();
+        if output.delay_s.is_some() {
+            // e^(s·δ)·d = Σ of the poles: to first order d less −s·δ times the model.
+            let highest = data.range().1;
+            let late = |i: usize| {
+                let turn = Complex64::new(0.0, -data.omega[i % points] / highest);
+                part(i, turn * output.model[i % points])
+            };
+            basis = basis.insert_column(gains, 0.0);
+            basis.set_column(gains, &DVector::from_fn(2 * points, |i, _| late(i)));
         }
-        let normal = DMatrix::from_fn(unknowns, unknowns, |i, j| {
-            products[(count + i, count + j)] * scale[i] * scale[j]
-        });
+        let factor = products(&basis).cholesky()?;
+        let figures = factor.solve(&basis.tr_mul(&measured));
+        let left = measured - &basis * &figures;
+        let (own, unknowns) = (basis.ncols(), count * damping.unknowns());
+        // The basis, then the slopes by the poles.
+        let mut all = basis.resize_horizontally(own + unknowns, 0.0);
+        for (column, slope) in rows.columns_range(gains..).column_iter().enumerate() {
+            let to = own + column % unknowns;
+            all.column_mut(to).axpy(figures[column / damping.unknowns()], &slope, 1.0);
+        }
+        let products = products(&all);
+        let across = products.view((0, own), (own, unknowns)).into_owned();
+        let normal = products.view((own, own), (unknowns, unknowns));
         let eliminated = factor.l().solve_lower_triangular(&across)?;
         Some(Self {
             cost: left.norm_squared(),
             normal: normal - eliminated.tr_mul(&eliminated),
             // Left is across the basis: nothing of it is eliminated.
-            right: slopes.tr_mul(&left).component_mul(&scale),
-            gains,
+            right: all.columns_range(own..).tr_mul(&left),
+            figures,
             own: Own { factor, across },
         })
     }

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use num_complex::Complex64;
 use thiserror::Error;
 
-use super::refine::{Point, refined};
+use super::refine::{Point, refined, refined_with_delays};
 use super::relocate::relocated;
 use super::weighted::Weighted;
 use super::{Pole, information, trial_frequencies};
@@ -17,8 +17,6 @@ const RELOCATIONS: usize = 12;
 const NEAR: f64 = 0.02;
 /// Residuals in the responses' deviations from which on vector fitting may have come to the wrong poles.
 const POOR: f64 = 1.5;
-/// Another pair of poles is looked for until so many in a row say less than they cost.
-const IN_VAIN: usize = 2;
 /// A pole more damped than this is none of a beam.
 const MOST_DAMPING: f64 = 0.25;
 /// A pole is there when one of its gains is this many deviations from zero.
@@ -31,6 +29,8 @@ pub enum Damping {
     None,
     /// A ratio of each pole's own.
     Small,
+    /// The same, and a term in s in each residue: damping within the beam, or of a shape of its own.
+    Within,
 }
 
 impl Damping {
@@ -38,7 +38,15 @@ impl Damping {
     pub(crate) fn unknowns(self) -> usize {
         match self {
             Self::None => 1,
-            Self::Small => 2,
+            Self::Small | Self::Within => 2,
+        }
+    }
+
+    /// Figures of a residue.
+    pub(crate) fn terms(self) -> usize {
+        match self {
+            Self::None | Self::Small => 1,
+            Self::Within => 2,
         }
     }
 }
@@ -112,13 +120,19 @@ pub enum Spurious {
 
 /// Poles that all outputs share, and their residues.
 ///
-/// `H_i(s) = Σ_k ρ_ik·ω_k²/(s² + 2ζ_kω_k·s + ω_k²)`: relative degree two at least, ρ_ik real.
+/// `H_i(s) = e^(−s·τ_i)·Σ_k (ρ_ik·ω_k² + κ_ik·ω_k·s)/(s² + 2ζ_kω_k·s + ω_k²)`, ρ_ik and κ_ik real: κ_ik is zero but
+/// with [`Damping::Within`], and has `2ζ_kρ_ik` where all damping of a mode is within the beam; τ_i is zero
+/// but where a delay was looked for.
 #[derive(Debug, Clone)]
 pub struct SharedPoles {
     /// Poles, ascending.
     pub poles: Vec<Pole>,
     /// `ρ_ik`, output i (outer) and pole k, in the response's unit: their sum is the response at rest.
     pub static_gains: Vec<Vec<f64>>,
+    /// `κ_ik` of output i (outer) and pole k, with [`Damping::Within`]; zero otherwise.
+    pub in_s: Vec<Vec<Estimate>>,
+    /// τ_i of each output, where delays were looked for \[s\].
+    pub delays_s: Vec<Option<Estimate>>,
     /// Covariance of ln ω_k (and ζ_k where damped), pole by pole, then of ρ_ik, output by output: from the
     /// responses' deviations, stretched where more is left.
     pub covariance: DMatrix<f64>,
@@ -130,7 +144,7 @@ pub struct SharedPoles {
     /// The data's frequencies \[rad/s\]: the lowest and the highest.
     pub range_rad_s: (f64, f64),
     /// Bayesian information criterion.
-    criterion: f64,
+    pub(super) criterion: f64,
 }
 
 /// Fits `modes` pairs of poles to the responses of outputs (outer) at `omega_rad_s`, each weighted by its
@@ -167,51 +181,42 @@ pub fn fit_shared_poles(
     modes: usize,
     damping: Damping,
 ) -> Result<SharedPoles, SharedPolesError> {
-    fit(&Weighted::new(omega_rad_s, outputs)?, modes, damping)
+    fit(&Weighted::new(omega_rad_s, outputs)?, modes, damping, Search::Thorough)
 }
 
-/// The same with as many pairs of poles, up to `most`, as the Bayesian information criterion asks for. None
-/// is added to a model that is as good as its data.
-///
-/// # Errors
-/// As [`fit_shared_poles`], of one pair of poles.
-pub fn fit_shared_poles_by_evidence(
-    omega_rad_s: &[f64],
-    outputs: &[Vec<Response>],
-    most: usize,
+/// How poles are looked for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Search {
+    /// All at once and, where much is left, also one after another.
+    Thorough,
+    /// One after another only where all at once comes to nothing.
+    Quick,
+}
+
+pub(super) fn fit(
+    data: &Weighted,
+    modes: usize,
     damping: Damping,
+    search: Search,
 ) -> Result<SharedPoles, SharedPolesError> {
-    let data = Weighted::new(omega_rad_s, outputs)?;
-    let mut best = fit(&data, 1, damping)?;
-    let mut in_vain = 0;
-    for modes in 2..=most {
-        if best.weighted_rms <= 1.0 || in_vain == IN_VAIN {
-            break;
-        }
-        match fit(&data, modes, damping) {
-            Ok(found) if found.criterion < best.criterion => (best, in_vain) = (found, 0),
-            _ => in_vain += 1,
-        }
-    }
-    Ok(best)
-}
-
-fn fit(data: &Weighted, modes: usize, damping: Damping) -> Result<SharedPoles, SharedPolesError> {
     if modes == 0 {
         return Err(SharedPolesError::NoPoles);
     }
-    let unknowns = modes * (damping.unknowns() + data.outputs.len());
+    let of_poles = damping.unknowns() + data.outputs.len() * damping.terms();
+    let unknowns = modes * of_poles + data.delays();
     let readings = data.readings();
     // Each pole takes two frequencies to be seen at: its height and its width.
     if unknowns >= readings || 2 * modes > data.omega.len() {
         return Err(SharedPolesError::TooFew { unknowns, readings });
     }
-    let found = |point: Option<Point>| SharedPoles::of(data, point?, unknowns, damping);
+    let found = |at: Option<(Weighted, Point)>| {
+        at.and_then(|(data, point)| SharedPoles::of(&data, point, unknowns, damping))
+    };
     // Vector fitting has two unknowns of each pole in every output, and two of each in σ.
     let together = 4 * modes < 2 * data.omega.len();
     let together = together.then(|| found(relocated_and_refined(data, modes, damping))).flatten();
     if let Some(fit) = &together
-        && fit.weighted_rms < POOR
+        && (fit.weighted_rms < POOR || search == Search::Quick)
     {
         return together.ok_or(SharedPolesError::NotFound { modes });
     }
@@ -221,30 +226,48 @@ fn fit(data: &Weighted, modes: usize, damping: Damping) -> Result<SharedPoles, S
     best.ok_or(SharedPolesError::NotFound { modes })
 }
 
+/// The best near `poles`, and the data turned back by its delays.
+fn best_near(data: &Weighted, poles: Vec<Pole>, damping: Damping) -> Option<(Weighted, Point)> {
+    let mut data = data.clone();
+    let point = if data.delays() > 0 {
+        refined_with_delays(&mut data, poles, damping)?
+    } else {
+        refined(&data, poles, damping)?
+    };
+    Some((data, point))
+}
+
 /// From poles spread over the data.
-fn relocated_and_refined(data: &Weighted, modes: usize, damping: Damping) -> Option<Point> {
+fn relocated_and_refined(
+    data: &Weighted,
+    modes: usize,
+    damping: Damping,
+) -> Option<(Weighted, Point)> {
     let (low, high) = data.range();
     let start = |k: usize| Pole {
         omega_rad_s: low * (high / low).powf((k as f64 + 0.5) / modes as f64),
         damping_ratio: START_DAMPING,
     };
-    refined(data, settled(data, (0..modes).map(start).collect())?, damping)
+    best_near(data, settled(data, (0..modes).map(start).collect())?, damping)
 }
 
 /// One pole after another, each from the best of many frequencies: slower, and for data that hold too
 /// little for a relocation, or where one has come to nothing.
-fn one_after_another(data: &Weighted, modes: usize, damping: Damping) -> Option<Point> {
+fn one_after_another(data: &Weighted, modes: usize, damping: Damping) -> Option<(Weighted, Point)> {
     let trials = trial_frequencies(&data.omega);
-    let mut best: Option<Point> = None;
+    let mut best: Option<(Weighted, Point)> = None;
     for _ in 0..modes {
-        let before = best.map_or_else(Vec::new, |point| point.poles);
+        let (data, before) = match best {
+            Some((data, point)) => (data, point.poles),
+            None => (data.clone(), Vec::new()),
+        };
         let with = |omega_rad_s: f64| {
             let more = Pole { omega_rad_s, damping_ratio: START_DAMPING };
-            Point::new(data, before.iter().copied().chain([more]).collect(), damping)
+            Point::new(&data, before.iter().copied().chain([more]).collect(), damping)
         };
         let found = trials.iter().filter_map(|w| with(*w));
         let start = found.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
-        best = refined(data, start.poles, damping);
+        best = best_near(&data, start.poles, damping);
     }
     best
 }
@@ -265,14 +288,34 @@ fn settled(data: &Weighted, mut poles: Vec<Pole>) -> Option<Vec<Pole>> {
 
 impl SharedPoles {
     fn of(data: &Weighted, point: Point, unknowns: usize, damping: Damping) -> Option<Self> {
-        let readings = data.readings();
+        let (readings, modes) = (data.readings(), point.poles.len());
         let weighted_rms = (point.cost / (readings - unknowns) as f64).sqrt();
         let covariance = point.covariance()? * weighted_rms.max(1.0).powi(2);
-        let gains = point.static_gains.iter().map(|g| g.iter().copied().collect()).collect();
+        let std = |at: usize| covariance[(at, at)].max(0.0).sqrt();
+        let (places, _) = point.places();
+        let (mut gains, mut in_s, mut delays_s) = (Vec::new(), Vec::new(), Vec::new());
+        for ((figures, first), output) in point.own_figures.iter().zip(&places).zip(&data.outputs) {
+            gains.push(figures.iter().take(modes).copied().collect());
+            let term = |k: usize| match damping {
+                Damping::Within => {
+                    Estimate { value: figures[modes + k], std: std(first + modes + k) }
+                }
+                Damping::None | Damping::Small => Estimate { value: 0.0, std: 0.0 },
+            };
+            in_s.push((0..modes).map(term).collect());
+            let last = first + figures.len() - 1;
+            let late = |value: f64| Estimate { value, std: std(last) / data.range().1 };
+            delays_s.push(output.delay_s.map(late));
+        }
+        let poles = 0..modes * damping.unknowns();
+        let at: Vec<usize> =
+            poles.chain(places.iter().flat_map(|first| *first..first + modes)).collect();
         Some(Self {
             poles: point.poles,
             static_gains: gains,
-            covariance,
+            in_s,
+            delays_s,
+            covariance: covariance.select_rows(&at).select_columns(&at),
             weighted_rms,
             damping,
             range_rad_s: data.range(),
@@ -295,7 +338,7 @@ impl SharedPoles {
     pub fn damping_ratio(&self, k: usize) -> Estimate {
         let std = match self.damping {
             Damping::None => 0.0,
-            Damping::Small => self.deviation(k * self.damping.unknowns() + 1),
+            Damping::Small | Damping::Within => self.deviation(k * self.damping.unknowns() + 1),
         };
         Estimate { value: self.poles[k].damping_ratio, std }
     }
@@ -324,6 +367,11 @@ impl SharedPoles {
         Some(Self {
             poles: poles.iter().map(|&k| self.poles[k]).collect(),
             static_gains: outputs.iter().map(gains).collect(),
+            in_s: outputs
+                .iter()
+                .map(|i| poles.iter().map(|&k| self.in_s[*i][k]).collect())
+                .collect(),
+            delays_s: outputs.iter().map(|&i| self.delays_s[i]).collect(),
             covariance: self.covariance.select_rows(&at).select_columns(&at),
             ..self.clone()
         })
@@ -351,9 +399,25 @@ impl SharedPoles {
 
     /// Response of output `i` at a frequency.
     pub fn response(&self, i: usize, omega_rad_s: f64) -> Complex64 {
-        let part = |(pole, gain): (&Pole, &f64)| {
-            gain * pole.omega_rad_s * pole.omega_rad_s / pole.denominator(omega_rad_s)
+        let late_s = self.delays_s[i].map_or(0.0, |late| late.value);
+        Complex64::from_polar(1.0, -omega_rad_s * late_s)
+            * self.with_terms(i, omega_rad_s, |k| self.in_s[i][k].value)
+    }
+
+    /// The same without delay, and with of κ_ik only what damping of a beam can make it: of ρ_ik's sign and no
+    /// larger than `2ζ_kρ_ik`.
+    pub(crate) fn damped_response(&self, i: usize, omega_rad_s: f64) -> Complex64 {
+        self.with_terms(i, omega_rad_s, |k| {
+            let most = 2.0 * self.poles[k].damping_ratio.max(0.0) * self.static_gains[i][k];
+            self.in_s[i][k].value.clamp(most.min(0.0), most.max(0.0))
+        })
+    }
+
+    fn with_terms(&self, i: usize, omega: f64, in_s: impl Fn(usize) -> f64) -> Complex64 {
+        let part = |(k, (pole, gain)): (usize, (&Pole, &f64))| {
+            let w = pole.omega_rad_s;
+            Complex64::new(gain * w * w, in_s(k) * w * omega) / pole.denominator(omega)
         };
-        self.poles.iter().zip(&self.static_gains[i]).map(part).sum()
+        self.poles.iter().zip(&self.static_gains[i]).enumerate().map(part).sum()
     }
 }

@@ -9,13 +9,19 @@ use super::shared_poles::SharedPolesError;
 use crate::identify::Response;
 
 /// Responses of outputs to one input, on one grid of frequencies.
+#[derive(Clone)]
 pub(super) struct Weighted {
     pub(super) omega: Vec<f64>,
     pub(super) outputs: Vec<Output>,
 }
 
 /// One output.
+#[derive(Clone)]
 pub(super) struct Output {
+    /// By which it was turned back, where a delay of it is looked for.
+    pub(super) delay_s: Option<f64>,
+    /// The last model of it, weighted: what a delay turns. The data themselves at first.
+    pub(super) model: Vec<Complex64>,
     /// √2/σ.
     pub(super) weights: Vec<f64>,
     /// Response times that.
@@ -47,12 +53,40 @@ impl Weighted {
                 return Err(SharedPolesError::Response { output, index });
             }
             Ok(Output {
+                delay_s: None,
+                model: Vec::new(),
                 weights: responses.iter().map(|r| SQRT_2 / r.std).collect(),
                 weighted: responses.iter().map(|r| r.value * (SQRT_2 / r.std)).collect(),
             })
         };
         let outputs = outputs.iter().enumerate().map(output).collect::<Result<_, _>>()?;
         Ok(Self { omega: omega.to_vec(), outputs })
+    }
+
+    /// The same with a delay to be looked for in each output.
+    pub(super) fn with_delays(&self) -> Self {
+        let mut data = self.clone();
+        for output in &mut data.outputs {
+            output.delay_s = Some(0.0);
+            output.model.clone_from(&output.weighted);
+        }
+        data
+    }
+
+    /// Turns an output back by `late_s` more.
+    pub(super) fn turn_back(&mut self, output: usize, late_s: f64) {
+        let output = &mut self.outputs[output];
+        if let Some(delay_s) = &mut output.delay_s {
+            *delay_s += late_s;
+            for (value, omega) in output.weighted.iter_mut().zip(&self.omega) {
+                *value *= Complex64::from_polar(1.0, omega * late_s);
+            }
+        }
+    }
+
+    /// Figures that an output has beside the poles' gains.
+    pub(super) fn delays(&self) -> usize {
+        self.outputs.iter().filter(|o| o.delay_s.is_some()).count()
     }
 
     /// The lowest and the highest frequency.

@@ -1,0 +1,105 @@
+//! Imaginary parts that no damping explains: on the imaginary axis an arm's responses are real but for it.
+
+use num_complex::Complex64;
+
+use super::refusal::{EquivalentRefusal, PartOutside};
+use super::whole::{Deviations, EquivalentData};
+use crate::identify::Response;
+use crate::identify::rational::{Damping, SharedPoles, Spurious, fit_shared_poles};
+
+/// From this share of a response (its median) on they are none of an arm's…
+const UNEVEN: f64 = 0.1;
+/// …where they are this many deviations, rms: so many are told of, too.
+const DEVIATIONS: f64 = 3.0;
+/// A phase that is the same at all frequencies is told of from so many of its deviations on…
+const PHASE: f64 = 5.0;
+/// …and from this angle on \[rad\].
+const LEAST_PHASE: f64 = 1e-3;
+/// Without deviations, imaginary parts are none of noise that are so many times as large as the real ones.
+const UNLIKE: f64 = 2.0;
+
+/// Of each output that has one: what its imaginary part has beside damping.
+///
+/// # Errors
+/// [`EquivalentRefusal::Uneven`] where it is a tenth of the response or more.
+pub(super) fn parts(
+    data: &EquivalentData,
+    fit: &SharedPoles,
+    spurious: &[Option<Spurious>],
+) -> Result<Vec<PartOutside>, EquivalentRefusal> {
+    // Poles more damped than any of a beam would explain a delay.
+    let beams = spurious.iter().filter(|s| **s != Some(Spurious::Damped)).count();
+    let damping = if fit.damping == Damping::Within { Damping::Within } else { Damping::Small };
+    let refitted = (beams < spurious.len() && beams > 0)
+        .then(|| fit_shared_poles(&data.omega_rad_s, &data.outputs, beams, damping).ok());
+    let model = refitted.flatten();
+    let model = model.as_ref().unwrap_or(fit);
+    // What the deviations are, where they are not known.
+    let spread = match data.deviations {
+        Deviations::FromResidual => fit.weighted_rms,
+        Deviations::Measured | Deviations::Floored => 1.0,
+    };
+    let (mut told, mut worst): (Vec<PartOutside>, Option<PartOutside>) = (Vec::new(), None);
+    for (output, responses) in data.outputs.iter().enumerate() {
+        let left = |(w, r): (&f64, &Response)| Left {
+            by: r.value - model.damped_response(output, *w),
+            value: r.value,
+            std: r.std * spread,
+        };
+        let left: Vec<Left> = data.omega_rad_s.iter().zip(responses).map(left).collect();
+        let (imaginary, real) = (rms(&left, |d| d.im), rms(&left, |d| d.re));
+        let unlike = data.deviations == Deviations::FromResidual && imaginary > UNLIKE * real;
+        let clear = imaginary > real && (imaginary > DEVIATIONS || unlike);
+        let late = fit.delays_s.get(output).copied().flatten();
+        let late = late.filter(|late| late.value.abs() > DEVIATIONS * late.std);
+        if !(clear || late.is_some() || turned(&left)) {
+            continue;
+        }
+        let part = PartOutside {
+            name: data.names.get(output).cloned().unwrap_or_default(),
+            share: share(&left),
+            deviations: (data.deviations != Deviations::FromResidual).then_some(imaginary),
+            delay_s: late,
+        };
+        let larger = worst.as_ref().is_none_or(|w| w.share < part.share);
+        if clear && part.share > UNEVEN && larger {
+            worst = Some(part.clone());
+        }
+        told.push(part);
+    }
+    worst.map_or(Ok(told), |part| Err(EquivalentRefusal::Uneven(part)))
+}
+
+/// What damping leaves of a response.
+struct Left {
+    by: Complex64,
+    value: Complex64,
+    std: f64,
+}
+
+/// Root mean square of one part, in its deviations.
+fn rms(left: &[Left], part: fn(&Complex64) -> f64) -> f64 {
+    let squares = left.iter().map(|l| 2.0 * (part(&l.by) / l.std).powi(2));
+    (squares.sum::<f64>() / left.len().max(1) as f64).sqrt()
+}
+
+/// The imaginary part's share of a response, median.
+fn share(left: &[Left]) -> f64 {
+    let shares = left.iter().map(|l| l.by.im.abs() / l.value.norm());
+    let mut shares: Vec<f64> = shares.filter(|s| s.is_finite()).collect();
+    shares.sort_by(f64::total_cmp);
+    shares.get(shares.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// Whether what is left is a turn by the same angle everywhere, φ = ΣIm(d·H*)/σ² : Σ|H|²/σ².
+fn turned(left: &[Left]) -> bool {
+    let (mut across, mut size, mut spread) = (0.0, 0.0, 0.0);
+    for l in left {
+        let weight = l.std.powi(-2);
+        let turn = (l.by * l.value.conj()).im;
+        across += weight * turn;
+        spread += (weight * turn).powi(2);
+        size += weight * l.value.norm_sqr();
+    }
+    across.abs() > PHASE * spread.sqrt() && across.abs() > LEAST_PHASE * size
+}
