@@ -193,6 +193,11 @@ fn stages(found: &OutputError, campaign: &Campaign) -> String {
             e.value, e.share
         );
     }
+    for parameter in &found.parameters {
+        if let Some(e) = found.estimate(*parameter) {
+            let _ = writeln!(text, "free {}: {:.6e} ± {:.1e}", parameter.name(), e.value, e.std);
+        }
+    }
     let truth = ModalArm::of_arm(&campaign.definition.rig.arm);
     let truth = truth.as_ref().map_or_else(String::new, arm_line);
     let _ = writeln!(

@@ -1,5 +1,4 @@
 //! A beam by its modes.
-#![expect(clippy::float_cmp, reason = "these numbers are exact")]
 
 use std::path::Path;
 
