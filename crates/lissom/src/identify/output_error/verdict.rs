@@ -2,10 +2,13 @@
 
 use super::attempts::is_left;
 use super::{OutputError, StageReport};
-use crate::identify::Identified;
 use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::{Estimate, Identified};
 use crate::record::Campaign;
 use crate::replay::Parameter;
+
+/// Deviations below zero from which on a damper is none.
+const DRIVES: f64 = 5.0;
 
 /// The output error's figures, where its arm describes the runs.
 pub(crate) fn verdict(campaign: &Campaign, id: &mut Identified) {
@@ -18,6 +21,8 @@ pub(crate) fn verdict(campaign: &Campaign, id: &mut Identified) {
         id.findings.extend(modes_missing(campaign, oe));
         id.findings.extend(modes_by_the_motor(campaign, oe));
         id.findings.extend(more_than_noise(campaign, oe));
+        let figures = oe.parameters.iter().filter_map(|p| Some((*p, oe.estimate(*p)?)));
+        id.findings.extend(driving_damper(figures));
     }
     id.findings.extend(departs);
 }
@@ -67,6 +72,31 @@ fn more_than_noise(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
             100.0 * share
         ),
         "the intervals do not count it: add runs near the highest mode, and look at lissom validate",
+    ))
+}
+
+/// A damper that is less than none: what dampers of one kind take too much, one of another kind gives back, and
+/// viscous friction and damping ratios are moved by what is left.
+fn driving_damper(figures: impl Iterator<Item = (Parameter, Estimate)>) -> Option<Finding> {
+    let damps = |p: Parameter| {
+        use Parameter::{DampingAtPoint, DampingGrounded, DampingWithin};
+        matches!(p, DampingWithin(_) | DampingGrounded(_) | DampingAtPoint(_))
+    };
+    let drives = figures.filter(|(p, e)| damps(*p) && e.value < -DRIVES * e.std);
+    let (damper, found) =
+        drives.min_by(|(_, a), (_, b)| (a.value / a.std).total_cmp(&(b.value / b.std)))?;
+    Some(Finding::new(
+        "damper-drives",
+        Severity::Warning,
+        &[key::VISCOUS, key::MODES],
+        format!(
+            "{} comes out at {:.3e} ± {:.1e} 1/s: a damper takes energy, and gives none. Viscous friction \
+             and damping ratios make up for it",
+            damper.name(),
+            found.value,
+            found.std
+        ),
+        "add runs near the modes, where damping shows most",
     ))
 }
 
@@ -127,4 +157,23 @@ fn added(oe: &OutputError) -> Vec<Finding> {
         ));
     }
     findings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_damper_that_drives_is_said() {
+        let figure = |value: f64, std: f64| Estimate { value, std };
+        let sound = [
+            (Parameter::Offset, figure(-3.0, 0.1)),
+            (Parameter::DampingWithin(0), figure(-0.04, 0.01)),
+            (Parameter::DampingAtPoint(1), figure(0.2, 0.01)),
+        ];
+        assert!(driving_damper(sound.into_iter()).is_none());
+        let drives = [(Parameter::DampingAtPoint(2), figure(-0.011, 0.0003))];
+        let said = driving_damper(sound.into_iter().chain(drives)).unwrap();
+        assert!(said.message.contains("damping-at-point-3"), "{}", said.message);
+    }
 }
