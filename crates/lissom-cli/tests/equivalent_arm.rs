@@ -67,6 +67,48 @@ fn table() -> String {
     text
 }
 
+/// The same table with the elbow's acceleration and the tip's velocity per angle.
+fn rates() -> String {
+    let text = table();
+    let mut lines = text.lines();
+    let head = lines.next().unwrap();
+    let head = head.replace("elbow_re", "elbow_re [1/s^2]").replace("elbow_im", "elbow_im [1/s^2]");
+    let mut rates = head.replace("tip_re", "tip_re [1/s]").replace("tip_im", "tip_im [1/s]") + "\n";
+    for line in lines {
+        let cells: Vec<f64> = line.split(',').map(|c| c.parse().unwrap()).collect();
+        let s = Complex64::new(0.0, cells[0]);
+        let elbow = s * s * Complex64::new(cells[1], cells[2]);
+        let tip = s * Complex64::new(cells[3], cells[4]);
+        let cells = [cells[0], elbow.re, elbow.im, tip.re, tip.im, cells[5], cells[6]];
+        let cells: Vec<String> = cells.iter().map(|c| format!("{c:?}")).collect();
+        rates += &(cells.join(",") + "\n");
+    }
+    rates
+}
+
+#[test]
+fn velocities_and_accelerations_have_zeros_at_the_origin() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("angles.csv"), table()).unwrap();
+    std::fs::write(at.join("rates.csv"), rates()).unwrap();
+    let found = |file: &str| json(at, &["equivalent", file, "--json"]);
+    let (of_angles, of_rates) = (found("angles.csv"), found("rates.csv"));
+    for pointer in [
+        "/equivalent/modes/1/natural_frequency_rad_s/value",
+        "/equivalent/modes/0/static_gains/1/value",
+    ] {
+        let value = |v: &Value| v.pointer(pointer).unwrap().as_f64().unwrap();
+        assert!((value(&of_rates) / value(&of_angles) - 1.0).abs() < 1e-9, "{pointer}");
+    }
+    std::fs::write(at.join("jerk.csv"), rates().replace("[1/s^2]", "[1/s^3]")).unwrap();
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("lissom"));
+    let output = command.current_dir(at).args(["equivalent", "jerk.csv"]).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("an angle, velocity or acceleration per angle"), "{said}");
+}
+
 #[test]
 fn a_saved_arm_is_modelled_simulated_and_identified() {
     let folder = tempfile::tempdir().unwrap();

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use lissom::identify::{Deviations, EquivalentData, Estimate, Identified, MotorData, Response};
+use lissom::identify::{
+    Deviations, EquivalentData, Estimate, Identified, MotorData, Response, without_origin,
+};
 use lissom::record::{Axis, CommandQuantity};
 use lissom_io::units::{Dimension, parse_any_unit, parse_quantity};
 use lissom_io::{MeasuredResponse, UnitNames, read_campaign, read_responses};
@@ -84,10 +86,14 @@ impl Input {
             response: with_deviations(motor),
             torque_per_command: constant.unwrap_or(1.0),
         });
+        let angles = |point: &MeasuredResponse| {
+            let zeros = point.zeros_at_origin().unwrap_or(0);
+            without_origin(&read.omega_rad_s, &with_deviations(point), zeros)
+        };
         let data = EquivalentData {
             names: read.points.iter().map(|p| p.name.clone()).collect(),
             omega_rad_s: read.omega_rad_s.clone(),
-            outputs: read.points.iter().map(with_deviations).collect(),
+            outputs: read.points.iter().map(angles).collect(),
             motor,
             deviations: if deviations_known {
                 Deviations::Measured

@@ -180,7 +180,8 @@ impl Task<'_> {
         self.step("modes");
         model.modes = Some(beam.modes(usize::MAX));
         model.notes.push(
-            "the beam is known by its modes: it has no lengths and masses, and points go by number;              shapes are in angles"
+            "the beam is known by its modes: it has no lengths and masses, and points go by number; \
+             shapes are in angles"
                 .to_owned(),
         );
         let beam = beam.clone().into();

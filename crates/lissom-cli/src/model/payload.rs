@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use indicatif::ProgressBar;
-use lissom::beam::{Base, RootClass, Zeros, class, zero_shift};
+use lissom::beam::{Base, BeamError, RootClass, Zeros, class, zero_shift};
 use lissom_io::ArmError;
 use lissom_io::model::PayloadCase;
 use num_complex::Complex64;
@@ -21,6 +21,10 @@ pub(super) fn study(
     count: usize,
     bar: &ProgressBar,
 ) -> Result<Vec<PayloadCase>, Failure> {
+    if let Beam::Modal(_) = beam {
+        let (file, source) = (path.to_owned(), BeamError::NoTip);
+        return Err(lissom_io::Error::from(ArmError::Beam { file, source }).into());
+    }
     let own = beam.load_kg();
     if own == 0.0 && loads.iter().any(|load| matches!(load, Load::Times(_))) {
         return Err(Failure::Model {

@@ -80,12 +80,15 @@ impl ArmError {
                 Some("add `mass_per_length`, or `density` and `section`, to [beam]".to_owned())
             }
             Self::Modal { .. } => Some("give `spans` in place of `modes` in [beam]".to_owned()),
+            Self::Beam { source: BeamError::ModesAndPoints { .. }, .. } => {
+                Some("give every mode one gain for each point, and as many modes as points".to_owned())
+            }
             Self::Beam { source: BeamError::GainsSum { .. }, .. } => Some(
                 "give what a point's gains lack of one to the highest mode: it stands for those left out"
                     .to_owned(),
             ),
             Self::Beam { source: BeamError::NoTip, .. } => {
-                Some("describe the beam by its spans, or leave out [tip]".to_owned())
+                Some("describe the beam by its spans, or leave the load away".to_owned())
             }
             Self::Beam { source: BeamError::TooManyMasses { .. }, .. } => {
                 Some("use fewer spans".to_owned())

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use lissom::arm::Arm;
+use lissom::beam::BeamError;
 use lissom::drive::{Coulomb, DriveError, DryFriction, LuGre};
 use lissom::rig::{
     Amplifier, ControlLaw, Delay, Harmonic, Instruments, IntegerPd, JointFriction, Noise, Pd, Pid,
@@ -76,6 +77,9 @@ impl ArmFile {
             None => JointFriction::Arm,
         };
         let Some(tip) = &self.tip else { return Ok(Scene { friction, ..Scene::default() }) };
+        if arm.beam().lumped().is_none() {
+            return Err(beam_failed(BeamError::NoTip));
+        }
         let mut later = Vec::with_capacity(tip.payloads.len());
         for (at_s, payload) in &tip.payloads {
             let beam = arm.beam().clone().with_payload(*payload).map_err(beam_failed)?;

@@ -35,6 +35,16 @@ pub struct MeasuredResponse {
     pub dimension: Option<Dimension>,
 }
 
+impl MeasuredResponse {
+    /// Zeros at the origin that it has beside an angle's response, by its unit: a velocity per angle (1/s) one,
+    /// an acceleration (1/s²) two. `None` of any other unit.
+    pub fn zeros_at_origin(&self) -> Option<i32> {
+        let per = |s: i32| Dimension::new(0, 0, -s, 0);
+        let dimension = self.dimension.unwrap_or(Dimension::NUMBER);
+        (0..=2).find(|zeros| dimension == per(*zeros))
+    }
+}
+
 /// Responses on one grid of frequencies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrequencyResponses {
@@ -79,8 +89,12 @@ pub fn read_responses<P: AsRef<Path>>(files: &[P]) -> Result<FrequencyResponses,
     let (motor, points): (Vec<_>, Vec<_>) =
         table.responses.into_iter().partition(|r| r.name.eq_ignore_ascii_case(MOTOR));
     let number = |r: &MeasuredResponse| r.dimension.is_none_or(|d| d == Dimension::NUMBER);
-    if let Some(point) = points.iter().find(|r| !number(r)) {
-        return Err(kind(&file, point, "a point's response is a plain number"));
+    if let Some(point) = points.iter().find(|r| r.zeros_at_origin().is_none()) {
+        return Err(kind(
+            &file,
+            point,
+            "a point's is an angle, velocity or acceleration per angle",
+        ));
     }
     let per =
         [Dimension::CURRENT, Dimension::VOLTAGE].map(|d| Dimension::new(-d.kg, -d.m, -d.s, -d.a));

@@ -186,7 +186,7 @@ pub enum BeamError {
     NoModes,
     /// A beam by its modes needs as many points as modes.
     #[error(
-        "mode {mode} has gains for {points} points, and there are {modes} modes: each needs as many gains"
+        "gains of mode {mode}: {points}, where {modes} are needed, one for each of as many points as modes"
     )]
     ModesAndPoints {
         /// Number of the mode, from 1.

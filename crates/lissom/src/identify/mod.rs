@@ -53,7 +53,7 @@ pub use output_error::{
 pub use payload::LoadedArm;
 pub use rational::{
     BeamFit, Damping, MotorData, MotorFit, Pole, SharedPoles, SharedPolesError, Spurious, TipData,
-    TipForm, fit_beam, fit_motor, fit_shared_poles, fit_shared_poles_by_evidence,
+    TipForm, fit_beam, fit_motor, fit_shared_poles, fit_shared_poles_by_evidence, without_origin,
 };
 pub use regression::{
     BeamRegression, ByDirection, Candidate, MissingKind, MissingTerm, MotorRegression,

@@ -67,3 +67,11 @@ fn wrong_modes_are_named() {
     assert!(matches!(&error, ArmError::Beam { source: BeamError::GainsSum { point: 1, .. }, .. }));
     assert!(error.hint().unwrap().contains("highest mode"));
 }
+
+#[test]
+fn nothing_hangs_at_its_tip() {
+    let rig = "[rig]\nsample_time = 0.001\nmotor_sensor = { bits = 12, range = 6.3 }\n";
+    let text = format!("{}{rig}[tip]\nviscous = 0.003\n", beam(TWO));
+    let error = read(&text).unwrap().rig(Path::new("arm.toml")).unwrap_err();
+    assert!(matches!(error, ArmError::Beam { source: BeamError::NoTip, .. }), "{error}");
+}

@@ -4,6 +4,7 @@ mod beam;
 mod coupling;
 mod evidence;
 mod motor;
+mod origin;
 mod products;
 mod refine;
 mod relocate;
@@ -15,6 +16,7 @@ pub(crate) use coupling::{CouplingFit, coupled, fit_coupling};
 pub use evidence::fit_shared_poles_by_evidence;
 pub(crate) use evidence::fit_shared_poles_with_delays;
 pub use motor::{MotorData, MotorFit, fit_motor};
+pub use origin::without_origin;
 pub use shared_poles::{Damping, SharedPoles, SharedPolesError, Spurious, fit_shared_poles};
 
 use num_complex::Complex64;
