@@ -98,7 +98,10 @@ fn errors_name_file_row_and_column() {
     one("f_hz,re,im,std\n1,2,3,0\n", "row 2, column std: 0 must be greater than zero");
     one("f_hz,re,im\n2,2,3\n1,2,3\n", "row 3, column f_hz: 1 follows 2");
     one("f_hz,motor_re,motor_im\n1,2,3\n", "there is the motor's response and none of a point");
-    one("f_hz,tip_re [rad/A],tip_im [rad/A]\n1,2,3\n", "a point's response is a plain number");
+    one(
+        "f_hz,tip_re [rad/A],tip_im [rad/A]\n1,2,3\n",
+        "a point's is an angle, velocity or acceleration per angle",
+    );
     let b = ("b.csv", "f_hz,re,im\n1,2,3\n2,2,3\n");
     fails(&[b, ("c.csv", "f_hz,re,im\n1,2,3\n")], "all responses must share their frequencies");
     fails(
