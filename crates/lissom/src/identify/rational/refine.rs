@@ -2,7 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use num_complex::Complex64;
-use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use super::Pole;
 use super::products::products;
@@ -120,6 +120,7 @@ impl Point {
         let each: Vec<OneOutput> = data
             .outputs
             .par_iter()
+            .with_min_len(data.at_a_time(columns.ncols()))
             .map(|output| OneOutput::new(data, output, &columns, count, damping))
             .collect::<Option<_>>()?;
         let mut found = Self {

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
-use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use super::Pole;
 use super::products::products;
@@ -33,6 +33,7 @@ pub(super) fn relocated(data: &Weighted, poles: &[Pole]) -> Option<Vec<Pole>> {
     let mut normal = data
         .outputs
         .par_iter()
+        .with_min_len(data.at_a_time(2 * unknowns))
         .map(|output| without_numerator(data, &basis, output))
         .try_reduce(|| DMatrix::zeros(unknowns, unknowns), |a, b| Some(a + b))?;
     let points = data.omega.len() as f64;

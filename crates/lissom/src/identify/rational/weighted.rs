@@ -8,6 +8,9 @@ use num_complex::Complex64;
 use super::shared_poles::SharedPolesError;
 use crate::identify::Response;
 
+/// Points times columns from which on an output is worth a thread (`benches/rational`).
+const WORTH_A_THREAD: usize = 16_000;
+
 /// Responses of outputs to one input, on one grid of frequencies.
 #[derive(Clone)]
 pub(super) struct Weighted {
@@ -93,6 +96,12 @@ impl Weighted {
     pub(super) fn range(&self) -> (f64, f64) {
         let low = self.omega.iter().copied().fold(f64::INFINITY, f64::min);
         (low, self.omega.iter().copied().fold(0.0, f64::max))
+    }
+
+    /// Outputs that one thread takes at a time, each a matrix of so many `columns`: waking another costs more than
+    /// small ones do.
+    pub(super) fn at_a_time(&self, columns: usize) -> usize {
+        if self.omega.len() * columns < WORTH_A_THREAD { self.outputs.len() } else { 1 }
     }
 
     /// Real numbers in all responses.
