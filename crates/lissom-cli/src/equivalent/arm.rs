@@ -28,9 +28,9 @@ pub(super) fn text(
         let hint = "the rig is driven by a current in A: give its --torque-constant \"... N*m/A\"";
         return Err(failed("its torques are not known per current".into(), hint));
     }
-    let wrong_point = found.findings.iter().find(|f| f.code == "equivalent-no-angle");
-    if let Some(finding) = wrong_point {
-        return Err(failed(finding.message.clone(), "give that point's response as an angle"));
+    if found.strainless.is_none() {
+        let hint = "give each point's response as an angle";
+        return Err(failed("a point does not turn with the motor".into(), hint));
     }
     let hint = "keep fewer modes with --modes, or measure longer where this one resonates";
     let beam = arm.modal_beam().map_err(|e| failed(e.to_string(), hint))?;

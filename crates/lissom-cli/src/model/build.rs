@@ -168,11 +168,7 @@ impl Task<'_> {
         }
         self.step("matrices");
         model.matrices = Some(beam.matrices().map_err(|e| self.failed(e))?);
-        let beam = beam.clone().into();
-        self.state_space(&beam, model)?;
-        self.step("transfer functions");
-        self.functions(&beam, model);
-        Ok(())
+        self.linear(&beam.clone().into(), model)
     }
 
     /// Modes are what is known; there are no matrices of dimensions.
@@ -184,14 +180,11 @@ impl Task<'_> {
              shapes are in angles"
                 .to_owned(),
         );
-        let beam = beam.clone().into();
-        self.state_space(&beam, model)?;
-        self.step("transfer functions");
-        self.functions(&beam, model);
-        Ok(())
+        self.linear(&beam.clone().into(), model)
     }
 
-    fn state_space(&self, beam: &ArmBeam, model: &mut Model) -> Result<(), Failure> {
+    /// State space and transfer functions.
+    fn linear(&self, beam: &ArmBeam, model: &mut Model) -> Result<(), Failure> {
         if let Some((motor, coulomb)) = self.drive {
             let arm = Arm::new(beam.clone(), motor, coulomb).map_err(|e| self.failed(e))?;
             let space = arm.state_space();
@@ -205,6 +198,8 @@ impl Task<'_> {
             }
             model.state_space = Some(space);
         }
+        self.step("transfer functions");
+        self.functions(beam, model);
         Ok(())
     }
 

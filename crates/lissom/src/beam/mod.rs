@@ -50,6 +50,6 @@ pub use response::BeamResponse;
 pub use roots::{RootClass, class};
 pub use shape::DeflectedShape;
 pub use span::{BeamError, Damping, Payload, Span};
-pub use transfer::{angle_per_current, current_to_angle, motor_function};
+pub use transfer::{angle_per_current, motor_function};
 pub use truncated::TruncatedBeam;
 pub use zeros::Zeros;

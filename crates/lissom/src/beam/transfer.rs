@@ -98,12 +98,6 @@ pub(super) fn driven(zeros: Roots, poles: Roots, motor: &Motor) -> ZeroPoleGain 
     }
 }
 
-/// θ_i/i \[rad/A\] of mass `mass`, from 0 at the base; `None` where there is no such mass.
-pub fn current_to_angle(beam: &LumpedBeam, motor: &Motor, mass: usize) -> Option<ZeroPoleGain> {
-    let angle = beam.angle_function(mass)?;
-    Some(angle_per_current(&angle, &motor_function(beam, motor), motor))
-}
-
 /// θ_i/i \[rad/A\] from θ_i/θ_m and θ_m/i of the same arm: the zeros of θ_m/i are the poles of
 /// θ_i/θ_m and cancel.
 pub fn angle_per_current(

@@ -36,15 +36,15 @@ pub(super) fn prune(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) -
     let mut changed = false;
     while fit.body.arm.modes.len() > 1 {
         let Some(mode) = doubtful(fitting, fit) else { break };
+        let before = fitting.cost(fit, &fit.noise);
         let without = refitted(fitting, less(fit, mode), report);
-        if leaves_no_more(fitting, &without, fit) {
+        if fitting.cost(&without, &fit.noise) <= before * (1.0 + SHARE) {
             *fit = without;
             changed = true;
             continue;
         }
         // It stands for something: for a mode beyond the others, perhaps.
         let beyond = with_one_more(fitting, &without, report);
-        let before = fitting.cost(fit, &fit.noise);
         if fitting.cost(&beyond, &fit.noise) > before * (1.0 - SHARE) {
             break;
         }

@@ -7,7 +7,7 @@ use nalgebra::{Const, DMatrix, Dyn, MatrixView};
 const ONE_BY_ONE: usize = 5;
 
 /// `Aᵀ·A`. By the blocked product that uses what the processor has; `tr_mul` takes one dot product after
-/// another, which costs several times as much (`benches/rational`).
+/// another, and is slower (`benches/rational` has the times of whole fits).
 pub(super) fn products(a: &DMatrix<f64>) -> DMatrix<f64> {
     let (rows, columns) = a.shape();
     if rows.min(columns) <= ONE_BY_ONE {
