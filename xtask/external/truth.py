@@ -135,7 +135,7 @@ def write(path, folder):
         Path(folder, f"run-{k:02}.csv").write_text(text + "\n")
         angles, rates = np.split(start, 2)
         start = [angles[0], rates[0], *angles[1:], *rates[1:]]
-        facts.append({"start": start, "stuck_share": stuck, "limited": int((abs(currents) >= given["limit_a"]).sum())})
+        facts.append({"start": start, "stuck_share": stuck})
     Path(folder, "campaign.toml").write_text(campaign_toml(given, arm.masses, given["runs"]))
     Path(folder, "facts.json").write_text(json.dumps(facts))
     return given, arm

@@ -107,7 +107,9 @@ fn motor(names: UnitNames, id: &Identified, reference: Option<&Reference>) -> Bo
     }
     let grid = grid(id);
     if let Some(model) = &id.motor_model {
-        plot = plot.series(line("fitted model", Role::Fitted, &grid, &model.transfer_function));
+        let response = grid.iter().map(|w| model.response(*w)).collect();
+        let fitted = Series::new("fitted model", Role::Fitted, Style::Line, grid.clone(), response);
+        plot = plot.series(fitted);
     }
     if let Some((label, arm)) = reference.and_then(|r| Some((r.label, r.arm.as_ref()?))) {
         let exact: Vec<(f64, Complex64)> =

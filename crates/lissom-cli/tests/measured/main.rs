@@ -7,6 +7,7 @@ mod common;
 mod cu;
 mod emps;
 mod krauss;
+mod krauss_loop;
 mod quanser;
 
 /// The folders that these tests read.

@@ -357,6 +357,7 @@ fn models(channels: &Channels, id: &Identified) -> Value {
     });
     json!({
         "motor": id.motor_model.as_ref().map(|m| transfer_function(&m.transfer_function)),
+        "motor_delay_s": figure(id.motor_model.as_ref().and_then(|m| m.delay_s)),
         "tips": tips,
         "state_space": id.state_space.as_ref().map(crate::model::state_space),
     })

@@ -18,6 +18,8 @@ use crate::spectrum::{Band, broadband, hold_factor, noise_power};
 const COHERENCE: f64 = 0.3;
 /// Least power of the input in a band, relative to the strongest.
 const POWER: f64 = 1e-3;
+/// A run is short beside the longest below this share of its time.
+const SHORT: f64 = 0.25;
 /// Relative difference from the regression's model at which a band is flagged.
 const CONTRADICTED: f64 = 0.1;
 /// Relative deviation from which on a band is flagged.
@@ -29,6 +31,17 @@ pub(crate) fn general(runs: &[RunAnalysis]) -> Vec<usize> {
     (0..runs.len()).filter(general).collect()
 }
 
+/// Without the runs that are much shorter than the longest: every band would be as wide as these resolve, and
+/// sharp modes were lost. They stay where most of the time is theirs.
+fn long_enough(campaign: &Campaign, runs: Vec<usize>) -> Vec<usize> {
+    let duration_s = |&i: &usize| campaign.runs[i].len() as f64 * campaign.runs[i].sample_time_s();
+    let longest_s = runs.iter().map(duration_s).fold(0.0, f64::max);
+    let long: Vec<usize> =
+        runs.iter().copied().filter(|i| duration_s(i) >= SHORT * longest_s).collect();
+    let total_s = |runs: &[usize]| runs.iter().map(duration_s).sum::<f64>();
+    if total_s(&long) >= 0.5 * total_s(&runs) { long } else { runs }
+}
+
 /// Bands of all such runs. Friction is taken out by the replay where it describes the runs, else in
 /// time, as `coulomb_command` against the smoothed velocity.
 pub(crate) fn bands(
@@ -37,7 +50,7 @@ pub(crate) fn bands(
     coulomb_command: Option<Estimate>,
     replayed: Option<&ReplayedBands<'_>>,
 ) -> Vec<ResponsePoint> {
-    let records = Records { campaign, runs: general(runs) };
+    let records = Records { campaign, runs: long_enough(campaign, general(runs)) };
     if records.runs.is_empty() {
         return Vec::new();
     }

@@ -1,8 +1,10 @@
 //! The models that figures or responses make.
 
 use super::Response;
-use super::rational::{BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_beam, fit_motor};
-use super::regression::{BeamRegression, MotorRegression};
+use super::rational::{
+    AtOnce, BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_at_once, fit_beam, fit_motor,
+};
+use super::regression::{BeamRegression, MotorRegression, coupled_tips};
 use super::response_table::{ResponsePoint, tip_model};
 use crate::record::{Campaign, Tip};
 
@@ -39,6 +41,27 @@ pub(super) fn figures_model(
 
 /// The beam's modes from its tips' responses to the motor.
 pub(super) fn beam_model(campaign: &Campaign, responses: &[ResponsePoint]) -> Option<BeamFit> {
+    let (omega, data) = tip_data(campaign, responses)?;
+    fit_beam(&omega, &data)
+}
+
+/// Beam and motor by poles that both show, where no tip gives an angle: slip phases then do not tell the
+/// motor's inertia from the beam's, and each response alone knows less.
+pub(super) fn beam_and_motor(
+    campaign: &Campaign,
+    responses: &[ResponsePoint],
+    constant: f64,
+    beam: Option<&BeamFit>,
+) -> Option<AtOnce> {
+    if !coupled_tips(campaign).is_empty() {
+        return None;
+    }
+    let (omega, data) = tip_data(campaign, responses)?;
+    fit_at_once(&omega, &data, beam?, &motor_data(responses, constant))
+}
+
+/// Frequencies at which all tips' responses are known, and these.
+fn tip_data(campaign: &Campaign, responses: &[ResponsePoint]) -> Option<(Vec<f64>, Vec<TipData>)> {
     let tips = &campaign.channels.tips;
     if tips.is_empty() {
         return None;
@@ -58,7 +81,7 @@ pub(super) fn beam_model(campaign: &Campaign, responses: &[ResponsePoint]) -> Op
             Some(TipData { form, response: modelled.into_iter().map(|m| m.1).collect() })
         })
         .collect::<Option<_>>()?;
-    fit_beam(&omega, &data)
+    Some((omega, data))
 }
 
 /// Motor and coupling from its corrected responses, the beam's modes where they are known.

@@ -36,7 +36,14 @@ pub(crate) fn conclude(campaign: &Campaign, used: &Campaign, id: &mut Identified
             id.third_harmonic.as_ref().map(|t| t.coulomb_command.scaled(constant));
     }
     let replayed = id.output_error.as_ref().is_some_and(OutputError::stands);
-    if id.regression.is_none()
+    // Slip phases do not tell the motor's inertia from that of a beam whose angle no tip gives.
+    let coupled = id.motor_model.as_ref().is_some_and(|m| {
+        regression::coupled_tips(campaign).is_empty()
+            && !m.coupling.is_empty()
+            && m.poles_given
+            && m.weighted_rms < MODEL_MISFIT
+    });
+    if (id.regression.is_none() || coupled)
         && !replayed
         && let Some(motor) = &id.motor_model
     {
@@ -44,6 +51,7 @@ pub(crate) fn conclude(campaign: &Campaign, used: &Campaign, id: &mut Identified
         id.inertia = Some(motor.inertia);
         id.friction.viscous =
             Some(Estimate { value: motor.viscous.value - back_emf, std: motor.viscous.std });
+        id.findings.extend(motor.delay_s.map(output_error::command_lag));
     }
     let alone = alone(id);
     if alone {
@@ -391,6 +399,21 @@ fn methods(id: &mut Identified, constant: f64) {
 }
 
 fn tips(campaign: &Campaign, id: &mut Identified) {
+    let replayed = id.output_error.as_ref().is_some_and(OutputError::stands);
+    // Slip phases then turn the beam with the motor.
+    let rigid = !replayed
+        && id.inertia.is_some()
+        && regression::coupled_tips(campaign).is_empty()
+        && id.motor_model.as_ref().map(|m| m.inertia) != id.inertia;
+    let (severity, affects, and): (_, &[_], _) = if rigid {
+        (
+            Warning,
+            &[key::COUPLING, key::INERTIA],
+            "; the inertia is about that of motor and beam together",
+        )
+    } else {
+        (Severity::Info, &[key::COUPLING], "")
+    };
     for tip in &campaign.channels.tips {
         let why = match (tip.quantity, tip.calibrated) {
             (TipQuantity::Acceleration, _) => "an acceleration",
@@ -399,9 +422,12 @@ fn tips(campaign: &Campaign, id: &mut Identified) {
         };
         id.findings.push(Finding::new(
             "tip-without-angle",
-            Severity::Info,
-            &[key::COUPLING],
-            format!("tip {} is {why}: it gives modes, but no coupling by regression", tip.name),
+            severity,
+            affects,
+            format!(
+                "tip {} is {why}: it gives modes, but no coupling by regression{and}",
+                tip.name
+            ),
             "measure the tip's angle or deflection for the coupling",
         ));
     }

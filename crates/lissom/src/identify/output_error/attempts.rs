@@ -2,6 +2,7 @@
 //! runs.
 
 use super::OutputErrorStart;
+use super::data::Masks;
 use super::figures::stands;
 use super::left_over::left_over;
 use super::stages::{Fit, Fitting, Report, SLOWER};
@@ -21,6 +22,8 @@ const LEFT: f64 = 0.003;
 pub(super) struct Attempt {
     pub(super) fit: Fit,
     pub(super) report: Report,
+    /// The samples that count where some only repeat a step of their sensor.
+    pub(super) without_repeats: Option<Vec<Masks>>,
     /// Share of each channel's squared residual, motor first, that is slower than what its sensor adds.
     pub(super) left: Vec<f64>,
 }
@@ -117,9 +120,9 @@ fn attempt(fitting: &Fitting<'_>, arm: &ModalArm, first_window_s: Option<f64>) -
         settle(fitting, &mut fit, &mut report);
         report.refused = evidence::promises(fitting, &fit).concat();
     }
-    fitting.count_steps(&mut fit, &mut report);
+    let without_repeats = fitting.count_steps(&mut fit, &mut report);
     let left = left_over(fitting.campaign, &fit, fitting.masks);
-    Some(Attempt { fit, report, left })
+    Some(Attempt { fit, report, without_repeats, left })
 }
 
 /// Which kinds of dampers there are, and whether the beam is one of point masses.

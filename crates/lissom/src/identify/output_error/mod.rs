@@ -36,7 +36,7 @@ pub use search::{Iteration, Stop};
 use stages::Fitting;
 pub use stages::StageReport;
 pub use start::{starts, starts_by_motor, starts_by_responses};
-pub(crate) use verdict::verdict;
+pub(crate) use verdict::{command_lag, verdict};
 
 /// Differences for the slopes of figures are taken over this many deviations.
 const HALF: f64 = 0.5;
@@ -142,8 +142,9 @@ pub struct OutputErrorStart {
 /// follow the log; then ever longer ones, until they are whole runs or the residual grows because the
 /// arm does not describe what happens. Parameters beyond the simplest law (lag, viscous friction by
 /// direction, the other kind of damping, friction near rest, ripple) are added where the residual calls for them. At the end the
-/// sensors' steps are counted as what they are, and readings that only repeat a step once. Where more than the sensors' noise is left then, it is
-/// done again more slowly, from other frequencies of the highest mode, too.
+/// sensors' steps are counted as what they are, and readings that only repeat a step once. Where more
+/// than the sensors' noise is left then, it is done again more slowly, from other frequencies of the
+/// highest mode, too.
 ///
 /// `None` where no window can be cut or nothing is left of the search.
 pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<OutputError> {
@@ -160,12 +161,9 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         widening: stages::WIDENING,
         tries_laws: true,
     };
-    let attempts::Attempt { mut fit, mut report, left } = attempts::best(&fitting, start)?;
-    let without_repeats = repeats::without_repeats(campaign, &fit, &masks);
+    let attempts::Attempt { fit, mut report, without_repeats, left } =
+        attempts::best(&fitting, start)?;
     let fitting = Fitting { masks: without_repeats.as_deref().unwrap_or(&masks), ..fitting };
-    if without_repeats.is_some() {
-        fitting.count_steps(&mut fit, &mut report);
-    }
     let beyond_noise = fitting.beyond_noise(&fit);
     let sums = fitting.point(&fit, &fit.free).sums;
     let noise = fit.noise.iter().map(|n| SensorNoise::gaussian(n.deviation())).collect();

@@ -9,6 +9,7 @@ use super::evidence::{self, Extension};
 use super::figures::BEYOND;
 use super::modes;
 use super::noise;
+use super::repeats::without_repeats;
 use super::search::{Iteration, Point, Problem, Stop, is_possible};
 use super::windows::{cut, widen};
 use crate::identify::LawTerm;
@@ -334,12 +335,18 @@ impl Fitting<'_> {
     }
 
     /// The sensors' steps as what they are. They count once the fit is near: within one there is
-    /// nothing that would lead there.
-    pub(super) fn count_steps(&self, fit: &mut Fit, report: &mut Report) {
+    /// nothing that would lead there. Gives the samples that count where some only repeat a step.
+    pub(super) fn count_steps(&self, fit: &mut Fit, report: &mut Report) -> Option<Vec<Masks>> {
         let steps = noise::steps(self.campaign);
         let left = noise::residuals(self.campaign, fit, self.masks);
         fit.noise = left.iter().zip(&steps).map(|(e, q)| noise::most_likely(e, *q)).collect();
-        self.steps(fit, report, STEPS_ON_THE_WAY);
+        let Some(masks) = without_repeats(self.campaign, fit, self.masks) else {
+            self.steps(fit, report, STEPS_ON_THE_WAY);
+            return None;
+        };
+        // Without noise there is no cost lower than another but by the edges of steps: a longer way.
+        Fitting { masks: &masks, ..*self }.steps(fit, report, MOST_STEPS);
+        Some(masks)
     }
 }
 

@@ -135,8 +135,8 @@ fn flexible(
 ) -> Option<ModalArm> {
     let channels = &campaign.channels.tips;
     let count = response.poles.len();
-    let sound = response.inertia.value > 0.0 && response.coupling.iter().all(|c| c.value > 0.0);
-    if count == 0 || count > MOST_MODES || !sound {
+    let total: f64 = response.coupling.iter().map(|c| c.value.max(0.0)).sum();
+    if count == 0 || count > MOST_MODES || total.is_nan() || total <= 0.0 {
         return None;
     }
     let shapes = if channels.is_empty() {
@@ -152,9 +152,11 @@ fn flexible(
         shapes
     };
     let modes = response.poles.iter().zip(&response.coupling);
-    let modes = modes.map(|(pole, coupling)| oscillator(pole, coupling.value));
+    let least = LEAST_SHARE * total;
+    let modes = modes.map(|(pole, coupling)| oscillator(pole, coupling.value.max(least)));
+    let inertia = Some(response.inertia.value).filter(|j| *j > 0.0);
     Some(ModalArm {
-        inertia_kg_m2: response.inertia.value,
+        inertia_kg_m2: inertia.unwrap_or(rigid.inertia_kg_m2),
         viscous_nm_s_per_rad: [response.viscous.value.max(0.0); 2],
         modes: modes.collect(),
         at_points_per_s: if count == shapes.len() { vec![0.0; count] } else { Vec::new() },

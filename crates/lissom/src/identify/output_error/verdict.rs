@@ -17,7 +17,7 @@ pub(crate) fn verdict(campaign: &Campaign, id: &mut Identified) {
     if oe.stands() {
         id.friction = oe.friction(campaign.channels.command.back_emf_viscous);
         id.inertia = oe.inertia();
-        id.findings.extend(added(oe));
+        id.findings.extend(oe.estimate(Parameter::CommandLag).map(command_lag));
         id.findings.extend(modes_missing(campaign, oe));
         id.findings.extend(modes_by_the_motor(campaign, oe));
         id.findings.extend(more_than_noise(campaign, oe));
@@ -140,23 +140,19 @@ fn modes_missing(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
     })
 }
 
-/// What the output error added to the simplest law.
-fn added(oe: &OutputError) -> Vec<Finding> {
-    let mut findings = Vec::new();
-    if let Some(lag) = oe.estimate(Parameter::CommandLag) {
-        findings.push(Finding::new(
-            "command-lag",
-            Severity::Info,
-            &[key::INERTIA, key::VISCOUS, key::RAW],
-            format!(
-                "the command acts {:.3} ms (± {:.3}) later than it is logged: counted in all figures",
-                1e3 * lag.value,
-                1e3 * lag.std
-            ),
-            "an amplifier's delay, or channels that are not sampled together",
-        ));
-    }
-    findings
+/// A command that acts later than it is logged.
+pub(crate) fn command_lag(lag: Estimate) -> Finding {
+    Finding::new(
+        "command-lag",
+        Severity::Info,
+        &[key::INERTIA, key::VISCOUS, key::RAW],
+        format!(
+            "the command acts {:.3} ms (± {:.3}) later than it is logged: counted in all figures",
+            1e3 * lag.value,
+            1e3 * lag.std
+        ),
+        "an amplifier's delay, or channels that are not sampled together",
+    )
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use num_complex::Complex64;
 
 use super::{Pole, common_denominator, information, others, trial_frequencies};
 use crate::identify::{Estimate, ModeEstimate, Response};
-use crate::lti::{TransferFunction, add};
+use crate::lti::{TransferFunction, add, multiply};
 
 /// Most modes looked for.
 const MOST_MODES: usize = 4;
@@ -132,7 +132,7 @@ pub fn fit_beam(omega_rad_s: &[f64], tips: &[TipData]) -> Option<BeamFit> {
     best.and_then(|(_, solved)| finish(&data, tips, &solved))
 }
 
-struct Data {
+pub(super) struct Data {
     omega: Vec<f64>,
     forms: Vec<TipForm>,
     /// By tip: response and weight 1/σ at each frequency.
@@ -140,7 +140,7 @@ struct Data {
 }
 
 impl Data {
-    fn new(omega: &[f64], tips: &[TipData]) -> Option<Self> {
+    pub(super) fn new(omega: &[f64], tips: &[TipData]) -> Option<Self> {
         let points = tips
             .iter()
             .map(|t| {
@@ -156,6 +156,11 @@ impl Data {
         Some(Self { omega: omega.to_vec(), forms: tips.iter().map(|t| t.form).collect(), points })
     }
 
+    /// How many tips.
+    pub(super) fn len(&self) -> usize {
+        self.forms.len()
+    }
+
     fn shape(&self, tip: usize, omega: f64) -> f64 {
         match self.forms[tip] {
             TipForm::Angle => 1.0,
@@ -163,8 +168,12 @@ impl Data {
         }
     }
 
-    /// Weighted linear least squares for the residues of one tip, and its cost.
-    fn residues_of(&self, tip: usize, poles: &[Pole]) -> Option<(DVector<f64>, f64)> {
+    /// Weighted linear least squares for the residues of one tip, and what it leaves.
+    pub(super) fn residues_of(
+        &self,
+        tip: usize,
+        poles: &[Pole],
+    ) -> Option<(DVector<f64>, DVector<f64>)> {
         let m = self.omega.len();
         let mut a = DMatrix::zeros(2 * m, poles.len());
         let mut b = DVector::zeros(2 * m);
@@ -176,8 +185,8 @@ impl Data {
             (b[2 * row], b[2 * row + 1]) = (weight * value.re, weight * value.im);
         }
         let solution = a.clone().svd(true, true).solve(&b, 1e-12).ok()?;
-        let cost = (b - a * &solution).norm_squared();
-        Some((solution, cost))
+        let left = b - a * &solution;
+        Some((solution, left))
     }
 
     fn residues(&self, poles: &[Pole]) -> Option<Vec<DVector<f64>>> {
@@ -188,7 +197,8 @@ impl Data {
     fn best_start(&self, poles: &[Pole]) -> Option<Pole> {
         let cost = |candidate: Pole| -> Option<f64> {
             let all: Vec<Pole> = poles.iter().copied().chain([candidate]).collect();
-            (0..self.forms.len()).map(|i| Some(self.residues_of(i, &all)?.1)).sum()
+            let each = (0..self.forms.len()).map(|i| self.residues_of(i, &all));
+            each.map(|found| Some(found?.1.norm_squared())).sum()
         };
         trial_frequencies(&self.omega)
             .into_iter()
@@ -375,19 +385,7 @@ fn finish(data: &Data, tips: &[TipData], solved: &Problem) -> Option<BeamFit> {
                 .collect()
         })
         .collect();
-    let transfer_functions = residues
-        .iter()
-        .zip(tips)
-        .map(|(row, tip)| {
-            let mut num = row.iter().enumerate().fold(Vec::new(), |sum, (k, r)| {
-                add(&sum, &crate::lti::multiply(&[r.value], &others(&poles, k)))
-            });
-            if tip.form == TipForm::SecondDerivative {
-                num.extend([0.0, 0.0]);
-            }
-            TransferFunction { num, den: common_denominator(&poles) }
-        })
-        .collect();
+    let transfer_functions = functions(&poles, &residues, tips);
     let (mut left, mut power) = (0.0, 0.0);
     solved.rows(|row, _, _, value, weight| {
         left += (residuals[row].powi(2) + residuals[row + 1].powi(2)) / (weight * weight);
@@ -402,6 +400,25 @@ fn finish(data: &Data, tips: &[TipData], solved: &Problem) -> Option<BeamFit> {
         weighted_rms,
         relative_residual: (left / power).sqrt(),
     })
+}
+
+/// θ_i/θ_m, or the second derivative's, of each tip.
+pub(super) fn functions(
+    poles: &[Pole],
+    residues: &[Vec<Estimate>],
+    tips: &[TipData],
+) -> Vec<TransferFunction> {
+    let of_tip = |(row, tip): (&Vec<Estimate>, &TipData)| {
+        let mut num = row
+            .iter()
+            .enumerate()
+            .fold(Vec::new(), |sum, (k, r)| add(&sum, &multiply(&[r.value], &others(poles, k))));
+        if tip.form == TipForm::SecondDerivative {
+            num.extend([0.0, 0.0]);
+        }
+        TransferFunction { num, den: common_denominator(poles) }
+    };
+    residues.iter().zip(tips).map(of_tip).collect()
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Rational models fitted to responses: beam as (36), motor as (35), any number of modes.
 
+mod at_once;
 mod beam;
 mod coupling;
 mod evidence;
@@ -11,6 +12,7 @@ mod relocate;
 mod shared_poles;
 mod weighted;
 
+pub(crate) use at_once::{AtOnce, fit_at_once};
 pub use beam::{BeamFit, TipData, TipForm, fit_beam};
 pub(crate) use coupling::{CouplingFit, coupled, fit_coupling};
 pub use evidence::fit_shared_poles_by_evidence;

@@ -38,8 +38,10 @@ pub struct MotorFit {
     pub poles: Vec<Pole>,
     /// Whether the poles were given.
     pub poles_given: bool,
-    /// θ_m per command as (35), monic.
+    /// θ_m per command as (35), monic; without the delay.
     pub transfer_function: TransferFunction,
+    /// By how much the command acts later than it is said to \[s\], where that was looked for and is there.
+    pub delay_s: Option<Estimate>,
     /// Root mean square of the weighted residuals; zero for a model made of other figures.
     pub weighted_rms: f64,
 }
@@ -71,7 +73,7 @@ pub fn fit_motor(data: &MotorData, poles: Option<&[Pole]>) -> Option<MotorFit> {
     let rigid = solve(data, &[])?;
     let n = 2 * data.response.len();
     let flexible = scan(data).filter(|(_, s)| {
-        information(n, 5, s.cost) < information(n, 2, rigid.cost) && s.value[2] > 0.0
+        information(n, 5, s.cost()) < information(n, 2, rigid.cost()) && s.value[2] > 0.0
     });
     Some(match flexible {
         Some((pole, s)) => finish(data, &[pole], false, &s),
@@ -80,6 +82,12 @@ pub fn fit_motor(data: &MotorData, poles: Option<&[Pole]>) -> Option<MotorFit> {
 }
 
 impl MotorFit {
+    /// θ_m per command at `omega_rad_s`, the delay in it.
+    pub fn response(&self, omega_rad_s: f64) -> Complex64 {
+        let delay_s = self.delay_s.map_or(0.0, |d| d.value);
+        self.transfer_function.response(omega_rad_s) * Complex64::cis(-omega_rad_s * delay_s)
+    }
+
     /// The model that the regression's figures make: rigid, or with the one mode of `pole` through
     /// which the beam is coupled. The command's `torque_per_command` and the damping of its
     /// back-EMF, `back_emf_viscous`, are those of the channel.
@@ -105,6 +113,7 @@ impl MotorFit {
             coupling,
             poles,
             poles_given: true,
+            delay_s: None,
             weighted_rms: 0.0,
         }
     }
@@ -127,11 +136,12 @@ fn transfer_function(
     TransferFunction { num, den: add(&rigid, &coupled) }.monic()
 }
 
-struct Solution {
-    value: DVector<f64>,
+/// J, V and c_k at a choice of poles.
+pub(super) struct Solution {
+    pub(super) value: DVector<f64>,
     covariance: DMatrix<f64>,
-    cost: f64,
-    rows: usize,
+    /// Residuals in their deviations.
+    pub(super) left: DVector<f64>,
 }
 
 fn coupling_shape(pole: &Pole, omega: f64) -> Complex64 {
@@ -204,11 +214,23 @@ impl Rows {
     }
 }
 
-fn solve(data: &MotorData, poles: &[Pole]) -> Option<Solution> {
+impl Solution {
+    fn cost(&self) -> f64 {
+        self.left.norm_squared()
+    }
+
+    /// Root mean square of the residuals, the unknowns counted.
+    pub(super) fn weighted_rms(&self) -> f64 {
+        let free = self.left.len().saturating_sub(self.value.len()).max(1) as f64;
+        (self.cost() / free).sqrt()
+    }
+}
+
+pub(super) fn solve(data: &MotorData, poles: &[Pole]) -> Option<Solution> {
     let rows = Rows::new(data, poles, FLOOR)?;
     let (value, covariance) = rows.solved()?;
-    let cost = (&rows.b - &rows.a * &value).norm_squared();
-    Some(Solution { value, covariance, cost, rows: rows.b.len() })
+    let left = &rows.b - &rows.a * &value;
+    Some(Solution { value, covariance, left })
 }
 
 /// The one pole that explains the response best, refined on ever finer grids.
@@ -216,7 +238,7 @@ fn scan(data: &MotorData) -> Option<(Pole, Solution)> {
     let mut best: Option<(Pole, Solution)> = None;
     let mut consider = |pole: Pole| {
         if let Some(s) = solve(data, &[pole])
-            && best.as_ref().is_none_or(|(_, b)| s.cost < b.cost)
+            && best.as_ref().is_none_or(|(_, b)| s.cost() < b.cost())
         {
             best = Some((pole, s));
         }
@@ -236,7 +258,7 @@ fn scan(data: &MotorData) -> Option<(Pole, Solution)> {
                     damping_ratio: at.damping_ratio * by_damping.powf(0.5 * f64::from(k)),
                 };
                 if let Some(s) = solve(data, &[pole])
-                    && best.as_ref().is_none_or(|(_, b)| s.cost < b.cost)
+                    && best.as_ref().is_none_or(|(_, b)| s.cost() < b.cost())
                 {
                     best = Some((pole, s));
                 }
@@ -248,9 +270,13 @@ fn scan(data: &MotorData) -> Option<(Pole, Solution)> {
     best
 }
 
-fn finish(data: &MotorData, poles: &[Pole], poles_given: bool, s: &Solution) -> MotorFit {
-    let free = s.rows.saturating_sub(s.value.len()).max(1) as f64;
-    let weighted_rms = (s.cost / free).sqrt();
+pub(super) fn finish(
+    data: &MotorData,
+    poles: &[Pole],
+    poles_given: bool,
+    s: &Solution,
+) -> MotorFit {
+    let weighted_rms = s.weighted_rms();
     let spread = weighted_rms.max(1.0);
     let figure = |i: usize| Estimate {
         value: s.value[i],
@@ -270,6 +296,7 @@ fn finish(data: &MotorData, poles: &[Pole], poles_given: bool, s: &Solution) -> 
             poles,
             data.torque_per_command,
         ),
+        delay_s: None,
         weighted_rms,
     }
 }
