@@ -16,7 +16,7 @@ fn sweeps(data: &std::path::Path) -> Value {
 }
 
 #[test]
-fn modes_of_the_beam() {
+fn modes_and_notches_at_once() {
     let Some(data) = common::data("krauss-slfr") else { return };
     let result = sweeps(&data);
     let hertz: Vec<f64> = result["beam"]["modes"]
@@ -29,6 +29,20 @@ fn modes_of_the_beam() {
     // Author's fit 2.5 and 17.5 Hz; free decays 2.51-2.53 and 17.95-18.06 Hz.
     assert!((hertz[0] - 2.5).abs() < 0.05, "{hertz:?}");
     assert!((17.5..=18.1).contains(&hertz[1]), "{hertz:?}");
+    // What the accelerometer shows as resonances are notches of the motor's response.
+    let motor = &result["models"]["motor"];
+    let number = |v: &Value| v.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+    let (num, den): (Vec<f64>, Vec<f64>) = (number(&motor["num"]), number(&motor["den"]));
+    let motor = lissom::lti::TransferFunction { num, den };
+    let level = |hertz: f64| motor.response(TAU * hertz).norm();
+    assert!(level(hertz[0]) < 0.2 * level(1.3 * hertz[0]), "no notch at {} Hz", hertz[0]);
+    assert!(level(hertz[1]) < 0.8 * level(0.9 * hertz[1]), "no notch at {} Hz", hertz[1]);
+    // The replay has an inertia of 0.357 and a lag of 2.8 ms.
+    let inertia = result["drive"]["inertia_command_s2_per_rad"]["value"].as_f64().unwrap();
+    assert!((inertia / 0.357 - 1.0).abs() < 0.05, "{inertia}");
+    let lag_s = &result["models"]["motor_delay_s"];
+    let (value, std) = (lag_s["value"].as_f64().unwrap(), lag_s["std"].as_f64().unwrap());
+    assert!((0.002..0.005).contains(&value) && value > 5.0 * std, "{value} ± {std}");
 }
 
 #[test]

@@ -13,7 +13,7 @@ use super::friction_law::{FrictionLaw, friction_law};
 use super::friction_waveform::FrictionWaveform;
 use super::identified::{Beam, Friction, Identified, ThirdHarmonic};
 use super::model::state_space;
-use super::models::{beam_and_motor, beam_model, figures_model};
+use super::models::{beam_model, figures_model, motor_and_beam};
 use super::output_error::{OutputError, OutputErrorStart, output_error};
 use super::rational::{BeamFit, MotorFit};
 use super::regression::{BeamRegression, MotorRegression, beam_regression, motor_regression};
@@ -195,15 +195,8 @@ pub fn identify(
             beam_model = beam.clone().or(beam_model);
         }
     }
-    let motor_model = match beam_and_motor(campaign, &responses, constant, beam_model.as_ref()) {
-        Some(both) => {
-            beam_model = Some(both.beam);
-            Some(both.motor)
-        }
-        None => {
-            motor_model.or_else(|| models::motor_model(&responses, constant, beam_model.as_ref()))
-        }
-    };
+    let (motor_model, beam_model) =
+        motor_and_beam(campaign, &responses, constant, (motor_model, beam_model));
     if let Some(third) = &mut third_harmonic {
         third.motor =
             models::motor_model(&table(Some(third.coulomb_command)), constant, beam_model.as_ref());

@@ -2,7 +2,7 @@
 
 use super::Response;
 use super::rational::{
-    AtOnce, BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_at_once, fit_beam, fit_motor,
+    BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_at_once, fit_beam, fit_motor,
 };
 use super::regression::{BeamRegression, MotorRegression, coupled_tips};
 use super::response_table::{ResponsePoint, tip_model};
@@ -45,19 +45,25 @@ pub(super) fn beam_model(campaign: &Campaign, responses: &[ResponsePoint]) -> Op
     fit_beam(&omega, &data)
 }
 
-/// Beam and motor by poles that both show, where no tip gives an angle: slip phases then do not tell the
-/// motor's inertia from the beam's, and each response alone knows less.
-pub(super) fn beam_and_motor(
+/// Motor and beam, from what is `known` of them: the motor's by its responses where it is not known yet. Where
+/// no tip gives an angle both by poles that both show: slip phases then do not tell the motor's inertia from
+/// the beam's, and each response alone knows less.
+pub(super) fn motor_and_beam(
     campaign: &Campaign,
     responses: &[ResponsePoint],
     constant: f64,
-    beam: Option<&BeamFit>,
-) -> Option<AtOnce> {
-    if !coupled_tips(campaign).is_empty() {
-        return None;
+    known: (Option<MotorFit>, Option<BeamFit>),
+) -> (Option<MotorFit>, Option<BeamFit>) {
+    let (motor, beam) = known;
+    let at_once = || {
+        let beam = beam.as_ref().filter(|_| coupled_tips(campaign).is_empty())?;
+        let (omega, data) = tip_data(campaign, responses)?;
+        fit_at_once(&omega, &data, beam, &motor_data(responses, constant))
+    };
+    if let Some(both) = at_once() {
+        return (Some(both.motor), Some(both.beam));
     }
-    let (omega, data) = tip_data(campaign, responses)?;
-    fit_at_once(&omega, &data, beam?, &motor_data(responses, constant))
+    (motor.or_else(|| motor_model(responses, constant, beam.as_ref())), beam)
 }
 
 /// Frequencies at which all tips' responses are known, and these.

@@ -12,7 +12,7 @@ mod relocate;
 mod shared_poles;
 mod weighted;
 
-pub(crate) use at_once::{AtOnce, fit_at_once};
+pub(crate) use at_once::fit_at_once;
 pub use beam::{BeamFit, TipData, TipForm, fit_beam};
 pub(crate) use coupling::{CouplingFit, coupled, fit_coupling};
 pub use evidence::fit_shared_poles_by_evidence;
