@@ -166,7 +166,8 @@ impl EquivalentRefusal {
             }
             Self::NoAngle => {
                 "measure angles of points of the beam, or deflections in rad or with a radius: accelerations and \
-                 unscaled signals do not say how far a point moves"
+                 unscaled signals do not say how far a point moves. What they and the motor \
+                 show together, modes and torques through them, is in lissom identify"
             }
             Self::Noise { .. } => "drive the motor harder, average longer, and check the sensors",
             Self::NoModeWithin { .. } => {
