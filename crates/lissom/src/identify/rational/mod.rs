@@ -1,6 +1,7 @@
 //! Rational models fitted to responses: beam as (36), motor as (35), any number of modes.
 
 mod beam;
+mod columns;
 mod coupling;
 mod evidence;
 mod motor;
