@@ -2,6 +2,7 @@
 
 mod at_once;
 mod beam;
+mod columns;
 mod coupling;
 mod evidence;
 mod motor;

@@ -2,9 +2,9 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use num_complex::Complex64;
-use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use super::Pole;
+use super::columns::{inverses, push_column, push_weighted, shape};
 use super::products::products;
 use super::shared_poles::Damping;
 use super::weighted::{Output, Weighted};
@@ -117,12 +117,9 @@ impl Point {
     pub(super) fn new(data: &Weighted, poles: Vec<Pole>, damping: Damping) -> Option<Self> {
         let (count, unknowns) = (poles.len(), poles.len() * damping.unknowns());
         let columns = columns(data, &poles, damping);
-        let each: Vec<OneOutput> = data
-            .outputs
-            .par_iter()
-            .with_min_len(data.at_a_time(columns.ncols()))
-            .map(|output| OneOutput::new(data, output, &columns, count, damping))
-            .collect::<Option<_>>()?;
+        let each = data.each(columns.ncols(), |output| {
+            OneOutput::new(data, output, &columns, count, damping)
+        })?;
         let mut found = Self {
             poles,
             own_figures: Vec::new(),
@@ -213,34 +210,35 @@ impl Point {
 /// `ψ_k = ω_k²/D_k` of all poles, and `s/ω_k` times that where residues have terms in s; then their slopes by
 /// ln ω_k and ζ_k pole by pole, in the same order. Real parts stand above imaginary ones.
 fn columns(data: &Weighted, poles: &[Pole], damping: Damping) -> DMatrix<f64> {
-    let (points, count, unknowns) = (data.omega.len(), poles.len(), damping.unknowns());
-    let terms = damping.terms();
-    let mut columns = DMatrix::zeros(2 * points, terms * count * (1 + unknowns));
-    for (k, pole) in poles.iter().enumerate() {
-        let w = pole.omega_rad_s;
-        let square = w * w;
-        for (i, &omega) in data.omega.iter().enumerate() {
-            let inverse = 1.0 / pole.denominator(omega);
-            let value = square * inverse;
-            let by_log = value
-                * (2.0
-                    - inverse * Complex64::new(2.0 * square, 2.0 * pole.damping_ratio * w * omega));
-            let by_damping = -value * inverse * Complex64::new(0.0, 2.0 * w * omega);
-            let turn = Complex64::new(0.0, omega / w);
-            let plain = [value, by_log, by_damping];
-            let turned = [turn * value, turn * (by_log - value), turn * by_damping];
-            for (term, all) in [plain, turned].into_iter().take(terms).enumerate() {
-                let first = terms * count + unknowns * (term * count + k);
-                let places =
-                    std::iter::once(term * count + k).chain((0..unknowns).map(|u| first + u));
-                for (column, z) in places.zip(all) {
-                    columns[(i, column)] = z.re;
-                    columns[(points + i, column)] = z.im;
-                }
+    let (points, terms) = (data.omega.len(), damping.terms());
+    let count = terms * poles.len() * (1 + damping.unknowns());
+    let inverse: Vec<_> = poles.iter().map(|pole| inverses(&data.omega, pole)).collect();
+    let mut columns = Vec::with_capacity(2 * points * count);
+    let each = || poles.iter().zip(&inverse);
+    let turns = &[false, true][..terms];
+    for &turned in turns {
+        for (pole, inverse) in each() {
+            push_column(&mut columns, &data.omega, inverse, |omega, inverse| {
+                shape(pole, turned, omega, inverse)
+            });
+        }
+    }
+    for &turned in turns {
+        for (pole, inverse) in each() {
+            let (w, power) = (pole.omega_rad_s, if turned { 1.0 } else { 2.0 });
+            push_column(&mut columns, &data.omega, inverse, |omega, inverse| {
+                let inner = Complex64::new(2.0 * w * w, 2.0 * pole.damping_ratio * w * omega);
+                shape(pole, turned, omega, inverse) * (power - inverse * inner)
+            });
+            if damping != Damping::None {
+                push_column(&mut columns, &data.omega, inverse, |omega, inverse| {
+                    let by_damping = Complex64::new(0.0, -2.0 * w * omega) * inverse;
+                    shape(pole, turned, omega, inverse) * by_damping
+                });
             }
         }
     }
-    columns
+    DMatrix::from_vec(2 * points, count, columns)
 }
 
 /// What one output says of the poles, its own figures at their best.
@@ -261,46 +259,54 @@ impl OneOutput {
         damping: Damping,
     ) -> Option<Self> {
         let (points, gains) = (data.omega.len(), damping.terms() * count);
-        let mut rows = columns.clone();
-        for mut column in rows.column_iter_mut() {
-            let (re, im) = column.as_mut_slice().split_at_mut(points);
-            for ((re, im), weight) in re.iter_mut().zip(im).zip(&output.weights) {
-                *re *= weight;
-                *im *= weight;
-            }
+        let delayed = usize::from(output.delay_s.is_some());
+        let (own, unknowns) = (gains + delayed, count * damping.unknowns());
+        // What was measured, the basis, then the slopes by the poles.
+        let mut all = Vec::with_capacity(2 * points * (1 + own + unknowns));
+        let push = |all: &mut Vec<f64>, column: usize, factor: f64| {
+            let column = columns.column(column);
+            push_weighted(all, column.as_slice(), &output.weights, factor);
+        };
+        all.extend(output.weighted.iter().map(|value| value.re));
+        all.extend(output.weighted.iter().map(|value| value.im));
+        for column in 0..gains {
+            push(&mut all, column, 1.0);
         }
-        let part = |i: usize, value: Complex64| if i < points { value.re } else { value.im };
-        let measured = DVector::from_fn(2 * points, |i, _| part(i, output.weighted[i % points]));
-        let mut basis = rows.columns(0, gains).into_owned();
-        if output.delay_s.is_some() {
+        if delayed > 0 {
             // e^(s·δ)·d = Σ of the poles: to first order d less −s·δ times the model.
             let highest = data.range().1;
-            let late = |i: usize| {
-                let turn = Complex64::new(0.0, -data.omega[i % points] / highest);
-                part(i, turn * output.model[i % points])
-            };
-            basis = basis.insert_column(gains, 0.0);
-            basis.set_column(gains, &DVector::from_fn(2 * points, |i, _| late(i)));
+            let late =
+                || data.omega.iter().zip(&output.model).map(|(omega, m)| (omega / highest, m));
+            all.extend(late().map(|(omega, model)| omega * model.im));
+            all.extend(late().map(|(omega, model)| -omega * model.re));
         }
-        let factor = products(&basis).cholesky()?;
-        let figures = factor.solve(&basis.tr_mul(&measured));
-        let left = measured - &basis * &figures;
-        let (own, unknowns) = (basis.ncols(), count * damping.unknowns());
-        // The basis, then the slopes by the poles.
-        let mut all = basis.resize_horizontally(own + unknowns, 0.0);
-        for (column, slope) in rows.columns_range(gains..).column_iter().enumerate() {
-            let to = own + column % unknowns;
-            all.column_mut(to).axpy(figures[column / damping.unknowns()], &slope, 1.0);
+        let linear = products(&all, 2 * points);
+        let factor = linear.view((1, 1), (own, own)).into_owned().cholesky()?;
+        let figures = factor.solve(&linear.view((1, 0), (own, 1)).column(0));
+        let (left, basis) = all.split_at_mut(2 * points);
+        for (column, figure) in basis.chunks_exact(2 * points).zip(&figures) {
+            left.iter_mut().zip(column).for_each(|(left, part)| *left -= figure * part);
         }
-        let products = products(&all);
-        let across = products.view((0, own), (own, unknowns)).into_owned();
-        let normal = products.view((own, own), (unknowns, unknowns));
+        for slope in 0..unknowns {
+            let pole = slope / damping.unknowns();
+            push(&mut all, gains + slope, figures[pole]);
+            if damping == Damping::Within {
+                let sum = all.len() - 2 * points;
+                push(&mut all, gains + unknowns + slope, figures[count + pole]);
+                let (sums, more) = all[sum..].split_at_mut(2 * points);
+                sums.iter_mut().zip(more).for_each(|(sum, part)| *sum += *part);
+                all.truncate(sum + 2 * points);
+            }
+        }
+        let products = products(&all, 2 * points);
+        let across = products.view((1, 1 + own), (own, unknowns)).into_owned();
+        let normal = products.view((1 + own, 1 + own), (unknowns, unknowns));
         let eliminated = factor.l().solve_lower_triangular(&across)?;
         Some(Self {
-            cost: left.norm_squared(),
+            cost: products[(0, 0)],
             normal: normal - eliminated.tr_mul(&eliminated),
             // Left is across the basis: nothing of it is eliminated.
-            right: all.columns_range(own..).tr_mul(&left),
+            right: products.view((1 + own, 0), (unknowns, 1)).column(0).into_owned(),
             figures,
             own: Own { factor, across },
         })

@@ -1,10 +1,9 @@
 //! Vector fitting: poles moved to the zeros of a common denominator, without a start near them.
 
 use nalgebra::{DMatrix, DVector};
-use num_complex::Complex64;
-use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use super::Pole;
+use super::columns::{inverses, push_column, push_weighted, shape};
 use super::products::products;
 use super::weighted::{Output, Weighted};
 
@@ -30,12 +29,8 @@ const LEAST_DAMPING: f64 = 1e-5;
 pub(super) fn relocated(data: &Weighted, poles: &[Pole]) -> Option<Vec<Pole>> {
     let basis = Basis::new(data, poles);
     let unknowns = 2 * poles.len() + 1;
-    let mut normal = data
-        .outputs
-        .par_iter()
-        .with_min_len(data.at_a_time(2 * unknowns))
-        .map(|output| without_numerator(data, &basis, output))
-        .try_reduce(|| DMatrix::zeros(unknowns, unknowns), |a, b| Some(a + b))?;
+    let each = data.each(2 * unknowns, |output| without_numerator(data, &basis, output))?;
+    let mut normal = each.into_iter().reduce(|a, b| a + b)?;
     let points = data.omega.len() as f64;
     let size = data.outputs.iter().map(Output::squares).sum::<f64>().sqrt() / points;
     let mean = basis.real_sums(points) * size;
@@ -53,18 +48,16 @@ struct Basis {
 impl Basis {
     fn new(data: &Weighted, poles: &[Pole]) -> Self {
         let points = data.omega.len();
-        let mut columns = DMatrix::zeros(2 * points, 2 * poles.len());
-        for (k, pole) in poles.iter().enumerate() {
-            let square = pole.omega_rad_s * pole.omega_rad_s;
-            for (i, omega) in data.omega.iter().enumerate() {
-                let value = square / pole.denominator(*omega);
-                let turned = Complex64::I * (omega / pole.omega_rad_s) * value;
-                columns[(i, 2 * k)] = value.re;
-                columns[(points + i, 2 * k)] = value.im;
-                columns[(i, 2 * k + 1)] = turned.re;
-                columns[(points + i, 2 * k + 1)] = turned.im;
+        let mut columns = Vec::with_capacity(4 * points * poles.len());
+        for pole in poles {
+            let inverse = inverses(&data.omega, pole);
+            for turned in [false, true] {
+                push_column(&mut columns, &data.omega, &inverse, |omega, inverse| {
+                    shape(pole, turned, omega, inverse)
+                });
             }
         }
+        let columns = DMatrix::from_vec(2 * points, 2 * poles.len(), columns);
         Self { columns }
     }
 
@@ -79,27 +72,19 @@ impl Basis {
 fn without_numerator(data: &Weighted, basis: &Basis, output: &Output) -> Option<DMatrix<f64>> {
     let (points, own) = (data.omega.len(), basis.columns.ncols());
     let all = 2 * own + 1;
-    let mut rows = vec![0.0; 2 * points * all];
-    let (numerators, rest) = rows.split_at_mut(2 * points * own);
-    let (sigmas, constant) = rest.split_at_mut(2 * points * own);
-    let targets = numerators.chunks_exact_mut(2 * points).zip(sigmas.chunks_exact_mut(2 * points));
-    for (column, (numerator, sigma)) in basis.columns.column_iter().zip(targets) {
+    let mut rows = Vec::with_capacity(2 * points * all);
+    for column in basis.columns.column_iter() {
+        push_weighted(&mut rows, column.as_slice(), &output.weights, 1.0);
+    }
+    for column in basis.columns.column_iter() {
         let (re, im) = column.as_slice().split_at(points);
-        let (numerator_re, numerator_im) = numerator.split_at_mut(points);
-        let (sigma_re, sigma_im) = sigma.split_at_mut(points);
-        for i in 0..points {
-            let (weight, value) = (output.weights[i], output.weighted[i]);
-            numerator_re[i] = re[i] * weight;
-            numerator_im[i] = im[i] * weight;
-            sigma_re[i] = im[i] * value.im - re[i] * value.re;
-            sigma_im[i] = -re[i] * value.im - im[i] * value.re;
-        }
+        let parts = || re.iter().zip(im).zip(&output.weighted);
+        rows.extend(parts().map(|((re, im), value)| im * value.im - re * value.re));
+        rows.extend(parts().map(|((re, im), value)| -re * value.im - im * value.re));
     }
-    for (i, value) in output.weighted.iter().enumerate() {
-        constant[i] = -value.re;
-        constant[points + i] = -value.im;
-    }
-    let products = products(&DMatrix::from_vec(2 * points, all, rows));
+    rows.extend(output.weighted.iter().map(|value| -value.re));
+    rows.extend(output.weighted.iter().map(|value| -value.im));
+    let products = products(&rows, 2 * points);
     let (own_part, rest) = (products.view((0, 0), (own, own)), own + 1);
     let shared = products.view((0, own), (own, rest));
     let scale = DVector::from_fn(own, |i, _| 1.0 / own_part[(i, i)].sqrt());

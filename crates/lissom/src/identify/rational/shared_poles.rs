@@ -399,9 +399,11 @@ impl SharedPoles {
 
     /// Response of output `i` at a frequency.
     pub fn response(&self, i: usize, omega_rad_s: f64) -> Complex64 {
-        let late_s = self.delays_s[i].map_or(0.0, |late| late.value);
-        Complex64::from_polar(1.0, -omega_rad_s * late_s)
-            * self.with_terms(i, omega_rad_s, |k| self.in_s[i][k].value)
+        let prompt = self.with_terms(i, omega_rad_s, |k| self.in_s[i][k].value);
+        match self.delays_s[i] {
+            Some(late) => prompt * Complex64::from_polar(1.0, -omega_rad_s * late.value),
+            None => prompt,
+        }
     }
 
     /// The same without delay, and with of κ_ik only what damping of a beam can make it: of ρ_ik's sign and no

@@ -4,6 +4,7 @@
 use std::f64::consts::SQRT_2;
 
 use num_complex::Complex64;
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::shared_poles::SharedPolesError;
 use crate::identify::Response;
@@ -55,12 +56,9 @@ impl Weighted {
             if let Some(index) = responses.iter().position(|r| !sound(r)) {
                 return Err(SharedPolesError::Response { output, index });
             }
-            Ok(Output {
-                delay_s: None,
-                model: Vec::new(),
-                weights: responses.iter().map(|r| SQRT_2 / r.std).collect(),
-                weighted: responses.iter().map(|r| r.value * (SQRT_2 / r.std)).collect(),
-            })
+            let weights: Vec<f64> = responses.iter().map(|r| SQRT_2 / r.std).collect();
+            let weighted = responses.iter().zip(&weights).map(|(r, weight)| r.value * weight);
+            Ok(Output { delay_s: None, model: Vec::new(), weighted: weighted.collect(), weights })
         };
         let outputs = outputs.iter().enumerate().map(output).collect::<Result<_, _>>()?;
         Ok(Self { omega: omega.to_vec(), outputs })
@@ -98,10 +96,17 @@ impl Weighted {
         (low, self.omega.iter().copied().fold(0.0, f64::max))
     }
 
-    /// Outputs that one thread takes at a time, each a matrix of so many `columns`: waking another costs more than
-    /// small ones do.
-    pub(super) fn at_a_time(&self, columns: usize) -> usize {
-        if self.omega.len() * columns < WORTH_A_THREAD { self.outputs.len() } else { 1 }
+    /// What `of` makes of each output, a matrix of so many `columns`. Small ones are not worth waking a thread for.
+    pub(super) fn each<T: Send>(
+        &self,
+        columns: usize,
+        of: impl Fn(&Output) -> Option<T> + Send + Sync,
+    ) -> Option<Vec<T>> {
+        if self.omega.len() * columns < WORTH_A_THREAD {
+            self.outputs.iter().map(of).collect()
+        } else {
+            self.outputs.par_iter().map(of).collect()
+        }
     }
 
     /// Real numbers in all responses.
