@@ -246,7 +246,7 @@ fn sum_up<const D: usize>(
         curvatures: 0.0,
         samples: 0,
     };
-    let mut row = vec![0.0; unknowns + 1];
+    let mut row = replayer.row();
     let blocks = sampling.blocks.get(window.run);
     let masks = &sampling.masks[window.run];
     let first = *window.samples.start();
@@ -261,7 +261,7 @@ fn sum_up<const D: usize>(
             if !counts(mask.as_ref(), seen.sample) {
                 continue;
             }
-            let predicted = replayer.output(seen, channel, Some(&mut row[..unknowns]));
+            let predicted = replayer.output(seen, channel, Some(&mut row));
             let residual = window.residual(run, channel, seen.sample, predicted);
             found.squares[channel] += residual * residual;
             found.readings[channel] += 1;
@@ -272,7 +272,7 @@ fn sum_up<const D: usize>(
             found.curvatures += loss.curvature * variance;
             let root = loss.curvature.sqrt();
             row[unknowns] = loss.slope / loss.curvature;
-            rows.extend(row.iter().map(|v| v * root));
+            rows.extend(row[..=unknowns].iter().map(|v| v * root));
         }
         found.samples += 1;
     });

@@ -70,7 +70,8 @@ impl<const D: usize> Tangents<D> {
         }
     }
 
-    /// `Σ c_i·∂x_i/∂u` of every unknown, into `row`.
+    /// `Σ c_i·∂x_i/∂u` of every unknown, into `row`, whose length is a multiple of [`LANES`]: what follows
+    /// the unknowns among the last of these becomes zero.
     pub(super) fn seen(&self, c: &[f64; D], row: &mut [f64]) {
         self.arch.dispatch(Seen { packs: &self.packs, c, row });
     }
@@ -144,15 +145,12 @@ impl<const D: usize> pulp::WithSimd for Seen<'_, D> {
             counts[some] = (*c, i);
             some += 1;
         }
-        for (pack, row) in self.packs.iter().zip(self.row.chunks_mut(LANES)) {
+        for (pack, row) in self.packs.iter().zip(self.row.as_chunks_mut::<LANES>().0) {
             let mut sum = [0.0; LANES];
             for (c, i) in &counts[..some] {
                 add(&mut sum, *c, &pack[*i]);
             }
-            match row.first_chunk_mut::<LANES>() {
-                Some(whole) => *whole = sum,
-                None => row.copy_from_slice(&sum[..row.len()]),
-            }
+            *row = sum;
         }
     }
 }

@@ -7,7 +7,7 @@ use super::friction::Friction;
 use super::motion::{Columns, Motion, Mover, Torque, direction};
 use super::parameter::{Enters, Parameter};
 use super::rates::Phases;
-use super::tangents::Tangents;
+use super::tangents::{LANES, Tangents};
 use crate::record::{Channels, Hold, Run, TipQuantity};
 use crate::rig::Mode;
 
@@ -162,8 +162,14 @@ impl<'a, const D: usize> Replayer<'a, D> {
         self.parameters.len() + D + self.channels.tips.len()
     }
 
+    /// A row for the derivatives of an output: the unknowns', one number more, and as many beyond as
+    /// make it a whole number of [`LANES`].
+    pub(super) fn row(&self) -> Vec<f64> {
+        vec![0.0; (self.unknowns() + 1).next_multiple_of(LANES)]
+    }
+
     /// What channel `channel` (0: motor, then tips) shows, and its derivatives by the parameters,
-    /// the initial state and the tips' zeros, in `row` where one is given.
+    /// the initial state and the tips' zeros, in a [`Self::row`] where one is given.
     pub(super) fn output(
         &self,
         seen: &Seen<'_, D>,
@@ -180,8 +186,8 @@ impl<'a, const D: usize> Replayer<'a, D> {
         };
         let Some(row) = row else { return value };
         let own = self.parameters.len() + D;
-        seen.motion.tangents.seen(&c, &mut row[..own]);
-        row[own..].fill(0.0);
+        seen.motion.tangents.seen(&c, row);
+        row[own..self.unknowns()].fill(0.0);
         if channel > 0 {
             row[own + channel - 1] = 1.0;
             self.direct(seen, channel - 1, row);

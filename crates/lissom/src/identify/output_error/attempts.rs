@@ -34,8 +34,13 @@ pub(super) struct Attempt {
 pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<Attempt> {
     let arms = likely_first(fitting, start);
     let mut best: Option<Attempt> = None;
-    for arm in &arms {
+    for (i, arm) in arms.iter().enumerate() {
         let Some(found) = attempt(fitting, arm, start.first_window_s) else { continue };
+        if best.is_none() && i + 1 == arms.len() {
+            // There is no other: whether it stands takes a replay to tell.
+            best = Some(found);
+            break;
+        }
         let stands = found.stands(fitting);
         if stands || best.as_ref().is_none_or(|b| found.nearness(fitting) > b.nearness(fitting)) {
             best = Some(found);

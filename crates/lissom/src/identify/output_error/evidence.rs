@@ -168,19 +168,21 @@ pub(super) fn promises(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Extension>> 
     scores(fitting, fit, candidates(fit))
 }
 
-/// By how much each group that is not free would move the free parameters, times the root of how likely it
-/// is to be there: what they do not know of themselves for want of an answer. Their outer products are
-/// what it adds to the covariance, the mean over both answers.
-pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Vec<DVector<f64>> {
+/// Sums by what is free, and by how much each group that is not free would move the free parameters, times
+/// the root of how likely it is to be there: what they do not know of themselves for want of an answer.
+/// Outer products of these are what it adds to the covariance, the mean over both answers.
+pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> (Vec<WindowSums>, Vec<DVector<f64>>) {
     let weighed = |p: Promise| {
         let likely = p.likelihood().sqrt();
         (p.deviations() > SPEAKS).then(|| p.moved * likely)
     };
-    let moved = all_scores(fitting, fit, candidates(fit)).into_iter().filter_map(weighed);
-    match fit.body.jacobian(&fit.free) {
+    let (sums, promises) = all_scores(fitting, fit, candidates(fit));
+    let moved = promises.into_iter().filter_map(weighed);
+    let moved = match fit.body.jacobian(&fit.free) {
         Some(jacobian) => moved.map(|m| &jacobian * m).collect(),
         None => moved.collect(),
-    }
+    };
+    (sums, moved)
 }
 
 /// The same of some groups.
@@ -189,7 +191,7 @@ pub(super) fn scores(
     fit: &Fit,
     groups: Vec<Vec<Parameter>>,
 ) -> Vec<Vec<Extension>> {
-    all_scores(fitting, fit, groups).into_iter().map(|promise| promise.group).collect()
+    all_scores(fitting, fit, groups).1.into_iter().map(|promise| promise.group).collect()
 }
 
 /// What a group of parameters promises.
@@ -213,14 +215,20 @@ impl Promise {
     }
 }
 
-fn all_scores(fitting: &Fitting<'_>, fit: &Fit, groups: Vec<Vec<Parameter>>) -> Vec<Promise> {
+/// Sums by what is free, and what each group promises beside: from one replay.
+fn all_scores(
+    fitting: &Fitting<'_>,
+    fit: &Fit,
+    groups: Vec<Vec<Parameter>>,
+) -> (Vec<WindowSums>, Vec<Promise>) {
     let free = fit.coordinates();
     let all: Vec<Parameter> = fit.free.iter().chain(groups.iter().flatten()).copied().collect();
     let point = fitting.point(fit, &all);
     let first_of_windows = fit.body.coordinates(&all).len();
     let own: Vec<usize> = (0..free).collect();
-    let alone: Vec<WindowSums> = point.sums.iter().map(|s| s.of(&own, first_of_windows)).collect();
-    let alone = Promised::of(&alone, free);
+    let without: Vec<WindowSums> =
+        point.sums.iter().map(|s| s.of(&own, first_of_windows)).collect();
+    let alone = Promised::of(&without, free);
     let mut first = free;
     let mut found = Vec::new();
     for group in groups {
@@ -230,7 +238,7 @@ fn all_scores(fitting: &Fitting<'_>, fit: &Fit, groups: Vec<Vec<Parameter>>) -> 
             point.sums.iter().map(|s| s.of(&kept, first_of_windows)).collect();
         found.push(score(&sums, free, &group, &alone));
     }
-    found
+    (without, found)
 }
 
 /// A kind of dampers of which those of another kind leave nothing goes, as a whole: one damper of a

@@ -165,13 +165,13 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         attempts::best(&fitting, start)?;
     let fitting = Fitting { masks: without_repeats.as_deref().unwrap_or(&masks), ..fitting };
     let beyond_noise = fitting.beyond_noise(&fit);
-    let sums = fitting.point(&fit, &fit.free).sums;
+    let (sums, undecided) = evidence::undecided(&fitting, &fit);
     let noise = fit.noise.iter().map(|n| SensorNoise::gaussian(n.deviation())).collect();
     let found = fit.covariances(&sums);
     let by_run = fit.by_run(&sums);
     let mut covariance = found.larger();
-    for moved in evidence::undecided(&fitting, &fit) {
-        covariance.ger(1.0, &moved, &moved, 1.0);
+    for moved in &undecided {
+        covariance.ger(1.0, moved, moved, 1.0);
     }
     report.added.append(&mut report.refused);
     Some(OutputError {

@@ -258,12 +258,12 @@ impl Fitting<'_> {
     /// Searches from where the fit is and takes its noise from what is left.
     pub(super) fn search(&self, fit: &mut Fit, report: &mut Report) {
         for _ in 0..MOST_ROUNDS {
-            let stop = self.steps(fit, report, STEPS_ON_THE_WAY);
+            let (point, stop) = self.steps(fit, report, STEPS_ON_THE_WAY, None);
             // Another law is there to the end or not at all.
             let lawful = !fit.body.arm.dry_terms.is_empty();
             let to_the_end = fit.whole_runs || lawful || report.grown(&fit.residual);
             if stop == Stop::StepsUsedUp && to_the_end {
-                self.steps(fit, report, MOST_STEPS);
+                self.steps(fit, report, MOST_STEPS, Some(point));
             }
             let noise = self.noise_of(fit);
             let before = std::mem::replace(&mut fit.noise, noise);
@@ -289,13 +289,21 @@ impl Fitting<'_> {
         own.iter().map(|n| SensorNoise::gaussian(common * n.deviation())).collect()
     }
 
-    /// At most `most` steps; tells why they ended.
-    fn steps(&self, fit: &mut Fit, report: &mut Report, most: usize) -> Stop {
+    /// At most `most` steps, from where others have come to if there were some; where these come to, and
+    /// why they ended.
+    fn steps(
+        &self,
+        fit: &mut Fit,
+        report: &mut Report,
+        most: usize,
+        from: Option<Point>,
+    ) -> (Point, Stop) {
         let mut problem = self.problem(&fit.free, &fit.noise, fit.whole_runs);
         if self.beyond_noise(fit) > BEYOND {
             problem.near_enough = NEAR_ENOUGH;
         }
-        let start = problem.at(fit.body.clone(), std::mem::take(&mut fit.windows));
+        let start =
+            from.unwrap_or_else(|| problem.at(fit.body.clone(), std::mem::take(&mut fit.windows)));
         let (point, iterations, stop) = problem.search(start, most);
         fit.residual = residual_deviation(&point, fit.coordinates());
         report.stages.push(StageReport {
@@ -307,8 +315,8 @@ impl Fitting<'_> {
             residual: fit.residual.clone(),
             arm: point.body.arm.clone(),
         });
-        (fit.body, fit.windows) = (point.body, point.windows);
-        stop
+        (fit.body, fit.windows) = (point.body.clone(), point.windows.clone());
+        (point, stop)
     }
 
     /// A few steps on a part of the windows: the cost that they come to, and the body. `None` where a
@@ -341,11 +349,11 @@ impl Fitting<'_> {
         let left = noise::residuals(self.campaign, fit, self.masks);
         fit.noise = left.iter().zip(&steps).map(|(e, q)| noise::most_likely(e, *q)).collect();
         let Some(masks) = without_repeats(self.campaign, fit, self.masks) else {
-            self.steps(fit, report, STEPS_ON_THE_WAY);
+            self.steps(fit, report, STEPS_ON_THE_WAY, None);
             return None;
         };
         // Without noise there is no cost lower than another but by the edges of steps: a longer way.
-        Fitting { masks: &masks, ..*self }.steps(fit, report, MOST_STEPS);
+        Fitting { masks: &masks, ..*self }.steps(fit, report, MOST_STEPS, None);
         Some(masks)
     }
 }
