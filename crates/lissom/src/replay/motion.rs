@@ -53,6 +53,18 @@ pub(super) struct Mover<const D: usize> {
     pub(super) pieces: Vec<[Transition<D>; 3]>,
 }
 
+/// What moves the motor over a piece in which it slips.
+struct Slip {
+    direction: usize,
+    /// The torque that friction leaves at the beginning, and its change \[N·m\].
+    net: f64,
+    change: f64,
+    /// d/dlag of the torque at both ends \[N·m/s\].
+    by_lag: [f64; 2],
+    /// Friction at both ends, where it changes.
+    ends: Option<Ends>,
+}
+
 /// State, mode and tangents.
 #[derive(Debug, Clone)]
 pub(super) struct Motion<const D: usize> {
@@ -219,21 +231,28 @@ impl<const D: usize> Mover<D> {
         let first = self.friction.torque(&motion.x, direction);
         let change = torque.to - torque.from;
         let mut next = piece.own.apply(&motion.x, torque.from - first, change);
-        let ends = self.friction.over(
-            &Held {
-                from: &motion.x,
-                to: next,
-                push: &piece.own.push,
-                ramp: &piece.own.ramp,
-                acceleration: self.acceleration(&motion.x, torque.from, direction),
-                duration_s: piece.duration_s,
-            },
-            direction,
-        );
-        let rises = ends.to - ends.from;
-        add(&mut next, first - ends.from, &piece.own.push);
-        add(&mut next, -rises, &piece.own.ramp);
-        let net = torque.from - ends.from;
+        let mut slip =
+            Slip { direction, net: torque.from - first, change, by_lag: torque.by_lag, ends: None };
+        let mut mean = first;
+        if !self.friction.terms.is_empty() {
+            let ends = self.friction.over(
+                &Held {
+                    from: &motion.x,
+                    to: next,
+                    push: &piece.own.push,
+                    ramp: &piece.own.ramp,
+                    acceleration: self.acceleration(&motion.x, torque.from, direction),
+                    duration_s: piece.duration_s,
+                },
+                direction,
+            );
+            let rises = ends.to - ends.from;
+            add(&mut next, first - ends.from, &piece.own.push);
+            add(&mut next, -rises, &piece.own.ramp);
+            mean = 0.5 * (ends.from + ends.to);
+            slip = Slip { net: torque.from - ends.from, change: change - rises, ..slip };
+            slip.ends = Some(ends);
+        }
         let keeps = sign * next[1] > 0.0 && sign * motion.x[1] > 0.0;
         // It may dip below zero and come back where it falls first and rises last.
         let dips = || {
@@ -243,32 +262,32 @@ impl<const D: usize> Mover<D> {
         if !keeps || dips() {
             return false;
         }
-        self.move_tangents(motion, piece, Some((&ends, net, change - rises, torque.by_lag)));
-        motion.rub(0.5 * (ends.from + ends.to), piece.duration_s);
+        self.move_tangents(motion, piece, Some(&slip));
+        motion.rub(mean, piece.duration_s);
         motion.x = next;
         true
     }
 
-    /// Tangents over a whole piece; `slip` is friction's ends, the net torque and its change.
-    fn move_tangents(
-        &self,
-        motion: &mut Motion<D>,
-        piece: &Transition<D>,
-        slip: Option<(&Ends, f64, f64, [f64; 2])>,
-    ) {
-        let (net, change) = slip.map_or((0.0, 0.0), |s| (s.1, s.2));
+    /// Tangents over a whole piece, stuck or slipping.
+    fn move_tangents(&self, motion: &mut Motion<D>, piece: &Transition<D>, slip: Option<&Slip>) {
+        let (net, change) = slip.map_or((0.0, 0.0), |s| (s.net, s.change));
         motion.tangents.over(piece, &motion.x, net, change);
-        let Some((ends, _, _, by_lag)) = slip.filter(|_| !motion.tangents.is_empty()) else {
+        let Some(slip) = slip.filter(|_| !motion.tangents.is_empty()) else {
             return;
         };
         let (push, ramp) = (&piece.own.push, &piece.own.ramp);
         if let Some(k) = self.columns.lag
-            && by_lag.iter().any(|b| *b != 0.0)
+            && slip.by_lag.iter().any(|b| *b != 0.0)
         {
-            motion.tangents.add(k, by_lag[0], push);
-            motion.tangents.add(k, by_lag[1] - by_lag[0], ramp);
+            motion.tangents.add(k, slip.by_lag[0], push);
+            motion.tangents.add(k, slip.by_lag[1] - slip.by_lag[0], ramp);
         }
         for (k, own) in &self.columns.friction {
+            let Some(ends) = &slip.ends else {
+                let by = own.map_or(0.0, |p| self.friction.by(p, &motion.x, slip.direction));
+                motion.tangents.add(*k, -by, push);
+                continue;
+            };
             let (start, end) = (motion.tangents.before(*k), motion.tangents.motor(*k));
             let [from, to] = self.friction.tangent(ends, *own, &start, |from| {
                 [0, 1].map(|i| end[i] - from * (push[i] - ramp[i]))
