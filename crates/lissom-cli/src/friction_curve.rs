@@ -2,7 +2,7 @@
 
 use lissom::identify::{FrictionLaw, Identified, LawTerm};
 use lissom_io::UnitNames;
-use lissom_report::{Axis, Cells, LinePlot, Role, Table, Trace};
+use lissom_report::{Axis, Cells, LinePlot, Role, Table, Trace, significant};
 
 /// Points of the law's line.
 const LINE: i32 = 200;
@@ -56,8 +56,8 @@ pub(crate) fn table(names: UnitNames, law: &FrictionLaw) -> Table {
         table = table.row([
             term(names, c.term),
             c.beside.to_string(),
-            format!("{:.4e}", c.amplitude.value),
-            format!("{:.1e}", c.amplitude.std),
+            significant(c.amplitude.value, 5),
+            significant(c.amplitude.std, 2),
             format!("{:.3}", c.residual_ratio),
             format!("{:.1}", c.paired),
             format!("{:.3}", c.stretch_ratio),
@@ -72,10 +72,13 @@ fn term(names: UnitNames, term: LawTerm) -> String {
     let angle = names.angle();
     match term {
         LawTerm::ViscousByDirection => "viscous by direction".to_owned(),
-        LawTerm::NearRest { speed } => format!("near rest, within {speed:.3e} {angle}/s"),
+        LawTerm::NearRest { speed } => {
+            format!("near rest, within {} {angle}/s", significant(speed, 4))
+        }
         LawTerm::Root => "root of speed".to_owned(),
         LawTerm::Ripple { per_angle } => {
-            format!("ripple, period {:.3e} {angle}", std::f64::consts::TAU / per_angle)
+            let period = std::f64::consts::TAU / per_angle;
+            format!("ripple, period {} {angle}", significant(period, 4))
         }
         LawTerm::CommandLag => "lag of the command (s)".to_owned(),
     }

@@ -1,22 +1,62 @@
 //! Which number of an arm.toml explains best that the logs show another arm, in words.
 
 use lissom::identify::{ArmQuantity, Explanation, GeometryCheck, Identified, geometry_check};
-use lissom_report::{interval, with_uncertainty};
+use lissom_report::{Cells, Page, Table, interval, with_uncertainty};
 
 use crate::print;
 use crate::reference::Reference;
 
-/// Prints what the logs say of the arm that a campaign names.
-pub(crate) fn print(id: &Identified, reference: Option<&Reference>) {
-    let arm = reference.and_then(|r| r.arm.as_ref());
-    let found = id.output_error.as_ref().filter(|oe| oe.stands());
-    let (Some(arm), Some(found)) = (arm, found) else { return };
-    if let Some(check) = geometry_check(arm, found) {
-        print::line("");
-        for line in lines(&check) {
-            print::line(&line);
-        }
+/// What the logs say of the arm that a campaign names.
+pub(crate) fn check(id: &Identified, reference: Option<&Reference>) -> Option<GeometryCheck> {
+    let arm = reference?.arm.as_ref()?;
+    geometry_check(arm, id.output_error.as_ref().filter(|oe| oe.stands())?)
+}
+
+/// Prints it.
+pub(crate) fn print(check: Option<&GeometryCheck>) {
+    let Some(check) = check else { return };
+    print::line("");
+    for line in lines(check) {
+        print::line(&line);
     }
+}
+
+/// The same as a section of the report.
+pub(crate) fn section(page: Page, check: Option<&GeometryCheck>) -> Page {
+    let Some(check) = check else { return page };
+    let mut page = page.heading("The arm as described");
+    for line in lines(check) {
+        page = page.paragraph(&sentence(&line));
+    }
+    if check.agrees() || check.explanations.is_empty() {
+        return page;
+    }
+    let mut table = Table::new(
+        "One number of arm.toml at a time",
+        &[
+            ("number", Cells::Text),
+            ("times what the file says", Cells::Numbers),
+            ("95 % interval", Cells::Numbers),
+            ("left (rms)", Cells::Numbers),
+        ],
+    );
+    for e in &check.explanations {
+        let f = e.factor;
+        table = table.row([
+            name(e.quantity),
+            with_uncertainty(f.value, f.std),
+            interval(f.ci95(), f.value, f.std),
+            percent(e.left),
+        ]);
+    }
+    page.table(&table)
+}
+
+/// With a capital and a full stop.
+fn sentence(line: &str) -> String {
+    let mut letters = line.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str())
 }
 
 fn lines(check: &GeometryCheck) -> Vec<String> {

@@ -21,14 +21,15 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     output::guard(json_file, args.report.as_deref())?;
     let file = read_campaign(&args.campaign)?;
     let id = identified(&args.campaign, &file, args.window, args.quick)?;
-    let result = result_json(&file.campaign.channels, &id);
     let names = UnitNames::new(&file.campaign.channels);
     let reference = Reference::of(&file)?;
     let reference = reference.as_ref();
+    let geometry = geometry::check(&id, reference);
+    let result = result_json(&file.campaign.channels, &id, geometry.as_ref());
     let mut batch = Batch::new();
     if let Some(path) = &args.report {
         let title = args.campaign.display().to_string();
-        let text = page::page(&title, &file.campaign, names, &id, reference);
+        let text = page::page(&title, &file.campaign, names, &id, reference, geometry.as_ref());
         batch.file(path, text.as_bytes())?;
     }
     if let Some(path) = json_file {
@@ -50,7 +51,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         if let Some(found) = &id.equivalent {
             equivalent::brief(names, found);
         }
-        geometry::print(&id, reference);
+        geometry::print(geometry.as_ref());
         print::verdict(names.axis, &id);
         print::findings(&id.findings);
     }

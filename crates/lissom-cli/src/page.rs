@@ -1,15 +1,16 @@
 //! The report: one self-contained HTML page.
 
-use lissom::identify::{Finding, Identified, RunKind, Severity};
+use lissom::identify::{Finding, GeometryCheck, Identified, RunKind, Severity};
 use lissom::record::Campaign;
 use lissom_io::UnitNames;
 use lissom_report::{
     Axis, Band, Cells, Finding as ReportFinding, KeyFigure, LinePlot, Page, Role,
-    Severity as ReportSeverity, Table, Trace,
+    Severity as ReportSeverity, Table, Trace, significant,
 };
 
+use crate::print::KNOWN_DIGITS;
 use crate::reference::Reference;
-use crate::{figures, friction_curve, print, verdict};
+use crate::{equivalent, figures, friction_curve, geometry, print, verdict};
 
 /// The page as HTML.
 pub(crate) fn page(
@@ -18,6 +19,7 @@ pub(crate) fn page(
     names: UnitNames,
     id: &Identified,
     reference: Option<&Reference>,
+    described: Option<&GeometryCheck>,
 ) -> String {
     let refusals = id.findings.iter().filter(|f| f.severity == Severity::Refusal).count();
     let warnings = id.findings.iter().filter(|f| f.severity == Severity::Warning).count();
@@ -88,6 +90,8 @@ pub(crate) fn page(
             .key_figures("By constant velocities", &classical_figures(names, id))
             .table(&points(names, id));
     }
+    page = equivalent::section(page, names, id.equivalent.as_ref());
+    page = geometry::section(page, described);
     page.heading("Runs")
         .table(&runs(id))
         .heading("Findings")
@@ -101,7 +105,9 @@ fn key_figures(names: UnitNames, id: &Identified, reference: Option<&Reference>)
         .into_iter()
         .map(|row| {
             let note = match (row.known, reference) {
-                (Some(known), Some(r)) => format!("{}: {known:.5e}", r.label),
+                (Some(known), Some(r)) => {
+                    format!("{}: {}", r.label, significant(known, KNOWN_DIGITS))
+                }
                 _ => String::new(),
             };
             key_figure(row, note)
@@ -199,7 +205,7 @@ fn pair_table(names: UnitNames, id: &Identified) -> Table {
                 format!("{:.4}", p.omega_rad_s),
                 format!("{:.5}", p.coulomb_command.value),
                 format!("{:.5}", p.coulomb_command.std),
-                format!("{:.2e}", p.cost),
+                significant(p.cost, 3),
                 (if *used { "" } else { "left out" }).to_owned(),
             ]);
         }

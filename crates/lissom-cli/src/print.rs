@@ -4,12 +4,15 @@
 use lissom::identify::{ConstantVelocity, Estimate, Finding, Identified, RunKind, Severity};
 use lissom::record::{Axis, Campaign, Hold};
 use lissom_io::UnitNames;
-use lissom_report::{interval, with_uncertainty};
+use lissom_report::{interval, significant, with_uncertainty};
 use serde_json::Value;
 use std::io::{ErrorKind, Write as _};
 
 use crate::failure::Failure;
 use crate::reference::Reference;
+
+/// Significant digits of figures known beforehand.
+pub(crate) const KNOWN_DIGITS: usize = 6;
 
 /// An error with the way out.
 pub(crate) fn failure(failure: &Failure) {
@@ -167,7 +170,7 @@ pub(crate) fn figures(names: UnitNames, id: &Identified, reference: Option<&Refe
             }
             None => ("refused".to_owned(), "see findings".to_owned()),
         };
-        let known = row.known.map(|k| format!("{k:.5e}"));
+        let known = row.known.map(|k| significant(k, KNOWN_DIGITS));
         [row.name, value, row.unit, within].into_iter().chain(known).collect()
     }));
     table(&rows);

@@ -266,3 +266,26 @@ fn figure_8_is_explained() {
         assert!((printed - here).abs() < 1e-3, "{name}: {printed} {here}");
     }
 }
+
+#[test]
+fn the_description_beside_the_logs_is_judged() {
+    let bench = Bench::new(ARM, PLAN);
+    bench.done("out", &[]);
+    let out = bench.0.path().join("out");
+    let longer = ARM.replace("\"7 in\"", "\"7.35 in\"");
+    fs::write(out.join("arm.toml"), longer).unwrap();
+    let mut command = Command::cargo_bin("lissom").unwrap();
+    command.current_dir(&out);
+    command.args(["identify", "campaign.toml", "--json", "--report", "report.html"]);
+    let output = command.output().unwrap();
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let check = &found["geometry"];
+    assert_eq!(check["agrees"], false);
+    let best = check["explanations"].as_array().unwrap();
+    let length = best.iter().find(|e| e["quantity"] == "length").unwrap();
+    let ends = length["factor"]["ci95"].as_array().unwrap();
+    let (low, high) = (ends[0].as_f64().unwrap(), ends[1].as_f64().unwrap());
+    assert!(low < 1.0 / 1.05 && 1.0 / 1.05 < high && high < 0.97, "{length}");
+    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(page.contains("The arm as described") && page.contains("Explained best"), "{check}");
+}

@@ -4,7 +4,8 @@
 
 use lissom::identify::{
     ByDirection, ConstantVelocity, Estimate, FrictionLine, Identified, LawCandidate, LawTerm,
-    NearRestEstimate, Options, RippleEstimate, RunToAdd, Shape, SteadyPoint, identify,
+    NearRestEstimate, Options, RippleEstimate, RunToAdd, Shape, SteadyPoint, geometry_check,
+    identify,
 };
 use lissom::information::Figure;
 use lissom::plan::PlannedMotion;
@@ -47,6 +48,9 @@ fn channels(axis: Axis, quantity: CommandQuantity, constant: Option<f64>) -> Cha
 /// Results of every axis and command, with every figure that may be absent.
 fn results() -> Vec<Value> {
     let mut id = identify(&campaign(), &Options::default(), |_| ()).unwrap();
+    let described =
+        geometry_check(&lissom_testmodels::report_arm(), id.output_error.as_ref().unwrap());
+    assert!(described.is_some());
     let mut results = Vec::new();
     for axis in [Axis::Rotary, Axis::Linear] {
         for quantity in
@@ -54,9 +58,13 @@ fn results() -> Vec<Value> {
         {
             for constant in [None, Some(0.246_759)] {
                 id.torque_per_command = constant;
-                results.push(result_json(&channels(axis, quantity, constant), &id));
+                results.push(result_json(&channels(axis, quantity, constant), &id, None));
                 let split = with_directions(id.clone());
-                results.push(result_json(&channels(axis, quantity, constant), &split));
+                results.push(result_json(
+                    &channels(axis, quantity, constant),
+                    &split,
+                    described.as_ref(),
+                ));
             }
         }
     }

@@ -42,7 +42,7 @@ fn campaign(omega_rad_s: &[f64]) -> Campaign {
 fn result() -> (Value, FoundArm) {
     let used = campaign(&[3.1, 9.3]);
     let id = identify(&used, &Options::default(), |_| ()).unwrap();
-    (result_json(&used.channels, &id), id.arm.unwrap())
+    (result_json(&used.channels, &id, None), id.arm.unwrap())
 }
 
 struct Placed {

@@ -44,7 +44,7 @@ mod trace;
 pub use bode::BodePlot;
 pub use error::FigureError;
 pub use line::LinePlot;
-pub use number::{interval, with_uncertainty};
+pub use number::{interval, significant, with_uncertainty};
 pub use page::Page;
 pub use page_parts::{Cells, Finding, KeyFigure, Severity, Table};
 pub use palette::Role;

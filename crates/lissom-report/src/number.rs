@@ -38,7 +38,8 @@ pub(crate) fn plain(value: f64) -> String {
     significant(value, 4)
 }
 
-fn significant(value: f64, digits: usize) -> String {
+/// `value` in so many significant digits, in scientific form where it is very large or small.
+pub fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return "—".to_owned();
     }

@@ -36,12 +36,12 @@ pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
     let channels = &file.campaign.channels;
     let names = UnitNames::new(channels);
     let truth = Reference::truth(&rig.arm);
-    let result = result_json(channels, &id);
+    let result = result_json(channels, &id, None);
     write::write_json(&out.join("result.json"), &result)?;
     let mut batch = Batch::new();
     figures::add_all(&mut batch, out, channels, names, &id, Some(&truth))?;
     batch.commit()?;
-    let text = page::page("lissom demo", &file.campaign, names, &id, Some(&truth));
+    let text = page::page("lissom demo", &file.campaign, names, &id, Some(&truth), None);
     write::write_text(&out.join("report.html"), &text)?;
 
     let rows = comparison(&rig.arm, &id);

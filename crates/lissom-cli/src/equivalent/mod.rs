@@ -7,7 +7,7 @@ mod plots;
 mod table;
 
 pub(crate) use args::EquivalentArgs;
-pub(crate) use table::brief;
+pub(crate) use table::{brief, section};
 
 use std::path::Path;
 use std::process::ExitCode;

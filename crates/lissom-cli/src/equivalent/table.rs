@@ -3,7 +3,7 @@
 use lissom::beam::RootClass;
 use lissom::identify::{Deviations, Equivalent, Estimate, ResponseZero, StrainlessForm};
 use lissom_io::UnitNames;
-use lissom_report::{interval, with_uncertainty};
+use lissom_report::{Cells, Page, Table, interval, with_uncertainty};
 
 use super::input::{Input, Known};
 use crate::model::significant;
@@ -36,6 +36,31 @@ pub(crate) fn brief(names: UnitNames, found: &Equivalent) {
     let modes = print::counted(found.modes.len(), "mode");
     print::line(&format!("\nequivalent arm of {modes}, with intervals by `lissom equivalent`"));
     for_use(names, found, form);
+}
+
+/// The same on the report's page.
+pub(crate) fn section(page: Page, names: UnitNames, found: Option<&Equivalent>) -> Page {
+    let Some((found, form)) = found.and_then(|e| Some((e, e.strainless.as_ref()?))) else {
+        return page;
+    };
+    let rows = rows_for_use(names, found, form);
+    let columns: Vec<(&str, Cells)> = rows[0]
+        .iter()
+        .enumerate()
+        .map(|(i, title)| match i {
+            0 => ("", Cells::Text),
+            _ => (title.as_str(), Cells::Numbers),
+        })
+        .collect();
+    let caption = "Each line an equation: the sum over its columns, the points' angles in rad";
+    let table = rows[1..].iter().fold(Table::new(caption, &columns), |t, row| t.row(row.clone()));
+    page.heading("Equivalent arm")
+        .paragraph(&format!(
+            "{} from the responses to the motor's angle, made so that turning as one body strains \
+             nothing; with intervals by lissom equivalent.",
+            print::counted(found.modes.len(), "mode")
+        ))
+        .table(&table)
 }
 
 fn head(input: &Input, found: &Equivalent) {
@@ -157,6 +182,10 @@ fn as_fitted(input: &Input, found: &Equivalent) {
 }
 
 fn for_use(names: UnitNames, found: &Equivalent, form: &StrainlessForm) {
+    print::table(&rows_for_use(names, found, form));
+}
+
+fn rows_for_use(names: UnitNames, found: &Equivalent, form: &StrainlessForm) -> Vec<Vec<String>> {
     let number = |x: f64| significant(x, DIGITS).replace('-', "−");
     let mut rows = vec![heading(found, "for use: turning as one body strains nothing")];
     for i in 0..found.points.len() {
@@ -169,7 +198,7 @@ fn for_use(names: UnitNames, found: &Equivalent, form: &StrainlessForm) {
         let h = form.h.iter().map(|x| number(*x)).chain([number(form.h_motor)]);
         rows.push(std::iter::once(torque_name(names)).chain(h).collect());
     }
-    print::table(&rows);
+    rows
 }
 
 fn zeros(found: &Equivalent) {

@@ -7,6 +7,7 @@ mod arm;
 mod dry_terms;
 mod equivalent;
 mod friction_law;
+mod geometry;
 mod payload;
 mod units;
 mod validation;
@@ -19,17 +20,22 @@ pub use units::UnitNames;
 pub use validation::{channel_name_unit, validation_json};
 
 use lissom::identify::{
-    BeamRegression, Candidate, ConstantVelocity, Estimate, Finding, FrictionLine, Identified,
-    ModeEstimate, MotorFit, MotorRegression, OutputError, Response, ResponsePoint, RunAnalysis,
-    RunKind, Severity, Shape, StageReport, Stop, ThirdHarmonic,
+    BeamRegression, Candidate, ConstantVelocity, Estimate, Finding, FrictionLine, GeometryCheck,
+    Identified, ModeEstimate, MotorFit, MotorRegression, OutputError, Response, ResponsePoint,
+    RunAnalysis, RunKind, Severity, Shape, StageReport, Stop, ThirdHarmonic,
 };
 use lissom::lti::TransferFunction;
 use lissom::record::{Axis, Channels, TipQuantity};
 use lissom::replay::Parameter;
 use serde_json::{Map, Value, json};
 
-/// The result as JSON, SI and rad/s throughout.
-pub fn result_json(channels: &Channels, id: &Identified) -> Value {
+/// The result as JSON, SI and rad/s throughout; with what the logs say of an arm's description, where one
+/// lies beside them.
+pub fn result_json(
+    channels: &Channels,
+    id: &Identified,
+    described: Option<&GeometryCheck>,
+) -> Value {
     let names = UnitNames::new(channels);
     let constant = id.torque_per_command.unwrap_or(1.0);
     json!({
@@ -54,6 +60,7 @@ pub fn result_json(channels: &Channels, id: &Identified) -> Value {
         },
         "frequency_response": responses(channels, id),
         "models": models(channels, id),
+        "geometry": described.map(geometry::geometry),
         "equivalent": id.equivalent.as_ref().map(|e| equivalent::equivalent(names, e)),
         "runs": id.runs.iter().map(run).collect::<Vec<_>>(),
         "findings": id.findings.iter().map(finding).collect::<Vec<_>>(),
