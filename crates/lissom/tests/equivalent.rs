@@ -199,7 +199,7 @@ fn median(mut of: Vec<f64>) -> f64 {
     of[of.len() / 2]
 }
 
-/// Three modes, 1 % of noise, 100 draws: frequencies 0.2 %, zeros 1 %, coupling 2 %, and 95 % intervals that
+/// Three modes, 1 % of noise, 1000 draws: frequencies 0.2 %, zeros 1 %, coupling 2 %, and 95 % intervals that
 /// hold.
 #[test]
 fn one_per_cent_of_noise_with_three_modes() {
@@ -212,7 +212,7 @@ fn one_per_cent_of_noise_with_three_modes() {
         within[kind].1 += 1;
         (found.value / truth - 1.0).abs()
     };
-    for seed in 0..100 {
+    for seed in 0..1000 {
         let (omega, outputs) = measured(&truth, 0.01, seed);
         let fit: SharedPoles = fit_shared_poles(&omega, &outputs, 3, Damping::None).unwrap();
         let found = equivalent_arm(&fit, &motor(&truth, &omega, 0.01, seed)).unwrap();
@@ -237,7 +237,7 @@ fn one_per_cent_of_noise_with_three_modes() {
     println!("medians {medians:?}, within {within:?}");
     assert!(medians[0] < 2e-3 && medians[1] < 1e-2 && medians[2] < 2e-2);
     for (inside, all) in within {
-        assert!((0.91..0.985).contains(&(f64::from(inside) / f64::from(all))));
+        assert!((0.925..0.975).contains(&(f64::from(inside) / f64::from(all))));
     }
 }
 
