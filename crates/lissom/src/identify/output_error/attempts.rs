@@ -6,7 +6,7 @@ use super::data::Masks;
 use super::figures::stands;
 use super::left_over::left_over;
 use super::stages::{Fit, Fitting, Report, SLOWER};
-use super::{evidence, modes};
+use super::{evidence, law, modes};
 use crate::replay::{ModalArm, Oscillator};
 
 /// An arm is tried after the others where a few steps on short windows leave this many times what they
@@ -125,7 +125,16 @@ fn attempt(fitting: &Fitting<'_>, arm: &ModalArm, first_window_s: Option<f64>) -
         settle(fitting, &mut fit, &mut report);
         report.refused = evidence::promises(fitting, &fit).concat();
     }
-    let without_repeats = fitting.count_steps(&mut fit, &mut report);
+    let line = law::as_line(fitting, &fit);
+    let mut without_repeats = fitting.count_steps(&mut fit, &mut report);
+    if let Some((mut line, mut on_the_way)) = line {
+        let masks = fitting.count_steps(&mut line, &mut on_the_way);
+        // Where sensors' steps count: before, a fit with more to move follows them.
+        if law::is_line(fitting, &fit, &line) {
+            (fit, without_repeats) = (line, masks);
+            report.replaced_by(on_the_way, &fit.free);
+        }
+    }
     let left = left_over(fitting.campaign, &fit, fitting.masks);
     Some(Attempt { fit, report, without_repeats, left })
 }

@@ -27,7 +27,7 @@ const RIGID_SHARE: f64 = 1e-3;
 /// A kind of dampers is there when one of them stands this many deviations from zero.
 const THERE: f64 = 2.0;
 /// Deviations at which a group is as likely to be there as not.
-const EVEN: f64 = 3.0;
+pub(super) const EVEN: f64 = 3.0;
 /// With fewer deviations than these nothing speaks for a group, as in any test at 5 %.
 const SPEAKS: f64 = 2.0;
 /// Most groups added at a time.

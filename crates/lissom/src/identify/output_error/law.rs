@@ -2,8 +2,8 @@
 
 use std::f64::consts::SQRT_2;
 
-use super::evidence::{self, Extension};
-use super::stages::{Fit, Fitting};
+use super::evidence::{self, EVEN, Extension};
+use super::stages::{Fit, Fitting, Report};
 use super::windows::fastest_rad_s;
 use crate::identify::LawTerm;
 use crate::record::Run;
@@ -61,6 +61,38 @@ pub(super) fn best(
     let open = terms.ripples.len() < MOST_RIPPLES && fitting.beyond_noise(fit) > FAR;
     let found = open.then(|| strongest_ripple(fitting, fit)).flatten()?;
     Some(promise(rippled(terms, found)))
+}
+
+/// The fit with friction that is a line in place of one that changes near rest over more than all speeds
+/// of the logs, and the stages that led there: such a term may have stood in for something else, a lag say,
+/// that the arm has by now.
+pub(super) fn as_line(fitting: &Fitting<'_>, fit: &Fit) -> Option<(Fit, Report)> {
+    let fastest = fastest_rad_s(fitting.campaign);
+    let near = fit.body.arm.dry_terms.near_rest?;
+    if fastest <= 0.0 || near.speed_rad_s <= fastest {
+        return None;
+    }
+    let (mut line, mut report) = (fit.clone(), Report::default());
+    line.free.retain(|p| !is_near_rest(*p));
+    let arm = &mut line.body.arm;
+    arm.dry_terms.near_rest = None;
+    // Through its ends.
+    arm.coulomb_nm += near.torque_nm;
+    let falls = near.torque_nm * (-fastest / near.speed_rad_s).exp_m1() / fastest;
+    arm.viscous_nm_s_per_rad.iter_mut().for_each(|v| *v += falls);
+    fitting.search(&mut line, &mut report);
+    Some((line, report))
+}
+
+/// Whether the line leaves no more than the two numbers that it lacks are worth.
+pub(super) fn is_line(fitting: &Fitting<'_>, fit: &Fit, line: &Fit) -> bool {
+    let lacks = fit.free.iter().filter(|p| is_near_rest(**p)).count();
+    let worth = EVEN * EVEN * lacks as f64;
+    fitting.cost(line, &fit.noise) < fitting.cost(fit, &fit.noise) + worth
+}
+
+fn is_near_rest(p: Parameter) -> bool {
+    matches!(p, Parameter::NearRest | Parameter::NearRestSpeed)
 }
 
 fn share(found: &[Extension]) -> f64 {

@@ -135,6 +135,12 @@ impl Report {
         first.iter().zip(residual).any(|(a, b)| *b > GROWN * a)
     }
 
+    /// Another fit was taken in the end, which these stages led to; what it has not is not added.
+    pub(super) fn replaced_by(&mut self, mut other: Self, free: &[Parameter]) {
+        self.stages.append(&mut other.stages);
+        self.added.retain(|e| free.contains(&e.parameter));
+    }
+
     /// Friction has another law from the last stage on.
     pub(super) fn law_changed(&mut self) {
         self.under_law = self.stages.len().saturating_sub(1);
