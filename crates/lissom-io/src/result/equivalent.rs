@@ -92,6 +92,7 @@ fn torque(names: UnitNames, deviations_known: bool, arm: &EquivalentArm) -> Valu
         (names.coupling_key("h_motor")): figure(Some(arm.h_motor)),
         (names.inertia_key()): figure(Some(arm.inertia)),
         (names.viscous_key("viscous")): figure(Some(arm.viscous)),
+        "delay_s": figure(arm.delay_s),
         "weighted_rms": deviations_known.then_some(arm.weighted_rms),
     })
 }

@@ -1,6 +1,7 @@
 //! The coupling torque of the equivalent beam, and the motor that it loads: step 6 of Section 4.
 
 use nalgebra::{DMatrix, DVector, DVectorView};
+use num_complex::Complex64;
 
 use super::{EquivalentBeam, EquivalentError, StrainlessForm, deviation, equivalent_beam, moved};
 use crate::beam::{BeamError, KnownMode, ModalBeam, ModalForm};
@@ -34,6 +35,11 @@ pub struct EquivalentArm {
     pub viscous: Estimate,
     /// Covariance of the fit's unknowns, in the order of [`SharedPoles::covariance`], then of J, V and c_k.
     pub covariance: DMatrix<f64>,
+    /// By how much the motor comes later than the command \[s\], where its response calls for that.
+    pub delay_s: Option<Estimate>,
+    /// Coulomb friction left in the motor's response: how many deviations a torque against the motion that does
+    /// not grow with its speed is from zero.
+    pub friction_left: f64,
     /// Root mean square of what the motor's response leaves, in its deviations: one where the model is as
     /// good as the data.
     pub weighted_rms: f64,
@@ -44,7 +50,7 @@ pub struct EquivalentArm {
 /// Steps 5 and 6: from responses of points with shared poles and the motor's response, friction taken out,
 /// the whole arm.
 ///
-/// The motor's equation is linear in J, V and c_k once the poles are known (step 6(c)). With R the points'
+/// The motor's torque per angle is linear in J, V and c_k once the poles are known (step 6(c)). With R the points'
 /// gains at rest, mode by mode, `Ĥ = −cᵀ·R⁻¹` and `ĥ_{n+1} = Σ c_k`: what step 6(d) comes to in exact
 /// numbers. Deviations are to first order in both covariances, the poles' errors counted in c_k too.
 /// `Ĥ·1 + ĥ` is zero only as far as R·1 is one: see [`EquivalentArm::strainless`].
@@ -101,7 +107,9 @@ pub(super) fn arm_below(
     let h_std = |i: usize| deviation(&covariance, |u| slopes[u][i]);
     let h_motor_std = deviation(&covariance, |u| f64::from(u >= first + 2));
     Ok(EquivalentArm {
-        damping_within: (0..modes).map(|k| fit.damping_within(k)).collect(),
+        damping_within: coupled.damping_within,
+        delay_s: coupled.delay_s,
+        friction_left: coupled.friction_left,
         poles: fit.poles.clone(),
         h: h.iter().enumerate().map(|(i, &value)| Estimate { value, std: h_std(i) }).collect(),
         h_motor: Estimate { value: h_motor, std: h_motor_std },
@@ -176,14 +184,16 @@ impl EquivalentArm {
         self.torque_per_command
     }
 
-    /// θ_m per command at a frequency.
-    pub fn motor_response(&self, omega_rad_s: f64) -> num_complex::Complex64 {
-        let s = num_complex::Complex64::new(0.0, omega_rad_s);
+    /// θ_m per command at a frequency, the delay in it.
+    pub fn motor_response(&self, omega_rad_s: f64) -> Complex64 {
+        let s = Complex64::new(0.0, omega_rad_s);
         let each = self.poles.iter().zip(&self.damping_within).zip(&self.coupling);
         let through = |((pole, within), c): ((&Pole, &f64), &Estimate)| {
             c.value * coupled(pole, *within, omega_rad_s)
         };
-        let torque: num_complex::Complex64 = each.map(through).sum();
-        self.torque_per_command / (s * (s * self.inertia.value + self.viscous.value) + torque)
+        let torque: Complex64 = each.map(through).sum();
+        let late = Complex64::cis(-omega_rad_s * self.delay_s.map_or(0.0, |d| d.value));
+        late * self.torque_per_command
+            / (s * (s * self.inertia.value + self.viscous.value) + torque)
     }
 }

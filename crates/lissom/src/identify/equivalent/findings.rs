@@ -1,11 +1,11 @@
 //! What to know of an equivalent arm.
 
-use super::EquivalentError;
 use super::refusal::side;
 use super::whole::{Deviations, Equivalent, EquivalentData};
+use super::{EquivalentArm, EquivalentError};
 use crate::identify::finding::key;
 use crate::identify::rational::{Damping, Spurious};
-use crate::identify::{Estimate, Finding, Severity};
+use crate::identify::{Estimate, Finding, Response, Severity};
 
 /// A model that leaves more than so many deviations is not all there is…
 const MISFIT: f64 = 2.0;
@@ -13,6 +13,74 @@ const MISFIT: f64 = 2.0;
 const TOO_GOOD: f64 = 0.5;
 /// What the last mode is given is told from this size on.
 const GIVEN: f64 = 0.02;
+
+/// Without deviations the motor's response is misfitted where more than so many times the points' share of
+/// it is left, and more than this share.
+const NOISIER: f64 = 3.0;
+const LEFT_OF_MOTOR: f64 = 0.02;
+/// Friction left in the motor's response is told of from so many of its deviations on.
+const FRICTION_LEFT: f64 = 4.0;
+
+/// What the arm leaves of the motor's response, as a share of it, root mean square.
+fn left_of_motor(data: &EquivalentData, arm: &EquivalentArm) -> f64 {
+    let Some(motor) = &data.motor else { return 0.0 };
+    let share = |(w, r): (&f64, &Response)| {
+        (r.value - arm.motor_response(*w)).norm_sqr() / r.value.norm_sqr()
+    };
+    let shares = motor.omega_rad_s.iter().zip(&motor.response).map(share);
+    (shares.sum::<f64>() / motor.response.len().max(1) as f64).sqrt()
+}
+
+/// Whether the arm describes the motor's response.
+fn of_motor(
+    data: &EquivalentData,
+    whole: &Equivalent,
+    arm: &EquivalentArm,
+    add: &mut impl FnMut(&'static str, Severity, String, &'static str),
+) {
+    let (left, points) = (left_of_motor(data, arm), whole.relative_residual);
+    let known = data.deviations != Deviations::FromResidual;
+    if known && arm.weighted_rms > MISFIT {
+        let message = format!(
+            "the motor's response lies {:.1} times its deviations off the model: friction left in it, or modes \
+             that are not in the arm. Intervals count it",
+            arm.weighted_rms
+        );
+        let hint = "look at the plot of the motor";
+        add("equivalent-motor-misfit", Severity::Warning, message, hint);
+    } else if !known && left > LEFT_OF_MOTOR && left > NOISIER * points {
+        let message = format!(
+            "the arm leaves {:.1} % of the motor's response (rms), and {:.2} % of the points': friction left in it, \
+             modes that are not in the arm, another quantity than angle per command, or a poor channel",
+            100.0 * left,
+            100.0 * points
+        );
+        let hint = "look at the plot of the motor; deviations (columns that end in _std) tell noise from misfit";
+        add("equivalent-motor-misfit", Severity::Warning, message, hint);
+    }
+    if let Some(late) = arm.delay_s {
+        let message = format!(
+            "the motor comes {:.4} ms ± {:.4} ms {} against the command: the delay was taken out, and intervals count \
+             that it is estimated",
+            1e3 * late.value.abs(),
+            1e3 * late.std,
+            side(late.value)
+        );
+        let hint =
+            "sample command and angle at one time, with one filter, or correct the response by it";
+        add("equivalent-motor-delay", Severity::Warning, message, hint);
+    }
+    if arm.friction_left.abs() > FRICTION_LEFT {
+        let message = format!(
+            "the motor's response has a torque against the motion that does not grow with its speed, {:.1} deviations \
+             from zero, as Coulomb friction leaves it: viscous friction and inertia may be off by more than their \
+             intervals",
+            arm.friction_left.abs()
+        );
+        let hint = "take the friction out first (`lissom identify` of the logs does), or measure at larger amplitudes";
+        add("equivalent-motor-friction", Severity::Warning, message, hint);
+    }
+}
 
 pub(super) fn findings(
     data: &EquivalentData,
@@ -72,15 +140,7 @@ pub(super) fn findings(
         add("equivalent-deviations-large", Severity::Info, message, hint);
     }
     if let Some(arm) = &whole.arm {
-        if known && arm.weighted_rms > MISFIT {
-            let message = format!(
-                "the motor's response lies {:.1} times its deviations off the model: friction left in it, or modes \
-                 that are not in the arm. Intervals count it",
-                arm.weighted_rms
-            );
-            let hint = "look at the plot of the motor";
-            add("equivalent-motor-misfit", Severity::Warning, message, hint);
-        }
+        of_motor(data, whole, arm, &mut add);
         let negative: Vec<String> = named(arm)
             .into_iter()
             .filter(|(_, figure)| figure.is_negative())

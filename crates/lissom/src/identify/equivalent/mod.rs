@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
 
 mod arm;
+mod deviations;
 mod findings;
 mod imaginary;
 mod refusal;

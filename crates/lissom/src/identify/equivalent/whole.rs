@@ -7,8 +7,8 @@ use super::refusal::{EquivalentRefusal, PartOutside};
 use super::sound::sound;
 use super::turned_round::turned_round;
 use super::{
-    EquivalentArm, EquivalentBeam, EquivalentError, ResponseZero, StrainlessForm, equivalent_beam,
-    findings, imaginary, response_zeros,
+    EquivalentArm, EquivalentBeam, EquivalentError, ResponseZero, StrainlessForm, deviations,
+    equivalent_beam, findings, imaginary, response_zeros,
 };
 use crate::identify::rational::{
     MotorData, Pole, SharedPoles, Spurious, fit_shared_poles_with_delays, information,
@@ -28,7 +28,7 @@ pub enum Deviations {
     Measured,
     /// Measured, and no less than a share of the response.
     Floored,
-    /// Not known: all of a size, and what the model leaves says which.
+    /// Not known: a share of each response, of one size or both, and what the model leaves says which.
     FromResidual,
 }
 
@@ -100,7 +100,9 @@ pub fn equivalent(
         return Err(EquivalentRefusal::Names { names, points });
     }
     sound(data)?;
-    let found = judged(data, modes);
+    let most = POLES_LEAST.max(2 * points + 2);
+    let weighted = deviations::of_points(data, most);
+    let found = judged(weighted.as_ref().unwrap_or(data), modes, most);
     let suspect = match &found {
         Err(refusal) => refusal.may_be_a_turned_phase(),
         Ok(whole) => whole.may_be_a_turned_phase(),
@@ -110,9 +112,12 @@ pub fn equivalent(
 }
 
 /// Of sound numbers.
-fn judged(data: &EquivalentData, modes: Option<usize>) -> Result<Equivalent, EquivalentRefusal> {
+fn judged(
+    data: &EquivalentData,
+    modes: Option<usize>,
+    most: usize,
+) -> Result<Equivalent, EquivalentRefusal> {
     let points = data.outputs.len();
-    let most = POLES_LEAST.max(2 * points + 2);
     let (omega, outputs) = (&data.omega_rad_s, &data.outputs);
     let fit = fit_shared_poles_with_delays(omega, outputs, most)
         .map_err(|source| EquivalentRefusal::Fit { source, names: data.names.clone() })?;
@@ -151,7 +156,13 @@ fn judged(data: &EquivalentData, modes: Option<usize>) -> Result<Equivalent, Equ
     };
     let beyond: Vec<Pole> =
         fit.poles.iter().zip(&spurious).filter(above).map(|(pole, _)| *pole).collect();
-    let arm = data.motor.as_ref().map(|motor| arm_below(&kept, motor, &beyond)).transpose();
+    let with = |motor: &MotorData| match data.deviations {
+        Deviations::FromResidual => {
+            arm_below(&kept, &deviations::of_motor(motor, &kept, &beyond), &beyond)
+        }
+        Deviations::Measured | Deviations::Floored => arm_below(&kept, motor, &beyond),
+    };
+    let arm = data.motor.as_ref().map(with).transpose();
     let (arm, no_torque) = match arm {
         Ok(arm) => (arm, None),
         Err(

@@ -1,8 +1,9 @@
 //! How many poles responses ask for, and what else.
 
-use super::shared_poles::{Damping, Search, SharedPoles, SharedPolesError, fit};
+use super::Pole;
+use super::shared_poles::{Damping, Search, SharedPoles, SharedPolesError, best_near, fit};
 use super::weighted::Weighted;
-use crate::identify::Response;
+use crate::identify::{Estimate, Response};
 
 /// Another pair of poles is looked for until so many in a row say less than they cost.
 const IN_VAIN: usize = 2;
@@ -53,11 +54,19 @@ pub(crate) fn fit_shared_poles_with_delays(
         (Some(late), Some(within)) => {
             let handicap = if within.damps() { CALLED_FOR } else { -CALLED_FOR };
             let taken = within.criterion < late.criterion + handicap;
-            if taken { within.counting_hidden_delays() } else { late }
+            if taken { within.counting_hidden_delays() } else { late.may_damp_within() }
         }
         (None, Some(within)) => within.counting_hidden_delays(),
-        (Some(late), None) => late,
-        (None, None) => plain,
+        (Some(late), None) => late.may_damp_within(),
+        (None, None) => {
+            let near = best_near(&data, plain.poles.clone(), Damping::Within);
+            let within =
+                near.and_then(|(data, point)| SharedPoles::of(&data, point, Damping::Within));
+            match within {
+                Some(within) => SharedPoles { within: within.rooms(), ..plain },
+                None => plain.may_damp_within(),
+            }
+        }
     })
 }
 
@@ -92,16 +101,32 @@ fn by_evidence(
 }
 
 impl SharedPoles {
-    /// ζ_w: of the damping ratio of pole `k` what is within the beam, `κ_ik = 2ζ_w·ρ_ik` over all outputs.
-    pub(crate) fn damping_within(&self, k: usize) -> f64 {
-        let (mut across, mut size) = (0.0, 0.0);
-        for (terms, gains) in self.in_s.iter().zip(&self.static_gains) {
-            let weight = terms[k].std.powi(-2);
-            across += weight * terms[k].value * gains[k];
-            size += 2.0 * weight * gains[k] * gains[k];
-        }
-        let found = across / size;
-        if found.is_finite() { found.clamp(0.0, self.poles[k].damping_ratio.max(0.0)) } else { 0.0 }
+    /// ζ_w of each pole: of its damping ratio what is within the beam, `κ_ik = 2ζ_w·ρ_ik` over all outputs, and no
+    /// farther from none and all than that leaves room for.
+    fn rooms(&self) -> Vec<Estimate> {
+        let room = |k: usize| {
+            let (mut across, mut size) = (0.0, 0.0);
+            for (terms, gains) in self.in_s.iter().zip(&self.static_gains) {
+                let weight = terms[k].std.powi(-2);
+                across += weight * terms[k].value * gains[k];
+                size += 2.0 * weight * gains[k] * gains[k];
+            }
+            let most = self.poles[k].damping_ratio.max(0.0);
+            let (value, std) = (across / size, (2.0 * size).sqrt().recip());
+            if value.is_finite() && std.is_finite() {
+                Estimate { value: value.clamp(0.0, most), std: std.min(most) }
+            } else {
+                Estimate { value: 0.0, std: most }
+            }
+        };
+        (0..self.poles.len()).map(room).collect()
+    }
+
+    /// Nothing is known of ζ_w but that damping has two ends: responses with a delay do not tell it.
+    fn may_damp_within(mut self) -> Self {
+        let room = |p: &Pole| Estimate { value: 0.0, std: p.damping_ratio.max(0.0) };
+        self.within = self.poles.iter().map(room).collect();
+        self
     }
 
     /// Largest delay of output `i` \[s\] that terms in s leave room for: with `2ζ_w = κ_ik/ρ_ik + τ_i·ω_k` the damping
@@ -123,6 +148,7 @@ impl SharedPoles {
 
     /// Gains' deviations with what such a delay does to them beside terms in s, `ρ_ik·(τ_i·ω_k)²/2`.
     fn counting_hidden_delays(mut self) -> Self {
+        self.within = self.rooms();
         let modes = self.poles.len();
         for i in 0..self.static_gains.len() {
             let late_s = self.hidden_delay_s(i);

@@ -192,26 +192,37 @@ impl Rows {
         sound.then_some(Self { a, b, weights })
     }
 
-    /// Least squares, and (AᵀA)⁻¹. The columns are brought to one size: c_k and J differ by orders.
+    /// Least squares, and (AᵀA)⁻¹.
     pub(super) fn solved(&self) -> Option<(DVector<f64>, DMatrix<f64>)> {
-        let sizes = DVector::from_fn(self.a.ncols(), |k, _| match self.a.column(k).norm() {
-            0.0 => 1.0,
-            size => size,
-        });
-        let mut scaled = self.a.clone();
-        for (mut column, size) in scaled.column_iter_mut().zip(&sizes) {
-            column /= *size;
-        }
-        let normal = scaled.tr_mul(&scaled);
-        let value = scaled.svd(true, true).solve(&self.b, 1e-13).ok()?;
-        let mut covariance = normal.pseudo_inverse(1e-15).ok()?;
-        for (j, mut column) in covariance.column_iter_mut().enumerate() {
-            for (i, v) in column.iter_mut().enumerate() {
-                *v /= sizes[i] * sizes[j];
-            }
-        }
-        Some((value.component_div(&sizes), covariance))
+        least_squares(&self.a, &self.b)
     }
+}
+
+/// Least squares of `a·x = b`, and (aᵀa)⁻¹. The columns are brought to one size: c_k and J differ by orders.
+pub(super) fn least_squares(
+    a: &DMatrix<f64>,
+    b: &DVector<f64>,
+) -> Option<(DVector<f64>, DMatrix<f64>)> {
+    let sizes = DVector::from_fn(a.ncols(), |k, _| match a.column(k).norm() {
+        0.0 => 1.0,
+        size => size,
+    });
+    let mut scaled = a.clone();
+    for (mut column, size) in scaled.column_iter_mut().zip(&sizes) {
+        column /= *size;
+    }
+    if scaled.iter().chain(b.iter()).any(|v| !v.is_finite()) {
+        return None;
+    }
+    let normal = scaled.tr_mul(&scaled);
+    let value = scaled.svd(true, true).solve(b, 1e-13).ok()?;
+    let mut covariance = normal.pseudo_inverse(1e-15).ok()?;
+    for (j, mut column) in covariance.column_iter_mut().enumerate() {
+        for (i, v) in column.iter_mut().enumerate() {
+            *v /= sizes[i] * sizes[j];
+        }
+    }
+    Some((value.component_div(&sizes), covariance))
 }
 
 impl Solution {

@@ -131,6 +131,9 @@ pub struct SharedPoles {
     pub static_gains: Vec<Vec<f64>>,
     /// `κ_ik` of output i (outer) and pole k, with [`Damping::Within`]; zero otherwise.
     pub in_s: Vec<Vec<Estimate>>,
+    /// ζ_w of each pole: of its damping ratio what is within the beam, with the room that the responses leave it;
+    /// zero and known where they were not asked.
+    pub(crate) within: Vec<Estimate>,
     /// τ_i of each output, where delays were looked for \[s\].
     pub delays_s: Vec<Option<Estimate>>,
     /// Covariance of ln ω_k (and ζ_k where damped), pole by pole, then of ρ_ik, output by output: from the
@@ -202,15 +205,14 @@ pub(super) fn fit(
     if modes == 0 {
         return Err(SharedPolesError::NoPoles);
     }
-    let of_poles = damping.unknowns() + data.outputs.len() * damping.terms();
-    let unknowns = modes * of_poles + data.delays();
+    let unknowns = unknowns(data, modes, damping);
     let readings = data.readings();
     // Each pole takes two frequencies to be seen at: its height and its width.
     if unknowns >= readings || 2 * modes > data.omega.len() {
         return Err(SharedPolesError::TooFew { unknowns, readings });
     }
     let found = |at: Option<(Weighted, Point)>| {
-        at.and_then(|(data, point)| SharedPoles::of(&data, point, unknowns, damping))
+        at.and_then(|(data, point)| SharedPoles::of(&data, point, damping))
     };
     // Vector fitting has two unknowns of each pole in every output, and two of each in σ.
     let together = 4 * modes < 2 * data.omega.len();
@@ -226,8 +228,28 @@ pub(super) fn fit(
     best.ok_or(SharedPolesError::NotFound { modes })
 }
 
+/// [`information`] with what an unknown costs stretched as the corrected criterion of Akaike has it: with nearly
+/// as many unknowns as readings a model describes noise.
+///
+/// # Source
+/// Hurvich and Tsai, Regression and time series model selection in small samples, Biometrika 76 (1989).
+fn for_few_readings(readings: usize, unknowns: usize, cost: f64) -> f64 {
+    let (n, p) = (readings as f64, unknowns as f64);
+    let free = readings.saturating_sub(unknowns + 1) as f64;
+    information(readings, unknowns, cost) + p * n.ln() * (n / free - 1.0)
+}
+
+/// Figures of so many poles, their residues and the delays.
+fn unknowns(data: &Weighted, modes: usize, damping: Damping) -> usize {
+    modes * (damping.unknowns() + data.outputs.len() * damping.terms()) + data.delays()
+}
+
 /// The best near `poles`, and the data turned back by its delays.
-fn best_near(data: &Weighted, poles: Vec<Pole>, damping: Damping) -> Option<(Weighted, Point)> {
+pub(super) fn best_near(
+    data: &Weighted,
+    poles: Vec<Pole>,
+    damping: Damping,
+) -> Option<(Weighted, Point)> {
     let mut data = data.clone();
     let point = if data.delays() > 0 {
         refined_with_delays(&mut data, poles, damping)?
@@ -287,9 +309,11 @@ fn settled(data: &Weighted, mut poles: Vec<Pole>) -> Option<Vec<Pole>> {
 }
 
 impl SharedPoles {
-    fn of(data: &Weighted, point: Point, unknowns: usize, damping: Damping) -> Option<Self> {
+    pub(super) fn of(data: &Weighted, point: Point, damping: Damping) -> Option<Self> {
         let (readings, modes) = (data.readings(), point.poles.len());
-        let weighted_rms = (point.cost / (readings - unknowns) as f64).sqrt();
+        let unknowns = unknowns(data, modes, damping);
+        let free = readings.checked_sub(unknowns).filter(|free| *free > 0)?;
+        let weighted_rms = (point.cost / free as f64).sqrt();
         let covariance = point.covariance()? * weighted_rms.max(1.0).powi(2);
         let std = |at: usize| covariance[(at, at)].max(0.0).sqrt();
         let (places, _) = point.places();
@@ -311,6 +335,7 @@ impl SharedPoles {
         let at: Vec<usize> =
             poles.chain(places.iter().flat_map(|first| *first..first + modes)).collect();
         Some(Self {
+            within: vec![Estimate { value: 0.0, std: 0.0 }; modes],
             poles: point.poles,
             static_gains: gains,
             in_s,
@@ -319,8 +344,13 @@ impl SharedPoles {
             weighted_rms,
             damping,
             range_rad_s: data.range(),
-            criterion: information(readings, unknowns, point.cost),
+            criterion: for_few_readings(readings, unknowns, point.cost),
         })
+    }
+
+    /// Bayesian information criterion, deviations known but for one factor.
+    pub(crate) fn criterion(&self) -> f64 {
+        self.criterion
     }
 
     /// Deviation of unknown `i` of the covariance.
@@ -371,6 +401,7 @@ impl SharedPoles {
                 .iter()
                 .map(|i| poles.iter().map(|&k| self.in_s[*i][k]).collect())
                 .collect(),
+            within: poles.iter().map(|&k| self.within[k]).collect(),
             delays_s: outputs.iter().map(|&i| self.delays_s[i]).collect(),
             covariance: self.covariance.select_rows(&at).select_columns(&at),
             ..self.clone()

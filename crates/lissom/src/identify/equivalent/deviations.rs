@@ -1,0 +1,137 @@
+//! Deviations of responses that came without: whether their errors are a share of each, of one size, or both.
+
+use super::whole::{Deviations, EquivalentData};
+use crate::identify::Response;
+use crate::identify::rational::{
+    MotorData, Pole, SharedPoles, fit_coupling, fit_shared_poles_with_delays,
+};
+
+/// Shares of the error's square that are of one size at the median response, the rest a share of each.
+const MIXES: [f64; 9] = [0.0, 1e-4, 1e-3, 0.01, 0.1, 0.5, 0.9, 0.99, 1.0];
+/// No output is better than the worst by more than this, in shares of its median: a model may describe few
+/// points exactly.
+const BETTER: f64 = 0.03;
+/// What is left is rounding below this share of the responses.
+const ROUNDING: f64 = 1e-9;
+
+/// The points' responses with the deviations that are most likely, but for one factor: from fits with errors
+/// that are a share of each response (as they come) and of one size, and from what those leave. The data
+/// themselves where deviations are known, or nothing is left.
+pub(super) fn of_points(data: &EquivalentData, most: usize) -> Option<EquivalentData> {
+    if data.deviations != Deviations::FromResidual {
+        return None;
+    }
+    let fitted = |outputs: Vec<Vec<Response>>| {
+        let fit = fit_shared_poles_with_delays(&data.omega_rad_s, &outputs, most).ok()?;
+        let readings = 2 * data.omega_rad_s.len() * outputs.len();
+        Some(Fitted {
+            criterion: fit.criterion() + spread(outputs.iter().flatten()),
+            fit,
+            outputs,
+            readings,
+        })
+    };
+    let size = share(data.outputs.first()?);
+    let shares = fitted(data.outputs.clone())?;
+    if shares.left() < ROUNDING {
+        return None;
+    }
+    let one_size = fitted(data.outputs.iter().map(|output| of_one_size(output, size)).collect());
+    let better = |a: &Fitted, b: &Fitted| a.criterion.total_cmp(&b.criterion);
+    let best = one_size.into_iter().chain([shares]).min_by(better)?;
+    let mixed = fitted(best.mixed(&data.omega_rad_s, size));
+    // A mix and a size of each output.
+    let cost = (2 * data.outputs.len()) as f64 * (best.readings as f64).ln();
+    let mixed = mixed.map(|m| Fitted { criterion: m.criterion + cost, ..m });
+    let best = mixed.into_iter().chain([best]).min_by(better)?;
+    Some(EquivalentData { outputs: best.outputs, ..data.clone() })
+}
+
+/// The same of the motor's response.
+pub(super) fn of_motor(motor: &MotorData, fit: &SharedPoles, beyond: &[Pole]) -> MotorData {
+    let fitted = |response: Vec<Response>| {
+        let data = MotorData { response, ..motor.clone() };
+        let criterion = fit_coupling(&data, fit, beyond)?.criterion;
+        Some((criterion + spread(data.response.iter()), data))
+    };
+    let size = share(&motor.response);
+    let each = [motor.response.clone(), of_one_size(&motor.response, size)];
+    let each = each.into_iter().filter_map(fitted);
+    each.min_by(|a, b| a.0.total_cmp(&b.0)).map_or_else(|| motor.clone(), |best| best.1)
+}
+
+struct Fitted {
+    fit: SharedPoles,
+    outputs: Vec<Vec<Response>>,
+    readings: usize,
+    /// Bayesian information criterion, the deviations' sizes counted.
+    criterion: f64,
+}
+
+/// 2·Σ ln σ: what the likelihood has of the deviations beside the residuals.
+fn spread<'a>(responses: impl Iterator<Item = &'a Response>) -> f64 {
+    2.0 * responses.map(|r| r.std.ln()).sum::<f64>()
+}
+
+fn median(output: &[Response]) -> f64 {
+    let mut sizes: Vec<f64> = output.iter().map(|r| r.value.norm()).collect();
+    sizes.sort_by(f64::total_cmp);
+    sizes.get(sizes.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// Deviations as a share of their responses, as they come.
+fn share(output: &[Response]) -> f64 {
+    let mut shares: Vec<f64> = output.iter().map(|r| r.std / r.value.norm()).collect();
+    shares.sort_by(f64::total_cmp);
+    shares.get(shares.len() / 2).copied().unwrap_or(1.0)
+}
+
+fn of_one_size(output: &[Response], share: f64) -> Vec<Response> {
+    let std = share * median(output);
+    output.iter().map(|r| Response { std, ..*r }).collect()
+}
+
+impl Fitted {
+    /// Root mean square of what is left, as a share of each response.
+    fn left(&self) -> f64 {
+        let all = self.outputs.iter().flatten();
+        let share: f64 = all.map(|r| (r.std / r.value.norm()).powi(2)).sum();
+        self.fit.weighted_rms * (2.0 * share / self.readings as f64).sqrt()
+    }
+
+    /// Deviations of each output from what is left of it: the most likely mix of a share and of one size.
+    fn mixed(&self, omega_rad_s: &[f64], size: f64) -> Vec<Vec<Response>> {
+        let found: Vec<(f64, Vec<f64>)> = (0..self.outputs.len())
+            .map(|i| {
+                let median = median(&self.outputs[i]);
+                let each = omega_rad_s.iter().zip(&self.outputs[i]);
+                let each: Vec<(f64, f64)> = each
+                    .map(|(w, r)| {
+                        let model = self.fit.response(i, *w);
+                        (model.norm() / median, (r.value - model).norm_sqr())
+                    })
+                    .collect();
+                let tried = MIXES.map(|mix| {
+                    let shape: Vec<f64> =
+                        each.iter().map(|e| ((1.0 - mix) * e.0 * e.0 + mix).max(1e-12)).collect();
+                    let squares = each.iter().zip(&shape).map(|(e, s)| e.1 / s).sum::<f64>();
+                    let scale = (squares / each.len() as f64).max(f64::MIN_POSITIVE);
+                    let logs = shape.iter().map(|s| (scale * s).ln()).sum::<f64>();
+                    (logs, scale, shape)
+                });
+                let best = tried.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
+                best.map_or((1.0, vec![1.0; each.len()]), |(_, scale, shape)| {
+                    (scale.sqrt() / median, shape.iter().map(|s| s.sqrt() * median).collect())
+                })
+            })
+            .collect();
+        let worst = found.iter().map(|f| f.0).fold(0.0, f64::max);
+        let each = self.outputs.iter().zip(found);
+        each.map(|(output, (scale, shape))| {
+            let scale = size * (scale / worst).max(BETTER);
+            let with = |(r, s): (&Response, &f64)| Response { std: scale * s, ..*r };
+            output.iter().zip(&shape).map(with).collect()
+        })
+        .collect()
+    }
+}
