@@ -20,6 +20,7 @@ pub(super) fn verdict(axis: Axis, names: UnitNames, found: &Separability) -> Val
         "directions": found.directions.iter().map(direction).collect::<Vec<_>>(),
         "runs": found.runs.iter().map(|r| run(found, r)).collect::<Vec<_>>(),
         "run_to_add": found.run_to_add.as_ref().map(|r| run_to_add(names, r)),
+        "doubted_by": found.doubted_by,
     })
 }
 

@@ -4,6 +4,11 @@
 /// them; one that runs into a stop by more than this many.
 const STEPS: f64 = 16.0;
 
+/// A spike bends by so many times what all but a twentieth of the samples do, and so many steps…
+const SPIKE: f64 = 20.0;
+/// …and its neighbours by minus half of that, to this share.
+const LONE: f64 = 0.1;
+
 /// Smallest difference between neighbouring values that a channel takes: its step.
 ///
 /// Differences below 1e-9 of the range are rounding of one value. Zero for a constant.
@@ -61,6 +66,25 @@ pub(crate) fn clipped_share(samples: &[f64]) -> f64 {
     clipped as f64 / samples.len() as f64
 }
 
+/// Samples that stand alone: one reading off those before and after it, which agree, by far more than the motion
+/// bends elsewhere.
+///
+/// A knock bends the motion too, but leaves its velocity changed; a lone reading has second differences of 1, −2, 1.
+pub(crate) fn spikes(samples: &[f64]) -> Vec<usize> {
+    let bend: Vec<f64> = samples.windows(3).map(|w| w[0] - 2.0 * w[1] + w[2]).collect();
+    let mut sizes: Vec<f64> = bend.iter().map(|b| b.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let Some(usual) = sizes.get(sizes.len() * 19 / 20) else { return Vec::new() };
+    let least = (SPIKE * usual).max(SPIKE * step(samples));
+    let alone = |(k, w): (usize, &[f64])| {
+        let sides = [w[0] / w[1], w[2] / w[1]];
+        let spike = w[1].abs() > least && sides.iter().all(|s| (s + 0.5).abs() < LONE);
+        // The middle of three second differences is that of the sample two on.
+        spike.then_some(k + 2)
+    };
+    bend.windows(3).enumerate().filter_map(alone).collect()
+}
+
 /// Share of a run in which the motor stays for a fiftieth of it within two steps, or within a
 /// thousandth of its range.
 pub(crate) fn rest_share(motor: &[f64]) -> f64 {
@@ -104,6 +128,25 @@ mod tests {
 
     fn sine(limit: f64) -> Vec<f64> {
         (0..4000).map(|k| (0.02 * f64::from(k)).sin().clamp(-limit, limit)).collect()
+    }
+
+    #[test]
+    fn a_lone_reading_is_a_spike_and_a_knock_is_none() {
+        let knocked = |x: &mut Vec<f64>| x.iter_mut().skip(1000).for_each(|v| *v *= -1.0);
+        let mut x = sine(2.0);
+        knocked(&mut x);
+        assert!(spikes(&x).is_empty());
+        for step in [0.0, 1e-3] {
+            let mut x = sine(2.0);
+            (x[700], x[701], x[2500]) = (x[700] + 0.3, x[701], x[2500] - 0.5);
+            if step > 0.0 {
+                for v in &mut x {
+                    *v = (*v / step).round() * step;
+                }
+            }
+            assert_eq!(spikes(&x), [700, 2500]);
+        }
+        assert!(spikes(&[0.0, 1.0]).is_empty());
     }
 
     #[test]

@@ -24,6 +24,7 @@ mod repeated_run;
 mod replayed_bands;
 mod response_table;
 mod run_analysis;
+mod sensor_check;
 mod separability;
 mod starting_arms;
 mod third_harmonic;

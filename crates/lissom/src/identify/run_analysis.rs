@@ -9,6 +9,7 @@ use super::constant_velocity::{
 use super::finding::{Finding, Severity, key};
 use super::regression::slip_sign;
 use super::repeated_run::repeats;
+use super::sensor_check;
 use super::third_harmonic::RunPhasors;
 use crate::record::{Campaign, Hold, Note, Run};
 use crate::spectrum::{
@@ -231,24 +232,7 @@ fn channels(
             );
         }
     }
-    let named = campaign.channels.tips.iter().map(|t| t.name.as_str()).zip(run.tips());
-    let motor_and_tips =
-        [("motor", run.motor())].into_iter().chain(named.map(|(n, x)| (n, x.as_slice())));
-    for (name, x) in motor_and_tips {
-        let share = clipped_share(x);
-        if share > 0.002 {
-            findings.push(
-                Finding::new(
-                    "clipped-channel",
-                    Severity::Warning,
-                    &[key::COULOMB, key::VISCOUS, key::INERTIA, key::TIPS],
-                    format!("channel {name} stands at its end stop for {:.1} % of the run", 100.0 * share),
-                    "the sensor's range or the axis' travel ends there: drive it with less amplitude",
-                )
-                .of(run.name()),
-            );
-        }
-    }
+    findings.extend(sensor_check::findings(campaign, run));
     usable
 }
 

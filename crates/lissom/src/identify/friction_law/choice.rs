@@ -237,6 +237,10 @@ impl<'a> Search<'a> {
             LawTerm::CommandLag => (LAG_RATIO, self.lag_allowed(&late(amplitude))),
             _ => (RATIO, true),
         };
+        // A line cut in two far beyond the speeds of the logs has any Coulomb friction.
+        let (coulomb, coulomb_std) = Self::coulomb(&solution);
+        let near_rest = matches!(tried.term, LawTerm::NearRest { .. });
+        let allowed = allowed && (!near_rest || coulomb > -AT_REST * coulomb_std);
         let taken = paired > PAIRED
             && allowed
             && residual_ratio < least
@@ -255,6 +259,15 @@ impl<'a> Search<'a> {
             taken,
         };
         Some((held.phases(), candidate))
+    }
+
+    /// Coulomb friction in the direction where it is less, with its deviation.
+    fn coulomb(solution: &Solution) -> (f64, f64) {
+        let mut weight = DVector::zeros(solution.value.len());
+        weight[2] = 1.0;
+        weight[3] = -solution.value[3].signum();
+        let variance = weight.dot(&(&solution.covariance * &weight));
+        (weight.dot(&solution.value), variance.max(0.0).sqrt())
     }
 
     /// Friction at rest in the direction where it is less, with its deviation.

@@ -10,6 +10,9 @@ use crate::replay::Parameter;
 /// Deviations below zero from which on a damper is none.
 const DRIVES: f64 = 5.0;
 
+/// A residual grows with the windows that grows by more than this.
+const GROWN: f64 = 1.1;
+
 /// The output error's figures, where its arm describes the runs.
 pub(crate) fn verdict(campaign: &Campaign, id: &mut Identified) {
     let Some(oe) = &id.output_error else { return };
@@ -43,11 +46,19 @@ fn departs(oe: &OutputError) -> Option<Finding> {
         "replay-departs",
         Severity::Warning,
         &[key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES],
-        format!(
-            "replayed over {:.2} s at a time the residual is {grown:.1} times that over {:.2} s: \
-             something moves the axis that the arm has not; {taken}",
-            last.window_s, first.window_s
-        ),
+        if grown > GROWN {
+            format!(
+                "replayed over {:.2} s at a time the residual is {grown:.1} times that over {:.2} s: \
+                 something moves the axis that the arm has not; {taken}",
+                last.window_s, first.window_s
+            )
+        } else {
+            format!(
+                "replayed over {:.2} s at a time the residual is {:.1} times the sensors' noise, as it is over shorter \
+                 ones: something moves the axis that the arm has not, or the search did not find the arm; {taken}",
+                last.window_s, oe.beyond_noise
+            )
+        },
         "other friction than Coulomb and viscous, a load, backlash, a mode without a tip",
     ))
 }

@@ -12,6 +12,8 @@ const STEPS: usize = 30;
 const HALVINGS: usize = 12;
 /// Steps end that promise less than this share of what is left.
 const SHARE: f64 = 1e-12;
+/// Starts tried.
+const STARTS: usize = 4;
 /// Rounds in which what is left and the room of ζ_w, which counts in it, settle.
 const ROUNDS: usize = 3;
 /// A delay of the motor's response must lower the information criterion by more than this.
@@ -205,16 +207,21 @@ impl<'a> Motor<'a> {
         Some(Values { torque, ..start })
     }
 
-    /// The most likely from the linear start, and from the one of the same errors everywhere.
+    /// The torque per angle by linear least squares, and again by turns with the errors that it says.
+    fn starts(&self) -> Vec<Values> {
+        let next = |before: &Option<Values>| Some(self.linear(Some(before.as_ref()?)));
+        let turns = std::iter::successors(Some(self.linear(None)), next);
+        turns.take(STARTS).map_while(|v| v).collect()
+    }
+
+    /// The most likely, from the start that comes farthest.
     fn fitted(&self, with_delay: bool) -> Option<Fitted> {
-        let first = self.linear(None)?;
-        let second = self.linear(Some(&first));
-        let starts = second.into_iter().chain([first]).map(|v| {
-            let delay_s = with_delay.then_some(0.0);
-            Values { delay_s, ..v }
+        let delay_s = with_delay.then_some(0.0);
+        let ends = self.starts().into_iter().filter_map(|start| {
+            let (values, rows) = self.refined(Values { delay_s, ..start }, 1.0)?;
+            Some((values, rows.b.norm_squared()))
         });
-        let cost = |v: &Values| self.rows(v, 1.0).b.norm_squared();
-        let mut values = starts.min_by(|a, b| cost(a).total_cmp(&cost(b)))?;
+        let (mut values, _) = ends.min_by(|a, b| a.1.total_cmp(&b.1))?;
         let frequencies = self.data.response.len();
         let free = (2 * frequencies).checked_sub(values.torque.len() + usize::from(with_delay));
         let free = free.filter(|free| *free > 0)? as f64;

@@ -54,7 +54,13 @@ pub struct Separability {
     /// The further run that would say most about the figure that leads the first direction; `None` where
     /// all are sharp, without an output error that stands, or where no run tried would help.
     pub run_to_add: Option<RunToAdd>,
+    /// Codes of the findings that say that the arm is not all there is: deviations do not count what is missing.
+    pub doubted_by: Vec<&'static str>,
 }
+
+/// Findings that say so.
+const DOUBTS: [&str; 5] =
+    ["replay-departs", "more-than-noise", "modes-missing", "damper-drives", "others-doubtful"];
 
 impl Separability {
     /// Of the method that the figures are from; `used` are the runs that it used.
@@ -81,6 +87,7 @@ impl Separability {
             }),
             directions,
             runs,
+            doubted_by: id.findings.iter().map(|f| f.code).filter(|c| DOUBTS.contains(c)).collect(),
         };
         (!found.figures.is_empty() || !found.runs.is_empty()).then_some(found)
     }
@@ -103,8 +110,15 @@ impl Separability {
         let affects: Vec<&'static str> = run.moved().map(|c| key_of(c.figure)).collect();
         let hint = "another load or friction in this run, a loose part, a sensor's scale: leave it out or make \
              it again, then identify anew";
-        let finding =
-            Finding::new("run-stands-out", Severity::Warning, &affects, words::spoils(run), hint);
+        let told = words::spoils(run);
+        // The others' figures are those of a replay that does not describe them.
+        let message = match self.source {
+            ArmSource::OutputError => told,
+            ArmSource::Regression => {
+                format!("{told}. The replay does not describe the runs: it may blame the wrong one")
+            }
+        };
+        let finding = Finding::new("run-stands-out", Severity::Warning, &affects, message, hint);
         Some(finding.of(&run.run))
     }
 }

@@ -26,6 +26,7 @@ impl Separability {
             stands_out.iter().map(|run| format!("Run {}: {}.", run.run, spoils(run))).collect();
         lines.extend(self.least_known());
         lines.extend(self.suffering());
+        lines.extend(self.doubted());
         if stands_out.is_none() {
             lines.extend(self.runs.iter().filter_map(carries));
         }
@@ -37,8 +38,10 @@ impl Separability {
         let worst = self.directions.first()?;
         if self.is_sharp() {
             let least = self.figures.iter().max_by(|a, b| a.std.total_cmp(&b.std))?;
+            let if_so =
+                if self.doubted_by.is_empty() { "" } else { ", if the arm is all there is" };
             return Some(format!(
-                "Nothing is left to separate: every figure is known to 1 % or better, the least {} to \
+                "Nothing is left to separate{if_so}: every figure is known to 1 % or better, the least {} to \
                  ± {} (± {} with 95 %).",
                 least.figure.name(),
                 percent(least.std),
@@ -52,6 +55,17 @@ impl Separability {
             ));
         }
         Some(format!("{}{}", told(worst)?, self.best_known()))
+    }
+
+    /// What speaks against the deviations that all of this is by.
+    fn doubted(&self) -> Option<String> {
+        let codes = self.doubted_by.join(", ");
+        (!codes.is_empty() && !self.figures.is_empty()).then(|| {
+            format!(
+                "There is more in the runs than the arm has ({codes}): figures may be off by more than their \
+                 deviations, and further runs of the kind do not mend that."
+            )
+        })
     }
 
     fn best_known(&self) -> String {
