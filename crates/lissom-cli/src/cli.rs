@@ -12,7 +12,7 @@ use crate::plan::PlanArgs;
 
 /// Models and identifies flexible arms and drives whose joint has friction.
 #[derive(Debug, Parser)]
-#[command(name = "lissom", version, about, max_term_width = 100, after_help = AFTER_HELP)]
+#[command(name = "lissom", version, max_term_width = 100, after_help = AFTER_HELP)]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,

@@ -306,6 +306,11 @@ fn modes_beyond_the_frequencies_are_counted_with_the_inertia() {
     let omega: Vec<f64> = (0..300).map(|i| low * (high / low).powf(f64::from(i) / 299.0)).collect();
     let two = beam().truncated(&[0.27, 0.45]).unwrap();
     let (mut coupling, mut inertia) = (Vec::new(), Vec::new());
+    let seen = |z: &f64| (low..high).contains(&z.abs().sqrt());
+    let exact_zeros: Vec<Vec<f64>> = [2, 4]
+        .map(|i| exact_zeros(&whole, i).into_iter().filter(seen).collect::<Vec<f64>>())
+        .to_vec();
+    let (mut zeros, mut zeros_within) = (0, 0);
     for seed in 0..20 {
         let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
         let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
@@ -323,6 +328,20 @@ fn modes_beyond_the_frequencies_are_counted_with_the_inertia() {
         };
         let found = equivalent(&data, None).unwrap();
         assert!(found.findings.iter().any(|f| f.code == "equivalent-spurious-pole"));
+        // Of the whole response: two modes alone have others.
+        for (exact, found) in exact_zeros.iter().zip(&found.zeros) {
+            for square in exact {
+                let size = square.abs().sqrt();
+                let near = found.iter().filter(|z| z.square.re * square > 0.0);
+                let off = near.map(|z| {
+                    let figure = z.omega_rad_s;
+                    ((figure.value - size).abs() / figure.std, figure.std / figure.value)
+                });
+                let least = off.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+                assert!(least.0 < 4.5 && least.1 < 0.05, "seed {seed}: {size} {least:?} {found:?}");
+                (zeros, zeros_within) = (zeros + 1, zeros_within + usize::from(least.0 < 1.96));
+            }
+        }
         let arm = found.arm.unwrap();
         coupling.push(arm.h_motor.value / two.h_motor - 1.0);
         let exact = MOTOR.0 + two.residual_inertia_kg_m2;
@@ -330,5 +349,7 @@ fn modes_beyond_the_frequencies_are_counted_with_the_inertia() {
     }
     let (coupling, inertia) = (median(coupling), median(inertia));
     println!("ĥ off by {coupling:.1e}, J by {inertia:.2} deviations (medians)");
+    println!("{zeros_within} of {zeros} zeros within 1.96 deviations");
+    assert!(zeros >= 40);
     assert!(coupling.abs() < 2e-2 && inertia.abs() < 2.0);
 }

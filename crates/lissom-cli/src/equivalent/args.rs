@@ -27,13 +27,13 @@ pub(crate) struct EquivalentArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=100))]
     pub(crate) modes: Option<u16>,
     /// Of tables: the motor's torque per command, e.g. "0.25 N*m/A"
-    #[arg(long, value_name = "CONSTANT")]
+    #[arg(long, value_name = "CONSTANT", allow_hyphen_values = true)]
     pub(crate) torque_constant: Option<String>,
     /// The beam's arm.toml, to say where a point that moves like another should sit
     #[arg(long, value_name = "ARM", requires = "at")]
     pub(crate) arm: Option<PathBuf>,
     /// Where a point sits, its distance from the axis, e.g. tip="0.45 m"; once for each point
-    #[arg(long, value_name = "NAME=LENGTH", value_parser = place, requires = "arm")]
+    #[arg(long, value_name = "NAME=LENGTH", value_parser = place, requires = "arm", allow_hyphen_values = true)]
     pub(crate) at: Vec<(String, f64)>,
     /// Of a campaign: closed forms only, do not replay the runs through the arm
     #[arg(long)]

@@ -148,6 +148,9 @@ fn command(
                 per unit of another command";
     let wrong = |why: String| Failure::Asked(format!("--torque-constant: {why}"), hint);
     let unit = text.trim_start_matches(|c: char| !c.is_alphabetic() || c == 'e' || c == 'E');
+    if unit.trim().is_empty() {
+        return Err(wrong(format!("\"{text}\" has no unit")));
+    }
     let dimension = parse_any_unit(unit).map_err(|e| wrong(e.to_string()))?.1;
     let per = if dimension == Dimension::TORQUE_PER_CURRENT {
         CommandQuantity::Current

@@ -15,13 +15,13 @@ pub(crate) struct PayloadArgs {
     /// The campaign.toml
     pub(crate) campaign: PathBuf,
     /// Payload that the runs were made with, e.g. "55 g"
-    #[arg(long, value_name = "MASS", value_parser = mass)]
+    #[arg(long, value_name = "MASS", value_parser = mass, allow_hyphen_values = true)]
     pub(crate) mass: f64,
     /// Payload to predict, e.g. "0.11 kg"; once for each
-    #[arg(long, value_name = "MASS", value_parser = mass, required = true)]
+    #[arg(long, value_name = "MASS", value_parser = mass, required = true, allow_hyphen_values = true)]
     pub(crate) to: Vec<f64>,
     /// Distance of the payload from the axis, e.g. "0.45 m"; not on linear axes
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    #[arg(long, value_name = "LENGTH", value_parser = length, allow_hyphen_values = true)]
     pub(crate) at: Option<f64>,
     /// Tip that carries it; the last of the campaign when absent
     #[arg(long, value_name = "NAME")]

@@ -26,37 +26,37 @@ pub(crate) struct PlanArgs {
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
     pub(crate) json: Option<PathBuf>,
     /// Standard deviation wanted of every figure but damping, e.g. 1%
-    #[arg(long, value_name = "SHARE", value_parser = share)]
+    #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     precision: Option<f64>,
     /// The same of Coulomb friction alone [0.5% when absent]
-    #[arg(long, value_name = "SHARE", value_parser = share)]
+    #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     coulomb: Option<f64>,
     /// Of viscous friction [2%]
-    #[arg(long, value_name = "SHARE", value_parser = share)]
+    #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     viscous: Option<f64>,
     /// Of the inertia [0.5%]
-    #[arg(long, value_name = "SHARE", value_parser = share)]
+    #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     inertia: Option<f64>,
     /// Of the coupling between motor and beam [0.5%]
-    #[arg(long, value_name = "SHARE", value_parser = share)]
+    #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     coupling: Option<f64>,
     /// Of the beam's frequencies [0.1%]
-    #[arg(long, value_name = "SHARE", value_parser = share)]
+    #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     frequency: Option<f64>,
     /// Of the modes' damping [5%]: enough to tell which kind it is
-    #[arg(long, value_name = "SHARE", value_parser = share)]
+    #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     damping: Option<f64>,
     /// Longest time of all runs together, with waiting [30 min]
-    #[arg(long, value_name = "TIME", value_parser = positive_time)]
+    #[arg(long, value_name = "TIME", value_parser = positive_time, allow_hyphen_values = true)]
     within: Option<f64>,
     /// The motor turns no further from its start [1 rad, and 0.9 of its sensor's range]
-    #[arg(long, value_name = "ANGLE", value_parser = angle)]
+    #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true)]
     travel: Option<f64>,
     /// The tips bend no further from the motor's line [0.5 rad]
-    #[arg(long, value_name = "ANGLE", value_parser = angle)]
+    #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true)]
     bend: Option<f64>,
     /// Share of the current limit that is kept for an arm that is not as the file says [30%]
-    #[arg(long, value_name = "SHARE", value_parser = reserve)]
+    #[arg(long, value_name = "SHARE", value_parser = reserve, allow_hyphen_values = true)]
     reserve: Option<f64>,
     /// Which runs
     #[arg(long, value_enum, default_value_t = Runs::Pair)]
@@ -100,9 +100,13 @@ impl PlanArgs {
     }
 }
 
-/// A share greater than zero.
+/// A share greater than zero and less than one: a bare 1 means 1% to who types it, and 100 % as a number.
 fn share(text: &str) -> Result<f64, String> {
-    positive(text, "write a share such as 0.5% or 0.005")
+    let hint = "write a share such as 0.5% or 0.005";
+    match positive(text, hint)? {
+        share if share < 1.0 => Ok(share),
+        _ => Err(format!("it must be less than the whole\nhint: {hint}")),
+    }
 }
 
 /// A share from zero to less than one.

@@ -159,6 +159,19 @@ fn a_clipped_motor_is_seen() {
 }
 
 #[test]
+fn a_lone_reading_is_seen() {
+    let spiked = |i: usize, row: &mut Row| {
+        if i == 400 {
+            row[2] += 3.0;
+        }
+    };
+    let found = changed(spiked).findings("spike");
+    let [told] = &found[..] else { panic!("{found:?}") };
+    assert!(told.contains("channel motor reads 3."), "{told}");
+    assert!(told.contains("a spike."), "{told}");
+}
+
+#[test]
 fn drift_is_measured() {
     let drifting = |_: usize, row: &mut Row| {
         row[2] += 0.02 * row[0];

@@ -13,7 +13,7 @@ use super::friction_law::{FrictionLaw, friction_law};
 use super::friction_waveform::FrictionWaveform;
 use super::identified::{Beam, Friction, Identified, ThirdHarmonic};
 use super::model::state_space;
-use super::models::{beam_model, figures_model, motor_and_beam};
+use super::models::{beam_model, figures_model, motor_and_beam, rigid_model};
 use super::output_error::{OutputError, OutputErrorStart, output_error};
 use super::rational::{BeamFit, MotorFit};
 use super::regression::{BeamRegression, MotorRegression, beam_regression, motor_regression};
@@ -194,6 +194,12 @@ pub fn identify(
             motor_model = Some(motor.clone());
             beam_model = beam.clone().or(beam_model);
         }
+    }
+    let rigid =
+        output_error.as_ref().filter(|oe| campaign.channels.tips.is_empty() && oe.is_rigid());
+    if let Some(rigid) = rigid.and_then(|oe| rigid_model(campaign, oe)) {
+        // Responses know less: noise in them looks like a pole and a zero side by side.
+        motor_model = Some(rigid);
     }
     let (motor_model, beam_model) =
         motor_and_beam(campaign, &responses, constant, (motor_model, beam_model));

@@ -1,6 +1,7 @@
 //! The models that figures or responses make.
 
 use super::Response;
+use super::output_error::OutputError;
 use super::rational::{
     BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_at_once, fit_beam, fit_motor,
 };
@@ -37,6 +38,15 @@ pub(super) fn figures_model(
     let through = mode.map(|m| m.1);
     let model = MotorFit::of_figures(inertia, viscous, through, constant, command.back_emf_viscous);
     (inertia.value > 0.0).then(|| (model, mode.map(|m| BeamFit::of_mode(m.0))))
+}
+
+/// The model of an axis that the replay found rigid.
+pub(super) fn rigid_model(campaign: &Campaign, replay: &OutputError) -> Option<MotorFit> {
+    let command = &campaign.channels.command;
+    let constant = command.torque_per_command.unwrap_or(1.0);
+    let back_emf = command.back_emf_viscous;
+    let (inertia, viscous) = (replay.inertia()?, replay.friction(back_emf).viscous?);
+    Some(MotorFit::of_figures(inertia, viscous, None, constant, back_emf))
 }
 
 /// The beam's modes from its tips' responses to the motor.

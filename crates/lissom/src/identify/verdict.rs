@@ -147,7 +147,9 @@ fn beam(campaign: &Campaign, id: &mut Identified, alone: bool) {
             "drive it at six or more frequencies about the beam's resonance, or with a sweep",
         ));
     }
+    let rigid = id.output_error.as_ref().is_some_and(OutputError::is_rigid);
     if tips == 0
+        && !rigid
         && let Some(model) = id.motor_model.as_ref().filter(|m| m.weighted_rms < MODEL_MISFIT)
         && let Some(pole) = model.poles.first()
     {
@@ -346,7 +348,8 @@ fn model(id: &mut Identified) {
                 "the motor's rational model misses its responses by {:.1} deviations (rms)",
                 m.weighted_rms
             ),
-            "a delay, a lag or a mode without a tip is not in it, or the responses are poorer than they look",
+            "a delay, a lag or a mode without a tip is not in it, damping within the beam, which it has against the \
+             frame, or the responses are poorer than they look",
         ));
     }
 }

@@ -14,12 +14,23 @@ const TOO_GOOD: f64 = 0.5;
 /// What the last mode is given is told from this size on.
 const GIVEN: f64 = 0.02;
 
+/// …and where it changes a gain of its own by this share.
+const CHANGED: f64 = 0.05;
+
 /// Without deviations the motor's response is misfitted where more than so many times the points' share of
 /// it is left, and more than this share.
 const NOISIER: f64 = 3.0;
 const LEFT_OF_MOTOR: f64 = 0.02;
 /// Friction left in the motor's response is told of from so many of its deviations on.
 const FRICTION_LEFT: f64 = 4.0;
+
+/// Largest change, as a share, of a gain for use as an arm.
+fn changed(whole: &Equivalent) -> f64 {
+    let each = whole.beam.completed.iter().zip(&whole.beam.gains);
+    each.map(|(used, fitted)| (used / fitted - 1.0).abs())
+        .filter(|c| c.is_finite())
+        .fold(0.0, f64::max)
+}
 
 /// What the arm leaves of the motor's response, as a share of it, root mean square.
 fn left_of_motor(data: &EquivalentData, arm: &EquivalentArm) -> f64 {
@@ -164,10 +175,11 @@ pub(super) fn findings(
         );
         let hint = "check for an angle of the wrong sign or in another unit than the motor's";
         add("equivalent-no-angle", Severity::Warning, message, hint);
-    } else if given > GIVEN {
+    } else if given > GIVEN || changed(whole) > CHANGED {
         let message = format!(
             "the points' gains add up to one but for {given:.3}: for use as an arm the last mode is given the rest, \
-             so that turning as one body strains nothing"
+             so that turning as one body strains nothing. It changes a gain by up to {:.0} %, and zeros with it",
+            100.0 * changed(whole)
         );
         let hint =
             "the last mode's part of the responses is then as wrong as that; the others' stay";

@@ -18,6 +18,14 @@ use crate::identify::{Finding, Response};
 /// Pairs of poles looked for, whatever the number of points.
 const POLES_LEAST: usize = 8;
 
+/// Poles above the frequencies carry torque of their own up to so many times the highest one, farther ones cannot
+/// be told from inertia…
+const BEYOND: f64 = 4.0;
+/// …and damped no more than this.
+const MOST_DAMPING: f64 = 0.25;
+/// More damping than this of such a pole is not known.
+const KNOWN_DAMPING: f64 = 0.05;
+
 /// A point is no angle whose gains, modes left out and all, lack more than this of one.
 const NO_ANGLE: f64 = 0.5;
 
@@ -66,7 +74,7 @@ pub struct Equivalent {
     pub arm: Option<EquivalentArm>,
     /// The form for use as an arm; `None` where a point is no angle.
     pub strainless: Option<StrainlessForm>,
-    /// Zeros of every point's response, with the modes of the arm.
+    /// Zeros of every point's response, with all modes found and those that poles above the frequencies stand for.
     pub zeros: Vec<Vec<ResponseZero>>,
     /// Names of the points measured.
     pub names: Vec<String>,
@@ -141,8 +149,7 @@ fn judged(
     }
     let chosen = told_apart(&fit, &kept_modes, points);
     let every: Vec<usize> = (0..points).collect();
-    let (Some(kept), Some(all)) = (fit.only(&kept_modes, &chosen), fit.only(&kept_modes, &every))
-    else {
+    let Some(kept) = fit.only(&kept_modes, &chosen) else {
         return Err(EquivalentRefusal::Noise { poles: fit.poles.len() });
     };
     let refused = |source| EquivalentRefusal::Beam {
@@ -151,11 +158,18 @@ fn judged(
         modes_rad_s: kept.poles.iter().map(|p| p.omega_rad_s).collect(),
     };
     let beam = equivalent_beam(&kept).map_err(refused)?;
-    let above = |(pole, why): &(&Pole, &Option<Spurious>)| {
-        **why == Some(Spurious::Outside) && pole.omega_rad_s > fit.range_rad_s.1
+    let above: Vec<usize> = (0..fit.poles.len())
+        .filter(|&k| {
+            let above = fit.poles[k].omega_rad_s > fit.range_rad_s.1;
+            above && spurious[k] == Some(Spurious::Outside)
+        })
+        .collect();
+    let beyond: Vec<Pole> = above.iter().filter_map(|&k| in_the_torque(&fit, k)).collect();
+    // A mode left out moves zeros within the frequencies, too.
+    let shown: Vec<usize> = found.iter().chain(&above).copied().collect();
+    let Some(all) = fit.only(&shown, &every) else {
+        return Err(EquivalentRefusal::Noise { poles: fit.poles.len() });
     };
-    let beyond: Vec<Pole> =
-        fit.poles.iter().zip(&spurious).filter(above).map(|(pole, _)| *pole).collect();
     let with = |motor: &MotorData| match data.deviations {
         Deviations::FromResidual => {
             arm_below(&kept, &deviations::of_motor(motor, &kept, &beyond), &beyond)
@@ -208,6 +222,15 @@ impl Equivalent {
             || self.findings.iter().any(|f| f.code == "equivalent-misfit")
             || (0..self.fit.poles.len()).any(below)
     }
+}
+
+/// A pole above the frequencies as the motor's torque has it; `None` where it has none of its own.
+fn in_the_torque(fit: &SharedPoles, k: usize) -> Option<Pole> {
+    let pole = fit.poles[k];
+    let known = (0.0..KNOWN_DAMPING).contains(&pole.damping_ratio);
+    let damping_ratio = if known { pole.damping_ratio } else { 0.0 };
+    let near = pole.omega_rad_s < BEYOND * fit.range_rad_s.1;
+    (near && pole.damping_ratio.abs() < MOST_DAMPING).then_some(Pole { damping_ratio, ..pole })
 }
 
 /// Σ|H − fit|²/|H|² over all responses, its mean's root.

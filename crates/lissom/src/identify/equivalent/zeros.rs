@@ -12,6 +12,12 @@ const STEPS: usize = 40;
 /// Imaginary part of s², as a share of its size, that eigenvalues of a real root may have by rounding.
 const MEET: f64 = 1e-7;
 
+/// A zero outside the frequencies is told of that is known to this share.
+const KNOWN: f64 = 0.1;
+
+/// Of what poles above the frequencies move a zero that is not measured itself, the share that is not known.
+const STANDS_FOR: f64 = 0.1;
+
 /// A zero of θ_i/θ_m, damping left out: a root in s².
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ResponseZero {
@@ -27,9 +33,12 @@ pub struct ResponseZero {
 
 /// Zeros of output `output`'s response `Σ_k ρ_ik·ω_k²/(s² + ω_k²)`, by their size.
 ///
+/// Those outside the data's frequencies are left out where their deviation is a tenth of them or more.
 /// Roots are eigenvalues, refined by Newton's method.
 /// Deviations are to first order: `dz = −Σ dr_k/(z + ω_k²)/f′ + Σ r_k·dω_k²/(z + ω_k²)²/f′`, f the sum,
-/// z = s², r_k = ρ_ik·ω_k², and `d|s| = Re(dz/z)·|s|/2`.
+/// z = s², r_k = ρ_ik·ω_k², and `d|s| = Re(dz/z)·|s|/2`. Where
+/// a zero lies off the imaginary axis or outside the frequencies, a tenth of what poles above these move it is counted
+/// too: one of them stands for many modes.
 ///
 /// # Source
 /// `[Feliu1989, Section 3, property 1; eq. (19)]`
@@ -54,6 +63,8 @@ pub fn response_zeros(fit: &SharedPoles, output: usize) -> Vec<ResponseZero> {
             }
         })
         .collect();
+    // Beyond the frequencies most are of the poles that stand for all modes there.
+    zeros.retain(|z| !z.outside || z.omega_rad_s.std < KNOWN * z.omega_rad_s.value);
     zeros.sort_by(|a, b| a.omega_rad_s.value.total_cmp(&b.omega_rad_s.value));
     zeros
 }
@@ -100,7 +111,15 @@ fn spread(
     let by_residue = |k: usize| -1.0 / ((z + squares[k]) * slope);
     let by_square = |k: usize| residues[k] / ((z + squares[k]).powi(2) * slope);
     let first = modes * unknowns + output * modes;
-    deviation(&fit.covariance, |u| {
+    // On the imaginary axis within the frequencies the response is measured; elsewhere it is what the model says,
+    // in which a pole or two stand for all modes above.
+    let (low, high) = fit.range_rad_s;
+    let measured = class(z) == RootClass::Imaginary && (low..=high).contains(&size);
+    let each = residues.iter().zip(squares).filter(|(_, s)| s.sqrt() > high);
+    let above: Complex64 = each.map(|(r, s)| r / (z + s)).sum();
+    let left_out = if measured { 0.0 } else { STANDS_FOR };
+    let by_modes_left_out = 0.5 * size * left_out * (above / (slope * z)).norm();
+    let by_covariance = deviation(&fit.covariance, |u| {
         let dz = if u < modes * unknowns {
             let k = u / unknowns;
             let moved = by_residue(k) * residues[k] + by_square(k) * squares[k];
@@ -112,5 +131,6 @@ fn spread(
             }
         };
         0.5 * size * (dz / z).re
-    })
+    });
+    by_covariance.hypot(by_modes_left_out)
 }

@@ -8,6 +8,9 @@ use crate::identify::{
 };
 use crate::record::Axis;
 
+/// Share of Coulomb or of viscous friction below which a term is of no matter.
+const NEGLIGIBLE: f64 = 1e-3;
+
 /// Friction's figures under another law than Coulomb and one viscous constant.
 pub(crate) fn friction(law: &LawFit) -> Friction {
     let sum = |a: Option<Estimate>, b: Option<Estimate>, sign: f64| {
@@ -56,6 +59,12 @@ pub(crate) fn finding(axis: Axis, id: &Identified) -> Option<Finding> {
             in_words(axis, &by_replay),
             if whole { "the runs from end to end" } else { "stretches of the runs" }
         );
+        // Of exact logs everything is known, and whatever the simulator or the sensor adds is found.
+        if by_replay.iter().all(|term| is_negligible(id, term)) {
+            let hint =
+                "nothing: all of it is less than a thousandth of Coulomb and viscous friction";
+            return Some(told(Severity::Info, message, hint));
+        }
         return Some(told(Severity::Warning, message, AT_SPEED));
     }
     let law = id.friction_law.as_ref().filter(|law| law.chosen.departs())?;
@@ -75,6 +84,18 @@ pub(crate) fn finding(axis: Axis, id: &Identified) -> Option<Finding> {
         }
         None => told(Severity::Warning, message, AT_SPEED),
     })
+}
+
+/// Whether a term changes friction by less than [`NEGLIGIBLE`]; a root of speed by its deviation alone.
+fn is_negligible(id: &Identified, (term, amplitude): &(LawTerm, Vec<Estimate>)) -> bool {
+    let of = match term {
+        LawTerm::ViscousByDirection => id.friction.viscous,
+        LawTerm::NearRest { .. } | LawTerm::Ripple { .. } => id.friction.coulomb,
+        LawTerm::Root => None,
+        LawTerm::CommandLag => return true,
+    };
+    let largest = amplitude.iter().map(|a| a.value.abs()).fold(0.0, f64::max);
+    of.is_some_and(|of| largest < NEGLIGIBLE * of.value)
 }
 
 const AT_SPEED: &str = "Coulomb and viscous friction are those of this law at speed, not at rest: use \
@@ -99,7 +120,9 @@ fn term_in_words(axis: Axis, (term, amplitude): &(LawTerm, Vec<Estimate>)) -> St
     };
     let a = amplitude.first().map_or(f64::NAN, |e| e.value);
     match term {
-        LawTerm::ViscousByDirection => format!("viscous friction differs by ±{a:.3e} by direction"),
+        LawTerm::ViscousByDirection => {
+            format!("viscous friction differs by ±{:.3e} by direction", a.abs())
+        }
         LawTerm::NearRest { speed } if a > 0.0 => {
             format!("it rises by {a:.3e} towards rest, within {speed:.3e} {angle}/s (Stribeck)")
         }

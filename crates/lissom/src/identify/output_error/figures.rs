@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 
+use super::attempts::is_left;
 use super::{AT_NOISE, OutputError};
 use crate::identify::{
     Beam, Estimate, Friction, LawTerm, ModeEstimate, NearRestEstimate, RippleEstimate,
@@ -93,6 +94,11 @@ impl OutputError {
     /// Whether the arm stands and describes the runs from end to end.
     pub fn describes_whole_runs(&self) -> bool {
         self.whole_runs && self.stands()
+    }
+
+    /// Whether the axis is rigid: no more than the sensors' noise is left of whole runs without any mode.
+    pub fn is_rigid(&self) -> bool {
+        self.describes_whole_runs() && self.arm.modes.is_empty() && !is_left(&self.left_over)
     }
 
     /// Whether the arm describes the runs: from end to end, the residual of whole runs being that of

@@ -59,8 +59,14 @@ pub struct Separability {
 }
 
 /// Findings that say so.
-const DOUBTS: [&str; 5] =
-    ["replay-departs", "more-than-noise", "modes-missing", "damper-drives", "others-doubtful"];
+const DOUBTS: [&str; 6] = [
+    "replay-departs",
+    "more-than-noise",
+    "modes-missing",
+    "damper-drives",
+    "others-doubtful",
+    "command-sign",
+];
 
 impl Separability {
     /// Of the method that the figures are from; `used` are the runs that it used.
