@@ -69,6 +69,9 @@ impl Failure {
             Self::Equivalent { source, place, .. } => {
                 Some(place.clone().unwrap_or_else(|| source.hint().to_owned()))
             }
+            Self::UndescribedLog { log } if log.extension().is_some_and(|e| e == "json") => {
+                Some("first the result, then the log: lissom validate result.json campaign.toml".to_owned())
+            }
             Self::UndescribedLog { .. } => Some(
                 "add --like campaign.toml, the campaign that the result is from, or describe the log in \
                  a campaign.toml of its own"

@@ -74,7 +74,7 @@ impl UnitError {
             Self::NoNumber { .. } => Some("write a number and a unit, such as \"7 in\"".to_owned()),
             Self::NoUnit { expected, .. } => expected
                 .example()
-                .map(|e| format!("write it as in \"{e}\", or as a bare SI number")),
+                .map(|e| format!("write it as in \"{e}\"; in a file, a number without quotes is SI")),
             Self::Unknown { nearest, .. } => Some(match nearest {
                 Some(name) => format!("did you mean `{name}`?"),
                 None => "write units as in \"mA\", \"deg\" or \"lbf*in/A\": products with *, quotients with /".to_owned(),

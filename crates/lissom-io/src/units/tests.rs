@@ -84,7 +84,7 @@ fn errors_say_what_was_found_and_wanted() {
         "7",
         Dimension::LENGTH,
         "\"7\" has no unit; a length [m] is expected",
-        Some("write it as in \"7 in\", or as a bare SI number"),
+        Some("write it as in \"7 in\"; in a file, a number without quotes is SI"),
     );
     fails(
         "7 furlong",
