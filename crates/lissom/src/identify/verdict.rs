@@ -147,9 +147,7 @@ fn beam(campaign: &Campaign, id: &mut Identified, alone: bool) {
             "drive it at six or more frequencies about the beam's resonance, or with a sweep",
         ));
     }
-    let rigid = id.output_error.as_ref().is_some_and(OutputError::is_rigid);
     if tips == 0
-        && !rigid
         && let Some(model) = id.motor_model.as_ref().filter(|m| m.weighted_rms < MODEL_MISFIT)
         && let Some(pole) = model.poles.first()
     {

@@ -1,6 +1,7 @@
 //! Deviations of responses that came without: whether their errors are a share of each, of one size, or both.
 
-use super::whole::{Deviations, EquivalentData};
+use super::sound::median;
+use super::whole::EquivalentData;
 use crate::identify::Response;
 use crate::identify::rational::{
     MotorData, Pole, SharedPoles, fit_coupling, fit_shared_poles_with_delays,
@@ -14,37 +15,36 @@ const BETTER: f64 = 0.03;
 /// What is left is rounding below this share of the responses.
 const ROUNDING: f64 = 1e-9;
 
-/// The points' responses with the deviations that are most likely, but for one factor: from fits with errors
-/// that are a share of each response (as they come) and of one size, and from what those leave. The data
-/// themselves where deviations are known, or nothing is left.
-pub(super) fn of_points(data: &EquivalentData, most: usize) -> Option<EquivalentData> {
-    if data.deviations != Deviations::FromResidual {
-        return None;
-    }
+/// The points' responses with the deviations that are most likely, but for one factor, and their fit: from errors
+/// that are a share of each response (as `data` come, and their `fit`), of one size, and as what those leave says.
+pub(super) fn of_points(
+    data: &EquivalentData,
+    fit: SharedPoles,
+    most: usize,
+) -> (Vec<Vec<Response>>, SharedPoles) {
+    let readings = 2 * data.omega_rad_s.len() * data.outputs.len();
+    let judged = |fit: SharedPoles, outputs: Vec<Vec<Response>>| {
+        let criterion = fit.criterion() + spread(outputs.iter().flatten());
+        Fitted { fit, outputs, readings, criterion }
+    };
     let fitted = |outputs: Vec<Vec<Response>>| {
         let fit = fit_shared_poles_with_delays(&data.omega_rad_s, &outputs, most).ok()?;
-        let readings = 2 * data.omega_rad_s.len() * outputs.len();
-        Some(Fitted {
-            criterion: fit.criterion() + spread(outputs.iter().flatten()),
-            fit,
-            outputs,
-            readings,
-        })
+        Some(judged(fit, outputs))
     };
-    let size = share(data.outputs.first()?);
-    let shares = fitted(data.outputs.clone())?;
+    let shares = judged(fit, data.outputs.clone());
+    let size = share(&data.outputs[0]);
     if shares.left() < ROUNDING {
-        return None;
+        return (shares.outputs, shares.fit);
     }
+    let better = |a: Fitted, b: Fitted| if b.criterion < a.criterion { b } else { a };
     let one_size = fitted(data.outputs.iter().map(|output| of_one_size(output, size)).collect());
-    let better = |a: &Fitted, b: &Fitted| a.criterion.total_cmp(&b.criterion);
-    let best = one_size.into_iter().chain([shares]).min_by(better)?;
+    let best = one_size.into_iter().fold(shares, better);
     let mixed = fitted(best.mixed(&data.omega_rad_s, size));
     // A mix and a size of each output.
-    let cost = (2 * data.outputs.len()) as f64 * (best.readings as f64).ln();
+    let cost = (2 * data.outputs.len()) as f64 * (readings as f64).ln();
     let mixed = mixed.map(|m| Fitted { criterion: m.criterion + cost, ..m });
-    let best = mixed.into_iter().chain([best]).min_by(better)?;
-    Some(EquivalentData { outputs: best.outputs, ..data.clone() })
+    let best = mixed.into_iter().fold(best, better);
+    (best.outputs, best.fit)
 }
 
 /// The same of the motor's response.
@@ -73,21 +73,17 @@ fn spread<'a>(responses: impl Iterator<Item = &'a Response>) -> f64 {
     2.0 * responses.map(|r| r.std.ln()).sum::<f64>()
 }
 
-fn median(output: &[Response]) -> f64 {
-    let mut sizes: Vec<f64> = output.iter().map(|r| r.value.norm()).collect();
-    sizes.sort_by(f64::total_cmp);
-    sizes.get(sizes.len() / 2).copied().unwrap_or(0.0)
-}
-
 /// Deviations as a share of their responses, as they come.
 fn share(output: &[Response]) -> f64 {
-    let mut shares: Vec<f64> = output.iter().map(|r| r.std / r.value.norm()).collect();
-    shares.sort_by(f64::total_cmp);
-    shares.get(shares.len() / 2).copied().unwrap_or(1.0)
+    median(output.iter().map(|r| r.std / r.value.norm())).unwrap_or(1.0)
+}
+
+fn median_size(output: &[Response]) -> f64 {
+    median(output.iter().map(|r| r.value.norm())).unwrap_or(1.0)
 }
 
 fn of_one_size(output: &[Response], share: f64) -> Vec<Response> {
-    let std = share * median(output);
+    let std = share * median_size(output);
     output.iter().map(|r| Response { std, ..*r }).collect()
 }
 
@@ -103,7 +99,7 @@ impl Fitted {
     fn mixed(&self, omega_rad_s: &[f64], size: f64) -> Vec<Vec<Response>> {
         let found: Vec<(f64, Vec<f64>)> = (0..self.outputs.len())
             .map(|i| {
-                let median = median(&self.outputs[i]);
+                let median = median_size(&self.outputs[i]);
                 let each = omega_rad_s.iter().zip(&self.outputs[i]);
                 let each: Vec<(f64, f64)> = each
                     .map(|(w, r)| {

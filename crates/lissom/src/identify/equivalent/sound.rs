@@ -64,8 +64,8 @@ fn judged(
     }
 }
 
-/// Of those that are finite and above zero.
-fn median(of: impl Iterator<Item = f64>) -> Option<f64> {
+/// The median of those that are finite and above zero.
+pub(super) fn median(of: impl Iterator<Item = f64>) -> Option<f64> {
     let mut sorted: Vec<f64> = of.filter(|x| x.is_finite() && *x > 0.0).collect();
     sorted.sort_by(f64::total_cmp);
     sorted.get(sorted.len() / 2).copied()

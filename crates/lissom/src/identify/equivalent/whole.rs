@@ -11,7 +11,7 @@ use super::{
     equivalent_beam, findings, imaginary, response_zeros,
 };
 use crate::identify::rational::{
-    MotorData, Pole, SharedPoles, Spurious, fit_shared_poles_with_delays, information,
+    MOST_DAMPING, MotorData, Pole, SharedPoles, Spurious, fit_shared_poles_with_delays, information,
 };
 use crate::identify::{Finding, Response};
 
@@ -19,10 +19,8 @@ use crate::identify::{Finding, Response};
 const POLES_LEAST: usize = 8;
 
 /// Poles above the frequencies carry torque of their own up to so many times the highest one, farther ones cannot
-/// be told from inertia…
+/// be told from inertia.
 const BEYOND: f64 = 4.0;
-/// …and damped no more than this.
-const MOST_DAMPING: f64 = 0.25;
 /// More damping than this of such a pole is not known.
 const KNOWN_DAMPING: f64 = 0.05;
 
@@ -109,8 +107,15 @@ pub fn equivalent(
     }
     sound(data)?;
     let most = POLES_LEAST.max(2 * points + 2);
-    let weighted = deviations::of_points(data, most);
-    let found = judged(weighted.as_ref().unwrap_or(data), modes, most);
+    let fit = fit_shared_poles_with_delays(&data.omega_rad_s, &data.outputs, most)
+        .map_err(|source| EquivalentRefusal::Fit { source, names: data.names.clone() });
+    let found = fit.and_then(|fit| match data.deviations {
+        Deviations::FromResidual => {
+            let (outputs, fit) = deviations::of_points(data, fit, most);
+            judged(&EquivalentData { outputs, ..data.clone() }, fit, modes)
+        }
+        Deviations::Measured | Deviations::Floored => judged(data, fit, modes),
+    });
     let suspect = match &found {
         Err(refusal) => refusal.may_be_a_turned_phase(),
         Ok(whole) => whole.may_be_a_turned_phase(),
@@ -122,13 +127,10 @@ pub fn equivalent(
 /// Of sound numbers.
 fn judged(
     data: &EquivalentData,
+    fit: SharedPoles,
     modes: Option<usize>,
-    most: usize,
 ) -> Result<Equivalent, EquivalentRefusal> {
     let points = data.outputs.len();
-    let (omega, outputs) = (&data.omega_rad_s, &data.outputs);
-    let fit = fit_shared_poles_with_delays(omega, outputs, most)
-        .map_err(|source| EquivalentRefusal::Fit { source, names: data.names.clone() })?;
     let spurious: Vec<Option<Spurious>> = (0..fit.poles.len()).map(|k| fit.spurious(k)).collect();
     let found: Vec<usize> = (0..spurious.len()).filter(|k| spurious[*k].is_none()).collect();
     if found.is_empty() || is_noise(data, &fit) {

@@ -232,7 +232,7 @@ impl<'a> Search<'a> {
         let paired = before.paired(&held);
         let stretch_ratio = (held.stretches / before.stretches).sqrt();
         let amplitude = amplitude(&solution, first, tried.terms.len());
-        let (at_rest, at_rest_std) = self.at_rest(&solution, &terms, tried.term, first);
+        let (at_rest, at_rest_std) = self.at_rest(&solution, tried.term, first);
         let (least, allowed) = match tried.term {
             LawTerm::CommandLag => (LAG_RATIO, self.lag_allowed(&late(amplitude))),
             _ => (RATIO, true),
@@ -263,32 +263,19 @@ impl<'a> Search<'a> {
 
     /// Coulomb friction in the direction where it is less, with its deviation.
     fn coulomb(solution: &Solution) -> (f64, f64) {
-        let mut weight = DVector::zeros(solution.value.len());
-        weight[2] = 1.0;
-        weight[3] = -solution.value[3].signum();
-        let variance = weight.dot(&(&solution.covariance * &weight));
-        (weight.dot(&solution.value), variance.max(0.0).sqrt())
+        known(solution, &coulomb_weight(solution))
     }
 
     /// Friction at rest in the direction where it is less, with its deviation.
-    fn at_rest(
-        &self,
-        solution: &Solution,
-        terms: &[Term],
-        tried: LawTerm,
-        first: usize,
-    ) -> (f64, f64) {
-        let mut weight = DVector::zeros(terms.len());
-        weight[2] = 1.0;
-        weight[3] = -solution.value[3].signum();
+    fn at_rest(&self, solution: &Solution, tried: LawTerm, first: usize) -> (f64, f64) {
+        let mut weight = coulomb_weight(solution);
         let mut at = 4 + self.tips();
         for t in &self.taken {
             weight[at] = f64::from(matches!(t.term, LawTerm::NearRest { .. }));
             at += t.terms.len();
         }
         weight[first] = f64::from(matches!(tried, LawTerm::NearRest { .. }));
-        let variance = weight.dot(&(&solution.covariance * &weight));
-        (weight.dot(&solution.value), variance.max(0.0).sqrt())
+        known(solution, &weight)
     }
 
     fn lag_allowed(&self, lag: &Estimate) -> bool {
@@ -426,4 +413,18 @@ pub(super) fn solved(blocks: &[Block], terms: &[Term]) -> Option<Solution> {
         phase = Some(b.phase);
     }
     solve(&clusters, terms)
+}
+
+/// What of each figure Coulomb friction has in the direction where it is less.
+fn coulomb_weight(solution: &Solution) -> DVector<f64> {
+    let mut weight = DVector::zeros(solution.value.len());
+    weight[2] = 1.0;
+    weight[3] = -solution.value[3].signum();
+    weight
+}
+
+/// A weighted sum of the figures, with its deviation.
+fn known(solution: &Solution, weight: &DVector<f64>) -> (f64, f64) {
+    let variance = weight.dot(&(&solution.covariance * weight));
+    (weight.dot(&solution.value), variance.max(0.0).sqrt())
 }

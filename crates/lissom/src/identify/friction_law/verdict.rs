@@ -86,7 +86,7 @@ pub(crate) fn finding(axis: Axis, id: &Identified) -> Option<Finding> {
     })
 }
 
-/// Whether a term changes friction by less than [`NEGLIGIBLE`]; a root of speed by its deviation alone.
+/// Whether a term changes friction by less than [`NEGLIGIBLE`]; a root of speed is never taken for that little.
 fn is_negligible(id: &Identified, (term, amplitude): &(LawTerm, Vec<Estimate>)) -> bool {
     let of = match term {
         LawTerm::ViscousByDirection => id.friction.viscous,

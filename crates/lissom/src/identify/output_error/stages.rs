@@ -43,7 +43,7 @@ const FIRST_SAMPLES: f64 = 80.0;
 const FIRST_PERIODS: f64 = 0.3;
 /// Windows are not widened further once the residual has grown by this factor: what the arm does
 /// not describe adds up over a window, and what a sensor adds does not.
-const GROWN: f64 = 1.5;
+pub(super) const GROWN: f64 = 1.5;
 
 /// One length of windows.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,7 @@
 //! What the output error's figures are worth, in findings.
 
 use super::attempts::is_left;
+use super::stages::GROWN;
 use super::{OutputError, StageReport};
 use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::{Estimate, Identified};
@@ -9,9 +10,6 @@ use crate::replay::Parameter;
 
 /// Deviations below zero from which on a damper is none.
 const DRIVES: f64 = 5.0;
-
-/// A residual grows with the windows that grows by more than this.
-const GROWN: f64 = 1.1;
 
 /// The output error's figures, where its arm describes the runs.
 pub(crate) fn verdict(campaign: &Campaign, id: &mut Identified) {

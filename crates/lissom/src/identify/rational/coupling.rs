@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use super::motor::{Rows, least_squares};
-use super::{Damping, MotorData, Pole, SharedPoles, information};
+use super::{MotorData, Pole, SharedPoles, information};
 use crate::identify::Estimate;
 
 /// Most steps, and halvings of one.
@@ -69,7 +69,7 @@ pub(crate) fn fit_coupling(
     let prompt = motor.fitted(false)?;
     let highest = data.omega_rad_s.iter().copied().fold(0.0, f64::max);
     let late = motor.fitted(true).filter(|late| {
-        let turn = highest * late.delay_s.unwrap_or(0.0).abs();
+        let turn = highest * late.values.delay_s.unwrap_or(0.0).abs();
         late.criterion < prompt.criterion - CALLED_FOR && turn > LEAST_TURN
     });
     motor.figures(&late.unwrap_or(prompt))
@@ -89,8 +89,6 @@ struct Motor<'a> {
     fit: &'a SharedPoles,
     /// Those of the fit, then those beyond.
     poles: Vec<Pole>,
-    /// ζ_w of each pole of the fit as the points have it.
-    within: Vec<Estimate>,
 }
 
 /// The unknowns at some values.
@@ -104,7 +102,6 @@ struct Values {
 
 struct Fitted {
     values: Values,
-    delay_s: Option<f64>,
     /// Slopes of the model by the unknowns over deviations, two rows a frequency; a row more of each ζ_w.
     rows: Rows,
     /// (AᵀA)⁻¹ of the rows.
@@ -115,11 +112,7 @@ struct Fitted {
 
 impl<'a> Motor<'a> {
     fn new(data: &'a MotorData, fit: &'a SharedPoles, beyond: &[Pole]) -> Self {
-        let within = match fit.damping {
-            Damping::None => vec![Estimate { value: 0.0, std: 0.0 }; fit.poles.len()],
-            Damping::Small | Damping::Within => fit.within.clone(),
-        };
-        Self { data, fit, poles: fit.poles.iter().chain(beyond).copied().collect(), within }
+        Self { data, fit, poles: fit.poles.iter().chain(beyond).copied().collect() }
     }
 
     fn shape(&self, values: &Values, k: usize, omega: f64) -> Complex64 {
@@ -135,9 +128,16 @@ impl<'a> Motor<'a> {
         rigid + each.sum::<Complex64>()
     }
 
+    /// Torque per angle, and what it makes of the motor's response.
+    fn response(&self, values: &Values, omega: f64) -> (Complex64, Complex64) {
+        let torque = self.torque(values, omega);
+        let late = Complex64::cis(-omega * values.delay_s.unwrap_or(0.0));
+        (torque, self.data.torque_per_command / torque * late)
+    }
+
     /// Places of the ζ_w that are free.
     fn free(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.within.len()).filter(|k| self.within[*k].std > 0.0)
+        (0..self.fit.within.len()).filter(|k| self.fit.within[*k].std > 0.0)
     }
 
     /// Residuals and slopes over deviations; a ζ_w has a row of its own, in which `spread` deviations of the
@@ -152,9 +152,7 @@ impl<'a> Motor<'a> {
         let mut weights = Vec::with_capacity(frequencies);
         for (i, (&w, r)) in self.data.omega_rad_s.iter().zip(&self.data.response).enumerate() {
             let (s, weight) = (Complex64::new(0.0, w), 1.0 / r.std);
-            let torque = self.torque(values, w);
-            let model = self.data.torque_per_command / torque
-                * Complex64::cis(-w * values.delay_s.unwrap_or(0.0));
+            let (torque, model) = self.response(values, w);
             let by_torque = -model / torque;
             let of_torques = [s * s, s].into_iter();
             let of_torques =
@@ -177,9 +175,9 @@ impl<'a> Motor<'a> {
         }
         for (row, &k) in free.iter().enumerate() {
             // Either part of a response has 1/√2 of its deviation.
-            let weight = spread * std::f64::consts::FRAC_1_SQRT_2 / self.within[k].std;
+            let weight = spread * std::f64::consts::FRAC_1_SQRT_2 / self.fit.within[k].std;
             a[(2 * frequencies + row, torques + row)] = weight;
-            b[2 * frequencies + row] = weight * (self.within[k].value - values.within[k]);
+            b[2 * frequencies + row] = weight * (self.fit.within[k].value - values.within[k]);
         }
         Rows { a, b, weights }
     }
@@ -189,7 +187,7 @@ impl<'a> Motor<'a> {
     fn linear(&self, before: Option<&Values>) -> Option<Values> {
         let start = Values {
             torque: DVector::zeros(2 + self.poles.len()),
-            within: self.within.iter().map(|w| w.value).collect(),
+            within: self.fit.within.iter().map(|w| w.value).collect(),
             delay_s: None,
         };
         let mut rows =
@@ -235,9 +233,8 @@ impl<'a> Motor<'a> {
                 let (_, inverse) = least_squares(&rows.a, &rows.b)?;
                 let unknowns = values.torque.len() + usize::from(with_delay);
                 let criterion = information(2 * frequencies, unknowns, 2.0 * rows.b.norm_squared());
-                let delay_s = values.delay_s;
                 let sound = weighted_rms.is_finite();
-                let fitted = Fitted { values, delay_s, rows, inverse, weighted_rms, criterion };
+                let fitted = Fitted { values, rows, inverse, weighted_rms, criterion };
                 return sound.then_some(fitted);
             }
             spread = weighted_rms.max(1.0);
@@ -288,9 +285,7 @@ impl<'a> Motor<'a> {
         let count = self.fit.poles.len() * unknowns;
         let mut slopes = DMatrix::zeros(rows.a.nrows(), count);
         for (i, (&w, weight)) in self.data.omega_rad_s.iter().zip(&rows.weights).enumerate() {
-            let torque = self.torque(values, w);
-            let model = self.data.torque_per_command / torque
-                * Complex64::cis(-w * values.delay_s.unwrap_or(0.0));
+            let (torque, model) = self.response(values, w);
             for column in 0..count {
                 let (k, unknown) = (column / unknowns, column % unknowns);
                 let at = |by: f64| {
@@ -334,7 +329,7 @@ impl<'a> Motor<'a> {
             covariance,
             by_poles,
             damping_within: values.within.clone(),
-            delay_s: fitted.delay_s.map(late),
+            delay_s: values.delay_s.map(late),
             friction_left: self.friction_left(fitted, &slopes),
             weighted_rms: fitted.weighted_rms,
             criterion: fitted.criterion,

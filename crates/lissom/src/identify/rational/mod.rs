@@ -20,6 +20,7 @@ pub use evidence::fit_shared_poles_by_evidence;
 pub(crate) use evidence::fit_shared_poles_with_delays;
 pub use motor::{MotorData, MotorFit, fit_motor};
 pub use origin::without_origin;
+pub(crate) use shared_poles::MOST_DAMPING;
 pub use shared_poles::{Damping, SharedPoles, SharedPolesError, Spurious, fit_shared_poles};
 
 use num_complex::Complex64;

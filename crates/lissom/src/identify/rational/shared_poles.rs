@@ -18,7 +18,7 @@ const NEAR: f64 = 0.02;
 /// Residuals in the responses' deviations from which on vector fitting may have come to the wrong poles.
 const POOR: f64 = 1.5;
 /// A pole more damped than this is none of a beam.
-const MOST_DAMPING: f64 = 0.25;
+pub(crate) const MOST_DAMPING: f64 = 0.25;
 /// A pole is there when one of its gains is this many deviations from zero.
 const PRESENT: f64 = 4.0;
 
