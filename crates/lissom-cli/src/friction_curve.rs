@@ -75,6 +75,12 @@ fn term(names: UnitNames, term: LawTerm) -> String {
         LawTerm::NearRest { speed } => {
             format!("near rest, within {} {angle}/s", significant(speed, 4))
         }
+        LawTerm::NearRestSquare { speed } => {
+            format!("near rest, by its square, within {} {angle}/s", significant(speed, 4))
+        }
+        LawTerm::AfterTravel { travel } => {
+            format!("after {} {angle} of travel", significant(travel, 4))
+        }
         LawTerm::Root => "root of speed".to_owned(),
         LawTerm::Ripple { per_angle } => {
             let period = std::f64::consts::TAU / per_angle;

@@ -98,7 +98,12 @@ fn with_directions(mut id: Identified) -> Identified {
         }],
     });
     if let Some(law) = &mut id.friction_law {
-        let terms = [LawTerm::NearRest { speed: 0.1 }, LawTerm::Ripple { per_angle: 12.0 }];
+        let terms = [
+            LawTerm::NearRest { speed: 0.1 },
+            LawTerm::NearRestSquare { speed: 0.1 },
+            LawTerm::AfterTravel { travel: 0.01 },
+            LawTerm::Ripple { per_angle: 12.0 },
+        ];
         law.chosen.terms = terms.map(|term| (term, vec![figure])).to_vec();
         let tried = law.candidates[0];
         law.candidates = terms.map(|term| LawCandidate { term, ..tried }).to_vec();

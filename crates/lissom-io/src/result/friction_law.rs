@@ -86,12 +86,15 @@ fn named(names: UnitNames, term: LawTerm) -> Map<String, Value> {
     let mut map = Map::new();
     map.insert("term".to_owned(), json!(term.name()));
     match term {
-        LawTerm::NearRest { speed } => {
+        LawTerm::NearRest { speed } | LawTerm::NearRestSquare { speed } => {
             map.insert(format!("speed_{}_per_s", names.angle()), json!(speed));
         }
         LawTerm::Ripple { per_angle } => {
             let period = std::f64::consts::TAU / per_angle;
             map.insert(format!("period_{}", names.angle()), json!(period));
+        }
+        LawTerm::AfterTravel { travel } => {
+            map.insert(format!("travel_{}", names.angle()), json!(travel));
         }
         LawTerm::ViscousByDirection | LawTerm::Root | LawTerm::CommandLag => {}
     }
@@ -102,7 +105,10 @@ fn named(names: UnitNames, term: LawTerm) -> Map<String, Value> {
 fn amplitude_key(names: UnitNames, term: LawTerm) -> String {
     match term {
         LawTerm::ViscousByDirection => names.viscous_key("amplitude"),
-        LawTerm::NearRest { .. } | LawTerm::Ripple { .. } => {
+        LawTerm::NearRest { .. }
+        | LawTerm::NearRestSquare { .. }
+        | LawTerm::AfterTravel { .. }
+        | LawTerm::Ripple { .. } => {
             format!("amplitude_{}", names.torque())
         }
         LawTerm::Root => format!("amplitude_{}_per_root_{}_per_s", names.torque(), names.angle()),

@@ -9,13 +9,17 @@ impl LawFit {
     /// damps beside viscous friction. Tells whether it did: not where a figure is missing, or the law has
     /// a term that the replay does not know.
     pub(crate) fn put_into(&self, arm: &mut ModalArm, back_emf_viscous: f64) -> bool {
-        let root = self.terms.iter().any(|(term, _)| *term == LawTerm::Root);
+        let unknown = |term: LawTerm| {
+            use LawTerm::{AfterTravel, NearRestSquare, Root};
+            matches!(term, Root | NearRestSquare { .. } | AfterTravel { .. })
+        };
+        let unknown = self.terms.iter().any(|(term, _)| unknown(*term));
         let (Some(inertia), Some(viscous), Some(coulomb)) =
             (self.inertia, self.viscous, self.coulomb)
         else {
             return false;
         };
-        if root {
+        if unknown {
             return false;
         }
         arm.inertia_kg_m2 = inertia.value;

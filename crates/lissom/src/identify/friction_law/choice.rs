@@ -19,6 +19,9 @@ pub(super) const NEAR_REST_STEP: f64 = 0.05;
 const PAIRED: f64 = 3.0;
 /// …and leave at most this share of the residual: a smaller one does not pay for a parameter.
 const RATIO: f64 = 0.9;
+/// Where stretches after reversals are left out, a change near rest pays with less: it is what bristles go
+/// with, and noise is most of what is left.
+const AFTER_TRAVEL_RATIO: f64 = 0.95;
 /// A lag counts at the ends of a motion alone, and pays with less: it may leave this share…
 const LAG_RATIO: f64 = 0.97;
 /// …and must be known to this share of a sample. Taken before friction's law is settled it would stand in
@@ -39,6 +42,17 @@ pub enum LawTerm {
         /// v_s \[rad/s\].
         speed: f64,
     },
+    /// `s·A·e^{−(v/v_s)²}`, the same within another shape.
+    NearRestSquare {
+        /// v_s \[rad/s\].
+        speed: f64,
+    },
+    /// No amplitude of its own: friction that has not grown to its level yet, over so much travel since a
+    /// reversal (presliding), is left out.
+    AfterTravel {
+        /// That travel \[rad\].
+        travel: f64,
+    },
     /// `s·A·√|v|`.
     Root,
     /// `s·(A_1·cos kθ + A_2·sin kθ)`.
@@ -56,9 +70,27 @@ impl LawTerm {
         match self {
             Self::ViscousByDirection => "viscous-by-direction",
             Self::NearRest { .. } => "near-rest",
+            Self::NearRestSquare { .. } => "near-rest-square",
+            Self::AfterTravel { .. } => "after-travel",
             Self::Root => "root",
             Self::Ripple { .. } => "ripple",
             Self::CommandLag => "command-lag",
+        }
+    }
+
+    /// Speed within which it changes friction near rest.
+    fn near_rest(self) -> Option<f64> {
+        match self {
+            Self::NearRest { speed } | Self::NearRestSquare { speed } => Some(speed),
+            _ => None,
+        }
+    }
+
+    /// The same with another such speed.
+    fn within(self, speed: f64) -> Self {
+        match self {
+            Self::NearRestSquare { .. } => Self::NearRestSquare { speed },
+            _ => Self::NearRest { speed },
         }
     }
 }
@@ -153,6 +185,14 @@ impl<'a> Search<'a> {
             term: LawTerm::NearRest { speed: share * fastest },
             terms: vec![Term::Signed(first + 2 + i)],
         }));
+        // Without stretches after reversals the shape shows.
+        if sampled.after > 0.0 {
+            for share in NEAR_REST {
+                let term = LawTerm::NearRestSquare { speed: share * fastest };
+                open.push(Tried { term, terms: vec![Term::Signed(first + columns.len())] });
+                columns.push(Column::NearRestSquare(share * fastest));
+            }
+        }
         let blocks = sampled.blocks(&columns, &[], cut);
         let mut terms = vec![Term::Plain(0), Term::Plain(1), Term::Signed(2), Term::Plain(2)];
         terms.extend((3..first).map(Term::Plain));
@@ -206,7 +246,7 @@ impl<'a> Search<'a> {
         let taken = self.open.remove(i);
         self.terms.extend(&taken.terms);
         // Root and near rest are two shapes of one thing.
-        let by_speed = |t: &LawTerm| matches!(t, LawTerm::Root | LawTerm::NearRest { .. });
+        let by_speed = |t: &LawTerm| *t == LawTerm::Root || t.near_rest().is_some();
         let gone =
             |t: &LawTerm| t.name() == taken.term.name() || (by_speed(t) && by_speed(&taken.term));
         self.open.retain(|t| !gone(&t.term));
@@ -235,11 +275,14 @@ impl<'a> Search<'a> {
         let (at_rest, at_rest_std) = self.at_rest(&solution, tried.term, first);
         let (least, allowed) = match tried.term {
             LawTerm::CommandLag => (LAG_RATIO, self.lag_allowed(&late(amplitude))),
+            term if term.near_rest().is_some() && self.sampled.after > 0.0 => {
+                (AFTER_TRAVEL_RATIO, true)
+            }
             _ => (RATIO, true),
         };
         // A line cut in two far beyond the speeds of the logs has any Coulomb friction.
         let (coulomb, coulomb_std) = Self::coulomb(&solution);
-        let near_rest = matches!(tried.term, LawTerm::NearRest { .. });
+        let near_rest = tried.term.near_rest().is_some();
         let allowed = allowed && (!near_rest || coulomb > -AT_REST * coulomb_std);
         let taken = paired > PAIRED
             && allowed
@@ -271,10 +314,10 @@ impl<'a> Search<'a> {
         let mut weight = coulomb_weight(solution);
         let mut at = 4 + self.tips();
         for t in &self.taken {
-            weight[at] = f64::from(matches!(t.term, LawTerm::NearRest { .. }));
+            weight[at] = f64::from(t.term.near_rest().is_some());
             at += t.terms.len();
         }
-        weight[first] = f64::from(matches!(tried, LawTerm::NearRest { .. }));
+        weight[first] = f64::from(tried.near_rest().is_some());
         known(solution, &weight)
     }
 
@@ -304,16 +347,20 @@ impl<'a> Search<'a> {
 
     /// Moves the speed of a term near rest to where least is left.
     fn refine_near_rest(&mut self) {
-        let near = |t: &Tried| matches!(t.term, LawTerm::NearRest { .. });
+        let near = |t: &Tried| t.term.near_rest().is_some();
         let Some(found) = self.taken.iter().position(near) else { return };
-        let LawTerm::NearRest { speed } = self.taken[found].term else { return };
+        let term = self.taken[found].term;
+        let Some(speed) = term.near_rest() else { return };
         let own = self.taken[found].terms[0];
         let at = fixed(self.sampled.campaign) + self.columns.len();
         let step = (NEAR_REST[1] / NEAR_REST[0]).ln() / f64::from(FINER);
         let speeds: Vec<f64> =
             (-FINER..=FINER).map(|k| speed * (f64::from(k) * step).exp()).collect();
         let mut columns = self.columns.clone();
-        columns.extend(speeds.iter().map(|v| Column::NearRest(*v)));
+        columns.extend(speeds.iter().map(|v| match term {
+            LawTerm::NearRestSquare { .. } => Column::NearRestSquare(*v),
+            _ => Column::NearRest(*v),
+        }));
         let blocks = self.sampled.blocks(&columns, &[], &self.cut);
         let with = |i: usize| {
             let other = Term::Signed(at + i);
@@ -326,7 +373,7 @@ impl<'a> Search<'a> {
         (self.columns, self.blocks) = (columns, blocks);
         let taken = &mut self.taken[found];
         taken.terms = vec![Term::Signed(at + i)];
-        taken.term = LawTerm::NearRest { speed: speeds[i] };
+        taken.term = term.within(speeds[i]);
     }
 
     fn fit(&self) -> LawFit {
@@ -350,6 +397,9 @@ impl<'a> Search<'a> {
             let found = found.map(|e| if t.term == LawTerm::CommandLag { late(e) } else { e });
             terms.push((t.term, found.collect()));
             at += t.terms.len();
+        }
+        if self.sampled.after > 0.0 {
+            terms.push((LawTerm::AfterTravel { travel: self.sampled.after }, Vec::new()));
         }
         LawFit {
             terms,

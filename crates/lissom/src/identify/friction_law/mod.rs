@@ -29,6 +29,13 @@ const LEAST_SAMPLES: f64 = 20.0;
 const LONGER: f64 = std::f64::consts::SQRT_2;
 /// Share of the windowed torque that the sensor's noise may make by way of the inertia.
 const NOISE: f64 = 0.02;
+/// Share of the windowed torque that a law may leave without a look at what follows reversals.
+const DESCRIBED: f64 = 0.02;
+/// Travel after reversals that is left out, as shares of the usual travel of a slip phase; the share of what
+/// was left that it may leave; and by how much more than the best a shorter one may.
+const AFTER: [f64; 3] = [0.03, 0.06, 0.12];
+const FAR_LESS: f64 = 0.65;
+const AS_GOOD: f64 = 1.02;
 /// Quantile of the windows' speeds that counts as the fastest.
 const FASTEST: f64 = 0.98;
 
@@ -88,12 +95,13 @@ impl LawFit {
         let mut sum = self.coulomb?.value + self.viscous?.value * speed;
         sum += direction * self.offset.map_or(0.0, |o| o.value);
         for (term, amplitude) in &self.terms {
-            let a = amplitude.first()?.value;
+            let a = amplitude.first().map_or(0.0, |e| e.value);
             sum += match *term {
                 LawTerm::ViscousByDirection => direction * a * speed,
                 LawTerm::NearRest { speed: fall } => a * (-speed / fall).exp(),
+                LawTerm::NearRestSquare { speed: fall } => a * (-(speed / fall).powi(2)).exp(),
                 LawTerm::Root => a * speed.sqrt(),
-                LawTerm::CommandLag | LawTerm::Ripple { .. } => 0.0,
+                LawTerm::CommandLag | LawTerm::Ripple { .. } | LawTerm::AfterTravel { .. } => 0.0,
             };
         }
         Some(sum)
@@ -116,7 +124,30 @@ impl LawFit {
 pub(super) fn friction_law(campaign: &Campaign, motor: &MotorRegression) -> Option<FrictionLaw> {
     let inertia = motor.inertia?.value;
     let window_s = window_s(campaign, motor, inertia);
-    let sampled = Sampled::new(campaign, window_s);
+    let found = under(&Sampled::new(campaign, window_s))?;
+    if found.relative_residual[1] < DESCRIBED {
+        return Some(found);
+    }
+    Some(after_travel(campaign, &found).unwrap_or(found))
+}
+
+/// The same without what follows reversals, where that leaves far less: bristles (presliding), a soft
+/// transmission or a sensor's play let friction grow over some travel, and no function of speed does.
+fn after_travel(campaign: &Campaign, whole: &FrictionLaw) -> Option<FrictionLaw> {
+    let travels = Sampled::new(campaign, whole.window_s).travels();
+    let usual = *travels.get(travels.len() / 2)?;
+    let without = |share: &f64| under(&Sampled::new(campaign, whole.window_s).after(share * usual));
+    let tried: Vec<FrictionLaw> = AFTER.iter().filter_map(without).collect();
+    let left = |law: &FrictionLaw| law.relative_residual[1];
+    let least = tried.iter().map(left).fold(f64::INFINITY, f64::min);
+    let worth = least < FAR_LESS * left(whole);
+    // The least travel that does: every stretch left out had something to say.
+    tried.into_iter().find(|law| worth && left(law) <= AS_GOOD * least)
+}
+
+/// Curve and law of some windows.
+fn under(sampled: &Sampled<'_>) -> Option<FrictionLaw> {
+    let window_s = sampled.window_s;
     let places = sampled.places();
     let mut speeds: Vec<f64> = places.iter().map(|p| p.speed).collect();
     let mut angles: Vec<f64> = places.iter().map(|p| p.angle).collect();
@@ -128,8 +159,8 @@ pub(super) fn friction_law(campaign: &Campaign, motor: &MotorRegression) -> Opti
         middle: quantile(&angles, 0.5)?,
         thirds: [quantile(&speeds, 1.0 / 3.0)?, quantile(&speeds, 2.0 / 3.0)?],
     };
-    let choice = choice::choose(&sampled, &cut, fastest)?;
-    let (curve, by_curve) = curve::curve(&sampled, &cut, &speeds, &choice.columns, &choice.lag)?;
+    let choice = choice::choose(sampled, &cut, fastest)?;
+    let (curve, by_curve) = curve::curve(sampled, &cut, &speeds, &choice.columns, &choice.lag)?;
     Some(FrictionLaw {
         window_s,
         curve,

@@ -20,6 +20,8 @@ pub(super) enum Column {
     Lag,
     /// `e^{−|v|/v_s}`.
     NearRest(f64),
+    /// `e^{−(v/v_s)²}`.
+    NearRestSquare(f64),
     /// `√|v|`.
     Root,
     /// `cos kθ`.
@@ -75,6 +77,8 @@ pub(super) fn fixed(campaign: &Campaign) -> usize {
 pub(super) struct Sampled<'a> {
     pub(super) campaign: &'a Campaign,
     pub(super) window_s: f64,
+    /// Travel since a reversal that is left out.
+    pub(super) after: f64,
     /// Signed velocity at every sample of each run.
     pub(super) velocity: Vec<Vec<f64>>,
 }
@@ -85,7 +89,30 @@ impl<'a> Sampled<'a> {
             let t = run.sample_time_s();
             velocity(run.motor(), smooth(run, window_s), t)
         };
-        Self { campaign, window_s, velocity: campaign.runs.iter().map(of).collect() }
+        let velocity = campaign.runs.iter().map(of).collect();
+        Self { campaign, window_s, after: 0.0, velocity }
+    }
+
+    /// Without windows that begin within so much travel of a reversal.
+    pub(super) fn after(mut self, travel: f64) -> Self {
+        self.after = travel;
+        self
+    }
+
+    /// How far the motor goes in each slip phase that holds a window, ascending.
+    pub(super) fn travels(&self) -> Vec<f64> {
+        let of_run = |run: &Run| {
+            let smooth = smooth(run, self.window_s);
+            let motor = run.motor();
+            let phases = slip_phases(motor, smooth, run.sample_time_s());
+            let n = (self.window_s / run.sample_time_s()).round() as usize;
+            let long = phases.into_iter().filter(|p| p.to - p.from > n);
+            let gone = long.map(|p| (motor[p.to - 1] - motor[p.from]).abs());
+            gone.collect::<Vec<_>>()
+        };
+        let mut found: Vec<f64> = self.campaign.runs.iter().flat_map(of_run).collect();
+        found.sort_by(f64::total_cmp);
+        found
     }
 
     /// Calls `see` with every window: run, number of its phase, sign, first sample, window.
@@ -104,7 +131,10 @@ impl<'a> Sampled<'a> {
                 if phase.to - phase.from <= n {
                     continue;
                 }
-                for k in (phase.from..phase.to - n).step_by(step) {
+                let gone = |k: &usize| (run.motor()[*k] - run.motor()[phase.from]).abs();
+                let mut windows = phase.from..phase.to - n;
+                let Some(from) = windows.find(|k| gone(k) >= self.after) else { continue };
+                for k in (from..phase.to - n).step_by(step) {
                     see(index, number, phase.sign, k, &window);
                 }
                 number += 1;
@@ -182,6 +212,7 @@ impl<'a> Sampled<'a> {
         let one = |column: &Column| match *column {
             Column::Lag => Vec::new(),
             Column::NearRest(speed) => of_speed(&|v| (-v / speed).exp()),
+            Column::NearRestSquare(speed) => of_speed(&|v| (-(v / speed).powi(2)).exp()),
             Column::Root => of_speed(&f64::sqrt),
             Column::Cosine(k) => of_angle(&|x| (k * x).cos()),
             Column::Sine(k) => of_angle(&|x| (k * x).sin()),

@@ -13,9 +13,9 @@ const STEP: f64 = std::f64::consts::TAU / 65536.0;
 
 /// Two runs of two sines each at 500 Hz, the torque that friction(v, θ) and the inertia ask for, read
 /// off by an encoder.
-fn law_of(friction: impl Fn(f64, f64) -> f64) -> FrictionLaw {
+fn law_of(mut friction: impl FnMut(f64, f64) -> f64) -> FrictionLaw {
     let sample_s = 0.002;
-    let run = |name: &str, slow: f64, fast: f64| {
+    let mut run = |name: &str, slow: f64, fast: f64| {
         let time = |k: u32| f64::from(k) * sample_s;
         let angle = |t: f64| 0.8 * (slow * t).sin() + 0.2 * (fast * t + 0.4).sin();
         let motor = (0..12_000).map(|k| (angle(time(k)) / STEP).round() * STEP).collect();
@@ -111,4 +111,26 @@ fn a_ripple_is_found_with_its_period() {
     let size = amplitude.iter().map(|e| e.value.powi(2)).sum::<f64>().sqrt();
     assert!((size / 0.06 - 1.0).abs() < 0.2, "{size}");
     near(law.chosen.inertia.unwrap(), INERTIA, 0.01);
+}
+
+/// Bristles in closed form, dy/dx = (g − y)/δ along the travel x, with a level g that rises towards rest:
+/// no function of speed has what follows a reversal.
+#[test]
+fn friction_that_grows_over_travel_is_left_out_after_reversals() {
+    let (breakaway, rises, within) = (4e-3, 0.15, 0.5);
+    let (mut bent, mut at) = (0.0, None);
+    let law = law_of(|v, angle| {
+        let level = COULOMB + rises * (-(v / within) * (v / within)).exp();
+        let steady = level * v.signum();
+        let travel = (angle - at.replace(angle).unwrap_or(angle)).abs();
+        bent = steady + (bent - steady) * (-travel / breakaway).exp();
+        VISCOUS * v + bent
+    });
+    let chosen = &law.chosen;
+    let travel = |t: &LawTerm| matches!(t, LawTerm::AfterTravel { travel } if *travel > breakaway);
+    assert!(chosen.terms.iter().any(|(t, _)| travel(t)), "{:?}", chosen.terms);
+    let square = chosen.term(|t| matches!(t, LawTerm::NearRestSquare { .. }));
+    near(square.unwrap(), rises, 0.05);
+    near(chosen.inertia.unwrap(), INERTIA, 0.02);
+    near(chosen.coulomb.unwrap(), COULOMB, 0.01);
 }

@@ -70,11 +70,18 @@ pub(crate) fn finding(axis: Axis, id: &Identified) -> Option<Finding> {
     let law = id.friction_law.as_ref().filter(|law| law.chosen.departs())?;
     let taken = law.candidates.iter().filter(|c| c.taken && c.term != LawTerm::CommandLag);
     let paired = taken.map(|c| c.paired).fold(f64::INFINITY, f64::min);
+    let better = if paired.is_finite() {
+        format!(
+            "; what is left falls to {:.0} % of itself, and slip phases left out are described better by \
+             {paired:.0} deviations or more",
+            100.0 * law.relative_residual[1] / law.relative_residual[0]
+        )
+    } else {
+        String::new()
+    };
     let message = format!(
-        "friction is not Coulomb and one viscous constant: {}; what is left falls to {:.0} % of \
-         itself, and slip phases left out are described better by {paired:.0} deviations or more",
-        in_words(axis, &law.chosen.terms),
-        100.0 * law.relative_residual[1] / law.relative_residual[0]
+        "friction is not Coulomb and one viscous constant: {}{better}",
+        in_words(axis, &law.chosen.terms)
     );
     Some(match replay {
         // The replay describes whole runs with the simplest law, and its figures are taken.
@@ -90,8 +97,10 @@ pub(crate) fn finding(axis: Axis, id: &Identified) -> Option<Finding> {
 fn is_negligible(id: &Identified, (term, amplitude): &(LawTerm, Vec<Estimate>)) -> bool {
     let of = match term {
         LawTerm::ViscousByDirection => id.friction.viscous,
-        LawTerm::NearRest { .. } | LawTerm::Ripple { .. } => id.friction.coulomb,
-        LawTerm::Root => None,
+        LawTerm::NearRest { .. } | LawTerm::NearRestSquare { .. } | LawTerm::Ripple { .. } => {
+            id.friction.coulomb
+        }
+        LawTerm::Root | LawTerm::AfterTravel { .. } => None,
         LawTerm::CommandLag => return true,
     };
     let largest = amplitude.iter().map(|a| a.value.abs()).fold(0.0, f64::max);
@@ -123,10 +132,14 @@ fn term_in_words(axis: Axis, (term, amplitude): &(LawTerm, Vec<Estimate>)) -> St
         LawTerm::ViscousByDirection => {
             format!("viscous friction differs by ±{:.3e} by direction", a.abs())
         }
-        LawTerm::NearRest { speed } if a > 0.0 => {
+        LawTerm::AfterTravel { travel } => format!(
+            "after a reversal it grows over some travel (bristles, presliding), and the first \
+             {travel:.3e} {angle} of every slip phase are left out"
+        ),
+        LawTerm::NearRest { speed } | LawTerm::NearRestSquare { speed } if a > 0.0 => {
             format!("it rises by {a:.3e} towards rest, within {speed:.3e} {angle}/s (Stribeck)")
         }
-        LawTerm::NearRest { speed } => {
+        LawTerm::NearRest { speed } | LawTerm::NearRestSquare { speed } => {
             format!("it falls by {:.3e} towards rest, within {speed:.3e} {angle}/s", -a)
         }
         LawTerm::Root => format!("it grows with the root of speed, by {a:.3e}"),
