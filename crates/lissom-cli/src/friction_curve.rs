@@ -1,5 +1,6 @@
 //! Friction against speed: the curve without a law, and the law chosen, in a plot and a table.
 
+use lissom::drive::Falloff;
 use lissom::identify::{FrictionLaw, Identified, LawTerm};
 use lissom_io::UnitNames;
 use lissom_report::{Axis, Cells, LinePlot, Role, Table, Trace, significant};
@@ -72,11 +73,12 @@ fn term(names: UnitNames, term: LawTerm) -> String {
     let angle = names.angle();
     match term {
         LawTerm::ViscousByDirection => "viscous by direction".to_owned(),
-        LawTerm::NearRest { speed } => {
-            format!("near rest, within {} {angle}/s", significant(speed, 4))
-        }
-        LawTerm::NearRestSquare { speed } => {
-            format!("near rest, by its square, within {} {angle}/s", significant(speed, 4))
+        LawTerm::NearRest { speed, falloff } => {
+            let shape = match falloff {
+                Falloff::Exponential => "",
+                Falloff::Gaussian => " by the square",
+            };
+            format!("near rest{shape}, within {} {angle}/s", significant(speed, 4))
         }
         LawTerm::AfterTravel { travel } => {
             format!("after {} {angle} of travel", significant(travel, 4))

@@ -2,6 +2,7 @@
 //! names.
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use lissom::drive::Falloff;
 use lissom::identify::{
     ByDirection, ConstantVelocity, Estimate, FrictionLine, Identified, LawCandidate, LawTerm,
     NearRestEstimate, Options, RippleEstimate, RunToAdd, Shape, SteadyPoint, geometry_check,
@@ -99,8 +100,7 @@ fn with_directions(mut id: Identified) -> Identified {
     });
     if let Some(law) = &mut id.friction_law {
         let terms = [
-            LawTerm::NearRest { speed: 0.1 },
-            LawTerm::NearRestSquare { speed: 0.1 },
+            LawTerm::NearRest { speed: 0.1, falloff: Falloff::Gaussian },
             LawTerm::AfterTravel { travel: 0.01 },
             LawTerm::Ripple { per_angle: 12.0 },
         ];
@@ -108,7 +108,8 @@ fn with_directions(mut id: Identified) -> Identified {
         let tried = law.candidates[0];
         law.candidates = terms.map(|term| LawCandidate { term, ..tried }).to_vec();
     }
-    id.friction.near_rest = Some(NearRestEstimate { torque: figure, speed: figure });
+    let falloff = Falloff::Exponential;
+    id.friction.near_rest = Some(NearRestEstimate { torque: figure, speed: figure, falloff });
     id.friction.ripples = vec![RippleEstimate { torque: figure, per_angle: figure }];
     if let Some(found) = &mut id.arm {
         found.arm.dry_terms = DryTerms {

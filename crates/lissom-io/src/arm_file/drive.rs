@@ -118,15 +118,13 @@ fn torque(value: &Value<'_>, torque_constant: f64) -> Result<f64, ConfigError> {
 fn rest(table: &Table<'_>, torque_constant: f64) -> Result<RestSpec, ConfigError> {
     table.only(&["friction", "velocity", "falloff"])?;
     let (forward_nm, backward_nm) = by_direction(&table.need("friction")?, torque_constant)?;
-    let falloff = table.get("falloff").map(|v| v.choice(&["exponential", "gaussian"]));
+    let shapes = [Falloff::Exponential, Falloff::Gaussian];
+    let falloff = table.get("falloff").map(|v| v.choice(&shapes.map(Falloff::name))).transpose()?;
     Ok(RestSpec {
         forward_nm,
         backward_nm,
         velocity_rad_s: table.need("velocity")?.positive(Dimension::RATE)?,
-        falloff: match falloff.transpose()? {
-            Some(1) => Falloff::Gaussian,
-            _ => Falloff::Exponential,
-        },
+        falloff: falloff.map_or(shapes[0], |i| shapes[i]),
     })
 }
 

@@ -30,6 +30,7 @@ pub(super) fn terms(map: &mut Map<String, Value>, names: UnitNames, constant: f6
         let mut own = Map::new();
         torque(&mut own, names, constant, "amplitude", Some(near.torque));
         own.insert(format!("speed_{}_per_s", names.angle()), figure(Some(near.speed)));
+        own.insert("falloff".to_owned(), json!(near.falloff.name()));
         map.insert("near_rest".to_owned(), Value::Object(own));
     }
     let ripple = |r: &RippleEstimate| {
@@ -86,7 +87,8 @@ fn named(names: UnitNames, term: LawTerm) -> Map<String, Value> {
     let mut map = Map::new();
     map.insert("term".to_owned(), json!(term.name()));
     match term {
-        LawTerm::NearRest { speed } | LawTerm::NearRestSquare { speed } => {
+        LawTerm::NearRest { speed, falloff } => {
+            map.insert("falloff".to_owned(), json!(falloff.name()));
             map.insert(format!("speed_{}_per_s", names.angle()), json!(speed));
         }
         LawTerm::Ripple { per_angle } => {
@@ -105,10 +107,7 @@ fn named(names: UnitNames, term: LawTerm) -> Map<String, Value> {
 fn amplitude_key(names: UnitNames, term: LawTerm) -> String {
     match term {
         LawTerm::ViscousByDirection => names.viscous_key("amplitude"),
-        LawTerm::NearRest { .. }
-        | LawTerm::NearRestSquare { .. }
-        | LawTerm::AfterTravel { .. }
-        | LawTerm::Ripple { .. } => {
+        LawTerm::NearRest { .. } | LawTerm::AfterTravel { .. } | LawTerm::Ripple { .. } => {
             format!("amplitude_{}", names.torque())
         }
         LawTerm::Root => format!("amplitude_{}_per_root_{}_per_s", names.torque(), names.angle()),

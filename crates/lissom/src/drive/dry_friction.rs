@@ -11,6 +11,24 @@ pub enum Falloff {
     Gaussian,
 }
 
+impl Falloff {
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exponential => "exponential",
+            Self::Gaussian => "gaussian",
+        }
+    }
+
+    /// What of the difference is left at `speed_ratio` = |v|/v_s.
+    pub fn share(self, speed_ratio: f64) -> f64 {
+        match self {
+            Self::Exponential => (-speed_ratio).exp(),
+            Self::Gaussian => (-speed_ratio * speed_ratio).exp(),
+        }
+    }
+}
+
 /// Friction at rest that differs from the friction at speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Stribeck {
@@ -131,12 +149,8 @@ impl DryFriction {
             .map_or(1.0, |r| 1.0 + r.share * (r.per_turn * angle_rad + r.phase_rad).cos());
         let side = |pick: fn(Coulomb) -> f64| {
             let rest = self.stribeck.map_or(0.0, |s| {
-                let v = velocity_rad_s.abs() / s.velocity_rad_s;
-                let fall = match s.falloff {
-                    Falloff::Exponential => -v,
-                    Falloff::Gaussian => -v * v,
-                };
-                (pick(s.rest) - pick(self.sliding)) * fall.exp()
+                let fall = s.falloff.share(velocity_rad_s.abs() / s.velocity_rad_s);
+                (pick(s.rest) - pick(self.sliding)) * fall
             });
             ripple * (pick(self.sliding) + rest)
         };

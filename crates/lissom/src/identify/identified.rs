@@ -13,6 +13,7 @@ use super::run_analysis::RunAnalysis;
 use super::separability::Separability;
 use super::third_harmonic::PairFigure;
 use super::{Estimate, ModeEstimate};
+use crate::drive::Falloff;
 use crate::lti::StateSpace;
 
 /// Figures of the report's own method.
@@ -51,13 +52,15 @@ pub struct Friction {
     pub ripples: Vec<RippleEstimate>,
 }
 
-/// `s·A·e^{−|v|/v_s}`, s the direction.
+/// `s·A·e^{−|v|/v_s}` or `s·A·e^{−(v/v_s)²}`, s the direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearRestEstimate {
     /// A: friction at rest is C + A.
     pub torque: Estimate,
     /// v_s.
     pub speed: Estimate,
+    /// Which of the two.
+    pub falloff: Falloff,
 }
 
 /// `s·A·cos(k·θ + φ)`, s the direction.

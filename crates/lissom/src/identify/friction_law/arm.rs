@@ -1,6 +1,7 @@
 //! A law of friction as an arm has it.
 
 use super::{LawFit, LawTerm};
+use crate::drive::Falloff;
 use crate::identify::Estimate;
 use crate::replay::{ModalArm, NearRest, Ripple};
 
@@ -9,11 +10,11 @@ impl LawFit {
     /// damps beside viscous friction. Tells whether it did: not where a figure is missing, or the law has
     /// a term that the replay does not know.
     pub(crate) fn put_into(&self, arm: &mut ModalArm, back_emf_viscous: f64) -> bool {
-        let unknown = |term: LawTerm| {
-            use LawTerm::{AfterTravel, NearRestSquare, Root};
-            matches!(term, Root | NearRestSquare { .. } | AfterTravel { .. })
-        };
-        let unknown = self.terms.iter().any(|(term, _)| unknown(*term));
+        let unknown = self.terms.iter().any(|(term, _)| match term {
+            LawTerm::Root | LawTerm::AfterTravel { .. } => true,
+            LawTerm::NearRest { falloff, .. } => *falloff != Falloff::Exponential,
+            _ => false,
+        });
         let (Some(inertia), Some(viscous), Some(coulomb)) =
             (self.inertia, self.viscous, self.coulomb)
         else {
@@ -41,7 +42,7 @@ fn add(arm: &mut ModalArm, term: LawTerm, amplitude: &[Estimate]) {
             arm.viscous_nm_s_per_rad[0] += d.value;
             arm.viscous_nm_s_per_rad[1] -= d.value;
         }
-        (LawTerm::NearRest { speed }, [a]) => {
+        (LawTerm::NearRest { speed, .. }, [a]) => {
             let near = NearRest { torque_nm: a.value, speed_rad_s: speed };
             arm.dry_terms.near_rest = Some(near);
         }

@@ -2,9 +2,11 @@
 
 use nalgebra::DVector;
 
+use super::described::Described;
 use super::held::Held;
 use super::rows::{Block, Column, Cut, Sampled, fixed};
-use super::{LawFit, ripple};
+use super::{LawFit, POSITIVE, ripple};
+use crate::drive::Falloff;
 use crate::identify::Estimate;
 use crate::identify::regression::{Cluster, Solution, Term, coupled_tips, solve};
 use crate::record::Run;
@@ -29,23 +31,18 @@ const LAG_RATIO: f64 = 0.97;
 const LAG_STD: f64 = 0.1;
 /// Most terms.
 const MOST: usize = 4;
-/// Friction at rest must be positive within this many deviations.
-const AT_REST: f64 = 2.0;
 
 /// A term beside Coulomb friction, one viscous constant and an offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LawTerm {
     /// `s·D·v`: viscous friction V + D forward, V − D backward.
     ViscousByDirection,
-    /// `s·A·e^{−|v|/v_s}`: friction at rest is C + A (A > 0: Stribeck).
+    /// `s·A·e^{−|v|/v_s}` or `s·A·e^{−(v/v_s)²}`: friction at rest is C + A (A > 0: Stribeck).
     NearRest {
         /// v_s \[rad/s\].
         speed: f64,
-    },
-    /// `s·A·e^{−(v/v_s)²}`, the same within another shape.
-    NearRestSquare {
-        /// v_s \[rad/s\].
-        speed: f64,
+        /// Which of the two.
+        falloff: Falloff,
     },
     /// No amplitude of its own: friction that has not grown to its level yet, over so much travel since a
     /// reversal (presliding), is left out.
@@ -70,7 +67,6 @@ impl LawTerm {
         match self {
             Self::ViscousByDirection => "viscous-by-direction",
             Self::NearRest { .. } => "near-rest",
-            Self::NearRestSquare { .. } => "near-rest-square",
             Self::AfterTravel { .. } => "after-travel",
             Self::Root => "root",
             Self::Ripple { .. } => "ripple",
@@ -78,20 +74,8 @@ impl LawTerm {
         }
     }
 
-    /// Speed within which it changes friction near rest.
-    fn near_rest(self) -> Option<f64> {
-        match self {
-            Self::NearRest { speed } | Self::NearRestSquare { speed } => Some(speed),
-            _ => None,
-        }
-    }
-
-    /// The same with another such speed.
-    fn within(self, speed: f64) -> Self {
-        match self {
-            Self::NearRestSquare { .. } => Self::NearRestSquare { speed },
-            _ => Self::NearRest { speed },
-        }
+    fn is_near_rest(self) -> bool {
+        matches!(self, Self::NearRest { .. })
     }
 }
 
@@ -126,8 +110,9 @@ pub(super) struct Choice {
     pub(super) simplest: f64,
     pub(super) residual: f64,
     /// Columns and terms of what is not friction by speed: a lag and a ripple, for the curve.
-    pub(super) columns: Vec<Column>,
-    pub(super) lag: Vec<Term>,
+    pub(super) beside: (Vec<Column>, Vec<Term>),
+    /// All of it, for other windows.
+    pub(super) described: Described,
 }
 
 /// One candidate, as columns and terms of a regression.
@@ -152,9 +137,11 @@ pub(super) fn choose(sampled: &Sampled<'_>, cut: &Cut, fastest: f64) -> Option<C
         while search.taken.len() < MOST && search.add_best() {}
     }
     let fit = search.fit();
-    let (columns, lag) = search.beside_friction();
+    let beside = search.beside_friction();
     let residual = search.solution.relative_residual;
-    Some(Choice { fit, candidates: search.candidates, simplest, residual, columns, lag })
+    let described =
+        Described { columns: search.columns, terms: search.terms, value: search.solution.value };
+    Some(Choice { fit, candidates: search.candidates, simplest, residual, beside, described })
 }
 
 struct Search<'a> {
@@ -175,22 +162,23 @@ impl<'a> Search<'a> {
     fn new(sampled: &'a Sampled<'a>, cut: &Cut, fastest: f64) -> Option<Self> {
         let first = fixed(sampled.campaign);
         let mut columns = vec![Column::Lag, Column::Root];
-        columns.extend(NEAR_REST.map(|share| Column::NearRest(share * fastest)));
         let mut open = vec![
             Tried { term: LawTerm::ViscousByDirection, terms: vec![Term::Signed(1)] },
             Tried { term: LawTerm::CommandLag, terms: vec![Term::Plain(first)] },
             Tried { term: LawTerm::Root, terms: vec![Term::Signed(first + 1)] },
         ];
-        open.extend(NEAR_REST.iter().enumerate().map(|(i, share)| Tried {
-            term: LawTerm::NearRest { speed: share * fastest },
-            terms: vec![Term::Signed(first + 2 + i)],
-        }));
         // Without stretches after reversals the shape shows.
-        if sampled.after > 0.0 {
+        let shapes: &[Falloff] = if sampled.after > 0.0 {
+            &[Falloff::Exponential, Falloff::Gaussian]
+        } else {
+            &[Falloff::Exponential]
+        };
+        for &falloff in shapes {
             for share in NEAR_REST {
-                let term = LawTerm::NearRestSquare { speed: share * fastest };
+                let speed = share * fastest;
+                let term = LawTerm::NearRest { speed, falloff };
                 open.push(Tried { term, terms: vec![Term::Signed(first + columns.len())] });
-                columns.push(Column::NearRestSquare(share * fastest));
+                columns.push(Column::NearRest(speed, falloff));
             }
         }
         let blocks = sampled.blocks(&columns, &[], cut);
@@ -246,7 +234,7 @@ impl<'a> Search<'a> {
         let taken = self.open.remove(i);
         self.terms.extend(&taken.terms);
         // Root and near rest are two shapes of one thing.
-        let by_speed = |t: &LawTerm| *t == LawTerm::Root || t.near_rest().is_some();
+        let by_speed = |t: &LawTerm| *t == LawTerm::Root || t.is_near_rest();
         let gone =
             |t: &LawTerm| t.name() == taken.term.name() || (by_speed(t) && by_speed(&taken.term));
         self.open.retain(|t| !gone(&t.term));
@@ -275,20 +263,17 @@ impl<'a> Search<'a> {
         let (at_rest, at_rest_std) = self.at_rest(&solution, tried.term, first);
         let (least, allowed) = match tried.term {
             LawTerm::CommandLag => (LAG_RATIO, self.lag_allowed(&late(amplitude))),
-            term if term.near_rest().is_some() && self.sampled.after > 0.0 => {
-                (AFTER_TRAVEL_RATIO, true)
-            }
+            term if term.is_near_rest() && self.sampled.after > 0.0 => (AFTER_TRAVEL_RATIO, true),
             _ => (RATIO, true),
         };
         // A line cut in two far beyond the speeds of the logs has any Coulomb friction.
         let (coulomb, coulomb_std) = Self::coulomb(&solution);
-        let near_rest = tried.term.near_rest().is_some();
-        let allowed = allowed && (!near_rest || coulomb > -AT_REST * coulomb_std);
+        let allowed = allowed && (!tried.term.is_near_rest() || coulomb > -POSITIVE * coulomb_std);
         let taken = paired > PAIRED
             && allowed
             && residual_ratio < least
             && stretch_ratio < 1.0
-            && at_rest > -AT_REST * at_rest_std;
+            && at_rest > -POSITIVE * at_rest_std;
         let (term, beside) = (tried.term, self.taken.len());
         let candidate = LawCandidate {
             term,
@@ -314,10 +299,10 @@ impl<'a> Search<'a> {
         let mut weight = coulomb_weight(solution);
         let mut at = 4 + self.tips();
         for t in &self.taken {
-            weight[at] = f64::from(t.term.near_rest().is_some());
+            weight[at] = f64::from(t.term.is_near_rest());
             at += t.terms.len();
         }
-        weight[first] = f64::from(tried.near_rest().is_some());
+        weight[first] = f64::from(tried.is_near_rest());
         known(solution, &weight)
     }
 
@@ -347,20 +332,15 @@ impl<'a> Search<'a> {
 
     /// Moves the speed of a term near rest to where least is left.
     fn refine_near_rest(&mut self) {
-        let near = |t: &Tried| t.term.near_rest().is_some();
-        let Some(found) = self.taken.iter().position(near) else { return };
-        let term = self.taken[found].term;
-        let Some(speed) = term.near_rest() else { return };
+        let Some(found) = self.taken.iter().position(|t| t.term.is_near_rest()) else { return };
+        let LawTerm::NearRest { speed, falloff } = self.taken[found].term else { return };
         let own = self.taken[found].terms[0];
         let at = fixed(self.sampled.campaign) + self.columns.len();
         let step = (NEAR_REST[1] / NEAR_REST[0]).ln() / f64::from(FINER);
         let speeds: Vec<f64> =
             (-FINER..=FINER).map(|k| speed * (f64::from(k) * step).exp()).collect();
         let mut columns = self.columns.clone();
-        columns.extend(speeds.iter().map(|v| match term {
-            LawTerm::NearRestSquare { .. } => Column::NearRestSquare(*v),
-            _ => Column::NearRest(*v),
-        }));
+        columns.extend(speeds.iter().map(|v| Column::NearRest(*v, falloff)));
         let blocks = self.sampled.blocks(&columns, &[], &self.cut);
         let with = |i: usize| {
             let other = Term::Signed(at + i);
@@ -373,7 +353,7 @@ impl<'a> Search<'a> {
         (self.columns, self.blocks) = (columns, blocks);
         let taken = &mut self.taken[found];
         taken.terms = vec![Term::Signed(at + i)];
-        taken.term = term.within(speeds[i]);
+        taken.term = LawTerm::NearRest { speed: speeds[i], falloff };
     }
 
     fn fit(&self) -> LawFit {
@@ -454,10 +434,7 @@ pub(super) fn solved(blocks: &[Block], terms: &[Term]) -> Option<Solution> {
     let mut phase = None;
     for b in blocks {
         match clusters.last_mut() {
-            Some(last) if phase == Some(b.phase) => {
-                last.products += &b.cluster.products;
-                last.rows += b.cluster.rows;
-            }
+            Some(last) if phase == Some(b.phase) => last.merge(&b.cluster),
             _ => clusters.push(b.cluster.clone()),
         }
         phase = Some(b.phase);

@@ -65,15 +65,14 @@ pub(super) fn without_each(
     let mut all = empty();
     for b in blocks {
         let side = usize::from(b.cluster.sign < 0.0);
-        for sum in [&mut sums[group(b)][side], &mut all[side]] {
-            sum.products += &b.cluster.products;
-            sum.rows += b.cluster.rows;
-        }
+        sums[group(b)][side].merge(&b.cluster);
+        all[side].merge(&b.cluster);
     }
     let without = |own: &[Cluster; 2]| {
         let mut others = all.clone();
         for (others, own) in others.iter_mut().zip(own) {
             others.products -= &own.products;
+            others.noise -= &own.noise;
             others.rows -= own.rows;
         }
         Some(solve(&others, terms)?.value)

@@ -6,6 +6,7 @@
 mod arm;
 mod choice;
 mod curve;
+mod described;
 mod held;
 mod ripple;
 mod rows;
@@ -19,23 +20,24 @@ pub(crate) use verdict::{finding, friction};
 
 use super::Estimate;
 use super::channel_noise::channel_noise;
-use super::regression::MotorRegression;
+use super::regression::{MotorRegression, RunNoise};
 use crate::record::{Campaign, Run};
+use described::Described;
 use rows::{Cut, Sampled};
 
 /// Fewest samples in a window.
 const LEAST_SAMPLES: f64 = 20.0;
 /// Ratio of one window tried to that before it.
 const LONGER: f64 = std::f64::consts::SQRT_2;
-/// Share of the windowed torque that the sensor's noise may make by way of the inertia.
+/// Share of the windowed torque that the sensor's noise may make by way of the inertia. A law that leaves no
+/// more has nothing left to explain.
 const NOISE: f64 = 0.02;
-/// Share of the windowed torque that a law may leave without a look at what follows reversals.
-const DESCRIBED: f64 = 0.02;
 /// Travel after reversals that is left out, as shares of the usual travel of a slip phase; the share of what
-/// was left that it may leave; and by how much more than the best a shorter one may.
+/// was left that it may leave.
 const AFTER: [f64; 3] = [0.03, 0.06, 0.12];
-const FAR_LESS: f64 = 0.65;
-const AS_GOOD: f64 = 1.02;
+const FAR_LESS: f64 = 0.75;
+/// Friction must be positive within this many deviations.
+const POSITIVE: f64 = 2.0;
 /// Quantile of the windows' speeds that counts as the fastest.
 const FASTEST: f64 = 0.98;
 
@@ -98,8 +100,7 @@ impl LawFit {
             let a = amplitude.first().map_or(0.0, |e| e.value);
             sum += match *term {
                 LawTerm::ViscousByDirection => direction * a * speed,
-                LawTerm::NearRest { speed: fall } => a * (-speed / fall).exp(),
-                LawTerm::NearRestSquare { speed: fall } => a * (-(speed / fall).powi(2)).exp(),
+                LawTerm::NearRest { speed: fall, falloff } => a * falloff.share(speed / fall),
                 LawTerm::Root => a * speed.sqrt(),
                 LawTerm::CommandLag | LawTerm::Ripple { .. } | LawTerm::AfterTravel { .. } => 0.0,
             };
@@ -113,6 +114,13 @@ impl LawFit {
         found.1.first().copied()
     }
 
+    /// Whether Coulomb friction, surely there, may have grown from `less` than it is.
+    fn may_grow_by(&self, less: f64) -> bool {
+        let sure = |e: &Estimate| e.value > POSITIVE * e.std;
+        let surely = self.inertia.as_ref().is_some_and(sure);
+        surely && self.coulomb.is_some_and(|c| sure(&c) && 0.0 < less && less < c.value)
+    }
+
     /// Whether it is another law of friction than Coulomb and one viscous constant.
     pub fn departs(&self) -> bool {
         self.terms.iter().any(|(term, _)| *term != LawTerm::CommandLag)
@@ -123,30 +131,47 @@ impl LawFit {
 /// too few or too short.
 pub(super) fn friction_law(campaign: &Campaign, motor: &MotorRegression) -> Option<FrictionLaw> {
     let inertia = motor.inertia?.value;
-    let window_s = window_s(campaign, motor, inertia);
-    let found = under(&Sampled::new(campaign, window_s))?;
-    if found.relative_residual[1] < DESCRIBED {
-        return Some(found);
+    let noise: Vec<RunNoise> = campaign.runs.iter().map(RunNoise::of).collect();
+    let window_s = window_s(campaign, motor, inertia, &noise);
+    let mut sampled = Sampled::new(campaign, &noise, window_s);
+    let (law, described) = under(&sampled)?;
+    if law.relative_residual[1] < NOISE {
+        return Some(law);
     }
-    Some(after_travel(campaign, &found).unwrap_or(found))
+    Some(after_travel(&mut sampled, &described).unwrap_or(law))
 }
 
-/// The same without what follows reversals, where that leaves far less: bristles (presliding), a soft
-/// transmission or a sensor's play let friction grow over some travel, and no function of speed does.
-fn after_travel(campaign: &Campaign, whole: &FrictionLaw) -> Option<FrictionLaw> {
-    let travels = Sampled::new(campaign, whole.window_s).travels();
+/// The same without what follows reversals, where it describes the rest far better than the law of all
+/// windows does: bristles (presliding), a soft transmission or a sensor's play let friction grow over some
+/// travel, and no function of speed does.
+fn after_travel(sampled: &mut Sampled<'_>, whole: &Described) -> Option<FrictionLaw> {
+    let travels = sampled.travels();
     let usual = *travels.get(travels.len() / 2)?;
-    let without = |share: &f64| under(&Sampled::new(campaign, whole.window_s).after(share * usual));
-    let tried: Vec<FrictionLaw> = AFTER.iter().filter_map(without).collect();
+    let windows = sampled.places().len();
+    let mut tried: Vec<FrictionLaw> = Vec::new();
+    let mut worth = false;
+    for share in AFTER {
+        sampled.after = share * usual;
+        if sampled.places().len() < windows / 2 {
+            break;
+        }
+        let Some((law, described)) = under(sampled) else { continue };
+        let (with, without) = (described.left(sampled), whole.left(sampled));
+        sampled.after = 0.0;
+        let less = -described.left(sampled).more_friction_without(&with);
+        if law.chosen.may_grow_by(less) {
+            // On the same windows: without some, little may be left of what was never to be explained.
+            worth |= with.relative_residual() < FAR_LESS * without.relative_residual();
+            tried.push(law);
+        }
+    }
     let left = |law: &FrictionLaw| law.relative_residual[1];
-    let least = tried.iter().map(left).fold(f64::INFINITY, f64::min);
-    let worth = least < FAR_LESS * left(whole);
-    // The least travel that does: every stretch left out had something to say.
-    tried.into_iter().find(|law| worth && left(law) <= AS_GOOD * least)
+    let best = tried.into_iter().min_by(|a, b| left(a).total_cmp(&left(b)));
+    best.filter(|_| worth)
 }
 
 /// Curve and law of some windows.
-fn under(sampled: &Sampled<'_>) -> Option<FrictionLaw> {
+fn under(sampled: &Sampled<'_>) -> Option<(FrictionLaw, Described)> {
     let window_s = sampled.window_s;
     let places = sampled.places();
     let mut speeds: Vec<f64> = places.iter().map(|p| p.speed).collect();
@@ -160,22 +185,24 @@ fn under(sampled: &Sampled<'_>) -> Option<FrictionLaw> {
         thirds: [quantile(&speeds, 1.0 / 3.0)?, quantile(&speeds, 2.0 / 3.0)?],
     };
     let choice = choice::choose(sampled, &cut, fastest)?;
-    let (curve, by_curve) = curve::curve(sampled, &cut, &speeds, &choice.columns, &choice.lag)?;
-    Some(FrictionLaw {
+    let (columns, terms) = &choice.beside;
+    let (curve, by_curve) = curve::curve(sampled, &cut, &speeds, columns, terms)?;
+    let law = FrictionLaw {
         window_s,
         curve,
         relative_residual: [choice.simplest, choice.residual, by_curve],
         candidates: choice.candidates,
         chosen: choice.fit,
-    })
+    };
+    Some((law, choice.described))
 }
 
 /// The shortest window in which the motor's sensor makes no more than [`NOISE`] of the torque, and no
 /// longer than the regression's.
-fn window_s(campaign: &Campaign, motor: &MotorRegression, inertia: f64) -> f64 {
+fn window_s(campaign: &Campaign, motor: &MotorRegression, inertia: f64, noise: &[RunNoise]) -> f64 {
     let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     // White noise σ in the angle makes σ·√T of every scaled row.
-    let noise = campaign
+    let sensor = campaign
         .runs
         .iter()
         .map(|run| channel_noise(run.motor()).std * run.sample_time_s().sqrt())
@@ -183,11 +210,11 @@ fn window_s(campaign: &Campaign, motor: &MotorRegression, inertia: f64) -> f64 {
     let mut window_s = LEAST_SAMPLES * sample_s;
     while window_s * LONGER < motor.window_s {
         let (mut power, mut rows) = (0.0, 0.0);
-        Sampled::new(campaign, window_s).rows(&[], &[], |_, row| {
+        Sampled::new(campaign, noise, window_s).rows(&[], &[], |_, row| {
             power += row.last().map_or(0.0, |y| y * y);
             rows += 1.0;
         });
-        if rows > 0.0 && inertia.abs() * noise < NOISE * (power / rows).sqrt() {
+        if rows > 0.0 && inertia.abs() * sensor < NOISE * (power / rows).sqrt() {
             break;
         }
         window_s *= LONGER;

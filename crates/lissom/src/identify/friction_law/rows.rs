@@ -1,7 +1,10 @@
 //! Rows of the motor's equation on short windows, with columns of friction by speed and angle.
 
+use nalgebra::DMatrix;
+
+use crate::drive::Falloff;
 use crate::identify::regression::{
-    Cluster, MotorEquation, Rows, Window, coupled_tips, slip_phases, smoothing,
+    Cluster, MotorEquation, Phase, Rows, RunNoise, Window, coupled_tips, slip_phases, smoothing,
 };
 use crate::record::{Campaign, Run};
 
@@ -18,10 +21,8 @@ const MOST_ROWS: usize = 40_000;
 pub(super) enum Column {
     /// `∫ẇ·τ`: of a command that acts later.
     Lag,
-    /// `e^{−|v|/v_s}`.
-    NearRest(f64),
-    /// `e^{−(v/v_s)²}`.
-    NearRestSquare(f64),
+    /// `e^{−|v|/v_s}` or `e^{−(v/v_s)²}`.
+    NearRest(f64, Falloff),
     /// `√|v|`.
     Root,
     /// `cos kθ`.
@@ -77,40 +78,52 @@ pub(super) fn fixed(campaign: &Campaign) -> usize {
 pub(super) struct Sampled<'a> {
     pub(super) campaign: &'a Campaign,
     pub(super) window_s: f64,
-    /// Travel since a reversal that is left out.
+    /// Travel since a reversal: windows that begin within it are left out.
     pub(super) after: f64,
-    /// Signed velocity at every sample of each run.
-    pub(super) velocity: Vec<Vec<f64>>,
+    runs: Vec<Slipping>,
+}
+
+/// What the windows of one run have in common.
+struct Slipping {
+    /// Signed velocity at every sample.
+    velocity: Vec<f64>,
+    /// Slip phases that are longer than a window.
+    phases: Vec<Phase>,
+    /// `None` where the run is shorter than a window.
+    window: Option<Window>,
+    /// What the sensors' noise adds to a row's products, in expectation.
+    noise: DMatrix<f64>,
 }
 
 impl<'a> Sampled<'a> {
-    pub(super) fn new(campaign: &'a Campaign, window_s: f64) -> Self {
-        let of = |run: &Run| {
+    pub(super) fn new(campaign: &'a Campaign, noise: &[RunNoise], window_s: f64) -> Self {
+        let tips = coupled_tips(campaign);
+        let of = |(run, noise): (&Run, &RunNoise)| {
             let t = run.sample_time_s();
-            velocity(run.motor(), smooth(run, window_s), t)
+            let smooth = smooth(run, window_s);
+            let n = (window_s / t).round() as usize;
+            let window = (4..run.len()).contains(&n).then(|| Window::new(n, t));
+            let mut phases = slip_phases(run.motor(), smooth, t);
+            phases.retain(|phase| phase.to - phase.from > n);
+            let noise = window.as_ref().map_or_else(
+                || DMatrix::zeros(0, 0),
+                |window| MotorEquation { campaign, run, tips: &tips, window }.noise(noise),
+            );
+            Slipping { velocity: velocity(run.motor(), smooth, t), phases, window, noise }
         };
-        let velocity = campaign.runs.iter().map(of).collect();
-        Self { campaign, window_s, after: 0.0, velocity }
-    }
-
-    /// Without windows that begin within so much travel of a reversal.
-    pub(super) fn after(mut self, travel: f64) -> Self {
-        self.after = travel;
-        self
+        let runs = campaign.runs.iter().zip(noise).map(of).collect();
+        Self { campaign, window_s, after: 0.0, runs }
     }
 
     /// How far the motor goes in each slip phase that holds a window, ascending.
     pub(super) fn travels(&self) -> Vec<f64> {
-        let of_run = |run: &Run| {
-            let smooth = smooth(run, self.window_s);
+        let of_run = |(run, slipping): (&Run, &Slipping)| {
             let motor = run.motor();
-            let phases = slip_phases(motor, smooth, run.sample_time_s());
-            let n = (self.window_s / run.sample_time_s()).round() as usize;
-            let long = phases.into_iter().filter(|p| p.to - p.from > n);
-            let gone = long.map(|p| (motor[p.to - 1] - motor[p.from]).abs());
+            let gone = slipping.phases.iter().map(|p| (motor[p.to - 1] - motor[p.from]).abs());
             gone.collect::<Vec<_>>()
         };
-        let mut found: Vec<f64> = self.campaign.runs.iter().flat_map(of_run).collect();
+        let mut found: Vec<f64> =
+            self.campaign.runs.iter().zip(&self.runs).flat_map(of_run).collect();
         found.sort_by(f64::total_cmp);
         found
     }
@@ -119,23 +132,17 @@ impl<'a> Sampled<'a> {
     fn each(&self, mut see: impl FnMut(usize, usize, f64, usize, &Window)) {
         let samples: usize = self.campaign.runs.iter().map(Run::len).sum();
         let mut number = 0;
-        for (index, run) in self.campaign.runs.iter().enumerate() {
-            let t = run.sample_time_s();
-            let n = (self.window_s / t).round() as usize;
-            if n < 4 || n >= run.len() {
-                continue;
-            }
+        for (index, slipping) in self.runs.iter().enumerate() {
+            let Some(window) = &slipping.window else { continue };
+            let n = window.len();
             let step = ((n as f64 * STEP) as usize).max(samples / MOST_ROWS).max(1);
-            let window = Window::new(n, t);
-            for phase in slip_phases(run.motor(), smooth(run, self.window_s), t) {
-                if phase.to - phase.from <= n {
-                    continue;
-                }
-                let gone = |k: &usize| (run.motor()[*k] - run.motor()[phase.from]).abs();
+            let motor = self.campaign.runs[index].motor();
+            for phase in &slipping.phases {
+                let gone = |k: &usize| (motor[*k] - motor[phase.from]).abs();
                 let mut windows = phase.from..phase.to - n;
                 let Some(from) = windows.find(|k| gone(k) >= self.after) else { continue };
                 for k in (from..phase.to - n).step_by(step) {
-                    see(index, number, phase.sign, k, &window);
+                    see(index, number, phase.sign, k, window);
                 }
                 number += 1;
             }
@@ -152,7 +159,7 @@ impl<'a> Sampled<'a> {
     }
 
     fn place(&self, run: usize, phase: usize, sign: f64, sample: usize) -> Place {
-        let speed = self.velocity[run][sample].abs();
+        let speed = self.runs[run].velocity[sample].abs();
         Place { run, phase, sign, speed, angle: self.campaign.runs[run].motor()[sample] }
     }
 
@@ -200,19 +207,25 @@ impl<'a> Sampled<'a> {
             }
             blocks[at].cluster.add(row);
         });
+        // In columns by speed and angle noise is left: it hardly changes them.
+        let own = fixed(self.campaign);
+        for Block { cluster, .. } in &mut blocks {
+            let of_row = &self.runs[cluster.run].noise;
+            let noise = of_row.view((0, 0), (own, own)) * cluster.rows as f64;
+            cluster.noise.view_mut((0, 0), (own, own)).copy_from(&noise);
+        }
         blocks
     }
 
     /// Every column's function at every sample of a run; empty for a lag.
     fn functions(&self, run: usize, columns: &[Column], knots: &[f64]) -> Vec<Vec<f64>> {
         let motor = self.campaign.runs[run].motor();
-        let velocity = &self.velocity[run];
+        let velocity = &self.runs[run].velocity;
         let of_speed = |f: &dyn Fn(f64) -> f64| velocity.iter().map(|v| f(v.abs())).collect();
         let of_angle = |f: &dyn Fn(f64) -> f64| motor.iter().map(|x| f(*x)).collect();
         let one = |column: &Column| match *column {
             Column::Lag => Vec::new(),
-            Column::NearRest(speed) => of_speed(&|v| (-v / speed).exp()),
-            Column::NearRestSquare(speed) => of_speed(&|v| (-(v / speed).powi(2)).exp()),
+            Column::NearRest(speed, falloff) => of_speed(&|v| falloff.share(v / speed)),
             Column::Root => of_speed(&f64::sqrt),
             Column::Cosine(k) => of_angle(&|x| (k * x).cos()),
             Column::Sine(k) => of_angle(&|x| (k * x).sin()),

@@ -20,9 +20,9 @@ pub(crate) fn friction(law: &LawFit) -> Friction {
     let difference = law.term(|t| *t == LawTerm::ViscousByDirection);
     let by_direction = |sign: f64| sum(law.viscous, difference, sign);
     let near_rest = law.terms.iter().find_map(|(term, amplitude)| match term {
-        LawTerm::NearRest { speed } => {
+        LawTerm::NearRest { speed, falloff } => {
             let speed = Estimate { value: *speed, std: NEAR_REST_STEP * speed };
-            Some(NearRestEstimate { torque: *amplitude.first()?, speed })
+            Some(NearRestEstimate { torque: *amplitude.first()?, speed, falloff: *falloff })
         }
         _ => None,
     });
@@ -97,9 +97,7 @@ pub(crate) fn finding(axis: Axis, id: &Identified) -> Option<Finding> {
 fn is_negligible(id: &Identified, (term, amplitude): &(LawTerm, Vec<Estimate>)) -> bool {
     let of = match term {
         LawTerm::ViscousByDirection => id.friction.viscous,
-        LawTerm::NearRest { .. } | LawTerm::NearRestSquare { .. } | LawTerm::Ripple { .. } => {
-            id.friction.coulomb
-        }
+        LawTerm::NearRest { .. } | LawTerm::Ripple { .. } => id.friction.coulomb,
         LawTerm::Root | LawTerm::AfterTravel { .. } => None,
         LawTerm::CommandLag => return true,
     };
@@ -136,10 +134,10 @@ fn term_in_words(axis: Axis, (term, amplitude): &(LawTerm, Vec<Estimate>)) -> St
             "after a reversal it grows over some travel (bristles, presliding), and the first \
              {travel:.3e} {angle} of every slip phase are left out"
         ),
-        LawTerm::NearRest { speed } | LawTerm::NearRestSquare { speed } if a > 0.0 => {
+        LawTerm::NearRest { speed, .. } if a > 0.0 => {
             format!("it rises by {a:.3e} towards rest, within {speed:.3e} {angle}/s (Stribeck)")
         }
-        LawTerm::NearRest { speed } | LawTerm::NearRestSquare { speed } => {
+        LawTerm::NearRest { speed, .. } => {
             format!("it falls by {:.3e} towards rest, within {speed:.3e} {angle}/s", -a)
         }
         LawTerm::Root => format!("it grows with the root of speed, by {a:.3e}"),

@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 use super::attempts::is_left;
 use super::{AT_NOISE, OutputError};
+use crate::drive::Falloff;
 use crate::identify::{
     Beam, Estimate, Friction, LawTerm, ModeEstimate, NearRestEstimate, RippleEstimate,
 };
@@ -35,7 +36,8 @@ impl OutputError {
 
     fn near_rest(&self) -> Option<NearRestEstimate> {
         let torque = self.estimate(Parameter::NearRest)?;
-        Some(NearRestEstimate { torque, speed: self.estimate(Parameter::NearRestSpeed)? })
+        let speed = self.estimate(Parameter::NearRestSpeed)?;
+        Some(NearRestEstimate { torque, speed, falloff: Falloff::Exponential })
     }
 
     fn ripples(&self) -> Vec<RippleEstimate> {
@@ -57,7 +59,8 @@ impl OutputError {
             terms.push((LawTerm::ViscousByDirection, vec![difference]));
         }
         if let Some(n) = self.near_rest() {
-            terms.push((LawTerm::NearRest { speed: n.speed.value }, vec![n.torque]));
+            let term = LawTerm::NearRest { speed: n.speed.value, falloff: n.falloff };
+            terms.push((term, vec![n.torque]));
         }
         for r in self.ripples() {
             terms.push((LawTerm::Ripple { per_angle: r.per_angle.value }, vec![r.torque]));

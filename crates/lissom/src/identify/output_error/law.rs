@@ -144,7 +144,7 @@ fn trials(fitting: &Fitting<'_>, fit: &Fit) -> Vec<LawTrial> {
     if terms.near_rest.is_none() {
         let fastest = fastest_rad_s(fitting.campaign);
         let seen = fitting.law.iter().filter_map(|term| match term {
-            LawTerm::NearRest { speed } => Some(*speed),
+            LawTerm::NearRest { speed, .. } => Some(*speed),
             _ => None,
         });
         let speeds = seen.chain(NEAR_REST.map(|share| share * fastest));

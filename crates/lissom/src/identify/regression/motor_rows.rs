@@ -166,7 +166,7 @@ impl Rows for MotorEquation<'_> {
 
 impl MotorEquation<'_> {
     /// What noise adds to a row's products, in expectation.
-    fn noise(&self, of_run: &RunNoise) -> DMatrix<f64> {
+    pub(crate) fn noise(&self, of_run: &RunNoise) -> DMatrix<f64> {
         let window = self.window;
         let mut of_motor: Vec<Part<'_>> =
             vec![(INERTIA, &window.second, 1.0), (VISCOUS, &window.first, -1.0)];

@@ -68,6 +68,13 @@ impl Cluster {
         self.noise += noise * (self.rows - before) as f64;
     }
 
+    /// Adds the rows of another of the same columns.
+    pub(crate) fn merge(&mut self, other: &Self) {
+        self.products += &other.products;
+        self.noise += &other.noise;
+        self.rows += other.rows;
+    }
+
     /// Adds one row, regressors first, right side last.
     #[inline(always)]
     pub(crate) fn add(&mut self, row: &[f64]) {

@@ -7,13 +7,13 @@ use crate::identify::channel_noise::channel_noise;
 use crate::record::Run;
 
 /// Deviation of what is independent from sample to sample in each channel of a run.
-pub(super) struct RunNoise {
+pub(crate) struct RunNoise {
     pub(super) motor: f64,
     pub(super) tips: Vec<f64>,
 }
 
 impl RunNoise {
-    pub(super) fn of(run: &Run) -> Self {
+    pub(crate) fn of(run: &Run) -> Self {
         let of = |channel: &[f64]| channel_noise(channel).independent;
         Self { motor: of(run.motor()), tips: run.tips().iter().map(|tip| of(tip)).collect() }
     }
