@@ -1,7 +1,7 @@
 //! The motion of a given arm along runs that it was not found from.
 
 use super::coordinates::Body;
-use super::search::{Problem, is_possible};
+use super::search::{PROMISE, Problem, is_possible};
 use super::windows::widen;
 use super::{data, noise};
 use crate::record::Campaign;
@@ -24,7 +24,9 @@ pub(crate) fn follow(
     let masks = data::masks(campaign);
     let noise: Vec<SensorNoise> = noise::of_samples(campaign).into_iter().map(weighable).collect();
     let sampling = Sampling { noise: &noise, blocks: &[], masks: &masks };
-    let problem = Problem { campaign, parameters: &[], sampling, robust: false, near_enough: 0.0 };
+    let (promise, near_enough) = (PROMISE, 0.0);
+    let problem =
+        Problem { campaign, parameters: &[], sampling, robust: false, promise, near_enough };
     if !is_possible(campaign, arm) {
         return Vec::new();
     }

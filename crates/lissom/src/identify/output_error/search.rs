@@ -11,13 +11,16 @@ use crate::replay::{
     ModalArm, Oscillator, Parameter, Ripple, Sampling, Window, WindowSums, costs, sums,
 };
 
-/// Damping of the first step, relative to the diagonal.
+/// Damping of the first step, relative to the diagonal; and over sensors' steps, whose edges refuse long ones.
 const FIRST_DAMPING: f64 = 1e-3;
+const FIRST_DAMPING_OVER_STEPS: f64 = 0.1;
 /// Damping beyond which no step helps.
 const MOST_DAMPING: f64 = 1e8;
-/// The search ends when a step promises to lower the cost, a sum of squared deviations, by less
-/// than this: parameters would move by a seventh of their deviation.
-const PROMISE: f64 = 0.02;
+/// The last search ends when a step promises to lower the cost, a sum of squared deviations, by less than
+/// this: parameters would move by a seventh of their deviation.
+pub(super) const PROMISE: f64 = 0.02;
+/// The same of searches that others follow: by one deviation.
+pub(super) const PROMISE_ON_THE_WAY: f64 = 1.0;
 /// Factor by which damping falls after a step that did all it promised, as Nielsen has it; and where
 /// sensors show steps and hardly any noise: their edges let it grow first, and it has far to fall.
 const EASING: f64 = 1.0 / 3.0;
@@ -108,7 +111,9 @@ pub(super) struct Problem<'a> {
     pub(super) sampling: Sampling<'a>,
     /// Whether windows that fit far worse than the others count less.
     pub(super) robust: bool,
-    /// Share of the cost below which a step is not worth a replay, whatever it is beside the noise.
+    /// Fall of the cost below which a step is not worth a replay.
+    pub(super) promise: f64,
+    /// Share of the cost below which it is not either, whatever it is beside the noise.
     pub(super) near_enough: f64,
 }
 
@@ -124,10 +129,14 @@ impl Problem<'_> {
 
     /// Lowers the cost from `point` by at most `steps` steps.
     pub(super) fn search(&self, mut point: Point, steps: usize) -> (Point, Vec<Iteration>, Stop) {
-        let (mut damping, mut growth) = (FIRST_DAMPING, 2.0);
-        let mut kept_its_promise = false;
         let over_steps = self.sampling.noise.iter().any(is_least);
-        let easing = if over_steps { EASING_OVER_STEPS } else { EASING };
+        let (mut damping, easing) = if over_steps {
+            (FIRST_DAMPING_OVER_STEPS, EASING_OVER_STEPS)
+        } else {
+            (FIRST_DAMPING, EASING)
+        };
+        let mut growth = 2.0;
+        let mut kept_its_promise = false;
         let mut iterations = Vec::new();
         for _ in 0..steps {
             let usual = if self.robust { point.usual() } else { f64::INFINITY };
@@ -135,7 +144,7 @@ impl Problem<'_> {
                 return (point, iterations, Stop::NoStepHelps);
             };
             let before = point.robust_cost(usual);
-            if step.promised < PROMISE.max(self.near_enough * before) {
+            if step.promised < self.promise.max(self.near_enough * before) {
                 return (point, iterations, Stop::Converged);
             }
             let (body, windows) = self.moved(&point, &step);

@@ -10,7 +10,7 @@ use super::figures::BEYOND;
 use super::modes;
 use super::noise;
 use super::repeats::without_repeats;
-use super::search::{Iteration, Point, Problem, Stop, is_possible};
+use super::search::{Iteration, PROMISE, PROMISE_ON_THE_WAY, Point, Problem, Stop, is_possible};
 use super::windows::{cut, widen};
 use crate::identify::LawTerm;
 use crate::record::{Campaign, Run};
@@ -157,7 +157,15 @@ impl Fitting<'_> {
         let sampling = Sampling { noise, blocks: &[], masks: self.masks };
         let robust = !whole_runs;
         let near_enough = if robust { NEAR_ENOUGH } else { 0.0 };
-        Problem { campaign: self.campaign, parameters: free, sampling, robust, near_enough }
+        let promise = PROMISE_ON_THE_WAY;
+        Problem {
+            campaign: self.campaign,
+            parameters: free,
+            sampling,
+            robust,
+            promise,
+            near_enough,
+        }
     }
 
     /// Squares of the residuals beyond the noise that the samples show by themselves, in that noise.
@@ -264,12 +272,12 @@ impl Fitting<'_> {
     /// Searches from where the fit is and takes its noise from what is left.
     pub(super) fn search(&self, fit: &mut Fit, report: &mut Report) {
         for _ in 0..MOST_ROUNDS {
-            let (point, stop) = self.steps(fit, report, STEPS_ON_THE_WAY, None);
+            let (point, stop) = self.steps(fit, report, STEPS_ON_THE_WAY, PROMISE_ON_THE_WAY, None);
             // Another law is there to the end or not at all.
             let lawful = !fit.body.arm.dry_terms.is_empty();
             let to_the_end = fit.whole_runs || lawful || report.grown(&fit.residual);
             if stop == Stop::StepsUsedUp && to_the_end {
-                self.steps(fit, report, MOST_STEPS, Some(point));
+                self.steps(fit, report, MOST_STEPS, PROMISE_ON_THE_WAY, Some(point));
             }
             let noise = self.noise_of(fit);
             let before = std::mem::replace(&mut fit.noise, noise);
@@ -295,16 +303,18 @@ impl Fitting<'_> {
         own.iter().map(|n| SensorNoise::gaussian(common * n.deviation())).collect()
     }
 
-    /// At most `most` steps, from where others have come to if there were some; where these come to, and
-    /// why they ended.
+    /// At most `most` steps that promise at least `promise`, from where others have come to if there were
+    /// some; where these come to, and why they ended.
     fn steps(
         &self,
         fit: &mut Fit,
         report: &mut Report,
         most: usize,
+        promise: f64,
         from: Option<Point>,
     ) -> (Point, Stop) {
-        let mut problem = self.problem(&fit.free, &fit.noise, fit.whole_runs);
+        let mut problem =
+            Problem { promise, ..self.problem(&fit.free, &fit.noise, fit.whole_runs) };
         if self.beyond_noise(fit) > BEYOND {
             problem.near_enough = NEAR_ENOUGH;
         }
@@ -355,11 +365,11 @@ impl Fitting<'_> {
         let left = noise::residuals(self.campaign, fit, self.masks);
         fit.noise = left.iter().zip(&steps).map(|(e, q)| noise::most_likely(e, *q)).collect();
         let Some(masks) = without_repeats(self.campaign, fit, self.masks) else {
-            self.steps(fit, report, STEPS_ON_THE_WAY, None);
+            self.steps(fit, report, STEPS_ON_THE_WAY, PROMISE, None);
             return None;
         };
         // Without noise there is no cost lower than another but by the edges of steps: a longer way.
-        Fitting { masks: &masks, ..*self }.steps(fit, report, MOST_STEPS, None);
+        Fitting { masks: &masks, ..*self }.steps(fit, report, MOST_STEPS, PROMISE, None);
         Some(masks)
     }
 }
