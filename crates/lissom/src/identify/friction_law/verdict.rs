@@ -89,6 +89,11 @@ pub(crate) fn finding(axis: Axis, id: &Identified) -> Option<Finding> {
             let hint = "the replay describes the runs without it: its figures are taken";
             told(Severity::Info, message, hint)
         }
+        None if law.chosen.terms.iter().any(|(t, _)| matches!(t, LawTerm::AfterTravel { .. })) => {
+            let mut finding = told(Severity::Warning, message, BRISTLES);
+            finding.affects.extend([key::INERTIA, key::COUPLING]);
+            finding
+        }
         None => told(Severity::Warning, message, AT_SPEED),
     })
 }
@@ -108,6 +113,10 @@ fn is_negligible(id: &Identified, (term, amplitude): &(LawTerm, Vec<Estimate>)) 
 const AT_SPEED: &str = "Coulomb and viscous friction are those of this law at speed, not at rest: use \
                         the friction curve at the speed that matters; runs at other speeds show \
                         whether the law holds there";
+
+const BRISTLES: &str = "Coulomb and viscous friction are those of this law at speed, not at rest; inertia and \
+                        coupling are off by what bristles lag where friction changes with speed: drive \
+                        the joint farther and faster to see less of it";
 
 fn told(severity: Severity, message: String, hint: &'static str) -> Finding {
     Finding::new("friction-law", severity, &[key::COULOMB, key::VISCOUS], message, hint)
