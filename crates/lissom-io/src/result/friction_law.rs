@@ -56,7 +56,8 @@ pub(super) fn law(names: UnitNames, constant: f64, law: &FrictionLaw) -> Value {
     map.insert(names.coupling_key("coupling"), figure(fit.total_coupling));
     let terms = fit.terms.iter().map(|(term, amplitudes)| {
         let mut map = named(names, *term);
-        let all: Vec<Value> = amplitudes.iter().map(|e| figure(Some(*e))).collect();
+        // A ripple's period stands beside it.
+        let all: Vec<Value> = amplitudes.iter().take(2).map(|e| figure(Some(*e))).collect();
         map.insert(amplitude_key(names, *term), Value::Array(all));
         Value::Object(map)
     });

@@ -166,7 +166,7 @@ fn costs_of<const D: usize>(
         });
         cost
     };
-    windows.par_iter().map(of_window).collect()
+    windows.par_iter().with_max_len(1).map(of_window).collect()
 }
 
 /// Those of each channel.
@@ -197,8 +197,10 @@ fn sums_of<const D: usize>(
 ) -> Vec<WindowSums> {
     let replayers = replayers::<D>(arm, parameters, campaign, windows);
     let losses = losses(sampling);
+    // One by one: in groups a thread would be left with one while the others have none.
     windows
         .par_iter()
+        .with_max_len(1)
         .map(|window| {
             let replayer = replayer_of(&replayers, &campaign.runs[window.run]);
             sum_up(replayer, campaign, window, sampling, &losses)

@@ -6,7 +6,7 @@
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, LuGre};
-use lissom::rig::{Hybrid, LuGreMotion, RigError};
+use lissom::rig::{Hybrid, LuGreMotion, Motion, RigError};
 use lissom_testmodels::report_arm;
 use serde_json::Value;
 
@@ -130,7 +130,7 @@ fn stiff_bristles_are_coulomb_friction() {
         })
         .collect();
     assert!(exact.sticks() > 0 && exact.stuck_s() > 0.0);
-    let mut before = f64::NAN;
+    let (mut before, mut held) = (f64::NAN, f64::NAN);
     for (bend, power) in BENDS {
         let law = LuGre::new(arm.coulomb.forward / bend, 0.05, arm.coulomb, arm.coulomb, 0.1);
         let mut motion = LuGreMotion::at_rest(&arm, law.unwrap(), 1e-9).unwrap();
@@ -144,7 +144,10 @@ fn stiff_bristles_are_coulomb_friction() {
             assert!((found - power).abs() < POWER_ERROR, "{bend}: {found}");
         }
         before = apart;
+        held = motion.stuck_s() / exact.stuck_s();
     }
+    // Held until nine tenths of the way to breaking away.
+    assert!((held - 0.95).abs() < 0.05, "{held}");
     assert!(before < 1e-4, "{before} rad at the stiffest");
 }
 

@@ -46,7 +46,7 @@ fn add(arm: &mut ModalArm, term: LawTerm, amplitude: &[Estimate]) {
             let near = NearRest { torque_nm: a.value, speed_rad_s: speed };
             arm.dry_terms.near_rest = Some(near);
         }
-        (LawTerm::Ripple { per_angle }, [cosine, sine]) => {
+        (LawTerm::Ripple { per_angle }, [cosine, sine, ..]) => {
             let (cosine_nm, sine_nm) = (cosine.value, sine.value);
             arm.dry_terms.ripples.push(Ripple { per_rad: per_angle, cosine_nm, sine_nm });
         }

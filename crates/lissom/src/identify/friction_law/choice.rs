@@ -12,11 +12,7 @@ use crate::identify::regression::{Cluster, Solution, Term, coupled_tips, solve};
 use crate::record::Run;
 
 /// Speeds over which friction near rest may change, as shares of the fastest.
-const NEAR_REST: [f64; 10] = [0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.3, 0.5, 0.8, 1.3];
-/// A speed that was taken is looked for between its neighbours on the list in so many steps.
-const FINER: i32 = 8;
-/// One such step: a neighbour on the list is half as much again.
-pub(super) const NEAR_REST_STEP: f64 = 0.05;
+pub(super) const NEAR_REST: [f64; 10] = [0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.3, 0.5, 0.8, 1.3];
 /// A term must do better on phases left out by this many deviations of the difference…
 const PAIRED: f64 = 3.0;
 /// …and leave at most this share of the residual: a smaller one does not pay for a parameter.
@@ -25,7 +21,7 @@ const RATIO: f64 = 0.9;
 /// with, and noise is most of what is left.
 const AFTER_TRAVEL_RATIO: f64 = 0.95;
 /// A lag counts at the ends of a motion alone, and pays with less: it may leave this share…
-const LAG_RATIO: f64 = 0.97;
+pub(super) const LAG_RATIO: f64 = 0.97;
 /// …and must be known to this share of a sample. Taken before friction's law is settled it would stand in
 /// for it, and come out with either sign.
 const LAG_STD: f64 = 0.1;
@@ -74,8 +70,12 @@ impl LawTerm {
         }
     }
 
-    fn is_near_rest(self) -> bool {
+    pub(super) fn is_near_rest(self) -> bool {
         matches!(self, Self::NearRest { .. })
+    }
+
+    pub(super) fn is_ripple(self) -> bool {
+        matches!(self, Self::Ripple { .. })
     }
 }
 
@@ -116,9 +116,9 @@ pub(super) struct Choice {
 }
 
 /// One candidate, as columns and terms of a regression.
-struct Tried {
-    term: LawTerm,
-    terms: Vec<Term>,
+pub(super) struct Tried {
+    pub(super) term: LawTerm,
+    pub(super) terms: Vec<Term>,
 }
 
 /// Adds one term after another while some are called for.
@@ -132,9 +132,13 @@ pub(super) fn choose(sampled: &Sampled<'_>, cut: &Cut, fastest: f64) -> Option<C
     while search.taken.len() < MOST && search.add_best() {}
     search.refine_near_rest();
     search.settled = true;
-    while search.taken.len() < MOST && search.add_best() {}
-    if search.taken.len() < MOST && search.offer_ripple() {
-        while search.taken.len() < MOST && search.add_best() {}
+    // A ripple and a lag may stand in for each other: both are open at once.
+    while search.taken.len() < MOST {
+        search.offer_ripple();
+        if !search.add_best() {
+            break;
+        }
+        search.refine_ripple();
     }
     let fit = search.fit();
     let beside = search.beside_friction();
@@ -144,15 +148,15 @@ pub(super) fn choose(sampled: &Sampled<'_>, cut: &Cut, fastest: f64) -> Option<C
     Some(Choice { fit, candidates: search.candidates, simplest, residual, beside, described })
 }
 
-struct Search<'a> {
-    sampled: &'a Sampled<'a>,
-    cut: Cut,
-    columns: Vec<Column>,
-    blocks: Vec<Block>,
-    terms: Vec<Term>,
-    solution: Solution,
+pub(super) struct Search<'a> {
+    pub(super) sampled: &'a Sampled<'a>,
+    pub(super) cut: Cut,
+    pub(super) columns: Vec<Column>,
+    pub(super) blocks: Vec<Block>,
+    pub(super) terms: Vec<Term>,
+    pub(super) solution: Solution,
     open: Vec<Tried>,
-    taken: Vec<Tried>,
+    pub(super) taken: Vec<Tried>,
     candidates: Vec<LawCandidate>,
     /// Whether friction's law by speed is found.
     settled: bool,
@@ -316,44 +320,20 @@ impl<'a> Search<'a> {
         fixed(self.sampled.campaign) - 3
     }
 
-    /// Adds the strongest ripple of what is left to what may be tried.
-    fn offer_ripple(&mut self) -> bool {
+    /// Adds the strongest ripple of what is left to what may be tried, unless one is taken.
+    fn offer_ripple(&mut self) {
+        if self.taken.iter().any(|t| t.term.is_ripple()) {
+            return;
+        }
         let value: Vec<f64> = self.solution.value.iter().copied().collect();
         let Some(k) = ripple::strongest(self.sampled, &self.columns, &self.terms, &value) else {
-            return false;
+            return;
         };
         let at = fixed(self.sampled.campaign) + self.columns.len();
         self.columns.extend([Column::Cosine(k), Column::Sine(k)]);
         self.blocks = self.sampled.blocks(&self.columns, &[], &self.cut);
         let terms = vec![Term::Signed(at), Term::Signed(at + 1)];
         self.open.push(Tried { term: LawTerm::Ripple { per_angle: k }, terms });
-        true
-    }
-
-    /// Moves the speed of a term near rest to where least is left.
-    fn refine_near_rest(&mut self) {
-        let Some(found) = self.taken.iter().position(|t| t.term.is_near_rest()) else { return };
-        let LawTerm::NearRest { speed, falloff } = self.taken[found].term else { return };
-        let own = self.taken[found].terms[0];
-        let at = fixed(self.sampled.campaign) + self.columns.len();
-        let step = (NEAR_REST[1] / NEAR_REST[0]).ln() / f64::from(FINER);
-        let speeds: Vec<f64> =
-            (-FINER..=FINER).map(|k| speed * (f64::from(k) * step).exp()).collect();
-        let mut columns = self.columns.clone();
-        columns.extend(speeds.iter().map(|v| Column::NearRest(*v, falloff)));
-        let blocks = self.sampled.blocks(&columns, &[], &self.cut);
-        let with = |i: usize| {
-            let other = Term::Signed(at + i);
-            self.terms.iter().map(|t| if *t == own { other } else { *t }).collect::<Vec<_>>()
-        };
-        let solutions = (0..speeds.len()).filter_map(|i| Some((i, solved(&blocks, &with(i))?)));
-        let best = solutions.min_by(|a, b| a.1.relative_residual.total_cmp(&b.1.relative_residual));
-        let Some((i, solution)) = best else { return };
-        (self.terms, self.solution) = (with(i), solution);
-        (self.columns, self.blocks) = (columns, blocks);
-        let taken = &mut self.taken[found];
-        taken.terms = vec![Term::Signed(at + i)];
-        taken.term = LawTerm::NearRest { speed: speeds[i], falloff };
     }
 
     fn fit(&self) -> LawFit {
@@ -375,7 +355,13 @@ impl<'a> Search<'a> {
         for t in &self.taken {
             let found = (at..at + t.terms.len()).map(|i| amplitude(s, i, 1));
             let found = found.map(|e| if t.term == LawTerm::CommandLag { late(e) } else { e });
-            terms.push((t.term, found.collect()));
+            let mut found: Vec<Estimate> = found.collect();
+            let mut term = t.term;
+            if let (LawTerm::Ripple { per_angle }, [_, _, turned]) = (&mut term, &mut found[..]) {
+                *per_angle += turned.value;
+                turned.value = *per_angle;
+            }
+            terms.push((term, found));
             at += t.terms.len();
         }
         if self.sampled.after > 0.0 {

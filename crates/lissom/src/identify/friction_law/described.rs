@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::rows::{Column, Sampled};
+use super::rows::{Column, Sampled, fixed};
 use crate::identify::regression::Term;
 
 /// A law with its figures.
@@ -16,6 +16,7 @@ impl Described {
     /// What it leaves on some windows.
     pub(super) fn left(&self, sampled: &Sampled<'_>) -> Left {
         let mut left = Left::default();
+        let noise = [1.0, -1.0].map(|sign| sampled.noise_powers(&self.by_column(sampled, sign)));
         sampled.rows(&self.columns, &[], |place, row| {
             let y = row[row.len() - 1];
             let terms = self.terms.iter().zip(&self.value);
@@ -23,11 +24,23 @@ impl Described {
                 terms.map(|(t, v)| t.factor(place.sign) * row[t.column()] * v).sum();
             let (rest, level) = (y - explained, place.sign * row[2]);
             left.square += rest * rest;
+            left.noise += noise[usize::from(place.sign < 0.0)][place.run];
             left.power += y * y;
             left.by_level += rest * level;
             left.level += level * level;
         });
         left
+    }
+
+    /// What the law takes of each column that the motor's regression has, in a direction.
+    fn by_column(&self, sampled: &Sampled<'_>, sign: f64) -> DVector<f64> {
+        let mut taken = DVector::zeros(fixed(sampled.campaign));
+        for (term, value) in self.terms.iter().zip(&self.value) {
+            if let Some(of_column) = taken.get_mut(term.column()) {
+                *of_column += term.factor(sign) * value;
+            }
+        }
+        taken
     }
 }
 
@@ -35,6 +48,7 @@ impl Described {
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Left {
     square: f64,
+    noise: f64,
     power: f64,
     by_level: f64,
     level: f64,
@@ -42,8 +56,13 @@ pub(super) struct Left {
 
 impl Left {
     /// ‖y − X·q‖/‖y‖.
-    pub(super) fn relative_residual(&self) -> f64 {
+    pub(super) fn relative(&self) -> f64 {
         (self.square / self.power).sqrt()
+    }
+
+    /// ‖y − X·q‖/‖y‖, without what the sensors' noise makes of it in expectation.
+    pub(super) fn beyond_noise(&self) -> f64 {
+        ((self.square - self.noise).max(0.0) / self.power).sqrt()
     }
 
     /// Friction against the motion beyond the law's in these windows without those of `others`, [N·m].

@@ -8,6 +8,7 @@ mod choice;
 mod curve;
 mod described;
 mod held;
+mod refine;
 mod ripple;
 mod rows;
 #[cfg(test)]
@@ -22,6 +23,7 @@ use super::Estimate;
 use super::channel_noise::channel_noise;
 use super::regression::{MotorRegression, RunNoise};
 use crate::record::{Campaign, Run};
+use choice::LAG_RATIO;
 use described::Described;
 use rows::{Cut, Sampled};
 
@@ -29,13 +31,16 @@ use rows::{Cut, Sampled};
 const LEAST_SAMPLES: f64 = 20.0;
 /// Ratio of one window tried to that before it.
 const LONGER: f64 = std::f64::consts::SQRT_2;
-/// Share of the windowed torque that the sensor's noise may make by way of the inertia. A law that leaves no
-/// more has nothing left to explain.
+/// Share of the windowed torque that the sensor's noise may make by way of the inertia.
 const NOISE: f64 = 0.02;
+/// A law that leaves no more of the windowed torque, beyond noise, has nothing left to explain.
+const LITTLE: f64 = 0.005;
 /// Travel after reversals that is left out, as shares of the usual travel of a slip phase; the share of what
-/// was left that it may leave.
+/// was left beyond noise that it may leave, and of what was left with noise: where noise is most of it, the
+/// rest of it is hardly known.
 const AFTER: [f64; 3] = [0.03, 0.06, 0.12];
 const FAR_LESS: f64 = 0.75;
+const LESS: f64 = 0.9;
 /// Friction must be positive within this many deviations.
 const POSITIVE: f64 = 2.0;
 /// Quantile of the windows' speeds that counts as the fastest.
@@ -60,7 +65,8 @@ pub struct FrictionLaw {
 /// `τ_F = s·(C + Σ A_k·g_k) + O + V·v + s·D·v`, s the direction: (forward, backward) V ± D.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LawFit {
-    /// Terms beside C, V and O, with their amplitudes: two of a ripple, else one.
+    /// Terms beside C, V and O, with their amplitudes: of a ripple those of cosine and sine and, where the
+    /// travel tells it, k itself, else one.
     pub terms: Vec<(LawTerm, Vec<Estimate>)>,
     /// Inertia J.
     pub inertia: Option<Estimate>,
@@ -77,6 +83,13 @@ pub struct LawFit {
 }
 
 impl FrictionLaw {
+    /// Whether beside the law a lag of the command explains nothing that pays for it.
+    pub(crate) fn leaves_no_lag(&self) -> bool {
+        let lags = self.candidates.iter().filter(|c| c.term == LawTerm::CommandLag);
+        let last = lags.max_by_key(|c| c.beside);
+        last.is_some_and(|c| c.beside > 0 && c.residual_ratio > LAG_RATIO)
+    }
+
     /// Terms that were tried last of their kind, those of the law first.
     pub(crate) fn tried(&self) -> Vec<LawTerm> {
         let chosen = self.chosen.terms.iter().map(|(term, _)| *term);
@@ -135,7 +148,7 @@ pub(super) fn friction_law(campaign: &Campaign, motor: &MotorRegression) -> Opti
     let window_s = window_s(campaign, motor, inertia, &noise);
     let mut sampled = Sampled::new(campaign, &noise, window_s);
     let (law, described) = under(&sampled)?;
-    if law.relative_residual[1] < NOISE {
+    if described.left(&sampled).beyond_noise() < LITTLE {
         return Some(law);
     }
     Some(after_travel(&mut sampled, &described).unwrap_or(law))
@@ -161,7 +174,8 @@ fn after_travel(sampled: &mut Sampled<'_>, whole: &Described) -> Option<Friction
         let less = -described.left(sampled).more_friction_without(&with);
         if law.chosen.may_grow_by(less) {
             // On the same windows: without some, little may be left of what was never to be explained.
-            worth |= with.relative_residual() < FAR_LESS * without.relative_residual();
+            worth |= with.beyond_noise() < FAR_LESS * without.beyond_noise()
+                && with.relative() < LESS * without.relative();
             tried.push(law);
         }
     }

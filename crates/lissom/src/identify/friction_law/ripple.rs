@@ -1,5 +1,7 @@
 //! Where friction may change over the angle: the periods that stand out of what a law leaves.
 
+use std::f64::consts::TAU;
+
 use super::rows::{Column, Sampled};
 use crate::identify::regression::Term;
 
@@ -29,11 +31,9 @@ pub(super) fn strongest(
         speed += place.speed;
     });
     speed /= left.len() as f64;
-    let low = left.iter().map(|p| p.0).fold(f64::INFINITY, f64::min);
-    let high = left.iter().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);
-    let travel = high - low;
+    let travel = travel(left.iter().map(|p| p.0));
     let most = travel / (SHORTEST * speed * sampled.window_s);
-    let step = std::f64::consts::TAU / travel / PER_PERIOD;
+    let step = TAU / travel / PER_PERIOD;
     let count = ((most - LEAST_PERIODS) * PER_PERIOD) as usize;
     if !(travel > 0.0 && most.is_finite()) || count == 0 {
         return None;
@@ -51,4 +51,15 @@ pub(super) fn strongest(
     let first = LEAST_PERIODS * PER_PERIOD;
     let frequencies = (0..count.min(MOST)).map(|i| (first + i as f64) * step);
     frequencies.map(|k| (k, power(k))).max_by(|a, b| a.1.total_cmp(&b.1)).map(|p| p.0)
+}
+
+/// How far apart the frequencies are that [`strongest`] looks at.
+pub(super) fn step(sampled: &Sampled<'_>) -> f64 {
+    TAU / travel(sampled.places().iter().map(|place| place.angle)) / PER_PERIOD
+}
+
+fn travel(angles: impl Iterator<Item = f64>) -> f64 {
+    let ends = (f64::INFINITY, f64::NEG_INFINITY);
+    let (low, high) = angles.fold(ends, |(low, high), x| (low.min(x), high.max(x)));
+    high - low
 }

@@ -1,6 +1,6 @@
 //! Rows of the motor's equation on short windows, with columns of friction by speed and angle.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use crate::drive::Falloff;
 use crate::identify::regression::{
@@ -29,6 +29,8 @@ pub(super) enum Column {
     Cosine(f64),
     /// `sin kθ`.
     Sine(f64),
+    /// `θ·(−a·sin kθ + b·cos kθ)`, for (k, a, b): what a·cos kθ + b·sin kθ gains with k.
+    Turned(f64, f64, f64),
     /// A hat over speed: one at the knot of this number, zero at its neighbours.
     Hat(usize),
 }
@@ -113,6 +115,16 @@ impl<'a> Sampled<'a> {
         };
         let runs = campaign.runs.iter().zip(noise).map(of).collect();
         Self { campaign, window_s, after: 0.0, runs }
+    }
+
+    /// What the sensors' noise adds to the square of a row's sum of columns, in each run.
+    pub(super) fn noise_powers(&self, taken: &DVector<f64>) -> Vec<f64> {
+        let own = taken.len();
+        let of = |run: &Slipping| match run.window {
+            Some(_) => taken.dot(&(run.noise.view((0, 0), (own, own)) * taken)),
+            None => 0.0,
+        };
+        self.runs.iter().map(of).collect()
     }
 
     /// How far the motor goes in each slip phase that holds a window, ascending.
@@ -229,6 +241,10 @@ impl<'a> Sampled<'a> {
             Column::Root => of_speed(&f64::sqrt),
             Column::Cosine(k) => of_angle(&|x| (k * x).cos()),
             Column::Sine(k) => of_angle(&|x| (k * x).sin()),
+            Column::Turned(k, a, b) => of_angle(&|x| {
+                let (sin, cos) = (k * x).sin_cos();
+                x * (b * cos - a * sin)
+            }),
             Column::Hat(j) => of_speed(&|v| hat(knots, j, v)),
         };
         columns.iter().map(one).collect()

@@ -1,6 +1,6 @@
 //! What the law gives for figures, and the finding that names it.
 
-use super::choice::NEAR_REST_STEP;
+use super::refine::NEAR_REST_STEP;
 use super::{LawFit, LawTerm};
 use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::{
@@ -27,12 +27,15 @@ pub(crate) fn friction(law: &LawFit) -> Friction {
         _ => None,
     });
     let ripple = |(term, amplitude): &(LawTerm, Vec<Estimate>)| match (term, &amplitude[..]) {
-        (LawTerm::Ripple { per_angle }, [cosine, sine]) => Some(RippleEstimate {
+        (LawTerm::Ripple { per_angle }, [cosine, sine, rate @ ..]) => Some(RippleEstimate {
             torque: Estimate {
                 value: cosine.value.hypot(sine.value),
                 std: cosine.std.hypot(sine.std),
             },
-            per_angle: Estimate { value: *per_angle, std: 0.0 },
+            per_angle: rate
+                .first()
+                .copied()
+                .unwrap_or(Estimate { value: *per_angle, std: f64::INFINITY }),
         }),
         _ => None,
     };
@@ -106,7 +109,7 @@ fn is_negligible(id: &Identified, (term, amplitude): &(LawTerm, Vec<Estimate>)) 
         LawTerm::Root | LawTerm::AfterTravel { .. } => None,
         LawTerm::CommandLag => return true,
     };
-    let largest = amplitude.iter().map(|a| a.value.abs()).fold(0.0, f64::max);
+    let largest = amplitude.iter().take(2).map(|a| a.value.abs()).fold(0.0, f64::max);
     of.is_some_and(|of| largest < NEGLIGIBLE * of.value)
 }
 
@@ -151,7 +154,7 @@ fn term_in_words(axis: Axis, (term, amplitude): &(LawTerm, Vec<Estimate>)) -> St
         }
         LawTerm::Root => format!("it grows with the root of speed, by {a:.3e}"),
         LawTerm::Ripple { per_angle } => {
-            let size = amplitude.iter().map(|e| e.value * e.value).sum::<f64>().sqrt();
+            let size = amplitude.iter().take(2).map(|e| e.value * e.value).sum::<f64>().sqrt();
             let period = std::f64::consts::TAU / per_angle;
             format!(
                 "it changes over the travel by ±{size:.3e} with a period of {period:.4e} {angle}"

@@ -1,6 +1,7 @@
 //! Covariance of the shared parameters from the residual that is really left.
 
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
 use crate::information::{Reduced, inverse, inverse_root};
 use crate::replay::WindowSums;
@@ -31,21 +32,26 @@ impl Covariances {
         let normal = reduced.iter().fold(zero.clone(), |sum, r| sum + &r.normal);
         let (mut slopes, mut curvatures) = (0.0, 0.0);
         let (mut rows, mut unknowns) = (0, shared);
-        let mut blocks = zero;
-        for (sums, own) in sums.iter().zip(&reduced) {
+        for sums in sums {
             slopes += sums.slopes;
             curvatures += sums.curvatures;
             rows += sums.readings.iter().sum::<usize>();
             unknowns += sums.gram.ncols() - 1 - shared;
+        }
+        let by_blocks = |(sums, own): (&WindowSums, &Reduced)| {
             let others = &normal - &own.normal;
+            let mut blocks = zero.clone();
             for change in moved_by_blocks(sums, &others, shared) {
                 blocks.ger(1.0, &change, &change, 1.0);
             }
-        }
+            blocks
+        };
+        let of_windows: Vec<DMatrix<f64>> =
+            sums.par_iter().with_max_len(1).zip(&reduced).map(by_blocks).collect();
         let free = rows.saturating_sub(unknowns).max(1) as f64;
         Self {
             white: inverse(&normal) * ((slopes / curvatures).max(1.0) * rows as f64 / free),
-            blocks,
+            blocks: of_windows.into_iter().fold(zero, |sum, b| sum + b),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Which parameters beyond the simplest law the residual calls for.
 
 use nalgebra::DVector;
+use rayon::prelude::*;
 
 use super::coordinates::Body;
 use super::covariance::{Covariances, deviation};
@@ -165,7 +166,7 @@ pub(super) fn tighten(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report)
 /// What one step of a search with each group beside the free parameters promises: score tests, all
 /// from one replay.
 pub(super) fn promises(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Extension>> {
-    scores(fitting, fit, candidates(fit))
+    scores(fitting, fit, &candidates(fit))
 }
 
 /// Sums by what is free, and by how much each group that is not free would move the free parameters, times
@@ -176,7 +177,7 @@ pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> (Vec<WindowSums>, V
         let likely = p.likelihood().sqrt();
         (p.deviations() > SPEAKS).then(|| p.moved * likely)
     };
-    let (sums, promises) = all_scores(fitting, fit, candidates(fit));
+    let (sums, promises) = all_scores(fitting, fit, &candidates(fit));
     let moved = promises.into_iter().filter_map(weighed);
     let moved = match fit.body.jacobian(&fit.free) {
         Some(jacobian) => moved.map(|m| &jacobian * m).collect(),
@@ -189,7 +190,7 @@ pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> (Vec<WindowSums>, V
 pub(super) fn scores(
     fitting: &Fitting<'_>,
     fit: &Fit,
-    groups: Vec<Vec<Parameter>>,
+    groups: &[Vec<Parameter>],
 ) -> Vec<Vec<Extension>> {
     all_scores(fitting, fit, groups).1.into_iter().map(|promise| promise.group).collect()
 }
@@ -219,7 +220,7 @@ impl Promise {
 fn all_scores(
     fitting: &Fitting<'_>,
     fit: &Fit,
-    groups: Vec<Vec<Parameter>>,
+    groups: &[Vec<Parameter>],
 ) -> (Vec<WindowSums>, Vec<Promise>) {
     let free = fit.coordinates();
     let all: Vec<Parameter> = fit.free.iter().chain(groups.iter().flatten()).copied().collect();
@@ -229,15 +230,14 @@ fn all_scores(
     let without: Vec<WindowSums> =
         point.sums.iter().map(|s| s.of(&own, first_of_windows)).collect();
     let alone = Promised::of(&without, free);
-    let mut first = free;
-    let mut found = Vec::new();
-    for group in groups {
+    let of_group = |(i, group): (usize, &Vec<Parameter>)| {
+        let first = free + groups[..i].iter().map(Vec::len).sum::<usize>();
         let kept: Vec<usize> = (0..free).chain(first..first + group.len()).collect();
-        first += group.len();
         let sums: Vec<WindowSums> =
             point.sums.iter().map(|s| s.of(&kept, first_of_windows)).collect();
-        found.push(score(&sums, free, &group, &alone));
-    }
+        score(&sums, free, group, &alone)
+    };
+    let found = groups.par_iter().with_max_len(1).enumerate().map(of_group).collect();
     (without, found)
 }
 

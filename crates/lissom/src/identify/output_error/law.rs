@@ -49,7 +49,8 @@ pub(super) fn best(
     let promise = |trial: LawTrial| {
         let mut with = fit.clone();
         with.body.arm.dry_terms = trial.terms.clone();
-        let found = evidence::scores(fitting, &with, vec![trial.amplitude.clone()]).concat();
+        let found =
+            evidence::scores(fitting, &with, std::slice::from_ref(&trial.amplitude)).concat();
         (trial, found)
     };
     let all = trials(fitting, fit).into_iter().map(promise);
@@ -114,8 +115,8 @@ fn strongest_ripple(fitting: &Fitting<'_>, fit: &Fit) -> Option<f64> {
         let ripples = &mut with.body.arm.dry_terms.ripples;
         let first = ripples.len();
         ripples.extend(some.iter().map(|k| still(*k)));
-        let groups = (first..first + some.len()).map(amplitude).collect();
-        let found = evidence::scores(fitting, &with, groups);
+        let groups: Vec<_> = (first..first + some.len()).map(amplitude).collect();
+        let found = evidence::scores(fitting, &with, &groups);
         some.iter().copied().zip(found).collect::<Vec<_>>()
     });
     promised.max_by(|a, b| share(&a.1).total_cmp(&share(&b.1))).map(|(k, _)| k)

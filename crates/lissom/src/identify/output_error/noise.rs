@@ -1,10 +1,9 @@
 //! The noise of each channel, from what a fit leaves.
 
 use super::data::Masks;
-use super::stages::Fit;
 use crate::identify::channel_noise::channel_noise;
 use crate::record::{Campaign, Run};
-use crate::replay::{SensorNoise, predict};
+use crate::replay::{Prediction, SensorNoise, Window};
 
 /// Residuals looked at for each channel.
 const LOOKED_AT: usize = 4000;
@@ -45,11 +44,16 @@ fn each_channel(campaign: &Campaign, figure: &dyn Fn(&[f64]) -> f64) -> Vec<f64>
         .collect()
 }
 
-/// Residuals of each channel over all windows of a fit.
-pub(super) fn residuals(campaign: &Campaign, fit: &Fit, masks: &[Masks]) -> Vec<Vec<f64>> {
+/// Residuals of each channel over windows of which this is predicted.
+pub(super) fn residuals(
+    campaign: &Campaign,
+    windows: &[Window],
+    predicted: &[Option<Prediction>],
+    masks: &[Masks],
+) -> Vec<Vec<f64>> {
     let mut all = vec![Vec::new(); 1 + campaign.channels.tips.len()];
-    for window in &fit.windows {
-        let Some(found) = predict(&fit.body.arm, campaign, window) else { continue };
+    for (window, found) in windows.iter().zip(predicted) {
+        let Some(found) = found else { continue };
         let run = &campaign.runs[window.run];
         for (c, (left, predicted)) in all.iter_mut().zip(&found.channels).enumerate() {
             let logged = match c.checked_sub(1) {

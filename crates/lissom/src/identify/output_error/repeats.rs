@@ -4,7 +4,7 @@ use super::data::Masks;
 use super::noise::is_least;
 use super::stages::Fit;
 use crate::record::Campaign;
-use crate::replay::predict;
+use crate::replay::Prediction;
 
 /// Leaves out the readings at which what a sensor without noise reads has moved by less than the noise that
 /// it is taken to have since the last one that counts; `None` where all sensors have noise of their own.
@@ -14,14 +14,15 @@ use crate::replay::predict;
 pub(super) fn without_repeats(
     campaign: &Campaign,
     fit: &Fit,
+    predicted: &[Option<Prediction>],
     masks: &[Masks],
 ) -> Option<Vec<Masks>> {
     if !fit.noise.iter().any(is_least) {
         return None;
     }
     let mut masks = masks.to_vec();
-    for window in &fit.windows {
-        let found = predict(&fit.body.arm, campaign, window)?;
+    for (window, found) in fit.windows.iter().zip(predicted) {
+        let found = found.as_ref()?;
         let first = *window.samples.start();
         let channels = fit.noise.iter().zip(&found.channels).zip(&mut masks[window.run]);
         for ((noise, predicted), mask) in channels.filter(|((noise, _), _)| is_least(noise)) {

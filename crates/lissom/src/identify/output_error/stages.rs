@@ -1,5 +1,7 @@
 //! From short windows to whole runs, and what each step of the way left.
 
+use rayon::prelude::*;
+
 use super::AT_NOISE;
 use super::by_run::ByRun;
 use super::coordinates::Body;
@@ -15,7 +17,8 @@ use super::windows::{cut, widen};
 use crate::identify::LawTerm;
 use crate::record::{Campaign, Run};
 use crate::replay::{
-    Blocks, ModalArm, Parameter, Sampling, SensorNoise, Window, WindowSums, costs, free_parameters,
+    Blocks, ModalArm, Parameter, Prediction, Sampling, SensorNoise, Window, WindowSums, costs,
+    free_parameters, predict,
 };
 
 /// Most steps of a stage before the last, which only leads to it.
@@ -362,9 +365,15 @@ impl Fitting<'_> {
     /// nothing that would lead there. Gives the samples that count where some only repeat a step.
     pub(super) fn count_steps(&self, fit: &mut Fit, report: &mut Report) -> Option<Vec<Masks>> {
         let steps = noise::steps(self.campaign);
-        let left = noise::residuals(self.campaign, fit, self.masks);
+        let predicted: Vec<Option<Prediction>> = fit
+            .windows
+            .par_iter()
+            .with_max_len(1)
+            .map(|window| predict(&fit.body.arm, self.campaign, window))
+            .collect();
+        let left = noise::residuals(self.campaign, &fit.windows, &predicted, self.masks);
         fit.noise = left.iter().zip(&steps).map(|(e, q)| noise::most_likely(e, *q)).collect();
-        let Some(masks) = without_repeats(self.campaign, fit, self.masks) else {
+        let Some(masks) = without_repeats(self.campaign, fit, &predicted, self.masks) else {
             self.steps(fit, report, STEPS_ON_THE_WAY, PROMISE, None);
             return None;
         };

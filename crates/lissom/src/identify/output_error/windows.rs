@@ -1,6 +1,7 @@
 //! Windows of the runs and their first initial states.
 
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
 use crate::identify::regression::smoothing;
 use crate::record::{Campaign, Run, TipQuantity};
@@ -16,8 +17,8 @@ const LEAST_SAMPLES: usize = 20;
 /// Cuts every run into windows of `length_s`, each beginning where the motor moves: its velocity's
 /// sign is then known, and with it the phase.
 pub(super) fn cut(campaign: &Campaign, arm: &ModalArm, length_s: f64) -> Vec<Window> {
-    let mut windows = Vec::new();
-    for (index, run) in campaign.runs.iter().enumerate() {
+    let of_run = |(index, run): (usize, &Run)| {
+        let mut windows = Vec::new();
         let speed = Speed::new(run);
         let samples = ((length_s / run.sample_time_s()).round() as usize).max(LEAST_SAMPLES);
         let mut first = speed.moves_from(0);
@@ -39,8 +40,9 @@ pub(super) fn cut(campaign: &Campaign, arm: &ModalArm, length_s: f64) -> Vec<Win
             });
             first = speed.moves_from(to + 1);
         }
-    }
-    windows
+        windows
+    };
+    campaign.runs.par_iter().enumerate().flat_map_iter(of_run).collect()
 }
 
 /// Windows of `length_s` that begin with the states which `before`, windows of the same runs, have

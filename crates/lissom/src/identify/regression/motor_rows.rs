@@ -46,7 +46,7 @@ pub(super) struct MotorRows<'a> {
 
 impl<'a> MotorRows<'a> {
     pub(super) fn of(campaign: &'a Campaign) -> Self {
-        let runs = campaign.runs.par_iter().map(Slipping::of).collect();
+        let runs = campaign.runs.par_iter().with_max_len(1).map(Slipping::of).collect();
         Self { campaign, tips: coupled_tips(campaign), runs }
     }
 
@@ -65,7 +65,7 @@ impl<'a> MotorRows<'a> {
         let of_run = |(index, window): (usize, &Option<Arc<Window>>)| {
             window.as_ref().map_or_else(Vec::new, |w| self.of_run(index, w, more))
         };
-        windows.par_iter().enumerate().flat_map_iter(of_run).collect()
+        windows.par_iter().with_max_len(1).enumerate().flat_map_iter(of_run).collect()
     }
 
     fn of_run(&self, index: usize, window: &Window, more: bool) -> Vec<Cluster> {

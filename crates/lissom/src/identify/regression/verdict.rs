@@ -2,7 +2,7 @@
 
 use super::{MissingKind, MissingTerm};
 use crate::identify::finding::{Finding, Severity, key};
-use crate::identify::{Estimate, Identified, OutputError};
+use crate::identify::{Estimate, FrictionLaw, Identified, OutputError};
 
 /// Windowed torque left by the regression from which on its figures are called uncertain.
 const RESIDUAL: f64 = 0.15;
@@ -47,8 +47,12 @@ pub(crate) fn findings(id: &mut Identified) {
         ));
     }
     // A law of friction that was chosen says more than the one term that was tried for it.
-    let known = id.friction_law.as_ref().is_some_and(|law| law.chosen.departs());
-    let said = |m: &MissingTerm| m.kind == MissingKind::Stribeck && known;
+    let law = id.friction_law.as_ref().filter(|law| law.chosen.departs());
+    let said = |m: &MissingTerm| match m.kind {
+        MissingKind::Delay => law.is_some_and(FrictionLaw::leaves_no_lag),
+        MissingKind::Position => false,
+        MissingKind::Stribeck => law.is_some(),
+    };
     if let Some(m) = r.missing.filter(|m| !explained && !said(m)) {
         let (what, hint) = match m.kind {
             MissingKind::Delay => (
