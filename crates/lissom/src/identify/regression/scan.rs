@@ -10,9 +10,12 @@ const LEAST_SAMPLES: f64 = 10.0;
 const RATIO: f64 = std::f64::consts::SQRT_2;
 /// Fewest clusters (phases, blocks) that a candidate must rest on.
 const LEAST_CLUSTERS: usize = 4;
-/// No shorter window is tried where the figures' scatter is so many times the least sensitivity…
+/// No shorter window is tried where the figures' scatter is so many times the least sensitivity, or all of the
+/// sensitivity of the one before so many times…
 const HOPELESS: f64 = 1.5;
-/// …has grown twice on end, and rests on more rows than this: few rows scatter anyhow, and cost little.
+const FAR_WORSE: f64 = 4.0;
+/// …where the scatter has grown twice on end, and rests on more rows than this: few rows scatter anyhow, and
+/// cost little.
 const MANY_ROWS: usize = 2000;
 /// Most candidates: √2⁴⁰ is a factor of a million in length.
 const MOST_CANDIDATES: i32 = 40;
@@ -51,7 +54,7 @@ pub(crate) struct Scan {
 /// down to ten samples; takes the one with the least sensitivity in the figures marked by `counts`.
 ///
 /// Below some length the figures scatter the more the shorter a window is: none is tried beyond one
-/// whose growing scatter alone is well over the least sensitivity.
+/// whose growing scatter alone is well over the least sensitivity, or where it grows and all is far over it.
 ///
 /// With `given` lengths only these are taken, each between neighbours that tell its sensitivity.
 pub(crate) fn scan(
@@ -82,11 +85,14 @@ pub(crate) fn scan(
         let rows = solution.rows;
         scatters = [scatters[1], scatters[2], scatter(&solution, counts).unwrap_or(0.0)];
         tried.push_front((length, solution));
+        let mut before = 0.0;
         if tried.len() > 2 {
-            least = least.min(sensitivity(tried.make_contiguous(), 1, counts));
+            before = sensitivity(tried.make_contiguous(), 1, counts);
+            least = least.min(before);
         }
         let rises = scatters.is_sorted_by(|longer, shorter| longer < shorter);
-        if rows > MANY_ROWS && rises && scatters[2] > HOPELESS * least {
+        let hopeless = scatters[2] > HOPELESS * least || before > FAR_WORSE * least;
+        if rows > MANY_ROWS && rises && hopeless {
             break;
         }
     }
