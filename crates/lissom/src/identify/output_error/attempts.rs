@@ -154,20 +154,27 @@ fn settle(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     evidence::relax(fitting, fit, report);
 }
 
-/// The same once more where its search was caught, if a slower one comes to less.
+/// The same once more where its search was caught, if a slower one comes to less: where more than the sensors'
+/// noise is left, or the highest mode is so faint that at a wrong frequency it would leave hardly more.
 fn again(fitting: &Fitting<'_>, caught: Attempt, first_window_s: Option<f64>) -> Attempt {
     let mut best = caught;
-    if !best.fit.whole_runs || !is_left(&best.left) {
+    let caught = is_left(&best.left);
+    if !best.fit.whole_runs || !(caught || modes::highest_is_faint(fitting, &best.fit)) {
         return best;
     }
     // Not for another law: that has had its trial.
     let slowly = Fitting { widening: SLOWER, tries_laws: false, ..*fitting };
     for arm in modes::starts_again(fitting, &best.fit) {
         let Some(other) = attempt(&slowly, &arm, first_window_s) else { continue };
-        if other.fit.whole_runs && most(&other.left) < most(&best.left) {
+        let better = if caught {
+            most(&other.left) < most(&best.left)
+        } else {
+            best.leaves_more(fitting, &other)
+        };
+        if other.fit.whole_runs && better {
             best = other;
         }
-        if !is_left(&best.left) {
+        if caught && !is_left(&best.left) {
             break;
         }
     }
@@ -183,6 +190,18 @@ impl Attempt {
             self.fit.whole_runs,
             fitting.beyond_noise(&self.fit),
         )
+    }
+
+    /// Whether another, with the same noise over the same samples, costs less by more than what it has more of
+    /// free is worth.
+    fn leaves_more(&self, fitting: &Fitting<'_>, other: &Self) -> bool {
+        let masks = self.without_repeats.as_deref().unwrap_or(fitting.masks);
+        let fitting = Fitting { masks, ..*fitting };
+        let cost = |a: &Self| {
+            let worth = evidence::EVEN * evidence::EVEN * a.fit.coordinates() as f64;
+            fitting.cost(&a.fit, &self.fit.noise) + worth
+        };
+        cost(other) < cost(self)
     }
 
     /// How near it comes, for comparison: whole runs before parts of them.

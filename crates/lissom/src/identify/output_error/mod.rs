@@ -143,8 +143,8 @@ pub struct OutputErrorStart {
 /// arm does not describe what happens. Parameters beyond the simplest law (lag, viscous friction by
 /// direction, the other kind of damping, friction near rest, ripple) are added where the residual calls for them. At the end the
 /// sensors' steps are counted as what they are, and readings that only repeat a step once. Where more
-/// than the sensors' noise is left then, it is done again more slowly, from other frequencies of the
-/// highest mode, too.
+/// than the sensors' noise is left then, or the highest mode is faint, it is done again more slowly, from
+/// other frequencies of that mode, too.
 ///
 /// `None` where no window can be cut or nothing is left of the search.
 pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<OutputError> {

@@ -9,6 +9,9 @@ use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters
 const DEVIATIONS: f64 = 5.0;
 /// …or whose frequency is not known to this share.
 const FREQUENCY: f64 = 0.02;
+/// The highest mode is faint whose stiffness is not known to this share: at a wrong frequency it would leave
+/// hardly more.
+const FAINT: f64 = 0.01;
 /// It goes where the cost rises by no more than this share without it.
 const SHARE: f64 = 2e-3;
 /// Frequencies this near to each other are one mode's, in doubt.
@@ -230,13 +233,28 @@ pub(super) fn drop_unfelt(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Rep
     }
 }
 
-/// The mode that stands least.
-fn doubtful(fitting: &Fitting<'_>, fit: &Fit) -> Option<usize> {
+/// Whether the highest of several modes is faint.
+pub(super) fn highest_is_faint(fitting: &Fitting<'_>, fit: &Fit) -> bool {
+    let arm = &fit.body.arm;
+    let stiffness = || known_to(fitting, fit)(Parameter::Stiffness(highest(arm)));
+    arm.modes.len() > 1 && stiffness().is_some_and(|share| share > FAINT)
+}
+
+/// Deviations of parameters relative to their values.
+fn known_to<'a>(
+    fitting: &Fitting<'_>,
+    fit: &'a Fit,
+) -> impl Fn(Parameter) -> Option<f64> + use<'a> {
     let covariance = fitting.covariances(fit).larger();
-    let relative = |p: Parameter| {
+    move |p| {
         let i = fit.free.iter().position(|q| *q == p)?;
         Some(deviation(&covariance, i) / p.of(&fit.body.arm).abs())
-    };
+    }
+}
+
+/// The mode that stands least.
+fn doubtful(fitting: &Fitting<'_>, fit: &Fit) -> Option<usize> {
+    let relative = known_to(fitting, fit);
     let doubt = |j: usize| {
         let stiffness = relative(Parameter::Stiffness(j))? * DEVIATIONS;
         let frequency = relative(Parameter::Frequency(j))? / FREQUENCY;
