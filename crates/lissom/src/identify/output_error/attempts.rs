@@ -156,8 +156,8 @@ fn settle(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
 
 /// The same once more where its search was caught, if a slower one comes to less: where more than the sensors'
 /// noise is left, or the highest mode is so faint that at a wrong frequency it would leave hardly more.
-fn again(fitting: &Fitting<'_>, caught: Attempt, first_window_s: Option<f64>) -> Attempt {
-    let mut best = caught;
+fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> Attempt {
+    let mut best = first;
     let caught = is_left(&best.left);
     if !best.fit.whole_runs || !(caught || modes::highest_is_faint(fitting, &best.fit)) {
         return best;

@@ -9,11 +9,11 @@ use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters
 const DEVIATIONS: f64 = 5.0;
 /// …or whose frequency is not known to this share.
 const FREQUENCY: f64 = 0.02;
+/// It goes where the cost rises by no more than this share without it.
+const SHARE: f64 = 2e-3;
 /// The highest mode is faint whose stiffness is not known to this share: at a wrong frequency it would leave
 /// hardly more.
 const FAINT: f64 = 0.01;
-/// It goes where the cost rises by no more than this share without it.
-const SHARE: f64 = 2e-3;
 /// Frequencies this near to each other are one mode's, in doubt.
 const TWINS: f64 = 0.01;
 /// A mode put beyond the others begins at one of these times the highest, with this share of what that
