@@ -34,17 +34,21 @@ pub(crate) struct ChannelNoise {
 /// are those of its few corners; never less than step/√12. Of white noise it is exact; of
 /// rounding alone, whose errors hang together, good to a half.
 pub(crate) fn channel_noise(x: &[f64]) -> ChannelNoise {
-    let step = step(x);
+    let (step, independent) = (step(x), independent_noise(x));
+    ChannelNoise { step, std: independent.max(step / 12.0_f64.sqrt()), independent }
+}
+
+/// [`ChannelNoise::independent`] of uniform samples of a smooth motion.
+pub(crate) fn independent_noise(x: &[f64]) -> f64 {
     let mut fourth: Vec<f64> = x
         .windows(5)
         .step_by(apart(x))
         .map(|w| (w[0] - 4.0 * w[1] + 6.0 * w[2] - 4.0 * w[3] + w[4]).abs())
         .collect();
     if fourth.is_empty() {
-        return ChannelNoise { step, std: step / 12.0_f64.sqrt(), independent: 0.0 };
+        return 0.0;
     }
-    let spread = spread(&mut fourth) / FOURTH_DIFFERENCE.sqrt();
-    ChannelNoise { step, std: spread.max(step / 12.0_f64.sqrt()), independent: spread }
+    spread(&mut fourth) / FOURTH_DIFFERENCE.sqrt()
 }
 
 /// Deviation of normal numbers whose sizes these are, from the smaller ones.

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::window::dot;
-use crate::identify::channel_noise::channel_noise;
+use crate::identify::channel_noise::independent_noise;
 use crate::record::Run;
 
 /// Deviation of what is independent from sample to sample in each channel of a run.
@@ -14,8 +14,8 @@ pub(crate) struct RunNoise {
 
 impl RunNoise {
     pub(crate) fn of(run: &Run) -> Self {
-        let of = |channel: &[f64]| channel_noise(channel).independent;
-        Self { motor: of(run.motor()), tips: run.tips().iter().map(|tip| of(tip)).collect() }
+        let tips = run.tips().iter().map(|tip| independent_noise(tip)).collect();
+        Self { motor: independent_noise(run.motor()), tips }
     }
 }
 
@@ -29,9 +29,12 @@ pub(super) fn products<'a>(
 ) -> DMatrix<f64> {
     let mut sum = DMatrix::zeros(columns, columns);
     for (std, parts) in channels {
-        for (i, a, left) in &parts {
-            for (j, b, right) in &parts {
-                sum[(*i, *j)] += std * std * left * right * dot(a, b);
+        for (place, (i, a, left)) in parts.iter().enumerate() {
+            sum[(*i, *i)] += std * std * dot(a, a);
+            for (j, b, right) in &parts[..place] {
+                let product = std * std * left * right * dot(a, b);
+                sum[(*i, *j)] += product;
+                sum[(*j, *i)] += product;
             }
         }
     }
