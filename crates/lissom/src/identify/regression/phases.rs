@@ -19,26 +19,71 @@ pub(crate) struct Phase {
 /// long enough that the sensor's steps do not reverse it, short against the phases.
 pub(crate) fn slip_phases(motor: &[f64], smooth: usize, sample_time_s: f64) -> Vec<Phase> {
     let window = Window::new(smooth, sample_time_s);
-    let n = window.len();
-    let half = n / 2;
-    let rising = &window.first[..n.div_ceil(2)];
-    let mut phases: Vec<Phase> = Vec::new();
-    for k in half..motor.len().saturating_sub(n - half) {
-        // ẇ is odd about the middle, and zero there. A motor at rest has a velocity of exactly zero.
-        let seen = &motor[k - half..=k - half + n];
-        let pairs = seen.iter().rev().zip(seen);
-        let velocity: f64 =
-            pairs.zip(rising).map(|((after, before), w)| w * (after - before)).sum();
-        if velocity == 0.0 {
-            continue;
+    pulp::Arch::new().dispatch(Slips { motor, window: &window })
+}
+
+/// Velocities found side by side.
+const LANES: usize = 16;
+
+/// [`slip_phases`], compiled for the widest registers that there are.
+struct Slips<'a> {
+    motor: &'a [f64],
+    window: &'a Window,
+}
+
+impl pulp::WithSimd for Slips<'_> {
+    type Output = Vec<Phase>;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Vec<Phase> {
+        let Self { motor, window } = self;
+        let n = window.len();
+        let rising = &window.first[..n.div_ceil(2)];
+        let mut phases: Vec<Phase> = Vec::new();
+        let velocities = motor.len().saturating_sub(n);
+        for from in (0..velocities).step_by(LANES) {
+            let seen = &motor[from..];
+            let lanes = LANES.min(velocities - from);
+            let found = if lanes == LANES {
+                convolved(rising, n, seen)
+            } else {
+                let mut padded = seen.to_vec();
+                padded.resize(n + LANES, 0.0);
+                convolved(rising, n, &padded)
+            };
+            for (k, &velocity) in (n / 2 + from..).zip(&found[..lanes]) {
+                extend(&mut phases, k, velocity);
+            }
         }
-        let sign = velocity.signum();
-        match phases.last_mut() {
-            Some(last) if last.to == k && last.sign.total_cmp(&sign).is_eq() => last.to = k + 1,
-            _ => phases.push(Phase { from: k, to: k + 1, sign }),
+        phases
+    }
+}
+
+/// The velocities in the middle of the first windows of `n` sample intervals, by the first half of ẇ.
+#[inline(always)]
+fn convolved(rising: &[f64], n: usize, motor: &[f64]) -> [f64; LANES] {
+    let mut sums = [0.0; LANES];
+    for (i, w) in rising.iter().enumerate() {
+        // ẇ is odd about the middle, and zero there. A motor at rest has a velocity of exactly zero.
+        let (before, after) = (&motor[i..][..LANES], &motor[n - i..][..LANES]);
+        for lane in 0..LANES {
+            sums[lane] += w * (after[lane] - before[lane]);
         }
     }
-    phases
+    sums
+}
+
+/// Adds sample `k` to the last phase, or begins one.
+#[inline(always)]
+fn extend(phases: &mut Vec<Phase>, k: usize, velocity: f64) {
+    if velocity == 0.0 {
+        return;
+    }
+    let sign = velocity.signum();
+    match phases.last_mut() {
+        Some(last) if last.to == k && last.sign.total_cmp(&sign).is_eq() => last.to = k + 1,
+        _ => phases.push(Phase { from: k, to: k + 1, sign }),
+    }
 }
 
 /// Fewest samples over which a velocity is smoothed.
