@@ -65,7 +65,8 @@ impl Cluster {
     ) {
         let before = self.rows;
         pulp::Arch::new().dispatch(Adding { cluster: &mut *self, starts, equation });
-        self.noise += noise * (self.rows - before) as f64;
+        let added = (self.rows - before) as f64;
+        self.noise.zip_apply(noise, |sum, of_row| *sum += of_row * added);
     }
 
     /// Adds the rows of another of the same columns.
@@ -146,18 +147,29 @@ pub(crate) struct Solution {
 pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
     let p = terms.len();
     let right_column = clusters.first()?.products.ncols() - 1;
-    let parts: Vec<Part> =
-        clusters.iter().filter(|c| c.rows > 0).map(|c| Part::of(c, terms)).collect();
+    let columns: Vec<usize> = terms.iter().map(|term| term.column()).collect();
+    let factors = [-1.0, 0.0, 1.0].map(|sign| terms.iter().map(|t| t.factor(sign)).collect());
+    let parts = || {
+        let with_rows = clusters.iter().filter(|c| c.rows > 0);
+        with_rows.map(|cluster| Part::of(cluster, &columns, &factors))
+    };
     let rows: usize = clusters.iter().map(|c| c.rows).sum();
     let power: f64 = clusters.iter().map(|c| c.products[(right_column, right_column)]).sum();
     if rows == 0 || power <= 0.0 {
         return None;
     }
-    let sum = |of: &dyn Fn(&Part) -> &DMatrix<f64>| {
-        parts.iter().fold(DMatrix::zeros(p, p), |sum, part| sum + of(part))
-    };
-    let (normal, noise) = (sum(&|part| &part.normal), sum(&|part| &part.noise));
-    let right = parts.iter().fold(DVector::zeros(p), |sum, part| sum + &part.right);
+    let mut normal: DMatrix<f64> = DMatrix::zeros(p, p);
+    let mut noise = normal.clone();
+    let mut right = DVector::zeros(p);
+    for part in parts() {
+        for j in 0..p {
+            right[j] += part.right(j);
+            for i in 0..p {
+                normal[(i, j)] += part.normal(i, j);
+                noise[(i, j)] += part.noise(i, j);
+            }
+        }
+    }
     let scale = DVector::from_fn(p, |i, _| normal[(i, i)].max(f64::MIN_POSITIVE).sqrt());
     let scaled = DMatrix::from_fn(p, p, |i, j| normal[(i, j)] / (scale[i] * scale[j]));
     let eigen = scaled.symmetric_eigen();
@@ -187,20 +199,26 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
 
     let out = DMatrix::from_diagonal(&taken_out.map(|share| f64::from(share > 0.0)));
     let out = &normal * &directions * out * directions.transpose();
-    let score = |part: &Part| {
-        &part.right - &part.normal * &value + &out * (&part.noise * (out.transpose() * &value))
-    };
-    let scores: Vec<DVector<f64>> = parts.iter().map(score).collect();
-    let by_cluster = sandwich(&inverse, scores.iter().cloned());
-    let runs = parts.iter().map(|part| part.run).max().unwrap_or(0) + 1;
-    let mut by_run = vec![DVector::zeros(p); runs];
-    for (part, score) in parts.iter().zip(&scores) {
-        by_run[part.run] += score;
+    let taken = out.transpose() * &value;
+    let mut scores = DMatrix::zeros(p, parts().count());
+    let runs = parts().map(|part| part.cluster.run).max().unwrap_or(0) + 1;
+    let mut by_run = DMatrix::zeros(p, runs);
+    let mut of_noise = DVector::zeros(p);
+    for (part, mut score) in parts().zip(scores.column_iter_mut()) {
+        for i in 0..p {
+            let explained: f64 = (0..p).map(|j| part.normal(i, j) * value[j]).sum();
+            score[i] = part.right(i) - explained;
+            of_noise[i] = (0..p).map(|j| part.noise(i, j) * taken[j]).sum();
+        }
+        score.gemv(1.0, &out, &of_noise, 1.0);
+        let mut of_run = by_run.column_mut(part.cluster.run);
+        of_run += score;
     }
-    let present = by_run.iter().filter(|g| g.norm() > 0.0).count();
+    let by_cluster = sandwich(&inverse, &scores);
+    let present = by_run.column_iter().filter(|g| g.norm() > 0.0).count();
     // Fewer runs than this say little of their own scatter.
     let mut covariance = if present > p + 1 {
-        larger(&by_cluster, &sandwich(&inverse, by_run.into_iter()))
+        larger(&by_cluster, &sandwich(&inverse, &by_run))
     } else {
         by_cluster
     };
@@ -217,46 +235,54 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
         inseparable,
         relative_residual: (left.max(0.0) / power).sqrt(),
         rows,
-        clusters: parts.len(),
+        clusters: scores.ncols(),
     })
 }
 
 /// What a cluster adds to the normal equations of some terms.
-struct Part {
-    run: usize,
-    normal: DMatrix<f64>,
-    noise: DMatrix<f64>,
-    right: DVector<f64>,
+struct Part<'a> {
+    cluster: &'a Cluster,
+    columns: &'a [usize],
+    factors: &'a [f64],
 }
 
-impl Part {
-    fn of(cluster: &Cluster, terms: &[Term]) -> Self {
-        let p = terms.len();
-        let right_column = cluster.products.ncols() - 1;
-        let f = |i: usize| terms[i].factor(cluster.sign);
-        let column = |i: usize| terms[i].column();
-        let of = |products: &DMatrix<f64>| {
-            DMatrix::from_fn(p, p, |i, j| products[(column(i), column(j))] * f(i) * f(j))
+impl<'a> Part<'a> {
+    /// With the terms' factors backward, without a direction and forward.
+    fn of(cluster: &'a Cluster, columns: &'a [usize], factors: &'a [Vec<f64>; 3]) -> Self {
+        let [backward, none, forward] = factors;
+        let factors = match cluster.sign {
+            s if s > 0.0 => forward,
+            s if s < 0.0 => backward,
+            _ => none,
         };
-        let right = |i: usize| cluster.products[(column(i), right_column)] * f(i);
-        Self {
-            run: cluster.run,
-            normal: of(&cluster.products),
-            noise: of(&cluster.noise),
-            right: DVector::from_fn(p, |i, _| right(i)),
-        }
+        Self { cluster, columns, factors }
+    }
+
+    fn normal(&self, i: usize, j: usize) -> f64 {
+        self.of_terms(&self.cluster.products, i, j)
+    }
+
+    fn noise(&self, i: usize, j: usize) -> f64 {
+        self.of_terms(&self.cluster.noise, i, j)
+    }
+
+    fn right(&self, i: usize) -> f64 {
+        let products = &self.cluster.products;
+        products[(self.columns[i], products.ncols() - 1)] * self.factors[i]
+    }
+
+    fn of_terms(&self, products: &DMatrix<f64>, i: usize, j: usize) -> f64 {
+        products[(self.columns[i], self.columns[j])] * self.factors[i] * self.factors[j]
     }
 }
 
 /// `N⁻¹·(Σ g·gᵀ)·N⁻¹` with g the score of each group, and C/(C − 1) for their number.
-fn sandwich(inverse: &DMatrix<f64>, scores: impl Iterator<Item = DVector<f64>>) -> DMatrix<f64> {
-    let p = inverse.nrows();
-    let mut middle = DMatrix::zeros(p, p);
-    let mut groups = 0.0_f64;
-    for g in scores {
+fn sandwich(inverse: &DMatrix<f64>, scores: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut middle = DMatrix::zeros(scores.nrows(), scores.nrows());
+    for g in scores.column_iter() {
         middle.ger(1.0, &g, &g, 1.0);
-        groups += 1.0;
     }
+    let groups = scores.ncols() as f64;
     inverse * middle * inverse * (groups / (groups - 1.0).max(1.0))
 }
 
