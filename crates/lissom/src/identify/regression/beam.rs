@@ -168,7 +168,7 @@ fn deviations(
 /// Sums of blocks of windows over every run, for tip `i`.
 fn clusters(campaign: &Campaign, noise: &[RunNoise], i: usize, length_s: f64) -> Vec<Cluster> {
     let columns = campaign.channels.tips.len() + 3;
-    let windows = Window::of_runs(&campaign.runs, length_s);
+    let windows = Window::of_runs(&campaign.runs, length_s, |_, _| true);
     let of_run = |(index, window): (usize, &Option<Arc<Window>>)| {
         let (Some(window), run) = (window, &campaign.runs[index]) else { return Vec::new() };
         let step = ((window.len() as f64 * STEP) as usize).max(1);

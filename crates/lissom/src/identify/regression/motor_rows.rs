@@ -61,7 +61,8 @@ impl<'a> MotorRows<'a> {
     }
 
     fn of_runs(&self, length_s: f64, more: bool) -> Vec<Cluster> {
-        let windows = Window::of_runs(&self.campaign.runs, length_s);
+        let windows =
+            Window::of_runs(&self.campaign.runs, length_s, |index, n| self.runs[index].may_hold(n));
         let of_run = |(index, window): (usize, &Option<Arc<Window>>)| {
             window.as_ref().map_or_else(Vec::new, |w| self.of_run(index, w, more))
         };
@@ -116,8 +117,7 @@ impl<'a> Slipping<'a> {
     /// Phases for windows of `n` samples, and what they are smoothed over; none where the velocity
     /// within so short a window has no sure sign.
     fn phases(&self, n: usize) -> (Cow<'_, [Phase]>, usize) {
-        let most = (n as f64 * SMOOTH) as usize;
-        let smooth = self.smooth.min(most).max(LEAST_SMOOTH);
+        let smooth = self.smooth_for(n);
         let phases = if SURE * self.needed as f64 > smooth as f64 {
             Cow::Owned(Vec::new())
         } else if smooth == self.smooth {
@@ -126,6 +126,18 @@ impl<'a> Slipping<'a> {
             Cow::Owned(slip_phases(self.run.motor(), smooth, self.run.sample_time_s()))
         };
         (phases, smooth)
+    }
+
+    /// What phases for windows of `n` samples are smoothed over.
+    fn smooth_for(&self, n: usize) -> usize {
+        let most = (n as f64 * SMOOTH) as usize;
+        self.smooth.min(most).max(LEAST_SMOOTH)
+    }
+
+    /// Whether a phase may be longer than `n` samples: surely none is where this is false.
+    fn may_hold(&self, n: usize) -> bool {
+        let longer = |phase: &Phase| phase.to - phase.from > n;
+        self.smooth_for(n) != self.smooth || self.phases.iter().any(longer)
     }
 }
 
@@ -146,9 +158,8 @@ impl Rows for MotorEquation<'_> {
         let (t, motor, command) = (run.sample_time_s(), &run.motor()[k..], &run.command()[k..]);
         row.clear();
         // From the window's first: ẇ and ẅ integrate constants to zero only up to rounding.
-        let (second, first) = window.second.dots_from(&window.first, motor, motor[0]);
-        row.push(second * t);
-        row.push(-first * t);
+        row.push(window.second.dot_from(motor, motor[0]) * t);
+        row.push(-window.first.dot_from(motor, motor[0]) * t);
         row.push(window.area);
         for &i in self.tips {
             row.push(behind(campaign, run, i, window, k));
@@ -189,16 +200,12 @@ impl MotorEquation<'_> {
     }
 
     /// `∫ẇτ`: what a torque that acts later leaves, by its delay.
+    #[inline(always)]
     pub(crate) fn later(&self, k: usize) -> f64 {
-        let window = self.window;
-        let command = &self.run.command()[k..=k + window.len()];
+        let (window, command) = (self.window, &self.run.command()[k..]);
         self.torque_per_command()
             * match self.campaign.channels.command.hold {
-                // Held: ∫ẇ over each interval is the difference of w.
-                Hold::Sampled => {
-                    let steps = window.value.windows(2).zip(command);
-                    steps.map(|(w, u)| (w[1] - w[0]) * u).sum::<f64>()
-                }
+                Hold::Sampled => window.rise.dot(command),
                 Hold::Measured => window.first.dot(command) * self.run.sample_time_s(),
             }
     }
@@ -224,6 +231,7 @@ struct WithMore<'a> {
 }
 
 impl Rows for WithMore<'_> {
+    #[inline(always)]
     fn fill(&self, k: usize, row: &mut Vec<f64>) {
         let MotorEquation { run, window, .. } = self.plain;
         let t = run.sample_time_s();

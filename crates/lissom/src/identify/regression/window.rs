@@ -23,6 +23,8 @@ pub(crate) struct Window {
     pub(crate) second: Weights,
     /// ∫w over each sample interval \[s\], length n: what a held signal is weighted with.
     pub(crate) held: Weights,
+    /// ∫ẇ over each sample interval, length n.
+    pub(crate) rise: Weights,
     /// ∫w over all of it \[s\].
     pub(crate) area: f64,
     /// 1/√∫ẅ²: scales a row to the noise that white noise in the angle puts into it.
@@ -34,32 +36,40 @@ impl Window {
     pub(crate) fn new(n: usize, sample_time_s: f64) -> Self {
         let length = n as f64 * sample_time_s;
         let rate = PI / length;
-        let waves: Vec<_> = (0..=n).map(|k| (PI * k as f64 / n as f64).sin_cos()).collect();
-        let at = |f: &dyn Fn(f64, f64) -> f64| waves.iter().map(|(s, c)| f(*s, *c)).collect();
-        let value: Vec<f64> = at(&|s, _| s.powi(4));
-        let first: Vec<f64> = at(&|s, c| 4.0 * rate * s.powi(3) * c);
-        let second: Vec<f64> = at(&|s, c| rate * rate * (12.0 * s * s * c * c - 4.0 * s.powi(4)));
-        // ∫ sin⁴y dy = 3y/8 − sin(2y)/4 + sin(4y)/32, with sin 2y = 2·s·c, sin 4y = 2·sin 2y·cos 2y.
-        let integral = |k: usize| {
-            let (s, c) = waves[k];
+        let mut value = vec![0.0; n + 1];
+        let (mut first, mut second, mut integral) = (value.clone(), value.clone(), value.clone());
+        for k in 0..=n {
             let y = PI * k as f64 / n as f64;
-            (0.375 * y - 0.5 * s * c + 0.125 * s * c * (1.0 - 2.0 * s * s)) / rate
-        };
-        let held: Vec<f64> = (0..n).map(|k| integral(k + 1) - integral(k)).collect();
+            let (s, c) = y.sin_cos();
+            value[k] = s.powi(4);
+            first[k] = 4.0 * rate * s.powi(3) * c;
+            second[k] = rate * rate * (12.0 * s * s * c * c - 4.0 * s.powi(4));
+            // ∫ sin⁴y dy = 3y/8 − sin(2y)/4 + sin(4y)/32, with sin 2y = 2·s·c, sin 4y = 2·sin 2y·cos 2y.
+            integral[k] = (0.375 * y - 0.5 * s * c + 0.125 * s * c * (1.0 - 2.0 * s * s)) / rate;
+        }
+        let differences = |x: &[f64]| x.windows(2).map(|x| x[1] - x[0]).collect::<Vec<f64>>();
+        let (held, rise) = (differences(&integral), differences(&value));
         let power: f64 = second.iter().map(|v| v * v).sum::<f64>() * sample_time_s;
         let area = held.iter().sum();
-        let [value, first, second, held] = [value, first, second, held].map(Weights::new);
-        Self { value, first, second, held, area, row_scale: 1.0 / power.sqrt() }
+        let row_scale = 1.0 / power.sqrt();
+        let [value, first, second, held, rise] =
+            [value, first, second, held, rise].map(Weights::new);
+        Self { value, first, second, held, rise, area, row_scale }
     }
 
     /// Windows of one length in seconds for every run, shared where the sample times are the same;
-    /// `None` where a run does not hold one.
-    pub(crate) fn of_runs(runs: &[Run], length_s: f64) -> Vec<Option<Arc<Self>>> {
+    /// `None` where a run does not hold one, or `wanted` does not want it for the run of this index at so
+    /// many samples.
+    pub(crate) fn of_runs(
+        runs: &[Run],
+        length_s: f64,
+        wanted: impl Fn(usize, usize) -> bool,
+    ) -> Vec<Option<Arc<Self>>> {
         let mut made: Vec<(f64, Arc<Self>)> = Vec::new();
-        let of = |run: &Run| {
+        let of = |(index, run): (usize, &Run)| {
             let t = run.sample_time_s();
             let n = (length_s / t).round() as usize;
-            if n < LEAST_SAMPLES || n >= run.len() {
+            if n < LEAST_SAMPLES || n >= run.len() || !wanted(index, n) {
                 return None;
             }
             let known = made.iter().find(|(time, _)| time.total_cmp(&t).is_eq());
@@ -70,7 +80,7 @@ impl Window {
             made.push((t, Arc::clone(&window)));
             Some(window)
         };
-        runs.iter().map(of).collect()
+        runs.iter().enumerate().map(of).collect()
     }
 
     /// Sample intervals spanned.
@@ -113,12 +123,6 @@ impl Weights {
         sum(&self.padded, x, x, |w, x, _| w * (x - origin))
     }
 
-    /// Σ w·(x − origin) and Σ v·(x − origin) with other weights v of the same length, in one pass.
-    #[inline(always)]
-    pub(crate) fn dots_from(&self, other: &Self, x: &[f64], origin: f64) -> (f64, f64) {
-        sums(&self.padded, &other.padded, x, |w, v, x| (w * (x - origin), v * (x - origin)))
-    }
-
     /// Σ w·(x − y) over the first samples of both; those that follow save time.
     #[inline(always)]
     pub(crate) fn dot_difference(&self, x: &[f64], y: &[f64]) -> f64 {
@@ -138,29 +142,20 @@ const LANES: usize = 8;
 /// compiled for the widest registers that there are.
 #[inline(always)]
 fn sum(a: &[f64], b: &[f64], c: &[f64], f: impl Fn(f64, f64, f64) -> f64) -> f64 {
-    sums(a, b, c, |a, b, c| (f(a, b, c), 0.0)).0
-}
-
-/// Both Σ of the pairs f(a, b, c) over the shortest of three slices.
-#[inline(always)]
-fn sums(a: &[f64], b: &[f64], c: &[f64], f: impl Fn(f64, f64, f64) -> (f64, f64)) -> (f64, f64) {
     let n = a.len().min(b.len()).min(c.len());
     let ((a, a_rest), (b, b_rest), (c, c_rest)) =
         (a[..n].as_chunks::<LANES>(), b[..n].as_chunks::<LANES>(), c[..n].as_chunks::<LANES>());
-    let (mut first, mut second) = ([0.0; LANES], [0.0; LANES]);
+    let mut lanes = [0.0; LANES];
     for ((a, b), c) in a.iter().zip(b).zip(c) {
         for lane in 0..LANES {
-            let (x, y) = f(a[lane], b[lane], c[lane]);
-            first[lane] += x;
-            second[lane] += y;
+            lanes[lane] += f(a[lane], b[lane], c[lane]);
         }
     }
-    let mut rest = (0.0, 0.0);
+    let mut rest = 0.0;
     for ((a, b), c) in a_rest.iter().zip(b_rest).zip(c_rest) {
-        let (x, y) = f(*a, *b, *c);
-        rest = (rest.0 + x, rest.1 + y);
+        rest += f(*a, *b, *c);
     }
-    (first.iter().sum::<f64>() + rest.0, second.iter().sum::<f64>() + rest.1)
+    lanes.iter().sum::<f64>() + rest
 }
 
 #[cfg(test)]
@@ -203,7 +198,6 @@ mod tests {
                 let pairs = [
                     (weights.dot(b), one(&|k| a[k] * b[k])),
                     (weights.dot_from(b, 0.4), one(&|k| a[k] * (b[k] - 0.4))),
-                    (weights.dots_from(&weights, b, 0.4).1, one(&|k| a[k] * (b[k] - 0.4))),
                     (weights.dot_difference(b, c), one(&|k| a[k] * (b[k] - c[k]))),
                 ];
                 assert!(pairs.iter().all(|(x, y)| (x - y).abs() < 1e-14), "{n} {pairs:?}");
