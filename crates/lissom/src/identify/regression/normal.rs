@@ -79,7 +79,9 @@ impl Cluster {
     /// Adds one row, regressors first, right side last.
     #[inline(always)]
     pub(crate) fn add(&mut self, row: &[f64]) {
-        for (mut column, &a) in self.products.column_iter_mut().zip(row) {
+        let height = self.products.nrows();
+        let columns = self.products.as_mut_slice().chunks_exact_mut(height);
+        for (column, &a) in columns.zip(row) {
             column.iter_mut().zip(row).for_each(|(sum, b)| *sum += a * b);
         }
         self.rows += 1;
