@@ -57,10 +57,17 @@ pub struct BeamRegression {
 /// `[Feliu1989, eqs. (13), (17)]`, by parts as in the motor's regression; A·1 + B = 0 is built in.
 pub fn beam_regression(campaign: &Campaign) -> Option<BeamRegression> {
     let tips = &campaign.channels.tips;
-    let n = tips.len();
-    if n == 0 || tips.iter().any(|t| !t.calibrated || t.quantity == TipQuantity::Acceleration) {
+    if tips.is_empty()
+        || tips.iter().any(|t| !t.calibrated || t.quantity == TipQuantity::Acceleration)
+    {
         return None;
     }
+    // Many short loops: within the pool none of them has to wake it first.
+    rayon::scope(|_| on_windows(campaign))
+}
+
+fn on_windows(campaign: &Campaign) -> Option<BeamRegression> {
+    let n = campaign.channels.tips.len();
     // Columns: ∫w(θ_m − θ_j) for each j, ∫ẇθ_i, ∫w, then the right side ∫ẅθ_i.
     let terms: Vec<Term> = (0..n + 2).map(Term::Plain).collect();
     let counts: Vec<bool> = (0..n + 2).map(|i| i < n).collect();

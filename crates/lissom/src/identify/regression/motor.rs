@@ -111,6 +111,11 @@ pub struct ByDirection {
 /// `[Feliu1989, eqs. (14), (15)]` is the equation; the way of fitting it is this project's own
 /// (DESIGN.md, "How does the regression work?").
 pub fn motor_regression(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRegression> {
+    // Many short loops: within the pool none of them has to wake it first.
+    rayon::scope(|_| on_slip_phases(campaign, window_s))
+}
+
+fn on_slip_phases(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRegression> {
     let equation = MotorRows::of(campaign);
     let tips = &equation.tips;
     let mut terms =
