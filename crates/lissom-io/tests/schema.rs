@@ -4,14 +4,14 @@
 
 use lissom::drive::Falloff;
 use lissom::identify::{
-    ByDirection, ConstantVelocity, Estimate, FrictionLine, Identified, LawCandidate, LawTerm,
-    NearRestEstimate, Options, RippleEstimate, RunToAdd, Shape, SteadyPoint, geometry_check,
-    identify,
+    BristlesEstimate, ByDirection, ConstantVelocity, Estimate, FrictionLine, Identified,
+    LawCandidate, LawTerm, NearRestEstimate, Options, RippleEstimate, RunToAdd, Shape, SteadyPoint,
+    geometry_check, identify,
 };
 use lissom::information::Figure;
 use lissom::plan::PlannedMotion;
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Tip, TipQuantity};
-use lissom::replay::{DryTerms, NearRest, Ripple};
+use lissom::replay::{Bristles, DryTerms, NearRest, Ripple};
 use lissom::rig::{Experiment, Settle};
 use lissom_io::result_json;
 use lissom_testmodels::SchemaCheck;
@@ -111,10 +111,17 @@ fn with_directions(mut id: Identified) -> Identified {
     let falloff = Falloff::Exponential;
     id.friction.near_rest = Some(NearRestEstimate { torque: figure, speed: figure, falloff });
     id.friction.ripples = vec![RippleEstimate { torque: figure, per_angle: figure }];
+    id.friction.bristles =
+        Some(BristlesEstimate { stiffness: figure, damping: figure, travel: figure });
     if let Some(found) = &mut id.arm {
         found.arm.dry_terms = DryTerms {
-            near_rest: Some(NearRest { torque_nm: 0.1, speed_rad_s: 0.2 }),
+            near_rest: Some(NearRest {
+                torque_nm: 0.1,
+                speed_rad_s: 0.2,
+                falloff: Falloff::Exponential,
+            }),
             ripples: vec![Ripple { per_rad: 9.0, cosine_nm: 0.1, sine_nm: 0.0 }],
+            bristles: Some(Bristles { stiffness_nm_per_rad: 90.0, damping_nm_s_per_rad: 0.1 }),
         };
     }
     if let Some(verdict) = &mut id.separability {
@@ -159,8 +166,10 @@ fn a_result_and_its_schema_name_the_same_keys() {
         "friction.curve[].windows",
         "friction.near_rest",
         "friction.ripples",
+        "friction.bristles",
         "arm.near_rest",
         "arm.ripples",
+        "arm.bristles",
         "methods.constant_velocity.lines[].deviations",
         "methods.constant_velocity.points[].start_s",
         "models.motor.den",

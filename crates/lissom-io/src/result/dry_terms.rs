@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use lissom::replay::{DryTerms, NearRest, Ripple};
+use lissom::drive::Falloff;
+use lissom::replay::{Bristles, DryTerms, NearRest, Ripple};
 use serde_json::{Map, Value, json};
 
 use super::UnitNames;
@@ -11,11 +12,21 @@ use super::arm::{Reader, ResultError};
 /// Shortest period of a ripple, in radians or metres: a replay follows each wave.
 const SHORTEST: f64 = 1e-6;
 
-/// Puts `near_rest` and `ripples` into the table of an arm.
+/// Puts `near_rest`, `ripples` and `bristles` into the table of an arm.
 pub(super) fn write(map: &mut Map<String, Value>, names: UnitNames, terms: &DryTerms) {
-    let near = terms
-        .near_rest
-        .map(|n| json!({ (amplitude(names)): n.torque_nm, (speed(names)): n.speed_rad_s }));
+    let near = terms.near_rest.map(|n| {
+        json!({
+            (amplitude(names)): n.torque_nm,
+            (speed(names)): n.speed_rad_s,
+            "falloff": n.falloff.name(),
+        })
+    });
+    let bristles = terms.bristles.map(|b| {
+        json!({
+            (stiffness(names)): b.stiffness_nm_per_rad,
+            (damping(names)): b.damping_nm_s_per_rad,
+        })
+    });
     let ripple = |r: &Ripple| {
         json!({
             (period(names)): TAU / r.per_rad,
@@ -25,6 +36,7 @@ pub(super) fn write(map: &mut Map<String, Value>, names: UnitNames, terms: &DryT
     };
     map.insert("near_rest".to_owned(), json!(near));
     map.insert("ripples".to_owned(), terms.ripples.iter().map(ripple).collect());
+    map.insert("bristles".to_owned(), json!(bristles));
 }
 
 /// Reads them.
@@ -42,7 +54,27 @@ pub(super) fn read(of: &Reader, table: &Value, names: UnitNames) -> Result<DryTe
         let at = "arm.near_rest";
         let speed = speed(names);
         let speed_rad_s = positive(of.number(near, at, &speed)?, format!("{at}.{speed}"))?;
-        Some(NearRest { torque_nm: of.number(near, at, &amplitude(names))?, speed_rad_s })
+        let falloff = [Falloff::Exponential, Falloff::Gaussian];
+        let falloff = falloff.into_iter().find(|f| near["falloff"] == f.name());
+        let unknown = || of.key(format!("{at}.falloff"), "\"exponential\" or \"gaussian\"");
+        Some(NearRest {
+            torque_nm: of.number(near, at, &amplitude(names))?,
+            speed_rad_s,
+            falloff: falloff.ok_or_else(unknown)?,
+        })
+    };
+    let own = &table["bristles"];
+    let bristles = if own.is_null() {
+        None
+    } else {
+        let number = |key: String| {
+            let at = "arm.bristles";
+            positive(of.number(own, at, &key)?, format!("{at}.{key}"))
+        };
+        Some(Bristles {
+            stiffness_nm_per_rad: number(stiffness(names))?,
+            damping_nm_s_per_rad: number(damping(names))?,
+        })
     };
     let ripple = |r: &Value| {
         let at = "arm.ripples[]";
@@ -55,7 +87,15 @@ pub(super) fn read(of: &Reader, table: &Value, names: UnitNames) -> Result<DryTe
         })
     };
     let ripples = of.list(table, "ripples")?.iter().map(ripple).collect::<Result<_, _>>()?;
-    Ok(DryTerms { near_rest, ripples })
+    Ok(DryTerms { near_rest, ripples, bristles })
+}
+
+fn stiffness(names: UnitNames) -> String {
+    names.coupling_key("stiffness")
+}
+
+fn damping(names: UnitNames) -> String {
+    names.viscous_key("damping")
 }
 
 fn amplitude(names: UnitNames) -> String {

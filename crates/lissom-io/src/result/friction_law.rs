@@ -24,7 +24,7 @@ fn direction(sign: f64) -> &'static str {
     if sign > 0.0 { "forward" } else { "backward" }
 }
 
-/// `friction.near_rest` and `friction.ripples`, where there are any.
+/// `friction.near_rest`, `friction.ripples` and `friction.bristles`, where there are any.
 pub(super) fn terms(map: &mut Map<String, Value>, names: UnitNames, constant: f64, f: &Friction) {
     if let Some(near) = f.near_rest {
         let mut own = Map::new();
@@ -41,6 +41,13 @@ pub(super) fn terms(map: &mut Map<String, Value>, names: UnitNames, constant: f6
     };
     if !f.ripples.is_empty() {
         map.insert("ripples".to_owned(), f.ripples.iter().map(ripple).collect());
+    }
+    if let Some(b) = f.bristles {
+        let mut own = Map::new();
+        own.insert(names.coupling_key("stiffness"), figure(Some(b.stiffness)));
+        own.insert(names.viscous_key("damping"), figure(Some(b.damping)));
+        own.insert(format!("travel_{}", names.angle()), figure(Some(b.travel)));
+        map.insert("bristles".to_owned(), Value::Object(own));
     }
 }
 
@@ -96,7 +103,7 @@ fn named(names: UnitNames, term: LawTerm) -> Map<String, Value> {
             let period = std::f64::consts::TAU / per_angle;
             map.insert(format!("period_{}", names.angle()), json!(period));
         }
-        LawTerm::AfterTravel { travel } => {
+        LawTerm::AfterTravel { travel } | LawTerm::Bristles { travel } => {
             map.insert(format!("travel_{}", names.angle()), json!(travel));
         }
         LawTerm::ViscousByDirection | LawTerm::Root | LawTerm::CommandLag => {}
@@ -112,6 +119,7 @@ fn amplitude_key(names: UnitNames, term: LawTerm) -> String {
             format!("amplitude_{}", names.torque())
         }
         LawTerm::Root => format!("amplitude_{}_per_root_{}_per_s", names.torque(), names.angle()),
+        LawTerm::Bristles { .. } => format!("amplitude_{}", names.angle()),
         LawTerm::CommandLag => "amplitude_s".to_owned(),
     }
 }

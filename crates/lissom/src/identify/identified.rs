@@ -50,6 +50,19 @@ pub struct Friction {
     pub near_rest: Option<NearRestEstimate>,
     /// Waves over the travel, where the data show them.
     pub ripples: Vec<RippleEstimate>,
+    /// What yields before the joint slips, where the replay calls for it.
+    pub bristles: Option<BristlesEstimate>,
+}
+
+/// Bristles that bend before the joint slips: `F = σ0·z + σ1·ż`, all of the law above the level that they slip at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BristlesEstimate {
+    /// σ0.
+    pub stiffness: Estimate,
+    /// σ1.
+    pub damping: Estimate,
+    /// How far they bend at speed, C/σ0.
+    pub travel: Estimate,
 }
 
 /// `s·A·e^{−|v|/v_s}` or `s·A·e^{−(v/v_s)²}`, s the direction.

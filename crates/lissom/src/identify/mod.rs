@@ -46,7 +46,9 @@ pub use finding::{Finding, Severity};
 pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
 pub use friction_law::{CurvePoint, FrictionLaw, LawCandidate, LawFit, LawTerm};
 pub use geometry::{ArmQuantity, Explanation, GeometryCheck, geometry_check};
-pub use identified::{Beam, Friction, Identified, NearRestEstimate, RippleEstimate, ThirdHarmonic};
+pub use identified::{
+    Beam, BristlesEstimate, Friction, Identified, NearRestEstimate, RippleEstimate, ThirdHarmonic,
+};
 pub use output_error::{
     ByRun, Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, output_error,
     starts, starts_by_motor, starts_by_responses,

@@ -1,23 +1,24 @@
 //! What dry friction has beyond one Coulomb constant: a change near rest, ripple over the travel.
 
-use std::ops::Neg;
-
+use super::bristles::Bristles;
 use super::parameter::Parameter;
+use crate::drive::Falloff;
 
 /// Largest share of its range by which an argument of the law may move over a step that is replayed
 /// with friction linear in time, its mean over the step right.
-const STEP: f64 = 0.4;
+pub(super) const STEP: f64 = 0.4;
 /// Largest (rate × step) at which friction that falls with speed lets the speed grow, and the same where
 /// the motor has just been let go: what it errs by there grows with it.
 const GROWTH: f64 = 0.5;
 const LET_GO: f64 = 0.1;
 /// Share of its speed by which the law is continued beyond a reversal.
 const BEYOND: f64 = -0.5;
-/// Speeds at which friction near rest has nothing left, over its own.
-const GONE: f64 = 9.0;
+/// Speeds at which friction near rest has nothing left, over its own: of an exponential, and of a square's.
+const GONE: [f64; 2] = [9.0, 3.0];
 
 /// Dry friction's terms beside Coulomb and offset:
-/// `s·(A·e^{−|θ̇|/v_s} + Σ_i B_i·cos k_iθ + C_i·sin k_iθ)`, s the direction of motion.
+/// `s·(A·e^{−|θ̇|/v_s} + Σ_i B_i·cos k_iθ + C_i·sin k_iθ)`, s the direction of motion; the joint sticks at rest,
+/// or is held by [`Bristles`], whose level all of dry friction then is.
 ///
 /// # Source
 /// `[Armstrong1994]` for the falloff: with A > 0 the Stribeck effect, with A < 0 friction that grows less
@@ -28,15 +29,19 @@ pub struct DryTerms {
     pub near_rest: Option<NearRest>,
     /// Waves over the angle.
     pub ripples: Vec<Ripple>,
+    /// What yields before the joint slips.
+    pub bristles: Option<Bristles>,
 }
 
-/// `s·A·e^{−|θ̇|/v_s}`.
+/// `s·A·e^{−|θ̇|/v_s}` or `s·A·e^{−(θ̇/v_s)²}`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearRest {
     /// A \[N·m\]: friction at rest is C + A.
     pub torque_nm: f64,
     /// v_s \[rad/s\].
     pub speed_rad_s: f64,
+    /// Which of the two.
+    pub falloff: Falloff,
 }
 
 /// `s·(B·cos kθ + C·sin kθ)`.
@@ -63,7 +68,7 @@ pub(super) struct Place {
 impl DryTerms {
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
-        self.near_rest.is_none() && self.ripples.is_empty()
+        self.near_rest.is_none() && self.ripples.is_empty() && self.bristles.is_none()
     }
 
     /// All numbers in them.
@@ -79,12 +84,15 @@ impl DryTerms {
                 Parameter::RippleRate(i),
             ]);
         }
+        if self.bristles.is_some() {
+            found.extend([Parameter::BristleStiffness, Parameter::BristleDamping]);
+        }
         found
     }
 
     /// Torque against the motion at an angle and a speed: without s.
     pub fn braking_nm(&self, angle_rad: f64, speed_rad_s: f64) -> f64 {
-        let near = self.near_rest.map_or(0.0, |n| n.torque_nm * n.falloff(speed_rad_s));
+        let near = self.near_rest.map_or(0.0, |n| n.torque_nm * n.share(speed_rad_s));
         let wave = |r: &Ripple| {
             let (sine, cosine) = (r.per_rad * angle_rad).sin_cos();
             r.cosine_nm * cosine + r.sine_nm * sine
@@ -103,8 +111,7 @@ impl DryTerms {
             let (sine, cosine) = (r.per_rad * at.angle).sin_cos();
             r.per_rad * (r.sine_nm * cosine - r.cosine_nm * sine)
         };
-        let near =
-            self.near_rest.map_or(0.0, |n| n.torque_nm * n.falloff(at.speed) / n.speed_rad_s);
+        let near = self.near_rest.map_or(0.0, |n| n.torque_nm * n.falls(at.speed) / n.speed_rad_s);
         [at.sign * self.ripples.iter().map(wave).sum::<f64>(), -near]
     }
 
@@ -113,9 +120,9 @@ impl DryTerms {
         let ripple = |i: usize| self.ripples[i].per_rad * at.angle;
         at.sign
             * match (parameter, self.near_rest) {
-                (Parameter::NearRest, Some(n)) => n.falloff(at.speed),
+                (Parameter::NearRest, Some(n)) => n.share(at.speed),
                 (Parameter::NearRestSpeed, Some(n)) => {
-                    n.torque_nm * n.falloff(at.speed) * at.speed / n.speed_rad_s.powi(2)
+                    n.torque_nm * n.falls(at.speed) * at.speed / n.speed_rad_s.powi(2)
                 }
                 (Parameter::RippleCosine(i), _) => ripple(i).cos(),
                 (Parameter::RippleSine(i), _) => ripple(i).sin(),
@@ -137,7 +144,7 @@ impl DryTerms {
         acceleration: f64,
         per_torque: f64,
     ) -> f64 {
-        let near = self.near_rest.filter(|n| at.speed < GONE * n.speed_rad_s).map(|n| {
+        let near = self.near_rest.filter(|n| n.acts_at(at.speed)).map(|n| {
             let moves = STEP * n.speed_rad_s / acceleration.abs();
             let growth = if at.speed < n.speed_rad_s { LET_GO } else { GROWTH };
             moves.min(growth * n.speed_rad_s / (per_torque * n.torque_nm).abs())
@@ -148,7 +155,30 @@ impl DryTerms {
 }
 
 impl NearRest {
-    fn falloff(&self, speed: f64) -> f64 {
-        (speed / self.speed_rad_s).max(BEYOND).neg().exp()
+    /// What of it is there at a speed.
+    fn share(&self, speed: f64) -> f64 {
+        self.falloff.share(self.ratio(speed))
+    }
+
+    /// By how much that falls as the speed rises by v_s.
+    fn falls(&self, speed: f64) -> f64 {
+        let steeper = match self.falloff {
+            Falloff::Exponential => 1.0,
+            Falloff::Gaussian => 2.0 * self.ratio(speed),
+        };
+        steeper * self.share(speed)
+    }
+
+    fn ratio(&self, speed: f64) -> f64 {
+        (speed / self.speed_rad_s).max(BEYOND)
+    }
+
+    /// Whether anything is left of it at a speed.
+    pub(super) fn acts_at(&self, speed: f64) -> bool {
+        let gone = match self.falloff {
+            Falloff::Exponential => GONE[0],
+            Falloff::Gaussian => GONE[1],
+        };
+        speed < gone * self.speed_rad_s
     }
 }

@@ -13,7 +13,7 @@ const AGREE: f64 = 1e-14;
 #[derive(Debug, Clone)]
 pub(super) struct Friction {
     pub(super) coulomb: f64,
-    offset: f64,
+    pub(super) offset: f64,
     pub(super) terms: DryTerms,
 }
 
@@ -100,6 +100,25 @@ impl Friction {
             Parameter::Coulomb => at.sign,
             Parameter::Offset => 1.0,
             _ => self.terms.by(p, at),
+        }
+    }
+
+    /// Its level g against the motion, without the offset.
+    pub(super) fn level(&self, at: Place) -> f64 {
+        self.coulomb + self.terms.braking_nm(at.angle, at.speed)
+    }
+
+    /// Derivatives of the level by angle and velocity.
+    pub(super) fn level_slopes(&self, at: Place) -> [f64; 2] {
+        // The level is the torque over the direction.
+        self.terms.slopes(at).map(|slope| at.sign * slope)
+    }
+
+    /// Its derivative by a parameter of its own.
+    pub(super) fn level_by(&self, p: Parameter, at: Place) -> f64 {
+        match p {
+            Parameter::Offset => 0.0,
+            _ => at.sign * self.by_at(p, at),
         }
     }
 

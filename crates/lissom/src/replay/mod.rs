@@ -6,6 +6,7 @@
 
 mod arm;
 mod arm_modes;
+mod bristles;
 mod dry_terms;
 mod events;
 mod friction;
@@ -16,6 +17,7 @@ mod noise;
 mod parameter;
 mod point_masses;
 mod prediction;
+mod presliding;
 mod rates;
 mod series;
 mod sums;
@@ -25,6 +27,7 @@ mod window;
 
 pub use arm::{MOST_MODES, ModalArm, Oscillator};
 pub use arm_modes::ArmModes;
+pub use bristles::Bristles;
 pub use dry_terms::{DryTerms, NearRest, Ripple};
 pub use noise::SensorNoise;
 pub use parameter::{Parameter, free_parameters};

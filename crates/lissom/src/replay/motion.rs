@@ -1,5 +1,6 @@
 //! The replayed arm in motion: whole pieces of samples stuck or slipping, and their tangents.
 
+use super::bristles::Bent;
 use super::friction::{Ends, Friction, Held, sign};
 use super::parameter::Parameter;
 use super::rates::{Phases, Rates};
@@ -36,7 +37,7 @@ impl Torque {
         Ramp { from: self.from, slope: (self.to - self.from) / duration_s }
     }
     /// Between two shares of its duration.
-    fn part(self, from: f64, to: f64) -> Self {
+    pub(super) fn part(self, from: f64, to: f64) -> Self {
         let at = |share: f64| self.from + share * (self.to - self.from);
         let lag = |share: f64| self.by_lag[0] + share * (self.by_lag[1] - self.by_lag[0]);
         Self { from: at(from), to: at(to), by_lag: [lag(from), lag(to)] }
@@ -71,6 +72,8 @@ pub(super) struct Motion<const D: usize> {
     pub(super) x: [f64; D],
     pub(super) tangents: Tangents<D>,
     pub(super) mode: Mode,
+    /// Where the joint rests on bristles.
+    pub(super) bristles: Bent,
     /// Time spent stuck \[s\].
     pub(super) stuck_s: f64,
     /// ∫ friction's torque dt \[N·m·s\], where it is wanted.
@@ -107,7 +110,7 @@ impl<const D: usize> Mover<D> {
         first
     }
 
-    fn halvings(&self) -> usize {
+    pub(super) fn halvings(&self) -> usize {
         if self.friction.terms.is_empty() { 0 } else { HALVINGS }
     }
 
@@ -120,6 +123,9 @@ impl<const D: usize> Mover<D> {
 
     /// Friction's torque on the motor now: what holds it, or what it slips against.
     pub(super) fn friction_torque(&self, motion: &Motion<D>, torque: f64) -> f64 {
+        if self.friction.terms.bristles.is_some() {
+            return self.bristle_torque(motion);
+        }
         match motion.mode {
             Mode::Forward => self.friction.torque(&motion.x, 0),
             Mode::Backward => self.friction.torque(&motion.x, 1),
@@ -134,17 +140,23 @@ impl<const D: usize> Mover<D> {
 
     /// The motor's acceleration now.
     pub(super) fn motor_acceleration(&self, motion: &Motion<D>, torque: f64) -> f64 {
-        match motion.mode {
-            Mode::Stick => 0.0,
-            Mode::Forward => self.acceleration(&motion.x, torque, 0),
-            Mode::Backward => self.acceleration(&motion.x, torque, 1),
+        let Some(direction) = direction(motion.mode) else { return 0.0 };
+        let own = self.acceleration(&motion.x, torque, direction);
+        if self.friction.terms.bristles.is_none() {
+            return own;
         }
+        let rubs = self.friction.torque(&motion.x, direction) - self.bristle_torque(motion);
+        own + self.phases.slip[direction].b[1] * rubs
     }
 
     /// Moves on over prepared piece number `piece`, in parts where friction changes on the way.
     pub(super) fn advance(&self, motion: &mut Motion<D>, piece: usize, torque: Torque) {
         if self.halvings() == 0 {
             self.part(motion, piece, torque);
+            return;
+        }
+        if let Some(bristles) = &self.friction.terms.bristles {
+            self.over_bristles(motion, bristles, piece, torque);
             return;
         }
         let all = 1_usize << HALVINGS;
@@ -187,7 +199,7 @@ impl<const D: usize> Mover<D> {
 
     /// A motor at rest under a torque that has just changed: held or let go.
     fn settle(&self, motion: &mut Motion<D>, torque: f64) {
-        if motion.x[1] == 0.0 {
+        if motion.x[1] == 0.0 && self.friction.terms.bristles.is_none() {
             motion.mode = self.mode_at_rest(&motion.x, torque);
         }
     }

@@ -36,6 +36,10 @@ pub enum Parameter {
     RippleSine(usize),
     /// Waves of a ripple per angle.
     RippleRate(usize),
+    /// Stiffness σ0 of the bristles.
+    BristleStiffness,
+    /// Damping σ1 of the bristles.
+    BristleDamping,
     /// Lag of the command.
     CommandLag,
     /// r of a tip (first) and a mode (second).
@@ -78,7 +82,9 @@ impl Parameter {
             | Self::NearRestSpeed
             | Self::RippleCosine(_)
             | Self::RippleSine(_)
-            | Self::RippleRate(_) => Enters::Torque,
+            | Self::RippleRate(_)
+            | Self::BristleStiffness
+            | Self::BristleDamping => Enters::Torque,
             Self::CommandLag => Enters::Lag,
             Self::Shape(..) | Self::ShapeShare(..) => Enters::Output,
         }
@@ -88,7 +94,12 @@ impl Parameter {
     pub fn is_scale(self) -> bool {
         matches!(
             self,
-            Self::Inertia | Self::Frequency(_) | Self::Stiffness(_) | Self::NearRestSpeed
+            Self::Inertia
+                | Self::Frequency(_)
+                | Self::Stiffness(_)
+                | Self::NearRestSpeed
+                | Self::BristleStiffness
+                | Self::BristleDamping
         )
     }
 
@@ -109,7 +120,9 @@ impl Parameter {
             | Self::Stiffness(_)
             | Self::Frequency(_)
             | Self::NearRestSpeed
-            | Self::RippleRate(_) => positive(self.of(arm).abs(), 1.0),
+            | Self::RippleRate(_)
+            | Self::BristleStiffness
+            | Self::BristleDamping => positive(self.of(arm).abs(), 1.0),
             Self::CommandLag => positive(self.of(arm), 1e-3),
             _ => 1.0,
         }
@@ -133,6 +146,8 @@ impl Parameter {
             Self::RippleCosine(i) => format!("ripple-cosine-{}", i + 1),
             Self::RippleSine(i) => format!("ripple-sine-{}", i + 1),
             Self::RippleRate(i) => format!("ripple-rate-{}", i + 1),
+            Self::BristleStiffness => "bristle-stiffness".to_owned(),
+            Self::BristleDamping => "bristle-damping".to_owned(),
             Self::CommandLag => "command-lag".to_owned(),
             Self::Shape(i, j) | Self::ShapeShare(i, j) => format!("shape-{}-{}", i + 1, j + 1),
         }
@@ -157,6 +172,10 @@ impl Parameter {
             Self::RippleCosine(i) => arm.dry_terms.ripples[i].cosine_nm,
             Self::RippleSine(i) => arm.dry_terms.ripples[i].sine_nm,
             Self::RippleRate(i) => arm.dry_terms.ripples[i].per_rad,
+            Self::BristleStiffness => {
+                arm.dry_terms.bristles.map_or(0.0, |b| b.stiffness_nm_per_rad)
+            }
+            Self::BristleDamping => arm.dry_terms.bristles.map_or(0.0, |b| b.damping_nm_s_per_rad),
             Self::CommandLag => arm.command_lag_s,
             Self::Shape(i, j) | Self::ShapeShare(i, j) => arm.shapes[i][j],
         }
@@ -188,6 +207,12 @@ impl Parameter {
             Self::RippleCosine(i) => arm.dry_terms.ripples[i].cosine_nm = value,
             Self::RippleSine(i) => arm.dry_terms.ripples[i].sine_nm = value,
             Self::RippleRate(i) => arm.dry_terms.ripples[i].per_rad = value,
+            Self::BristleStiffness => {
+                arm.dry_terms.bristles.iter_mut().for_each(|b| b.stiffness_nm_per_rad = value);
+            }
+            Self::BristleDamping => {
+                arm.dry_terms.bristles.iter_mut().for_each(|b| b.damping_nm_s_per_rad = value);
+            }
             Self::CommandLag => arm.command_lag_s = value,
             Self::Shape(i, j) => arm.shapes[i][j] = value,
             Self::ShapeShare(i, j) => {

@@ -11,7 +11,7 @@ impl LawFit {
     /// a term that the replay does not know.
     pub(crate) fn put_into(&self, arm: &mut ModalArm, back_emf_viscous: f64) -> bool {
         let unknown = self.terms.iter().any(|(term, _)| match term {
-            LawTerm::Root | LawTerm::AfterTravel { .. } => true,
+            LawTerm::Root | LawTerm::AfterTravel { .. } | LawTerm::Bristles { .. } => true,
             LawTerm::NearRest { falloff, .. } => *falloff != Falloff::Exponential,
             _ => false,
         });
@@ -42,8 +42,8 @@ fn add(arm: &mut ModalArm, term: LawTerm, amplitude: &[Estimate]) {
             arm.viscous_nm_s_per_rad[0] += d.value;
             arm.viscous_nm_s_per_rad[1] -= d.value;
         }
-        (LawTerm::NearRest { speed, .. }, [a]) => {
-            let near = NearRest { torque_nm: a.value, speed_rad_s: speed };
+        (LawTerm::NearRest { speed, falloff }, [a]) => {
+            let near = NearRest { torque_nm: a.value, speed_rad_s: speed, falloff };
             arm.dry_terms.near_rest = Some(near);
         }
         (LawTerm::Ripple { per_angle }, [cosine, sine, ..]) => {

@@ -3,7 +3,7 @@
 
 use super::OutputErrorStart;
 use super::data::Masks;
-use super::figures::stands;
+use super::figures::{BEYOND, stands};
 use super::left_over::left_over;
 use super::stages::{Fit, Fitting, Report, SLOWER};
 use super::{evidence, law, modes};
@@ -18,6 +18,9 @@ const ALIKE: f64 = 0.05;
 /// has not all that moves.
 const LEFT: f64 = 0.003;
 
+/// Arms that are tried on bristles, at most.
+const MOST_ON_BRISTLES: usize = 2;
+
 /// Where a search has come to.
 pub(super) struct Attempt {
     pub(super) fit: Fit,
@@ -29,17 +32,26 @@ pub(super) struct Attempt {
 }
 
 /// The first attempt that describes the runs, else the one that comes nearest. Where more than the
-/// sensors' noise is left it is made again more slowly, from other frequencies of the highest mode, too.
+/// sensors' noise is left it is made again more slowly, from other frequencies of the highest mode, too. A joint
+/// that sticks is put on bristles where it does not describe the runs.
 /// Where no other law of friction describes the runs either: one under the simplest law.
 pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<Attempt> {
     let arms = likely_first(fitting, start);
     let mut best: Option<Attempt> = None;
     for (i, arm) in arms.iter().enumerate() {
-        let Some(found) = attempt(fitting, arm, start.first_window_s) else { continue };
-        if best.is_none() && i + 1 == arms.len() {
-            // There is no other: whether it stands takes a replay to tell.
-            best = Some(found);
-            break;
+        let Some(mut found) = attempt(fitting, arm, start.first_window_s) else { continue };
+        if best.is_none() {
+            if !found.describes_whole_runs(fitting)
+                && let Some(yields) = on_bristles(fitting, &arms, start.first_window_s)
+                && yields.stands(fitting)
+            {
+                found = yields;
+            }
+            if i + 1 == arms.len() {
+                // There is no other: whether it stands takes a replay to tell.
+                best = Some(found);
+                break;
+            }
         }
         let stands = found.stands(fitting);
         if stands || best.as_ref().is_none_or(|b| found.nearness(fitting) > b.nearness(fitting)) {
@@ -49,7 +61,15 @@ pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<At
             break;
         }
     }
-    let found = again(fitting, best?, start.first_window_s);
+    let mut found = again(fitting, best?, start.first_window_s);
+    if is_left(&found.left)
+        && found.fit.body.arm.dry_terms.bristles.is_none()
+        && let Some(yields) = on_bristles(fitting, &arms, start.first_window_s)
+        && yields.stands(fitting)
+        && !is_left(&yields.left)
+    {
+        found = yields;
+    }
     let lawful = !found.fit.body.arm.dry_terms.is_empty();
     if !lawful || found.stands(fitting) {
         return Some(found);
@@ -159,6 +179,10 @@ fn settle(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
 fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> Attempt {
     let mut best = first;
     let caught = is_left(&best.left);
+    if best.fit.body.arm.dry_terms.bristles.is_some() {
+        // What bristles leave is of the law or of the steps that they are followed in.
+        return best;
+    }
     if !best.fit.whole_runs || !(caught || modes::highest_is_faint(fitting, &best.fit)) {
         return best;
     }
@@ -181,7 +205,31 @@ fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> 
     best
 }
 
+/// From the likeliest arms, their joints on bristles: the one that a few steps on short windows promise most from.
+fn on_bristles(
+    fitting: &Fitting<'_>,
+    arms: &[ModalArm],
+    first_window_s: Option<f64>,
+) -> Option<Attempt> {
+    let arms = &arms[..arms.len().min(MOST_ON_BRISTLES)];
+    let shortest = arms.iter().map(|arm| fitting.first_window_s(arm)).fold(f64::INFINITY, f64::min);
+    let window_s = first_window_s.unwrap_or(shortest);
+    let probed = |arm: ModalArm| {
+        let fit = fitting.first_fit(&arm, window_s)?;
+        Some((fitting.probe(&fit)?.0, arm))
+    };
+    let bristled = arms.iter().flat_map(|arm| law::bristled(fitting.campaign, arm));
+    let probed = bristled.filter_map(probed);
+    let (_, arm) = probed.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    attempt(fitting, &arm, first_window_s)
+}
+
 impl Attempt {
+    /// As far as that can be told without a replay.
+    fn describes_whole_runs(&self, fitting: &Fitting<'_>) -> bool {
+        self.fit.whole_runs && fitting.beyond_noise(&self.fit) < BEYOND
+    }
+
     fn stands(&self, fitting: &Fitting<'_>) -> bool {
         let covariance = fitting.covariances(&self.fit).larger();
         stands(

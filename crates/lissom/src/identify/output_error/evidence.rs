@@ -21,6 +21,8 @@ const SHARE: f64 = 1e-4;
 const LARGE: f64 = 0.02;
 /// Residual beside the noise of the samples from which on friction may have another law.
 const BEYOND_NOISE: f64 = 1.2;
+/// The same of a joint on bristles, whose level seldom is one constant.
+const BEYOND_NOISE_ON_BRISTLES: f64 = 1.02;
 /// Share of what is beyond the noise that another law may leave: a term takes some of anything else too.
 const LAW_LEAVES: f64 = 0.7;
 /// Share of the cost by which point masses may leave more than free modes.
@@ -77,7 +79,9 @@ pub(super) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) 
 /// Adds a term to friction's law where more than the sensors' noise is left, and it promises to take
 /// more than the share `least` of that; tells whether it did.
 fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: f64) -> bool {
-    if !fitting.tries_laws || fitting.beyond_noise(fit) < BEYOND_NOISE {
+    let bristles = fit.body.arm.dry_terms.bristles.is_some();
+    let beyond = if bristles { BEYOND_NOISE_ON_BRISTLES } else { BEYOND_NOISE };
+    if !fitting.tries_laws || fitting.beyond_noise(fit) < beyond {
         return false;
     }
     let Some((trial, found)) = law::best(fitting, fit, least) else { return false };

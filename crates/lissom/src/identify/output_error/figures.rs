@@ -4,9 +4,9 @@ use nalgebra::DMatrix;
 
 use super::attempts::is_left;
 use super::{AT_NOISE, OutputError};
-use crate::drive::Falloff;
 use crate::identify::{
-    Beam, Estimate, Friction, LawTerm, ModeEstimate, NearRestEstimate, RippleEstimate,
+    Beam, BristlesEstimate, Estimate, Friction, LawTerm, ModeEstimate, NearRestEstimate,
+    RippleEstimate,
 };
 use crate::record::{Channels, TipQuantity};
 use crate::replay::{ModalArm, Parameter};
@@ -31,13 +31,24 @@ impl OutputError {
             viscous_by_direction: split.then(|| (viscous(0), viscous(1))),
             near_rest: self.near_rest(),
             ripples: self.ripples(),
+            bristles: self.bristles(),
         }
+    }
+
+    fn bristles(&self) -> Option<BristlesEstimate> {
+        let bends = |arm: &ModalArm| arm.coulomb_nm / Parameter::BristleStiffness.of(arm);
+        Some(BristlesEstimate {
+            stiffness: self.estimate(Parameter::BristleStiffness)?,
+            damping: self.estimate(Parameter::BristleDamping)?,
+            travel: self.figure(bends),
+        })
     }
 
     fn near_rest(&self) -> Option<NearRestEstimate> {
         let torque = self.estimate(Parameter::NearRest)?;
         let speed = self.estimate(Parameter::NearRestSpeed)?;
-        Some(NearRestEstimate { torque, speed, falloff: Falloff::Exponential })
+        let falloff = self.arm.dry_terms.near_rest?.falloff;
+        Some(NearRestEstimate { torque, speed, falloff })
     }
 
     fn ripples(&self) -> Vec<RippleEstimate> {
@@ -64,6 +75,9 @@ impl OutputError {
         }
         for r in self.ripples() {
             terms.push((LawTerm::Ripple { per_angle: r.per_angle.value }, vec![r.torque]));
+        }
+        if let Some(b) = self.bristles() {
+            terms.push((LawTerm::Bristles { travel: b.travel.value }, vec![b.travel]));
         }
         terms
     }

@@ -5,14 +5,18 @@ use std::f64::consts::SQRT_2;
 use super::evidence::{self, EVEN, Extension};
 use super::stages::{Fit, Fitting, Report};
 use super::windows::fastest_rad_s;
+use crate::drive::Falloff;
 use crate::identify::LawTerm;
-use crate::record::Run;
-use crate::replay::{DryTerms, NearRest, Parameter, Ripple};
+use crate::identify::channel_check::range;
+use crate::record::{Campaign, Run};
+use crate::replay::{Bristles, DryTerms, ModalArm, NearRest, Parameter, Ripple};
 
 /// Speeds over which friction near rest is tried to change, as shares of the fastest.
 const NEAR_REST: [f64; 4] = [0.02, 0.06, 0.2, 0.6];
 /// Most ripples.
 const MOST_RIPPLES: usize = 2;
+/// How far bristles may bend before they slip, as shares of the travel.
+const BENDS: [f64; 3] = [3e-4, 1.5e-3, 8e-3];
 /// Residual beside the noise from which on ripples are looked for at all periods: a mode that is missing
 /// leaves less.
 const FAR: f64 = 3.0;
@@ -85,6 +89,26 @@ pub(super) fn as_line(fitting: &Fitting<'_>, fit: &Fit) -> Option<(Fit, Report)>
     Some((line, report))
 }
 
+/// The arm with its joint on bristles, of several stiffnesses: how far they bend before they slip, as shares of the
+/// largest travel of a run. They are damped as if the motor on them were, at half of critical.
+pub(super) fn bristled(campaign: &Campaign, arm: &ModalArm) -> Vec<ModalArm> {
+    let travel = campaign.runs.iter().map(|run| range(run.motor())).fold(0.0, f64::max);
+    if !(travel > 0.0 && arm.coulomb_nm > 0.0) {
+        return Vec::new();
+    }
+    let with = |share: &f64| {
+        let stiffness_nm_per_rad = arm.coulomb_nm / (share * travel);
+        let damping_nm_s_per_rad = (stiffness_nm_per_rad * arm.inertia_kg_m2).sqrt();
+        let mut arm = arm.clone();
+        arm.dry_terms.bristles = Some(Bristles { stiffness_nm_per_rad, damping_nm_s_per_rad });
+        if let Some(near) = &mut arm.dry_terms.near_rest {
+            near.falloff = Falloff::Gaussian;
+        }
+        arm
+    };
+    BENDS.iter().map(with).collect()
+}
+
 /// Whether the line leaves no more than the two numbers that it lacks are worth.
 pub(super) fn is_line(fitting: &Fitting<'_>, fit: &Fit, line: &Fit) -> bool {
     let lacks = fit.free.iter().filter(|p| is_near_rest(**p)).count();
@@ -150,7 +174,12 @@ fn trials(fitting: &Fitting<'_>, fit: &Fit) -> Vec<LawTrial> {
         });
         let speeds = seen.chain(NEAR_REST.map(|share| share * fastest));
         for speed_rad_s in speeds.filter(|speed| *speed > 0.0) {
-            let near_rest = Some(NearRest { torque_nm: 0.0, speed_rad_s });
+            // What bristles go with, as a rule.
+            let falloff = match terms.bristles {
+                Some(_) => Falloff::Gaussian,
+                None => Falloff::Exponential,
+            };
+            let near_rest = Some(NearRest { torque_nm: 0.0, speed_rad_s, falloff });
             found.push(LawTrial {
                 terms: DryTerms { near_rest, ..terms.clone() },
                 amplitude: vec![Parameter::NearRest],

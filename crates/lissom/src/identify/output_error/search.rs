@@ -8,7 +8,7 @@ use super::windows::fastest_rad_s;
 use crate::information::{Reduced, inverse};
 use crate::record::{Campaign, Run};
 use crate::replay::{
-    ModalArm, Oscillator, Parameter, Ripple, Sampling, Window, WindowSums, costs, sums,
+    Bristles, ModalArm, Oscillator, Parameter, Ripple, Sampling, Window, WindowSums, costs, sums,
 };
 
 /// Damping of the first step, relative to the diagonal; and over sensors' steps, whose edges refuse long ones.
@@ -37,6 +37,9 @@ const LARGEST_TURN: f64 = 4.5;
 const FASTEST_RIPPLE: f64 = 16.0;
 /// Speed over which friction near rest may change, at least, as a share of the fastest.
 const SLOWEST_LAW: f64 = 1e-3;
+/// Largest angle by which a motor may swing on its bristles in a sample \[rad\], and rate at which they may damp
+/// it over a sample: stiffer ones hold it as if it stuck, and take ever shorter steps to follow.
+const LARGEST_SWING: f64 = 30.0;
 /// A window whose cost per sample is this many times the usual one counts half in a robust search.
 const ROBUST: f64 = 10.0;
 
@@ -258,7 +261,12 @@ fn is_braking(campaign: &Campaign, arm: &ModalArm, sample_s: f64) -> bool {
         let turn = r.per_rad * fastest * sample_s;
         turn > 0.0 && turn < FASTEST_RIPPLE
     };
-    terms.near_rest.is_none_or(|n| n.speed_rad_s > SLOWEST_LAW * fastest)
+    let swings = |b: Bristles| {
+        let rate = (b.stiffness_nm_per_rad / arm.inertia_kg_m2).sqrt();
+        rate.max(b.damping_nm_s_per_rad / arm.inertia_kg_m2) * sample_s
+    };
+    terms.bristles.is_none_or(|b| swings(b) < LARGEST_SWING)
+        && terms.near_rest.is_none_or(|n| n.speed_rad_s > SLOWEST_LAW * fastest)
         && terms.ripples.iter().all(turns)
         && arm.coulomb_nm + near > waves
 }
