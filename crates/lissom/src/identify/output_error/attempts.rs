@@ -5,21 +5,24 @@ use super::OutputErrorStart;
 use super::data::Masks;
 use super::figures::{BEYOND, stands};
 use super::left_over::left_over;
-use super::stages::{Fit, Fitting, Report, SLOWER};
+use super::stages::{Fit, Fitting, Report, SLOWER, STEPS_OF_A_PROBE};
 use super::{evidence, law, modes};
 use crate::replay::{ModalArm, Oscillator};
 
 /// An arm is tried after the others where a few steps on short windows leave this many times what they
 /// leave from the best.
 const FAR: f64 = 3.0;
+/// Steps of a probe with bristles, which ask for more than others.
+const STEPS_ON_BRISTLES: usize = 20;
 /// Modes are the same to this share.
 const ALIKE: f64 = 0.05;
 /// Share of a channel's squared residual that is slower than its sensor's noise, from which on the arm
 /// has not all that moves.
 const LEFT: f64 = 0.003;
 
-/// Arms that are tried on bristles, at most.
-const MOST_ON_BRISTLES: usize = 2;
+/// Cost on short windows, beside that of a joint that sticks, with which bristles are worth a search: a few steps
+/// do not bring them all the way.
+const NO_MORE: f64 = 1.05;
 
 /// Where a search has come to.
 pub(super) struct Attempt {
@@ -38,14 +41,13 @@ pub(super) struct Attempt {
 pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<Attempt> {
     let arms = likely_first(fitting, start);
     let mut best: Option<Attempt> = None;
+    let mut tried_bristles = false;
     for (i, arm) in arms.iter().enumerate() {
         let Some(mut found) = attempt(fitting, arm, start.first_window_s) else { continue };
         if best.is_none() {
-            if !found.describes_whole_runs(fitting)
-                && let Some(yields) = on_bristles(fitting, &arms, start.first_window_s)
-                && yields.stands(fitting)
-            {
-                found = yields;
+            if !found.describes_whole_runs(fitting) {
+                tried_bristles = true;
+                found = on_bristles(fitting, &found, arm, start.first_window_s).unwrap_or(found);
             }
             if i + 1 == arms.len() {
                 // There is no other: whether it stands takes a replay to tell.
@@ -62,10 +64,9 @@ pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<At
         }
     }
     let mut found = again(fitting, best?, start.first_window_s);
-    if is_left(&found.left)
-        && found.fit.body.arm.dry_terms.bristles.is_none()
-        && let Some(yields) = on_bristles(fitting, &arms, start.first_window_s)
-        && yields.stands(fitting)
+    if !tried_bristles
+        && is_left(&found.left)
+        && let Some(yields) = on_bristles(fitting, &found, &arms[0], start.first_window_s)
         && !is_left(&yields.left)
     {
         found = yields;
@@ -97,7 +98,8 @@ fn likely_first(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Vec<ModalArm
     let shortest = start.arms.iter().map(window_s).fold(f64::INFINITY, f64::min);
     let window_s = start.first_window_s.unwrap_or(shortest);
     let probed = |arm: &ModalArm| {
-        let found = fitting.first_fit(arm, window_s).and_then(|fit| fitting.probe(&fit));
+        let found =
+            fitting.first_fit(arm, window_s).and_then(|fit| fitting.probe(&fit, STEPS_OF_A_PROBE));
         found.map_or((f64::INFINITY, arm.clone()), |(cost, body)| (cost, body.arm))
     };
     let probed: Vec<(f64, ModalArm)> = start.arms.iter().map(probed).collect();
@@ -179,11 +181,12 @@ fn settle(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
 fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> Attempt {
     let mut best = first;
     let caught = is_left(&best.left);
-    if best.fit.body.arm.dry_terms.bristles.is_some() {
-        // What bristles leave is of the law or of the steps that they are followed in.
-        return best;
-    }
-    if !best.fit.whole_runs || !(caught || modes::highest_is_faint(fitting, &best.fit)) {
+    // On bristles a replay takes many times as long.
+    let faint = || {
+        best.fit.body.arm.dry_terms.bristles.is_none()
+            && modes::highest_is_faint(fitting, &best.fit)
+    };
+    if !best.fit.whole_runs || !(caught || faint()) {
         return best;
     }
     // Not for another law: that has had its trial.
@@ -205,23 +208,30 @@ fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> 
     best
 }
 
-/// From the likeliest arms, their joints on bristles: the one that a few steps on short windows promise most from.
+/// An arm on bristles that stands, beside an attempt whose joint sticks: from where that was on short windows and
+/// from the arm that it began with, by the bristles that a few steps on such windows promise most from. Not where
+/// these come to more than the joint that sticks does there.
 fn on_bristles(
     fitting: &Fitting<'_>,
-    arms: &[ModalArm],
+    sticks: &Attempt,
+    began_with: &ModalArm,
     first_window_s: Option<f64>,
 ) -> Option<Attempt> {
-    let arms = &arms[..arms.len().min(MOST_ON_BRISTLES)];
-    let shortest = arms.iter().map(|arm| fitting.first_window_s(arm)).fold(f64::INFINITY, f64::min);
-    let window_s = first_window_s.unwrap_or(shortest);
+    let first = sticks.report.stages.first()?;
+    let short = sticks.report.stages.iter().take_while(|s| s.window_s <= first.window_s);
+    let arm = &short.last()?.arm;
     let probed = |arm: ModalArm| {
-        let fit = fitting.first_fit(&arm, window_s)?;
-        Some((fitting.probe(&fit)?.0, arm))
+        let fit = fitting.first_fit(&arm, first.window_s)?;
+        let (cost, body) = fitting.probe(&fit, STEPS_ON_BRISTLES)?;
+        Some((cost, body.arm))
     };
-    let bristled = arms.iter().flat_map(|arm| law::bristled(fitting.campaign, arm));
-    let probed = bristled.filter_map(probed);
-    let (_, arm) = probed.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    attempt(fitting, &arm, first_window_s)
+    let least = probed(arm.clone())?.0;
+    let bristled = [arm, began_with].into_iter().flat_map(|a| law::bristled(fitting.campaign, a));
+    let (cost, arm) = bristled.filter_map(probed).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    if cost > NO_MORE * least {
+        return None;
+    }
+    attempt(fitting, &arm, first_window_s).filter(|found| found.stands(fitting))
 }
 
 impl Attempt {

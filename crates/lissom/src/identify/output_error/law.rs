@@ -63,7 +63,9 @@ pub(super) fn best(
         return best;
     }
     let terms = &fit.body.arm.dry_terms;
-    let open = terms.ripples.len() < MOST_RIPPLES && fitting.beyond_noise(fit) > FAR;
+    let open = terms.ripples.len() < MOST_RIPPLES
+        && terms.bristles.is_none()
+        && fitting.beyond_noise(fit) > FAR;
     let found = open.then(|| strongest_ripple(fitting, fit)).flatten()?;
     Some(promise(rippled(terms, found)))
 }

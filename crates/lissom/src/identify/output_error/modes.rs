@@ -2,7 +2,7 @@
 
 use super::coordinates::Body;
 use super::covariance::deviation;
-use super::stages::{Fit, Fitting, Report};
+use super::stages::{Fit, Fitting, Report, STEPS_OF_A_PROBE};
 use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
 
 /// A mode is in doubt whose stiffness is not this many deviations from zero…
@@ -110,7 +110,7 @@ fn with_one_more(fitting: &Fitting<'_>, fit: &Fit, report: &mut Report) -> Fit {
         };
         for body in bodies {
             let start = refreed(fitting, Fit { body, ..beyond.clone() });
-            let Some((cost, body)) = fitting.probe(&start) else { continue };
+            let Some((cost, body)) = fitting.probe(&start, STEPS_OF_A_PROBE) else { continue };
             if best.as_ref().is_none_or(|(least, _)| cost < *least) {
                 best = Some((cost, Fit { body, ..start }));
             }
@@ -127,7 +127,7 @@ fn with_one_more(fitting: &Fitting<'_>, fit: &Fit, report: &mut Report) -> Fit {
 /// The highest mode at another frequency, if a few steps from there come to less than from here: now
 /// that the other figures are about right the cost tells.
 fn retuned(fitting: &Fitting<'_>, fit: &Fit) -> Option<Fit> {
-    let (least, _) = fitting.probe(fit)?;
+    let (least, _) = fitting.probe(fit, STEPS_OF_A_PROBE)?;
     let others = RETUNED.iter().filter_map(|times| probed(fitting, fit, *times));
     let others = others.filter(|(cost, _)| *cost < least);
     others.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, other)| other)
@@ -143,7 +143,7 @@ fn probed(fitting: &Fitting<'_>, fit: &Fit, times: f64) -> Option<(f64, Fit)> {
         let (angle, speed) = (window.start[0], window.start[1]);
         window.start[2 + 2 * mode..4 + 2 * mode].copy_from_slice(&[angle, speed]);
     }
-    let (cost, body) = fitting.probe(&other)?;
+    let (cost, body) = fitting.probe(&other, STEPS_OF_A_PROBE)?;
     Some((cost, Fit { body, ..other }))
 }
 

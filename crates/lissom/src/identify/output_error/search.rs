@@ -39,7 +39,7 @@ const FASTEST_RIPPLE: f64 = 16.0;
 const SLOWEST_LAW: f64 = 1e-3;
 /// Largest angle by which a motor may swing on its bristles in a sample \[rad\], and rate at which they may damp
 /// it over a sample: stiffer ones hold it as if it stuck, and take ever shorter steps to follow.
-const LARGEST_SWING: f64 = 30.0;
+const LARGEST_SWING: f64 = 12.0;
 /// A window whose cost per sample is this many times the usual one counts half in a robust search.
 const ROBUST: f64 = 10.0;
 

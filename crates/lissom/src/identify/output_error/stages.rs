@@ -26,7 +26,7 @@ const STEPS_ON_THE_WAY: usize = 12;
 /// Samples replayed on that way, about.
 const SAMPLES_ON_THE_WAY: usize = 40_000;
 /// Steps of a probe, and samples replayed for it, about.
-const STEPS_OF_A_PROBE: usize = 8;
+pub(super) const STEPS_OF_A_PROBE: usize = 8;
 const SAMPLES_OF_A_PROBE: usize = 15_000;
 /// On the way, and where more than noise is left, a step is not worth a replay that promises less
 /// than this share of the cost.
@@ -338,9 +338,9 @@ impl Fitting<'_> {
         (point, stop)
     }
 
-    /// A few steps on a part of the windows: the cost that they come to, and the body. `None` where a
+    /// At most so many steps on a part of the windows: the cost that they come to, and the body. `None` where a
     /// mode is too fast for the samples.
-    pub(super) fn probe(&self, fit: &Fit) -> Option<(f64, Body)> {
+    pub(super) fn probe(&self, fit: &Fit, steps: usize) -> Option<(f64, Body)> {
         if !is_possible(self.campaign, &fit.body.arm) {
             return None;
         }
@@ -349,7 +349,7 @@ impl Fitting<'_> {
         let windows = fit.windows.iter().step_by(every).cloned().collect();
         let mut problem = self.problem(&fit.free, &fit.noise, fit.whole_runs);
         problem.near_enough = NEAR_ENOUGH;
-        let (point, ..) = problem.search(problem.at(fit.body.clone(), windows), STEPS_OF_A_PROBE);
+        let (point, ..) = problem.search(problem.at(fit.body.clone(), windows), steps);
         Some((point.sums.iter().map(|s| s.cost).sum(), point.body))
     }
 
