@@ -1,11 +1,11 @@
 //! One search after another, from this arm and from that, until one comes to an arm that describes the
 //! runs.
 
-use super::OutputErrorStart;
 use super::data::Masks;
-use super::figures::{BEYOND, stands};
+use super::figures::stands;
 use super::left_over::left_over;
 use super::stages::{Fit, Fitting, Report, SLOWER, STEPS_OF_A_PROBE};
+use super::{AT_NOISE, OutputErrorStart};
 use super::{evidence, law, modes};
 use crate::replay::{ModalArm, Oscillator};
 
@@ -36,7 +36,7 @@ pub(super) struct Attempt {
 
 /// The first attempt that describes the runs, else the one that comes nearest. Where more than the
 /// sensors' noise is left it is made again more slowly, from other frequencies of the highest mode, too. A joint
-/// that sticks is put on bristles where it does not describe the runs.
+/// that sticks is put on bristles where it does not describe the runs to the noise.
 /// Where no other law of friction describes the runs either: one under the simplest law.
 pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<Attempt> {
     let arms = likely_first(fitting, start);
@@ -45,9 +45,11 @@ pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<At
     for (i, arm) in arms.iter().enumerate() {
         let Some(mut found) = attempt(fitting, arm, start.first_window_s) else { continue };
         if best.is_none() {
-            if !found.describes_whole_runs(fitting) {
+            if !found.is_at_noise(fitting) {
                 tried_bristles = true;
-                found = on_bristles(fitting, &found, arm, start.first_window_s).unwrap_or(found);
+                let yields = on_bristles(fitting, &found, arm, start.first_window_s);
+                let nearer = |y: &Attempt| y.nearness(fitting) > found.nearness(fitting);
+                found = yields.filter(nearer).unwrap_or(found);
             }
             if i + 1 == arms.len() {
                 // There is no other: whether it stands takes a replay to tell.
@@ -235,9 +237,9 @@ fn on_bristles(
 }
 
 impl Attempt {
-    /// As far as that can be told without a replay.
-    fn describes_whole_runs(&self, fitting: &Fitting<'_>) -> bool {
-        self.fit.whole_runs && fitting.beyond_noise(&self.fit) < BEYOND
+    /// Whether it leaves of whole runs little beside what the sensors add.
+    fn is_at_noise(&self, fitting: &Fitting<'_>) -> bool {
+        self.fit.whole_runs && fitting.beyond_noise(&self.fit) < AT_NOISE
     }
 
     fn stands(&self, fitting: &Fitting<'_>) -> bool {
