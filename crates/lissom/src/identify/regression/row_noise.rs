@@ -30,7 +30,7 @@ pub(super) fn products<'a>(
     let mut sum = DMatrix::zeros(columns, columns);
     for (std, parts) in channels {
         for (place, (i, a, left)) in parts.iter().enumerate() {
-            sum[(*i, *i)] += std * std * dot(a, a);
+            sum[(*i, *i)] += std * std * left * left * dot(a, a);
             for (j, b, right) in &parts[..place] {
                 let product = std * std * left * right * dot(a, b);
                 sum[(*i, *j)] += product;
