@@ -65,8 +65,8 @@ impl fmt::Display for Law {
 }
 
 /// Relative tolerance of a step of the bristles' solver: errors add up to some 60 times as much, far
-/// below a step of any encoder.
-const BRISTLE_TOLERANCE: f64 = 1e-6;
+/// below what an identified arm tells apart.
+const BRISTLE_TOLERANCE: f64 = 1e-8;
 
 /// The joint of a law: the arm's own Coulomb friction and what stands in its place.
 ///

@@ -22,7 +22,7 @@ const LEFT: f64 = 0.003;
 
 /// Cost on short windows, beside that of a joint that sticks, with which bristles are worth a search: a few steps
 /// do not bring them all the way.
-const NO_MORE: f64 = 1.05;
+const NO_MORE: f64 = 2.0;
 
 /// Where a search has come to.
 pub(super) struct Attempt {
@@ -211,8 +211,9 @@ fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> 
 }
 
 /// An arm on bristles that stands, beside an attempt whose joint sticks: from where that was on short windows and
-/// from the arm that it began with, by the bristles that a few steps on such windows promise most from. Not where
-/// these come to more than the joint that sticks does there.
+/// from the arm that it began with, by the bristles that a few steps on such windows promise most from, and with two
+/// modes that these bring to one frequency taken for one. Not where the steps come to more than the joint that sticks
+/// does there.
 fn on_bristles(
     fitting: &Fitting<'_>,
     sticks: &Attempt,
@@ -233,6 +234,8 @@ fn on_bristles(
     if cost > NO_MORE * least {
         return None;
     }
+    let joined = modes::joined(&fitting.first_fit(&arm, first.window_s)?);
+    let arm = joined.map_or(arm, |fit| fit.body.arm);
     attempt(fitting, &arm, first_window_s).filter(|found| found.stands(fitting))
 }
 

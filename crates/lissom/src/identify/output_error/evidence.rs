@@ -21,8 +21,6 @@ const SHARE: f64 = 1e-4;
 const LARGE: f64 = 0.02;
 /// Residual beside the noise of the samples from which on friction may have another law.
 const BEYOND_NOISE: f64 = 1.2;
-/// The same of a joint on bristles, whose level seldom is one constant.
-const BEYOND_NOISE_ON_BRISTLES: f64 = 1.02;
 /// Share of what is beyond the noise that another law may leave: a term takes some of anything else too.
 const LAW_LEAVES: f64 = 0.7;
 /// Share of the cost by which point masses may leave more than free modes.
@@ -62,7 +60,8 @@ pub(super) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) 
         };
         let best = found.iter().enumerate().filter(called_for);
         let best = best.max_by(|a, b| share(a.1).total_cmp(&share(b.1))).map(|(k, _)| k);
-        let least = best.map_or(LARGE, |k| share(&found[k]).max(LARGE));
+        let floor = if is_on_bristles(fit) { SHARE } else { LARGE };
+        let least = best.map_or(floor, |k| share(&found[k]).max(floor));
         if add_to_law(fitting, fit, report, least) {
             continue;
         }
@@ -77,11 +76,12 @@ pub(super) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) 
 }
 
 /// Adds a term to friction's law where more than the sensors' noise is left, and it promises to take
-/// more than the share `least` of that; tells whether it did.
+/// more than the share `least` of that; tells whether it did. The level of bristles seldom is one constant: a term of
+/// theirs need only be likelier than none.
 fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: f64) -> bool {
-    let bristles = fit.body.arm.dry_terms.bristles.is_some();
-    let beyond = if bristles { BEYOND_NOISE_ON_BRISTLES } else { BEYOND_NOISE };
-    if !fitting.tries_laws || fitting.beyond_noise(fit) < beyond {
+    let bristles = is_on_bristles(fit);
+    let calls = bristles || fitting.beyond_noise(fit) >= BEYOND_NOISE;
+    if !fitting.tries_laws || !calls {
         return false;
     }
     let Some((trial, found)) = law::best(fitting, fit, least) else { return false };
@@ -91,13 +91,22 @@ fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: 
     let mut with = fit.clone();
     trial.put_into(&mut with);
     fitting.search(&mut with, report);
-    let better = fitting.excess(&with) <= LAW_LEAVES * fitting.excess(fit);
+    let better = if bristles {
+        let worth = EVEN * EVEN * (with.coordinates() - fit.coordinates()) as f64;
+        fitting.cost(&with, &fit.noise) + worth < fitting.cost(fit, &fit.noise)
+    } else {
+        fitting.excess(&with) <= LAW_LEAVES * fitting.excess(fit)
+    };
     if better {
         *fit = with;
         report.law_changed();
         report.added.extend(found.into_iter().map(|e| Extension { added: true, ..e }));
     }
     better
+}
+
+fn is_on_bristles(fit: &Fit) -> bool {
+    fit.body.arm.dry_terms.bristles.is_some()
 }
 
 /// Takes damping against the frame for dampers at the tips' points where these leave less than a damper

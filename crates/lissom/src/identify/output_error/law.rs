@@ -92,7 +92,8 @@ pub(super) fn as_line(fitting: &Fitting<'_>, fit: &Fit) -> Option<(Fit, Report)>
 }
 
 /// The arm with its joint on bristles, of several stiffnesses: how far they bend before they slip, as shares of the
-/// largest travel of a run. They are damped as if the motor on them were, at half of critical.
+/// largest travel of a run. They are damped as if the motor on them were, at half of critical. What stood in for them
+/// goes: ripples, and friction that falls towards rest.
 pub(super) fn bristled(campaign: &Campaign, arm: &ModalArm) -> Vec<ModalArm> {
     let travel = campaign.runs.iter().map(|run| range(run.motor())).fold(0.0, f64::max);
     if !(travel > 0.0 && arm.coulomb_nm > 0.0) {
@@ -101,12 +102,13 @@ pub(super) fn bristled(campaign: &Campaign, arm: &ModalArm) -> Vec<ModalArm> {
     let with = |share: &f64| {
         let stiffness_nm_per_rad = arm.coulomb_nm / (share * travel);
         let damping_nm_s_per_rad = (stiffness_nm_per_rad * arm.inertia_kg_m2).sqrt();
-        let mut arm = arm.clone();
-        arm.dry_terms.bristles = Some(Bristles { stiffness_nm_per_rad, damping_nm_s_per_rad });
-        if let Some(near) = &mut arm.dry_terms.near_rest {
-            near.falloff = Falloff::Gaussian;
-        }
-        arm
+        let rises = arm.dry_terms.near_rest.filter(|near| near.torque_nm > 0.0);
+        let dry_terms = DryTerms {
+            near_rest: rises.map(|near| NearRest { falloff: Falloff::Gaussian, ..near }),
+            ripples: Vec::new(),
+            bristles: Some(Bristles { stiffness_nm_per_rad, damping_nm_s_per_rad }),
+        };
+        ModalArm { dry_terms, ..arm.clone() }
     };
     BENDS.iter().map(with).collect()
 }

@@ -267,6 +267,11 @@ fn doubtful(fitting: &Fitting<'_>, fit: &Fit) -> Option<usize> {
 /// With two modes of one frequency taken for one, searched again: a start had one too many, and a search
 /// brought both to the one there is. `None` where no two are alike.
 pub(super) fn twins_joined(fitting: &Fitting<'_>, fit: &Fit, report: &mut Report) -> Option<Fit> {
+    joined(fit).map(|one| refitted(fitting, one, report))
+}
+
+/// With two modes of one frequency taken for one; `None` where no two are alike.
+pub(super) fn joined(fit: &Fit) -> Option<Fit> {
     let modes = &fit.body.arm.modes;
     let alike =
         |[i, j]: &[usize; 2]| (modes[*i].omega_rad_s / modes[*j].omega_rad_s - 1.0).abs() < TWINS;
@@ -278,7 +283,7 @@ pub(super) fn twins_joined(fitting: &Fitting<'_>, fit: &Fit, report: &mut Report
     for row in &mut arm.shapes {
         row[stays] += std::mem::take(&mut row[gone]);
     }
-    Some(refitted(fitting, less(&fit, gone), report))
+    Some(less(&fit, gone))
 }
 
 /// Whether `other`, of a mode less, leaves as little as `fit` does.

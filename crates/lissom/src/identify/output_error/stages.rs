@@ -131,11 +131,13 @@ pub(super) struct Report {
 }
 
 impl Report {
-    /// Whether a residual is larger than that of the first windows, under the law that they are under
+    /// Whether a residual is larger than what the first windows came to, under the law that they are under
     /// now, by what no sensor adds.
     fn grown(&self, residual: &[f64]) -> bool {
-        let first = self.stages.get(self.under_law).map_or(residual, |s| &s.residual);
-        first.iter().zip(residual).any(|(a, b)| *b > GROWN * a)
+        let under_law = self.stages.get(self.under_law..).unwrap_or_default();
+        let first = under_law.chunk_by(|a, b| a.window_s == b.window_s).next();
+        let least = first.and_then(<[_]>::last).map_or(residual, |s| &s.residual);
+        least.iter().zip(residual).any(|(a, b)| *b > GROWN * a)
     }
 
     /// Another fit was taken in the end, which these stages led to; what it has not is not added.
@@ -261,7 +263,7 @@ impl Fitting<'_> {
                 evidence::extend(self, fit, report);
                 evidence::relax(self, fit, report);
             }
-            if report.grown(&fit.residual) {
+            if report.grown(&fit.residual) || !self.is_tellable(fit) {
                 *fit = before;
                 if factor < WIDENING || self.beyond_noise(fit) > AT_NOISE {
                     return;
@@ -270,6 +272,13 @@ impl Fitting<'_> {
                 factor = SLOWER;
             }
         }
+    }
+
+    /// Whether its figures can be told from each other as far as numbers go. On bristles whose level falls with speed
+    /// a replay parts from its neighbours exponentially: over windows too long one of them outweighs all else.
+    fn is_tellable(&self, fit: &Fit) -> bool {
+        fit.body.arm.dry_terms.bristles.is_none()
+            || self.covariances(fit).white.diagonal().iter().all(|v| *v > 0.0)
     }
 
     /// Searches from where the fit is and takes its noise from what is left.
