@@ -285,13 +285,6 @@ impl<'a, const D: usize> Replayer<'a, D> {
                 *row -= by_z * z;
             }
         }
-        let torque_now = |d: usize| {
-            if bristles {
-                self.mover.friction_torque(seen.motion, seen.torque)
-            } else {
-                self.mover.friction.torque(x, d)
-            }
-        };
         for (index, p) in self.parameters.iter().enumerate() {
             let enters = p.enters(self.arm);
             if enters == Enters::Matrices {
@@ -310,7 +303,9 @@ impl<'a, const D: usize> Replayer<'a, D> {
                     Enters::Torque => -rates.b[1] * friction.by(*p, x, d),
                     Enters::Matrices => {
                         rates.row_by(index, 1, x)
-                            + rates.push_by(index, 1) * (seen.torque - torque_now(d))
+                            + rates.push_by(index, 1)
+                                * (seen.torque
+                                    - self.mover.friction_torque(seen.motion, seen.torque))
                     }
                     Enters::Lag | Enters::Output => 0.0,
                 };

@@ -2,9 +2,9 @@
 //! runs.
 
 use super::data::Masks;
-use super::figures::stands;
+use super::figures::{BEYOND, stands};
 use super::left_over::left_over;
-use super::stages::{Fit, Fitting, Report, SLOWER, STEPS_OF_A_PROBE};
+use super::stages::{Fit, Fitting, Laws, Report, SLOWER, STEPS_OF_A_PROBE};
 use super::{AT_NOISE, OutputErrorStart};
 use super::{evidence, law, modes};
 use crate::replay::{ModalArm, Oscillator};
@@ -41,15 +41,13 @@ pub(super) struct Attempt {
 pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<Attempt> {
     let arms = likely_first(fitting, start);
     let mut best: Option<Attempt> = None;
-    let mut tried_bristles = false;
+    let mut tried = false;
     for (i, arm) in arms.iter().enumerate() {
         let Some(mut found) = attempt(fitting, arm, start.first_window_s) else { continue };
         if best.is_none() {
             if !found.is_at_noise(fitting) {
-                tried_bristles = true;
-                let yields = on_bristles(fitting, &found, arm, start.first_window_s);
-                let nearer = |y: &Attempt| y.nearness(fitting) > found.nearness(fitting);
-                found = yields.filter(nearer).unwrap_or(found);
+                tried = true;
+                found = by_another_law(fitting, found, arm, start.first_window_s);
             }
             if i + 1 == arms.len() {
                 // There is no other: whether it stands takes a replay to tell.
@@ -66,12 +64,8 @@ pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<At
         }
     }
     let mut found = again(fitting, best?, start.first_window_s);
-    if !tried_bristles
-        && is_left(&found.left)
-        && let Some(yields) = on_bristles(fitting, &found, &arms[0], start.first_window_s)
-        && !is_left(&yields.left)
-    {
-        found = yields;
+    if !tried && is_left(&found.left) {
+        found = by_another_law(fitting, found, &arms[0], start.first_window_s);
     }
     let lawful = !found.fit.body.arm.dry_terms.is_empty();
     if !lawful || found.stands(fitting) {
@@ -79,7 +73,7 @@ pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<At
     }
     // Terms that do not describe the runs bend every figure: which run does not fit the others is seen
     // under the simplest law.
-    let plainly = Fitting { tries_laws: false, ..*fitting };
+    let plainly = Fitting { laws: Laws::AsStarted, ..*fitting };
     let plain = arms.iter().find(|arm| arm.dry_terms.is_empty());
     plain.and_then(|arm| attempt(&plainly, arm, start.first_window_s)).or(Some(found))
 }
@@ -131,9 +125,24 @@ fn are_alike(a: &ModalArm, b: &ModalArm) -> bool {
 
 /// From an arm to one that whole runs and the sensors' steps have shaped.
 fn attempt(fitting: &Fitting<'_>, arm: &ModalArm, first_window_s: Option<f64>) -> Option<Attempt> {
+    let (fit, report) = begin(fitting, arm, first_window_s)?;
+    Some(go_on(fitting, fit, report))
+}
+
+/// From an arm to one that the first windows have shaped.
+fn begin(
+    fitting: &Fitting<'_>,
+    arm: &ModalArm,
+    first_window_s: Option<f64>,
+) -> Option<(Fit, Report)> {
     let mut report = Report::default();
     let window_s = first_window_s.unwrap_or_else(|| fitting.first_window_s(arm));
-    let mut fit = fitting.begin(arm, window_s, &mut report)?;
+    let fit = fitting.begin(arm, window_s, &mut report)?;
+    Some((fit, report))
+}
+
+/// On to whole runs and the sensors' steps.
+fn go_on(fitting: &Fitting<'_>, mut fit: Fit, mut report: Report) -> Attempt {
     fitting.widen(&mut fit, &mut report);
     modes::grow(fitting, &mut fit, &mut report);
     modes::undamp(fitting, &mut fit, &mut report);
@@ -160,7 +169,7 @@ fn attempt(fitting: &Fitting<'_>, arm: &ModalArm, first_window_s: Option<f64>) -
         }
     }
     let left = left_over(fitting.campaign, &fit, fitting.masks);
-    Some(Attempt { fit, report, without_repeats, left })
+    Attempt { fit, report, without_repeats, left }
 }
 
 /// Which kinds of dampers there are, and whether the beam is one of point masses.
@@ -192,7 +201,7 @@ fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> 
         return best;
     }
     // Not for another law: that has had its trial.
-    let slowly = Fitting { widening: SLOWER, tries_laws: false, ..*fitting };
+    let slowly = Fitting { widening: SLOWER, laws: Laws::AsStarted, ..*fitting };
     for arm in modes::starts_again(fitting, &best.fit) {
         let Some(other) = attempt(&slowly, &arm, first_window_s) else { continue };
         let better = if caught {
@@ -210,19 +219,44 @@ fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> 
     best
 }
 
+/// What describes the runs where an attempt does not to the noise: another law of friction that only is likelier,
+/// with which nothing is left, or bristles, if these leave less. Else that attempt.
+fn by_another_law(
+    fitting: &Fitting<'_>,
+    found: Attempt,
+    began_with: &ModalArm,
+    first_window_s: Option<f64>,
+) -> Attempt {
+    let likelier = Fitting { laws: Laws::Likelier, ..*fitting };
+    let arm = found.report.on_first_windows().map(|stage| &stage.arm);
+    let lawful = arm.and_then(|arm| attempt(&likelier, arm, first_window_s));
+    let describes = |a: &Attempt| a.is_at_noise(fitting) && !is_left(&a.left);
+    if let Some(lawful) = lawful.filter(describes) {
+        return lawful;
+    }
+    let yields = on_bristles(fitting, &found, began_with, first_window_s);
+    let less = |y: &Attempt| {
+        if found.is_at_noise(fitting) {
+            !is_left(&y.left)
+        } else {
+            y.nearness(fitting) > found.nearness(fitting)
+        }
+    };
+    yields.filter(less).unwrap_or(found)
+}
+
 /// An arm on bristles that stands, beside an attempt whose joint sticks: from where that was on short windows and
 /// from the arm that it began with, by the bristles that a few steps on such windows promise most from, and with two
 /// modes that these bring to one frequency taken for one. Not where the steps come to more than the joint that sticks
-/// does there.
+/// does there, or such windows are not described on bristles either.
 fn on_bristles(
     fitting: &Fitting<'_>,
     sticks: &Attempt,
     began_with: &ModalArm,
     first_window_s: Option<f64>,
 ) -> Option<Attempt> {
-    let first = sticks.report.stages.first()?;
-    let short = sticks.report.stages.iter().take_while(|s| s.window_s <= first.window_s);
-    let arm = &short.last()?.arm;
+    let first = sticks.report.on_first_windows()?;
+    let arm = &first.arm;
     let probed = |arm: ModalArm| {
         let fit = fitting.first_fit(&arm, first.window_s)?;
         let (cost, body) = fitting.probe(&fit, STEPS_ON_BRISTLES)?;
@@ -236,7 +270,9 @@ fn on_bristles(
     }
     let joined = modes::joined(&fitting.first_fit(&arm, first.window_s)?);
     let arm = joined.map_or(arm, |fit| fit.body.arm);
-    attempt(fitting, &arm, first_window_s).filter(|found| found.stands(fitting))
+    let (fit, report) = begin(fitting, &arm, first_window_s)?;
+    let describes = fitting.beyond_noise(&fit) < BEYOND;
+    describes.then(|| go_on(fitting, fit, report)).filter(|found| found.stands(fitting))
 }
 
 impl Attempt {

@@ -7,7 +7,7 @@ use super::coordinates::Body;
 use super::covariance::{Covariances, deviation};
 use super::law;
 use super::search::Stop;
-use super::stages::{Fit, Fitting, Report};
+use super::stages::{Fit, Fitting, Laws, Report};
 use crate::information::{inverse, normal_equations};
 use crate::replay::{Parameter, WindowSums};
 
@@ -60,7 +60,7 @@ pub(super) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) 
         };
         let best = found.iter().enumerate().filter(called_for);
         let best = best.max_by(|a, b| share(a.1).total_cmp(&share(b.1))).map(|(k, _)| k);
-        let floor = if is_on_bristles(fit) { SHARE } else { LARGE };
+        let floor = if takes_likelier(fitting, fit) { SHARE } else { LARGE };
         let least = best.map_or(floor, |k| share(&found[k]).max(floor));
         if add_to_law(fitting, fit, report, least) {
             continue;
@@ -76,12 +76,11 @@ pub(super) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) 
 }
 
 /// Adds a term to friction's law where more than the sensors' noise is left, and it promises to take
-/// more than the share `least` of that; tells whether it did. The level of bristles seldom is one constant: a term of
-/// theirs need only be likelier than none.
+/// more than the share `least` of that, or where it need only be likelier than none; tells whether it did.
 fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: f64) -> bool {
-    let bristles = is_on_bristles(fit);
-    let calls = bristles || fitting.beyond_noise(fit) >= BEYOND_NOISE;
-    if !fitting.tries_laws || !calls {
+    let likelier = takes_likelier(fitting, fit);
+    let calls = likelier || fitting.beyond_noise(fit) >= BEYOND_NOISE;
+    if fitting.laws == Laws::AsStarted || !calls {
         return false;
     }
     let Some((trial, found)) = law::best(fitting, fit, least) else { return false };
@@ -91,7 +90,7 @@ fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: 
     let mut with = fit.clone();
     trial.put_into(&mut with);
     fitting.search(&mut with, report);
-    let better = if bristles {
+    let better = if likelier {
         let worth = EVEN * EVEN * (with.coordinates() - fit.coordinates()) as f64;
         fitting.cost(&with, &fit.noise) + worth < fitting.cost(fit, &fit.noise)
     } else {
@@ -105,8 +104,10 @@ fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: 
     better
 }
 
-fn is_on_bristles(fit: &Fit) -> bool {
-    fit.body.arm.dry_terms.bristles.is_some()
+/// Whether a term of friction's law need only be likelier than none: the level of bristles seldom is one constant.
+fn takes_likelier(fitting: &Fitting<'_>, fit: &Fit) -> bool {
+    let bristles = fit.body.arm.dry_terms.bristles.is_some();
+    fitting.laws == Laws::Likelier || (bristles && fitting.laws != Laws::AsStarted)
 }
 
 /// Takes damping against the frame for dampers at the tips' points where these leave less than a damper

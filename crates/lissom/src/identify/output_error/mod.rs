@@ -33,8 +33,8 @@ pub(crate) use data::{Masks, masks};
 pub use evidence::Extension;
 pub(crate) use follow::follow;
 pub use search::{Iteration, Stop};
-use stages::Fitting;
 pub use stages::StageReport;
+use stages::{Fitting, Laws};
 pub use start::{starts, starts_by_motor, starts_by_responses};
 pub(crate) use verdict::{command_lag, verdict};
 
@@ -159,7 +159,7 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         law,
         noise: &noise,
         widening: stages::WIDENING,
-        tries_laws: true,
+        laws: Laws::BeyondNoise,
     };
     let attempts::Attempt { fit, mut report, without_repeats, left } =
         attempts::best(&fitting, start)?;

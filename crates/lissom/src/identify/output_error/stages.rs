@@ -78,8 +78,19 @@ pub(super) struct Fitting<'a> {
     pub(super) noise: &'a [SensorNoise],
     /// Factor by which each stage's windows are longer than the ones before.
     pub(super) widening: f64,
-    /// Whether other laws of friction are tried.
-    pub(super) tries_laws: bool,
+    /// Which laws of friction are tried.
+    pub(super) laws: Laws,
+}
+
+/// Which laws of friction a fit may come to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Laws {
+    /// That of its start.
+    AsStarted,
+    /// Others where more than the sensors' noise is left.
+    BeyondNoise,
+    /// Any that is likelier than the simplest.
+    Likelier,
 }
 
 /// Where a fit is.
@@ -135,9 +146,15 @@ impl Report {
     /// now, by what no sensor adds.
     fn grown(&self, residual: &[f64]) -> bool {
         let under_law = self.stages.get(self.under_law..).unwrap_or_default();
-        let first = under_law.chunk_by(|a, b| a.window_s == b.window_s).next();
+        let first = under_law.chunk_by(|a, b| b.window_s <= a.window_s).next();
         let least = first.and_then(<[_]>::last).map_or(residual, |s| &s.residual);
         least.iter().zip(residual).any(|(a, b)| *b > GROWN * a)
+    }
+
+    /// Where the first windows came to.
+    pub(super) fn on_first_windows(&self) -> Option<&StageReport> {
+        let first = self.stages.first()?;
+        self.stages.iter().take_while(|s| s.window_s <= first.window_s).last()
     }
 
     /// Another fit was taken in the end, which these stages led to; what it has not is not added.
