@@ -146,15 +146,13 @@ impl Report {
     /// now, by what no sensor adds.
     fn grown(&self, residual: &[f64]) -> bool {
         let under_law = self.stages.get(self.under_law..).unwrap_or_default();
-        let first = under_law.chunk_by(|a, b| b.window_s <= a.window_s).next();
-        let least = first.and_then(<[_]>::last).map_or(residual, |s| &s.residual);
+        let least = least_on_first_windows(under_law).map_or(residual, |s| &s.residual);
         least.iter().zip(residual).any(|(a, b)| *b > GROWN * a)
     }
 
-    /// Where the first windows came to.
+    /// The stage that left least on the first windows.
     pub(super) fn on_first_windows(&self) -> Option<&StageReport> {
-        let first = self.stages.first()?;
-        self.stages.iter().take_while(|s| s.window_s <= first.window_s).last()
+        least_on_first_windows(&self.stages)
     }
 
     /// Another fit was taken in the end, which these stages led to; what it has not is not added.
@@ -167,6 +165,18 @@ impl Report {
     pub(super) fn law_changed(&mut self) {
         self.under_law = self.stages.len().saturating_sub(1);
     }
+}
+
+/// Of the stages on windows as short as the first, some of which tried what was not taken, the one that left
+/// least.
+fn least_on_first_windows(stages: &[StageReport]) -> Option<&StageReport> {
+    let first = stages.first()?;
+    let left = |s: &StageReport| {
+        let each = s.residual.iter().zip(&first.residual);
+        each.map(|(now, then)| (now / then).powi(2)).sum::<f64>()
+    };
+    let short = stages.iter().take_while(|s| s.window_s <= first.window_s);
+    short.min_by(|a, b| left(a).total_cmp(&left(b)))
 }
 
 impl Fitting<'_> {
