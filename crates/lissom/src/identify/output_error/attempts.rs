@@ -219,30 +219,41 @@ fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> 
     best
 }
 
-/// What describes the runs where an attempt does not to the noise: another law of friction that only is likelier,
-/// with which nothing is left, or bristles, if these leave less. Else that attempt.
+/// What describes the runs where an attempt does not to the noise: a law of friction whose terms need only be likelier
+/// than none, where nothing is left with it and all of them stand out, or bristles. Else that attempt.
 fn by_another_law(
     fitting: &Fitting<'_>,
     found: Attempt,
     began_with: &ModalArm,
     first_window_s: Option<f64>,
 ) -> Attempt {
-    let likelier = Fitting { laws: Laws::Likelier, ..*fitting };
-    let arm = found.report.on_first_windows().map(|stage| &stage.arm);
-    let lawful = arm.and_then(|arm| attempt(&likelier, arm, first_window_s));
-    let describes = |a: &Attempt| a.is_at_noise(fitting) && !is_left(&a.left);
-    if let Some(lawful) = lawful.filter(describes) {
+    if let Some(lawful) = by_likelier_law(fitting, &found, first_window_s) {
         return lawful;
     }
-    let yields = on_bristles(fitting, &found, began_with, first_window_s);
-    let less = |y: &Attempt| {
-        if found.is_at_noise(fitting) {
-            !is_left(&y.left)
-        } else {
-            y.nearness(fitting) > found.nearness(fitting)
-        }
+    let Some(yields) = on_bristles(fitting, &found, began_with, first_window_s) else {
+        return found;
     };
-    yields.filter(less).unwrap_or(found)
+    let better = if found.is_at_noise(fitting) {
+        yields.fit.whole_runs && !is_left(&yields.left)
+    } else {
+        !found.stands(fitting) || yields.nearness(fitting) > found.nearness(fitting)
+    };
+    if better { yields } else { found }
+}
+
+/// Under such a law from where an attempt was on short windows; `None` where it does not describe the runs.
+fn by_likelier_law(
+    fitting: &Fitting<'_>,
+    found: &Attempt,
+    first_window_s: Option<f64>,
+) -> Option<Attempt> {
+    let likelier = Fitting { laws: Laws::Likelier, ..*fitting };
+    // With a term that was tried there and not taken, perhaps: it has to stand out in the end.
+    let start = modes::undamped(found.report.on_first_windows()?.arm.clone());
+    let lawful = attempt(&likelier, &start, first_window_s)?;
+    let describes = lawful.is_at_noise(fitting) && !is_left(&lawful.left);
+    let terms_stand = || evidence::terms_stand_out(fitting, &lawful.fit);
+    (describes && lawful.stands(fitting) && terms_stand()).then_some(lawful)
 }
 
 /// An arm on bristles that stands, beside an attempt whose joint sticks: from where that was on short windows and

@@ -110,6 +110,23 @@ fn takes_likelier(fitting: &Fitting<'_>, fit: &Fit) -> bool {
     fitting.laws == Laws::Likelier || (bristles && fitting.laws != Laws::AsStarted)
 }
 
+/// Whether every term of friction's law stands as many deviations from zero as make it likelier than none, now that
+/// residuals may belong together.
+pub(super) fn terms_stand_out(fitting: &Fitting<'_>, fit: &Fit) -> bool {
+    let covariance = fitting.covariances(fit).larger();
+    let share = |p: Parameter| {
+        let at = fit.free.iter().position(|q| *q == p)?;
+        Some(p.of(&fit.body.arm) / deviation(&covariance, at))
+    };
+    let stands = |parts: &[Parameter]| {
+        let all: Vec<f64> = parts.iter().filter_map(|p| share(*p)).collect();
+        all.is_empty() || all.iter().map(|d| d * d).sum::<f64>() > EVEN * EVEN
+    };
+    let ripples = 0..fit.body.arm.dry_terms.ripples.len();
+    let ripple = |i: usize| [Parameter::RippleCosine(i), Parameter::RippleSine(i)];
+    stands(&[Parameter::NearRest]) && ripples.map(ripple).all(|r| stands(&r))
+}
+
 /// Takes damping against the frame for dampers at the tips' points where these leave less than a damper
 /// for each mode: single ones of both kinds can hardly be told apart, and all of them can. Alone where that
 /// leaves hardly more than with damping within the beam beside them: each mode damped against the frame by

@@ -154,14 +154,6 @@ pub(super) fn starts_again(fitting: &Fitting<'_>, fit: &Fit) -> Vec<ModalArm> {
     if fit.body.arm.modes.len() < 2 {
         return Vec::new();
     }
-    let undamped = |mut arm: ModalArm| {
-        for mode in &mut arm.modes {
-            mode.within_per_s = mode.within_per_s.max(0.0);
-            mode.grounded_per_s = 0.0;
-        }
-        arm.at_points_per_s.fill(0.0);
-        arm
-    };
     let mut short = fit.clone();
     short.body = Body::of_masses(fitting.campaign, undamped(fit.body.arm.clone()));
     fitting.shorten(&mut short);
@@ -169,6 +161,16 @@ pub(super) fn starts_again(fitting: &Fitting<'_>, fit: &Fit) -> Vec<ModalArm> {
         NEARER.iter().chain(&RETUNED).filter_map(|times| probed(fitting, &short, *times)).collect();
     tried.sort_by(|a, b| a.0.total_cmp(&b.0));
     tried.into_iter().take(AGAIN).map(|(_, fit)| undamped(fit.body.arm)).collect()
+}
+
+/// Without dampers against the frame, which a search is to find, and with none within the beam that drives it.
+pub(super) fn undamped(mut arm: ModalArm) -> ModalArm {
+    for mode in &mut arm.modes {
+        mode.within_per_s = mode.within_per_s.max(0.0);
+        mode.grounded_per_s = 0.0;
+    }
+    arm.at_points_per_s.fill(0.0);
+    arm
 }
 
 /// The mode of the highest frequency.

@@ -87,9 +87,9 @@ pub(super) struct Fitting<'a> {
 pub(super) enum Laws {
     /// That of its start.
     AsStarted,
-    /// Others where more than the sensors' noise is left.
+    /// Others where more than the sensors' noise is left; on bristles any whose terms are likelier than none.
     BeyondNoise,
-    /// Any that is likelier than the simplest.
+    /// Any whose terms are likelier than none.
     Likelier,
 }
 
@@ -142,11 +142,17 @@ pub(super) struct Report {
 }
 
 impl Report {
-    /// Whether a residual is larger than what the first windows came to, under the law that they are under
-    /// now, by what no sensor adds.
+    /// Whether a residual is larger than that of the first windows, under the law that they are under
+    /// now, by what no sensor adds. Bristles begin far from where the first windows bring them: there it is what
+    /// these came to.
     fn grown(&self, residual: &[f64]) -> bool {
         let under_law = self.stages.get(self.under_law..).unwrap_or_default();
-        let least = least_on_first_windows(under_law).map_or(residual, |s| &s.residual);
+        let on_bristles = |s: &&StageReport| s.arm.dry_terms.bristles.is_some();
+        let first = match under_law.first().filter(on_bristles) {
+            Some(_) => least_on_first_windows(under_law),
+            None => under_law.first(),
+        };
+        let least = first.map_or(residual, |s| &s.residual);
         least.iter().zip(residual).any(|(a, b)| *b > GROWN * a)
     }
 
@@ -175,8 +181,9 @@ fn least_on_first_windows(stages: &[StageReport]) -> Option<&StageReport> {
         let each = s.residual.iter().zip(&first.residual);
         each.map(|(now, then)| (now / then).powi(2)).sum::<f64>()
     };
+    let is_told = |s: &&StageReport| s.residual.iter().all(|r| *r > f64::MIN_POSITIVE);
     let short = stages.iter().take_while(|s| s.window_s <= first.window_s);
-    short.min_by(|a, b| left(a).total_cmp(&left(b)))
+    short.filter(is_told).min_by(|a, b| left(a).total_cmp(&left(b))).or(Some(first))
 }
 
 impl Fitting<'_> {
