@@ -9,7 +9,7 @@ use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use lissom_study::{
     Kept, Law, Scored, Study, describe, draw_campaign, export, external_report, independent,
-    report, rows, study,
+    report, rows, simulated, study,
 };
 
 /// Accuracy of identification over random arms and campaigns.
@@ -34,7 +34,7 @@ struct Args {
     #[arg(long, conflicts_with_all = ["only", "external"])]
     export: Option<PathBuf>,
     /// Identify the logs that another simulator left in this folder.
-    #[arg(long, conflicts_with = "only")]
+    #[arg(long)]
     external: Option<PathBuf>,
     /// Go on with a study that was stopped: take the campaigns that it left in the folder.
     #[arg(long, conflicts_with_all = ["only", "export", "external"])]
@@ -85,8 +85,12 @@ fn run(args: &Args) -> Result<(), Failure> {
             Laws::One(law) => law,
             Laws::Wrong => return Err("--only needs one law".into()),
         };
-        let text = describe(args.seed, index, law, args.quick).ok_or("every draw was rejected")?;
-        print!("{text}");
+        let drawn = draw_campaign(args.seed, index, law).ok_or("every draw was rejected")?;
+        let campaign = match &args.external {
+            Some(folder) => simulated(drawn, folder)?,
+            None => drawn,
+        };
+        print!("{}", describe(&campaign, args.seed, args.quick));
         return Ok(());
     }
     if let Some(folder) = &args.export {

@@ -6,21 +6,19 @@ use lissom::identify::{Candidate, FrictionLaw, OutputError, starts};
 use lissom::replay::ModalArm;
 
 use crate::bound::Bound;
-use crate::campaign::{Campaign, draw_campaign};
-use crate::law::Law;
+use crate::campaign::Campaign;
 use crate::score::{FigureScore, Score, score};
 use crate::study::identified;
 use crate::truth::Truth;
 
-/// Draws, identifies and describes campaign `index`; `None` where every draw was rejected.
-pub fn describe(seed: u64, index: usize, law: Law, quick: bool) -> Option<String> {
-    let campaign = draw_campaign(seed, index, law)?;
-    let mut lines = conditions(&campaign, seed);
-    match identified(&campaign, quick) {
+/// Identifies and describes a campaign of `seed`.
+pub fn describe(campaign: &Campaign, seed: u64, quick: bool) -> String {
+    let mut lines = conditions(campaign, seed);
+    match identified(campaign, quick) {
         Err(error) => lines.push(format!("nothing identified: {error}")),
         Ok(id) => {
-            let bound = Bound::of(&campaign);
-            let scored = score(&Truth::of(&campaign), &id).with_bound(bound.as_ref());
+            let bound = Bound::of(campaign);
+            let scored = score(&Truth::of(campaign), &id).with_bound(bound.as_ref());
             lines.push(String::new());
             lines.push(figures(&scored));
             if let Some(bound) = bound {
@@ -29,7 +27,7 @@ pub fn describe(seed: u64, index: usize, law: Law, quick: bool) -> Option<String
             lines.push(format!("modes beyond those that there are: {}\n", scored.surplus_modes));
             lines.push(points(&scored));
             if let Some(replayed) = &id.output_error {
-                lines.push(stages(replayed, &campaign));
+                lines.push(stages(replayed, campaign));
             }
             if let Some(motor) = &id.regression {
                 let (beam, rational) = (id.beam_regression.as_ref(), id.beam_model.as_ref());
@@ -50,7 +48,7 @@ pub fn describe(seed: u64, index: usize, law: Law, quick: bool) -> Option<String
             }
         }
     }
-    Some(lines.join("\n") + "\n")
+    lines.join("\n") + "\n"
 }
 
 /// Windows that a regression tried.

@@ -1,6 +1,6 @@
 //! The study in short: what holds today, with margins that chance does not use up.
 //!
-//! The bounds are three to ten times what these campaigns give; an estimator that breaks is off by
+//! The bounds are five to ten times what these campaigns give; an estimator that breaks is off by
 //! more. `cargo xtask study` has the full figures.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
@@ -45,37 +45,60 @@ fn errors(figure: Figure) -> Vec<f64> {
 }
 
 #[track_caller]
-fn holds(figure: Figure, median_most: f64, (bar, campaigns_least): (f64, usize)) {
+fn holds(figure: Figure, median_most: f64, most: f64) {
     let errors = errors(figure);
-    let within = errors.iter().filter(|e| **e <= bar).count();
+    assert_eq!(errors.len(), CAMPAIGNS, "{figure}");
     assert!(median(&errors).unwrap() <= median_most, "{figure}: {errors:?}");
-    assert!(within >= campaigns_least, "{figure}: {within} within {bar}, {errors:?}");
+    assert!(errors.iter().all(|e| *e <= most), "{figure}: {errors:?}");
 }
 
 #[test]
 fn figures_are_as_close_as_they_were() {
-    holds(Figure::Coulomb, 5e-4, (0.01, CAMPAIGNS - 1));
-    holds(Figure::Inertia, 5e-3, (0.05, CAMPAIGNS - 2));
-    holds(Figure::Viscous, 0.01, (0.05, CAMPAIGNS - 2));
-    holds(Figure::Coupling, 0.03, (0.05, CAMPAIGNS / 2));
-    holds(Figure::Frequency(0), 2e-4, (2e-3, CAMPAIGNS - 4));
+    holds(Figure::Coulomb, 1e-5, 5e-5);
+    holds(Figure::Inertia, 5e-5, 2e-4);
+    holds(Figure::Viscous, 1e-4, 4e-4);
+    holds(Figure::Coupling, 1e-4, 1e-3);
+    holds(Figure::Frequency(0), 1e-5, 5e-5);
+}
+
+/// Of some thirty figures two are expected beyond two deviations.
+#[test]
+fn deviations_are_those_of_the_errors() {
+    let each = || scores().into_iter().flat_map(|s| &s.figures).filter_map(FigureScore::deviations);
+    let beyond = |z: f64| each().filter(|d| d.abs() > z).count();
+    assert!(each().count() > 30);
+    assert!(beyond(2.0) <= 5, "{}", beyond(2.0));
+    assert_eq!(beyond(4.0), 0);
 }
 
 #[test]
-fn most_intervals_of_friction_hold() {
-    let covered = |s: &&Score| s.of(Figure::Coulomb).and_then(FigureScore::covers) == Some(true);
-    let held = scores().into_iter().filter(covered).count();
-    assert!(held >= CAMPAIGNS - 4, "{held}");
+fn corrected_responses_are_as_close_as_they_were() {
+    let points = scores().into_iter().flat_map(|s| &s.points);
+    let sines: Vec<_> = points.filter(|p| p.sinusoidal && p.vouched).collect();
+    let corrected: Vec<f64> = sines.iter().filter_map(|p| p.corrected).collect();
+    let raw: Vec<f64> = sines.iter().map(|p| p.raw).collect();
+    assert!(corrected.len() >= 20);
+    assert!(median(&corrected).unwrap() < 2e-4 && median(&raw).unwrap() > 0.3);
+    assert!(corrected.iter().all(|e| *e < 0.01), "{corrected:?}");
 }
 
+/// Another law of friction is said, and leaves inertia, coupling and frequencies as they are; that of campaign 12
+/// is all but hidden by an encoder of 11 bits.
 #[test]
-fn correction_comes_closer_than_the_raw_response() {
-    let points =
-        || scores().into_iter().flat_map(|s| &s.points).filter(|p| p.sinusoidal && p.vouched);
-    let corrected: Vec<f64> = points().filter_map(|p| p.corrected).collect();
-    let raw: Vec<f64> = points().map(|p| p.raw).collect();
-    assert!(corrected.len() >= 10);
-    assert!(median(&corrected).unwrap() < 0.3 * median(&raw).unwrap());
+fn wrong_laws_are_said_and_spare_the_linear_part() {
+    for (law, index) in [(Law::Stribeck, 7), (Law::Stribeck, 12), (Law::Direction, 18)] {
+        let campaign = draw_campaign(3, index, law).unwrap();
+        let id = identify(&campaign.logs, &Options::default(), |_| {}).unwrap();
+        let scored = score(&Truth::of(&campaign), &id);
+        assert!(!scored.law_alarms().is_empty(), "{law} {index}");
+        let linear = |f: &&FigureScore| {
+            matches!(f.figure, Figure::Inertia | Figure::Coupling | Figure::Frequency(_))
+        };
+        for f in scored.figures.iter().filter(linear) {
+            let error = f.error().map_or(f64::INFINITY, f64::abs);
+            assert!(error < 5e-3, "{law} {index}: {} off by {error:.1e}", f.figure);
+        }
+    }
 }
 
 /// Loops without friction and with ideal sensors show the response that points are scored against.

@@ -3,6 +3,13 @@
 /// Within a plateau's length before it, a smooth signal rounded to steps comes up by about four of
 /// them; one that runs into a stop by more than this many.
 const STEPS: f64 = 16.0;
+/// Steps of its sensor over which a motion shows whether it slows down.
+const TELLING_STEPS: f64 = 4.0;
+/// Samples over which slopes are taken: a quantised signal has none over one.
+const REACH: usize = 4;
+/// What comes to rest within twice as many samples goes three times less far over the last of them than before; what
+/// runs into a stop as far, but for half a sample.
+const SLOWED: f64 = 0.65;
 
 /// A spike bends by so many times what all but a twentieth of the samples do, and so many steps…
 const SPIKE: f64 = 20.0;
@@ -33,9 +40,10 @@ fn extremes(samples: &[f64]) -> (f64, f64) {
 }
 
 /// Share of samples at which a channel stands at its largest or smallest value after having run
-/// into it at speed: at least three samples on end, entered with a slope of 30 % of the largest.
+/// into it at speed: at least three samples on end, entered with a slope of 30 % of the largest, and on the whole with
+/// as much speed as just before.
 ///
-/// A signal that turns round or sticks at its extreme comes to it slowly and is not counted, nor is
+/// A signal that turns round or sticks at its extreme comes to it ever more slowly and is not counted, nor is
 /// one whose plateau is no longer than its own steps make it.
 pub(crate) fn clipped_share(samples: &[f64]) -> f64 {
     let (low, high) = extremes(samples);
@@ -44,26 +52,32 @@ pub(crate) fn clipped_share(samples: &[f64]) -> f64 {
     }
     let quantum = step(samples);
     let near = 1e-9 * (high - low);
-    // Slopes over a few samples: a quantised signal has none over one.
-    let reach = 4;
-    let slope = |k: usize| (samples[k] - samples[k - reach]).abs();
-    let steepest = (reach..samples.len()).map(slope).fold(0.0, f64::max);
+    let way = |k: usize, over: usize| (samples[k] - samples[k - over]).abs();
+    let steepest = (REACH..samples.len()).map(|k| way(k, REACH)).fold(0.0, f64::max);
     let at = |x: f64| (x - low).abs() <= near || (x - high).abs() <= near;
     let mut clipped = 0;
-    let mut k = reach;
+    // Ways of entry, and those of as many samples before.
+    let (mut entry, mut before) = (0.0, 0.0);
+    let mut k = REACH;
     while k < samples.len() {
         let mut end = k;
         while end < samples.len() && at(samples[end]) && (samples[end] - samples[k]).abs() <= near {
             end += 1;
         }
-        let before = samples[k.saturating_sub(end - k)];
-        let ran_in = (samples[k] - before).abs() > STEPS * quantum;
-        if end - k >= 3 && !at(samples[k - 1]) && slope(k) > 0.3 * steepest && ran_in {
-            clipped += end - k;
+        let plateau = end - k;
+        let ran_in = way(k, plateau.min(k)) > STEPS * quantum;
+        if plateau >= 3 && !at(samples[k - 1]) && way(k, REACH) > 0.3 * steepest && ran_in {
+            clipped += plateau;
+            let is_long = |over: &usize| way(k, *over) > TELLING_STEPS * quantum;
+            let over = (REACH..plateau).find(is_long).unwrap_or(REACH);
+            if k >= 2 * over {
+                entry += way(k, over);
+                before += way(k - over, over);
+            }
         }
         k = end.max(k + 1);
     }
-    clipped as f64 / samples.len() as f64
+    if entry < SLOWED * before { 0.0 } else { clipped as f64 / samples.len() as f64 }
 }
 
 /// Samples that stand alone: one reading off those before and after it, which agree, by far more than the motion
@@ -155,6 +169,48 @@ mod tests {
         let share = clipped_share(&sine(0.8));
         // Above 0.8 for 1 − 2/π·asin(0.8) = 41 % of the cycle.
         assert!((share - 0.41).abs() < 0.02, "{share}");
+    }
+
+    /// Friction stops a motor that turns at `speed` steps a sample within `samples`, at the same angle each time.
+    fn stops(speed: f64, samples: usize) -> Vec<f64> {
+        let coasting = |k: usize| k.min(100) as f64;
+        let stopping = |k: usize| {
+            let t = k.saturating_sub(100).min(samples) as f64;
+            t - 0.5 * t * t / samples as f64
+        };
+        let stroke: Vec<f64> =
+            (0..300).map(|k| (speed * (coasting(k) + stopping(k))).round()).collect();
+        let back: Vec<f64> = stroke.iter().map(|x| stroke[299] - x).collect();
+        [stroke, back].concat().repeat(3)
+    }
+
+    #[test]
+    fn a_motor_that_sticks_at_its_extremes_is_not_clipped() {
+        for samples in [3, 5, 8, 20] {
+            for speed in [4.0, 7.0, 20.0, 1e4] {
+                let share = clipped_share(&stops(speed, samples));
+                assert!(share < 1e-9, "{samples} {speed}: {share}");
+            }
+        }
+        // Stopped at once it stood for two thirds of the time.
+        let share = clipped_share(&stops(20.0, 1));
+        assert!((share - 2.0 / 3.0).abs() < 0.01, "{share}");
+    }
+
+    #[test]
+    fn clipping_is_told_at_any_sampling_and_through_noise() {
+        for (per_cycle, limits) in [(60.0, [0.7, 0.8]), (300.0, [0.3, 0.93]), (3000.0, [0.3, 0.8])] {
+            for limit in limits {
+                let x = (0..6000).map(|k| {
+                    let noise = 1e-4 * (f64::from(k) * 12.9898).sin();
+                    let phase = std::f64::consts::TAU / per_cycle * f64::from(k) + 0.1;
+                    (phase.sin() + noise).clamp(-limit, limit)
+                });
+                let share = clipped_share(&x.collect::<Vec<_>>());
+                let asked = 1.0 - 2.0 / std::f64::consts::PI * limit.asin();
+                assert!((share / asked - 1.0).abs() < 0.15, "{per_cycle} {limit}: {share} {asked}");
+            }
+        }
     }
 
     #[test]

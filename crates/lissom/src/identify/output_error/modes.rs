@@ -37,14 +37,16 @@ const UNFELT: f64 = 1e-3;
 /// modes are others now.
 pub(super) fn prune(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) -> bool {
     let mut changed = false;
-    while fit.body.arm.modes.len() > 1 {
-        let Some(mode) = doubtful(fitting, fit) else { break };
+    while let Some(mode) = doubtful(fitting, fit) {
         let before = fitting.cost(fit, &fit.noise);
         let without = refitted(fitting, less(fit, mode), report);
         if fitting.cost(&without, &fit.noise) <= before * (1.0 + SHARE) {
             *fit = without;
             changed = true;
             continue;
+        }
+        if without.body.arm.modes.is_empty() {
+            break;
         }
         // It stands for something: for a mode beyond the others, perhaps.
         let beyond = with_one_more(fitting, &without, report);

@@ -69,11 +69,9 @@ impl Separability {
     }
 
     fn best_known(&self) -> String {
-        let best = self.directions.last().filter(|_| self.directions.len() > 1);
-        let name = best.and_then(|d| Some((d, d.parts.first()?.figure.name())));
-        name.map_or_else(String::new, |(d, name)| {
-            let together = if d.parts.len() > 1 { " with what goes along" } else { "" };
-            format!(" Best known is {name}{together}, to ± {}.", percent(d.std))
+        let best = self.figures.iter().min_by(|a, b| a.std.total_cmp(&b.std));
+        best.filter(|_| self.figures.len() > 1).map_or_else(String::new, |best| {
+            format!(" Best known is {}, to ± {}.", best.figure.name(), percent(best.std))
         })
     }
 
