@@ -1,7 +1,7 @@
-//! Friction against speed: the curve without a law, and the law chosen, in a plot and a table.
+//! Friction against speed: the curve without a law, and the law found, in a plot and a table.
 
 use lissom::drive::Falloff;
-use lissom::identify::{FrictionLaw, Identified, LawTerm};
+use lissom::identify::{FrictionLaw, Identified, LawTerm, OutputError};
 use lissom_io::UnitNames;
 use lissom_report::{Axis, Cells, LinePlot, Role, Table, Trace, significant};
 
@@ -13,7 +13,7 @@ const BARS: f64 = 1.96;
 const DIRECTIONS: [(&str, f64, Role); 2] =
     [("forward", 1.0, Role::Corrected), ("backward", -1.0, Role::Other(0))];
 
-/// Both directions as magnitudes over speed; `None` without a curve.
+/// Both directions as magnitudes over speed, beside the law of the figures given; `None` without a curve.
 pub(crate) fn plot(names: UnitNames, id: &Identified) -> Option<LinePlot> {
     let law = id.friction_law.as_ref().filter(|law| !law.curve.is_empty())?;
     let mut plot = LinePlot::new(
@@ -21,7 +21,11 @@ pub(crate) fn plot(names: UnitNames, id: &Identified) -> Option<LinePlot> {
         Axis::linear(format!("speed ({}/s)", names.angle())),
         Axis::linear(format!("friction against the motion ({})", names.torque_unit())),
     )
-    .subtitle("points: without a law, bars: their 95 % interval; line: the law chosen");
+    .subtitle("points: without a law, bars: their 95 % interval; line: the law found");
+    let replayed = id.output_error.as_ref().is_some_and(OutputError::stands);
+    let found = |speed: f64, sign: f64| {
+        if replayed { id.friction.at(speed, sign) } else { law.chosen.friction(speed, sign) }
+    };
     for (name, sign, role) in DIRECTIONS {
         let points = || law.curve.iter().filter(move |p| p.direction * sign > 0.0);
         let speeds: Vec<f64> = points().map(|p| p.speed).collect();
@@ -30,7 +34,7 @@ pub(crate) fn plot(names: UnitNames, id: &Identified) -> Option<LinePlot> {
         plot = plot.trace(Trace::points_with_bars(name, role, speeds.clone(), values, bars));
         let (Some(from), Some(to)) = (speeds.first(), speeds.last()) else { continue };
         let at = |k: i32| from + (to - from) * f64::from(k) / f64::from(LINE);
-        let line: Option<Vec<f64>> = (0..=LINE).map(|k| law.chosen.friction(at(k), sign)).collect();
+        let line: Option<Vec<f64>> = (0..=LINE).map(|k| found(at(k), sign)).collect();
         if let Some(line) = line {
             plot = plot.trace(Trace::line("", role, (0..=LINE).map(at).collect(), line));
         }

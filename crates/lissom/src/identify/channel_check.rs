@@ -7,6 +7,8 @@ const STEPS: f64 = 16.0;
 const TELLING_STEPS: f64 = 4.0;
 /// Samples over which slopes are taken: a quantised signal has none over one.
 const REACH: usize = 4;
+/// Share of the largest slope from which on a signal is at speed.
+const AT_SPEED: f64 = 0.3;
 /// What comes to rest within twice as many samples goes three times less far over the last of them than before; what
 /// runs into a stop as far, but for half a sample.
 const SLOWED: f64 = 0.65;
@@ -53,7 +55,7 @@ pub(crate) fn clipped_share(samples: &[f64]) -> f64 {
     let quantum = step(samples);
     let near = 1e-9 * (high - low);
     let way = |k: usize, over: usize| (samples[k] - samples[k - over]).abs();
-    let steepest = (REACH..samples.len()).map(|k| way(k, REACH)).fold(0.0, f64::max);
+    let steepest = steepest(samples, quantum);
     let at = |x: f64| (x - low).abs() <= near || (x - high).abs() <= near;
     let mut clipped = 0;
     // Ways of entry, and those of as many samples before.
@@ -66,10 +68,11 @@ pub(crate) fn clipped_share(samples: &[f64]) -> f64 {
         }
         let plateau = end - k;
         let ran_in = way(k, plateau.min(k)) > STEPS * quantum;
-        if plateau >= 3 && !at(samples[k - 1]) && way(k, REACH) > 0.3 * steepest && ran_in {
+        let is_long = |over: &usize| way(k, *over) > TELLING_STEPS * quantum;
+        let over = (REACH..plateau.min(k)).find(is_long).unwrap_or(REACH);
+        let is_fast = || way(k, over) > AT_SPEED * steepest * over as f64;
+        if plateau >= 3 && !at(samples[k - 1]) && ran_in && is_fast() {
             clipped += plateau;
-            let is_long = |over: &usize| way(k, *over) > TELLING_STEPS * quantum;
-            let over = (REACH..plateau).find(is_long).unwrap_or(REACH);
             if k >= 2 * over {
                 entry += way(k, over);
                 before += way(k - over, over);
@@ -78,6 +81,19 @@ pub(crate) fn clipped_share(samples: &[f64]) -> f64 {
         k = end.max(k + 1);
     }
     if entry < SLOWED * before { 0.0 } else { clipped as f64 / samples.len() as f64 }
+}
+
+/// Largest change per sample, over as many samples, four at least, as it takes to come by [`STEPS`] steps.
+fn steepest(samples: &[f64], quantum: f64) -> f64 {
+    let mut over = REACH;
+    loop {
+        let ways = samples.iter().zip(samples.iter().skip(over)).map(|(a, b)| (b - a).abs());
+        let most = ways.fold(0.0, f64::max);
+        if most > STEPS * quantum || 4 * over > samples.len() {
+            return most / over as f64;
+        }
+        over *= 2;
+    }
 }
 
 /// Samples that stand alone: one reading off those before and after it, which agree, by far more than the motion
@@ -99,10 +115,13 @@ pub(crate) fn spikes(samples: &[f64]) -> Vec<usize> {
     bend.windows(3).enumerate().filter_map(alone).collect()
 }
 
+/// Samples over which a motor rests, at least: within fewer its sensor may show no step.
+const REST: usize = 10;
+
 /// Share of a run in which the motor stays for a fiftieth of it within two steps, or within a
 /// thousandth of its range.
 pub(crate) fn rest_share(motor: &[f64]) -> f64 {
-    let block = motor.len().div_ceil(50);
+    let block = motor.len().div_ceil(50).max(REST);
     let allowed = (2.0 * step(motor)).max(1e-3 * range(motor));
     let still: usize = motor.chunks(block).filter(|c| range(c) <= allowed).map(<[f64]>::len).sum();
     still as f64 / motor.len() as f64
@@ -171,6 +190,18 @@ mod tests {
         assert!((share - 0.41).abs() < 0.02, "{share}");
     }
 
+    #[test]
+    fn a_slow_motion_in_steps_is_clipped_where_it_runs_into_its_end() {
+        let x = |limit: f64| -> Vec<f64> {
+            let at = |k: i32| (6.28e-4 * f64::from(k)).sin().clamp(-limit, limit);
+            (0..60_000).map(|k| (325.0 * at(k)).round()).collect()
+        };
+        assert!(clipped_share(&x(2.0)) < 1e-9);
+        // It stands for 7 % of the time, and comes there at a tenth of its speed.
+        assert!(clipped_share(&x(0.9945)) < 1e-9);
+        assert!((clipped_share(&x(0.8)) - 0.41).abs() < 0.02);
+    }
+
     /// Friction stops a motor that turns at `speed` steps a sample within `samples`, at the same angle each time.
     fn stops(speed: f64, samples: usize) -> Vec<f64> {
         let coasting = |k: usize| k.min(100) as f64;
@@ -199,7 +230,8 @@ mod tests {
 
     #[test]
     fn clipping_is_told_at_any_sampling_and_through_noise() {
-        for (per_cycle, limits) in [(60.0, [0.7, 0.8]), (300.0, [0.3, 0.93]), (3000.0, [0.3, 0.8])] {
+        for (per_cycle, limits) in [(60.0, [0.7, 0.8]), (300.0, [0.3, 0.93]), (3000.0, [0.3, 0.8])]
+        {
             for limit in limits {
                 let x = (0..6000).map(|k| {
                     let noise = 1e-4 * (f64::from(k) * 12.9898).sin();

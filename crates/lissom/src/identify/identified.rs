@@ -54,6 +54,30 @@ pub struct Friction {
     pub bristles: Option<BristlesEstimate>,
 }
 
+impl Friction {
+    /// Friction against the motion at a speed in a direction (+1 or −1) \[N·m\], waves over the travel left out: positive
+    /// where it brakes. `None` where a figure of it is refused.
+    ///
+    /// `C_± + V_±·|v| + A·e^{−|v|/v_s}` (or `A·e^{−(v/v_s)²}`).
+    pub fn at(&self, speed: f64, direction: f64) -> Option<f64> {
+        let forward = direction > 0.0;
+        let coulomb = if forward { self.forward } else { self.backward }?;
+        let viscous = match self.viscous_by_direction {
+            Some((by_forward, by_backward)) => {
+                if forward {
+                    by_forward
+                } else {
+                    by_backward
+                }
+            }
+            None => self.viscous?,
+        };
+        let near =
+            self.near_rest.map_or(0.0, |n| n.torque.value * n.falloff.share(speed / n.speed.value));
+        Some(coulomb.value + viscous.value * speed + near)
+    }
+}
+
 /// Bristles that bend before the joint slips: `F = σ0·z + σ1·ż`, all of the law above the level that they slip at.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BristlesEstimate {

@@ -59,18 +59,18 @@ pub struct Separability {
 }
 
 /// Findings that say so.
-const DOUBTS: [&str; 6] = [
-    "replay-departs",
-    "more-than-noise",
-    "modes-missing",
-    "damper-drives",
-    "others-doubtful",
-    "command-sign",
-];
+const DOUBTS: [&str; 5] =
+    ["replay-departs", "more-than-noise", "modes-missing", "damper-drives", "others-doubtful"];
+
+/// A finding with which no figure is given: there is nothing to judge.
+const NOTHING: &str = "command-sign";
 
 impl Separability {
     /// Of the method that the figures are from; `used` are the runs that it used.
     pub(super) fn of(id: &Identified, used: &Campaign) -> Option<Self> {
+        if id.findings.iter().any(|f| f.code == NOTHING) {
+            return None;
+        }
         let by_replay = id.output_error.as_ref().map(|oe| (oe, Judged::of_replay(oe, used)));
         let runs = by_replay
             .as_ref()
