@@ -24,6 +24,7 @@ mod nearest;
 pub mod plan;
 pub mod responses;
 pub mod result;
+mod text;
 pub mod units;
 pub mod write;
 
@@ -48,5 +49,6 @@ pub use result::{
     PayloadPrediction, PredictedPayload, ResultError, UnitNames, channel_name_unit,
     equivalent_json, payload_json, read_arm, result_json, validation_json,
 };
+pub use text::read_text;
 pub use units::UnitError;
 pub use write::WriteError;

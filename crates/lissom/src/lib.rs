@@ -11,6 +11,7 @@
 pub mod arm;
 pub mod beam;
 pub mod drive;
+mod eigenvalues;
 pub mod identify;
 pub mod information;
 pub mod lti;

@@ -66,7 +66,7 @@ pub(crate) struct Inputs {
 impl Inputs {
     fn read(arm: &Path, plan: &Path) -> Result<Self, Failure> {
         let text = |path: &Path| {
-            std::fs::read_to_string(path).map_err(|source| {
+            lissom_io::read_text(path).map_err(|source| {
                 let file = path.display().to_string();
                 lissom_io::Error::from(lissom_io::ConfigError::Read { file, source })
             })

@@ -14,6 +14,7 @@ use toml::de::{DeArray, DeTable, DeValue};
 
 use crate::excerpt::excerpt;
 use crate::nearest::nearest;
+use crate::text::read_text;
 use crate::units::{Dimension, UnitError, parse_any_unit, parse_quantity, parse_unit};
 
 /// Smallest and largest magnitude of a number in SI: no machine has another, and products and
@@ -29,7 +30,7 @@ pub(crate) struct Source {
 
 impl Source {
     pub(crate) fn read(path: &Path) -> Result<Self, ConfigError> {
-        match std::fs::read_to_string(path) {
+        match read_text(path) {
             Ok(text) => Ok(Self::new(path, text)),
             Err(source) => Err(ConfigError::Read { file: path.display().to_string(), source }),
         }

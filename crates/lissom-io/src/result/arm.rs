@@ -1,6 +1,5 @@
 //! The arm of a result: written into `result.json` and read back from it.
 
-use std::fs;
 use std::io;
 use std::path::Path;
 
@@ -12,6 +11,7 @@ use thiserror::Error;
 
 use super::{UnitNames, dry_terms};
 use crate::error::Error;
+use crate::text::read_text;
 
 /// Relative difference of torque constants beyond which they are two.
 const SAME: f64 = 1e-9;
@@ -158,8 +158,8 @@ impl ResultError {
 /// [`Error::Result`] where the file is no result, has no arm, or belongs to another drive.
 pub fn read_arm(path: &Path, channels: &Channels) -> Result<FoundArm, Error> {
     let file = path.display().to_string();
-    let text = fs::read_to_string(path)
-        .map_err(|source| ResultError::Read { file: file.clone(), source })?;
+    let text =
+        read_text(path).map_err(|source| ResultError::Read { file: file.clone(), source })?;
     let root: Value = serde_json::from_str(&text)
         .map_err(|source| ResultError::Json { file: file.clone(), source })?;
     Ok(Reader { file, root }.arm(channels)?)

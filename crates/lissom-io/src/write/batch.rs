@@ -1,10 +1,10 @@
 //! Several files that appear together or not at all.
 
 use std::fs::File;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::{WriteError, fill_and_sync, part_beside};
+use super::{Destination, WriteError, destination, fill_and_sync, fill_stream, part_beside};
 
 /// Files that are written beside their places and take their names when all of them are complete.
 ///
@@ -13,6 +13,8 @@ use super::{WriteError, fill_and_sync, part_beside};
 pub struct Batch {
     /// Complete files and the names they are to take.
     parts: Vec<(PathBuf, PathBuf)>,
+    /// What goes into devices and pipes.
+    streams: Vec<(PathBuf, Vec<u8>)>,
     /// Folders made, outer ones first.
     folders: Vec<PathBuf>,
 }
@@ -52,11 +54,15 @@ impl Batch {
     /// where a folder has the file's name.
     pub fn file(&mut self, path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
         let failed = |source| WriteError::File { file: path.display().to_string(), source };
-        if path.is_dir() {
-            return Err(failed(io::ErrorKind::IsADirectory.into()));
-        }
-        let (part, file): (PathBuf, File) = part_beside(path).map_err(failed)?;
-        self.parts.push((part, path.to_owned()));
+        let path = match destination(path).map_err(failed)? {
+            Destination::File(path) => path,
+            Destination::Stream => {
+                self.streams.push((path.to_owned(), bytes.to_owned()));
+                return Ok(());
+            }
+        };
+        let (part, file): (PathBuf, File) = part_beside(&path).map_err(failed)?;
+        self.parts.push((part, path));
         fill_and_sync(file, |out: &mut dyn Write| out.write_all(bytes)).map_err(failed)
     }
 
@@ -71,6 +77,10 @@ impl Batch {
             self.parts.remove(0);
         }
         self.folders.clear();
+        for (path, bytes) in &self.streams {
+            fill_stream(path, |out| out.write_all(bytes))
+                .map_err(|source| WriteError::File { file: path.display().to_string(), source })?;
+        }
         Ok(())
     }
 }

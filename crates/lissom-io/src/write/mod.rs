@@ -32,8 +32,12 @@ pub fn write_whole(
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), WriteError> {
     let failed = |source| WriteError::File { file: path.display().to_string(), source };
-    let (part, file) = part_beside(path).map_err(failed)?;
-    let written = fill_and_sync(file, fill).and_then(|()| std::fs::rename(&part, path));
+    let path = match destination(path).map_err(failed)? {
+        Destination::File(path) => path,
+        Destination::Stream => return fill_stream(path, fill).map_err(failed),
+    };
+    let (part, file) = part_beside(&path).map_err(failed)?;
+    let written = fill_and_sync(file, fill).and_then(|()| std::fs::rename(&part, &path));
     if written.is_err() {
         // The first error is the one to report.
         let _ = std::fs::remove_file(&part);
@@ -85,10 +89,32 @@ fn fill_and_sync(
     out.into_inner()?.sync_all()
 }
 
-/// A new file in the folder of `path`.
+/// Where what is written goes.
+enum Destination {
+    /// To a file of this name, a link's own target.
+    File(PathBuf),
+    /// Into a device or a pipe, which another file must not replace.
+    Stream,
+}
+
+fn destination(path: &Path) -> io::Result<Destination> {
+    let Ok(there) = std::fs::metadata(path) else { return Ok(Destination::File(path.to_owned())) };
+    if there.is_file() {
+        return Ok(Destination::File(std::fs::canonicalize(path)?));
+    }
+    if there.is_dir() { Err(io::ErrorKind::IsADirectory.into()) } else { Ok(Destination::Stream) }
+}
+
+fn fill_stream(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let mut out = BufWriter::new(OpenOptions::new().write(true).open(path)?);
+    fill(&mut out)?;
+    out.flush()
+}
+
 /// Names of parts that are tried.
 const PARTS_MOST: usize = 10_000;
 
+/// A new file in the folder of `path`.
 fn part_beside(path: &Path) -> io::Result<(PathBuf, File)> {
     static COUNT: AtomicUsize = AtomicUsize::new(0);
     let Some(name) = path.file_name() else {

@@ -34,6 +34,31 @@ fn a_file_is_written_whole_or_not_at_all() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
+#[cfg(unix)]
+#[test]
+fn links_and_devices_stay_what_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let (target, link) = (folder.path().join("a.txt"), folder.path().join("link"));
+    write_text(&target, "first").unwrap();
+    std::os::unix::fs::symlink(&target, &link).unwrap();
+    write_text(&link, "second").unwrap();
+    let mut batch = Batch::new();
+    batch.file(&link, b"third").unwrap();
+    assert_eq!(std::fs::read_to_string(&target).unwrap(), "second");
+    batch.commit().unwrap();
+    assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(std::fs::read_to_string(&target).unwrap(), "third");
+
+    // A device by another name, which may be replaced without harm if this fails.
+    let device = folder.path().join("device");
+    std::os::unix::fs::symlink("/dev/null", &device).unwrap();
+    write_text(&device, "lost").unwrap();
+    let mut batch = Batch::new();
+    batch.file(&device, b"lost").unwrap();
+    batch.commit().unwrap();
+    assert!(!std::fs::metadata(&device).unwrap().is_file());
+}
+
 #[test]
 fn a_batch_appears_together_or_not_at_all() {
     let root = tempfile::tempdir().unwrap();

@@ -195,7 +195,7 @@ fn refuse_the_unknown(id: &mut Identified) {
             ("negative-figure", "negative: the model does not fit".to_owned())
         } else if share.is_infinite() {
             ("poor-excitation", "with nothing in the runs that shows it".to_owned())
-        } else if share > UNKNOWN || share.is_nan() {
+        } else if share > UNKNOWN || share.is_nan() || e.value < 0.0 {
             ("poor-excitation", format!("uncertain by ±{:.0} %: not known", 100.0 * share))
         } else if share > UNCERTAIN {
             let message = format!(

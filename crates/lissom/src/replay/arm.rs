@@ -6,6 +6,7 @@ use num_complex::Complex64;
 use super::arm_modes::ArmModes;
 use super::dry_terms::DryTerms;
 use crate::arm::Arm;
+use crate::eigenvalues::eigenvalues;
 
 /// Most modes of a replayed arm.
 pub const MOST_MODES: usize = 4;
@@ -99,9 +100,7 @@ impl ModalArm {
                 }
                 _ => 0.0,
             });
-            let finite = a.iter().all(|v| v.is_finite());
-            let poles = finite.then(|| a.complex_eigenvalues())?;
-            let upper: Vec<_> = poles.iter().filter(|s| s.im > 0.0).copied().collect();
+            let upper: Vec<_> = eigenvalues(&a)?.into_iter().filter(|s| s.im > 0.0).collect();
             let modes = upper.iter().map(|s| (s.norm(), -s.re / s.norm())).collect::<Vec<_>>();
             (modes.len() == n).then_some(modes)
         });
@@ -199,9 +198,8 @@ impl ModalArm {
     /// turned and nothing deflected, all points turn with it (property 2, B = −A·1).
     pub fn modes_of(stiffness: &DMatrix<f64>) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
         let n = stiffness.nrows();
-        let mut squares: Vec<f64> = stiffness
-            .complex_eigenvalues()
-            .iter()
+        let mut squares: Vec<f64> = eigenvalues(stiffness)?
+            .into_iter()
             .map(|z| if z.im.abs() < 1e-9 * z.norm() { z.re } else { f64::NAN })
             .collect();
         squares.sort_by(f64::total_cmp);

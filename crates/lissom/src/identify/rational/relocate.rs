@@ -6,6 +6,7 @@ use super::Pole;
 use super::columns::{inverses, push_column, push_weighted, shape};
 use super::products::products;
 use super::weighted::{Output, Weighted};
+use crate::eigenvalues::eigenvalues;
 
 /// Rounding that a normal matrix with a diagonal of ones is raised by.
 const ROUNDING: f64 = 1e-13;
@@ -125,12 +126,9 @@ fn zeros(poles: &[Pole], sigma: &DVector<f64>) -> Option<Vec<Pole>> {
             matrix[(2 * k + 1, column)] -= w * coefficient;
         }
     }
-    if !matrix.iter().all(|v: &f64| v.is_finite()) {
-        return None;
-    }
     let mut found = Vec::new();
     let mut real = Vec::new();
-    for z in matrix.complex_eigenvalues().iter() {
+    for z in eigenvalues(&matrix)? {
         let omega_rad_s = z.norm();
         if z.im.abs() <= REAL * omega_rad_s {
             real.push(z.re.abs());

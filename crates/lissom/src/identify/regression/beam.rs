@@ -10,6 +10,7 @@ use super::normal::{Cluster, Rows, Term, solve};
 use super::row_noise::{Part, RunNoise, products};
 use super::scan::{Candidate, SYSTEMATIC, Scan, scan};
 use super::window::{Weights, Window};
+use crate::eigenvalues::eigenvalues;
 use crate::identify::{Estimate, ModeEstimate};
 use crate::record::{Campaign, Run, TipQuantity};
 
@@ -111,11 +112,7 @@ fn modes(stiffness: &DMatrix<f64>, damping: &[f64]) -> Option<Vec<(f64, f64)>> {
         (false, false) if i == j => -damping[i - n],
         _ => 0.0,
     });
-    if state.iter().any(|v| !v.is_finite()) {
-        return None;
-    }
-    let mut poles: Vec<_> =
-        state.complex_eigenvalues().iter().copied().filter(|p| p.im > 0.0).collect();
+    let mut poles: Vec<_> = eigenvalues(&state)?.into_iter().filter(|p| p.im > 0.0).collect();
     if poles.len() != n {
         return None;
     }

@@ -254,7 +254,7 @@ impl Predictor<'_> {
     fn rows(&self, index: usize) -> Option<RunRows> {
         let run = &self.campaign.runs[index];
         let t = run.sample_time_s();
-        let n = ((self.window_s / t).round() as usize).max(LEAST_SAMPLES);
+        let n = ((self.window_s / t).round() as usize).max(LEAST_SAMPLES).min(run.len());
         if n + 2 > run.len() {
             return None;
         }
