@@ -92,7 +92,8 @@ fn a_missing_folder_is_named() {
     );
     assert_eq!(error.hint().as_deref(), Some("create the folder first"));
     let error = write_text(Path::new(".."), "").unwrap_err();
-    assert_eq!(error.to_string(), "..: cannot be written: the path names no file");
+    assert_eq!(error.to_string(), "..: cannot be written: is a directory");
+    assert_eq!(error.hint().as_deref(), Some("give a file name, not a folder"));
 }
 
 #[test]
