@@ -4,9 +4,11 @@
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
-use lissom::identify::{ArmSource, Estimate, Identified, Options, identify};
+use lissom::identify::{
+    ArmSource, Estimate, Identified, Options, OutputErrorStart, identify, output_error,
+};
 use lissom::record::{Campaign, Run};
-use lissom::replay::ModalArm;
+use lissom::replay::{ModalArm, Oscillator, Parameter};
 use lissom::rig::{Amplifier, Experiment, Instruments, Noise, Pd, Quantiser, Rig, Sensor, Settle};
 
 /// Further from the truth than this is no estimate of it.
@@ -36,14 +38,17 @@ fn sines(rig: &Rig) -> Vec<Run> {
     [1.5, 3.0, 4.5, 9.0, 12.0, 20.0, 36.0].iter().map(sine).collect()
 }
 
-fn found(rig: &Rig, runs: &[Run]) -> Identified {
+/// Without the tips' readings.
+fn alone(rig: &Rig, runs: &[Run]) -> Campaign {
     let alone = |run: &Run| {
         let (command, motor) = (run.command().to_vec(), run.motor().to_vec());
         Run::new(run.name(), run.time(), command, motor, vec![]).unwrap()
     };
-    let runs = runs.iter().map(alone).collect();
-    let campaign = Campaign::new(rig.channels(0..0), runs).unwrap();
-    identify(&campaign, &Options::default(), |_| ()).unwrap()
+    Campaign::new(rig.channels(0..0), runs.iter().map(alone).collect()).unwrap()
+}
+
+fn found(rig: &Rig, runs: &[Run]) -> Identified {
+    identify(&alone(rig, runs), &Options::default(), |_| ()).unwrap()
 }
 
 /// Within some deviations, and within a share of the truth.
@@ -81,4 +86,31 @@ fn a_stiff_axis_has_no_modes() {
     assert!(id.beam.modes.is_empty(), "{:?}", id.beam.modes);
     is("Coulomb", id.friction.coulomb, 0.04, 1e-3);
     is("inertia", id.inertia, 8e-4, 1e-2);
+}
+
+/// An axis that is stiff, begun with a mode that is none: a lag, as overdamped as one can be.
+#[test]
+fn a_mode_that_is_none_goes() {
+    let rig = rig(0.005, 1e-6);
+    let campaign = alone(&rig, &sines(&rig));
+    let mut arm = ModalArm::of_arm(&rig.arm).unwrap();
+    arm.shapes.clear();
+    arm.at_points_per_s.clear();
+    arm.modes = vec![Oscillator {
+        omega_rad_s: 40.0,
+        stiffness_nm_per_rad: 0.02,
+        within_per_s: 80.0,
+        grounded_per_s: 0.0,
+    }];
+    let start = OutputErrorStart {
+        arms: vec![arm],
+        omega_rad_s: vec![None; campaign.runs.len()],
+        first_window_s: None,
+        law: Vec::new(),
+    };
+    let found = output_error(&campaign, &start).unwrap();
+    assert!(found.arm.modes.is_empty(), "{:?}", found.arm.modes);
+    let truth = 8e-4;
+    let inertia = found.estimate(Parameter::Inertia).unwrap();
+    assert!((inertia.value - truth).abs() < DEVIATIONS * inertia.std + 1e-3 * truth, "{inertia:?}");
 }

@@ -117,3 +117,13 @@ fn an_arm_of_other_tips_is_refused() {
     let error = validate(&found(other), &log_of(&rigid()), &ValidationOptions::default());
     assert_eq!(error, Err(ValidationError::Tips { expected: 1, found: 0 }));
 }
+
+#[test]
+fn a_window_longer_than_the_log_has_no_torque() {
+    let arm = rigid();
+    for window_s in [20.0, 1e17, 1e300] {
+        let options = ValidationOptions { window_s: Some(window_s), ..Default::default() };
+        let v = validate(&found(arm.clone()), &log_of(&arm), &options).unwrap();
+        assert!(v.torque.is_none(), "{window_s}");
+    }
+}
