@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Largest file that is read whole \[bytes\]: a campaign's result has a hundredth of it.
+/// Largest file that is read whole \[bytes\], far beyond what a person or lissom writes.
 const MOST: u64 = 256 << 20;
 
 /// The text of a file.
