@@ -82,11 +82,13 @@ fn corrected_responses_are_as_close_as_they_were() {
     assert!(corrected.iter().all(|e| *e < 0.01), "{corrected:?}");
 }
 
-/// Another law of friction is said, and leaves inertia, coupling and frequencies as they are; that of campaign 12
-/// is all but hidden by an encoder of 11 bits.
+/// Another law of friction is said, and leaves inertia, coupling and frequencies as they are. That of campaign 12 is all
+/// but hidden by an encoder of 11 bits; the ripple of 16 by one of ten, and it drives motions apart as that of 19 does.
 #[test]
 fn wrong_laws_are_said_and_spare_the_linear_part() {
-    for (law, index) in [(Law::Stribeck, 7), (Law::Stribeck, 12), (Law::Direction, 18)] {
+    let stribeck = [7, 12].map(|index| (Law::Stribeck, index));
+    let ripple = [16, 19].map(|index| (Law::Ripple, index));
+    for (law, index) in stribeck.into_iter().chain(ripple).chain([(Law::Direction, 18)]) {
         let campaign = draw_campaign(3, index, law).unwrap();
         let id = identify(&campaign.logs, &Options::default(), |_| {}).unwrap();
         let scored = score(&Truth::of(&campaign), &id);
@@ -97,6 +99,8 @@ fn wrong_laws_are_said_and_spare_the_linear_part() {
         for f in scored.figures.iter().filter(linear) {
             let error = f.error().map_or(f64::INFINITY, f64::abs);
             assert!(error < 5e-3, "{law} {index}: {} off by {error:.1e}", f.figure);
+            let deviations = f.deviations().map_or(f64::INFINITY, f64::abs);
+            assert!(deviations < 5.0, "{law} {index}: {} off by {deviations:.1}", f.figure);
         }
     }
 }

@@ -251,9 +251,11 @@ fn by_likelier_law(
     // With a term that was tried there and not taken, perhaps: it has to stand out in the end.
     let start = modes::undamped(found.report.on_first_windows()?.arm.clone());
     let lawful = attempt(&likelier, &start, first_window_s)?;
-    let describes = lawful.is_at_noise(fitting) && !is_left(&lawful.left);
-    let terms_stand = || evidence::terms_stand_out(fitting, &lawful.fit);
-    (describes && lawful.stands(fitting) && terms_stand()).then_some(lawful)
+    let describes = lawful.stands(fitting) && !is_left(&lawful.left);
+    // It says no more than one that stands unless it describes whole runs, with terms that are there for certain.
+    let says_more =
+        || lawful.is_at_noise(fitting) && evidence::terms_stand_out(fitting, &lawful.fit);
+    (describes && (!found.stands(fitting) || says_more())).then_some(lawful)
 }
 
 /// An arm on bristles that stands, beside an attempt whose joint sticks: from where that was on short windows and

@@ -70,7 +70,8 @@ pub struct OutputError {
     pub extensions: Vec<Extension>,
     /// Whether the beam is taken for point masses at its tips: nothing speaks against it.
     pub point_masses: bool,
-    /// Whether windows were widened to the whole of the runs: the arm describes them.
+    /// Whether windows were widened to the whole of the runs, or as far as neighbouring motions stay together: the arm
+    /// describes them.
     pub whole_runs: bool,
     /// Residual of the last stage beside the noise of the samples alone: the largest ratio of a channel.
     pub beyond_noise: f64,

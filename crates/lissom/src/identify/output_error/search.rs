@@ -40,6 +40,9 @@ const SLOWEST_LAW: f64 = 1e-3;
 /// Largest angle by which a motor may swing on its bristles in a sample \[rad\], and rate at which they may damp
 /// it over a sample: stiffer ones hold it as if it stuck, and take ever shorter steps to follow.
 const LARGEST_SWING: f64 = 12.0;
+/// Largest change of a window's first velocity in one step, as a share of the fastest in it: where the joint sticks
+/// soon the rest forgets that velocity, and nothing else bounds what a step makes of it.
+const LARGEST_KICK: f64 = 0.3;
 /// A window whose cost per sample is this many times the usual one counts half in a robust search.
 const ROBUST: f64 = 10.0;
 
@@ -205,6 +208,8 @@ impl Problem<'_> {
                 let mut w = w.clone();
                 let len = w.start.len();
                 w.start.iter_mut().zip(change.iter()).for_each(|(x, c)| *x += c);
+                let most = LARGEST_KICK * fastest_within(&self.campaign.runs[w.run], &w);
+                w.start[1] += change[1].clamp(-most, most) - change[1];
                 w.zeros.iter_mut().zip(change.iter().skip(len)).for_each(|(x, c)| *x += c);
                 w
             })
@@ -244,6 +249,13 @@ impl Problem<'_> {
         }
         promised.is_finite().then_some(Step { shared: change, own, promised })
     }
+}
+
+/// The fastest that the log moves the motor in a window.
+fn fastest_within(run: &Run, window: &Window) -> f64 {
+    let moves =
+        run.motor()[window.samples.clone()].windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    moves.fold(0.0, f64::max) / run.sample_time_s()
 }
 
 /// Whether friction with all of its terms brakes, at rest and at speed, else nothing holds the motor and

@@ -37,6 +37,9 @@ const MOST_STEPS: usize = 40;
 /// than this.
 const MOST_ROUNDS: usize = 4;
 const SETTLED: f64 = 0.9;
+/// Windows over which neighbouring motions part by more than this factor are too long: its square is what the sums
+/// of squares lose of their digits, and what a step of the replay errs by grows with it.
+const MOST_GROWTH: f64 = 100.0;
 /// Each stage's windows are longer than the ones before by this factor.
 pub(super) const WIDENING: f64 = 4.0;
 /// By this one after a search that was caught.
@@ -104,6 +107,7 @@ pub(super) struct Fit {
     pub(super) noise: Vec<SensorNoise>,
     /// Deviation of each channel's residual, its share of the unknowns taken out.
     pub(super) residual: Vec<f64>,
+    /// Whether windows are as long as can be told: whole runs, or all windows of the longest that do not diverge.
     pub(super) whole_runs: bool,
     pub(super) window_s: f64,
 }
@@ -281,7 +285,8 @@ impl Fitting<'_> {
         self.campaign.runs.iter().map(duration_s).fold(0.0, f64::max)
     }
 
-    /// To whole runs, as far as the arm describes them; parameters are added where it does not.
+    /// To whole runs, as far as the arm describes them and neighbouring motions stay together; parameters are added
+    /// where it does not.
     pub(super) fn widen(&self, fit: &mut Fit, report: &mut Report) {
         let longest = self.longest_s();
         let mut factor = self.widening;
@@ -297,9 +302,14 @@ impl Fitting<'_> {
                 evidence::extend(self, fit, report);
                 evidence::relax(self, fit, report);
             }
-            if report.grown(&fit.residual) || !self.is_tellable(fit) {
+            let diverges = self.growth(fit) > MOST_GROWTH;
+            if report.grown(&fit.residual) || diverges {
                 *fit = before;
-                if factor < WIDENING || self.beyond_noise(fit) > AT_NOISE {
+                let at_noise = self.beyond_noise(fit) <= AT_NOISE;
+                if factor < WIDENING || !at_noise {
+                    if diverges && at_noise {
+                        self.take_all(fit, report);
+                    }
                     return;
                 }
                 // The windows before are described to the noise: this search was caught on the way.
@@ -308,11 +318,32 @@ impl Fitting<'_> {
         }
     }
 
-    /// Whether its figures can be told from each other as far as numbers go. On bristles whose level falls with speed
-    /// a replay parts from its neighbours exponentially: over windows too long one of them outweighs all else.
-    fn is_tellable(&self, fit: &Fit) -> bool {
-        fit.body.arm.dry_terms.bristles.is_none()
-            || self.covariances(fit).white.diagonal().iter().all(|v| *v > 0.0)
+    /// All windows of the length that a fit has, in place of some: longer ones tell no more.
+    fn take_all(&self, fit: &mut Fit, report: &mut Report) {
+        let some = fit.clone();
+        fit.windows = widen(self.campaign, &fit.body.arm, &fit.windows, fit.window_s);
+        self.search(fit, report);
+        fit.whole_runs = true;
+        self.search(fit, report);
+        if self.beyond_noise(fit) > AT_NOISE {
+            *fit = some;
+        }
+    }
+
+    /// How many times farther from each other two motions end than they begin, by the angles that the sensors show: root
+    /// of their mean square over a window, the largest of all windows. Friction that falls with speed or over the
+    /// angle drives motions apart exponentially, and long windows then rest on the last digits of their first states.
+    fn growth(&self, fit: &Fit) -> f64 {
+        if fit.body.arm.dry_terms.is_empty() {
+            return 1.0;
+        }
+        let angle = fit.coordinates();
+        let of_window = |sums: &WindowSums| {
+            let readings = sums.readings.iter().zip(&fit.noise);
+            let even: f64 = readings.map(|(n, e)| *n as f64 / e.deviation().powi(2)).sum();
+            (sums.gram[(angle, angle)] / even).sqrt()
+        };
+        self.point(fit, &fit.free).sums.iter().map(of_window).fold(0.0, f64::max)
     }
 
     /// Searches from where the fit is and takes its noise from what is left.
