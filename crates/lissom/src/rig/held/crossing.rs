@@ -7,6 +7,8 @@ use super::flow::{Block, phi};
 
 /// Halvings of the interval before two crossings count as one.
 const DEPTH: u32 = 52;
+/// Exponent from which on a term has decayed to nothing beside the digits of any other.
+const GONE: f64 = -50.0;
 
 /// `f(t) = f(0) + Σ Re(a·(e^{μt} − 1)/μ)`: what blocks contribute to the watched under a held torque.
 #[derive(Debug, Clone, Default)]
@@ -128,7 +130,7 @@ impl Wave {
     fn descend(&mut self, first: Point, last: Point, depth: u32) -> Option<f64> {
         let width = last.time - first.time;
         let (mut stray, mut turn) = (0.0, 0.0);
-        for t in &self.terms {
+        for t in self.terms.iter().filter(|t| t.rate.re * first.time > GONE) {
             let angle = t.speed * width;
             // As `chord` in flow.rs, for the value and for the slope.
             stray += t.size * (angle * width / 8.0).min(2.0 / t.speed);
@@ -219,6 +221,19 @@ mod tests {
         let mu = Complex64::new(0.0, 3.0);
         let mut w = wave(1.0, &[(mu, mu * 0.5 * (1.0 - 1e-8))]);
         assert_eq!(w.first_zero(0.0, 2.0), None);
+    }
+
+    #[test]
+    fn a_term_that_decays_at_once_is_not_followed_to_the_end() {
+        // 0.5 + 0.5·e^{−1e12·t} − t/2, which falls to one half within picoseconds.
+        let at_once = Complex64::from(-1e12);
+        let mut w = wave(
+            1.0,
+            &[(Complex64::from(-1e-30), Complex64::from(-0.5)), (at_once, at_once * 0.5)],
+        );
+        let found = w.first_zero(0.0, 2.0).unwrap();
+        assert!((found - 1.0).abs() < TIME_S, "{found}");
+        assert!(w.evaluations < 1000, "{}", w.evaluations);
     }
 
     #[test]
