@@ -52,21 +52,21 @@ pub struct Extension {
 /// Adds parameters while the residual calls for some, each time the group that takes most away.
 pub(super) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     for _ in 0..MOST {
-        let mut found = promises(fitting, fit);
-        let share = |group: &[Extension]| group.first().map_or(0.0, |e| e.share);
-        let called_for = |(_, group): &(usize, &Vec<Extension>)| {
-            let stands = |e: &Extension| e.value.abs() > DEVIATIONS * e.std && e.share > SHARE;
-            share(group) > LARGE || group.iter().any(stands)
+        let mut found = all_scores(fitting, fit, &candidates(fit)).1;
+        let called_for = |(_, promise): &(usize, &Promise)| {
+            let stands = |e: &Extension| e.value.abs() > DEVIATIONS * e.std;
+            let stand = promise.group.iter().any(stands) || promise.stands_together();
+            promise.share() > LARGE || (promise.share() > SHARE && stand)
         };
         let best = found.iter().enumerate().filter(called_for);
-        let best = best.max_by(|a, b| share(a.1).total_cmp(&share(b.1))).map(|(k, _)| k);
+        let best = best.max_by(|a, b| a.1.share().total_cmp(&b.1.share())).map(|(k, _)| k);
         let floor = if takes_likelier(fitting, fit) { SHARE } else { LARGE };
-        let least = best.map_or(floor, |k| share(&found[k]).max(floor));
+        let least = best.map_or(floor, |k| found[k].share().max(floor));
         if add_to_law(fitting, fit, report, least) {
             continue;
         }
-        let added = best.map(|k| found.remove(k));
-        report.refused = found.concat();
+        let added = best.map(|k| found.remove(k).group);
+        report.refused = found.into_iter().flat_map(|promise| promise.group).collect();
         let Some(added) = added else { break };
         fit.free.extend(added.iter().map(|e| e.parameter));
         report.added.extend(added.into_iter().map(|e| Extension { added: true, ..e }));
@@ -229,11 +229,23 @@ pub(super) fn scores(
 /// What a group of parameters promises.
 struct Promise {
     group: Vec<Extension>,
+    /// Square of how many deviations all of the group together stand from zero, `vᵀ·C⁻¹·v`.
+    together: f64,
     /// Change of the coordinates that are free without it, beside the change without it.
     moved: DVector<f64>,
 }
 
 impl Promise {
+    /// Share of the cost that it takes.
+    fn share(&self) -> f64 {
+        self.group.first().map_or(0.0, |e| e.share)
+    }
+
+    /// Whether the group is there, though each of it may be nothing beside the others: dampers of several modes say.
+    fn stands_together(&self) -> bool {
+        self.together > DEVIATIONS * DEVIATIONS * self.group.len() as f64
+    }
+
     /// The most that a parameter of the group stands from zero, in its deviations.
     fn deviations(&self) -> f64 {
         let of = |e: &Extension| if e.std > 0.0 { (e.value / e.std).abs() } else { 0.0 };
@@ -355,7 +367,10 @@ fn score(sums: &[WindowSums], before: usize, group: &[Parameter], alone: &Promis
         Extension { parameter: *parameter, value, std, share, added: false }
     };
     let finite = |e: &Extension| e.value.is_finite() && e.share.is_finite();
+    let values = step.rows(before, group.len());
+    let own = covariance.view((before, before), (group.len(), group.len()));
     Promise {
+        together: values.dot(&(inverse(&own.into_owned()) * values)),
         group: group.iter().enumerate().map(figure).filter(finite).collect(),
         moved: step.rows(0, before) - &alone.step,
     }
