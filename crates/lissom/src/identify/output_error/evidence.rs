@@ -375,3 +375,41 @@ fn score(sums: &[WindowSums], before: usize, group: &[Parameter], alone: &Promis
         moved: step.rows(0, before) - &alone.step,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::DMatrix;
+
+    use super::*;
+
+    /// Two dampers whose readings are nearly the same, and what they have in common ten deviations from zero; each is
+    /// then less than one, which the other may do without.
+    #[test]
+    fn twins_stand_together() {
+        let (alike, shown) = (0.99, 10.0);
+        let rows = [1.0, alike, shown, alike, 1.0, shown, shown, shown, 1e4];
+        let gram = DMatrix::from_row_slice(3, 3, &rows);
+        let sums = WindowSums {
+            gram,
+            blocks: Vec::new(),
+            squares: vec![1e4],
+            readings: vec![10_000],
+            cost: 1e4,
+            slopes: 1.0,
+            curvatures: 1.0,
+            samples: 10_000,
+        };
+        let sums = [sums];
+        let alone = Promised::of(&sums, 0);
+        let found = |group: &[Parameter]| {
+            let kept: Vec<usize> = (0..group.len()).collect();
+            score(&sums.each_ref().map(|s| s.of(&kept, 2)), 0, group, &alone)
+        };
+        let twins = found(&[Parameter::DampingAtPoint(0), Parameter::DampingAtPoint(1)]);
+        assert!(twins.deviations() < 1.0, "{}", twins.deviations());
+        assert!((twins.together - 100.0 * 2.0 / (1.0 + alike)).abs() < 0.1, "{}", twins.together);
+        assert!(twins.stands_together());
+        let one = found(&[Parameter::DampingAtPoint(0)]);
+        assert!((one.deviations() - shown).abs() < 0.01 && one.stands_together());
+    }
+}
