@@ -57,7 +57,7 @@ pub(crate) fn finding(axis: Axis, id: &Identified) -> Option<Finding> {
     let replay = id.output_error.as_ref().filter(|oe| oe.stands());
     let by_replay = replay.map_or(Vec::new(), OutputError::law_terms);
     if !by_replay.is_empty() {
-        let whole = replay.is_some_and(OutputError::describes_whole_runs);
+        let whole = replay.is_some_and(|oe| oe.describes_whole_runs() && !oe.is_in_windows());
         let message = format!(
             "friction is not Coulomb and one viscous constant: {}; with that the replay describes {}",
             in_words(axis, &by_replay),

@@ -220,7 +220,7 @@ fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> 
 }
 
 /// What describes the runs where an attempt does not to the noise: a law of friction whose terms need only be likelier
-/// than none, where nothing is left with it and all of them stand out, or bristles. Else that attempt.
+/// than none, with which nothing is left, or bristles. Else that attempt.
 fn by_another_law(
     fitting: &Fitting<'_>,
     found: Attempt,
@@ -241,7 +241,8 @@ fn by_another_law(
     if better { yields } else { found }
 }
 
-/// Under such a law from where an attempt was on short windows; `None` where it does not describe the runs.
+/// Under such a law from where an attempt was on short windows. `None` where it leaves more than noise; beside an attempt
+/// that stands also where it does not describe whole runs, or not all of its terms stand out.
 fn by_likelier_law(
     fitting: &Fitting<'_>,
     found: &Attempt,

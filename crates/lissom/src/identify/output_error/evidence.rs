@@ -382,8 +382,8 @@ mod tests {
 
     use super::*;
 
-    /// Two dampers whose readings are nearly the same, and what they have in common ten deviations from zero; each is
-    /// then less than one, which the other may do without.
+    /// Two dampers whose readings are nearly the same; what they have in common is ten deviations from zero, and each
+    /// less than one, since the other may stand for it.
     #[test]
     fn twins_stand_together() {
         let (alike, shown) = (0.99, 10.0);

@@ -108,9 +108,14 @@ impl OutputError {
         }
     }
 
-    /// Whether the arm stands and describes the runs from end to end.
+    /// Whether the arm stands and describes the runs from end to end, be it by windows as long as motions stay together.
     pub fn describes_whole_runs(&self) -> bool {
         self.whole_runs && self.stands()
+    }
+
+    /// Whether some run is replayed in more than one window.
+    pub fn is_in_windows(&self) -> bool {
+        self.windows.windows(2).any(|pair| pair[0].run == pair[1].run)
     }
 
     /// Whether the axis is rigid: no more than the sensors' noise is left of whole runs without any mode.

@@ -15,7 +15,7 @@ use super::repeats::without_repeats;
 use super::search::{Iteration, PROMISE, PROMISE_ON_THE_WAY, Point, Problem, Stop, is_possible};
 use super::windows::{cut, widen};
 use crate::identify::LawTerm;
-use crate::record::{Campaign, Run};
+use crate::record::{Campaign, Run, TipQuantity};
 use crate::replay::{
     Blocks, ModalArm, Parameter, Prediction, Sampling, SensorNoise, Window, WindowSums, costs,
     free_parameters, predict,
@@ -286,7 +286,7 @@ impl Fitting<'_> {
     }
 
     /// To whole runs, as far as the arm describes them and neighbouring motions stay together; parameters are added
-    /// where it does not.
+    /// where it does not. What grows over windows in which motions part is not told from these.
     pub(super) fn widen(&self, fit: &mut Fit, report: &mut Report) {
         let longest = self.longest_s();
         let mut factor = self.widening;
@@ -307,7 +307,8 @@ impl Fitting<'_> {
                 *fit = before;
                 let at_noise = self.beyond_noise(fit) <= AT_NOISE;
                 if factor < WIDENING || !at_noise {
-                    if diverges && at_noise {
+                    let lawful = !fit.body.arm.dry_terms.is_empty();
+                    if diverges && at_noise && lawful {
                         self.take_all(fit, report);
                     }
                     return;
@@ -318,32 +319,43 @@ impl Fitting<'_> {
         }
     }
 
-    /// All windows of the length that a fit has, in place of some: longer ones tell no more.
+    /// All windows of the length that a fit has, in place of some: longer ones tell no more. Not where these are not
+    /// described to the noise.
     fn take_all(&self, fit: &mut Fit, report: &mut Report) {
-        let some = fit.clone();
+        let before = fit.clone();
         fit.windows = widen(self.campaign, &fit.body.arm, &fit.windows, fit.window_s);
         self.search(fit, report);
         fit.whole_runs = true;
         self.search(fit, report);
         if self.beyond_noise(fit) > AT_NOISE {
-            *fit = some;
+            *fit = before;
         }
     }
 
-    /// How many times farther from each other two motions end than they begin, by the angles that the sensors show: root
-    /// of their mean square over a window, the largest of all windows. Friction that falls with speed or over the
-    /// angle drives motions apart exponentially, and long windows then rest on the last digits of their first states.
+    /// How many times a change of a window's first angle has grown, root mean square over the window as the sensors of
+    /// angles show it; the largest of all windows. Friction that falls with speed or over the angle drives motions
+    /// apart exponentially, and long windows then rest on the last digits of their first states.
     fn growth(&self, fit: &Fit) -> f64 {
         if fit.body.arm.dry_terms.is_empty() {
             return 1.0;
         }
-        let angle = fit.coordinates();
+        // Accelerations change by squares of frequencies beside the angle: they weigh nothing.
+        let tips = self.campaign.channels.tips.iter();
+        let counts = tips.map(|tip| tip.quantity != TipQuantity::Acceleration);
+        let counts: Vec<bool> = std::iter::once(true).chain(counts).collect();
+        let mut angles = fit.clone();
+        for (noise, _) in angles.noise.iter_mut().zip(&counts).filter(|(_, counts)| !**counts) {
+            *noise = SensorNoise::gaussian(f64::MAX.sqrt());
+        }
+        let first_angle = fit.coordinates();
         let of_window = |sums: &WindowSums| {
-            let readings = sums.readings.iter().zip(&fit.noise);
-            let even: f64 = readings.map(|(n, e)| *n as f64 / e.deviation().powi(2)).sum();
-            (sums.gram[(angle, angle)] / even).sqrt()
+            let readings = sums.readings.iter().zip(&angles.noise).zip(&counts);
+            let weights = readings.filter(|(_, counts)| **counts);
+            let unchanged: f64 = weights.map(|((n, e), _)| *n as f64 / e.deviation().powi(2)).sum();
+            let grown = (sums.gram[(first_angle, first_angle)] / unchanged).sqrt();
+            if grown.is_nan() && unchanged > 0.0 { f64::INFINITY } else { grown }
         };
-        self.point(fit, &fit.free).sums.iter().map(of_window).fold(0.0, f64::max)
+        self.point(&angles, &fit.free).sums.iter().map(of_window).fold(0.0, f64::max)
     }
 
     /// Searches from where the fit is and takes its noise from what is left.

@@ -31,16 +31,15 @@ pub(crate) fn verdict(campaign: &Campaign, id: &mut Identified) {
 
 /// Windows are shorter than the runs that they describe.
 fn motions_part(oe: &OutputError) -> Option<Finding> {
-    let in_windows = oe.windows.windows(2).any(|pair| pair[0].run == pair[1].run);
     let window_s = oe.stages.last()?.window_s;
-    (oe.describes_whole_runs() && in_windows).then(|| {
+    (oe.describes_whole_runs() && oe.is_in_windows()).then(|| {
         Finding::new(
             "motions-part",
             Severity::Info,
             &[],
             format!(
-                "friction that changes over the angle or falls with speed drives neighbouring motions apart: the runs \
-                 are replayed {window_s:.2} s at a time, each time from a state of its own"
+                "friction drives neighbouring motions apart, as it does where it changes over the angle or falls with \
+                 speed: the runs are replayed {window_s:.2} s at a time, each time from a state of its own"
             ),
             "nothing is wrong: a prediction from a run's first state alone does not hold for longer",
         )
