@@ -84,7 +84,7 @@ fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: 
         return false;
     }
     let Some((trial, found)) = law::best(fitting, fit, least) else { return false };
-    if found.first().is_none_or(|e| e.share <= least) {
+    if share(&found) <= least {
         return false;
     }
     let mut with = fit.clone();
@@ -226,6 +226,11 @@ pub(super) fn scores(
     all_scores(fitting, fit, groups).1.into_iter().map(|promise| promise.group).collect()
 }
 
+/// Share of the cost that a group takes.
+pub(super) fn share(group: &[Extension]) -> f64 {
+    group.first().map_or(0.0, |e| e.share)
+}
+
 /// What a group of parameters promises.
 struct Promise {
     group: Vec<Extension>,
@@ -236,9 +241,8 @@ struct Promise {
 }
 
 impl Promise {
-    /// Share of the cost that it takes.
     fn share(&self) -> f64 {
-        self.group.first().map_or(0.0, |e| e.share)
+        share(&self.group)
     }
 
     /// Whether the group is there, though each of it may be nothing beside the others: dampers of several modes say.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::SQRT_2;
 
-use super::evidence::{self, EVEN, Extension};
+use super::evidence::{self, EVEN, Extension, share};
 use super::stages::{Fit, Fitting, Report};
 use super::windows::fastest_rad_s;
 use crate::drive::Falloff;
@@ -122,10 +122,6 @@ pub(super) fn is_line(fitting: &Fitting<'_>, fit: &Fit, line: &Fit) -> bool {
 
 fn is_near_rest(p: Parameter) -> bool {
     matches!(p, Parameter::NearRest | Parameter::NearRestSpeed)
-}
-
-fn share(found: &[Extension]) -> f64 {
-    found.first().map_or(0.0, |e| e.share)
 }
 
 /// Waves per angle at which a ripple promises most, over the frequencies that the travel tells apart.

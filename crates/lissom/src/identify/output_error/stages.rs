@@ -343,19 +343,21 @@ impl Fitting<'_> {
         let tips = self.campaign.channels.tips.iter();
         let counts = tips.map(|tip| tip.quantity != TipQuantity::Acceleration);
         let counts: Vec<bool> = std::iter::once(true).chain(counts).collect();
-        let mut angles = fit.clone();
-        for (noise, _) in angles.noise.iter_mut().zip(&counts).filter(|(_, counts)| !**counts) {
-            *noise = SensorNoise::gaussian(f64::MAX.sqrt());
-        }
+        let weightless = SensorNoise::gaussian(f64::MAX.sqrt());
+        let noise = fit.noise.iter().zip(&counts);
+        let noise: Vec<SensorNoise> =
+            noise.map(|(own, counts)| if *counts { *own } else { weightless }).collect();
+        let problem = self.problem(&fit.free, &noise, true);
+        let point = problem.at(fit.body.clone(), fit.windows.clone());
         let first_angle = fit.coordinates();
         let of_window = |sums: &WindowSums| {
-            let readings = sums.readings.iter().zip(&angles.noise).zip(&counts);
+            let readings = sums.readings.iter().zip(&noise).zip(&counts);
             let weights = readings.filter(|(_, counts)| **counts);
             let unchanged: f64 = weights.map(|((n, e), _)| *n as f64 / e.deviation().powi(2)).sum();
             let grown = (sums.gram[(first_angle, first_angle)] / unchanged).sqrt();
             if grown.is_nan() && unchanged > 0.0 { f64::INFINITY } else { grown }
         };
-        self.point(&angles, &fit.free).sums.iter().map(of_window).fold(0.0, f64::max)
+        point.sums.iter().map(of_window).fold(0.0, f64::max)
     }
 
     /// Searches from where the fit is and takes its noise from what is left.
