@@ -103,6 +103,11 @@ impl Parameter {
         )
     }
 
+    /// Whether it is a damper of the beam, of whatever kind.
+    pub fn is_damper(self) -> bool {
+        matches!(self, Self::DampingWithin(_) | Self::DampingGrounded(_) | Self::DampingAtPoint(_))
+    }
+
     /// Its natural size in an arm, in its own unit: its value where that is a measure.
     pub fn size(self, arm: &ModalArm) -> f64 {
         let positive = |value: f64, or: f64| if value > 0.0 { value } else { or };

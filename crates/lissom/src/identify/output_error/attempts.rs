@@ -7,7 +7,7 @@ use super::left_over::left_over;
 use super::stages::{Fit, Fitting, Laws, Report, SLOWER, STEPS_OF_A_PROBE};
 use super::{AT_NOISE, OutputErrorStart};
 use super::{evidence, law, modes};
-use crate::replay::{ModalArm, Oscillator};
+use crate::replay::{ModalArm, Oscillator, Parameter};
 
 /// An arm is tried after the others where a few steps on short windows leave this many times what they
 /// leave from the best.
@@ -156,6 +156,7 @@ fn go_on(fitting: &Fitting<'_>, mut fit: Fit, mut report: Report) -> Attempt {
     }
     if modes::prune(fitting, &mut fit, &mut report) {
         settle(fitting, &mut fit, &mut report);
+        fitting.widen(&mut fit, &mut report);
         report.refused = evidence::promises(fitting, &fit).concat();
     }
     let line = law::as_line(fitting, &fit);
@@ -174,6 +175,8 @@ fn go_on(fitting: &Fitting<'_>, mut fit: Fit, mut report: Report) -> Attempt {
 
 /// Which kinds of dampers there are, and whether the beam is one of point masses.
 fn settle(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+    let dampers =
+        |fit: &Fit| fit.free.iter().copied().filter(|p| p.is_damper()).collect::<Vec<Parameter>>();
     evidence::tighten(fitting, fit, report);
     fit.body.allow_dampers_at_points();
     let added = report.added.len();
@@ -182,8 +185,15 @@ fn settle(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
         // It may describe longer windows.
         fitting.widen(fit, report);
     }
+    let before = dampers(fit);
     evidence::dampers_at_points(fitting, fit, report);
     evidence::drop_dampers(fitting, fit, report);
+    if dampers(fit) != before {
+        // Modes that made up for the dampers that there were may be those of point masses now, and longer windows
+        // may be described.
+        evidence::tighten(fitting, fit, report);
+        fitting.widen(fit, report);
+    }
     evidence::relax(fitting, fit, report);
 }
 
@@ -310,11 +320,8 @@ impl Attempt {
     fn leaves_more(&self, fitting: &Fitting<'_>, other: &Self) -> bool {
         let masks = self.without_repeats.as_deref().unwrap_or(fitting.masks);
         let fitting = Fitting { masks, ..*fitting };
-        let cost = |a: &Self| {
-            let worth = evidence::EVEN * evidence::EVEN * a.fit.coordinates() as f64;
-            fitting.cost(&a.fit, &self.fit.noise) + worth
-        };
-        cost(other) < cost(self)
+        let price = |a: &Self| evidence::price(&fitting, &a.fit, &self.fit.noise);
+        price(other) < price(self)
     }
 
     /// How near it comes, for comparison: whole runs before parts of them.

@@ -9,7 +9,7 @@ use super::law;
 use super::search::Stop;
 use super::stages::{Fit, Fitting, Laws, Report};
 use crate::information::{inverse, normal_equations};
-use crate::replay::{Parameter, WindowSums};
+use crate::replay::{Parameter, SensorNoise, WindowSums};
 
 /// A parameter is called for where it would stand this many deviations from what it is without…
 const DEVIATIONS: f64 = 4.0;
@@ -91,8 +91,7 @@ fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: 
     trial.put_into(&mut with);
     fitting.search(&mut with, report);
     let better = if likelier {
-        let worth = EVEN * EVEN * (with.coordinates() - fit.coordinates()) as f64;
-        fitting.cost(&with, &fit.noise) + worth < fitting.cost(fit, &fit.noise)
+        price(fitting, &with, &fit.noise) < price(fitting, fit, &fit.noise)
     } else {
         fitting.excess(&with) <= LAW_LEAVES * fitting.excess(fit)
     };
@@ -148,21 +147,24 @@ pub(super) fn dampers_at_points(fitting: &Fitting<'_>, fit: &mut Fit, report: &m
     let points = (0..modes).map(Parameter::DampingAtPoint);
     other.free.extend(points.filter(|p| !fit.free.contains(p)));
     let mut alone = other.clone();
-    fitting.search(&mut other, report);
-    let mut least = fitting.cost(fit, &fit.noise);
-    let cost = fitting.cost(&other, &fit.noise);
-    if cost < least {
-        (*fit, least) = (other, cost);
-    }
-    let fewer = alone.free.extract_if(.., |p| within(p)).count();
-    if fewer > 0 {
-        alone.body.arm.modes.iter_mut().for_each(|m| m.within_per_s = 0.0);
-        fitting.search(&mut alone, report);
-        let worth = EVEN * EVEN * fewer as f64;
-        if fitting.cost(&alone, &fit.noise) < least + worth {
-            *fit = alone;
+    let noise = fit.noise.clone();
+    let mut take = |mut other: Fit| {
+        fitting.search(&mut other, report);
+        if price(fitting, &other, &noise) < price(fitting, fit, &noise) {
+            *fit = other;
         }
+    };
+    take(other);
+    if alone.free.extract_if(.., |p| within(p)).count() > 0 {
+        alone.body.arm.modes.iter_mut().for_each(|m| m.within_per_s = 0.0);
+        take(alone);
     }
+}
+
+/// Cost of a fit where the noise is `noise`, and what its coordinates are worth: with as many more a fit that
+/// costs as much is as likely as without.
+pub(super) fn price(fitting: &Fitting<'_>, fit: &Fit, noise: &[SensorNoise]) -> f64 {
+    fitting.cost(fit, noise) + EVEN * EVEN * fit.coordinates() as f64
 }
 
 /// Lets the modes go each its own way where point masses at the tips leave more than noise.
@@ -318,8 +320,7 @@ pub(super) fn drop_dampers(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Re
         p.set(&mut without.body.arm, least);
     }
     fitting.search(&mut without, report);
-    let worth = EVEN * EVEN * dropped.len() as f64;
-    if fitting.cost(&without, &fit.noise) < fitting.cost(fit, &fit.noise) + worth {
+    if price(fitting, &without, &fit.noise) < price(fitting, fit, &fit.noise) {
         *fit = without;
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::SQRT_2;
 
-use super::evidence::{self, EVEN, Extension, share};
+use super::evidence::{self, Extension, price, share};
 use super::stages::{Fit, Fitting, Report};
 use super::windows::fastest_rad_s;
 use crate::drive::Falloff;
@@ -115,9 +115,7 @@ pub(super) fn bristled(campaign: &Campaign, arm: &ModalArm) -> Vec<ModalArm> {
 
 /// Whether the line leaves no more than the two numbers that it lacks are worth.
 pub(super) fn is_line(fitting: &Fitting<'_>, fit: &Fit, line: &Fit) -> bool {
-    let lacks = fit.free.iter().filter(|p| is_near_rest(**p)).count();
-    let worth = EVEN * EVEN * lacks as f64;
-    fitting.cost(line, &fit.noise) < fitting.cost(fit, &fit.noise) + worth
+    price(fitting, line, &fit.noise) < price(fitting, fit, &fit.noise)
 }
 
 fn is_near_rest(p: Parameter) -> bool {

@@ -41,7 +41,7 @@ const SLOWEST_LAW: f64 = 1e-3;
 /// it over a sample: stiffer ones hold it as if it stuck, and take ever shorter steps to follow.
 const LARGEST_SWING: f64 = 12.0;
 /// Largest change of a window's first velocity in one step, as a share of the fastest in it: where the joint sticks
-/// soon the rest forgets that velocity, and nothing else bounds what a step makes of it.
+/// soon the rest forgets that velocity, and nothing else bounds what a step makes of it. It may always come to rest.
 const LARGEST_KICK: f64 = 0.3;
 /// A window whose cost per sample is this many times the usual one counts half in a robust search.
 const ROBUST: f64 = 10.0;
@@ -208,8 +208,6 @@ impl Problem<'_> {
                 let mut w = w.clone();
                 let len = w.start.len();
                 w.start.iter_mut().zip(change.iter()).for_each(|(x, c)| *x += c);
-                let most = LARGEST_KICK * fastest_within(&self.campaign.runs[w.run], &w);
-                w.start[1] += change[1].clamp(-most, most) - change[1];
                 w.zeros.iter_mut().zip(change.iter().skip(len)).for_each(|(x, c)| *x += c);
                 w
             })
@@ -234,8 +232,12 @@ impl Problem<'_> {
             normal[(i, i)] += damping * diagonal[i];
         }
         let change = inverse(&normal) * right;
-        let own: Vec<DVector<f64>> =
+        let mut own: Vec<DVector<f64>> =
             reduced.iter().map(|r| &r.own - &r.by_shared * &change).collect();
+        for (own, window) in own.iter_mut().zip(&point.windows) {
+            let fastest = fastest_within(&self.campaign.runs[window.run], window);
+            own[1] = kick(own[1], window.start[1], fastest);
+        }
         // Decrease of the quadratic model: δᵀ(g + λ·diag·δ) = 2·gᵀδ − δᵀHδ.
         let mut promised = 0.0;
         for (s, own) in point.sums.iter().zip(&own) {
@@ -249,6 +251,12 @@ impl Problem<'_> {
         }
         promised.is_finite().then_some(Step { shared: change, own, promised })
     }
+}
+
+/// What a step may change a window's first velocity by where it would by `change`.
+fn kick(change: f64, velocity: f64, fastest: f64) -> f64 {
+    let (most, to_rest) = (LARGEST_KICK * fastest, -velocity);
+    change.clamp(to_rest.min(-most), to_rest.max(most))
 }
 
 /// The fastest that the log moves the motor in a window.
@@ -300,4 +308,18 @@ struct Step {
     shared: DVector<f64>,
     own: Vec<DVector<f64>>,
     promised: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::kick;
+
+    #[test]
+    fn a_step_kicks_no_window_but_to_rest() {
+        assert_eq!(kick(0.1, 5.0, 2.0), 0.1);
+        assert_eq!(kick(100.0, 5.0, 2.0), 0.6);
+        assert_eq!(kick(-100.0, 5.0, 2.0), -5.0);
+        assert_eq!(kick(-100.0, -5.0, 2.0), -0.6);
+        assert_eq!(kick(100.0, 0.0, 0.0), 0.0);
+    }
 }

@@ -292,6 +292,7 @@ impl Fitting<'_> {
         let mut factor = self.widening;
         while !fit.whole_runs {
             let before = fit.clone();
+            let (under_law, added) = (report.under_law, report.added.len());
             fit.window_s = (fit.window_s * factor).min(longest);
             fit.whole_runs = fit.window_s >= longest;
             let windows = widen(self.campaign, &fit.body.arm, &fit.windows, fit.window_s);
@@ -305,6 +306,8 @@ impl Fitting<'_> {
             let diverges = self.growth(fit) > MOST_GROWTH;
             if report.grown(&fit.residual) || diverges {
                 *fit = before;
+                report.under_law = under_law;
+                report.added.truncate(added);
                 let at_noise = self.beyond_noise(fit) <= AT_NOISE;
                 if factor < WIDENING || !at_noise {
                     let lawful = !fit.body.arm.dry_terms.is_empty();
@@ -324,7 +327,6 @@ impl Fitting<'_> {
     fn take_all(&self, fit: &mut Fit, report: &mut Report) {
         let before = fit.clone();
         fit.windows = widen(self.campaign, &fit.body.arm, &fit.windows, fit.window_s);
-        self.search(fit, report);
         fit.whole_runs = true;
         self.search(fit, report);
         if self.beyond_noise(fit) > AT_NOISE {

@@ -105,11 +105,7 @@ fn more_than_noise(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
 /// A damper that is less than none: what dampers of one kind take too much, one of another kind gives back, and
 /// viscous friction and damping ratios are moved by what is left.
 fn driving_damper(figures: impl Iterator<Item = (Parameter, Estimate)>) -> Option<Finding> {
-    let damps = |p: Parameter| {
-        use Parameter::{DampingAtPoint, DampingGrounded, DampingWithin};
-        matches!(p, DampingWithin(_) | DampingGrounded(_) | DampingAtPoint(_))
-    };
-    let drives = figures.filter(|(p, e)| damps(*p) && e.value < -DRIVES * e.std);
+    let drives = figures.filter(|(p, e)| p.is_damper() && e.value < -DRIVES * e.std);
     let (damper, found) =
         drives.min_by(|(_, a), (_, b)| (a.value / a.std).total_cmp(&(b.value / b.std)))?;
     Some(Finding::new(
