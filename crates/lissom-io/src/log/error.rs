@@ -160,6 +160,23 @@ pub enum LogError {
         /// The column.
         column: String,
     },
+    /// More cells than there are columns.
+    #[error(
+        "{file}: row {row}, column {column}: \"{}\" stands beyond the {columns} columns of the log",
+        excerpt(found)
+    )]
+    ExtraCell {
+        /// The file.
+        file: String,
+        /// The row.
+        row: usize,
+        /// The column, from 1.
+        column: usize,
+        /// What stands there.
+        found: String,
+        /// Columns of the header, or of the first row where there is none.
+        columns: usize,
+    },
     /// A stamp before the one above it. Stamps as they stand in the file.
     #[error(
         "{file}: row {row}, column {}: time goes back from {before} to {after}",
@@ -287,6 +304,9 @@ impl LogError {
             Self::ColumnNumber { .. } => "columns are counted from 1".to_owned(),
             Self::NotANumber { found, .. } if found.contains(',') => {
                 "where the decimal sign is a comma, say `decimal = \",\"` in [signals]".to_owned()
+            }
+            Self::ExtraCell { .. } => {
+                "name every column in the header; where the decimal sign is a comma, say `decimal = \",\"` in [signals]".to_owned()
             }
             Self::NotANumber { .. } | Self::NotFinite { .. } | Self::MissingCell { .. } => {
                 "repair the row or cut the log there: nothing is filled in silently".to_owned()

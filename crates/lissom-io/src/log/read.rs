@@ -68,6 +68,7 @@ pub fn read_log_from(
         file: name,
         delimiter: head.delimiter,
         decimal_comma: options.decimal_comma,
+        columns: head.most,
         labels: refs.iter().map(ToString::to_string).collect(),
         wanted,
         has_time: time.is_some(),
@@ -145,6 +146,8 @@ struct Head {
     names: Vec<String>,
     /// Cells of the first row of numbers, or names of a header without rows.
     columns: usize,
+    /// Names of a header, else cells of that row: names in a comment need not be all.
+    most: usize,
     /// First row of numbers.
     first: Option<String>,
     row: usize,
@@ -180,12 +183,14 @@ impl Head {
                 continue;
             }
             let columns = delimiter.split(&line).count();
+            let most = names.as_ref().map_or(columns, Vec::len);
             let names =
                 names.unwrap_or_else(|| layout::names_from_comments(&comments, delimiter, columns));
             return Ok(Some(Self {
                 delimiter,
                 names,
                 columns,
+                most,
                 first: Some(line.into_owned()),
                 row,
             }));
@@ -202,6 +207,8 @@ struct Body<'a> {
     file: &'a str,
     delimiter: Delimiter,
     decimal_comma: bool,
+    /// Number of columns.
+    columns: usize,
     /// Columns wanted, as errors name them; time first where it is wanted.
     labels: Vec<String>,
     /// Their indices.
@@ -217,10 +224,20 @@ struct Body<'a> {
 
 impl Body<'_> {
     fn take(&mut self, line: &str, row: usize) -> Result<(), LogError> {
-        let last = self.wanted.iter().copied().max().unwrap_or(0);
         self.values.fill(f64::NAN);
         let mut found = 0;
-        for (index, cell) in self.delimiter.split(line).take(last + 1).enumerate() {
+        for (index, cell) in self.delimiter.split(line).enumerate() {
+            if index >= self.columns && !cell.is_empty() {
+                // The cells before it may stand under the wrong names.
+                let (file, column, found) = (self.file.to_owned(), index + 1, cell.to_owned());
+                return Err(LogError::ExtraCell {
+                    file,
+                    row,
+                    column,
+                    found,
+                    columns: self.columns,
+                });
+            }
             for k in 0..self.wanted.len() {
                 if self.wanted[k] == index {
                     self.values[k] = self.number(cell, row, k)?;

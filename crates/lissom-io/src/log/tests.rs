@@ -126,6 +126,20 @@ fn bad_cells_are_named_with_row_and_column() {
         "a.csv: row 3, column \"x\": \"1,5\" is not a number",
         Some("where the decimal sign is a comma, say `decimal = \",\"` in [signals]"),
     );
+    let named = Some(
+        "name every column in the header; where the decimal sign is a comma, say `decimal = \",\"` in [signals]",
+    );
+    fails(
+        read("t,x\n0,1\n1,1,5\n", "t", "x"),
+        "a.csv: row 3, column 3: \"5\" stands beyond the 2 columns of the log",
+        named,
+    );
+    fails(
+        read_with("0 1\n1 1 7\n", None, &[ColumnRef::Number(2)], &LogOptions::default()),
+        "a.csv: row 2, column 3: \"7\" stands beyond the 2 columns of the log",
+        named,
+    );
+    assert!(read("t,x\n0,1,\n1,2,,\n", "t", "x").is_ok());
     fails(
         read_with("0 1\n1 x\n", None, &[ColumnRef::Number(2)], &LogOptions::default()),
         "a.csv: row 2, column 2: \"x\" is not a number",

@@ -105,8 +105,17 @@ impl UnitError {
     }
 }
 
-/// A mass where a force belongs is the usual slip.
+/// A mass where a force belongs is the usual slip, and a voltage where a current does.
 fn dimension_hint(found: Dimension, expected: Dimension) -> String {
+    match (found, expected) {
+        (Dimension::VOLTAGE, Dimension::CURRENT) => {
+            return "a drive that logs its voltage has `voltage = …` in place of `current`, and `voltage_limit`".into();
+        }
+        (Dimension::CURRENT, Dimension::VOLTAGE) => {
+            return "a drive that logs its current has `current = …` in place of `voltage`, and `current_limit`".into();
+        }
+        _ => {}
+    }
     if found.times(Dimension::ACCELERATION, 1) == expected {
         return "`lb`, `oz` and `kg` are masses; the forces are `lbf`, `ozf` and `kgf`".into();
     }
