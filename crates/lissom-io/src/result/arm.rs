@@ -5,7 +5,7 @@ use std::path::Path;
 
 use lissom::identify::{ArmSource, FoundArm, TorqueUsed};
 use lissom::record::Channels;
-use lissom::replay::{ModalArm, Oscillator};
+use lissom::replay::{ModalArm, Oscillator, Parameter};
 use serde_json::{Map, Value, json};
 use thiserror::Error;
 
@@ -43,8 +43,14 @@ pub(super) fn arm(channels: &Channels, names: UnitNames, found: &FoundArm) -> Va
         .tips
         .iter()
         .zip(&a.shapes)
-        .map(|(tip, shape)| {
-            json!({ "name": tip.name, "quantity": super::quantity(tip.quantity), "shape": shape })
+        .enumerate()
+        .map(|(i, (tip, shape))| {
+            json!({
+                "name": tip.name,
+                "quantity": super::quantity(tip.quantity),
+                "shape": shape,
+                "lag_s": Parameter::TipLag(i).of(a),
+            })
         })
         .collect();
     let mut map = Map::new();
@@ -211,6 +217,7 @@ impl Reader {
             at_points_per_s: self
                 .numbers(&table["damping_at_points_per_s"], "damping_at_points_per_s")?,
             command_lag_s: number("command_lag_s")?,
+            tip_lags_s: self.tip_lags(table)?,
             modes,
         };
         let points = arm.at_points_per_s.len();
@@ -267,6 +274,13 @@ impl Reader {
             within_per_s: number("damping_within_per_s")?,
             grounded_per_s: number("damping_grounded_per_s")?,
         })
+    }
+
+    /// Empty where all tips are in time.
+    fn tip_lags(&self, table: &Value) -> Result<Vec<f64>, ResultError> {
+        let of = |tip| self.number(tip, "arm.tips[]", "lag_s");
+        let lags = self.list(table, "tips")?.iter().map(of).collect::<Result<Vec<_>, _>>()?;
+        Ok(if lags.iter().all(|lag| *lag == 0.0) { Vec::new() } else { lags })
     }
 
     fn shapes(

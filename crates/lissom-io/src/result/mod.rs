@@ -225,6 +225,9 @@ fn replay(names: UnitNames, constant: f64, channels: &Channels, oe: &OutputError
     map.insert("modes".to_owned(), json!(beam.modes.iter().map(mode).collect::<Vec<_>>()));
     let lag = oe.estimate(Parameter::CommandLag);
     map.insert("command_lag_s".to_owned(), figure(lag));
+    let tips = 0..channels.tips.len();
+    let lags = tips.map(|i| figure(oe.estimate(Parameter::TipLag(i))));
+    map.insert("tip_lags_s".to_owned(), lags.collect());
     map.insert("whole_runs".to_owned(), json!(oe.whole_runs));
     let stages: Vec<Value> = oe.stages.iter().map(stage).collect();
     map.insert("stages".to_owned(), Value::Array(stages));

@@ -44,7 +44,7 @@ impl Oscillator {
 /// θ_i = θ + Σ r_ij·(ψ_j − θ)
 /// ```
 ///
-/// with c_i the damping of the point of tip i against the fixed frame, of arms with as many tips as
+/// (θ_i of the time t − lag_i is read at t) with c_i the damping of the point of tip i against the fixed frame, of arms with as many tips as
 /// modes.
 ///
 /// Any beam with modes is one, whatever its masses: oscillator j stands for the clamped mode j, and
@@ -73,6 +73,8 @@ pub struct ModalArm {
     pub at_points_per_s: Vec<f64>,
     /// The torque acts this much later than it is logged \[s\].
     pub command_lag_s: f64,
+    /// Each tip shows what its point did this much before \[s\]; empty where all are in time.
+    pub tip_lags_s: Vec<f64>,
 }
 
 impl ModalArm {

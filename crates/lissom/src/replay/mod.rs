@@ -10,6 +10,7 @@ mod bristles;
 mod dry_terms;
 mod events;
 mod friction;
+mod late_tips;
 mod loaded;
 mod losses;
 mod motion;

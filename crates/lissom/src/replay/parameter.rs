@@ -42,6 +42,8 @@ pub enum Parameter {
     BristleDamping,
     /// Lag of the command.
     CommandLag,
+    /// Lag of a tip's readings behind the motor's.
+    TipLag(usize),
     /// r of a tip (first) and a mode (second).
     Shape(usize, usize),
     /// The same, with the last mode's r moved the other way: Σr of the tip stays.
@@ -86,7 +88,7 @@ impl Parameter {
             | Self::BristleStiffness
             | Self::BristleDamping => Enters::Torque,
             Self::CommandLag => Enters::Lag,
-            Self::Shape(..) | Self::ShapeShare(..) => Enters::Output,
+            Self::Shape(..) | Self::ShapeShare(..) | Self::TipLag(_) => Enters::Output,
         }
     }
 
@@ -129,6 +131,7 @@ impl Parameter {
             | Self::BristleStiffness
             | Self::BristleDamping => positive(self.of(arm).abs(), 1.0),
             Self::CommandLag => positive(self.of(arm), 1e-3),
+            Self::TipLag(_) => positive(self.of(arm).abs(), 1e-3),
             _ => 1.0,
         }
     }
@@ -154,6 +157,7 @@ impl Parameter {
             Self::BristleStiffness => "bristle-stiffness".to_owned(),
             Self::BristleDamping => "bristle-damping".to_owned(),
             Self::CommandLag => "command-lag".to_owned(),
+            Self::TipLag(i) => format!("tip-lag-{}", i + 1),
             Self::Shape(i, j) | Self::ShapeShare(i, j) => format!("shape-{}-{}", i + 1, j + 1),
         }
     }
@@ -182,6 +186,7 @@ impl Parameter {
             }
             Self::BristleDamping => arm.dry_terms.bristles.map_or(0.0, |b| b.damping_nm_s_per_rad),
             Self::CommandLag => arm.command_lag_s,
+            Self::TipLag(i) => arm.tip_lags_s.get(i).copied().unwrap_or(0.0),
             Self::Shape(i, j) | Self::ShapeShare(i, j) => arm.shapes[i][j],
         }
     }
@@ -219,6 +224,10 @@ impl Parameter {
                 arm.dry_terms.bristles.iter_mut().for_each(|b| b.damping_nm_s_per_rad = value);
             }
             Self::CommandLag => arm.command_lag_s = value,
+            Self::TipLag(i) => {
+                arm.tip_lags_s.resize(arm.shapes.len(), 0.0);
+                arm.tip_lags_s[i] = value;
+            }
             Self::Shape(i, j) => arm.shapes[i][j] = value,
             Self::ShapeShare(i, j) => {
                 arm.shapes[i][j] = value;

@@ -1,13 +1,15 @@
 //! What an arm's sensors would show under a logged command.
 
 use super::arm::{MOST_MODES, ModalArm};
+use super::late_tips::LateTips;
 use super::sums::{Window, replayers, start};
 use crate::record::Campaign;
 
 /// A window as the arm predicts it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prediction {
-    /// Motor first, then tips: one value a sample, in the channel's own unit.
+    /// Motor first, then tips: one value a sample, in the channel's own unit. Of a late tip's first readings, whose
+    /// motion was before the window, the log's own.
     pub channels: Vec<Vec<f64>>,
     /// Friction's torque against the motor, its mean from each sample to the next \[N·m\]: one value
     /// less than samples.
@@ -38,12 +40,18 @@ fn predict_of<const D: usize>(
     let replayers = replayers::<D>(arm, &[], campaign, std::slice::from_ref(window));
     let (_, replayer) = replayers.first()?;
     let run = &campaign.runs[window.run];
-    let mut channels = vec![Vec::with_capacity(window.len()); 1 + run.tips().len()];
+    let first = *window.samples.start();
+    let logged = |channel: &[f64]| channel[window.samples.clone()].to_vec();
+    let mut channels = vec![logged(run.motor())];
+    channels.extend(run.tips().iter().map(|tip| logged(tip)));
     let mut impulse = Vec::with_capacity(window.len());
+    let mut late = LateTips::new(replayer, window.samples.clone(), false);
     let motion = replayer.walk(run, window.samples.clone(), start(window), false, |seen| {
         for (channel, values) in channels.iter_mut().enumerate() {
             let zero = channel.checked_sub(1).map_or(0.0, |tip| window.zeros[tip]);
-            values.push(replayer.output(seen, channel, None) + zero);
+            if let Some((sample, predicted)) = late.output(replayer, seen, channel, None) {
+                values[sample - first] = predicted + zero;
+            }
         }
         impulse.push(seen.motion.friction_impulse.unwrap_or(0.0));
     });

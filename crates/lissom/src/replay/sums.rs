@@ -6,6 +6,7 @@ use nalgebra::{Const, DMatrix, DMatrixView, Dyn, MatrixView};
 use rayon::prelude::*;
 
 use super::arm::{MOST_MODES, ModalArm};
+use super::late_tips::LateTips;
 use super::losses::Losses;
 use super::noise::SensorNoise;
 use super::parameter::Parameter;
@@ -155,13 +156,17 @@ fn costs_of<const D: usize>(
         let run = &campaign.runs[window.run];
         let mut cost = 0.0;
         let replayer = replayer_of(&replayers, run);
+        let mut late = LateTips::new(replayer, window.samples.clone(), false);
         replayer.walk(run, window.samples.clone(), start(window), false, |seen| {
             for (channel, mask) in sampling.masks[window.run].iter().enumerate() {
-                if counts(mask.as_ref(), seen.sample) {
-                    let predicted = replayer.output(seen, channel, None);
-                    let residual = window.residual(run, channel, seen.sample, predicted);
-                    cost += losses[channel].cost(residual);
+                let counts = |sample: usize| counts(mask.as_ref(), sample);
+                if late.is_in_time(channel) && !counts(seen.sample) {
+                    continue;
                 }
+                let told = late.output(replayer, seen, channel, None);
+                let Some((sample, predicted)) = told.filter(|t| counts(t.0)) else { continue };
+                let residual = window.residual(run, channel, sample, predicted);
+                cost += losses[channel].cost(residual);
             }
         });
         cost
@@ -253,6 +258,7 @@ fn sum_up<const D: usize>(
     let masks = &sampling.masks[window.run];
     let first = *window.samples.start();
     let mut block = None;
+    let mut late = LateTips::new(replayer, window.samples.clone(), true);
     replayer.walk(run, window.samples.clone(), start(window), true, |seen| {
         let own = blocks.map(|b| b.of(seen.sample, first));
         if own != block || rows.len() > MOST_NUMBERS {
@@ -260,11 +266,13 @@ fn sum_up<const D: usize>(
             block = own;
         }
         for (channel, mask) in masks.iter().enumerate() {
-            if !counts(mask.as_ref(), seen.sample) {
+            let counts = |sample: usize| counts(mask.as_ref(), sample);
+            if late.is_in_time(channel) && !counts(seen.sample) {
                 continue;
             }
-            let predicted = replayer.output(seen, channel, Some(&mut row));
-            let residual = window.residual(run, channel, seen.sample, predicted);
+            let told = late.output(replayer, seen, channel, Some(&mut row));
+            let Some((sample, predicted)) = told.filter(|t| counts(t.0)) else { continue };
+            let residual = window.residual(run, channel, sample, predicted);
             found.squares[channel] += residual * residual;
             found.readings[channel] += 1;
             let loss = losses[channel].loss(residual);

@@ -11,10 +11,10 @@ use crate::record::{
 };
 use crate::rig::Hybrid;
 
-const T: f64 = 0.002;
-const SAMPLES: usize = 1500;
+pub(super) const T: f64 = 0.002;
+pub(super) const SAMPLES: usize = 1500;
 
-fn arm() -> Arm {
+pub(super) fn arm() -> Arm {
     arm_of(crate::beam::Damping::Modal { ratios: vec![0.02, 0.01] }, 0.0)
 }
 
@@ -33,7 +33,7 @@ fn arm_of(damping: crate::beam::Damping, rate_per_s: f64) -> Arm {
 }
 
 /// A command that sticks, slips and reverses.
-fn command() -> Vec<f64> {
+pub(super) fn command() -> Vec<f64> {
     (0..SAMPLES)
         .map(|k| k as f64 * T)
         .map(|s| 0.4 * (3.0 * s + 0.3).sin() + 0.25 * (11.0 * s).cos() + 0.05 * (150.0 * s).sin())
@@ -45,21 +45,29 @@ fn campaign(arm: &Arm, hold: Hold, quantity: TipQuantity) -> (Campaign, Vec<Vec<
     log_of(Hybrid::at_rest(arm), hold, quantity)
 }
 
-fn log_of(
+fn log_of(motion: Hybrid<'_>, hold: Hold, quantity: TipQuantity) -> (Campaign, Vec<Vec<f64>>, f64) {
+    late_log_of(motion, hold, quantity, 0.0)
+}
+
+/// The same, each tip read `late` of a sample before the motor.
+pub(super) fn late_log_of(
     mut motion: Hybrid<'_>,
     hold: Hold,
     quantity: TipQuantity,
+    late: f64,
 ) -> (Campaign, Vec<Vec<f64>>, f64) {
     let (mut motor, mut tips, mut states) = (Vec::new(), vec![Vec::new(); 2], Vec::new());
     let command = command();
     for u in &command {
-        motion.advance(0.3 * u, T);
+        motion.advance(0.3 * u, (1.0 - late) * T);
         let x = motion.state();
-        motor.push(x[0]);
         let minus = if quantity == TipQuantity::Deflection { x[0] } else { 0.0 };
         for (i, tip) in tips.iter_mut().enumerate() {
             tip.push(x[2 + i] - minus);
         }
+        motion.advance(0.3 * u, late * T);
+        let x = motion.state();
+        motor.push(x[0]);
         states.push(x.to_vec());
     }
     // Sample k is seen before command k acts: the state after command k − 1.
@@ -87,7 +95,7 @@ fn modal(model: &ModalArm, x: &[f64]) -> Vec<f64> {
     vec![x[0], x[1], angles[0], rates[0], angles[1], rates[1]]
 }
 
-fn window(model: &ModalArm, states: &[Vec<f64>], from: usize, to: usize) -> Window {
+pub(super) fn window(model: &ModalArm, states: &[Vec<f64>], from: usize, to: usize) -> Window {
     Window { run: 0, samples: from..=to, start: modal(model, &states[from]), zeros: vec![0.0; 2] }
 }
 

@@ -174,6 +174,29 @@ impl<'a, const D: usize> Replayer<'a, D> {
         vec![0.0; (self.unknowns() + 1).next_multiple_of(LANES)]
     }
 
+    /// The arm that is replayed.
+    pub(super) fn arm(&self) -> &ModalArm {
+        self.arm
+    }
+
+    /// Parameters by which derivatives are.
+    pub(super) fn parameters(&self) -> &[Parameter] {
+        self.parameters
+    }
+
+    pub(super) fn sample_time_s(&self) -> f64 {
+        self.sample_time_s
+    }
+
+    /// Number of tips.
+    pub(super) fn tips(&self) -> usize {
+        self.channels.tips.len()
+    }
+
+    pub(super) fn quantity(&self, tip: usize) -> TipQuantity {
+        self.channels.tips[tip].quantity
+    }
+
     /// What channel `channel` (0: motor, then tips) shows, and its derivatives by the parameters,
     /// the initial state and the tips' zeros, in a [`Self::row`] where one is given.
     pub(super) fn output(
@@ -199,6 +222,33 @@ impl<'a, const D: usize> Replayer<'a, D> {
             self.direct(seen, channel - 1, row);
         }
         value
+    }
+
+    /// How fast changes what a tip shows, an angle or a deflection, and the derivatives of that.
+    pub(super) fn rate(&self, seen: &Seen<'_, D>, tip: usize, row: Option<&mut [f64]>) -> f64 {
+        let x = &seen.motion.x;
+        let (angles, _) = self.tip(seen, tip);
+        let mut c = [0.0; D];
+        (1..D).step_by(2).for_each(|i| c[i] = angles[i - 1]);
+        if let Some(row) = row {
+            seen.motion.tangents.seen(&c, row);
+            row[self.parameters.len() + D..self.unknowns()].fill(0.0);
+            self.by_shapes(tip, row, |j| x[3 + 2 * j] - x[1]);
+        }
+        c.iter().zip(x).map(|(a, b)| a * b).sum()
+    }
+
+    /// Derivatives by a tip's shares in the modes; `shown` is what it sees of each.
+    fn by_shapes(&self, tip: usize, row: &mut [f64], shown: impl Fn(usize) -> f64) {
+        for (index, p) in self.parameters.iter().enumerate() {
+            match *p {
+                Parameter::Shape(i, j) if i == tip => row[index] += shown(j),
+                Parameter::ShapeShare(i, j) if i == tip => {
+                    row[index] += shown(j) - shown(self.arm.shapes[tip].len() - 1);
+                }
+                _ => {}
+            }
+        }
     }
 
     /// Share of the modes that the tip sees beside its angle, `1 − Σr`, of an acceleration.
@@ -263,16 +313,12 @@ impl<'a, const D: usize> Replayer<'a, D> {
                 x[2 + 2 * j] - x[0]
             }
         };
-        for (index, p) in self.parameters.iter().enumerate() {
-            match *p {
-                Parameter::Shape(i, j) if i == tip => row[index] += shown(j),
-                Parameter::ShapeShare(i, j) if i == tip => {
-                    row[index] += shown(j) - shown(self.arm.shapes[tip].len() - 1);
-                }
-                _ => {}
-            }
-        }
+        self.by_shapes(tip, row, shown);
         if !acceleration {
+            let lag = self.parameters.iter().position(|p| *p == Parameter::TipLag(tip));
+            if let Some(index) = lag {
+                row[index] -= self.rate(seen, tip, None);
+            }
             return;
         }
         let left = self.left(tip);

@@ -194,6 +194,7 @@ fn settle(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
         evidence::tighten(fitting, fit, report);
         fitting.widen(fit, report);
     }
+    evidence::drop_tip_lags(fitting, fit, report);
     evidence::relax(fitting, fit, report);
 }
 

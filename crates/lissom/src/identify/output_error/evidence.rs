@@ -9,6 +9,7 @@ use super::law;
 use super::search::Stop;
 use super::stages::{Fit, Fitting, Laws, Report};
 use crate::information::{inverse, normal_equations};
+use crate::record::TipQuantity;
 use crate::replay::{Parameter, SensorNoise, WindowSums};
 
 /// A parameter is called for where it would stand this many deviations from what it is without…
@@ -52,7 +53,7 @@ pub struct Extension {
 /// Adds parameters while the residual calls for some, each time the group that takes most away.
 pub(super) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     for _ in 0..MOST {
-        let mut found = all_scores(fitting, fit, &candidates(fit)).1;
+        let mut found = all_scores(fitting, fit, &candidates(fitting, fit)).1;
         let called_for = |(_, promise): &(usize, &Promise)| {
             let stands = |e: &Extension| e.value.abs() > DEVIATIONS * e.std;
             let stand = promise.group.iter().any(stands) || promise.stands_together();
@@ -199,7 +200,7 @@ pub(super) fn tighten(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report)
 /// What one step of a search with each group beside the free parameters promises: score tests, all
 /// from one replay.
 pub(super) fn promises(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Extension>> {
-    scores(fitting, fit, &candidates(fit))
+    scores(fitting, fit, &candidates(fitting, fit))
 }
 
 /// Sums by what is free, and by how much each group that is not free would move the free parameters, times
@@ -210,7 +211,7 @@ pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> (Vec<WindowSums>, V
         let likely = p.likelihood().sqrt();
         (p.deviations() > SPEAKS).then(|| p.moved * likely)
     };
-    let (sums, promises) = all_scores(fitting, fit, &candidates(fit));
+    let (sums, promises) = all_scores(fitting, fit, &candidates(fitting, fit));
     let moved = promises.into_iter().filter_map(weighed);
     let moved = match fit.body.jacobian(&fit.free) {
         Some(jacobian) => moved.map(|m| &jacobian * m).collect(),
@@ -325,8 +326,29 @@ pub(super) fn drop_dampers(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Re
     }
 }
 
-/// Groups of parameters that may be added to the free ones, each as a whole.
-fn candidates(fit: &Fit) -> Vec<Vec<Parameter>> {
+/// Lags of tips that are not there for certain go again: what is called for before the arm is found need not be after.
+pub(super) fn drop_tip_lags(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+    let covariance = fitting.covariances(fit).larger();
+    let is_nothing = |(i, p): (usize, &Parameter)| {
+        let lag = matches!(p, Parameter::TipLag(_));
+        let stands = p.of(&fit.body.arm).abs() > DEVIATIONS * deviation(&covariance, i);
+        (lag && !stands).then_some(*p)
+    };
+    let gone: Vec<Parameter> = fit.free.iter().enumerate().filter_map(is_nothing).collect();
+    if gone.is_empty() {
+        return;
+    }
+    fit.free.retain(|p| !gone.contains(p));
+    for p in &gone {
+        p.set(&mut fit.body.arm, 0.0);
+    }
+    report.added.retain(|e| !gone.contains(&e.parameter));
+    fitting.search(fit, report);
+}
+
+/// Groups of parameters that may be added to the free ones, each as a whole. Tips may be late where more than the
+/// sensors' noise is left.
+fn candidates(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Parameter>> {
     let arm = &fit.body.arm;
     let modes = 0..arm.modes.len();
     let mut groups = vec![vec![Parameter::CommandLag], vec![Parameter::ViscousDifference]];
@@ -336,6 +358,11 @@ fn candidates(fit: &Fit) -> Vec<Vec<Parameter>> {
     } else {
         modes.map(Parameter::DampingAtPoint).collect()
     });
+    if fitting.beyond_noise(fit) >= BEYOND_NOISE {
+        let tips = fitting.campaign.channels.tips.iter().enumerate();
+        let shows = tips.filter(|(_, tip)| tip.quantity != TipQuantity::Acceleration);
+        groups.push(shows.map(|(i, _)| Parameter::TipLag(i)).collect());
+    }
     for group in &mut groups {
         group.retain(|p| !fit.free.contains(p));
     }

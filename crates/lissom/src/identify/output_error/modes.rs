@@ -85,8 +85,10 @@ fn refitted(fitting: &Fitting<'_>, fit: Fit, report: &mut Report) -> Fit {
 
 /// Free what its modes make free.
 fn refreed(fitting: &Fitting<'_>, mut fit: Fit) -> Fit {
-    let extra = [Parameter::CommandLag, Parameter::ViscousDifference];
-    let extra: Vec<Parameter> = extra.into_iter().filter(|p| fit.free.contains(p)).collect();
+    let beside = |p: &Parameter| {
+        matches!(p, Parameter::CommandLag | Parameter::ViscousDifference | Parameter::TipLag(_))
+    };
+    let extra: Vec<Parameter> = fit.free.iter().copied().filter(beside).collect();
     fit.free = free_parameters(&fitting.campaign.channels, &fit.body.arm);
     fit.free.extend(extra);
     fit

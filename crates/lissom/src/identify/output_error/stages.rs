@@ -263,6 +263,8 @@ impl Fitting<'_> {
         let apart = Parameter::ViscousDifference.of(arm);
         free.extend((apart != 0.0).then_some(Parameter::ViscousDifference));
         free.extend((arm.command_lag_s != 0.0).then_some(Parameter::CommandLag));
+        let late = (0..arm.shapes.len()).map(Parameter::TipLag);
+        free.extend(late.filter(|lag| lag.of(arm) != 0.0));
         Some(Fit {
             body,
             windows,

@@ -203,6 +203,7 @@ fn rigid(campaign: &Campaign, motor: &MotorRegression) -> Option<ModalArm> {
         at_points_per_s: Vec::new(),
         dry_terms: DryTerms::default(),
         command_lag_s: 0.0,
+        tip_lags_s: Vec::new(),
     })
 }
 

@@ -5,7 +5,7 @@ use super::stages::GROWN;
 use super::{OutputError, StageReport};
 use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::{Estimate, Identified};
-use crate::record::Campaign;
+use crate::record::{Campaign, Tip};
 use crate::replay::Parameter;
 
 /// Deviations below zero from which on a damper is none.
@@ -19,6 +19,7 @@ pub(crate) fn verdict(campaign: &Campaign, id: &mut Identified) {
         id.friction = oe.friction(campaign.channels.command.back_emf_viscous);
         id.inertia = oe.inertia();
         id.findings.extend(oe.estimate(Parameter::CommandLag).map(command_lag));
+        id.findings.extend(tip_lags(campaign, oe));
         id.findings.extend(modes_missing(campaign, oe));
         id.findings.extend(modes_by_the_motor(campaign, oe));
         id.findings.extend(more_than_noise(campaign, oe));
@@ -176,6 +177,27 @@ pub(crate) fn command_lag(lag: Estimate) -> Finding {
         ),
         "an amplifier's delay, or channels that are not sampled together",
     )
+}
+
+/// Tips that are read later than the motor.
+fn tip_lags(campaign: &Campaign, oe: &OutputError) -> Vec<Finding> {
+    let late = |(i, tip): (usize, &Tip)| {
+        let lag = oe.estimate(Parameter::TipLag(i))?;
+        Some(Finding::new(
+            "tip-lag",
+            Severity::Info,
+            &[key::COUPLING, key::MODES, key::TIPS],
+            format!(
+                "tip {} is read {:.3} ms (± {:.3}) later than the motor: counted in the figures, and left in the tips' \
+                 responses",
+                tip.name,
+                1e3 * lag.value,
+                1e3 * lag.std
+            ),
+            "a camera's or a filter's delay, or channels that are not sampled together",
+        ))
+    };
+    campaign.channels.tips.iter().enumerate().filter_map(late).collect()
 }
 
 #[cfg(test)]

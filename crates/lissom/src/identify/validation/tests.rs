@@ -19,6 +19,7 @@ fn rigid() -> ModalArm {
         at_points_per_s: Vec::new(),
         dry_terms: DryTerms::default(),
         command_lag_s: 0.0,
+        tip_lags_s: Vec::new(),
     }
 }
 
