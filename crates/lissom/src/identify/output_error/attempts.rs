@@ -45,7 +45,7 @@ pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<At
     for (i, arm) in arms.iter().enumerate() {
         let Some(mut found) = attempt(fitting, arm, start.first_window_s) else { continue };
         if best.is_none() {
-            if !found.is_at_noise(fitting) {
+            if !found.is_at_noise(fitting) && !found.leaves_noise(fitting) {
                 tried = true;
                 found = by_another_law(fitting, found, arm, start.first_window_s);
             }
@@ -304,6 +304,12 @@ impl Attempt {
     /// Whether it leaves of whole runs little beside what the sensors add.
     fn is_at_noise(&self, fitting: &Fitting<'_>) -> bool {
         self.fit.whole_runs && fitting.beyond_noise(&self.fit) < AT_NOISE
+    }
+
+    /// Whether it describes whole runs and leaves nothing that is slower than what the sensors add, be that more than
+    /// their samples show by themselves: no other friction leaves less.
+    fn leaves_noise(&self, fitting: &Fitting<'_>) -> bool {
+        self.fit.whole_runs && self.stands(fitting) && !is_left(&self.left)
     }
 
     fn stands(&self, fitting: &Fitting<'_>) -> bool {
