@@ -104,12 +104,22 @@ pub(super) fn needed_smoothing(motor: &[f64]) -> usize {
     let rms = |sum: f64, n: usize| (sum / n.max(1) as f64).sqrt();
     let second = motor.windows(3).map(|w| (w[2] - 2.0 * w[1] + w[0]).powi(2)).sum();
     let noise = rms(second, motor.len() - 2) / 6.0_f64.sqrt();
-    // Speed over a hundredth of the record: steps and noise are small against it.
-    let reach = (motor.len() / 100).max(1);
-    let moved = motor.windows(reach + 1).map(|w| (w[reach] - w[0]).powi(2)).sum();
-    let speed = rms(moved, motor.len() - reach) / reach as f64;
-    let samples = STEPS * noise / speed.max(f64::MIN_POSITIVE);
+    let samples = STEPS * noise / usual_speed(motor, noise).max(f64::MIN_POSITIVE);
     samples.min(motor.len() as f64) as usize
+}
+
+/// Root mean square of the speed \[per sample\], by the stretches that show most of it: over a hundredth of the record steps
+/// and noise are small, and a fast motion has turned back; of shorter ones three times what noise makes of them is
+/// taken off.
+fn usual_speed(motor: &[f64], noise: f64) -> f64 {
+    let longest = (motor.len() / 100).max(1);
+    let over = |reach: usize| {
+        let moved: f64 = motor.windows(reach + 1).map(|w| (w[reach] - w[0]).powi(2)).sum();
+        let by_noise = if reach < longest { 6.0 * noise * noise } else { 0.0 };
+        (moved / (motor.len() - reach) as f64 - by_noise).max(0.0).sqrt() / reach as f64
+    };
+    let halved = std::iter::successors(Some(longest), |reach| (*reach > 1).then_some(reach / 2));
+    halved.map(over).fold(0.0, f64::max)
 }
 
 /// Direction of motion at every sample: +1, −1, or 0 where the smoothed velocity has no sign.
@@ -140,6 +150,20 @@ mod tests {
             let half_cycle = std::f64::consts::PI / 2.0 / t;
             assert!((p.to as f64 - (k as f64 + 1.0) * half_cycle).abs() < 16.0 || k == 7);
         }
+    }
+
+    /// A hundredth of the record is two periods: over these the motor is back where it was.
+    #[test]
+    fn the_speed_of_a_fast_motion_is_not_that_over_its_periods() {
+        let (amplitude, period, step) = (0.05, 50.0, 2e-3);
+        let turn = std::f64::consts::TAU / period;
+        let angle = |k: u32| amplitude * (turn * f64::from(k)).sin();
+        let motor: Vec<f64> = (0..10_000).map(|k| (angle(k) / step).round() * step).collect();
+        let speed = amplitude * turn / 2.0_f64.sqrt();
+        let found = usual_speed(&motor, step / 12.0_f64.sqrt());
+        assert!((found / speed - 1.0).abs() < 0.05, "{found} {speed}");
+        // So that no velocity is smoothed over half of a period.
+        assert!(needed_smoothing(&motor) < 12, "{}", needed_smoothing(&motor));
     }
 
     #[test]
