@@ -1,15 +1,18 @@
 //! Predicted against achieved: plan, make the runs on the rig, identify them.
 #![expect(clippy::unwrap_used, clippy::print_stdout, reason = "tests")]
 
+use std::sync::OnceLock;
+
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
 use lissom::identify::{Estimate, Identified, Options, identify};
 use lissom::information::expected_covariance;
-use lissom::plan::{Expected, Figure, Kinds, Plan, Wishes, plan};
+use lissom::plan::{Expected, Figure, Kinds, Plan, PlannedMotion, Wishes, plan};
 use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, Tip, TipQuantity,
 };
+use lissom::replay::ModalArm;
 use lissom::rig::{Amplifier, Instruments, Noise, Pd, Quantiser, Rig, Sensor};
 
 fn instruments(sample_time_s: f64, bits: u32, noise_steps: f64, limit_a: f64) -> Instruments {
@@ -242,6 +245,85 @@ fn rough_numbers_will_do() {
     let campaign = made(&truth, &plan, 9, true);
     let peak = |run: &Run| run.command().iter().fold(0.0_f64, |m, u| m.max(u.abs()));
     assert!(campaign.runs.iter().all(|run| peak(run) < 4.12));
+}
+
+/// Plans with sines for each arm.
+fn with_sines() -> &'static [(&'static str, Rig, Wishes, Plan)] {
+    static MADE: OnceLock<Vec<(&'static str, Rig, Wishes, Plan)>> = OnceLock::new();
+    MADE.get_or_init(|| {
+        let of = |(name, rig, _): (&'static str, Rig, bool)| {
+            [Kinds::WithPair, Kinds::Sines].map(|kinds| {
+                let wishes = Wishes { kinds, ..Wishes::default() };
+                let plan = plan(&rig, &wishes, |_, _| ()).unwrap();
+                (name, rig.clone(), wishes, plan)
+            })
+        };
+        arms(NOISE).into_iter().flat_map(of).collect()
+    })
+}
+
+/// Angles and currents under noise of another seed are larger by this share, at most; sticking may be longer or
+/// shorter by this share of the time.
+const BY_NOISE: f64 = 0.02;
+
+/// The runs, made again with other noise, keep to what was asked for.
+#[test]
+fn runs_keep_to_their_limits() {
+    let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0_f64, |m, x| m.max(x.abs()));
+    for (name, rig, wishes, plan) in with_sines() {
+        let planned_a = (1.0 - wishes.current_reserve) * rig.instruments.amplifier.most_a();
+        for (i, r) in plan.runs.iter().enumerate() {
+            let e = r.motion.experiment(r.amplitude_rad, r.record_s, plan.longest_wait_s).unwrap();
+            let logged = rig.run("", &e, 77 + i as u64).unwrap();
+            let (run, stuck) = (&logged.run, logged.stuck_share);
+            let peak_a = most(&mut run.command().iter().copied());
+            let travel_rad = most(&mut run.motor().iter().copied());
+            let bend_rad = run
+                .tips()
+                .iter()
+                .map(|tip| most(&mut tip.iter().zip(run.motor()).map(|(tip, motor)| tip - motor)));
+            let bend_rad = bend_rad.fold(0.0, f64::max);
+            println!(
+                "{name}, {:?}, {:?}: stuck {stuck:.3} (said {:.3}), {peak_a:.2} of {planned_a:.2} A, {travel_rad:.2} rad, \
+                 bent by {bend_rad:.2} rad",
+                wishes.kinds, r.motion, r.stuck_share
+            );
+            assert!(stuck <= 0.15 && (stuck - r.stuck_share).abs() <= BY_NOISE, "{r:?}");
+            assert!(peak_a <= planned_a * (1.0 + BY_NOISE), "{r:?}");
+            assert!(travel_rad <= wishes.travel_rad * (1.0 + BY_NOISE), "{r:?}");
+            assert!(bend_rad <= wishes.bend_rad * (1.0 + BY_NOISE), "{r:?}");
+        }
+    }
+}
+
+/// Sines and their triples keep off every mode that is damped by less than a tenth: by 12 % of its frequency and
+/// by four half-widths.
+#[test]
+fn sines_and_their_triples_are_off_the_modes() {
+    let mut sines = 0;
+    for (name, rig, _, plan) in with_sines() {
+        let modes = ModalArm::of_arm(&rig.arm).unwrap().clamped_modes();
+        for run in &plan.runs {
+            let PlannedMotion::Sine { omega_rad_s } = run.motion else { continue };
+            sines += 1;
+            // A triple is itself a run of the plan, whose own triple nothing is asked of.
+            let is_triple = plan.runs.iter().any(|other| match other.motion {
+                PlannedMotion::Sine { omega_rad_s: one } => {
+                    (3.0 * one / omega_rad_s - 1.0).abs() < 1e-6
+                }
+                _ => false,
+            });
+            let driven = [Some(omega_rad_s), (!is_triple).then_some(3.0 * omega_rad_s)];
+            for omega_rad_s in driven.into_iter().flatten() {
+                for (mode_rad_s, ratio) in &modes {
+                    let off = (omega_rad_s / mode_rad_s - 1.0).abs();
+                    let clear = *ratio > 0.1 || off > 0.12_f64.max(4.0 * ratio);
+                    assert!(clear, "{name}: {omega_rad_s} rad/s is near {mode_rad_s} rad/s");
+                }
+            }
+        }
+    }
+    assert!(sines >= 12, "{sines}");
 }
 
 /// The bound and the covariance that the output error would have with white residuals are one.
