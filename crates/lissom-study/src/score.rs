@@ -66,6 +66,10 @@ impl fmt::Display for Figure {
 /// Deviations beyond which a figure without a finding is silently wrong.
 const SILENT: f64 = 5.0;
 
+/// Radius of a response's 95 % circle in its deviations √E|Ĝ − G|²: √(−ln 0.05). It is that of a circular
+/// normal error.
+pub(crate) const CIRCLE_95: f64 = 1.730_818_382_6;
+
 /// One figure of one campaign.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FigureScore {
@@ -141,6 +145,26 @@ pub struct PointScore {
     pub deviations: Option<f64>,
     /// Whether it is vouched for: nothing speaks against it, and its 95 % interval is within 5 %.
     pub vouched: bool,
+}
+
+impl PointScore {
+    /// Whether the 95 % circle around the corrected point holds the truth.
+    pub fn covers(&self) -> Option<bool> {
+        self.deviations.map(|d| d <= CIRCLE_95)
+    }
+
+    /// Vouched for, and off by more than five deviations.
+    pub fn silently_wrong(&self) -> bool {
+        // NaN deviations are as wrong as large ones.
+        self.vouched && self.deviations.is_some_and(|d| d.is_nan() || d > SILENT)
+    }
+
+    /// Whether the corrected point is at least so many times nearer to the truth than (30); `None` without (30).
+    /// A point that is not corrected is not nearer.
+    pub fn nearer(&self, times: f64) -> Option<bool> {
+        let third = self.third_harmonic?;
+        Some(self.corrected.is_some_and(|c| c < third && times * c <= third))
+    }
 }
 
 /// A finding, as far as it counts here.
@@ -380,6 +404,40 @@ mod tests {
         assert!((score.width_over_bound().unwrap() - 0.5).abs() < 1e-6);
         assert!((score.error_over_bound().unwrap() - 1.5).abs() < 1e-9);
         assert_eq!(FigureScore { bound: None, ..score }.error_over_bound(), None);
+    }
+
+    fn point(third_harmonic: f64, corrected: f64, deviations: f64) -> PointScore {
+        PointScore {
+            omega_rad_s: 1.0,
+            sinusoidal: true,
+            raw: 1.0,
+            third_harmonic: Some(third_harmonic),
+            corrected: Some(corrected),
+            deviations: Some(deviations),
+            vouched: true,
+        }
+    }
+
+    #[test]
+    fn points_are_scored_in_circles() {
+        assert!((CIRCLE_95.powi(2) + 0.05_f64.ln()).abs() < 1e-9);
+        assert_eq!(point(0.1, 0.01, 1.73).covers(), Some(true));
+        assert_eq!(point(0.1, 0.01, 1.74).covers(), Some(false));
+        assert!(point(0.1, 0.01, 5.1).silently_wrong() && !point(0.1, 0.01, 4.9).silently_wrong());
+        assert!(point(0.1, 0.01, f64::NAN).silently_wrong());
+        assert!(!PointScore { vouched: false, ..point(0.1, 0.01, 5.1) }.silently_wrong());
+    }
+
+    #[test]
+    fn a_point_that_is_not_corrected_is_not_nearer() {
+        let of = |p: PointScore| (p.nearer(1.0), p.nearer(10.0));
+        assert_eq!(of(point(0.1, 0.009, 1.0)), (Some(true), Some(true)));
+        assert_eq!(of(point(0.1, 0.02, 1.0)), (Some(true), Some(false)));
+        assert_eq!(of(point(0.1, 0.1, 1.0)), (Some(false), Some(false)));
+        assert_eq!(of(point(0.1, f64::NAN, 1.0)), (Some(false), Some(false)));
+        let without = PointScore { corrected: None, ..point(0.1, 0.0, 1.0) };
+        assert_eq!(of(without.clone()), (Some(false), Some(false)));
+        assert_eq!(of(PointScore { third_harmonic: None, ..without }), (None, None));
     }
 
     #[test]

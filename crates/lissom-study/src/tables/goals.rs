@@ -1,6 +1,7 @@
 //! What the project asks of its estimators, beside what they do.
 
 use super::markdown::{percent, significant, table};
+use super::responses::{CLOSER, silently_wrong};
 use super::{Outcome, scores};
 use crate::law::Law;
 use crate::score::{Figure, FigureScore, PointScore, Score};
@@ -17,8 +18,6 @@ const BEYOND_BOUND: f64 = 1.5;
 const SILENT: f64 = 1e-3;
 /// Largest error of a corrected response, in median and anywhere.
 const RESPONSE: (f64, f64) = (0.01, 0.05);
-/// How many times closer than (30) it is to be.
-const CLOSER: f64 = 10.0;
 /// Error of the linear part under a wrong law.
 const LINEAR: f64 = 0.03;
 /// Least share of wrong laws flagged, largest share of false alarms.
@@ -33,8 +32,8 @@ fn median_bar(figure: Figure) -> Option<f64> {
     }
 }
 
-/// One line: what is asked, what is done, whether that is enough.
-type Goal = (String, String, bool);
+/// One line: what is asked, what is done, whether that is enough; `None` where nothing is asked.
+type Goal = (String, String, Option<bool>);
 
 pub(super) fn section(studies: &[(Study, Outcome)]) -> String {
     let mut goals: Vec<Goal> = Vec::new();
@@ -48,10 +47,17 @@ pub(super) fn section(studies: &[(Study, Outcome)]) -> String {
             silence(&all, &mut goals);
         }
         law(study.law, &all, &mut goals);
+        if studies.len() > 1 || study.law != Law::None {
+            let asked = format!("{}: campaigns with a figure silently wrong", study.law);
+            goals.push((asked, silent(&all).to_string(), None));
+        }
     }
     let rows: Vec<Vec<String>> = goals
         .into_iter()
-        .map(|(asked, done, met)| vec![asked, done, if met { "yes" } else { "no" }.to_owned()])
+        .map(|(asked, done, met)| {
+            let met = met.map_or("–", |met| if met { "yes" } else { "no" });
+            vec![asked, done, met.to_owned()]
+        })
         .collect();
     format!(
         "## Goals\n\nA figure refused is not within its bar.\n\n{}",
@@ -88,12 +94,12 @@ fn figures(all: &[&Score], goals: &mut Vec<Goal>) {
         if let Some(bar) = figure.bar() {
             let within = Share::count(&found, |f| f.error().is_some_and(|e| e.abs() <= bar));
             let asked = format!("{name} within {} in 95 %{only}", percent(Some(bar)));
-            goals.push((asked, within.to_string(), within.value() >= CAMPAIGNS));
+            goals.push((asked, within.to_string(), Some(within.value() >= CAMPAIGNS)));
         }
         if let Some(bar) = median_bar(figure) {
             let middle = median(&errors);
             let asked = format!("{name}, median error {}", percent(Some(bar)));
-            goals.push((asked, percent(middle), middle.is_some_and(|m| m <= bar)));
+            goals.push((asked, percent(middle), Some(middle.is_some_and(|m| m <= bar))));
         }
     }
 }
@@ -106,7 +112,7 @@ fn coverage(all: &[&Score], goals: &mut Vec<Goal>) {
         let share = Share::count(&covered, |c| *c);
         let asked = format!("95 % intervals of {} hold in 93 to 97 %", name(figure));
         let met = (COVERAGE.0..=COVERAGE.1).contains(&share.value());
-        goals.push((asked, share.to_string(), met));
+        goals.push((asked, share.to_string(), Some(met)));
     }
 }
 
@@ -118,7 +124,7 @@ fn limit(all: &[&Score], goals: &mut Vec<Goal>) {
         let (found, name) = (of(all, figure), name(figure));
         let mut goal = |asked: String, found: Option<f64>| {
             let shown = found.map_or_else(|| "–".to_owned(), significant);
-            goals.push((asked, shown, found.is_some_and(|v| v <= BEYOND_BOUND)));
+            goals.push((asked, shown, Some(found.is_some_and(|v| v <= BEYOND_BOUND))));
         };
         goal(
             format!("intervals of {name} at most {BEYOND_BOUND} times the bound's, in median"),
@@ -142,28 +148,36 @@ fn responses(all: &[&Score], goals: &mut Vec<Goal>) {
         let asked = |what: &str, bar| {
             format!("corrected response of {name}, {what} {}", percent(Some(bar)))
         };
-        goals.push((asked("median", least), percent(middle), met(middle, least)));
-        goals.push((asked("worst", most), percent(worst), met(worst, most)));
+        goals.push((asked("median", least), percent(middle), Some(met(middle, least))));
+        goals.push((asked("worst", most), percent(worst), Some(met(worst, most))));
         let closer: Vec<f64> =
             points.iter().filter_map(|p| Some(p.third_harmonic? / p.corrected?)).collect();
         if let Some(times) = median(&closer) {
             let asked = format!("{CLOSER} times closer than (30), in median");
-            goals.push((asked, significant(times), times >= CLOSER));
+            goals.push((asked, significant(times), Some(times >= CLOSER)));
         }
     }
 }
 
 fn silence(all: &[&Score], goals: &mut Vec<Goal>) {
-    let silent = Share::count(all, |s| s.figures.iter().any(FigureScore::silently_wrong));
-    let asked = "campaigns with a figure silently wrong: 1 of 1000".to_owned();
-    goals.push((asked, silent.to_string(), silent.value() <= SILENT));
+    let mut goal = |what: &str, wrong: Share| {
+        let asked = format!("campaigns with {what} silently wrong: 1 of 1000");
+        goals.push((asked, wrong.to_string(), Some(wrong.value() <= SILENT)));
+    };
+    goal("a figure", silent(all));
+    goal("a vouched-for point of the response", silently_wrong(all));
+}
+
+/// Campaigns with a figure silently wrong.
+fn silent(all: &[&Score]) -> Share {
+    Share::count(all, |s| s.figures.iter().any(FigureScore::silently_wrong))
 }
 
 fn law(law: Law, all: &[&Score], goals: &mut Vec<Goal>) {
     let flagged = Share::count(all, |s| !s.law_alarms().is_empty());
     if law.is_described() {
         let asked = format!("{law}: false alarms about the law in at most 5 %");
-        goals.push((asked, flagged.to_string(), flagged.value() <= FLAGGED.1));
+        goals.push((asked, flagged.to_string(), Some(flagged.value() <= FLAGGED.1)));
     }
     if law == Law::None {
         return;
@@ -176,9 +190,9 @@ fn law(law: Law, all: &[&Score], goals: &mut Vec<Goal>) {
         linear.iter().all(good)
     });
     let asked = format!("{law}: linear part within 3 % in 95 %");
-    goals.push((asked, sound.to_string(), sound.value() >= CAMPAIGNS));
+    goals.push((asked, sound.to_string(), Some(sound.value() >= CAMPAIGNS)));
     if !law.is_described() {
         let asked = format!("{law}: flagged in 90 %");
-        goals.push((asked, flagged.to_string(), flagged.value() >= FLAGGED.0));
+        goals.push((asked, flagged.to_string(), Some(flagged.value() >= FLAGGED.0)));
     }
 }
