@@ -231,11 +231,54 @@ fn exactly(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::replay::{DryTerms, Oscillator};
 
     #[test]
     #[expect(clippy::float_cmp, reason = "the same text, read twice")]
     fn numbers_have_three_digits() {
         assert_eq!([rounded(0.012_345), rounded(98_765.0), rounded(3.0)], [0.0123, 98_800.0, 3.0]);
         assert_eq!([rounded(0.0), exactly(3.0 * 18.6)], [0.0, 55.8]);
+    }
+
+    fn mode(omega_rad_s: f64, ratio: f64) -> Oscillator {
+        let within_per_s = 2.0 * ratio * omega_rad_s;
+        Oscillator { omega_rad_s, stiffness_nm_per_rad: 0.1, within_per_s, grounded_per_s: 0.0 }
+    }
+
+    /// Of the frequencies tried those go that are within 12 % or four half-widths of a lightly damped mode, or whose triple
+    /// is. One that is damped by more than a tenth sends none away.
+    #[test]
+    fn sines_and_their_triples_keep_off_lightly_damped_modes() {
+        let arm = ModalArm {
+            inertia_kg_m2: 1e-3,
+            viscous_nm_s_per_rad: [1e-3; 2],
+            coulomb_nm: 0.04,
+            offset_nm: 0.0,
+            dry_terms: DryTerms::default(),
+            modes: vec![mode(8.0, 0.002), mode(27.0, 0.3), mode(60.0, 0.05)],
+            shapes: Vec::new(),
+            at_points_per_s: Vec::new(),
+            command_lag_s: 0.0,
+        };
+        let reach = Reach { arm: &arm, torque_nm: 1.8, travel_rad: 1.0, command_time_s: 2e-3 };
+        let near =
+            |omega: f64| (omega / 8.0 - 1.0).abs() < 0.12 || (omega / 60.0 - 1.0).abs() < 0.2;
+        let (low, high) = band(&reach);
+        let tried = steps(low, high, SINES);
+        let clear: Vec<f64> =
+            tried.iter().copied().filter(|w| !near(*w) && !near(3.0 * w)).collect();
+        let by_itself = tried.iter().filter(|w| near(**w)).count();
+        let by_triple = tried.iter().filter(|w| !near(**w) && near(3.0 * **w)).count();
+        assert!(by_itself > 0 && by_triple > 0, "{tried:?}");
+        assert!(clear.iter().any(|w| (w / 27.0 - 1.0).abs() < 0.12), "{clear:?}");
+        let omega = |motion: &PlannedMotion| match *motion {
+            PlannedMotion::Sine { omega_rad_s } => omega_rad_s,
+            _ => f64::NAN,
+        };
+        let offered = groups(&reach, true);
+        assert_eq!(offered.iter().map(|group| omega(&group[0])).collect::<Vec<_>>(), clear);
+        for pair in offered.iter().filter(|group| group.len() > 1) {
+            assert!((omega(&pair[1]) / omega(&pair[0]) - 3.0).abs() < 1e-6, "{pair:?}");
+        }
     }
 }
