@@ -2,9 +2,8 @@
 //!
 //! J, V and CF wrong by a factor of three in any direction cost nothing. Where all three are wrong so, modes may be too, their
 //! stiffness by three. Measured: one mode's frequency by 0.7 to 3 where the rest is too large, by a third to 0.7 where it is too
-//! small; both of two modes' by 0.7 to 2, and 1.5 to 2. Beyond that (0.5 with the rest too large) the search ends elsewhere,
-//! hundreds of deviations off, or (1.5 and 3 with the rest too small) near by with a damper of the other kind or a lag
-//! in place of it, after ten to fifty times as long.
+//! small; both of two modes' by 0.7 to 2 where the rest is too large, by 1.5 to 2 where it is too small; a few starts each. Beyond that
+//! (a frequency of 0.5 or a third with the rest too large, 3 of two modes) the search ends elsewhere, 25 to 400 deviations off.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use lissom::arm::Arm;
