@@ -259,6 +259,7 @@ mod tests {
             shapes: Vec::new(),
             at_points_per_s: Vec::new(),
             command_lag_s: 0.0,
+            tip_lags_s: Vec::new(),
         };
         let reach = Reach { arm: &arm, torque_nm: 1.8, travel_rad: 1.0, command_time_s: 2e-3 };
         let near =
