@@ -59,6 +59,8 @@ pub fn read_log_from(
         return Err(LogError::Empty { file: name.to_owned() });
     };
     let refs: Vec<&ColumnRef> = time.into_iter().chain(columns.iter().map(|c| &c.column)).collect();
+    // Where all columns are told by number, words above them may be a title.
+    let by_name = refs.iter().any(|column| matches!(column, ColumnRef::Name(_)));
     let wanted = refs
         .iter()
         .map(|column| layout::find_column(name, column, &head.names, head.columns))
@@ -68,7 +70,7 @@ pub fn read_log_from(
         file: name,
         delimiter: head.delimiter,
         decimal_comma: options.decimal_comma,
-        columns: head.most,
+        columns: if by_name { head.most } else { head.columns },
         labels: refs.iter().map(ToString::to_string).collect(),
         wanted,
         has_time: time.is_some(),

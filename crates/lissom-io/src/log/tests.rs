@@ -140,6 +140,8 @@ fn bad_cells_are_named_with_row_and_column() {
         named,
     );
     assert!(read("t,x\n0,1,\n1,2,,\n", "t", "x").is_ok());
+    let titled = "My log\n0,1,7\n1,2,8\n";
+    assert!(read_with(titled, None, &[ColumnRef::Number(2)], &LogOptions::default()).is_ok());
     fails(
         read_with("0 1\n1 x\n", None, &[ColumnRef::Number(2)], &LogOptions::default()),
         "a.csv: row 2, column 2: \"x\" is not a number",

@@ -188,11 +188,12 @@ fn tip_lags(campaign: &Campaign, oe: &OutputError) -> Vec<Finding> {
             Severity::Info,
             &[key::COUPLING, key::MODES, key::TIPS],
             format!(
-                "tip {} is read {:.3} ms (± {:.3}) later than the motor: counted in the figures, and left in the tips' \
+                "tip {} is read {:.3} ms (± {:.3}) {} than the motor: counted in the figures, and left in the tips' \
                  responses",
                 tip.name,
-                1e3 * lag.value,
-                1e3 * lag.std
+                1e3 * lag.value.abs(),
+                1e3 * lag.std,
+                if lag.value < 0.0 { "earlier" } else { "later" }
             ),
             "a camera's or a filter's delay, or channels that are not sampled together",
         ))
