@@ -64,7 +64,7 @@ fn the_unit_has_the_wrong_dimension() {
     Bench::replacing("unit = \"A\"", "unit = \"V\"").refuses(
         "error: campaign.toml, line 3: `signals.current.unit`: \"V\" is a voltage \
          [kg*m^2*s^-3*A^-1], where a current [A] is expected\n\
-         hint: write it as in \"4.12 A\"",
+         hint: a drive that logs its voltage has `voltage = …` in place of `current`, and `voltage_limit`",
     );
     Bench::replacing("unit = \"s\"", "unit = \"mm\"").refuses(
         "error: campaign.toml, line 2: `signals.time.unit`: \"mm\" is a length [m], where a \
