@@ -44,7 +44,7 @@ impl Oscillator {
 /// θ_i = θ + Σ r_ij·(ψ_j − θ)
 /// ```
 ///
-/// (θ_i of the time t − lag_i is read at t) with c_i the damping of the point of tip i against the fixed frame, of arms with as many tips as
+/// with θ_i read `tip_lags_s` later and c_i the damping of the point of tip i against the fixed frame, of arms with as many tips as
 /// modes.
 ///
 /// Any beam with modes is one, whatever its masses: oscillator j stands for the clamped mode j, and
