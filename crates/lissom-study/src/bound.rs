@@ -113,6 +113,8 @@ fn figures(
         |of: &dyn Fn(&ModalArm) -> f64| propagated(arm, parameters, covariance, DIFFERENCE, of);
     let mut all = vec![
         (Figure::Coulomb, std(&|a| a.coulomb_nm)),
+        (Figure::Forward, std(&|a| a.coulomb_nm + Parameter::Offset.of(a))),
+        (Figure::Backward, std(&|a| a.coulomb_nm - Parameter::Offset.of(a))),
         (Figure::Inertia, std(&|a| a.inertia_kg_m2)),
         (Figure::Coupling, std(&ModalArm::coupling_nm_per_rad)),
         (Figure::Viscous, std(&|a| Parameter::Viscous.of(a))),

@@ -8,8 +8,10 @@ const HEAD: &str = "law,seed,index,masses,runs_kind,runs,motor_bits,tip_bits,sam
                     damping_ratio,coulomb_share,stuck_share,samples,identification_s,findings";
 
 /// Every figure that a campaign may have, with the name of its columns.
-const FIGURES: [(&str, Figure); 10] = [
+const FIGURES: [(&str, Figure); 12] = [
     ("coulomb_nm", Figure::Coulomb),
+    ("coulomb_forward_nm", Figure::Forward),
+    ("coulomb_backward_nm", Figure::Backward),
     ("inertia_kg_m2", Figure::Inertia),
     ("coupling_nm_per_rad", Figure::Coupling),
     ("viscous_nm_s_per_rad", Figure::Viscous),

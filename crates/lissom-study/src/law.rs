@@ -17,6 +17,8 @@ pub enum Law {
     Stribeck,
     /// Coulomb friction that differs by direction.
     Direction,
+    /// Viscous friction that differs by direction.
+    ViscousDirection,
     /// Friction that changes over the turn.
     Ripple,
     /// Viscous friction that grows less than in proportion.
@@ -41,8 +43,14 @@ impl Law {
 
     /// All wrong ones that this build can simulate.
     pub fn wrong() -> Vec<Self> {
-        let mut laws =
-            vec![Self::Stribeck, Self::Direction, Self::Ripple, Self::Sublinear, Self::BeamDamping];
+        let mut laws = vec![
+            Self::Stribeck,
+            Self::Direction,
+            Self::ViscousDirection,
+            Self::Ripple,
+            Self::Sublinear,
+            Self::BeamDamping,
+        ];
         if cfg!(feature = "lugre") {
             laws.push(Self::Lugre);
         }
@@ -56,6 +64,7 @@ impl fmt::Display for Law {
             Self::None => "true Coulomb",
             Self::Stribeck => "Stribeck",
             Self::Direction => "by direction",
+            Self::ViscousDirection => "viscous by direction",
             Self::Ripple => "ripple",
             Self::Sublinear => "sub-linear viscous",
             Self::Lugre => "LuGre",
@@ -74,7 +83,7 @@ const BRISTLE_TOLERANCE: f64 = 1e-8;
 pub(crate) fn joint(
     law: Law,
     draw: &mut Draw,
-    (coulomb_nm, inertia_kg_m2): (f64, f64),
+    (coulomb_nm, viscous_nm_s_per_rad, inertia_kg_m2): (f64, f64, f64),
     speed_rad_s: f64,
 ) -> Result<(Coulomb, JointFriction), DriveError> {
     let sliding = Coulomb::symmetric(coulomb_nm)?;
@@ -85,6 +94,10 @@ pub(crate) fn joint(
             let apart = draw.decade(0.05, 0.3);
             let by = Coulomb::by_direction(coulomb_nm * (1.0 + apart), coulomb_nm * (1.0 - apart))?;
             return Ok((by, JointFriction::Arm));
+        }
+        Law::ViscousDirection => {
+            let apart = viscous_nm_s_per_rad * draw.decade(0.1, 0.6);
+            JointFriction::Dry(DryFriction::from(sliding).with_viscous_apart(apart)?)
         }
         Law::Stribeck => {
             let rest = times(draw.uniform(1.2, 2.0))?;

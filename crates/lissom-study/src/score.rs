@@ -17,6 +17,10 @@ pub enum Figure {
     Coulomb,
     /// Inertia of the motor's side.
     Inertia,
+    /// Coulomb friction while moving forward.
+    Forward,
+    /// Coulomb friction while moving backward.
+    Backward,
     /// Coupling h_{n+1}.
     Coupling,
     /// Viscous friction.
@@ -31,7 +35,7 @@ impl Figure {
     /// How findings name it.
     fn key(self) -> &'static str {
         match self {
-            Self::Coulomb => "friction.coulomb",
+            Self::Coulomb | Self::Forward | Self::Backward => "friction.coulomb",
             Self::Inertia => "drive.inertia",
             Self::Coupling => "beam.coupling",
             Self::Viscous => "friction.viscous",
@@ -42,7 +46,9 @@ impl Figure {
     /// Relative error that the project's goals allow, where they name one.
     pub fn bar(self) -> Option<f64> {
         match self {
-            Self::Coulomb | Self::Inertia | Self::Coupling => Some(0.01),
+            Self::Coulomb | Self::Forward | Self::Backward | Self::Inertia | Self::Coupling => {
+                Some(0.01)
+            }
             Self::Viscous => Some(0.05),
             Self::Frequency(_) => Some(0.002),
             Self::Damping(_) => None,
@@ -54,6 +60,8 @@ impl fmt::Display for Figure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Coulomb => f.write_str("Coulomb friction"),
+            Self::Forward => f.write_str("Coulomb friction forward"),
+            Self::Backward => f.write_str("Coulomb friction backward"),
             Self::Inertia => f.write_str("inertia"),
             Self::Coupling => f.write_str("coupling"),
             Self::Viscous => f.write_str("viscous friction"),
@@ -167,6 +175,22 @@ impl PointScore {
     }
 }
 
+/// One point of the friction curve of true Coulomb and viscous friction.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CurveScore {
+    /// Relative error.
+    pub error: f64,
+    /// The same in its deviations.
+    pub deviations: f64,
+}
+
+impl CurveScore {
+    /// Whether the 95 % band holds the truth.
+    pub fn covers(&self) -> bool {
+        self.deviations.abs() <= NORMAL_95
+    }
+}
+
 /// A finding, as far as it counts here.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FindingScore {
@@ -179,12 +203,14 @@ pub struct FindingScore {
 }
 
 /// All scores of one campaign.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Default, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Score {
     /// Figures, two of each mode at the end.
     pub figures: Vec<FigureScore>,
     /// Points of the motor's response.
     pub points: Vec<PointScore>,
+    /// Points of the friction curve.
+    pub curve: Vec<CurveScore>,
     /// What was said beside the figures.
     pub findings: Vec<FindingScore>,
     /// Modes given beyond those that there are.
@@ -246,6 +272,8 @@ pub fn score(truth: &Truth, id: &Identified) -> Score {
     };
     let mut figures = vec![
         one(Figure::Coulomb, truth.coulomb_nm, id.friction.coulomb),
+        one(Figure::Forward, truth.coulomb_by_direction_nm[0], id.friction.forward),
+        one(Figure::Backward, truth.coulomb_by_direction_nm[1], id.friction.backward),
         one(Figure::Inertia, truth.inertia_kg_m2, id.inertia),
         one(Figure::Coupling, truth.coupling_nm_per_rad, id.beam.coupling),
         one(Figure::Viscous, truth.viscous_nm_s_per_rad, id.friction.viscous),
@@ -258,6 +286,7 @@ pub fn score(truth: &Truth, id: &Identified) -> Score {
     Score {
         figures,
         points: points(truth, id),
+        curve: curve(truth, id),
         findings: id.findings.iter().map(FindingScore::of).collect(),
         surplus_modes: id.beam.modes.len().saturating_sub(truth.modes.len()),
     }
@@ -323,6 +352,19 @@ fn points(truth: &Truth, id: &Identified) -> Vec<PointScore> {
                 deviations: given.map(|r| (r.value - exact).norm() / r.std),
                 vouched: point.is_vouched_for(),
             }
+        })
+        .collect()
+}
+
+fn curve(truth: &Truth, id: &Identified) -> Vec<CurveScore> {
+    let points = id.friction_law.iter().flat_map(|law| &law.curve);
+    points
+        .map(|point| {
+            let [forward, backward] = truth.coulomb_by_direction_nm;
+            let coulomb = if point.direction > 0.0 { forward } else { backward };
+            let exact = coulomb + truth.viscous_nm_s_per_rad * point.speed;
+            let off = point.friction.value - exact;
+            CurveScore { error: off / exact, deviations: off / point.friction.std }
         })
         .collect()
 }
@@ -444,7 +486,7 @@ mod tests {
     fn alarms_speak_of_the_law() {
         let alarms = |code: &str, warns, about_equation| {
             let findings = vec![FindingScore { code: code.to_owned(), warns, about_equation }];
-            Score { figures: vec![], points: vec![], findings, surplus_modes: 0 }.law_alarms().len()
+            Score { findings, ..Score::default() }.law_alarms().len()
         };
         assert_eq!(alarms("missing-term", true, true), 1);
         assert_eq!(alarms("missing-term", false, true), 0);

@@ -11,7 +11,9 @@ use crate::campaign::Campaign;
 pub struct Truth {
     /// Friction at speed, mean of both directions \[N·m\]; of a wrong law what comes nearest.
     pub coulomb_nm: f64,
-    /// V \[N·m·s/rad\].
+    /// The same forward and backward \[N·m\].
+    pub coulomb_by_direction_nm: [f64; 2],
+    /// V \[N·m·s/rad\], mean of both directions.
     pub viscous_nm_s_per_rad: f64,
     /// J \[kg·m²\].
     pub inertia_kg_m2: f64,
@@ -29,6 +31,7 @@ impl Truth {
         let arm = &rig.arm;
         Self {
             coulomb_nm: crate::campaign::sliding(rig),
+            coulomb_by_direction_nm: [arm.coulomb.forward, arm.coulomb.backward],
             viscous_nm_s_per_rad: arm.motor.viscous_nm_s_per_rad,
             inertia_kg_m2: arm.motor.inertia_kg_m2,
             coupling_nm_per_rad: arm.dynamics().coupling_motor,

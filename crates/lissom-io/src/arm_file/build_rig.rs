@@ -112,6 +112,7 @@ fn friction(drive: &DriveSpec, sliding: Coulomb) -> Result<JointFriction, DriveE
     if let Some(ripple) = &drive.ripple {
         law = law.with_ripple(ripple.share, ripple.per_turn, ripple.phase_rad)?;
     }
+    law = law.with_viscous_apart(drive.viscous_apart_nm_s_per_rad)?;
     Ok(if law.is_constant() { JointFriction::Arm } else { JointFriction::Dry(law) })
 }
 

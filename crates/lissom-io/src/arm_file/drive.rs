@@ -10,8 +10,10 @@ use crate::units::Dimension;
 pub struct DriveSpec {
     /// Inertia \[kg·m²\].
     pub inertia_kg_m2: f64,
-    /// Viscous friction \[N·m·s/rad\].
+    /// Viscous friction, mean of both directions \[N·m·s/rad\].
     pub viscous_nm_s_per_rad: f64,
+    /// What is more of it forward than in the mean, and less backward \[N·m·s/rad\].
+    pub viscous_apart_nm_s_per_rad: f64,
     /// Torque constant \[N·m/A\].
     pub torque_constant_nm_per_a: f64,
     /// Coulomb friction in forward motion, a magnitude \[N·m\].
@@ -78,32 +80,40 @@ pub(super) fn drive(table: &Table<'_>) -> Result<DriveSpec, ConfigError> {
         bristles_fit(table, &bristles)?;
     }
     let torque_constant = table.need("torque_constant")?.positive(Dimension::TORQUE_PER_CURRENT)?;
-    let viscous = table.get("viscous").map(|v| v.not_negative(Dimension::VISCOUS_ROTARY));
+    let (viscous_forward, viscous_backward) = match table.get("viscous") {
+        Some(value) => by_direction(&value, |v| v.not_negative(Dimension::VISCOUS_ROTARY))?,
+        None => (0.0, 0.0),
+    };
+    let in_current = |value: &Value<'_>| torque(value, torque_constant);
     let (forward, backward) = match table.get("coulomb") {
-        Some(value) => by_direction(&value, torque_constant)?,
+        Some(value) => by_direction(&value, in_current)?,
         None => (0.0, 0.0),
     };
     Ok(DriveSpec {
         inertia_kg_m2: table.need("inertia")?.positive(Dimension::INERTIA)?,
-        viscous_nm_s_per_rad: viscous.transpose()?.unwrap_or(0.0),
+        viscous_nm_s_per_rad: 0.5 * (viscous_forward + viscous_backward),
+        viscous_apart_nm_s_per_rad: 0.5 * (viscous_forward - viscous_backward),
         torque_constant_nm_per_a: torque_constant,
         coulomb_forward_nm: forward,
         coulomb_backward_nm: backward,
-        rest: table.get("rest").map(|v| rest(&v.table()?, torque_constant)).transpose()?,
+        rest: table.get("rest").map(|v| rest(&v.table()?, in_current)).transpose()?,
         ripple: table.get("ripple").map(|v| ripple(&v.table()?)).transpose()?,
         bristles: table.get("bristles").map(|v| bristles(&v.table()?)).transpose()?,
     })
 }
 
-/// A friction torque or current for both directions, or for each.
-fn by_direction(value: &Value<'_>, torque_constant: f64) -> Result<(f64, f64), ConfigError> {
+/// One figure for both directions, or for each.
+fn by_direction(
+    value: &Value<'_>,
+    read: impl Fn(&Value<'_>) -> Result<f64, ConfigError>,
+) -> Result<(f64, f64), ConfigError> {
     match value.as_table() {
         Some(table) => {
             table.only(&["forward", "backward"])?;
-            let side = |key| torque(&table.need(key)?, torque_constant);
+            let side = |key| read(&table.need(key)?);
             Ok((side("forward")?, side("backward")?))
         }
-        None => torque(value, torque_constant).map(|both| (both, both)),
+        None => read(value).map(|both| (both, both)),
     }
 }
 
@@ -115,9 +125,12 @@ fn torque(value: &Value<'_>, torque_constant: f64) -> Result<f64, ConfigError> {
     Ok(if index == 0 { size } else { size * torque_constant })
 }
 
-fn rest(table: &Table<'_>, torque_constant: f64) -> Result<RestSpec, ConfigError> {
+fn rest(
+    table: &Table<'_>,
+    torque: impl Fn(&Value<'_>) -> Result<f64, ConfigError>,
+) -> Result<RestSpec, ConfigError> {
     table.only(&["friction", "velocity", "falloff"])?;
-    let (forward_nm, backward_nm) = by_direction(&table.need("friction")?, torque_constant)?;
+    let (forward_nm, backward_nm) = by_direction(&table.need("friction")?, torque)?;
     let shapes = [Falloff::Exponential, Falloff::Gaussian];
     let falloff = table.get("falloff").map(|v| v.choice(&shapes.map(Falloff::name))).transpose()?;
     Ok(RestSpec {
@@ -158,6 +171,9 @@ fn bristles(table: &Table<'_>) -> Result<BristlesSpec, ConfigError> {
 fn bristles_fit(drive: &Table<'_>, bristles: &Value<'_>) -> Result<(), ConfigError> {
     if drive.get("coulomb").is_none() {
         return Err(ConfigError::Needs { place: bristles.place(), key: "drive.coulomb" });
+    }
+    if let Some(sides) = drive.get("viscous").filter(|v| v.as_table().is_some()) {
+        return Err(sides.kind("one figure for both directions (beside `bristles`)"));
     }
     let falloff = drive.get("rest").and_then(|v| v.as_table()).and_then(|t| t.get("falloff"));
     match falloff {

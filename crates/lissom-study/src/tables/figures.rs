@@ -7,8 +7,9 @@ use crate::statistics::{Share, median, quantile};
 use crate::study::{Scored, Study};
 
 /// Rows of the tables: what they are called and which figures they hold.
-pub(super) const ROWS: [(&str, &[Figure]); 8] = [
+pub(super) const ROWS: [(&str, &[Figure]); 9] = [
     ("Coulomb friction", &[Figure::Coulomb]),
+    ("Coulomb friction by direction", &[Figure::Forward, Figure::Backward]),
     ("inertia", &[Figure::Inertia]),
     ("coupling", &[Figure::Coupling]),
     ("viscous friction", &[Figure::Viscous]),

@@ -1,5 +1,6 @@
 //! The study's results as markdown.
 
+mod curve;
 mod draws;
 mod external;
 mod figures;
@@ -30,6 +31,7 @@ pub fn report(studies: &[(Study, Outcome)]) -> String {
             figures::section(study, outcome),
             limit::section(outcome),
             responses::section(outcome),
+            curve::section(outcome),
             groups::section(outcome),
             worst::section(outcome),
             draws::section(outcome),

@@ -47,10 +47,10 @@ struct Ripple {
 
 /// A joint's dry friction, with true sticking.
 ///
-/// While the joint turns forward it takes `F = [F_c + (F_s − F_c)·g(v/v_s)]·[1 + r·cos(N·θ_m + φ)]`,
-/// with `g` = 1 at rest and 0 at speed; backward likewise with that direction's figures. At rest
+/// While the joint turns forward it takes `F = [F_c + (F_s − F_c)·g(v/v_s)]·[1 + r·cos(N·θ_m + φ)] + D·|v|`,
+/// with `g` = 1 at rest and 0 at speed; backward likewise with that direction's figures, and −D. At rest
 /// the joint holds any torque up to `F_s` times the ripple at its angle. Viscous friction is the
-/// [`Motor`](super::Motor)'s.
+/// [`Motor`](super::Motor)'s, V + D forward and V − D backward.
 ///
 /// `F_s > F_c` is the Stribeck effect. `F_s < F_c` is viscous friction that grows less than
 /// linearly: a line through fast points then meets rest above the true friction.
@@ -72,11 +72,12 @@ pub struct DryFriction {
     sliding: Coulomb,
     stribeck: Option<Stribeck>,
     ripple: Option<Ripple>,
+    viscous_apart_nm_s_per_rad: f64,
 }
 
 impl From<Coulomb> for DryFriction {
     fn from(sliding: Coulomb) -> Self {
-        Self { sliding, stribeck: None, ripple: None }
+        Self { sliding, stribeck: None, ripple: None, viscous_apart_nm_s_per_rad: 0.0 }
     }
 }
 
@@ -125,7 +126,19 @@ impl DryFriction {
         Ok(Self { ripple: Some(Ripple { share, per_turn, phase_rad }), ..self })
     }
 
-    /// The friction at speed, ripple left out.
+    /// The same with `apart_nm_s_per_rad` (D) more viscous friction forward, and as much less backward.
+    ///
+    /// # Errors
+    /// [`DriveError`] unless D is finite.
+    pub fn with_viscous_apart(self, apart_nm_s_per_rad: f64) -> Result<Self, DriveError> {
+        if !apart_nm_s_per_rad.is_finite() {
+            let quantity = "difference of viscous friction by direction";
+            return Err(DriveError::NotPositive { quantity, found: apart_nm_s_per_rad });
+        }
+        Ok(Self { viscous_apart_nm_s_per_rad: apart_nm_s_per_rad, ..self })
+    }
+
+    /// The friction at speed, ripple and viscous friction left out.
     pub fn sliding(&self) -> Coulomb {
         self.sliding
     }
@@ -133,12 +146,14 @@ impl DryFriction {
     /// Whether there is none.
     pub fn is_zero(&self) -> bool {
         let none = |c: Coulomb| c.forward == 0.0 && c.backward == 0.0;
-        none(self.sliding) && self.stribeck.is_none_or(|s| none(s.rest))
+        let constant = none(self.sliding) && self.stribeck.is_none_or(|s| none(s.rest));
+        constant && self.viscous_apart_nm_s_per_rad == 0.0
     }
 
     /// Whether it is constant in slip, so that the motion between events is linear.
     pub fn is_constant(&self) -> bool {
-        self.stribeck.is_none() && self.ripple.is_none()
+        let terms = self.stribeck.is_some() || self.ripple.is_some();
+        !terms && self.viscous_apart_nm_s_per_rad == 0.0
     }
 
     /// Friction in both directions at the speed `velocity_rad_s` and the angle `angle_rad`; at rest
@@ -154,7 +169,8 @@ impl DryFriction {
             });
             ripple * (pick(self.sliding) + rest)
         };
-        Coulomb { forward: side(|c| c.forward), backward: side(|c| c.backward) }
+        let apart = self.viscous_apart_nm_s_per_rad * velocity_rad_s.abs();
+        Coulomb { forward: side(|c| c.forward) + apart, backward: side(|c| c.backward) - apart }
     }
 }
 
@@ -197,13 +213,14 @@ impl FrictionSeries {
             self.extend_fall(&s, k, sign, velocity);
             (pick(s.rest) - sliding) * self.fall[k]
         });
-        let Some(ripple) = law.ripple else { return sign * (constant + smooth) };
+        let apart = law.viscous_apart_nm_s_per_rad * velocity[k];
+        let Some(ripple) = law.ripple else { return sign * (constant + smooth + apart) };
         self.extend_waves(&ripple, k, angle);
         // The product of the series (F_c + fall) and (1 + r·cos).
         let rest = law.stribeck.map_or(0.0, |s| pick(s.rest) - sliding);
         let size = |j: usize| if j == 0 { sliding } else { 0.0 } + rest * self.fall[j];
         let product: f64 = (0..=k).map(|j| size(j) * self.cosine[k - j]).sum();
-        sign * (constant + smooth + ripple.share * product)
+        sign * (constant + smooth + apart + ripple.share * product)
     }
 
     fn extend_fall(&mut self, law: &Stribeck, k: usize, sign: f64, velocity: &Row) {
@@ -250,6 +267,7 @@ mod tests {
             let law = DryFriction::from(Coulomb::by_direction(0.03, 0.02).unwrap())
                 .with_rest(Coulomb::by_direction(0.05, 0.01).unwrap(), 0.7, falloff)
                 .and_then(|law| law.with_ripple(0.3, 7.0, 0.4))
+                .and_then(|law| law.with_viscous_apart(4e-3))
                 .unwrap();
             for sign in [1.0, -1.0] {
                 let mut angle = [0.0; COEFFICIENTS];
@@ -278,5 +296,6 @@ mod tests {
         assert!(law.with_ripple(1.0, 6.0, 0.0).is_err());
         assert!(law.with_ripple(0.1, 0.0, 0.0).is_err());
         assert!(law.with_ripple(0.1, 6.0, f64::INFINITY).is_err());
+        assert!(law.with_viscous_apart(f64::NAN).is_err());
     }
 }

@@ -72,6 +72,15 @@ fn reads_friction_laws_and_the_world_at_the_tip() {
     );
     let made = rig(&text);
     let JointFriction::Dry(law) = made.scene.friction else { panic!() };
+    let with_sides = text.replace(
+        "viscous = \"0.01216 lbf*in*s/rad\"",
+        "viscous = { forward = 0.003, backward = 0.002 }",
+    );
+    let sides = rig(&with_sides);
+    let JointFriction::Dry(apart) = sides.scene.friction else { panic!() };
+    assert!((sides.arm.motor.viscous_nm_s_per_rad - 0.0025).abs() < 1e-15);
+    let more = |v: f64| apart.at(v, 0.0).forward - law.at(v, 0.0).forward;
+    assert!(more(0.0).abs() < 1e-15 && (more(2.0) - 0.001).abs() < 1e-15, "{}", more(2.0));
     let constant = made.arm.motor.torque_constant_nm_per_a;
     let ripple = 1.0 + 0.2 * (30.0_f64.to_radians()).cos();
     assert!((law.at(0.0, 0.0).forward - 0.2 * constant * ripple).abs() < 1e-15);

@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use super::normal::{Cluster, Rows};
-use super::phases::{LEAST_SAMPLES, Phase, needed_smoothing, slip_phases};
+use super::phases::{LEAST_SAMPLES, LEAST_SMOOTH, Phase, needed_smoothing, sure_phases};
 use super::row_noise::{Part, RunNoise, products};
 use super::window::Window;
 use crate::record::{Campaign, Hold, Run, TipQuantity};
@@ -18,8 +18,6 @@ const STEP: f64 = 0.25;
 const SMOOTH: f64 = 1.0 / 3.0;
 /// A window is too short where that is less than this part of what a sure sign needs.
 const SURE: f64 = 0.4;
-/// And over this many samples at least.
-const LEAST_SMOOTH: usize = 4;
 
 /// Columns of a row; tips follow after these.
 pub(super) const INERTIA: usize = 0;
@@ -110,8 +108,9 @@ impl<'a> Slipping<'a> {
     fn of(run: &'a Run) -> Self {
         let needed = needed_smoothing(run.motor());
         let smooth = needed.max(LEAST_SAMPLES);
-        let phases = slip_phases(run.motor(), smooth, run.sample_time_s());
-        Self { run, needed, smooth, phases, noise: RunNoise::of(run) }
+        let noise = RunNoise::of(run);
+        let phases = sure_phases(run.motor(), smooth, run.sample_time_s(), noise.motor);
+        Self { run, needed, smooth, phases, noise }
     }
 
     /// Phases for windows of `n` samples, and what they are smoothed over; none where the velocity
@@ -123,7 +122,8 @@ impl<'a> Slipping<'a> {
         } else if smooth == self.smooth {
             Cow::Borrowed(&self.phases[..])
         } else {
-            Cow::Owned(slip_phases(self.run.motor(), smooth, self.run.sample_time_s()))
+            let Self { run, noise, .. } = self;
+            Cow::Owned(sure_phases(run.motor(), smooth, run.sample_time_s(), noise.motor))
         };
         (phases, smooth)
     }
