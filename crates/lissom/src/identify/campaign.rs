@@ -153,7 +153,8 @@ pub fn identify(
         .filter(|r| !alone || constant_velocity.is_none() || stands_alone(r));
     let regression_residual = any_regression.as_ref().map(|r| r.relative_residual);
     let regression = any_regression.clone().filter(|r| r.relative_residual < RESIDUAL_REFUSED);
-    let friction_law = regression.as_ref().and_then(|r| friction_law(&usable, r));
+    let (mut friction_law, curve_sums) =
+        regression.as_ref().and_then(|r| friction_law(&usable, r)).unzip();
     progress(Stage::Beam);
     let any_beam_regression = beam_regression(&usable);
 
@@ -179,6 +180,10 @@ pub fn identify(
     progress(Stage::Responses);
     let table = |c: Option<Estimate>| response_table(campaign, &runs, c, &square, &findings);
     let replay = output_error.as_ref().filter(|o| o.describes_whole_runs());
+    let curve = replay.zip(curve_sums).and_then(|(found, sums)| sums.beside_arm(found));
+    if let Some((law, curve)) = friction_law.as_mut().zip(curve) {
+        law.curve = curve;
+    }
     let replay = replay.map_or_else(Replayed::default, |o| corrected(o, &usable, &runs, &kept));
     let mut responses = response_table(campaign, &runs, best, &replay, &findings);
     let stepped = responses.iter().filter(|p| p.run.is_some()).count() >= STEPPED;

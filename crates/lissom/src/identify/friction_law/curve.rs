@@ -1,10 +1,15 @@
 //! Friction against speed without a law: hat functions, forward and backward, beside the linear part.
 
+use nalgebra::DMatrix;
+use num_complex::Complex64;
+
 use super::choice::solved;
 use super::held::without_each;
 use super::rows::{Block, Column, Cut, Sampled, fixed, hat};
 use crate::identify::Estimate;
-use crate::identify::regression::{Solution, Term};
+use crate::identify::output_error::OutputError;
+use crate::identify::regression::{Cluster, Solution, Term, coupled_tips, solve};
+use crate::replay::ModalArm;
 
 /// Ratio of one knot's speed to that of the next, from the fastest down.
 const RATIO: f64 = 2.0;
@@ -31,60 +36,162 @@ pub struct CurvePoint {
     pub windows: usize,
 }
 
-/// The curve, and what it leaves; `beside` are columns of what is no friction by speed, with `terms`.
+/// Sums of the slip phases' windows with a hat function of speed at every knot, and what the curve is
+/// solved from them with.
 ///
-/// A hat is one at its knot and zero at its neighbours, so that its coefficient is friction there. The
-/// deviation is by leaving out slip phases, and no less than the regression's own. Speeds that no window has are left out.
-pub(super) fn curve(
-    sampled: &Sampled<'_>,
-    cut: &Cut,
-    speeds: &[f64],
-    beside: &[Column],
-    terms: &[Term],
-) -> Option<(Vec<CurvePoint>, f64)> {
-    let places = sampled.places();
-    let knots = knots(speeds, |knots, j| {
-        let about = |sign: f64| {
-            places
-                .iter()
-                .filter(|p| p.sign * sign > 0.0)
-                .map(|p| hat(knots, j, p.speed))
-                .sum::<f64>()
-        };
-        [about(1.0), about(-1.0)]
-    })?;
-    let first = fixed(sampled.campaign);
-    let mut columns = beside.to_vec();
-    columns.extend((0..knots.len()).map(Column::Hat));
-    let blocks = sampled.blocks(&columns, &knots, cut);
-    let mut all = vec![Term::Plain(0)];
-    all.extend((3..first).map(Term::Plain));
-    all.extend(terms);
-    let hats = all.len();
-    let at = first + beside.len();
-    all.extend((0..knots.len()).map(|j| Term::Forward(at + j)));
-    all.extend((0..knots.len()).map(|j| Term::Backward(at + j)));
-    let solution = solved(&blocks, &all)?;
-    let moved = jackknife(&blocks, &all, &solution)?;
-    let back_emf = sampled.campaign.channels.command.back_emf_viscous;
-    let mut points = Vec::new();
-    for (d, sign) in [1.0, -1.0].into_iter().enumerate() {
-        for (j, speed) in knots.iter().enumerate() {
-            let i = hats + d * knots.len() + j;
-            let weight =
-                |p: &&super::rows::Place| p.sign * sign > 0.0 && hat(&knots, j, p.speed) > 0.5;
-            let windows = places.iter().filter(weight).count();
-            if solution.inseparable[i] || windows == 0 {
-                continue;
-            }
-            let by_phases = moved[i].max(solution.covariance[(i, i)]);
-            let std = by_phases.max(0.0).sqrt();
-            let value = sign * solution.value[i] - back_emf * speed;
-            let friction = Estimate { value, std };
-            points.push(CurvePoint { direction: sign, speed: *speed, friction, windows });
-        }
+/// A hat is one at its knot and zero at its neighbours, so that its coefficient is friction there.
+#[derive(Debug)]
+pub(crate) struct CurveSums {
+    blocks: Vec<Block>,
+    /// Inertia and couplings, what is no friction by speed, hats forward, hats backward.
+    terms: Vec<Term>,
+    /// Of inertia and couplings.
+    linear: usize,
+    /// Tips of the couplings.
+    tips: Vec<usize>,
+    knots: Vec<f64>,
+    /// Windows about each knot, forward and backward; none: a speed that no window has.
+    windows: [Vec<usize>; 2],
+    back_emf_viscous: f64,
+}
+
+impl CurveSums {
+    /// `beside` are columns of what is no friction by speed, with their `terms`.
+    pub(super) fn new(
+        sampled: &Sampled<'_>,
+        cut: &Cut,
+        speeds: &[f64],
+        (beside, terms): (&[Column], &[Term]),
+    ) -> Option<Self> {
+        let places = sampled.places();
+        let knots = knots(speeds, |knots, j| {
+            let about = |sign: f64| {
+                let there = places.iter().filter(|p| p.sign * sign > 0.0);
+                there.map(|p| hat(knots, j, p.speed).max(0.0)).sum::<f64>()
+            };
+            [about(1.0), about(-1.0)]
+        })?;
+        let campaign = sampled.campaign;
+        let first = fixed(campaign);
+        let mut columns = beside.to_vec();
+        columns.extend((0..knots.len()).map(Column::Hat));
+        let blocks = sampled.blocks(&columns, &knots, cut);
+        let mut all = vec![Term::Plain(0)];
+        all.extend((3..first).map(Term::Plain));
+        let linear = all.len();
+        all.extend(terms);
+        let at = first + beside.len();
+        all.extend((0..knots.len()).map(|j| Term::Forward(at + j)));
+        all.extend((0..knots.len()).map(|j| Term::Backward(at + j)));
+        let windows = [1.0, -1.0].map(|sign| {
+            let near = |j: usize| {
+                let there = places.iter().filter(|p| p.sign * sign > 0.0);
+                there.filter(|p| hat(&knots, j, p.speed) > 0.5).count()
+            };
+            (0..knots.len()).map(near).collect()
+        });
+        Some(Self {
+            blocks,
+            terms: all,
+            linear,
+            tips: coupled_tips(campaign),
+            knots,
+            windows,
+            back_emf_viscous: campaign.channels.command.back_emf_viscous,
+        })
     }
-    Some((points, solution.relative_residual))
+
+    /// The curve with inertia and couplings from the same windows, and what it leaves. Its deviations are
+    /// by leaving out slip phases, and no less than the regression's own.
+    pub(super) fn by_phases(&self) -> Option<(Vec<CurvePoint>, f64)> {
+        let solution = solved(&self.blocks, &self.terms)?;
+        let by_phases = jackknife(&self.blocks, &self.terms, &solution)?;
+        Some((self.points(&solution, &by_phases), solution.relative_residual))
+    }
+
+    /// The curve with inertia and couplings of the arm that the output error found, far better known than by
+    /// the slip phases: what they are off by does not go into friction. The deviations are those by leaving out slip
+    /// phases and those of the arm, all longer by one factor where the curve is further from the law that describes the log
+    /// than they say: a sensor's steps come back with a repeated motion, alike in all its phases. `None` where the tips do not show all of its coupling torque, at once.
+    pub(crate) fn beside_arm(&self, found: &OutputError) -> Option<Vec<CurvePoint>> {
+        let known = self.known(&found.arm)?;
+        let terms = &self.terms[self.linear..];
+        let blocks: Vec<Block> = self.blocks.iter().map(|b| self.without(b, &known)).collect();
+        let solution = solved(&blocks, terms)?;
+        let by_phases = jackknife(&blocks, terms, &solution)?;
+        let totals = totals(&self.blocks)?;
+        let by_arm = found.variances(&|arm| {
+            let known = self.known(arm)?;
+            let totals = totals.each_ref().map(|sum| self.without_linear(sum, &known));
+            let figures = solve(&totals, terms)?.value;
+            Some(figures.iter().map(|v| Complex64::new(*v, 0.0)).collect())
+        })?;
+        let variances: Vec<f64> = by_phases.iter().zip(by_arm).map(|(a, b)| a + b).collect();
+        let mut points = self.points(&solution, &variances);
+        let law = found.friction(self.back_emf_viscous);
+        let beyond = |p: &CurvePoint| {
+            Some(((p.friction.value - law.at(p.speed, p.direction)?) / p.friction.std).powi(2))
+        };
+        let squares: Vec<f64> = points.iter().map(beyond).collect::<Option<_>>()?;
+        let longer = (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt().max(1.0);
+        points.iter_mut().for_each(|p| p.friction.std *= longer);
+        Some(points)
+    }
+
+    /// Inertia and the coupling of each tip, as the columns have them.
+    fn known(&self, arm: &ModalArm) -> Option<Vec<f64>> {
+        let shown = self.tips.len() == arm.shapes.len()
+            && arm.tip_lags_s.iter().all(|lag| *lag == 0.0)
+            && arm.modes.iter().all(|mode| mode.within_per_s == 0.0);
+        let coupling = if arm.modes.is_empty() { vec![] } else { arm.coupling_by_tip()? };
+        let known = std::iter::once(arm.inertia_kg_m2).chain(coupling).collect::<Vec<f64>>();
+        (shown && known.len() == self.linear).then_some(known)
+    }
+
+    fn without(&self, block: &Block, known: &[f64]) -> Block {
+        Block { cluster: self.without_linear(&block.cluster, known), ..*block }
+    }
+
+    /// The sums with the columns of inertia and couplings, times these, taken off the right side.
+    fn without_linear(&self, sums: &Cluster, known: &[f64]) -> Cluster {
+        let right = sums.products.ncols() - 1;
+        let mut taken = DMatrix::identity(right + 1, right + 1);
+        for (term, value) in self.terms.iter().zip(known) {
+            taken[(term.column(), right)] = -value;
+        }
+        let of = |sums: &DMatrix<f64>| taken.transpose() * sums * &taken;
+        Cluster { products: of(&sums.products), noise: of(&sums.noise), ..sums.clone() }
+    }
+
+    /// The curve of a solution whose last figures are the hats'.
+    fn points(&self, solution: &Solution, variances: &[f64]) -> Vec<CurvePoint> {
+        let knots = self.knots.len();
+        let hats = solution.value.len() - 2 * knots;
+        let mut points = Vec::new();
+        for (d, sign) in [1.0, -1.0].into_iter().enumerate() {
+            for (j, speed) in self.knots.iter().enumerate() {
+                let (i, windows) = (hats + d * knots + j, self.windows[d][j]);
+                if solution.inseparable[i] || windows == 0 {
+                    continue;
+                }
+                let std = variances[i].max(solution.covariance[(i, i)]).max(0.0).sqrt();
+                let value = sign * solution.value[i] - self.back_emf_viscous * speed;
+                let friction = Estimate { value, std };
+                points.push(CurvePoint { direction: sign, speed: *speed, friction, windows });
+            }
+        }
+        points
+    }
+}
+
+/// Sums of all blocks, forward and backward.
+fn totals(blocks: &[Block]) -> Option<[Cluster; 2]> {
+    let width = blocks.first()?.cluster.products.ncols();
+    let mut totals = [1.0, -1.0].map(|sign| Cluster::new(0, sign, width));
+    for block in blocks {
+        totals[usize::from(block.cluster.sign < 0.0)].merge(&block.cluster);
+    }
+    Some(totals)
 }
 
 /// Variance of every figure by leaving out one group of slip phases after another: residuals within a

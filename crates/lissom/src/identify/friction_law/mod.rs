@@ -17,6 +17,7 @@ mod verdict;
 
 pub use choice::{LawCandidate, LawTerm};
 pub use curve::CurvePoint;
+pub(crate) use curve::CurveSums;
 pub(crate) use verdict::{finding, friction};
 
 use super::Estimate;
@@ -143,35 +144,41 @@ impl LawFit {
     }
 }
 
-/// Curve and law of a campaign whose motor's figures are roughly known; `None` where slip phases are
-/// too few or too short.
-pub(super) fn friction_law(campaign: &Campaign, motor: &MotorRegression) -> Option<FrictionLaw> {
+/// Curve and law of a campaign whose motor's figures are roughly known, and the sums that the curve is
+/// from; `None` where slip phases are too few or too short.
+pub(super) fn friction_law(
+    campaign: &Campaign,
+    motor: &MotorRegression,
+) -> Option<(FrictionLaw, CurveSums)> {
     let inertia = motor.inertia?.value;
     let noise: Vec<RunNoise> = campaign.runs.iter().map(RunNoise::of).collect();
     let window_s = window_s(campaign, motor, inertia, &noise);
     let mut sampled = Sampled::new(campaign, &noise, window_s);
-    let (law, described) = under(&sampled)?;
+    let (law, sums, described) = under(&sampled)?;
     if described.left(&sampled).beyond_noise() < LITTLE {
-        return Some(law);
+        return Some((law, sums));
     }
-    Some(after_travel(&mut sampled, &described).unwrap_or(law))
+    Some(after_travel(&mut sampled, &described).unwrap_or((law, sums)))
 }
 
 /// The same without what follows reversals, where it describes the rest far better than the law of all
 /// windows does: bristles (presliding), a soft transmission or a sensor's play let friction grow over some
 /// travel, and no function of speed does.
-fn after_travel(sampled: &mut Sampled<'_>, whole: &Described) -> Option<FrictionLaw> {
+fn after_travel(
+    sampled: &mut Sampled<'_>,
+    whole: &Described,
+) -> Option<(FrictionLaw, CurveSums)> {
     let travels = sampled.travels();
     let usual = *travels.get(travels.len() / 2)?;
     let windows = sampled.places().len();
-    let mut tried: Vec<FrictionLaw> = Vec::new();
+    let mut tried: Vec<(FrictionLaw, CurveSums)> = Vec::new();
     let mut worth = false;
     for share in AFTER {
         sampled.after = share * usual;
         if sampled.places().len() < windows / 2 {
             break;
         }
-        let Some((law, described)) = under(sampled) else { continue };
+        let Some((law, sums, described)) = under(sampled) else { continue };
         let (with, without) = (described.left(sampled), whole.left(sampled));
         sampled.after = 0.0;
         let less = -described.left(sampled).more_friction_without(&with);
@@ -179,16 +186,16 @@ fn after_travel(sampled: &mut Sampled<'_>, whole: &Described) -> Option<Friction
             // On the same windows: without some, little may be left of what was never to be explained.
             worth |= with.beyond_noise() < FAR_LESS * without.beyond_noise()
                 && with.relative() < LESS * without.relative();
-            tried.push(law);
+            tried.push((law, sums));
         }
     }
-    let left = |law: &FrictionLaw| law.relative_residual[1];
+    let left = |(law, _): &(FrictionLaw, CurveSums)| law.relative_residual[1];
     let best = tried.into_iter().min_by(|a, b| left(a).total_cmp(&left(b)));
     best.filter(|_| worth)
 }
 
 /// Curve and law of some windows.
-fn under(sampled: &Sampled<'_>) -> Option<(FrictionLaw, Described)> {
+fn under(sampled: &Sampled<'_>) -> Option<(FrictionLaw, CurveSums, Described)> {
     let window_s = sampled.window_s;
     let places = sampled.places();
     let mut speeds: Vec<f64> = places.iter().map(|p| p.speed).collect();
@@ -203,7 +210,8 @@ fn under(sampled: &Sampled<'_>) -> Option<(FrictionLaw, Described)> {
     };
     let choice = choice::choose(sampled, &cut, fastest)?;
     let (columns, terms) = &choice.beside;
-    let (curve, by_curve) = curve::curve(sampled, &cut, &speeds, columns, terms)?;
+    let sums = CurveSums::new(sampled, &cut, &speeds, (columns, terms))?;
+    let (curve, by_curve) = sums.by_phases()?;
     let law = FrictionLaw {
         window_s,
         curve,
@@ -211,7 +219,7 @@ fn under(sampled: &Sampled<'_>) -> Option<(FrictionLaw, Described)> {
         candidates: choice.candidates,
         chosen: choice.fit,
     };
-    Some((law, choice.described))
+    Some((law, sums, choice.described))
 }
 
 /// The shortest window in which the motor's sensor makes no more than [`NOISE`] of the torque, and no

@@ -60,6 +60,7 @@ impl Cut {
 }
 
 /// Sums of the windows of one slip phase that are of one kind.
+#[derive(Debug)]
 pub(super) struct Block {
     pub(super) cluster: Cluster,
     /// Number of the phase.
@@ -277,11 +278,18 @@ fn integral(weight: &[f64], f: &[f64], sample_time_s: f64) -> f64 {
     weight.iter().zip(f).map(|(w, f)| w * f).sum::<f64>() * sample_time_s
 }
 
-/// One at knot `j`, falling to zero at its neighbours; beyond the first and the last knot it stays.
+/// One at knot `j`, falling to zero at its neighbours; beyond the first and the last knot the lines go on, so
+/// that friction that grows in proportion to speed is a sum of hats everywhere.
 pub(super) fn hat(knots: &[f64], j: usize, speed: f64) -> f64 {
-    let rises = j.checked_sub(1).map_or(1.0, |i| (speed - knots[i]) / (knots[j] - knots[i]));
-    let falls = knots.get(j + 1).map_or(1.0, |next| (next - speed) / (next - knots[j]));
-    rises.min(falls).clamp(0.0, 1.0)
+    let last = knots.len().saturating_sub(2);
+    let left = knots.partition_point(|knot| *knot <= speed).saturating_sub(1).min(last);
+    let Some(right) = knots.get(left + 1) else { return 1.0 };
+    let share = (speed - knots[left]) / (right - knots[left]);
+    match j {
+        j if j == left => 1.0 - share,
+        j if j == left + 1 => share,
+        _ => 0.0,
+    }
 }
 
 #[cfg(test)]
@@ -294,6 +302,8 @@ mod tests {
         for speed in [0.0, 0.1, 0.15, 0.3, 0.7, 1.0, 3.0] {
             let sum: f64 = (0..4).map(|j| hat(&knots, j, speed)).sum();
             assert!((sum - 1.0).abs() < 1e-12, "{speed}: {sum}");
+            let line: f64 = (0..4).map(|j| hat(&knots, j, speed) * knots[j]).sum();
+            assert!((line - speed).abs() < 1e-12, "{speed}: {line}");
         }
     }
 

@@ -41,7 +41,7 @@ fn law_of(mut friction: impl FnMut(f64, f64) -> f64) -> FrictionLaw {
     let channels = Channels { axis: Axis::Rotary, command, tips: vec![] };
     let runs = vec![run("run 1", 1.1, 3.7), run("run 2", 2.3, 7.9)];
     let campaign = Campaign::new(channels, runs).unwrap();
-    friction_law(&campaign, &motor_regression(&campaign, &[]).unwrap()).unwrap()
+    friction_law(&campaign, &motor_regression(&campaign, &[]).unwrap()).unwrap().0
 }
 
 fn simple(v: f64) -> f64 {
