@@ -95,11 +95,27 @@ fn beside_thirty(points: &[&PointScore]) -> String {
             Share::count(&nearer, |n| *n)
         };
         let (nearer, much_nearer) = (nearer(1.0), nearer(CLOSER));
-        vec![name.to_owned(), nearer.of.to_string(), nearer.to_string(), much_nearer.to_string()]
+        let not_nearer = of.iter().filter(|p| p.nearer(1.0) == Some(false));
+        let within = not_nearer.filter(|p| p.covers() == Some(true)).count();
+        vec![
+            name.to_owned(),
+            nearer.of.to_string(),
+            nearer.to_string(),
+            much_nearer.to_string(),
+            (nearer.of - nearer.hits).to_string(),
+            within.to_string(),
+        ]
     };
-    let header = ["sinusoidal points", "with (30)", "nearer than (30)", "ten times nearer"];
+    let header = [
+        "sinusoidal points",
+        "with (30)",
+        "nearer than (30)",
+        "ten times nearer",
+        "not nearer",
+        "of these within their 95 % circle",
+    ];
     format!(
-        "Sinusoidal points where (30) exists; one that is not corrected is not nearer:\n\n{}",
+        "Sinusoidal points where (30) exists; one that is not corrected is not nearer. Where the error of (30) is below the          noise, the nearer of the two is a matter of chance: the corrected point is within its circle then.\n\n{}",
         table(&header, &[row(("all", false)), row(("vouched for", true))])
     )
 }
