@@ -218,7 +218,8 @@ pub struct Score {
 }
 
 /// Findings about what the runs show, not about the equation that they should follow.
-const ABOUT_DATA: [&str; 8] = [
+const ABOUT_DATA: [&str; 9] = [
+    "faint-mode",
     "poor-excitation",
     "not-separable",
     "modes-not-found",

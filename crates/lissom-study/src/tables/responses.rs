@@ -115,7 +115,8 @@ fn beside_thirty(points: &[&PointScore]) -> String {
         "of these within their 95 % circle",
     ];
     format!(
-        "Sinusoidal points where (30) exists; one that is not corrected is not nearer. Where the error of (30) is below the          noise, the nearer of the two is a matter of chance: the corrected point is within its circle then.\n\n{}",
+        "Sinusoidal points where (30) exists; one that is not corrected is not nearer. Where the error of (30) is below the \
+         noise, the nearer of the two is a matter of chance: the corrected point is within its circle then.\n\n{}",
         table(&header, &[row(("all", false)), row(("vouched for", true))])
     )
 }

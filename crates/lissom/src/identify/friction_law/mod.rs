@@ -164,10 +164,7 @@ pub(super) fn friction_law(
 /// The same without what follows reversals, where it describes the rest far better than the law of all
 /// windows does: bristles (presliding), a soft transmission or a sensor's play let friction grow over some
 /// travel, and no function of speed does.
-fn after_travel(
-    sampled: &mut Sampled<'_>,
-    whole: &Described,
-) -> Option<(FrictionLaw, CurveSums)> {
+fn after_travel(sampled: &mut Sampled<'_>, whole: &Described) -> Option<(FrictionLaw, CurveSums)> {
     let travels = sampled.travels();
     let usual = *travels.get(travels.len() / 2)?;
     let windows = sampled.places().len();

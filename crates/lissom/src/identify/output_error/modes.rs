@@ -13,7 +13,7 @@ const FREQUENCY: f64 = 0.02;
 const SHARE: f64 = 2e-3;
 /// The highest mode is faint whose stiffness is not known to this share: at a wrong frequency it would leave
 /// hardly more.
-const FAINT: f64 = 0.01;
+pub(super) const FAINT: f64 = 0.01;
 /// Frequencies this near to each other are one mode's, in doubt.
 const TWINS: f64 = 0.01;
 /// A mode put beyond the others begins at one of these times the highest, with this share of what that
@@ -178,7 +178,7 @@ pub(super) fn undamped(mut arm: ModalArm) -> ModalArm {
 }
 
 /// The mode of the highest frequency.
-fn highest(arm: &ModalArm) -> usize {
+pub(super) fn highest(arm: &ModalArm) -> usize {
     let omega = |j: &usize| arm.modes[*j].omega_rad_s;
     (0..arm.modes.len()).max_by(|a, b| omega(a).total_cmp(&omega(b))).unwrap_or(0)
 }

@@ -1,12 +1,13 @@
 //! What the output error's figures are worth, in findings.
 
 use super::attempts::is_left;
+use super::modes::{FAINT, highest};
 use super::stages::GROWN;
 use super::{OutputError, StageReport};
 use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::{Estimate, Identified};
 use crate::record::{Campaign, Tip};
-use crate::replay::Parameter;
+use crate::replay::{ModalArm, Parameter};
 
 /// Deviations below zero from which on a damper is none.
 const DRIVES: f64 = 5.0;
@@ -22,6 +23,7 @@ pub(crate) fn verdict(campaign: &Campaign, id: &mut Identified) {
         id.findings.extend(tip_lags(campaign, oe));
         id.findings.extend(modes_missing(campaign, oe));
         id.findings.extend(modes_by_the_motor(campaign, oe));
+        id.findings.extend(faint_mode(&oe.arm, |p| oe.estimate(p)));
         id.findings.extend(more_than_noise(campaign, oe));
         let figures = oe.parameters.iter().filter_map(|p| Some((*p, oe.estimate(*p)?)));
         id.findings.extend(driving_damper(figures));
@@ -101,6 +103,28 @@ fn more_than_noise(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
         ),
         "the intervals do not count it: add runs near the highest mode, and look at lissom validate",
     ))
+}
+
+/// A highest mode that the runs hardly drive: what they show of it is k/ω², and its frequency is where the
+/// noise happens to ring like it.
+fn faint_mode(arm: &ModalArm, estimate: impl Fn(Parameter) -> Option<Estimate>) -> Option<Finding> {
+    let mode = highest(arm);
+    let stiffness = estimate(Parameter::Stiffness(mode)).filter(|_| arm.modes.len() > 1)?;
+    let share = stiffness.std / stiffness.value.abs();
+    (share > FAINT).then(|| {
+        Finding::new(
+            "faint-mode",
+            Severity::Warning,
+            &[key::COUPLING, key::MODES],
+            format!(
+                "the runs hardly drive the highest mode, at {:.1} rad/s: its stiffness is known to {:.1} %, and at another \
+                 frequency it would leave hardly more. Others have been tried; the coupling goes with it",
+                arm.modes[mode].omega_rad_s,
+                100.0 * share
+            ),
+            "add a run that drives it, about the frequency that `lissom model` gives for the beam's dimensions",
+        )
+    })
 }
 
 /// A damper that is less than none: what dampers of one kind take too much, one of another kind gives back, and
@@ -204,6 +228,44 @@ fn tip_lags(campaign: &Campaign, oe: &OutputError) -> Vec<Finding> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::replay::{DryTerms, Oscillator};
+
+    #[test]
+    fn a_highest_mode_that_hardly_shows_is_said() {
+        let mode = |omega_rad_s: f64| Oscillator {
+            omega_rad_s,
+            stiffness_nm_per_rad: 2.0,
+            within_per_s: 0.0,
+            grounded_per_s: 0.0,
+        };
+        let arm = |modes: Vec<Oscillator>| ModalArm {
+            inertia_kg_m2: 1.0,
+            viscous_nm_s_per_rad: [0.1; 2],
+            coulomb_nm: 0.1,
+            offset_nm: 0.0,
+            dry_terms: DryTerms::default(),
+            shapes: vec![vec![1.0 / modes.len() as f64; modes.len()]],
+            modes,
+            at_points_per_s: vec![],
+            command_lag_s: 0.0,
+            tip_lags_s: vec![],
+        };
+        // The second of three is the highest.
+        let three = arm(vec![mode(5.0), mode(80.0), mode(20.0)]);
+        let known = |p: Parameter, std: f64| {
+            (p == Parameter::Stiffness(1)).then_some(Estimate { value: 2.0, std })
+        };
+        let said = faint_mode(&three, |p| known(p, 0.05)).unwrap();
+        assert!(
+            said.message.contains("80.0 rad/s") && said.message.contains("2.5 %"),
+            "{}",
+            said.message
+        );
+        assert!(faint_mode(&three, |p| known(p, 0.01)).is_none());
+        // One alone is driven or not there.
+        let alone = |_: Parameter| Some(Estimate { value: 2.0, std: 0.5 });
+        assert!(faint_mode(&arm(vec![mode(5.0)]), alone).is_none());
+    }
 
     #[test]
     fn a_damper_that_drives_is_said() {
