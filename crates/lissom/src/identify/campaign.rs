@@ -153,8 +153,7 @@ pub fn identify(
         .filter(|r| !alone || constant_velocity.is_none() || stands_alone(r));
     let regression_residual = any_regression.as_ref().map(|r| r.relative_residual);
     let regression = any_regression.clone().filter(|r| r.relative_residual < RESIDUAL_REFUSED);
-    let (mut friction_law, curve_sums) =
-        regression.as_ref().and_then(|r| friction_law(&usable, r)).unzip();
+    let mut friction_law = regression.as_ref().and_then(|r| friction_law(&usable, r));
     progress(Stage::Beam);
     let any_beam_regression = beam_regression(&usable);
 
@@ -172,7 +171,7 @@ pub fn identify(
         let table = || response_table(campaign, &runs, best, &square, &findings);
         let (beam, tips) = (any_beam_regression.as_ref(), beam_model.as_ref());
         let plain = starting_arms(&usable, &motor, beam, tips, &shown, table);
-        replayed(&usable, &runs, &kept, &plain, friction_law.as_ref())
+        replayed(&usable, &runs, &kept, &plain, friction_law.as_ref().map(|(law, _)| law))
     });
 
     let beam_regression = any_beam_regression.filter(beam_stands);
@@ -180,16 +179,14 @@ pub fn identify(
     progress(Stage::Responses);
     let table = |c: Option<Estimate>| response_table(campaign, &runs, c, &square, &findings);
     let replay = output_error.as_ref().filter(|o| o.describes_whole_runs());
-    let curve = replay.zip(curve_sums).and_then(|(found, sums)| sums.beside_arm(found));
-    if let Some((law, curve)) = friction_law.as_mut().zip(curve) {
-        law.curve = curve;
+    if let Some(((law, sums), found)) = friction_law.as_mut().zip(replay) {
+        law.curve = sums.beside_arm(found).unwrap_or_else(|| std::mem::take(&mut law.curve));
     }
     let replay = replay.map_or_else(Replayed::default, |o| corrected(o, &usable, &runs, &kept));
     let mut responses = response_table(campaign, &runs, best, &replay, &findings);
     let stepped = responses.iter().filter(|p| p.run.is_some()).count() >= STEPPED;
     let figures = figures_model(campaign, regression.as_ref(), beam_regression.as_ref());
-    let mut motor_model = None;
-    let mut contradicted = None;
+    let (mut motor_model, mut contradicted) = (None, None);
     if let Some((motor, beam)) = &figures {
         if replay.bands.is_none() {
             contradicted = against(&mut responses, motor);
@@ -200,9 +197,7 @@ pub fn identify(
             beam_model = beam.clone().or(beam_model);
         }
     }
-    let rigid =
-        output_error.as_ref().filter(|oe| campaign.channels.tips.is_empty() && oe.is_rigid());
-    if let Some(rigid) = rigid.and_then(|oe| rigid_model(campaign, oe)) {
+    if let Some(rigid) = output_error.as_ref().and_then(|oe| rigid_model(campaign, oe)) {
         // Responses know less: noise in them looks like a pole and a zero side by side.
         motor_model = Some(rigid);
     }
@@ -224,7 +219,7 @@ pub fn identify(
         inertia: None,
         beam: Beam::default(),
         third_harmonic,
-        friction_law,
+        friction_law: friction_law.map(|(law, _)| law),
         regression,
         regression_residual,
         constant_velocity,

@@ -40,8 +40,11 @@ pub(super) fn figures_model(
     (inertia.value > 0.0).then(|| (model, mode.map(|m| BeamFit::of_mode(m.0))))
 }
 
-/// The model of an axis that the replay found rigid.
+/// The model of an axis without tips that the replay found rigid.
 pub(super) fn rigid_model(campaign: &Campaign, replay: &OutputError) -> Option<MotorFit> {
+    if !(campaign.channels.tips.is_empty() && replay.is_rigid()) {
+        return None;
+    }
     let command = &campaign.channels.command;
     let constant = command.torque_per_command.unwrap_or(1.0);
     let back_emf = command.back_emf_viscous;

@@ -134,7 +134,9 @@ impl CurveSums {
         };
         let squares: Vec<f64> = points.iter().map(beyond).collect::<Option<_>>()?;
         let longer = (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt().max(1.0);
-        points.iter_mut().for_each(|p| p.friction.std *= longer);
+        for point in &mut points {
+            point.friction.std *= longer;
+        }
         Some(points)
     }
 

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::drive::Falloff;
 use crate::identify::regression::{
-    Cluster, MotorEquation, Phase, Rows, RunNoise, Window, coupled_tips, smoothing, sure_phases,
+    Cluster, MotorEquation, Phase, Rows, RunNoise, Window, coupled_tips, slip_phases, smoothing,
 };
 use crate::record::{Campaign, Run};
 
@@ -106,7 +106,7 @@ impl<'a> Sampled<'a> {
             let smooth = smooth(run, window_s);
             let n = (window_s / t).round() as usize;
             let window = (4..run.len()).contains(&n).then(|| Window::new(n, t));
-            let mut phases = sure_phases(run.motor(), smooth, t, noise.motor);
+            let mut phases = slip_phases(run.motor(), smooth, t);
             phases.retain(|phase| phase.to - phase.from > n);
             let noise = window.as_ref().map_or_else(
                 || DMatrix::zeros(0, 0),

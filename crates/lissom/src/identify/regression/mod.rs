@@ -18,7 +18,7 @@ pub use missing::{MissingKind, MissingTerm};
 pub use motor::{ByDirection, MotorRegression, motor_regression};
 pub(crate) use motor_rows::{MotorEquation, coupled_tips};
 pub(crate) use normal::{Cluster, Rows, Solution, Term, solve};
-pub(crate) use phases::{Phase, slip_sign, smoothing, sure_phases};
+pub(crate) use phases::{Phase, slip_phases, slip_sign, smoothing};
 pub(crate) use row_noise::RunNoise;
 pub use scan::Candidate;
 pub(crate) use verdict::findings;

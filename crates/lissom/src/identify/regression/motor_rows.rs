@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use super::normal::{Cluster, Rows};
-use super::phases::{LEAST_SAMPLES, LEAST_SMOOTH, Phase, needed_smoothing, sure_phases};
+use super::phases::{LEAST_SAMPLES, LEAST_SMOOTH, Phase, needed_smoothing, unreversed_phases};
 use super::row_noise::{Part, RunNoise, products};
 use super::window::Window;
 use crate::record::{Campaign, Hold, Run, TipQuantity};
@@ -109,7 +109,7 @@ impl<'a> Slipping<'a> {
         let needed = needed_smoothing(run.motor());
         let smooth = needed.max(LEAST_SAMPLES);
         let noise = RunNoise::of(run);
-        let phases = sure_phases(run.motor(), smooth, run.sample_time_s(), noise.motor);
+        let phases = unreversed_phases(run.motor(), smooth, run.sample_time_s(), noise.motor);
         Self { run, needed, smooth, phases, noise }
     }
 
@@ -123,7 +123,7 @@ impl<'a> Slipping<'a> {
             Cow::Borrowed(&self.phases[..])
         } else {
             let Self { run, noise, .. } = self;
-            Cow::Owned(sure_phases(run.motor(), smooth, run.sample_time_s(), noise.motor))
+            Cow::Owned(unreversed_phases(run.motor(), smooth, run.sample_time_s(), noise.motor))
         };
         (phases, smooth)
     }

@@ -13,60 +13,36 @@ pub(crate) struct Phase {
     pub(crate) sign: f64,
 }
 
-/// Phases in which the smoothed velocity is surely of one sign, for angles whose noise has the deviation
-/// `noise_rad`.
+/// Phases of one sign of the smoothed velocity.
 ///
 /// The velocity is the angle's convolution with the derivative of a window of `smooth` samples:
-/// long enough that the sensor's steps do not reverse it, short against the phases. It is sure beyond
-/// [`SURE`] of its own deviations, `σ·√Σẇ²`. A phase reaches from sure velocities over those of the same sign within
-/// the smoothing, so that it ends where a motor comes to rest, and without those that
-/// half the smoothing shows reversed.
-pub(crate) fn sure_phases(
+/// long enough that the sensor's steps do not reverse it, short against the phases.
+pub(crate) fn slip_phases(motor: &[f64], smooth: usize, sample_time_s: f64) -> Vec<Phase> {
+    slips(motor, &Window::new(smooth, sample_time_s), 0.0)
+}
+
+/// The same without what reverses within the smoothing: where the velocity over half of it is against the
+/// phase's by more than [`REVERSED`] of its own deviations, `σ·√Σẇ²` for angles with noise of deviation `noise_rad`.
+pub(super) fn unreversed_phases(
     motor: &[f64],
     smooth: usize,
     sample_time_s: f64,
     noise_rad: f64,
 ) -> Vec<Phase> {
-    let found = |n: usize, deviations: f64| {
-        let window = Window::new(n, sample_time_s);
-        let std = noise_rad * window.first.iter().map(|w| w * w).sum::<f64>().sqrt();
-        slips(motor, &window, deviations * std)
-    };
-    let Slips { all, sure } = found(smooth, SURE);
-    let phases = reaching(&all, &sure, smooth);
+    let phases = slip_phases(motor, smooth, sample_time_s);
     if smooth < 2 * LEAST_SMOOTH {
         return phases;
     }
-    let within = found(smooth / 2, REVERSED).sure;
+    let window = Window::new(smooth / 2, sample_time_s);
+    let std = noise_rad * window.first.iter().map(|w| w * w).sum::<f64>().sqrt();
+    let within = slips(motor, &window, REVERSED * std);
     phases.iter().flat_map(|phase| without_reversals(*phase, &within)).collect()
 }
 
-/// Deviations of a velocity whose sign is sure…
-const SURE: f64 = 2.0;
-/// …and of one within a phase that is against it: of many thousands none is by chance.
+/// Deviations of a velocity that surely is against the phase it is in: of many thousands none is by chance.
 const REVERSED: f64 = 5.0;
 /// Fewest samples over which a velocity is smoothed.
 pub(super) const LEAST_SMOOTH: usize = 4;
-
-/// The parts of `all` that are within `reach` samples of `sure` ones.
-fn reaching(all: &[Phase], sure: &[Phase], reach: usize) -> Vec<Phase> {
-    let mut parts: Vec<Phase> = Vec::new();
-    let mut rest = sure;
-    for phase in all {
-        let within = rest.partition_point(|part| part.from < phase.to);
-        let begins = parts.len();
-        for part in &rest[..within] {
-            let from = part.from.saturating_sub(reach).max(phase.from);
-            let to = (part.to + reach).min(phase.to);
-            match parts[begins..].last_mut() {
-                Some(last) if from <= last.to => last.to = to,
-                _ => parts.push(Phase { from, to, ..*phase }),
-            }
-        }
-        rest = &rest[within..];
-    }
-    parts
-}
 
 /// The parts of a phase that are left by those of the other sign.
 fn without_reversals(phase: Phase, found: &[Phase]) -> Vec<Phase> {
@@ -81,35 +57,30 @@ fn without_reversals(phase: Phase, found: &[Phase]) -> Vec<Phase> {
     parts
 }
 
-/// Phases of one sign of the smoothed velocity, and those in which it is more than a least one.
-struct Slips {
-    all: Vec<Phase>,
-    sure: Vec<Phase>,
-}
-
-fn slips(motor: &[f64], window: &Window, least: f64) -> Slips {
-    pulp::Arch::new().dispatch(Slipping { motor, window, least })
+/// Phases of one sign of velocities of more than `least`.
+fn slips(motor: &[f64], window: &Window, least: f64) -> Vec<Phase> {
+    pulp::Arch::new().dispatch(Slips { motor, window, least })
 }
 
 /// Velocities found side by side.
 const LANES: usize = 16;
 
 /// [`slips`], compiled for the widest registers that there are.
-struct Slipping<'a> {
+struct Slips<'a> {
     motor: &'a [f64],
     window: &'a Window,
     least: f64,
 }
 
-impl pulp::WithSimd for Slipping<'_> {
-    type Output = Slips;
+impl pulp::WithSimd for Slips<'_> {
+    type Output = Vec<Phase>;
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> Slips {
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Vec<Phase> {
         let Self { motor, window, least } = self;
         let n = window.len();
         let rising = &window.first[..n.div_ceil(2)];
-        let (mut all, mut sure): (Vec<Phase>, Vec<Phase>) = (Vec::new(), Vec::new());
+        let mut phases: Vec<Phase> = Vec::new();
         let velocities = motor.len().saturating_sub(n);
         for from in (0..velocities).step_by(LANES) {
             let seen = &motor[from..];
@@ -122,15 +93,12 @@ impl pulp::WithSimd for Slipping<'_> {
                 convolved(rising, n, &padded)
             };
             for (k, &velocity) in (n / 2 + from..).zip(&found[..lanes]) {
-                if velocity != 0.0 {
-                    extend(&mut all, k, velocity);
-                }
                 if velocity.abs() > least {
-                    extend(&mut sure, k, velocity);
+                    extend(&mut phases, k, velocity);
                 }
             }
         }
-        Slips { all, sure }
+        phases
     }
 }
 
@@ -196,9 +164,8 @@ fn usual_speed(motor: &[f64], noise: f64) -> f64 {
 
 /// Direction of motion at every sample: +1, −1, or 0 where the smoothed velocity has no sign.
 pub(crate) fn slip_sign(motor: &[f64], sample_time_s: f64) -> Vec<f64> {
-    let window = Window::new(smoothing(motor), sample_time_s);
     let mut sign = vec![0.0; motor.len()];
-    for phase in slips(motor, &window, 0.0).all {
+    for phase in slip_phases(motor, smoothing(motor), sample_time_s) {
         sign[phase.from..phase.to].fill(phase.sign);
     }
     sign
@@ -213,7 +180,7 @@ mod tests {
         let t = 0.003;
         let x: Vec<f64> =
             (0..4000).map(|k| ((2.0 * f64::from(k) * t).cos() / 0.0015).round() * 0.0015).collect();
-        let phases = sure_phases(&x, 30, t, 0.0);
+        let phases = slip_phases(&x, 30, t);
         let long: Vec<_> = phases.iter().filter(|p| p.to - p.from > 100).collect();
         assert_eq!(long.len(), 8);
         for (k, p) in long.iter().enumerate() {
@@ -239,21 +206,7 @@ mod tests {
 
     #[test]
     fn a_motor_at_rest_has_none() {
-        assert!(sure_phases(&[1.0; 200], 20, 0.01, 0.0).is_empty());
-    }
-
-    /// Noise moves the angle of a motor at rest: by chance one way for a while, never surely.
-    #[test]
-    fn a_phase_ends_where_the_motor_comes_to_rest() {
-        let (t, noise, stops) = (0.001, 1e-3, 1000.0);
-        let mut next = draws();
-        let motor: Vec<f64> =
-            (0..6000).map(|k| 5e-4 * f64::from(k).min(stops) + noise * next()).collect();
-        let smooth = needed_smoothing(&motor);
-        let phases = sure_phases(&motor, smooth, t, noise);
-        let long: Vec<_> = phases.iter().filter(|p| p.to - p.from > 3 * smooth).collect();
-        assert_eq!(long.len(), 1, "{long:?}");
-        assert!((long[0].to as f64 - stops).abs() < 1.5 * smooth as f64, "{long:?} {smooth}");
+        assert!(slip_phases(&[1.0; 200], 20, 0.01).is_empty());
     }
 
     /// Back and forth within the smoothing, which only sees the way forward.
@@ -268,9 +221,9 @@ mod tests {
                 at + noise * next()
             })
             .collect();
-        let smoothed = slips(&motor, &Window::new(smooth, t), 0.0).all;
+        let smoothed = slip_phases(&motor, smooth, t);
         assert_eq!(smoothed.len(), 1, "it is not smoothed away");
-        let phases = sure_phases(&motor, smooth, t, noise);
+        let phases = unreversed_phases(&motor, smooth, t, noise);
         assert_eq!(phases.len(), 2, "{phases:?}");
         assert!(phases[0].to < 1003 && phases[1].from > 1003, "{phases:?}");
         assert!(phases[1].from - phases[0].to < smooth, "{phases:?}");

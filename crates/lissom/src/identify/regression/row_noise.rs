@@ -8,7 +8,7 @@ use crate::record::Run;
 
 /// Deviation of what is independent from sample to sample in each channel of a run.
 pub(crate) struct RunNoise {
-    pub(crate) motor: f64,
+    pub(super) motor: f64,
     pub(super) tips: Vec<f64>,
 }
 
