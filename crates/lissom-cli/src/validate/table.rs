@@ -41,10 +41,11 @@ fn percent(share: Option<f64>) -> String {
 fn torque(names: UnitNames, campaign: &Campaign, found: &FoundArm, t: &TorquePrediction) {
     let what = if names.torque_unit() == "N" { "force" } else { "torque" };
     print::line(&format!(
-        "\n{what} from the logged motion: {:.2} % left of {:.4} {} rms{}",
+        "\n{what} from the logged motion: {:.2} % left of {:.4} {} rms{}{}",
         100.0 * t.relative_error,
         t.logged_nm,
         names.torque_unit(),
+        t.expected_error.map_or_else(String::new, expected),
         found.torque_used.map_or_else(String::new, used),
     ));
     print::line(&format!(
@@ -96,6 +97,10 @@ fn torque(names: UnitNames, campaign: &Campaign, found: &FoundArm, t: &TorquePre
             print::line(&format!("… and {} better ones", runs.len() - SHOWN));
         }
     }
+}
+
+fn expected(error: f64) -> String {
+    format!("; {:.2} % if the arm is right", 100.0 * error)
 }
 
 fn used(used: TorqueUsed) -> String {

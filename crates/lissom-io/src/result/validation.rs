@@ -61,7 +61,7 @@ fn torque(campaign: &Campaign, names: UnitNames, found: &FoundArm, t: &TorquePre
             "relative_error": s.relative_error,
         })
     };
-    let term = |c: &Cause| json!({ "term": c.kind.name(), "value": c.value, "share": c.share });
+    let term = |c: &Cause| json!({ "term": c.kind.name(), "value": c.value, "share": c.share, "expected_value": c.expected_value });
     let runs = t.runs.iter();
     let mut map = Map::new();
     map.insert("relative_error".to_owned(), json!(t.relative_error));
@@ -69,6 +69,7 @@ fn torque(campaign: &Campaign, names: UnitNames, found: &FoundArm, t: &TorquePre
         "relative_error_of_logs_used".to_owned(),
         json!(found.torque_used.map(|t| t.relative_error)),
     );
+    map.insert("relative_error_expected".to_owned(), json!(t.expected_error));
     map.insert("relative_error_forward".to_owned(), json!(t.by_direction[0]));
     map.insert("relative_error_backward".to_owned(), json!(t.by_direction[1]));
     map.insert(format!("logged_rms_{}", names.torque()), json!(t.logged_nm));

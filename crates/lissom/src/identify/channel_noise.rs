@@ -38,6 +38,11 @@ pub(crate) fn channel_noise(x: &[f64]) -> ChannelNoise {
     ChannelNoise { step, std: independent.max(step / 12.0_f64.sqrt()), independent }
 }
 
+/// What a sensor shows of `value` that reads in steps of `step`, one of which is `one`.
+pub(crate) fn reading(value: f64, one: f64, step: f64) -> f64 {
+    if step > 0.0 { one + ((value - one) / step).round() * step } else { value }
+}
+
 /// [`ChannelNoise::independent`] of uniform samples of a smooth motion.
 pub(crate) fn independent_noise(x: &[f64]) -> f64 {
     let mut fourth: Vec<f64> = x

@@ -7,6 +7,7 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::data::Masks;
 use super::stages::Fit;
+use crate::identify::channel_noise::reading;
 use crate::record::{Campaign, Run};
 use crate::replay::{SensorNoise, Window, predict};
 
@@ -89,11 +90,6 @@ fn channel_of(run: &Run, channel: usize) -> &[f64] {
         None => run.motor(),
         Some(tip) => &run.tips()[tip],
     }
-}
-
-/// What a sensor shows of `value` that reads in steps of `step`, one of which is `one`.
-fn reading(value: f64, one: f64, step: f64) -> f64 {
-    if step > 0.0 { one + ((value - one) / step).round() * step } else { value }
 }
 
 fn slow(errors: &[[f64; 3]], counts: impl Fn(usize) -> bool) -> Slow {

@@ -46,6 +46,19 @@ pub struct Cause {
     pub value: f64,
     /// Share of the squared residual that it takes away by itself.
     pub share: f64,
+    /// What the same recipe makes of the arm's own motion: reversals and noise look like it, too. Zero where
+    /// that motion could not be followed.
+    pub expected_value: f64,
+}
+
+impl Cause {
+    /// Share of the squared residual that the value beyond `expected_value` takes away.
+    pub fn share_beyond(&self) -> f64 {
+        if self.value == 0.0 {
+            return 0.0;
+        }
+        (self.share * (1.0 - self.expected_value / self.value).powi(2)).min(1.0)
+    }
 }
 
 impl CauseKind {
@@ -145,7 +158,7 @@ impl Causes {
                 let known = square > 0.0 && residual > 0.0;
                 let value = if known { product / square } else { 0.0 };
                 let share = if known { value * product / residual } else { 0.0 };
-                Cause { kind, value, share }
+                Cause { kind, value, share, expected_value: 0.0 }
             })
             .collect();
         causes.sort_by(|a, b| b.share.total_cmp(&a.share));

@@ -80,6 +80,22 @@ impl Kernel {
         self.command.iter().enumerate().map(|(i, w)| w * at(i)).sum()
     }
 
+    /// Whether all that [`Self::command`] takes is among `len` samples.
+    pub(super) fn reads_command(&self, k: usize, len: usize) -> bool {
+        let at = |i: usize| k.cast_signed() + self.first + i.cast_signed();
+        let used = |w: &f64| *w != 0.0;
+        let (first, last) =
+            (self.command.iter().position(used), self.command.iter().rposition(used));
+        first.is_none_or(|i| at(i) >= 0) && last.is_none_or(|i| at(i) < len.cast_signed())
+    }
+
+    /// Where the window at `k` begins in a signal that comes `lag_s` later, in whole samples, and what is
+    /// left of the lag \[s\].
+    pub(super) fn late(&self, k: usize, lag_s: f64) -> (isize, f64) {
+        let whole = (lag_s / self.sample_time_s).round();
+        (k.cast_signed().saturating_add(whole as isize), lag_s - whole * self.sample_time_s)
+    }
+
     /// Deviation of a mean rate by white noise of deviation one in the samples.
     pub(super) fn rate_noise(&self) -> f64 {
         self.noise(&self.window.first)

@@ -1,6 +1,7 @@
 //! How well an identified arm predicts logs that it was not found from.
 
 mod cause;
+mod expected;
 mod kernel;
 mod motion;
 mod residual;
@@ -19,6 +20,7 @@ use super::Finding;
 use super::found_arm::FoundArm;
 use crate::record::Campaign;
 use crate::replay::{MOST_MODES, Window};
+use expected::expected;
 use motion::{Followed, followed, lengths_s};
 use residual::channel_residual;
 
@@ -99,7 +101,10 @@ pub fn validate(
     let zeros = predicted.first().map_or(Vec::new(), |f| zeros(campaign, &f.windows));
     // The window of the logs used, so that both figures compare.
     let window_s = options.window_s.or(found.torque_used.map(|used| used.window_s));
-    let torque = torque(arm, campaign, &zeros, window_s);
+    let mut torque = torque(arm, campaign, &zeros, window_s);
+    if let (Some(torque), Some(followed)) = (&mut torque, predicted.get(chosen)) {
+        torque.compare(expected(arm, campaign, followed, torque.window_s));
+    }
     if predicted.is_empty() && torque.is_none() {
         return Err(ValidationError::NothingMoves);
     }

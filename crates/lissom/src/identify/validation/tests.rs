@@ -1,7 +1,11 @@
+use super::verdict::GOOD;
 use super::*;
+use crate::identify::Severity;
 use crate::identify::{ArmSource, TorqueUsed};
-use crate::record::{Axis, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
-use crate::replay::{DryTerms, ModalArm};
+use crate::record::{
+    Axis, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
+};
+use crate::replay::{DryTerms, ModalArm, Oscillator};
 
 /// Sample time of the logs \[s\].
 const T: f64 = 0.002;
@@ -41,20 +45,34 @@ fn channels() -> Channels {
 
 /// What `arm` shows under a command of two sines, replayed, with sensor steps.
 fn log_of(arm: &ModalArm) -> Campaign {
+    log_at(arm, [3.0, 11.0])
+}
+
+/// The same, the sines at other frequencies \[rad/s\].
+fn log_at(arm: &ModalArm, [slow, fast]: [f64; 2]) -> Campaign {
     let n = 8000;
+    let tips = arm.shapes.len();
     let command: Vec<f64> = (0..n)
         .map(|k| T * f64::from(k))
-        .map(|s| 1.6 * (3.0 * s).sin() + 0.8 * (11.0 * s).sin())
+        .map(|s| 1.6 * (slow * s).sin() + 0.8 * (fast * s).sin())
         .collect();
-    let run = |motor: Vec<f64>| {
-        Run::new("two sines", TimeBase::uniform(0.0, T), command.clone(), motor, vec![]).unwrap()
+    let run = |mut shown: Vec<Vec<f64>>| {
+        let motor = shown.remove(0);
+        Run::new("two sines", TimeBase::uniform(0.0, T), command.clone(), motor, shown).unwrap()
     };
-    let blank = Campaign::new(channels(), vec![run(vec![0.0; n as usize])]).unwrap();
-    let start = vec![0.0, 0.5];
-    let window = Window { run: 0, samples: 0..=n as usize - 1, start, zeros: Vec::new() };
+    let channels = Channels { tips: vec![tip(); tips], ..channels() };
+    let blank = run(vec![vec![0.0; n as usize]; 1 + tips]);
+    let blank = Campaign::new(channels.clone(), vec![blank]).unwrap();
+    let mut start = vec![0.0; 2 * (1 + arm.modes.len())];
+    start[1] = 0.5;
+    let window = Window { run: 0, samples: 0..=n as usize - 1, start, zeros: vec![0.0; tips] };
     let motion = crate::replay::predict(arm, &blank, &window).unwrap();
-    let motor = motion.channels[0].iter().map(|x| (x / STEP).round() * STEP).collect();
-    Campaign::new(channels(), vec![run(motor)]).unwrap()
+    let steps = |x: &Vec<f64>| x.iter().map(|x| (x / STEP).round() * STEP).collect();
+    Campaign::new(channels, vec![run(motion.channels.iter().map(steps).collect())]).unwrap()
+}
+
+fn tip() -> Tip {
+    Tip { name: "tip".to_owned(), quantity: TipQuantity::Angle, calibrated: true }
 }
 
 fn by_options(arm: &ModalArm, truth: &ModalArm) -> Validation {
@@ -96,8 +114,56 @@ fn what_is_wrong_is_named() {
         let cause = v.torque.as_ref().unwrap().causes[0];
         assert_eq!(cause.kind, kind, "{:?}", v.torque.unwrap().causes);
         assert!((cause.value / expected - 1.0).abs() < 0.15, "{cause:?}");
-        assert!(v.findings.iter().any(|f| f.code == "residual-torque"), "{:?}", v.findings);
-        assert!(v.findings.iter().any(|f| f.code == "prediction-worse"));
+        let torque = v.torque.unwrap();
+        let errors = (torque.relative_error, torque.expected_error);
+        assert!(v.findings.iter().any(|f| f.code == "residual-torque"), "{errors:?} {cause:?}");
+        assert!(v.findings.iter().any(|f| f.code == "prediction-worse"), "{errors:?}");
+    }
+}
+
+/// Fast motion reverses within a window: much is left of a right arm's torque, and nothing is wrong.
+#[test]
+fn a_right_arm_has_no_warning_where_reversals_leave_much() {
+    let log = log_at(&rigid(), [17.0, 29.0]);
+    let v = validate(&found(rigid()), &log, &ValidationOptions::default()).unwrap();
+    let torque = v.torque.unwrap();
+    assert!(torque.relative_error > GOOD, "{}", torque.relative_error);
+    let beside = torque.relative_error / torque.expected_error.unwrap();
+    assert!((beside - 1.0).abs() < 0.05, "{beside}");
+    assert!(v.findings.iter().all(|f| f.severity == Severity::Info), "{:?}", v.findings);
+    // An arm that is wrong is told from it.
+    let heavy = ModalArm { inertia_kg_m2: 0.024, ..rigid() };
+    let v = validate(&found(heavy), &log, &ValidationOptions::default()).unwrap();
+    let named = v.findings.iter().find(|f| f.code == "residual-torque").unwrap();
+    assert!(named.message.contains("another inertia"), "{named:?}");
+}
+
+/// A tip that is read late is taken as much later; read as if it were in time its coupling torque is not
+/// the arm's.
+#[test]
+fn torque_takes_a_late_tip_as_late() {
+    let mode = Oscillator {
+        omega_rad_s: 9.0,
+        stiffness_nm_per_rad: 1.2,
+        within_per_s: 0.1,
+        grounded_per_s: 0.2,
+    };
+    for lag_s in [0.0233, -0.0117] {
+        let late = ModalArm {
+            modes: vec![mode],
+            shapes: vec![vec![1.0]],
+            at_points_per_s: vec![0.0],
+            tip_lags_s: vec![lag_s],
+            ..rigid()
+        };
+        let log = log_of(&late);
+        let left = |arm: &ModalArm| {
+            let v = validate(&found(arm.clone()), &log, &ValidationOptions::default()).unwrap();
+            v.torque.unwrap().relative_error
+        };
+        let in_time = ModalArm { tip_lags_s: Vec::new(), ..late.clone() };
+        let (by_late, by_in_time) = (left(&late), left(&in_time));
+        assert!(by_late < GOOD && by_in_time > 3.0 * by_late, "{by_late} {by_in_time}");
     }
 }
 

@@ -38,8 +38,11 @@ pub struct TorquePrediction {
     pub by_direction: [Option<f64>; 2],
     /// Root mean square of the logged torque \[N·m\].
     pub logged_nm: f64,
+    /// What is left by the same recipe of the arm's own motion, shown by the same sensors: `relative_error`
+    /// of an arm that is right. `None` where its motion could not be followed for long enough.
+    pub expected_error: Option<f64>,
     /// Share of the rows that do not count: the motor rests, and what friction is then no figure says,
-    /// or a sensor stands at the end of its range.
+    /// or a sensor stands at the end of its range, or a command or tip that acts later is not logged.
     pub rest_share: f64,
     /// One for each run.
     pub runs: Vec<TorqueRun>,
@@ -47,6 +50,18 @@ pub struct TorquePrediction {
     pub stretches: Vec<Stretch>,
     /// What the residual looks like, the largest share first.
     pub causes: Vec<Cause>,
+}
+
+impl TorquePrediction {
+    /// Takes what the same recipe leaves of the arm's own motion.
+    pub(super) fn compare(&mut self, expected: Option<Self>) {
+        let Some(expected) = expected else { return };
+        self.expected_error = Some(expected.relative_error);
+        for cause in &mut self.causes {
+            let own = expected.causes.iter().find(|c| c.kind == cause.kind);
+            cause.expected_value = own.map_or(0.0, |c| c.value);
+        }
+    }
 }
 
 /// The torque of one run over time, one row a sample (or one in so many of a long run).
@@ -91,7 +106,8 @@ pub struct Stretch {
 /// go through the same window, which shifts no phase.
 ///
 /// `window_s` is chosen where it is `None`: the shortest under which the noise of the motor's sensor
-/// makes at most 1 % of the torque by J·θ̈, and ten samples at least.
+/// makes at most 1 % of the torque by J·θ̈, and ten samples at least. A tip that shows its point late
+/// is read as much later, by whole samples and, under the window, a series in the rest.
 ///
 /// `None` where the arm has modes that the tips do not show, or no row counts.
 pub(in crate::identify) fn torque(
@@ -127,6 +143,7 @@ pub(in crate::identify) fn torque(
         relative_error: ((left[0] + left[1]) / total).sqrt(),
         by_direction: [0, 1].map(|i| (power[i] > 0.0).then(|| (left[i] / power[i]).sqrt())),
         logged_nm,
+        expected_error: None,
         rest_share: 1.0 - number as f64 / all as f64,
         stretches: rows.iter().flat_map(|r| r.stretches(logged_nm, window_s)).collect(),
         runs: rows.into_iter().map(RunRows::told).collect(),
@@ -178,6 +195,11 @@ impl Coupling {
             to.stiffness_nm_per_rad = by_rate(from);
         }
         Some(Self { per_angle: arm.coupling_by_tip()?, per_rate: damped.coupling_by_tip()? })
+    }
+
+    /// Whether tip `i` takes part.
+    fn counts(&self, i: usize) -> bool {
+        self.per_angle[i] != 0.0 || self.per_rate[i] != 0.0
     }
 }
 
@@ -285,7 +307,9 @@ impl Predictor<'_> {
                     logged: constant * kernel.command(k, run.command()),
                     predicted,
                     velocity,
-                    counts: kernel.mean(k, resting) <= AT_REST && self.reads(index, k..=k + n),
+                    counts: kernel.mean(k, resting) <= AT_REST
+                        && self.reads(index, k..=k + n)
+                        && self.logged(run, &kernel, k),
                 };
                 if row.counts {
                     let by_delay = constant * kernel.rate(k, |i| run.command()[i]);
@@ -310,20 +334,41 @@ impl Predictor<'_> {
         samples.all(|i| masks.iter().flatten().all(|mask| mask[i]))
     }
 
+    /// Whether what acts under the window at `k` is in the log: a late command's samples before it, a late
+    /// tip's after it.
+    fn logged(&self, run: &Run, kernel: &Kernel, k: usize) -> bool {
+        let tips = self.arm.tip_lags_s.iter().enumerate().filter(|(i, _)| self.coupling.counts(*i));
+        let begins = |lag_s: f64| kernel.late(k, lag_s).0;
+        kernel.reads_command(k, run.len())
+            && tips
+                .map(|(_, lag)| begins(*lag))
+                .all(|k| k >= 0 && k.cast_unsigned() + kernel.len() < run.len())
+    }
+
     fn coupling_torque(&self, index: usize, kernel: &Kernel, k: usize) -> f64 {
         let run = &self.campaign.runs[index];
         let tips = run.tips().iter().enumerate();
+        let last = (run.len() - 1 - kernel.len()).cast_signed();
         tips.map(|(i, tip)| {
-            let (per_angle, per_rate) = (self.coupling.per_angle[i], self.coupling.per_rate[i]);
-            if per_angle == 0.0 && per_rate == 0.0 {
+            if !self.coupling.counts(i) {
                 return 0.0;
             }
+            let (per_angle, per_rate) = (self.coupling.per_angle[i], self.coupling.per_rate[i]);
             let zero = self.zeros.get(index).and_then(|z| z.get(i)).copied().unwrap_or(0.0);
-            let bent = |s: usize| match self.campaign.channels.tips[i].quantity {
-                TipQuantity::Deflection => zero - tip[s],
-                _ => run.motor()[s] - (tip[s] - zero),
-            };
-            per_angle * kernel.mean(k, bent) + per_rate * kernel.rate(k, bent)
+            let deflects = self.campaign.channels.tips[i].quantity == TipQuantity::Deflection;
+            // The tip's share of what is bent, when its point was where it shows now.
+            let lag_s = self.arm.tip_lags_s.get(i).copied().unwrap_or(0.0);
+            let (later, rest_s) = kernel.late(k, lag_s);
+            let later = later.clamp(0, last).cast_unsigned();
+            let shown = |s: usize| zero - tip[s];
+            let (rate, bend) = (kernel.rate(later, shown), kernel.acceleration(later, shown));
+            let mean = kernel.mean(later, shown) + rest_s * (rate + 0.5 * rest_s * bend);
+            let rate = rate + rest_s * bend;
+            if deflects {
+                return per_angle * mean + per_rate * rate;
+            }
+            let motor = |s: usize| run.motor()[s];
+            per_angle * (kernel.mean(k, motor) + mean) + per_rate * (kernel.rate(k, motor) + rate)
         })
         .sum()
     }

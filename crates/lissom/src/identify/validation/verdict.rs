@@ -1,14 +1,15 @@
 //! What a validation says against the figures.
 
-use super::{CauseKind, TorquePrediction, Validation};
+use super::{Cause, CauseKind, TorquePrediction, Validation};
 use crate::identify::Finding;
 use crate::identify::Severity::{Info, Refusal, Warning};
 use crate::identify::found_arm::FoundArm;
 use crate::record::Campaign;
 
-/// Of a torque of which less is left nothing is said: sensors (1 % by the choice of the window) and
-/// the velocity's sign about a reversal leave that of the true arm.
-const GOOD: f64 = 0.03;
+/// Of a torque of which less is left nothing is said.
+pub(super) const GOOD: f64 = 0.03;
+/// Nothing is called bad where no more is left than this many times what the arm's own motion leaves.
+const AS_EXPECTED: f64 = 1.2;
 /// Torque left from which on a prediction is called bad…
 const BAD: f64 = 0.15;
 /// …and from which on it is none.
@@ -61,20 +62,36 @@ pub(super) fn findings(
 
 fn torque_findings(found: &FoundArm, torque: &TorquePrediction, findings: &mut Vec<Finding>) {
     let error = torque.relative_error;
+    let expected = torque.expected_error.unwrap_or(0.0);
+    if expected > BAD {
+        findings.push(Finding::new(
+            "torque-hidden",
+            Info,
+            &[TORQUE],
+            format!(
+                "sensors and reversals alone leave {:.0} % of the torque under a window of {:.4} s",
+                100.0 * expected,
+                torque.window_s
+            ),
+            "a longer window (`--window`) tells more, or slower and larger motion",
+        ));
+    }
     if error < GOOD {
         return;
     }
+    let beyond = error > AS_EXPECTED * expected;
     let hint = "look at what the residual looks like, and at the stretches where it is largest";
-    if error > NONE {
+    if beyond && error > NONE {
         let message =
             format!("{:.0} % of the torque is left: the figures do not hold", 100.0 * error);
         findings.push(Finding::new("prediction-failed", Refusal, &[TORQUE], message, hint));
-    } else if error > BAD {
+    } else if beyond && error > BAD {
         let message = format!("{:.0} % of the torque is left", 100.0 * error);
         findings.push(Finding::new("prediction-poor", Warning, &[TORQUE], message, hint));
     }
     if let Some(used) = found.torque_used
         && (torque.window_s / used.window_s - 1.0).abs() < SAME_WINDOW
+        && beyond
         && error > WORSE * used.relative_error
     {
         findings.push(Finding::new(
@@ -82,26 +99,26 @@ fn torque_findings(found: &FoundArm, torque: &TorquePrediction, findings: &mut V
             Warning,
             &[TORQUE],
             format!(
-                "{:.2} % of the torque is left, {:.1} times the {:.2} % of the logs that the figures \
-                 are from",
+                "{:.2} % of the torque is left; of the logs that the figures are from {:.2} % is, and \
+                 of this one if the arm is right {:.2} %",
                 100.0 * error,
-                error / used.relative_error,
-                100.0 * used.relative_error
+                100.0 * used.relative_error,
+                100.0 * expected
             ),
             "the figures hold for the motion that they are from: identify from both kinds together",
         ));
     }
-    let named = torque.causes.iter().filter(|c| c.share > NAMED);
-    for cause in named.take(1) {
+    let beyond = |a: &&Cause, b: &&Cause| a.share_beyond().total_cmp(&b.share_beyond());
+    if let Some(cause) = torque.causes.iter().max_by(beyond).filter(|c| c.share_beyond() > NAMED) {
         findings.push(Finding::new(
             "residual-torque",
             Warning,
             &[TORQUE],
             format!(
                 "{:.0} % of the squared residual of the torque looks like {}, {:+.3e} in SI units",
-                100.0 * cause.share,
+                100.0 * cause.share_beyond(),
                 cause.kind.words(),
-                cause.value
+                cause.value - cause.expected_value
             ),
             cause_hint(cause.kind),
         ));
