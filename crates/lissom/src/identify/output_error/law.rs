@@ -118,19 +118,23 @@ pub(super) fn is_line(fitting: &Fitting<'_>, fit: &Fit, line: &Fit) -> bool {
     price(fitting, line, &fit.noise) < price(fitting, fit, &fit.noise)
 }
 
+/// From the least to the largest angle of all runs.
+pub(super) fn travel(campaign: &Campaign) -> f64 {
+    let angles = || campaign.runs.iter().flat_map(Run::motor).copied();
+    angles().fold(f64::NEG_INFINITY, f64::max) - angles().fold(f64::INFINITY, f64::min)
+}
+
 fn is_near_rest(p: Parameter) -> bool {
     matches!(p, Parameter::NearRest | Parameter::NearRestSpeed)
 }
 
 /// Waves per angle at which a ripple promises most, over the frequencies that the travel tells apart.
 fn strongest_ripple(fitting: &Fitting<'_>, fit: &Fit) -> Option<f64> {
-    let angles = || fitting.campaign.runs.iter().flat_map(Run::motor);
-    let low = angles().copied().fold(f64::INFINITY, f64::min);
-    let high = angles().copied().fold(f64::NEG_INFINITY, f64::max);
-    if low >= high {
+    let travel = travel(fitting.campaign);
+    if travel <= 0.0 {
         return None;
     }
-    let half_wave = std::f64::consts::PI / (high - low);
+    let half_wave = std::f64::consts::PI / travel;
     let all: Vec<f64> = (2..2 + RIPPLES).map(|waves| waves as f64 * half_wave).collect();
     let promised = all.chunks(AT_ONCE).flat_map(|some| {
         let mut with = fit.clone();

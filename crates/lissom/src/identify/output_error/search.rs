@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::coordinates::{Body, in_coordinates};
+use super::law::travel;
 use super::noise::is_least;
 use super::windows::fastest_rad_s;
 use crate::information::{Reduced, inverse};
@@ -35,6 +36,9 @@ const LARGEST_TURN: f64 = 4.5;
 /// Largest phase of a ripple that may pass in a sample at the fastest speed \[rad\]: at slow ones it is
 /// seen still.
 const FASTEST_RIPPLE: f64 = 16.0;
+/// Smallest phase of a ripple over all of the travel \[rad\]: slower ones are a constant, which Coulomb
+/// friction is.
+const SLOWEST_RIPPLE: f64 = 0.5;
 /// Speed over which friction near rest may change, at least, as a share of the fastest.
 const SLOWEST_LAW: f64 = 1e-3;
 /// Largest angle by which a motor may swing on its bristles in a sample \[rad\], and rate at which they may damp
@@ -270,7 +274,8 @@ fn fastest_within(run: &Run, window: &Window) -> f64 {
 
 /// Whether friction with all of its terms brakes, at rest and at speed, else nothing holds the motor and
 /// it is pushed both ways; and whether the runs can show its terms: a change within speeds that no log
-/// resolves, or waves that pass within a sample, take ever shorter steps to follow.
+/// resolves, or waves that pass within a sample, take ever shorter steps to follow, and waves far longer than
+/// the travel are no waves.
 fn is_braking(campaign: &Campaign, arm: &ModalArm, sample_s: f64) -> bool {
     let terms = &arm.dry_terms;
     if terms.is_empty() {
@@ -279,9 +284,9 @@ fn is_braking(campaign: &Campaign, arm: &ModalArm, sample_s: f64) -> bool {
     let fastest = fastest_rad_s(campaign);
     let near = terms.near_rest.map_or(0.0, |n| n.torque_nm.min(0.0));
     let waves: f64 = terms.ripples.iter().map(|r| r.cosine_nm.hypot(r.sine_nm)).sum();
+    let travel = if terms.ripples.is_empty() { 0.0 } else { travel(campaign) };
     let turns = |r: &Ripple| {
-        let turn = r.per_rad * fastest * sample_s;
-        turn > 0.0 && turn < FASTEST_RIPPLE
+        r.per_rad * travel > SLOWEST_RIPPLE && r.per_rad * fastest * sample_s < FASTEST_RIPPLE
     };
     let swings = |b: Bristles| {
         let rate = (b.stiffness_nm_per_rad / arm.inertia_kg_m2).sqrt();
@@ -315,7 +320,46 @@ struct Step {
 
 #[cfg(test)]
 mod tests {
-    use super::kick;
+    use super::{is_possible, kick};
+    use crate::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
+    use crate::replay::{DryTerms, ModalArm, Ripple};
+
+    /// Waves far longer than the travel are a constant, and such that pass within a sample no wave.
+    #[test]
+    fn ripples_are_waves_over_the_travel() {
+        let motor: Vec<f64> = (0..400).map(|k| 0.35 * (0.05 * f64::from(k)).sin()).collect();
+        let still = vec![0.0; motor.len()];
+        let run = Run::new("sine", TimeBase::uniform(0.0, 0.002), still, motor, vec![]).unwrap();
+        let command = Command {
+            quantity: CommandQuantity::Current,
+            hold: Hold::Sampled,
+            torque_per_command: Some(0.5),
+            back_emf_viscous: 0.0,
+            limit: None,
+        };
+        let channels = Channels { axis: Axis::Rotary, command, tips: Vec::new() };
+        let campaign = Campaign::new(channels, vec![run]).unwrap();
+        let with = |per_rad: f64| ModalArm {
+            inertia_kg_m2: 0.02,
+            viscous_nm_s_per_rad: [0.05; 2],
+            coulomb_nm: 0.3,
+            offset_nm: 0.0,
+            modes: Vec::new(),
+            shapes: Vec::new(),
+            at_points_per_s: Vec::new(),
+            dry_terms: DryTerms {
+                ripples: vec![Ripple { per_rad, cosine_nm: 0.01, sine_nm: 0.0 }],
+                ..DryTerms::default()
+            },
+            command_lag_s: 0.0,
+            tip_lags_s: Vec::new(),
+        };
+        for (per_rad, possible) in
+            [(-4.0, false), (1e-6, false), (0.5, false), (4.0, true), (2e3, false)]
+        {
+            assert_eq!(is_possible(&campaign, &with(per_rad)), possible, "{per_rad}");
+        }
+    }
 
     #[test]
     fn a_step_kicks_no_window_but_to_rest() {
