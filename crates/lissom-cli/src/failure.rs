@@ -122,6 +122,9 @@ fn plan_hint(error: &PlanError) -> &'static str {
              --within"
         }
         PlanError::TooMuch { .. } => "give a longer sample_time in [rig], or fewer masses",
+        PlanError::TooFast { .. } => {
+            "check the units of [drive] inertia and viscous, and of masses, stiffness and damping in [beam]"
+        }
         PlanError::Wish { .. } => "give a number greater than zero",
         _ => "check the masses and stiffnesses in [beam]",
     }

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use lissom::identify::{Identified, Response, Shape};
-use lissom::lti::TransferFunction;
 use lissom::record::{Channels, TipQuantity};
 use lissom_io::UnitNames;
 use lissom_io::write::Batch;
@@ -106,8 +105,9 @@ fn motor(names: UnitNames, id: &Identified, reference: Option<&Reference>) -> Bo
         );
     }
     let grid = grid(id);
-    if let Some(model) = &id.motor_model {
-        let response = grid.iter().map(|w| model.response(*w)).collect();
+    let response: Option<Vec<Complex64>> =
+        grid.iter().map(|w| id.models.motor_response(*w)).collect();
+    if let Some(response) = response {
         let fitted = Series::new("fitted model", Role::Fitted, Style::Line, grid.clone(), response);
         plot = plot.series(fitted);
     }
@@ -147,10 +147,12 @@ fn tip_plot(
     let mut plot =
         BodePlot::new(format!("Beam: {what} of {name} per motor angle"), "").series(measured);
     let grid = grid(id);
-    let model = id.beam_model.as_ref().and_then(|b| b.transfer_functions.get(i));
+    let response: Option<Vec<Complex64>> =
+        grid.iter().map(|w| id.models.tip_response(i, *w)).collect();
     // A calibrated deflection is modelled as the angle it belongs to.
-    if let Some(model) = model.filter(|_| quantity != TipQuantity::Deflection) {
-        plot = plot.series(line("fitted model", Role::Fitted, &grid, model));
+    if let Some(response) = response.filter(|_| quantity != TipQuantity::Deflection) {
+        let fitted = Series::new("fitted model", Role::Fitted, Style::Line, grid.clone(), response);
+        plot = plot.series(fitted);
     }
     let known_arm = reference.and_then(|r| Some((r.label, r.arm.as_ref()?)));
     if let Some((label, arm)) = known_arm.filter(|_| quantity == TipQuantity::Angle) {
@@ -227,11 +229,6 @@ fn grid(id: &Identified) -> Vec<f64> {
     let high = id.responses.iter().map(|p| p.omega_rad_s).fold(0.0, f64::max);
     let (low, high) = (low / 1.1, high * 1.1);
     (0..=LINE).map(|k| low * (high / low).powf(f64::from(k) / f64::from(LINE))).collect()
-}
-
-fn line(label: &str, role: Role, grid: &[f64], model: &TransferFunction) -> Series {
-    let response = grid.iter().map(|w| model.response(*w)).collect();
-    Series::new(label, role, Style::Line, grid.to_vec(), response)
 }
 
 fn known(label: &str, exact: &[(f64, Complex64)]) -> Series {

@@ -135,6 +135,14 @@ fn what_cannot_be_planned_is_one_error() {
     let output = lissom(fast.path(), &["plan", "arm.toml"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(text(&output.stderr).contains("too many to try"), "{}", text(&output.stderr));
+    // In g·mm² rather than kg·m², or damped by mega in place of milli: simulations would not end.
+    for (right, wrong) in [("6.2e-4 kg", "6.2e-13 kg"), ("0.01 N*s/m", "1e7 N*s/m")] {
+        let stiff = folder(&ARM.replace(right, wrong));
+        let output = lissom(stiff.path(), &["plan", "arm.toml"]);
+        assert_eq!(output.status.code(), Some(1));
+        let message = text(&output.stderr);
+        assert!(message.contains("within a sample") && message.contains("units"), "{message}");
+    }
 }
 
 #[test]

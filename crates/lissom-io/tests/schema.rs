@@ -172,6 +172,7 @@ fn a_result_and_its_schema_name_the_same_keys() {
         "arm.bristles",
         "methods.constant_velocity.lines[].deviations",
         "methods.constant_velocity.points[].start_s",
+        "models.from",
         "models.motor.den",
         "models.state_space.outputs",
         "runs[].stuck_share",

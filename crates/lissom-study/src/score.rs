@@ -218,7 +218,8 @@ pub struct Score {
 }
 
 /// Findings about what the runs show, not about the equation that they should follow.
-const ABOUT_DATA: [&str; 9] = [
+const ABOUT_DATA: [&str; 10] = [
+    "damping-kind",
     "faint-mode",
     "poor-excitation",
     "not-separable",

@@ -84,9 +84,9 @@ pub(super) fn drive(table: &Table<'_>) -> Result<DriveSpec, ConfigError> {
         Some(value) => by_direction(&value, |v| v.not_negative(Dimension::VISCOUS_ROTARY))?,
         None => (0.0, 0.0),
     };
-    let in_current = |value: &Value<'_>| torque(value, torque_constant);
+    let in_torque = |value: &Value<'_>| torque(value, torque_constant);
     let (forward, backward) = match table.get("coulomb") {
-        Some(value) => by_direction(&value, in_current)?,
+        Some(value) => by_direction(&value, in_torque)?,
         None => (0.0, 0.0),
     };
     Ok(DriveSpec {
@@ -96,7 +96,7 @@ pub(super) fn drive(table: &Table<'_>) -> Result<DriveSpec, ConfigError> {
         torque_constant_nm_per_a: torque_constant,
         coulomb_forward_nm: forward,
         coulomb_backward_nm: backward,
-        rest: table.get("rest").map(|v| rest(&v.table()?, in_current)).transpose()?,
+        rest: table.get("rest").map(|v| rest(&v.table()?, in_torque)).transpose()?,
         ripple: table.get("ripple").map(|v| ripple(&v.table()?)).transpose()?,
         bristles: table.get("bristles").map(|v| bristles(&v.table()?)).transpose()?,
     })

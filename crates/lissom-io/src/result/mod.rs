@@ -21,11 +21,12 @@ pub use validation::{channel_name_unit, validation_json};
 
 use lissom::identify::{
     BeamRegression, Candidate, ConstantVelocity, Estimate, Finding, FrictionLine, GeometryCheck,
-    Identified, ModeEstimate, MotorFit, MotorRegression, OutputError, Response, ResponsePoint,
-    RunAnalysis, RunKind, Severity, Shape, StageReport, Stop, ThirdHarmonic,
+    Identified, ModeEstimate, ModelSource, MotorFit, MotorRegression, OutputError, Response,
+    ResponsePoint, RunAnalysis, RunKind, Severity, Shape, StageReport, Stop, ThirdHarmonic,
+    TipModel,
 };
 use lissom::lti::TransferFunction;
-use lissom::record::{Axis, Channels, TipQuantity};
+use lissom::record::{Axis, Channels, Tip, TipQuantity};
 use lissom::replay::Parameter;
 use serde_json::{Map, Value, json};
 
@@ -361,15 +362,21 @@ fn transfer_function(g: &TransferFunction) -> Value {
 }
 
 fn models(channels: &Channels, id: &Identified) -> Value {
-    let tips: Vec<Value> = id.beam_model.as_ref().map_or(Vec::new(), |b| {
-        let named = channels.tips.iter().zip(&b.transfer_functions);
-        named.map(|(tip, g)| json!({ "name": tip.name, "num": g.num, "den": g.den })).collect()
-    });
+    let models = &id.models;
+    let tip = |(tip, model): (&Tip, &TipModel)| {
+        let g = &model.function;
+        json!({ "name": tip.name, "num": g.num, "den": g.den, "delay_s": model.delay_s })
+    };
+    let tips: Vec<Value> = channels.tips.iter().zip(&models.tips).map(tip).collect();
     json!({
-        "motor": id.motor_model.as_ref().map(|m| transfer_function(&m.transfer_function)),
-        "motor_delay_s": figure(id.motor_model.as_ref().and_then(|m| m.delay_s)),
+        "from": match models.source {
+            ModelSource::Arm => "arm",
+            ModelSource::Responses => "responses",
+        },
+        "motor": models.motor.as_ref().map(transfer_function),
+        "motor_delay_s": figure(models.motor_delay),
         "tips": tips,
-        "state_space": id.state_space.as_ref().map(crate::model::state_space),
+        "state_space": models.state_space.as_ref().map(crate::model::state_space),
     })
 }
 

@@ -115,13 +115,15 @@ impl DryFriction {
             let quantity = "share of the friction's ripple (below 1)";
             return Err(DriveError::Negative { quantity, found: share });
         }
-        for (quantity, found, good) in [
-            ("periods of the ripple in a turn", per_turn, per_turn > 0.0),
-            ("phase of the ripple", phase_rad, true),
-        ] {
-            if !(good && found.is_finite()) {
-                return Err(DriveError::NotPositive { quantity, found });
-            }
+        if !(per_turn > 0.0 && per_turn.is_finite()) {
+            let quantity = "periods of the ripple in a turn";
+            return Err(DriveError::NotPositive { quantity, found: per_turn });
+        }
+        if !phase_rad.is_finite() {
+            return Err(DriveError::NotFinite {
+                quantity: "phase of the ripple",
+                found: phase_rad,
+            });
         }
         Ok(Self { ripple: Some(Ripple { share, per_turn, phase_rad }), ..self })
     }
@@ -133,7 +135,7 @@ impl DryFriction {
     pub fn with_viscous_apart(self, apart_nm_s_per_rad: f64) -> Result<Self, DriveError> {
         if !apart_nm_s_per_rad.is_finite() {
             let quantity = "difference of viscous friction by direction";
-            return Err(DriveError::NotPositive { quantity, found: apart_nm_s_per_rad });
+            return Err(DriveError::NotFinite { quantity, found: apart_nm_s_per_rad });
         }
         Ok(Self { viscous_apart_nm_s_per_rad: apart_nm_s_per_rad, ..self })
     }

@@ -15,6 +15,14 @@ pub enum DriveError {
         /// The number found.
         found: f64,
     },
+    /// A quantity of either sign is no number, or infinite.
+    #[error("{quantity} = {found} is not finite")]
+    NotFinite {
+        /// Which quantity.
+        quantity: &'static str,
+        /// The number found.
+        found: f64,
+    },
     /// A quantity that must not be negative is.
     #[error("{quantity} = {found} is negative or not finite")]
     Negative {

@@ -12,10 +12,9 @@ use super::finding::{Finding, Severity, key};
 use super::friction_law::{FrictionLaw, friction_law};
 use super::friction_waveform::FrictionWaveform;
 use super::identified::{Beam, Friction, Identified, ThirdHarmonic};
-use super::model::state_space;
+use super::linear_models::LinearModels;
 use super::models::{beam_model, figures_model, motor_and_beam, rigid_model};
 use super::output_error::{OutputError, OutputErrorStart, output_error};
-use super::rational::{BeamFit, MotorFit};
 use super::regression::{BeamRegression, MotorRegression, beam_regression, motor_regression};
 use super::replayed_bands::ReplayedBands;
 use super::response_table::{Replayed, ResponsePoint, response_table, weak_points};
@@ -23,8 +22,7 @@ use super::run_analysis::{RunAnalysis, RunKind, analyse};
 use super::starting_arms::starting_arms;
 use super::third_harmonic::{PairFigure, mean_figure, pair_figure};
 use super::{Estimate, ModeEstimate, models, verdict};
-use crate::lti::StateSpace;
-use crate::record::{Axis, Campaign, Run, TipQuantity};
+use crate::record::{Campaign, Run};
 use crate::replay::ModalArm;
 
 /// Harmonics fitted to a periodic run.
@@ -180,7 +178,8 @@ pub fn identify(
     let table = |c: Option<Estimate>| response_table(campaign, &runs, c, &square, &findings);
     let replay = output_error.as_ref().filter(|o| o.describes_whole_runs());
     if let Some(((law, sums), found)) = friction_law.as_mut().zip(replay) {
-        law.curve = sums.beside_arm(found).unwrap_or_else(|| std::mem::take(&mut law.curve));
+        let own = std::mem::take(&mut law.curve);
+        law.curve = sums.beside_arm(found).unwrap_or_else(|| sums.beside_law(own, found));
     }
     let replay = replay.map_or_else(Replayed::default, |o| corrected(o, &usable, &runs, &kept));
     let mut responses = response_table(campaign, &runs, best, &replay, &findings);
@@ -212,8 +211,6 @@ pub fn identify(
     findings.extend(uncertain(&mut responses));
     findings.extend(weak_points(&responses, &runs));
     let equivalent = equivalent_arm(campaign, &responses, &mut findings);
-    let state_space =
-        motor_model.as_ref().map(|m| joined(campaign, m, constant, beam_model.as_ref()));
     let mut identified = Identified {
         friction: Friction::default(),
         inertia: None,
@@ -229,7 +226,7 @@ pub fn identify(
         responses,
         beam_model,
         motor_model,
-        state_space,
+        models: LinearModels::default(),
         equivalent,
         separability: None,
         arm: None,
@@ -237,6 +234,7 @@ pub fn identify(
         findings,
     };
     verdict::conclude(campaign, &usable, &mut identified);
+    identified.models = LinearModels::of(&usable, &identified);
     Ok(identified)
 }
 
@@ -308,25 +306,6 @@ fn equivalent_arm(
             None
         }
     }
-}
-
-/// Both rational models as one state space.
-fn joined(
-    campaign: &Campaign,
-    motor: &MotorFit,
-    constant: f64,
-    beam: Option<&BeamFit>,
-) -> StateSpace {
-    let tips = campaign.channels.tips.iter().enumerate();
-    let angles: Vec<(usize, String)> = tips
-        .filter(|(_, t)| t.calibrated && t.quantity != TipQuantity::Acceleration)
-        .map(|(i, t)| (i, t.name.clone()))
-        .collect();
-    let unit = match campaign.channels.axis {
-        Axis::Rotary => "rad",
-        Axis::Linear => "m",
-    };
-    state_space(motor, constant, beam, &angles, unit)
 }
 
 /// Channels that are constant in some runs, and in how many.

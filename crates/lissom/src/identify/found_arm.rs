@@ -43,8 +43,7 @@ impl FoundArm {
     pub(super) fn of(id: &Identified, used: &Campaign) -> Option<Self> {
         let stands = id.output_error.as_ref().filter(|oe| oe.stands());
         if let Some(oe) = stands {
-            let zeros = zeros(used, &oe.windows);
-            return Some(Self::with(oe.arm.clone(), ArmSource::OutputError, used, &zeros));
+            return Some(Self::with(oe.arm.clone(), ArmSource::OutputError, used));
         }
         let (Some(motor), Some(_), Some(_)) = (&id.regression, id.inertia, id.friction.coulomb)
         else {
@@ -68,11 +67,11 @@ impl FoundArm {
         if let Some(law) = id.friction_law.as_ref().filter(|law| law.chosen.departs()) {
             law.chosen.put_into(&mut arm, used.channels.command.back_emf_viscous);
         }
-        Some(Self::with(arm, ArmSource::Regression, used, &[]))
+        Some(Self::with(arm, ArmSource::Regression, used))
     }
 
-    fn with(arm: ModalArm, source: ArmSource, used: &Campaign, zeros: &[Vec<f64>]) -> Self {
-        let torque_used = torque(&arm, used, zeros, None)
+    fn with(arm: ModalArm, source: ArmSource, used: &Campaign) -> Self {
+        let torque_used = torque(&arm, used, &zeros(&arm, used), None)
             .map(|t| TorqueUsed { relative_error: t.relative_error, window_s: t.window_s });
         Self { arm, source, torque_used }
     }

@@ -5,6 +5,7 @@ use super::equivalent::Equivalent;
 use super::finding::Finding;
 use super::found_arm::FoundArm;
 use super::friction_law::FrictionLaw;
+use super::linear_models::LinearModels;
 use super::output_error::OutputError;
 use super::rational::{BeamFit, MotorFit};
 use super::regression::{BeamRegression, MotorRegression};
@@ -14,7 +15,6 @@ use super::separability::Separability;
 use super::third_harmonic::PairFigure;
 use super::{Estimate, ModeEstimate};
 use crate::drive::Falloff;
-use crate::lti::StateSpace;
 
 /// Figures of the report's own method.
 #[derive(Debug, Clone)]
@@ -156,12 +156,12 @@ pub struct Identified {
     pub runs: Vec<RunAnalysis>,
     /// Responses, ascending in frequency.
     pub responses: Vec<ResponsePoint>,
-    /// Rational model of the beam.
+    /// Rational model of the beam, fitted to its tips' responses.
     pub beam_model: Option<BeamFit>,
     /// Rational model of the motor, fitted to the corrected response.
     pub motor_model: Option<MotorFit>,
-    /// Both as one state space, from the command to the motor and to each tip that is an angle.
-    pub state_space: Option<StateSpace>,
+    /// Linear models of drive and beam: of the arm where the output error stands, else these fits.
+    pub models: LinearModels,
     /// The equivalent arm of Section 4, where more than one tip's angle is known and the data carry it.
     pub equivalent: Option<Equivalent>,
     /// Which of these the logs separate, run by run; `None` without a covariance.

@@ -14,6 +14,7 @@ mod friction_law;
 mod friction_waveform;
 mod geometry;
 mod identified;
+mod linear_models;
 mod model;
 mod models;
 mod output_error;
@@ -49,6 +50,7 @@ pub use geometry::{ArmQuantity, Explanation, GeometryCheck, geometry_check};
 pub use identified::{
     Beam, BristlesEstimate, Friction, Identified, NearRestEstimate, RippleEstimate, ThirdHarmonic,
 };
+pub use linear_models::{LinearModels, ModelSource, TipModel};
 pub use output_error::{
     ByRun, Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, output_error,
     starts, starts_by_motor, starts_by_responses,

@@ -51,7 +51,7 @@ pub(crate) fn conclude(campaign: &Campaign, used: &Campaign, id: &mut Identified
         id.inertia = Some(motor.inertia);
         id.friction.viscous =
             Some(Estimate { value: motor.viscous.value - back_emf, std: motor.viscous.std });
-        id.findings.extend(motor.delay_s.map(output_error::command_lag));
+        id.findings.extend(motor.delay_s.map(|lag| output_error::command_lag(campaign, lag)));
     }
     let alone = alone(id);
     if alone {
@@ -333,15 +333,17 @@ fn friction(id: &mut Identified) {
     }
 }
 
-/// A rational model that does not fit its own responses.
+/// A rational model that does not fit its own responses, where models are made of it.
 fn model(id: &mut Identified) {
-    if let Some(m) = &id.motor_model
+    let of_arm = id.output_error.as_ref().is_some_and(OutputError::stands);
+    if !of_arm
+        && let Some(m) = &id.motor_model
         && m.weighted_rms > MODEL_MISFIT
     {
         id.findings.push(Finding::new(
             "model-misfit",
             Warning,
-            &["models.motor", "models.state_space"],
+            &["models.motor", "models.tips", "models.state_space"],
             format!(
                 "the motor's rational model misses its responses by {:.1} deviations (rms)",
                 m.weighted_rms

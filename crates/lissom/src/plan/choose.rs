@@ -231,6 +231,10 @@ impl Search<'_> {
 
 #[cfg(test)]
 mod tests {
+    use rand_distr::{Distribution as _, StandardUniform};
+    use rand_xoshiro::Xoshiro256PlusPlus;
+    use rand_xoshiro::rand_core::SeedableRng as _;
+
     use super::*;
 
     fn choice(a: f64, b: f64, time_s: f64) -> Choice {
@@ -310,11 +314,8 @@ mod tests {
 
     /// Numbers between 0 and 1.
     fn uniform() -> impl FnMut() -> f64 {
-        let mut state = 7_u64;
-        move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (state >> 11) as f64 / (1_u64 << 53) as f64
-        }
+        let mut source = Xoshiro256PlusPlus::seed_from_u64(7);
+        move || StandardUniform.sample(&mut source)
     }
 
     #[test]

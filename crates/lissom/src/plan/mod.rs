@@ -46,6 +46,9 @@ const LONGEST_SHARE: f64 = 0.25;
 /// Most numbers that one simulation goes through, samples times states: a fraction of a second, as there
 /// are some hundred.
 const WORK_MOST: f64 = 2e6;
+/// Most that the arm's fastest rate may turn in a sample \[rad\]: of finer parts of a sample a simulation
+/// has so many more, and no real arm is logged so coarsely.
+const TURN_MOST: f64 = 3000.0;
 
 /// Why there is no plan.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -77,6 +80,17 @@ pub enum PlanError {
         samples: f64,
         /// States of the arm.
         states: usize,
+    },
+    /// The arm is far faster than its sampling.
+    #[error(
+        "the arm's state changes at up to {rate_per_s:.1e} 1/s, thousands of times within a sample of \
+         {sample_time_s} s: some number is off by orders of magnitude"
+    )]
+    TooFast {
+        /// Bound on the rates of its state matrix \[1/s\].
+        rate_per_s: f64,
+        /// Time between two samples \[s\].
+        sample_time_s: f64,
     },
     /// No motion is of any use.
     #[error("none of {tried} motions is of use: {}", reasons.join("; "))]
@@ -197,6 +211,11 @@ pub fn plan(
 ) -> Result<Plan, PlanError> {
     check(wishes)?;
     let plain = Rig { scene: Scene::default(), ..rig.clone() };
+    let (rate_per_s, sample_time_s) = (rig.arm.rate_bound(), rig.instruments.sample_time_s);
+    let turn = rate_per_s * sample_time_s;
+    if turn > TURN_MOST || turn.is_nan() {
+        return Err(PlanError::TooFast { rate_per_s, sample_time_s });
+    }
     let known = Known::of(&plain)?;
     let reach = Reach {
         arm: &known.arm,

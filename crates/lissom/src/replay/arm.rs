@@ -145,13 +145,26 @@ impl ModalArm {
 
     /// κ_i of each tip, `C_t = Σκ_i(θ_m − θ_i)`: with as many tips as modes, κ·r = k.
     pub fn coupling_by_tip(&self) -> Option<Vec<f64>> {
+        self.by_tip(|mode| mode.stiffness_nm_per_rad)
+    }
+
+    /// κ'_i of each tip, what damping within the beam adds: `C_t = Σκ_i(θ_m − θ_i) + κ'_i(θ̇_m − θ̇_i)`, with
+    /// κ'·r = k·d/ω².
+    pub fn coupling_rate_by_tip(&self) -> Option<Vec<f64>> {
+        self.by_tip(|mode| {
+            mode.stiffness_nm_per_rad * mode.within_per_s / (mode.omega_rad_s * mode.omega_rad_s)
+        })
+    }
+
+    /// What each tip carries of a torque that is `of_mode`'s sum; `None` unless there are as many tips as modes.
+    fn by_tip(&self, of_mode: impl Fn(&Oscillator) -> f64) -> Option<Vec<f64>> {
         let n = self.modes.len();
         if self.shapes.len() != n || n == 0 {
             return None;
         }
         let shares = DMatrix::from_fn(n, n, |j, i| self.shapes[i][j]);
-        let stiffness = DVector::from_fn(n, |j, _| self.modes[j].stiffness_nm_per_rad);
-        Some(shares.lu().solve(&stiffness)?.iter().copied().collect())
+        let torque = DVector::from_fn(n, |j, _| of_mode(&self.modes[j]));
+        Some(shares.lu().solve(&torque)?.iter().copied().collect())
     }
 
     /// θ_m per torque without dry friction at ω \[rad/(N·m)\], V the mean of both directions:

@@ -11,6 +11,7 @@ mod dry_terms;
 mod events;
 mod friction;
 mod late_tips;
+mod linear;
 mod loaded;
 mod losses;
 mod motion;

@@ -47,6 +47,8 @@ pub(crate) struct CurveSums {
     terms: Vec<Term>,
     /// Of inertia and couplings.
     linear: usize,
+    /// First column of the tips' rates, which no term has: damping within the beam, where it is known.
+    rates: usize,
     /// Tips of the couplings.
     tips: Vec<usize>,
     knots: Vec<f64>,
@@ -73,8 +75,11 @@ impl CurveSums {
         })?;
         let campaign = sampled.campaign;
         let first = fixed(campaign);
+        let tips = coupled_tips(campaign);
         let mut columns = beside.to_vec();
         columns.extend((0..knots.len()).map(Column::Hat));
+        let rates = first + columns.len();
+        columns.extend((0..tips.len()).map(Column::Rate));
         let blocks = sampled.blocks(&columns, &knots, cut);
         let mut all = vec![Term::Plain(0)];
         all.extend((3..first).map(Term::Plain));
@@ -94,7 +99,8 @@ impl CurveSums {
             blocks,
             terms: all,
             linear,
-            tips: coupled_tips(campaign),
+            rates,
+            tips,
             knots,
             windows,
             back_emf_viscous: campaign.channels.command.back_emf_viscous,
@@ -116,53 +122,66 @@ impl CurveSums {
     pub(crate) fn beside_arm(&self, found: &OutputError) -> Option<Vec<CurvePoint>> {
         let known = self.known(&found.arm)?;
         let terms = &self.terms[self.linear..];
-        let blocks: Vec<Block> = self.blocks.iter().map(|b| self.without(b, &known)).collect();
+        let blocks: Vec<Block> = self.blocks.iter().map(|b| Self::without(b, &known)).collect();
         let solution = solved(&blocks, terms)?;
         let by_phases = jackknife(&blocks, terms, &solution)?;
         let totals = totals(&self.blocks)?;
         let by_arm = found.variances(&|arm| {
             let known = self.known(arm)?;
-            let totals = totals.each_ref().map(|sum| self.without_linear(sum, &known));
+            let totals = totals.each_ref().map(|sum| without_linear(sum, &known));
             let figures = solve(&totals, terms)?.value;
             Some(figures.iter().map(|v| Complex64::new(*v, 0.0)).collect())
         })?;
         let variances: Vec<f64> = by_phases.iter().zip(by_arm).map(|(a, b)| a + b).collect();
         let mut points = self.points(&solution, &variances);
-        let law = found.friction(self.back_emf_viscous);
-        let beyond = |p: &CurvePoint| {
-            Some(((p.friction.value - law.at(p.speed, p.direction)?) / p.friction.std).powi(2))
-        };
-        let squares: Vec<f64> = points.iter().map(beyond).collect::<Option<_>>()?;
-        let longer = (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt().max(1.0);
+        let longer = self.beyond_law(&points, found)?;
         for point in &mut points {
             point.friction.std *= longer;
         }
         Some(points)
     }
 
-    /// Inertia and the coupling of each tip, as the columns have them.
-    fn known(&self, arm: &ModalArm) -> Option<Vec<f64>> {
-        let shown = self.tips.len() == arm.shapes.len()
-            && arm.tip_lags_s.iter().all(|lag| *lag == 0.0)
-            && arm.modes.iter().all(|mode| mode.within_per_s == 0.0);
-        let coupling = if arm.modes.is_empty() { vec![] } else { arm.coupling_by_tip()? };
-        let known = std::iter::once(arm.inertia_kg_m2).chain(coupling).collect::<Vec<f64>>();
-        (shown && known.len() == self.linear).then_some(known)
+    /// Inertia, the coupling of each tip and its damping within the beam, by their columns.
+    fn known(&self, arm: &ModalArm) -> Option<Vec<(usize, f64)>> {
+        let shown =
+            self.tips.len() == arm.shapes.len() && arm.tip_lags_s.iter().all(|lag| *lag == 0.0);
+        let [per_angle, per_rate] = if arm.modes.is_empty() {
+            [vec![], vec![]]
+        } else {
+            [arm.coupling_by_tip()?, arm.coupling_rate_by_tip()?]
+        };
+        let values = std::iter::once(arm.inertia_kg_m2).chain(per_angle).collect::<Vec<f64>>();
+        let linear = self.terms[..self.linear].iter().map(|term| term.column());
+        let known = linear.zip(values.iter().copied());
+        let rates = per_rate.into_iter().enumerate().map(|(i, rate)| (self.rates + i, rate));
+        (shown && values.len() == self.linear).then(|| known.chain(rates).collect())
     }
 
-    fn without(&self, block: &Block, known: &[f64]) -> Block {
-        Block { cluster: self.without_linear(&block.cluster, known), ..*block }
-    }
-
-    /// The sums with the columns of inertia and couplings, times these, taken off the right side.
-    fn without_linear(&self, sums: &Cluster, known: &[f64]) -> Cluster {
-        let right = sums.products.ncols() - 1;
-        let mut taken = DMatrix::identity(right + 1, right + 1);
-        for (term, value) in self.terms.iter().zip(known) {
-            taken[(term.column(), right)] = -value;
+    /// A curve by the phases alone, where the arm that the output error found has in it what these windows do not
+    /// show: its deviations are longer by one factor where it is further from the law of that arm than they say.
+    pub(crate) fn beside_law(
+        &self,
+        mut points: Vec<CurvePoint>,
+        found: &OutputError,
+    ) -> Vec<CurvePoint> {
+        if let Some(longer) = self.beyond_law(&points, found) {
+            points.iter_mut().for_each(|point| point.friction.std *= longer);
         }
-        let of = |sums: &DMatrix<f64>| taken.transpose() * sums * &taken;
-        Cluster { products: of(&sums.products), noise: of(&sums.noise), ..sums.clone() }
+        points
+    }
+
+    /// How many of their deviations points are off an arm's law of friction, root mean square; one at least.
+    fn beyond_law(&self, points: &[CurvePoint], found: &OutputError) -> Option<f64> {
+        let law = found.friction(self.back_emf_viscous);
+        let beyond = |p: &CurvePoint| {
+            Some(((p.friction.value - law.at(p.speed, p.direction)?) / p.friction.std).powi(2))
+        };
+        let squares: Vec<f64> = points.iter().map(beyond).collect::<Option<_>>()?;
+        Some((squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt().max(1.0))
+    }
+
+    fn without(block: &Block, known: &[(usize, f64)]) -> Block {
+        Block { cluster: without_linear(&block.cluster, known), ..*block }
     }
 
     /// The curve of a solution whose last figures are the hats'.
@@ -184,6 +203,17 @@ impl CurveSums {
         }
         points
     }
+}
+
+/// The sums with some columns, times what is known of them, taken off the right side.
+fn without_linear(sums: &Cluster, known: &[(usize, f64)]) -> Cluster {
+    let right = sums.products.ncols() - 1;
+    let mut taken = DMatrix::identity(right + 1, right + 1);
+    for (column, value) in known {
+        taken[(*column, right)] = -value;
+    }
+    let of = |sums: &DMatrix<f64>| taken.transpose() * sums * &taken;
+    Cluster { products: of(&sums.products), noise: of(&sums.noise), ..sums.clone() }
 }
 
 /// Sums of all blocks, forward and backward.

@@ -31,6 +31,8 @@ pub(super) enum Column {
     Sine(f64),
     /// `θ·(−a·sin kθ + b·cos kθ)`, for (k, a, b): what a·cos kθ + b·sin kθ gains with k.
     Turned(f64, f64, f64),
+    /// `∫w(θ̇_m − θ̇_i)` of the coupled tip of this number: damping within the beam.
+    Rate(usize),
     /// A hat over speed: one at the knot of this number, zero at its neighbours.
     Hat(usize),
 }
@@ -195,6 +197,7 @@ impl<'a> Sampled<'a> {
             let right = row.len() - 1;
             let more = columns.iter().zip(&functions[index]).map(|(column, f)| match column {
                 Column::Lag => equation.later(k),
+                Column::Rate(i) => equation.behind_rate(*i, k),
                 _ => integral(&window.value, &f[k..=k + window.len()], run.sample_time_s()),
             });
             row.splice(right..right, more.map(|v| v * window.row_scale));
@@ -230,14 +233,14 @@ impl<'a> Sampled<'a> {
         blocks
     }
 
-    /// Every column's function at every sample of a run; empty for a lag.
+    /// Every column's function at every sample of a run; empty for a lag and a tip's rate.
     fn functions(&self, run: usize, columns: &[Column], knots: &[f64]) -> Vec<Vec<f64>> {
         let motor = self.campaign.runs[run].motor();
         let velocity = &self.runs[run].velocity;
         let of_speed = |f: &dyn Fn(f64) -> f64| velocity.iter().map(|v| f(v.abs())).collect();
         let of_angle = |f: &dyn Fn(f64) -> f64| motor.iter().map(|x| f(*x)).collect();
         let one = |column: &Column| match *column {
-            Column::Lag => Vec::new(),
+            Column::Lag | Column::Rate(_) => Vec::new(),
             Column::NearRest(speed, falloff) => of_speed(&|v| falloff.share(v / speed)),
             Column::Root => of_speed(&f64::sqrt),
             Column::Cosine(k) => of_angle(&|x| (k * x).cos()),

@@ -1,6 +1,6 @@
 //! Which parameters beyond the simplest law the residual calls for.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::coordinates::Body;
@@ -34,6 +34,8 @@ pub(super) const EVEN: f64 = 3.0;
 const SPEAKS: f64 = 2.0;
 /// Most groups added at a time.
 const MOST: usize = 3;
+/// Singular values below this mean nothing.
+const ROUNDING: f64 = 1e-12;
 
 /// A parameter that was tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -203,21 +205,64 @@ pub(super) fn promises(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Extension>> 
     scores(fitting, fit, &candidates(fitting, fit))
 }
 
-/// Sums by what is free, and by how much each group that is not free would move the free parameters, times
-/// the root of how likely it is to be there: what they do not know of themselves for want of an answer.
-/// Outer products of these are what it adds to the covariance, the mean over both answers.
-pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> (Vec<WindowSums>, Vec<DVector<f64>>) {
-    let weighed = |p: Promise| {
-        let likely = p.likelihood().sqrt();
-        (p.deviations() > SPEAKS).then(|| p.moved * likely)
-    };
+/// What a fit leaves undecided.
+pub(super) struct Undecided {
+    /// Sums by what is free.
+    pub(super) sums: Vec<WindowSums>,
+    /// By how much each group that is not free would move the free parameters, times the root of how likely it
+    /// is to be there: what they do not know of themselves for want of an answer. Outer products of these are
+    /// what it adds to the covariance, the mean over both answers.
+    pub(super) moved: Vec<DVector<f64>>,
+    /// The same for all damping being of another kind.
+    pub(super) by_kind: Vec<DVector<f64>>,
+}
+
+/// What the samples leave undecided of the groups that are not free.
+pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Undecided {
     let (sums, promises) = all_scores(fitting, fit, &candidates(fitting, fit));
-    let moved = promises.into_iter().filter_map(weighed);
-    let moved = match fit.body.jacobian(&fit.free) {
-        Some(jacobian) => moved.map(|m| &jacobian * m).collect(),
-        None => moved.collect(),
+    let jacobian = fit.body.jacobian(&fit.free);
+    let speaking = promises.iter().filter(|p| p.deviations() > SPEAKS);
+    let weighed = speaking.map(|p| {
+        let moved = &p.moved * p.likelihood().sqrt();
+        jacobian.as_ref().map_or(moved.clone(), |jacobian| jacobian * moved)
+    });
+    let of_kind = promises.iter().flat_map(|p| {
+        let slopes = jacobian.as_ref().map_or(p.slopes.clone(), |jacobian| jacobian * &p.slopes);
+        let whole = in_place_of_others(fit, &p.group, &slopes);
+        // All of them, and where there are several each by itself.
+        let each = whole.iter().flat_map(|all| {
+            let several = if all.len() > 1 { all.len() } else { 0 };
+            (0..several).map(|k| DVector::from_fn(all.len(), |i, _| if i == k { all[k] } else { 0.0 }))
+        });
+        let moved = whole.iter().cloned().chain(each).map(|values| {
+            let likely = p.instead(&values).sqrt();
+            &slopes * values * likely
+        });
+        moved.filter(|m| m.iter().all(|v| v.is_finite())).collect::<Vec<_>>()
+    });
+    Undecided { moved: weighed.collect(), by_kind: of_kind.collect(), sums }
+}
+
+/// What the dampers of a group are where they stand for all others \[1/s\]: the values at which the free ones
+/// come to nothing, to first order by `slopes`, what each of the group moves the free parameters by. `None` of other
+/// groups.
+fn in_place_of_others(
+    fit: &Fit,
+    group: &[Extension],
+    slopes: &DMatrix<f64>,
+) -> Option<DVector<f64>> {
+    let is_damper = |p: &Parameter| {
+        use Parameter::{DampingAtPoint, DampingGrounded, DampingWithin};
+        matches!(p, DampingWithin(_) | DampingGrounded(_) | DampingAtPoint(_))
     };
-    (sums, moved)
+    let others: Vec<usize> = (0..fit.free.len()).filter(|i| is_damper(&fit.free[*i])).collect();
+    if others.is_empty() || !group.iter().all(|e| is_damper(&e.parameter)) {
+        return None;
+    }
+    let now = DVector::from_fn(others.len(), |i, _| fit.free[others[i]].of(&fit.body.arm));
+    let falls = DMatrix::from_fn(others.len(), group.len(), |i, k| -slopes[(others[i], k)]);
+    let values = falls.svd(true, true).solve(&now, ROUNDING).ok()?;
+    values.iter().all(|v| v.is_finite()).then_some(values)
 }
 
 /// The same of some groups.
@@ -241,6 +286,10 @@ struct Promise {
     together: f64,
     /// Change of the coordinates that are free without it, beside the change without it.
     moved: DVector<f64>,
+    /// The same by each of the group, per unit.
+    slopes: DMatrix<f64>,
+    /// What the samples know of the group, the inverse of its covariance.
+    information: DMatrix<f64>,
 }
 
 impl Promise {
@@ -257,6 +306,13 @@ impl Promise {
     fn deviations(&self) -> f64 {
         let of = |e: &Extension| if e.std > 0.0 { (e.value / e.std).abs() } else { 0.0 };
         self.group.iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// How likely `other` values are beside none, both held for as likely beforehand.
+    fn instead(&self, other: &DVector<f64>) -> f64 {
+        let values = DVector::from_iterator(self.group.len(), self.group.iter().map(|e| e.value));
+        let off = |v: &DVector<f64>| v.dot(&(&self.information * v));
+        1.0 / (1.0 + (0.5 * (off(&(other - &values)) - off(&values))).exp())
     }
 
     /// How likely the group is to be there: `1/(1 + exp((9 − d²)/2))`. The likelihoods' ratio is
@@ -373,6 +429,8 @@ fn candidates(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Parameter>> {
 /// One step of a search in all coordinates.
 struct Promised {
     step: DVector<f64>,
+    /// Of the normal matrix.
+    inverse: DMatrix<f64>,
     /// Share of the cost that it promises to take.
     share: f64,
 }
@@ -381,9 +439,10 @@ impl Promised {
     /// In the first `shared` coordinates.
     fn of(sums: &[WindowSums], shared: usize) -> Self {
         let (normal, right) = normal_equations(sums, shared);
-        let step = inverse(&normal) * &right;
+        let inverse = inverse(&normal);
+        let step = &inverse * &right;
         let share = right.dot(&step) / sums.iter().map(|s| s.cost).sum::<f64>();
-        Self { step, share }
+        Self { step, inverse, share }
     }
 }
 
@@ -391,7 +450,7 @@ impl Promised {
 /// promise `alone` by themselves.
 fn score(sums: &[WindowSums], before: usize, group: &[Parameter], alone: &Promised) -> Promise {
     let shared = before + group.len();
-    let Promised { step, share } = Promised::of(sums, shared);
+    let Promised { step, share, inverse: known } = Promised::of(sums, shared);
     let covariance = Covariances::at(sums, shared).larger();
     let share = share - alone.share;
     let figure = |(k, parameter): (usize, &Parameter)| {
@@ -401,8 +460,13 @@ fn score(sums: &[WindowSums], before: usize, group: &[Parameter], alone: &Promis
     let finite = |e: &Extension| e.value.is_finite() && e.share.is_finite();
     let values = step.rows(before, group.len());
     let own = covariance.view((before, before), (group.len(), group.len()));
+    let information = inverse(&own.into_owned());
+    let beside = known.view((0, before), (before, group.len()));
+    let of_group = known.view((before, before), (group.len(), group.len())).into_owned();
     Promise {
-        together: values.dot(&(inverse(&own.into_owned()) * values)),
+        together: values.dot(&(&information * values)),
+        slopes: beside * inverse(&of_group),
+        information,
         group: group.iter().enumerate().map(figure).filter(finite).collect(),
         moved: step.rows(0, before) - &alone.step,
     }
@@ -410,8 +474,6 @@ fn score(sums: &[WindowSums], before: usize, group: &[Parameter], alone: &Promis
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::DMatrix;
-
     use super::*;
 
     /// Two dampers whose readings are nearly the same; what they have in common is ten deviations from zero, and each

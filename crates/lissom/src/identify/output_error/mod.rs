@@ -6,6 +6,7 @@ mod by_run;
 mod coordinates;
 mod covariance;
 mod data;
+mod divergence;
 mod evidence;
 mod figures;
 mod follow;
@@ -41,6 +42,9 @@ pub(crate) use verdict::{command_lag, verdict};
 /// Differences for the slopes of figures are taken over this many deviations.
 const HALF: f64 = 0.5;
 
+/// Deviations longer by this factor for want of the damping's kind are told of.
+const KINDS: f64 = 2.0;
+
 /// Residual beside the sensors' noise below which nothing else is in it.
 const AT_NOISE: f64 = 1.25;
 
@@ -73,6 +77,9 @@ pub struct OutputError {
     /// Whether windows were widened to the whole of the runs, or as far as neighbouring motions stay together: the arm
     /// describes them.
     pub whole_runs: bool,
+    /// Whether the samples tell damping within the beam from damping against the frame, as far as figures depend on it;
+    /// where they do not, all deviations count both.
+    pub damping_kind_known: bool,
     /// Residual of the last stage beside the noise of the samples alone: the largest ratio of a channel.
     pub beyond_noise: f64,
     /// Share of each channel's squared residual, motor first, that is slower than what its sensor adds.
@@ -166,14 +173,20 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         attempts::best(&fitting, start)?;
     let fitting = Fitting { masks: without_repeats.as_deref().unwrap_or(&masks), ..fitting };
     let beyond_noise = fitting.beyond_noise(&fit);
-    let (sums, undecided) = evidence::undecided(&fitting, &fit);
+    let evidence::Undecided { sums, moved, by_kind } = evidence::undecided(&fitting, &fit);
     let noise = fit.noise.iter().map(|n| SensorNoise::gaussian(n.deviation())).collect();
     let found = fit.covariances(&sums);
     let by_run = fit.by_run(&sums);
     let mut covariance = found.larger();
-    for moved in &undecided {
+    for moved in &moved {
         covariance.ger(1.0, moved, moved, 1.0);
     }
+    let decided = covariance.clone();
+    for moved in &by_kind {
+        covariance.ger(1.0, moved, moved, 1.0);
+    }
+    let longer = (0..covariance.nrows()).map(|i| covariance[(i, i)] / decided[(i, i)]);
+    let damping_kind_known = longer.fold(1.0, f64::max).sqrt() < KINDS;
     report.added.append(&mut report.refused);
     Some(OutputError {
         point_masses: fit.body.masses.is_some(),
@@ -189,6 +202,7 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         left_over: left,
         stages: report.stages,
         extensions: report.added,
+        damping_kind_known,
         whole_runs: fit.whole_runs,
     })
 }

@@ -15,7 +15,7 @@ use super::repeats::without_repeats;
 use super::search::{Iteration, PROMISE, PROMISE_ON_THE_WAY, Point, Problem, Stop, is_possible};
 use super::windows::{cut, widen};
 use crate::identify::LawTerm;
-use crate::record::{Campaign, Run, TipQuantity};
+use crate::record::{Campaign, Run};
 use crate::replay::{
     Blocks, ModalArm, Parameter, Prediction, Sampling, SensorNoise, Window, WindowSums, costs,
     free_parameters, predict,
@@ -37,9 +37,6 @@ const MOST_STEPS: usize = 40;
 /// than this.
 const MOST_ROUNDS: usize = 4;
 const SETTLED: f64 = 0.9;
-/// Windows over which neighbouring motions part by more than this factor are too long: its square is what the sums
-/// of squares lose of their digits, and what a step of the replay errs by grows with it.
-const MOST_GROWTH: f64 = 100.0;
 /// Each stage's windows are longer than the ones before by this factor.
 pub(super) const WIDENING: f64 = 4.0;
 /// By this one after a search that was caught.
@@ -191,7 +188,7 @@ fn least_on_first_windows(stages: &[StageReport]) -> Option<&StageReport> {
 }
 
 impl Fitting<'_> {
-    fn problem<'b>(
+    pub(super) fn problem<'b>(
         &'b self,
         free: &'b [Parameter],
         noise: &'b [SensorNoise],
@@ -305,7 +302,7 @@ impl Fitting<'_> {
                 evidence::extend(self, fit, report);
                 evidence::relax(self, fit, report);
             }
-            let diverges = self.growth(fit) > MOST_GROWTH;
+            let diverges = self.diverges(fit);
             if report.grown(&fit.residual) || diverges {
                 *fit = before;
                 report.under_law = under_law;
@@ -322,46 +319,6 @@ impl Fitting<'_> {
                 factor = SLOWER;
             }
         }
-    }
-
-    /// All windows of the length that a fit has, in place of some: longer ones tell no more. Not where these are not
-    /// described to the noise.
-    fn take_all(&self, fit: &mut Fit, report: &mut Report) {
-        let before = fit.clone();
-        fit.windows = widen(self.campaign, &fit.body.arm, &fit.windows, fit.window_s);
-        fit.whole_runs = true;
-        self.search(fit, report);
-        if self.beyond_noise(fit) > AT_NOISE {
-            *fit = before;
-        }
-    }
-
-    /// How many times a change of a window's first angle has grown, root mean square over the window as the sensors of
-    /// angles show it; the largest of all windows. Friction that falls with speed or over the angle drives motions
-    /// apart exponentially, and long windows then rest on the last digits of their first states.
-    fn growth(&self, fit: &Fit) -> f64 {
-        if fit.body.arm.dry_terms.is_empty() {
-            return 1.0;
-        }
-        // Accelerations change by squares of frequencies beside the angle: they weigh nothing.
-        let tips = self.campaign.channels.tips.iter();
-        let counts = tips.map(|tip| tip.quantity != TipQuantity::Acceleration);
-        let counts: Vec<bool> = std::iter::once(true).chain(counts).collect();
-        let weightless = SensorNoise::gaussian(f64::MAX.sqrt());
-        let noise = fit.noise.iter().zip(&counts);
-        let noise: Vec<SensorNoise> =
-            noise.map(|(own, counts)| if *counts { *own } else { weightless }).collect();
-        let problem = self.problem(&fit.free, &noise, true);
-        let point = problem.at(fit.body.clone(), fit.windows.clone());
-        let first_angle = fit.coordinates();
-        let of_window = |sums: &WindowSums| {
-            let readings = sums.readings.iter().zip(&noise).zip(&counts);
-            let weights = readings.filter(|(_, counts)| **counts);
-            let unchanged: f64 = weights.map(|((n, e), _)| *n as f64 / e.deviation().powi(2)).sum();
-            let grown = (sums.gram[(first_angle, first_angle)] / unchanged).sqrt();
-            if grown.is_nan() && unchanged > 0.0 { f64::INFINITY } else { grown }
-        };
-        point.sums.iter().map(of_window).fold(0.0, f64::max)
     }
 
     /// Searches from where the fit is and takes its noise from what is left.

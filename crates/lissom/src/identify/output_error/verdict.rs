@@ -6,11 +6,13 @@ use super::stages::GROWN;
 use super::{OutputError, StageReport};
 use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::{Estimate, Identified};
-use crate::record::{Campaign, Tip};
+use crate::record::{Campaign, Hold, Run, Tip};
 use crate::replay::{ModalArm, Parameter};
 
 /// Deviations below zero from which on a damper is none.
 const DRIVES: f64 = 5.0;
+/// A lag is half a sample to this share of it.
+const HALF: f64 = 0.05;
 
 /// The output error's figures, where its arm describes the runs.
 pub(crate) fn verdict(campaign: &Campaign, id: &mut Identified) {
@@ -19,12 +21,14 @@ pub(crate) fn verdict(campaign: &Campaign, id: &mut Identified) {
     if oe.stands() {
         id.friction = oe.friction(campaign.channels.command.back_emf_viscous);
         id.inertia = oe.inertia();
-        id.findings.extend(oe.estimate(Parameter::CommandLag).map(command_lag));
+        id.findings
+            .extend(oe.estimate(Parameter::CommandLag).map(|lag| command_lag(campaign, lag)));
         id.findings.extend(tip_lags(campaign, oe));
         id.findings.extend(modes_missing(campaign, oe));
         id.findings.extend(modes_by_the_motor(campaign, oe));
         id.findings.extend(faint_mode(&oe.arm, |p| oe.estimate(p)));
         id.findings.extend(more_than_noise(campaign, oe));
+        id.findings.extend(damping_kind(oe));
         let figures = oe.parameters.iter().filter_map(|p| Some((*p, oe.estimate(*p)?)));
         id.findings.extend(driving_damper(figures));
     }
@@ -188,31 +192,78 @@ fn modes_missing(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
     })
 }
 
+/// Damping within the beam that cannot be told from damping against the frame.
+fn damping_kind(oe: &OutputError) -> Option<Finding> {
+    (!oe.damping_kind_known).then(|| {
+        Finding::new(
+            "damping-kind",
+            Severity::Warning,
+            &[key::MODES, key::VISCOUS, key::COULOMB, key::INERTIA, key::COUPLING],
+            "these runs do not tell damping within the beam from damping against the frame, and figures depend on it: \
+             their deviations count both"
+                .to_owned(),
+            "one steady sine shows the two alike: add a run at another frequency, best a sweep, or log from the start",
+        )
+    })
+}
+
 /// A command that acts later than it is logged.
-pub(crate) fn command_lag(lag: Estimate) -> Finding {
+pub(crate) fn command_lag(campaign: &Campaign, lag: Estimate) -> Finding {
+    let hold = campaign.channels.command.hold;
+    // A held command's samples are half a sample earlier than what they stand for.
+    let (towards_other, hint) = match hold {
+        Hold::Measured => (
+            0.5,
+            "half a sample: the command looks as if it were held from sample to sample, hold = \"sampled\"",
+        ),
+        Hold::Sampled => (
+            -0.5,
+            "half a sample: the command looks measured rather than held from sample to sample, hold = \
+             \"measured\"",
+        ),
+    };
+    let is_half = |run: &Run| {
+        let half_s = towards_other * run.sample_time_s();
+        (lag.value - half_s).abs() < (3.0 * lag.std).max(HALF * half_s.abs())
+    };
+    let told = lag.std < 0.1 * lag.value.abs();
+    let hint = if told && campaign.runs.iter().all(is_half) {
+        hint
+    } else {
+        "an amplifier's delay, or channels that are not sampled together"
+    };
+    let digits = digits(1e3 * lag.std);
     Finding::new(
         "command-lag",
         Severity::Info,
         &[key::INERTIA, key::VISCOUS, key::RAW],
         format!(
-            "the command acts {:.3} ms (± {:.3}) later than it is logged: counted in all figures",
-            1e3 * lag.value,
-            1e3 * lag.std
+            "the command acts {:.digits$} ms (± {:.digits$}) {} than it is logged: counted in all figures",
+            1e3 * lag.value.abs(),
+            1e3 * lag.std,
+            if lag.value < 0.0 { "earlier" } else { "later" }
         ),
-        "an amplifier's delay, or channels that are not sampled together",
+        hint,
     )
+}
+
+/// Decimals with which a deviation has two digits, three at least.
+fn digits(std: f64) -> usize {
+    let first = std.log10().floor();
+    if first.is_finite() { (1.0 - first).clamp(3.0, 9.0) as usize } else { 3 }
 }
 
 /// Tips that are read later than the motor.
 fn tip_lags(campaign: &Campaign, oe: &OutputError) -> Vec<Finding> {
     let late = |(i, tip): (usize, &Tip)| {
         let lag = oe.estimate(Parameter::TipLag(i))?;
+        let digits = digits(1e3 * lag.std);
         Some(Finding::new(
             "tip-lag",
             Severity::Info,
             &[key::COUPLING, key::MODES, key::TIPS],
             format!(
-                "tip {} is read {:.3} ms (± {:.3}) {} than the motor: counted in the figures, and left in the tips' \
+                "tip {} is read {:.digits$} ms (± {:.digits$}) {} than the motor: counted in the figures, and left in the tips' \
                  responses",
                 tip.name,
                 1e3 * lag.value.abs(),

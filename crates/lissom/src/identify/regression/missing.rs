@@ -17,6 +17,8 @@ pub enum MissingKind {
     Position,
     /// Friction that falls with speed: `e^{−|v|/v̄}` of the Stribeck kind, or presliding.
     Stribeck,
+    /// Damping within the beam, in proportion to its stiffness: a torque by the rate of what is bent.
+    BeamDamping,
 }
 
 /// A term that the data call for.
@@ -25,7 +27,7 @@ pub struct MissingTerm {
     /// Which.
     pub kind: MissingKind,
     /// Its coefficient: delay \[s\], stiffness \[N·m/rad\], friction at rest beyond the constant
-    /// \[N·m\] (linear axes: N/m, N).
+    /// \[N·m\] (linear axes: N/m, N), time of the beam's damping \[s\].
     pub value: f64,
     /// How many deviations from zero.
     pub deviations: f64,
@@ -34,15 +36,22 @@ pub struct MissingTerm {
 }
 
 /// The term whose addition explains most, if it is called for. `first` is the column of the first
-/// of the three extra columns, in the order of [`MissingKind`].
+/// of the extra columns, in the order of [`MissingKind`]; damping of a beam is tried where `tips` show one.
 pub(super) fn missing_term(
     clusters: &[Cluster],
     terms: &[Term],
     without: &Solution,
     first: usize,
+    tips: usize,
 ) -> Option<MissingTerm> {
-    let kinds = [MissingKind::Delay, MissingKind::Position, MissingKind::Stribeck];
-    let tried = kinds.into_iter().enumerate().filter_map(|(i, kind)| {
+    let kinds = [
+        MissingKind::Delay,
+        MissingKind::Position,
+        MissingKind::Stribeck,
+        MissingKind::BeamDamping,
+    ];
+    let kinds = &kinds[..if tips > 0 { 4 } else { 3 }];
+    let tried = kinds.iter().copied().enumerate().filter_map(|(i, kind)| {
         let mut with = terms.to_vec();
         with.push(match kind {
             MissingKind::Stribeck => Term::Signed(first + i),

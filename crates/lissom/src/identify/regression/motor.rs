@@ -150,8 +150,9 @@ fn on_slip_phases(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRegressi
     let total_coupling = total(&found, 4..4 + tips.len());
     let back_emf = campaign.channels.command.back_emf_viscous;
     let viscous = |e: Estimate| Estimate { value: e.value - back_emf, std: e.std };
-    let clusters = equation.clusters_with_more(chosen.window_s);
-    let missing = missing_term(&clusters, &terms, solution, TIPS + tips.len());
+    let known: Vec<f64> = (0..tips.len()).map(|i| solution.value[4 + i]).collect();
+    let clusters = equation.clusters_with_more(chosen.window_s, &known);
+    let missing = missing_term(&clusters, &terms, solution, TIPS + tips.len(), tips.len());
     let by_direction = by_direction(&clusters, &terms, solution);
     Some(MotorRegression {
         window_s: chosen.window_s,

@@ -25,7 +25,7 @@ pub(super) const VISCOUS: usize = 1;
 pub(super) const DRY: usize = 2;
 pub(super) const TIPS: usize = 3;
 /// Columns that [`super::missing::missing_term`] tries.
-const EXTRA: usize = 3;
+const EXTRA: usize = 4;
 
 /// Tips whose angle from the motor's line is known.
 pub(crate) fn coupled_tips(campaign: &Campaign) -> Vec<usize> {
@@ -50,15 +50,16 @@ impl<'a> MotorRows<'a> {
 
     /// Sums of every slip phase of every run, for one length of window.
     pub(super) fn clusters(&self, length_s: f64) -> Vec<Cluster> {
-        self.of_runs(length_s, false)
+        self.of_runs(length_s, None)
     }
 
-    /// The same, with the columns of [`super::missing::missing_term`] before the right side.
-    pub(super) fn clusters_with_more(&self, length_s: f64) -> Vec<Cluster> {
-        self.of_runs(length_s, true)
+    /// The same, with the columns of [`super::missing::missing_term`] before the right side, `coupling` what the tips'
+    /// couplings are known as.
+    pub(super) fn clusters_with_more(&self, length_s: f64, coupling: &[f64]) -> Vec<Cluster> {
+        self.of_runs(length_s, Some(coupling))
     }
 
-    fn of_runs(&self, length_s: f64, more: bool) -> Vec<Cluster> {
+    fn of_runs(&self, length_s: f64, more: Option<&[f64]>) -> Vec<Cluster> {
         let windows =
             Window::of_runs(&self.campaign.runs, length_s, |index, n| self.runs[index].may_hold(n));
         let of_run = |(index, window): (usize, &Option<Arc<Window>>)| {
@@ -67,17 +68,22 @@ impl<'a> MotorRows<'a> {
         windows.par_iter().with_max_len(1).enumerate().flat_map_iter(of_run).collect()
     }
 
-    fn of_run(&self, index: usize, window: &Window, more: bool) -> Vec<Cluster> {
+    fn of_run(&self, index: usize, window: &Window, more: Option<&[f64]>) -> Vec<Cluster> {
         let (campaign, slipping) = (self.campaign, &self.runs[index]);
         let (run, n) = (slipping.run, window.len());
-        let columns = TIPS + self.tips.len() + 1 + if more { EXTRA } else { 0 };
+        let columns = TIPS + self.tips.len() + 1 + more.map_or(0, |_| EXTRA);
         let step = ((n as f64 * STEP) as usize).max(1);
         let (phases, smooth) = slipping.phases(n);
         let plain = MotorEquation { campaign, run, tips: &self.tips, window };
         let origin = campaign.runs.first().map_or(0.0, |run| run.motor()[0]);
-        let with_more = more.then(|| WithMore { plain, origin, slowness: slowness(run, smooth) });
+        let with_more = more.map(|coupling| WithMore {
+            plain,
+            origin,
+            slowness: slowness(run, smooth),
+            coupling,
+        });
         let mut noise = plain.noise(&slipping.noise);
-        if more {
+        if more.is_some() {
             // That of the further columns is left in: they are only tried.
             let right = noise.ncols() - 1;
             noise = noise.insert_columns(right, EXTRA, 0.0).insert_rows(right, EXTRA, 0.0);
@@ -211,6 +217,20 @@ impl MotorEquation<'_> {
     }
 }
 
+impl MotorEquation<'_> {
+    /// `∫w(θ̇_m − θ̇_i)` of the coupled tip of number `place`: what damping within the beam adds.
+    #[inline(always)]
+    pub(crate) fn behind_rate(&self, place: usize, k: usize) -> f64 {
+        let (first, i) = (&self.window.first, self.tips[place]);
+        let (motor, tip) = (&self.run.motor()[k..], &self.run.tips()[i][k..]);
+        self.run.sample_time_s()
+            * match self.campaign.channels.tips[i].quantity {
+                TipQuantity::Deflection => first.dot_from(tip, tip[0]),
+                _ => -first.dot_difference(motor, tip),
+            }
+    }
+}
+
 /// `∫w(θ_m − θ_i)`.
 #[inline(always)]
 pub(super) fn behind(campaign: &Campaign, run: &Run, i: usize, window: &Window, k: usize) -> f64 {
@@ -222,12 +242,14 @@ pub(super) fn behind(campaign: &Campaign, run: &Run, i: usize, window: &Window, 
         }
 }
 
-/// `[∫ẇτ, ∫wθ, ∫w·e^{−|v|/v̄}]` before the right side.
+/// `[∫ẇτ, ∫wθ, ∫w·e^{−|v|/v̄}, Σκ_i∫w(θ̇_m − θ̇_i)]` before the right side.
 struct WithMore<'a> {
     plain: MotorEquation<'a>,
     /// Where positions are counted from.
     origin: f64,
     slowness: Vec<f64>,
+    /// κ_i of the coupled tips.
+    coupling: &'a [f64],
 }
 
 impl Rows for WithMore<'_> {
@@ -237,7 +259,9 @@ impl Rows for WithMore<'_> {
         let t = run.sample_time_s();
         let by_position = window.value.dot_from(&run.motor()[k..], self.origin);
         let by_slowness = window.value.dot(&self.slowness[k..]);
-        let more = [self.plain.later(k), by_position * t, by_slowness * t];
+        let coupling = self.coupling.iter().enumerate();
+        let by_rate = coupling.map(|(i, c)| c * self.plain.behind_rate(i, k)).sum::<f64>();
+        let more = [self.plain.later(k), by_position * t, by_slowness * t, by_rate];
         self.plain.fill(k, row);
         let right = row.len() - 1;
         row.splice(right..right, more.map(|v| v * window.row_scale));

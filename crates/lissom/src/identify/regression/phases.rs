@@ -173,6 +173,10 @@ pub(crate) fn slip_sign(motor: &[f64], sample_time_s: f64) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
+    use rand_distr::{Distribution as _, StandardNormal};
+    use rand_xoshiro::Xoshiro256PlusPlus;
+    use rand_xoshiro::rand_core::SeedableRng as _;
+
     use super::*;
 
     #[test]
@@ -229,17 +233,9 @@ mod tests {
         assert!(phases[1].from - phases[0].to < smooth, "{phases:?}");
     }
 
-    /// Numbers of mean 0 and deviation 1, about.
+    /// Numbers of mean 0 and deviation 1.
     fn draws() -> impl FnMut() -> f64 {
-        let mut state = 1_u64;
-        move || {
-            let sum: f64 = (0..12)
-                .map(|_| {
-                    state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-                    (state >> 11) as f64 / (1_u64 << 53) as f64
-                })
-                .sum();
-            sum - 6.0
-        }
+        let mut source = Xoshiro256PlusPlus::seed_from_u64(1);
+        move || StandardNormal.sample(&mut source)
     }
 }

@@ -50,7 +50,7 @@ pub(crate) fn findings(id: &mut Identified) {
     let law = id.friction_law.as_ref().filter(|law| law.chosen.departs());
     let said = |m: &MissingTerm| match m.kind {
         MissingKind::Delay => law.is_some_and(FrictionLaw::leaves_no_lag),
-        MissingKind::Position => false,
+        MissingKind::Position | MissingKind::BeamDamping => false,
         MissingKind::Stribeck => law.is_some(),
     };
     if let Some(m) = r.missing.filter(|m| !explained && !said(m)) {
@@ -66,6 +66,13 @@ pub(crate) fn findings(id: &mut Identified) {
             MissingKind::Stribeck => (
                 format!("friction changes with speed, by {:.3e} towards rest", m.value),
                 "Stribeck friction or presliding: one constant and one slope do not describe it",
+            ),
+            MissingKind::BeamDamping => (
+                format!(
+                    "the beam is damped within itself, by {:.2} ms times its stiffness",
+                    1e3 * m.value
+                ),
+                "slip phases know no such damping: the output error does (leave out --quick)",
             ),
         };
         id.findings.push(Finding::new(

@@ -7,19 +7,21 @@ mod motion;
 mod residual;
 mod torque;
 mod verdict;
+mod zeros;
 
 pub use cause::{Cause, CauseKind};
 pub use motion::{Fit, Horizon, PredictedStretch};
 pub use residual::ChannelResidual;
 pub(super) use torque::torque;
 pub use torque::{Stretch, TorquePrediction, TorqueRun};
+pub(super) use zeros::zeros;
 
 use thiserror::Error;
 
 use super::Finding;
 use super::found_arm::FoundArm;
 use crate::record::Campaign;
-use crate::replay::{MOST_MODES, Window};
+use crate::replay::MOST_MODES;
 use expected::expected;
 use motion::{Followed, followed, lengths_s};
 use residual::channel_residual;
@@ -98,10 +100,9 @@ pub fn validate(
         .iter()
         .position(|f| f.horizon.channels.iter().all(|c| c.fit_percent >= FITS_PERCENT))
         .unwrap_or(predicted.len().saturating_sub(1));
-    let zeros = predicted.first().map_or(Vec::new(), |f| zeros(campaign, &f.windows));
     // The window of the logs used, so that both figures compare.
     let window_s = options.window_s.or(found.torque_used.map(|used| used.window_s));
-    let mut torque = torque(arm, campaign, &zeros, window_s);
+    let mut torque = torque(arm, campaign, &zeros(arm, campaign), window_s);
     if let (Some(torque), Some(followed)) = (&mut torque, predicted.get(chosen)) {
         torque.compare(expected(arm, campaign, followed, torque.window_s));
     }
@@ -131,17 +132,6 @@ fn predicted(found: &FoundArm, campaign: &Campaign, horizon_s: Option<f64>) -> V
         predicted.truncate(1);
     }
     predicted
-}
-
-/// What each tip of each run shows undeflected: the mean over its windows.
-pub(super) fn zeros(campaign: &Campaign, windows: &[Window]) -> Vec<Vec<f64>> {
-    let of_run = |run: usize| {
-        let own: Vec<&Window> = windows.iter().filter(|w| w.run == run).collect();
-        let mean =
-            |tip: usize| own.iter().map(|w| w.zeros[tip]).sum::<f64>() / own.len().max(1) as f64;
-        (0..campaign.channels.tips.len()).map(mean).collect()
-    };
-    (0..campaign.runs.len()).map(of_run).collect()
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use crate::identify::{ArmSource, TorqueUsed};
 use crate::record::{
     Axis, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
 };
-use crate::replay::{DryTerms, ModalArm, Oscillator};
+use crate::replay::{DryTerms, ModalArm, Oscillator, Window};
 
 /// Sample time of the logs \[s\].
 const T: f64 = 0.002;
@@ -164,6 +164,48 @@ fn torque_takes_a_late_tip_as_late() {
         let in_time = ModalArm { tip_lags_s: Vec::new(), ..late.clone() };
         let (by_late, by_in_time) = (left(&late), left(&in_time));
         assert!(by_late < GOOD && by_in_time > 3.0 * by_late, "{by_late} {by_in_time}");
+    }
+}
+
+/// The load at the tip is another one, and the tip shows another angle undeflected: the motor's equation is the
+/// same, and its torque is predicted as well over any time of the motion.
+#[test]
+fn torque_does_not_depend_on_the_load_behind_the_tip() {
+    let mode = Oscillator {
+        omega_rad_s: 9.0,
+        stiffness_nm_per_rad: 1.2,
+        within_per_s: 0.1,
+        grounded_per_s: 0.2,
+    };
+    let arm = ModalArm {
+        modes: vec![mode],
+        shapes: vec![vec![1.0]],
+        at_points_per_s: vec![0.0],
+        ..rigid()
+    };
+    let omega_rad_s = 9.0 / 1.5_f64.sqrt();
+    let loaded = Oscillator {
+        omega_rad_s,
+        within_per_s: mode.within_per_s / 1.5,
+        grounded_per_s: mode.grounded_per_s / 1.5,
+        ..mode
+    };
+    let mut log = log_of(&ModalArm { modes: vec![loaded], ..arm.clone() });
+    let run = &log.runs[0];
+    let shifted = run.tips()[0].iter().map(|y| y + 0.21).collect();
+    let (command, motor) = (run.command().to_vec(), run.motor().to_vec());
+    log.runs = vec![Run::new("shifted", run.time(), command, motor, vec![shifted]).unwrap()];
+    let left = |horizon_s: Option<f64>| {
+        let options = ValidationOptions { horizon_s, ..Default::default() };
+        validate(&found(arm.clone()), &log, &options).unwrap()
+    };
+    let all = left(None);
+    assert!(all.horizons[0].channels[1].fit_percent < 50.0, "{:?}", all.horizons[0]);
+    let error = all.torque.unwrap().relative_error;
+    assert!(error < GOOD, "{error}");
+    for horizon_s in [0.1, 1.0, 5.0] {
+        let other = left(Some(horizon_s)).torque.unwrap().relative_error;
+        assert!((other / error - 1.0).abs() < 1e-9, "{horizon_s}: {other} {error}");
     }
 }
 

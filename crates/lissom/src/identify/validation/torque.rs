@@ -187,14 +187,7 @@ impl Coupling {
         if !known.into_iter().all(|t| t.calibrated && t.quantity != TipQuantity::Acceleration) {
             return None;
         }
-        let by_rate = |m: &crate::replay::Oscillator| {
-            m.stiffness_nm_per_rad * m.within_per_s / (m.omega_rad_s * m.omega_rad_s)
-        };
-        let mut damped = arm.clone();
-        for (to, from) in damped.modes.iter_mut().zip(&arm.modes) {
-            to.stiffness_nm_per_rad = by_rate(from);
-        }
-        Some(Self { per_angle: arm.coupling_by_tip()?, per_rate: damped.coupling_by_tip()? })
+        Some(Self { per_angle: arm.coupling_by_tip()?, per_rate: arm.coupling_rate_by_tip()? })
     }
 
     /// Whether tip `i` takes part.

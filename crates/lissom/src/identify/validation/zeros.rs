@@ -1,0 +1,107 @@
+//! What tips show undeflected, by the log alone.
+
+use std::ops::Range;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::kernel::Kernel;
+use crate::identify::output_error::{Masks, masks};
+use crate::record::{Campaign, Hold, Run, TipQuantity};
+use crate::replay::ModalArm;
+
+/// What each tip of each run shows undeflected.
+///
+/// A beam that nothing holds is straight in the mean. Under one window over the whole run
+///
+/// ```text
+/// ⟨y_i − θ⟩ = z_i + Σ_j r_ij·⟨ψ_j − θ⟩,  ω_j²·⟨ψ_j − θ⟩ = −⟨ψ̈_j⟩ + d_j·⟨θ̇ − ψ̇_j⟩ − a_j·⟨ψ̇_j⟩ − Σ_l P_jl·⟨ψ̇_l⟩
+/// ```
+///
+/// where all rates are those of the window and nearly nothing: an arm whose beam is another one hardly moves
+/// z_i, unlike that of a replay, which takes up what the arm misses. Zeros where the tips do not show the modes.
+pub(in crate::identify) fn zeros(arm: &ModalArm, campaign: &Campaign) -> Vec<Vec<f64>> {
+    let tips = campaign.channels.tips.len();
+    let n = arm.modes.len();
+    let square = n > 0 && arm.shapes.len() == n && tips == n;
+    let shapes = DMatrix::from_fn(n, n, |i, j| if square { arm.shapes[i][j] } else { 0.0 });
+    let Some(in_modes) = shapes.clone().try_inverse() else {
+        return vec![vec![0.0; tips]; campaign.runs.len()];
+    };
+    let masks = masks(campaign);
+    let of_run = |(run, masks): (&Run, &Masks)| {
+        of_run(arm, campaign, run, &longest_read(masks, run.len()), &shapes, &in_modes)
+            .unwrap_or_else(|| vec![0.0; tips])
+    };
+    campaign.runs.iter().zip(&masks).map(of_run).collect()
+}
+
+fn of_run(
+    arm: &ModalArm,
+    campaign: &Campaign,
+    run: &Run,
+    read: &Range<usize>,
+    shapes: &DMatrix<f64>,
+    in_modes: &DMatrix<f64>,
+) -> Option<Vec<f64>> {
+    let n = shapes.nrows();
+    let intervals = read.len().checked_sub(2).filter(|i| *i >= n)?;
+    let kernel = Kernel::new(intervals, run.sample_time_s(), Hold::Measured, 0.0);
+    let begin = read.start;
+    let motor = |k: usize| run.motor()[k];
+    let turns = kernel.rate(begin, motor);
+    // y_i − θ in time with the motor, its mean and rates.
+    let mut mean = DVector::zeros(n);
+    let (mut rate, mut bend) = (DVector::zeros(n), DVector::zeros(n));
+    for (i, tip) in run.tips().iter().enumerate() {
+        let deflects = campaign.channels.tips[i].quantity == TipQuantity::Deflection;
+        let lag_s = arm.tip_lags_s.get(i).copied().unwrap_or(0.0);
+        let bent = |k: usize| tip[k] - if deflects { 0.0 } else { motor(k) };
+        let late = |k: usize| tip[k] + if deflects { motor(k) } else { 0.0 };
+        rate[i] = kernel.rate(begin, bent);
+        bend[i] = kernel.acceleration(begin, bent);
+        mean[i] = kernel.mean(begin, bent) + lag_s * kernel.rate(begin, late);
+    }
+    // Of ψ_j: with those of the motor.
+    let (behind, accelerates) = (in_modes * rate, in_modes * bend);
+    let own = behind.add_scalar(turns);
+    let with_motor = kernel.acceleration(begin, motor);
+    let points = arm.points_in_modes().map(|p| p * &own);
+    let strained = DVector::from_fn(n, |j, _| {
+        let m = &arm.modes[j];
+        let grounded = m.grounded_per_s * own[j] + points.as_ref().map_or(0.0, |p| p[j]);
+        let pulled = -(accelerates[j] + with_motor) - m.within_per_s * behind[j] - grounded;
+        pulled / (m.omega_rad_s * m.omega_rad_s)
+    });
+    let zeros = mean - shapes * strained;
+    zeros.iter().all(|z| z.is_finite()).then(|| zeros.iter().copied().collect())
+}
+
+/// The longest stretch in which no sensor stands at the end of its range.
+fn longest_read(masks: &Masks, len: usize) -> Range<usize> {
+    let reads = |k: usize| masks.iter().flatten().all(|mask| mask[k]);
+    let (mut best, mut begin) = (0..0, 0);
+    for k in 0..=len {
+        if k == len || !reads(k) {
+            if k - begin > best.len() {
+                best = begin..k;
+            }
+            begin = k + 1;
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_longest_stretch_between_ends_of_the_range() {
+        let mask = |bad: &[usize]| -> Masks {
+            vec![Some((0..10).map(|k| !bad.contains(&k)).collect()), None]
+        };
+        assert_eq!(longest_read(&mask(&[]), 10), 0..10);
+        assert_eq!(longest_read(&mask(&[2, 8]), 10), 3..8);
+        assert_eq!(longest_read(&mask(&[0, 1, 2, 3]), 10), 4..10);
+    }
+}
