@@ -32,6 +32,8 @@ pub(crate) enum Failure {
     NotAnOutput { file: PathBuf },
     #[error("{}: one name for two outputs", file.display())]
     SameOutput { file: PathBuf },
+    #[error("{}: is read, and is not written over", file.display())]
+    IsInput { file: PathBuf },
     /// What was asked for is not there for this beam.
     #[error("{}: {reason}", arm.display())]
     Model { arm: PathBuf, reason: String, hint: &'static str },
@@ -82,6 +84,9 @@ impl Failure {
                     ValidationError::NothingMoves => {
                         "the log needs a stretch in which the motor moves for a hundred samples"
                     }
+                    ValidationError::TooFast { .. } | ValidationError::RunsAway => {
+                        "take the result as lissom identify wrote it, and check the unit of the log's time"
+                    }
                     _ => "describe the log as those that the result is from",
                 }
                 .to_owned(),
@@ -100,7 +105,9 @@ impl Failure {
             Self::OtherCampaign { .. } => {
                 Some("give another --out, or remove the folder if it is to go".to_owned())
             }
-            Self::SameOutput { .. } => Some("give each output its own file".to_owned()),
+            Self::SameOutput { .. } | Self::IsInput { .. } => {
+                Some("give each output its own file".to_owned())
+            }
             Self::Identify { source: IdentifyError::NothingMoves { .. }, .. } => Some(
                 "check the wiring and which columns the campaign names; a tip without a signal can be \
                  left out of [signals]"

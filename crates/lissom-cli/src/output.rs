@@ -22,6 +22,16 @@ pub(crate) fn guard(json: Option<&Path>, report: Option<&Path>) -> Result<(), Fa
     Ok(())
 }
 
+/// Refuses to write over what is read.
+pub(crate) fn guard_inputs(output: Option<&Path>, inputs: &[&Path]) -> Result<(), Failure> {
+    let whole = |path: &Path| path.canonicalize().ok();
+    let Some(file) = output.filter(|file| whole(file).is_some()) else { return Ok(()) };
+    if inputs.iter().any(|input| whole(input) == whole(file)) {
+        return Err(Failure::IsInput { file: file.to_owned() });
+    }
+    Ok(())
+}
+
 /// Refuses, before any work, one name for two outputs and files that cannot be written.
 pub(crate) fn ready(files: &[&Path]) -> Result<(), Failure> {
     let whole = |path: &Path| -> PathBuf {

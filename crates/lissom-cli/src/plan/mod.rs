@@ -18,6 +18,9 @@ use crate::cli::STDOUT;
 use crate::failure::Failure;
 use crate::{output, print, progress};
 
+/// What a table of references begins with.
+const TABLE_HEAD: &str = "t,theta_ref,log";
+
 /// Done, but a wish cannot be met.
 const UNREACHED: u8 = 3;
 
@@ -78,6 +81,13 @@ fn guard(out: Option<&Path>, json: Option<&Path>) -> Result<(), Failure> {
 /// A table of reference angles for each run.
 fn tables(folder: &Path, rig: &Rig, made: &Plan) -> Result<(), Failure> {
     write::create_folder(folder)?;
+    // Those of an earlier plan with more runs would be taken for this one's.
+    for left in (made.runs.len()..).map(|index| folder.join(table_name(index))) {
+        if !left.is_file() || output::guard_headed(&left, TABLE_HEAD).is_err() {
+            break;
+        }
+        write::remove(&left)?;
+    }
     for (index, run) in made.runs.iter().enumerate() {
         let table = reference_table(run, rig.instruments.control_time_s())?;
         let columns: [(&str, &[f64]); 3] =

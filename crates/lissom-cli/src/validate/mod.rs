@@ -20,6 +20,7 @@ pub(crate) fn run(args: &ValidateArgs) -> Result<ExitCode, Failure> {
     let json = args.json.as_deref();
     let json_file = json.filter(|path| *path != Path::new(STDOUT));
     output::guard(json_file, None)?;
+    output::guard_inputs(json_file, &[&args.result, &args.log])?;
     let file = log(args)?;
     let campaign = &file.campaign;
     let found = read_arm(&args.result, &campaign.channels)?;

@@ -28,7 +28,7 @@ pub(super) fn add_all(
     for (c, residual) in validation.residuals.iter().enumerate() {
         let file = if c == 0 { "motor".to_owned() } else { format!("tip-{c}") };
         if let Some(run) = worst_motion(campaign, validation, c) {
-            let [motion, left] = motion(campaign, &validation.stretches, run, c);
+            let [motion, left] = motion(campaign, validation, run, c);
             add(batch, folder, &format!("motion-{file}"), &motion)?;
             add(batch, folder, &format!("residual-{file}"), &left)?;
         }
@@ -106,10 +106,17 @@ fn samples(run: &lissom::record::Run, channel: usize) -> &[f64] {
 /// The motion, and what is left of it.
 fn motion(
     campaign: &Campaign,
-    stretches: &[PredictedStretch],
+    validation: &Validation,
     index: usize,
     channel: usize,
 ) -> [LinePlot; 2] {
+    let stretches: &[PredictedStretch] = &validation.stretches;
+    let over = match validation.horizons.get(validation.chosen) {
+        Some(h) if !h.whole_runs => {
+            format!("predicted {:.3} s at a time, each time from a state of its own", h.length_s)
+        }
+        _ => "predicted from one initial state".to_owned(),
+    };
     let run = &campaign.runs[index];
     let (name, unit) = channel_name_unit(&campaign.channels, channel);
     let measured = samples(run, channel);
@@ -126,11 +133,16 @@ fn motion(
     let all = (0..measured.len()).map(at).collect();
     let label = || Axis::linear(format!("{name} ({unit})"));
     let both = LinePlot::new(format!("{name}, {}", run.name()), axis(), label())
+        .subtitle(over.clone())
         .trace(Trace::line("measured", Role::Raw, all, measured.to_vec()))
         .trace(predicted(time.clone(), shown));
     let title = format!("{name}, {}: measured minus predicted", run.name());
-    let residual =
-        LinePlot::new(title, axis(), label()).trace(Trace::line("", Role::Corrected, time, left));
+    let residual = LinePlot::new(title, axis(), label()).subtitle(over).trace(Trace::line(
+        "",
+        Role::Corrected,
+        time,
+        left,
+    ));
     [both, residual]
 }
 

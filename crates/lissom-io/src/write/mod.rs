@@ -54,6 +54,15 @@ pub fn create_folder(path: &Path) -> Result<(), WriteError> {
         .map_err(|source| WriteError::File { file: path.display().to_string(), source })
 }
 
+/// Removes a file.
+///
+/// # Errors
+/// [`WriteError::File`] where it cannot be removed.
+pub fn remove(path: &Path) -> Result<(), WriteError> {
+    std::fs::remove_file(path)
+        .map_err(|source| WriteError::File { file: path.display().to_string(), source })
+}
+
 /// Writes text whole or not at all.
 ///
 /// # Errors

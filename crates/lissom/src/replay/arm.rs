@@ -206,6 +206,21 @@ impl ModalArm {
         solved.unwrap_or_else(|| DVector::zeros(n))
     }
 
+    /// A bound on how fast the state can change \[1/s\]: frequencies and the rates of all damping.
+    pub(crate) fn rate_bound(&self) -> f64 {
+        let j = self.inertia_kg_m2;
+        let most = |a: f64, b: f64| if b.is_nan() { b } else { a.max(b) };
+        let viscous = self.viscous_nm_s_per_rad.iter().map(|v| v.abs() / j).fold(0.0, most);
+        let of_mode = |m: &Oscillator| {
+            let carried = m.stiffness_nm_per_rad.abs() / (j * m.omega_rad_s * m.omega_rad_s);
+            m.omega_rad_s * (1.0 + carried).sqrt()
+                + m.within_per_s.abs() * (1.0 + carried)
+                + m.grounded_per_s.abs()
+        };
+        let modes = self.modes.iter().map(of_mode).sum::<f64>();
+        viscous + modes + self.at_points_per_s.iter().map(|c| c.abs()).fold(0.0, most)
+    }
+
     /// Modes and shapes of `θ̈_i = −Σ_l K_il·(θ_l − θ_m) − …`, the rows of K by tip, ascending in
     /// frequency: `(ω_j, r_ij)`. `None` unless all frequencies are real, positive and distinct.
     ///

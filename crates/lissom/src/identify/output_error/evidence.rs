@@ -232,7 +232,8 @@ pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Undecided {
         // All of them, and where there are several each by itself.
         let each = whole.iter().flat_map(|all| {
             let several = if all.len() > 1 { all.len() } else { 0 };
-            (0..several).map(|k| DVector::from_fn(all.len(), |i, _| if i == k { all[k] } else { 0.0 }))
+            (0..several)
+                .map(|k| DVector::from_fn(all.len(), |i, _| if i == k { all[k] } else { 0.0 }))
         });
         let moved = whole.iter().cloned().chain(each).map(|values| {
             let likely = p.instead(&values).sqrt();

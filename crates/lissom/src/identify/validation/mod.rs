@@ -20,7 +20,7 @@ use thiserror::Error;
 
 use super::Finding;
 use super::found_arm::FoundArm;
-use crate::record::Campaign;
+use crate::record::{Campaign, Run};
 use crate::replay::MOST_MODES;
 use expected::expected;
 use motion::{Followed, followed, lengths_s};
@@ -28,6 +28,8 @@ use residual::channel_residual;
 
 /// The residual is looked at over the longest time at which every channel still fits this well.
 const FITS_PERCENT: f64 = 90.0;
+/// Most that an arm's fastest rate may turn in a sample \[rad\]: a replay has so many more parts.
+const TURN_MOST: f64 = 3000.0;
 
 /// What a user may ask for.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -56,6 +58,22 @@ pub enum ValidationError {
         /// Modes of the result.
         found: usize,
     },
+    /// Numbers of another scale than the log's.
+    #[error(
+        "the result's arm changes its state at up to {rate_per_s:.1e} 1/s, thousands of times within a \
+         sample of {sample_time_s} s"
+    )]
+    TooFast {
+        /// Bound on its rates \[1/s\].
+        rate_per_s: f64,
+        /// Time between two samples \[s\].
+        sample_time_s: f64,
+    },
+    /// Numbers under which nothing moves as logged.
+    #[error(
+        "the motion of the result's arm grows without bounds: it cannot be compared with the log"
+    )]
+    RunsAway,
     /// Neither torque nor motion could be predicted.
     #[error("the motor never moves for long enough to predict anything")]
     NothingMoves,
@@ -95,16 +113,30 @@ pub fn validate(
     if arm.modes.len() > MOST_MODES {
         return Err(ValidationError::Modes { found: arm.modes.len() });
     }
-    let mut predicted = predicted(found, campaign, options.horizon_s);
-    let chosen = predicted
-        .iter()
-        .position(|f| f.horizon.channels.iter().all(|c| c.fit_percent >= FITS_PERCENT))
-        .unwrap_or(predicted.len().saturating_sub(1));
+    let rate_per_s = arm.rate_bound();
+    for sample_time_s in campaign.runs.iter().map(Run::sample_time_s) {
+        let turn = rate_per_s * sample_time_s;
+        if turn > TURN_MOST || turn.is_nan() {
+            return Err(ValidationError::TooFast { rate_per_s, sample_time_s });
+        }
+    }
+    let all = predicted(found, campaign, None);
     // The window of the logs used, so that both figures compare.
     let window_s = options.window_s.or(found.torque_used.map(|used| used.window_s));
     let mut torque = torque(arm, campaign, &zeros(arm, campaign), window_s);
-    if let (Some(torque), Some(followed)) = (&mut torque, predicted.get(chosen)) {
+    // What the arm's own motion leaves is beside the log's only where it stays with it.
+    if let (Some(torque), Some(followed)) = (&mut torque, fitting(&all).map(|i| &all[i])) {
         torque.compare(expected(arm, campaign, followed, torque.window_s));
+    }
+    let mut predicted = match options.horizon_s {
+        Some(_) => predicted(found, campaign, options.horizon_s),
+        None => all,
+    };
+    let chosen = fitting(&predicted).unwrap_or(predicted.len().saturating_sub(1));
+    let finite = |f: &Followed| f.horizon.channels.iter().all(|c| c.residual_rms.is_finite());
+    let told = torque.as_ref().is_none_or(|t| t.relative_error.is_finite());
+    if !(told && predicted.iter().all(finite)) {
+        return Err(ValidationError::RunsAway);
     }
     if predicted.is_empty() && torque.is_none() {
         return Err(ValidationError::NothingMoves);
@@ -118,6 +150,12 @@ pub fn validate(
         Validation { torque, horizons, chosen, stretches, residuals, findings: Vec::new() };
     validation.findings = verdict::findings(found, campaign, &validation);
     Ok(validation)
+}
+
+/// The longest time over which every channel fits.
+fn fitting(predicted: &[Followed]) -> Option<usize> {
+    let fits = |f: &Followed| f.horizon.channels.iter().all(|c| c.fit_percent >= FITS_PERCENT);
+    predicted.iter().position(fits)
 }
 
 /// The motion over ever shorter times, or over the one asked for.

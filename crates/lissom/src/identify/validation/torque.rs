@@ -151,6 +151,11 @@ pub(in crate::identify) fn torque(
     })
 }
 
+/// Whether the tips show the torque between motor and beam.
+pub(super) fn shows_coupling(arm: &ModalArm, campaign: &Campaign) -> bool {
+    Coupling::new(arm, campaign).is_some()
+}
+
 /// The shortest window under which the sensor's noise is small.
 fn chosen_window_s(arm: &ModalArm, campaign: &Campaign) -> Option<f64> {
     let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);

@@ -1,5 +1,6 @@
 //! What a validation says against the figures.
 
+use super::torque::shows_coupling;
 use super::{Cause, CauseKind, TorquePrediction, Validation};
 use crate::identify::Finding;
 use crate::identify::Severity::{Info, Refusal, Warning};
@@ -44,15 +45,28 @@ pub(super) fn findings(
     let mut findings = Vec::new();
     match &validation.torque {
         Some(torque) => torque_findings(found, torque, &mut findings),
-        None => findings.push(Finding::new(
-            "torque-not-predicted",
-            Refusal,
-            &[TORQUE],
-            "the torque between motor and beam does not follow from these tips: no torque is \
-             predicted"
-                .to_owned(),
-            "measure the angle of as many points as there are modes; the motion is predicted without",
-        )),
+        None => {
+            let (message, hint) = if shows_coupling(&found.arm, campaign) {
+                (
+                    "no window lies within the log while the motor moves, sensors read and what acts is logged: \
+                     no torque is predicted",
+                    "a longer log or a shorter --window; check the unit of its time",
+                )
+            } else {
+                (
+                    "the torque between motor and beam does not follow from these tips: no torque is \
+                     predicted",
+                    "measure the angle of as many points as there are modes; the motion is predicted without",
+                )
+            };
+            findings.push(Finding::new(
+                "torque-not-predicted",
+                Refusal,
+                &[TORQUE],
+                message.to_owned(),
+                hint,
+            ));
+        }
     }
     findings.extend(departure(validation));
     residual_findings(campaign, validation, &mut findings);
