@@ -86,8 +86,9 @@ pub(crate) fn finding(axis: Axis, id: &Identified) -> Option<Finding> {
     } else {
         String::new()
     };
+    let by_phases = if replay.is_some() { "by slip phases alone, " } else { "" };
     let message = format!(
-        "friction is not Coulomb and one viscous constant: {}{better}",
+        "{by_phases}friction is not Coulomb and one viscous constant: {}{better}",
         in_words(axis, &law.chosen.terms)
     );
     Some(match replay {
