@@ -65,6 +65,12 @@ impl ByRun {
         Self { runs, jacobian: jacobian.unwrap_or_else(|| DMatrix::identity(shared, shared)) }
     }
 
+    /// The same where parameters follow that the search did not move, `count` in all.
+    pub(super) fn of_parameters(mut self, count: usize) -> Self {
+        self.jacobian.resize_vertically_mut(count, 0.0);
+        self
+    }
+
     /// Places of the runs in their campaign.
     pub(crate) fn runs(&self) -> impl Iterator<Item = usize> + '_ {
         self.runs.iter().map(|r| r.run)

@@ -36,6 +36,8 @@ const SPEAKS: f64 = 2.0;
 const MOST: usize = 3;
 /// Singular values below this mean nothing.
 const ROUNDING: f64 = 1e-12;
+/// Another kind of damping that is less likely does not count.
+const LEAST_LIKELY: f64 = 1e-3;
 
 /// A parameter that was tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -213,8 +215,39 @@ pub(super) struct Undecided {
     /// is to be there: what they do not know of themselves for want of an answer. Outer products of these are
     /// what it adds to the covariance, the mean over both answers.
     pub(super) moved: Vec<DVector<f64>>,
-    /// The same for all damping being of another kind.
-    pub(super) by_kind: Vec<DVector<f64>>,
+    /// Damping being of another kind.
+    pub(super) by_kind: Vec<OtherKind>,
+}
+
+/// Dampers of one kind in place of those that are free.
+pub(super) struct OtherKind {
+    pub(super) group: Vec<Parameter>,
+    /// What they are then.
+    values: DVector<f64>,
+    /// By how much the free parameters move.
+    moved: DVector<f64>,
+    /// How likely that is beside the dampers that are free, both held for as likely beforehand.
+    likely: f64,
+}
+
+impl OtherKind {
+    fn counts(&self) -> bool {
+        let finite = self.moved.iter().chain(&self.values).all(|v| v.is_finite());
+        finite && self.likely > LEAST_LIKELY
+    }
+
+    /// What it adds to the covariance of `parameters`, of which the free ones come first, as the root of an
+    /// outer product.
+    pub(super) fn root(&self, parameters: &[Parameter]) -> DVector<f64> {
+        let mut root = DVector::zeros(parameters.len());
+        root.rows_mut(0, self.moved.len()).copy_from(&self.moved);
+        for (parameter, value) in self.group.iter().zip(&self.values) {
+            if let Some(i) = parameters.iter().position(|p| p == parameter) {
+                root[i] = *value;
+            }
+        }
+        root * self.likely.sqrt()
+    }
 }
 
 /// What the samples leave undecided of the groups that are not free.
@@ -232,14 +265,15 @@ pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Undecided {
         // All of them, and where there are several each by itself.
         let each = whole.iter().flat_map(|all| {
             let several = if all.len() > 1 { all.len() } else { 0 };
-            (0..several)
-                .map(|k| DVector::from_fn(all.len(), |i, _| if i == k { all[k] } else { 0.0 }))
+            let only = |k| DVector::from_fn(all.len(), |i, _| if i == k { all[k] } else { 0.0 });
+            (0..several).map(only)
         });
-        let moved = whole.iter().cloned().chain(each).map(|values| {
-            let likely = p.instead(&values).sqrt();
-            &slopes * values * likely
+        let others = whole.iter().cloned().chain(each).map(|values| {
+            let likely = p.instead(&values);
+            let group = p.group.iter().map(|e| e.parameter).collect();
+            OtherKind { group, moved: &slopes * &values, values, likely }
         });
-        moved.filter(|m| m.iter().all(|v| v.is_finite())).collect::<Vec<_>>()
+        others.filter(OtherKind::counts).collect::<Vec<_>>()
     });
     Undecided { moved: weighed.collect(), by_kind: of_kind.collect(), sums }
 }

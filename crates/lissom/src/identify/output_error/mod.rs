@@ -175,18 +175,30 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
     let beyond_noise = fitting.beyond_noise(&fit);
     let evidence::Undecided { sums, moved, by_kind } = evidence::undecided(&fitting, &fit);
     let noise = fit.noise.iter().map(|n| SensorNoise::gaussian(n.deviation())).collect();
-    let found = fit.covariances(&sums);
-    let by_run = fit.by_run(&sums);
+    let mut found = fit.covariances(&sums);
     let mut covariance = found.larger();
     for moved in &moved {
         covariance.ger(1.0, moved, moved, 1.0);
     }
-    let decided = covariance.clone();
-    for moved in &by_kind {
-        covariance.ger(1.0, moved, moved, 1.0);
+    // Dampers that may be there in place of the free ones are parameters with a deviation, too.
+    let mut parameters = fit.free.clone();
+    for parameter in by_kind.iter().flat_map(|other| &other.group) {
+        if !parameters.contains(parameter) {
+            parameters.push(*parameter);
+        }
     }
-    let longer = (0..covariance.nrows()).map(|i| covariance[(i, i)] / decided[(i, i)]);
+    let n = parameters.len();
+    let decided = covariance.diagonal();
+    for matrix in [&mut covariance, &mut found.white, &mut found.blocks] {
+        matrix.resize_mut(n, n, 0.0);
+    }
+    for other in &by_kind {
+        let root = other.root(&parameters);
+        covariance.ger(1.0, &root, &root, 1.0);
+    }
+    let longer = decided.iter().enumerate().map(|(i, before)| covariance[(i, i)] / before);
     let damping_kind_known = longer.fold(1.0, f64::max).sqrt() < KINDS;
+    let by_run = fit.by_run(&sums).of_parameters(n);
     report.added.append(&mut report.refused);
     Some(OutputError {
         point_masses: fit.body.masses.is_some(),
@@ -197,7 +209,7 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         by_run,
         noise,
         windows: fit.windows,
-        parameters: fit.free,
+        parameters,
         beyond_noise,
         left_over: left,
         stages: report.stages,
