@@ -77,9 +77,9 @@ pub struct OutputError {
     /// Whether windows were widened to the whole of the runs, or as far as neighbouring motions stay together: the arm
     /// describes them.
     pub whole_runs: bool,
-    /// Whether the samples tell damping within the beam from damping against the frame, as far as figures depend on it;
-    /// where they do not, all deviations count both.
-    pub damping_kind_known: bool,
+    /// Parameters whose deviations are twice as long or more because the samples do not tell damping within the beam from
+    /// damping against the frame: they count both.
+    pub open_by_damping: Vec<Parameter>,
     /// Residual of the last stage beside the noise of the samples alone: the largest ratio of a channel.
     pub beyond_noise: f64,
     /// Share of each channel's squared residual, motor first, that is slower than what its sensor adds.
@@ -196,8 +196,8 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         let root = other.root(&parameters);
         covariance.ger(1.0, &root, &root, 1.0);
     }
-    let longer = decided.iter().enumerate().map(|(i, before)| covariance[(i, i)] / before);
-    let damping_kind_known = longer.fold(1.0, f64::max).sqrt() < KINDS;
+    let longer = |i: &usize| (covariance[(*i, *i)] / decided[*i]).sqrt() >= KINDS;
+    let open_by_damping = (0..decided.len()).filter(longer).map(|i| parameters[i]).collect();
     let by_run = fit.by_run(&sums).of_parameters(n);
     report.added.append(&mut report.refused);
     Some(OutputError {
@@ -214,7 +214,7 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         left_over: left,
         stages: report.stages,
         extensions: report.added,
-        damping_kind_known,
+        open_by_damping,
         whole_runs: fit.whole_runs,
     })
 }

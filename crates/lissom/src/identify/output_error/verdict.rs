@@ -192,13 +192,26 @@ fn modes_missing(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
     })
 }
 
-/// Damping within the beam that cannot be told from damping against the frame.
+/// Damping within the beam that cannot be told from damping against the frame. A warning where more than damping
+/// depends on it.
 fn damping_kind(oe: &OutputError) -> Option<Finding> {
-    (!oe.damping_kind_known).then(|| {
+    let of_figure = |p: &Parameter| match p {
+        Parameter::Inertia => Some(key::INERTIA),
+        Parameter::Viscous | Parameter::ViscousDifference => Some(key::VISCOUS),
+        Parameter::Coulomb => Some(key::COULOMB),
+        Parameter::Stiffness(_) => Some(key::COUPLING),
+        _ => None,
+    };
+    let open = &oe.open_by_damping;
+    let mut affects: Vec<&'static str> = open.iter().filter_map(of_figure).collect();
+    let damping_alone = affects.is_empty();
+    affects.push(key::MODES);
+    affects.dedup();
+    (!open.is_empty()).then(|| {
         Finding::new(
             "damping-kind",
-            Severity::Warning,
-            &[key::MODES, key::VISCOUS, key::COULOMB, key::INERTIA, key::COUPLING],
+            if damping_alone { Severity::Info } else { Severity::Warning },
+            &affects,
             "these runs do not tell damping within the beam from damping against the frame, and figures depend on it: \
              their deviations count both"
                 .to_owned(),
