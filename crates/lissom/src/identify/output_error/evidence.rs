@@ -221,9 +221,8 @@ pub(super) struct Undecided {
 
 /// Dampers of one kind in place of those that are free.
 pub(super) struct OtherKind {
-    pub(super) group: Vec<Parameter>,
     /// What they are then.
-    values: DVector<f64>,
+    pub(super) dampers: Vec<(Parameter, f64)>,
     /// By how much the free parameters move.
     moved: DVector<f64>,
     /// How likely that is beside the dampers that are free, both held for as likely beforehand.
@@ -232,7 +231,8 @@ pub(super) struct OtherKind {
 
 impl OtherKind {
     fn counts(&self) -> bool {
-        let finite = self.moved.iter().chain(&self.values).all(|v| v.is_finite());
+        let values = self.dampers.iter().map(|(_, value)| value);
+        let finite = self.moved.iter().chain(values).all(|v| v.is_finite());
         finite && self.likely > LEAST_LIKELY
     }
 
@@ -241,7 +241,7 @@ impl OtherKind {
     pub(super) fn root(&self, parameters: &[Parameter]) -> DVector<f64> {
         let mut root = DVector::zeros(parameters.len());
         root.rows_mut(0, self.moved.len()).copy_from(&self.moved);
-        for (parameter, value) in self.group.iter().zip(&self.values) {
+        for (parameter, value) in &self.dampers {
             if let Some(i) = parameters.iter().position(|p| p == parameter) {
                 root[i] = *value;
             }
@@ -270,8 +270,9 @@ pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Undecided {
         });
         let others = whole.iter().cloned().chain(each).map(|values| {
             let likely = p.instead(&values);
-            let group = p.group.iter().map(|e| e.parameter).collect();
-            OtherKind { group, moved: &slopes * &values, values, likely }
+            let there = p.group.iter().zip(&values).filter(|(_, value)| **value != 0.0);
+            let dampers = there.map(|(e, value)| (e.parameter, *value)).collect();
+            OtherKind { dampers, moved: &slopes * &values, likely }
         });
         others.filter(OtherKind::counts).collect::<Vec<_>>()
     });

@@ -182,7 +182,7 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
     }
     // Dampers that may be there in place of the free ones are parameters with a deviation, too.
     let mut parameters = fit.free.clone();
-    for parameter in by_kind.iter().flat_map(|other| &other.group) {
+    for (parameter, _) in by_kind.iter().flat_map(|other| &other.dampers) {
         if !parameters.contains(parameter) {
             parameters.push(*parameter);
         }

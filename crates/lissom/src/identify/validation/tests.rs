@@ -195,7 +195,7 @@ fn torque_does_not_depend_on_the_load_behind_the_tip() {
     let run = &log.runs[0];
     let shifted = run.tips()[0].iter().map(|y| y + 0.21).collect();
     let (command, motor) = (run.command().to_vec(), run.motor().to_vec());
-    log.runs = vec![Run::new("shifted", run.time(), command, motor, vec![shifted]).unwrap()];
+    log.runs = vec![Run::new(run.name(), run.time(), command, motor, vec![shifted]).unwrap()];
     let left = |horizon_s: Option<f64>| {
         let options = ValidationOptions { horizon_s, ..Default::default() };
         validate(&found(arm.clone()), &log, &options).unwrap()
