@@ -151,7 +151,7 @@ fn determinant(matrix: &[Vec<Polynomial>]) -> Polynomial {
     let of_row = |i: usize| {
         let rest = matrix.iter().enumerate().filter(|(k, _)| *k != i);
         let minor: Vec<Vec<Polynomial>> = rest.map(|(_, row)| row[1..].to_vec()).collect();
-        let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
         multiply(&multiply(&[sign], &matrix[i][0]), &determinant(&minor))
     };
     (0..matrix.len()).map(of_row).fold(Vec::new(), |sum, term| add(&sum, &term))

@@ -165,7 +165,9 @@ impl CurveSums {
         found: &OutputError,
     ) -> Vec<CurvePoint> {
         if let Some(longer) = self.beyond_law(&points, found) {
-            points.iter_mut().for_each(|point| point.friction.std *= longer);
+            for point in &mut points {
+                point.friction.std *= longer;
+            }
         }
         points
     }

@@ -54,27 +54,7 @@ pub(crate) fn findings(id: &mut Identified) {
         MissingKind::Stribeck => law.is_some(),
     };
     if let Some(m) = r.missing.filter(|m| !explained && !said(m)) {
-        let (what, hint) = match m.kind {
-            MissingKind::Delay => (
-                format!("the command acts {:.2} ms later than it is logged", 1e3 * m.value),
-                "shift the channels against each other, or log the current where it is measured",
-            ),
-            MissingKind::Position => (
-                format!("a torque grows with position, {:.3e} per unit", m.value),
-                "gravity, a spring, cogging or a wrongly scaled tip: the equation has no such term",
-            ),
-            MissingKind::Stribeck => (
-                format!("friction changes with speed, by {:.3e} towards rest", m.value),
-                "Stribeck friction or presliding: one constant and one slope do not describe it",
-            ),
-            MissingKind::BeamDamping => (
-                format!(
-                    "the beam is damped within itself, by {:.2} ms times its stiffness",
-                    1e3 * m.value
-                ),
-                "slip phases know no such damping: the output error does (leave out --quick)",
-            ),
-        };
+        let (what, hint) = in_words(&m);
         id.findings.push(Finding::new(
             "missing-term",
             Severity::Warning,
@@ -116,5 +96,30 @@ pub(crate) fn findings(id: &mut Identified) {
             "give the tip a negative scale in the campaign",
         );
         id.findings.insert(0, finding);
+    }
+}
+
+/// A term that is missing, and what to do about it.
+fn in_words(m: &MissingTerm) -> (String, &'static str) {
+    match m.kind {
+        MissingKind::Delay => (
+            format!("the command acts {:.2} ms later than it is logged", 1e3 * m.value),
+            "shift the channels against each other, or log the current where it is measured",
+        ),
+        MissingKind::Position => (
+            format!("a torque grows with position, {:.3e} per unit", m.value),
+            "gravity, a spring, cogging or a wrongly scaled tip: the equation has no such term",
+        ),
+        MissingKind::Stribeck => (
+            format!("friction changes with speed, by {:.3e} towards rest", m.value),
+            "Stribeck friction or presliding: one constant and one slope do not describe it",
+        ),
+        MissingKind::BeamDamping => (
+            format!(
+                "the beam is damped within itself, by {:.2} ms times its stiffness",
+                1e3 * m.value
+            ),
+            "slip phases know no such damping: the output error does (leave out --quick)",
+        ),
     }
 }

@@ -45,33 +45,28 @@ pub(super) fn findings(
     let mut findings = Vec::new();
     match &validation.torque {
         Some(torque) => torque_findings(found, torque, &mut findings),
-        None => {
-            let (message, hint) = if shows_coupling(&found.arm, campaign) {
-                (
-                    "no window lies within the log while the motor moves, sensors read and what acts is logged: \
-                     no torque is predicted",
-                    "a longer log or a shorter --window; check the unit of its time",
-                )
-            } else {
-                (
-                    "the torque between motor and beam does not follow from these tips: no torque is \
-                     predicted",
-                    "measure the angle of as many points as there are modes; the motion is predicted without",
-                )
-            };
-            findings.push(Finding::new(
-                "torque-not-predicted",
-                Refusal,
-                &[TORQUE],
-                message.to_owned(),
-                hint,
-            ));
-        }
+        None => findings.push(not_predicted(found, campaign)),
     }
     findings.extend(departure(validation));
     residual_findings(campaign, validation, &mut findings);
     findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
     findings
+}
+
+fn not_predicted(found: &FoundArm, campaign: &Campaign) -> Finding {
+    let (message, hint) = if shows_coupling(&found.arm, campaign) {
+        (
+            "no window lies within the log while the motor moves, sensors read and what acts is logged: \
+             no torque is predicted",
+            "a longer log or a shorter --window; check the unit of its time",
+        )
+    } else {
+        (
+            "the torque between motor and beam does not follow from these tips: no torque is predicted",
+            "measure the angle of as many points as there are modes; the motion is predicted without",
+        )
+    };
+    Finding::new("torque-not-predicted", Refusal, &[TORQUE], message.to_owned(), hint)
 }
 
 fn torque_findings(found: &FoundArm, torque: &TorquePrediction, findings: &mut Vec<Finding>) {
