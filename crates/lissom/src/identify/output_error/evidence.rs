@@ -38,6 +38,8 @@ const MOST: usize = 3;
 const ROUNDING: f64 = 1e-12;
 /// Another kind of damping that is less likely does not count.
 const LEAST_LIKELY: f64 = 1e-3;
+/// Nor does one that adds less than this share to every variance.
+const FELT: f64 = 0.1;
 
 /// A parameter that was tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -234,6 +236,12 @@ impl OtherKind {
         let values = self.dampers.iter().map(|(_, value)| value);
         let finite = self.moved.iter().chain(values).all(|v| v.is_finite());
         finite && self.likely > LEAST_LIKELY
+    }
+
+    /// Whether any of the free parameters, whose `variances` these are without it, is known less for it.
+    pub(super) fn is_felt(&self, variances: &DVector<f64>) -> bool {
+        let mut each = self.moved.iter().zip(variances.iter());
+        each.any(|(moved, variance)| self.likely * moved * moved > FELT * variance)
     }
 
     /// What it adds to the covariance of `parameters`, of which the free ones come first, as the root of an

@@ -180,6 +180,8 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
     for moved in &moved {
         covariance.ger(1.0, moved, moved, 1.0);
     }
+    let decided = covariance.diagonal();
+    let by_kind: Vec<_> = by_kind.into_iter().filter(|other| other.is_felt(&decided)).collect();
     // Dampers that may be there in place of the free ones are parameters with a deviation, too.
     let mut parameters = fit.free.clone();
     for (parameter, _) in by_kind.iter().flat_map(|other| &other.dampers) {
@@ -188,7 +190,6 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         }
     }
     let n = parameters.len();
-    let decided = covariance.diagonal();
     for matrix in [&mut covariance, &mut found.white, &mut found.blocks] {
         matrix.resize_mut(n, n, 0.0);
     }
