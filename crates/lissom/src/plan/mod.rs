@@ -21,7 +21,7 @@ use thiserror::Error;
 
 pub use crate::information::Figure;
 use crate::information::growing_information;
-use crate::replay::Parameter;
+use crate::replay::{Parameter, TURN_MOST};
 use crate::rig::{Rig, Scene};
 pub use addition::{Addition, Bounds, additions};
 use choose::choose;
@@ -46,9 +46,6 @@ const LONGEST_SHARE: f64 = 0.25;
 /// Most numbers that one simulation goes through, samples times states: a fraction of a second, as there
 /// are some hundred.
 const WORK_MOST: f64 = 2e6;
-/// Most that the arm's fastest rate may turn in a sample \[rad\]: of finer parts of a sample a simulation
-/// has so many more, and no real arm is logged so coarsely.
-const TURN_MOST: f64 = 3000.0;
 
 /// Why there is no plan.
 #[derive(Debug, Clone, PartialEq, Error)]

@@ -10,6 +10,9 @@ use crate::eigenvalues::eigenvalues;
 
 /// Most modes of a replayed arm.
 pub const MOST_MODES: usize = 4;
+/// Most that an arm's fastest rate may turn in a sample \[rad\]: a simulation takes so many more parts of a sample,
+/// and no real arm is logged so coarsely.
+pub(crate) const TURN_MOST: f64 = 3000.0;
 
 /// One mode of the clamped beam, as an oscillator of inertia k/ω² on the motor.
 #[derive(Debug, Clone, Copy, PartialEq)]

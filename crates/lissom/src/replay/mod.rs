@@ -27,6 +27,7 @@ mod tangents;
 mod transition;
 mod window;
 
+pub(crate) use arm::TURN_MOST;
 pub use arm::{MOST_MODES, ModalArm, Oscillator};
 pub use arm_modes::ArmModes;
 pub use bristles::Bristles;

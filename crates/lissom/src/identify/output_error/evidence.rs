@@ -30,16 +30,8 @@ const RIGID_SHARE: f64 = 1e-3;
 const THERE: f64 = 2.0;
 /// Deviations at which a group is as likely to be there as not.
 pub(super) const EVEN: f64 = 3.0;
-/// With fewer deviations than these nothing speaks for a group, as in any test at 5 %.
-const SPEAKS: f64 = 2.0;
 /// Most groups added at a time.
 const MOST: usize = 3;
-/// Singular values below this mean nothing.
-const ROUNDING: f64 = 1e-12;
-/// Another kind of damping that is less likely does not count.
-const LEAST_LIKELY: f64 = 1e-3;
-/// Nor does one that adds less than this share to every variance.
-const FELT: f64 = 0.1;
 
 /// A parameter that was tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -209,107 +201,7 @@ pub(super) fn promises(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Extension>> 
     scores(fitting, fit, &candidates(fitting, fit))
 }
 
-/// What a fit leaves undecided.
-pub(super) struct Undecided {
-    /// Sums by what is free.
-    pub(super) sums: Vec<WindowSums>,
-    /// By how much each group that is not free would move the free parameters, times the root of how likely it
-    /// is to be there: what they do not know of themselves for want of an answer. Outer products of these are
-    /// what it adds to the covariance, the mean over both answers.
-    pub(super) moved: Vec<DVector<f64>>,
-    /// Damping being of another kind.
-    pub(super) by_kind: Vec<OtherKind>,
-}
-
-/// Dampers of one kind in place of those that are free.
-pub(super) struct OtherKind {
-    /// What they are then.
-    pub(super) dampers: Vec<(Parameter, f64)>,
-    /// By how much the free parameters move.
-    moved: DVector<f64>,
-    /// How likely that is beside the dampers that are free, both held for as likely beforehand.
-    likely: f64,
-}
-
-impl OtherKind {
-    fn counts(&self) -> bool {
-        let values = self.dampers.iter().map(|(_, value)| value);
-        let finite = self.moved.iter().chain(values).all(|v| v.is_finite());
-        finite && self.likely > LEAST_LIKELY
-    }
-
-    /// Whether any of the free parameters, whose `variances` these are without it, is known less for it.
-    pub(super) fn is_felt(&self, variances: &DVector<f64>) -> bool {
-        let mut each = self.moved.iter().zip(variances.iter());
-        each.any(|(moved, variance)| self.likely * moved * moved > FELT * variance)
-    }
-
-    /// What it adds to the covariance of `parameters`, of which the free ones come first, as the root of an
-    /// outer product.
-    pub(super) fn root(&self, parameters: &[Parameter]) -> DVector<f64> {
-        let mut root = DVector::zeros(parameters.len());
-        root.rows_mut(0, self.moved.len()).copy_from(&self.moved);
-        for (parameter, value) in &self.dampers {
-            if let Some(i) = parameters.iter().position(|p| p == parameter) {
-                root[i] = *value;
-            }
-        }
-        root * self.likely.sqrt()
-    }
-}
-
-/// What the samples leave undecided of the groups that are not free.
-pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Undecided {
-    let (sums, promises) = all_scores(fitting, fit, &candidates(fitting, fit));
-    let jacobian = fit.body.jacobian(&fit.free);
-    let speaking = promises.iter().filter(|p| p.deviations() > SPEAKS);
-    let weighed = speaking.map(|p| {
-        let moved = &p.moved * p.likelihood().sqrt();
-        jacobian.as_ref().map_or(moved.clone(), |jacobian| jacobian * moved)
-    });
-    let of_kind = promises.iter().flat_map(|p| {
-        let slopes = jacobian.as_ref().map_or(p.slopes.clone(), |jacobian| jacobian * &p.slopes);
-        let whole = in_place_of_others(fit, &p.group, &slopes);
-        // All of them, and where there are several each by itself.
-        let each = whole.iter().flat_map(|all| {
-            let several = if all.len() > 1 { all.len() } else { 0 };
-            let only = |k| DVector::from_fn(all.len(), |i, _| if i == k { all[k] } else { 0.0 });
-            (0..several).map(only)
-        });
-        let others = whole.iter().cloned().chain(each).map(|values| {
-            let likely = p.instead(&values);
-            let there = p.group.iter().zip(&values).filter(|(_, value)| **value != 0.0);
-            let dampers = there.map(|(e, value)| (e.parameter, *value)).collect();
-            OtherKind { dampers, moved: &slopes * &values, likely }
-        });
-        others.filter(OtherKind::counts).collect::<Vec<_>>()
-    });
-    Undecided { moved: weighed.collect(), by_kind: of_kind.collect(), sums }
-}
-
-/// What the dampers of a group are where they stand for all others \[1/s\]: the values at which the free ones
-/// come to nothing, to first order by `slopes`, what each of the group moves the free parameters by. `None` of other
-/// groups.
-fn in_place_of_others(
-    fit: &Fit,
-    group: &[Extension],
-    slopes: &DMatrix<f64>,
-) -> Option<DVector<f64>> {
-    let is_damper = |p: &Parameter| {
-        use Parameter::{DampingAtPoint, DampingGrounded, DampingWithin};
-        matches!(p, DampingWithin(_) | DampingGrounded(_) | DampingAtPoint(_))
-    };
-    let others: Vec<usize> = (0..fit.free.len()).filter(|i| is_damper(&fit.free[*i])).collect();
-    if others.is_empty() || !group.iter().all(|e| is_damper(&e.parameter)) {
-        return None;
-    }
-    let now = DVector::from_fn(others.len(), |i, _| fit.free[others[i]].of(&fit.body.arm));
-    let falls = DMatrix::from_fn(others.len(), group.len(), |i, k| -slopes[(others[i], k)]);
-    let values = falls.svd(true, true).solve(&now, ROUNDING).ok()?;
-    values.iter().all(|v| v.is_finite()).then_some(values)
-}
-
-/// The same of some groups.
+/// The same of some groups of one's own choice.
 pub(super) fn scores(
     fitting: &Fitting<'_>,
     fit: &Fit,
@@ -324,14 +216,14 @@ pub(super) fn share(group: &[Extension]) -> f64 {
 }
 
 /// What a group of parameters promises.
-struct Promise {
-    group: Vec<Extension>,
+pub(super) struct Promise {
+    pub(super) group: Vec<Extension>,
     /// Square of how many deviations all of the group together stand from zero, `vᵀ·C⁻¹·v`.
     together: f64,
     /// Change of the coordinates that are free without it, beside the change without it.
-    moved: DVector<f64>,
+    pub(super) moved: DVector<f64>,
     /// The same by each of the group, per unit.
-    slopes: DMatrix<f64>,
+    pub(super) slopes: DMatrix<f64>,
     /// What the samples know of the group, the inverse of its covariance.
     information: DMatrix<f64>,
 }
@@ -347,13 +239,13 @@ impl Promise {
     }
 
     /// The most that a parameter of the group stands from zero, in its deviations.
-    fn deviations(&self) -> f64 {
+    pub(super) fn deviations(&self) -> f64 {
         let of = |e: &Extension| if e.std > 0.0 { (e.value / e.std).abs() } else { 0.0 };
         self.group.iter().map(of).fold(0.0, f64::max)
     }
 
     /// How likely `other` values are beside none, both held for as likely beforehand.
-    fn instead(&self, other: &DVector<f64>) -> f64 {
+    pub(super) fn instead(&self, other: &DVector<f64>) -> f64 {
         let values = DVector::from_iterator(self.group.len(), self.group.iter().map(|e| e.value));
         let off = |v: &DVector<f64>| v.dot(&(&self.information * v));
         1.0 / (1.0 + (0.5 * (off(&(other - &values)) - off(&values))).exp())
@@ -361,13 +253,13 @@ impl Promise {
 
     /// How likely the group is to be there: `1/(1 + exp((9 − d²)/2))`. The likelihoods' ratio is
     /// exp(d²/2), and beforehand a group is held for as rare as lets d = 3 decide nothing.
-    fn likelihood(&self) -> f64 {
+    pub(super) fn likelihood(&self) -> f64 {
         1.0 / (1.0 + (0.5 * (EVEN * EVEN - self.deviations().powi(2))).exp())
     }
 }
 
 /// Sums by what is free, and what each group promises beside: from one replay.
-fn all_scores(
+pub(super) fn all_scores(
     fitting: &Fitting<'_>,
     fit: &Fit,
     groups: &[Vec<Parameter>],
@@ -448,7 +340,7 @@ pub(super) fn drop_tip_lags(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut R
 
 /// Groups of parameters that may be added to the free ones, each as a whole. Tips may be late where more than the
 /// sensors' noise is left.
-fn candidates(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Parameter>> {
+pub(super) fn candidates(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Parameter>> {
     let arm = &fit.body.arm;
     let modes = 0..arm.modes.len();
     let mut groups = vec![vec![Parameter::CommandLag], vec![Parameter::ViscousDifference]];

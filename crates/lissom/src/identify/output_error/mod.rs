@@ -18,6 +18,7 @@ mod repeats;
 mod search;
 mod stages;
 mod start;
+mod undecided;
 mod verdict;
 mod windows;
 
@@ -37,13 +38,11 @@ pub use search::{Iteration, Stop};
 pub use stages::StageReport;
 use stages::{Fitting, Laws};
 pub use start::{starts, starts_by_motor, starts_by_responses};
+use undecided::{Known, undecided};
 pub(crate) use verdict::{command_lag, verdict};
 
 /// Differences for the slopes of figures are taken over this many deviations.
 const HALF: f64 = 0.5;
-
-/// Deviations longer by this factor for want of the damping's kind are told of.
-const KINDS: f64 = 2.0;
 
 /// Residual beside the sensors' noise below which nothing else is in it.
 const AT_NOISE: f64 = 1.25;
@@ -173,33 +172,15 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         attempts::best(&fitting, start)?;
     let fitting = Fitting { masks: without_repeats.as_deref().unwrap_or(&masks), ..fitting };
     let beyond_noise = fitting.beyond_noise(&fit);
-    let evidence::Undecided { sums, moved, by_kind } = evidence::undecided(&fitting, &fit);
+    let undecided = undecided(&fitting, &fit);
     let noise = fit.noise.iter().map(|n| SensorNoise::gaussian(n.deviation())).collect();
-    let mut found = fit.covariances(&sums);
-    let mut covariance = found.larger();
-    for moved in &moved {
-        covariance.ger(1.0, moved, moved, 1.0);
-    }
-    let decided = covariance.diagonal();
-    let by_kind: Vec<_> = by_kind.into_iter().filter(|other| other.is_felt(&decided)).collect();
-    // Dampers that may be there in place of the free ones are parameters with a deviation, too.
-    let mut parameters = fit.free.clone();
-    for (parameter, _) in by_kind.iter().flat_map(|other| &other.dampers) {
-        if !parameters.contains(parameter) {
-            parameters.push(*parameter);
-        }
-    }
+    let mut found = fit.covariances(&undecided.sums);
+    let Known { parameters, covariance, open_by_damping } =
+        undecided.known(&fit.free, found.larger());
     let n = parameters.len();
-    for matrix in [&mut covariance, &mut found.white, &mut found.blocks] {
-        matrix.resize_mut(n, n, 0.0);
-    }
-    for other in &by_kind {
-        let root = other.root(&parameters);
-        covariance.ger(1.0, &root, &root, 1.0);
-    }
-    let longer = |i: &usize| (covariance[(*i, *i)] / decided[*i]).sqrt() >= KINDS;
-    let open_by_damping = (0..decided.len()).filter(longer).map(|i| parameters[i]).collect();
-    let by_run = fit.by_run(&sums).of_parameters(n);
+    found.white.resize_mut(n, n, 0.0);
+    found.blocks.resize_mut(n, n, 0.0);
+    let by_run = fit.by_run(&undecided.sums).of_parameters(n);
     report.added.append(&mut report.refused);
     Some(OutputError {
         point_masses: fit.body.masses.is_some(),

@@ -21,15 +21,13 @@ use thiserror::Error;
 use super::Finding;
 use super::found_arm::FoundArm;
 use crate::record::{Campaign, Run};
-use crate::replay::MOST_MODES;
+use crate::replay::{MOST_MODES, TURN_MOST};
 use expected::expected;
 use motion::{Followed, followed, lengths_s};
 use residual::channel_residual;
 
 /// The residual is looked at over the longest time at which every channel still fits this well.
 const FITS_PERCENT: f64 = 90.0;
-/// Most that an arm's fastest rate may turn in a sample \[rad\]: a replay has so many more parts.
-const TURN_MOST: f64 = 3000.0;
 
 /// What a user may ask for.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
