@@ -185,6 +185,58 @@ fn a_delay_is_noticed_and_measured() {
 }
 
 #[test]
+fn an_amplifier_that_is_stronger_one_way_is_noticed_and_measured() {
+    // Positive commands are logged as less than they do.
+    let as_logged = |share: f64| -> Vec<Run> {
+        let runs = stiff_axis(0.2, 0.0).into_iter();
+        let of_run = |r: Run| {
+            let command = r.command().iter().map(|u| if *u > 0.0 { u * share } else { *u });
+            Run::new(r.name(), r.time(), command.collect(), r.motor().to_vec(), vec![]).unwrap()
+        };
+        runs.map(of_run).collect()
+    };
+    for share in [0.95, 0.99] {
+        let fit = motor_regression(&campaign(current(0.2), as_logged(share)), &[]).unwrap();
+        let found = fit.missing.unwrap();
+        assert_eq!(found.kind, MissingKind::CommandBySign);
+        // 1/share one way beside 1 the other: (1 + ε)/(1 − ε).
+        let asked = (1.0 / share - 1.0) / (1.0 / share + 1.0);
+        assert!((found.value / asked - 1.0).abs() < 0.05, "{found:?} {asked}");
+    }
+}
+
+#[test]
+fn friction_that_changes_over_the_campaign_is_noticed_and_measured() {
+    // J = 0.02, V = 0.05, CF = 0.3 in the middle: a sine and one of another frequency after it.
+    let t = 0.002;
+    let with = |coulomb: f64, viscous: f64| {
+        let run = |name: &str, w: f64, from: f64| {
+            let angle = |s: f64| (w * s).sin();
+            let torque = |s: f64| {
+                let (speed, over) = (w * (w * s).cos(), (s + from) / 40.0 - 0.5);
+                -0.02 * w * w * angle(s)
+                    + (0.05 + viscous * over) * speed
+                    + (0.3 + coulomb * over) * speed.signum()
+            };
+            let wave = |f: &dyn Fn(f64) -> f64| (0..10_000).map(|k| f(t * f64::from(k))).collect();
+            Run::new(name, TimeBase::uniform(0.0, t), wave(&torque), wave(&angle), vec![]).unwrap()
+        };
+        let runs = vec![run("slow", 3.0, 0.0), run("fast", 7.0, 20.0)];
+        let command = Command { hold: Hold::Measured, ..current(1.0) };
+        motor_regression(&campaign(command, runs), &[]).unwrap().missing
+    };
+    assert_eq!(with(0.0, 0.0), None);
+    for (coulomb, viscous, kind, asked) in [
+        (-0.06, 0.0, MissingKind::CoulombDrift, -0.06),
+        (0.0, -0.03, MissingKind::ViscousDrift, -0.03),
+    ] {
+        let found = with(coulomb, viscous).unwrap();
+        assert_eq!(found.kind, kind, "{found:?}");
+        assert!((found.value / asked - 1.0).abs() < 0.01, "{found:?} {asked}");
+    }
+}
+
+#[test]
 fn unknown_constant_gives_figures_per_unit_of_command() {
     let command =
         Command { quantity: CommandQuantity::Arbitrary, torque_per_command: None, ..current(1.0) };

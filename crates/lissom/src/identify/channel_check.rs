@@ -1,4 +1,4 @@
-//! Checks of single channels: dead, clipped, sticking.
+//! Checks of single channels: dead, clipped, jumping, frozen, sticking.
 
 /// Within a plateau's length before it, a smooth signal rounded to steps comes up by about four of
 /// them; one that runs into a stop by more than this many.
@@ -17,6 +17,8 @@ const SLOWED: f64 = 0.65;
 const SPIKE: f64 = 20.0;
 /// …and its neighbours by minus half of that, to this share.
 const LONE: f64 = 0.1;
+/// Fewer second differences do not show what the first and the last of them may be.
+const FEW: usize = 20;
 
 /// Smallest difference between neighbouring values that a channel takes: its step.
 ///
@@ -96,15 +98,23 @@ fn steepest(samples: &[f64], quantum: f64) -> f64 {
     }
 }
 
+/// Second differences of a channel, and what all but a twentieth of them stay below.
+fn bends(samples: &[f64]) -> Option<(Vec<f64>, f64)> {
+    let bend: Vec<f64> = samples.windows(3).map(|w| w[0] - 2.0 * w[1] + w[2]).collect();
+    let mut sizes: Vec<f64> = bend.iter().map(|b| b.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let usual = *sizes.get(sizes.len() * 19 / 20)?;
+    Some((bend, usual))
+}
+
 /// Samples that stand alone: one reading off those before and after it, which agree, by far more than the motion
 /// bends elsewhere.
 ///
 /// A knock bends the motion too, but leaves its velocity changed; a lone reading has second differences of 1, −2, 1.
+/// Of the first and the last reading there is one, as of a knock: it must be twice as large as all others but those of
+/// readings that stand alone.
 pub(crate) fn spikes(samples: &[f64]) -> Vec<usize> {
-    let bend: Vec<f64> = samples.windows(3).map(|w| w[0] - 2.0 * w[1] + w[2]).collect();
-    let mut sizes: Vec<f64> = bend.iter().map(|b| b.abs()).collect();
-    sizes.sort_by(f64::total_cmp);
-    let Some(usual) = sizes.get(sizes.len() * 19 / 20) else { return Vec::new() };
+    let Some((bend, usual)) = bends(samples) else { return Vec::new() };
     let least = (SPIKE * usual).max(SPIKE * step(samples));
     let alone = |(k, w): (usize, &[f64])| {
         let sides = [w[0] / w[1], w[2] / w[1]];
@@ -112,7 +122,66 @@ pub(crate) fn spikes(samples: &[f64]) -> Vec<usize> {
         // The middle of three second differences is that of the sample two on.
         spike.then_some(k + 2)
     };
-    bend.windows(3).enumerate().filter_map(alone).collect()
+    let mut found: Vec<usize> = bend.windows(3).enumerate().filter_map(alone).collect();
+    if bend.len() < FEW {
+        return found;
+    }
+    let near_one = |k: usize| found.iter().any(|s| (k + 1).abs_diff(*s) <= 1);
+    let inner = 1..bend.len() - 1;
+    let most = inner.filter(|k| !near_one(*k)).map(|k| bend[k].abs()).fold(least, f64::max);
+    let [first, last] = [bend[0], bend[bend.len() - 1]].map(|b| b.abs() > 2.0 * most);
+    if first {
+        found.insert(0, 0);
+    }
+    if last {
+        found.push(samples.len() - 1);
+    }
+    found
+}
+
+/// Samples at which a channel has come to another level at once, and how far: its readings before and after go on
+/// alike, as those of a sensor that wraps round or that lost counts.
+///
+/// Second differences are 1, −1 there, many times what the motion bends elsewhere.
+pub(crate) fn jumps(samples: &[f64]) -> Vec<(usize, f64)> {
+    let Some((bend, usual)) = bends(samples) else { return Vec::new() };
+    let least = (SPIKE * usual).max(SPIKE * step(samples));
+    let around = |k: usize| bend.get(k).map_or(0.0, |b| b.abs());
+    let jump = |(k, w): (usize, &[f64])| {
+        let size = w[0].abs();
+        let level = size > least && (w[1] / w[0] + 1.0).abs() < LONE;
+        let quiet = around(k + 2) < LONE * size && (k == 0 || around(k - 1) < LONE * size);
+        // The first of two second differences is that of the sample one on, whose neighbour jumps.
+        (level && quiet).then_some((k + 2, 0.5 * (w[0] - w[1])))
+    };
+    bend.windows(2).enumerate().filter_map(jump).collect()
+}
+
+/// A sensor that stands still for fewer samples is not called frozen.
+const FROZEN: usize = 50;
+/// Frozen is what stands for so many times longer than it does elsewhere…
+const LONGER: f64 = 10.0;
+/// …while another sensor of the arm travels by this share of its range.
+const TRAVELS: f64 = 0.2;
+
+/// The stretch over which a channel takes one value while `other` moves on: far longer than it stands anywhere else.
+pub(crate) fn frozen(samples: &[f64], other: &[f64]) -> Option<std::ops::Range<usize>> {
+    let mut plateaus = Vec::new();
+    let mut from = 0;
+    for k in 1..=samples.len() {
+        if k == samples.len() || samples[k] != samples[from] {
+            plateaus.push(from..k);
+            from = k;
+        }
+    }
+    let longest = plateaus.iter().max_by_key(|p| p.len())?.clone();
+    let second = plateaus.iter().filter(|p| **p != longest).map(|p| p.len()).max()?;
+    let travel: f64 = other[longest.clone()].windows(2).map(|w| (w[1] - w[0]).abs()).sum();
+    let frozen = longest.len() >= FROZEN
+        && longest.len() as f64 > LONGER * second as f64
+        && travel > TRAVELS * range(other)
+        && range(&other[longest.clone()]) > STEPS * step(other);
+    frozen.then_some(longest)
 }
 
 /// Samples over which a motor rests, at least: within fewer its sensor may show no step.
@@ -180,6 +249,54 @@ mod tests {
             assert_eq!(spikes(&x), [700, 2500]);
         }
         assert!(spikes(&[0.0, 1.0]).is_empty());
+    }
+
+    #[test]
+    fn the_first_and_the_last_reading_may_be_spikes() {
+        assert!(spikes(&sine(2.0)).is_empty());
+        for at in [0, 3999] {
+            let mut x = sine(2.0);
+            x[at] += 0.3;
+            assert_eq!(spikes(&x), [at]);
+            // Beside a larger one.
+            x[2000] -= 0.7;
+            assert_eq!(spikes(&x).len(), 2);
+        }
+        // A motion that is knocked as hard elsewhere may be knocked there.
+        let mut bounced: Vec<f64> = sine(2.0).iter().map(|v| v.abs()).collect();
+        bounced.truncate(3927 + 2);
+        assert!(spikes(&bounced).is_empty());
+    }
+
+    #[test]
+    fn a_sensor_that_wraps_jumps_and_a_stroke_does_not() {
+        let turning = |k: usize| 0.01 * k as f64 + 0.2 * (0.02 * k as f64).sin();
+        let turn = std::f64::consts::TAU;
+        let wrapped: Vec<f64> = (0..2000).map(|k| turning(k) % turn).collect();
+        let found = jumps(&wrapped);
+        assert_eq!(found.len(), 3);
+        for (at, by) in found {
+            assert!(turning(at - 1) % turn > turning(at) % turn && (by + turn).abs() < 1e-3);
+        }
+        assert!(jumps(&stops(20.0, 3)).is_empty() && jumps(&sine(0.8)).is_empty());
+        let mut spiked = sine(2.0);
+        spiked[700] += 0.3;
+        assert!(jumps(&spiked).is_empty());
+    }
+
+    #[test]
+    fn a_sensor_that_freezes_is_told_from_one_that_rests() {
+        let motor = sine(2.0);
+        let mut tip: Vec<f64> = motor.iter().map(|v| (v / 0.003).round() * 0.003).collect();
+        assert_eq!(frozen(&tip, &motor), None);
+        // The whole arm rests.
+        let mut rests = (motor.clone(), tip.clone());
+        rests.0.extend(vec![0.3; 2000]);
+        rests.1.extend(vec![0.3; 2000]);
+        assert_eq!(frozen(&rests.1, &rests.0), None);
+        tip[1500..2500].fill(0.123);
+        assert_eq!(frozen(&tip, &motor), Some(1500..2500));
+        assert_eq!(frozen(&motor, &tip), None);
     }
 
     #[test]

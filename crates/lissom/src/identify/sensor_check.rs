@@ -1,11 +1,13 @@
-//! What is wrong with the readings of motor and tips, in findings: end stops and spikes.
+//! What is wrong with the readings of motor and tips, in findings: end stops, spikes, jumps, frozen sensors.
 
-use super::channel_check::{clipped_share, spikes};
+use super::channel_check::{clipped_share, frozen, jumps, spikes};
 use super::finding::{Finding, Severity, key};
 use crate::record::{Campaign, Run, TipQuantity};
 
 /// Share of a run at an end stop from which on it is told of.
 const CLIPPED: f64 = 0.002;
+/// A jump by whole turns is one to this part of a turn.
+const WHOLE: f64 = 0.02;
 
 pub(super) fn findings(campaign: &Campaign, run: &Run) -> Vec<Finding> {
     let tips = campaign.channels.tips.iter().zip(run.tips());
@@ -14,9 +16,73 @@ pub(super) fn findings(campaign: &Campaign, run: &Run) -> Vec<Finding> {
     let each = sensors.flat_map(|(name, x, quantity)| {
         // Knocks are in accelerations as they are.
         let moves = quantity != TipQuantity::Acceleration;
-        [clipped(name, x), moves.then(|| spiked(name, x, run)).flatten()]
+        let moving = |check: fn(&str, &[f64], &Run) -> Option<Finding>| {
+            moves.then(|| check(name, x, run)).flatten()
+        };
+        [clipped(name, x), moving(spiked), moving(jumping), stands_still(name, x, run)]
     });
     each.flatten().map(|finding| finding.of(run.name())).collect()
+}
+
+const EVERYTHING: [&str; 6] =
+    [key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES, key::TIPS];
+
+fn jumping(name: &str, x: &[f64], run: &Run) -> Option<Finding> {
+    let found = jumps(x);
+    let (first, by) = *found.first()?;
+    let others = match found.len() {
+        1 => String::new(),
+        n => format!(", the first of {n} such jumps"),
+    };
+    let turns = by.abs() / std::f64::consts::TAU;
+    let whole = turns.round() >= 1.0 && (turns - turns.round()).abs() < WHOLE;
+    let (what, hint) = if whole {
+        (
+            " (whole turns)",
+            "a sensor that wraps round: add the turns up over the log (unwrap) before identifying",
+        )
+    } else {
+        (
+            "",
+            "lost counts, a sensor that wraps round, or samples that are missing: take the jump out of what follows \
+             it, or leave the stretch out (skip)",
+        )
+    };
+    Some(Finding::new(
+        "reading-jumps",
+        Severity::Warning,
+        &EVERYTHING,
+        format!(
+            "channel {name} jumps by {by:.4}{what} from one sample to the next, {:.4} s after the run's first \
+             sample{others}. No figure of this run is what it would be without",
+            first as f64 * run.sample_time_s()
+        ),
+        hint,
+    ))
+}
+
+/// The motor beside the tip that moves most, a tip beside the motor.
+fn stands_still(name: &str, x: &[f64], run: &Run) -> Option<Finding> {
+    let others = || run.tips().iter().map(Vec::as_slice);
+    let still = if std::ptr::eq(x, run.motor()) {
+        others().find_map(|tip| frozen(x, tip))
+    } else {
+        frozen(x, run.motor())
+    }?;
+    let t = run.sample_time_s();
+    Some(Finding::new(
+        "frozen-channel",
+        Severity::Warning,
+        &EVERYTHING,
+        format!(
+            "channel {name} reads {:.4} from {:.4} s to {:.4} s after the run's first sample while the arm moves on: \
+             frozen. No figure of this run is what it would be without",
+            x[still.start],
+            still.start as f64 * t,
+            (still.end - 1) as f64 * t
+        ),
+        "a lost connection or a logger that repeats its last value: leave the stretch out (skip, or cut the log)",
+    ))
 }
 
 fn clipped(name: &str, x: &[f64]) -> Option<Finding> {
@@ -39,16 +105,19 @@ fn spiked(name: &str, x: &[f64], run: &Run) -> Option<Finding> {
         1 => String::new(),
         n => format!(", the first of {n}"),
     };
+    let between = match (first.checked_sub(1).map(|k| x[k]), x.get(first + 1)) {
+        (Some(before), Some(after)) => format!("between {before:.4} and {after:.4}"),
+        (None, after) => format!("before {:.4}", after.copied().unwrap_or(f64::NAN)),
+        (before, None) => format!("after {:.4}", before.unwrap_or(f64::NAN)),
+    };
     Some(Finding::new(
         "spike",
         Severity::Warning,
-        &[key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES, key::TIPS],
+        &EVERYTHING,
         format!(
-            "channel {name} reads {:.4} between {:.4} and {:.4}, {:.4} s after the run's first sample: a spike{others}. \
+            "channel {name} reads {:.4} {between}, {:.4} s after the run's first sample: a spike{others}. \
              No figure of this run is what it would be without",
             x[first],
-            x[first - 1],
-            x[first + 1],
             first as f64 * run.sample_time_s()
         ),
         "a bad reading or a lost count: put the mean of its neighbours in its place, or leave the stretch out (skip)",

@@ -5,8 +5,12 @@ use super::normal::{Cluster, Solution, Term, solve};
 /// A term is missing where it stands this many deviations from zero…
 const DEVIATIONS: f64 = 4.0;
 /// …and leaves at most this share of the residual: a term that chance makes significant leaves
-/// nearly all of it.
+/// nearly all of it…
 const RESIDUAL: f64 = 0.9;
+/// …or stands this many deviations from zero…
+const SURE: f64 = 10.0;
+/// …and takes so many of a figure's own deviations with it.
+const MOVES: f64 = 3.0;
 
 /// What the equation may lack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,6 +23,27 @@ pub enum MissingKind {
     Stribeck,
     /// Damping within the beam, in proportion to its stiffness: a torque by the rate of what is bent.
     BeamDamping,
+    /// A torque constant that differs by the command's sign, as of an amplifier that is stronger one way.
+    CommandBySign,
+    /// Coulomb friction that changes from the campaign's first sample to its last.
+    CoulombDrift,
+    /// Viscous friction that does, as of a joint that warms.
+    ViscousDrift,
+}
+
+impl MissingKind {
+    /// In the order of their columns.
+    const ALL: [Self; 7] = [
+        Self::Delay,
+        Self::Position,
+        Self::Stribeck,
+        Self::BeamDamping,
+        Self::CommandBySign,
+        Self::CoulombDrift,
+        Self::ViscousDrift,
+    ];
+    /// How many columns they need.
+    pub(super) const COLUMNS: usize = Self::ALL.len();
 }
 
 /// A term that the data call for.
@@ -27,7 +52,9 @@ pub struct MissingTerm {
     /// Which.
     pub kind: MissingKind,
     /// Its coefficient: delay \[s\], stiffness \[N·m/rad\], friction at rest beyond the constant
-    /// \[N·m\] (linear axes: N/m, N), time of the beam's damping \[s\].
+    /// \[N·m\] (linear axes: N/m, N), time of the beam's damping \[s\]; half of what positive commands give more
+    /// than negative ones, relative; change of Coulomb \[N·m or N\] and viscous friction \[N·m·s/rad or N·s/m\] from
+    /// the campaign's beginning to its end, its runs taken one after the other.
     pub value: f64,
     /// How many deviations from zero.
     pub deviations: f64,
@@ -44,30 +71,34 @@ pub(super) fn missing_term(
     first: usize,
     tips: usize,
 ) -> Option<MissingTerm> {
-    let kinds = [
-        MissingKind::Delay,
-        MissingKind::Position,
-        MissingKind::Stribeck,
-        MissingKind::BeamDamping,
-    ];
-    let kinds = &kinds[..if tips > 0 { 4 } else { 3 }];
-    let tried = kinds.iter().copied().enumerate().filter_map(|(i, kind)| {
+    let kinds = MissingKind::ALL.into_iter().enumerate();
+    let kinds = kinds.filter(|(_, kind)| *kind != MissingKind::BeamDamping || tips > 0);
+    let tried = kinds.filter_map(|(i, kind)| {
         let mut with = terms.to_vec();
         with.push(match kind {
-            MissingKind::Stribeck => Term::Signed(first + i),
+            MissingKind::Stribeck | MissingKind::CoulombDrift => Term::Signed(first + i),
             _ => Term::Plain(first + i),
         });
         let solution = solve(clusters, &with)?;
         let last = with.len() - 1;
         let std = solution.covariance[(last, last)].max(0.0).sqrt();
         let value = solution.value[last];
+        let moves = (0..last).any(|k| {
+            let own = without.covariance[(k, k)].max(0.0).sqrt();
+            (solution.value[k] - without.value[k]).abs() > MOVES * own
+        });
+        let shows = solution.relative_residual < RESIDUAL * without.relative_residual;
         let called_for = !solution.inseparable[last]
             && value.abs() > DEVIATIONS * std
-            && solution.relative_residual < RESIDUAL * without.relative_residual;
+            && (shows || moves && value.abs() > SURE * std);
         called_for.then(|| MissingTerm {
             kind,
-            // ∫wτ(t) = ∫w·(equation) − Δ∫ẇτ for τ that acts Δ later.
-            value: if kind == MissingKind::Delay { -value } else { value },
+            value: match kind {
+                // ∫wτ(t) = ∫w·(equation) − Δ∫ẇτ for τ that acts Δ later…
+                // …and ∫wτ = ∫w·(equation) − ε∫w|τ| where (1 + ε·sgn τ)·τ acts.
+                MissingKind::Delay | MissingKind::CommandBySign => -value,
+                _ => value,
+            },
             deviations: value.abs() / std,
             residual_ratio: solution.relative_residual / without.relative_residual,
         })

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
+use super::missing::MissingKind;
 use super::normal::{Cluster, Rows};
 use super::phases::{LEAST_SAMPLES, LEAST_SMOOTH, Phase, needed_smoothing, unreversed_phases};
 use super::row_noise::{Part, RunNoise, products};
@@ -25,7 +26,7 @@ pub(super) const VISCOUS: usize = 1;
 pub(super) const DRY: usize = 2;
 pub(super) const TIPS: usize = 3;
 /// Columns that [`super::missing::missing_term`] tries.
-const EXTRA: usize = 4;
+const EXTRA: usize = MissingKind::COLUMNS;
 
 /// Tips whose angle from the motor's line is known.
 pub(crate) fn coupled_tips(campaign: &Campaign) -> Vec<usize> {
@@ -80,6 +81,8 @@ impl<'a> MotorRows<'a> {
             plain,
             origin,
             slowness: slowness(run, smooth),
+            magnitude: run.command().iter().map(|u| u.abs()).collect(),
+            elapsed: Elapsed::of(campaign, index),
             coupling,
         });
         let mut noise = plain.noise(&slipping.noise);
@@ -170,11 +173,7 @@ impl Rows for MotorEquation<'_> {
         for &i in self.tips {
             row.push(behind(campaign, run, i, window, k));
         }
-        let torque = match campaign.channels.command.hold {
-            Hold::Sampled => window.held.dot(command),
-            Hold::Measured => window.value.dot(command) * t,
-        };
-        row.push(self.torque_per_command() * torque);
+        row.push(self.torque(command));
         for value in row {
             *value *= window.row_scale;
         }
@@ -203,6 +202,17 @@ impl MotorEquation<'_> {
 
     fn torque_per_command(&self) -> f64 {
         self.campaign.channels.command.torque_per_command.unwrap_or(1.0)
+    }
+
+    /// `∫wτ` of what is commanded from the window's first sample on.
+    #[inline(always)]
+    fn torque(&self, command: &[f64]) -> f64 {
+        let window = self.window;
+        self.torque_per_command()
+            * match self.campaign.channels.command.hold {
+                Hold::Sampled => window.held.dot(command),
+                Hold::Measured => window.value.dot(command) * self.run.sample_time_s(),
+            }
     }
 
     /// `∫ẇτ`: what a torque that acts later leaves, by its delay.
@@ -242,12 +252,16 @@ pub(super) fn behind(campaign: &Campaign, run: &Run, i: usize, window: &Window, 
         }
 }
 
-/// `[∫ẇτ, ∫wθ, ∫w·e^{−|v|/v̄}, Σκ_i∫w(θ̇_m − θ̇_i)]` before the right side.
+/// `[∫ẇτ, ∫wθ, ∫w·e^{−|v|/v̄}, Σκ_i∫w(θ̇_m − θ̇_i), ∫w|τ|, e∫w, −e∫ẇθ]` before the right side, e how much of the
+/// campaign is over.
 struct WithMore<'a> {
     plain: MotorEquation<'a>,
     /// Where positions are counted from.
     origin: f64,
     slowness: Vec<f64>,
+    /// |command|.
+    magnitude: Vec<f64>,
+    elapsed: Elapsed,
     /// κ_i of the coupled tips.
     coupling: &'a [f64],
 }
@@ -261,10 +275,40 @@ impl Rows for WithMore<'_> {
         let by_slowness = window.value.dot(&self.slowness[k..]);
         let coupling = self.coupling.iter().enumerate();
         let by_rate = coupling.map(|(i, c)| c * self.plain.behind_rate(i, k)).sum::<f64>();
-        let more = [self.plain.later(k), by_position * t, by_slowness * t, by_rate];
+        let by_size = self.plain.torque(&self.magnitude[k..]);
+        let elapsed = self.elapsed.at(k + window.len() / 2);
         self.plain.fill(k, row);
+        let scale = window.row_scale;
+        let more = [
+            self.plain.later(k) * scale,
+            by_position * t * scale,
+            by_slowness * t * scale,
+            by_rate * scale,
+            by_size * scale,
+            elapsed * row[DRY],
+            elapsed * row[VISCOUS],
+        ];
         let right = row.len() - 1;
-        row.splice(right..right, more.map(|v| v * window.row_scale));
+        row.splice(right..right, more);
+    }
+}
+
+/// How much of a campaign is over, from −½ at its first sample to ½ at its last, its runs one after the other.
+struct Elapsed {
+    start: f64,
+    of_sample: f64,
+}
+
+impl Elapsed {
+    fn of(campaign: &Campaign, run: usize) -> Self {
+        let lasts = |run: &Run| run.len() as f64 * run.sample_time_s();
+        let all: f64 = campaign.runs.iter().map(lasts).sum();
+        let before: f64 = campaign.runs[..run].iter().map(lasts).sum();
+        Self { start: before / all - 0.5, of_sample: campaign.runs[run].sample_time_s() / all }
+    }
+
+    fn at(&self, sample: usize) -> f64 {
+        self.start + sample as f64 * self.of_sample
     }
 }
 

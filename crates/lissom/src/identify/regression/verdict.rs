@@ -50,7 +50,11 @@ pub(crate) fn findings(id: &mut Identified) {
     let law = id.friction_law.as_ref().filter(|law| law.chosen.departs());
     let said = |m: &MissingTerm| match m.kind {
         MissingKind::Delay => law.is_some_and(FrictionLaw::leaves_no_lag),
-        MissingKind::Position | MissingKind::BeamDamping => false,
+        MissingKind::Position
+        | MissingKind::BeamDamping
+        | MissingKind::CommandBySign
+        | MissingKind::CoulombDrift
+        | MissingKind::ViscousDrift => false,
         MissingKind::Stribeck => law.is_some(),
     };
     if let Some(m) = r.missing.filter(|m| !explained && !said(m)) {
@@ -120,6 +124,29 @@ fn in_words(m: &MissingTerm) -> (String, &'static str) {
                 1e3 * m.value
             ),
             "slip phases know no such damping: the output error does (leave out --quick)",
+        ),
+        MissingKind::CommandBySign => (
+            format!(
+                "positive commands give {:.1} % {} torque than negative ones",
+                200.0 * m.value.abs(),
+                if m.value > 0.0 { "more" } else { "less" }
+            ),
+            "an amplifier that is stronger one way, or a current sensor of two gains: log the current itself, and \
+             calibrate it in both directions",
+        ),
+        MissingKind::CoulombDrift => (
+            format!(
+                "Coulomb friction changes by {:.3e} from the campaign's beginning to its end",
+                m.value
+            ),
+            "a joint that warms, wears or is lubricated anew: let it run warm first, or identify runs apart",
+        ),
+        MissingKind::ViscousDrift => (
+            format!(
+                "viscous friction changes by {:.3e} from the campaign's beginning to its end",
+                m.value
+            ),
+            "a joint that warms: let it run warm first, or identify runs apart",
         ),
     }
 }
