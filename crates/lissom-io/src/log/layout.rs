@@ -71,8 +71,10 @@ impl<'a> Iterator for Cells<'a> {
     }
 }
 
+/// A quote that is never closed stays: the cell is no number.
 fn unquoted(cell: &str) -> &str {
-    cell.strip_prefix('"').and_then(|inner| inner.split('"').next()).map_or(cell, str::trim)
+    let inner = cell.strip_prefix('"').and_then(|inner| inner.split_once('"'));
+    inner.map_or(cell, |(inner, _)| inner.trim())
 }
 
 /// A cell as a number, finite or not.

@@ -102,6 +102,11 @@ fn bad_cells_are_named_with_row_and_column() {
         REPAIR,
     );
     fails(
+        read("t,x\n0,1\n1,\"0.1\n", "t", "x"),
+        "a.csv: row 3, column \"x\": \"\"0.1\" is not a number",
+        REPAIR,
+    );
+    fails(
         read("t,x\n0,1\n1,NaN\n", "t", "x"),
         "a.csv: row 3, column \"x\": \"NaN\" is not a finite number",
         REPAIR,

@@ -13,8 +13,8 @@ use super::{UnitNames, dry_terms};
 use crate::error::Error;
 use crate::text::read_text;
 
-/// Relative difference of torque constants beyond which they are two.
-const SAME: f64 = 1e-9;
+/// Relative difference of torque constants beyond which they are two: six digits may be written of one.
+const SAME: f64 = 1e-5;
 
 /// No machine has a larger number in SI.
 const LARGEST: f64 = 1e12;
@@ -141,8 +141,7 @@ impl ResultError {
     /// What to do about it.
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
-            Self::Read { .. } => return None,
-            Self::Json { .. } | Self::NoResult { .. } => {
+            Self::Read { .. } | Self::Json { .. } | Self::NoResult { .. } => {
                 "RESULT comes first: the file that `lissom identify CAMPAIGN --json FILE` writes"
             }
             Self::NoArm { .. } => {
@@ -166,7 +165,7 @@ pub fn read_arm(path: &Path, channels: &Channels) -> Result<FoundArm, Error> {
     let file = path.display().to_string();
     let text =
         read_text(path).map_err(|source| ResultError::Read { file: file.clone(), source })?;
-    let root: Value = serde_json::from_str(&text)
+    let root: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
         .map_err(|source| ResultError::Json { file: file.clone(), source })?;
     Ok(Reader { file, root }.arm(channels)?)
 }

@@ -100,6 +100,16 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
     PLAIN.iter().chain(PREFIXED).map(|(name, ..)| *name)
 }
 
+/// The unit, with its prefix, that is called `wanted` but for upper and lower case: `mA` for "ma".
+pub(super) fn of_other_case(wanted: &str) -> Option<String> {
+    let name = PREFIXED.iter().map(|(name, ..)| with_prefix(wanted, name));
+    PLAIN
+        .iter()
+        .map(|(name, ..)| (*name).to_owned())
+        .chain(name)
+        .find(|name| name.eq_ignore_ascii_case(wanted))
+}
+
 /// `found`, or with the prefix that `wanted` has but for upper and lower case: `GPa` for "Gpa".
 pub(super) fn with_prefix(wanted: &str, found: &str) -> String {
     let same = |prefix: &&str| format!("{prefix}{found}").eq_ignore_ascii_case(wanted);

@@ -101,6 +101,12 @@ fn errors_say_what_was_found_and_wanted() {
         Some("did you mean `GPa`?"),
     );
     fails(
+        "7 ma",
+        Dimension::CURRENT,
+        "\"7 ma\": there is no unit `ma`",
+        Some("did you mean `mA`?"),
+    );
+    fails(
         "7 lbs",
         Dimension::MASS,
         "\"7 lbs\": there is no unit `lbs`",

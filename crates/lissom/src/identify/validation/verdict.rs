@@ -5,7 +5,7 @@ use super::{Cause, CauseKind, TorquePrediction, Validation};
 use crate::identify::Finding;
 use crate::identify::Severity::{Info, Refusal, Warning};
 use crate::identify::found_arm::FoundArm;
-use crate::record::Campaign;
+use crate::record::{Axis, Campaign, Channels};
 
 /// Of a torque of which less is left nothing is said.
 pub(super) const GOOD: f64 = 0.03;
@@ -44,7 +44,7 @@ pub(super) fn findings(
 ) -> Vec<Finding> {
     let mut findings = Vec::new();
     match &validation.torque {
-        Some(torque) => torque_findings(found, torque, &mut findings),
+        Some(torque) => torque_findings(found, &campaign.channels, torque, &mut findings),
         None => findings.push(not_predicted(found, campaign)),
     }
     findings.extend(departure(validation));
@@ -69,7 +69,12 @@ fn not_predicted(found: &FoundArm, campaign: &Campaign) -> Finding {
     Finding::new("torque-not-predicted", Refusal, &[TORQUE], message.to_owned(), hint)
 }
 
-fn torque_findings(found: &FoundArm, torque: &TorquePrediction, findings: &mut Vec<Finding>) {
+fn torque_findings(
+    found: &FoundArm,
+    channels: &Channels,
+    torque: &TorquePrediction,
+    findings: &mut Vec<Finding>,
+) {
     let error = torque.relative_error;
     let expected = torque.expected_error.unwrap_or(0.0);
     if expected > BAD {
@@ -124,14 +129,35 @@ fn torque_findings(found: &FoundArm, torque: &TorquePrediction, findings: &mut V
             Warning,
             &[TORQUE],
             format!(
-                "{:.0} % of the squared residual of the torque looks like {}, {:+.3e} in SI units",
+                "{:.0} % of the squared residual of the torque looks like {}, {}",
                 100.0 * cause.share_beyond(),
                 cause.kind.words(),
-                cause.value - cause.expected_value
+                size(cause, channels)
             ),
             cause_hint(cause.kind),
         ));
     }
+}
+
+/// How large a term is, beyond what the arm's own motion looks like, with its unit.
+fn size(cause: &Cause, channels: &Channels) -> String {
+    let value = cause.value - cause.expected_value;
+    if cause.kind == CauseKind::Delay {
+        return format!("{:+.3} ms", 1e3 * value);
+    }
+    let (torque, angle) = match (channels.command.torque_per_command, channels.axis) {
+        (None, _) => return format!("{value:+.3e} per unit of command"),
+        (Some(_), Axis::Rotary) => ("N·m", "rad"),
+        (Some(_), Axis::Linear) => ("N", "m"),
+    };
+    let unit = match (cause.kind, channels.axis) {
+        (CauseKind::Inertia, Axis::Rotary) => "kg·m²".to_owned(),
+        (CauseKind::Inertia, Axis::Linear) => "kg".to_owned(),
+        (CauseKind::Viscous | CauseKind::ViscousByDirection, _) => format!("{torque}·s/{angle}"),
+        (CauseKind::Position, _) => format!("{torque}/{angle}"),
+        _ => torque.to_owned(),
+    };
+    format!("{value:+.3e} {unit}")
 }
 
 fn cause_hint(kind: CauseKind) -> &'static str {
