@@ -22,6 +22,12 @@ pub fn validation_json(campaign: &Campaign, found: &FoundArm, v: &Validation) ->
         "motion": {
             "horizons": v.horizons.iter().map(|h| horizon(channels, h)).collect::<Vec<_>>(),
             "chosen": if v.horizons.is_empty() { None } else { Some(v.chosen) },
+            "moved_mode": v.moved_mode.map(|m| json!({
+                "mode": m.mode + 1,
+                "natural_frequency_rad_s": m.omega_rad_s,
+                "of_log_rad_s": m.of_log_rad_s,
+                "residual_ratio": m.residual_ratio,
+            })),
         },
         "residuals": v
             .residuals

@@ -4,6 +4,7 @@ mod cause;
 mod expected;
 mod kernel;
 mod motion;
+mod moved_mode;
 mod residual;
 mod torque;
 mod verdict;
@@ -11,6 +12,7 @@ mod zeros;
 
 pub use cause::{Cause, CauseKind};
 pub use motion::{Fit, Horizon, PredictedStretch};
+pub use moved_mode::MovedMode;
 pub use residual::ChannelResidual;
 pub(super) use torque::torque;
 pub use torque::{Stretch, TorquePrediction, TorqueRun};
@@ -24,6 +26,7 @@ use crate::record::{Campaign, Run};
 use crate::replay::{MOST_MODES, TURN_MOST};
 use expected::expected;
 use motion::{Followed, followed, lengths_s};
+use moved_mode::moved_mode;
 use residual::channel_residual;
 
 /// The residual is looked at over the longest time at which every channel still fits this well.
@@ -90,6 +93,8 @@ pub struct Validation {
     pub stretches: Vec<PredictedStretch>,
     /// What is left of each channel over that time, motor first, then tips.
     pub residuals: Vec<ChannelResidual>,
+    /// A mode that stands elsewhere in this log, where a tip's residual is beyond its sensor's noise.
+    pub moved_mode: Option<MovedMode>,
     /// What speaks against the figures.
     pub findings: Vec<Finding>,
 }
@@ -140,12 +145,18 @@ pub fn validate(
         return Err(ValidationError::NothingMoves);
     }
     let horizons: Vec<Horizon> = predicted.iter().map(|f| f.horizon.clone()).collect();
-    let stretches =
-        if predicted.is_empty() { Vec::new() } else { predicted.swap_remove(chosen).stretches };
+    let at = (!predicted.is_empty()).then(|| predicted.swap_remove(chosen));
+    let stretches = at.as_ref().map_or(&[][..], |at| &at.stretches);
     let channels = if stretches.is_empty() { 0..0 } else { 0..tips + 1 };
-    let residuals = channels.map(|c| channel_residual(campaign, &stretches, c)).collect();
+    let residuals: Vec<ChannelResidual> =
+        channels.map(|c| channel_residual(campaign, stretches, c)).collect();
+    let tip_departs = residuals.iter().skip(1).any(ChannelResidual::is_beyond_noise);
+    let moved_mode =
+        at.as_ref().filter(|_| tip_departs).and_then(|at| moved_mode(found, campaign, at));
+    let stretches = at.map_or_else(Vec::new, |at| at.stretches);
+    let findings = Vec::new();
     let mut validation =
-        Validation { torque, horizons, chosen, stretches, residuals, findings: Vec::new() };
+        Validation { torque, horizons, chosen, stretches, residuals, moved_mode, findings };
     validation.findings = verdict::findings(found, campaign, &validation);
     Ok(validation)
 }

@@ -15,6 +15,8 @@ const COLOUR: usize = 500;
 const COLOUR_SHARE: usize = 4;
 /// Two-sided 95 % quantile of the normal distribution.
 const NORMAL_95: f64 = 1.959_964;
+/// A residual of up to this many times the sensor's own noise is as good as that.
+const NOISE: f64 = 1.5;
 
 /// What is left of one channel, tested.
 ///
@@ -55,6 +57,11 @@ impl ChannelResidual {
     pub fn lags(&self) -> Vec<isize> {
         let half = (self.cross_correlation.len() / 2).cast_signed();
         (-half..=half).collect()
+    }
+
+    /// Whether more is left than the sensor makes by itself, by half.
+    pub fn is_beyond_noise(&self) -> bool {
+        self.rms >= NOISE * self.sensor_noise
     }
 
     /// Share of the cross-correlation's lags beyond its band.

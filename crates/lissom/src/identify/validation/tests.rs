@@ -202,8 +202,13 @@ fn torque_does_not_depend_on_the_load_behind_the_tip() {
     };
     let all = left(None);
     assert!(all.horizons[0].channels[1].fit_percent < 80.0, "{:?}", all.horizons[0]);
+    let moved = all.moved_mode.unwrap();
+    assert!((moved.of_log_rad_s / omega_rad_s - 1.0).abs() < 0.01, "{moved:?}");
+    assert!(moved.mode == 0 && moved.residual_ratio < 0.05, "{moved:?}");
+    assert!(all.findings.iter().any(|f| f.code == "mode-moved"), "{:?}", all.findings);
     let error = all.torque.unwrap().relative_error;
     let own = validate(&found(truth), &log, &ValidationOptions::default()).unwrap();
+    assert_eq!(own.moved_mode, None);
     let right = own.torque.unwrap().relative_error;
     assert!((error / right - 1.0).abs() < 0.05, "{error} beside {right}");
     for horizon_s in [0.1, 1.0, 5.0] {

@@ -27,8 +27,8 @@ const FOLLOWS: f64 = 0.2;
 const WHITE: f64 = 0.01;
 /// Relative difference of two windows under which figures still compare.
 const SAME_WINDOW: f64 = 0.2;
-/// A residual of up to this many times the sensor's own noise is as good as that.
-const NOISE: f64 = 1.5;
+/// A mode that stands elsewhere is named where it leaves this share of the squared residual.
+const MOVED: f64 = 0.81;
 /// Fit of whole runs below which the motion departs \[%\].
 const DEPARTS: f64 = 90.0;
 
@@ -48,6 +48,7 @@ pub(super) fn findings(
         None => findings.push(not_predicted(found, campaign)),
     }
     findings.extend(departure(validation));
+    findings.extend(beam(validation));
     residual_findings(campaign, validation, &mut findings);
     findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
     findings
@@ -197,13 +198,34 @@ fn departure(validation: &Validation) -> Option<Finding> {
     })
 }
 
+/// A beam that is not the one of the logs used.
+fn beam(validation: &Validation) -> Option<Finding> {
+    let moved = validation.moved_mode.filter(|m| m.residual_ratio < MOVED)?;
+    Some(Finding::new(
+        "mode-moved",
+        Warning,
+        &[MOTION],
+        format!(
+            "mode {} looks as if at {:.4} rad/s in place of {:.4} ({:+.2} %): with that {:.0} % of the squared residual of \
+             the motion is left",
+            moved.mode + 1,
+            moved.of_log_rad_s,
+            moved.omega_rad_s,
+            100.0 * (moved.of_log_rad_s / moved.omega_rad_s - 1.0),
+            100.0 * moved.residual_ratio
+        ),
+        "another load or a stiffer or softer beam than in the logs used: identify from logs of this arm, or see \
+         `lissom payload`",
+    ))
+}
+
 fn residual_findings(campaign: &Campaign, validation: &Validation, findings: &mut Vec<Finding>) {
     for (channel, r) in validation.residuals.iter().enumerate() {
         let name = match channel.checked_sub(1) {
             None => "motor",
             Some(tip) => campaign.channels.tips[tip].name.as_str(),
         };
-        if r.rms < NOISE * r.sensor_noise {
+        if !r.is_beyond_noise() {
             continue;
         }
         if r.outside() > FOLLOWS {

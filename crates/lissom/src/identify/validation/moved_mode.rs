@@ -1,0 +1,138 @@
+//! Whether a mode of the log stands elsewhere: one frequency is moved at a time, and what is left decides.
+
+use super::motion::{Followed, PredictedStretch, followed, logged};
+use crate::identify::found_arm::FoundArm;
+use crate::identify::output_error::{Masks, masks};
+use crate::record::Campaign;
+use crate::replay::ModalArm;
+
+/// Relative change of a frequency over which the motion's own change is taken.
+const PROBE: f64 = 1e-3;
+/// A frequency is moved by no more than this share at a time…
+const LARGEST_STEP: f64 = 0.1;
+/// …so many times…
+const STEPS: usize = 4;
+/// …or until less than this share of the squared residual goes by it.
+const STILL: f64 = 0.01;
+
+/// A mode at another frequency, with which the log's motion is described better.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MovedMode {
+    /// Which, from 0.
+    pub mode: usize,
+    /// Its frequency in the result \[rad/s\].
+    pub omega_rad_s: f64,
+    /// The one that the log looks like, the mode's stiffness as it is \[rad/s\].
+    pub of_log_rad_s: f64,
+    /// Squared residual of all channels beside that of the result's arm, each channel's in units of its own residual.
+    pub residual_ratio: f64,
+}
+
+/// The mode whose frequency, moved, explains most of what is left of the motion `at` that time; `None` where
+/// moving one takes nothing away.
+///
+/// Gauss-Newton on one frequency; initial states are found anew each time, and nothing is taken from the linear model
+/// but the next step: what is left is that of the arm so moved.
+pub(super) fn moved_mode(
+    found: &FoundArm,
+    campaign: &Campaign,
+    at: &Followed,
+) -> Option<MovedMode> {
+    let weights: Vec<f64> = at.horizon.channels.iter().map(|c| c.residual_rms.powi(-2)).collect();
+    if weights.iter().any(|w| !w.is_finite()) {
+        return None;
+    }
+    let search = Search { campaign, masks: masks(campaign), weights, at };
+    let moved = (0..found.arm.modes.len()).filter_map(|mode| search.moved(&found.arm, mode));
+    moved.min_by(|a, b| a.residual_ratio.total_cmp(&b.residual_ratio))
+}
+
+struct Search<'a> {
+    campaign: &'a Campaign,
+    masks: Vec<Masks>,
+    weights: Vec<f64>,
+    at: &'a Followed,
+}
+
+impl Search<'_> {
+    fn moved(&self, arm: &ModalArm, mode: usize) -> Option<MovedMode> {
+        let omega_rad_s = arm.modes[mode].omega_rad_s;
+        let with = |share: f64| {
+            let mut arm = arm.clone();
+            arm.modes[mode].omega_rad_s *= share;
+            followed(&arm, self.campaign, self.at.horizon.length_s, &self.at.windows)
+        };
+        let whole = self.left(&self.at.stretches, &self.at.stretches)?;
+        let (mut share, mut left) = (1.0, whole);
+        let mut stretches = self.at.stretches.clone();
+        for _ in 0..STEPS {
+            let probed = with(share * (1.0 + PROBE))?.stretches;
+            let Some(step) = self.step(&stretches, &probed) else { break };
+            let further = share * (1.0 + step.clamp(-LARGEST_STEP, LARGEST_STEP));
+            let Some(next) = with(further) else { break };
+            let Some(less) = self.left(&next.stretches, &self.at.stretches) else { break };
+            if less >= left {
+                break;
+            }
+            let still = left - less < STILL * whole;
+            (share, left, stretches) = (further, less, next.stretches);
+            if still {
+                break;
+            }
+        }
+        (share != 1.0).then_some(MovedMode {
+            mode,
+            omega_rad_s,
+            of_log_rad_s: share * omega_rad_s,
+            residual_ratio: left / whole,
+        })
+    }
+
+    /// Relative change of the frequency that the residual asks for.
+    fn step(&self, now: &[PredictedStretch], probed: &[PredictedStretch]) -> Option<f64> {
+        let (mut with_residual, mut squares) = (0.0, 0.0);
+        self.each(now, probed, |weight, y, now, probed| {
+            let slope = (probed - now) / PROBE;
+            with_residual += weight * (y - now) * slope;
+            squares += weight * slope * slope;
+        })?;
+        let step = with_residual / squares;
+        step.is_finite().then_some(step)
+    }
+
+    /// Squared residual, weighted, of the same stretches as `like`.
+    fn left(&self, stretches: &[PredictedStretch], like: &[PredictedStretch]) -> Option<f64> {
+        let mut sum = 0.0;
+        self.each(stretches, like, |weight, y, p, _| sum += weight * (y - p).powi(2))?;
+        sum.is_finite().then_some(sum)
+    }
+
+    /// Calls `add` with weight, reading and both predictions of every sample; `None` where these are not of the same
+    /// stretches.
+    fn each(
+        &self,
+        a: &[PredictedStretch],
+        b: &[PredictedStretch],
+        mut add: impl FnMut(f64, f64, f64, f64),
+    ) -> Option<()> {
+        let same = |(a, b): (&PredictedStretch, &PredictedStretch)| {
+            a.run == b.run && a.first == b.first && a.channels[0].len() == b.channels[0].len()
+        };
+        if a.len() != b.len() || !a.iter().zip(b).all(same) {
+            return None;
+        }
+        for (a, b) in a.iter().zip(b) {
+            for (channel, weight) in self.weights.iter().enumerate() {
+                let read = logged(self.campaign, a, channel);
+                let mask = self.masks[a.run][channel].as_ref();
+                let both = a.channels[channel].iter().zip(&b.channels[channel]);
+                for ((y, (p, q)), k) in read.iter().zip(both).zip(a.first..) {
+                    if mask.is_none_or(|m| m[k]) {
+                        add(*weight, *y, *p, *q);
+                    }
+                }
+            }
+        }
+        Some(())
+    }
+}
