@@ -83,14 +83,21 @@ fn motor(names: UnitNames, id: &Identified, reference: Option<&Reference>) -> Bo
     let unit = format!("{}/{}", names.angle(), names.command_unit());
     let title = format!("Motor: {} per {}", names.motion(), names.command_name());
     let raw: Vec<Complex64> = points.iter().map(|p| p.motor_raw.value).collect();
-    let mut plot = BodePlot::new(title, unit)
-        .subtitle("flagged: a finding speaks against the point; bars: one standard deviation")
-        .series(Series::new("as measured", Role::Raw, Style::Points, omega, raw));
+    let mut plot = BodePlot::new(title, unit).series(Series::new(
+        "as measured",
+        Role::Raw,
+        Style::Points,
+        omega,
+        raw,
+    ));
     let sound: Vec<(f64, Response, bool)> = points
         .iter()
         .filter_map(|p| Some((p.omega_rad_s, p.motor_corrected?, p.flagged)))
         .collect();
     if !sound.is_empty() {
+        let flagged = sound.iter().any(|p| p.2);
+        let told = if flagged { "flagged: a finding speaks against the point; " } else { "" };
+        plot = plot.subtitle(format!("{told}bars: one standard deviation"));
         let series = Series::new(
             "friction taken out",
             Role::Corrected,

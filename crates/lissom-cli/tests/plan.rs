@@ -87,6 +87,20 @@ fn a_plan_is_run_as_it_was_foreseen() {
         assert!(largest <= 1.000_001 * amplitude && largest > 0.8 * amplitude);
         assert!((log.iter().sum::<f64>() - samples).abs() < 2.0);
     }
+
+    // Logs of those tables, here the virtual drive's, are identified by the campaign.toml beside them.
+    for index in 1..=runs.len() {
+        let (log, place) = (format!("run-{index:02}.csv"), format!("tables/log-{index:02}.csv"));
+        fs::copy(at.join("virtual").join(log), at.join(place)).unwrap();
+    }
+    let own = lissom(at, &["identify", "tables/campaign.toml", "--quick", "--json"]);
+    assert!(own.status.success(), "{}", text(&own.stderr));
+    let found: Value = serde_json::from_slice(&own.stdout).unwrap();
+    assert!(found["friction"]["coulomb_nm"]["value"].is_number(), "{found}");
+    fs::write(at.join("tables/campaign.toml"), "# mine\n").unwrap();
+    let again = lissom(at, &["plan", "arm.toml", "--tables", "tables"]);
+    assert_eq!(again.status.code(), Some(1));
+    assert_eq!(fs::read_to_string(at.join("tables/campaign.toml")).unwrap(), "# mine\n");
 }
 
 #[test]

@@ -3,11 +3,12 @@
 mod args;
 mod json;
 mod table;
+mod tables;
 
 use std::path::Path;
 use std::process::ExitCode;
 
-use lissom::plan::{Plan, Wishes, plan, reference_table};
+use lissom::plan::{Plan, Wishes, plan};
 use lissom::rig::Rig;
 use lissom_io::ArmFile;
 use lissom_io::write::{self, Batch};
@@ -18,9 +19,6 @@ use crate::cli::STDOUT;
 use crate::failure::Failure;
 use crate::{output, print, progress};
 
-/// What a table of references begins with.
-const TABLE_HEAD: &str = "t,theta_ref,log";
-
 /// Done, but a wish cannot be met.
 const UNREACHED: u8 = 3;
 
@@ -29,6 +27,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let json_file = args.json.as_deref().filter(|_| !to_stdout);
     output::guard(json_file, None)?;
     guard(args.out.as_deref(), json_file)?;
+    args.tables.as_deref().map_or(Ok(()), tables::guard)?;
     let file = ArmFile::read(&args.arm)?;
     let rig = file.rig(&args.arm).map_err(lissom_io::Error::from)?;
     if !file.has_controller() {
@@ -38,7 +37,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let made = planned(&args.arm, &rig, &wishes)?;
     let value = json::plan(&wishes, &made);
     if let Some(folder) = &args.tables {
-        tables(folder, &rig, &made)?;
+        tables::write(folder, &rig, &made)?;
     }
     let mut batch = Batch::new();
     if let Some(path) = &args.out {
@@ -76,27 +75,4 @@ fn guard(out: Option<&Path>, json: Option<&Path>) -> Result<(), Failure> {
         return Err(Failure::SameOutput { file: out.to_owned() });
     }
     output::guard_headed(out, write::PLAN_HEAD)
-}
-
-/// A table of reference angles for each run.
-fn tables(folder: &Path, rig: &Rig, made: &Plan) -> Result<(), Failure> {
-    write::create_folder(folder)?;
-    // Those of an earlier plan with more runs would be taken for this one's.
-    for left in (made.runs.len()..).map(|index| folder.join(table_name(index))) {
-        if !left.is_file() || output::guard_headed(&left, TABLE_HEAD).is_err() {
-            break;
-        }
-        write::remove(&left)?;
-    }
-    for (index, run) in made.runs.iter().enumerate() {
-        let table = reference_table(run, rig.instruments.control_time_s())?;
-        let columns: [(&str, &[f64]); 3] =
-            [("t", &table.time_s), ("theta_ref", &table.reference_rad), ("log", &table.log)];
-        write::write_csv(&folder.join(table_name(index)), &columns)?;
-    }
-    Ok(())
-}
-
-fn table_name(index: usize) -> String {
-    format!("run-{:02}.csv", index + 1)
 }

@@ -159,13 +159,27 @@ fn tip_column(mass: usize) -> String {
 }
 
 fn campaign_plan(rig: &Rig, plan: &PlanFile) -> CampaignPlan {
+    let title = if plan.title.is_empty() { "A virtual campaign." } else { &plan.title };
+    let runs = plan
+        .runs
+        .iter()
+        .map(|run| PlannedRun { file: format!("{}.csv", run.name), omega_rad_s: run.omega_rad_s });
+    described(rig, title.to_owned(), Some("arm.toml".to_owned()), runs.collect())
+}
+
+/// A campaign of this rig's drive and sensors.
+pub(crate) fn described(
+    rig: &Rig,
+    title: String,
+    arm: Option<String>,
+    runs: Vec<PlannedRun>,
+) -> CampaignPlan {
     let instruments = &rig.instruments;
     // The current stands between two rows where the controller acts at rows alone.
     let held = instruments.control_every.is_multiple_of(instruments.log_every);
     let masses = rig.arm.beam().len();
-    let title = if plan.title.is_empty() { "A virtual campaign." } else { &plan.title };
     CampaignPlan {
-        title: title.to_owned(),
+        title,
         time_column: "t".to_owned(),
         command: PlannedCommand {
             column: "i".to_owned(),
@@ -177,15 +191,8 @@ fn campaign_plan(rig: &Rig, plan: &PlanFile) -> CampaignPlan {
             .collect(),
         torque_constant_nm_per_a: Some(rig.arm.motor.torque_constant_nm_per_a),
         current_limit_a: instruments.amplifier.limit_a(),
-        arm: Some("arm.toml".to_owned()),
-        runs: plan
-            .runs
-            .iter()
-            .map(|run| PlannedRun {
-                file: format!("{}.csv", run.name),
-                omega_rad_s: run.omega_rad_s,
-            })
-            .collect(),
+        arm,
+        runs,
     }
 }
 
