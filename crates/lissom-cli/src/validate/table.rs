@@ -112,6 +112,7 @@ fn used(used: TorqueUsed) -> String {
 fn size(names: UnitNames, cause: &Cause) -> String {
     let unit = match cause.kind {
         CauseKind::Delay => return format!("{:+.3} ms", 1e3 * cause.value),
+        CauseKind::Coupling => return format!("{:+.2} %", 100.0 * cause.value),
         CauseKind::Inertia => names.inertia_unit(),
         CauseKind::Viscous | CauseKind::ViscousByDirection => names.viscous_unit(),
         CauseKind::Position => names.coupling_unit(),

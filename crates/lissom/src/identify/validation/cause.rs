@@ -22,10 +22,12 @@ pub enum CauseKind {
     Position,
     /// Friction that changes towards rest.
     NearRest,
+    /// The torque between motor and beam, in proportion.
+    Coupling,
 }
 
 /// All, in the order of a row's terms.
-const KINDS: [CauseKind; 8] = [
+const KINDS: [CauseKind; 9] = [
     CauseKind::Delay,
     CauseKind::Inertia,
     CauseKind::Viscous,
@@ -34,6 +36,7 @@ const KINDS: [CauseKind; 8] = [
     CauseKind::Offset,
     CauseKind::Position,
     CauseKind::NearRest,
+    CauseKind::Coupling,
 ];
 
 /// One term beside the residual.
@@ -41,8 +44,8 @@ const KINDS: [CauseKind; 8] = [
 pub struct Cause {
     /// Which.
     pub kind: CauseKind,
-    /// Its coefficient: delay \[s\], inertia \[kg·m²\], viscous friction \[N·m·s/rad\], torque \[N·m\] or
-    /// torque per angle \[N·m/rad\], to be added to the figure.
+    /// Its coefficient: delay \[s\], inertia \[kg·m²\], viscous friction \[N·m·s/rad\], torque \[N·m\],
+    /// torque per angle \[N·m/rad\], to be added to the figure; of coupling the share of it to be added.
     pub value: f64,
     /// Share of the squared residual that it takes away by itself.
     pub share: f64,
@@ -73,6 +76,7 @@ impl CauseKind {
             Self::Offset => "offset",
             Self::Position => "position",
             Self::NearRest => "near-rest",
+            Self::Coupling => "coupling",
         }
     }
 
@@ -87,6 +91,7 @@ impl CauseKind {
             Self::Offset => "a constant torque",
             Self::Position => "a torque that grows with position",
             Self::NearRest => "friction that changes towards rest",
+            Self::Coupling => "a beam that pushes back otherwise",
         }
     }
 }
@@ -119,13 +124,13 @@ impl Causes {
         }
     }
 
-    /// Adds a row: its residual, the rate of the logged torque, acceleration and velocity.
+    /// Adds a row: its residual, the rate of the logged torque, acceleration, velocity and the torque between motor and beam.
     pub(super) fn add(
         &mut self,
         residual: f64,
         kernel: &Kernel,
         k: usize,
-        [by_delay, acceleration, velocity]: [f64; 3],
+        [by_delay, acceleration, velocity, coupling]: [f64; 4],
         sign: &dyn Fn(usize) -> f64,
     ) {
         let near_rest = |i: usize| sign(i) * self.slowness[i];
@@ -138,6 +143,7 @@ impl Causes {
             1.0,
             kernel.mean(k, |i| self.position[i]),
             kernel.mean(k, near_rest),
+            coupling,
         ];
         for (i, term) in terms.into_iter().enumerate() {
             self.with_residual[i] += residual * term;

@@ -167,22 +167,35 @@ fn torque_takes_a_late_tip_as_late() {
     }
 }
 
-/// The load at the tip is another one, and the tip shows another angle undeflected: the motor's equation is the
-/// same, and its torque is predicted as well over any time of the motion.
-#[test]
-fn torque_does_not_depend_on_the_load_behind_the_tip() {
+fn flexible() -> ModalArm {
     let mode = Oscillator {
         omega_rad_s: 9.0,
         stiffness_nm_per_rad: 1.2,
         within_per_s: 0.1,
         grounded_per_s: 0.2,
     };
-    let arm = ModalArm {
-        modes: vec![mode],
-        shapes: vec![vec![1.0]],
-        at_points_per_s: vec![0.0],
-        ..rigid()
-    };
+    ModalArm { modes: vec![mode], shapes: vec![vec![1.0]], at_points_per_s: vec![0.0], ..rigid() }
+}
+
+#[test]
+fn a_softer_beam_is_named() {
+    let mut truth = flexible();
+    let soft = 0.9_f64;
+    truth.modes[0].stiffness_nm_per_rad *= soft;
+    truth.modes[0].omega_rad_s *= soft.sqrt();
+    let v = by_options(&flexible(), &truth);
+    let cause = v.torque.as_ref().unwrap().causes[0];
+    assert_eq!(cause.kind, CauseKind::Coupling, "{:?}", v.torque.unwrap().causes);
+    assert!((cause.value - (soft - 1.0)).abs() < 0.02, "{cause:?}");
+    assert!(v.findings.iter().any(|f| f.code == "residual-torque"), "{:?}", v.findings);
+}
+
+/// The load at the tip is another one, and the tip shows another angle undeflected: the motor's equation is the
+/// same, and its torque is predicted as well over any time of the motion.
+#[test]
+fn torque_does_not_depend_on_the_load_behind_the_tip() {
+    let arm = flexible();
+    let mode = arm.modes[0];
     let omega_rad_s = 9.0 / 1.5_f64.sqrt();
     let loaded = Oscillator {
         omega_rad_s,

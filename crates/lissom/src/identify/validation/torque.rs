@@ -294,11 +294,12 @@ impl Predictor<'_> {
                 };
                 let velocity = kernel.rate(k, |i| run.motor()[i]);
                 let acceleration = kernel.acceleration(k, |i| run.motor()[i]);
+                let coupling = self.coupling_torque(index, &kernel, k);
                 let predicted = self.arm.inertia_kg_m2 * acceleration
                     + mean * velocity
                     + kernel.mean(k, bent)
                     + self.arm.offset_nm
-                    + self.coupling_torque(index, &kernel, k);
+                    + coupling;
                 let resting = |i: usize| if speed.moves(i) { 0.0 } else { 1.0 };
                 let row = Row {
                     time_s: (k as f64 + 0.5 * n as f64) * t,
@@ -316,7 +317,7 @@ impl Predictor<'_> {
                         row.residual(),
                         &kernel,
                         k,
-                        [by_delay, acceleration, velocity],
+                        [by_delay, acceleration, velocity, coupling],
                         &sign,
                     );
                 }

@@ -146,6 +146,9 @@ fn size(cause: &Cause, channels: &Channels) -> String {
     if cause.kind == CauseKind::Delay {
         return format!("{:+.3} ms", 1e3 * value);
     }
+    if cause.kind == CauseKind::Coupling {
+        return format!("{:+.2} %", 100.0 * value);
+    }
     let (torque, angle) = match (channels.command.torque_per_command, channels.axis) {
         (None, _) => return format!("{value:+.3e} per unit of command"),
         (Some(_), Axis::Rotary) => ("N·m", "rad"),
@@ -172,6 +175,9 @@ fn cause_hint(kind: CauseKind) -> &'static str {
             "friction changes with warmth, load and place; a constant torque is a load or an offset"
         }
         CauseKind::Position => "gravity, a spring, or a wrongly scaled tip",
+        CauseKind::Coupling => {
+            "a stiffer or softer beam than in the logs used, or a tip of another scale"
+        }
         CauseKind::NearRest => "Stribeck friction or presliding: the law has no such term",
     }
 }
