@@ -7,7 +7,7 @@ const DEVIATIONS: f64 = 4.0;
 /// …and leaves at most this share of the residual: a term that chance makes significant leaves
 /// nearly all of it…
 const RESIDUAL: f64 = 0.9;
-/// …or stands this many deviations from zero…
+/// …or, known without noise, stands this many deviations from zero…
 const SURE: f64 = 10.0;
 /// …and takes so many of a figure's own deviations with it.
 const MOVES: f64 = 3.0;
@@ -42,6 +42,14 @@ impl MissingKind {
         Self::CoulombDrift,
         Self::ViscousDrift,
     ];
+    /// Whether its column hardly has noise of the sensors in it, which others of the equation then make up for.
+    fn is_exact(self) -> bool {
+        match self {
+            Self::Delay | Self::Stribeck | Self::BeamDamping => false,
+            Self::Position | Self::CommandBySign | Self::CoulombDrift | Self::ViscousDrift => true,
+        }
+    }
+
     /// How many columns they need.
     pub(super) const COLUMNS: usize = Self::ALL.len();
 }
@@ -90,7 +98,7 @@ pub(super) fn missing_term(
         let shows = solution.relative_residual < RESIDUAL * without.relative_residual;
         let called_for = !solution.inseparable[last]
             && value.abs() > DEVIATIONS * std
-            && (shows || moves && value.abs() > SURE * std);
+            && (shows || kind.is_exact() && moves && value.abs() > SURE * std);
         called_for.then(|| MissingTerm {
             kind,
             value: match kind {
