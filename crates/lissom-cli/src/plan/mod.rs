@@ -27,7 +27,6 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let json_file = args.json.as_deref().filter(|_| !to_stdout);
     output::guard(json_file, None)?;
     guard(args.out.as_deref(), json_file)?;
-    args.tables.as_deref().map_or(Ok(()), tables::guard)?;
     let file = ArmFile::read(&args.arm)?;
     let rig = file.rig(&args.arm).map_err(lissom_io::Error::from)?;
     if !file.has_controller() {

@@ -7,20 +7,12 @@ use lissom::rig::Rig;
 use lissom_io::write::{self, CampaignPlan, PlannedRun};
 
 use crate::failure::Failure;
-use crate::output;
 use crate::rig::described;
+use crate::{output, print};
 
 /// What a table of references begins with.
 const TABLE_HEAD: &str = "t,theta_ref,log";
-/// What the campaign begins with.
-const CAMPAIGN_HEAD: &str = "For the logs of a plan:";
-
-/// Refuses to write over a campaign.toml that is of no earlier plan.
-pub(super) fn guard(folder: &Path) -> Result<(), Failure> {
-    output::guard_headed(&folder.join("campaign.toml"), &format!("# {CAMPAIGN_HEAD}"))
-}
-
-/// A table of reference angles for each run, and a campaign.toml for the logs that come of them.
+/// A table of reference angles for each run, and a campaign.toml for the logs that come of them where there is none.
 pub(super) fn write(folder: &Path, rig: &Rig, made: &Plan) -> Result<(), Failure> {
     write::create_folder(folder)?;
     // Those of an earlier plan with more runs would be taken for this one's.
@@ -36,13 +28,23 @@ pub(super) fn write(folder: &Path, rig: &Rig, made: &Plan) -> Result<(), Failure
             [("t", &table.time_s), ("theta_ref", &table.reference_rad), ("log", &table.log)];
         write::write_csv(&folder.join(table_name(index)), &columns)?;
     }
-    write::write_campaign(&folder.join("campaign.toml"), &campaign(rig, made))?;
+    let place = folder.join("campaign.toml");
+    if place.exists() {
+        // Columns and units may be those of the drive by now.
+        print::note(&format!(
+            "{} is left as it is; runs planned: {}",
+            place.display(),
+            made.runs.len()
+        ));
+        return Ok(());
+    }
+    write::write_campaign(&place, &campaign(rig, made))?;
     Ok(())
 }
 
 fn campaign(rig: &Rig, made: &Plan) -> CampaignPlan {
     let title = format!(
-        "{CAMPAIGN_HEAD} log-01.csv is what the drive logs while the column `log` of {} is 1, and so on.\n\
+        "For the logs of a plan: log-01.csv is what the drive logs while the column `log` of {} is 1, and so on.\n\
          Columns, units and hold are a virtual drive's: write those of yours (docs/campaign.md).",
         table_name(0)
     );

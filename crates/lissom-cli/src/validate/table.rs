@@ -26,7 +26,12 @@ pub(super) fn validation(
         ArmSource::OutputError => "output error",
         ArmSource::Regression => "regression",
     };
-    print::line(&format!("arm of the result: by {source}, {} modes", found.arm.modes.len()));
+    let modes = match found.arm.modes.len() {
+        0 => "rigid".to_owned(),
+        1 => "1 mode".to_owned(),
+        n => format!("{n} modes"),
+    };
+    print::line(&format!("arm of the result: by {source}, {modes}"));
     if let Some(t) = &validation.torque {
         torque(names, campaign, found, t);
     }

@@ -3,7 +3,7 @@
 //! Its schema is `docs/validate.schema.json`.
 
 use lissom::identify::{
-    Cause, ChannelResidual, Fit, FoundArm, Horizon, Stretch, TorquePrediction, Validation,
+    Cause, ChannelResidual, Fit, FoundArm, Horizon, MovedBy, Stretch, TorquePrediction, Validation,
 };
 use lissom::record::{Axis, Campaign, Channels, TipQuantity};
 use serde_json::{Map, Value, json};
@@ -24,6 +24,10 @@ pub fn validation_json(campaign: &Campaign, found: &FoundArm, v: &Validation) ->
             "chosen": if v.horizons.is_empty() { None } else { Some(v.chosen) },
             "moved_mode": v.moved_mode.map(|m| json!({
                 "mode": m.mode + 1,
+                "by": match m.by {
+                    MovedBy::Load => "load",
+                    MovedBy::Stiffness => "stiffness",
+                },
                 "natural_frequency_rad_s": m.omega_rad_s,
                 "of_log_rad_s": m.of_log_rad_s,
                 "residual_ratio": m.residual_ratio,

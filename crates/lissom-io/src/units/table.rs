@@ -100,14 +100,22 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
     PLAIN.iter().chain(PREFIXED).map(|(name, ..)| *name)
 }
 
-/// The unit, with its prefix, that is called `wanted` but for upper and lower case: `mA` for "ma".
+/// The unit, with its prefix, that is called `wanted` but for upper and lower case: `mA` for "ma". The one with the
+/// fewest letters changed; `M`, which is `m` but for its case, counts as two more.
 pub(super) fn of_other_case(wanted: &str) -> Option<String> {
-    let name = PREFIXED.iter().map(|(name, ..)| with_prefix(wanted, name));
-    PLAIN
-        .iter()
-        .map(|(name, ..)| (*name).to_owned())
-        .chain(name)
-        .find(|name| name.eq_ignore_ascii_case(wanted))
+    let prefixed = PREFIXED.iter().flat_map(|(name, ..)| {
+        PREFIXES.iter().map(move |(prefix, _)| (*prefix, format!("{prefix}{name}")))
+    });
+    let cost = |(prefix, name): &(&str, String)| {
+        let changed = name.chars().zip(wanted.chars()).filter(|(a, b)| a != b).count();
+        changed + if *prefix == "M" { 2 } else { 0 }
+    };
+    names()
+        .map(|name| ("", name.to_owned()))
+        .chain(prefixed)
+        .filter(|(_, name)| name.eq_ignore_ascii_case(wanted))
+        .min_by_key(cost)
+        .map(|(_, name)| name)
 }
 
 /// `found`, or with the prefix that `wanted` has but for upper and lower case: `GPa` for "Gpa".

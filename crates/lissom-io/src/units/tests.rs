@@ -100,6 +100,11 @@ fn errors_say_what_was_found_and_wanted() {
         "\"70 Gpa\": there is no unit `Gpa`",
         Some("did you mean `GPa`?"),
     );
+    for (wanted, meant) in [("NM", "Nm"), ("MM", "mm"), ("KG", "kg"), ("HZ", "Hz"), ("GPA", "GPa")]
+    {
+        let error = parse_quantity(&format!("7 {wanted}"), Dimension::NUMBER).unwrap_err();
+        assert_eq!(error.hint().unwrap(), format!("did you mean `{meant}`?"));
+    }
     fails(
         "7 ma",
         Dimension::CURRENT,

@@ -98,10 +98,10 @@ fn steepest(samples: &[f64], quantum: f64) -> f64 {
     }
 }
 
-/// Second differences of a channel, and what all but a twentieth of them stay below.
+/// Second differences of a channel, and what all but a twentieth of those that are not zero stay below.
 fn bends(samples: &[f64]) -> Option<(Vec<f64>, f64)> {
     let bend: Vec<f64> = samples.windows(3).map(|w| w[0] - 2.0 * w[1] + w[2]).collect();
-    let mut sizes: Vec<f64> = bend.iter().map(|b| b.abs()).collect();
+    let mut sizes: Vec<f64> = bend.iter().map(|b| b.abs()).filter(|b| *b > 0.0).collect();
     sizes.sort_by(f64::total_cmp);
     let usual = *sizes.get(sizes.len() * 19 / 20)?;
     Some((bend, usual))
@@ -116,9 +116,9 @@ fn bends(samples: &[f64]) -> Option<(Vec<f64>, f64)> {
 pub(crate) fn spikes(samples: &[f64]) -> Vec<usize> {
     let Some((bend, usual)) = bends(samples) else { return Vec::new() };
     let least = (SPIKE * usual).max(SPIKE * step(samples));
+    let halved = |side: f64, middle: f64| (side / middle + 0.5).abs() < LONE;
     let alone = |(k, w): (usize, &[f64])| {
-        let sides = [w[0] / w[1], w[2] / w[1]];
-        let spike = w[1].abs() > least && sides.iter().all(|s| (s + 0.5).abs() < LONE);
+        let spike = w[1].abs() > least && halved(w[0], w[1]) && halved(w[2], w[1]);
         // The middle of three second differences is that of the sample two on.
         spike.then_some(k + 2)
     };
@@ -126,16 +126,23 @@ pub(crate) fn spikes(samples: &[f64]) -> Vec<usize> {
     if bend.len() < FEW {
         return found;
     }
+    let last = bend.len() - 1;
     let near_one = |k: usize| found.iter().any(|s| (k + 1).abs_diff(*s) <= 1);
-    let inner = 1..bend.len() - 1;
-    let most = inner.filter(|k| !near_one(*k)).map(|k| bend[k].abs()).fold(least, f64::max);
-    let [first, last] = [bend[0], bend[bend.len() - 1]].map(|b| b.abs() > 2.0 * most);
-    if first {
-        found.insert(0, 0);
-    }
-    if last {
-        found.push(samples.len() - 1);
-    }
+    let inner = (2..last - 1).filter(|k| !near_one(*k));
+    let most = 2.0 * inner.map(|k| bend[k].abs()).fold(0.5 * least, f64::max);
+    // Bends from an end inwards: one of the reading at the end, −2 and 1 of the one beside it.
+    let at_end = |[outer, inner]: [f64; 2]| {
+        let large = outer.abs() > most;
+        match (large && halved(inner, outer), large && inner.abs() < LONE * outer.abs()) {
+            (true, _) => Some(1),
+            (_, true) => Some(0),
+            _ => None,
+        }
+    };
+    let first = at_end([bend[0], bend[1]]);
+    let end = at_end([bend[last], bend[last - 1]]).map(|k| samples.len() - 1 - k);
+    found.splice(0..0, first);
+    found.extend(end);
     found
 }
 
@@ -161,26 +168,29 @@ pub(crate) fn jumps(samples: &[f64]) -> Vec<(usize, f64)> {
 const FROZEN: usize = 50;
 /// Frozen is what stands for so many times longer than it does elsewhere…
 const LONGER: f64 = 10.0;
-/// …while another sensor of the arm travels by this share of its range.
+/// …while the motor moves on by this share of its range.
 const TRAVELS: f64 = 0.2;
 
-/// The stretch over which a channel takes one value while `other` moves on: far longer than it stands anywhere else.
-pub(crate) fn frozen(samples: &[f64], other: &[f64]) -> Option<std::ops::Range<usize>> {
+/// The stretch over which a tip's angle takes one value while the `motor` moves on: far longer than it stands anywhere
+/// else.
+///
+/// The other way round it says nothing: a tip rings on while friction holds the motor.
+pub(crate) fn frozen(tip: &[f64], motor: &[f64]) -> Option<std::ops::Range<usize>> {
     let mut plateaus = Vec::new();
     let mut from = 0;
-    for k in 1..=samples.len() {
-        if k == samples.len() || samples[k] != samples[from] {
+    for k in 1..=tip.len() {
+        if k == tip.len() || tip[k] != tip[from] {
             plateaus.push(from..k);
             from = k;
         }
     }
     let longest = plateaus.iter().max_by_key(|p| p.len())?.clone();
     let second = plateaus.iter().filter(|p| **p != longest).map(|p| p.len()).max()?;
-    let travel: f64 = other[longest.clone()].windows(2).map(|w| (w[1] - w[0]).abs()).sum();
+    let travel = range(&motor[longest.clone()]);
     let frozen = longest.len() >= FROZEN
         && longest.len() as f64 > LONGER * second as f64
-        && travel > TRAVELS * range(other)
-        && range(&other[longest.clone()]) > STEPS * step(other);
+        && travel > TRAVELS * range(motor)
+        && travel > STEPS * step(motor);
     frozen.then_some(longest)
 }
 
@@ -254,9 +264,10 @@ mod tests {
     #[test]
     fn the_first_and_the_last_reading_may_be_spikes() {
         assert!(spikes(&sine(2.0)).is_empty());
-        for at in [0, 3999] {
+        for (at, by) in [0, 1, 2, 3997, 3998, 3999].into_iter().flat_map(|k| [(k, 0.3), (k, -0.3)])
+        {
             let mut x = sine(2.0);
-            x[at] += 0.3;
+            x[at] += by;
             assert_eq!(spikes(&x), [at]);
             // Beside a larger one.
             x[2000] -= 0.7;
@@ -282,6 +293,9 @@ mod tests {
         let mut spiked = sine(2.0);
         spiked[700] += 0.3;
         assert!(jumps(&spiked).is_empty());
+        // A camera's readings, each held for 50 samples.
+        let held: Vec<f64> = (0..4000).map(|k| (0.02 * f64::from(k / 50 * 50)).sin()).collect();
+        assert!(jumps(&held).is_empty() && spikes(&held).is_empty());
     }
 
     #[test]
@@ -294,9 +308,12 @@ mod tests {
         rests.0.extend(vec![0.3; 2000]);
         rests.1.extend(vec![0.3; 2000]);
         assert_eq!(frozen(&rests.1, &rests.0), None);
+        // It rings on while friction holds the motor.
+        let mut held = motor.clone();
+        held[2000..].fill(motor[2000]);
+        assert_eq!(frozen(&tip, &held), None);
         tip[1500..2500].fill(0.123);
         assert_eq!(frozen(&tip, &motor), Some(1500..2500));
-        assert_eq!(frozen(&motor, &tip), None);
     }
 
     #[test]

@@ -69,6 +69,6 @@ pub use run_analysis::{RunAnalysis, RunKind, Sinusoidal};
 pub use separability::{Carried, Direction, FigureKnown, Part, RunShare, RunToAdd, Separability};
 pub use third_harmonic::{PairFigure, RunPhasors, mean_figure, pair_figure};
 pub use validation::{
-    Cause, CauseKind, ChannelResidual, Fit, Horizon, MovedMode, PredictedStretch, Stretch,
+    Cause, CauseKind, ChannelResidual, Fit, Horizon, MovedBy, MovedMode, PredictedStretch, Stretch,
     TorquePrediction, TorqueRun, Validation, ValidationError, ValidationOptions, validate,
 };

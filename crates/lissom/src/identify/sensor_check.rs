@@ -10,18 +10,25 @@ const CLIPPED: f64 = 0.002;
 const WHOLE: f64 = 0.02;
 
 pub(super) fn findings(campaign: &Campaign, run: &Run) -> Vec<Finding> {
-    let tips = campaign.channels.tips.iter().zip(run.tips());
-    let tips = tips.map(|(tip, x)| (tip.name.as_str(), x.as_slice(), tip.quantity));
-    let sensors = [("motor", run.motor(), TipQuantity::Angle)].into_iter().chain(tips);
-    let each = sensors.flat_map(|(name, x, quantity)| {
+    let mut found = Vec::new();
+    found.extend(clipped("motor", run.motor()));
+    found.extend(alone_or_jumping("motor", run.motor(), run));
+    for (tip, x) in campaign.channels.tips.iter().zip(run.tips()) {
+        found.extend(clipped(&tip.name, x));
         // Knocks are in accelerations as they are.
-        let moves = quantity != TipQuantity::Acceleration;
-        let moving = |check: fn(&str, &[f64], &Run) -> Option<Finding>| {
-            moves.then(|| check(name, x, run)).flatten()
-        };
-        [clipped(name, x), moving(spiked), moving(jumping), stands_still(name, x, run)]
-    });
-    each.flatten().map(|finding| finding.of(run.name())).collect()
+        if tip.quantity != TipQuantity::Acceleration {
+            found.extend(alone_or_jumping(&tip.name, x, run));
+        }
+        // At a constant velocity a deflection stands still.
+        if tip.quantity == TipQuantity::Angle {
+            found.extend(stands_still(&tip.name, x, run));
+        }
+    }
+    found.into_iter().map(|finding| finding.of(run.name())).collect()
+}
+
+fn alone_or_jumping(name: &str, x: &[f64], run: &Run) -> impl Iterator<Item = Finding> {
+    [spiked(name, x, run), jumping(name, x, run)].into_iter().flatten()
 }
 
 const EVERYTHING: [&str; 6] =
@@ -61,21 +68,15 @@ fn jumping(name: &str, x: &[f64], run: &Run) -> Option<Finding> {
     ))
 }
 
-/// The motor beside the tip that moves most, a tip beside the motor.
-fn stands_still(name: &str, x: &[f64], run: &Run) -> Option<Finding> {
-    let others = || run.tips().iter().map(Vec::as_slice);
-    let still = if std::ptr::eq(x, run.motor()) {
-        others().find_map(|tip| frozen(x, tip))
-    } else {
-        frozen(x, run.motor())
-    }?;
+fn stands_still(tip: &str, x: &[f64], run: &Run) -> Option<Finding> {
+    let still = frozen(x, run.motor())?;
     let t = run.sample_time_s();
     Some(Finding::new(
         "frozen-channel",
         Severity::Warning,
         &EVERYTHING,
         format!(
-            "channel {name} reads {:.4} from {:.4} s to {:.4} s after the run's first sample while the arm moves on: \
+            "channel {tip} reads {:.4} from {:.4} s to {:.4} s after the run's first sample while the motor moves on: \
              frozen. No figure of this run is what it would be without",
             x[still.start],
             still.start as f64 * t,

@@ -12,6 +12,9 @@ const SURE: f64 = 10.0;
 /// …and takes so many of a figure's own deviations with it.
 const MOVES: f64 = 3.0;
 
+/// Correlation with the torque from which on its magnitude is the torque itself, of one sign.
+const ONE_SIGN: f64 = 0.5;
+
 /// What the equation may lack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MissingKind {
@@ -45,8 +48,8 @@ impl MissingKind {
     /// Whether its column hardly has noise of the sensors in it, which others of the equation then make up for.
     fn is_exact(self) -> bool {
         match self {
-            Self::Delay | Self::Stribeck | Self::BeamDamping => false,
-            Self::Position | Self::CommandBySign | Self::CoulombDrift | Self::ViscousDrift => true,
+            Self::Delay | Self::Stribeck | Self::BeamDamping | Self::ViscousDrift => false,
+            Self::Position | Self::CommandBySign | Self::CoulombDrift => true,
         }
     }
 
@@ -80,7 +83,11 @@ pub(super) fn missing_term(
     tips: usize,
 ) -> Option<MissingTerm> {
     let kinds = MissingKind::ALL.into_iter().enumerate();
-    let kinds = kinds.filter(|(_, kind)| *kind != MissingKind::BeamDamping || tips > 0);
+    let kinds = kinds.filter(|(i, kind)| match kind {
+        MissingKind::BeamDamping => tips > 0,
+        MissingKind::CommandBySign => follows_torque(clusters, first + i).abs() < ONE_SIGN,
+        _ => true,
+    });
     let tried = kinds.filter_map(|(i, kind)| {
         let mut with = terms.to_vec();
         with.push(match kind {
@@ -112,4 +119,11 @@ pub(super) fn missing_term(
         })
     });
     tried.min_by(|a, b| a.residual_ratio.total_cmp(&b.residual_ratio))
+}
+
+/// Correlation of a column with the right side, both about zero.
+fn follows_torque(clusters: &[Cluster], column: usize) -> f64 {
+    let sum = |i: usize, j: usize| clusters.iter().map(|c| c.products[(i, j)]).sum::<f64>();
+    let right = clusters.first().map_or(0, |c| c.products.ncols() - 1);
+    sum(column, right) / (sum(column, column) * sum(right, right)).sqrt().max(f64::MIN_POSITIVE)
 }

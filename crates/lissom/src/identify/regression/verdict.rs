@@ -64,10 +64,10 @@ pub(crate) fn findings(id: &mut Identified) {
             Severity::Warning,
             &everything,
             format!(
-                "it looks as if {what}: with that the residual falls to {:.0} % of itself \
-                 ({:.0} deviations); the figures take it up and are off by more than they say",
-                100.0 * m.residual_ratio,
-                m.deviations
+                "it looks as if {what} ({:.0} deviations; the residual falls to {:.1} % of itself): the figures take it up \
+                 and are off by more than they say",
+                m.deviations,
+                100.0 * m.residual_ratio
             ),
             hint,
         ));

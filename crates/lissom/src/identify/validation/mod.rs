@@ -12,7 +12,7 @@ mod zeros;
 
 pub use cause::{Cause, CauseKind};
 pub use motion::{Fit, Horizon, PredictedStretch};
-pub use moved_mode::MovedMode;
+pub use moved_mode::{MovedBy, MovedMode};
 pub use residual::ChannelResidual;
 pub(super) use torque::torque;
 pub use torque::{Stretch, TorquePrediction, TorqueRun};
@@ -93,7 +93,8 @@ pub struct Validation {
     pub stretches: Vec<PredictedStretch>,
     /// What is left of each channel over that time, motor first, then tips.
     pub residuals: Vec<ChannelResidual>,
-    /// A mode that stands elsewhere in this log, where a tip's residual is beyond its sensor's noise.
+    /// A mode that stands elsewhere in this log, where a tip's residual is beyond its sensor's noise and that explains half
+    /// of its square or more.
     pub moved_mode: Option<MovedMode>,
     /// What speaks against the figures.
     pub findings: Vec<Finding>,

@@ -15,21 +15,37 @@ const STEPS: usize = 4;
 /// …or until less than this share of the squared residual goes by it.
 const STILL: f64 = 0.01;
 
-/// A mode at another frequency, with which the log's motion is described better.
+/// A mode is moved where this share of the squared residual is left, or less…
+const LEAST_GAIN: f64 = 0.5;
+/// …by more than this share of its frequency: less is what other figures that are off look like, too.
+const LEAST_MOVE: f64 = 3e-3;
+
+/// What else changes with a mode's frequency.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MovedBy {
+    /// Nothing: another load, the mode's stiffness as it is.
+    Load,
+    /// The mode's stiffness, with its square: a stiffer or softer beam.
+    Stiffness,
+}
+
+/// A mode at another frequency, with which the log's motion is described far better.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MovedMode {
     /// Which, from 0.
     pub mode: usize,
+    /// Whether by another load or by another beam.
+    pub by: MovedBy,
     /// Its frequency in the result \[rad/s\].
     pub omega_rad_s: f64,
-    /// The one that the log looks like, the mode's stiffness as it is \[rad/s\].
+    /// The one that the log looks like \[rad/s\].
     pub of_log_rad_s: f64,
     /// Squared residual of all channels beside that of the result's arm, each channel's in units of its own residual.
     pub residual_ratio: f64,
 }
 
 /// The mode whose frequency, moved, explains most of what is left of the motion `at` that time; `None` where
-/// moving one takes nothing away.
+/// moving one leaves more than half of the squared residual.
 ///
 /// Gauss-Newton on one frequency; initial states are found anew each time, and nothing is taken from the linear model
 /// but the next step: what is left is that of the arm so moved.
@@ -43,8 +59,14 @@ pub(super) fn moved_mode(
         return None;
     }
     let search = Search { campaign, masks: masks(campaign), weights, at };
-    let moved = (0..found.arm.modes.len()).filter_map(|mode| search.moved(&found.arm, mode));
-    moved.min_by(|a, b| a.residual_ratio.total_cmp(&b.residual_ratio))
+    let modes = 0..found.arm.modes.len();
+    let ways = modes.flat_map(|mode| [(mode, MovedBy::Load), (mode, MovedBy::Stiffness)]);
+    let moved = ways.filter_map(|(mode, by)| search.moved(&found.arm, mode, by));
+    let tells = |m: &MovedMode| {
+        let moved = (m.of_log_rad_s / m.omega_rad_s - 1.0).abs();
+        m.residual_ratio < LEAST_GAIN && moved > LEAST_MOVE
+    };
+    moved.filter(tells).min_by(|a, b| a.residual_ratio.total_cmp(&b.residual_ratio))
 }
 
 struct Search<'a> {
@@ -55,19 +77,22 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn moved(&self, arm: &ModalArm, mode: usize) -> Option<MovedMode> {
+    fn moved(&self, arm: &ModalArm, mode: usize, by: MovedBy) -> Option<MovedMode> {
         let omega_rad_s = arm.modes[mode].omega_rad_s;
         let with = |share: f64| {
             let mut arm = arm.clone();
             arm.modes[mode].omega_rad_s *= share;
+            if by == MovedBy::Stiffness {
+                arm.modes[mode].stiffness_nm_per_rad *= share * share;
+            }
             followed(&arm, self.campaign, self.at.horizon.length_s, &self.at.windows)
         };
         let whole = self.left(&self.at.stretches, &self.at.stretches)?;
         let (mut share, mut left) = (1.0, whole);
         let mut stretches = self.at.stretches.clone();
         for _ in 0..STEPS {
-            let probed = with(share * (1.0 + PROBE))?.stretches;
-            let Some(step) = self.step(&stretches, &probed) else { break };
+            let Some(probed) = with(share * (1.0 + PROBE)) else { break };
+            let Some(step) = self.step(&stretches, &probed.stretches) else { break };
             let further = share * (1.0 + step.clamp(-LARGEST_STEP, LARGEST_STEP));
             let Some(next) = with(further) else { break };
             let Some(less) = self.left(&next.stretches, &self.at.stretches) else { break };
@@ -82,6 +107,7 @@ impl Search<'_> {
         }
         (share != 1.0).then_some(MovedMode {
             mode,
+            by,
             omega_rad_s,
             of_log_rad_s: share * omega_rad_s,
             residual_ratio: left / whole,

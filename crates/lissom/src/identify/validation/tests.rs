@@ -187,6 +187,12 @@ fn a_softer_beam_is_named() {
     let cause = v.torque.as_ref().unwrap().causes[0];
     assert_eq!(cause.kind, CauseKind::Coupling, "{:?}", v.torque.unwrap().causes);
     assert!((cause.value - (soft - 1.0)).abs() < 0.02, "{cause:?}");
+    let moved = v.moved_mode.unwrap();
+    assert_eq!(moved.by, MovedBy::Stiffness, "{moved:?}");
+    assert!((moved.of_log_rad_s / (9.0 * soft.sqrt()) - 1.0).abs() < 0.005, "{moved:?}");
+    // Another figure that is off is not taken for the beam.
+    let heavy = ModalArm { inertia_kg_m2: 1.01 * flexible().inertia_kg_m2, ..flexible() };
+    assert_eq!(by_options(&flexible(), &heavy).moved_mode, None);
     assert!(v.findings.iter().any(|f| f.code == "residual-torque"), "{:?}", v.findings);
 }
 
@@ -218,6 +224,7 @@ fn torque_does_not_depend_on_the_load_behind_the_tip() {
     let moved = all.moved_mode.unwrap();
     assert!((moved.of_log_rad_s / omega_rad_s - 1.0).abs() < 0.01, "{moved:?}");
     assert!(moved.mode == 0 && moved.residual_ratio < 0.05, "{moved:?}");
+    assert_eq!(moved.by, MovedBy::Load);
     assert!(all.findings.iter().any(|f| f.code == "mode-moved"), "{:?}", all.findings);
     let error = all.torque.unwrap().relative_error;
     let own = validate(&found(truth), &log, &ValidationOptions::default()).unwrap();

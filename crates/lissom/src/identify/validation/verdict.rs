@@ -1,7 +1,7 @@
 //! What a validation says against the figures.
 
 use super::torque::shows_coupling;
-use super::{Cause, CauseKind, TorquePrediction, Validation};
+use super::{Cause, CauseKind, MovedBy, TorquePrediction, Validation};
 use crate::identify::Finding;
 use crate::identify::Severity::{Info, Refusal, Warning};
 use crate::identify::found_arm::FoundArm;
@@ -27,8 +27,6 @@ const FOLLOWS: f64 = 0.2;
 const WHITE: f64 = 0.01;
 /// Relative difference of two windows under which figures still compare.
 const SAME_WINDOW: f64 = 0.2;
-/// A mode that stands elsewhere is named where it leaves this share of the squared residual.
-const MOVED: f64 = 0.81;
 /// Fit of whole runs below which the motion departs \[%\].
 const DEPARTS: f64 = 90.0;
 
@@ -206,22 +204,31 @@ fn departure(validation: &Validation) -> Option<Finding> {
 
 /// A beam that is not the one of the logs used.
 fn beam(validation: &Validation) -> Option<Finding> {
-    let moved = validation.moved_mode.filter(|m| m.residual_ratio < MOVED)?;
+    let moved = validation.moved_mode?;
+    let (what, hint) = match moved.by {
+        MovedBy::Load => (
+            "its stiffness as it is",
+            "another load than in the logs used: identify from logs of this arm, or predict it with `lissom payload`",
+        ),
+        MovedBy::Stiffness => (
+            "its stiffness with it",
+            "a stiffer or softer beam than in the logs used: identify from logs of this arm",
+        ),
+    };
     Some(Finding::new(
         "mode-moved",
         Warning,
         &[MOTION],
         format!(
-            "mode {} looks as if at {:.4} rad/s in place of {:.4} ({:+.2} %): with that {:.0} % of the squared residual of \
-             the motion is left",
+            "mode {} looks as if at {:.4} rad/s in place of {:.4} ({:+.2} %), {what}: with that {:.1} % of the squared \
+             residual of the motion is left",
             moved.mode + 1,
             moved.of_log_rad_s,
             moved.omega_rad_s,
             100.0 * (moved.of_log_rad_s / moved.omega_rad_s - 1.0),
             100.0 * moved.residual_ratio
         ),
-        "another load or a stiffer or softer beam than in the logs used: identify from logs of this arm, or see \
-         `lissom payload`",
+        hint,
     ))
 }
 
