@@ -176,16 +176,15 @@ const TRAVELS: f64 = 0.2;
 ///
 /// The other way round it says nothing: a tip rings on while friction holds the motor.
 pub(crate) fn frozen(tip: &[f64], motor: &[f64]) -> Option<std::ops::Range<usize>> {
-    let mut plateaus = Vec::new();
     let mut from = 0;
-    for k in 1..=tip.len() {
-        if k == tip.len() || tip[k] != tip[from] {
-            plateaus.push(from..k);
-            from = k;
-        }
-    }
+    let mut of_length = |length: usize| {
+        from += length;
+        from - length..from
+    };
+    let same = |a: &f64, b: &f64| a.total_cmp(b).is_eq();
+    let plateaus: Vec<_> = tip.chunk_by(same).map(|c| of_length(c.len())).collect();
     let longest = plateaus.iter().max_by_key(|p| p.len())?.clone();
-    let second = plateaus.iter().filter(|p| **p != longest).map(|p| p.len()).max()?;
+    let second = plateaus.iter().filter(|p| **p != longest).map(ExactSizeIterator::len).max()?;
     let travel = range(&motor[longest.clone()]);
     let frozen = longest.len() >= FROZEN
         && longest.len() as f64 > LONGER * second as f64

@@ -105,7 +105,7 @@ impl Search<'_> {
                 break;
             }
         }
-        (share != 1.0).then_some(MovedMode {
+        (left < whole).then_some(MovedMode {
             mode,
             by,
             omega_rad_s,
