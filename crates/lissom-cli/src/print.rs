@@ -314,7 +314,7 @@ pub(crate) fn verdict(axis: Axis, id: &Identified) {
     }
 }
 
-/// The findings, gravest first, those of one kind together.
+/// The findings as they stand, those of one kind together.
 pub(crate) fn findings(findings: &[Finding]) {
     if findings.is_empty() {
         line("\nno findings");

@@ -164,6 +164,24 @@ pub(crate) fn jumps(samples: &[f64]) -> Vec<(usize, f64)> {
     bend.windows(2).enumerate().filter_map(jump).collect()
 }
 
+/// Steps of an encoder are a whole turn over 2^8 to 2^24.
+const BITS: std::ops::RangeInclusive<i32> = 8..=24;
+/// Readings lie on such steps to this share of one, root mean square; any others lie 0.29 off.
+const ON_STEPS: f64 = 0.02;
+
+/// Bits of an encoder whose steps the readings show, a turn being `turn` of their unit.
+pub(crate) fn encoder_bits(samples: &[f64], turn: f64) -> Option<i32> {
+    let bits = (turn / step(samples)).log2().round();
+    let quantum = turn / bits.exp2();
+    let off = |x: &f64| {
+        let steps = (x - samples[0]) / quantum;
+        (steps - steps.round()).powi(2)
+    };
+    let rms = (samples.iter().map(off).sum::<f64>() / samples.len() as f64).sqrt();
+    let told = range(samples) > STEPS * quantum && rms < ON_STEPS;
+    (told && BITS.contains(&(bits as i32))).then_some(bits as i32)
+}
+
 /// A sensor that stands still for fewer samples is not called frozen.
 const FROZEN: usize = 50;
 /// Frozen is what stands for so many times longer than it does elsewhere…
@@ -295,6 +313,24 @@ mod tests {
         // A camera's readings, each held for 50 samples.
         let held: Vec<f64> = (0..4000).map(|k| (0.02 * f64::from(k / 50 * 50)).sin()).collect();
         assert!(jumps(&held).is_empty() && spikes(&held).is_empty());
+    }
+
+    #[test]
+    fn an_encoder_read_in_degrees_is_told() {
+        let turn = std::f64::consts::TAU;
+        let read = |bits: i32, turn: f64| -> Vec<f64> {
+            let quantum = turn / f64::from(bits).exp2();
+            sine(2.0).iter().map(|v| (0.1 * turn * v / quantum).round() * quantum).collect()
+        };
+        for bits in [10, 12, 16, 20] {
+            // As a log of six decimals has it.
+            let degrees: Vec<f64> =
+                read(bits, 360.0).iter().map(|x| (x * 1e6).round() / 1e6).collect();
+            assert_eq!(encoder_bits(&degrees, 360.0), Some(bits));
+            assert_eq!(encoder_bits(&read(bits, turn), 360.0), None);
+        }
+        assert_eq!(encoder_bits(&sine(2.0), 360.0), None);
+        assert_eq!(encoder_bits(&[1.0; 40], 360.0), None);
     }
 
     #[test]

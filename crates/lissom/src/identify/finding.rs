@@ -40,6 +40,13 @@ impl Finding {
         Self { code, severity, run: None, affects: affects.to_vec(), message, hint }
     }
 
+    /// Whether readings themselves are wrong: other findings may follow from it.
+    pub(crate) fn is_about_readings(&self) -> bool {
+        let codes =
+            ["spike", "reading-jumps", "frozen-channel", "angle-in-degrees", "command-sign"];
+        codes.contains(&self.code)
+    }
+
     /// The same, about one run.
     pub(crate) fn of(mut self, run: &str) -> Self {
         self.run = Some(run.to_owned());

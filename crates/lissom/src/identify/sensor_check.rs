@@ -1,8 +1,8 @@
 //! What is wrong with the readings of motor and tips, in findings: end stops, spikes, jumps, frozen sensors.
 
-use super::channel_check::{clipped_share, frozen, jumps, spikes};
+use super::channel_check::{clipped_share, encoder_bits, frozen, jumps, spikes};
 use super::finding::{Finding, Severity, key};
-use crate::record::{Campaign, Run, TipQuantity};
+use crate::record::{Axis, Campaign, Run, TipQuantity};
 
 /// Share of a run at an end stop from which on it is told of.
 const CLIPPED: f64 = 0.002;
@@ -13,6 +13,8 @@ pub(super) fn findings(campaign: &Campaign, run: &Run) -> Vec<Finding> {
     let mut found = Vec::new();
     found.extend(clipped("motor", run.motor()));
     found.extend(alone_or_jumping("motor", run.motor(), run));
+    let rotary = campaign.channels.axis == Axis::Rotary;
+    found.extend(rotary.then(|| in_degrees("motor", run.motor())).flatten());
     for (tip, x) in campaign.channels.tips.iter().zip(run.tips()) {
         found.extend(clipped(&tip.name, x));
         // Knocks are in accelerations as they are.
@@ -22,6 +24,7 @@ pub(super) fn findings(campaign: &Campaign, run: &Run) -> Vec<Finding> {
         // At a constant velocity a deflection stands still.
         if tip.quantity == TipQuantity::Angle {
             found.extend(stands_still(&tip.name, x, run));
+            found.extend((rotary && tip.calibrated).then(|| in_degrees(&tip.name, x)).flatten());
         }
     }
     found.into_iter().map(|finding| finding.of(run.name())).collect()
@@ -65,6 +68,20 @@ fn jumping(name: &str, x: &[f64], run: &Run) -> Option<Finding> {
             first as f64 * run.sample_time_s()
         ),
         hint,
+    ))
+}
+
+fn in_degrees(name: &str, x: &[f64]) -> Option<Finding> {
+    let bits = encoder_bits(x, 360.0)?;
+    Some(Finding::new(
+        "angle-in-degrees",
+        Severity::Warning,
+        &EVERYTHING,
+        format!(
+            "channel {name} reads in steps of 360/2^{bits} rad: an encoder of {bits} bits in degrees. Figures are 57.3 times \
+             too small or too large if it is"
+        ),
+        "give its column unit = \"deg\"",
     ))
 }
 

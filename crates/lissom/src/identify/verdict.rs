@@ -71,7 +71,8 @@ pub(crate) fn conclude(campaign: &Campaign, used: &Campaign, id: &mut Identified
     tips(campaign, id);
     id.separability = Separability::of(id, used);
     id.findings.extend(id.separability.as_ref().and_then(Separability::finding));
-    id.findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
+    // What is wrong with the logs comes before what follows from it.
+    id.findings.sort_by_key(|f| (!f.is_about_readings(), std::cmp::Reverse(f.severity)));
     id.arm = FoundArm::of(id, used);
 }
 

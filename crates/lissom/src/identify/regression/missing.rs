@@ -12,6 +12,8 @@ const SURE: f64 = 10.0;
 /// …and takes so many of a figure's own deviations with it.
 const MOVES: f64 = 3.0;
 
+/// A residual of less is rounding: nothing is missing.
+const ROUNDING: f64 = 1e-6;
 /// Correlation with the torque from which on its magnitude is the torque itself, of one sign.
 const ONE_SIGN: f64 = 0.5;
 
@@ -82,6 +84,9 @@ pub(super) fn missing_term(
     first: usize,
     tips: usize,
 ) -> Option<MissingTerm> {
+    if without.relative_residual < ROUNDING {
+        return None;
+    }
     let kinds = MissingKind::ALL.into_iter().enumerate();
     let kinds = kinds.filter(|(i, kind)| match kind {
         MissingKind::BeamDamping => tips > 0,

@@ -1,11 +1,13 @@
 //! What the regression's figures are worth, in findings.
 
-use super::{MissingKind, MissingTerm};
+use super::{MissingKind, MissingTerm, MotorRegression};
 use crate::identify::finding::{Finding, Severity, key};
-use crate::identify::{Estimate, FrictionLaw, Identified, OutputError};
+use crate::identify::{Estimate, FrictionLaw, Identified, OutputError, RunAnalysis, RunKind};
 
 /// Windowed torque left by the regression from which on its figures are called uncertain.
 const RESIDUAL: f64 = 0.15;
+/// Relative difference up to which two sines are of one frequency.
+const SAME_FREQUENCY: f64 = 0.02;
 
 /// What speaks against the regression's figures.
 pub(crate) fn findings(id: &mut Identified) {
@@ -45,6 +47,9 @@ pub(crate) fn findings(id: &mut Identified) {
             ),
             "a delay, a load, other friction or a flexible mode without a tip; check units and signs",
         ));
+    }
+    if !explained && is_one_sine(id, r) {
+        id.findings.push(one_sine());
     }
     // A law of friction that was chosen says more than the one term that was tried for it.
     let law = id.friction_law.as_ref().filter(|law| law.chosen.departs());
@@ -103,11 +108,40 @@ pub(crate) fn findings(id: &mut Identified) {
     }
 }
 
+fn one_sine() -> Finding {
+    Finding::new(
+        "one-sine",
+        Severity::Warning,
+        &[key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES],
+        "all runs are a sine of one frequency: motor and beam then act alike but for what friction puts into the \
+         harmonics, and what is off is so in every period alike: figures may be off by more than they say"
+            .to_owned(),
+        "leave out --quick, or add a run at another frequency",
+    )
+}
+
+/// Whether there is a beam, and all runs that are used are a sine of one frequency.
+fn is_one_sine(id: &Identified, regression: &MotorRegression) -> bool {
+    let omega = |run: &RunAnalysis| match &run.kind {
+        RunKind::Sinusoidal(sine) => Some(sine.omega_rad_s),
+        RunKind::ConstantVelocity | RunKind::General => None,
+    };
+    let used = || id.runs.iter().filter(|run| run.usable).map(omega);
+    let Some(Some(first)) = used().next() else { return false };
+    let alike =
+        |omega: Option<f64>| omega.is_some_and(|w| (w / first - 1.0).abs() < SAME_FREQUENCY);
+    regression.coupling.iter().any(Option::is_some) && used().all(alike)
+}
+
 /// A term that is missing, and what to do about it.
 fn in_words(m: &MissingTerm) -> (String, &'static str) {
     match m.kind {
         MissingKind::Delay => (
-            format!("the command acts {:.2} ms later than it is logged", 1e3 * m.value),
+            format!(
+                "the command acts {:.2} ms {} than it is logged",
+                1e3 * m.value.abs(),
+                if m.value < 0.0 { "earlier" } else { "later" }
+            ),
             "shift the channels against each other, or log the current where it is measured",
         ),
         MissingKind::Position => (
