@@ -171,15 +171,19 @@ const ON_STEPS: f64 = 0.02;
 
 /// Bits of an encoder whose steps the readings show, a turn being `turn` of their unit.
 pub(crate) fn encoder_bits(samples: &[f64], turn: f64) -> Option<i32> {
-    let bits = (turn / step(samples)).log2().round();
-    let quantum = turn / bits.exp2();
+    // A fast motion's neighbouring readings may all be some steps apart.
+    let most = (turn / step(samples)).log2().round().clamp(0.0, 64.0) as i32;
+    (most..=most + 3)
+        .find(|bits| BITS.contains(bits) && is_on_steps(samples, turn / f64::from(*bits).exp2()))
+}
+
+fn is_on_steps(samples: &[f64], quantum: f64) -> bool {
     let off = |x: &f64| {
         let steps = (x - samples[0]) / quantum;
         (steps - steps.round()).powi(2)
     };
     let rms = (samples.iter().map(off).sum::<f64>() / samples.len() as f64).sqrt();
-    let told = range(samples) > STEPS * quantum && rms < ON_STEPS;
-    (told && BITS.contains(&(bits as i32))).then_some(bits as i32)
+    range(samples) > STEPS * quantum && rms < ON_STEPS
 }
 
 /// A sensor that stands still for fewer samples is not called frozen.
