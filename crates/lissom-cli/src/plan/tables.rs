@@ -12,6 +12,7 @@ use crate::{output, print};
 
 /// What a table of references begins with.
 const TABLE_HEAD: &str = "t,theta_ref,log";
+
 /// A table of reference angles for each run, and a campaign.toml for the logs that come of them where there is none.
 pub(super) fn write(folder: &Path, rig: &Rig, made: &Plan) -> Result<(), Failure> {
     write::create_folder(folder)?;

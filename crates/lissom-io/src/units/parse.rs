@@ -106,9 +106,7 @@ impl<'a> Parser<'a> {
                 table::find(name).ok_or_else(|| UnitError::Unknown {
                     text: self.text.to_owned(),
                     unit: name.to_owned(),
-                    nearest: table::of_other_case(name).or_else(|| {
-                        nearest(name, table::names()).map(|found| table::with_prefix(name, &found))
-                    }),
+                    nearest: table::of_other_case(name).or_else(|| nearest(name, table::names())),
                 })
             }
             _ => Err(self.unexpected()),

@@ -117,12 +117,3 @@ pub(super) fn of_other_case(wanted: &str) -> Option<String> {
         .min_by_key(cost)
         .map(|(_, name)| name)
 }
-
-/// `found`, or with the prefix that `wanted` has but for upper and lower case: `GPa` for "Gpa".
-pub(super) fn with_prefix(wanted: &str, found: &str) -> String {
-    let same = |prefix: &&str| format!("{prefix}{found}").eq_ignore_ascii_case(wanted);
-    let exact = |prefix: &&str| wanted.starts_with(*prefix);
-    let prefixes = || PREFIXES.iter().map(|(prefix, _)| *prefix).filter(same);
-    let prefix = prefixes().find(exact).or_else(|| prefixes().next());
-    prefix.map_or(found.to_owned(), |prefix| format!("{prefix}{found}"))
-}

@@ -102,9 +102,12 @@ fn steepest(samples: &[f64], quantum: f64) -> f64 {
 fn bends(samples: &[f64]) -> Option<(Vec<f64>, f64)> {
     let bend: Vec<f64> = samples.windows(3).map(|w| w[0] - 2.0 * w[1] + w[2]).collect();
     let mut sizes: Vec<f64> = bend.iter().map(|b| b.abs()).filter(|b| *b > 0.0).collect();
-    sizes.sort_by(f64::total_cmp);
-    let usual = *sizes.get(sizes.len() * 19 / 20)?;
-    Some((bend, usual))
+    if sizes.is_empty() {
+        return None;
+    }
+    let rank = sizes.len() * 19 / 20;
+    let (_, usual, _) = sizes.select_nth_unstable_by(rank, f64::total_cmp);
+    Some((bend, *usual))
 }
 
 /// Samples that stand alone: one reading off those before and after it, which agree, by far more than the motion

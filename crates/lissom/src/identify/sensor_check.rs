@@ -123,19 +123,18 @@ fn spiked(name: &str, x: &[f64], run: &Run) -> Option<Finding> {
         1 => String::new(),
         n => format!(", the first of {n}"),
     };
-    let between = match (first.checked_sub(1).map(|k| x[k]), x.get(first + 1)) {
-        (Some(before), Some(after)) => format!("between {before:.4} and {after:.4}"),
-        (None, after) => format!("before {:.4}", after.copied().unwrap_or(f64::NAN)),
-        (before, None) => format!("after {:.4}", before.unwrap_or(f64::NAN)),
-    };
+    let beside = [first.checked_sub(1), Some(first + 1)].into_iter().flatten();
+    let beside: Vec<String> =
+        beside.filter_map(|k| x.get(k)).map(|neighbour| format!("{neighbour:.4}")).collect();
     Some(Finding::new(
         "spike",
         Severity::Warning,
         &EVERYTHING,
         format!(
-            "channel {name} reads {:.4} {between}, {:.4} s after the run's first sample: a spike{others}. \
+            "channel {name} reads {:.4} beside {}, {:.4} s after the run's first sample: a spike{others}. \
              No figure of this run is what it would be without",
             x[first],
+            beside.join(" and "),
             first as f64 * run.sample_time_s()
         ),
         "a bad reading or a lost count: put the mean of its neighbours in its place, or leave the stretch out (skip)",

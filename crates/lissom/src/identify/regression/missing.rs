@@ -47,6 +47,9 @@ impl MissingKind {
         Self::CoulombDrift,
         Self::ViscousDrift,
     ];
+    /// How many columns they need.
+    pub(super) const COLUMNS: usize = Self::ALL.len();
+
     /// Whether its column hardly has noise of the sensors in it, which others of the equation then make up for.
     fn is_exact(self) -> bool {
         match self {
@@ -54,9 +57,6 @@ impl MissingKind {
             Self::Position | Self::CommandBySign | Self::CoulombDrift => true,
         }
     }
-
-    /// How many columns they need.
-    pub(super) const COLUMNS: usize = Self::ALL.len();
 }
 
 /// A term that the data call for.
