@@ -6,11 +6,13 @@ use lissom::drive::Falloff;
 use lissom::identify::{
     BristlesEstimate, ByDirection, ConstantVelocity, Estimate, FrictionLine, Identified,
     LawCandidate, LawTerm, NearRestEstimate, Options, RippleEstimate, RunToAdd, Shape, SteadyPoint,
-    geometry_check, identify,
+    geometry_check, identify, motor_regression,
 };
 use lissom::information::Figure;
 use lissom::plan::PlannedMotion;
-use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Tip, TipQuantity};
+use lissom::record::{
+    Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
+};
 use lissom::replay::{Bristles, DryTerms, NearRest, Ripple};
 use lissom::rig::{Experiment, Settle};
 use lissom_io::result_json;
@@ -135,15 +137,35 @@ fn with_directions(mut id: Identified) -> Identified {
         });
     }
     if let Some(regression) = &mut id.regression {
-        regression.viscous_by_direction = Some(ByDirection {
-            forward: figure,
-            backward: figure,
-            mean: figure,
-            offset: figure,
-            relative_residual: 0.1,
-        });
+        regression.viscous_by_direction = by_direction();
     }
     id
+}
+
+/// A regression of sines whose viscous friction is larger forward than backward.
+fn by_direction() -> Option<ByDirection> {
+    let (sample_time_s, omega) = (0.002, 3.0_f64);
+    let wave = |of: &dyn Fn(f64) -> f64| -> Vec<f64> {
+        (0..20_000).map(|k| of(sample_time_s * f64::from(k))).collect()
+    };
+    let velocity = |t: f64| omega * (omega * t).cos() + 0.6 * omega * (0.4 * omega * t).cos();
+    let motor = wave(&|t| (omega * t).sin() + 1.5 * (0.4 * omega * t).sin());
+    let torque = wave(&|t| {
+        let v = velocity(t);
+        let viscous = if v > 0.0 { 0.3 } else { 0.1 };
+        0.3 * v.signum() + viscous * v - 0.02 * omega * omega * (omega * t).sin()
+    });
+    let command = Command {
+        quantity: CommandQuantity::Current,
+        hold: Hold::Measured,
+        torque_per_command: Some(1.0),
+        back_emf_viscous: 0.0,
+        limit: None,
+    };
+    let run = Run::new("sines", TimeBase::uniform(0.0, sample_time_s), torque, motor, vec![]);
+    let channels = Channels { axis: Axis::Rotary, command, tips: vec![] };
+    let campaign = Campaign::new(channels, vec![run.unwrap()]).unwrap();
+    motor_regression(&campaign, &[]).unwrap().viscous_by_direction
 }
 
 #[test]

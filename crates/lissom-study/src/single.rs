@@ -31,7 +31,7 @@ pub fn describe(campaign: &Campaign, seed: u64, quick: bool) -> String {
             }
             if let Some(motor) = &id.regression {
                 let (beam, rational) = (id.beam_regression.as_ref(), id.beam_model.as_ref());
-                let from = starts(&campaign.logs, motor, beam, rational);
+                let from = starts(&campaign.logs, &motor.estimates(), beam, rational);
                 lines.extend(from.iter().map(|arm| format!("start {}", arm_line(arm))));
             }
             lines.extend(id.regression.iter().map(|r| candidates("motor", &r.candidates)));

@@ -49,7 +49,7 @@ fn campaign() -> (Campaign, Vec<Option<f64>>) {
 fn start(campaign: &Campaign, omega_rad_s: &[Option<f64>]) -> OutputErrorStart {
     let motor = motor_regression(campaign, &[]).unwrap();
     let beam = beam_regression(campaign);
-    let arms = starts(campaign, &motor, beam.as_ref(), None);
+    let arms = starts(campaign, &motor.estimates(), beam.as_ref(), None);
     OutputErrorStart {
         arms,
         omega_rad_s: omega_rad_s.to_vec(),

@@ -20,10 +20,10 @@ pub use units::UnitNames;
 pub use validation::{channel_name_unit, validation_json};
 
 use lissom::identify::{
-    BeamRegression, Candidate, ConstantVelocity, Estimate, Finding, FrictionLine, GeometryCheck,
-    Identified, ModeEstimate, ModelSource, MotorFit, MotorRegression, OutputError, Response,
-    ResponsePoint, RunAnalysis, RunKind, Severity, Shape, StageReport, Stop, ThirdHarmonic,
-    TipModel,
+    BeamRegression, ByDirection, Candidate, ConstantVelocity, DriveEstimates, Estimate, Finding,
+    FrictionLine, GeometryCheck, Identified, Method, ModeEstimate, ModelSource, MotorFit,
+    MotorRegression, OutputError, Response, ResponsePoint, RunAnalysis, RunKind, Severity, Shape,
+    StageReport, Stop, ThirdHarmonic, TipModel,
 };
 use lissom::lti::TransferFunction;
 use lissom::record::{Axis, Channels, Tip, TipQuantity};
@@ -43,6 +43,7 @@ pub fn result_json(
         "lissom": env!("CARGO_PKG_VERSION"),
         "axis": axis(channels.axis),
         "torque_per_command": id.torque_per_command,
+        "from": id.method.map(Method::name),
         "friction": friction(names, constant, id),
         "drive": { (names.inertia_key()): figure(id.inertia) },
         "beam": beam(names, id),
@@ -186,14 +187,7 @@ fn regression(
     map.insert(names.inertia_key(), figure(r.inertia));
     let coupling: Vec<Value> = r.coupling.iter().map(|e| figure(*e)).collect();
     map.insert(names.coupling_key("coupling_by_tip"), Value::Array(coupling));
-    let split = r.viscous_by_direction.map(|d| {
-        json!({
-            (names.viscous_key("forward")): figure(Some(d.forward)),
-            (names.viscous_key("backward")): figure(Some(d.backward)),
-            (format!("offset_{}", names.torque())): figure(Some(d.offset)),
-            "relative_residual": d.relative_residual,
-        })
-    });
+    let split = r.viscous_by_direction.as_ref().map(|d| by_direction(names, d));
     map.insert("viscous_by_direction".to_owned(), split.unwrap_or(Value::Null));
     map.insert("window_s".to_owned(), json!(r.window_s));
     map.insert("window_given".to_owned(), json!(r.window_given));
@@ -212,6 +206,24 @@ fn regression(
     Value::Object(map)
 }
 
+/// The regression with viscous friction by direction: a fit of its own.
+fn by_direction(names: UnitNames, d: &ByDirection) -> Value {
+    let DriveEstimates { friction, inertia, coupling_by_tip, .. } = &d.estimates;
+    let (forward, backward) = friction.viscous_by_direction.unzip();
+    let of_torque = |key: &str| format!("{key}_{}", names.torque());
+    json!({
+        (names.viscous_key("forward")): figure(forward),
+        (names.viscous_key("backward")): figure(backward),
+        (of_torque("coulomb")): figure(friction.coulomb),
+        (of_torque("coulomb_forward")): figure(friction.forward),
+        (of_torque("coulomb_backward")): figure(friction.backward),
+        (of_torque("offset")): figure(friction.offset),
+        (names.inertia_key()): figure(*inertia),
+        (names.coupling_key("coupling_by_tip")): coupling_by_tip.iter().map(|e| figure(*e)).collect::<Vec<_>>(),
+        "relative_residual": d.relative_residual,
+    })
+}
+
 fn replay(names: UnitNames, constant: f64, channels: &Channels, oe: &OutputError) -> Value {
     let mut map = Map::new();
     let friction = oe.friction(channels.command.back_emf_viscous);
@@ -221,9 +233,8 @@ fn replay(names: UnitNames, constant: f64, channels: &Channels, oe: &OutputError
     torque(&mut map, names, constant, "offset", friction.offset);
     map.insert(names.viscous_key("viscous"), figure(friction.viscous));
     map.insert(names.inertia_key(), figure(oe.inertia()));
-    let beam = oe.beam(channels);
-    map.insert(names.coupling_key("coupling"), figure(beam.coupling));
-    map.insert("modes".to_owned(), json!(beam.modes.iter().map(mode).collect::<Vec<_>>()));
+    map.insert(names.coupling_key("coupling"), figure(oe.estimates(channels).coupling));
+    map.insert("modes".to_owned(), json!(oe.mode_estimates().iter().map(mode).collect::<Vec<_>>()));
     let lag = oe.estimate(Parameter::CommandLag);
     map.insert("command_lag_s".to_owned(), figure(lag));
     let tips = 0..channels.tips.len();

@@ -1,6 +1,8 @@
 //! The arm that stands for a result: what predicts other logs.
 
-use super::identified::Identified;
+use super::drive_estimates::{DriveEstimates, Method};
+use super::friction_law::FrictionLaw;
+use super::judge::{Chosen, Evidence, slip_phase_solution};
 use super::output_error::{starts, starts_by_motor};
 use super::validation::{torque, zeros};
 use crate::record::Campaign;
@@ -37,37 +39,28 @@ pub struct TorqueUsed {
 }
 
 impl FoundArm {
-    /// The arm of the method that the verdict takes the figures from; `None` where it refuses
-    /// inertia or Coulomb friction or their method gives no whole arm. `used` are the runs that the
-    /// methods used.
-    pub(super) fn of(id: &Identified, used: &Campaign) -> Option<Self> {
-        let stands = id.output_error.as_ref().filter(|oe| oe.stands());
-        if let Some(oe) = stands {
+    /// The arm of the solution that was taken, whole; where that has a friction law that an arm cannot have, the arm
+    /// of the regression without it, whole as well. `None` where inertia or Coulomb friction is refused or the method
+    /// gives no whole arm.
+    pub(super) fn of(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<Self> {
+        let used = evidence.used;
+        if let Some(oe) = evidence.replay() {
             return Some(Self::with(oe.arm.clone(), ArmSource::OutputError, used));
         }
-        let (Some(motor), Some(_), Some(_)) = (&id.regression, id.inertia, id.friction.coulomb)
-        else {
+        let supported = &chosen.drive;
+        let (Some(_), Some(_)) = (supported.inertia, supported.friction.coulomb) else {
             return None;
         };
-        let beam = id.beam_regression.as_ref();
-        // Without a tip's angle slip phases give no arm: what starts a replay there is not one yet.
-        let arms = if used.channels.tips.is_empty() {
-            starts_by_motor(used, motor, None, None)
-        } else {
-            starts(used, motor, beam, id.beam_model.as_ref())
+        let drive = &chosen.solution;
+        let regression = evidence.methods.regression.as_ref()?;
+        let law = evidence.methods.friction_law.as_ref();
+        let arm = match chosen.method? {
+            Method::FrictionLaw => lawful(evidence, law?, drive)
+                .or_else(|| of_drive(evidence, &slip_phase_solution(Some(regression), None)?.1)),
+            Method::RegressionByDirection | Method::Regression => of_drive(evidence, drive),
+            _ => of_drive(evidence, &regression.estimates()),
         };
-        let mut arm = arms.into_iter().next()?;
-        if let Some(split) = motor.viscous_by_direction {
-            let back_emf = used.channels.command.back_emf_viscous;
-            arm.viscous_nm_s_per_rad = [split.forward.value, split.backward.value];
-            arm.viscous_nm_s_per_rad.iter_mut().for_each(|v| *v += back_emf);
-            // The offset that goes with one constant for both directions is another.
-            arm.offset_nm = split.offset.value;
-        }
-        if let Some(law) = id.friction_law.as_ref().filter(|law| law.chosen.departs()) {
-            law.chosen.put_into(&mut arm, used.channels.command.back_emf_viscous);
-        }
-        Some(Self::with(arm, ArmSource::Regression, used))
+        Some(Self::with(arm?, ArmSource::Regression, used))
     }
 
     fn with(arm: ModalArm, source: ArmSource, used: &Campaign) -> Self {
@@ -75,4 +68,22 @@ impl FoundArm {
             .map(|t| TorqueUsed { relative_error: t.relative_error, window_s: t.window_s });
         Self { arm, source, torque_used }
     }
+}
+
+/// An arm with the drive's estimates and the beam's own modes.
+fn of_drive(evidence: &Evidence<'_>, drive: &DriveEstimates) -> Option<ModalArm> {
+    let (used, methods) = (evidence.used, evidence.methods);
+    // Without a tip's angle slip phases give no arm: what starts a replay there is not one yet.
+    let arms = if used.channels.tips.is_empty() {
+        starts_by_motor(used, drive, None, None)
+    } else {
+        starts(used, drive, methods.beam_regression.as_ref(), methods.beam_model.as_ref())
+    };
+    arms.into_iter().next()
+}
+
+/// The same with the terms of a friction law; `None` where an arm cannot have one of them.
+fn lawful(evidence: &Evidence<'_>, law: &FrictionLaw, drive: &DriveEstimates) -> Option<ModalArm> {
+    let mut arm = of_drive(evidence, drive)?;
+    law.chosen.put_terms_into(&mut arm).then_some(arm)
 }

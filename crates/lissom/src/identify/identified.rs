@@ -1,10 +1,13 @@
 //! What identification gives.
 
 use super::constant_velocity::ConstantVelocity;
+use super::drive_estimates::Method;
 use super::equivalent::Equivalent;
 use super::finding::Finding;
 use super::found_arm::FoundArm;
+use super::friction_estimates::Friction;
 use super::friction_law::FrictionLaw;
+use super::judge::{Conclusion, Methods};
 use super::linear_models::LinearModels;
 use super::output_error::OutputError;
 use super::rational::{BeamFit, MotorFit};
@@ -14,7 +17,7 @@ use super::run_analysis::RunAnalysis;
 use super::separability::Separability;
 use super::third_harmonic::PairFigure;
 use super::{Estimate, ModeEstimate};
-use crate::drive::Falloff;
+use crate::record::Campaign;
 
 /// Figures of the report's own method.
 #[derive(Debug, Clone)]
@@ -31,92 +34,6 @@ pub struct ThirdHarmonic {
     pub motor: Option<MotorFit>,
 }
 
-/// Friction, in torque (or force).
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Friction {
-    /// Coulomb friction, mean of both directions.
-    pub coulomb: Option<Estimate>,
-    /// While moving forward.
-    pub forward: Option<Estimate>,
-    /// While moving backward.
-    pub backward: Option<Estimate>,
-    /// (forward − backward)/2.
-    pub offset: Option<Estimate>,
-    /// Viscous friction.
-    pub viscous: Option<Estimate>,
-    /// Viscous friction forward and backward, where the data reject one constant.
-    pub viscous_by_direction: Option<(Estimate, Estimate)>,
-    /// What friction has near rest beyond Coulomb's, where the data call for it.
-    pub near_rest: Option<NearRestEstimate>,
-    /// Waves over the travel, where the data show them.
-    pub ripples: Vec<RippleEstimate>,
-    /// What yields before the joint slips, where the replay calls for it.
-    pub bristles: Option<BristlesEstimate>,
-}
-
-impl Friction {
-    /// Friction against the motion at a speed in a direction (+1 or −1) \[N·m\], waves over the travel left out: positive
-    /// where it brakes. `None` where a figure of it is refused.
-    ///
-    /// `C_± + V_±·|v| + A·e^{−|v|/v_s}` (or `A·e^{−(v/v_s)²}`).
-    pub fn at(&self, speed: f64, direction: f64) -> Option<f64> {
-        let forward = direction > 0.0;
-        let coulomb = if forward { self.forward } else { self.backward }?;
-        let viscous = match self.viscous_by_direction {
-            Some((by_forward, by_backward)) => {
-                if forward {
-                    by_forward
-                } else {
-                    by_backward
-                }
-            }
-            None => self.viscous?,
-        };
-        let near =
-            self.near_rest.map_or(0.0, |n| n.torque.value * n.falloff.share(speed / n.speed.value));
-        Some(coulomb.value + viscous.value * speed + near)
-    }
-}
-
-/// Bristles that bend before the joint slips: `F = σ0·z + σ1·ż`, all of the law above the level that they slip at.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BristlesEstimate {
-    /// σ0.
-    pub stiffness: Estimate,
-    /// σ1.
-    pub damping: Estimate,
-    /// How far they bend at speed, C/σ0.
-    pub travel: Estimate,
-}
-
-/// `s·A·e^{−|v|/v_s}` or `s·A·e^{−(v/v_s)²}`, s the direction.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NearRestEstimate {
-    /// A: friction at rest is C + A.
-    pub torque: Estimate,
-    /// v_s.
-    pub speed: Estimate,
-    /// Which of the two.
-    pub falloff: Falloff,
-}
-
-/// `s·A·cos(k·θ + φ)`, s the direction.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RippleEstimate {
-    /// A.
-    pub torque: Estimate,
-    /// k, radians of ripple per radian of angle (1/m on linear axes).
-    pub per_angle: Estimate,
-}
-
-impl RippleEstimate {
-    /// 2π/k: relative deviations of a frequency and its period are the same.
-    pub fn period(&self) -> Estimate {
-        let value = std::f64::consts::TAU / self.per_angle.value;
-        Estimate { value, std: value * self.per_angle.std / self.per_angle.value }
-    }
-}
-
 /// The beam's figures.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Beam {
@@ -131,9 +48,11 @@ pub struct Beam {
 /// All that a campaign gave.
 #[derive(Debug, Clone)]
 pub struct Identified {
-    /// Friction by the best method that the data carry.
+    /// The method whose solution friction, inertia and coupling are, whole; `None` where no method has one.
+    pub method: Option<Method>,
+    /// Friction of that solution.
     pub friction: Friction,
-    /// Inertia or mass.
+    /// Inertia or mass of that solution.
     pub inertia: Option<Estimate>,
     /// The beam.
     pub beam: Beam,
@@ -172,4 +91,41 @@ pub struct Identified {
     pub torque_per_command: Option<f64>,
     /// What the data could not carry.
     pub findings: Vec<Finding>,
+}
+
+impl Identified {
+    /// Joins what the methods found and what was taken of it; nothing changes afterwards.
+    pub(super) fn new(
+        campaign: &Campaign,
+        methods: Methods,
+        runs: Vec<RunAnalysis>,
+        responses: Vec<ResponsePoint>,
+        (models, equivalent): (LinearModels, Option<Equivalent>),
+        conclusion: Conclusion,
+    ) -> Self {
+        let Conclusion { chosen, separability, arm, findings } = conclusion;
+        Self {
+            method: chosen.method,
+            friction: chosen.drive.friction,
+            inertia: chosen.drive.inertia,
+            beam: chosen.beam,
+            third_harmonic: methods.third_harmonic,
+            regression: methods.regression,
+            regression_residual: methods.regression_residual,
+            friction_law: methods.friction_law,
+            constant_velocity: methods.constant_velocity,
+            beam_regression: methods.beam_regression,
+            output_error: methods.output_error,
+            runs,
+            responses,
+            beam_model: methods.beam_model,
+            motor_model: methods.motor_model,
+            models,
+            equivalent,
+            separability,
+            arm,
+            torque_per_command: campaign.channels.command.torque_per_command,
+            findings,
+        }
+    }
 }

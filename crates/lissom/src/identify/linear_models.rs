@@ -2,8 +2,7 @@
 
 use num_complex::Complex64;
 
-use super::found_arm::ArmSource;
-use super::identified::Identified;
+use super::judge::{Evidence, Methods};
 use super::model::state_space;
 use super::output_error::OutputError;
 use super::{Estimate, MotorFit};
@@ -49,14 +48,13 @@ pub struct LinearModels {
 }
 
 impl LinearModels {
-    /// Of the output error's arm where it stands, else of the rational fits. A tip of `campaign` that is dead counts as
+    /// Of the output error's arm where it stands, else of the rational fits. A tip that is dead counts as
     /// one of unknown scale.
-    pub(super) fn of(campaign: &Campaign, id: &Identified) -> Self {
-        let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
-        let taken = id.arm.as_ref().filter(|found| found.source == ArmSource::OutputError);
-        match (taken, &id.output_error) {
-            (Some(found), Some(oe)) => Self::of_arm(campaign, &found.arm, oe, constant),
-            _ => Self::of_fits(campaign, id, constant),
+    pub(super) fn of(evidence: &Evidence<'_>) -> Self {
+        let (campaign, constant) = (evidence.used, evidence.torque_per_command());
+        match evidence.replay() {
+            Some(oe) => Self::of_arm(campaign, &oe.arm, oe, constant),
+            None => Self::of_fits(campaign, evidence.methods, constant),
         }
     }
 
@@ -81,18 +79,18 @@ impl LinearModels {
         }
     }
 
-    fn of_fits(campaign: &Campaign, id: &Identified, constant: f64) -> Self {
-        let beam = id.beam_model.as_ref();
+    fn of_fits(campaign: &Campaign, methods: &Methods, constant: f64) -> Self {
+        let beam = methods.beam_model.as_ref();
         let functions = beam.map_or(&[][..], |b| &b.transfer_functions);
         let tip = |g: &TransferFunction| TipModel { function: g.clone(), delay_s: None };
         let joined =
             |m: &MotorFit| state_space(m, constant, beam, &angles(campaign), unit(campaign));
         Self {
             source: ModelSource::Responses,
-            motor: id.motor_model.as_ref().map(|m| m.transfer_function.clone()),
-            motor_delay: id.motor_model.as_ref().and_then(|m| m.delay_s),
+            motor: methods.motor_model.as_ref().map(|m| m.transfer_function.clone()),
+            motor_delay: methods.motor_model.as_ref().and_then(|m| m.delay_s),
             tips: functions.iter().map(tip).collect(),
-            state_space: id.motor_model.as_ref().map(joined),
+            state_space: methods.motor_model.as_ref().map(joined),
         }
     }
 

@@ -1,24 +1,27 @@
 //! From records to friction, parameters and a verdict.
 
 mod bands;
-mod campaign;
 mod channel_check;
 mod channel_noise;
 mod constant_velocity;
 mod correct;
+mod drive_estimates;
 mod equivalent;
 mod estimate;
 mod finding;
 mod found_arm;
+mod friction_estimates;
 mod friction_law;
 mod friction_waveform;
 mod geometry;
 mod identified;
+mod judge;
 mod linear_models;
 mod model;
 mod models;
 mod output_error;
 mod payload;
+mod pipeline;
 mod rational;
 mod regression;
 mod repeated_run;
@@ -30,13 +33,12 @@ mod separability;
 mod starting_arms;
 mod third_harmonic;
 mod validation;
-mod verdict;
 
-pub use campaign::{IdentifyError, Options, Stage, identify};
 pub use constant_velocity::{
     ConstantVelocity, FrictionLine, LineError, Shape, SteadyPoint, constant_velocity,
 };
 pub use correct::{Response, corrected, ratio};
+pub use drive_estimates::{DriveEstimates, Method};
 pub use equivalent::{
     Deviations, Equivalent, EquivalentArm, EquivalentBeam, EquivalentData, EquivalentError,
     EquivalentRefusal, PartOutside, ResponseZero, StrainlessForm, equivalent, equivalent_arm,
@@ -45,17 +47,17 @@ pub use equivalent::{
 pub use estimate::{Estimate, ModeEstimate};
 pub use finding::{Finding, Severity};
 pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
+pub use friction_estimates::{BristlesEstimate, Friction, NearRestEstimate, RippleEstimate};
 pub use friction_law::{CurvePoint, FrictionLaw, LawCandidate, LawFit, LawTerm};
 pub use geometry::{ArmQuantity, Explanation, GeometryCheck, geometry_check};
-pub use identified::{
-    Beam, BristlesEstimate, Friction, Identified, NearRestEstimate, RippleEstimate, ThirdHarmonic,
-};
+pub use identified::{Beam, Identified, ThirdHarmonic};
 pub use linear_models::{LinearModels, ModelSource, TipModel};
 pub use output_error::{
     ByRun, Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, output_error,
     starts, starts_by_motor, starts_by_responses,
 };
 pub use payload::LoadedArm;
+pub use pipeline::{IdentifyError, Options, Stage, identify};
 pub use rational::{
     BeamFit, Damping, MotorData, MotorFit, Pole, SharedPoles, SharedPolesError, Spurious, TipData,
     TipForm, fit_beam, fit_motor, fit_shared_poles, fit_shared_poles_by_evidence, without_origin,

@@ -1,6 +1,7 @@
 //! The models that figures or responses make.
 
 use super::Response;
+use super::drive_estimates::DriveEstimates;
 use super::output_error::OutputError;
 use super::rational::{
     BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_at_once, fit_beam, fit_motor,
@@ -12,15 +13,15 @@ use crate::record::{Campaign, Tip};
 /// Windowed torque (or acceleration) that a regression may leave for its figures to make a model.
 const EXPLAINED: f64 = 0.05;
 
-/// The model that the regressions' figures make, where they explain all: a rigid axis without
+/// The model that the slip phases' estimates make, where they explain all: a rigid axis without
 /// tips, or one tip that follows one mode.
 pub(super) fn figures_model(
     campaign: &Campaign,
-    motor: Option<&MotorRegression>,
+    motor: Option<(&MotorRegression, &DriveEstimates)>,
     beam: Option<&BeamRegression>,
 ) -> Option<(MotorFit, Option<BeamFit>)> {
-    let motor = motor.filter(|m| m.relative_residual < EXPLAINED)?;
-    let (inertia, viscous) = (motor.inertia?, motor.viscous?);
+    let (_, drive) = motor.filter(|(m, _)| m.relative_residual < EXPLAINED)?;
+    let (inertia, viscous) = (drive.inertia?, drive.friction.viscous?);
     let mode = match (campaign.channels.tips.len(), beam) {
         (0, _) => None,
         (1, Some(beam)) if beam.relative_residual[0] < EXPLAINED => {
@@ -29,7 +30,7 @@ pub(super) fn figures_model(
                 omega_rad_s: mode.natural_frequency_rad_s.value,
                 damping_ratio: mode.damping_ratio.value,
             };
-            Some((mode, (pole, motor.total_coupling?)))
+            Some((mode, (pole, drive.coupling?)))
         }
         _ => return None,
     };

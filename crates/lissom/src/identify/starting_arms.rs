@@ -1,9 +1,10 @@
 //! The arms that a campaign's output error starts from.
 
+use super::drive_estimates::DriveEstimates;
 use super::models;
 use super::output_error::{starts, starts_by_motor, starts_by_responses};
 use super::rational::BeamFit;
-use super::regression::{BeamRegression, MotorRegression, coupled_tips};
+use super::regression::{BeamRegression, coupled_tips};
 use super::response_table::ResponsePoint;
 use crate::record::Campaign;
 use crate::replay::ModalArm;
@@ -12,7 +13,23 @@ use crate::replay::ModalArm;
 /// in `shown`, and the motor's without friction, which `corrected` makes.
 pub(super) fn starting_arms(
     usable: &Campaign,
-    motor: &MotorRegression,
+    drive: &DriveEstimates,
+    beam: Option<&BeamRegression>,
+    tips: Option<&BeamFit>,
+    shown: &[ResponsePoint],
+    corrected: impl Fn() -> Vec<ResponsePoint>,
+) -> Vec<ModalArm> {
+    let mut arms = arms(usable, drive, beam, tips, shown, corrected);
+    // With less viscous friction than none a replay runs away.
+    for arm in &mut arms {
+        arm.viscous_nm_s_per_rad.iter_mut().for_each(|v| *v = v.max(0.0));
+    }
+    arms
+}
+
+fn arms(
+    usable: &Campaign,
+    drive: &DriveEstimates,
     beam: Option<&BeamRegression>,
     tips: Option<&BeamFit>,
     shown: &[ResponsePoint],
@@ -21,12 +38,12 @@ pub(super) fn starting_arms(
     let constant = usable.channels.command.torque_per_command.unwrap_or(1.0);
     if coupled_tips(usable).is_empty() {
         let response = models::motor_model(&corrected(), constant, tips);
-        return starts_by_motor(usable, motor, tips, response.as_ref());
+        return starts_by_motor(usable, drive, tips, response.as_ref());
     }
-    let mut arms = starts(usable, motor, beam, tips);
+    let mut arms = starts(usable, drive, beam, tips);
     if let Some((omega_rad_s, tips)) = models::tip_responses(usable, shown) {
         let motor_data = models::motor_data(&corrected(), constant);
-        arms.extend(starts_by_responses(usable, motor, &omega_rad_s, &tips, &motor_data));
+        arms.extend(starts_by_responses(usable, drive, &omega_rad_s, &tips, &motor_data));
     }
     arms
 }

@@ -11,7 +11,7 @@ use crate::record::{Campaign, Channels, Run};
 pub(crate) use findings::{findings, no_stretch};
 pub use line::{FrictionLine, LineError, Shape};
 use stretches::stretches;
-pub(crate) use verdict::{alone, only_constant_velocities, stand_in};
+pub(crate) use verdict::{only_constant_velocities, taken};
 
 /// A run that turns one way, and does so at constant velocities for this share of the time in
 /// motion, is made for them…

@@ -1,20 +1,15 @@
 //! When steady velocities stand in for friction, and what they cannot give.
 
 use super::{ConstantVelocity, FrictionLine};
+use crate::identify::Estimate;
+use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::finding::{Finding, Severity, key};
-use crate::identify::identified::{Friction, Identified};
-use crate::identify::run_analysis::RunAnalysis;
-use crate::identify::{Estimate, verdict::UNCERTAIN};
+use crate::identify::friction_estimates::Friction;
+use crate::identify::judge::{Chosen, Evidence};
 use crate::record::Campaign;
 
 /// Viscous friction by direction differs from this many deviations on.
 const DIRECTIONS_DIFFER: f64 = 4.0;
-
-/// Whether constant velocities are all there is, and give no inertia either.
-pub(crate) fn alone(id: &Identified) -> bool {
-    let other = |r: &RunAnalysis| r.usable && !r.is_constant_velocity();
-    id.regression.is_none() && id.constant_velocity.is_some() && !id.runs.iter().any(other)
-}
 
 /// What a campaign of nothing but constant velocities cannot give.
 pub(crate) fn only_constant_velocities(campaign: &Campaign) -> Finding {
@@ -30,52 +25,54 @@ pub(crate) fn only_constant_velocities(campaign: &Campaign) -> Finding {
     )
 }
 
-/// Takes friction from steady velocities, where nothing else gives it or knows it as well.
-pub(crate) fn stand_in(id: &mut Identified) {
-    let Some(found) = &id.constant_velocity else { return };
-    let share = |e: Estimate| e.std / e.value.abs();
-    let taken = id.friction.coulomb.map(share).filter(|s| *s < UNCERTAIN);
-    if taken.is_none() {
-        let classical = friction_near_rest(found);
-        let better = |e: Estimate| id.friction.coulomb.is_none_or(|c| share(e) < share(c));
-        if classical.coulomb.is_some_and(better) {
-            id.friction = classical;
-            id.findings.push(Finding::new(
-                "classical-figures",
-                Severity::Info,
-                &[key::COULOMB, key::OFFSET, key::VISCOUS],
-                "friction is that of constant velocities, extrapolated to rest".to_owned(),
-                "sines or ordinary moves at the speeds you work at show friction without \
-                 extrapolating",
-            ));
-            let curved = |l: &FrictionLine| l.near_rest() != l.coulomb;
-            if found.lines().any(|(_, line)| curved(line)) {
-                id.findings.push(Finding::new(
-                    "slowest-speeds-taken",
-                    Severity::Warning,
-                    &[key::COULOMB, key::OFFSET, key::VISCOUS],
-                    "friction does not lie on a line: Coulomb friction is that of the slowest third \
-                     of the speeds, viscous friction the slope over all of them"
-                        .to_owned(),
-                    "keep to the speeds that you work at",
-                ));
-            }
-        }
+/// That friction is from constant velocities, where it is.
+pub(crate) fn taken(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding> {
+    let found = evidence.methods.constant_velocity.as_ref();
+    let taken = chosen.method == Some(Method::ConstantVelocity);
+    let Some(found) = found.filter(|_| taken && chosen.drive.friction.coulomb.is_some()) else {
+        return Vec::new();
+    };
+    let mut findings = vec![Finding::new(
+        "classical-figures",
+        Severity::Info,
+        &[key::COULOMB, key::OFFSET, key::VISCOUS],
+        "friction is that of constant velocities, extrapolated to rest".to_owned(),
+        "sines or ordinary moves at the speeds you work at show friction without \
+         extrapolating",
+    )];
+    let curved = |l: &FrictionLine| l.near_rest() != l.coulomb;
+    if found.lines().any(|(_, line)| curved(line)) {
+        findings.push(Finding::new(
+            "slowest-speeds-taken",
+            Severity::Warning,
+            &[key::COULOMB, key::OFFSET, key::VISCOUS],
+            "friction does not lie on a line: Coulomb friction is that of the slowest third \
+             of the speeds, viscous friction the slope over all of them"
+                .to_owned(),
+            "keep to the speeds that you work at",
+        ));
     }
-    if id.friction.viscous.is_none() {
-        id.friction.viscous = id.constant_velocity.as_ref().and_then(|c| c.viscous);
+    findings
+}
+
+impl ConstantVelocity {
+    /// Friction of both lines; viscous friction alone where there is one.
+    pub fn estimates(&self) -> DriveEstimates {
+        let viscous_alone = || Friction { viscous: self.viscous, ..Friction::default() };
+        let friction = friction_near_rest(self).unwrap_or_else(viscous_alone);
+        DriveEstimates { friction, ..DriveEstimates::default() }
     }
 }
 
 /// The figures of both lines, by the slowest speeds where they are curved.
-fn friction_near_rest(found: &ConstantVelocity) -> Friction {
-    let (Ok(f), Ok(b)) = (&found.forward, &found.backward) else { return Friction::default() };
+fn friction_near_rest(found: &ConstantVelocity) -> Option<Friction> {
+    let (Ok(f), Ok(b)) = (&found.forward, &found.backward) else { return None };
     let (forward, backward) = (f.near_rest(), b.near_rest());
     let std = 0.5 * forward.std.hypot(backward.std);
     let half = |value: f64| Some(Estimate { value: 0.5 * value, std });
     let apart = (f.viscous.value - b.viscous.value).abs();
     let differ = apart > DIRECTIONS_DIFFER * f.viscous.std.hypot(b.viscous.std);
-    Friction {
+    Some(Friction {
         coulomb: half(forward.value + backward.value),
         forward: Some(forward),
         backward: Some(backward),
@@ -83,5 +80,5 @@ fn friction_near_rest(found: &ConstantVelocity) -> Friction {
         viscous: found.viscous,
         viscous_by_direction: differ.then_some((f.viscous, b.viscous)),
         ..Friction::default()
-    }
+    })
 }

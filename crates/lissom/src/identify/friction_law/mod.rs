@@ -18,7 +18,7 @@ mod verdict;
 pub use choice::{LawCandidate, LawTerm};
 pub use curve::CurvePoint;
 pub(crate) use curve::CurveSums;
-pub(crate) use verdict::{finding, friction};
+pub(crate) use verdict::finding;
 
 use super::Estimate;
 use super::channel_noise::channel_noise;

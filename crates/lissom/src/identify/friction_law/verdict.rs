@@ -3,16 +3,29 @@
 use super::refine::NEAR_REST_STEP;
 use super::{LawFit, LawTerm};
 use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::judge::{Chosen, Evidence};
 use crate::identify::{
-    Estimate, Friction, Identified, NearRestEstimate, OutputError, RippleEstimate,
+    DriveEstimates, Estimate, Friction, NearRestEstimate, OutputError, RippleEstimate,
 };
 use crate::record::Axis;
 
 /// Share of Coulomb or of viscous friction below which a term is of no matter.
 const NEGLIGIBLE: f64 = 1e-3;
 
-/// Friction's figures under another law than Coulomb and one viscous constant.
-pub(crate) fn friction(law: &LawFit) -> Friction {
+impl LawFit {
+    /// All estimates under this law.
+    pub fn estimates(&self) -> DriveEstimates {
+        DriveEstimates {
+            friction: friction(self),
+            inertia: self.inertia,
+            coupling: self.total_coupling,
+            coupling_by_tip: self.coupling.clone(),
+        }
+    }
+}
+
+/// Friction under another law than Coulomb and one viscous constant.
+fn friction(law: &LawFit) -> Friction {
     let sum = |a: Option<Estimate>, b: Option<Estimate>, sign: f64| {
         let (a, b) = (a?, b?);
         Some(Estimate { value: a.value + sign * b.value, std: a.std.hypot(b.std) })
@@ -53,8 +66,9 @@ pub(crate) fn friction(law: &LawFit) -> Friction {
 }
 
 /// The law of friction that the data call for: that of the replay where it describes the runs.
-pub(crate) fn finding(axis: Axis, id: &Identified) -> Option<Finding> {
-    let replay = id.output_error.as_ref().filter(|oe| oe.stands());
+pub(crate) fn finding(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<Finding> {
+    let axis = evidence.campaign.channels.axis;
+    let replay = evidence.replay();
     let by_replay = replay.map_or(Vec::new(), OutputError::law_terms);
     if !by_replay.is_empty() {
         let whole = replay.is_some_and(|oe| oe.describes_whole_runs() && !oe.is_in_windows());
@@ -64,7 +78,7 @@ pub(crate) fn finding(axis: Axis, id: &Identified) -> Option<Finding> {
             if whole { "the runs from end to end" } else { "stretches of the runs" }
         );
         // Of exact logs everything is known, and whatever the simulator or the sensor adds is found.
-        if by_replay.iter().all(|term| is_negligible(id, term)) {
+        if by_replay.iter().all(|term| is_negligible(&chosen.drive.friction, term)) {
             let hint =
                 "nothing: all of it is less than a thousandth of Coulomb and viscous friction";
             return Some(told(Severity::Info, message, hint));
@@ -74,7 +88,7 @@ pub(crate) fn finding(axis: Axis, id: &Identified) -> Option<Finding> {
         let hint = if by_replay.iter().any(yields) { YIELDS } else { AT_SPEED };
         return Some(told(Severity::Warning, message, hint));
     }
-    let law = id.friction_law.as_ref().filter(|law| law.chosen.departs())?;
+    let law = evidence.methods.friction_law.as_ref().filter(|law| law.chosen.departs())?;
     let taken = law.candidates.iter().filter(|c| c.taken && c.term != LawTerm::CommandLag);
     let paired = taken.map(|c| c.paired).fold(f64::INFINITY, f64::min);
     let better = if paired.is_finite() {
@@ -107,10 +121,10 @@ pub(crate) fn finding(axis: Axis, id: &Identified) -> Option<Finding> {
 }
 
 /// Whether a term changes friction by less than [`NEGLIGIBLE`]; a root of speed is never taken for that little.
-fn is_negligible(id: &Identified, (term, amplitude): &(LawTerm, Vec<Estimate>)) -> bool {
+fn is_negligible(friction: &Friction, (term, amplitude): &(LawTerm, Vec<Estimate>)) -> bool {
     let of = match term {
-        LawTerm::ViscousByDirection => id.friction.viscous,
-        LawTerm::NearRest { .. } | LawTerm::Ripple { .. } => id.friction.coulomb,
+        LawTerm::ViscousByDirection => friction.viscous,
+        LawTerm::NearRest { .. } | LawTerm::Ripple { .. } => friction.coulomb,
         LawTerm::Root | LawTerm::AfterTravel { .. } | LawTerm::Bristles { .. } => None,
         LawTerm::CommandLag => return true,
     };

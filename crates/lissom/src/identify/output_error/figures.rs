@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::attempts::is_left;
 use super::{AT_NOISE, OutputError};
 use crate::identify::{
-    Beam, BristlesEstimate, Estimate, Friction, LawTerm, ModeEstimate, NearRestEstimate,
+    BristlesEstimate, DriveEstimates, Estimate, Friction, LawTerm, ModeEstimate, NearRestEstimate,
     RippleEstimate,
 };
 use crate::record::{Channels, TipQuantity};
@@ -87,25 +87,31 @@ impl OutputError {
         self.estimate(Parameter::Inertia)
     }
 
-    /// Modes and coupling.
-    pub fn beam(&self, channels: &Channels) -> Beam {
-        let modes = (0..self.arm.modes.len()).map(|j| ModeEstimate {
-            natural_frequency_rad_s: self.figure(|arm| arm.clamped_modes()[j].0),
-            damping_ratio: self.figure(|arm| arm.clamped_modes()[j].1),
-        });
+    /// Friction, inertia and coupling.
+    pub fn estimates(&self, channels: &Channels) -> DriveEstimates {
         let tips = &channels.tips;
         let known = |i: usize| tips[i].calibrated && tips[i].quantity != TipQuantity::Acceleration;
-        let by_tip = self.arm.coupling_by_tip().map_or(Vec::new(), |found| {
+        let coupling_by_tip = self.arm.coupling_by_tip().map_or(Vec::new(), |found| {
             let figure =
                 |i: usize| self.figure(|arm| arm.coupling_by_tip().map_or(f64::NAN, |k| k[i]));
             (0..found.len()).map(|i| known(i).then(|| figure(i))).collect()
         });
-        Beam {
-            modes: modes.collect(),
-            coupling: (!self.arm.modes.is_empty())
-                .then(|| self.figure(ModalArm::coupling_nm_per_rad)),
-            coupling_by_tip: by_tip,
+        let flexible = !self.arm.modes.is_empty();
+        DriveEstimates {
+            friction: self.friction(channels.command.back_emf_viscous),
+            inertia: self.inertia(),
+            coupling: flexible.then(|| self.figure(ModalArm::coupling_nm_per_rad)),
+            coupling_by_tip,
         }
+    }
+
+    /// Modes with the motor clamped.
+    pub fn mode_estimates(&self) -> Vec<ModeEstimate> {
+        let mode = |j: usize| ModeEstimate {
+            natural_frequency_rad_s: self.figure(|arm| arm.clamped_modes()[j].0),
+            damping_ratio: self.figure(|arm| arm.clamped_modes()[j].1),
+        };
+        (0..self.arm.modes.len()).map(mode).collect()
     }
 
     /// Whether the arm stands and describes the runs from end to end, be it by windows as long as motions stay together.

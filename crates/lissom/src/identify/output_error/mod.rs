@@ -39,7 +39,7 @@ pub use stages::StageReport;
 use stages::{Fitting, Laws};
 pub use start::{starts, starts_by_motor, starts_by_responses};
 use undecided::{Known, undecided};
-pub(crate) use verdict::{command_lag, verdict};
+pub(crate) use verdict::{command_lag, findings};
 
 /// Differences for the slopes of figures are taken over this many deviations.
 const HALF: f64 = 0.5;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::identify::rational::{Damping, Pole, fit_shared_poles};
 use crate::identify::{
-    BeamFit, BeamRegression, Estimate, MotorData, MotorFit, MotorRegression, Response, fit_motor,
+    BeamFit, BeamRegression, DriveEstimates, Estimate, MotorData, MotorFit, Response, fit_motor,
 };
 use crate::record::Campaign;
 use crate::replay::{DryTerms, MOST_MODES, ModalArm, Oscillator};
@@ -20,17 +20,18 @@ const POSSIBLE: Range<f64> = -0.05..0.25;
 /// Share of every tip's motion below which a mode is none to start with.
 const NEGLIGIBLE: f64 = 0.05;
 
-/// Arms to start from where a tip's angle is known, the likelier first: the motor's regression with the
+/// Arms to start from where a tip's angle is known, the likelier first: the `drive`'s estimates with the
 /// beam's own, and with the modes of the rational model `tips`. Empty where no tip's angle is known, or the
 /// motor's figures lack what it needs.
 pub fn starts(
     campaign: &Campaign,
-    motor: &MotorRegression,
+    drive: &DriveEstimates,
     beam: Option<&BeamRegression>,
     tips: Option<&BeamFit>,
 ) -> Vec<ModalArm> {
-    let coupling: Option<Vec<f64>> = motor.coupling.iter().map(|c| c.map(|e| e.value)).collect();
-    let (Some(rigid), Some(coupling)) = (rigid(campaign, motor), coupling) else {
+    let coupling: Option<Vec<f64>> =
+        drive.coupling_by_tip.iter().map(|c| c.map(|e| e.value)).collect();
+    let (Some(rigid), Some(coupling)) = (rigid(campaign, drive), coupling) else {
         return Vec::new();
     };
     if coupling.is_empty() {
@@ -60,11 +61,11 @@ pub fn starts(
 /// at all, and what the motor's rational model `response` has, where it has modes.
 pub fn starts_by_motor(
     campaign: &Campaign,
-    motor: &MotorRegression,
+    drive: &DriveEstimates,
     tips: Option<&BeamFit>,
     response: Option<&MotorFit>,
 ) -> Vec<ModalArm> {
-    let Some(rigid) = rigid(campaign, motor) else { return Vec::new() };
+    let Some(rigid) = rigid(campaign, drive) else { return Vec::new() };
     let flexible = response.and_then(|r| flexible(&rigid, campaign, r, tips));
     let rigid = campaign.channels.tips.is_empty().then_some(rigid);
     rigid.into_iter().chain(flexible).collect()
@@ -76,12 +77,12 @@ pub fn starts_by_motor(
 /// every mode takes part in.
 pub fn starts_by_responses(
     campaign: &Campaign,
-    motor: &MotorRegression,
+    drive: &DriveEstimates,
     omega_rad_s: &[f64],
     tips: &[Vec<Response>],
     response: &MotorData,
 ) -> Vec<ModalArm> {
-    let Some(rigid) = rigid(campaign, motor) else { return Vec::new() };
+    let Some(rigid) = rigid(campaign, drive) else { return Vec::new() };
     let found = |modes: usize| {
         let fit = fit_shared_poles(omega_rad_s, tips, modes, Damping::Small).ok()?;
         let (low, high) = fit.range_rad_s;
@@ -187,17 +188,22 @@ fn shown((mut omega, mut ratios, mut shapes): Modes) -> Modes {
     (omega, ratios, shapes)
 }
 
-fn rigid(campaign: &Campaign, motor: &MotorRegression) -> Option<ModalArm> {
-    let inertia = motor.inertia?.value;
+/// A rigid axis with the inertia and friction of some estimates.
+fn rigid(campaign: &Campaign, drive: &DriveEstimates) -> Option<ModalArm> {
+    let inertia = drive.inertia?.value;
     let back_emf = campaign.channels.command.back_emf_viscous;
-    let coulomb = motor.coulomb?.value;
-    // With less than none a replay runs away.
-    let viscous = (motor.viscous.map_or(0.0, |v| v.value) + back_emf).max(0.0);
+    let friction = &drive.friction;
+    let coulomb = friction.coulomb?.value;
+    let damped = |v: Option<Estimate>| v.map_or(0.0, |v| v.value) + back_emf;
+    let viscous = match friction.viscous_by_direction {
+        Some((forward, backward)) => [damped(Some(forward)), damped(Some(backward))],
+        None => [damped(friction.viscous); 2],
+    };
     (inertia > 0.0 && coulomb.is_finite()).then(|| ModalArm {
         inertia_kg_m2: inertia,
-        viscous_nm_s_per_rad: [viscous; 2],
+        viscous_nm_s_per_rad: viscous,
         coulomb_nm: coulomb,
-        offset_nm: motor.offset.map_or(0.0, |o| o.value),
+        offset_nm: friction.offset.map_or(0.0, |o| o.value),
         modes: Vec::new(),
         shapes: vec![Vec::new(); campaign.channels.tips.len()],
         at_points_per_s: Vec::new(),

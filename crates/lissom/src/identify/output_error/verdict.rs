@@ -4,8 +4,9 @@ use super::attempts::is_left;
 use super::modes::{FAINT, highest};
 use super::stages::GROWN;
 use super::{OutputError, StageReport};
+use crate::identify::Estimate;
 use crate::identify::finding::{Finding, Severity, key};
-use crate::identify::{Estimate, Identified};
+use crate::identify::judge::Evidence;
 use crate::record::{Campaign, Hold, Run, Tip};
 use crate::replay::{ModalArm, Parameter};
 
@@ -14,26 +15,25 @@ const DRIVES: f64 = 5.0;
 /// A lag is half a sample to this share of it.
 const HALF: f64 = 0.05;
 
-/// The output error's figures, where its arm describes the runs.
-pub(crate) fn verdict(campaign: &Campaign, id: &mut Identified) {
-    let Some(oe) = &id.output_error else { return };
-    let departs = departs(oe);
+/// What the replay found, and that it does not describe the runs where it does not.
+pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
+    let campaign = evidence.campaign;
+    let Some(oe) = &evidence.methods.output_error else { return Vec::new() };
+    let mut findings = Vec::new();
     if oe.stands() {
-        id.friction = oe.friction(campaign.channels.command.back_emf_viscous);
-        id.inertia = oe.inertia();
-        id.findings
-            .extend(oe.estimate(Parameter::CommandLag).map(|lag| command_lag(campaign, lag)));
-        id.findings.extend(tip_lags(campaign, oe));
-        id.findings.extend(modes_missing(campaign, oe));
-        id.findings.extend(modes_by_the_motor(campaign, oe));
-        id.findings.extend(faint_mode(&oe.arm, |p| oe.estimate(p)));
-        id.findings.extend(more_than_noise(campaign, oe));
-        id.findings.extend(damping_kind(oe));
+        findings.extend(oe.estimate(Parameter::CommandLag).map(|lag| command_lag(campaign, lag)));
+        findings.extend(tip_lags(campaign, oe));
+        findings.extend(modes_missing(campaign, oe));
+        findings.extend(modes_by_the_motor(campaign, oe));
+        findings.extend(faint_mode(&oe.arm, |p| oe.estimate(p)));
+        findings.extend(more_than_noise(campaign, oe));
+        findings.extend(damping_kind(oe));
         let figures = oe.parameters.iter().filter_map(|p| Some((*p, oe.estimate(*p)?)));
-        id.findings.extend(driving_damper(figures));
+        findings.extend(driving_damper(figures));
     }
-    id.findings.extend(departs);
-    id.findings.extend(motions_part(oe));
+    findings.extend(departs(oe));
+    findings.extend(motions_part(oe));
+    findings
 }
 
 /// Windows are shorter than the runs that they describe.

@@ -1,20 +1,25 @@
 //! The motor's equation on slip phases.
 
-use std::ops::Range;
-
 use nalgebra::{DMatrix, DVector};
 
 use super::missing::{MissingTerm, missing_term};
 use super::motor_rows::{DRY, INERTIA, MotorRows, TIPS, VISCOUS};
-use super::normal::{Cluster, Solution, Term, solve};
-use super::scan::{Candidate, SYSTEMATIC, Scan, scan};
-use crate::identify::Estimate;
-use crate::record::{Campaign, Run};
+use super::normal::{Solution, Term, solve};
+use super::scan::{Candidate, RATIO, SYSTEMATIC, change, scan};
+use crate::identify::{DriveEstimates, Estimate, Friction};
+use crate::record::{Campaign, Channels, Run};
 
 /// Directional viscous terms are reported when they differ by this many deviations…
 const DIRECTION_DEVIATIONS: f64 = 4.0;
 /// …and leave at most this share of the residual.
 const DIRECTION_RESIDUAL: f64 = 0.9;
+
+/// Places of the terms in the equation; that of half the difference of viscous friction follows the couplings.
+const PLACE_INERTIA: usize = 0;
+const PLACE_VISCOUS: usize = 1;
+const PLACE_COULOMB: usize = 2;
+const PLACE_OFFSET: usize = 3;
+pub(crate) const COUPLING: usize = 4;
 
 /// Figures of the motor's equation, in torque (or force) as the command's constant gives it.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,21 +68,19 @@ pub(crate) struct Terms {
     pub(crate) covariance: DMatrix<f64>,
     /// Changes, up to a factor, that the logs do not show.
     pub(crate) lost: Vec<DVector<f64>>,
+    /// Tips whose coupling is among them, from place [`COUPLING`] on.
+    pub(crate) tips: usize,
 }
 
-/// Viscous friction forward and backward, with what else they change.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The same equation with viscous friction by direction: a fit of its own.
+#[derive(Debug, Clone, PartialEq)]
 pub struct ByDirection {
-    /// While moving forward.
-    pub forward: Estimate,
-    /// While moving backward.
-    pub backward: Estimate,
-    /// Mean of both.
-    pub mean: Estimate,
-    /// Offset that is left beside them.
-    pub offset: Estimate,
-    /// Residual beside that of one constant.
+    /// All that this fit gives.
+    pub estimates: DriveEstimates,
+    /// ‖y − X·q‖/‖y‖ of this fit.
     pub relative_residual: f64,
+    /// J, V, CF, offset, κ_i of the tips, and half the difference of viscous friction forward and backward.
+    pub(crate) terms: Terms,
 }
 
 /// Fits `τ = J·θ̈ + V·θ̇ + Σκ_i(θ_m − θ_i) + CF·sgn θ̇ + offset` on the slip phases of all runs.
@@ -128,82 +131,127 @@ fn on_slip_phases(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRegressi
         scan(sample_time, window_s, &counts, |length| solve(&equation.clusters(length), &terms))?;
     let chosen = &found.candidates[found.chosen];
     let solution = &found.solution;
-    let figure = |i: usize| {
-        let systematic = SYSTEMATIC * found.change[i];
-        let std = (solution.covariance[(i, i)].max(0.0) + systematic * systematic).sqrt();
-        (!solution.inseparable[i]).then_some(Estimate { value: solution.value[i], std })
-    };
-    // A sum of CF and offset can be separable where each alone is not.
-    let direction = |sign: f64| {
-        let c = &solution.covariance;
-        let variance = c[(2, 2)] + c[(3, 3)] + 2.0 * sign * c[(2, 3)];
-        let systematic = SYSTEMATIC * (found.change[2] + sign * found.change[3]);
-        let std = (variance.max(0.0) + systematic * systematic).sqrt();
-        let value = solution.value[2] + sign * solution.value[3];
-        let separable = !solution.inseparable[2] && !solution.inseparable[3];
-        separable.then_some(Estimate { value, std })
-    };
-    let mut coupling = vec![None; if tips.is_empty() { 0 } else { campaign.channels.tips.len() }];
-    for (i, &tip) in tips.iter().enumerate() {
-        coupling[tip] = figure(4 + i);
-    }
-    let total_coupling = total(&found, 4..4 + tips.len());
-    let back_emf = campaign.channels.command.back_emf_viscous;
-    let viscous = |e: Estimate| Estimate { value: e.value - back_emf, std: e.std };
-    let known: Vec<f64> = (0..tips.len()).map(|i| solution.value[4 + i]).collect();
-    let clusters = equation.clusters_with_more(chosen.window_s, &known);
+    let (channels, window_s_chosen) = (&campaign.channels, chosen.window_s);
+    let one = Fitted { solution, change: &found.change, tips };
+    let DriveEstimates { friction, inertia, coupling: total_coupling, coupling_by_tip } =
+        one.estimates(channels);
+    let known: Vec<f64> = (0..tips.len()).map(|i| solution.value[COUPLING + i]).collect();
+    let clusters = equation.clusters_with_more(window_s_chosen, &known);
     let missing = missing_term(&clusters, &terms, solution, TIPS + tips.len(), tips.len());
-    let by_direction = by_direction(&clusters, &terms, solution);
+    let solved = |length: f64, terms: &[Term]| solve(&equation.clusters(length), terms);
+    let viscous_by_direction = by_direction(channels, &one, &terms, window_s_chosen, &solved);
     Some(MotorRegression {
         window_s: chosen.window_s,
         window_given: !window_s.is_empty(),
         rows: chosen.rows,
         phases: chosen.clusters,
         relative_residual: solution.relative_residual,
-        inertia: figure(0),
-        viscous: figure(1).map(viscous),
-        coulomb: figure(2),
-        offset: figure(3),
-        forward: direction(1.0),
-        backward: direction(-1.0),
+        inertia,
+        viscous: friction.viscous,
+        coulomb: friction.coulomb,
+        offset: friction.offset,
+        forward: friction.forward,
+        backward: friction.backward,
         total_coupling,
-        coupling,
-        viscous_by_direction: by_direction.map(|d| ByDirection {
-            forward: viscous(d.forward),
-            backward: viscous(d.backward),
-            mean: viscous(d.mean),
-            ..d
-        }),
+        coupling: coupling_by_tip,
+        viscous_by_direction,
         missing,
+        terms: one.terms(),
         candidates: found.candidates,
-        terms: Terms {
-            values: solution.value.iter().copied().collect(),
-            covariance: solution.covariance.clone(),
-            lost: solution.lost.clone(),
-        },
     })
 }
 
-/// Sum of some figures, with their covariances; `None` of none, or where one is inseparable.
-fn total(found: &Scan, figures: Range<usize>) -> Option<Estimate> {
-    let s = &found.solution;
-    if figures.is_empty() || figures.clone().any(|i| s.inseparable[i]) {
-        return None;
+/// A solution of the equation with what its window's length adds to the standard errors.
+struct Fitted<'a> {
+    solution: &'a Solution,
+    /// Change of each term from the next shorter to the next longer window.
+    change: &'a [f64],
+    /// Tips whose couplings are among the terms.
+    tips: &'a [usize],
+}
+
+impl Fitted<'_> {
+    /// `Σ w_i·q_i` over pairs of a term and its weight; `None` where the logs do not tell a term of it.
+    fn combined(&self, weights: &[(usize, f64)]) -> Option<Estimate> {
+        let Self { solution: s, change, .. } = self;
+        if weights.is_empty() || weights.iter().any(|(i, _)| s.inseparable[*i]) {
+            return None;
+        }
+        let sum = |of: &dyn Fn(usize) -> f64| weights.iter().map(|(i, w)| w * of(*i)).sum::<f64>();
+        let variance = sum(&|i| sum(&|k| s.covariance[(i, k)]));
+        let systematic = SYSTEMATIC * sum(&|i| change[i]);
+        let std = (variance.max(0.0) + systematic * systematic).sqrt();
+        Some(Estimate { value: sum(&|i| s.value[i]), std })
     }
-    let sum = |f: &dyn Fn(usize) -> f64| figures.clone().map(f).sum::<f64>();
-    let variance = sum(&|i| sum(&|k| s.covariance[(i, k)]));
-    let systematic = SYSTEMATIC * sum(&|i| found.change[i]);
-    let std = (variance.max(0.0) + systematic * systematic).sqrt();
-    Some(Estimate { value: sum(&|i| s.value[i]), std })
+
+    /// All estimates; with viscous friction by direction where the solution has a term for it.
+    fn estimates(&self, channels: &Channels) -> DriveEstimates {
+        let back_emf = channels.command.back_emf_viscous;
+        let without_back_emf = |e: Estimate| Estimate { value: e.value - back_emf, std: e.std };
+        let viscous = |weights: &[(usize, f64)]| self.combined(weights).map(without_back_emf);
+        let single = |i: usize| self.combined(&[(i, 1.0)]);
+        let (count, difference) = (self.tips.len(), COUPLING + self.tips.len());
+        let by_direction = (self.solution.value.len() > difference)
+            .then(|| [1.0, -1.0].map(|sign| viscous(&[(PLACE_VISCOUS, 1.0), (difference, sign)])));
+        let mut coupling_by_tip = vec![None; if count == 0 { 0 } else { channels.tips.len() }];
+        for (i, &tip) in self.tips.iter().enumerate() {
+            coupling_by_tip[tip] = single(COUPLING + i);
+        }
+        let coulomb = |sign: f64| self.combined(&[(PLACE_COULOMB, 1.0), (PLACE_OFFSET, sign)]);
+        let friction = Friction {
+            coulomb: single(PLACE_COULOMB),
+            forward: coulomb(1.0),
+            backward: coulomb(-1.0),
+            offset: single(PLACE_OFFSET),
+            viscous: viscous(&[(PLACE_VISCOUS, 1.0)]),
+            viscous_by_direction: by_direction.and_then(|[f, b]| f.zip(b)),
+            ..Friction::default()
+        };
+        let all: Vec<(usize, f64)> = (COUPLING..difference).map(|i| (i, 1.0)).collect();
+        DriveEstimates {
+            friction,
+            inertia: single(PLACE_INERTIA),
+            coupling: self.combined(&all),
+            coupling_by_tip,
+        }
+    }
+
+    fn terms(&self) -> Terms {
+        let s = self.solution;
+        Terms {
+            values: s.value.iter().copied().collect(),
+            covariance: s.covariance.clone(),
+            lost: s.lost.clone(),
+            tips: self.tips.len(),
+        }
+    }
 }
 
 impl MotorRegression {
+    /// The estimates with one viscous coefficient.
+    pub fn estimates(&self) -> DriveEstimates {
+        let friction = Friction {
+            coulomb: self.coulomb,
+            forward: self.forward,
+            backward: self.backward,
+            offset: self.offset,
+            viscous: self.viscous,
+            ..Friction::default()
+        };
+        DriveEstimates {
+            friction,
+            inertia: self.inertia,
+            coupling: self.total_coupling,
+            coupling_by_tip: self.coupling.clone(),
+        }
+    }
+
     /// Relative error with which these figures predict the windowed torque of other records:
     /// ‖y − X·q‖/‖y‖ on their slip phases, at this fit's window. `None` where no phase holds one.
     pub fn prediction_error(&self, campaign: &Campaign) -> Option<f64> {
         let equation = MotorRows::of(campaign);
         let values = &self.terms.values;
-        if values.len() != 4 + equation.tips.len() {
+        if self.terms.tips != equation.tips.len() {
             return None;
         }
         let (mut left, mut power) = (0.0, 0.0);
@@ -221,29 +269,35 @@ impl MotorRegression {
     }
 }
 
-/// Viscous friction by direction, if the data call for it.
-fn by_direction(clusters: &[Cluster], terms: &[Term], one: &Solution) -> Option<ByDirection> {
+/// The fit with viscous friction by direction, if the data call for it. `solved` solves the equation with
+/// given terms in windows of a given length.
+fn by_direction(
+    channels: &Channels,
+    one: &Fitted<'_>,
+    terms: &[Term],
+    window_s: f64,
+    solved: &dyn Fn(f64, &[Term]) -> Option<Solution>,
+) -> Option<ByDirection> {
     let mut split = terms.to_vec();
-    split[1] = Term::Forward(VISCOUS);
-    split.insert(2, Term::Backward(VISCOUS));
-    let two = solve(clusters, &split)?;
-    if two.inseparable[1] || two.inseparable[2] || two.inseparable[4] {
+    split.push(Term::Signed(VISCOUS));
+    let difference = terms.len();
+    let two = solved(window_s, &split)?;
+    if [PLACE_VISCOUS, PLACE_OFFSET, difference].iter().any(|i| two.inseparable[*i]) {
         return None;
     }
-    let c = &two.covariance;
-    let difference = two.value[1] - two.value[2];
-    let deviation = (c[(1, 1)] + c[(2, 2)] - 2.0 * c[(1, 2)]).max(0.0).sqrt();
-    let called_for = difference.abs() > DIRECTION_DEVIATIONS * deviation
-        && two.relative_residual < DIRECTION_RESIDUAL * one.relative_residual;
-    let figure = |i: usize| Estimate { value: two.value[i], std: c[(i, i)].max(0.0).sqrt() };
-    called_for.then(|| ByDirection {
-        forward: figure(1),
-        backward: figure(2),
-        mean: Estimate {
-            value: 0.5 * (two.value[1] + two.value[2]),
-            std: 0.5 * (c[(1, 1)] + c[(2, 2)] + 2.0 * c[(1, 2)]).max(0.0).sqrt(),
-        },
-        offset: figure(4),
+    let deviation = two.covariance[(difference, difference)].max(0.0).sqrt();
+    let called_for = two.value[difference].abs() > DIRECTION_DEVIATIONS * deviation
+        && two.relative_residual < DIRECTION_RESIDUAL * one.solution.relative_residual;
+    if !called_for {
+        return None;
+    }
+    let [shorter, longer] =
+        [window_s / RATIO, window_s * RATIO].map(|length| solved(length, &split));
+    let change = change(shorter.as_ref(), &two, longer.as_ref());
+    let fitted = Fitted { solution: &two, change: &change, tips: one.tips };
+    Some(ByDirection {
+        estimates: fitted.estimates(channels),
         relative_residual: two.relative_residual,
+        terms: fitted.terms(),
     })
 }

@@ -7,7 +7,7 @@ use super::normal::Solution;
 /// Fewest samples in a window.
 const LEAST_SAMPLES: f64 = 10.0;
 /// Ratio of one candidate's length to that before it.
-const RATIO: f64 = std::f64::consts::SQRT_2;
+pub(super) const RATIO: f64 = std::f64::consts::SQRT_2;
 /// Fewest clusters (phases, blocks) that a candidate must rest on.
 const LEAST_CLUSTERS: usize = 4;
 /// No shorter window is tried where the figures' scatter is so many times the least sensitivity, or all of the
@@ -160,13 +160,22 @@ fn choose(tried: &[(f64, Solution)], counts: &[bool], given: Option<f64>) -> Opt
         least?.0
     };
     let solution = tried[chosen].1.clone();
-    let neighbours = (tried.get(chosen.wrapping_sub(1)), tried.get(chosen + 1));
-    let change = (0..solution.value.len())
-        .map(|i| match neighbours {
-            (Some(a), Some(b)) => b.1.value[i] - a.1.value[i],
-            (Some(a), None) | (None, Some(a)) => 2.0 * (a.1.value[i] - solution.value[i]),
-            (None, None) => 0.0,
-        })
-        .collect();
+    let neighbour = |k: usize| tried.get(k).map(|(_, solution)| solution);
+    let change = change(neighbour(chosen.wrapping_sub(1)), &solution, neighbour(chosen + 1));
     Some(Scan { candidates, chosen, solution, change })
+}
+
+/// Change of each figure from the next shorter to the next longer window; twice that to the one neighbour where there
+/// is only one.
+pub(super) fn change(
+    shorter: Option<&Solution>,
+    here: &Solution,
+    longer: Option<&Solution>,
+) -> Vec<f64> {
+    let of = |i: usize| match (shorter, longer) {
+        (Some(a), Some(b)) => b.value[i] - a.value[i],
+        (Some(a), None) | (None, Some(a)) => 2.0 * (a.value[i] - here.value[i]),
+        (None, None) => 0.0,
+    };
+    (0..here.value.len()).map(of).collect()
 }

@@ -1,8 +1,9 @@
 //! What the regression's figures are worth, in findings.
 
-use super::{MissingKind, MissingTerm, MotorRegression};
+use super::{ByDirection, MissingKind, MissingTerm, MotorRegression};
 use crate::identify::finding::{Finding, Severity, key};
-use crate::identify::{Estimate, FrictionLaw, Identified, OutputError, RunAnalysis, RunKind};
+use crate::identify::judge::Evidence;
+use crate::identify::{Estimate, FrictionLaw, RunAnalysis, RunKind};
 
 /// Windowed torque left by the regression from which on its figures are called uncertain.
 const RESIDUAL: f64 = 0.15;
@@ -10,15 +11,16 @@ const RESIDUAL: f64 = 0.15;
 const SAME_FREQUENCY: f64 = 0.02;
 
 /// What speaks against the regression's figures.
-pub(crate) fn findings(id: &mut Identified) {
+pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
+    let mut findings = Vec::new();
     let everything = [key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING];
     // The replay explains the runs: what is left of the regression says nothing then.
-    let explained = id.output_error.as_ref().is_some_and(OutputError::stands);
-    let Some(r) = &id.regression else {
+    let explained = evidence.replay().is_some();
+    let Some(r) = &evidence.methods.regression else {
         if explained {
-            return;
+            return findings;
         }
-        let message = match id.regression_residual {
+        let message = match evidence.methods.regression_residual {
             Some(residual) => format!(
                 "the motor's equation leaves {:.0} % of the windowed torque: no figure of it stands",
                 100.0 * residual
@@ -27,17 +29,17 @@ pub(crate) fn findings(id: &mut Identified) {
         };
         let hint = "longer moves in both directions at a measured current; a flexible beam needs its tip \
                     measured; check columns, units and signs";
-        id.findings.push(Finding::new(
+        findings.push(Finding::new(
             "regression-refused",
             Severity::Refusal,
             &everything,
             message,
             hint,
         ));
-        return;
+        return findings;
     };
     if r.relative_residual > RESIDUAL && !explained {
-        id.findings.push(Finding::new(
+        findings.push(Finding::new(
             "unexplained-torque",
             Severity::Warning,
             &everything,
@@ -48,11 +50,11 @@ pub(crate) fn findings(id: &mut Identified) {
             "a delay, a load, other friction or a flexible mode without a tip; check units and signs",
         ));
     }
-    if !explained && is_one_sine(id, r) {
-        id.findings.push(one_sine());
+    if !explained && is_one_sine(evidence.runs, r) {
+        findings.push(one_sine());
     }
     // A law of friction that was chosen says more than the one term that was tried for it.
-    let law = id.friction_law.as_ref().filter(|law| law.chosen.departs());
+    let law = evidence.methods.friction_law.as_ref().filter(|law| law.chosen.departs());
     let said = |m: &MissingTerm| match m.kind {
         MissingKind::Delay => law.is_some_and(FrictionLaw::leaves_no_lag),
         MissingKind::Position
@@ -64,7 +66,7 @@ pub(crate) fn findings(id: &mut Identified) {
     };
     if let Some(m) = r.missing.filter(|m| !explained && !said(m)) {
         let (what, hint) = in_words(&m);
-        id.findings.push(Finding::new(
+        findings.push(Finding::new(
             "missing-term",
             Severity::Warning,
             &everything,
@@ -77,35 +79,45 @@ pub(crate) fn findings(id: &mut Identified) {
             hint,
         ));
     }
-    if let Some(d) = r.viscous_by_direction.filter(|_| !explained) {
-        id.findings.push(Finding::new(
-            "viscous-by-direction",
-            Severity::Warning,
-            &[key::VISCOUS, key::OFFSET],
-            format!(
-                "viscous friction differs by direction: {:.4e} forward, {:.4e} backward; the \
-                 residual falls from {:.1} % to {:.1} %, and of the offset {:.4e} is left",
-                d.forward.value,
-                d.backward.value,
-                100.0 * r.relative_residual,
-                100.0 * d.relative_residual,
-                d.offset.value
-            ),
-            "the scalar figure is the mean of both; the offset depends on which law is taken",
-        ));
-    }
+    let split = r.viscous_by_direction.as_ref().filter(|_| !explained);
+    findings.extend(split.and_then(|d| differs_by_direction(r, d)));
+    findings
+}
+
+/// Viscous friction that differs by direction.
+fn differs_by_direction(r: &MotorRegression, d: &ByDirection) -> Option<Finding> {
+    let (forward, backward) = d.estimates.friction.viscous_by_direction?;
+    Some(Finding::new(
+        "viscous-by-direction",
+        Severity::Warning,
+        &[key::VISCOUS, key::OFFSET],
+        format!(
+            "viscous friction differs by direction: {:.4e} forward, {:.4e} backward; the \
+             residual falls from {:.1} % to {:.1} %, and of the offset {:.4e} is left",
+            forward.value,
+            backward.value,
+            100.0 * r.relative_residual,
+            100.0 * d.relative_residual,
+            d.estimates.friction.offset?.value
+        ),
+        "the scalar figure is the mean of both; the offset depends on which law is taken",
+    ))
+}
+
+/// A tip whose sign looks reversed.
+pub(crate) fn reversed_tip(evidence: &Evidence<'_>) -> Option<Finding> {
+    let r = evidence.methods.regression.as_ref()?;
     let negative = r.coupling.iter().flatten().any(Estimate::is_negative);
-    if negative && r.coupling.iter().flatten().count() == 1 {
-        let finding = Finding::new(
+    (negative && r.coupling.iter().flatten().count() == 1).then(|| {
+        Finding::new(
             "coupling-sign",
             Severity::Refusal,
             &[key::COUPLING, key::MODES],
             "the beam would push the motor away from itself: the tip's sign looks reversed"
                 .to_owned(),
             "give the tip a negative scale in the campaign",
-        );
-        id.findings.insert(0, finding);
-    }
+        )
+    })
 }
 
 fn one_sine() -> Finding {
@@ -121,12 +133,12 @@ fn one_sine() -> Finding {
 }
 
 /// Whether there is a beam, and all runs that are used are a sine of one frequency.
-fn is_one_sine(id: &Identified, regression: &MotorRegression) -> bool {
+fn is_one_sine(runs: &[RunAnalysis], regression: &MotorRegression) -> bool {
     let omega = |run: &RunAnalysis| match &run.kind {
         RunKind::Sinusoidal(sine) => Some(sine.omega_rad_s),
         RunKind::ConstantVelocity | RunKind::General => None,
     };
-    let used = || id.runs.iter().filter(|run| run.usable).map(omega);
+    let used = || runs.iter().filter(|run| run.usable).map(omega);
     let Some(Some(first)) = used().next() else { return false };
     let alike =
         |omega: Option<f64>| omega.is_some_and(|w| (w / first - 1.0).abs() < SAME_FREQUENCY);

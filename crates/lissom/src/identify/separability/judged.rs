@@ -4,7 +4,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{FigureKnown, correlation};
 use crate::identify::output_error::OutputError;
-use crate::identify::{Estimate, Identified};
+use crate::identify::regression::{COUPLING, Terms};
+use crate::identify::{DriveEstimates, Estimate};
 use crate::information::{Figure, inverse, slopes};
 use crate::record::Campaign;
 
@@ -49,38 +50,40 @@ impl Judged {
         Self { figures, slopes, covariance, lost: Vec::new() }
     }
 
-    /// Those of the regression on slip phases, with the deviations that it states; none where another
-    /// friction law took its place.
-    pub(super) fn of_regression(id: &Identified) -> Self {
-        let departs = id.friction_law.as_ref().is_some_and(|law| law.chosen.departs());
-        let Some(r) = id.regression.as_ref().filter(|_| !departs) else {
-            return Self::none();
-        };
-        let values = &r.terms.values;
+    /// Those of a regression in slip phases, with the standard errors that it states.
+    pub(super) fn of_regression(terms: &Terms, drive: &DriveEstimates) -> Self {
+        let values = &terms.values;
         let n = values.len();
-        let coupling: f64 = values[4..].iter().sum();
+        let couplings = COUPLING..COUPLING + terms.tips;
+        let coupling: f64 = values[couplings.clone()].iter().sum();
+        let friction = &drive.friction;
         let coulomb = values[2].abs();
         let all: [(Figure, &[usize], f64, Option<Estimate>); 5] = [
-            (Figure::Coulomb, &[2], coulomb, r.coulomb),
-            (Figure::Viscous, &[1], r.viscous.map_or(values[1], |v| v.value).abs(), r.viscous),
-            (Figure::Inertia, &[0], values[0].abs(), r.inertia),
-            (Figure::Coupling, &(4..n).collect::<Vec<_>>(), coupling.abs(), r.total_coupling),
-            (Figure::Offset, &[3], coulomb, r.offset),
+            (Figure::Coulomb, &[2], coulomb, friction.coulomb),
+            (
+                Figure::Viscous,
+                &[1],
+                friction.viscous.map_or(values[1], |v| v.value).abs(),
+                friction.viscous,
+            ),
+            (Figure::Inertia, &[0], values[0].abs(), drive.inertia),
+            (Figure::Coupling, &couplings.collect::<Vec<_>>(), coupling.abs(), drive.coupling),
+            (Figure::Offset, &[3], coulomb, friction.offset),
         ];
-        let all = all.iter().filter(|(_, terms, size, _)| !terms.is_empty() && *size > 0.0);
+        let all = all.iter().filter(|(_, places, size, _)| !places.is_empty() && *size > 0.0);
         let (mut figures, mut columns, mut stated) = (Vec::new(), Vec::new(), Vec::new());
-        for (figure, terms, size, estimate) in all {
+        for (figure, places, size, estimate) in all {
             figures.push(*figure);
             columns.push(DVector::from_fn(
                 n,
                 |i, _| {
-                    if terms.contains(&i) { 1.0 / size } else { 0.0 }
+                    if places.contains(&i) { 1.0 / size } else { 0.0 }
                 },
             ));
             stated.push(estimate.map(|e| e.std / size));
         }
         let slopes = matrix(n, &columns);
-        let plain = slopes.tr_mul(&(&r.terms.covariance * &slopes));
+        let plain = slopes.tr_mul(&(&terms.covariance * &slopes));
         // What the choice of the window adds is in the stated deviations alone.
         let stretch = |i: usize| stated[i].map_or(1.0, |s| s / plain[(i, i)].sqrt());
         let covariance = DMatrix::from_fn(plain.nrows(), plain.ncols(), |i, j| {
@@ -90,11 +93,11 @@ impl Judged {
             let found = slopes.tr_mul(change);
             (found.norm() > 0.0).then(|| found.normalize())
         };
-        let lost = r.terms.lost.iter().filter_map(of_figures).collect();
+        let lost = terms.lost.iter().filter_map(of_figures).collect();
         Self { figures, slopes, covariance, lost }
     }
 
-    fn none() -> Self {
+    pub(super) fn none() -> Self {
         let none = || DMatrix::zeros(0, 0);
         Self { figures: Vec::new(), slopes: none(), covariance: none(), lost: Vec::new() }
     }

@@ -14,11 +14,11 @@ use judged::Judged;
 pub use run_to_add::RunToAdd;
 pub use runs::{Carried, RunShare};
 
-use super::Identified;
+use super::drive_estimates::Method;
 use super::finding::{Finding, Severity, key};
 use super::found_arm::ArmSource;
+use super::judge::{Chosen, Evidence, Methods};
 use crate::information::Figure;
-use crate::record::Campaign;
 
 /// Relative deviation up to which a figure is sharp: where all are, nothing is left to separate.
 const SHARP: f64 = 0.01;
@@ -66,12 +66,17 @@ const DOUBTS: [&str; 5] =
 const NOTHING: &str = "command-sign";
 
 impl Separability {
-    /// Of the method that the figures are from; `used` are the runs that it used.
-    pub(super) fn of(id: &Identified, used: &Campaign) -> Option<Self> {
-        if id.findings.iter().any(|f| f.code == NOTHING) {
+    /// Of the solution that was taken.
+    pub(super) fn of(
+        evidence: &Evidence<'_>,
+        chosen: &Chosen,
+        findings: &[Finding],
+    ) -> Option<Self> {
+        if findings.iter().any(|f| f.code == NOTHING) {
             return None;
         }
-        let by_replay = id.output_error.as_ref().map(|oe| (oe, Judged::of_replay(oe, used)));
+        let (methods, used) = (evidence.methods, evidence.used);
+        let by_replay = methods.output_error.as_ref().map(|oe| (oe, Judged::of_replay(oe, used)));
         let runs = by_replay
             .as_ref()
             .map_or(Vec::new(), |(oe, judged)| runs::shares(judged, &oe.by_run, used));
@@ -79,7 +84,7 @@ impl Separability {
         let replay = stands.as_ref().map(|(oe, _)| *oe);
         let (source, judged) = match stands {
             Some((_, judged)) => (ArmSource::OutputError, judged),
-            None => (ArmSource::Regression, Judged::of_regression(id)),
+            None => (ArmSource::Regression, of_regression(methods, chosen)),
         };
         let covariance = &judged.covariance;
         let mut directions = direction::lost(&judged);
@@ -93,7 +98,7 @@ impl Separability {
             }),
             directions,
             runs,
-            doubted_by: id.findings.iter().map(|f| f.code).filter(|c| DOUBTS.contains(c)).collect(),
+            doubted_by: findings.iter().map(|f| f.code).filter(|c| DOUBTS.contains(c)).collect(),
         };
         (!found.figures.is_empty() || !found.runs.is_empty()).then_some(found)
     }
@@ -127,6 +132,19 @@ impl Separability {
         let finding = Finding::new("run-stands-out", Severity::Warning, &affects, message, hint);
         Some(finding.of(&run.run))
     }
+}
+
+/// Of the regression that was taken; empty where another method was, which has no covariance of its own.
+fn of_regression(methods: &Methods, chosen: &Chosen) -> Judged {
+    let regression = methods.regression.as_ref();
+    let terms = match chosen.method {
+        Some(Method::Regression) => regression.map(|r| &r.terms),
+        Some(Method::RegressionByDirection) => {
+            regression.and_then(|r| r.viscous_by_direction.as_ref()).map(|split| &split.terms)
+        }
+        _ => None,
+    };
+    terms.map_or_else(Judged::none, |terms| Judged::of_regression(terms, &chosen.drive))
 }
 
 /// The result's key of a figure.

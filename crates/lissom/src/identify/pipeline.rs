@@ -11,7 +11,8 @@ use super::equivalent::{Equivalent, EquivalentData, equivalent};
 use super::finding::{Finding, Severity, key};
 use super::friction_law::{FrictionLaw, friction_law};
 use super::friction_waveform::FrictionWaveform;
-use super::identified::{Beam, Friction, Identified, ThirdHarmonic};
+use super::identified::{Identified, ThirdHarmonic};
+use super::judge::{Evidence, Methods, conclude, slip_phase_solution};
 use super::linear_models::LinearModels;
 use super::models::{beam_model, figures_model, motor_and_beam, rigid_model};
 use super::output_error::{OutputError, OutputErrorStart, output_error};
@@ -21,7 +22,7 @@ use super::response_table::{Replayed, ResponsePoint, response_table, weak_points
 use super::run_analysis::{RunAnalysis, RunKind, analyse};
 use super::starting_arms::starting_arms;
 use super::third_harmonic::{PairFigure, mean_figure, pair_figure};
-use super::{Estimate, ModeEstimate, models, verdict};
+use super::{Estimate, ModeEstimate, models};
 use crate::record::{Campaign, Run};
 use crate::replay::ModalArm;
 
@@ -168,7 +169,8 @@ pub fn identify(
         // Responses of the motor without friction: as a square wave it is near enough to start with.
         let table = || response_table(campaign, &runs, best, &square, &findings);
         let (beam, tips) = (any_beam_regression.as_ref(), beam_model.as_ref());
-        let plain = starting_arms(&usable, &motor, beam, tips, &shown, table);
+        let drive = motor.estimates();
+        let plain = starting_arms(&usable, &drive, beam, tips, &shown, table);
         replayed(&usable, &runs, &kept, &plain, friction_law.as_ref().map(|(law, _)| law))
     });
 
@@ -184,7 +186,10 @@ pub fn identify(
     let replay = replay.map_or_else(Replayed::default, |o| corrected(o, &usable, &runs, &kept));
     let mut responses = response_table(campaign, &runs, best, &replay, &findings);
     let stepped = responses.iter().filter(|p| p.run.is_some()).count() >= STEPPED;
-    let figures = figures_model(campaign, regression.as_ref(), beam_regression.as_ref());
+    let law = friction_law.as_ref().map(|(law, _)| law);
+    let phases = slip_phase_solution(regression.as_ref(), law).map(|(_, drive)| drive);
+    let explained = regression.as_ref().zip(phases.as_ref());
+    let figures = figures_model(campaign, explained, beam_regression.as_ref());
     let (mut motor_model, mut contradicted) = (None, None);
     if let Some((motor, beam)) = &figures {
         if replay.bands.is_none() {
@@ -211,31 +216,21 @@ pub fn identify(
     findings.extend(uncertain(&mut responses));
     findings.extend(weak_points(&responses, &runs));
     let equivalent = equivalent_arm(campaign, &responses, &mut findings);
-    let mut identified = Identified {
-        friction: Friction::default(),
-        inertia: None,
-        beam: Beam::default(),
+    let methods = Methods {
         third_harmonic,
-        friction_law: friction_law.map(|(law, _)| law),
         regression,
         regression_residual,
+        friction_law: friction_law.map(|(law, _)| law),
         constant_velocity,
         beam_regression,
         output_error,
-        runs,
-        responses,
         beam_model,
         motor_model,
-        models: LinearModels::default(),
-        equivalent,
-        separability: None,
-        arm: None,
-        torque_per_command: campaign.channels.command.torque_per_command,
-        findings,
     };
-    verdict::conclude(campaign, &usable, &mut identified);
-    identified.models = LinearModels::of(&usable, &identified);
-    Ok(identified)
+    let evidence = Evidence { campaign, used: &usable, runs: &runs, methods: &methods };
+    let conclusion = conclude(&evidence, findings);
+    let models = LinearModels::of(&evidence);
+    Ok(Identified::new(campaign, methods, runs, responses, (models, equivalent), conclusion))
 }
 
 /// Whether the beam's regression leaves little, and all its modes fade.
@@ -399,13 +394,7 @@ fn replayed(
         RunKind::ConstantVelocity | RunKind::General => None,
     };
     let omega_rad_s: Vec<Option<f64>> = kept.iter().map(omega).collect();
-    let lawful = law.filter(|law| law.chosen.departs()).into_iter().flat_map(|law| {
-        let mut arms = plain.to_vec();
-        let back_emf = usable.channels.command.back_emf_viscous;
-        arms.retain_mut(|arm| law.chosen.put_into(arm, back_emf));
-        arms
-    });
-    let arms = lawful.chain(plain.iter().cloned()).collect();
+    let arms = plain.to_vec();
     let law = law.map_or(Vec::new(), FrictionLaw::tried);
     output_error(usable, &OutputErrorStart { arms, omega_rad_s, first_window_s: None, law })
 }

@@ -1,0 +1,90 @@
+//! Friction as a method estimates it.
+
+use super::Estimate;
+use crate::drive::Falloff;
+
+/// Friction, in torque (or force).
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Friction {
+    /// Coulomb friction, mean of both directions.
+    pub coulomb: Option<Estimate>,
+    /// While moving forward.
+    pub forward: Option<Estimate>,
+    /// While moving backward.
+    pub backward: Option<Estimate>,
+    /// (forward − backward)/2.
+    pub offset: Option<Estimate>,
+    /// Viscous friction.
+    pub viscous: Option<Estimate>,
+    /// Viscous friction forward and backward, where the data reject one constant.
+    pub viscous_by_direction: Option<(Estimate, Estimate)>,
+    /// What friction has near rest beyond Coulomb's, where the data call for it.
+    pub near_rest: Option<NearRestEstimate>,
+    /// Waves over the travel, where the data show them.
+    pub ripples: Vec<RippleEstimate>,
+    /// What yields before the joint slips, where the replay calls for it.
+    pub bristles: Option<BristlesEstimate>,
+}
+
+impl Friction {
+    /// Friction against the motion at a speed in a direction (+1 or −1) \[N·m\], waves over the travel left out: positive
+    /// where it brakes. `None` where a figure of it is refused.
+    ///
+    /// `C_± + V_±·|v| + A·e^{−|v|/v_s}` (or `A·e^{−(v/v_s)²}`).
+    pub fn at(&self, speed: f64, direction: f64) -> Option<f64> {
+        let forward = direction > 0.0;
+        let coulomb = if forward { self.forward } else { self.backward }?;
+        let viscous = match self.viscous_by_direction {
+            Some((by_forward, by_backward)) => {
+                if forward {
+                    by_forward
+                } else {
+                    by_backward
+                }
+            }
+            None => self.viscous?,
+        };
+        let near =
+            self.near_rest.map_or(0.0, |n| n.torque.value * n.falloff.share(speed / n.speed.value));
+        Some(coulomb.value + viscous.value * speed + near)
+    }
+}
+
+/// Bristles that bend before the joint slips: `F = σ0·z + σ1·ż`, all of the law above the level that they slip at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BristlesEstimate {
+    /// σ0.
+    pub stiffness: Estimate,
+    /// σ1.
+    pub damping: Estimate,
+    /// How far they bend at speed, C/σ0.
+    pub travel: Estimate,
+}
+
+/// `s·A·e^{−|v|/v_s}` or `s·A·e^{−(v/v_s)²}`, s the direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NearRestEstimate {
+    /// A: friction at rest is C + A.
+    pub torque: Estimate,
+    /// v_s.
+    pub speed: Estimate,
+    /// Which of the two.
+    pub falloff: Falloff,
+}
+
+/// `s·A·cos(k·θ + φ)`, s the direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RippleEstimate {
+    /// A.
+    pub torque: Estimate,
+    /// k, radians of ripple per radian of angle (1/m on linear axes).
+    pub per_angle: Estimate,
+}
+
+impl RippleEstimate {
+    /// 2π/k: relative deviations of a frequency and its period are the same.
+    pub fn period(&self) -> Estimate {
+        let value = std::f64::consts::TAU / self.per_angle.value;
+        Estimate { value, std: value * self.per_angle.std / self.per_angle.value }
+    }
+}

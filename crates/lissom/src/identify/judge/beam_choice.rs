@@ -1,0 +1,76 @@
+//! Modes of the beam: which method's are taken.
+
+use super::drive_table::MODEL_MISFIT;
+use super::evidence::Evidence;
+use crate::identify::ModeEstimate;
+use crate::identify::drive_estimates::DriveEstimates;
+use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::identified::Beam;
+use crate::identify::regression::BeamRegression;
+
+/// Share of the tips' windowed acceleration below which their own equations explain it all.
+///
+/// Convention.
+const COMPLETE: f64 = 0.02;
+
+/// Whether the beam's equations on the measured tips explain their motion.
+pub(super) fn complete(r: &BeamRegression) -> bool {
+    r.relative_residual.iter().all(|left| *left < COMPLETE)
+}
+
+/// The beam beside the drive's estimates, which its coupling is of: modes of the output error where that is taken,
+/// else of the beam's regression, else of its tips' responses.
+pub(super) fn choose(evidence: &Evidence<'_>, drive: &DriveEstimates) -> Beam {
+    let of_coupling = |modes: Vec<ModeEstimate>| Beam {
+        modes,
+        coupling: drive.coupling,
+        coupling_by_tip: drive.coupling_by_tip.clone(),
+    };
+    if let Some(oe) = evidence.replay().filter(|oe| !oe.arm.modes.is_empty()) {
+        return of_coupling(oe.mode_estimates());
+    }
+    let methods = evidence.methods;
+    let tips = evidence.campaign.channels.tips.len();
+    let fitted = methods.beam_model.as_ref().map_or(&[][..], |b| &b.modes[..]);
+    of_coupling(match &methods.beam_regression {
+        // As many equations as tips: where they leave nothing there are no further modes.
+        Some(r) if fitted.len() <= tips || complete(r) => r.modes.clone(),
+        _ => fitted.to_vec(),
+    })
+}
+
+/// What is missing of the beam.
+pub(super) fn findings(evidence: &Evidence<'_>, beam: &Beam) -> Vec<Finding> {
+    let mut found = Vec::new();
+    let tips = evidence.campaign.channels.tips.len();
+    if evidence.replay().is_some_and(|oe| !oe.arm.modes.is_empty()) {
+        return found;
+    }
+    if beam.modes.is_empty() && tips > 0 && !evidence.has_only_constant_velocities() {
+        found.push(Finding::new(
+            "modes-not-found",
+            Severity::Refusal,
+            &[key::MODES],
+            "no mode explains the tips' responses to the motor".to_owned(),
+            "drive it at six or more frequencies about the beam's resonance, or with a sweep",
+        ));
+    }
+    let model = evidence.methods.motor_model.as_ref();
+    if tips == 0
+        && let Some(model) = model.filter(|m| m.weighted_rms < MODEL_MISFIT)
+        && let Some(pole) = model.poles.first()
+    {
+        found.push(Finding::new(
+            "flexible-without-tip",
+            Severity::Warning,
+            &[key::INERTIA, key::VISCOUS, key::COULOMB],
+            format!(
+                "the motor's response looks flexible, clamped at about {:.3e} rad/s, and no tip is \
+                 measured",
+                pole.omega_rad_s
+            ),
+            "measure a tip: from the motor alone its figures are rough",
+        ));
+    }
+    found
+}

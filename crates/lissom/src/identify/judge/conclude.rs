@@ -1,0 +1,72 @@
+//! From the methods' solutions to the estimates of the result and the findings about them.
+
+use super::evidence::{Chosen, Evidence};
+use super::{beam_choice, drive_table, remarks, unknown};
+use crate::identify::drive_estimates::Method;
+use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::found_arm::FoundArm;
+use crate::identify::separability::Separability;
+use crate::identify::{constant_velocity, friction_law, output_error, regression};
+
+/// What the result states.
+pub(crate) struct Conclusion {
+    pub(crate) chosen: Chosen,
+    pub(crate) separability: Option<Separability>,
+    pub(crate) arm: Option<FoundArm>,
+    pub(crate) findings: Vec<Finding>,
+}
+
+/// Takes whole solutions by the tables, refuses what the data do not support, and says what speaks against the rest.
+/// `findings` are those about the runs.
+pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> Conclusion {
+    findings.extend(reversed_command(evidence));
+    findings.extend(output_error::findings(evidence));
+    let (method, solution) = drive_table::choose(evidence);
+    let beam = beam_choice::choose(evidence, &solution);
+    let mut chosen = Chosen { method, drive: solution.clone(), solution, beam };
+    let alone = evidence.has_only_constant_velocities();
+    findings.extend(lag_of_response(evidence, &chosen));
+    if alone {
+        findings.push(constant_velocity::only_constant_velocities(evidence.campaign));
+    }
+    findings.extend(constant_velocity::taken(evidence, &chosen));
+    findings.extend(beam_choice::findings(evidence, &chosen.beam));
+    findings.extend(unknown::refuse_the_unknown(evidence, &mut chosen));
+    findings.extend(remarks::of_friction(evidence, &chosen));
+    findings.extend(friction_law::finding(evidence, &chosen));
+    if !alone {
+        findings.splice(0..0, regression::reversed_tip(evidence));
+        findings.extend(regression::findings(evidence));
+    }
+    findings.extend(remarks::remarks(evidence, &chosen));
+    let separability = Separability::of(evidence, &chosen, &findings);
+    findings.extend(separability.as_ref().and_then(Separability::finding));
+    // What is wrong with the logs comes before what follows from it.
+    findings.sort_by_key(|f| (!f.is_about_readings(), std::cmp::Reverse(f.severity)));
+    let arm = FoundArm::of(evidence, &chosen);
+    Conclusion { chosen, separability, arm, findings }
+}
+
+/// A command whose sign is reversed against the motor's.
+fn reversed_command(evidence: &Evidence<'_>) -> Option<Finding> {
+    let r = evidence.methods.regression.as_ref()?;
+    let negative = [r.inertia, r.coulomb].iter().all(|e| e.is_some_and(|e| e.is_negative()));
+    negative.then(|| {
+        Finding::new(
+            "command-sign",
+            Severity::Refusal,
+            &[key::COULOMB, key::VISCOUS, key::INERTIA],
+            "inertia and friction come out negative together: the command's sign is reversed \
+             against the motor's"
+                .to_owned(),
+            "give the command or the motor a negative scale in the campaign",
+        )
+    })
+}
+
+/// A delay that the motor's response shows, where its model is taken.
+fn lag_of_response(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<Finding> {
+    let model = evidence.methods.motor_model.as_ref()?;
+    let taken = chosen.method == Some(Method::FrequencyResponse);
+    taken.then(|| Some(output_error::command_lag(evidence.campaign, model.delay_s?)))?
+}

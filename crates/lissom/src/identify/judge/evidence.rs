@@ -1,0 +1,71 @@
+//! What the methods found, and what was taken of it.
+
+use crate::identify::constant_velocity::ConstantVelocity;
+use crate::identify::drive_estimates::{DriveEstimates, Method};
+use crate::identify::friction_law::FrictionLaw;
+use crate::identify::identified::{Beam, ThirdHarmonic};
+use crate::identify::output_error::OutputError;
+use crate::identify::rational::{BeamFit, MotorFit};
+use crate::identify::regression::{BeamRegression, MotorRegression};
+use crate::identify::run_analysis::RunAnalysis;
+use crate::record::Campaign;
+
+/// What each method gave, complete: nothing is added later.
+#[derive(Debug)]
+pub(crate) struct Methods {
+    pub(crate) third_harmonic: Option<ThirdHarmonic>,
+    pub(crate) regression: Option<MotorRegression>,
+    /// Share of the torque that the regression leaves, also where it is refused.
+    pub(crate) regression_residual: Option<f64>,
+    pub(crate) friction_law: Option<FrictionLaw>,
+    pub(crate) constant_velocity: Option<ConstantVelocity>,
+    pub(crate) beam_regression: Option<BeamRegression>,
+    pub(crate) output_error: Option<OutputError>,
+    /// Rational model of the beam from its tips' responses.
+    pub(crate) beam_model: Option<BeamFit>,
+    /// Rational model of the motor from its corrected response.
+    pub(crate) motor_model: Option<MotorFit>,
+}
+
+/// The campaign, its runs and what the methods found in them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Evidence<'a> {
+    pub(crate) campaign: &'a Campaign,
+    /// The runs that the methods used.
+    pub(crate) used: &'a Campaign,
+    pub(crate) runs: &'a [RunAnalysis],
+    pub(crate) methods: &'a Methods,
+}
+
+impl<'a> Evidence<'a> {
+    /// The output-error method, where its arm describes the runs.
+    pub(crate) fn replay(&self) -> Option<&'a OutputError> {
+        self.methods.output_error.as_ref().filter(|oe| oe.stands())
+    }
+
+    /// Torque per command; one where it is unknown.
+    pub(crate) fn torque_per_command(&self) -> f64 {
+        self.campaign.channels.command.torque_per_command.unwrap_or(1.0)
+    }
+
+    /// Whether constant velocities are all there is, and their transitions give no inertia either.
+    pub(crate) fn has_only_constant_velocities(&self) -> bool {
+        let other = |r: &RunAnalysis| r.usable && !r.is_constant_velocity();
+        self.methods.regression.is_none()
+            && self.methods.constant_velocity.is_some()
+            && !self.runs.iter().any(other)
+    }
+}
+
+/// The estimates that the result states.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Chosen {
+    /// Whose solution `drive` is; `None` where no method has one.
+    pub(crate) method: Option<Method>,
+    /// All that this method gives.
+    pub(crate) solution: DriveEstimates,
+    /// The same without what the data do not support.
+    pub(crate) drive: DriveEstimates,
+    /// Modes, and the coupling of `drive`.
+    pub(crate) beam: Beam,
+}

@@ -1,0 +1,12 @@
+//! Which method's solution is taken for which group of parameters, and what speaks against it.
+
+mod beam_choice;
+mod conclude;
+mod drive_table;
+mod evidence;
+mod remarks;
+mod unknown;
+
+pub(crate) use conclude::{Conclusion, conclude};
+pub(crate) use drive_table::slip_phase_solution;
+pub(crate) use evidence::{Chosen, Evidence, Methods};
