@@ -21,9 +21,9 @@ pub use validation::{channel_name_unit, validation_json};
 
 use lissom::identify::{
     BeamRegression, ByDirection, Candidate, ConstantVelocity, DriveEstimates, Estimate, Finding,
-    FrictionLine, GeometryCheck, Identified, Method, ModeEstimate, ModelSource, MotorFit,
-    MotorRegression, OutputError, Response, ResponsePoint, RunAnalysis, RunKind, Severity, Shape,
-    StageReport, Stop, ThirdHarmonic, TipModel,
+    FrictionLine, GeometryCheck, Identified, LeastSquares, Method, ModeEstimate, ModelSource,
+    MotorFit, MotorRegression, OutputError, Response, ResponsePoint, RunAnalysis, RunKind,
+    Severity, Shape, StageReport, Stop, ThirdHarmonic, TipModel,
 };
 use lissom::lti::TransferFunction;
 use lissom::record::{Axis, Channels, Tip, TipQuantity};
@@ -55,6 +55,7 @@ pub fn result_json(
             "regression": id.regression.as_ref().map(|r| {
                 regression(names, constant, r, id.beam_regression.as_ref())
             }),
+            "least_squares": id.least_squares.as_ref().map(|l| least_squares(names, constant, l)),
             "friction_law": id.friction_law.as_ref().map(|l| friction_law::law(names, constant, l)),
             "constant_velocity": id.constant_velocity.as_ref().map(|c| {
                 classical(names, constant, c, &id.runs)
@@ -203,6 +204,23 @@ fn regression(
         })
     });
     map.insert("beam".to_owned(), beam.unwrap_or(Value::Null));
+    Value::Object(map)
+}
+
+fn least_squares(names: UnitNames, constant: f64, fit: &LeastSquares) -> Value {
+    let DriveEstimates { friction, inertia, coupling_by_tip, .. } = &fit.estimates;
+    let mut map = Map::new();
+    torque(&mut map, names, constant, "coulomb", friction.coulomb);
+    torque(&mut map, names, constant, "forward", friction.forward);
+    torque(&mut map, names, constant, "backward", friction.backward);
+    torque(&mut map, names, constant, "offset", friction.offset);
+    map.insert(names.viscous_key("viscous"), figure(friction.viscous));
+    map.insert(names.inertia_key(), figure(*inertia));
+    let coupling: Vec<Value> = coupling_by_tip.iter().map(|e| figure(*e)).collect();
+    map.insert(names.coupling_key("coupling_by_tip"), Value::Array(coupling));
+    map.insert(format!("speed_range_{}_per_s", names.angle()), json!(fit.speed_range));
+    map.insert("samples".to_owned(), json!(fit.samples));
+    map.insert("relative_residual".to_owned(), json!(fit.relative_residual));
     Value::Object(map)
 }
 

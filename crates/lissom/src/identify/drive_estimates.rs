@@ -15,6 +15,8 @@ pub enum Method {
     RegressionByDirection,
     /// Regression in slip phases with Coulomb friction and one viscous coefficient.
     Regression,
+    /// Ordinary least squares of smoothed samples.
+    LeastSquares,
     /// Rational model of the frequency response, after correction for Coulomb friction.
     FrequencyResponse,
     /// Third harmonic of the command, with the rational model of the response that it corrects.
@@ -31,6 +33,7 @@ impl Method {
             Self::FrictionLaw => "friction_law",
             Self::RegressionByDirection => "regression_by_direction",
             Self::Regression => "regression",
+            Self::LeastSquares => "least_squares",
             Self::FrequencyResponse => "frequency_response",
             Self::ThirdHarmonic => "third_harmonic",
             Self::ConstantVelocity => "constant_velocity",

@@ -52,13 +52,15 @@ impl FoundArm {
             return None;
         };
         let drive = &chosen.solution;
-        let regression = evidence.methods.regression.as_ref()?;
+        let regression = evidence.methods.regression.as_ref();
         let law = evidence.methods.friction_law.as_ref();
         let arm = match chosen.method? {
             Method::FrictionLaw => lawful(evidence, law?, drive)
-                .or_else(|| of_drive(evidence, &slip_phase_solution(Some(regression), None)?.1)),
-            Method::RegressionByDirection | Method::Regression => of_drive(evidence, drive),
-            _ => of_drive(evidence, &regression.estimates()),
+                .or_else(|| of_drive(evidence, &slip_phase_solution(regression, None)?.1)),
+            Method::RegressionByDirection | Method::Regression | Method::LeastSquares => {
+                of_drive(evidence, drive)
+            }
+            _ => of_drive(evidence, &regression?.estimates()),
         };
         Some(Self::with(arm?, ArmSource::Regression, used))
     }

@@ -8,6 +8,7 @@ use super::found_arm::FoundArm;
 use super::friction_estimates::Friction;
 use super::friction_law::FrictionLaw;
 use super::judge::{Conclusion, Methods};
+use super::least_squares::LeastSquares;
 use super::linear_models::LinearModels;
 use super::output_error::OutputError;
 use super::rational::{BeamFit, MotorFit};
@@ -62,6 +63,8 @@ pub struct Identified {
     pub regression: Option<MotorRegression>,
     /// ‖y − X·q‖/‖y‖ of the regression, also where it is refused; `None` without windows enough.
     pub regression_residual: Option<f64>,
+    /// Ordinary least squares of smoothed samples, the baseline; `None` where too few slip.
+    pub least_squares: Option<LeastSquares>,
     /// Friction against speed, and its law; `None` without a regression.
     pub friction_law: Option<FrictionLaw>,
     /// Steady velocities extrapolated to rest; `None` where no line goes through any and no run was
@@ -112,6 +115,7 @@ impl Identified {
             third_harmonic: methods.third_harmonic,
             regression: methods.regression,
             regression_residual: methods.regression_residual,
+            least_squares: methods.least_squares,
             friction_law: methods.friction_law,
             constant_velocity: methods.constant_velocity,
             beam_regression: methods.beam_regression,

@@ -16,6 +16,7 @@ mod friction_waveform;
 mod geometry;
 mod identified;
 mod judge;
+mod least_squares;
 mod linear_models;
 mod model;
 mod models;
@@ -51,6 +52,7 @@ pub use friction_estimates::{BristlesEstimate, Friction, NearRestEstimate, Rippl
 pub use friction_law::{CurvePoint, FrictionLaw, LawCandidate, LawFit, LawTerm};
 pub use geometry::{ArmQuantity, Explanation, GeometryCheck, geometry_check};
 pub use identified::{Beam, Identified, ThirdHarmonic};
+pub use least_squares::{LeastSquares, least_squares};
 pub use linear_models::{LinearModels, ModelSource, TipModel};
 pub use output_error::{
     ByRun, Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, output_error,

@@ -13,6 +13,7 @@ use super::friction_law::{FrictionLaw, friction_law};
 use super::friction_waveform::FrictionWaveform;
 use super::identified::{Identified, ThirdHarmonic};
 use super::judge::{Evidence, Methods, conclude, slip_phase_solution};
+use super::least_squares::least_squares;
 use super::linear_models::LinearModels;
 use super::models::{beam_model, figures_model, motor_and_beam, rigid_model};
 use super::output_error::{OutputError, OutputErrorStart, output_error};
@@ -220,6 +221,7 @@ pub fn identify(
         third_harmonic,
         regression,
         regression_residual,
+        least_squares: least_squares(&usable),
         friction_law: friction_law.map(|(law, _)| law),
         constant_velocity,
         beam_regression,

@@ -36,7 +36,7 @@ pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> C
     findings.extend(friction_law::finding(evidence, &chosen));
     if !alone {
         findings.splice(0..0, regression::reversed_tip(evidence));
-        findings.extend(regression::findings(evidence));
+        findings.extend(regression::findings(evidence, &chosen));
     }
     findings.extend(remarks::remarks(evidence, &chosen));
     let separability = Separability::of(evidence, &chosen, &findings);

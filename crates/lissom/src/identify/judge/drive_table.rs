@@ -13,6 +13,16 @@ use crate::identify::regression::{MotorRegression, coupled_tips};
 /// Convention: three times what its own standard errors explain.
 pub(super) const MODEL_MISFIT: f64 = 3.0;
 
+/// Part of the smoothed torque that least squares may leave for their estimates to be taken \[1\].
+///
+/// Convention: what is called unexplained torque of the regression.
+const BASELINE_LEAVES: f64 = 0.15;
+/// A regression that leaves this many times what least squares leave, and this part of the torque more, is beaten \[1\].
+///
+/// Convention: least squares leave the least by construction, others a few percent of that more.
+const BEATEN: f64 = 1.5;
+const BEATEN_SHARE: f64 = 0.02;
+
 /// A method in the order of trust: the first that offers a solution which nothing speaks against is taken, whole.
 pub(super) struct Row {
     pub(super) method: Method,
@@ -29,16 +39,18 @@ pub(super) struct Row {
 /// | friction law | the logs reject Coulomb friction with one viscous coefficient |
 /// | regression by direction | viscous friction differs by direction, and no law was found |
 /// | regression | Coulomb friction comes out of it |
+/// | least squares | there is no regression, or it leaves more of the torque than they do |
 /// | frequency response | there is no regression |
 /// | third harmonic | pairs of sines at ω0 and 3·ω0 |
 /// | constant velocity | stretches at constant velocity |
 /// | regression | else: what it gives without Coulomb friction |
-pub(super) const DRIVE: [Row; 9] = [
+pub(super) const DRIVE: [Row; 10] = [
     Row { method: Method::OutputError, solution: by_output_error },
     Row { method: Method::FrequencyResponse, solution: by_response_with_modes },
     Row { method: Method::FrictionLaw, solution: by_friction_law },
     Row { method: Method::RegressionByDirection, solution: by_direction },
     Row { method: Method::Regression, solution: by_regression_with_friction },
+    Row { method: Method::LeastSquares, solution: by_least_squares },
     Row { method: Method::FrequencyResponse, solution: by_response },
     Row { method: Method::ThirdHarmonic, solution: by_third_harmonic },
     Row { method: Method::ConstantVelocity, solution: by_constant_velocity },
@@ -118,12 +130,32 @@ fn by_friction_law(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
 }
 
 fn by_direction(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
-    of_slip_phases(evidence, Method::RegressionByDirection)
+    of_slip_phases(evidence, Method::RegressionByDirection).filter(|_| !is_beaten(evidence))
 }
 
 fn by_regression_with_friction(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
     of_slip_phases(evidence, Method::Regression)
-        .filter(|e| e.friction.coulomb.is_some_and(is_known))
+        .filter(|e| e.friction.coulomb.is_some_and(is_known) && !is_beaten(evidence))
+}
+
+/// Where slip phases are too few for the regression, or the regression leaves more than this baseline.
+fn by_least_squares(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
+    let fit = evidence.methods.least_squares.as_ref()?;
+    let needed = evidence.methods.regression.is_none() || is_beaten(evidence);
+    let sound = fit.relative_residual < BASELINE_LEAVES
+        && fit.estimates.inertia.is_some_and(is_known)
+        && fit.estimates.friction.coulomb.is_some_and(is_known);
+    (needed && sound).then(|| fit.estimates.clone())
+}
+
+/// Whether the regression's estimates leave more of the torque than ordinary least squares do.
+pub(super) fn is_beaten(evidence: &Evidence<'_>) -> bool {
+    let Methods { regression, friction_law, least_squares, .. } = evidence.methods;
+    let phases = slip_phase_solution(regression.as_ref(), friction_law.as_ref());
+    let (Some((method, estimates)), Some(baseline)) = (phases, least_squares) else { return false };
+    // A law has terms that this equation has not.
+    let left = (method != Method::FrictionLaw).then(|| baseline.left_by(&estimates)).flatten();
+    left.is_some_and(|left| left > BEATEN * baseline.relative_residual + BEATEN_SHARE)
 }
 
 fn by_regression(evidence: &Evidence<'_>) -> Option<DriveEstimates> {

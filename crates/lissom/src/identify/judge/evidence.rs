@@ -4,6 +4,7 @@ use crate::identify::constant_velocity::ConstantVelocity;
 use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::friction_law::FrictionLaw;
 use crate::identify::identified::{Beam, ThirdHarmonic};
+use crate::identify::least_squares::LeastSquares;
 use crate::identify::output_error::OutputError;
 use crate::identify::rational::{BeamFit, MotorFit};
 use crate::identify::regression::{BeamRegression, MotorRegression};
@@ -17,6 +18,7 @@ pub(crate) struct Methods {
     pub(crate) regression: Option<MotorRegression>,
     /// Share of the torque that the regression leaves, also where it is refused.
     pub(crate) regression_residual: Option<f64>,
+    pub(crate) least_squares: Option<LeastSquares>,
     pub(crate) friction_law: Option<FrictionLaw>,
     pub(crate) constant_velocity: Option<ConstantVelocity>,
     pub(crate) beam_regression: Option<BeamRegression>,

@@ -1,8 +1,9 @@
 //! Motions that part: friction that falls with speed or over the angle drives neighbours away from each other
 //! exponentially, and windows can be too long.
 
-use super::AT_NOISE;
-use super::stages::{Fit, Fitting, Report};
+use super::describes::AT_NOISE;
+use super::fit::{Fit, Report};
+use super::fitting::Fitting;
 use super::windows::widen;
 use crate::record::TipQuantity;
 use crate::replay::{SensorNoise, WindowSums};

@@ -1,18 +1,13 @@
 //! The output error's arm as figures of friction, drive and beam.
 
-use nalgebra::DMatrix;
-
-use super::attempts::is_left;
-use super::{AT_NOISE, OutputError};
+use super::describes::{is_left, stands};
+use super::found::OutputError;
 use crate::identify::{
     BristlesEstimate, DriveEstimates, Estimate, Friction, LawTerm, ModeEstimate, NearRestEstimate,
     RippleEstimate,
 };
 use crate::record::{Channels, TipQuantity};
 use crate::replay::{ModalArm, Parameter};
-
-/// Residual beside the sensors' noise beyond which something else is in it.
-pub(super) const BEYOND: f64 = 3.0;
 
 impl OutputError {
     /// Friction, the damping of the command's back-EMF taken out.
@@ -135,16 +130,4 @@ impl OutputError {
     pub fn stands(&self) -> bool {
         stands(&self.arm, &self.covariance, self.whole_runs, self.beyond_noise)
     }
-}
-
-/// The same of an arm that may yet be another.
-pub(super) fn stands(
-    arm: &ModalArm,
-    covariance: &DMatrix<f64>,
-    whole_runs: bool,
-    beyond_noise: f64,
-) -> bool {
-    let finite = covariance.diagonal().iter().all(|v| v.is_finite() && *v > 0.0);
-    let most = if whole_runs { BEYOND } else { AT_NOISE };
-    beyond_noise < most && finite && arm.inertia_kg_m2 > 0.0
 }

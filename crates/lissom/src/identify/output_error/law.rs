@@ -2,21 +2,18 @@
 
 use std::f64::consts::SQRT_2;
 
-use super::evidence::{self, Extension, price, share};
-use super::stages::{Fit, Fitting, Report};
-use super::windows::fastest_rad_s;
+use super::fit::{Extension, Fit};
+use super::fitting::Fitting;
+use super::scores::{scores, share};
+use super::windows::{fastest_rad_s, travel};
 use crate::drive::Falloff;
 use crate::identify::LawTerm;
-use crate::identify::channel_check::range;
-use crate::record::{Campaign, Run};
-use crate::replay::{Bristles, DryTerms, ModalArm, NearRest, Parameter, Ripple};
+use crate::replay::{DryTerms, NearRest, Parameter, Ripple};
 
 /// Speeds over which friction near rest is tried to change, as shares of the fastest.
 const NEAR_REST: [f64; 4] = [0.02, 0.06, 0.2, 0.6];
 /// Most ripples.
 const MOST_RIPPLES: usize = 2;
-/// How far bristles may bend before they slip, as shares of the travel.
-const BENDS: [f64; 3] = [3e-4, 1.5e-3, 8e-3];
 /// Residual beside the noise from which on ripples are looked for at all periods: a mode that is missing
 /// leaves less.
 const FAR: f64 = 3.0;
@@ -53,8 +50,7 @@ pub(super) fn best(
     let promise = |trial: LawTrial| {
         let mut with = fit.clone();
         with.body.arm.dry_terms = trial.terms.clone();
-        let found =
-            evidence::scores(fitting, &with, std::slice::from_ref(&trial.amplitude)).concat();
+        let found = scores(fitting, &with, std::slice::from_ref(&trial.amplitude)).concat();
         (trial, found)
     };
     let all = trials(fitting, fit).into_iter().map(promise);
@@ -63,69 +59,9 @@ pub(super) fn best(
         return best;
     }
     let terms = &fit.body.arm.dry_terms;
-    let open = terms.ripples.len() < MOST_RIPPLES
-        && terms.bristles.is_none()
-        && fitting.beyond_noise(fit) > FAR;
+    let open = terms.ripples.len() < MOST_RIPPLES && fitting.beyond_noise(fit) > FAR;
     let found = open.then(|| strongest_ripple(fitting, fit)).flatten()?;
     Some(promise(rippled(terms, found)))
-}
-
-/// The fit with friction that is a line in place of one that changes near rest over more than all speeds
-/// of the logs, and the stages that led there: such a term may have stood in for something else, a lag say,
-/// that the arm has by now.
-pub(super) fn as_line(fitting: &Fitting<'_>, fit: &Fit) -> Option<(Fit, Report)> {
-    let fastest = fastest_rad_s(fitting.campaign);
-    let near = fit.body.arm.dry_terms.near_rest?;
-    if fastest <= 0.0 || near.speed_rad_s <= fastest {
-        return None;
-    }
-    let (mut line, mut report) = (fit.clone(), Report::default());
-    line.free.retain(|p| !is_near_rest(*p));
-    let arm = &mut line.body.arm;
-    arm.dry_terms.near_rest = None;
-    // Through its ends.
-    arm.coulomb_nm += near.torque_nm;
-    let falls = near.torque_nm * (-fastest / near.speed_rad_s).exp_m1() / fastest;
-    arm.viscous_nm_s_per_rad.iter_mut().for_each(|v| *v += falls);
-    fitting.search(&mut line, &mut report);
-    Some((line, report))
-}
-
-/// The arm with its joint on bristles, of several stiffnesses: how far they bend before they slip, as shares of the
-/// largest travel of a run. They are damped as if the motor on them were, at half of critical. What stood in for them
-/// goes: ripples, and friction that falls towards rest.
-pub(super) fn bristled(campaign: &Campaign, arm: &ModalArm) -> Vec<ModalArm> {
-    let travel = campaign.runs.iter().map(|run| range(run.motor())).fold(0.0, f64::max);
-    if !(travel > 0.0 && arm.coulomb_nm > 0.0) {
-        return Vec::new();
-    }
-    let with = |share: &f64| {
-        let stiffness_nm_per_rad = arm.coulomb_nm / (share * travel);
-        let damping_nm_s_per_rad = (stiffness_nm_per_rad * arm.inertia_kg_m2).sqrt();
-        let rises = arm.dry_terms.near_rest.filter(|near| near.torque_nm > 0.0);
-        let dry_terms = DryTerms {
-            near_rest: rises.map(|near| NearRest { falloff: Falloff::Gaussian, ..near }),
-            ripples: Vec::new(),
-            bristles: Some(Bristles { stiffness_nm_per_rad, damping_nm_s_per_rad }),
-        };
-        ModalArm { dry_terms, ..arm.clone() }
-    };
-    BENDS.iter().map(with).collect()
-}
-
-/// Whether the line leaves no more than the two numbers that it lacks are worth.
-pub(super) fn is_line(fitting: &Fitting<'_>, fit: &Fit, line: &Fit) -> bool {
-    price(fitting, line, &fit.noise) < price(fitting, fit, &fit.noise)
-}
-
-/// From the least to the largest angle of all runs.
-pub(super) fn travel(campaign: &Campaign) -> f64 {
-    let angles = || campaign.runs.iter().flat_map(Run::motor).copied();
-    angles().fold(f64::NEG_INFINITY, f64::max) - angles().fold(f64::INFINITY, f64::min)
-}
-
-fn is_near_rest(p: Parameter) -> bool {
-    matches!(p, Parameter::NearRest | Parameter::NearRestSpeed)
 }
 
 /// Waves per angle at which a ripple promises most, over the frequencies that the travel tells apart.
@@ -142,7 +78,7 @@ fn strongest_ripple(fitting: &Fitting<'_>, fit: &Fit) -> Option<f64> {
         let first = ripples.len();
         ripples.extend(some.iter().map(|k| still(*k)));
         let groups: Vec<_> = (first..first + some.len()).map(amplitude).collect();
-        let found = evidence::scores(fitting, &with, &groups);
+        let found = scores(fitting, &with, &groups);
         some.iter().copied().zip(found).collect::<Vec<_>>()
     });
     promised.max_by(|a, b| share(&a.1).total_cmp(&share(&b.1))).map(|(k, _)| k)
@@ -176,11 +112,7 @@ fn trials(fitting: &Fitting<'_>, fit: &Fit) -> Vec<LawTrial> {
         });
         let speeds = seen.chain(NEAR_REST.map(|share| share * fastest));
         for speed_rad_s in speeds.filter(|speed| *speed > 0.0) {
-            // What bristles go with, as a rule.
-            let falloff = match terms.bristles {
-                Some(_) => Falloff::Gaussian,
-                None => Falloff::Exponential,
-            };
+            let falloff = Falloff::Exponential;
             let near_rest = Some(NearRest { torque_nm: 0.0, speed_rad_s, falloff });
             found.push(LawTrial {
                 terms: DryTerms { near_rest, ..terms.clone() },

@@ -6,7 +6,7 @@ use rand_xoshiro::rand_core::SeedableRng;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::data::Masks;
-use super::stages::Fit;
+use super::fit::Fit;
 use crate::identify::channel_noise::reading;
 use crate::record::{Campaign, Run};
 use crate::replay::{SensorNoise, Window, predict};

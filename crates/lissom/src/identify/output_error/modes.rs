@@ -2,7 +2,8 @@
 
 use super::coordinates::Body;
 use super::covariance::deviation;
-use super::stages::{Fit, Fitting, Report, STEPS_OF_A_PROBE};
+use super::fit::{Fit, Report};
+use super::fitting::{Fitting, STEPS_OF_A_PROBE};
 use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
 
 /// A mode is in doubt whose stiffness is not this many deviations from zero…
@@ -168,7 +169,7 @@ pub(super) fn starts_again(fitting: &Fitting<'_>, fit: &Fit) -> Vec<ModalArm> {
 }
 
 /// Without dampers against the frame, which a search is to find, and with none within the beam that drives it.
-pub(super) fn undamped(mut arm: ModalArm) -> ModalArm {
+fn undamped(mut arm: ModalArm) -> ModalArm {
     for mode in &mut arm.modes {
         mode.within_per_s = mode.within_per_s.max(0.0);
         mode.grounded_per_s = 0.0;
@@ -277,7 +278,7 @@ pub(super) fn twins_joined(fitting: &Fitting<'_>, fit: &Fit, report: &mut Report
 }
 
 /// With two modes of one frequency taken for one; `None` where no two are alike.
-pub(super) fn joined(fit: &Fit) -> Option<Fit> {
+fn joined(fit: &Fit) -> Option<Fit> {
     let modes = &fit.body.arm.modes;
     let alike =
         |[i, j]: &[usize; 2]| (modes[*i].omega_rad_s / modes[*j].omega_rad_s - 1.0).abs() < TWINS;

@@ -1,8 +1,8 @@
 //! Readings that only repeat the one before.
 
 use super::data::Masks;
+use super::fit::Fit;
 use super::noise::is_least;
-use super::stages::Fit;
 use crate::record::Campaign;
 use crate::replay::Prediction;
 

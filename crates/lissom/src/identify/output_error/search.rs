@@ -3,9 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::coordinates::{Body, in_coordinates};
-use super::law::travel;
 use super::noise::is_least;
-use super::windows::fastest_rad_s;
+use super::windows::{fastest_rad_s, travel};
 use crate::information::{Reduced, inverse};
 use crate::record::{Campaign, Run};
 use crate::replay::{

@@ -2,8 +2,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::evidence::{Extension, all_scores, candidates};
-use super::stages::{Fit, Fitting};
+use super::extend::candidates;
+use super::fit::{Extension, Fit};
+use super::fitting::Fitting;
+use super::scores::all_scores;
 use crate::replay::{Parameter, WindowSums};
 
 /// With fewer deviations than these nothing speaks for a group, as in any test at 5 %.

@@ -1,9 +1,9 @@
 //! What the output error's figures are worth, in findings.
 
-use super::attempts::is_left;
+use super::describes::is_left;
+use super::fit::{GROWN, StageReport};
+use super::found::OutputError;
 use super::modes::{FAINT, highest};
-use super::stages::GROWN;
-use super::{OutputError, StageReport};
 use crate::identify::Estimate;
 use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::judge::Evidence;

@@ -9,8 +9,6 @@ use crate::replay::{ModalArm, Window, predict};
 
 /// A window begins where the motor's speed is at least this share of its usual one.
 const MOVES: f64 = 0.1;
-/// The same of a joint on bristles: bent as in steady motion, as a window has them at its beginning.
-const MOVES_ON_BRISTLES: f64 = 0.5;
 /// Quantile of the speeds that counts as the fastest.
 const FASTEST: f64 = 0.98;
 /// Shortest window worth replaying, in samples.
@@ -21,8 +19,7 @@ const LEAST_SAMPLES: usize = 20;
 pub(super) fn cut(campaign: &Campaign, arm: &ModalArm, length_s: f64) -> Vec<Window> {
     let of_run = |(index, run): (usize, &Run)| {
         let mut windows = Vec::new();
-        let moves = if arm.dry_terms.bristles.is_some() { MOVES_ON_BRISTLES } else { MOVES };
-        let speed = Speed::new(run, moves);
+        let speed = Speed::new(run);
         let samples = ((length_s / run.sample_time_s()).round() as usize).max(LEAST_SAMPLES);
         let mut first = speed.moves_from(0);
         while let Some(from) = first {
@@ -78,10 +75,16 @@ pub(super) fn widen(
 
 /// The speed that the motor exceeds for a fiftieth of its time.
 pub(super) fn fastest_rad_s(campaign: &Campaign) -> f64 {
-    let speeds = |run: &Run| Speed::new(run, MOVES).velocity;
+    let speeds = |run: &Run| Speed::new(run).velocity;
     let mut all: Vec<f64> = campaign.runs.iter().flat_map(speeds).map(f64::abs).collect();
     all.sort_by(f64::total_cmp);
     all.get((FASTEST * all.len() as f64) as usize).copied().unwrap_or(0.0)
+}
+
+/// From the least to the largest angle of all runs.
+pub(super) fn travel(campaign: &Campaign) -> f64 {
+    let angles = || campaign.runs.iter().flat_map(Run::motor).copied();
+    angles().fold(f64::NEG_INFINITY, f64::max) - angles().fold(f64::INFINITY, f64::min)
 }
 
 /// The motor's velocity from lines through neighbouring samples.
@@ -93,12 +96,12 @@ struct Speed {
 }
 
 impl Speed {
-    fn new(run: &Run, moves: f64) -> Self {
+    fn new(run: &Run) -> Self {
         let half = (smoothing(run.motor()) / 2).max(2);
         let velocity: Vec<f64> =
             (0..run.len()).map(|k| slope(run.motor(), k, half) / run.sample_time_s()).collect();
         let power: f64 = velocity.iter().map(|v| v * v).sum();
-        let least = moves * (power / run.len() as f64).sqrt();
+        let least = MOVES * (power / run.len() as f64).sqrt();
         Self { half, velocity, least }
     }
 

@@ -1,8 +1,9 @@
 //! What the regression's figures are worth, in findings.
 
 use super::{ByDirection, MissingKind, MissingTerm, MotorRegression};
+use crate::identify::drive_estimates::Method;
 use crate::identify::finding::{Finding, Severity, key};
-use crate::identify::judge::Evidence;
+use crate::identify::judge::{Chosen, Evidence};
 use crate::identify::{Estimate, FrictionLaw, RunAnalysis, RunKind};
 
 /// Windowed torque left by the regression from which on its figures are called uncertain.
@@ -11,12 +12,16 @@ const RESIDUAL: f64 = 0.15;
 const SAME_FREQUENCY: f64 = 0.02;
 
 /// What speaks against the regression's figures.
-pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
+pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding> {
     let mut findings = Vec::new();
     let everything = [key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING];
     // The replay explains the runs: what is left of the regression says nothing then.
     let explained = evidence.replay().is_some();
     let Some(r) = &evidence.methods.regression else {
+        if chosen.method == Some(Method::LeastSquares) {
+            findings.push(few_phases());
+            return findings;
+        }
         if explained {
             return findings;
         }
@@ -118,6 +123,19 @@ pub(crate) fn reversed_tip(evidence: &Evidence<'_>) -> Option<Finding> {
             "give the tip a negative scale in the campaign",
         )
     })
+}
+
+/// Least squares stand in: standard errors rest on the scatter from phase to phase.
+fn few_phases() -> Finding {
+    Finding::new(
+        "few-phases",
+        Severity::Warning,
+        &[key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING],
+        "the motor turns back too seldom to show how friction scatters from one stroke to the next: the estimates are \
+         those of ordinary least squares, and their standard errors are rough"
+            .to_owned(),
+        "log four strokes or more in each direction",
+    )
 }
 
 fn one_sine() -> Finding {

@@ -1,19 +1,16 @@
-//! From short windows to whole runs, and what each step of the way left.
+//! Searches, probes and costs of a campaign's fits.
 
 use rayon::prelude::*;
 
-use super::AT_NOISE;
-use super::by_run::ByRun;
 use super::coordinates::Body;
 use super::covariance::Covariances;
 use super::data::Masks;
-use super::evidence::{self, Extension};
-use super::figures::BEYOND;
-use super::modes;
+use super::describes::BEYOND;
+use super::fit::{Fit, Report, StageReport};
 use super::noise;
 use super::repeats::without_repeats;
-use super::search::{Iteration, PROMISE, PROMISE_ON_THE_WAY, Point, Problem, Stop, is_possible};
-use super::windows::{cut, widen};
+use super::search::{PROMISE, PROMISE_ON_THE_WAY, Point, Problem, Stop, is_possible};
+use super::windows::cut;
 use crate::identify::LawTerm;
 use crate::record::{Campaign, Run};
 use crate::replay::{
@@ -37,36 +34,9 @@ const MOST_STEPS: usize = 40;
 /// than this.
 const MOST_ROUNDS: usize = 4;
 const SETTLED: f64 = 0.9;
-/// Each stage's windows are longer than the ones before by this factor.
-pub(super) const WIDENING: f64 = 4.0;
-/// By this one after a search that was caught.
-pub(super) const SLOWER: f64 = 1.6;
 /// Samples of the first windows, at least, and their share of the slowest mode's period.
 const FIRST_SAMPLES: f64 = 80.0;
 const FIRST_PERIODS: f64 = 0.3;
-/// Windows are not widened further once the residual has grown by this factor: what the arm does
-/// not describe adds up over a window, and what a sensor adds does not.
-pub(super) const GROWN: f64 = 1.5;
-
-/// One length of windows.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StageReport {
-    /// Longest window \[s\].
-    pub window_s: f64,
-    /// Number of windows.
-    pub windows: usize,
-    /// Every step tried.
-    pub iterations: Vec<Iteration>,
-    /// Why it ended.
-    pub stop: Stop,
-    /// Noise that each channel was taken to have, motor first, then tips.
-    pub noise: Vec<SensorNoise>,
-    /// Deviation of each channel's residual, its share of the unknowns taken out.
-    pub residual: Vec<f64>,
-    /// The arm at its end.
-    pub arm: ModalArm,
-}
-
 /// A campaign as the fits see it.
 pub(super) struct Fitting<'a> {
     pub(super) campaign: &'a Campaign,
@@ -78,113 +48,8 @@ pub(super) struct Fitting<'a> {
     pub(super) noise: &'a [SensorNoise],
     /// Factor by which each stage's windows are longer than the ones before.
     pub(super) widening: f64,
-    /// Which laws of friction are tried.
-    pub(super) laws: Laws,
-}
-
-/// Which laws of friction a fit may come to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Laws {
-    /// That of its start.
-    AsStarted,
-    /// Others where more than the sensors' noise is left; on bristles any whose terms are likelier than none.
-    BeyondNoise,
-    /// Any whose terms are likelier than none.
-    Likelier,
-}
-
-/// Where a fit is.
-#[derive(Debug, Clone)]
-pub(super) struct Fit {
-    pub(super) body: Body,
-    pub(super) windows: Vec<Window>,
-    /// What is free.
-    pub(super) free: Vec<Parameter>,
-    /// Noise that each channel is taken to have.
-    pub(super) noise: Vec<SensorNoise>,
-    /// Deviation of each channel's residual, its share of the unknowns taken out.
-    pub(super) residual: Vec<f64>,
-    /// Whether windows are as long as can be told: whole runs, or all windows of the longest that do not diverge.
-    pub(super) whole_runs: bool,
-    pub(super) window_s: f64,
-}
-
-impl Fit {
-    /// How many numbers a search moves.
-    pub(super) fn coordinates(&self) -> usize {
-        self.body.coordinates(&self.free).len()
-    }
-
-    /// Covariances of the free parameters, from sums by what they move.
-    pub(super) fn covariances(&self, sums: &[WindowSums]) -> Covariances {
-        let found = Covariances::at(sums, self.coordinates());
-        match self.body.jacobian(&self.free) {
-            Some(jacobian) => found.through(&jacobian),
-            None => found,
-        }
-    }
-
-    /// The same sums run by run.
-    pub(super) fn by_run(&self, sums: &[WindowSums]) -> ByRun {
-        ByRun::of(sums, &self.windows, self.coordinates(), self.body.jacobian(&self.free))
-    }
-}
-
-/// What was done.
-#[derive(Debug, Default)]
-pub(super) struct Report {
-    pub(super) stages: Vec<StageReport>,
-    /// First of them under the law that friction has now.
-    under_law: usize,
-    /// Parameters that were added.
-    pub(super) added: Vec<Extension>,
-    /// Those that were not, when last tried.
-    pub(super) refused: Vec<Extension>,
-}
-
-impl Report {
-    /// Whether a residual is larger than that of the first windows, under the law that they are under
-    /// now, by what no sensor adds. Bristles begin far from where the first windows bring them: there it is what
-    /// these came to.
-    fn grown(&self, residual: &[f64]) -> bool {
-        let under_law = self.stages.get(self.under_law..).unwrap_or_default();
-        let on_bristles = |s: &&StageReport| s.arm.dry_terms.bristles.is_some();
-        let first = match under_law.first().filter(on_bristles) {
-            Some(_) => least_on_first_windows(under_law),
-            None => under_law.first(),
-        };
-        let least = first.map_or(residual, |s| &s.residual);
-        least.iter().zip(residual).any(|(a, b)| *b > GROWN * a)
-    }
-
-    /// The stage that left least on the first windows.
-    pub(super) fn on_first_windows(&self) -> Option<&StageReport> {
-        least_on_first_windows(&self.stages)
-    }
-
-    /// Another fit was taken in the end, which these stages led to; what it has not is not added.
-    pub(super) fn replaced_by(&mut self, mut other: Self, free: &[Parameter]) {
-        self.stages.append(&mut other.stages);
-        self.added.retain(|e| free.contains(&e.parameter));
-    }
-
-    /// Friction has another law from the last stage on.
-    pub(super) fn law_changed(&mut self) {
-        self.under_law = self.stages.len().saturating_sub(1);
-    }
-}
-
-/// Of the stages on windows as short as the first, some of which tried what was not taken, the one that left
-/// least.
-fn least_on_first_windows(stages: &[StageReport]) -> Option<&StageReport> {
-    let first = stages.first()?;
-    let left = |s: &StageReport| {
-        let each = s.residual.iter().zip(&first.residual);
-        each.map(|(now, then)| (now / then).powi(2)).sum::<f64>()
-    };
-    let is_told = |s: &&StageReport| s.residual.iter().all(|r| *r > f64::MIN_POSITIVE);
-    let short = stages.iter().take_while(|s| s.window_s <= first.window_s);
-    short.filter(is_told).min_by(|a, b| left(a).total_cmp(&left(b))).or(Some(first))
+    /// Whether other friction laws than that of the start are tried.
+    pub(super) tries_laws: bool,
 }
 
 impl Fitting<'_> {
@@ -237,16 +102,6 @@ impl Fitting<'_> {
         costs(&fit.body.arm, self.campaign, &fit.windows, sampling).iter().sum()
     }
 
-    /// Searches on the first windows, short ones.
-    pub(super) fn begin(&self, arm: &ModalArm, window_s: f64, report: &mut Report) -> Option<Fit> {
-        let mut fit = self.first_fit(arm, window_s)?;
-        self.search(&mut fit, report);
-        modes::drop_unfelt(self, &mut fit, report);
-        modes::grow(self, &mut fit, report);
-        evidence::extend(self, &mut fit, report);
-        Some(fit)
-    }
-
     /// A fit before its first step; `None` where no window can be cut.
     pub(super) fn first_fit(&self, arm: &ModalArm, window_s: f64) -> Option<Fit> {
         let longest = self.longest_s();
@@ -280,45 +135,8 @@ impl Fitting<'_> {
         fit.windows = some(cut(self.campaign, &fit.body.arm, fit.window_s));
     }
 
-    fn longest_s(&self) -> f64 {
+    pub(super) fn longest_s(&self) -> f64 {
         self.campaign.runs.iter().map(duration_s).fold(0.0, f64::max)
-    }
-
-    /// To whole runs, as far as the arm describes them and neighbouring motions stay together; parameters are added
-    /// where it does not. What grows over windows in which motions part is not told from these.
-    pub(super) fn widen(&self, fit: &mut Fit, report: &mut Report) {
-        let longest = self.longest_s();
-        let mut factor = self.widening;
-        while !fit.whole_runs {
-            let before = fit.clone();
-            let (under_law, added) = (report.under_law, report.added.len());
-            fit.window_s = (fit.window_s * factor).min(longest);
-            fit.whole_runs = fit.window_s >= longest;
-            let windows = widen(self.campaign, &fit.body.arm, &fit.windows, fit.window_s);
-            fit.windows = if fit.whole_runs { windows } else { some(windows) };
-            self.search(fit, report);
-            if report.grown(&fit.residual) {
-                modes::grow(self, fit, report);
-                evidence::extend(self, fit, report);
-                evidence::relax(self, fit, report);
-            }
-            let diverges = self.diverges(fit);
-            if report.grown(&fit.residual) || diverges {
-                *fit = before;
-                report.under_law = under_law;
-                report.added.truncate(added);
-                let at_noise = self.beyond_noise(fit) <= AT_NOISE;
-                if factor < WIDENING || !at_noise {
-                    let lawful = !fit.body.arm.dry_terms.is_empty();
-                    if diverges && at_noise && lawful {
-                        self.take_all(fit, report);
-                    }
-                    return;
-                }
-                // The windows before are described to the noise: this search was caught on the way.
-                factor = SLOWER;
-            }
-        }
     }
 
     /// Searches from where the fit is and takes its noise from what is left.
@@ -433,7 +251,7 @@ impl Fitting<'_> {
 }
 
 /// Windows enough to find the way: every so manieth.
-fn some(windows: Vec<Window>) -> Vec<Window> {
+pub(super) fn some(windows: Vec<Window>) -> Vec<Window> {
     let samples: usize = windows.iter().map(Window::len).sum();
     windows.into_iter().step_by(samples.div_ceil(SAMPLES_ON_THE_WAY).max(1)).collect()
 }
