@@ -1,7 +1,7 @@
 //! Friction, inertia and coupling as one method estimates them.
 
-use super::Estimate;
-use super::friction_estimates::Friction;
+use crate::identify::estimate::Estimate;
+use crate::identify::friction_estimates::Friction;
 
 /// A way to estimate the parameters of the drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,10 +1,10 @@
 //! The arm that stands for a result: what predicts other logs.
 
-use super::drive_estimates::{DriveEstimates, Method};
-use super::friction_law::FrictionLaw;
-use super::judge::{Chosen, Evidence, slip_phase_solution};
-use super::output_error::{starts, starts_by_motor};
-use super::validation::{torque, zeros};
+use crate::identify::drive_estimates::{DriveEstimates, Method};
+use crate::identify::judge::{Chosen, Evidence, slip_phase_solution};
+use crate::identify::methods::friction_law::FrictionLaw;
+use crate::identify::methods::output_error::{starts, starts_by_motor};
+use crate::identify::validation::{torque, zeros};
 use crate::record::Campaign;
 use crate::replay::ModalArm;
 

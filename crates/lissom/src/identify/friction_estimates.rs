@@ -1,7 +1,7 @@
 //! Friction as a method estimates it.
 
-use super::Estimate;
 use crate::drive::Falloff;
+use crate::identify::estimate::Estimate;
 
 /// Friction, in torque (or force).
 #[derive(Debug, Clone, Default, PartialEq)]

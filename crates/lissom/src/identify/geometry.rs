@@ -2,10 +2,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::Estimate;
-use super::output_error::OutputError;
 use crate::arm::Arm;
 use crate::beam::{BeamError, LumpedBeam, Payload, Span};
+use crate::identify::estimate::Estimate;
+use crate::identify::methods::output_error::OutputError;
 use crate::replay::ModalArm;
 
 /// Figures are compared to this share at best: no dimension is known better.

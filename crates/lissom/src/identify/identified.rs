@@ -1,23 +1,23 @@
 //! What identification gives.
 
-use super::constant_velocity::ConstantVelocity;
-use super::drive_estimates::Method;
-use super::equivalent::Equivalent;
-use super::finding::Finding;
-use super::found_arm::FoundArm;
-use super::friction_estimates::Friction;
-use super::friction_law::FrictionLaw;
-use super::judge::{Conclusion, Methods};
-use super::least_squares::LeastSquares;
-use super::linear_models::LinearModels;
-use super::output_error::OutputError;
-use super::rational::{BeamFit, MotorFit};
-use super::regression::{BeamRegression, MotorRegression};
-use super::response_table::ResponsePoint;
-use super::run_analysis::RunAnalysis;
-use super::separability::Separability;
-use super::third_harmonic::PairFigure;
-use super::{Estimate, ModeEstimate};
+use crate::identify::drive_estimates::Method;
+use crate::identify::equivalent::Equivalent;
+use crate::identify::estimate::{Estimate, ModeEstimate};
+use crate::identify::finding::Finding;
+use crate::identify::found_arm::FoundArm;
+use crate::identify::friction_estimates::Friction;
+use crate::identify::judge::{Conclusion, Methods};
+use crate::identify::methods::constant_velocity::ConstantVelocity;
+use crate::identify::methods::friction_law::FrictionLaw;
+use crate::identify::methods::least_squares::LeastSquares;
+use crate::identify::methods::output_error::OutputError;
+use crate::identify::methods::regression::{BeamRegression, MotorRegression};
+use crate::identify::methods::third_harmonic::PairFigure;
+use crate::identify::prepare::run_analysis::RunAnalysis;
+use crate::identify::responses::linear_models::LinearModels;
+use crate::identify::responses::rational::{BeamFit, MotorFit};
+use crate::identify::responses::response_table::ResponsePoint;
+use crate::identify::separability::Separability;
 use crate::record::Campaign;
 
 /// Figures of the report's own method.

@@ -1,44 +1,22 @@
 //! From records to friction, parameters and a verdict.
 
-mod bands;
-mod channel_check;
-mod channel_noise;
-mod constant_velocity;
-mod correct;
 mod drive_estimates;
 mod equivalent;
 mod estimate;
 mod finding;
 mod found_arm;
 mod friction_estimates;
-mod friction_law;
-mod friction_waveform;
 mod geometry;
 mod identified;
 mod judge;
-mod least_squares;
-mod linear_models;
-mod model;
-mod models;
-mod output_error;
+mod methods;
 mod payload;
 mod pipeline;
-mod rational;
-mod regression;
-mod repeated_run;
-mod replayed_bands;
-mod response_table;
-mod run_analysis;
-mod sensor_check;
+mod prepare;
+mod responses;
 mod separability;
-mod starting_arms;
-mod third_harmonic;
 mod validation;
 
-pub use constant_velocity::{
-    ConstantVelocity, FrictionLine, LineError, Shape, SteadyPoint, constant_velocity,
-};
-pub use correct::{Response, corrected, ratio};
 pub use drive_estimates::{DriveEstimates, Method};
 pub use equivalent::{
     Deviations, Equivalent, EquivalentArm, EquivalentBeam, EquivalentData, EquivalentError,
@@ -49,29 +27,33 @@ pub use estimate::{Estimate, ModeEstimate};
 pub use finding::{Finding, Severity};
 pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
 pub use friction_estimates::{BristlesEstimate, Friction, NearRestEstimate, RippleEstimate};
-pub use friction_law::{CurvePoint, FrictionLaw, LawCandidate, LawFit, LawTerm};
 pub use geometry::{ArmQuantity, Explanation, GeometryCheck, geometry_check};
 pub use identified::{Beam, Identified, ThirdHarmonic};
-pub use least_squares::{LeastSquares, least_squares};
-pub use linear_models::{LinearModels, ModelSource, TipModel};
-pub use output_error::{
+pub use methods::constant_velocity::{
+    ConstantVelocity, FrictionLine, LineError, Shape, SteadyPoint, constant_velocity,
+};
+pub use methods::friction_law::{CurvePoint, FrictionLaw, LawCandidate, LawFit, LawTerm};
+pub use methods::least_squares::{LeastSquares, least_squares};
+pub use methods::output_error::{
     ByRun, Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, output_error,
     starts, starts_by_motor, starts_by_responses,
 };
-pub use payload::LoadedArm;
-pub use pipeline::{IdentifyError, Options, Stage, identify};
-pub use rational::{
-    BeamFit, Damping, MotorData, MotorFit, Pole, SharedPoles, SharedPolesError, Spurious, TipData,
-    TipForm, fit_beam, fit_motor, fit_shared_poles, fit_shared_poles_by_evidence, without_origin,
-};
-pub use regression::{
+pub use methods::regression::{
     BeamRegression, ByDirection, Candidate, MissingKind, MissingTerm, MotorRegression,
     beam_regression, motor_regression,
 };
-pub use response_table::ResponsePoint;
-pub use run_analysis::{RunAnalysis, RunKind, Sinusoidal};
+pub use methods::third_harmonic::{PairFigure, RunPhasors, mean_figure, pair_figure};
+pub use payload::LoadedArm;
+pub use pipeline::{IdentifyError, Options, Stage, identify};
+pub use prepare::run_analysis::{RunAnalysis, RunKind, Sinusoidal};
+pub use responses::correct::{Response, corrected, ratio};
+pub use responses::linear_models::{LinearModels, ModelSource, TipModel};
+pub use responses::rational::{
+    BeamFit, Damping, MotorData, MotorFit, Pole, SharedPoles, SharedPolesError, Spurious, TipData,
+    TipForm, fit_beam, fit_motor, fit_shared_poles, fit_shared_poles_by_evidence, without_origin,
+};
+pub use responses::response_table::ResponsePoint;
 pub use separability::{Carried, Direction, FigureKnown, Part, RunShare, RunToAdd, Separability};
-pub use third_harmonic::{PairFigure, RunPhasors, mean_figure, pair_figure};
 pub use validation::{
     Cause, CauseKind, ChannelResidual, Fit, Horizon, MovedBy, MovedMode, PredictedStretch, Stretch,
     TorquePrediction, TorqueRun, Validation, ValidationError, ValidationOptions, validate,

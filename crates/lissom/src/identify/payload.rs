@@ -1,9 +1,9 @@
 //! What another payload does to an arm that was identified with one.
 
-use super::correct::Response;
-use super::finding::{Finding, Severity, key};
-use super::output_error::OutputError;
-use super::{Estimate, ModeEstimate};
+use crate::identify::estimate::{Estimate, ModeEstimate};
+use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::methods::output_error::OutputError;
+use crate::identify::responses::correct::Response;
 use crate::replay::ModalArm;
 
 /// An arm with another load at one of its tips, as the runs with the load that it had predict it.

@@ -4,26 +4,32 @@ use std::borrow::Cow;
 
 use thiserror::Error;
 
-use super::bands::{against, general, uncertain};
-use super::channel_check::range;
-use super::constant_velocity::{self, ConstantVelocity};
-use super::equivalent::{Equivalent, EquivalentData, equivalent};
-use super::finding::{Finding, Severity, key};
-use super::friction_law::{FrictionLaw, friction_law};
-use super::friction_waveform::FrictionWaveform;
-use super::identified::{Identified, ThirdHarmonic};
-use super::judge::{Evidence, Methods, conclude, slip_phase_solution};
-use super::least_squares::least_squares;
-use super::linear_models::LinearModels;
-use super::models::{beam_model, figures_model, motor_and_beam, rigid_model};
-use super::output_error::{OutputError, OutputErrorStart, output_error};
-use super::regression::{BeamRegression, MotorRegression, beam_regression, motor_regression};
-use super::replayed_bands::ReplayedBands;
-use super::response_table::{Replayed, ResponsePoint, response_table, weak_points};
-use super::run_analysis::{RunAnalysis, RunKind, analyse};
-use super::starting_arms::starting_arms;
-use super::third_harmonic::{PairFigure, mean_figure, pair_figure};
-use super::{Estimate, ModeEstimate, models};
+use crate::identify::equivalent::{Equivalent, EquivalentData, equivalent};
+use crate::identify::estimate::{Estimate, ModeEstimate};
+use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::identified::{Identified, ThirdHarmonic};
+use crate::identify::judge::{Evidence, Methods, conclude, slip_phase_solution};
+use crate::identify::methods::constant_velocity;
+use crate::identify::methods::constant_velocity::ConstantVelocity;
+use crate::identify::methods::friction_law::{FrictionLaw, friction_law};
+use crate::identify::methods::least_squares::least_squares;
+use crate::identify::methods::output_error::{OutputError, OutputErrorStart, output_error};
+use crate::identify::methods::regression::{
+    BeamRegression, MotorRegression, beam_regression, motor_regression,
+};
+use crate::identify::methods::starting_arms::starting_arms;
+use crate::identify::methods::third_harmonic::{PairFigure, mean_figure, pair_figure};
+use crate::identify::prepare::channel_check::range;
+use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind, analyse};
+use crate::identify::responses::bands::{against, general, uncertain};
+use crate::identify::responses::friction_waveform::FrictionWaveform;
+use crate::identify::responses::linear_models::LinearModels;
+use crate::identify::responses::models;
+use crate::identify::responses::models::{beam_model, figures_model, motor_and_beam, rigid_model};
+use crate::identify::responses::replayed_bands::ReplayedBands;
+use crate::identify::responses::response_table::{
+    Replayed, ResponsePoint, response_table, weak_points,
+};
 use crate::record::{Campaign, Run};
 use crate::replay::ModalArm;
 

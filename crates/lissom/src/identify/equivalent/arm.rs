@@ -3,11 +3,16 @@
 use nalgebra::{DMatrix, DVector, DVectorView};
 use num_complex::Complex64;
 
-use super::{EquivalentBeam, EquivalentError, StrainlessForm, deviation, equivalent_beam, moved};
 use crate::beam::{BeamError, KnownMode, ModalBeam, ModalForm};
-use crate::identify::model::{CoupledMode, modal};
-use crate::identify::rational::{CouplingFit, MotorData, Pole, SharedPoles, coupled, fit_coupling};
-use crate::identify::{Estimate, Response};
+use crate::identify::equivalent::{
+    EquivalentBeam, EquivalentError, StrainlessForm, deviation, equivalent_beam, moved,
+};
+use crate::identify::estimate::Estimate;
+use crate::identify::responses::correct::Response;
+use crate::identify::responses::model::{CoupledMode, modal};
+use crate::identify::responses::rational::{
+    CouplingFit, MotorData, Pole, SharedPoles, coupled, fit_coupling,
+};
 use crate::lti::StateSpace;
 
 /// (17)-(18) and (14): an arm of as many points as modes, and its motor.

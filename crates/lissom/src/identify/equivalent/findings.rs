@@ -1,11 +1,13 @@
 //! What to know of an equivalent arm.
 
-use super::refusal::side;
-use super::whole::{Deviations, Equivalent, EquivalentData};
-use super::{EquivalentArm, EquivalentError};
-use crate::identify::finding::key;
-use crate::identify::rational::{Damping, Spurious};
-use crate::identify::{Estimate, Finding, Response, Severity};
+use crate::identify::equivalent::EquivalentError;
+use crate::identify::equivalent::arm::EquivalentArm;
+use crate::identify::equivalent::refusal::side;
+use crate::identify::equivalent::whole::{Deviations, Equivalent, EquivalentData};
+use crate::identify::estimate::Estimate;
+use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::responses::correct::Response;
+use crate::identify::responses::rational::{Damping, Spurious};
 
 /// A model that leaves more than so many deviations is not all there is…
 const MISFIT: f64 = 2.0;

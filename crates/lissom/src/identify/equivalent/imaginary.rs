@@ -2,10 +2,10 @@
 
 use num_complex::Complex64;
 
-use super::refusal::{EquivalentRefusal, PartOutside};
-use super::whole::{Deviations, EquivalentData};
-use crate::identify::Response;
-use crate::identify::rational::{Damping, SharedPoles, Spurious, fit_shared_poles};
+use crate::identify::equivalent::refusal::{EquivalentRefusal, PartOutside};
+use crate::identify::equivalent::whole::{Deviations, EquivalentData};
+use crate::identify::responses::correct::Response;
+use crate::identify::responses::rational::{Damping, SharedPoles, Spurious, fit_shared_poles};
 
 /// From this share of a response (its median) on they are none of an arm's…
 const UNEVEN: f64 = 0.1;

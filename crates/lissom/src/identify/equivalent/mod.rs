@@ -19,8 +19,8 @@ pub use refusal::{EquivalentRefusal, PartOutside};
 pub use whole::{Deviations, Equivalent, EquivalentData, equivalent};
 pub use zeros::{ResponseZero, response_zeros};
 
-use super::rational::SharedPoles;
 use crate::beam::{ModalForm, completed};
+use crate::identify::responses::rational::SharedPoles;
 
 /// The matrix of the points' gains counts as singular where its least singular value is not this many
 /// deviations from zero…

@@ -2,9 +2,9 @@
 
 use thiserror::Error;
 
-use super::EquivalentError;
-use crate::identify::Estimate;
-use crate::identify::rational::SharedPolesError;
+use crate::identify::equivalent::EquivalentError;
+use crate::identify::estimate::Estimate;
+use crate::identify::responses::rational::SharedPolesError;
 
 /// A response with more than damping in its imaginary part.
 #[derive(Debug, Clone, PartialEq)]

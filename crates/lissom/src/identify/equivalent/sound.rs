@@ -1,8 +1,8 @@
 //! Numbers that can be computed with.
 
-use super::refusal::EquivalentRefusal;
-use super::whole::EquivalentData;
-use crate::identify::Response;
+use crate::identify::equivalent::refusal::EquivalentRefusal;
+use crate::identify::equivalent::whole::EquivalentData;
+use crate::identify::responses::correct::Response;
 
 /// Sizes of responses: squares of their products stay within doubles.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-50..=1e50;

@@ -2,9 +2,9 @@
 
 use num_complex::Complex64;
 
-use super::whole::EquivalentData;
-use crate::identify::Response;
-use crate::identify::rational::{
+use crate::identify::equivalent::whole::EquivalentData;
+use crate::identify::responses::correct::Response;
+use crate::identify::responses::rational::{
     Damping, SharedPoles, Spurious, fit_shared_poles, fit_shared_poles_by_evidence,
 };
 

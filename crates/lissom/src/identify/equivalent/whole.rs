@@ -2,18 +2,20 @@
 
 use nalgebra::DMatrix;
 
-use super::arm::arm_below;
-use super::refusal::{EquivalentRefusal, PartOutside};
-use super::sound::sound;
-use super::turned_round::turned_round;
-use super::{
-    EquivalentArm, EquivalentBeam, EquivalentError, ResponseZero, StrainlessForm, deviations,
-    equivalent_beam, findings, imaginary, response_zeros,
+use crate::identify::equivalent::arm::{EquivalentArm, arm_below};
+use crate::identify::equivalent::refusal::{EquivalentRefusal, PartOutside};
+use crate::identify::equivalent::sound::sound;
+use crate::identify::equivalent::turned_round::turned_round;
+use crate::identify::equivalent::zeros::{ResponseZero, response_zeros};
+use crate::identify::equivalent::{
+    EquivalentBeam, EquivalentError, StrainlessForm, deviations, equivalent_beam, findings,
+    imaginary,
 };
-use crate::identify::rational::{
+use crate::identify::finding::Finding;
+use crate::identify::responses::correct::Response;
+use crate::identify::responses::rational::{
     MOST_DAMPING, MotorData, Pole, SharedPoles, Spurious, fit_shared_poles_with_delays, information,
 };
-use crate::identify::{Finding, Response};
 
 /// Pairs of poles looked for, whatever the number of points.
 const POLES_LEAST: usize = 8;

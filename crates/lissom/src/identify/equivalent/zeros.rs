@@ -2,10 +2,10 @@
 
 use num_complex::Complex64;
 
-use super::deviation;
 use crate::beam::{RootClass, class, zero_squares};
-use crate::identify::Estimate;
-use crate::identify::rational::SharedPoles;
+use crate::identify::equivalent::deviation;
+use crate::identify::estimate::Estimate;
+use crate::identify::responses::rational::SharedPoles;
 
 /// Newton's steps at most.
 const STEPS: usize = 40;

@@ -1,12 +1,12 @@
 //! Modes of the beam: which method's are taken.
 
-use super::drive_table::MODEL_MISFIT;
-use super::evidence::Evidence;
-use crate::identify::ModeEstimate;
 use crate::identify::drive_estimates::DriveEstimates;
+use crate::identify::estimate::ModeEstimate;
 use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::identified::Beam;
-use crate::identify::regression::BeamRegression;
+use crate::identify::judge::drive_table::MODEL_MISFIT;
+use crate::identify::judge::evidence::Evidence;
+use crate::identify::methods::regression::BeamRegression;
 
 /// Share of the tips' windowed acceleration below which their own equations explain it all.
 ///

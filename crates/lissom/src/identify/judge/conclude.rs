@@ -1,12 +1,12 @@
 //! From the methods' solutions to the estimates of the result and the findings about them.
 
-use super::evidence::{Chosen, Evidence};
-use super::{beam_choice, drive_table, remarks, unknown};
 use crate::identify::drive_estimates::Method;
 use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::found_arm::FoundArm;
+use crate::identify::judge::evidence::{Chosen, Evidence};
+use crate::identify::judge::{beam_choice, drive_table, remarks, unknown};
+use crate::identify::methods::{constant_velocity, friction_law, output_error, regression};
 use crate::identify::separability::Separability;
-use crate::identify::{constant_velocity, friction_law, output_error, regression};
 
 /// What the result states.
 pub(crate) struct Conclusion {

@@ -1,12 +1,12 @@
 //! The order of the methods for friction, inertia and coupling.
 
-use super::evidence::{Evidence, Methods};
-use crate::identify::Estimate;
 use crate::identify::drive_estimates::{DriveEstimates, Method};
+use crate::identify::estimate::Estimate;
 use crate::identify::friction_estimates::Friction;
-use crate::identify::friction_law::FrictionLaw;
-use crate::identify::rational::MotorFit;
-use crate::identify::regression::{MotorRegression, coupled_tips};
+use crate::identify::judge::evidence::{Evidence, Methods};
+use crate::identify::methods::friction_law::FrictionLaw;
+use crate::identify::methods::regression::{MotorRegression, coupled_tips};
+use crate::identify::responses::rational::MotorFit;
 
 /// Weighted residual of the motor's rational model from which on its estimates are not taken \[standard errors, rms\].
 ///

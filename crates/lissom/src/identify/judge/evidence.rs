@@ -1,14 +1,14 @@
 //! What the methods found, and what was taken of it.
 
-use crate::identify::constant_velocity::ConstantVelocity;
 use crate::identify::drive_estimates::{DriveEstimates, Method};
-use crate::identify::friction_law::FrictionLaw;
 use crate::identify::identified::{Beam, ThirdHarmonic};
-use crate::identify::least_squares::LeastSquares;
-use crate::identify::output_error::OutputError;
-use crate::identify::rational::{BeamFit, MotorFit};
-use crate::identify::regression::{BeamRegression, MotorRegression};
-use crate::identify::run_analysis::RunAnalysis;
+use crate::identify::methods::constant_velocity::ConstantVelocity;
+use crate::identify::methods::friction_law::FrictionLaw;
+use crate::identify::methods::least_squares::LeastSquares;
+use crate::identify::methods::output_error::OutputError;
+use crate::identify::methods::regression::{BeamRegression, MotorRegression};
+use crate::identify::prepare::run_analysis::RunAnalysis;
+use crate::identify::responses::rational::{BeamFit, MotorFit};
 use crate::record::Campaign;
 
 /// What each method gave, complete: nothing is added later.

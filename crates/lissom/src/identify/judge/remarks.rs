@@ -1,12 +1,13 @@
 //! What the taken estimates do not say by themselves: findings about command, friction, models and methods.
 
-use super::beam_choice::complete;
-use super::drive_table::MODEL_MISFIT;
-use super::evidence::{Chosen, Evidence};
 use crate::identify::drive_estimates::Method;
-use crate::identify::finding::{Finding, Severity, Severity::Warning, key};
-use crate::identify::regression::coupled_tips;
-use crate::identify::run_analysis::RunKind;
+use crate::identify::finding::Severity::Warning;
+use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::judge::beam_choice::complete;
+use crate::identify::judge::drive_table::MODEL_MISFIT;
+use crate::identify::judge::evidence::{Chosen, Evidence};
+use crate::identify::methods::regression::coupled_tips;
+use crate::identify::prepare::run_analysis::RunKind;
 use crate::record::{CommandQuantity, Hold, TipQuantity};
 
 /// Methods that differ by more than this share disagree.

@@ -1,8 +1,9 @@
 //! Estimates that the data do not support are taken back.
 
-use super::evidence::{Chosen, Evidence};
-use crate::identify::Estimate;
-use crate::identify::finding::{Finding, Severity, Severity::Warning, key};
+use crate::identify::estimate::Estimate;
+use crate::identify::finding::Severity::Warning;
+use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::judge::evidence::{Chosen, Evidence};
 
 /// An estimate whose standard error is beyond this share of it is called uncertain…
 ///

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::judged::{Judged, TAKES_PART};
+use crate::identify::separability::judged::{Judged, TAKES_PART};
 use crate::information::Figure;
 
 /// A figure takes part in a direction that carries this share of its variance…

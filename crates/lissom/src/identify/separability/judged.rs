@@ -2,10 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{FigureKnown, correlation};
-use crate::identify::output_error::OutputError;
-use crate::identify::regression::{COUPLING, Terms};
-use crate::identify::{DriveEstimates, Estimate};
+use crate::identify::drive_estimates::DriveEstimates;
+use crate::identify::estimate::Estimate;
+use crate::identify::methods::output_error::OutputError;
+use crate::identify::methods::regression::{COUPLING, Terms};
+use crate::identify::separability::{FigureKnown, correlation};
 use crate::information::{Figure, inverse, slopes};
 use crate::record::Campaign;
 

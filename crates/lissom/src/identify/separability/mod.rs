@@ -14,10 +14,10 @@ use judged::Judged;
 pub use run_to_add::RunToAdd;
 pub use runs::{Carried, RunShare};
 
-use super::drive_estimates::Method;
-use super::finding::{Finding, Severity, key};
-use super::found_arm::ArmSource;
-use super::judge::{Chosen, Evidence, Methods};
+use crate::identify::drive_estimates::Method;
+use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::found_arm::ArmSource;
+use crate::identify::judge::{Chosen, Evidence, Methods};
 use crate::information::Figure;
 
 /// Relative deviation up to which a figure is sharp: where all are, nothing is left to separate.

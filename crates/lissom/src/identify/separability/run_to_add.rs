@@ -1,8 +1,8 @@
 //! The further run that would say most about what the logs tell least.
 
-use super::direction::Direction;
-use super::judged::Judged;
-use crate::identify::output_error::OutputError;
+use crate::identify::methods::output_error::OutputError;
+use crate::identify::separability::direction::Direction;
+use crate::identify::separability::judged::Judged;
 use crate::information::Figure;
 use crate::plan::{Addition, Bounds, PlannedMotion, additions};
 use crate::record::Campaign;

@@ -2,8 +2,8 @@
 
 use nalgebra::DMatrix;
 
-use super::judged::Judged;
-use crate::identify::output_error::ByRun;
+use crate::identify::methods::output_error::ByRun;
+use crate::identify::separability::judged::Judged;
 use crate::information::Figure;
 use crate::record::Campaign;
 

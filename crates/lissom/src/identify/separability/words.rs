@@ -1,8 +1,9 @@
 //! What the logs separate, in words.
 
-use super::direction::{Direction, Part};
-use super::runs::{Carried, RunShare};
-use super::{FigureKnown, RunToAdd, Separability};
+use crate::identify::separability::direction::{Direction, Part};
+use crate::identify::separability::run_to_add::RunToAdd;
+use crate::identify::separability::runs::{Carried, RunShare};
+use crate::identify::separability::{FigureKnown, Separability};
 use crate::information::Figure;
 use crate::plan::{PlannedMotion, percent};
 use crate::record::Axis;

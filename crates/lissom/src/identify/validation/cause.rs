@@ -1,6 +1,6 @@
 //! What a residual of torque looks like: how much of it each term would take away by itself.
 
-use super::kernel::Kernel;
+use crate::identify::validation::kernel::Kernel;
 use crate::record::Run;
 
 /// What may be wrong or missing.

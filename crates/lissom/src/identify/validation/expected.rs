@@ -5,9 +5,9 @@ use rand_distr::{Distribution as _, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng as _;
 
-use super::motion::{Followed, PredictedStretch, logged};
-use super::torque::{TorquePrediction, torque};
-use crate::identify::channel_noise::{channel_noise, reading};
+use crate::identify::prepare::channel_noise::{channel_noise, reading};
+use crate::identify::validation::motion::{Followed, PredictedStretch, logged};
+use crate::identify::validation::torque::{TorquePrediction, torque};
 use crate::record::{Campaign, Run, TimeBase};
 use crate::replay::{ModalArm, Window};
 

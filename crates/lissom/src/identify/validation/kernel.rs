@@ -1,6 +1,6 @@
 //! A window slid over a log: what of a signal, its rates and a held command lies under it.
 
-use crate::identify::regression::Window;
+use crate::identify::methods::regression::Window;
 use crate::record::Hold;
 
 /// The half-power frequency of a sin⁴ window is this over its length.

@@ -20,8 +20,8 @@ pub(super) use zeros::zeros;
 
 use thiserror::Error;
 
-use super::Finding;
-use super::found_arm::FoundArm;
+use crate::identify::finding::Finding;
+use crate::identify::found_arm::FoundArm;
 use crate::record::{Campaign, Run};
 use crate::replay::{MOST_MODES, TURN_MOST};
 use expected::expected;

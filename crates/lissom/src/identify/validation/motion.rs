@@ -1,6 +1,6 @@
 //! Simulation: the logged command through the arm, beside the logged motion.
 
-use crate::identify::output_error::{Masks, follow, masks};
+use crate::identify::methods::output_error::{Masks, follow, masks};
 use crate::record::{Campaign, Run};
 use crate::replay::{ModalArm, Window, predict};
 

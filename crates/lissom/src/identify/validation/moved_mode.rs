@@ -1,8 +1,8 @@
 //! Whether a mode of the log stands elsewhere: one frequency is moved at a time, and what is left decides.
 
-use super::motion::{Followed, PredictedStretch, followed, logged};
 use crate::identify::found_arm::FoundArm;
-use crate::identify::output_error::{Masks, masks};
+use crate::identify::methods::output_error::{Masks, masks};
+use crate::identify::validation::motion::{Followed, PredictedStretch, followed, logged};
 use crate::record::Campaign;
 use crate::replay::ModalArm;
 

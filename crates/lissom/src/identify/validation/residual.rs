@@ -2,9 +2,9 @@
 
 use statrs::distribution::{ChiSquared, ContinuousCDF as _};
 
-use super::motion::{PredictedStretch, logged};
-use crate::identify::channel_noise::channel_noise;
-use crate::identify::output_error::{Masks, masks};
+use crate::identify::methods::output_error::{Masks, masks};
+use crate::identify::prepare::channel_noise::channel_noise;
+use crate::identify::validation::motion::{PredictedStretch, logged};
 use crate::record::{Campaign, Run};
 
 /// Lags looked at, to either side.

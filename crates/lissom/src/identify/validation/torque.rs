@@ -3,10 +3,10 @@
 
 use std::ops::RangeInclusive;
 
-use super::cause::{Cause, Causes};
-use super::kernel::Kernel;
-use crate::identify::channel_noise::channel_noise;
-use crate::identify::output_error::{Masks, masks};
+use crate::identify::methods::output_error::{Masks, masks};
+use crate::identify::prepare::channel_noise::channel_noise;
+use crate::identify::validation::cause::{Cause, Causes};
+use crate::identify::validation::kernel::Kernel;
 use crate::record::{Campaign, Run, TipQuantity};
 use crate::replay::ModalArm;
 

@@ -1,10 +1,12 @@
 //! What a validation says against the figures.
 
-use super::torque::shows_coupling;
-use super::{Cause, CauseKind, MovedBy, TorquePrediction, Validation};
-use crate::identify::Finding;
-use crate::identify::Severity::{Info, Refusal, Warning};
+use crate::identify::finding::Finding;
+use crate::identify::finding::Severity::{Info, Refusal, Warning};
 use crate::identify::found_arm::FoundArm;
+use crate::identify::validation::Validation;
+use crate::identify::validation::cause::{Cause, CauseKind};
+use crate::identify::validation::moved_mode::MovedBy;
+use crate::identify::validation::torque::{TorquePrediction, shows_coupling};
 use crate::record::{Axis, Campaign, Channels};
 
 /// Of a torque of which less is left nothing is said.

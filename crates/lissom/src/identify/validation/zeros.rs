@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::kernel::Kernel;
-use crate::identify::output_error::{Masks, masks};
+use crate::identify::methods::output_error::{Masks, masks};
+use crate::identify::validation::kernel::Kernel;
 use crate::record::{Campaign, Hold, Run, TipQuantity};
 use crate::replay::ModalArm;
 

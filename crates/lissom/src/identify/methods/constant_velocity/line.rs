@@ -1,0 +1,308 @@
+//! A straight line through the points of one direction, extrapolated to rest.
+
+use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{ContinuousCDF as _, FisherSnedecor, StudentsT};
+use thiserror::Error;
+
+use crate::identify::estimate::Estimate;
+use crate::identify::methods::constant_velocity::average::FREEDOM;
+
+/// Speeds closer than this ratio are one.
+const ONE_SPEED: f64 = 1.05;
+/// Chance at which a straight line is rejected though it holds.
+const REJECTED: f64 = 0.01;
+/// Upper quantile of the normal distribution that intervals are made of.
+const NORMAL_975: f64 = 1.959_964;
+/// Deviations below this share of the largest command are rounding.
+const ROUNDING: f64 = 1e-9;
+/// Rounds in which the slope that turns velocity's deviations into the command's settles: each
+/// takes its change down by the ratio of the two variances.
+const ROUNDS: usize = 4;
+/// Halvings of the variance that all points share: from all of the command down to 1e-15 of it.
+const HALVINGS: usize = 50;
+
+/// Friction in one direction: `τ = CF + V·|θ̇|`, magnitudes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrictionLine {
+    /// Coulomb friction: the line extrapolated to rest \[N·m or N\].
+    pub coulomb: Estimate,
+    /// Viscous friction: its slope, back-EMF taken out \[N·m·s/rad or N·s/m\].
+    pub viscous: Estimate,
+    /// Correlation of the two.
+    pub correlation: f64,
+    /// Points on the line.
+    pub points: usize,
+    /// Speeds that differ by 5 % or more.
+    pub speeds: usize,
+    /// Whether a line describes the points.
+    pub shape: Shape,
+    /// Coulomb friction from the slowest third of the speeds alone; `None` where these are all
+    /// speeds, or fewer than two.
+    pub slowest: Option<Estimate>,
+}
+
+/// How the points lie about their line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shape {
+    /// Two speeds: nothing speaks for or against a line.
+    Unchecked,
+    /// Within their deviations.
+    Straight,
+    /// Friction grows less than in proportion: the extrapolation to rest is too high.
+    Concave {
+        /// What bends it, in units of its deviation.
+        deviations: f64,
+    },
+    /// Friction grows more than in proportion, or falls before it grows: the extrapolation to rest
+    /// is too low.
+    Convex {
+        /// What bends it, in units of its deviation.
+        deviations: f64,
+    },
+    /// Farther off than their deviations, to both sides.
+    Scattered {
+        /// Root mean square of the distances in units of the deviations.
+        rms: f64,
+    },
+}
+
+impl FrictionLine {
+    /// The best that the points say of friction at rest: the line's figure where a line describes
+    /// them, that of the slowest third of the speeds where they lie on a curve. Half of what that
+    /// changes counts as a deviation: the curve goes on within the slowest third.
+    pub fn near_rest(&self) -> Estimate {
+        match (self.shape, self.slowest) {
+            (Shape::Concave { .. } | Shape::Convex { .. }, Some(slowest)) => {
+                let change = slowest.value - self.coulomb.value;
+                Estimate { std: slowest.std.hypot(0.5 * change), ..slowest }
+            }
+            _ => self.coulomb,
+        }
+    }
+}
+
+/// Why there is no line.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum LineError {
+    /// No stretch at a constant velocity in this direction.
+    #[error("no stretch at a constant velocity")]
+    NoPoints,
+    /// One speed.
+    #[error("{found} speed; at least two are needed")]
+    TooFewSpeeds {
+        /// Speeds found.
+        found: usize,
+    },
+    /// The speeds are too close together, or too uncertain, for what an extrapolation asks.
+    #[error("the figure extrapolated to rest, {coulomb:.4e}, is uncertain by {std:.1e}")]
+    TooClose {
+        /// Coulomb friction \[N·m or N\].
+        coulomb: f64,
+        /// Its standard deviation.
+        std: f64,
+    },
+}
+
+/// A point of the plot, magnitudes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Point {
+    pub(super) speed: Estimate,
+    /// Torque (or force) that keeps up the speed.
+    pub(super) drive: Estimate,
+}
+
+/// Polynomial through points by weighted least squares.
+struct Fit {
+    /// Coefficients in ascending powers of the speed.
+    value: Vec<f64>,
+    covariance: DMatrix<f64>,
+    /// Squared residuals in units of the variances: those of the points and what is added to them.
+    chi_squared: f64,
+    /// Points beyond coefficients.
+    freedom: usize,
+    /// Speeds among the points.
+    speeds: usize,
+    /// Where the points lie farther off than their deviations allow: that distance (rms) in units of
+    /// their deviations. Their scatter is then added to their variances.
+    rejected: Option<f64>,
+}
+
+/// The line through `points`, `back_emf` taken off its slope.
+pub(super) fn line(points: &[Point], back_emf: f64) -> Result<FrictionLine, LineError> {
+    let mut points = points.to_vec();
+    points.sort_by(|a, b| a.speed.value.total_cmp(&b.speed.value));
+    let starts = speeds(&points);
+    let speeds = starts.len();
+    if points.is_empty() {
+        return Err(LineError::NoPoints);
+    }
+    let few = LineError::TooFewSpeeds { found: speeds };
+    let fit = if speeds < 2 { None } else { Fit::new(&points, 1) }.ok_or(few)?;
+    let shape = shape(&points, &fit, speeds);
+    // Two at least, and a third of them: the rest is what a curve bends away by.
+    let slow = starts.get(starts.len().div_ceil(3).max(2));
+    let slowest = slow.and_then(|to| Fit::new(&points[..*to], 1)).map(|f| f.figure(0));
+    let mut coulomb = fit.figure(0);
+    if let (Shape::Concave { .. } | Shape::Convex { .. }, Some(slowest)) = (shape, slowest) {
+        coulomb.std = coulomb.std.hypot(slowest.value - coulomb.value);
+    }
+    if coulomb.std.is_nan() || coulomb.std > coulomb.value.abs() {
+        return Err(LineError::TooClose { coulomb: coulomb.value, std: coulomb.std });
+    }
+    let c = &fit.covariance;
+    let slope = fit.figure(1);
+    Ok(FrictionLine {
+        coulomb,
+        viscous: Estimate { value: slope.value - back_emf, std: slope.std },
+        correlation: c[(0, 1)] / (c[(0, 0)] * c[(1, 1)]).sqrt(),
+        points: points.len(),
+        speeds,
+        shape,
+        slowest,
+    })
+}
+
+/// Where each speed begins among points in ascending order.
+fn speeds(points: &[Point]) -> Vec<usize> {
+    let mut starts: Vec<usize> = Vec::new();
+    for (k, p) in points.iter().enumerate() {
+        let from = starts.last().map(|s| points[*s].speed.value);
+        if from.is_none_or(|from| p.speed.value > ONE_SPEED * from) {
+            starts.push(k);
+        }
+    }
+    starts
+}
+
+fn shape(points: &[Point], line: &Fit, speeds: usize) -> Shape {
+    if speeds < 3 {
+        return Shape::Unchecked;
+    }
+    // By the quadratic term; a sharper bend by what a cubic makes of rest, where it fits.
+    let parabola = Fit::new(points, 2).map(|p| {
+        let (scale, freedom) = p.scale();
+        (p.value[2] / (p.covariance[(2, 2)] * scale).sqrt(), freedom)
+    });
+    let cubic = || {
+        let cubic = Fit::new(points, 3).filter(|c| c.freedom >= 2 && c.rejected.is_none())?;
+        let bent = (cubic.value[0] - line.value[0]) / cubic.covariance[(0, 0)].sqrt();
+        Some((bent, cubic.own_freedom()))
+    };
+    let sharp = if line.rejected.is_some() && speeds > 4 { cubic() } else { None };
+    for (deviations, freedom) in parabola.into_iter().chain(sharp) {
+        let chance = StudentsT::new(0.0, 1.0, freedom)
+            .map_or(1.0, |t| 2.0 * t.cdf(-deviations.abs().min(f64::MAX)));
+        if chance < REJECTED {
+            let size = deviations.abs();
+            return if deviations < 0.0 {
+                Shape::Concave { deviations: size }
+            } else {
+                Shape::Convex { deviations: size }
+            };
+        }
+    }
+    line.rejected.map_or(Shape::Straight, |rms| Shape::Scattered { rms })
+}
+
+impl Fit {
+    /// `None` where the speeds do not carry the powers.
+    fn new(points: &[Point], degree: usize) -> Option<Self> {
+        let own = Self::weighted(points, degree, 0.0)?;
+        let freedom = own.freedom as f64;
+        let reduced = own.chi_squared / freedom;
+        let rejected = own.freedom > 0
+            && FisherSnedecor::new(freedom, own.own_freedom())
+                .is_ok_and(|f| f.sf(reduced) < REJECTED);
+        if !rejected {
+            return Some(own);
+        }
+        // Friction differs between the stretches by more than they know of: the variance that all
+        // share then is the one that leaves χ² at its degrees of freedom. It falls with it.
+        let with = |variance| Self::weighted(points, degree, variance);
+        let most = points.iter().map(|p| p.drive.value.powi(2)).fold(0.0, f64::max);
+        let (mut low, mut high) = (0.0, most);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if with(middle)?.chi_squared > freedom {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Some(Self { rejected: Some(reduced.sqrt()), ..with(high)? })
+    }
+
+    /// The fit with `shared` added to the variance of every point.
+    fn weighted(points: &[Point], degree: usize, shared: f64) -> Option<Self> {
+        let most = |get: fn(&Point) -> f64| points.iter().map(get).fold(0.0, f64::max);
+        let (fastest, largest) = (most(|p| p.speed.value), most(|p| p.drive.value.abs()));
+        let columns = degree + 1;
+        let mut value = DVector::zeros(columns);
+        let mut covariance = DMatrix::zeros(columns, columns);
+        let mut chi_squared = 0.0;
+        for _ in 0..ROUNDS {
+            let mut normal = DMatrix::zeros(columns, columns);
+            let mut right = DVector::zeros(columns);
+            let mut rows = Vec::with_capacity(points.len());
+            for p in points {
+                let s = p.speed.value / fastest;
+                let slope: f64 =
+                    (1..columns).map(|k| k as f64 * value[k] * s.powf(k as f64 - 1.0)).sum();
+                let variance = p.drive.std.powi(2)
+                    + (slope * p.speed.std / fastest).powi(2)
+                    + (ROUNDING * largest).powi(2)
+                    + shared;
+                let row = DVector::from_fn(columns, |k, _| s.powf(k as f64));
+                normal += &row * row.transpose() / variance;
+                right += &row * (p.drive.value / variance);
+                rows.push((row, p.drive.value, variance));
+            }
+            covariance = normal.try_inverse()?;
+            value = &covariance * right;
+            chi_squared = rows.iter().map(|(r, y, v)| (y - r.dot(&value)).powi(2) / v).sum();
+        }
+        let unit = |k: usize| fastest.powf(-(k as f64));
+        Some(Self {
+            value: value.iter().enumerate().map(|(k, v)| v * unit(k)).collect(),
+            covariance: DMatrix::from_fn(columns, columns, |i, k| {
+                covariance[(i, k)] * unit(i) * unit(k)
+            }),
+            chi_squared,
+            freedom: points.len().saturating_sub(columns),
+            speeds: speeds(points).len(),
+            rejected: None,
+        })
+    }
+
+    /// Degrees of freedom of the points' own deviations.
+    fn own_freedom(&self) -> f64 {
+        FREEDOM * (self.freedom + self.value.len()) as f64
+    }
+
+    /// What the covariance is to be multiplied by, and the degrees of freedom it then has: the
+    /// points' own deviations, never less than their scatter; the scatter alone where that is beyond
+    /// them. Runs repeated at one speed mostly pass through the same travel and meet the same
+    /// friction there: then speeds count, not points.
+    fn scale(&self) -> (f64, f64) {
+        if self.rejected.is_some() {
+            (1.0, self.speeds.saturating_sub(self.value.len()).max(1) as f64)
+        } else {
+            let scatter = self.chi_squared / self.freedom.max(1) as f64;
+            (scatter.max(1.0), self.own_freedom())
+        }
+    }
+
+    /// Coefficient `k`; its deviation is such that 1.96 of it make the 95 % interval.
+    fn figure(&self, k: usize) -> Estimate {
+        let (scale, freedom) = self.scale();
+        let wider =
+            StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |t| t.inverse_cdf(0.975) / NORMAL_975);
+        let std = (self.covariance[(k, k)] * scale).max(0.0).sqrt() * wider;
+        Estimate { value: self.value[k], std }
+    }
+}
+
+#[cfg(test)]
+#[path = "line_tests.rs"]
+mod tests;

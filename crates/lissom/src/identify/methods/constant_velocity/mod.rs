@@ -1,0 +1,151 @@
+//! The classical measurement: the current that keeps up a steady velocity, extrapolated to rest.
+
+mod average;
+mod findings;
+mod line;
+mod stretches;
+mod verdict;
+
+use crate::identify::estimate::Estimate;
+use crate::record::{Campaign, Channels, Run};
+pub(crate) use findings::{findings, no_stretch};
+pub use line::{FrictionLine, LineError, Shape};
+use stretches::stretches;
+pub(crate) use verdict::{only_constant_velocities, taken};
+
+/// A run that turns one way, and does so at constant velocities for this share of the time in
+/// motion, is made for them…
+pub(crate) const SHARE_ONE_WAY: f64 = 0.5;
+/// …and one that turns both ways from this share on: ordinary moves have up to 0.8.
+pub(crate) const SHARE: f64 = 0.9;
+
+/// A stretch of a run in which the motor turns at a constant velocity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SteadyPoint {
+    /// Index of its run.
+    pub run: usize,
+    /// Where it begins, from the run's first sample on \[s\].
+    pub start_s: f64,
+    /// Where it ends \[s\].
+    pub end_s: f64,
+    /// Velocity, with its sign \[rad/s or m/s\].
+    pub velocity: Estimate,
+    /// Mean command.
+    pub command: Estimate,
+}
+
+/// Friction from steady velocities.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ConstantVelocity {
+    /// Coulomb friction, mean of both directions \[N·m or N\]; `None` without both lines.
+    pub coulomb: Option<Estimate>,
+    /// (forward − backward)/2 \[N·m or N\].
+    pub offset: Option<Estimate>,
+    /// Viscous friction, mean of the lines there are \[N·m·s/rad or N·s/m\].
+    pub viscous: Option<Estimate>,
+    /// The line through the points at positive velocity.
+    pub forward: Result<FrictionLine, LineError>,
+    /// The line through the points at negative velocity.
+    pub backward: Result<FrictionLine, LineError>,
+    /// Every stretch, run by run.
+    pub points: Vec<SteadyPoint>,
+}
+
+/// Finds the stretches at constant velocity and extrapolates the command over them to rest.
+///
+/// At a constant velocity nothing is accelerated and `τ = ±CF + V·θ̇`: by direction a straight line
+/// through torque over velocity. τ is the command times its torque constant \[N·m, N, or the
+/// command's unit where the constant is unknown\]. Each point's deviations come from what its
+/// stretch scatters by, coloured as that is; velocities have deviations too and enter through the
+/// slope. Where the points scatter about the line by more than they should, that scatter counts.
+///
+/// What a line hides is tested for: [`Shape`].
+///
+/// ```
+/// # use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
+/// # let runs = [-3.0, -2.0, -1.0, 1.0, 2.0, 3.0].map(|v: f64| {
+/// #     let motor = (0..500).map(|k| v * 0.01 * f64::from(k)).collect();
+/// #     let torque = (0..500).map(|k| 0.3 * v.signum() + 0.05 * v + 1e-3 * (f64::from(k) * 0.7).sin()).collect();
+/// #     Run::new("steady", TimeBase::uniform(0.0, 0.01), torque, motor, vec![]).unwrap()
+/// # });
+/// # let command = Command { quantity: CommandQuantity::Current, hold: Hold::Measured, torque_per_command: Some(1.0), back_emf_viscous: 0.0, limit: None };
+/// # let campaign = Campaign::new(Channels { axis: Axis::Rotary, command, tips: vec![] }, runs.to_vec()).unwrap();
+/// use lissom::identify::constant_velocity; // of six speeds with V = 0.05, CF = 0.3
+/// let found = constant_velocity(&campaign);
+/// assert!((found.coulomb.unwrap().value - 0.3).abs() < 1e-4);
+/// ```
+///
+/// # Source
+/// `[Feliu1989, Section 6.2.2 and Figure 8]`, there without deviations.
+pub fn constant_velocity(campaign: &Campaign) -> ConstantVelocity {
+    let points = (0..campaign.runs.len()).flat_map(|run| steady_points(campaign, run)).collect();
+    ConstantVelocity::of_points(&campaign.channels, points)
+}
+
+/// The stretches at constant velocity of run `index`.
+pub(crate) fn steady_points(campaign: &Campaign, index: usize) -> Vec<SteadyPoint> {
+    let run = &campaign.runs[index];
+    let t = run.sample_time_s();
+    stretches(run, campaign.channels.command.hold)
+        .into_iter()
+        .map(|s| SteadyPoint {
+            run: index,
+            start_s: s.intervals.start as f64 * t,
+            end_s: s.intervals.end as f64 * t,
+            velocity: Estimate { value: s.velocity.mean, std: s.velocity.std },
+            command: Estimate { value: s.command.mean, std: s.command.std },
+        })
+        .collect()
+}
+
+/// Share of the time in motion that the points of a run take up; the motor rests for `at_rest` of
+/// the run.
+pub(crate) fn steady_share(run: &Run, points: &[SteadyPoint], at_rest: f64) -> f64 {
+    let steady: f64 = points.iter().map(|p| p.end_s - p.start_s).sum();
+    let whole = (run.len() - 1) as f64 * run.sample_time_s();
+    steady / (whole * (1.0 - at_rest)).max(steady).max(f64::MIN_POSITIVE)
+}
+
+impl ConstantVelocity {
+    /// The figures that these points give.
+    pub(crate) fn of_points(channels: &Channels, points: Vec<SteadyPoint>) -> Self {
+        let constant = channels.command.torque_per_command.unwrap_or(1.0);
+        let direction = |sign: f64| {
+            let points: Vec<line::Point> = points
+                .iter()
+                .filter(|p| p.velocity.value * sign > 0.0)
+                .map(|p| line::Point {
+                    speed: p.velocity.scaled(sign),
+                    drive: p.command.scaled(sign * constant),
+                })
+                .collect();
+            line::line(&points, channels.command.back_emf_viscous)
+        };
+        let (forward, backward) = (direction(1.0), direction(-1.0));
+        let halves = |a: Estimate, b: Estimate, sign: f64| Estimate {
+            value: 0.5 * (a.value + sign * b.value),
+            std: 0.5 * a.std.hypot(b.std),
+        };
+        let (mut coulomb, mut offset) = (None, None);
+        if let (Ok(f), Ok(b)) = (&forward, &backward) {
+            coulomb = Some(halves(f.coulomb, b.coulomb, 1.0));
+            offset = Some(halves(f.coulomb, b.coulomb, -1.0));
+        }
+        let viscous = match (&forward, &backward) {
+            (Ok(f), Ok(b)) => Some(halves(f.viscous, b.viscous, 1.0)),
+            (Ok(line), Err(_)) | (Err(_), Ok(line)) => Some(line.viscous),
+            _ => None,
+        };
+        Self { coulomb, offset, viscous, forward, backward, points }
+    }
+
+    /// Lines with their directions, forward first.
+    pub fn lines(&self) -> impl Iterator<Item = (&'static str, &FrictionLine)> {
+        let named = |name, line| (name, line);
+        let (forward, backward) = (self.forward.as_ref().ok(), self.backward.as_ref().ok());
+        forward
+            .map(|l| named("forward", l))
+            .into_iter()
+            .chain(backward.map(|l| named("backward", l)))
+    }
+}

@@ -1,0 +1,213 @@
+//! Stretches of a run in which the motor turns at one velocity.
+
+use std::collections::VecDeque;
+use std::ops::Range;
+
+use crate::identify::methods::constant_velocity::average::{Average, VALUES_LEAST, average};
+use crate::record::{Hold, Run};
+
+/// Velocities are first looked at over blocks of this many samples, then of twice as many…
+const BLOCK_LEAST: usize = 8;
+/// …and so on, with no more than this many blocks in a run.
+const BLOCKS_MOST: usize = 2000;
+/// Blocks in a stretch.
+const BLOCKS_LEAST: usize = 8;
+/// A stretch is grown until its velocity differs by one of these shares…
+const GROWN: [f64; 3] = [0.12, 0.06, 0.03];
+/// …and is steady if what is left of it after trimming changes by this part of that share. Grown
+/// over a ramp it would change by 3/4, about a sine's crest by 9/16, over a cubic's inflection by
+/// 27/64.
+const STEADY: f64 = 1.0 / 6.0;
+/// Two to this many sixteenths of a grown stretch are trimmed, one at each end at least: transients.
+const TRIMMED_MOST: usize = 4;
+/// Change of the command over a stretch beyond which something else than friction drives it.
+const COMMAND_CHANGE: f64 = 0.1;
+/// Relative deviation of a velocity beyond which it is not known.
+const VELOCITY_KNOWN: f64 = 0.01;
+/// The motor moves by this many times its sensor's noise while it is looked at for stops.
+const STEPS: f64 = 10.0;
+/// Below this share of the mean velocity it stops or turns back…
+const STOPPED: f64 = 0.1;
+/// …and this share of a stretch may do so: an odd reading.
+const STOPPED_SHARE: f64 = 0.01;
+/// Stretches slower than this share of the run's fastest are creep.
+const CREEP: f64 = 1e-3;
+/// A grown stretch that is the same as one that was rejected, up to this share, is not tried.
+const TRIED: f64 = 0.9;
+
+/// A stretch of a run at one velocity.
+#[derive(Debug, Clone)]
+pub(super) struct Stretch {
+    /// Sample intervals: the motor from sample `start` to sample `end`.
+    pub(super) intervals: Range<usize>,
+    /// Mean velocity \[rad/s or m/s\].
+    pub(super) velocity: Average,
+    /// Mean command.
+    pub(super) command: Average,
+}
+
+/// A grown stretch, to be trimmed and judged.
+struct Grown {
+    intervals: Range<usize>,
+    share: f64,
+}
+
+/// All stretches of a run, in order.
+///
+/// Velocities over blocks of 8, 16, … samples are grown into the longest stretches in which they
+/// agree to a share; blocks longer than the beam's oscillation average it away. The longest ones
+/// are judged first and none may overlap. A stretch stands where a parabola through its velocity
+/// changes by less than a sixth of that share, two deviations counted; where the motor never stops
+/// in it; and where the command does not change by more than 10 %.
+pub(super) fn stretches(run: &Run, hold: Hold) -> Vec<Stretch> {
+    let mut grown = grown(run);
+    grown.sort_by_key(|g| std::cmp::Reverse(g.intervals.len()));
+    let mut found: Vec<Stretch> = Vec::new();
+    let mut rejected: Vec<Range<usize>> = Vec::new();
+    for candidate in grown {
+        let whole = &candidate.intervals;
+        let same =
+            |r: &Range<usize>| overlap(r, whole) as f64 > TRIED * r.len().max(whole.len()) as f64;
+        if rejected.iter().any(same) {
+            continue;
+        }
+        let free = |r: &Range<usize>| found.iter().all(|f| overlap(&f.intervals, r) == 0);
+        match trims(whole).filter(free).find_map(|r| judged(run, hold, r, candidate.share)) {
+            Some(stretch) => found.push(stretch),
+            None => rejected.push(candidate.intervals),
+        }
+    }
+    let fastest = found.iter().map(|f| f.velocity.mean.abs()).fold(0.0, f64::max);
+    found.retain(|f| f.velocity.mean.abs() > CREEP * fastest);
+    found.sort_by_key(|f| f.intervals.start);
+    found
+}
+
+fn overlap(a: &Range<usize>, b: &Range<usize>) -> usize {
+    a.end.min(b.end).saturating_sub(a.start.max(b.start))
+}
+
+/// The stretch with its ends trimmed, the longest first.
+fn trims(whole: &Range<usize>) -> impl Iterator<Item = Range<usize>> + use<> {
+    let (start, end) = (whole.start, whole.end);
+    let part = (end - start) / 16;
+    (2..=TRIMMED_MOST).flat_map(move |trimmed| {
+        (1..trimmed).rev().map(move |head| start + head * part..end - (trimmed - head) * part)
+    })
+}
+
+/// Every longest stretch whose block velocities agree, for every length of block.
+fn grown(run: &Run) -> Vec<Grown> {
+    let (x, t) = (run.motor(), run.sample_time_s());
+    let mut out = Vec::new();
+    let mut block = BLOCK_LEAST.max(x.len().div_ceil(BLOCKS_MOST));
+    while x.len() / block > BLOCKS_LEAST {
+        let velocity = block_velocities(x, block, t);
+        for share in GROWN {
+            out.extend(agreeing(&velocity, share).into_iter().map(|blocks| {
+                // Velocity j lies between the middles of blocks j and j + 1.
+                let middle = |b: usize| b * block + block / 2;
+                Grown { intervals: middle(blocks.start)..middle(blocks.end), share }
+            }));
+        }
+        block *= 2;
+    }
+    out.retain(|g| g.intervals.len() >= VALUES_LEAST);
+    out
+}
+
+/// Differences of the means of neighbouring blocks, per time.
+fn block_velocities(x: &[f64], block: usize, sample_time_s: f64) -> Vec<f64> {
+    // From the first sample: a mean of large angles would lose digits.
+    let means: Vec<f64> = x
+        .chunks_exact(block)
+        .map(|c| c.iter().map(|v| v - x[0]).sum::<f64>() / block as f64)
+        .collect();
+    means.windows(2).map(|m| (m[1] - m[0]) / (block as f64 * sample_time_s)).collect()
+}
+
+/// Longest ranges of at least [`BLOCKS_LEAST`] velocities of one sign whose largest is at most
+/// 1 + `share` times the smallest; none within another.
+fn agreeing(velocity: &[f64], share: f64) -> Vec<Range<usize>> {
+    let speed = |k: usize| velocity[k].abs();
+    // Indices within the range, ascending (descending) in speed: the front is the extreme.
+    let (mut small, mut large) = (VecDeque::new(), VecDeque::new());
+    let mut out = Vec::new();
+    let mut start = 0;
+    for end in 0..velocity.len() {
+        let sign_kept = velocity[end] * velocity[start] > 0.0;
+        push(&mut small, end, |k| speed(k) >= speed(end));
+        push(&mut large, end, |k| speed(k) <= speed(end));
+        let agrees = |small: &VecDeque<usize>, large: &VecDeque<usize>| {
+            speed(large[0]) <= (1.0 + share) * speed(small[0])
+        };
+        if sign_kept && agrees(&small, &large) {
+            continue;
+        }
+        if end - start >= BLOCKS_LEAST {
+            out.push(start..end);
+        }
+        while start < end && !(velocity[start] * velocity[end] > 0.0 && agrees(&small, &large)) {
+            start += 1;
+            drop_before(&mut small, start);
+            drop_before(&mut large, start);
+        }
+    }
+    if velocity.len() - start >= BLOCKS_LEAST {
+        out.push(start..velocity.len());
+    }
+    out
+}
+
+fn push(queue: &mut VecDeque<usize>, index: usize, beaten: impl Fn(usize) -> bool) {
+    while queue.back().is_some_and(|k| beaten(*k)) {
+        queue.pop_back();
+    }
+    queue.push_back(index);
+}
+
+fn drop_before(queue: &mut VecDeque<usize>, first: usize) {
+    while queue.front().is_some_and(|k| *k < first) {
+        queue.pop_front();
+    }
+}
+
+/// The stretch with its averages, if it is steady.
+fn judged(run: &Run, hold: Hold, r: Range<usize>, share: f64) -> Option<Stretch> {
+    let (x, t) = (run.motor(), run.sample_time_s());
+    let series: Vec<f64> = x[r.start..=r.end].windows(2).map(|w| (w[1] - w[0]) / t).collect();
+    let velocity = average(&series)?;
+    let speed = velocity.mean.abs();
+    let changed = velocity.change + 2.0 * velocity.change_std;
+    if !(changed <= STEADY * share * speed && velocity.std <= VELOCITY_KNOWN * speed) {
+        return None;
+    }
+    if stops(&x[r.start..=r.end], velocity.mean * t) {
+        return None;
+    }
+    let command = average(&acting(&run.command()[r.start..=r.end], hold))?;
+    let drifts = command.change - 2.0 * command.change_std > COMMAND_CHANGE * command.mean.abs();
+    (!drifts).then_some(Stretch { intervals: r, velocity, command })
+}
+
+/// The command over each sample interval.
+fn acting(command: &[f64], hold: Hold) -> Vec<f64> {
+    command
+        .windows(2)
+        .map(|w| match hold {
+            Hold::Sampled => w[0],
+            Hold::Measured => 0.5 * (w[0] + w[1]),
+        })
+        .collect()
+}
+
+/// Whether a motor that moves by `per_sample` on average stops or turns back in between.
+fn stops(x: &[f64], per_sample: f64) -> bool {
+    // Of white noise the second difference has √6 times the deviation.
+    let second: f64 = x.windows(3).map(|w| (w[2] - 2.0 * w[1] + w[0]).powi(2)).sum();
+    let noise = (second / 6.0 / x.len() as f64).sqrt();
+    let block = ((STEPS * noise / per_sample.abs()).ceil() as usize).max(BLOCK_LEAST);
+    let velocity = block_velocities(x, block, 1.0);
+    let slow = velocity.iter().filter(|v| **v / per_sample < STOPPED).count();
+    slow as f64 > STOPPED_SHARE * velocity.len() as f64
+}

@@ -1,0 +1,85 @@
+//! When steady velocities stand in for friction, and what they cannot give.
+
+use crate::identify::drive_estimates::{DriveEstimates, Method};
+use crate::identify::estimate::Estimate;
+use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::friction_estimates::Friction;
+use crate::identify::judge::{Chosen, Evidence};
+use crate::identify::methods::constant_velocity::ConstantVelocity;
+use crate::identify::methods::constant_velocity::line::FrictionLine;
+use crate::record::Campaign;
+
+/// Viscous friction by direction differs from this many deviations on.
+const DIRECTIONS_DIFFER: f64 = 4.0;
+
+/// What a campaign of nothing but constant velocities cannot give.
+pub(crate) fn only_constant_velocities(campaign: &Campaign) -> Finding {
+    let flexible = !campaign.channels.tips.is_empty();
+    let affects = [key::INERTIA, key::MODES, key::COUPLING];
+    Finding::new(
+        "constant-velocity-only",
+        Severity::Refusal,
+        &affects[..if flexible { 3 } else { 1 }],
+        "every run turns at constant velocities: they show friction, and nothing that is accelerated"
+            .to_owned(),
+        "for the other figures add runs that move back and forth: sines, a sweep, ordinary moves",
+    )
+}
+
+/// That friction is from constant velocities, where it is.
+pub(crate) fn taken(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding> {
+    let found = evidence.methods.constant_velocity.as_ref();
+    let taken = chosen.method == Some(Method::ConstantVelocity);
+    let Some(found) = found.filter(|_| taken && chosen.drive.friction.coulomb.is_some()) else {
+        return Vec::new();
+    };
+    let mut findings = vec![Finding::new(
+        "classical-figures",
+        Severity::Info,
+        &[key::COULOMB, key::OFFSET, key::VISCOUS],
+        "friction is that of constant velocities, extrapolated to rest".to_owned(),
+        "sines or ordinary moves at the speeds you work at show friction without \
+         extrapolating",
+    )];
+    let curved = |l: &FrictionLine| l.near_rest() != l.coulomb;
+    if found.lines().any(|(_, line)| curved(line)) {
+        findings.push(Finding::new(
+            "slowest-speeds-taken",
+            Severity::Warning,
+            &[key::COULOMB, key::OFFSET, key::VISCOUS],
+            "friction does not lie on a line: Coulomb friction is that of the slowest third \
+             of the speeds, viscous friction the slope over all of them"
+                .to_owned(),
+            "keep to the speeds that you work at",
+        ));
+    }
+    findings
+}
+
+impl ConstantVelocity {
+    /// Friction of both lines; viscous friction alone where there is one.
+    pub fn estimates(&self) -> DriveEstimates {
+        let viscous_alone = || Friction { viscous: self.viscous, ..Friction::default() };
+        let friction = friction_near_rest(self).unwrap_or_else(viscous_alone);
+        DriveEstimates { friction, ..DriveEstimates::default() }
+    }
+}
+
+/// The figures of both lines, by the slowest speeds where they are curved.
+fn friction_near_rest(found: &ConstantVelocity) -> Option<Friction> {
+    let (Ok(f), Ok(b)) = (&found.forward, &found.backward) else { return None };
+    let (forward, backward) = (f.near_rest(), b.near_rest());
+    let std = 0.5 * forward.std.hypot(backward.std);
+    let half = |value: f64| Some(Estimate { value: 0.5 * value, std });
+    let apart = (f.viscous.value - b.viscous.value).abs();
+    let differ = apart > DIRECTIONS_DIFFER * f.viscous.std.hypot(b.viscous.std);
+    Some(Friction {
+        coulomb: half(forward.value + backward.value),
+        forward: Some(forward),
+        backward: Some(backward),
+        offset: half(forward.value - backward.value),
+        viscous: found.viscous,
+        viscous_by_direction: differ.then_some((f.viscous, b.viscous)),
+        ..Friction::default()
+    })
+}

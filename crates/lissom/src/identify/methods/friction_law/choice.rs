@@ -1,0 +1,450 @@
+//! The simplest law of friction that the data do not reject.
+
+use nalgebra::DVector;
+
+use crate::drive::Falloff;
+use crate::identify::estimate::Estimate;
+use crate::identify::methods::friction_law::described::Described;
+use crate::identify::methods::friction_law::held::Held;
+use crate::identify::methods::friction_law::rows::{Block, Column, Cut, Sampled, fixed};
+use crate::identify::methods::friction_law::{LawFit, POSITIVE, ripple};
+use crate::identify::methods::regression::{Cluster, Solution, Term, coupled_tips, solve};
+use crate::record::Run;
+
+/// Speeds over which friction near rest may change, as shares of the fastest.
+pub(super) const NEAR_REST: [f64; 10] = [0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.3, 0.5, 0.8, 1.3];
+/// A term must do better on phases left out by this many deviations of the difference…
+const PAIRED: f64 = 3.0;
+/// …and leave at most this share of the residual: a smaller one does not pay for a parameter.
+const RATIO: f64 = 0.9;
+/// Where stretches after reversals are left out, a change near rest pays with less: it is what bristles go
+/// with, and noise is most of what is left.
+const AFTER_TRAVEL_RATIO: f64 = 0.95;
+/// A lag counts at the ends of a motion alone, and pays with less: it may leave this share…
+pub(super) const LAG_RATIO: f64 = 0.97;
+/// …and must be known to this share of a sample. Taken before friction's law is settled it would stand in
+/// for it, and come out with either sign.
+const LAG_STD: f64 = 0.1;
+/// Most terms.
+const MOST: usize = 4;
+
+/// A term beside Coulomb friction, one viscous constant and an offset.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LawTerm {
+    /// `s·D·v`: viscous friction V + D forward, V − D backward.
+    ViscousByDirection,
+    /// `s·A·e^{−|v|/v_s}` or `s·A·e^{−(v/v_s)²}`: friction at rest is C + A (A > 0: Stribeck).
+    NearRest {
+        /// v_s \[rad/s\].
+        speed: f64,
+        /// Which of the two.
+        falloff: Falloff,
+    },
+    /// No amplitude of its own: friction that has not grown to its level yet, over so much travel since a
+    /// reversal (presliding), is left out.
+    AfterTravel {
+        /// That travel \[rad\].
+        travel: f64,
+    },
+    /// The joint bends before it slips (presliding): a state of its own, which the replay alone has. Its amplitude
+    /// is how far.
+    Bristles {
+        /// That travel \[rad\].
+        travel: f64,
+    },
+    /// `s·A·√|v|`.
+    Root,
+    /// `s·(A_1·cos kθ + A_2·sin kθ)`.
+    Ripple {
+        /// k, radians of ripple per radian of angle (1/m on linear axes).
+        per_angle: f64,
+    },
+    /// The command acts later than it is logged; its amplitude is that time \[s\].
+    CommandLag,
+}
+
+impl LawTerm {
+    /// Its name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ViscousByDirection => "viscous-by-direction",
+            Self::NearRest { .. } => "near-rest",
+            Self::AfterTravel { .. } => "after-travel",
+            Self::Bristles { .. } => "bristles",
+            Self::Root => "root",
+            Self::Ripple { .. } => "ripple",
+            Self::CommandLag => "command-lag",
+        }
+    }
+
+    pub(super) fn is_near_rest(self) -> bool {
+        matches!(self, Self::NearRest { .. })
+    }
+
+    pub(super) fn is_ripple(self) -> bool {
+        matches!(self, Self::Ripple { .. })
+    }
+}
+
+/// A term that was tried, beside others that were in the law already.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LawCandidate {
+    /// Which.
+    pub term: LawTerm,
+    /// How many terms the law had before.
+    pub beside: usize,
+    /// Its amplitude; of a ripple that of cosine and sine together.
+    pub amplitude: Estimate,
+    /// What is left with it beside what is left without, as a ratio.
+    pub residual_ratio: f64,
+    /// By how many deviations phases that were left out are described better.
+    pub paired: f64,
+    /// The same residual on stretches of a kind (direction, speed, side of the travel) left out
+    /// altogether, as a ratio.
+    pub stretch_ratio: f64,
+    /// Friction at rest in the direction where it is less, with this term.
+    pub at_rest: f64,
+    /// Deviation of that.
+    pub at_rest_std: f64,
+    /// Whether it was taken.
+    pub taken: bool,
+}
+
+/// What was chosen.
+pub(super) struct Choice {
+    pub(super) fit: LawFit,
+    pub(super) candidates: Vec<LawCandidate>,
+    pub(super) simplest: f64,
+    pub(super) residual: f64,
+    /// Columns and terms of what is not friction by speed: a lag and a ripple, for the curve.
+    pub(super) beside: (Vec<Column>, Vec<Term>),
+    /// All of it, for other windows.
+    pub(super) described: Described,
+}
+
+/// One candidate, as columns and terms of a regression.
+pub(super) struct Tried {
+    pub(super) term: LawTerm,
+    pub(super) terms: Vec<Term>,
+}
+
+/// Adds one term after another while some are called for.
+///
+/// Of the terms that do better on phases left out, on kinds of stretches left out and in what is left,
+/// and with which friction at rest stays positive, the one that does best on phases left out is taken.
+/// A test by deviations alone would take them all: in a log of seconds everything is significant.
+pub(super) fn choose(sampled: &Sampled<'_>, cut: &Cut, fastest: f64) -> Option<Choice> {
+    let mut search = Search::new(sampled, cut, fastest)?;
+    let simplest = search.solution.relative_residual;
+    while search.taken.len() < MOST && search.add_best() {}
+    search.refine_near_rest();
+    search.settled = true;
+    // A ripple and a lag may stand in for each other: both are open at once.
+    while search.taken.len() < MOST {
+        search.offer_ripple();
+        if !search.add_best() {
+            break;
+        }
+        search.refine_ripple();
+    }
+    let fit = search.fit();
+    let beside = search.beside_friction();
+    let residual = search.solution.relative_residual;
+    let described =
+        Described { columns: search.columns, terms: search.terms, value: search.solution.value };
+    Some(Choice { fit, candidates: search.candidates, simplest, residual, beside, described })
+}
+
+pub(super) struct Search<'a> {
+    pub(super) sampled: &'a Sampled<'a>,
+    pub(super) cut: Cut,
+    pub(super) columns: Vec<Column>,
+    pub(super) blocks: Vec<Block>,
+    pub(super) terms: Vec<Term>,
+    pub(super) solution: Solution,
+    open: Vec<Tried>,
+    pub(super) taken: Vec<Tried>,
+    candidates: Vec<LawCandidate>,
+    /// Whether friction's law by speed is found.
+    settled: bool,
+}
+
+impl<'a> Search<'a> {
+    fn new(sampled: &'a Sampled<'a>, cut: &Cut, fastest: f64) -> Option<Self> {
+        let first = fixed(sampled.campaign);
+        let mut columns = vec![Column::Lag, Column::Root];
+        let mut open = vec![
+            Tried { term: LawTerm::ViscousByDirection, terms: vec![Term::Signed(1)] },
+            Tried { term: LawTerm::CommandLag, terms: vec![Term::Plain(first)] },
+            Tried { term: LawTerm::Root, terms: vec![Term::Signed(first + 1)] },
+        ];
+        // Without stretches after reversals the shape shows.
+        let shapes: &[Falloff] = if sampled.after > 0.0 {
+            &[Falloff::Exponential, Falloff::Gaussian]
+        } else {
+            &[Falloff::Exponential]
+        };
+        for &falloff in shapes {
+            for share in NEAR_REST {
+                let speed = share * fastest;
+                let term = LawTerm::NearRest { speed, falloff };
+                open.push(Tried { term, terms: vec![Term::Signed(first + columns.len())] });
+                columns.push(Column::NearRest(speed, falloff));
+            }
+        }
+        let blocks = sampled.blocks(&columns, &[], cut);
+        let mut terms = vec![Term::Plain(0), Term::Plain(1), Term::Signed(2), Term::Plain(2)];
+        terms.extend((3..first).map(Term::Plain));
+        let solution = solved(&blocks, &terms)?;
+        let (taken, candidates) = (Vec::new(), Vec::new());
+        Some(Self {
+            sampled,
+            cut: *cut,
+            columns,
+            blocks,
+            terms,
+            solution,
+            open,
+            taken,
+            candidates,
+            settled: false,
+        })
+    }
+
+    /// Tries every open term beside those taken and takes the best that is called for.
+    fn add_best(&mut self) -> bool {
+        let Some(before) = Held::of(&self.blocks, &self.terms) else { return false };
+        let mut best: Option<(f64, usize, LawCandidate)> = None;
+        let mut shown: Vec<(f64, LawCandidate)> = Vec::new();
+        for (i, tried) in self.open.iter().enumerate() {
+            let Some((cost, candidate)) = self.figures(&before, tried) else { continue };
+            if candidate.taken && best.as_ref().is_none_or(|b| cost < b.0) {
+                best = Some((cost, i, candidate));
+            }
+            // Of terms of a kind only the best is worth telling.
+            let same = |c: &(f64, LawCandidate)| c.1.term.name() == candidate.term.name();
+            match shown.iter_mut().find(|c| same(c)) {
+                Some(other) if other.0 <= cost => {}
+                Some(other) => *other = (cost, candidate),
+                None => shown.push((cost, candidate)),
+            }
+        }
+        if let Some((_, _, best)) = &best {
+            for (_, c) in &mut shown {
+                if c.term.name() == best.term.name() {
+                    *c = *best;
+                }
+                c.taken = c.term == best.term;
+            }
+        }
+        // Tried again beside the same terms: the last word counts.
+        let beside = self.taken.len();
+        self.candidates.retain(|c| c.beside != beside);
+        self.candidates.extend(shown.into_iter().map(|c| c.1));
+        let Some((_, i, _)) = best else { return false };
+        let taken = self.open.remove(i);
+        self.terms.extend(&taken.terms);
+        // Root and near rest are two shapes of one thing.
+        let by_speed = |t: &LawTerm| *t == LawTerm::Root || t.is_near_rest();
+        let gone =
+            |t: &LawTerm| t.name() == taken.term.name() || (by_speed(t) && by_speed(&taken.term));
+        self.open.retain(|t| !gone(&t.term));
+        self.taken.push(taken);
+        match solved(&self.blocks, &self.terms) {
+            Some(solution) => self.solution = solution,
+            None => return false,
+        }
+        true
+    }
+
+    /// Cost on phases left out, and all figures; `taken` says whether it may be.
+    fn figures(&self, before: &Held, tried: &Tried) -> Option<(f64, LawCandidate)> {
+        let mut terms = self.terms.clone();
+        let first = terms.len();
+        terms.extend(&tried.terms);
+        let solution = solved(&self.blocks, &terms)?;
+        if solution.inseparable[first] {
+            return None;
+        }
+        let held = Held::of(&self.blocks, &terms)?;
+        let residual_ratio = solution.relative_residual / self.solution.relative_residual;
+        let paired = before.paired(&held);
+        let stretch_ratio = (held.stretches / before.stretches).sqrt();
+        let amplitude = amplitude(&solution, first, tried.terms.len());
+        let (at_rest, at_rest_std) = self.at_rest(&solution, tried.term, first);
+        let (least, allowed) = match tried.term {
+            LawTerm::CommandLag => (LAG_RATIO, self.lag_allowed(&late(amplitude))),
+            term if term.is_near_rest() && self.sampled.after > 0.0 => (AFTER_TRAVEL_RATIO, true),
+            _ => (RATIO, true),
+        };
+        // A line cut in two far beyond the speeds of the logs has any Coulomb friction.
+        let (coulomb, coulomb_std) = Self::coulomb(&solution);
+        let allowed = allowed && (!tried.term.is_near_rest() || coulomb > -POSITIVE * coulomb_std);
+        let taken = paired > PAIRED
+            && allowed
+            && residual_ratio < least
+            && stretch_ratio < 1.0
+            && at_rest > -POSITIVE * at_rest_std;
+        let (term, beside) = (tried.term, self.taken.len());
+        let candidate = LawCandidate {
+            term,
+            beside,
+            amplitude: if term == LawTerm::CommandLag { late(amplitude) } else { amplitude },
+            residual_ratio,
+            paired,
+            stretch_ratio,
+            at_rest,
+            at_rest_std,
+            taken,
+        };
+        Some((held.phases(), candidate))
+    }
+
+    /// Coulomb friction in the direction where it is less, with its deviation.
+    fn coulomb(solution: &Solution) -> (f64, f64) {
+        known(solution, &coulomb_weight(solution))
+    }
+
+    /// Friction at rest in the direction where it is less, with its deviation.
+    fn at_rest(&self, solution: &Solution, tried: LawTerm, first: usize) -> (f64, f64) {
+        let mut weight = coulomb_weight(solution);
+        let mut at = 4 + self.tips();
+        for t in &self.taken {
+            weight[at] = f64::from(t.term.is_near_rest());
+            at += t.terms.len();
+        }
+        weight[first] = f64::from(tried.is_near_rest());
+        known(solution, &weight)
+    }
+
+    fn lag_allowed(&self, lag: &Estimate) -> bool {
+        let runs = &self.sampled.campaign.runs;
+        let sample_s = runs.iter().map(Run::sample_time_s).fold(f64::INFINITY, f64::min);
+        self.settled && lag.value > 0.0 && lag.std < LAG_STD * sample_s
+    }
+
+    fn tips(&self) -> usize {
+        fixed(self.sampled.campaign) - 3
+    }
+
+    /// Adds the strongest ripple of what is left to what may be tried, unless one is taken.
+    fn offer_ripple(&mut self) {
+        if self.taken.iter().any(|t| t.term.is_ripple()) {
+            return;
+        }
+        let value: Vec<f64> = self.solution.value.iter().copied().collect();
+        let Some(k) = ripple::strongest(self.sampled, &self.columns, &self.terms, &value) else {
+            return;
+        };
+        let at = fixed(self.sampled.campaign) + self.columns.len();
+        self.columns.extend([Column::Cosine(k), Column::Sine(k)]);
+        self.blocks = self.sampled.blocks(&self.columns, &[], &self.cut);
+        let terms = vec![Term::Signed(at), Term::Signed(at + 1)];
+        self.open.push(Tried { term: LawTerm::Ripple { per_angle: k }, terms });
+    }
+
+    fn fit(&self) -> LawFit {
+        let s = &self.solution;
+        let figure = |i: usize| (!s.inseparable[i]).then(|| amplitude(s, i, 1));
+        let channels = &self.sampled.campaign.channels;
+        let back_emf = channels.command.back_emf_viscous;
+        let tips = self.tips();
+        let known = coupled_tips(self.sampled.campaign);
+        let mut coupling = vec![None; if tips == 0 { 0 } else { channels.tips.len() }];
+        known.iter().enumerate().for_each(|(i, tip)| coupling[*tip] = figure(4 + i));
+        let separable = (4..4 + tips).all(|i| !s.inseparable[i]);
+        let total = (tips > 0 && separable).then(|| {
+            let block = s.covariance.view((4, 4), (tips, tips));
+            Estimate { value: s.value.rows(4, tips).sum(), std: block.sum().max(0.0).sqrt() }
+        });
+        let mut at = 4 + tips;
+        let mut terms = Vec::new();
+        for t in &self.taken {
+            let found = (at..at + t.terms.len()).map(|i| amplitude(s, i, 1));
+            let found = found.map(|e| if t.term == LawTerm::CommandLag { late(e) } else { e });
+            let mut found: Vec<Estimate> = found.collect();
+            let mut term = t.term;
+            if let (LawTerm::Ripple { per_angle }, [_, _, turned]) = (&mut term, &mut found[..]) {
+                *per_angle += turned.value;
+                turned.value = *per_angle;
+            }
+            terms.push((term, found));
+            at += t.terms.len();
+        }
+        if self.sampled.after > 0.0 {
+            terms.push((LawTerm::AfterTravel { travel: self.sampled.after }, Vec::new()));
+        }
+        LawFit {
+            terms,
+            inertia: figure(0),
+            viscous: figure(1).map(|e| Estimate { value: e.value - back_emf, ..e }),
+            coulomb: figure(2),
+            offset: figure(3),
+            coupling,
+            total_coupling: total,
+        }
+    }
+
+    /// Columns and terms that were taken and are no friction by speed.
+    fn beside_friction(&self) -> (Vec<Column>, Vec<Term>) {
+        let first = fixed(self.sampled.campaign);
+        let beside = |t: &&Tried| matches!(t.term, LawTerm::CommandLag | LawTerm::Ripple { .. });
+        let (mut columns, mut terms) = (Vec::new(), Vec::new());
+        for term in self.taken.iter().filter(beside).flat_map(|t| &t.terms) {
+            let at = first + columns.len();
+            columns.push(self.columns[term.column() - first]);
+            terms.push(if matches!(term, Term::Signed(_)) {
+                Term::Signed(at)
+            } else {
+                Term::Plain(at)
+            });
+        }
+        (columns, terms)
+    }
+}
+
+/// `∫wτ(t) = ∫w·(equation) − Δ∫ẇτ` for τ that acts Δ later.
+fn late(e: Estimate) -> Estimate {
+    Estimate { value: -e.value, std: e.std }
+}
+
+/// The length of `count` amplitudes from `first` on, with its deviation.
+fn amplitude(s: &Solution, first: usize, count: usize) -> Estimate {
+    let value = s.value.rows(first, count);
+    if count == 1 {
+        let std = s.covariance[(first, first)].max(0.0).sqrt();
+        return Estimate { value: value[0], std };
+    }
+    let size = value.norm();
+    let block = s.covariance.view((first, first), (count, count));
+    let direction = value / size.max(f64::MIN_POSITIVE);
+    Estimate { value: size, std: direction.dot(&(block * &direction)).max(0.0).sqrt() }
+}
+
+/// Least squares with a covariance by phases.
+pub(super) fn solved(blocks: &[Block], terms: &[Term]) -> Option<Solution> {
+    let mut clusters: Vec<Cluster> = Vec::new();
+    let mut phase = None;
+    for b in blocks {
+        match clusters.last_mut() {
+            Some(last) if phase == Some(b.phase) => last.merge(&b.cluster),
+            _ => clusters.push(b.cluster.clone()),
+        }
+        phase = Some(b.phase);
+    }
+    solve(&clusters, terms)
+}
+
+/// What of each figure Coulomb friction has in the direction where it is less.
+fn coulomb_weight(solution: &Solution) -> DVector<f64> {
+    let mut weight = DVector::zeros(solution.value.len());
+    weight[2] = 1.0;
+    weight[3] = -solution.value[3].signum();
+    weight
+}
+
+/// A weighted sum of the figures, with its deviation.
+fn known(solution: &Solution, weight: &DVector<f64>) -> (f64, f64) {
+    let variance = weight.dot(&(&solution.covariance * weight));
+    (weight.dot(&solution.value), variance.max(0.0).sqrt())
+}

@@ -1,0 +1,245 @@
+//! Friction against speed: the curve without a law, and the simplest law that the data do not reject.
+//!
+//! Both are least squares on windows in slip phases, as in the regression, with windows as short as
+//! the sensor allows: what friction does near rest is lost in long ones.
+
+mod arm;
+mod choice;
+mod curve;
+mod described;
+mod held;
+mod refine;
+mod ripple;
+mod rows;
+#[cfg(test)]
+mod tests;
+mod verdict;
+
+pub use choice::{LawCandidate, LawTerm};
+pub use curve::CurvePoint;
+pub(crate) use curve::CurveSums;
+pub(crate) use verdict::finding;
+
+use crate::identify::estimate::Estimate;
+use crate::identify::methods::regression::{MotorRegression, RunNoise};
+use crate::identify::prepare::channel_noise::channel_noise;
+use crate::record::{Campaign, Run};
+use choice::LAG_RATIO;
+use described::Described;
+use rows::{Cut, Sampled};
+
+/// Fewest samples in a window.
+const LEAST_SAMPLES: f64 = 20.0;
+/// Ratio of one window tried to that before it.
+const LONGER: f64 = std::f64::consts::SQRT_2;
+/// Share of the windowed torque that the sensor's noise may make by way of the inertia.
+const NOISE: f64 = 0.02;
+/// A law that leaves no more of the windowed torque, beyond noise, has nothing left to explain.
+const LITTLE: f64 = 0.005;
+/// Travel after reversals that is left out, as shares of the usual travel of a slip phase; the share of what
+/// was left beyond noise that it may leave, and of what was left with noise: where noise is most of it, the
+/// rest of it is hardly known.
+const AFTER: [f64; 3] = [0.03, 0.06, 0.12];
+const FAR_LESS: f64 = 0.75;
+const LESS: f64 = 0.9;
+/// Friction must be positive within this many deviations.
+const POSITIVE: f64 = 2.0;
+/// Quantile of the windows' speeds that counts as the fastest.
+const FASTEST: f64 = 0.98;
+
+/// What the slip phases say of friction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrictionLaw {
+    /// Length of the windows \[s\].
+    pub window_s: f64,
+    /// Friction against speed without a law, ascending in speed within a direction.
+    pub curve: Vec<CurvePoint>,
+    /// Every term that was tried, in the order of trying.
+    pub candidates: Vec<LawCandidate>,
+    /// Figures under the law chosen.
+    pub chosen: LawFit,
+    /// ‖y − X·q‖/‖y‖ with Coulomb and one viscous constant, with the law chosen, and with the curve.
+    pub relative_residual: [f64; 3],
+}
+
+/// Figures of the motor's equation under a law of friction
+/// `τ_F = s·(C + Σ A_k·g_k) + O + V·v + s·D·v`, s the direction: (forward, backward) V ± D.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LawFit {
+    /// Terms beside C, V and O, with their amplitudes: of a ripple those of cosine and sine and, where the
+    /// travel tells it, k itself, else one.
+    pub terms: Vec<(LawTerm, Vec<Estimate>)>,
+    /// Inertia J.
+    pub inertia: Option<Estimate>,
+    /// Mean viscous friction V, back-EMF taken out.
+    pub viscous: Option<Estimate>,
+    /// C.
+    pub coulomb: Option<Estimate>,
+    /// O.
+    pub offset: Option<Estimate>,
+    /// κ_i of each tip of the campaign, `None` where its angle is not known; empty where none is.
+    pub coupling: Vec<Option<Estimate>>,
+    /// Their sum.
+    pub total_coupling: Option<Estimate>,
+}
+
+impl FrictionLaw {
+    /// Whether beside the law a lag of the command explains nothing that pays for it.
+    pub(crate) fn leaves_no_lag(&self) -> bool {
+        let lags = self.candidates.iter().filter(|c| c.term == LawTerm::CommandLag);
+        let last = lags.max_by_key(|c| c.beside);
+        last.is_some_and(|c| c.beside > 0 && c.residual_ratio > LAG_RATIO)
+    }
+
+    /// Terms that were tried last of their kind, those of the law first.
+    pub(crate) fn tried(&self) -> Vec<LawTerm> {
+        let chosen = self.chosen.terms.iter().map(|(term, _)| *term);
+        let mut found: Vec<LawTerm> = chosen.collect();
+        for c in self.candidates.iter().rev() {
+            if found.iter().all(|t| t.name() != c.term.name()) {
+                found.push(c.term);
+            }
+        }
+        found
+    }
+}
+
+impl LawFit {
+    /// Friction against the motion at a speed in a direction (+1 or −1), ripple left out: positive
+    /// where it brakes.
+    pub fn friction(&self, speed: f64, direction: f64) -> Option<f64> {
+        let mut sum = self.coulomb?.value + self.viscous?.value * speed;
+        sum += direction * self.offset.map_or(0.0, |o| o.value);
+        for (term, amplitude) in &self.terms {
+            let a = amplitude.first().map_or(0.0, |e| e.value);
+            sum += match *term {
+                LawTerm::ViscousByDirection => direction * a * speed,
+                LawTerm::NearRest { speed: fall, falloff } => a * falloff.share(speed / fall),
+                LawTerm::Root => a * speed.sqrt(),
+                LawTerm::CommandLag
+                | LawTerm::Ripple { .. }
+                | LawTerm::AfterTravel { .. }
+                | LawTerm::Bristles { .. } => 0.0,
+            };
+        }
+        Some(sum)
+    }
+
+    /// A term's first amplitude, where it is in the law.
+    pub fn term(&self, wanted: impl Fn(&LawTerm) -> bool) -> Option<Estimate> {
+        let found = self.terms.iter().find(|(term, _)| wanted(term))?;
+        found.1.first().copied()
+    }
+
+    /// Whether Coulomb friction, surely there, may have grown from `less` than it is.
+    fn may_grow_by(&self, less: f64) -> bool {
+        let sure = |e: &Estimate| e.value > POSITIVE * e.std;
+        let surely = self.inertia.as_ref().is_some_and(sure);
+        surely && self.coulomb.is_some_and(|c| sure(&c) && 0.0 < less && less < c.value)
+    }
+
+    /// Whether it is another law of friction than Coulomb and one viscous constant.
+    pub fn departs(&self) -> bool {
+        self.terms.iter().any(|(term, _)| *term != LawTerm::CommandLag)
+    }
+}
+
+/// Curve and law of a campaign whose motor's figures are roughly known, and the sums that the curve is
+/// from; `None` where slip phases are too few or too short.
+pub(crate) fn friction_law(
+    campaign: &Campaign,
+    motor: &MotorRegression,
+) -> Option<(FrictionLaw, CurveSums)> {
+    let inertia = motor.inertia?.value;
+    let noise: Vec<RunNoise> = campaign.runs.iter().map(RunNoise::of).collect();
+    let window_s = window_s(campaign, motor, inertia, &noise);
+    let mut sampled = Sampled::new(campaign, &noise, window_s);
+    let (law, sums, described) = under(&sampled)?;
+    if described.left(&sampled).beyond_noise() < LITTLE {
+        return Some((law, sums));
+    }
+    Some(after_travel(&mut sampled, &described).unwrap_or((law, sums)))
+}
+
+/// The same without what follows reversals, where it describes the rest far better than the law of all
+/// windows does: bristles (presliding), a soft transmission or a sensor's play let friction grow over some
+/// travel, and no function of speed does.
+fn after_travel(sampled: &mut Sampled<'_>, whole: &Described) -> Option<(FrictionLaw, CurveSums)> {
+    let travels = sampled.travels();
+    let usual = *travels.get(travels.len() / 2)?;
+    let windows = sampled.places().len();
+    let mut tried: Vec<(FrictionLaw, CurveSums)> = Vec::new();
+    let mut worth = false;
+    for share in AFTER {
+        sampled.after = share * usual;
+        if sampled.places().len() < windows / 2 {
+            break;
+        }
+        let Some((law, sums, described)) = under(sampled) else { continue };
+        let (with, without) = (described.left(sampled), whole.left(sampled));
+        sampled.after = 0.0;
+        let less = -described.left(sampled).more_friction_without(&with);
+        if law.chosen.may_grow_by(less) {
+            // On the same windows: without some, little may be left of what was never to be explained.
+            worth |= with.beyond_noise() < FAR_LESS * without.beyond_noise()
+                && with.relative() < LESS * without.relative();
+            tried.push((law, sums));
+        }
+    }
+    let left = |(law, _): &(FrictionLaw, CurveSums)| law.relative_residual[1];
+    let best = tried.into_iter().min_by(|a, b| left(a).total_cmp(&left(b)));
+    best.filter(|_| worth)
+}
+
+/// Curve and law of some windows.
+fn under(sampled: &Sampled<'_>) -> Option<(FrictionLaw, CurveSums, Described)> {
+    let window_s = sampled.window_s;
+    let places = sampled.places();
+    let mut speeds: Vec<f64> = places.iter().map(|p| p.speed).collect();
+    let mut angles: Vec<f64> = places.iter().map(|p| p.angle).collect();
+    speeds.sort_by(f64::total_cmp);
+    angles.sort_by(f64::total_cmp);
+    let quantile = |x: &[f64], q: f64| x.get((q * x.len() as f64) as usize).copied();
+    let fastest = quantile(&speeds, FASTEST).filter(|v| *v > 0.0)?;
+    let cut = Cut {
+        middle: quantile(&angles, 0.5)?,
+        thirds: [quantile(&speeds, 1.0 / 3.0)?, quantile(&speeds, 2.0 / 3.0)?],
+    };
+    let choice = choice::choose(sampled, &cut, fastest)?;
+    let (columns, terms) = &choice.beside;
+    let sums = CurveSums::new(sampled, &cut, &speeds, (columns, terms))?;
+    let (curve, by_curve) = sums.by_phases()?;
+    let law = FrictionLaw {
+        window_s,
+        curve,
+        relative_residual: [choice.simplest, choice.residual, by_curve],
+        candidates: choice.candidates,
+        chosen: choice.fit,
+    };
+    Some((law, sums, choice.described))
+}
+
+/// The shortest window in which the motor's sensor makes no more than [`NOISE`] of the torque, and no
+/// longer than the regression's.
+fn window_s(campaign: &Campaign, motor: &MotorRegression, inertia: f64, noise: &[RunNoise]) -> f64 {
+    let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
+    // White noise σ in the angle makes σ·√T of every scaled row.
+    let sensor = campaign
+        .runs
+        .iter()
+        .map(|run| channel_noise(run.motor()).std * run.sample_time_s().sqrt())
+        .fold(0.0, f64::max);
+    let mut window_s = LEAST_SAMPLES * sample_s;
+    while window_s * LONGER < motor.window_s {
+        let (mut power, mut rows) = (0.0, 0.0);
+        Sampled::new(campaign, noise, window_s).rows(&[], &[], |_, row| {
+            power += row.last().map_or(0.0, |y| y * y);
+            rows += 1.0;
+        });
+        if rows > 0.0 && inertia.abs() * sensor < NOISE * (power / rows).sqrt() {
+            break;
+        }
+        window_s *= LONGER;
+    }
+    window_s
+}

@@ -1,0 +1,110 @@
+//! The speed or the period of a term that was taken, to where least is left.
+
+use crate::identify::methods::friction_law::choice::{LawTerm, NEAR_REST, Search, solved};
+use crate::identify::methods::friction_law::ripple;
+use crate::identify::methods::friction_law::rows::{Column, fixed};
+use crate::identify::methods::regression::Term;
+
+/// A speed near rest is looked for between its neighbours on the list in so many steps.
+const FINER: i32 = 8;
+/// One such step: a neighbour on the list is half as much again.
+pub(super) const NEAR_REST_STEP: f64 = 0.05;
+/// A ripple is moved by so many steps either way, as far as its neighbour on the list;…
+const RIPPLE_STEPS: i32 = 3;
+/// …where the best is no end, steps become so many times finer, down to this share of the list's.
+const RIPPLE_FINER: f64 = 3.0;
+const RIPPLE_LAST: f64 = 0.01;
+/// Most moves altogether.
+const RIPPLE_MOVES: usize = 16;
+
+impl Search<'_> {
+    /// Moves the speed of a term near rest.
+    pub(super) fn refine_near_rest(&mut self) {
+        let Some(found) = self.taken.iter().position(|t| t.term.is_near_rest()) else { return };
+        let LawTerm::NearRest { speed, falloff } = self.taken[found].term else { return };
+        let step = (NEAR_REST[1] / NEAR_REST[0]).ln() / f64::from(FINER);
+        let others = (-FINER..=FINER).map(|k| {
+            let speed = speed * (f64::from(k) * step).exp();
+            (LawTerm::NearRest { speed, falloff }, vec![Column::NearRest(speed, falloff)])
+        });
+        self.exchange(found, &others.collect::<Vec<_>>());
+    }
+
+    /// Moves the period of the ripple that was taken last, and then estimates it with the rest.
+    pub(super) fn refine_ripple(&mut self) {
+        let found = self.taken.len() - 1;
+        let LawTerm::Ripple { per_angle } = self.taken[found].term else { return };
+        self.move_ripple(found, per_angle);
+        self.free_ripple(found);
+    }
+
+    /// The list of periods tells them apart as far as the travel does, and friction that is many times the
+    /// noise does so further; nor has it periods that are longer than the travel.
+    fn move_ripple(&mut self, found: usize, mut at: f64) {
+        let listed = ripple::step(self.sampled);
+        let mut step = listed / f64::from(RIPPLE_STEPS);
+        for _ in 0..RIPPLE_MOVES {
+            let near = (-RIPPLE_STEPS..=RIPPLE_STEPS).map(|i| at + f64::from(i) * step);
+            let others = near.filter(|k| *k > step).map(|per_angle| {
+                let columns = vec![Column::Cosine(per_angle), Column::Sine(per_angle)];
+                (LawTerm::Ripple { per_angle }, columns)
+            });
+            self.exchange(found, &others.collect::<Vec<_>>());
+            let LawTerm::Ripple { per_angle } = self.taken[found].term else { return };
+            let moved = (per_angle - at).abs();
+            at = per_angle;
+            if moved > step * (f64::from(RIPPLE_STEPS) - 0.5) {
+                continue;
+            }
+            step /= RIPPLE_FINER;
+            if step < RIPPLE_LAST * listed {
+                return;
+            }
+        }
+    }
+
+    /// Adds a term for what its amplitudes gain with the ripple's k: k is estimated with the rest, and what it
+    /// leaves unknown is in all deviations.
+    fn free_ripple(&mut self, found: usize) {
+        let LawTerm::Ripple { per_angle } = self.taken[found].term else { return };
+        let first = self.terms.len() - self.taken[found].terms.len();
+        let amplitude = |i: usize| self.solution.value[first + i];
+        self.columns.push(Column::Turned(per_angle, amplitude(0), amplitude(1)));
+        let turned = Term::Signed(fixed(self.sampled.campaign) + self.columns.len() - 1);
+        let blocks = self.sampled.blocks(&self.columns, &[], &self.cut);
+        let terms: Vec<Term> = self.terms.iter().copied().chain([turned]).collect();
+        let solution = solved(&blocks, &terms).filter(|s| !s.inseparable[first + 2]);
+        let Some(solution) = solution else {
+            self.columns.pop();
+            return;
+        };
+        (self.blocks, self.terms, self.solution) = (blocks, terms, solution);
+        self.taken[found].terms.push(turned);
+    }
+
+    /// Puts the one of `others` with which least is left in the place of a term that was taken.
+    fn exchange(&mut self, found: usize, others: &[(LawTerm, Vec<Column>)]) {
+        let own = self.taken[found].terms.clone();
+        let at = fixed(self.sampled.campaign) + self.columns.len();
+        let mut columns = self.columns.clone();
+        columns.extend(others.iter().flat_map(|o| &o.1));
+        let blocks = self.sampled.blocks(&columns, &[], &self.cut);
+        let in_place = |i: usize| -> Vec<Term> {
+            let other = |j: usize| Term::Signed(at + i * own.len() + j);
+            let of = |t: &Term| own.iter().position(|o| o == t).map_or(*t, other);
+            self.terms.iter().map(of).collect()
+        };
+        let left = |i: usize| Some((i, solved(&blocks, &in_place(i))?.relative_residual));
+        let best = (0..others.len()).filter_map(left).min_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((i, _)) = best else { return };
+        // Columns that nothing uses any more would be summed up with all that is tried later.
+        for (j, column) in others[i].1.iter().enumerate() {
+            self.columns[own[j].column() - fixed(self.sampled.campaign)] = *column;
+        }
+        self.blocks = self.sampled.blocks(&self.columns, &[], &self.cut);
+        if let Some(solution) = solved(&self.blocks, &self.terms) {
+            self.solution = solution;
+        }
+        self.taken[found].term = others[i].0;
+    }
+}

@@ -1,0 +1,9 @@
+//! The methods: each gives its own complete estimates.
+
+pub(crate) mod constant_velocity;
+pub(crate) mod friction_law;
+pub(crate) mod least_squares;
+pub(crate) mod output_error;
+pub(crate) mod regression;
+pub(crate) mod starting_arms;
+pub(crate) mod third_harmonic;

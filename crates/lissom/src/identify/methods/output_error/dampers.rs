@@ -1,0 +1,86 @@
+//! Which kinds of dampers there are.
+
+use crate::identify::methods::output_error::covariance::deviation;
+use crate::identify::methods::output_error::fit::{Fit, Report};
+use crate::identify::methods::output_error::fitting::Fitting;
+use crate::identify::methods::output_error::scores::EVEN;
+use crate::replay::{Parameter, SensorNoise};
+
+/// A kind of dampers is there when one of them lies this many standard errors from zero \[1\].
+const THERE: f64 = 2.0;
+
+/// Takes damping against the frame for dampers at the tips' points where these leave less than a damper
+/// for each mode: single ones of both kinds can hardly be told apart, and all of them can. Alone where that
+/// leaves hardly more than with damping within the beam beside them: each mode damped against the frame by
+/// itself is not what dampers at points do, and damping within makes up for some of that.
+pub(super) fn dampers_at_points(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+    let grounded = |p: &Parameter| matches!(p, Parameter::DampingGrounded(_));
+    let within = |p: &Parameter| matches!(p, Parameter::DampingWithin(_));
+    let modes = fit.body.arm.modes.len();
+    let possible = fit.body.arm.shapes.len() == modes && fit.free.iter().any(grounded);
+    if !possible {
+        return;
+    }
+    let mut other = fit.clone();
+    other.free.retain(|p| !grounded(p));
+    let arm = &mut other.body.arm;
+    let mean = arm.modes.iter().map(|m| m.grounded_per_s).sum::<f64>() / modes as f64;
+    arm.modes.iter_mut().for_each(|m| m.grounded_per_s = 0.0);
+    arm.at_points_per_s = vec![mean.max(0.0); modes];
+    let points = (0..modes).map(Parameter::DampingAtPoint);
+    other.free.extend(points.filter(|p| !fit.free.contains(p)));
+    let mut alone = other.clone();
+    let noise = fit.noise.clone();
+    let mut take = |mut other: Fit| {
+        fitting.search(&mut other, report);
+        if price(fitting, &other, &noise) < price(fitting, fit, &noise) {
+            *fit = other;
+        }
+    };
+    take(other);
+    if alone.free.extract_if(.., |p| within(p)).count() > 0 {
+        alone.body.arm.modes.iter_mut().for_each(|m| m.within_per_s = 0.0);
+        take(alone);
+    }
+}
+
+/// Cost of a fit where the noise is `noise`, and what its coordinates are worth: with as many more a fit that
+/// costs as much is as likely as without.
+pub(super) fn price(fitting: &Fitting<'_>, fit: &Fit, noise: &[SensorNoise]) -> f64 {
+    fitting.cost(fit, noise) + EVEN * EVEN * fit.coordinates() as f64
+}
+
+/// A kind of dampers of which those of another kind leave nothing goes, as a whole: one damper of a
+/// kind stands for the others where they cannot be told apart. Not where the others cannot do without it.
+pub(super) fn drop_dampers(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+    let kinds: [fn(&Parameter) -> bool; 3] = [
+        |p| matches!(p, Parameter::DampingWithin(_)),
+        |p| matches!(p, Parameter::DampingGrounded(_)),
+        |p| matches!(p, Parameter::DampingAtPoint(_)),
+    ];
+    if kinds.iter().filter(|kind| fit.free.iter().any(kind)).count() < 2 {
+        return;
+    }
+    let covariance = fitting.covariances(fit).larger();
+    let nothing = |kind: &fn(&Parameter) -> bool| {
+        let mut own = fit.free.iter().enumerate().filter(|(_, p)| kind(p));
+        own.all(|(i, p)| p.of(&fit.body.arm) < THERE * deviation(&covariance, i))
+    };
+    let Some(gone) = kinds.iter().find(|kind| fit.free.iter().any(kind) && nothing(kind)) else {
+        return;
+    };
+    let mut without = fit.clone();
+    let dropped: Vec<Parameter> = without.free.extract_if(.., |p| gone(p)).collect();
+    for p in &dropped {
+        p.set(&mut without.body.arm, 0.0);
+    }
+    // What is left may have been less than none to make up for them: a replay would run away.
+    for p in without.free.iter().filter(|p| kinds.iter().any(|kind| kind(p))) {
+        let least = p.of(&without.body.arm).max(0.0);
+        p.set(&mut without.body.arm, least);
+    }
+    fitting.search(&mut without, report);
+    if price(fitting, &without, &fit.noise) < price(fitting, fit, &fit.noise) {
+        *fit = without;
+    }
+}

@@ -1,0 +1,60 @@
+//! Motions that part: friction that falls with speed or over the angle drives neighbours away from each other
+//! exponentially, and windows can be too long.
+
+use crate::identify::methods::output_error::describes::AT_NOISE;
+use crate::identify::methods::output_error::fit::{Fit, Report};
+use crate::identify::methods::output_error::fitting::Fitting;
+use crate::identify::methods::output_error::windows::widen;
+use crate::record::TipQuantity;
+use crate::replay::{SensorNoise, WindowSums};
+
+/// Windows over which neighbouring motions part by more than this factor are too long: its square is what the sums
+/// of squares lose of their digits, and what a step of the replay errs by grows with it.
+const MOST_GROWTH: f64 = 100.0;
+
+impl Fitting<'_> {
+    /// Whether neighbouring motions part within a fit's windows.
+    pub(super) fn diverges(&self, fit: &Fit) -> bool {
+        self.growth(fit) > MOST_GROWTH
+    }
+
+    /// All windows of the length that a fit has, in place of some: longer ones tell no more. Not where these are not
+    /// described to the noise.
+    pub(super) fn take_all(&self, fit: &mut Fit, report: &mut Report) {
+        let before = fit.clone();
+        fit.windows = widen(self.campaign, &fit.body.arm, &fit.windows, fit.window_s);
+        fit.whole_runs = true;
+        self.search(fit, report);
+        if self.beyond_noise(fit) > AT_NOISE {
+            *fit = before;
+        }
+    }
+
+    /// How many times a change of a window's first angle has grown, root mean square over the window as the sensors of
+    /// angles show it; the largest of all windows. Friction that falls with speed or over the angle drives motions
+    /// apart exponentially, and long windows then rest on the last digits of their first states.
+    fn growth(&self, fit: &Fit) -> f64 {
+        if fit.body.arm.dry_terms.is_empty() {
+            return 1.0;
+        }
+        // Accelerations change by squares of frequencies beside the angle: they weigh nothing.
+        let tips = self.campaign.channels.tips.iter();
+        let counts = tips.map(|tip| tip.quantity != TipQuantity::Acceleration);
+        let counts: Vec<bool> = std::iter::once(true).chain(counts).collect();
+        let weightless = SensorNoise::gaussian(f64::MAX.sqrt());
+        let noise = fit.noise.iter().zip(&counts);
+        let noise: Vec<SensorNoise> =
+            noise.map(|(own, counts)| if *counts { *own } else { weightless }).collect();
+        let problem = self.problem(&fit.free, &noise, true);
+        let point = problem.at(fit.body.clone(), fit.windows.clone());
+        let first_angle = fit.coordinates();
+        let of_window = |sums: &WindowSums| {
+            let readings = sums.readings.iter().zip(&noise).zip(&counts);
+            let weights = readings.filter(|(_, counts)| **counts);
+            let unchanged: f64 = weights.map(|((n, e), _)| *n as f64 / e.deviation().powi(2)).sum();
+            let grown = (sums.gram[(first_angle, first_angle)] / unchanged).sqrt();
+            if grown.is_nan() && unchanged > 0.0 { f64::INFINITY } else { grown }
+        };
+        point.sums.iter().map(of_window).fold(0.0, f64::max)
+    }
+}

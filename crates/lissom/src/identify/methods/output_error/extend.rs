@@ -1,0 +1,114 @@
+//! Which parameters beyond the simplest law the residual calls for.
+
+use crate::identify::methods::output_error::covariance::deviation;
+use crate::identify::methods::output_error::dampers::drop_dampers;
+use crate::identify::methods::output_error::fit::{Extension, Fit, Report};
+use crate::identify::methods::output_error::fitting::Fitting;
+use crate::identify::methods::output_error::law;
+use crate::identify::methods::output_error::scores::{DEVIATIONS, Promise, all_scores, share};
+use crate::record::TipQuantity;
+use crate::replay::Parameter;
+
+/// A parameter is called for that takes at least this share of the cost away. Small as it is, it counts: damping
+/// against the frame that is left out goes into viscous friction, by many of its standard errors.
+const SHARE: f64 = 1e-4;
+/// A group that takes this share of the cost is called for whatever its standard errors: what it lacks is in
+/// them.
+const LARGE: f64 = 0.02;
+/// Residual relative to the noise of the samples from which on friction may have another law, and tips may be late.
+const BEYOND_NOISE: f64 = 1.2;
+/// Share of what is beyond the noise that another law may leave: a term takes some of anything else too.
+const LAW_LEAVES: f64 = 0.7;
+/// Most groups added at a time.
+const MOST: usize = 3;
+
+/// Adds parameters while the residual calls for some, each time the group that takes most away.
+pub(super) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+    for _ in 0..MOST {
+        let mut found = all_scores(fitting, fit, &candidates(fitting, fit)).1;
+        let called_for = |(_, promise): &(usize, &Promise)| {
+            let stands = |e: &Extension| e.value.abs() > DEVIATIONS * e.std;
+            let stand = promise.group.iter().any(stands) || promise.stands_together();
+            promise.share() > LARGE || (promise.share() > SHARE && stand)
+        };
+        let best = found.iter().enumerate().filter(called_for);
+        let best = best.max_by(|a, b| a.1.share().total_cmp(&b.1.share())).map(|(k, _)| k);
+        let least = best.map_or(LARGE, |k| found[k].share().max(LARGE));
+        if add_to_law(fitting, fit, report, least) {
+            continue;
+        }
+        let added = best.map(|k| found.remove(k).group);
+        report.refused = found.into_iter().flat_map(|promise| promise.group).collect();
+        let Some(added) = added else { break };
+        fit.free.extend(added.iter().map(|e| e.parameter));
+        report.added.extend(added.into_iter().map(|e| Extension { added: true, ..e }));
+        fitting.search(fit, report);
+        drop_dampers(fitting, fit, report);
+    }
+}
+
+/// Adds a term to friction's law where more than the sensors' noise is left, and it promises to take
+/// more than the share `least` of that; tells whether it did.
+fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: f64) -> bool {
+    if !fitting.tries_laws || fitting.beyond_noise(fit) < BEYOND_NOISE {
+        return false;
+    }
+    let Some((trial, found)) = law::best(fitting, fit, least) else { return false };
+    if share(&found) <= least {
+        return false;
+    }
+    let mut with = fit.clone();
+    trial.put_into(&mut with);
+    fitting.search(&mut with, report);
+    let better = fitting.excess(&with) <= LAW_LEAVES * fitting.excess(fit);
+    if better {
+        *fit = with;
+        report.law_changed();
+        report.added.extend(found.into_iter().map(|e| Extension { added: true, ..e }));
+    }
+    better
+}
+
+/// Lags of tips that are not there for certain go again: what is called for before the arm is found need not be after.
+pub(super) fn drop_tip_lags(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+    let covariance = fitting.covariances(fit).larger();
+    let is_nothing = |(i, p): (usize, &Parameter)| {
+        let lag = matches!(p, Parameter::TipLag(_));
+        let stands = p.of(&fit.body.arm).abs() > DEVIATIONS * deviation(&covariance, i);
+        (lag && !stands).then_some(*p)
+    };
+    let gone: Vec<Parameter> = fit.free.iter().enumerate().filter_map(is_nothing).collect();
+    if gone.is_empty() {
+        return;
+    }
+    fit.free.retain(|p| !gone.contains(p));
+    for p in &gone {
+        p.set(&mut fit.body.arm, 0.0);
+    }
+    report.added.retain(|e| !gone.contains(&e.parameter));
+    fitting.search(fit, report);
+}
+
+/// Groups of parameters that may be added to the free ones, each as a whole. Tips may be late where more than the
+/// sensors' noise is left.
+pub(super) fn candidates(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Parameter>> {
+    let arm = &fit.body.arm;
+    let modes = 0..arm.modes.len();
+    let mut groups = vec![vec![Parameter::CommandLag], vec![Parameter::ViscousDifference]];
+    groups.push(modes.clone().map(Parameter::DampingWithin).collect());
+    groups.push(if arm.at_points_per_s.is_empty() {
+        modes.map(Parameter::DampingGrounded).collect()
+    } else {
+        modes.map(Parameter::DampingAtPoint).collect()
+    });
+    if fitting.beyond_noise(fit) >= BEYOND_NOISE {
+        let tips = fitting.campaign.channels.tips.iter().enumerate();
+        let shows = tips.filter(|(_, tip)| tip.quantity != TipQuantity::Acceleration);
+        groups.push(shows.map(|(i, _)| Parameter::TipLag(i)).collect());
+    }
+    for group in &mut groups {
+        group.retain(|p| !fit.free.contains(p));
+    }
+    groups.retain(|group| !group.is_empty());
+    groups
+}

@@ -1,0 +1,135 @@
+//! The output error's arm as figures of friction, drive and beam.
+
+use crate::identify::drive_estimates::DriveEstimates;
+use crate::identify::estimate::{Estimate, ModeEstimate};
+use crate::identify::friction_estimates::{
+    BristlesEstimate, Friction, NearRestEstimate, RippleEstimate,
+};
+use crate::identify::methods::friction_law::LawTerm;
+use crate::identify::methods::output_error::describes::{is_left, stands};
+use crate::identify::methods::output_error::found::OutputError;
+use crate::record::{Channels, TipQuantity};
+use crate::replay::{ModalArm, Parameter};
+
+impl OutputError {
+    /// Friction, the damping of the command's back-EMF taken out.
+    pub fn friction(&self, back_emf_viscous: f64) -> Friction {
+        let viscous = |direction: usize| {
+            self.figure(|arm| arm.viscous_nm_s_per_rad[direction] - back_emf_viscous)
+        };
+        let mean = |arm: &ModalArm| Parameter::Viscous.of(arm) - back_emf_viscous;
+        let split = self.parameters.contains(&Parameter::ViscousDifference);
+        Friction {
+            coulomb: self.estimate(Parameter::Coulomb),
+            forward: Some(self.figure(|arm| arm.coulomb_nm + arm.offset_nm)),
+            backward: Some(self.figure(|arm| arm.coulomb_nm - arm.offset_nm)),
+            offset: self.estimate(Parameter::Offset),
+            viscous: Some(self.figure(mean)),
+            viscous_by_direction: split.then(|| (viscous(0), viscous(1))),
+            near_rest: self.near_rest(),
+            ripples: self.ripples(),
+            bristles: self.bristles(),
+        }
+    }
+
+    fn bristles(&self) -> Option<BristlesEstimate> {
+        let bends = |arm: &ModalArm| arm.coulomb_nm / Parameter::BristleStiffness.of(arm);
+        Some(BristlesEstimate {
+            stiffness: self.estimate(Parameter::BristleStiffness)?,
+            damping: self.estimate(Parameter::BristleDamping)?,
+            travel: self.figure(bends),
+        })
+    }
+
+    fn near_rest(&self) -> Option<NearRestEstimate> {
+        let torque = self.estimate(Parameter::NearRest)?;
+        let speed = self.estimate(Parameter::NearRestSpeed)?;
+        let falloff = self.arm.dry_terms.near_rest?.falloff;
+        Some(NearRestEstimate { torque, speed, falloff })
+    }
+
+    fn ripples(&self) -> Vec<RippleEstimate> {
+        let size = |arm: &ModalArm, i: usize| {
+            let r = arm.dry_terms.ripples[i];
+            r.cosine_nm.hypot(r.sine_nm)
+        };
+        let ripple = |i: usize| RippleEstimate {
+            torque: self.figure(|arm| size(arm, i)),
+            per_angle: self.figure(|arm| Parameter::RippleRate(i).of(arm)),
+        };
+        (0..self.arm.dry_terms.ripples.len()).map(ripple).collect()
+    }
+
+    /// What its friction has beyond Coulomb's and one viscous constant, as terms of a law.
+    pub fn law_terms(&self) -> Vec<(LawTerm, Vec<Estimate>)> {
+        let mut terms = Vec::new();
+        if let Some(difference) = self.estimate(Parameter::ViscousDifference) {
+            terms.push((LawTerm::ViscousByDirection, vec![difference]));
+        }
+        if let Some(n) = self.near_rest() {
+            let term = LawTerm::NearRest { speed: n.speed.value, falloff: n.falloff };
+            terms.push((term, vec![n.torque]));
+        }
+        for r in self.ripples() {
+            terms.push((LawTerm::Ripple { per_angle: r.per_angle.value }, vec![r.torque]));
+        }
+        if let Some(b) = self.bristles() {
+            terms.push((LawTerm::Bristles { travel: b.travel.value }, vec![b.travel]));
+        }
+        terms
+    }
+
+    /// Inertia J.
+    pub fn inertia(&self) -> Option<Estimate> {
+        self.estimate(Parameter::Inertia)
+    }
+
+    /// Friction, inertia and coupling.
+    pub fn estimates(&self, channels: &Channels) -> DriveEstimates {
+        let tips = &channels.tips;
+        let known = |i: usize| tips[i].calibrated && tips[i].quantity != TipQuantity::Acceleration;
+        let coupling_by_tip = self.arm.coupling_by_tip().map_or(Vec::new(), |found| {
+            let figure =
+                |i: usize| self.figure(|arm| arm.coupling_by_tip().map_or(f64::NAN, |k| k[i]));
+            (0..found.len()).map(|i| known(i).then(|| figure(i))).collect()
+        });
+        let flexible = !self.arm.modes.is_empty();
+        DriveEstimates {
+            friction: self.friction(channels.command.back_emf_viscous),
+            inertia: self.inertia(),
+            coupling: flexible.then(|| self.figure(ModalArm::coupling_nm_per_rad)),
+            coupling_by_tip,
+        }
+    }
+
+    /// Modes with the motor clamped.
+    pub fn mode_estimates(&self) -> Vec<ModeEstimate> {
+        let mode = |j: usize| ModeEstimate {
+            natural_frequency_rad_s: self.figure(|arm| arm.clamped_modes()[j].0),
+            damping_ratio: self.figure(|arm| arm.clamped_modes()[j].1),
+        };
+        (0..self.arm.modes.len()).map(mode).collect()
+    }
+
+    /// Whether the arm stands and describes the runs from end to end, be it by windows as long as motions stay together.
+    pub fn describes_whole_runs(&self) -> bool {
+        self.whole_runs && self.stands()
+    }
+
+    /// Whether some run is replayed in more than one window.
+    pub fn is_in_windows(&self) -> bool {
+        self.windows.windows(2).any(|pair| pair[0].run == pair[1].run)
+    }
+
+    /// Whether the axis is rigid: no more than the sensors' noise is left of whole runs without any mode.
+    pub fn is_rigid(&self) -> bool {
+        self.describes_whole_runs() && self.arm.modes.is_empty() && !is_left(&self.left_over)
+    }
+
+    /// Whether the arm describes the runs: from end to end, the residual of whole runs being that of
+    /// short windows and no more than a few times what the sensors show of noise by themselves; or over
+    /// shorter windows to that noise.
+    pub fn stands(&self) -> bool {
+        stands(&self.arm, &self.covariance, self.whole_runs, self.beyond_noise)
+    }
+}

@@ -1,0 +1,43 @@
+//! The motion of a given arm along runs that it was not found from.
+
+use crate::identify::methods::output_error::coordinates::Body;
+use crate::identify::methods::output_error::search::{PROMISE, Problem, is_possible};
+use crate::identify::methods::output_error::windows::widen;
+use crate::identify::methods::output_error::{data, noise};
+use crate::record::Campaign;
+use crate::replay::{ModalArm, Sampling, SensorNoise, Window};
+
+/// Most steps of a window's search.
+const MOST_STEPS: usize = 40;
+
+/// Windows of about `length_s` (whole runs where that is longer), each with the initial state and the
+/// tips' zeros from which the arm's motion comes nearest to the log. Nothing of the arm is moved.
+///
+/// The search for them starts where `shorter` windows, if any, have come to: over a long one it may
+/// be caught on another way of sticking and slipping.
+pub(crate) fn follow(
+    arm: &ModalArm,
+    campaign: &Campaign,
+    length_s: f64,
+    shorter: &[Window],
+) -> Vec<Window> {
+    let masks = data::masks(campaign);
+    let noise: Vec<SensorNoise> = noise::of_samples(campaign).into_iter().map(weighable).collect();
+    let sampling = Sampling { noise: &noise, blocks: &[], masks: &masks };
+    let (promise, near_enough) = (PROMISE, 0.0);
+    let problem =
+        Problem { campaign, parameters: &[], sampling, robust: false, promise, near_enough };
+    if !is_possible(campaign, arm) {
+        return Vec::new();
+    }
+    let nearest = |window: Window| {
+        let point = problem.at(Body::free(arm.clone()), vec![window]);
+        problem.search(point, MOST_STEPS).0.windows
+    };
+    widen(campaign, arm, shorter, length_s).into_iter().flat_map(nearest).collect()
+}
+
+/// A channel without any noise, which stands still, weighs nothing.
+fn weighable(noise: SensorNoise) -> SensorNoise {
+    if noise.sigma > 0.0 { noise } else { SensorNoise::gaussian(f64::MAX.sqrt()) }
+}

@@ -1,0 +1,97 @@
+//! The noise of each channel, from what a fit leaves.
+
+use crate::identify::methods::output_error::data::Masks;
+use crate::identify::prepare::channel_noise::channel_noise;
+use crate::record::{Campaign, Run};
+use crate::replay::{Prediction, SensorNoise, Window};
+
+/// Residuals looked at for each channel.
+const LOOKED_AT: usize = 4000;
+/// Noise is never taken below this share of a sensor's step: no drive is known that well.
+const LEAST_SHARE: f64 = 0.1;
+/// Steps of less than this many deviations are as good as none.
+const STEP_COUNTS: f64 = 0.5;
+/// Noise within this share of the least is as good as none.
+const AT_LEAST: f64 = 1.1;
+/// Golden section of ln σ down to a factor of 1 %.
+const GOLDEN_STEPS: usize = 24;
+
+/// First guess, from the samples alone: all noise as one, without steps.
+pub(super) fn of_samples(campaign: &Campaign) -> Vec<SensorNoise> {
+    each_channel(campaign, &|x| channel_noise(x).std)
+        .into_iter()
+        .map(SensorNoise::gaussian)
+        .collect()
+}
+
+/// Step of each channel's sensor; zero where it has none.
+pub(super) fn steps(campaign: &Campaign) -> Vec<f64> {
+    each_channel(campaign, &|x| channel_noise(x).step)
+}
+
+/// Median over the runs of a figure of each channel, motor first, then tips.
+fn each_channel(campaign: &Campaign, figure: &dyn Fn(&[f64]) -> f64) -> Vec<f64> {
+    let channel = |c: usize, run: &Run| match c.checked_sub(1) {
+        None => figure(run.motor()),
+        Some(tip) => figure(&run.tips()[tip]),
+    };
+    (0..=campaign.channels.tips.len())
+        .map(|c| {
+            let mut found: Vec<f64> = campaign.runs.iter().map(|run| channel(c, run)).collect();
+            found.sort_by(f64::total_cmp);
+            found[found.len() / 2]
+        })
+        .collect()
+}
+
+/// Residuals of each channel over windows of which this is predicted.
+pub(super) fn residuals(
+    campaign: &Campaign,
+    windows: &[Window],
+    predicted: &[Option<Prediction>],
+    masks: &[Masks],
+) -> Vec<Vec<f64>> {
+    let mut all = vec![Vec::new(); 1 + campaign.channels.tips.len()];
+    for (window, found) in windows.iter().zip(predicted) {
+        let Some(found) = found else { continue };
+        let run = &campaign.runs[window.run];
+        for (c, (left, predicted)) in all.iter_mut().zip(&found.channels).enumerate() {
+            let logged = match c.checked_sub(1) {
+                None => run.motor(),
+                Some(tip) => &run.tips()[tip],
+            };
+            let counts = |k: &usize| masks[window.run][c].as_ref().is_none_or(|m| m[*k]);
+            let pairs = window.samples.clone().zip(predicted).filter(|(k, _)| counts(k));
+            left.extend(pairs.map(|(k, p)| logged[k] - p));
+        }
+    }
+    all
+}
+
+/// The noise that makes residuals of a sensor with steps of `step` most likely.
+pub(super) fn most_likely(residuals: &[f64], step: f64) -> SensorNoise {
+    let pieces = (residuals.len() / LOOKED_AT).max(1);
+    let looked_at: Vec<f64> = residuals.iter().copied().step_by(pieces).collect();
+    let squares: f64 = looked_at.iter().map(|e| e * e).sum();
+    let deviation = (squares / looked_at.len().max(1) as f64).sqrt().max(f64::MIN_POSITIVE);
+    if step < STEP_COUNTS * deviation {
+        return SensorNoise::gaussian(deviation);
+    }
+    // −ln of the probability that a step of the sensor holds the reading.
+    let unlikely = |log_sigma: f64| {
+        let noise = SensorNoise { sigma: log_sigma.exp(), step };
+        looked_at.iter().map(|e| noise.surprise(*e)).sum::<f64>()
+    };
+    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let (mut low, mut high) = ((LEAST_SHARE * step).ln(), (2.0 * deviation.max(step)).ln());
+    for _ in 0..GOLDEN_STEPS {
+        let (a, b) = (high - golden * (high - low), low + golden * (high - low));
+        if unlikely(a) < unlikely(b) { high = b } else { low = a }
+    }
+    SensorNoise { sigma: (0.5 * (low + high)).exp(), step }
+}
+
+/// Whether a sensor shows its steps and hardly any noise: less, at any rate, than it is ever taken to have.
+pub(super) fn is_least(noise: &SensorNoise) -> bool {
+    noise.step > 0.0 && noise.sigma < AT_LEAST * LEAST_SHARE * noise.step
+}

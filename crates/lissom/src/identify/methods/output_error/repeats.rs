@@ -1,0 +1,41 @@
+//! Readings that only repeat the one before.
+
+use crate::identify::methods::output_error::data::Masks;
+use crate::identify::methods::output_error::fit::Fit;
+use crate::identify::methods::output_error::noise::is_least;
+use crate::record::Campaign;
+use crate::replay::Prediction;
+
+/// Leaves out the readings at which what a sensor without noise reads has moved by less than the noise that
+/// it is taken to have since the last one that counts; `None` where all sensors have noise of their own.
+///
+/// Such a sensor shows one step for as long as a joint rests, and each reading would say once more, with
+/// noise taken to be its own, that the angle is not near the step's edge. One says it once.
+pub(super) fn without_repeats(
+    campaign: &Campaign,
+    fit: &Fit,
+    predicted: &[Option<Prediction>],
+    masks: &[Masks],
+) -> Option<Vec<Masks>> {
+    if !fit.noise.iter().any(is_least) {
+        return None;
+    }
+    let mut masks = masks.to_vec();
+    for (window, found) in fit.windows.iter().zip(predicted) {
+        let found = found.as_ref()?;
+        let first = *window.samples.start();
+        let channels = fit.noise.iter().zip(&found.channels).zip(&mut masks[window.run]);
+        for ((noise, predicted), mask) in channels.filter(|((noise, _), _)| is_least(noise)) {
+            let mask = mask.get_or_insert_with(|| vec![true; campaign.runs[window.run].len()]);
+            let mut told = f64::INFINITY;
+            for (value, counts) in predicted.iter().zip(&mut mask[first..]) {
+                if (value - told).abs() < noise.sigma {
+                    *counts = false;
+                } else {
+                    told = *value;
+                }
+            }
+        }
+    }
+    Some(masks)
+}

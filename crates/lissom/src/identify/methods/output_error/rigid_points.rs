@@ -1,0 +1,39 @@
+//! Whether the beam is one of point masses at its tips.
+
+use crate::identify::methods::output_error::coordinates::Body;
+use crate::identify::methods::output_error::fit::{Fit, Report};
+use crate::identify::methods::output_error::fitting::Fitting;
+use crate::identify::methods::output_error::scores::Promised;
+use crate::identify::methods::output_error::search::Stop;
+
+/// Share of the cost by which point masses may leave more than free modes \[1\].
+const RIGID_SHARE: f64 = 1e-3;
+
+/// Lets the modes go each its own way where point masses at the tips leave more than noise.
+pub(super) fn relax(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+    // Before a search has ended anything promises to help.
+    let ended = report.stages.last().is_some_and(|s| s.stop != Stop::StepsUsedUp);
+    if fit.body.masses.is_none() || !ended {
+        return;
+    }
+    let free = Fit { body: Body::free(fit.body.arm.clone()), ..fit.clone() };
+    let promised = |fit: &Fit| Promised::of(&fitting.point(fit, &fit.free).sums, fit.coordinates());
+    if promised(&free).share - promised(fit).share > RIGID_SHARE {
+        *fit = free;
+        fitting.search(fit, report);
+    }
+}
+
+/// Takes the beam for point masses at the tips where that leaves no more than modes that go each its own
+/// way.
+pub(super) fn tighten(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+    let body = Body::of_masses(fitting.campaign, fit.body.arm.clone());
+    if fit.body.masses.is_some() || body.masses.is_none() {
+        return;
+    }
+    let mut tight = Fit { body, ..fit.clone() };
+    fitting.search(&mut tight, report);
+    if fitting.cost(&tight, &fit.noise) <= fitting.cost(fit, &fit.noise) * (1.0 + RIGID_SHARE) {
+        *fit = tight;
+    }
+}

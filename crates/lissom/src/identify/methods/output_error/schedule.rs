@@ -1,0 +1,259 @@
+//! The order of the moves: from an arm on short windows to one that whole runs have shaped.
+//!
+//! 1. Starting arms, the likelier first ([`best`]).
+//! 2. Short windows ([`begin`]): search, modes, parameters that the residual calls for. An arm that does not describe
+//!    short windows is given up.
+//! 3. Longer and longer windows ([`widen`]), until they are whole runs or the residual grows.
+//! 4. Modes, dampers and point masses settled ([`settle`]), sensors' steps counted.
+//! 5. Once more, more slowly, where the search was caught ([`again`]).
+
+use crate::identify::methods::output_error::dampers::{dampers_at_points, drop_dampers, price};
+use crate::identify::methods::output_error::data::Masks;
+use crate::identify::methods::output_error::describes::{AT_NOISE, BEYOND, is_left, most, stands};
+use crate::identify::methods::output_error::extend::{candidates, drop_tip_lags, extend};
+use crate::identify::methods::output_error::fit::{Fit, Report};
+use crate::identify::methods::output_error::fitting::{Fitting, STEPS_OF_A_PROBE, some};
+use crate::identify::methods::output_error::found::OutputErrorStart;
+use crate::identify::methods::output_error::left_over::left_over;
+use crate::identify::methods::output_error::modes;
+use crate::identify::methods::output_error::rigid_points::{relax, tighten};
+use crate::identify::methods::output_error::scores::scores;
+use crate::identify::methods::output_error::windows::widen as widened;
+use crate::replay::{ModalArm, Oscillator, Parameter};
+
+/// An arm is tried after the others where a few steps on short windows leave this many times what they
+/// leave from the best \[1\].
+const FAR: f64 = 3.0;
+/// Modes are the same to this share \[1\].
+const ALIKE: f64 = 0.05;
+/// Each stage's windows are longer than the ones before by this factor \[1\].
+pub(super) const WIDENING: f64 = 4.0;
+/// By this one after a search that was caught \[1\].
+const SLOWER: f64 = 1.6;
+
+/// Where a search has come to.
+pub(super) struct Attempt {
+    pub(super) fit: Fit,
+    pub(super) report: Report,
+    /// The samples that count where some only repeat a step of their sensor.
+    pub(super) without_repeats: Option<Vec<Masks>>,
+    /// Share of each channel's squared residual, motor first, that is slower than what its sensor adds.
+    pub(super) left: Vec<f64>,
+}
+
+/// The first attempt that describes the runs, else the one that comes nearest. Where more than the
+/// sensors' noise is left it is made again more slowly, from other frequencies of the highest mode, too.
+pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<Attempt> {
+    let mut best: Option<Attempt> = None;
+    for arm in likely_first(fitting, start) {
+        let Some(found) = attempt(fitting, &arm, start.first_window_s) else { continue };
+        let stands = found.stands(fitting);
+        if stands || best.as_ref().is_none_or(|b| found.nearness(fitting) > b.nearness(fitting)) {
+            best = Some(found);
+        }
+        if stands {
+            break;
+        }
+    }
+    Some(again(fitting, best?, start.first_window_s))
+}
+
+/// The arms to start from. Those go last, the farther the later, from which a few steps on the same short
+/// windows come nowhere near what they come to from the best: a search from there takes long and ends
+/// elsewhere. One that these steps bring to the modes of an arm before it is none of its own.
+fn likely_first(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Vec<ModalArm> {
+    if start.arms.len() < 2 {
+        return start.arms.clone();
+    }
+    let window_s = |arm: &ModalArm| fitting.first_window_s(arm);
+    let shortest = start.arms.iter().map(window_s).fold(f64::INFINITY, f64::min);
+    let window_s = start.first_window_s.unwrap_or(shortest);
+    let probed = |arm: &ModalArm| {
+        let found =
+            fitting.first_fit(arm, window_s).and_then(|fit| fitting.probe(&fit, STEPS_OF_A_PROBE));
+        found.map_or((f64::INFINITY, arm.clone()), |(cost, body)| (cost, body.arm))
+    };
+    let probed: Vec<(f64, ModalArm)> = start.arms.iter().map(probed).collect();
+    let near = FAR * probed.iter().map(|p| p.0).fold(f64::INFINITY, f64::min);
+    let mut order: Vec<usize> = (0..probed.len()).collect();
+    let rank = |i: &usize| if probed[*i].0 <= near { 0.0 } else { probed[*i].0 };
+    order.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
+    let mut kept: Vec<usize> = Vec::new();
+    for i in order {
+        if !kept.iter().any(|k| are_alike(&probed[*k].1, &probed[i].1)) {
+            kept.push(i);
+        }
+    }
+    kept.into_iter().map(|i| start.arms[i].clone()).collect()
+}
+
+/// Whether two arms have the same modes, and both or neither a law of friction beyond the simplest.
+fn are_alike(a: &ModalArm, b: &ModalArm) -> bool {
+    let near = |(p, q): (&Oscillator, &Oscillator)| {
+        (p.omega_rad_s / q.omega_rad_s - 1.0).abs() < ALIKE
+            && (p.stiffness_nm_per_rad / q.stiffness_nm_per_rad - 1.0).abs() < ALIKE
+    };
+    a.dry_terms.is_empty() == b.dry_terms.is_empty()
+        && a.modes.len() == b.modes.len()
+        && a.modes.iter().zip(&b.modes).all(near)
+}
+
+/// From an arm to one that whole runs and the sensors' steps have shaped; only to where the first windows bring it where
+/// these show that it does not describe the runs: longer ones leave more.
+fn attempt(fitting: &Fitting<'_>, arm: &ModalArm, first_window_s: Option<f64>) -> Option<Attempt> {
+    let mut report = Report::default();
+    let window_s = first_window_s.unwrap_or_else(|| fitting.first_window_s(arm));
+    let fit = begin(fitting, arm, window_s, &mut report)?;
+    if fitting.beyond_noise(&fit) > BEYOND {
+        let left = vec![0.0; fit.noise.len()];
+        return Some(Attempt { fit, report, without_repeats: None, left });
+    }
+    Some(go_on(fitting, fit, report))
+}
+
+/// Searches on the first windows, short ones; `None` where no window can be cut.
+fn begin(fitting: &Fitting<'_>, arm: &ModalArm, window_s: f64, report: &mut Report) -> Option<Fit> {
+    let mut fit = fitting.first_fit(arm, window_s)?;
+    fitting.search(&mut fit, report);
+    modes::drop_unfelt(fitting, &mut fit, report);
+    modes::grow(fitting, &mut fit, report);
+    extend(fitting, &mut fit, report);
+    Some(fit)
+}
+
+/// To whole runs, as far as the arm describes them and neighbouring motions stay together; parameters are added
+/// where it does not.
+fn widen(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+    let longest = fitting.longest_s();
+    let mut factor = fitting.widening;
+    while !fit.whole_runs {
+        let (before, mark) = (fit.clone(), report.mark());
+        fit.window_s = (fit.window_s * factor).min(longest);
+        fit.whole_runs = fit.window_s >= longest;
+        let windows = widened(fitting.campaign, &fit.body.arm, &fit.windows, fit.window_s);
+        fit.windows = if fit.whole_runs { windows } else { some(windows) };
+        fitting.search(fit, report);
+        if report.grown(&fit.residual) {
+            modes::grow(fitting, fit, report);
+            extend(fitting, fit, report);
+            relax(fitting, fit, report);
+        }
+        let diverges = fitting.diverges(fit);
+        if report.grown(&fit.residual) || diverges {
+            *fit = before;
+            report.back_to(&mark);
+            let at_noise = fitting.beyond_noise(fit) <= AT_NOISE;
+            if factor < WIDENING || !at_noise {
+                let lawful = !fit.body.arm.dry_terms.is_empty();
+                if diverges && at_noise && lawful {
+                    fitting.take_all(fit, report);
+                }
+                return;
+            }
+            // The windows before are described to the noise: this search was caught on the way.
+            factor = SLOWER;
+        }
+    }
+}
+
+/// On to whole runs and the sensors' steps.
+fn go_on(fitting: &Fitting<'_>, mut fit: Fit, mut report: Report) -> Attempt {
+    widen(fitting, &mut fit, &mut report);
+    modes::grow(fitting, &mut fit, &mut report);
+    modes::undamp(fitting, &mut fit, &mut report);
+    settle(fitting, &mut fit, &mut report);
+    while let Some(mut joined) = modes::twins_joined(fitting, &fit, &mut report) {
+        settle(fitting, &mut joined, &mut report);
+        if !modes::leaves_no_more(fitting, &joined, &fit) {
+            break;
+        }
+        fit = joined;
+    }
+    if modes::prune(fitting, &mut fit, &mut report) {
+        settle(fitting, &mut fit, &mut report);
+        widen(fitting, &mut fit, &mut report);
+        report.refused = scores(fitting, &fit, &candidates(fitting, &fit)).concat();
+    }
+    let without_repeats = fitting.count_steps(&mut fit, &mut report);
+    let left = left_over(fitting.campaign, &fit, fitting.masks);
+    Attempt { fit, report, without_repeats, left }
+}
+
+/// Which kinds of dampers there are, and whether the beam is one of point masses.
+fn settle(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+    let dampers =
+        |fit: &Fit| fit.free.iter().copied().filter(|p| p.is_damper()).collect::<Vec<Parameter>>();
+    tighten(fitting, fit, report);
+    fit.body.allow_dampers_at_points();
+    let added = report.added.len();
+    extend(fitting, fit, report);
+    if report.added.len() > added {
+        // It may describe longer windows.
+        widen(fitting, fit, report);
+    }
+    let before = dampers(fit);
+    dampers_at_points(fitting, fit, report);
+    drop_dampers(fitting, fit, report);
+    if dampers(fit) != before {
+        // Modes that made up for the dampers that there were may be those of point masses now, and longer windows
+        // may be described.
+        tighten(fitting, fit, report);
+        widen(fitting, fit, report);
+    }
+    drop_tip_lags(fitting, fit, report);
+    relax(fitting, fit, report);
+}
+
+/// The same once more where its search was caught, if a slower one comes to less: where more than the sensors'
+/// noise is left, or the highest mode is so faint that at a wrong frequency it would leave hardly more.
+fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> Attempt {
+    let mut best = first;
+    let caught = is_left(&best.left);
+    let faint = || modes::highest_is_faint(fitting, &best.fit);
+    if !best.fit.whole_runs || !(caught || faint()) {
+        return best;
+    }
+    // Not for another law: that has had its trial.
+    let slowly = Fitting { widening: SLOWER, tries_laws: false, ..*fitting };
+    for arm in modes::starts_again(fitting, &best.fit) {
+        let Some(other) = attempt(&slowly, &arm, first_window_s) else { continue };
+        let better = if caught {
+            most(&other.left) < most(&best.left)
+        } else {
+            best.leaves_more(fitting, &other)
+        };
+        if other.fit.whole_runs && better {
+            best = other;
+        }
+        if caught && !is_left(&best.left) {
+            break;
+        }
+    }
+    best
+}
+
+impl Attempt {
+    fn stands(&self, fitting: &Fitting<'_>) -> bool {
+        let covariance = fitting.covariances(&self.fit).larger();
+        stands(
+            &self.fit.body.arm,
+            &covariance,
+            self.fit.whole_runs,
+            fitting.beyond_noise(&self.fit),
+        )
+    }
+
+    /// Whether another, with the same noise over the same samples, costs less by more than what it has more of
+    /// free is worth.
+    fn leaves_more(&self, fitting: &Fitting<'_>, other: &Self) -> bool {
+        let masks = self.without_repeats.as_deref().unwrap_or(fitting.masks);
+        let fitting = Fitting { masks, ..*fitting };
+        let price = |a: &Self| price(&fitting, &a.fit, &self.fit.noise);
+        price(other) < price(self)
+    }
+
+    /// How near it comes, for comparison: whole runs before parts of them.
+    fn nearness(&self, fitting: &Fitting<'_>) -> (bool, f64) {
+        (self.fit.whole_runs, -fitting.beyond_noise(&self.fit))
+    }
+}

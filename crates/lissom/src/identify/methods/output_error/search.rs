@@ -1,0 +1,376 @@
+//! Levenberg-Marquardt on parameters that all windows share and unknowns of each window's own.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::identify::methods::output_error::coordinates::{Body, in_coordinates};
+use crate::identify::methods::output_error::noise::is_least;
+use crate::identify::methods::output_error::windows::{fastest_rad_s, travel};
+use crate::information::{Reduced, inverse};
+use crate::record::{Campaign, Run};
+use crate::replay::{
+    Bristles, ModalArm, Oscillator, Parameter, Ripple, Sampling, Window, WindowSums, costs, sums,
+};
+
+/// Damping of the first step, relative to the diagonal; and over sensors' steps, whose edges refuse long ones.
+const FIRST_DAMPING: f64 = 1e-3;
+const FIRST_DAMPING_OVER_STEPS: f64 = 0.1;
+/// Damping beyond which no step helps.
+const MOST_DAMPING: f64 = 1e8;
+/// The last search ends when a step promises to lower the cost, a sum of squared deviations, by less than
+/// this: parameters would move by a seventh of their deviation.
+pub(super) const PROMISE: f64 = 0.02;
+/// The same of searches that others follow: by one deviation.
+pub(super) const PROMISE_ON_THE_WAY: f64 = 1.0;
+/// Factor by which damping falls after a step that did all it promised, as Nielsen has it; and where
+/// sensors show steps and hardly any noise: their edges let it grow first, and it has far to fall.
+const EASING: f64 = 1.0 / 3.0;
+const EASING_OVER_STEPS: f64 = 0.1;
+/// A step that lowers the cost by this share of what it promised has kept its promise.
+const PROMISE_KEPT: f64 = 0.5;
+/// Largest change of the logarithm of a parameter that is positive by nature, in one step.
+const LARGEST_FACTOR: f64 = 0.7;
+
+/// Largest angle that a mode may turn by in a sample \[rad\], half as much again as Nyquist's.
+const LARGEST_TURN: f64 = 4.5;
+/// Largest phase of a ripple that may pass in a sample at the fastest speed \[rad\]: at slow ones it is
+/// seen still.
+const FASTEST_RIPPLE: f64 = 16.0;
+/// Smallest phase of a ripple over all of the travel \[rad\]: slower ones are a constant, which Coulomb
+/// friction is.
+const SLOWEST_RIPPLE: f64 = 0.5;
+/// Speed over which friction near rest may change, at least, as a share of the fastest.
+const SLOWEST_LAW: f64 = 1e-3;
+/// Largest angle by which a motor may swing on its bristles in a sample \[rad\], and rate at which they may damp
+/// it over a sample: stiffer ones hold it as if it stuck, and take ever shorter steps to follow.
+const LARGEST_SWING: f64 = 12.0;
+/// Largest change of a window's first velocity in one step, as a share of the fastest in it: where the joint sticks
+/// soon the rest forgets that velocity, and nothing else bounds what a step makes of it. It may always come to rest.
+const LARGEST_KICK: f64 = 0.3;
+/// Most samples that a tip may be late: the shortest windows have some eighty.
+const MOST_LATE: f64 = 40.0;
+/// A window whose cost per sample is this many times the usual one counts half in a robust search.
+const ROBUST: f64 = 10.0;
+
+/// Parameters, windows and what they leave.
+#[derive(Debug, Clone)]
+pub(in crate::identify::methods::output_error) struct Point {
+    pub(super) body: Body,
+    pub(super) windows: Vec<Window>,
+    /// Derivatives in them are by the body's coordinates.
+    pub(super) sums: Vec<WindowSums>,
+}
+
+impl Point {
+    /// [`ROBUST`] times the median of the windows' costs per sample.
+    fn usual(&self) -> f64 {
+        let mut each: Vec<f64> = self.sums.iter().map(per_sample).collect();
+        each.sort_by(f64::total_cmp);
+        ROBUST * each.get(each.len() / 2).copied().unwrap_or(0.0).max(1.0)
+    }
+
+    fn robust_cost(&self, usual: f64) -> f64 {
+        self.sums.iter().map(|s| robust(s.cost, s.samples, usual)).sum()
+    }
+}
+
+/// `n·κ·ln(1 + c/(n·κ))` of a window's cost c and samples n: what it adds grows slowly once it is on
+/// another way of sticking and slipping than its log.
+fn robust(cost: f64, samples: usize, usual: f64) -> f64 {
+    let n = samples as f64 * usual;
+    if usual.is_finite() { n * (cost / n).ln_1p() } else { cost }
+}
+
+fn per_sample(sums: &WindowSums) -> f64 {
+    sums.cost / sums.samples.max(1) as f64
+}
+
+/// Derivative of a window's share in the robust cost by its own cost.
+fn weight(sums: &WindowSums, usual: f64) -> f64 {
+    1.0 / (1.0 + per_sample(sums) / usual)
+}
+
+/// Why a search ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stop {
+    /// A further step promises nothing that counts beside the noise, nor, where what is left is no
+    /// noise or the stage only leads to the next, beside what is left.
+    Converged,
+    /// No step, however short, lowers the cost: it has a kink there.
+    NoStepHelps,
+    /// All steps allowed are made.
+    StepsUsedUp,
+}
+
+/// A step of the search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Iteration {
+    /// Sum of squared residuals in units of their deviation, after the step.
+    pub cost: f64,
+    /// What the step was expected to lower it by.
+    pub promised: f64,
+    /// Damping of Levenberg and Marquardt.
+    pub damping: f64,
+    /// Whether it was taken.
+    pub taken: bool,
+}
+
+/// The problem that a search solves.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Problem<'a> {
+    pub(super) campaign: &'a Campaign,
+    pub(super) parameters: &'a [Parameter],
+    pub(super) sampling: Sampling<'a>,
+    /// Whether windows that fit far worse than the others count less.
+    pub(super) robust: bool,
+    /// Fall of the cost below which a step is not worth a replay.
+    pub(super) promise: f64,
+    /// Share of the cost below which it is not either, whatever it is beside the noise.
+    pub(super) near_enough: f64,
+}
+
+impl Problem<'_> {
+    /// Replays `windows` through `body`.
+    pub(super) fn at(&self, body: Body, windows: Vec<Window>) -> Point {
+        let mut sums = sums(&body.arm, self.parameters, self.campaign, &windows, self.sampling);
+        if let Some(jacobian) = body.jacobian(self.parameters) {
+            sums = sums.iter().map(|s| in_coordinates(s, &jacobian)).collect();
+        }
+        Point { body, windows, sums }
+    }
+
+    /// Lowers the cost from `point` by at most `steps` steps.
+    pub(super) fn search(&self, mut point: Point, steps: usize) -> (Point, Vec<Iteration>, Stop) {
+        let over_steps = self.sampling.noise.iter().any(is_least);
+        let (mut damping, easing) = if over_steps {
+            (FIRST_DAMPING_OVER_STEPS, EASING_OVER_STEPS)
+        } else {
+            (FIRST_DAMPING, EASING)
+        };
+        let mut growth = 2.0;
+        let mut kept_its_promise = false;
+        let mut iterations = Vec::new();
+        for _ in 0..steps {
+            let usual = if self.robust { point.usual() } else { f64::INFINITY };
+            let Some(step) = self.step(&point, damping, usual) else {
+                return (point, iterations, Stop::NoStepHelps);
+            };
+            let before = point.robust_cost(usual);
+            if step.promised < self.promise.max(self.near_enough * before) {
+                return (point, iterations, Stop::Converged);
+            }
+            let (body, windows) = self.moved(&point, &step);
+            let possible = is_possible(self.campaign, &body.arm);
+            // A step after one that did what it promised is taken as a rule: its derivatives, wanted
+            // then, come with the cost.
+            let ahead =
+                (possible && kept_its_promise).then(|| self.at(body.clone(), windows.clone()));
+            let after = match &ahead {
+                Some(ahead) => ahead.robust_cost(usual),
+                None if possible => {
+                    let costs = costs(&body.arm, self.campaign, &windows, self.sampling);
+                    let samples = point.sums.iter().map(|s| s.samples);
+                    costs.iter().zip(samples).map(|(c, n)| robust(*c, n, usual)).sum()
+                }
+                None => f64::INFINITY,
+            };
+            let gain = (before - after) / step.promised;
+            let taken = after < before;
+            kept_its_promise = gain > PROMISE_KEPT;
+            let cost = if taken { after } else { before };
+            iterations.push(Iteration { cost, promised: step.promised, damping, taken });
+            if taken {
+                point = ahead.unwrap_or_else(|| self.at(body, windows));
+                damping *= (1.0 - (2.0 * gain - 1.0).powi(3)).max(easing);
+                growth = 2.0;
+            } else {
+                damping *= growth;
+                growth *= 2.0;
+                if damping > MOST_DAMPING {
+                    return (point, iterations, Stop::NoStepHelps);
+                }
+            }
+        }
+        (point, iterations, Stop::StepsUsedUp)
+    }
+
+    fn moved(&self, point: &Point, step: &Step) -> (Body, Vec<Window>) {
+        let mut body = point.body.clone();
+        let coordinates = body.coordinates(self.parameters);
+        for (coordinate, change) in coordinates.into_iter().zip(step.shared.iter()) {
+            let change = match body.scale(coordinate) {
+                Some(value) => {
+                    value * (change / value).clamp(-LARGEST_FACTOR, LARGEST_FACTOR).exp_m1()
+                }
+                None => *change,
+            };
+            body.shift(coordinate, change);
+        }
+        let windows = point
+            .windows
+            .iter()
+            .zip(&step.own)
+            .map(|(w, change)| {
+                let mut w = w.clone();
+                let len = w.start.len();
+                w.start.iter_mut().zip(change.iter()).for_each(|(x, c)| *x += c);
+                w.zeros.iter_mut().zip(change.iter().skip(len)).for_each(|(x, c)| *x += c);
+                w
+            })
+            .collect();
+        (body, windows)
+    }
+
+    fn step(&self, point: &Point, damping: f64, usual: f64) -> Option<Step> {
+        let shared = point.body.coordinates(self.parameters).len();
+        let reduced: Vec<Reduced> =
+            point.sums.iter().map(|s| Reduced::new(s, shared, damping)).collect();
+        let mut normal = DMatrix::zeros(shared, shared);
+        let mut right = DVector::zeros(shared);
+        let mut diagonal = DVector::zeros(shared);
+        for (r, s) in reduced.iter().zip(&point.sums) {
+            let weight = weight(s, usual);
+            normal += &r.normal * weight;
+            right += &r.right * weight;
+            diagonal += s.gram.diagonal().rows(0, shared) * weight;
+        }
+        for i in 0..shared {
+            normal[(i, i)] += damping * diagonal[i];
+        }
+        let change = inverse(&normal) * right;
+        let mut own: Vec<DVector<f64>> =
+            reduced.iter().map(|r| &r.own - &r.by_shared * &change).collect();
+        for (own, window) in own.iter_mut().zip(&point.windows) {
+            let fastest = fastest_within(&self.campaign.runs[window.run], window);
+            own[1] = kick(own[1], window.start[1], fastest);
+        }
+        // Decrease of the quadratic model: δᵀ(g + λ·diag·δ) = 2·gᵀδ − δᵀHδ.
+        let mut promised = 0.0;
+        for (s, own) in point.sums.iter().zip(&own) {
+            let size = s.gram.ncols() - 1;
+            let mut all = DVector::zeros(size);
+            all.rows_mut(0, shared).copy_from(&change);
+            all.rows_mut(shared, size - shared).copy_from(own);
+            let g = s.gram.column(size).rows(0, size).into_owned();
+            let bend = all.dot(&(s.gram.view((0, 0), (size, size)) * &all));
+            promised += weight(s, usual) * (2.0 * g.dot(&all) - bend);
+        }
+        promised.is_finite().then_some(Step { shared: change, own, promised })
+    }
+}
+
+/// What a step may change a window's first velocity by where it would by `change`.
+fn kick(change: f64, velocity: f64, fastest: f64) -> f64 {
+    let (most, to_rest) = (LARGEST_KICK * fastest, -velocity);
+    change.clamp(to_rest.min(-most), to_rest.max(most))
+}
+
+/// The fastest that the log moves the motor in a window.
+fn fastest_within(run: &Run, window: &Window) -> f64 {
+    let moves =
+        run.motor()[window.samples.clone()].windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    moves.fold(0.0, f64::max) / run.sample_time_s()
+}
+
+/// Whether friction with all of its terms brakes, at rest and at speed, else nothing holds the motor and
+/// it is pushed both ways; and whether the runs can show its terms: a change within speeds that no log
+/// resolves, or waves that pass within a sample, take ever shorter steps to follow, and waves far longer than
+/// the travel are no waves.
+fn is_braking(campaign: &Campaign, arm: &ModalArm, sample_s: f64) -> bool {
+    let terms = &arm.dry_terms;
+    if terms.is_empty() {
+        return true;
+    }
+    let fastest = fastest_rad_s(campaign);
+    let near = terms.near_rest.map_or(0.0, |n| n.torque_nm.min(0.0));
+    let waves: f64 = terms.ripples.iter().map(|r| r.cosine_nm.hypot(r.sine_nm)).sum();
+    let travel = if terms.ripples.is_empty() { 0.0 } else { travel(campaign) };
+    let turns = |r: &Ripple| {
+        r.per_rad * travel > SLOWEST_RIPPLE && r.per_rad * fastest * sample_s < FASTEST_RIPPLE
+    };
+    let swings = |b: Bristles| {
+        let rate = (b.stiffness_nm_per_rad / arm.inertia_kg_m2).sqrt();
+        rate.max(b.damping_nm_s_per_rad / arm.inertia_kg_m2) * sample_s
+    };
+    terms.bristles.is_none_or(|b| swings(b) < LARGEST_SWING)
+        && terms.near_rest.is_none_or(|n| n.speed_rad_s > SLOWEST_LAW * fastest)
+        && terms.ripples.iter().all(turns)
+        && arm.coulomb_nm + near > waves
+}
+
+/// Whether a search may go there: friction brakes, and every mode turns by less than [`LARGEST_TURN`] in
+/// a sample: faster ones are in no log, and take ever shorter steps to follow.
+pub(super) fn is_possible(campaign: &Campaign, arm: &ModalArm) -> bool {
+    let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
+    let turn = |m: &Oscillator| m.omega_rad_s * sample_s;
+    let damped = |m: &Oscillator| (m.within_per_s.abs() + m.grounded_per_s.abs()) * sample_s;
+    let rigid = arm.coupling_nm_per_rad() / arm.inertia_kg_m2 * sample_s * sample_s;
+    arm.modes.iter().all(|m| turn(m) < LARGEST_TURN && damped(m) < LARGEST_TURN)
+        && arm.at_points_per_s.iter().all(|c| (c * sample_s).abs() < LARGEST_TURN)
+        && arm.tip_lags_s.iter().all(|lag| lag.abs() < MOST_LATE * sample_s)
+        && rigid < LARGEST_TURN * LARGEST_TURN
+        && is_braking(campaign, arm, sample_s)
+}
+
+struct Step {
+    shared: DVector<f64>,
+    own: Vec<DVector<f64>>,
+    promised: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::identify::methods::output_error::search::{is_possible, kick};
+    use crate::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
+    use crate::replay::{DryTerms, ModalArm, Ripple};
+
+    /// Waves far longer than the travel are a constant, and such that pass within a sample no wave.
+    #[test]
+    fn ripples_are_waves_over_the_travel() {
+        let motor: Vec<f64> = (0..400).map(|k| 0.35 * (0.05 * f64::from(k)).sin()).collect();
+        let still = vec![0.0; motor.len()];
+        let run = Run::new("sine", TimeBase::uniform(0.0, 0.002), still, motor, vec![]).unwrap();
+        let command = Command {
+            quantity: CommandQuantity::Current,
+            hold: Hold::Sampled,
+            torque_per_command: Some(0.5),
+            back_emf_viscous: 0.0,
+            limit: None,
+        };
+        let channels = Channels { axis: Axis::Rotary, command, tips: Vec::new() };
+        let campaign = Campaign::new(channels, vec![run]).unwrap();
+        let with = |per_rad: f64| ModalArm {
+            inertia_kg_m2: 0.02,
+            viscous_nm_s_per_rad: [0.05; 2],
+            coulomb_nm: 0.3,
+            offset_nm: 0.0,
+            modes: Vec::new(),
+            shapes: Vec::new(),
+            at_points_per_s: Vec::new(),
+            dry_terms: DryTerms {
+                ripples: vec![Ripple { per_rad, cosine_nm: 0.01, sine_nm: 0.0 }],
+                ..DryTerms::default()
+            },
+            command_lag_s: 0.0,
+            tip_lags_s: Vec::new(),
+        };
+        for (per_rad, possible) in
+            [(-4.0, false), (1e-6, false), (0.5, false), (4.0, true), (2e3, false)]
+        {
+            assert_eq!(is_possible(&campaign, &with(per_rad)), possible, "{per_rad}");
+        }
+    }
+
+    #[test]
+    fn a_step_kicks_no_window_but_to_rest() {
+        for (change, velocity, fastest, made) in [
+            (0.1, 5.0, 2.0, 0.1),
+            (100.0, 5.0, 2.0, 0.6),
+            (-100.0, 5.0, 2.0, -5.0),
+            (-100.0, -5.0, 2.0, -0.6),
+            (100.0, 0.0, 0.0, 0.0),
+        ] {
+            let found = kick(change, velocity, fastest);
+            assert!((found - made).abs() < 1e-12, "{change} {velocity} {found}");
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! Where the output error starts: the figures of the regressions as an arm.
+
+use std::ops::Range;
+
+use crate::identify::drive_estimates::DriveEstimates;
+use crate::identify::estimate::Estimate;
+use crate::identify::methods::regression::BeamRegression;
+use crate::identify::responses::correct::Response;
+use crate::identify::responses::rational::{
+    BeamFit, Damping, MotorData, MotorFit, Pole, fit_motor, fit_shared_poles,
+};
+use crate::record::Campaign;
+use crate::replay::{DryTerms, MOST_MODES, ModalArm, Oscillator};
+
+/// Smallest stiffness of a mode to start with, as a share of the coupling: its logarithm is moved.
+const LEAST_SHARE: f64 = 0.02;
+
+/// A pole is none to start with that lies beyond the responses' frequencies by more than this factor…
+const BEYOND: f64 = 3.0;
+/// …or is damped otherwise.
+const POSSIBLE: Range<f64> = -0.05..0.25;
+
+/// Share of every tip's motion below which a mode is none to start with.
+const NEGLIGIBLE: f64 = 0.05;
+
+/// Arms to start from where a tip's angle is known, the likelier first: the `drive`'s estimates with the
+/// beam's own, and with the modes of the rational model `tips`. Empty where no tip's angle is known, or the
+/// motor's figures lack what it needs.
+pub fn starts(
+    campaign: &Campaign,
+    drive: &DriveEstimates,
+    beam: Option<&BeamRegression>,
+    tips: Option<&BeamFit>,
+) -> Vec<ModalArm> {
+    let coupling: Option<Vec<f64>> =
+        drive.coupling_by_tip.iter().map(|c| c.map(|e| e.value)).collect();
+    let (Some(rigid), Some(coupling)) = (rigid(campaign, drive), coupling) else {
+        return Vec::new();
+    };
+    if coupling.is_empty() {
+        return Vec::new();
+    }
+    let by_regression = beam.and_then(|b| {
+        let (omega, shapes) = ModalArm::modes_of(&b.stiffness)?;
+        let ratios = b.modes.iter().map(|m| m.damping_ratio.value).collect();
+        Some((omega, ratios, shapes))
+    });
+    let by_responses = tips.and_then(modes_of_responses).map(|(omega, ratios, mut shapes)| {
+        for row in &mut shapes {
+            whole(row);
+        }
+        (omega, ratios, shapes)
+    });
+    [by_regression, by_responses]
+        .into_iter()
+        .flatten()
+        .map(shown)
+        .filter(|(omega, ..)| omega.len() <= MOST_MODES)
+        .map(|modes| with_modes(rigid.clone(), modes, &coupling))
+        .collect()
+}
+
+/// Arms to start from where no tip's angle is known, the simpler first: a rigid axis where there is no tip
+/// at all, and what the motor's rational model `response` has, where it has modes.
+pub fn starts_by_motor(
+    campaign: &Campaign,
+    drive: &DriveEstimates,
+    tips: Option<&BeamFit>,
+    response: Option<&MotorFit>,
+) -> Vec<ModalArm> {
+    let Some(rigid) = rigid(campaign, drive) else { return Vec::new() };
+    let flexible = response.and_then(|r| flexible(&rigid, campaign, r, tips));
+    let rigid = campaign.channels.tips.is_empty().then_some(rigid);
+    rigid.into_iter().chain(flexible).collect()
+}
+
+/// Arms to start from by responses alone, with one mode, two, … as many as there are tips: poles that the
+/// `tips`' responses θ_i/θ_m at `omega_rad_s` share, and the coupling through them that the motor's response
+/// shows. Slip phases need a tip that is read finely for the coupling, and the beam's own equation motions that
+/// every mode takes part in.
+pub fn starts_by_responses(
+    campaign: &Campaign,
+    drive: &DriveEstimates,
+    omega_rad_s: &[f64],
+    tips: &[Vec<Response>],
+    response: &MotorData,
+) -> Vec<ModalArm> {
+    let Some(rigid) = rigid(campaign, drive) else { return Vec::new() };
+    let found = |modes: usize| {
+        let fit = fit_shared_poles(omega_rad_s, tips, modes, Damping::Small).ok()?;
+        let (low, high) = fit.range_rad_s;
+        let near = low / BEYOND..high * BEYOND;
+        let is_mode =
+            |p: &Pole| near.contains(&p.omega_rad_s) && POSSIBLE.contains(&p.damping_ratio);
+        let kept: Vec<usize> = (0..modes).filter(|k| is_mode(&fit.poles[*k])).collect();
+        let poles: Vec<Pole> = kept.iter().map(|k| fit.poles[*k]).collect();
+        let of_kept = |row: &Vec<f64>| kept.iter().map(|k| row[*k]).collect();
+        let shapes = fit.static_gains.iter().map(of_kept).collect();
+        coupled(&rigid, &poles, shapes, response)
+    };
+    (1..=tips.len().min(MOST_MODES)).filter_map(found).collect()
+}
+
+/// An axis with modes of which each tip has a share, and the coupling that its response shows with them.
+fn coupled(
+    rigid: &ModalArm,
+    poles: &[Pole],
+    mut shapes: Vec<Vec<f64>>,
+    response: &MotorData,
+) -> Option<ModalArm> {
+    if poles.is_empty() {
+        return None;
+    }
+    let fit = fit_motor(response, Some(poles))?;
+    let total: f64 = fit.coupling.iter().map(|c| c.value.max(0.0)).sum();
+    let least = LEAST_SHARE * total;
+    let modes = poles.iter().zip(&fit.coupling).map(|(p, c)| oscillator(p, c.value.max(least)));
+    for row in &mut shapes {
+        whole(row);
+    }
+    let all = if poles.len() == shapes.len() { poles.len() } else { 0 };
+    let inertia = Some(fit.inertia.value).filter(|j| *j > 0.0);
+    (total > 0.0).then(|| ModalArm {
+        inertia_kg_m2: inertia.unwrap_or(rigid.inertia_kg_m2),
+        modes: modes.collect(),
+        at_points_per_s: vec![0.0; all],
+        shapes,
+        ..rigid.clone()
+    })
+}
+
+/// An axis with the modes that its own response shows, and each tip's part in them by `tips`, whose
+/// modes these are then. Its inertia is that of the response: slip phases alone count the beam's with it.
+fn flexible(
+    rigid: &ModalArm,
+    campaign: &Campaign,
+    response: &MotorFit,
+    tips: Option<&BeamFit>,
+) -> Option<ModalArm> {
+    let channels = &campaign.channels.tips;
+    let count = response.poles.len();
+    let total: f64 = response.coupling.iter().map(|c| c.value.max(0.0)).sum();
+    if count == 0 || count > MOST_MODES || total.is_nan() || total <= 0.0 {
+        return None;
+    }
+    let shapes = if channels.is_empty() {
+        Vec::new()
+    } else {
+        let (omega, _, mut shapes) = modes_of_responses(tips?)?;
+        if omega.len() != count {
+            return None;
+        }
+        for (_, row) in channels.iter().zip(&mut shapes).filter(|(tip, _)| tip.calibrated) {
+            whole(row);
+        }
+        shapes
+    };
+    let modes = response.poles.iter().zip(&response.coupling);
+    let least = LEAST_SHARE * total;
+    let modes = modes.map(|(pole, coupling)| oscillator(pole, coupling.value.max(least)));
+    let inertia = Some(response.inertia.value).filter(|j| *j > 0.0);
+    Some(ModalArm {
+        inertia_kg_m2: inertia.unwrap_or(rigid.inertia_kg_m2),
+        viscous_nm_s_per_rad: [response.viscous.value.max(0.0); 2],
+        modes: modes.collect(),
+        at_points_per_s: if count == shapes.len() { vec![0.0; count] } else { Vec::new() },
+        shapes,
+        ..rigid.clone()
+    })
+}
+
+/// Frequencies, damping ratios, and shapes by tip.
+type Modes = (Vec<f64>, Vec<f64>, Vec<Vec<f64>>);
+
+/// Without modes that no tip shows beside the others: noise makes them, and they stand in the place of
+/// those that the fit adds where it needs them.
+fn shown((mut omega, mut ratios, mut shapes): Modes) -> Modes {
+    let share = |shapes: &[Vec<f64>], j: usize| {
+        shapes.iter().map(|row: &Vec<f64>| row[j].abs()).fold(0.0, f64::max)
+    };
+    for j in (0..omega.len()).rev() {
+        if omega.len() > 1 && share(&shapes, j) < NEGLIGIBLE {
+            omega.remove(j);
+            ratios.remove(j);
+            for row in &mut shapes {
+                let gone = row.remove(j);
+                row.last_mut().into_iter().for_each(|r| *r += gone);
+            }
+        }
+    }
+    (omega, ratios, shapes)
+}
+
+/// A rigid axis with the inertia and friction of some estimates.
+fn rigid(campaign: &Campaign, drive: &DriveEstimates) -> Option<ModalArm> {
+    let inertia = drive.inertia?.value;
+    let back_emf = campaign.channels.command.back_emf_viscous;
+    let friction = &drive.friction;
+    let coulomb = friction.coulomb?.value;
+    let damped = |v: Option<Estimate>| v.map_or(0.0, |v| v.value) + back_emf;
+    let viscous = match friction.viscous_by_direction {
+        Some((forward, backward)) => [damped(Some(forward)), damped(Some(backward))],
+        None => [damped(friction.viscous); 2],
+    };
+    (inertia > 0.0 && coulomb.is_finite()).then(|| ModalArm {
+        inertia_kg_m2: inertia,
+        viscous_nm_s_per_rad: viscous,
+        coulomb_nm: coulomb,
+        offset_nm: friction.offset.map_or(0.0, |o| o.value),
+        modes: Vec::new(),
+        shapes: vec![Vec::new(); campaign.channels.tips.len()],
+        at_points_per_s: Vec::new(),
+        dry_terms: DryTerms::default(),
+        command_lag_s: 0.0,
+        tip_lags_s: Vec::new(),
+    })
+}
+
+/// `r_ij = (residue of tip i in mode j)/ω_j²`.
+fn modes_of_responses(fit: &BeamFit) -> Option<Modes> {
+    let poles: Vec<_> = fit.mode_poles.iter().map(|&k| fit.poles[k]).collect();
+    let square = |j: usize| poles[j].omega_rad_s * poles[j].omega_rad_s;
+    let of_tip = |tip: &Vec<Estimate>| {
+        fit.mode_poles.iter().enumerate().map(|(j, &k)| tip[k].value / square(j)).collect()
+    };
+    let shapes = fit.residues.iter().map(of_tip).collect();
+    let omega: Vec<f64> = poles.iter().map(|p| p.omega_rad_s).collect();
+    let ratios = poles.iter().map(|p| p.damping_ratio).collect();
+    (!omega.is_empty()).then_some((omega, ratios, shapes))
+}
+
+/// A mode damped within the beam, if at all.
+fn oscillator(pole: &Pole, stiffness_nm_per_rad: f64) -> Oscillator {
+    Oscillator {
+        omega_rad_s: pole.omega_rad_s,
+        stiffness_nm_per_rad,
+        within_per_s: (2.0 * pole.damping_ratio * pole.omega_rad_s).max(0.0),
+        grounded_per_s: 0.0,
+    }
+}
+
+/// The rest of Σr = 1 goes to the last mode.
+fn whole(row: &mut [f64]) {
+    let sum: f64 = row.iter().sum();
+    row.last_mut().into_iter().for_each(|r| *r += 1.0 - sum);
+}
+
+fn with_modes(mut arm: ModalArm, (omega, ratios, shapes): Modes, coupling: &[f64]) -> ModalArm {
+    let total: f64 = coupling.iter().sum();
+    for (j, &omega_rad_s) in omega.iter().enumerate() {
+        let damping_ratio = ratios.get(j).copied().unwrap_or(0.0);
+        let stiffness: f64 = coupling.iter().zip(&shapes).map(|(k, r)| k * r[j]).sum();
+        let pole = Pole { omega_rad_s, damping_ratio };
+        arm.modes.push(oscillator(&pole, stiffness.max(LEAST_SHARE * total.abs())));
+    }
+    arm.at_points_per_s =
+        if omega.len() == shapes.len() { vec![0.0; omega.len()] } else { Vec::new() };
+    arm.shapes = shapes;
+    arm
+}

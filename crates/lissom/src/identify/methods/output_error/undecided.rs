@@ -1,0 +1,155 @@
+//! What a fit leaves undecided: terms that may be there, and the kind of damping.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::identify::methods::output_error::extend::candidates;
+use crate::identify::methods::output_error::fit::{Extension, Fit};
+use crate::identify::methods::output_error::fitting::Fitting;
+use crate::identify::methods::output_error::scores::all_scores;
+use crate::replay::{Parameter, WindowSums};
+
+/// With fewer deviations than these nothing speaks for a group, as in any test at 5 %.
+const SPEAKS: f64 = 2.0;
+/// Singular values below this mean nothing.
+const ROUNDING: f64 = 1e-12;
+/// Another kind of damping that is less likely does not count.
+const LEAST_LIKELY: f64 = 1e-3;
+/// Nor does one that adds less than this share to every variance.
+const FELT: f64 = 0.1;
+/// Deviations longer by this factor for want of the damping's kind are told of.
+const KINDS: f64 = 2.0;
+
+/// What a fit leaves undecided.
+pub(super) struct Undecided {
+    /// Sums by what is free.
+    pub(super) sums: Vec<WindowSums>,
+    /// By how much each group that is not free would move the free parameters, times the root of how likely it
+    /// is to be there: what they do not know of themselves for want of an answer. Outer products of these are
+    /// what it adds to the covariance, the mean over both answers.
+    moved: Vec<DVector<f64>>,
+    /// Damping being of another kind.
+    by_kind: Vec<OtherKind>,
+}
+
+/// What is known of the parameters.
+pub(super) struct Known {
+    /// The free ones, and behind them dampers that may be there in place of those.
+    pub(super) parameters: Vec<Parameter>,
+    pub(super) covariance: DMatrix<f64>,
+    /// Free ones whose deviations are much longer for want of the damping's kind.
+    pub(super) open_by_damping: Vec<Parameter>,
+}
+
+impl Undecided {
+    /// The covariance of the free parameters as it is `decided`, with all that is not.
+    pub(super) fn known(&self, free: &[Parameter], decided: DMatrix<f64>) -> Known {
+        let mut covariance = decided;
+        for moved in &self.moved {
+            covariance.ger(1.0, moved, moved, 1.0);
+        }
+        let before = covariance.diagonal();
+        let felt: Vec<&OtherKind> = self.by_kind.iter().filter(|o| o.is_felt(&before)).collect();
+        let mut parameters = free.to_vec();
+        for (parameter, _) in felt.iter().flat_map(|other| &other.dampers) {
+            if !parameters.contains(parameter) {
+                parameters.push(*parameter);
+            }
+        }
+        covariance.resize_mut(parameters.len(), parameters.len(), 0.0);
+        for other in felt {
+            let root = other.root(&parameters);
+            covariance.ger(1.0, &root, &root, 1.0);
+        }
+        let longer = |i: &usize| (covariance[(*i, *i)] / before[*i]).sqrt() >= KINDS;
+        let open_by_damping = (0..free.len()).filter(longer).map(|i| free[i]).collect();
+        Known { parameters, covariance, open_by_damping }
+    }
+}
+
+/// Dampers of one kind in place of those that are free.
+struct OtherKind {
+    /// What they are then.
+    dampers: Vec<(Parameter, f64)>,
+    /// By how much the free parameters move.
+    moved: DVector<f64>,
+    /// How likely that is beside the dampers that are free, both held for as likely beforehand.
+    likely: f64,
+}
+
+impl OtherKind {
+    fn counts(&self) -> bool {
+        let values = self.dampers.iter().map(|(_, value)| value);
+        let finite = self.moved.iter().chain(values).all(|v| v.is_finite());
+        finite && self.likely > LEAST_LIKELY
+    }
+
+    /// Whether any of the free parameters, whose `variances` these are without it, is known less for it.
+    fn is_felt(&self, variances: &DVector<f64>) -> bool {
+        let mut each = self.moved.iter().zip(variances.iter());
+        each.any(|(moved, variance)| self.likely * moved * moved > FELT * variance)
+    }
+
+    /// What it adds to the covariance of `parameters`, of which the free ones come first, as the root of an
+    /// outer product.
+    fn root(&self, parameters: &[Parameter]) -> DVector<f64> {
+        let mut root = DVector::zeros(parameters.len());
+        root.rows_mut(0, self.moved.len()).copy_from(&self.moved);
+        for (parameter, value) in &self.dampers {
+            if let Some(i) = parameters.iter().position(|p| p == parameter) {
+                root[i] = *value;
+            }
+        }
+        root * self.likely.sqrt()
+    }
+}
+
+/// What the samples leave undecided of the groups that are not free.
+pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Undecided {
+    let (sums, promises) = all_scores(fitting, fit, &candidates(fitting, fit));
+    let jacobian = fit.body.jacobian(&fit.free);
+    let speaking = promises.iter().filter(|p| p.deviations() > SPEAKS);
+    let weighed = speaking.map(|p| {
+        let moved = &p.moved * p.likelihood().sqrt();
+        jacobian.as_ref().map_or(moved.clone(), |jacobian| jacobian * moved)
+    });
+    let of_kind = promises.iter().flat_map(|p| {
+        let slopes = jacobian.as_ref().map_or(p.slopes.clone(), |jacobian| jacobian * &p.slopes);
+        let whole = in_place_of_others(fit, &p.group, &slopes);
+        // All of them, and where there are several each by itself.
+        let each = whole.iter().flat_map(|all| {
+            let several = if all.len() > 1 { all.len() } else { 0 };
+            let only = |k| DVector::from_fn(all.len(), |i, _| if i == k { all[k] } else { 0.0 });
+            (0..several).map(only)
+        });
+        let others = whole.iter().cloned().chain(each).map(|values| {
+            let likely = p.instead(&values);
+            let there = p.group.iter().zip(&values).filter(|(_, value)| **value != 0.0);
+            let dampers = there.map(|(e, value)| (e.parameter, *value)).collect();
+            OtherKind { dampers, moved: &slopes * &values, likely }
+        });
+        others.filter(OtherKind::counts).collect::<Vec<_>>()
+    });
+    Undecided { moved: weighed.collect(), by_kind: of_kind.collect(), sums }
+}
+
+/// What the dampers of a group are where they stand for all others \[1/s\]: the values at which the free ones
+/// come to nothing, to first order by `slopes`, what each of the group moves the free parameters by. `None` of other
+/// groups.
+fn in_place_of_others(
+    fit: &Fit,
+    group: &[Extension],
+    slopes: &DMatrix<f64>,
+) -> Option<DVector<f64>> {
+    let is_damper = |p: &Parameter| {
+        use Parameter::{DampingAtPoint, DampingGrounded, DampingWithin};
+        matches!(p, DampingWithin(_) | DampingGrounded(_) | DampingAtPoint(_))
+    };
+    let others: Vec<usize> = (0..fit.free.len()).filter(|i| is_damper(&fit.free[*i])).collect();
+    if others.is_empty() || !group.iter().all(|e| is_damper(&e.parameter)) {
+        return None;
+    }
+    let now = DVector::from_fn(others.len(), |i, _| fit.free[others[i]].of(&fit.body.arm));
+    let falls = DMatrix::from_fn(others.len(), group.len(), |i, k| -slopes[(others[i], k)]);
+    let values = falls.svd(true, true).solve(&now, ROUNDING).ok()?;
+    values.iter().all(|v| v.is_finite()).then_some(values)
+}

@@ -1,0 +1,134 @@
+//! Whether the motor's equation lacks a term: one is added at a time, and the residual decides.
+
+use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve};
+
+/// A term is missing where it stands this many deviations from zero…
+const DEVIATIONS: f64 = 4.0;
+/// …and leaves at most this share of the residual: a term that chance makes significant leaves
+/// nearly all of it…
+const RESIDUAL: f64 = 0.9;
+/// …or, known without noise, stands this many deviations from zero…
+const SURE: f64 = 10.0;
+/// …and takes so many of a figure's own deviations with it.
+const MOVES: f64 = 3.0;
+
+/// A residual of less is rounding: nothing is missing.
+const ROUNDING: f64 = 1e-6;
+/// Correlation with the torque from which on its magnitude is the torque itself, of one sign.
+const ONE_SIGN: f64 = 0.5;
+
+/// What the equation may lack.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MissingKind {
+    /// The command acts later: `τ(t − Δ)`, or lags behind by Δ.
+    Delay,
+    /// A torque that grows with position: gravity, a spring, coarse cogging, a wrongly scaled tip.
+    Position,
+    /// Friction that falls with speed: `e^{−|v|/v̄}` of the Stribeck kind, or presliding.
+    Stribeck,
+    /// Damping within the beam, in proportion to its stiffness: a torque by the rate of what is bent.
+    BeamDamping,
+    /// A torque constant that differs by the command's sign, as of an amplifier that is stronger one way.
+    CommandBySign,
+    /// Coulomb friction that changes from the campaign's first sample to its last.
+    CoulombDrift,
+    /// Viscous friction that does, as of a joint that warms.
+    ViscousDrift,
+}
+
+impl MissingKind {
+    /// In the order of their columns.
+    const ALL: [Self; 7] = [
+        Self::Delay,
+        Self::Position,
+        Self::Stribeck,
+        Self::BeamDamping,
+        Self::CommandBySign,
+        Self::CoulombDrift,
+        Self::ViscousDrift,
+    ];
+    /// How many columns they need.
+    pub(super) const COLUMNS: usize = Self::ALL.len();
+
+    /// Whether its column hardly has noise of the sensors in it, which others of the equation then make up for.
+    fn is_exact(self) -> bool {
+        match self {
+            Self::Delay | Self::Stribeck | Self::BeamDamping | Self::ViscousDrift => false,
+            Self::Position | Self::CommandBySign | Self::CoulombDrift => true,
+        }
+    }
+}
+
+/// A term that the data call for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MissingTerm {
+    /// Which.
+    pub kind: MissingKind,
+    /// Its coefficient: delay \[s\], stiffness \[N·m/rad\], friction at rest beyond the constant
+    /// \[N·m\] (linear axes: N/m, N), time of the beam's damping \[s\]; half of what positive commands give more
+    /// than negative ones, relative; change of Coulomb \[N·m or N\] and viscous friction \[N·m·s/rad or N·s/m\] from
+    /// the campaign's beginning to its end, its runs taken one after the other.
+    pub value: f64,
+    /// How many deviations from zero.
+    pub deviations: f64,
+    /// Residual beside that of the equation without it, as a ratio.
+    pub residual_ratio: f64,
+}
+
+/// The term whose addition explains most, if it is called for. `first` is the column of the first
+/// of the extra columns, in the order of [`MissingKind`]; damping of a beam is tried where `tips` show one.
+pub(super) fn missing_term(
+    clusters: &[Cluster],
+    terms: &[Term],
+    without: &Solution,
+    first: usize,
+    tips: usize,
+) -> Option<MissingTerm> {
+    if without.relative_residual < ROUNDING {
+        return None;
+    }
+    let kinds = MissingKind::ALL.into_iter().enumerate();
+    let kinds = kinds.filter(|(i, kind)| match kind {
+        MissingKind::BeamDamping => tips > 0,
+        MissingKind::CommandBySign => follows_torque(clusters, first + i).abs() < ONE_SIGN,
+        _ => true,
+    });
+    let tried = kinds.filter_map(|(i, kind)| {
+        let mut with = terms.to_vec();
+        with.push(match kind {
+            MissingKind::Stribeck | MissingKind::CoulombDrift => Term::Signed(first + i),
+            _ => Term::Plain(first + i),
+        });
+        let solution = solve(clusters, &with)?;
+        let last = with.len() - 1;
+        let std = solution.covariance[(last, last)].max(0.0).sqrt();
+        let value = solution.value[last];
+        let moves = (0..last).any(|k| {
+            let own = without.covariance[(k, k)].max(0.0).sqrt();
+            (solution.value[k] - without.value[k]).abs() > MOVES * own
+        });
+        let shows = solution.relative_residual < RESIDUAL * without.relative_residual;
+        let called_for = !solution.inseparable[last]
+            && value.abs() > DEVIATIONS * std
+            && (shows || kind.is_exact() && moves && value.abs() > SURE * std);
+        called_for.then(|| MissingTerm {
+            kind,
+            value: match kind {
+                // ∫wτ(t) = ∫w·(equation) − Δ∫ẇτ for τ that acts Δ later…
+                // …and ∫wτ = ∫w·(equation) − ε∫w|τ| where (1 + ε·sgn τ)·τ acts.
+                MissingKind::Delay | MissingKind::CommandBySign => -value,
+                _ => value,
+            },
+            deviations: value.abs() / std,
+            residual_ratio: solution.relative_residual / without.relative_residual,
+        })
+    });
+    tried.min_by(|a, b| a.residual_ratio.total_cmp(&b.residual_ratio))
+}
+
+/// Correlation of a column with the right side, both about zero.
+fn follows_torque(clusters: &[Cluster], column: usize) -> f64 {
+    let sum = |i: usize, j: usize| clusters.iter().map(|c| c.products[(i, j)]).sum::<f64>();
+    let right = clusters.first().map_or(0, |c| c.products.ncols() - 1);
+    sum(column, right) / (sum(column, column) * sum(right, right)).sqrt().max(f64::MIN_POSITIVE)
+}

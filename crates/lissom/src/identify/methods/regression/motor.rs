@@ -1,0 +1,305 @@
+//! The motor's equation on slip phases.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::identify::drive_estimates::DriveEstimates;
+use crate::identify::estimate::Estimate;
+use crate::identify::friction_estimates::Friction;
+use crate::identify::methods::regression::missing::{MissingTerm, missing_term};
+use crate::identify::methods::regression::motor_rows::{DRY, INERTIA, MotorRows, TIPS, VISCOUS};
+use crate::identify::methods::regression::normal::{Solution, Term, solve};
+use crate::identify::methods::regression::scan::{Candidate, RATIO, SYSTEMATIC, change, scan};
+use crate::record::{Campaign, Channels, Run};
+
+/// Directional viscous terms are reported when they differ by this many deviations…
+const DIRECTION_DEVIATIONS: f64 = 4.0;
+/// …and leave at most this share of the residual.
+const DIRECTION_RESIDUAL: f64 = 0.9;
+
+/// Places of the terms in the equation; that of half the difference of viscous friction follows the couplings.
+const PLACE_INERTIA: usize = 0;
+const PLACE_VISCOUS: usize = 1;
+const PLACE_COULOMB: usize = 2;
+const PLACE_OFFSET: usize = 3;
+pub(crate) const COUPLING: usize = 4;
+
+/// Figures of the motor's equation, in torque (or force) as the command's constant gives it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotorRegression {
+    /// Length of the window used \[s\].
+    pub window_s: f64,
+    /// Whether that length was given rather than chosen.
+    pub window_given: bool,
+    /// Lengths tried.
+    pub candidates: Vec<Candidate>,
+    /// Rows in the fit.
+    pub rows: usize,
+    /// Slip phases that hold at least one window.
+    pub phases: usize,
+    /// ‖y − X·q‖/‖y‖: part of the windowed torque that the model leaves.
+    pub relative_residual: f64,
+    /// Inertia J \[kg·m²\] or mass \[kg\].
+    pub inertia: Option<Estimate>,
+    /// Viscous friction V \[N·m·s/rad or N·s/m\], back-EMF taken out.
+    pub viscous: Option<Estimate>,
+    /// Coulomb friction, mean of both directions \[N·m or N\].
+    pub coulomb: Option<Estimate>,
+    /// (forward − backward)/2 \[N·m or N\].
+    pub offset: Option<Estimate>,
+    /// Friction while moving forward.
+    pub forward: Option<Estimate>,
+    /// Friction while moving backward.
+    pub backward: Option<Estimate>,
+    /// Coupling to all tips together, Σκ_i; `None` without tips whose angle is known.
+    pub total_coupling: Option<Estimate>,
+    /// Coupling to each tip of the campaign, κ_i = −h_i of (15) \[N·m/rad\]; `None` where its
+    /// angle is not known or it cannot be told from others. Empty where no angle is known.
+    pub coupling: Vec<Option<Estimate>>,
+    /// Viscous friction by direction, where the data reject one constant.
+    pub viscous_by_direction: Option<ByDirection>,
+    /// A term that the equation lacks, where the data call for one.
+    pub missing: Option<MissingTerm>,
+    /// J, V, CF, offset, κ_i of the tips whose angle is known, as the logs have them.
+    pub(crate) terms: Terms,
+}
+
+/// Terms of the motor's equation together.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Terms {
+    pub(crate) values: Vec<f64>,
+    pub(crate) covariance: DMatrix<f64>,
+    /// Changes, up to a factor, that the logs do not show.
+    pub(crate) lost: Vec<DVector<f64>>,
+    /// Tips whose coupling is among them, from place [`COUPLING`] on.
+    pub(crate) tips: usize,
+}
+
+/// The same equation with viscous friction by direction: a fit of its own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ByDirection {
+    /// All that this fit gives.
+    pub estimates: DriveEstimates,
+    /// ‖y − X·q‖/‖y‖ of this fit.
+    pub relative_residual: f64,
+    /// J, V, CF, offset, κ_i of the tips, and half the difference of viscous friction forward and backward.
+    pub(crate) terms: Terms,
+}
+
+/// Fits `τ = J·θ̈ + V·θ̇ + Σκ_i(θ_m − θ_i) + CF·sgn θ̇ + offset` on the slip phases of all runs.
+///
+/// The equation is multiplied by `w = sin⁴` windows within each phase and integrated by parts:
+/// `∫w·τ = J∫ẅ·θ − V∫ẇ·θ + Σκ_i∫w(θ_m − θ_i) + (±CF + offset)∫w`. A held command enters by its
+/// exact integral. The covariance takes phases, and runs where there are several, as independent,
+/// and counts how much the figures move with the window's length.
+///
+/// With lengths in `window_s` one of these is used; without, the length is chosen from the data.
+/// `None` where no phase holds windows enough.
+///
+/// τ is the command times its torque constant \[N·m, N, or the command's unit where the constant is
+/// unknown\]; θ_i − θ_m is measured, so that no model of the beam enters.
+///
+/// ```
+/// # use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
+/// # let (t, w) = (0.002, 3.0);
+/// # let wave = |f: &dyn Fn(f64) -> f64| (0..10_000).map(|k| f(t * f64::from(k))).collect::<Vec<f64>>();
+/// # let motor = wave(&|s| (w * s).sin());
+/// # let torque = wave(&|s| -0.02 * w * w * (w * s).sin() + 0.05 * w * (w * s).cos() + 0.3 * (w * s).cos().signum());
+/// # let command = Command { quantity: CommandQuantity::Current, hold: Hold::Measured, torque_per_command: Some(1.0), back_emf_viscous: 0.0, limit: None };
+/// # let run = Run::new("sine", TimeBase::uniform(0.0, t), torque, motor, vec![]).unwrap();
+/// # let campaign = Campaign::new(Channels { axis: Axis::Rotary, command, tips: vec![] }, vec![run]).unwrap();
+/// use lissom::identify::motor_regression; // of a sine with J = 0.02, V = 0.05, CF = 0.3
+/// let fit = motor_regression(&campaign, &[]).unwrap();
+/// assert!((fit.coulomb.unwrap().value - 0.3).abs() < 1e-3);
+/// ```
+///
+/// # Source
+/// `[Feliu1989, eqs. (14), (15)]` is the equation; the way of fitting it is this project's own
+/// (DESIGN.md, "How does the regression work?").
+pub fn motor_regression(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRegression> {
+    // Many short loops: within the pool none of them has to wake it first.
+    rayon::scope(|_| on_slip_phases(campaign, window_s))
+}
+
+fn on_slip_phases(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRegression> {
+    let equation = MotorRows::of(campaign);
+    let tips = &equation.tips;
+    let mut terms =
+        vec![Term::Plain(INERTIA), Term::Plain(VISCOUS), Term::Signed(DRY), Term::Plain(DRY)];
+    terms.extend((0..tips.len()).map(|i| Term::Plain(TIPS + i)));
+    // The offset is small by nature: it does not take part in the choice of the window.
+    let counts: Vec<bool> = (0..terms.len()).map(|i| i != 3).collect();
+    let sample_time = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
+    let found =
+        scan(sample_time, window_s, &counts, |length| solve(&equation.clusters(length), &terms))?;
+    let chosen = &found.candidates[found.chosen];
+    let solution = &found.solution;
+    let (channels, window_s_chosen) = (&campaign.channels, chosen.window_s);
+    let one = Fitted { solution, change: &found.change, tips };
+    let DriveEstimates { friction, inertia, coupling: total_coupling, coupling_by_tip } =
+        one.estimates(channels);
+    let known: Vec<f64> = (0..tips.len()).map(|i| solution.value[COUPLING + i]).collect();
+    let clusters = equation.clusters_with_more(window_s_chosen, &known);
+    let missing = missing_term(&clusters, &terms, solution, TIPS + tips.len(), tips.len());
+    let solved = |length: f64, terms: &[Term]| solve(&equation.clusters(length), terms);
+    let viscous_by_direction = by_direction(channels, &one, &terms, window_s_chosen, &solved);
+    Some(MotorRegression {
+        window_s: chosen.window_s,
+        window_given: !window_s.is_empty(),
+        rows: chosen.rows,
+        phases: chosen.clusters,
+        relative_residual: solution.relative_residual,
+        inertia,
+        viscous: friction.viscous,
+        coulomb: friction.coulomb,
+        offset: friction.offset,
+        forward: friction.forward,
+        backward: friction.backward,
+        total_coupling,
+        coupling: coupling_by_tip,
+        viscous_by_direction,
+        missing,
+        terms: one.terms(),
+        candidates: found.candidates,
+    })
+}
+
+/// A solution of the equation with what its window's length adds to the standard errors.
+struct Fitted<'a> {
+    solution: &'a Solution,
+    /// Change of each term from the next shorter to the next longer window.
+    change: &'a [f64],
+    /// Tips whose couplings are among the terms.
+    tips: &'a [usize],
+}
+
+impl Fitted<'_> {
+    /// `Σ w_i·q_i` over pairs of a term and its weight; `None` where the logs do not tell a term of it.
+    fn combined(&self, weights: &[(usize, f64)]) -> Option<Estimate> {
+        let Self { solution: s, change, .. } = self;
+        if weights.is_empty() || weights.iter().any(|(i, _)| s.inseparable[*i]) {
+            return None;
+        }
+        let sum = |of: &dyn Fn(usize) -> f64| weights.iter().map(|(i, w)| w * of(*i)).sum::<f64>();
+        let variance = sum(&|i| sum(&|k| s.covariance[(i, k)]));
+        let systematic = SYSTEMATIC * sum(&|i| change[i]);
+        let std = (variance.max(0.0) + systematic * systematic).sqrt();
+        Some(Estimate { value: sum(&|i| s.value[i]), std })
+    }
+
+    /// All estimates; with viscous friction by direction where the solution has a term for it.
+    fn estimates(&self, channels: &Channels) -> DriveEstimates {
+        let back_emf = channels.command.back_emf_viscous;
+        let without_back_emf = |e: Estimate| Estimate { value: e.value - back_emf, std: e.std };
+        let viscous = |weights: &[(usize, f64)]| self.combined(weights).map(without_back_emf);
+        let single = |i: usize| self.combined(&[(i, 1.0)]);
+        let (count, difference) = (self.tips.len(), COUPLING + self.tips.len());
+        let by_direction = (self.solution.value.len() > difference)
+            .then(|| [1.0, -1.0].map(|sign| viscous(&[(PLACE_VISCOUS, 1.0), (difference, sign)])));
+        let mut coupling_by_tip = vec![None; if count == 0 { 0 } else { channels.tips.len() }];
+        for (i, &tip) in self.tips.iter().enumerate() {
+            coupling_by_tip[tip] = single(COUPLING + i);
+        }
+        let coulomb = |sign: f64| self.combined(&[(PLACE_COULOMB, 1.0), (PLACE_OFFSET, sign)]);
+        let friction = Friction {
+            coulomb: single(PLACE_COULOMB),
+            forward: coulomb(1.0),
+            backward: coulomb(-1.0),
+            offset: single(PLACE_OFFSET),
+            viscous: viscous(&[(PLACE_VISCOUS, 1.0)]),
+            viscous_by_direction: by_direction.and_then(|[f, b]| f.zip(b)),
+            ..Friction::default()
+        };
+        let all: Vec<(usize, f64)> = (COUPLING..difference).map(|i| (i, 1.0)).collect();
+        DriveEstimates {
+            friction,
+            inertia: single(PLACE_INERTIA),
+            coupling: self.combined(&all),
+            coupling_by_tip,
+        }
+    }
+
+    fn terms(&self) -> Terms {
+        let s = self.solution;
+        Terms {
+            values: s.value.iter().copied().collect(),
+            covariance: s.covariance.clone(),
+            lost: s.lost.clone(),
+            tips: self.tips.len(),
+        }
+    }
+}
+
+impl MotorRegression {
+    /// The estimates with one viscous coefficient.
+    pub fn estimates(&self) -> DriveEstimates {
+        let friction = Friction {
+            coulomb: self.coulomb,
+            forward: self.forward,
+            backward: self.backward,
+            offset: self.offset,
+            viscous: self.viscous,
+            ..Friction::default()
+        };
+        DriveEstimates {
+            friction,
+            inertia: self.inertia,
+            coupling: self.total_coupling,
+            coupling_by_tip: self.coupling.clone(),
+        }
+    }
+
+    /// Relative error with which these figures predict the windowed torque of other records:
+    /// ‖y − X·q‖/‖y‖ on their slip phases, at this fit's window. `None` where no phase holds one.
+    pub fn prediction_error(&self, campaign: &Campaign) -> Option<f64> {
+        let equation = MotorRows::of(campaign);
+        let values = &self.terms.values;
+        if self.terms.tips != equation.tips.len() {
+            return None;
+        }
+        let (mut left, mut power) = (0.0, 0.0);
+        for c in equation.clusters(self.window_s) {
+            let last = c.products.ncols() - 1;
+            let mut q = vec![values[0], values[1]];
+            q.push(c.sign * values[2] + values[3]);
+            q.extend(&values[4..]);
+            q.push(-1.0);
+            let q = DVector::from_vec(q);
+            left += q.dot(&(&c.products * &q));
+            power += c.products[(last, last)];
+        }
+        (power > 0.0).then(|| (left.max(0.0) / power).sqrt())
+    }
+}
+
+/// The fit with viscous friction by direction, if the data call for it. `solved` solves the equation with
+/// given terms in windows of a given length.
+fn by_direction(
+    channels: &Channels,
+    one: &Fitted<'_>,
+    terms: &[Term],
+    window_s: f64,
+    solved: &dyn Fn(f64, &[Term]) -> Option<Solution>,
+) -> Option<ByDirection> {
+    let mut split = terms.to_vec();
+    split.push(Term::Signed(VISCOUS));
+    let difference = terms.len();
+    let two = solved(window_s, &split)?;
+    if [PLACE_VISCOUS, PLACE_OFFSET, difference].iter().any(|i| two.inseparable[*i]) {
+        return None;
+    }
+    let deviation = two.covariance[(difference, difference)].max(0.0).sqrt();
+    let called_for = two.value[difference].abs() > DIRECTION_DEVIATIONS * deviation
+        && two.relative_residual < DIRECTION_RESIDUAL * one.solution.relative_residual;
+    if !called_for {
+        return None;
+    }
+    let [shorter, longer] =
+        [window_s / RATIO, window_s * RATIO].map(|length| solved(length, &split));
+    let change = change(shorter.as_ref(), &two, longer.as_ref());
+    let fitted = Fitted { solution: &two, change: &change, tips: one.tips };
+    Some(ByDirection {
+        estimates: fitted.estimates(channels),
+        relative_residual: two.relative_residual,
+        terms: fitted.terms(),
+    })
+}

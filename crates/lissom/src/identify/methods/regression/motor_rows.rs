@@ -1,0 +1,329 @@
+//! The motor's equation on windows within slip phases.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use nalgebra::DMatrix;
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+
+use crate::identify::methods::regression::missing::MissingKind;
+use crate::identify::methods::regression::normal::{Cluster, Rows};
+use crate::identify::methods::regression::phases::{
+    LEAST_SAMPLES, LEAST_SMOOTH, Phase, needed_smoothing, unreversed_phases,
+};
+use crate::identify::methods::regression::row_noise::{Part, RunNoise, products};
+use crate::identify::methods::regression::window::Window;
+use crate::record::{Campaign, Hold, Run, TipQuantity};
+
+/// Windows overlap by all but this part of their length.
+const STEP: f64 = 0.25;
+/// The velocity is smoothed over no more than this part of the window's length.
+const SMOOTH: f64 = 1.0 / 3.0;
+/// A window is too short where that is less than this part of what a sure sign needs.
+const SURE: f64 = 0.4;
+
+/// Columns of a row; tips follow after these.
+pub(super) const INERTIA: usize = 0;
+pub(super) const VISCOUS: usize = 1;
+pub(super) const DRY: usize = 2;
+pub(super) const TIPS: usize = 3;
+/// Columns that [`super::missing::missing_term`] tries.
+const EXTRA: usize = MissingKind::COLUMNS;
+
+/// Tips whose angle from the motor's line is known.
+pub(crate) fn coupled_tips(campaign: &Campaign) -> Vec<usize> {
+    let tips = &campaign.channels.tips;
+    (0..tips.len())
+        .filter(|&i| tips[i].calibrated && tips[i].quantity != TipQuantity::Acceleration)
+        .collect()
+}
+
+/// The motor's equation on the windows of all runs.
+pub(super) struct MotorRows<'a> {
+    campaign: &'a Campaign,
+    pub(super) tips: Vec<usize>,
+    runs: Vec<Slipping<'a>>,
+}
+
+impl<'a> MotorRows<'a> {
+    pub(super) fn of(campaign: &'a Campaign) -> Self {
+        let runs = campaign.runs.par_iter().with_max_len(1).map(Slipping::of).collect();
+        Self { campaign, tips: coupled_tips(campaign), runs }
+    }
+
+    /// Sums of every slip phase of every run, for one length of window.
+    pub(super) fn clusters(&self, length_s: f64) -> Vec<Cluster> {
+        self.of_runs(length_s, None)
+    }
+
+    /// The same, with the columns of [`super::missing::missing_term`] before the right side, `coupling` what the tips'
+    /// couplings are known as.
+    pub(super) fn clusters_with_more(&self, length_s: f64, coupling: &[f64]) -> Vec<Cluster> {
+        self.of_runs(length_s, Some(coupling))
+    }
+
+    fn of_runs(&self, length_s: f64, more: Option<&[f64]>) -> Vec<Cluster> {
+        let windows =
+            Window::of_runs(&self.campaign.runs, length_s, |index, n| self.runs[index].may_hold(n));
+        let of_run = |(index, window): (usize, &Option<Arc<Window>>)| {
+            window.as_ref().map_or_else(Vec::new, |w| self.of_run(index, w, more))
+        };
+        windows.par_iter().with_max_len(1).enumerate().flat_map_iter(of_run).collect()
+    }
+
+    fn of_run(&self, index: usize, window: &Window, more: Option<&[f64]>) -> Vec<Cluster> {
+        let (campaign, slipping) = (self.campaign, &self.runs[index]);
+        let (run, n) = (slipping.run, window.len());
+        let columns = TIPS + self.tips.len() + 1 + more.map_or(0, |_| EXTRA);
+        let step = ((n as f64 * STEP) as usize).max(1);
+        let (phases, smooth) = slipping.phases(n);
+        let plain = MotorEquation { campaign, run, tips: &self.tips, window };
+        let origin = campaign.runs.first().map_or(0.0, |run| run.motor()[0]);
+        let with_more = more.map(|coupling| WithMore {
+            plain,
+            origin,
+            slowness: slowness(run, smooth),
+            magnitude: run.command().iter().map(|u| u.abs()).collect(),
+            elapsed: Elapsed::of(campaign, index),
+            coupling,
+        });
+        let mut noise = plain.noise(&slipping.noise);
+        if more.is_some() {
+            // That of the further columns is left in: they are only tried.
+            let right = noise.ncols() - 1;
+            noise = noise.insert_columns(right, EXTRA, 0.0).insert_rows(right, EXTRA, 0.0);
+        }
+        let cluster = |phase: &Phase| {
+            let mut cluster = Cluster::new(index, phase.sign, columns);
+            let windows = (phase.from..phase.to - n).step_by(step);
+            match &with_more {
+                Some(rows) => cluster.add_windows(windows, rows, &noise),
+                None => cluster.add_windows(windows, &plain, &noise),
+            }
+            cluster
+        };
+        phases.iter().filter(|phase| phase.to - phase.from > n).map(cluster).collect()
+    }
+}
+
+/// A run with the slip phases that its own smoothing shows.
+struct Slipping<'a> {
+    run: &'a Run,
+    needed: usize,
+    smooth: usize,
+    phases: Vec<Phase>,
+    noise: RunNoise,
+}
+
+impl<'a> Slipping<'a> {
+    fn of(run: &'a Run) -> Self {
+        let needed = needed_smoothing(run.motor());
+        let smooth = needed.max(LEAST_SAMPLES);
+        let noise = RunNoise::of(run);
+        let phases = unreversed_phases(run.motor(), smooth, run.sample_time_s(), noise.motor);
+        Self { run, needed, smooth, phases, noise }
+    }
+
+    /// Phases for windows of `n` samples, and what they are smoothed over; none where the velocity
+    /// within so short a window has no sure sign.
+    fn phases(&self, n: usize) -> (Cow<'_, [Phase]>, usize) {
+        let smooth = self.smooth_for(n);
+        let phases = if SURE * self.needed as f64 > smooth as f64 {
+            Cow::Owned(Vec::new())
+        } else if smooth == self.smooth {
+            Cow::Borrowed(&self.phases[..])
+        } else {
+            let Self { run, noise, .. } = self;
+            Cow::Owned(unreversed_phases(run.motor(), smooth, run.sample_time_s(), noise.motor))
+        };
+        (phases, smooth)
+    }
+
+    /// What phases for windows of `n` samples are smoothed over.
+    fn smooth_for(&self, n: usize) -> usize {
+        let most = (n as f64 * SMOOTH) as usize;
+        self.smooth.min(most).max(LEAST_SMOOTH)
+    }
+
+    /// Whether a phase may be longer than `n` samples: surely none is where this is false.
+    fn may_hold(&self, n: usize) -> bool {
+        let longer = |phase: &Phase| phase.to - phase.from > n;
+        self.smooth_for(n) != self.smooth || self.phases.iter().any(longer)
+    }
+}
+
+/// `[∫ẅθ, −∫ẇθ, ∫w, ∫w(θ_m − θ_i).., ∫wτ]`, scaled by the noise that it carries.
+#[derive(Clone, Copy)]
+pub(crate) struct MotorEquation<'a> {
+    pub(crate) campaign: &'a Campaign,
+    pub(crate) run: &'a Run,
+    /// [`coupled_tips`].
+    pub(crate) tips: &'a [usize],
+    pub(crate) window: &'a Window,
+}
+
+impl Rows for MotorEquation<'_> {
+    #[inline(always)]
+    fn fill(&self, k: usize, row: &mut Vec<f64>) {
+        let Self { campaign, run, window, .. } = *self;
+        let (t, motor, command) = (run.sample_time_s(), &run.motor()[k..], &run.command()[k..]);
+        row.clear();
+        // From the window's first: ẇ and ẅ integrate constants to zero only up to rounding.
+        row.push(window.second.dot_from(motor, motor[0]) * t);
+        row.push(-window.first.dot_from(motor, motor[0]) * t);
+        row.push(window.area);
+        for &i in self.tips {
+            row.push(behind(campaign, run, i, window, k));
+        }
+        row.push(self.torque(command));
+        for value in row {
+            *value *= window.row_scale;
+        }
+    }
+}
+
+impl MotorEquation<'_> {
+    /// What noise adds to a row's products, in expectation.
+    pub(crate) fn noise(&self, of_run: &RunNoise) -> DMatrix<f64> {
+        let window = self.window;
+        let mut of_motor: Vec<Part<'_>> =
+            vec![(INERTIA, &window.second, 1.0), (VISCOUS, &window.first, -1.0)];
+        let mut channels = Vec::with_capacity(1 + self.tips.len());
+        for (place, &i) in self.tips.iter().enumerate() {
+            let column = TIPS + place;
+            if self.campaign.channels.tips[i].quantity != TipQuantity::Deflection {
+                of_motor.push((column, &window.value, 1.0));
+            }
+            let of_tip: Vec<Part<'_>> = vec![(column, &window.value, -1.0)];
+            channels.push((of_run.tips[i], of_tip));
+        }
+        channels.push((of_run.motor, of_motor));
+        let noise = products(TIPS + self.tips.len() + 1, channels);
+        noise * (self.run.sample_time_s() * window.row_scale).powi(2)
+    }
+
+    fn torque_per_command(&self) -> f64 {
+        self.campaign.channels.command.torque_per_command.unwrap_or(1.0)
+    }
+
+    /// `∫wτ` of what is commanded from the window's first sample on.
+    #[inline(always)]
+    fn torque(&self, command: &[f64]) -> f64 {
+        let window = self.window;
+        self.torque_per_command()
+            * match self.campaign.channels.command.hold {
+                Hold::Sampled => window.held.dot(command),
+                Hold::Measured => window.value.dot(command) * self.run.sample_time_s(),
+            }
+    }
+
+    /// `∫ẇτ`: what a torque that acts later leaves, by its delay.
+    #[inline(always)]
+    pub(crate) fn later(&self, k: usize) -> f64 {
+        let (window, command) = (self.window, &self.run.command()[k..]);
+        self.torque_per_command()
+            * match self.campaign.channels.command.hold {
+                Hold::Sampled => window.rise.dot(command),
+                Hold::Measured => window.first.dot(command) * self.run.sample_time_s(),
+            }
+    }
+}
+
+impl MotorEquation<'_> {
+    /// `∫w(θ̇_m − θ̇_i)` of the coupled tip of number `place`: what damping within the beam adds.
+    #[inline(always)]
+    pub(crate) fn behind_rate(&self, place: usize, k: usize) -> f64 {
+        let (first, i) = (&self.window.first, self.tips[place]);
+        let (motor, tip) = (&self.run.motor()[k..], &self.run.tips()[i][k..]);
+        self.run.sample_time_s()
+            * match self.campaign.channels.tips[i].quantity {
+                TipQuantity::Deflection => first.dot_from(tip, tip[0]),
+                _ => -first.dot_difference(motor, tip),
+            }
+    }
+}
+
+/// `∫w(θ_m − θ_i)`.
+#[inline(always)]
+pub(super) fn behind(campaign: &Campaign, run: &Run, i: usize, window: &Window, k: usize) -> f64 {
+    let (motor, tip) = (&run.motor()[k..], &run.tips()[i][k..]);
+    run.sample_time_s()
+        * match campaign.channels.tips[i].quantity {
+            TipQuantity::Deflection => -window.value.dot(tip),
+            _ => window.value.dot_difference(motor, tip),
+        }
+}
+
+/// `[∫ẇτ, ∫wθ, ∫w·e^{−|v|/v̄}, Σκ_i∫w(θ̇_m − θ̇_i), ∫w|τ|, e∫w, −e∫ẇθ]` before the right side, e how much of the
+/// campaign is over.
+struct WithMore<'a> {
+    plain: MotorEquation<'a>,
+    /// Where positions are counted from.
+    origin: f64,
+    slowness: Vec<f64>,
+    /// |command|.
+    magnitude: Vec<f64>,
+    elapsed: Elapsed,
+    /// κ_i of the coupled tips.
+    coupling: &'a [f64],
+}
+
+impl Rows for WithMore<'_> {
+    #[inline(always)]
+    fn fill(&self, k: usize, row: &mut Vec<f64>) {
+        let MotorEquation { run, window, .. } = self.plain;
+        let t = run.sample_time_s();
+        let by_position = window.value.dot_from(&run.motor()[k..], self.origin);
+        let by_slowness = window.value.dot(&self.slowness[k..]);
+        let coupling = self.coupling.iter().enumerate();
+        let by_rate = coupling.map(|(i, c)| c * self.plain.behind_rate(i, k)).sum::<f64>();
+        let by_size = self.plain.torque(&self.magnitude[k..]);
+        let elapsed = self.elapsed.at(k + window.len() / 2);
+        self.plain.fill(k, row);
+        let scale = window.row_scale;
+        let more = [
+            self.plain.later(k) * scale,
+            by_position * t * scale,
+            by_slowness * t * scale,
+            by_rate * scale,
+            by_size * scale,
+            elapsed * row[DRY],
+            elapsed * row[VISCOUS],
+        ];
+        let right = row.len() - 1;
+        row.splice(right..right, more);
+    }
+}
+
+/// How much of a campaign is over, from −½ at its first sample to ½ at its last, its runs one after the other.
+struct Elapsed {
+    start: f64,
+    of_sample: f64,
+}
+
+impl Elapsed {
+    fn of(campaign: &Campaign, run: usize) -> Self {
+        let lasts = |run: &Run| run.len() as f64 * run.sample_time_s();
+        let all: f64 = campaign.runs.iter().map(lasts).sum();
+        let before: f64 = campaign.runs[..run].iter().map(lasts).sum();
+        Self { start: before / all - 0.5, of_sample: campaign.runs[run].sample_time_s() / all }
+    }
+
+    fn at(&self, sample: usize) -> f64 {
+        self.start + sample as f64 * self.of_sample
+    }
+}
+
+/// `e^{−|v|/v̄}` at every sample, v̄ the run's mean speed.
+fn slowness(run: &Run, smooth: usize) -> Vec<f64> {
+    let x = run.motor();
+    let last = x.len() - 1;
+    let speed: Vec<f64> = (0..x.len())
+        .map(|k| {
+            let (from, to) = (k.saturating_sub(smooth / 2), (k + smooth / 2).min(last));
+            ((x[to] - x[from]) / (to - from).max(1) as f64).abs()
+        })
+        .collect();
+    let mean = speed.iter().sum::<f64>() / speed.len() as f64;
+    speed.iter().map(|v| (-v / mean.max(f64::MIN_POSITIVE)).exp()).collect()
+}

@@ -1,0 +1,42 @@
+//! What the sensors' noise adds to the products of a row's columns.
+
+use nalgebra::DMatrix;
+
+use crate::identify::methods::regression::window::dot;
+use crate::identify::prepare::channel_noise::independent_noise;
+use crate::record::Run;
+
+/// Deviation of what is independent from sample to sample in each channel of a run.
+pub(crate) struct RunNoise {
+    pub(super) motor: f64,
+    pub(super) tips: Vec<f64>,
+}
+
+impl RunNoise {
+    pub(crate) fn of(run: &Run) -> Self {
+        let tips = run.tips().iter().map(|tip| independent_noise(tip)).collect();
+        Self { motor: independent_noise(run.motor()), tips }
+    }
+}
+
+/// A column's weights on the samples of a channel, and their sign.
+pub(super) type Part<'a> = (usize, &'a [f64], f64);
+
+/// Expected products of `columns` columns, each channel given by its noise's deviation and its parts.
+pub(super) fn products<'a>(
+    columns: usize,
+    channels: impl IntoIterator<Item = (f64, Vec<Part<'a>>)>,
+) -> DMatrix<f64> {
+    let mut sum = DMatrix::zeros(columns, columns);
+    for (std, parts) in channels {
+        for (place, (i, a, left)) in parts.iter().enumerate() {
+            sum[(*i, *i)] += std * std * left * left * dot(a, a);
+            for (j, b, right) in &parts[..place] {
+                let product = std * std * left * right * dot(a, b);
+                sum[(*i, *j)] += product;
+                sum[(*j, *i)] += product;
+            }
+        }
+    }
+    sum
+}

@@ -1,0 +1,136 @@
+//! Drive and beam as linear models, for other tools to go on with.
+
+use num_complex::Complex64;
+
+use crate::identify::estimate::Estimate;
+use crate::identify::judge::{Evidence, Methods};
+use crate::identify::methods::output_error::OutputError;
+use crate::identify::responses::model::state_space;
+use crate::identify::responses::rational::MotorFit;
+use crate::lti::{StateSpace, TransferFunction};
+use crate::record::{Axis, Campaign, Tip, TipQuantity};
+use crate::replay::{ModalArm, Parameter};
+
+/// What linear models are made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ModelSource {
+    /// The arm that stands for the result, from the output error: damping of every kind that it has.
+    Arm,
+    /// Fits to the responses, or the regressions' figures: damping of the beam is against the frame.
+    #[default]
+    Responses,
+}
+
+/// A tip's angle, or what it is, per motor angle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TipModel {
+    /// θ_i/θ_m of an angle and of a calibrated deflection, s² times that of an acceleration. Of a deflection
+    /// of unknown scale the deflection itself, in its unit.
+    pub function: TransferFunction,
+    /// The tip is read this much later than the motor \[s\], not part of `function`; `None` where that is not
+    /// looked for.
+    pub delay_s: Option<f64>,
+}
+
+/// Linear models of drive and beam, friction taken out.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LinearModels {
+    /// What they are made of.
+    pub source: ModelSource,
+    /// θ_m per command, monic.
+    pub motor: Option<TransferFunction>,
+    /// By how much the command acts later than it is logged \[s\], not part of `motor`; `None` where no
+    /// delay is called for.
+    pub motor_delay: Option<Estimate>,
+    /// One for each tip, in their order; empty where there is no model of the beam.
+    pub tips: Vec<TipModel>,
+    /// From the command to the motor and each tip whose angle is known; without delays.
+    pub state_space: Option<StateSpace>,
+}
+
+impl LinearModels {
+    /// Of the output error's arm where it stands, else of the rational fits. A tip that is dead counts as
+    /// one of unknown scale.
+    pub(crate) fn of(evidence: &Evidence<'_>) -> Self {
+        let (campaign, constant) = (evidence.used, evidence.torque_per_command());
+        match evidence.replay() {
+            Some(oe) => Self::of_arm(campaign, &oe.arm, oe, constant),
+            None => Self::of_fits(campaign, evidence.methods, constant),
+        }
+    }
+
+    fn of_arm(campaign: &Campaign, arm: &ModalArm, oe: &OutputError, constant: f64) -> Self {
+        let tips = campaign.channels.tips.iter().enumerate();
+        let tip = |(i, tip): (usize, &Tip)| {
+            let mut function = arm.tip_function(i);
+            match (tip.quantity, tip.calibrated) {
+                (TipQuantity::Angle, _) | (TipQuantity::Deflection, true) => {}
+                (TipQuantity::Acceleration, _) => function.num.extend([0.0, 0.0]),
+                (TipQuantity::Deflection, false) => function = less_one(&function),
+            }
+            let lag = Parameter::TipLag(i).of(arm);
+            TipModel { function, delay_s: Some(lag) }
+        };
+        Self {
+            source: ModelSource::Arm,
+            motor: Some(arm.motor_function(constant)),
+            motor_delay: oe.estimate(Parameter::CommandLag),
+            tips: tips.map(tip).collect(),
+            state_space: Some(arm.state_space(constant, &angles(campaign), unit(campaign))),
+        }
+    }
+
+    fn of_fits(campaign: &Campaign, methods: &Methods, constant: f64) -> Self {
+        let beam = methods.beam_model.as_ref();
+        let functions = beam.map_or(&[][..], |b| &b.transfer_functions);
+        let tip = |g: &TransferFunction| TipModel { function: g.clone(), delay_s: None };
+        let joined =
+            |m: &MotorFit| state_space(m, constant, beam, &angles(campaign), unit(campaign));
+        Self {
+            source: ModelSource::Responses,
+            motor: methods.motor_model.as_ref().map(|m| m.transfer_function.clone()),
+            motor_delay: methods.motor_model.as_ref().and_then(|m| m.delay_s),
+            tips: functions.iter().map(tip).collect(),
+            state_space: methods.motor_model.as_ref().map(joined),
+        }
+    }
+
+    /// θ_m per logged command at ω, the delay in it.
+    pub fn motor_response(&self, omega_rad_s: f64) -> Option<Complex64> {
+        let delay_s = self.motor_delay.map_or(0.0, |d| d.value);
+        Some(delayed(self.motor.as_ref()?, delay_s, omega_rad_s))
+    }
+
+    /// A tip as it is read per motor angle at ω, its delay in it; `None` without a model of it.
+    pub fn tip_response(&self, tip: usize, omega_rad_s: f64) -> Option<Complex64> {
+        let tip = self.tips.get(tip)?;
+        Some(delayed(&tip.function, tip.delay_s.unwrap_or(0.0), omega_rad_s))
+    }
+}
+
+fn delayed(function: &TransferFunction, delay_s: f64, omega_rad_s: f64) -> Complex64 {
+    function.response(omega_rad_s) * Complex64::cis(-omega_rad_s * delay_s)
+}
+
+/// G − 1 of one over the same denominator.
+fn less_one(g: &TransferFunction) -> TransferFunction {
+    let offset = g.den.len() - g.num.len();
+    let at = |i: usize| i.checked_sub(offset).map_or(0.0, |k| g.num[k]);
+    let num = g.den.iter().enumerate().map(|(i, d)| at(i) - d).collect();
+    TransferFunction { num, den: g.den.clone() }
+}
+
+/// Tips whose angle is known, by index and name.
+fn angles(campaign: &Campaign) -> Vec<(usize, String)> {
+    let tips = campaign.channels.tips.iter().enumerate();
+    tips.filter(|(_, t)| t.calibrated && t.quantity != TipQuantity::Acceleration)
+        .map(|(i, t)| (i, t.name.clone()))
+        .collect()
+}
+
+fn unit(campaign: &Campaign) -> &'static str {
+    match campaign.channels.axis {
+        Axis::Rotary => "rad",
+        Axis::Linear => "m",
+    }
+}

@@ -1,0 +1,11 @@
+//! Frequency responses, corrected for friction, and the models that fit them.
+
+pub(crate) mod bands;
+pub(crate) mod correct;
+pub(crate) mod friction_waveform;
+pub(crate) mod linear_models;
+pub(crate) mod model;
+pub(crate) mod models;
+pub(crate) mod rational;
+pub(crate) mod replayed_bands;
+pub(crate) mod response_table;

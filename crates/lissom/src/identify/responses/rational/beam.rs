@@ -1,0 +1,463 @@
+//! Common poles and residues of the tips' responses to the motor's angle.
+
+use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
+use nalgebra::storage::Owned;
+use nalgebra::{DMatrix, DVector, Dyn};
+use num_complex::Complex64;
+
+use crate::identify::estimate::{Estimate, ModeEstimate};
+use crate::identify::responses::correct::Response;
+use crate::identify::responses::rational::{
+    Pole, common_denominator, information, others, trial_frequencies,
+};
+use crate::lti::{TransferFunction, add, multiply};
+
+/// Most modes looked for.
+const MOST_MODES: usize = 4;
+/// Damping ratio with which a new mode starts.
+const START_DAMPING: f64 = 0.02;
+/// Poles damped less or more than this are none of a beam: the search ends before them.
+const DAMPING: std::ops::Range<f64> = -0.01..0.5;
+/// A pole more damped than this, or outside the data's frequencies, mends the model's edges and is
+/// not called a mode.
+const MODE_DAMPING: f64 = 0.25;
+/// A mode is there when one of its residues is this many deviations from zero.
+const PRESENT: f64 = 4.0;
+/// Responses are trusted to this share of their size at best: held currents, quantised angles
+/// and windows leave errors that no residual shows.
+const FLOOR: f64 = 2e-3;
+
+/// How a tip's response follows from the modes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TipForm {
+    /// Angle: `Σ r_k/(s² + 2ζ_kω_k·s + ω_k²)`, relative degree two.
+    Angle,
+    /// Acceleration, or a deflection of unknown scale: `s²` times that.
+    SecondDerivative,
+}
+
+/// Responses of one tip.
+#[derive(Debug, Clone)]
+pub struct TipData {
+    /// Form of its model.
+    pub form: TipForm,
+    /// Response to the motor's angle at each frequency.
+    pub response: Vec<Response>,
+}
+
+/// Modes and residues.
+#[derive(Debug, Clone)]
+pub struct BeamFit {
+    /// Poles, ascending.
+    pub poles: Vec<Pole>,
+    /// Those poles that are modes, with their deviations, ascending: within the data's frequencies
+    /// and lightly damped. Others mend the model's edges.
+    pub modes: Vec<ModeEstimate>,
+    /// Index into `poles` of each mode.
+    pub mode_poles: Vec<usize>,
+    /// `r_ik` of tip i (outer) and mode k.
+    pub residues: Vec<Vec<Estimate>>,
+    /// θ_i/θ_m (or the second derivative's) of each tip, monic.
+    pub transfer_functions: Vec<TransferFunction>,
+    /// Root mean square of the weighted residuals: one where the model is as good as the data.
+    pub weighted_rms: f64,
+    /// Root mean square of the residuals relative to that of the responses.
+    pub relative_residual: f64,
+}
+
+/// Fits the tips' responses with common poles, weighted by their deviations.
+///
+/// Modes are added one at a time: each starts where a scan over frequency lowers the cost most,
+/// all are then refined together by Levenberg-Marquardt; the number is the one with the least
+/// Bayesian information criterion. `None` with fewer than four frequencies.
+///
+/// `θ_i/θ_m = Σ_k r_ik/(s² + 2ζ_kω_k·s + ω_k²)`, r_ik in 1/s², times s² for
+/// [`TipForm::SecondDerivative`].
+///
+/// ```
+/// # use {lissom::identify::{Pole, Response}, num_complex::Complex64};
+/// # let omega: Vec<f64> = (0..30).map(|k| 1.15_f64.powi(k)).collect();
+/// # let pole = Pole { omega_rad_s: 6.6, damping_ratio: 0.005 };
+/// # let response: Vec<Response> = omega.iter().map(|&w| 43.75 / pole.denominator(w)).map(|value: Complex64| Response { value, std: 1e-4 }).collect();
+/// use lissom::identify::{TipData, TipForm, fit_beam}; // of 43.75/(s² + 2ζω·s + ω²), ω = 6.6
+/// let fit = fit_beam(&omega, &[TipData { form: TipForm::Angle, response }]).unwrap();
+/// assert!((fit.modes[0].natural_frequency_rad_s.value - 6.6).abs() < 1e-6);
+/// assert!((fit.residues[0][0].value - 43.75).abs() < 1e-4);
+/// ```
+///
+/// # Source
+/// `[Feliu1989, eqs. (19), (36)]`: common denominator, relative degree of at least two.
+///
+/// # Differences from the source
+/// Poles may be damped; residues are real, so a damped mode keeps the undamped one's shape.
+pub fn fit_beam(omega_rad_s: &[f64], tips: &[TipData]) -> Option<BeamFit> {
+    let m = omega_rad_s.len();
+    if m < 4 || tips.is_empty() || tips.iter().any(|t| t.response.len() != m) {
+        return None;
+    }
+    let data = Data::new(omega_rad_s, tips)?;
+    let mut best: Option<(f64, Problem)> = None;
+    let mut poles: Vec<Pole> = Vec::new();
+    for count in 1..=MOST_MODES {
+        let parameters = count * (2 + tips.len());
+        if parameters + 2 > 2 * m * tips.len() {
+            break;
+        }
+        let Some(start) = data.best_start(&poles) else { break };
+        poles.push(start);
+        let residues = data.residues(&poles)?;
+        let problem = Problem { data: &data, x: pack(&poles, &residues) };
+        let (solved, _) = LevenbergMarquardt::new().with_patience(200).minimize(problem);
+        poles = solved.poles();
+        let low = omega_rad_s.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = omega_rad_s.iter().copied().fold(0.0, f64::max);
+        let plausible = |p: &Pole| {
+            DAMPING.contains(&p.damping_ratio)
+                && p.omega_rad_s > 0.3 * low
+                && p.omega_rad_s < 3.0 * high
+        };
+        if !poles.iter().all(plausible) || !solved.all_residues_are_there() {
+            break;
+        }
+        let cost = solved.residuals()?.norm_squared();
+        let score = information(2 * m * tips.len(), parameters, cost);
+        let improved = best.as_ref().is_none_or(|(least, _)| score < *least);
+        if !improved {
+            break;
+        }
+        let explained = cost <= (2 * m * tips.len() - parameters) as f64;
+        best = Some((score, solved));
+        if explained {
+            // Within what the responses claim: another mode would fit their errors.
+            break;
+        }
+    }
+    best.and_then(|(_, solved)| finish(&data, tips, &solved))
+}
+
+pub(super) struct Data {
+    omega: Vec<f64>,
+    forms: Vec<TipForm>,
+    /// By tip: response and weight 1/σ at each frequency.
+    points: Vec<Vec<(Complex64, f64)>>,
+}
+
+impl Data {
+    pub(super) fn new(omega: &[f64], tips: &[TipData]) -> Option<Self> {
+        let points = tips
+            .iter()
+            .map(|t| {
+                t.response
+                    .iter()
+                    .map(|r| {
+                        let sigma = r.std.hypot(FLOOR * r.value.norm());
+                        (sigma > 0.0 && sigma.is_finite()).then_some((r.value, 1.0 / sigma))
+                    })
+                    .collect::<Option<Vec<_>>>()
+            })
+            .collect::<Option<Vec<_>>>()?;
+        Some(Self { omega: omega.to_vec(), forms: tips.iter().map(|t| t.form).collect(), points })
+    }
+
+    /// How many tips.
+    pub(super) fn len(&self) -> usize {
+        self.forms.len()
+    }
+
+    fn shape(&self, tip: usize, omega: f64) -> f64 {
+        match self.forms[tip] {
+            TipForm::Angle => 1.0,
+            TipForm::SecondDerivative => -omega * omega,
+        }
+    }
+
+    /// Weighted linear least squares for the residues of one tip, and what it leaves.
+    pub(super) fn residues_of(
+        &self,
+        tip: usize,
+        poles: &[Pole],
+    ) -> Option<(DVector<f64>, DVector<f64>)> {
+        let m = self.omega.len();
+        let mut a = DMatrix::zeros(2 * m, poles.len());
+        let mut b = DVector::zeros(2 * m);
+        for (row, (&w, &(value, weight))) in self.omega.iter().zip(&self.points[tip]).enumerate() {
+            for (k, pole) in poles.iter().enumerate() {
+                let z = weight * self.shape(tip, w) / pole.denominator(w);
+                (a[(2 * row, k)], a[(2 * row + 1, k)]) = (z.re, z.im);
+            }
+            (b[2 * row], b[2 * row + 1]) = (weight * value.re, weight * value.im);
+        }
+        let solution = a.clone().svd(true, true).solve(&b, 1e-12).ok()?;
+        let left = b - a * &solution;
+        Some((solution, left))
+    }
+
+    fn residues(&self, poles: &[Pole]) -> Option<Vec<DVector<f64>>> {
+        (0..self.forms.len()).map(|i| Some(self.residues_of(i, poles)?.0)).collect()
+    }
+
+    /// The pole whose addition lowers the cost most.
+    fn best_start(&self, poles: &[Pole]) -> Option<Pole> {
+        let cost = |candidate: Pole| -> Option<f64> {
+            let all: Vec<Pole> = poles.iter().copied().chain([candidate]).collect();
+            let each = (0..self.forms.len()).map(|i| self.residues_of(i, &all));
+            each.map(|found| Some(found?.1.norm_squared())).sum()
+        };
+        trial_frequencies(&self.omega)
+            .into_iter()
+            .map(|omega_rad_s| Pole { omega_rad_s, damping_ratio: START_DAMPING })
+            .filter_map(|p| Some((p, cost(p)?)))
+            .filter(|(_, c)| c.is_finite())
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|(p, _)| p)
+    }
+}
+
+/// Parameters: ω_k, ζ_k of each pole, then the residues tip by tip.
+fn pack(poles: &[Pole], residues: &[DVector<f64>]) -> DVector<f64> {
+    let head = poles.iter().flat_map(|p| [p.omega_rad_s, p.damping_ratio]);
+    let tail = residues.iter().flat_map(|r| r.iter().copied());
+    DVector::from_iterator(poles.len() * (2 + residues.len()), head.chain(tail))
+}
+
+struct Problem<'a> {
+    data: &'a Data,
+    x: DVector<f64>,
+}
+
+impl Problem<'_> {
+    fn modes(&self) -> usize {
+        self.x.len() / (2 + self.data.forms.len())
+    }
+    fn poles(&self) -> Vec<Pole> {
+        (0..self.modes())
+            .map(|k| Pole { omega_rad_s: self.x[2 * k].abs(), damping_ratio: self.x[2 * k + 1] })
+            .collect()
+    }
+    fn residue(&self, tip: usize, mode: usize) -> usize {
+        2 * self.modes() + tip * self.modes() + mode
+    }
+    /// Calls `visit` with the row of each real residual's first half, its data and weight.
+    fn rows(&self, mut visit: impl FnMut(usize, usize, f64, Complex64, f64)) {
+        let mut row = 0;
+        for (tip, points) in self.data.points.iter().enumerate() {
+            for (&w, &(value, weight)) in self.data.omega.iter().zip(points) {
+                visit(row, tip, w, value, weight);
+                row += 2;
+            }
+        }
+    }
+    /// Whether each mode has a residue in some tip that stands clear of its deviation.
+    fn all_residues_are_there(&self) -> bool {
+        let Some((jacobian, residuals)) = self.jacobian().zip(self.residuals()) else {
+            return false;
+        };
+        let Ok(covariance) = (jacobian.transpose() * &jacobian).pseudo_inverse(1e-14) else {
+            return false;
+        };
+        let free = residuals.len().saturating_sub(self.x.len()).max(1) as f64;
+        let spread = (residuals.norm_squared() / free).sqrt();
+        (0..self.modes()).all(|k| {
+            (0..self.data.forms.len()).any(|tip| {
+                let at = self.residue(tip, k);
+                self.x[at].abs() > PRESENT * spread * covariance[(at, at)].max(0.0).sqrt()
+            })
+        })
+    }
+    fn rows_len(&self) -> usize {
+        2 * self.data.omega.len() * self.data.forms.len()
+    }
+}
+
+impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
+    type ResidualStorage = Owned<f64, Dyn>;
+    type JacobianStorage = Owned<f64, Dyn, Dyn>;
+    type ParameterStorage = Owned<f64, Dyn>;
+
+    fn set_params(&mut self, x: &DVector<f64>) {
+        self.x.copy_from(x);
+    }
+    fn params(&self) -> DVector<f64> {
+        self.x.clone()
+    }
+    fn residuals(&self) -> Option<DVector<f64>> {
+        let poles = self.poles();
+        let mut out = DVector::zeros(self.rows_len());
+        self.rows(|row, tip, w, value, weight| {
+            let model: Complex64 = poles
+                .iter()
+                .enumerate()
+                .map(|(k, p)| {
+                    self.x[self.residue(tip, k)] * self.data.shape(tip, w) / p.denominator(w)
+                })
+                .sum();
+            let r = (model - value) * weight;
+            (out[row], out[row + 1]) = (r.re, r.im);
+        });
+        out.iter().all(|v| v.is_finite()).then_some(out)
+    }
+    fn jacobian(&self) -> Option<DMatrix<f64>> {
+        let poles = self.poles();
+        let mut out = DMatrix::zeros(self.rows_len(), self.x.len());
+        self.rows(|row, tip, w, _, weight| {
+            for (k, p) in poles.iter().enumerate() {
+                let inverse = 1.0 / p.denominator(w);
+                let unit = weight * self.data.shape(tip, w) * inverse;
+                let r = self.residue(tip, k);
+                let steep = -self.x[r] * unit * inverse;
+                let by_omega = steep
+                    * Complex64::new(2.0 * p.omega_rad_s, 2.0 * p.damping_ratio * w)
+                    * self.x[2 * k].signum();
+                let by_damping = steep * Complex64::new(0.0, 2.0 * p.omega_rad_s * w);
+                for (column, z) in [(2 * k, by_omega), (2 * k + 1, by_damping), (r, unit)] {
+                    (out[(row, column)], out[(row + 1, column)]) = (z.re, z.im);
+                }
+            }
+        });
+        out.iter().all(|v| v.is_finite()).then_some(out)
+    }
+}
+
+impl BeamFit {
+    /// The model of one tip and one mode: `ω²/(s² + 2ζω·s + ω²)`, as (36).
+    pub(crate) fn of_mode(mode: ModeEstimate) -> Self {
+        let omega = mode.natural_frequency_rad_s;
+        let pole = Pole { omega_rad_s: omega.value, damping_ratio: mode.damping_ratio.value };
+        let gain = omega.value * omega.value;
+        let residue = Estimate { value: gain, std: 2.0 * omega.value * omega.std };
+        Self {
+            poles: vec![pole],
+            modes: vec![mode],
+            mode_poles: vec![0],
+            residues: vec![vec![residue]],
+            transfer_functions: vec![TransferFunction {
+                num: vec![gain],
+                den: pole.polynomial().to_vec(),
+            }],
+            weighted_rms: 0.0,
+            relative_residual: 0.0,
+        }
+    }
+
+    /// Poles that are modes, ascending.
+    pub fn modal_poles(&self) -> Vec<Pole> {
+        self.mode_poles.iter().map(|&i| self.poles[i]).collect()
+    }
+}
+
+fn finish(data: &Data, tips: &[TipData], solved: &Problem) -> Option<BeamFit> {
+    let jacobian = solved.jacobian()?;
+    let residuals = solved.residuals()?;
+    let free = residuals.len().saturating_sub(solved.x.len()).max(1) as f64;
+    let weighted_rms = (residuals.norm_squared() / free).sqrt();
+    // Weights may be wrong by a factor: the residual sets it, but never below what they claim.
+    let spread = weighted_rms.max(1.0);
+    let covariance = (jacobian.transpose() * &jacobian).pseudo_inverse(1e-14).ok()?;
+    let std = |i: usize| spread * covariance[(i, i)].max(0.0).sqrt();
+    let found = solved.poles();
+    let mut order: Vec<usize> = (0..found.len()).collect();
+    order.sort_by(|a, b| found[*a].omega_rad_s.total_cmp(&found[*b].omega_rad_s));
+    let poles: Vec<Pole> = order.iter().map(|&k| found[k]).collect();
+    let low = data.omega.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = data.omega.iter().copied().fold(0.0, f64::max);
+    let mode_poles: Vec<usize> = (0..poles.len())
+        .filter(|&i| {
+            let (zeta, at) = (poles[i].damping_ratio, poles[i].omega_rad_s);
+            let damped = zeta < MODE_DAMPING && zeta > -2.0 * std(2 * order[i] + 1);
+            damped && (low..=high).contains(&at)
+        })
+        .collect();
+    let modes = mode_poles
+        .iter()
+        .map(|&i| ModeEstimate {
+            natural_frequency_rad_s: Estimate {
+                value: poles[i].omega_rad_s,
+                std: std(2 * order[i]),
+            },
+            damping_ratio: Estimate { value: poles[i].damping_ratio, std: std(2 * order[i] + 1) },
+        })
+        .collect();
+    let residues: Vec<Vec<Estimate>> = (0..tips.len())
+        .map(|i| {
+            order
+                .iter()
+                .map(|&k| {
+                    let at = solved.residue(i, k);
+                    Estimate { value: solved.x[at], std: std(at) }
+                })
+                .collect()
+        })
+        .collect();
+    let transfer_functions = functions(&poles, &residues, tips);
+    let (mut left, mut power) = (0.0, 0.0);
+    solved.rows(|row, _, _, value, weight| {
+        left += (residuals[row].powi(2) + residuals[row + 1].powi(2)) / (weight * weight);
+        power += value.norm_sqr();
+    });
+    Some(BeamFit {
+        poles,
+        modes,
+        mode_poles,
+        residues,
+        transfer_functions,
+        weighted_rms,
+        relative_residual: (left / power).sqrt(),
+    })
+}
+
+/// θ_i/θ_m, or the second derivative's, of each tip.
+pub(super) fn functions(
+    poles: &[Pole],
+    residues: &[Vec<Estimate>],
+    tips: &[TipData],
+) -> Vec<TransferFunction> {
+    let of_tip = |(row, tip): (&Vec<Estimate>, &TipData)| {
+        let mut num = row
+            .iter()
+            .enumerate()
+            .fold(Vec::new(), |sum, (k, r)| add(&sum, &multiply(&[r.value], &others(poles, k))));
+        if tip.form == TipForm::SecondDerivative {
+            num.extend([0.0, 0.0]);
+        }
+        TransferFunction { num, den: common_denominator(poles) }
+    };
+    residues.iter().zip(tips).map(of_tip).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_modes_and_two_tips_are_found_without_being_told() {
+        let truth = [
+            Pole { omega_rad_s: 6.0, damping_ratio: 0.004 },
+            Pole { omega_rad_s: 40.0, damping_ratio: 0.01 },
+        ];
+        let residues = [[30.0, 400.0], [45.0, -500.0]];
+        let omega: Vec<f64> = (0..60).map(|k| 1.1_f64.powi(k) * 0.5).collect();
+        let tips: Vec<TipData> = residues
+            .iter()
+            .map(|r| TipData {
+                form: TipForm::Angle,
+                response: omega
+                    .iter()
+                    .map(|&w| {
+                        let value = r[0] / truth[0].denominator(w) + r[1] / truth[1].denominator(w);
+                        Response { value, std: 1e-4 * value.norm() }
+                    })
+                    .collect(),
+            })
+            .collect();
+        let fit = fit_beam(&omega, &tips).unwrap();
+        assert_eq!(fit.poles.len(), 2);
+        for (found, t) in fit.poles.iter().zip(truth) {
+            assert!((found.omega_rad_s / t.omega_rad_s - 1.0).abs() < 1e-8, "{found:?}");
+            assert!((found.damping_ratio - t.damping_ratio).abs() < 1e-8, "{found:?}");
+        }
+        assert!((fit.residues[1][1].value + 500.0).abs() < 1e-5);
+        let g = fit.transfer_functions[0].response(3.0);
+        let t = 30.0 / truth[0].denominator(3.0) + 400.0 / truth[1].denominator(3.0);
+        assert!((g - t).norm() < 1e-6);
+    }
+}

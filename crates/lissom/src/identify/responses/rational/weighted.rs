@@ -1,0 +1,116 @@
+//! Responses as a fit sees them: each over the deviation of its real and of its imaginary part, 1/√2 of
+//! the response's own, `√E|Ĝ − G|²`.
+
+use std::f64::consts::SQRT_2;
+
+use num_complex::Complex64;
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+
+use crate::identify::responses::correct::Response;
+use crate::identify::responses::rational::shared_poles::SharedPolesError;
+
+/// Points times columns from which on an output is worth a thread (`benches/rational`).
+const WORTH_A_THREAD: usize = 16_000;
+
+/// Responses of outputs to one input, on one grid of frequencies.
+#[derive(Clone)]
+pub(super) struct Weighted {
+    pub(super) omega: Vec<f64>,
+    pub(super) outputs: Vec<Output>,
+}
+
+/// One output.
+#[derive(Clone)]
+pub(super) struct Output {
+    /// By which it was turned back, where a delay of it is looked for.
+    pub(super) delay_s: Option<f64>,
+    /// The last model of it, weighted: what a delay turns. The data themselves at first.
+    pub(super) model: Vec<Complex64>,
+    /// √2/σ.
+    pub(super) weights: Vec<f64>,
+    /// Response times that.
+    pub(super) weighted: Vec<Complex64>,
+}
+
+impl Output {
+    /// Σ|H·√2/σ|².
+    pub(super) fn squares(&self) -> f64 {
+        self.weighted.iter().map(Complex64::norm_sqr).sum()
+    }
+}
+
+impl Weighted {
+    pub(super) fn new(omega: &[f64], outputs: &[Vec<Response>]) -> Result<Self, SharedPolesError> {
+        if outputs.is_empty() {
+            return Err(SharedPolesError::NoOutput);
+        }
+        if let Some(index) = omega.iter().position(|w| !(w.is_finite() && *w > 0.0)) {
+            return Err(SharedPolesError::Frequency { index, found_rad_s: omega[index] });
+        }
+        let output = |(output, responses): (usize, &Vec<Response>)| {
+            let (found, expected) = (responses.len(), omega.len());
+            if found != expected {
+                return Err(SharedPolesError::Grid { output, found, expected });
+            }
+            let sound = |r: &Response| r.value.is_finite() && r.std.is_finite() && r.std > 0.0;
+            if let Some(index) = responses.iter().position(|r| !sound(r)) {
+                return Err(SharedPolesError::Response { output, index });
+            }
+            let weights: Vec<f64> = responses.iter().map(|r| SQRT_2 / r.std).collect();
+            let weighted = responses.iter().zip(&weights).map(|(r, weight)| r.value * weight);
+            Ok(Output { delay_s: None, model: Vec::new(), weighted: weighted.collect(), weights })
+        };
+        let outputs = outputs.iter().enumerate().map(output).collect::<Result<_, _>>()?;
+        Ok(Self { omega: omega.to_vec(), outputs })
+    }
+
+    /// The same with a delay to be looked for in each output.
+    pub(super) fn with_delays(&self) -> Self {
+        let mut data = self.clone();
+        for output in &mut data.outputs {
+            output.delay_s = Some(0.0);
+            output.model.clone_from(&output.weighted);
+        }
+        data
+    }
+
+    /// Turns an output back by `late_s` more.
+    pub(super) fn turn_back(&mut self, output: usize, late_s: f64) {
+        let output = &mut self.outputs[output];
+        if let Some(delay_s) = &mut output.delay_s {
+            *delay_s += late_s;
+            for (value, omega) in output.weighted.iter_mut().zip(&self.omega) {
+                *value *= Complex64::from_polar(1.0, omega * late_s);
+            }
+        }
+    }
+
+    /// Figures that an output has beside the poles' gains.
+    pub(super) fn delays(&self) -> usize {
+        self.outputs.iter().filter(|o| o.delay_s.is_some()).count()
+    }
+
+    /// The lowest and the highest frequency.
+    pub(super) fn range(&self) -> (f64, f64) {
+        let low = self.omega.iter().copied().fold(f64::INFINITY, f64::min);
+        (low, self.omega.iter().copied().fold(0.0, f64::max))
+    }
+
+    /// What `of` makes of each output, a matrix of so many `columns`. Small ones are not worth waking a thread for.
+    pub(super) fn each<T: Send>(
+        &self,
+        columns: usize,
+        of: impl Fn(&Output) -> Option<T> + Send + Sync,
+    ) -> Option<Vec<T>> {
+        if self.omega.len() * columns < WORTH_A_THREAD {
+            self.outputs.iter().map(of).collect()
+        } else {
+            self.outputs.par_iter().map(of).collect()
+        }
+    }
+
+    /// Real numbers in all responses.
+    pub(super) fn readings(&self) -> usize {
+        2 * self.omega.len() * self.outputs.len()
+    }
+}

@@ -1,0 +1,164 @@
+//! The campaign's frequency responses: one point a sinusoidal run, bands of all other runs.
+
+use std::f64::consts::PI;
+
+use crate::identify::estimate::Estimate;
+use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
+use crate::identify::responses::bands::bands;
+use crate::identify::responses::correct::{Response, corrected_by_harmonics, ratio};
+use crate::identify::responses::rational::TipForm;
+use crate::identify::responses::replayed_bands::ReplayedBands;
+use crate::record::{Campaign, TipQuantity};
+use crate::spectrum::Phasor;
+
+/// Sticking shares below this are not measured: what (30) leaves where nothing sticks.
+pub(crate) const STUCK_LEAST: f64 = 0.015;
+/// A corrected point uncertain by more than this share is flagged.
+const WEAK: f64 = 0.5;
+/// A corrected point is vouched for whose 95 % interval, so many deviations to a side, is within this share.
+const VOUCHED: f64 = 0.05;
+const INTERVAL: f64 = 1.96;
+
+/// One frequency of the campaign's responses.
+#[derive(Debug, Clone)]
+pub struct ResponsePoint {
+    /// Frequency \[rad/s\].
+    pub omega_rad_s: f64,
+    /// Index of the sinusoidal run; `None` for a band of broadband records.
+    pub run: Option<usize>,
+    /// θ_m per command as measured: friction and all.
+    pub motor_raw: Response,
+    /// The same with friction taken out; `None` where friction is unknown.
+    pub motor_corrected: Option<Response>,
+    /// Response of each tip to the motor's angle, in the tip's own quantity.
+    pub tips: Vec<Option<Response>>,
+    /// Whether a finding speaks against the corrected point.
+    pub flagged: bool,
+}
+
+impl ResponsePoint {
+    /// Whether the corrected point is vouched for: nothing speaks against it, and its 95 % interval is
+    /// within 5 % of it.
+    pub fn is_vouched_for(&self) -> bool {
+        let known = |r: Response| INTERVAL * r.std <= VOUCHED * r.value.norm();
+        !self.flagged && self.motor_corrected.is_some_and(known)
+    }
+}
+
+/// What the replay says of friction.
+#[derive(Default)]
+pub(crate) struct Replayed<'a> {
+    /// Corrected response of each run: of sinusoidal ones where friction is known over time.
+    pub(crate) sinusoidal: Vec<Option<Response>>,
+    /// Those of the other runs, where an arm was found that describes them from end to end.
+    pub(crate) bands: Option<ReplayedBands<'a>>,
+}
+
+/// Builds the table. Where the replay says nothing friction is taken for a square wave of
+/// `coulomb_command` (CF/K), if that is known.
+pub(crate) fn response_table(
+    campaign: &Campaign,
+    runs: &[RunAnalysis],
+    coulomb_command: Option<Estimate>,
+    replayed: &Replayed<'_>,
+    findings: &[Finding],
+) -> Vec<ResponsePoint> {
+    let mut points: Vec<ResponsePoint> = runs
+        .iter()
+        .enumerate()
+        .filter_map(|(index, run)| {
+            let of_replay = replayed.sinusoidal.get(index).copied().flatten();
+            sinusoidal(index, run, coulomb_command, of_replay, findings)
+        })
+        .collect();
+    points.extend(bands(campaign, runs, coulomb_command, replayed.bands.as_ref()));
+    points.sort_by(|a, b| a.omega_rad_s.total_cmp(&b.omega_rad_s));
+    points
+}
+
+fn sinusoidal(
+    index: usize,
+    run: &RunAnalysis,
+    coulomb_command: Option<Estimate>,
+    replayed: Option<Response>,
+    findings: &[Finding],
+) -> Option<ResponsePoint> {
+    let RunKind::Sinusoidal(s) = &run.kind else { return None };
+    let (motor, command) = (s.motor.get(1)?, s.command.get(1)?);
+    let spoken_against = findings.iter().any(|f| {
+        f.run.as_deref() == Some(&run.name)
+            && f.severity >= Severity::Warning
+            && f.affects.contains(&key::CORRECTED)
+    });
+    let square = |c: Estimate| {
+        let stuck = run.stuck_share.unwrap_or(0.0).max(STUCK_LEAST);
+        let c = Estimate { std: c.std.hypot(sticking_error(stuck) * c.value), ..c };
+        corrected_by_harmonics(&s.motor, command, c)
+    };
+    let motor_corrected = replayed.or_else(|| coulomb_command.and_then(square));
+    Some(ResponsePoint {
+        omega_rad_s: s.omega_rad_s,
+        run: Some(index),
+        motor_raw: ratio(motor, command),
+        motor_corrected,
+        tips: s.tips.iter().map(|t| tip_response(t.get(1)?, motor)).collect(),
+        flagged: spoken_against || motor_corrected.is_none_or(|r| weak(&r).is_some()),
+    })
+}
+
+/// Relative error of friction's fundamental in (30) where the joint sticks for `share` of the
+/// cycle: sticking begins at each reversal and lasts π·share in phase; the square wave is late by
+/// half of that.
+pub(crate) fn sticking_error(share: f64) -> f64 {
+    0.5 * PI * share
+}
+
+/// Relative deviation of a corrected response, where it is too large for the point to count.
+fn weak(response: &Response) -> Option<f64> {
+    let relative = response.std / response.value.norm();
+    (relative.is_nan() || relative > WEAK).then_some(relative)
+}
+
+/// Findings about corrected points that friction leaves too uncertain.
+pub(crate) fn weak_points(points: &[ResponsePoint], runs: &[RunAnalysis]) -> Vec<Finding> {
+    points
+        .iter()
+        .filter_map(|p| {
+            let relative = weak(&p.motor_corrected?)?;
+            let run = &runs[p.run?];
+            let message = format!(
+                "at {:.3} rad/s nearly all of the current overcomes friction: the corrected \
+                 response is uncertain by {:.0} %",
+                p.omega_rad_s,
+                100.0 * relative
+            );
+            let hint = "drive it with a larger amplitude: friction's share of the current falls";
+            let affects = [key::CORRECTED];
+            let finding =
+                Finding::new("correction-weak", Severity::Warning, &affects, message, hint);
+            Some(finding.of(&run.name))
+        })
+        .collect()
+}
+
+fn tip_response(tip: Phasor, motor: Phasor) -> Option<Response> {
+    (tip.value.norm() > 0.0).then(|| ratio(tip, motor))
+}
+
+/// Form of a tip's model and its responses in that form: θ_i/θ_m for angles and deflections.
+pub(crate) fn tip_model(
+    quantity: TipQuantity,
+    calibrated: bool,
+    response: Response,
+) -> (TipForm, Response) {
+    match (quantity, calibrated) {
+        (TipQuantity::Angle, _) => (TipForm::Angle, response),
+        (TipQuantity::Deflection, true) => {
+            (TipForm::Angle, Response { value: response.value + 1.0, std: response.std })
+        }
+        (TipQuantity::Deflection, false) | (TipQuantity::Acceleration, _) => {
+            (TipForm::SecondDerivative, response)
+        }
+    }
+}
