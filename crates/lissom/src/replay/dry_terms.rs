@@ -1,8 +1,8 @@
 //! What dry friction has beyond one Coulomb constant: a change near rest, ripple over the travel.
 
-use super::bristles::Bristles;
 use super::parameter::Parameter;
 use crate::drive::Falloff;
+use crate::friction::{Bristles, Place};
 
 /// Largest share of its range by which an argument of the law may move over a step that is replayed
 /// with friction linear in time, its mean over the step right.
@@ -53,16 +53,6 @@ pub struct Ripple {
     pub cosine_nm: f64,
     /// C \[N·m\].
     pub sine_nm: f64,
-}
-
-/// Where the law is asked for.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
-    pub(super) angle: f64,
-    /// Speed in the direction of motion; negative just beyond a reversal, where the law is continued.
-    pub(super) speed: f64,
-    /// +1 or −1.
-    pub(super) sign: f64,
 }
 
 impl DryTerms {

@@ -6,7 +6,7 @@
 
 mod arm;
 mod arm_modes;
-mod bristles;
+mod bent;
 mod dry_terms;
 mod events;
 mod friction;
@@ -27,10 +27,10 @@ mod tangents;
 mod transition;
 mod window;
 
+pub use crate::friction::Bristles;
 pub(crate) use arm::TURN_MOST;
 pub use arm::{MOST_MODES, ModalArm, Oscillator};
 pub use arm_modes::ArmModes;
-pub use bristles::Bristles;
 pub use dry_terms::{DryTerms, NearRest, Ripple};
 pub use noise::SensorNoise;
 pub use parameter::{Parameter, free_parameters};
