@@ -5,6 +5,8 @@ use super::place::Place;
 
 /// Most rounds until friction over a step and the motion at its end agree.
 const ROUNDS: usize = 60;
+/// Rounds after which changes are halved: a reversal within the step is a kink, about which whole changes may alternate.
+const WHOLE: usize = 8;
 
 /// What a step does without friction, and what torques on the joint do over it.
 #[derive(Debug, Clone, Copy)]
@@ -62,12 +64,13 @@ impl BristleStep {
         let found = Bristled { from: begins, to: begins, beyond: 0.0, middle_z: z, z };
         let mut step = Self { linear, places: [first; 3], bending, found, agrees: false };
         let (mut to, mut beyond) = (begins, 0.0);
-        for _ in 0..ROUNDS {
+        for round in 0..ROUNDS {
             step.friction_ends_at(to, begins, beyond, &level);
             let off = [step.found.to - to, step.found.beyond - beyond];
             let change = step.newton(off);
-            to += change[0];
-            beyond += change[1];
+            let share = if round < WHOLE { 1.0 } else { 0.5 };
+            to += share * change[0];
+            beyond += share * change[1];
             let fastest = step.bending.velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
             let most = agree * (step.bending.level[0] + bristles.damping_nm_s_per_rad * fastest);
             step.agrees = off[0].abs() <= most && off[1].abs() <= most;
