@@ -1,13 +1,12 @@
 //! The replayed arm on bristles: steps short enough for what they do, and their tangents.
 
 use super::bent::Bent;
-use super::dry_terms::STEP;
 use super::motion::{Motion, Mover, Torque};
 use super::parameter::Parameter;
 use super::tangents::{LANES, Rubbed};
 use crate::friction::{
     Bending, BristleStep, Bristled, Bristles, DAMPING, DEFLECTION, INPUTS, LEVEL, LinearStep, Mode,
-    Place, STIFFNESS, VELOCITY,
+    Place, SHARE_PER_STEP, STIFFNESS, VELOCITY,
 };
 
 /// Largest phase of the motor's swing on its bristles over a step \[rad\].
@@ -126,9 +125,10 @@ impl<const D: usize> Mover<D> {
             most = most.min(FORGETS * level / (sigma * fast));
         }
         if let Some(near) = self.friction.terms.near_rest.filter(|n| n.acts_at(slow)) {
-            most = most.min(STEP * near.speed_rad_s / acceleration);
+            most = most.min(SHARE_PER_STEP * near.speed_rad_s / acceleration);
         }
-        let turns = self.friction.terms.ripples.iter().map(|r| STEP / (r.per_rad * fast).abs());
+        let turns =
+            self.friction.terms.ripples.iter().map(|r| SHARE_PER_STEP / (r.per_rad * fast).abs());
         turns.fold(most, f64::min)
     }
 

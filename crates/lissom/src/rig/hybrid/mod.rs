@@ -8,8 +8,8 @@ use crate::lti::first_root::ORDER_MOST;
 
 use super::{Motion, RigError, Signal, TipWorld};
 use crate::arm::Arm;
-use crate::drive::{DryFriction, FrictionSeries};
-use crate::friction::Mode;
+use crate::drive::DryFriction;
+use crate::friction::{FrictionSeries, Mode};
 
 /// Largest (rate bound × step) for which a Taylor series of order [`ORDER_MOST`] is exact to
 /// rounding: 0.5²⁴/24! is 1e-31.

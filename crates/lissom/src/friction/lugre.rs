@@ -1,7 +1,8 @@
 //! LuGre friction: bristles that bend before the joint slips.
 
-use super::{Coulomb, DriveError};
-use crate::friction::Place;
+use super::coulomb::Coulomb;
+use super::error::DriveError;
+use super::place::Place;
 
 /// The LuGre law: the joint rests on bristles whose mean deflection z is a state.
 ///
