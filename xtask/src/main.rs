@@ -146,9 +146,6 @@ fn ci(context: &Context) -> Result<(), Failure> {
     rustdoc.args(everything);
     run("rustdoc", rustdoc.env("RUSTDOCFLAGS", "--deny warnings"))?;
     deny::check(root)?;
-    // A step of its own: it is a long build, and needs a newer toolchain than the rest.
-    let lugre = ["test", "--package", "lissom", "--features", "lugre"];
-    run("tests of the feature lugre", &mut cargo(root, &lugre))?;
     if context.flags.iter().any(|flag| flag == SKIP_TESTS) { Ok(()) } else { test(context) }
 }
 
@@ -162,12 +159,9 @@ fn truth(context: &Context) -> Result<(), Failure> {
     external::truth(&context.root, context.flags.first().map_or("100", String::as_str))
 }
 
-/// The accuracy study; the law `lugre`, alone or among the wrong ones, needs the feature of that name.
+/// The accuracy study.
 fn study(context: &Context) -> Result<(), Failure> {
     let mut command = cargo(&context.root, &["run", "--release", "--package", "lissom-study"]);
-    if context.flags.iter().any(|flag| flag.ends_with("lugre") || flag.ends_with("wrong")) {
-        command.args(["--features", "lugre"]);
-    }
     run("study", command.arg("--").args(&context.flags))
 }
 

@@ -147,9 +147,6 @@ fn rig_hint(error: &RigError) -> &'static str {
              ends"
         }
         RigError::TooLong { .. } => "record less, or log one sample in so many with log_every",
-        RigError::Feature { .. } => {
-            "build the command with: cargo build --release --features lugre"
-        }
         RigError::AboveNyquist { .. } => {
             "ask for lower frequencies, or let the controller act faster"
         }

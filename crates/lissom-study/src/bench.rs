@@ -3,18 +3,16 @@
 use std::f64::consts::PI;
 
 use lissom::arm::Arm;
-use lissom::beam::BeamError;
-use lissom::drive::DriveError;
 use lissom::rig::{
     Amplifier, Instruments, JointFriction, Noise, Quantiser, Rig, RigError, Scene, Sensor,
 };
 use num_complex::Complex64;
 
 use crate::arm::{clamped_modes, random_arm};
-use crate::campaign::Rejected;
 use crate::draw::Draw;
 use crate::law::{Law, joint};
 use crate::position_loop::{Gains, Task, random_loop};
+use crate::rejected::Rejected;
 use crate::stratum::Stratum;
 
 /// Radians per sample of the beam's last mode, at most: six samples a period.
@@ -142,22 +140,4 @@ fn rig(
     let mut rig = Rig::new(arm, instruments, gains.pd()?.into());
     rig.scene = Scene { friction, ..Scene::default() };
     Ok(rig)
-}
-
-impl From<BeamError> for Rejected {
-    fn from(error: BeamError) -> Self {
-        Self::Impossible(error.to_string())
-    }
-}
-
-impl From<DriveError> for Rejected {
-    fn from(error: DriveError) -> Self {
-        Self::Impossible(error.to_string())
-    }
-}
-
-impl From<RigError> for Rejected {
-    fn from(error: RigError) -> Self {
-        Self::Impossible(error.to_string())
-    }
 }

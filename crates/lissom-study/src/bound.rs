@@ -7,8 +7,8 @@ use lissom::replay::{
 use nalgebra::DMatrix;
 
 use crate::campaign::Campaign;
+use crate::figure::Figure;
 use crate::law::Law;
-use crate::score::Figure;
 
 /// Step of a derived figure's differences, as a share of a parameter's bound.
 const DIFFERENCE: f64 = 1e-3;

@@ -1,7 +1,5 @@
 //! A random campaign: its definition, its logs, and why draws were rejected.
 
-use std::fmt;
-
 use lissom::record::Run;
 use lissom::rig::{Experiment, Rig};
 use serde::{Deserialize, Serialize};
@@ -10,8 +8,9 @@ use crate::bench::Bench;
 use crate::draw::Draw;
 use crate::law::Law;
 use crate::plan::ideas;
+use crate::rejected::{Dropped, Rejected};
 use crate::stratum::{COULOMB_SHARE, Kind, Stratum};
-use crate::trial::{Dropped, tried};
+use crate::trial::tried;
 
 /// Draws of one stratum before another takes its place.
 const DRAWS_MOST: usize = 50;
@@ -91,35 +90,6 @@ impl Campaign {
 /// Friction at speed, mean of both directions \[N·m\].
 pub(crate) fn sliding(rig: &Rig) -> f64 {
     0.5 * (rig.arm.coulomb.forward + rig.arm.coulomb.backward)
-}
-
-/// Why a draw was rejected.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum Rejected {
-    /// The beam's last mode has fewer than six samples a period.
-    FastMode,
-    /// No loop is stable with a margin and quiet enough for the encoder.
-    NoLoop,
-    /// Too few runs were sound; the commonest reason of those given up.
-    FewRuns(Dropped),
-    /// Friction is below 5 % or above 60 % of the peak torque that was reached.
-    CoulombShare,
-    /// The numbers cannot make a rig.
-    Impossible(String),
-}
-
-impl fmt::Display for Rejected {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::FastMode => f.write_str("last mode has fewer than six samples a period"),
-            Self::NoLoop => f.write_str("no loop is stable with a margin and quiet enough"),
-            Self::FewRuns(why) => write!(f, "too few sound runs: {why}"),
-            Self::CoulombShare => {
-                f.write_str("friction below 5 % or above 60 % of the peak torque")
-            }
-            Self::Impossible(why) => write!(f, "cannot be built: {why}"),
-        }
-    }
 }
 
 /// Campaign `index` of the study with `seed`; `None` where all of 2500 draws were rejected.

@@ -1,6 +1,7 @@
 //! A row for each campaign, for other programs.
 
-use crate::score::{Figure, FigureScore};
+use crate::figure::Figure;
+use crate::score::FigureScore;
 use crate::study::{Scored, Study};
 
 /// Columns before the figures.

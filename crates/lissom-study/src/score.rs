@@ -1,75 +1,13 @@
 //! Figures against truth.
 
-use std::fmt;
-
 use lissom::identify::{Estimate, Finding, Identified, ModeEstimate, RunKind, Severity, corrected};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
 use crate::bound::Bound;
+use crate::figure::Figure;
 use crate::statistics::NORMAL_95;
 use crate::truth::Truth;
-
-/// A figure that identification gives.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Figure {
-    /// Coulomb friction.
-    Coulomb,
-    /// Inertia of the motor's side.
-    Inertia,
-    /// Coulomb friction while moving forward.
-    Forward,
-    /// Coulomb friction while moving backward.
-    Backward,
-    /// Coupling h_{n+1}.
-    Coupling,
-    /// Viscous friction.
-    Viscous,
-    /// Natural frequency of mode k, from 0.
-    Frequency(usize),
-    /// Damping ratio of mode k, from 0.
-    Damping(usize),
-}
-
-impl Figure {
-    /// How findings name it.
-    fn key(self) -> &'static str {
-        match self {
-            Self::Coulomb | Self::Forward | Self::Backward => "friction.coulomb",
-            Self::Inertia => "drive.inertia",
-            Self::Coupling => "beam.coupling",
-            Self::Viscous => "friction.viscous",
-            Self::Frequency(_) | Self::Damping(_) => "beam.modes",
-        }
-    }
-
-    /// Relative error that the project's goals allow, where they name one.
-    pub fn bar(self) -> Option<f64> {
-        match self {
-            Self::Coulomb | Self::Forward | Self::Backward | Self::Inertia | Self::Coupling => {
-                Some(0.01)
-            }
-            Self::Viscous => Some(0.05),
-            Self::Frequency(_) => Some(0.002),
-            Self::Damping(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for Figure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Coulomb => f.write_str("Coulomb friction"),
-            Self::Forward => f.write_str("Coulomb friction forward"),
-            Self::Backward => f.write_str("Coulomb friction backward"),
-            Self::Inertia => f.write_str("inertia"),
-            Self::Coupling => f.write_str("coupling"),
-            Self::Viscous => f.write_str("viscous friction"),
-            Self::Frequency(k) => write!(f, "frequency {}", k + 1),
-            Self::Damping(k) => write!(f, "damping ratio {}", k + 1),
-        }
-    }
-}
 
 /// Deviations beyond which a figure without a finding is silently wrong.
 const SILENT: f64 = 5.0;

@@ -9,13 +9,13 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::bound::Bound;
-use crate::campaign::{Campaign, Rejected, RunFacts, draw_campaign};
+use crate::campaign::{Campaign, RunFacts, draw_campaign};
 use crate::external::{ExternalError, simulated};
 use crate::law::Law;
+use crate::rejected::{Dropped, Rejected};
 use crate::score::{Score, score};
 use crate::statistics::Share;
 use crate::stratum::Stratum;
-use crate::trial::Dropped;
 use crate::truth::Truth;
 
 /// What a study is.

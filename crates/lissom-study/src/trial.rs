@@ -1,13 +1,11 @@
 //! One run, tried until it is sound: what an engineer does who looks at each log.
 
-use std::fmt;
-
 use lissom::record::Run;
 use lissom::rig::{Experiment, Logged, RigError, RigFinding};
-use serde::{Deserialize, Serialize};
 
 use crate::bench::Bench;
 use crate::plan::Idea;
+use crate::rejected::Dropped;
 
 /// Share of a run in which the joint may stick.
 pub(crate) const STUCK_MOST: f64 = 0.15;
@@ -23,36 +21,6 @@ const LARGER: f64 = 1.35;
 const SMALLER: f64 = 0.75;
 /// …and this often.
 const TRIES: usize = 8;
-
-/// Why a run was given up.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum Dropped {
-    /// The loop ran away.
-    Unstable,
-    /// The joint sticks for more than 15 % however large the run may be.
-    Sticks,
-    /// The motor moves by less than 20 steps of its encoder.
-    TooSmall,
-    /// The amplifier limits it, and smaller the joint sticks or the encoder is too coarse.
-    Current,
-    /// The beam bends too far, and smaller the joint sticks or the encoder is too coarse.
-    Bend,
-    /// The rig cannot do it.
-    Impossible,
-}
-
-impl fmt::Display for Dropped {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Unstable => "the loop ran away",
-            Self::Sticks => "sticks for more than 15 % at any amplitude allowed",
-            Self::TooSmall => "less than 20 steps of the motor's encoder",
-            Self::Current => "the amplifier limits it, and smaller it sticks or is too coarse",
-            Self::Bend => "the beam bends too far, and smaller it sticks or is too coarse",
-            Self::Impossible => "the rig cannot do it",
-        })
-    }
-}
 
 /// Tries a run at falling or growing amplitudes; gives the log and the experiment that made it.
 pub(crate) fn tried(
@@ -82,12 +50,6 @@ pub(crate) fn tried(
         amplitude *= if wrong.is_too_large() { SMALLER } else { LARGER };
     }
     Err(first.unwrap_or(Dropped::Impossible))
-}
-
-impl Dropped {
-    fn is_too_large(self) -> bool {
-        matches!(self, Self::Current | Self::Bend)
-    }
 }
 
 /// What is wrong with a run, if anything.

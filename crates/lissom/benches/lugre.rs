@@ -1,4 +1,4 @@
-//! Speed of the arm on bristles: `cargo bench -p lissom --features lugre --bench lugre`.
+//! Speed of the arm on bristles: `cargo bench -p lissom --bench lugre`.
 //!
 //! The experiment of the bench `rig`, 20 000 samples of the report's arm in its loop, on bristles that
 //! bend by 1e-3 to 1e-6 rad, beside Coulomb friction with its events (baseline).

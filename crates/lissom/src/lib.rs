@@ -12,6 +12,7 @@ pub mod arm;
 pub mod beam;
 pub mod drive;
 mod eigenvalues;
+mod friction;
 pub mod identify;
 pub mod information;
 pub mod lti;

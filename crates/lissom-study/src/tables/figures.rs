@@ -2,7 +2,8 @@
 
 use super::markdown::{percent, significant, table};
 use super::{Outcome, drawn, scores};
-use crate::score::{Figure, FigureScore, Score};
+use crate::figure::Figure;
+use crate::score::{FigureScore, Score};
 use crate::statistics::{Share, median, quantile};
 use crate::study::{Scored, Study};
 

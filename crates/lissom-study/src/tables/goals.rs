@@ -3,8 +3,9 @@
 use super::markdown::{percent, significant, table};
 use super::responses::{CLOSER, silently_wrong};
 use super::{Outcome, scores};
+use crate::figure::Figure;
 use crate::law::Law;
-use crate::score::{Figure, FigureScore, PointScore, Score};
+use crate::score::{FigureScore, PointScore, Score};
 use crate::statistics::{Share, median, quantile};
 use crate::study::Study;
 

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use super::markdown::{percent, table};
 use super::{Outcome, scores};
-use crate::score::{Figure, Score};
+use crate::figure::Figure;
+use crate::score::Score;
 use crate::statistics::{Share, median, quantile};
 use crate::study::Study;
 

@@ -73,7 +73,7 @@ mod tests {
     use lissom::identify::Estimate;
 
     use super::*;
-    use crate::score::Figure;
+    use crate::figure::Figure;
 
     /// Errors at the quantiles of a normal distribution of 1.2 bounds.
     #[test]

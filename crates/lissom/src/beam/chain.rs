@@ -13,39 +13,9 @@
 //! The count is that of `[WittrickWilliams1971]`; flexibility in place of stiffness keeps the
 //! figures exact to rounding where many short spans make the stiffness ill-conditioned.
 
+use super::element::{At, Element};
 use super::piece::{Piece, Sym, bend, heavy, kept_from_zero, parts, piece};
 use crate::number::{Number, Scaled};
-
-/// A piece of a chain, base to tip.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Element {
-    /// Elastic without mass: length \[m\], EI \[N·m²\].
-    Span { length: f64, rigidity: f64 },
-    /// Elastic with mass per length \[kg/m\].
-    Heavy { length: f64, rigidity: f64, mass_per_length: f64 },
-    /// Rigid, without mass: length \[m\].
-    Rigid { length: f64 },
-    /// Mass \[kg\], damped against the fixed frame \[N·s/m\].
-    Mass { mass: f64, damping: f64 },
-    /// Rotary inertia \[kg·m²\].
-    Inertia { inertia: f64 },
-}
-
-/// Where the recursion runs: what multiplies masses, and what multiplies dampers.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct At<N> {
-    /// s², or its counterpart where damping is proportional \[1/s²\].
-    pub(crate) z: N,
-    /// s, likewise \[1/s\]; zero where there are no dampers.
-    pub(crate) s: N,
-}
-
-impl<N: Number> At<N> {
-    /// Without dampers.
-    pub(crate) fn undamped(z: N) -> Self {
-        Self { z, s: N::real(0.0) }
-    }
-}
 
 /// What has been passed coming from the base.
 ///

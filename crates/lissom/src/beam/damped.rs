@@ -2,7 +2,8 @@
 
 use num_complex::Complex64;
 
-use super::chain::{At, Joined};
+use super::chain::Joined;
+use super::element::At;
 use super::frequencies::{degrees, from_tip};
 use super::response::at_damped;
 use super::roots::together;

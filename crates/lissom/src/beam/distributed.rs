@@ -2,8 +2,9 @@
 
 use num_complex::Complex64;
 
-use super::chain::{At, BaseSide, Element, Joined, TipSide};
+use super::chain::{BaseSide, Joined, TipSide};
 use super::counted::counted_roots;
+use super::element::{At, Element};
 use super::frequencies::{below, below_first, lowest};
 use super::lumped::{attach, positions};
 use super::modes::mode;

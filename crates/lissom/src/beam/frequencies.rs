@@ -1,7 +1,8 @@
 //! Natural frequencies by counting: none missed, each exact to rounding.
 
-use super::chain::{At, BaseSide, Element, TipSide};
+use super::chain::{BaseSide, TipSide};
 use super::counted::counted_roots;
+use super::element::{At, Element};
 use crate::number::{Number, Scaled};
 
 /// What the base of the beam does.

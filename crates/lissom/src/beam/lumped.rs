@@ -1,6 +1,6 @@
 //! Lumped-mass beam: massless spans between point masses.
 
-use super::chain::Element;
+use super::element::Element;
 use super::matrices::BeamMatrices;
 use super::span::{BeamError, Damping, Payload, Span, check};
 
@@ -93,7 +93,7 @@ impl LumpedBeam {
 
     /// The static compliance of the tip and the inertia about the axis must be doubles.
     fn check_range(&self) -> Result<(), BeamError> {
-        let whole = super::frequencies::whole(&self.elements, super::chain::At::undamped(0.0));
+        let whole = super::frequencies::whole(&self.elements, super::element::At::undamped(0.0));
         let c = whole.compliance;
         let ok = |v: f64| v.is_finite() && v > 0.0;
         // A payload that lies far back may even have b < 0.

@@ -12,6 +12,7 @@ mod counted;
 mod damped;
 mod distributed;
 mod dynamics;
+mod element;
 mod frequencies;
 mod lumped;
 mod matrices;

@@ -1,10 +1,8 @@
 //! Modes with the motor clamped: shapes, and what each contributes.
 
-use num_complex::Complex64;
-
-use super::chain::{At, BaseSide, Element, TipSide};
+use super::chain::{BaseSide, TipSide};
+use super::element::{At, Element};
 use super::piece::{Sym, cut_up};
-use super::response::BeamResponse;
 use super::{Base, LumpedBeam};
 use crate::number::Dual;
 
@@ -132,20 +130,4 @@ impl LumpedBeam {
         let one = |omega| mode(self.elements(), &joints, self.position_m(), omega);
         frequencies.into_iter().map(one).collect()
     }
-}
-
-/// Response with a damping ratio for each mode: every mode is summed.
-pub(super) fn modal_response(beam: &LumpedBeam, s: Complex64) -> BeamResponse {
-    let modes = beam.modes(usize::MAX);
-    let mut angles = vec![Complex64::new(1.0, 0.0); beam.len()];
-    let mut inertia = Complex64::from(beam.inertia_kg_m2());
-    for (k, mode) in modes.iter().enumerate() {
-        let omega = mode.natural_frequency_rad_s;
-        let zeta = beam.damping().ratio(k).unwrap_or(0.0);
-        // θ_i = θ_m + deflection: the deflection's denominator is damped, its drive is −θ̈_m.
-        let driven = s * s / (s * s + s * (2.0 * zeta * omega) + omega * omega);
-        angles.iter_mut().zip(&mode.share).for_each(|(a, r)| *a -= driven * r);
-        inertia -= driven * mode.inertia_kg_m2;
-    }
-    BeamResponse { angles, coupling_nm_per_rad: s * s * inertia }
 }

@@ -1,6 +1,6 @@
 //! Pieces of a chain: an inertia, a transport and a compliance, and the 2×2 algebra of these.
 
-use super::chain::{At, Element};
+use super::element::{At, Element};
 use crate::number::Number;
 
 /// Terms of the series of a piece with mass: for |x| ≤ 1 the seventh is below 1e-19.

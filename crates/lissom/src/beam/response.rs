@@ -2,9 +2,10 @@
 
 use num_complex::Complex64;
 
-use super::chain::{At, BaseSide, Element, Joined, TipSide};
+use super::LumpedBeam;
+use super::chain::{BaseSide, Joined, TipSide};
+use super::element::{At, Element};
 use super::span::Damping;
-use super::{LumpedBeam, modes};
 use crate::number::Number;
 
 /// What a turn of the motor does to the beam at one s.
@@ -77,7 +78,7 @@ impl LumpedBeam {
     /// `[Feliu1989, eqs. (15), (16)]`, with damping added.
     pub fn response(&self, s: Complex64) -> BeamResponse {
         if let Damping::Modal { .. } = self.damping() {
-            return modes::modal_response(self, s);
+            return modal_response(self, s);
         }
         let z = s * s;
         if self.is_undamped() && z.im == 0.0 {
@@ -99,4 +100,20 @@ impl LumpedBeam {
     fn angles<N: Number>(&self, meetings: &[Joined<N>]) -> impl Iterator<Item = N> {
         meetings.iter().zip(self.position_m()).map(|(m, l)| m.motion().0.times(1.0 / l))
     }
+}
+
+/// Response with a damping ratio for each mode: every mode is summed.
+fn modal_response(beam: &LumpedBeam, s: Complex64) -> BeamResponse {
+    let modes = beam.modes(usize::MAX);
+    let mut angles = vec![Complex64::new(1.0, 0.0); beam.len()];
+    let mut inertia = Complex64::from(beam.inertia_kg_m2());
+    for (k, mode) in modes.iter().enumerate() {
+        let omega = mode.natural_frequency_rad_s;
+        let zeta = beam.damping().ratio(k).unwrap_or(0.0);
+        // θ_i = θ_m + deflection: the deflection's denominator is damped, its drive is −θ̈_m.
+        let driven = s * s / (s * s + s * (2.0 * zeta * omega) + omega * omega);
+        angles.iter_mut().zip(&mode.share).for_each(|(a, r)| *a -= driven * r);
+        inertia -= driven * mode.inertia_kg_m2;
+    }
+    BeamResponse { angles, coupling_nm_per_rad: s * s * inertia }
 }

@@ -3,8 +3,9 @@
 use num_complex::Complex64;
 
 use super::bracket::root;
-use super::chain::{At, BaseSide, Element, Joined, TipSide};
+use super::chain::{BaseSide, Joined, TipSide};
 use super::counted::counted_roots;
+use super::element::{At, Element};
 use super::frequencies::{Base, below_first, degrees, lowest};
 use super::piece::cut_up;
 use super::roots::further;

@@ -4,9 +4,9 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use super::arm_modes::ArmModes;
-use super::dry_terms::DryTerms;
 use crate::arm::Arm;
 use crate::eigenvalues::eigenvalues;
+use crate::friction::DryTerms;
 
 /// Most modes of a replayed arm.
 pub const MOST_MODES: usize = 4;

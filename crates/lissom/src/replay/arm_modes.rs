@@ -5,9 +5,9 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 
 use super::arm::{ModalArm, Oscillator};
-use super::dry_terms::DryTerms;
 use crate::arm::Arm;
 use crate::beam::BeamDynamics;
+use crate::friction::DryTerms;
 
 /// The modes of an arm of point masses, and its states in them.
 #[derive(Debug, Clone)]

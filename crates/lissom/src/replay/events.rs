@@ -4,8 +4,8 @@ use super::friction::{Ends, Held, sign};
 use super::motion::{Motion, Mover, Torque, direction};
 use super::rates::Rates;
 use super::series::{Ramp, Terms, reach_s, terms, value};
+use crate::friction::Mode;
 use crate::lti::first_root::{ORDER_MOST, first_used_up};
-use crate::rig::Mode;
 
 /// Events within one piece of a sample after which the joint is held until its end: it chatters.
 const MOST_EVENTS: usize = 50;

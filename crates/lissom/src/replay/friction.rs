@@ -1,8 +1,8 @@
 //! Dry friction as the replayed motor feels it, and over a step on which it is linear in time.
 
 use super::arm::ModalArm;
-use super::dry_terms::{DryTerms, Place};
 use super::parameter::Parameter;
+use crate::friction::{DryTerms, Place};
 
 /// Most rounds until friction at the end of a step and the motion there agree, and the share of the
 /// Coulomb friction within which they do.

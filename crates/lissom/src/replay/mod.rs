@@ -6,8 +6,8 @@
 
 mod arm;
 mod arm_modes;
-mod bristles;
-mod dry_terms;
+mod bent;
+mod dry_parameters;
 mod events;
 mod friction;
 mod late_tips;
@@ -27,11 +27,10 @@ mod tangents;
 mod transition;
 mod window;
 
+pub use crate::friction::{Bristles, DryTerms, NearRest, Ripple};
 pub(crate) use arm::TURN_MOST;
 pub use arm::{MOST_MODES, ModalArm, Oscillator};
 pub use arm_modes::ArmModes;
-pub use bristles::Bristles;
-pub use dry_terms::{DryTerms, NearRest, Ripple};
 pub use noise::SensorNoise;
 pub use parameter::{Parameter, free_parameters};
 pub use point_masses::{BeamCoordinate, BeamDerivative, PointMasses};

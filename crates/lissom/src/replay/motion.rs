@@ -1,13 +1,13 @@
 //! The replayed arm in motion: whole pieces of samples stuck or slipping, and their tangents.
 
-use super::bristles::Bent;
+use super::bent::Bent;
 use super::friction::{Ends, Friction, Held, sign};
 use super::parameter::Parameter;
 use super::rates::{Phases, Rates};
 use super::series::{Ramp, add};
 use super::tangents::Tangents;
 use super::transition::Transition;
-use crate::rig::Mode;
+use crate::friction::Mode;
 
 /// Halvings of a piece, at most, where friction changes with speed or angle.
 const HALVINGS: usize = 6;

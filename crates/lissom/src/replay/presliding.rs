@@ -1,13 +1,13 @@
 //! The replayed arm on bristles: steps short enough for what they do, and their tangents.
 
-use super::bristles::{
-    Bending, Bent, Bristled, Bristles, DAMPING, DEFLECTION, INPUTS, LEVEL, STIFFNESS, VELOCITY,
-};
-use super::dry_terms::{Place, STEP};
+use super::bent::Bent;
 use super::motion::{Motion, Mover, Torque};
 use super::parameter::Parameter;
 use super::tangents::{LANES, Rubbed};
-use crate::rig::Mode;
+use crate::friction::{
+    Bending, BristleStep, Bristled, Bristles, DAMPING, DEFLECTION, INPUTS, LEVEL, LinearStep, Mode,
+    Place, SHARE_PER_STEP, STIFFNESS, VELOCITY,
+};
 
 /// Largest phase of the motor's swing on its bristles over a step \[rad\].
 const TURN: f64 = 0.2;
@@ -17,23 +17,10 @@ const FORGETS: f64 = 0.3;
 const SETTLED: f64 = 1e-3;
 /// Bristles that forget faster than the motor swings on them by this factor only follow.
 const FOLLOWS: f64 = 5.0;
-/// Most rounds until friction at the end of a step and the motion there agree, and the share of the level
-/// within which they do.
-const ROUNDS: usize = 60;
+/// Share of the level within which friction at the end of a step and the motion there agree.
 const AGREE: f64 = 1e-13;
 /// Share of the level that bristles carry once the joint counts as slipping.
 const HOLDS: f64 = 0.9;
-
-/// A step with bristles.
-struct Step {
-    places: [Place; 3],
-    bending: Bending<f64>,
-    found: Bristled<f64>,
-    duration_s: f64,
-    /// Responses of the motor's angle and velocity at the end to a torque, and to one that grows from zero.
-    push: [f64; 2],
-    ramp: [f64; 2],
-}
 
 /// How a step's inputs change: the motor's angle and velocity at both ends, the deflection at the beginning,
 /// and what the law's own numbers change the levels, σ0 and σ1 by.
@@ -122,7 +109,7 @@ impl<const D: usize> Mover<D> {
         within_s: f64,
     ) -> f64 {
         let at = place(motion.x[0], motion.x[1]);
-        let rates = &self.phases.slip[way(at)];
+        let rates = &self.phases.slip[at.direction()];
         let pull: f64 = rates.a[1].iter().zip(&motion.x).map(|(a, x)| a * x).sum();
         let friction = self.bristle_torque(motion);
         let acceleration = (pull + rates.b[1] * (torque - friction)).abs();
@@ -138,9 +125,10 @@ impl<const D: usize> Mover<D> {
             most = most.min(FORGETS * level / (sigma * fast));
         }
         if let Some(near) = self.friction.terms.near_rest.filter(|n| n.acts_at(slow)) {
-            most = most.min(STEP * near.speed_rad_s / acceleration);
+            most = most.min(SHARE_PER_STEP * near.speed_rad_s / acceleration);
         }
-        let turns = self.friction.terms.ripples.iter().map(|r| STEP / (r.per_rad * fast).abs());
+        let turns =
+            self.friction.terms.ripples.iter().map(|r| SHARE_PER_STEP / (r.per_rad * fast).abs());
         turns.fold(most, f64::min)
     }
 
@@ -188,21 +176,22 @@ impl<const D: usize> Mover<D> {
 
     /// Over one part.
     fn bends(&self, motion: &mut Motion<D>, bristles: &Bristles, piece: usize, torque: Torque) {
-        let direction = way(place(motion.x[0], motion.x[1]));
+        let direction = place(motion.x[0], motion.x[1]).direction();
         let transition = &self.pieces[piece][direction];
         let own = &transition.own;
         let change = torque.to - torque.from;
         let offset = self.friction.offset;
         let alone = own.apply(&motion.x, torque.from - offset, change);
-        let mut step = Step {
-            places: [place(motion.x[0], motion.x[1]); 3],
-            bending: self.bending(motion, bristles),
-            found: Bristled { from: 0.0, to: 0.0, beyond: 0.0, z: 0.0 },
+        let linear = LinearStep {
             duration_s: transition.duration_s,
+            start: [motion.x[0], motion.x[1]],
+            free: [alone[0] - motion.x[0], alone[1]],
             push: [own.push[0], own.push[1]],
             ramp: [own.ramp[0], own.ramp[1]],
+            spring: [0.0; 2],
         };
-        self.solve(&mut step, &motion.x, [alone[0], alone[1]]);
+        let level = |at| self.friction.level(at);
+        let step = BristleStep::solve(linear, bristles, motion.bristles.z, AGREE, level);
         let from = step.found.from + step.found.beyond;
         let rise = step.found.to - step.found.from;
         let net = torque.from - offset - from;
@@ -212,49 +201,19 @@ impl<const D: usize> Mover<D> {
         }
         motion.x = own.apply(&motion.x, net, change - rise);
         motion.bristles.z = step.found.z;
-        motion.rub(offset + from + 0.5 * rise, step.duration_s);
+        motion.rub(offset + from + 0.5 * rise, step.linear.duration_s);
         let carried = (bristles.stiffness_nm_per_rad * motion.bristles.z).abs();
         if carried < HOLDS * step.bending.level[2] {
-            motion.stuck_s += step.duration_s;
+            motion.stuck_s += step.linear.duration_s;
         }
         motion.mode = if motion.x[1] < 0.0 { Mode::Backward } else { Mode::Forward };
-    }
-
-    /// Finds friction over a step that ends in `alone` without any.
-    fn solve(&self, step: &mut Step, x: &[f64; D], alone: [f64; 2]) {
-        let (h, bending) = (step.duration_s, &mut step.bending);
-        let (stiffness, damping) = (bending.stiffness, bending.damping);
-        let first = bending.now();
-        let (mut beyond, mut to) = (0.0, first);
-        // While the bristles hold, the end's friction changes with the end's motion.
-        let forgets = stiffness * x[1].abs() / bending.level[0];
-        let stiff = (-forgets * h).exp() * (stiffness * step.ramp[0] + damping * step.ramp[1]);
-        for _ in 0..ROUNDS {
-            let (from, rise) = (first + beyond, to - first);
-            let end = [0, 1].map(|i| alone[i] - from * step.push[i] - rise * step.ramp[i]);
-            // The velocity halfway is what the distance asks for, a parabola in time.
-            let middle = 1.5 * (end[0] - x[0]) / h - 0.25 * (x[1] + end[1]);
-            let angle = x[0] + h / 24.0 * (5.0 * x[1] + 8.0 * middle - end[1]);
-            bending.velocity = [x[1], middle, end[1]];
-            step.places = [place(x[0], x[1]), place(angle, middle), place(end[0], end[1])];
-            bending.level = step.places.map(|at| self.friction.level(at));
-            step.found = bending.over(h);
-            let off = [step.found.to - to, step.found.beyond - beyond];
-            to += off[0] / (1.0 + stiff);
-            beyond = step.found.beyond;
-            let agrees = AGREE * bending.level[0];
-            // Anything that is no number ends it, too.
-            if !(off[0].abs() > agrees || off[1].abs() > agrees) {
-                break;
-            }
-        }
     }
 
     /// Tangents over a step; those of the arm's own matrices and of a steady torque are made already.
     fn bend_tangents(
         &self,
         motion: &mut Motion<D>,
-        step: &Step,
+        step: &BristleStep,
         (push, ramp): (&[f64; D], &[f64; D]),
         torque: Torque,
     ) {
@@ -276,7 +235,7 @@ impl<const D: usize> Mover<D> {
         for (k, p) in self.columns.friction.iter().filter_map(|(k, own)| Some((*k, (*own)?))) {
             let answer = match p {
                 Parameter::Offset => {
-                    let end = [0, 1].map(|i| -step.push[i]);
+                    let end = [0, 1].map(|i| -step.linear.push[i]);
                     let change = one(Change { end, ..Change::default() });
                     Answer { from: change.from + 1.0, ..change }
                 }
@@ -294,12 +253,12 @@ impl<const D: usize> Mover<D> {
         motion.tangents.rubbed(&Rubbed { to, push, ramp }, own, by);
     }
 
-    fn step_slopes(&self, step: &Step) -> StepSlopes {
-        let by = step.bending.slopes(step.duration_s);
+    fn step_slopes(&self, step: &BristleStep) -> StepSlopes {
+        let by = step.bending.slopes(step.linear.duration_s);
         let level = step.places.map(|at| self.friction.level_slopes(at));
         let mut slopes = StepSlopes { by, level, system: [[1.0, 0.0], [0.0, 1.0]] };
         // What friction at the end, and its mean beyond both ends, do to themselves by way of the end.
-        for (column, torque) in [step.ramp, step.push].into_iter().enumerate() {
+        for (column, torque) in [step.linear.ramp, step.linear.push].into_iter().enumerate() {
             let end = torque.map(|t| -t);
             let inputs = slopes.inputs(step, &Change { end, ..Change::default() });
             slopes.system[0][column] -= dot(&slopes.by.to, &inputs);
@@ -318,8 +277,8 @@ struct StepSlopes {
 
 impl StepSlopes {
     /// Changes of the inputs of a bending.
-    fn inputs(&self, step: &Step, change: &Change) -> [f64; INPUTS] {
-        let h = step.duration_s;
+    fn inputs(&self, step: &BristleStep, change: &Change) -> [f64; INPUTS] {
+        let h = step.linear.duration_s;
         let ([angle, velocity], [end_angle, end_velocity]) = (change.start, change.end);
         let middle = 1.5 * (end_angle - angle) / h - 0.25 * (velocity + end_velocity);
         let halfway = angle + h / 24.0 * (5.0 * velocity + 8.0 * middle - end_velocity);
@@ -341,17 +300,18 @@ impl StepSlopes {
     }
 
     /// What a change does, the end's being that without a change of friction.
-    fn answer(&self, step: &Step, change: &Change) -> Answer {
+    fn answer(&self, step: &BristleStep, change: &Change) -> Answer {
         let first = dot(&self.by.from, &self.inputs(step, change));
         // Friction that begins otherwise, and ends as it did.
-        let end = [0, 1].map(|i| change.end[i] - first * (step.push[i] - step.ramp[i]));
+        let end =
+            [0, 1].map(|i| change.end[i] - first * (step.linear.push[i] - step.linear.ramp[i]));
         let mut inputs = self.inputs(step, &Change { end, ..*change });
         let right = [dot(&self.by.to, &inputs), dot(&self.by.beyond, &inputs)];
         let [[a, b], [c, d]] = self.system;
         let whole = a * d - b * c;
         let to = (right[0] * d - b * right[1]) / whole;
         let beyond = (a * right[1] - c * right[0]) / whole;
-        let end = [0, 1].map(|i| end[i] - to * step.ramp[i] - beyond * step.push[i]);
+        let end = [0, 1].map(|i| end[i] - to * step.linear.ramp[i] - beyond * step.linear.push[i]);
         inputs = self.inputs(step, &Change { end, ..*change });
         Answer { from: first + beyond, rise: to - first, z: dot(&self.by.z, &inputs) }
     }
@@ -362,11 +322,5 @@ fn dot(a: &[f64; INPUTS], b: &[f64; INPUTS]) -> f64 {
 }
 
 fn place(angle: f64, velocity: f64) -> Place {
-    let sign = if velocity < 0.0 { -1.0 } else { 1.0 };
-    Place { angle, speed: velocity.abs(), sign }
-}
-
-/// 0 forward, 1 backward.
-fn way(at: Place) -> usize {
-    usize::from(at.sign < 0.0)
+    Place::of_velocity(angle, velocity, 0.0)
 }

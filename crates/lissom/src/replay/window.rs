@@ -8,8 +8,8 @@ use super::motion::{Columns, Motion, Mover, Torque, direction};
 use super::parameter::{Enters, Parameter};
 use super::rates::Phases;
 use super::tangents::{LANES, Tangents};
+use crate::friction::Mode;
 use crate::record::{Channels, Hold, Run, TipQuantity};
-use crate::rig::Mode;
 
 /// Where a part of a sample is no longer one: shares of the sample time below this count as none.
 const SHARE: f64 = 1e-9;

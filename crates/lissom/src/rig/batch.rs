@@ -18,8 +18,9 @@ use super::held::arm::{Duration, Modes, Way};
 use super::held::flow::step;
 use super::held::lane::{LANES, Lane, Lanes};
 use super::sampled_loop::{LEAST_RAD, RUN_AWAY};
-use super::{HeldArm, HeldMotion, Mode, Motion, Pd, RigError, Sines};
+use super::{HeldArm, HeldMotion, Motion, Pd, RigError, Sines};
 use crate::arm::Arm;
+use crate::friction::Mode;
 use crate::spectrum::hold_factor;
 
 /// Samples for which noise and reference are made at a time.

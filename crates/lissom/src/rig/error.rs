@@ -130,14 +130,6 @@ pub enum RigError {
         /// Time from the start \[s\].
         time_s: f64,
     },
-    /// What this build cannot do.
-    #[error("{what} need the feature `{feature}`, which this build lacks")]
-    Feature {
-        /// What.
-        what: &'static str,
-        /// The feature.
-        feature: &'static str,
-    },
     /// What the rig cannot simulate.
     #[error("{what} cannot be simulated")]
     Unsupported {

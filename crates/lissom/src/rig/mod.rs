@@ -10,7 +10,6 @@ mod held;
 mod hybrid;
 mod instrument;
 mod logging;
-#[cfg(feature = "lugre")]
 mod lugre;
 mod motion;
 mod sampled_loop;
@@ -20,6 +19,7 @@ mod signal;
 mod sine;
 mod tip_world;
 
+pub use crate::friction::Mode;
 pub use batch::{Batch, NoisyRun};
 pub use controller::{ControlLaw, Controller, IntegerPd, Pd, Pid, Proportional, Sensed, Word};
 pub use error::RigError;
@@ -29,9 +29,8 @@ pub use experiment::{
 };
 pub use finding::{RigFinding, SensorPlace};
 pub use held::{HeldArm, HeldMotion, HeldStep, Work};
-pub use hybrid::{Hybrid, Mode};
+pub use hybrid::Hybrid;
 pub use instrument::{Amplifier, Delay, Instruments, Noise, Quantiser, Sensor};
-#[cfg(feature = "lugre")]
 pub use lugre::LuGreMotion;
 pub use motion::Motion;
 pub use sampled_loop::{Logged, Rig, Settled};

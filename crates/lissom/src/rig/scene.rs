@@ -1,8 +1,6 @@
 //! What an arm is set in: the joint's friction, the world at the tip, payloads to come.
 
-#[cfg(feature = "lugre")]
-use super::LuGreMotion;
-use super::{HeldArm, HeldMotion, Hybrid, Motion, RigError, TipWorld};
+use super::{HeldArm, HeldMotion, Hybrid, LuGreMotion, Motion, RigError, TipWorld};
 use crate::arm::Arm;
 use crate::drive::{DryFriction, LuGre};
 
@@ -15,8 +13,7 @@ pub enum JointFriction {
     Arm,
     /// Dry friction by another law: exact where it is constant in slip, else to 1e-15 a step.
     Dry(DryFriction),
-    /// Bristles, in place of the arm's Coulomb friction, solved to a relative tolerance a step; needs
-    /// the feature `lugre`.
+    /// Bristles, in place of the arm's Coulomb friction, solved to a relative tolerance a step.
     Bristles {
         /// The law.
         law: LuGre,
@@ -111,13 +108,8 @@ impl Scene {
                     what: "bristles beside a world at the tip or changing payloads",
                 });
             }
-            #[cfg(feature = "lugre")]
             JointFriction::Bristles { law, tolerance } => {
                 return Ok(Box::new(LuGreMotion::with_state(arm, law, tolerance, &state, 0.0)?));
-            }
-            #[cfg(not(feature = "lugre"))]
-            JointFriction::Bristles { .. } => {
-                return Err(RigError::Feature { what: "bristles", feature: "lugre" });
             }
         };
         let later: Vec<(f64, &Arm)> = self.later.iter().map(|(t, arm)| (*t, arm)).collect();

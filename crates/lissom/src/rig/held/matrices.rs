@@ -2,7 +2,8 @@
 
 use crate::arm::Arm;
 use crate::drive::Coulomb;
-use crate::rig::{Hybrid, Mode};
+use crate::friction::Mode;
+use crate::rig::Hybrid;
 
 /// Largest (bound on the state's rate × part of a sample) over which events are ruled out at once.
 const REACH: f64 = 1.0;

@@ -3,7 +3,7 @@
 use super::arm::{Duration, Modes};
 use super::flow::step;
 use super::motion::{HeldMotion, rounding};
-use crate::rig::Mode;
+use crate::friction::Mode;
 
 /// Events within one duration after which the event engine takes the rest.
 const MOST_EVENTS: usize = 64;

@@ -1,8 +1,9 @@
 //! Events of a motion: what sticks, breaks loose, reverses, meets a wall or changes.
 
 use super::slip::{Contact, slip_ends};
-use super::{Hybrid, Mode, STEP_RATE, Torque};
+use super::{Hybrid, STEP_RATE, Torque};
 use crate::drive::Coulomb;
+use crate::friction::Mode;
 use crate::lti::first_root::{ORDER_MOST, first_used_up};
 
 /// Accelerations below this share of what the torques give are rounding.

@@ -8,40 +8,14 @@ use crate::lti::first_root::ORDER_MOST;
 
 use super::{Motion, RigError, Signal, TipWorld};
 use crate::arm::Arm;
-use crate::drive::{DryFriction, FrictionSeries};
+use crate::drive::DryFriction;
+use crate::friction::{FrictionSeries, Mode};
 
 /// Largest (rate bound × step) for which a Taylor series of order [`ORDER_MOST`] is exact to
 /// rounding: 0.5²⁴/24! is 1e-31.
 const STEP_RATE: f64 = 0.5;
 /// Events at one instant after which the joint is taken to chatter and is held for a moment.
 const EVENTS_AT_ONCE: usize = 50;
-
-/// What a joint, or a rubbing tip, does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Mode {
-    /// At rest, held by friction.
-    Stick,
-    /// Moving forward.
-    Forward,
-    /// Moving backward.
-    Backward,
-}
-
-impl Mode {
-    pub(crate) fn of(velocity: f64) -> Self {
-        if velocity > 0.0 {
-            Self::Forward
-        } else if velocity < 0.0 {
-            Self::Backward
-        } else {
-            Self::Stick
-        }
-    }
-    /// +1 forward, −1 backward.
-    pub(in crate::rig) fn sign(self) -> f64 {
-        if self == Self::Backward { -1.0 } else { 1.0 }
-    }
-}
 
 /// The motor's torque over time.
 #[derive(Debug, Clone, Copy)]

@@ -1,8 +1,9 @@
 //! Taylor series of an arm's state, and where the tip stands in it.
 
 use super::events::{ROUNDING, pushed};
-use super::{Hybrid, Mode, Torque};
+use super::{Hybrid, Torque};
 use crate::drive::Coulomb;
+use crate::friction::Mode;
 use crate::lti::first_root::{ORDER_MOST, value};
 
 /// Relative size of terms that are left out: two orders below rounding.

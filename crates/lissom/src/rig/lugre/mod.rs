@@ -1,37 +1,27 @@
-//! Motion of an arm whose joint rests on bristles (LuGre), by a stiff solver.
+//! Motion of an arm whose joint rests on bristles (LuGre).
 
-mod equations;
+mod linear_steps;
+mod stepper;
 
-use diffsol::{
-    NalgebraLU, OdeBuilder, OdeSolverMethod, OdeSolverProblem, OdeSolverState, OdeSolverStopReason,
-    RkState, Tableau, Vector, VectorCommon,
-};
-
-use equations::{Equations, M, V};
+use stepper::{Bristling, Stepper};
 
 use super::{Motion, RigError};
 use crate::arm::Arm;
 use crate::drive::LuGre;
 
-/// Tolerances that the solver is asked for, finest and coarsest.
+/// Tolerances that a motion can have, finest and coarsest.
 const TOLERANCES: [f64; 2] = [1e-12, 1e-2];
-
-/// The first step that is tried, as a share of the time that the bristles take to swing once.
-const FIRST_STEP: f64 = 1e-3;
-
-/// Share of a motion by which bristles bend as long as they hold the joint.
-const HOLDS: f64 = 0.1;
-
-/// Steps shorter than this mean that the solver gets nowhere \[s\].
-const STEP_LEAST_S: f64 = 1e-30;
+/// The first step that is tried, as a share of the time in which the motor swings by 1 rad on its bristles.
+const FIRST_STEP: f64 = 0.1;
 
 /// An arm in motion on LuGre bristles.
 ///
 /// The equations are those of [`Hybrid`](super::Hybrid) with [`LuGre`]'s torque in place of the
-/// arm's own Coulomb friction, which is left out. They are not piecewise linear: a diagonally
-/// implicit Runge-Kutta method of order 3 (ESDIRK) solves them to a stated [tolerance]. At v = 0
-/// the bristles' rate has a kink, which the solver's error control takes; finding these instants
-/// and starting anew there gained nothing.
+/// arm's own Coulomb friction, which is left out. Over a step the arm moves by its exact linear solution and
+/// friction by the step that the [`replay`](crate::replay) uses: the deflection follows its steady value exactly over
+/// the travel, and friction acts as a line in time with the mean of a parabola (order 4). Every step is made a
+/// second time as two halves, which are kept; their distance from the whole controls the length of steps to a stated
+/// [tolerance]. Steps are a sample halved any number of times, so that the matrices of the linear part are made once.
 ///
 /// [tolerance]: Self::at_rest
 ///
@@ -49,11 +39,11 @@ const STEP_LEAST_S: f64 = 1e-30;
 /// ```
 ///
 /// # Source
-/// `[deWit1995]` with `[Feliu1989, eqs. (13)-(15)]`; the solver is that of the crate `diffsol`.
+/// `[deWit1995]` with `[Feliu1989, eqs. (13)-(15)]`.
+#[derive(Debug, Clone)]
 pub struct LuGreMotion {
-    problem: OdeSolverProblem<Equations>,
-    tableau: Tableau<f64>,
-    solved: RkState<V>,
+    stepper: Stepper,
+    now: Bristling,
     /// The step to try first in the next sample \[s\].
     step_s: f64,
     time_s: f64,
@@ -65,7 +55,7 @@ pub struct LuGreMotion {
 impl LuGreMotion {
     /// An arm at rest at angle zero on straight bristles.
     ///
-    /// `tolerance` r: a step's error is below `r·(|x| + a)`, in the mean over the state, a = Fs/σ0
+    /// `tolerance` r: a step's estimated error is below `r·(|x| + a)` in every number of the state, a = Fs/σ0
     /// for angles and √(Fs²/(σ0·J)) for velocities. Errors of steps add up: see
     /// [`tolerance`](Motion::tolerance).
     ///
@@ -92,117 +82,62 @@ impl LuGreMotion {
         if !(least..=most).contains(&tolerance) {
             return Err(RigError::Tolerance { found: tolerance, least, most });
         }
-        let len = arm.state_len();
-        let mut start = state.to_vec();
-        start.resize(len, 0.0);
-        start.push(deflection_rad);
-        let stuck = RigError::NotFollowed { time_s: 0.0, step_s: 0.0 };
-        if !start.iter().all(|x| x.is_finite()) {
-            return Err(stuck);
+        let mut x = state.to_vec();
+        x.resize(arm.state_len(), 0.0);
+        if !x.iter().chain([&deflection_rad]).all(|x| x.is_finite()) {
+            return Err(RigError::NotFollowed { time_s: 0.0, step_s: 0.0 });
         }
-        let bend = law.deflection_most_rad();
-        let swing = (law.stiffness_nm_per_rad() / arm.motor.inertia_kg_m2).sqrt();
-        let is_rate = |i: usize| i == 1 || (2 + (len - 2) / 2..len).contains(&i);
-        let sizes = (0..=len).map(|i| if is_rate(i) { bend * swing } else { bend });
-        let step_s = FIRST_STEP / swing;
-        let equations = Equations::new(arm.clone(), law, start);
-        let made = OdeBuilder::<M>::new()
-            .rtol(tolerance)
-            .atol(sizes.map(|size| tolerance * size).collect::<Vec<_>>())
-            .h0(step_s)
-            .build_from_eqn(equations);
-        let mut problem = made.map_err(|_| stuck.clone())?;
-        // It counts them over a whole sample, which may be long; steps that get too short end it.
-        problem.ode_options.max_nonlinear_solver_failures = usize::MAX;
-        problem.ode_options.min_timestep = STEP_LEAST_S;
-        let tableau = Tableau::esdirk34();
-        let solved = problem.rk_state(&tableau).map_err(|_| stuck)?;
-        Ok(Self { problem, tableau, solved, step_s, time_s: 0.0, held_s: 0.0, steps: 0 })
+        let stepper = Stepper::new(arm, law, tolerance);
+        let step_s = FIRST_STEP * stepper.swing_s();
+        let now = Bristling { x, z: deflection_rad };
+        Ok(Self { stepper, now, step_s, time_s: 0.0, held_s: 0.0, steps: 0 })
     }
 
     /// Current state `[θ_m, θ̇_m, θ_i.., θ̇_i..]` \[rad, rad/s\].
     pub fn state(&self) -> &[f64] {
-        let full = self.full();
-        &full[..full.len() - 1]
+        &self.now.x
     }
 
     /// Deflection z of the bristles \[rad\].
     pub fn deflection_rad(&self) -> f64 {
-        let full = self.full();
-        full[full.len() - 1]
+        self.now.z
     }
 
     /// Friction F at the joint \[N·m\], positive against forward motion.
     pub fn friction_nm(&self) -> f64 {
-        self.problem.eqn.law.torque_nm(self.full()[1], self.deflection_rad())
+        self.stepper.law.torque_nm(self.now.x[1], self.now.z)
     }
 
-    /// Steps that the solver has taken.
+    /// Steps made so far, those left out that turned out too long.
     pub fn steps(&self) -> usize {
         self.steps
-    }
-
-    fn full(&self) -> &[f64] {
-        self.solved.as_ref().y.inner().as_slice()
     }
 
     /// Moves on by `duration_s` under a constant motor torque \[N·m\].
     ///
     /// # Errors
-    /// [`RigError::NotFollowed`] where the solver gets nowhere or the torque is not finite; nothing
-    /// has moved then.
+    /// [`RigError::NotFollowed`] where steps of any length miss the tolerance, where some millions of them are not
+    /// enough, where doubles do not resolve the bristles' deflection of the angles reached, or where the torque is
+    /// not finite; nothing has moved then.
     pub fn advance(&mut self, torque_nm: f64, duration_s: f64) -> Result<(), RigError> {
         if duration_s <= 0.0 {
             return Ok(());
         }
-        let stuck = |passed: f64, step_s: f64| RigError::NotFollowed {
-            time_s: self.time_s + passed,
-            step_s,
-        };
         if !(torque_nm.is_finite() && duration_s.is_finite()) {
-            return Err(stuck(0.0, 0.0));
+            return Err(RigError::NotFollowed { time_s: self.time_s, step_s: 0.0 });
         }
-        let law = self.problem.eqn.law;
-        let first = self.step_s.min(duration_s);
-        // The torque has jumped: slopes anew, and time from zero, so that it stays exact.
-        self.problem.eqn.torque_nm = torque_nm;
-        let mut state = self.solved.clone();
-        let now = state.as_mut();
-        self.problem.eqn.derivative(now.y.inner().as_slice(), now.dy.inner_mut().as_mut_slice());
-        (*now.t, *now.h) = (0.0, first);
-        let solver = self.problem.sdirk_solver::<NalgebraLU<f64>, _>(state, self.tableau);
-        let mut solver = solver.map_err(|_| stuck(0.0, first))?;
-        solver.set_stop_time(duration_s).map_err(|_| stuck(0.0, first))?;
-        let (mut largest, mut held_s) = (0.0_f64, 0.0);
-        loop {
-            let from = solver.state().t;
-            let stop = solver.step().map_err(|_| stuck(from, solver.state().h))?;
-            let step = solver.state().t - from;
-            held_s += if holds(law, solver.state().y.inner().as_slice()) { step } else { 0.0 };
-            if stop == OdeSolverStopReason::TstopReached {
-                // The last step is as long as what was left. Alone, it may grow.
-                let grown = if from > 0.0 { step } else { 4.0 * step };
-                largest = largest.max(grown);
-                break;
-            }
-            largest = largest.max(step);
-        }
-        if !solver.state().y.inner().iter().all(|x| x.is_finite()) {
-            return Err(stuck(duration_s, largest));
-        }
-        self.steps += solver.get_statistics().number_of_steps;
-        self.held_s += held_s;
-        self.solved = solver.into_state();
-        self.step_s = largest;
+        let followed = self.stepper.follow(&self.now, torque_nm, duration_s, self.step_s);
+        let followed = followed.map_err(|(passed_s, step_s)| RigError::NotFollowed {
+            time_s: self.time_s + passed_s,
+            step_s,
+        })?;
+        self.now = followed.end;
+        self.steps += followed.steps;
+        self.held_s += followed.held_s;
+        self.step_s = followed.step_s;
         self.time_s += duration_s;
         Ok(())
     }
-}
-
-/// Whether bristles bend by enough of the motion to count as holding the joint.
-fn holds(law: LuGre, state: &[f64]) -> bool {
-    let (v, z) = (state[1], state[state.len() - 1]);
-    law.bristle_rate(v, z).abs() >= HOLDS * v.abs()
 }
 
 impl Motion for LuGreMotion {
@@ -218,10 +153,8 @@ impl Motion for LuGreMotion {
     fn stuck_s(&self) -> f64 {
         self.held_s
     }
-    /// That of each step; errors of steps add up, as a motor without a loop does not forget. Over
-    /// 300 samples of 3 ms and many reversals angles are off by less than 3e-5 rad at 1e-5, 5e-6 rad
-    /// at 1e-6 and 7e-7 rad at 1e-8 (`tests/lugre_reference`).
+    /// That of each step; errors of steps add up, as a motor without a loop does not forget.
     fn tolerance(&self) -> Option<f64> {
-        Some(self.problem.rtol)
+        Some(self.stepper.tolerance)
     }
 }

@@ -1,12 +1,12 @@
 //! What dry friction has beyond one Coulomb constant: a change near rest, ripple over the travel.
 
 use super::bristles::Bristles;
-use super::parameter::Parameter;
-use crate::drive::Falloff;
+use super::falloff::Falloff;
+use super::place::Place;
 
 /// Largest share of its range by which an argument of the law may move over a step that is replayed
 /// with friction linear in time, its mean over the step right.
-pub(super) const STEP: f64 = 0.4;
+pub(crate) const SHARE_PER_STEP: f64 = 0.4;
 /// Largest (rate × step) at which friction that falls with speed lets the speed grow, and the same where
 /// the motor has just been let go: what it errs by there grows with it.
 const GROWTH: f64 = 0.5;
@@ -55,39 +55,10 @@ pub struct Ripple {
     pub sine_nm: f64,
 }
 
-/// Where the law is asked for.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
-    pub(super) angle: f64,
-    /// Speed in the direction of motion; negative just beyond a reversal, where the law is continued.
-    pub(super) speed: f64,
-    /// +1 or −1.
-    pub(super) sign: f64,
-}
-
 impl DryTerms {
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.near_rest.is_none() && self.ripples.is_empty() && self.bristles.is_none()
-    }
-
-    /// All numbers in them.
-    pub(super) fn parameters(&self) -> Vec<Parameter> {
-        let mut found = Vec::new();
-        if self.near_rest.is_some() {
-            found.extend([Parameter::NearRest, Parameter::NearRestSpeed]);
-        }
-        for i in 0..self.ripples.len() {
-            found.extend([
-                Parameter::RippleCosine(i),
-                Parameter::RippleSine(i),
-                Parameter::RippleRate(i),
-            ]);
-        }
-        if self.bristles.is_some() {
-            found.extend([Parameter::BristleStiffness, Parameter::BristleDamping]);
-        }
-        found
     }
 
     /// Torque against the motion at an angle and a speed: without s.
@@ -101,12 +72,12 @@ impl DryTerms {
     }
 
     /// Their torque on the motor, signed.
-    pub(super) fn torque_nm(&self, at: Place) -> f64 {
+    pub(crate) fn torque_nm(&self, at: Place) -> f64 {
         at.sign * self.braking_nm(at.angle, at.speed)
     }
 
     /// Derivatives of that by the angle and by the velocity.
-    pub(super) fn slopes(&self, at: Place) -> [f64; 2] {
+    pub(crate) fn slopes(&self, at: Place) -> [f64; 2] {
         let wave = |r: &Ripple| {
             let (sine, cosine) = (r.per_rad * at.angle).sin_cos();
             r.per_rad * (r.sine_nm * cosine - r.cosine_nm * sine)
@@ -115,29 +86,10 @@ impl DryTerms {
         [at.sign * self.ripples.iter().map(wave).sum::<f64>(), -near]
     }
 
-    /// Derivative of the torque by one of the terms' own numbers.
-    pub(super) fn by(&self, parameter: Parameter, at: Place) -> f64 {
-        let ripple = |i: usize| self.ripples[i].per_rad * at.angle;
-        at.sign
-            * match (parameter, self.near_rest) {
-                (Parameter::NearRest, Some(n)) => n.share(at.speed),
-                (Parameter::NearRestSpeed, Some(n)) => {
-                    n.torque_nm * n.falls(at.speed) * at.speed / n.speed_rad_s.powi(2)
-                }
-                (Parameter::RippleCosine(i), _) => ripple(i).cos(),
-                (Parameter::RippleSine(i), _) => ripple(i).sin(),
-                (Parameter::RippleRate(i), _) => {
-                    let (r, (sine, cosine)) = (&self.ripples[i], ripple(i).sin_cos());
-                    at.angle * (r.sine_nm * cosine - r.cosine_nm * sine)
-                }
-                _ => 0.0,
-            }
-    }
-
     /// Longest step over which friction may be taken for linear in time \[s\], for a motor that turns at
     /// `turning` at most, slows down to the place's speed at most, accelerates by `acceleration`, and by
     /// `per_torque` more per torque.
-    pub(super) fn step_s(
+    pub(crate) fn step_s(
         &self,
         at: Place,
         turning: f64,
@@ -145,23 +97,23 @@ impl DryTerms {
         per_torque: f64,
     ) -> f64 {
         let near = self.near_rest.filter(|n| n.acts_at(at.speed)).map(|n| {
-            let moves = STEP * n.speed_rad_s / acceleration.abs();
+            let moves = SHARE_PER_STEP * n.speed_rad_s / acceleration.abs();
             let growth = if at.speed < n.speed_rad_s { LET_GO } else { GROWTH };
             moves.min(growth * n.speed_rad_s / (per_torque * n.torque_nm).abs())
         });
-        let turns = self.ripples.iter().map(|r| STEP / (r.per_rad * turning).abs());
+        let turns = self.ripples.iter().map(|r| SHARE_PER_STEP / (r.per_rad * turning).abs());
         turns.chain(near).fold(f64::INFINITY, f64::min)
     }
 }
 
 impl NearRest {
     /// What of it is there at a speed.
-    fn share(&self, speed: f64) -> f64 {
+    pub(crate) fn share(&self, speed: f64) -> f64 {
         self.falloff.share(self.ratio(speed))
     }
 
     /// By how much that falls as the speed rises by v_s.
-    fn falls(&self, speed: f64) -> f64 {
+    pub(crate) fn falls(&self, speed: f64) -> f64 {
         let steeper = match self.falloff {
             Falloff::Exponential => 1.0,
             Falloff::Gaussian => 2.0 * self.ratio(speed),
@@ -174,7 +126,7 @@ impl NearRest {
     }
 
     /// Whether anything is left of it at a speed.
-    pub(super) fn acts_at(&self, speed: f64) -> bool {
+    pub(crate) fn acts_at(&self, speed: f64) -> bool {
         let gone = match self.falloff {
             Falloff::Exponential => GONE[0],
             Falloff::Gaussian => GONE[1],

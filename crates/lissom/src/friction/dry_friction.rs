@@ -1,33 +1,8 @@
 //! Dry friction whose size follows speed and position: Coulomb, Stribeck, ripple.
 
-use super::{Coulomb, DriveError};
-
-/// How the friction at rest passes into that at speed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Falloff {
-    /// `e^{−|v|/v_s}`.
-    Exponential,
-    /// `e^{−(v/v_s)²}`.
-    Gaussian,
-}
-
-impl Falloff {
-    /// Its name in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Exponential => "exponential",
-            Self::Gaussian => "gaussian",
-        }
-    }
-
-    /// What of the difference is left at `speed_ratio` = |v|/v_s.
-    pub fn share(self, speed_ratio: f64) -> f64 {
-        match self {
-            Self::Exponential => (-speed_ratio).exp(),
-            Self::Gaussian => (-speed_ratio * speed_ratio).exp(),
-        }
-    }
-}
+use super::coulomb::Coulomb;
+use super::error::DriveError;
+use super::falloff::Falloff;
 
 /// Friction at rest that differs from the friction at speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +25,7 @@ struct Ripple {
 /// While the joint turns forward it takes `F = [F_c + (F_s − F_c)·g(v/v_s)]·[1 + r·cos(N·θ_m + φ)] + D·|v|`,
 /// with `g` = 1 at rest and 0 at speed; backward likewise with that direction's figures, and −D. At rest
 /// the joint holds any torque up to `F_s` times the ripple at its angle. Viscous friction is the
-/// [`Motor`](super::Motor)'s, V + D forward and V − D backward.
+/// [`Motor`](crate::drive::Motor)'s, V + D forward and V − D backward.
 ///
 /// `F_s > F_c` is the Stribeck effect. `F_s < F_c` is viscous friction that grows less than
 /// linearly: a line through fast points then meets rest above the true friction.

@@ -1,11 +1,10 @@
-//! Bristles that hold the joint and bend before it slips, over a step of the replay.
+//! Bristles that bend before the joint slips, and the friction of a joint on them over a step in time.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::tangents::{Answers, Lanes};
 use crate::number::Number;
 
-/// Exponents below which `(1 − e^{−u})/u` is taken by its series.
+/// Exponents below which `1 − (1 − e^{−u})/u` is taken by its series.
 const SMALL: f64 = 1e-2;
 
 /// What yields before the joint slips: the joint's dry friction is
@@ -27,42 +26,34 @@ pub struct Bristles {
     pub damping_nm_s_per_rad: f64,
 }
 
-/// The bristles of a replay: how far they are bent, with its derivatives by every unknown.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Bent {
-    pub(super) z: f64,
-    pub(super) by: Vec<Lanes>,
-    /// Room for what a step asks of the law's own numbers.
-    pub(super) own: Vec<Answers>,
-}
-
 /// What bends the bristles over a step: velocities and levels at its beginning, halfway and at its end, the
 /// deflection at its beginning, σ0 and σ1.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Bending<T> {
-    pub(super) velocity: [T; 3],
-    pub(super) z: T,
-    pub(super) level: [T; 3],
-    pub(super) stiffness: T,
-    pub(super) damping: T,
+pub(crate) struct Bending<T> {
+    pub(crate) velocity: [T; 3],
+    pub(crate) z: T,
+    pub(crate) level: [T; 3],
+    pub(crate) stiffness: T,
+    pub(crate) damping: T,
 }
 
 /// Number of inputs of a [`Bending`], in their order.
-pub(super) const INPUTS: usize = 9;
-pub(super) const VELOCITY: usize = 0;
-pub(super) const DEFLECTION: usize = 3;
-pub(super) const LEVEL: usize = 4;
-pub(super) const STIFFNESS: usize = 7;
-pub(super) const DAMPING: usize = 8;
+pub(crate) const INPUTS: usize = 9;
+pub(crate) const VELOCITY: usize = 0;
+pub(crate) const DEFLECTION: usize = 3;
+pub(crate) const LEVEL: usize = 4;
+pub(crate) const STIFFNESS: usize = 7;
+pub(crate) const DAMPING: usize = 8;
 
-/// What friction does over a step: its torque at both ends, by how much its mean is beyond theirs, and the
-/// deflection at the end.
+/// Friction over a step: its torque at both ends, how far its mean over time is above the mean of both ends, and the
+/// deflection halfway and at the end.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Bristled<T> {
-    pub(super) from: T,
-    pub(super) to: T,
-    pub(super) beyond: T,
-    pub(super) z: T,
+pub(crate) struct Bristled<T> {
+    pub(crate) from: T,
+    pub(crate) to: T,
+    pub(crate) beyond: T,
+    pub(crate) middle_z: T,
+    pub(crate) z: T,
 }
 
 impl Bending<f64> {
@@ -80,39 +71,45 @@ impl Bending<f64> {
     }
 
     /// Derivatives of friction at the beginning by the inputs.
-    pub(super) fn slopes_now(&self) -> [f64; INPUTS] {
+    pub(crate) fn slopes_now(&self) -> [f64; INPUTS] {
         self.varied().now().by
     }
 
     /// Over a step, with derivatives by the inputs.
-    pub(super) fn slopes(&self, duration_s: f64) -> Bristled<[f64; INPUTS]> {
+    pub(crate) fn slopes(&self, duration_s: f64) -> Bristled<[f64; INPUTS]> {
         let found = self.varied().over(duration_s);
-        Bristled { from: found.from.by, to: found.to.by, beyond: found.beyond.by, z: found.z.by }
+        Bristled {
+            from: found.from.by,
+            to: found.to.by,
+            beyond: found.beyond.by,
+            middle_z: found.middle_z.by,
+            z: found.z.by,
+        }
     }
 }
 
 impl<T: Exponential> Bending<T> {
     /// Friction at the beginning.
-    pub(super) fn now(&self) -> T {
+    pub(crate) fn now(&self) -> T {
         self.torque(self.z, 0)
     }
 
     /// Over a step: z follows its level over the travel exactly where that is linear in it, in two halves; the
     /// torque's mean is Simpson's of σ0·z, and exact of σ1·ż.
-    pub(super) fn over(&self, duration_s: f64) -> Bristled<T> {
+    pub(crate) fn over(&self, duration_s: f64) -> Bristled<T> {
         let [first, middle, last] = self.velocity;
         // Of a parabola through the three velocities.
         let part =
             |near: T, far: T| (near.times(5.0) + middle.times(8.0) - far).times(duration_s / 24.0);
         let half_s = 0.5 * duration_s;
-        let middle = self.half(self.z, 0, part(first, last), half_s);
-        let end = self.half(middle, 1, part(last, first), half_s);
-        let from = self.now();
-        let to = self.torque(end, 2);
-        let mean_z = (self.z + middle.times(4.0) + end).times(1.0 / 6.0);
-        let mean =
-            self.stiffness * mean_z + (self.damping * (end - self.z)).times(1.0 / duration_s);
-        Bristled { from, to, beyond: mean - (from + to).times(0.5), z: end }
+        let bent = self.half(self.z, 0, part(first, last), half_s);
+        let middle_z = self.z + bent;
+        let bent = bent + self.half(middle_z, 1, part(last, first), half_s);
+        let z = self.z + bent;
+        let (from, to) = (self.now(), self.torque(z, 2));
+        let mean_z = (self.z + middle_z.times(4.0) + z).times(1.0 / 6.0);
+        let mean = self.stiffness * mean_z + (self.damping * bent).times(1.0 / duration_s);
+        Bristled { from, to, beyond: mean - (from + to).times(0.5), middle_z, z }
     }
 
     /// σ0·z + σ1·ż at place `at` of the three.
@@ -126,7 +123,7 @@ impl<T: Exponential> Bending<T> {
         self.stiffness * size(self.velocity[at]) / self.level[at]
     }
 
-    /// The deflection after half a step from place `at` to the next, over which the motor turns by `travel`; where it
+    /// Change of the deflection over half a step from place `at` to the next, over which the motor turns by `travel`; where it
     /// reverses, the velocity is taken for linear in time.
     fn half(&self, z: T, at: usize, travel: T, half_s: f64) -> T {
         let [before, after] = [self.velocity[at], self.velocity[at + 1]];
@@ -145,23 +142,22 @@ impl<T: Exponential> Bending<T> {
         // To rest, and away from it the other way.
         let until = before / (before - after);
         let first = steady(at, a.signum());
-        let turned = follows(z, [first; 2], (forgets * until).times(0.5 * half_s));
+        let to_rest = follows(z, [first; 2], (forgets * until).times(0.5 * half_s));
         let second = steady(at + 1, b.signum());
         let rest = T::real(1.0) - until;
-        follows(turned, [second; 2], (then * rest).times(0.5 * half_s))
+        to_rest + follows(z + to_rest, [second; 2], (then * rest).times(0.5 * half_s))
     }
 }
 
-/// `dz/du = ζ − z` over u, ζ linear in it.
+/// Change of z with `dz/du = ζ − z` over u, ζ linear in it.
 fn follows<T: Exponential>(z: T, [from, to]: [T; 2], u: T) -> T {
-    let left = (-u).exp();
-    let mean = if u.sign_part() < SMALL {
-        let series = T::real(1.0 / 6.0) - u.times(1.0 / 24.0);
-        T::real(1.0) - u * (T::real(0.5) - u * series)
+    let forgotten = -(-u).exp_m1();
+    let lags = if u.sign_part() < SMALL {
+        u * (T::real(0.5) - u * (T::real(1.0 / 6.0) - u.times(1.0 / 24.0)))
     } else {
-        (T::real(1.0) - left) / u
+        T::real(1.0) - forgotten / u
     };
-    to + (z - from) * left - (to - from) * mean
+    (from - z) * forgotten + (to - from) * lags
 }
 
 fn size<T: Number>(x: T) -> T {
@@ -169,13 +165,14 @@ fn size<T: Number>(x: T) -> T {
 }
 
 /// Numbers with an exponential.
-pub(super) trait Exponential: Number {
-    fn exp(self) -> Self;
+pub(crate) trait Exponential: Number {
+    /// `e^x − 1`, exact near zero.
+    fn exp_m1(self) -> Self;
 }
 
 impl Exponential for f64 {
-    fn exp(self) -> Self {
-        f64::exp(self)
+    fn exp_m1(self) -> Self {
+        f64::exp_m1(self)
     }
 }
 
@@ -250,8 +247,8 @@ impl Number for Gradient {
 }
 
 impl Exponential for Gradient {
-    fn exp(self) -> Self {
-        let value = self.value.exp();
-        Self { value, by: self.by.map(|v| value * v) }
+    fn exp_m1(self) -> Self {
+        let value = self.value.exp_m1();
+        Self { value, by: self.by.map(|v| (value + 1.0) * v) }
     }
 }

@@ -1,6 +1,6 @@
 //! Coulomb friction that may differ by direction.
 
-use super::DriveError;
+use super::error::DriveError;
 
 /// Dry friction with true sticking.
 ///
