@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use lissom_io::write::Batch;
-use lissom_report::{BodePlot, Figure, svg_to_png};
+use lissom_report::{BodePlot, Figure};
 
 use crate::shared::failure::Failure;
 
@@ -17,10 +17,8 @@ pub(crate) fn add(
     name: &str,
     plot: &impl Figure,
 ) -> Result<(), Failure> {
-    let svg = plot.to_svg()?;
-    let png = svg_to_png(&svg, PNG_SCALE)?;
-    batch.file(&folder.join(format!("{name}.svg")), svg.as_bytes())?;
-    batch.file(&folder.join(format!("{name}.png")), &png)?;
+    batch.file(&folder.join(format!("{name}.svg")), plot.to_svg()?.as_bytes())?;
+    batch.file(&folder.join(format!("{name}.png")), &plot.to_png(PNG_SCALE)?)?;
     Ok(())
 }
 
@@ -55,12 +53,8 @@ impl Picture {
 
     /// Adds a plot to the files to be written.
     pub(crate) fn draw(&self, batch: &mut Batch, plot: &BodePlot) -> Result<(), Failure> {
-        let svg = plot.to_svg()?;
-        if self.png {
-            batch.file(&self.path, &svg_to_png(&svg, PNG_SCALE)?)?;
-        } else {
-            batch.file(&self.path, svg.as_bytes())?;
-        }
+        let file = if self.png { plot.to_png(PNG_SCALE)? } else { plot.to_svg()?.into_bytes() };
+        batch.file(&self.path, &file)?;
         Ok(())
     }
 }

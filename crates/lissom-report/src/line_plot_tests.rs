@@ -1,7 +1,6 @@
-use resvg::usvg::roxmltree::Document;
+use roxmltree::Document;
 
 use super::*;
-use crate::{Figure, svg_to_png};
 
 fn texts(svg: &str) -> Vec<String> {
     let document = Document::parse(svg).unwrap();
@@ -86,7 +85,7 @@ fn every_style_takes_degenerate_data() {
                             !svg.contains("NaN") && !svg.contains("inf"),
                             "{style:?} {x_scale:?} {y:?}"
                         );
-                        svg_to_png(&svg, 0.2).unwrap();
+                        figure.to_png(0.2).unwrap();
                     }
                     Err(error) => {
                         assert!(matches!(error, FigureError::NothingToDraw { .. }), "{error}");

@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use crate::error::FigureError;
+use crate::figure_error::FigureError;
 use crate::palette::Role;
 
 /// What the frequency axis shows.

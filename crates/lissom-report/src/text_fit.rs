@@ -1,35 +1,16 @@
 //! The width of text, and text that fits a width.
 
-use std::sync::LazyLock;
-
+use skrifa::MetadataProvider;
 use skrifa::instance::{LocationRef, Size};
-use skrifa::{FontRef, MetadataProvider};
 
-/// The family every figure is set in.
-pub(crate) const FAMILY: &str = "DejaVu Sans";
+use crate::font::{Weight, font};
 
 /// An advance for characters the font lacks, in units of the font size.
 const UNKNOWN_ADVANCE: f64 = 0.8;
 
-static REGULAR: LazyLock<Option<FontRef<'static>>> =
-    LazyLock::new(|| FontRef::new(dejavu::sans::regular()).ok());
-static BOLD: LazyLock<Option<FontRef<'static>>> =
-    LazyLock::new(|| FontRef::new(dejavu::sans::bold()).ok());
-
-/// The weight of a text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Weight {
-    Regular,
-    Bold,
-}
-
 /// The width of `text` at a font size of `size`, in the same unit.
 pub(crate) fn width(text: &str, size: f64, weight: Weight) -> f64 {
-    let font = match weight {
-        Weight::Regular => &*REGULAR,
-        Weight::Bold => &*BOLD,
-    };
-    let Some(font) = font else {
+    let Some(font) = font(weight) else {
         return UNKNOWN_ADVANCE * size * text.chars().count() as f64;
     };
     let (glyphs, map) =

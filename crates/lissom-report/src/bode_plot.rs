@@ -3,16 +3,20 @@
 use std::f64::consts::TAU;
 
 use crate::axis::{Ruler, Steps};
-use crate::canvas::{Anchor, Canvas, Rect, TextStyle};
-use crate::error::FigureError;
+use crate::bode_series::{FrequencyAxis, Series, Style};
+use crate::canvas::{Anchor, Canvas, Drawing, Rect, TextStyle};
+use crate::figure::{Figure, Sealed};
+use crate::figure_error::FigureError;
+use crate::font::Weight;
 use crate::legend::{Entry, Sample, header, skipped_note};
 use crate::marks::{Mark, with_bars};
 use crate::palette::FAINT_INK;
 use crate::panel::{Panel, TICK_SIZE, X_AXIS_HEIGHT};
 use crate::phase::{Track, unwrap_together};
+use crate::png_writer::png;
 use crate::scale::{Scale, extent};
-use crate::series::{FrequencyAxis, Series, Style};
-use crate::text::{Weight, width};
+use crate::svg_writer::svg;
+use crate::text_fit::width;
 
 const SHEET_WIDTH: f64 = 760.0;
 const RIGHT_MARGIN: f64 = 24.0;
@@ -155,7 +159,7 @@ impl BodePlot {
         skipped: usize,
         frequencies: (f64, f64),
         [db, degrees]: [Ruler; 2],
-    ) -> String {
+    ) -> Drawing {
         let mut canvas = Canvas::default();
         let widest = db
             .ticks
@@ -226,10 +230,8 @@ impl BodePlot {
         }
         canvas.finish(SHEET_WIDTH, bottom, &self.title)
     }
-}
 
-impl crate::Figure for BodePlot {
-    fn to_svg(&self) -> Result<String, FigureError> {
+    fn drawing(&self) -> Result<Drawing, FigureError> {
         let (prepared, skipped) = self.prepare()?;
         let nothing = || FigureError::NothingToDraw { title: self.title.clone(), skipped };
         let magnitude: Vec<&Mark> = prepared.iter().flat_map(|p| &p.magnitude).collect();
@@ -241,6 +243,18 @@ impl crate::Figure for BodePlot {
         let db = Ruler::linear(db, Steps::Decibels, 6.0, true);
         let degrees = Ruler::linear(degrees, Steps::Degrees, 6.0, true);
         Ok(self.draw(&prepared, skipped, frequencies, [db, degrees]))
+    }
+}
+
+impl Sealed for BodePlot {}
+
+impl Figure for BodePlot {
+    fn to_svg(&self) -> Result<String, FigureError> {
+        Ok(svg(&self.drawing()?))
+    }
+
+    fn to_png(&self, scale: f32) -> Result<Vec<u8>, FigureError> {
+        png(&self.drawing()?, scale)
     }
 }
 
@@ -260,5 +274,5 @@ fn degree_bar(size: f64, std: f64) -> f64 {
 }
 
 #[cfg(test)]
-#[path = "bode_tests.rs"]
+#[path = "bode_plot_tests.rs"]
 mod tests;

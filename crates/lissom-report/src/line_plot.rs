@@ -1,14 +1,18 @@
 //! Plots over one pair of axes: friction against frequency, residuals, time traces.
 
 use crate::axis::{Ruler, Steps};
-use crate::canvas::{Anchor, Canvas, Rect, Stroke, TextStyle};
-use crate::error::FigureError;
+use crate::canvas::{Anchor, Canvas, Drawing, Rect, Stroke, TextStyle};
+use crate::figure::{Figure, Sealed};
+use crate::figure_error::FigureError;
+use crate::font::Weight;
 use crate::legend::{Entry, Sample, header, skipped_note};
 use crate::marks::{Mark, with_bars};
-use crate::palette::{DASHES, FAINT_INK, INK, Role};
+use crate::palette::{DASHES, FAINT_INK, INK, Role, WHITE};
 use crate::panel::{LINE_WIDTH, Panel, TICK_SIZE, X_AXIS_HEIGHT};
+use crate::png_writer::png;
 use crate::scale::{Scale, extent};
-use crate::text::{Weight, width};
+use crate::svg_writer::svg;
+use crate::text_fit::width;
 use crate::trace::{Axis, Band, Trace, TraceStyle};
 
 const SHEET_WIDTH: f64 = 760.0;
@@ -184,10 +188,8 @@ impl LinePlot {
             );
         }
     }
-}
 
-impl crate::Figure for LinePlot {
-    fn to_svg(&self) -> Result<String, FigureError> {
+    fn drawing(&self) -> Result<Drawing, FigureError> {
         let (mut marks, mut skipped) = (Vec::new(), 0);
         for trace in &self.traces {
             let (drawable, left_out) = trace.marks([self.x.scale, self.y.scale])?;
@@ -236,6 +238,18 @@ impl crate::Figure for LinePlot {
     }
 }
 
+impl Sealed for LinePlot {}
+
+impl Figure for LinePlot {
+    fn to_svg(&self) -> Result<String, FigureError> {
+        Ok(svg(&self.drawing()?))
+    }
+
+    fn to_png(&self, scale: f32) -> Result<Vec<u8>, FigureError> {
+        png(&self.drawing()?, scale)
+    }
+}
+
 /// Columns from zero, as wide as the closest neighbours allow.
 fn columns(canvas: &mut Canvas, panel: &Panel, marks: &[Mark], role: Role) {
     let mut places: Vec<f64> = marks.iter().map(|m| panel.at(m.x, m.y).0).collect();
@@ -248,7 +262,7 @@ fn columns(canvas: &mut Canvas, panel: &Panel, marks: &[Mark], role: Role) {
         let (left, top, height) = (x - width / 2.0, y.min(foot), (y - foot).abs());
         let column = Rect { left, top, width, height };
         // White first: the grid must not show through.
-        canvas.rect(column, "#ffffff", 1.0);
+        canvas.rect(column, WHITE, 1.0);
         canvas.rect(column, role.colour(), 0.8);
     }
     let line = [(panel.frame.left, foot), (panel.frame.right(), foot)];
@@ -256,5 +270,5 @@ fn columns(canvas: &mut Canvas, panel: &Panel, marks: &[Mark], role: Role) {
 }
 
 #[cfg(test)]
-#[path = "line_tests.rs"]
+#[path = "line_plot_tests.rs"]
 mod tests;

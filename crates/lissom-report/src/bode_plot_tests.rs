@@ -1,9 +1,9 @@
-use resvg::usvg::roxmltree::Document;
+use roxmltree::Document;
 
 use num_complex::Complex64;
 
 use super::*;
-use crate::{Figure, Role, svg_to_png};
+use crate::Role;
 
 fn lag(count: u32) -> (Vec<f64>, Vec<Complex64>) {
     let omega: Vec<f64> =
@@ -61,13 +61,17 @@ fn labels_are_there_and_the_document_is_well_formed() {
 #[test]
 fn raster_has_the_size_of_the_sheet() {
     let (omega, response) = lag(20);
-    let svg = BodePlot::new("t", "")
-        .series(Series::new("fit", Role::Fitted, Style::Line, omega, response))
-        .to_svg()
-        .unwrap();
+    let plot = BodePlot::new("t", "").series(Series::new(
+        "fit",
+        Role::Fitted,
+        Style::Line,
+        omega,
+        response,
+    ));
+    let svg = plot.to_svg().unwrap();
     let root = Document::parse(&svg).unwrap();
     let side = |name| root.root_element().attribute(name).unwrap().parse::<u32>().unwrap();
-    let picture = resvg::tiny_skia::Pixmap::decode_png(&svg_to_png(&svg, 2.0).unwrap()).unwrap();
+    let picture = tiny_skia::Pixmap::decode_png(&plot.to_png(2.0).unwrap()).unwrap();
     assert_eq!((picture.width(), picture.height()), (2 * side("width"), 2 * side("height")));
 }
 
@@ -115,12 +119,10 @@ fn points_that_cannot_be_drawn_are_counted() {
         one,
         Complex64::new(f64::INFINITY, 1.0),
     ];
-    let svg = BodePlot::new("t", "")
-        .series(Series::new("raw", Role::Raw, Style::Line, omega, response))
-        .to_svg()
-        .unwrap();
-    has(&svg, "7 points without a drawable value are left out");
-    svg_to_png(&svg, 1.0).unwrap();
+    let plot =
+        BodePlot::new("t", "").series(Series::new("raw", Role::Raw, Style::Line, omega, response));
+    has(&plot.to_svg().unwrap(), "7 points without a drawable value are left out");
+    plot.to_png(1.0).unwrap();
 }
 
 #[test]
@@ -146,9 +148,10 @@ fn extreme_and_empty_input_is_no_panic() {
                 let n = omega.len();
                 let wide = series(omega.clone(), vec![Complex64::new(-size, 0.0); n])
                     .with_std(vec![std; n]);
-                let svg = plot(wide).to_svg().unwrap();
+                let plot = plot(wide);
+                let svg = plot.to_svg().unwrap();
                 assert!(!svg.contains("NaN") && !svg.contains("inf"), "{size} {omega:?} {std}");
-                svg_to_png(&svg, 0.2).unwrap();
+                plot.to_png(0.2).unwrap();
             }
         }
     }

@@ -34,12 +34,6 @@ pub enum FigureError {
         /// The upper end.
         high: f64,
     },
-    /// The text to rasterise is not an SVG document.
-    #[error("the text is not a readable SVG document")]
-    Svg {
-        /// What the SVG reader says.
-        source: Box<dyn std::error::Error + Send + Sync>,
-    },
     /// The raster image would have no pixel or too many.
     #[error(
         "a scale of {scale} makes a picture of {width} by {height} pixels; each side must lie between 1 and {limit}"
