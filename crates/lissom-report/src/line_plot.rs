@@ -2,8 +2,8 @@
 
 use crate::axis::{Ruler, Steps};
 use crate::canvas::{Anchor, Canvas, Drawing, Rect, Stroke, TextStyle};
-use crate::figure::{Figure, Sealed};
 use crate::figure_error::FigureError;
+use crate::figure_trait::{Figure, Sealed};
 use crate::font::Weight;
 use crate::legend::{Entry, Sample, header, skipped_note};
 use crate::marks::{Mark, with_bars};
