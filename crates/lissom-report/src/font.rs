@@ -2,15 +2,14 @@
 
 use std::sync::LazyLock;
 
-use skrifa::FontRef;
+use crate::truetype::TrueType;
 
 /// The family every figure is set in.
 pub(crate) const FAMILY: &str = "DejaVu Sans";
 
-static REGULAR: LazyLock<Option<FontRef<'static>>> =
-    LazyLock::new(|| FontRef::new(dejavu::sans::regular()).ok());
-static BOLD: LazyLock<Option<FontRef<'static>>> =
-    LazyLock::new(|| FontRef::new(dejavu::sans::bold()).ok());
+static REGULAR: LazyLock<Option<TrueType>> =
+    LazyLock::new(|| TrueType::new(dejavu::sans::regular()));
+static BOLD: LazyLock<Option<TrueType>> = LazyLock::new(|| TrueType::new(dejavu::sans::bold()));
 
 /// The weight of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +19,7 @@ pub(crate) enum Weight {
 }
 
 /// The font of a weight; `None` if the compiled-in file cannot be read, which a test excludes.
-pub(crate) fn font(weight: Weight) -> Option<&'static FontRef<'static>> {
+pub(crate) fn font(weight: Weight) -> Option<&'static TrueType> {
     match weight {
         Weight::Regular => REGULAR.as_ref(),
         Weight::Bold => BOLD.as_ref(),

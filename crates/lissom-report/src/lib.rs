@@ -44,6 +44,7 @@ mod svg_writer;
 mod text_fit;
 mod text_outline;
 mod trace;
+mod truetype;
 
 pub use bode_plot::BodePlot;
 pub use bode_series::{FrequencyAxis, Series, Style};

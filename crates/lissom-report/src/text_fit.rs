@@ -1,8 +1,5 @@
 //! The width of text, and text that fits a width.
 
-use skrifa::MetadataProvider;
-use skrifa::instance::{LocationRef, Size};
-
 use crate::font::{Weight, font};
 
 /// An advance for characters the font lacks, in units of the font size.
@@ -13,10 +10,9 @@ pub(crate) fn width(text: &str, size: f64, weight: Weight) -> f64 {
     let Some(font) = font(weight) else {
         return UNKNOWN_ADVANCE * size * text.chars().count() as f64;
     };
-    let (glyphs, map) =
-        (font.glyph_metrics(Size::new(1.0), LocationRef::default()), font.charmap());
     let advance = |c| {
-        map.map(c).and_then(|glyph| glyphs.advance_width(glyph)).map_or(UNKNOWN_ADVANCE, f64::from)
+        let units = font.glyph(c).and_then(|glyph| font.advance(glyph));
+        units.map_or(UNKNOWN_ADVANCE, |units| f64::from(units) / f64::from(font.units_per_em))
     };
     size * text.chars().map(advance).sum::<f64>()
 }

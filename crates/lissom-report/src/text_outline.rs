@@ -1,13 +1,12 @@
 //! A line of text as the outlines of its glyphs.
 
-use skrifa::instance::{LocationRef, Size};
-use skrifa::outline::{DrawSettings, OutlinePen};
-use skrifa::raw::TableProvider as _;
-use skrifa::raw::tables::kern::{Subtable0, SubtableKind};
-use skrifa::{FontRef, GlyphId, MetadataProvider as _};
 use tiny_skia::{Path, PathBuilder};
 
 use crate::font::{Weight, font};
+use crate::truetype::{Glyph, Point};
+
+/// The box that stands for what a font lacks.
+const MISSING: Glyph = 0;
 
 /// A line of text as one shape.
 pub(crate) struct TextOutline {
@@ -21,22 +20,23 @@ pub(crate) struct TextOutline {
 ///
 /// Blanks are those that SVG shows: runs of them count as one, and none is at either end.
 pub(crate) fn outline(text: &str, size: f64, weight: Weight) -> TextOutline {
-    let size = size as f32;
-    let mut pen = Pen { path: PathBuilder::new(), x: 0.0 };
-    let Some(face) = Face::new(weight, size) else { return TextOutline { path: None, width: 0.0 } };
-    let fallback = Face::new(Weight::Regular, size);
+    let (Some(font), Some(fallback)) = (font(weight), font(Weight::Regular)) else {
+        return TextOutline { path: None, width: 0.0 };
+    };
+    let scale = size as f32 / f32::from(font.units_per_em);
+    let mut pen = Pen { path: PathBuilder::new(), x: 0.0, scale };
     let mut last = None;
     for c in shown(text).chars() {
-        let glyph = face.glyph(c);
-        let (face, glyph) = match (glyph, &fallback) {
-            (None, Some(other)) => (other, other.glyph(c)),
-            _ => (&face, glyph),
+        let (font, glyph) = match (font.glyph(c), fallback.glyph(c)) {
+            (Some(glyph), _) => (font, glyph),
+            (None, Some(glyph)) => (fallback, glyph),
+            (None, None) => (font, MISSING),
         };
-        // Glyph 0 is the box that stands for what the font lacks.
-        let glyph = glyph.unwrap_or(GlyphId::NOTDEF);
-        pen.x += last.map_or(0.0, |before| face.kerning(before, glyph));
-        face.draw(glyph, &mut pen);
-        pen.x += face.advance(glyph);
+        pen.x += scale * last.map_or(0.0, |before| f32::from(font.kerning(before, glyph)));
+        for contour in font.contours(glyph) {
+            pen.contour(&contour);
+        }
+        pen.x += scale * font.advance(glyph).map_or(0.0, f32::from);
         last = Some(glyph);
     }
     TextOutline { width: pen.x, path: pen.path.finish() }
@@ -49,82 +49,55 @@ fn shown(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
-/// A font at a size.
-struct Face {
-    font: &'static FontRef<'static>,
-    size: f32,
-    kerning: Option<Subtable0<'static>>,
-    units_per_em: f32,
+/// Collects outlines to the right of `x`, scaled and with y turned downward.
+pub(crate) struct Pen {
+    pub(crate) path: PathBuilder,
+    pub(crate) x: f32,
+    pub(crate) scale: f32,
 }
 
-impl Face {
-    fn new(weight: Weight, size: f32) -> Option<Self> {
-        let font = font(weight)?;
-        let units_per_em = f32::from(font.head().ok()?.units_per_em());
-        Some(Self { font, size, kerning: pairs(font), units_per_em })
-    }
-
-    fn glyph(&self, c: char) -> Option<GlyphId> {
-        self.font.charmap().map(c)
-    }
-
-    fn advance(&self, glyph: GlyphId) -> f32 {
-        let metrics = self.font.glyph_metrics(Size::new(self.size), LocationRef::default());
-        metrics.advance_width(glyph).unwrap_or(0.0)
-    }
-
-    /// What the font adds between two glyphs.
-    fn kerning(&self, left: GlyphId, right: GlyphId) -> f32 {
-        let units = self.kerning.as_ref().and_then(|pairs| pairs.kerning(left, right)).unwrap_or(0);
-        self.size * units as f32 / self.units_per_em
-    }
-
-    fn draw(&self, glyph: GlyphId, pen: &mut Pen) {
-        if let Some(outline) = self.font.outline_glyphs().get(glyph) {
-            let settings = DrawSettings::unhinted(Size::new(self.size), LocationRef::default());
-            // A glyph that cannot be drawn leaves its place blank.
-            let _ = outline.draw(settings, pen);
+impl Pen {
+    /// Adds a closed contour. Between two control points there is a point of the curve in the middle.
+    pub(crate) fn contour(&mut self, points: &[Point]) {
+        let (Some(first), Some(last)) = (points.first(), points.last()) else { return };
+        let (start, rest) = match (first.on, last.on) {
+            (true, _) => (*first, &points[1..]),
+            (false, true) => (*last, &points[..points.len() - 1]),
+            (false, false) => (middle(*first, *last), points),
+        };
+        let (x, y) = self.at(start);
+        self.path.move_to(x, y);
+        let mut control = None;
+        for point in rest {
+            match (control, point.on) {
+                (None, true) => {
+                    let (x, y) = self.at(*point);
+                    self.path.line_to(x, y);
+                }
+                (Some(before), true) => self.curve(before, *point),
+                (Some(before), false) => self.curve(before, middle(before, *point)),
+                (None, false) => {}
+            }
+            control = Some(*point).filter(|point| !point.on);
         }
-    }
-}
-
-/// The kerning pairs for text from left to right.
-fn pairs(font: &FontRef<'static>) -> Option<Subtable0<'static>> {
-    let table = font.kern().ok()?;
-    table.subtables().flatten().filter(|t| t.is_horizontal() && !t.is_cross_stream()).find_map(
-        |table| match table.kind() {
-            Ok(SubtableKind::Format0(pairs)) => Some(pairs),
-            _ => None,
-        },
-    )
-}
-
-/// Collects outlines to the right of `x`, y turned downward.
-struct Pen {
-    path: PathBuilder,
-    x: f32,
-}
-
-impl OutlinePen for Pen {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.path.move_to(self.x + x, -y);
-    }
-
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.path.line_to(self.x + x, -y);
-    }
-
-    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
-        self.path.quad_to(self.x + cx, -cy, self.x + x, -y);
-    }
-
-    fn curve_to(&mut self, cx0: f32, cy0: f32, cx1: f32, cy1: f32, x: f32, y: f32) {
-        self.path.cubic_to(self.x + cx0, -cy0, self.x + cx1, -cy1, self.x + x, -y);
-    }
-
-    fn close(&mut self) {
+        if let Some(before) = control {
+            self.curve(before, start);
+        }
         self.path.close();
     }
+
+    fn curve(&mut self, control: Point, end: Point) {
+        let ((cx, cy), (x, y)) = (self.at(control), self.at(end));
+        self.path.quad_to(cx, cy, x, y);
+    }
+
+    fn at(&self, point: Point) -> (f32, f32) {
+        (self.x + self.scale * point.x, -self.scale * point.y)
+    }
+}
+
+fn middle(a: Point, b: Point) -> Point {
+    Point { x: 0.5 * (a.x + b.x), y: 0.5 * (a.y + b.y), on: true }
 }
 
 #[cfg(test)]
