@@ -3,48 +3,39 @@
 //! Exit codes: 0 done, 1 the input cannot be used, 2 wrong usage, 3 done but the verdict refuses a
 //! figure asked for or a wish of a plan cannot be met.
 
-mod cli;
-mod demo;
-mod equivalent;
-mod failure;
-mod figures;
-mod friction_curve;
-mod geometry;
-mod identify;
-mod model;
-mod output;
-mod page;
-mod payload;
-mod picture;
-mod plan;
-mod print;
-mod progress;
-mod reference;
-mod report_figures;
-mod rig;
-mod validate;
-mod verdict;
+mod args;
+mod commands;
+mod shared;
+mod tasks;
+mod views;
 
 use std::process::ExitCode;
 
 use clap::Parser as _;
 
+use crate::args::command_line::{Cli, Command};
+use crate::commands::{
+    demo, equivalent, identify_command, model_command, payload_command, plan, report_figures, rig,
+    validate_command,
+};
+use crate::views::printer;
+
 fn main() -> ExitCode {
-    let outcome = match cli::Cli::parse().command {
-        cli::Command::Identify(args) => identify::run(&args),
-        cli::Command::Validate(args) => validate::run(&args),
-        cli::Command::Equivalent(args) => equivalent::run(&args),
-        cli::Command::Payload(args) => payload::run(&args),
-        cli::Command::Model(args) => model::run(&args),
-        cli::Command::Plan(args) => plan::run(&args),
-        cli::Command::Rig(args) => rig::run(&args),
-        cli::Command::Figures(args) => report_figures::run(&args),
-        cli::Command::Demo(args) => demo::run(&args),
+    let outcome = match Cli::parse().command {
+        Command::Identify(args) => identify_command::run(&args),
+        Command::Validate(args) => validate_command::run(&args),
+        Command::Equivalent(args) => equivalent::run(&args),
+        Command::Payload(args) => payload_command::run(&args),
+        Command::Model(args) => model_command::run(&args),
+        Command::Plan(args) => plan::run(&args),
+        Command::Rig(args) => rig::run(&args),
+        Command::Figures(args) => report_figures::run(&args),
+        Command::Demo(args) => demo::run(&args),
     };
     match outcome {
         Ok(code) => code,
         Err(failure) => {
-            print::failure(&failure);
+            printer::failure(&failure);
             ExitCode::from(1)
         }
     }

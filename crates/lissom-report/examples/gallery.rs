@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use lissom_report::{
     Axis, Band, BodePlot, Figure, Finding, FrequencyAxis, KeyFigure, LinePlot, Page, Role, Series,
-    Severity, Style, Trace, TraceStyle, svg_to_png,
+    Severity, Style, Trace, TraceStyle,
 };
 use num_complex::Complex64;
 
@@ -138,15 +138,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         .details("Raw result", "{\n  \"coulomb_a\": 0.13197\n}")
         .footer("Made by lissom.");
     std::fs::write(folder.join("page.html"), page.to_html())?;
-    let drawn = [
-        ("bode", bode().to_svg()?),
-        ("friction", friction().to_svg()?),
-        ("run", run().to_svg()?),
-        ("residual", residual().to_svg()?),
-    ];
-    for (name, svg) in drawn {
-        std::fs::write(folder.join(name).with_extension("png"), svg_to_png(&svg, 2.0)?)?;
-        std::fs::write(folder.join(name).with_extension("svg"), svg)?;
+    let figures: [(&str, &dyn Figure); 4] =
+        [("bode", &bode()), ("friction", &friction()), ("run", &run()), ("residual", &residual())];
+    for (name, figure) in figures {
+        std::fs::write(folder.join(name).with_extension("png"), figure.to_png(2.0)?)?;
+        std::fs::write(folder.join(name).with_extension("svg"), figure.to_svg()?)?;
     }
     Ok(())
 }

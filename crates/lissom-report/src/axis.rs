@@ -1,6 +1,6 @@
 //! Where the ticks of an axis stand and what they say.
 
-use crate::number::{exponent, fixed, power_of_ten};
+use crate::number_text::{exponent, fixed, power_of_ten};
 use crate::scale::Scale;
 
 /// Which distances between ticks read well.

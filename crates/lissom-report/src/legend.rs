@@ -1,9 +1,10 @@
 //! What stands above the axes: title, subtitle and legend, so that none of them covers data.
 
 use crate::canvas::{Anchor, Canvas, Rect, Stroke, TextStyle};
-use crate::palette::{DASHES, FAINT_INK, FLAGGED, Marker, Role};
+use crate::font::Weight;
+use crate::palette::{DASHES, FAINT_INK, FLAGGED, Marker, Role, WHITE};
 use crate::panel::{LABEL_SIZE, LINE_WIDTH};
-use crate::text::{Weight, shorten, width, wrap};
+use crate::text_fit::{shorten, width, wrap};
 
 const TITLE_SIZE: f64 = 19.0;
 const SUBTITLE_SIZE: f64 = 14.0;
@@ -80,7 +81,7 @@ pub(crate) fn header(
 impl Sample {
     fn draw(self, canvas: &mut Canvas, x: f64, y: f64) {
         let middle = x + SAMPLE / 2.0;
-        let white = Stroke { colour: "#ffffff", width: 0.8, dash: None };
+        let white = Stroke { colour: WHITE, width: 0.8, dash: None };
         let box_of = |height: f64| Rect {
             left: x + 4.0,
             top: y - height / 2.0,
@@ -114,7 +115,7 @@ impl Sample {
             Self::Flagged => canvas.markers(
                 Marker::Circle,
                 [(middle, y)],
-                "#ffffff",
+                WHITE,
                 Stroke { colour: FLAGGED, width: 1.5, dash: None },
             ),
         }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::Figure;
 use crate::html::escape;
-use crate::number::{interval, with_uncertainty};
+use crate::number_text::{interval, with_uncertainty};
 use crate::page_parts::{Cells, Finding, KeyFigure, Table};
 
 const STYLE: &str = include_str!("page.css");

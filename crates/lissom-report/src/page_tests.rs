@@ -1,4 +1,4 @@
-use resvg::usvg::roxmltree::{Document, ParsingOptions};
+use roxmltree::{Document, ParsingOptions};
 
 use super::*;
 use crate::page_parts::Severity;

@@ -1,5 +1,7 @@
 //! Colours, dashes and markers by the role of a series.
 
+use std::fmt;
+
 /// What a series stands for; it decides colour, dash and marker.
 ///
 /// The colours are those of Okabe and Ito, which people with any colour vision tell apart; marker and dash differ too, so
@@ -18,6 +20,27 @@ pub enum Role {
     Other(u8),
 }
 
+/// A colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Colour {
+    pub(crate) red: u8,
+    pub(crate) green: u8,
+    pub(crate) blue: u8,
+}
+
+impl Colour {
+    /// A colour by its shares, 0 to 255.
+    pub(crate) const fn rgb(red: u8, green: u8, blue: u8) -> Self {
+        Self { red, green, blue }
+    }
+}
+
+impl fmt::Display for Colour {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "#{:02x}{:02x}{:02x}", self.red, self.green, self.blue)
+    }
+}
+
 /// The shape of a marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Marker {
@@ -28,36 +51,70 @@ pub(crate) enum Marker {
     Down,
 }
 
+/// Half the size of a marker.
+pub(crate) const MARKER_RADIUS: f64 = 4.0;
+/// Half the side of a square.
+const SIDE: f64 = 0.88 * MARKER_RADIUS;
+/// From the centre to the tips of a diamond and of a triangle.
+const TIP: f64 = 1.2 * MARKER_RADIUS;
+/// Half the base of a triangle.
+const HALF_BASE: f64 = 1.1 * MARKER_RADIUS;
+/// From the centre to the base of a triangle.
+const BASE: f64 = 2.0 * MARKER_RADIUS - TIP;
+
+impl Marker {
+    /// The corners relative to the centre, y downward; none for a circle of [`MARKER_RADIUS`].
+    pub(crate) fn corners(self) -> &'static [(f64, f64)] {
+        match self {
+            Self::Circle => &[],
+            Self::Square => &[(-SIDE, -SIDE), (SIDE, -SIDE), (SIDE, SIDE), (-SIDE, SIDE)],
+            Self::Diamond => &[(0.0, -TIP), (TIP, 0.0), (0.0, TIP), (-TIP, 0.0)],
+            Self::Up => &[(0.0, -TIP), (HALF_BASE, BASE), (-HALF_BASE, BASE)],
+            Self::Down => &[(0.0, TIP), (HALF_BASE, -BASE), (-HALF_BASE, -BASE)],
+        }
+    }
+}
+
+/// The ground of every figure.
+pub(crate) const WHITE: Colour = Colour::rgb(0xff, 0xff, 0xff);
 /// What flagged points are drawn in.
-pub(crate) const FLAGGED: &str = "#8a8a8a";
+pub(crate) const FLAGGED: Colour = Colour::rgb(0x8a, 0x8a, 0x8a);
 /// Lines beyond what was measured, whatever their role.
-pub(crate) const DASHES: &str = "6 4";
+pub(crate) const DASHES: &[u8] = &[6, 4];
 /// Frames and text.
-pub(crate) const INK: &str = "#1a1a1a";
+pub(crate) const INK: Colour = Colour::rgb(0x1a, 0x1a, 0x1a);
 /// Text of less weight.
-pub(crate) const FAINT_INK: &str = "#595959";
+pub(crate) const FAINT_INK: Colour = Colour::rgb(0x59, 0x59, 0x59);
 /// Grid lines at labelled ticks.
-pub(crate) const GRID: &str = "#cfcfcf";
+pub(crate) const GRID: Colour = Colour::rgb(0xcf, 0xcf, 0xcf);
 /// Grid lines between them.
-pub(crate) const MINOR_GRID: &str = "#ebebeb";
+pub(crate) const MINOR_GRID: Colour = Colour::rgb(0xeb, 0xeb, 0xeb);
 
 impl Role {
-    pub(crate) fn colour(self) -> &'static str {
+    pub(crate) fn colour(self) -> Colour {
         match self {
-            Self::Raw => "#d55e00",
-            Self::Corrected => "#0072b2",
-            Self::Fitted => "#1a1a1a",
-            Self::Truth => "#009e73",
-            Self::Other(k) => ["#aa3f86", "#c98a00", "#3a9bd9", "#7a5c3e"][usize::from(k) % 4],
+            Self::Raw => Colour::rgb(0xd5, 0x5e, 0x00),
+            Self::Corrected => Colour::rgb(0x00, 0x72, 0xb2),
+            Self::Fitted => Colour::rgb(0x1a, 0x1a, 0x1a),
+            Self::Truth => Colour::rgb(0x00, 0x9e, 0x73),
+            Self::Other(k) => [
+                Colour::rgb(0xaa, 0x3f, 0x86),
+                Colour::rgb(0xc9, 0x8a, 0x00),
+                Colour::rgb(0x3a, 0x9b, 0xd9),
+                Colour::rgb(0x7a, 0x5c, 0x3e),
+            ][usize::from(k) % 4],
         }
     }
 
-    pub(crate) fn dash(self) -> Option<&'static str> {
+    pub(crate) fn dash(self) -> Option<&'static [u8]> {
         match self {
-            Self::Truth => Some("8 4"),
-            Self::Other(k) => {
-                [None, Some("2 3"), Some("10 3 2 3"), Some("5 3")][usize::from(k) % 4]
-            }
+            Self::Truth => Some(&[8, 4]),
+            Self::Other(k) => match k % 4 {
+                0 => None,
+                1 => Some(&[2, 3]),
+                2 => Some(&[10, 3, 2, 3]),
+                _ => Some(&[5, 3]),
+            },
             _ => None,
         }
     }

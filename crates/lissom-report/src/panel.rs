@@ -2,10 +2,11 @@
 
 use crate::axis::Ruler;
 use crate::canvas::{Anchor, Canvas, Rect, Stroke, TextStyle};
+use crate::font::Weight;
 use crate::marks::{Mark, thinned};
-use crate::number::power_of_ten;
-use crate::palette::{FLAGGED, GRID, INK, MINOR_GRID, Role};
-use crate::text::{Weight, shorten, width};
+use crate::number_text::power_of_ten;
+use crate::palette::{FLAGGED, GRID, INK, MINOR_GRID, Role, WHITE};
+use crate::text_fit::{shorten, width};
 
 /// The size of tick labels.
 pub(crate) const TICK_SIZE: f64 = 14.0;
@@ -212,7 +213,7 @@ impl Panel {
         canvas.markers(
             role.marker(),
             places(true),
-            "#ffffff",
+            WHITE,
             Stroke { colour: FLAGGED, width: 1.5, dash: None },
         );
         if all {
@@ -220,7 +221,7 @@ impl Panel {
                 role.marker(),
                 places(false),
                 role.colour(),
-                Stroke { colour: "#ffffff", width: 0.8, dash: None },
+                Stroke { colour: WHITE, width: 0.8, dash: None },
             );
         }
     }

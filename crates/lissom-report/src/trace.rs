@@ -1,6 +1,6 @@
 //! Axes, traces and bands of a [`LinePlot`](crate::LinePlot).
 
-use crate::error::FigureError;
+use crate::figure_error::FigureError;
 use crate::legend::Sample;
 use crate::marks::Mark;
 use crate::palette::Role;

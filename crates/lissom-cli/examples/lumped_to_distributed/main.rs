@@ -12,7 +12,7 @@ mod tables;
 use std::error::Error;
 use std::path::PathBuf;
 
-use lissom_report::{Figure, svg_to_png};
+use lissom_report::Figure as _;
 
 /// Where figures go when no folder is named.
 const FOLDER: &str = "target/lumped-and-distributed";
@@ -30,10 +30,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     std::fs::create_dir_all(&folder)?;
     for (name, figure) in figures::all()? {
-        let svg = figure.to_svg()?;
         let path = folder.join(name).with_extension("png");
-        std::fs::write(&path, svg_to_png(&svg, PNG_SCALE)?)?;
-        std::fs::write(path.with_extension("svg"), svg)?;
+        std::fs::write(&path, figure.to_png(PNG_SCALE)?)?;
+        std::fs::write(path.with_extension("svg"), figure.to_svg()?)?;
         eprintln!("written: {}, .svg", path.display());
     }
     Ok(())

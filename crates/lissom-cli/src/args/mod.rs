@@ -1,0 +1,14 @@
+//! What the user can ask for: the arguments of each subcommand, and nothing else.
+
+pub(crate) mod command_line;
+pub(crate) mod demo_args;
+pub(crate) mod equivalent_args;
+pub(crate) mod figures_args;
+pub(crate) mod identify_args;
+pub(crate) mod model_args;
+pub(crate) mod payload_args;
+pub(crate) mod plan_args;
+pub(crate) mod positive_time;
+pub(crate) mod rig_args;
+pub(crate) mod stdout_name;
+pub(crate) mod validate_args;

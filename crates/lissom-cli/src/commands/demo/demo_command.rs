@@ -1,0 +1,57 @@
+//! `lissom demo`: the report's experiment on a virtual rig, identified from its logs alone.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use lissom_io::write::{self, Batch};
+use lissom_io::{ArmFile, UnitNames, read_campaign, result_json};
+
+use super::demo_campaign;
+use crate::args::demo_args::DemoArgs;
+use crate::args::stdout_name::STDOUT;
+use crate::shared::failure::Failure;
+use crate::shared::output_guard;
+use crate::tasks::demo_comparison::{compared, comparison};
+use crate::tasks::identification::identified;
+use crate::tasks::known_arm::Reference;
+use crate::views::{demo_table, printer, report_page, result_plots};
+
+/// The arm, as a user would describe it.
+const ARM: &str = include_str!("arm.toml");
+
+pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
+    let out = &args.out;
+    output_guard::guard(args.json.as_deref().filter(|path| *path != Path::new(STDOUT)), None)?;
+    let arm_path = out.join("arm.toml");
+    let rig = ArmFile::from_text(&arm_path, ARM)?.rig(&arm_path).map_err(lissom_io::Error::from)?;
+    write::create_folder(out)?;
+    write::write_text(&arm_path, ARM)?;
+    demo_campaign::write_logs(&rig, out)?;
+
+    let campaign_path = out.join("campaign.toml");
+    let file = read_campaign(&campaign_path)?;
+    let id = identified(&campaign_path, &file, None, false)?;
+
+    let channels = &file.campaign.channels;
+    let names = UnitNames::new(channels);
+    let truth = Reference::truth(&rig.arm);
+    let result = result_json(channels, &id, None);
+    write::write_json(&out.join("result.json"), &result)?;
+    let mut batch = Batch::new();
+    result_plots::add_all(&mut batch, out, channels, names, &id, Some(&truth))?;
+    batch.commit()?;
+    let text = report_page::page("lissom demo", &file.campaign, names, &id, Some(&truth), None);
+    write::write_text(&out.join("report.html"), &text)?;
+
+    let rows = comparison(&rig.arm, &id);
+    match args.json.as_deref() {
+        Some(path) if path == Path::new(STDOUT) => printer::json(&compared(&rows, &result)),
+        json => {
+            if let Some(path) = json {
+                write::write_json(path, &compared(&rows, &result))?;
+            }
+            demo_table::report(out, &file.campaign, &id, &rows);
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,6 @@
+//! `lissom demo`.
+
+mod demo_campaign;
+mod demo_command;
+
+pub(crate) use demo_command::run;

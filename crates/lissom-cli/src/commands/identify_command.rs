@@ -1,0 +1,69 @@
+//! `lissom identify CAMPAIGN`.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use lissom::identify::{Identified, Severity};
+use lissom_io::write::{self, Batch};
+use lissom_io::{UnitNames, read_campaign, result_json};
+
+use crate::args::identify_args::IdentifyArgs;
+use crate::args::stdout_name::STDOUT;
+use crate::shared::exit_codes::REFUSED;
+use crate::shared::failure::Failure;
+use crate::shared::output_guard;
+use crate::tasks::identification::identified;
+use crate::tasks::known_arm::{Reference, checked};
+use crate::views::{
+    arm_check, campaign_summary, equivalent_table, figure_table, finding_list, printer,
+    report_page, result_plots, separability_section,
+};
+
+pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
+    let json = args.json.as_deref();
+    let json_file = json.filter(|path| *path != Path::new(STDOUT));
+    output_guard::guard(json_file, args.report.as_deref())?;
+    let file = read_campaign(&args.campaign)?;
+    let id = identified(&args.campaign, &file, args.window, args.quick)?;
+    let names = UnitNames::new(&file.campaign.channels);
+    let reference = Reference::of(&file)?;
+    let reference = reference.as_ref();
+    let geometry = checked(&id, reference);
+    let result = result_json(&file.campaign.channels, &id, geometry.as_ref());
+    let mut batch = Batch::new();
+    if let Some(path) = &args.report {
+        let title = args.campaign.display().to_string();
+        let text =
+            report_page::page(&title, &file.campaign, names, &id, reference, geometry.as_ref());
+        batch.file(path, text.as_bytes())?;
+    }
+    if let Some(path) = json_file {
+        batch.file(path, write::json_text(path, &result)?.as_bytes())?;
+    }
+    if let Some(folder) = &args.plots {
+        result_plots::add_all(&mut batch, folder, &file.campaign.channels, names, &id, reference)?;
+    }
+    batch.commit()?;
+    if json.is_some() && json_file.is_none() {
+        printer::json(&result);
+    } else {
+        campaign_summary::campaign(&file.campaign);
+        campaign_summary::ranges(names, &file.campaign);
+        campaign_summary::runs(&id);
+        printer::line("");
+        figure_table::figures(names, &id, reference);
+        figure_table::constant_velocity(names, &id);
+        if let Some(found) = &id.equivalent {
+            equivalent_table::brief(names, found);
+        }
+        arm_check::print(geometry.as_ref());
+        separability_section::print(names.axis, &id);
+        finding_list::findings(&id.findings);
+    }
+    Ok(code(&id))
+}
+
+fn code(id: &Identified) -> ExitCode {
+    let refused = id.findings.iter().any(|f| f.severity == Severity::Refusal);
+    if refused { ExitCode::from(REFUSED) } else { ExitCode::SUCCESS }
+}

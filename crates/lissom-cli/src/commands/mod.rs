@@ -1,0 +1,11 @@
+//! One module for each subcommand: it reads what was asked for, calls the library, and hands the outcome to the views.
+
+pub(crate) mod demo;
+pub(crate) mod equivalent;
+pub(crate) mod identify_command;
+pub(crate) mod model_command;
+pub(crate) mod payload_command;
+pub(crate) mod plan;
+pub(crate) mod report_figures;
+pub(crate) mod rig;
+pub(crate) mod validate_command;

@@ -1,0 +1,154 @@
+//! The folder of a virtual campaign: what is done stays done.
+//!
+//! A run's facts are written before its log, the log takes its name when it is whole, and
+//! `campaign.toml` and `rig.json` come last. So whatever is there is whole, and an interrupted
+//! campaign goes on with the logs that are missing.
+
+use std::fmt::{self, Write as _};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use lissom::rig::Rig;
+use lissom_io::PlanFile;
+use lissom_io::write;
+use serde_json::{Value, json};
+
+use crate::shared::failure::Failure;
+
+/// Where a campaign under way keeps its facts.
+const PARTS: &str = "rig-parts";
+/// What says whose campaign it is.
+const INPUT: &str = "input.json";
+pub(crate) const DONE: &str = "rig.json";
+/// Age from which a part of a file is nobody's any more.
+const LEFT_OVER: Duration = Duration::from_secs(30);
+
+pub(crate) struct Folder {
+    path: PathBuf,
+    fingerprint: String,
+    /// What a campaign that was finished left in `rig.json`.
+    finished: Option<Value>,
+}
+
+impl Folder {
+    /// Makes the folder, or takes up the campaign in it where that is the same.
+    pub(crate) fn open(path: &Path, rig: &Rig, plan: &PlanFile) -> Result<Self, Failure> {
+        let finished = read_json(&path.join(DONE));
+        let folder = Self { path: path.to_owned(), fingerprint: fingerprint(rig, plan), finished };
+        let other =
+            |what: &str| Failure::OtherCampaign { folder: path.to_owned(), what: what.to_owned() };
+        let parts = folder.path(PARTS).join(INPUT);
+        let same = |found: &Value| found["fingerprint"].as_str() == Some(&folder.fingerprint);
+        match folder.finished.clone().or_else(|| read_json(&parts)) {
+            Some(found) if same(&found) => {}
+            // One that failed before its first log.
+            Some(_) if !folder.path(DONE).exists() && !folder.has_logs() => {
+                let _ = std::fs::remove_dir_all(folder.path(PARTS));
+            }
+            Some(_) => return Err(other("another campaign")),
+            None => {
+                let own = plan.runs.iter().map(|run| format!("{}.csv", run.name));
+                let fixed = ["campaign.toml", "arm.toml", "plan.toml", DONE].map(str::to_owned);
+                if let Some(file) = own.chain(fixed).find(|file| folder.path(file).exists()) {
+                    return Err(other(&format!("{file}, which is of no virtual campaign")));
+                }
+            }
+        }
+        write::create_folder(&folder.path(PARTS))?;
+        let input = json!({ "fingerprint": folder.fingerprint });
+        write::write_json(&folder.path(PARTS).join(INPUT), &input)?;
+        Ok(folder)
+    }
+
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    fn has_logs(&self) -> bool {
+        let Ok(entries) = std::fs::read_dir(&self.path) else { return false };
+        let csv =
+            |name: std::ffi::OsString| Path::new(&name).extension().is_some_and(|e| e == "csv");
+        entries.flatten().any(|entry| csv(entry.file_name()))
+    }
+
+    /// The facts of a run whose log is there and whole.
+    pub(crate) fn done(&self, name: &str) -> Option<Value> {
+        let log = format!("{name}.csv");
+        let own = |facts: &Value| facts["file"].as_str() == Some(&log);
+        let facts = read_json(&self.part(name)).filter(own).or_else(|| {
+            // A campaign that was finished has them together.
+            self.finished.as_ref()?["runs"].as_array()?.iter().find(|run| own(run)).cloned()
+        })?;
+        // A header, and a row for each sample, all of them ended.
+        let text = std::fs::read_to_string(self.path(&log)).ok()?;
+        let rows = text.lines().count() as u64;
+        let whole = facts["samples"].as_u64()?.checked_add(1)? == rows && text.ends_with('\n');
+        whole.then_some(facts)
+    }
+
+    /// Keeps a run.
+    pub(crate) fn store(
+        &self,
+        name: &str,
+        facts: &Value,
+        columns: &[(&str, &[f64])],
+    ) -> Result<(), Failure> {
+        write::write_json(&self.part(name), facts)?;
+        write::write_csv(&self.path(&format!("{name}.csv")), columns)?;
+        Ok(())
+    }
+
+    /// Writes what is known of the whole and clears up.
+    pub(crate) fn finish(&self, whole: &Value) -> Result<(), Failure> {
+        let mut whole = whole.clone();
+        whole["fingerprint"] = json!(self.fingerprint);
+        write::write_json(&self.path(DONE), &whole)?;
+        // What is left there does no harm.
+        let _ = std::fs::remove_dir_all(self.path(PARTS));
+        self.clear_up();
+        Ok(())
+    }
+
+    /// Removes what processes that were killed left of logs; younger ones may be another's at work.
+    fn clear_up(&self) {
+        let Ok(entries) = std::fs::read_dir(&self.path) else { return };
+        for entry in entries.flatten() {
+            let name = entry.file_name();
+            let name = name.to_string_lossy();
+            let left = name.starts_with('.') && name.ends_with(".part") && name.contains(".csv.");
+            let age =
+                entry.metadata().and_then(|m| m.modified()).ok().and_then(|t| t.elapsed().ok());
+            if left && age.is_some_and(|age| age > LEFT_OVER) {
+                let _ = std::fs::remove_file(entry.path());
+            }
+        }
+    }
+
+    fn part(&self, name: &str) -> PathBuf {
+        self.path(PARTS).join(format!("run.{name}.json"))
+    }
+}
+
+fn read_json(path: &Path) -> Option<Value> {
+    serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()
+}
+
+/// A number for all that the logs depend on.
+fn fingerprint(rig: &Rig, plan: &PlanFile) -> String {
+    let mut hash = Fnv(0xcbf2_9ce4_8422_2325);
+    // Writing to a number does not fail. Every figure shows in the debug form to the last bit.
+    let _ = write!(hash, "{} {rig:?} {plan:?}", env!("CARGO_PKG_VERSION"));
+    format!("{:016x}", hash.0)
+}
+
+/// FNV-1a, the same on every machine and in every version.
+struct Fnv(u64);
+
+impl fmt::Write for Fnv {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        for byte in text.bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,8 @@
+//! `lissom rig`.
+
+mod campaign_folder;
+mod rig_command;
+mod rig_facts;
+pub(crate) mod virtual_campaign;
+
+pub(crate) use rig_command::run;

@@ -1,0 +1,82 @@
+//! Numbers for people.
+
+use num_complex::Complex64;
+
+/// Largest and smallest magnitude that is written without a power of ten.
+const PLAIN: std::ops::Range<f64> = 1e-3..1e6;
+
+/// `digits` significant digits.
+pub(crate) fn shown(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return if value == 0.0 { "0".to_owned() } else { value.to_string() };
+    }
+    let scientific = format!("{value:.*e}", digits - 1);
+    // What rounding makes of it counts: 9.9999 may be 10.000.
+    let exponent = scientific.split_once('e').and_then(|(_, e)| e.parse::<isize>().ok());
+    match exponent {
+        Some(exponent) if PLAIN.contains(&value.abs()) => {
+            // Digits after the point: fewer in front of it, none below zero.
+            let after = (digits - 1).saturating_add_signed(-exponent);
+            format!("{value:.after$}")
+        }
+        _ => scientific,
+    }
+}
+
+/// At most `digits` significant digits, without zeros at the end.
+pub(crate) fn trimmed(value: f64, digits: usize) -> String {
+    let text = shown(value, digits);
+    if !text.contains('.') || text.contains('e') {
+        return text;
+    }
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// A root and its mirror images, in the report's classes.
+pub(crate) fn roots_of(z: Complex64, digits: usize) -> String {
+    let s = z.sqrt();
+    match lissom::beam::class(z) {
+        lissom::beam::RootClass::Imaginary => format!("±j·{}", shown(s.im.abs(), digits)),
+        lissom::beam::RootClass::Real => format!("±{}", shown(s.re, digits)),
+        lissom::beam::RootClass::Quadruple => {
+            format!("±{} ± j·{}", shown(s.re, digits), shown(s.im.abs(), digits))
+        }
+    }
+}
+
+/// A change in per cent, with its sign.
+pub(crate) fn change(value: f64, from: f64) -> String {
+    let per_cent = 100.0 * (value / from - 1.0);
+    if per_cent.abs() < 0.005 { "0 %".to_owned() } else { format!("{per_cent:+.2} %") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_their_digits() {
+        for (value, text) in [
+            (6.014_96, "6.0150"),
+            (99_999.6, "100000"),
+            (0.001_234_56, "0.0012346"),
+            (1.5e-7, "1.5000e-7"),
+            (-2.5e9, "-2.5000e9"),
+            (0.0, "0"),
+            (9.999_999, "10.000"),
+        ] {
+            assert_eq!(shown(value, 5), text);
+        }
+        assert_eq!((trimmed(2.0, 4), trimmed(0.5, 4)), ("2".to_owned(), "0.5".to_owned()));
+        assert_eq!((trimmed(100.0, 3), trimmed(5.466, 3)), ("100".to_owned(), "5.47".to_owned()));
+    }
+
+    #[test]
+    fn roots_show_their_class() {
+        let z = |re, im| roots_of(Complex64::new(re, im), 3);
+        assert_eq!(z(-4.0, 0.0), "±j·2.00");
+        assert_eq!(z(4.0, 0.0), "±2.00");
+        assert_eq!(z(3.0, 4.0), "±2.00 ± j·1.00");
+        assert_eq!(z(3.0, -4.0), "±2.00 ± j·1.00");
+    }
+}

@@ -1,0 +1,74 @@
+//! Keeps a slip of the fingers (`--json run.csv campaign.toml`) from costing a log.
+
+use std::fs::File;
+use std::io::{BufRead as _, BufReader, Read as _};
+use std::path::{Path, PathBuf};
+
+use lissom_io::write::Batch;
+
+use super::failure::Failure;
+
+/// Refuses to write over a file that is no earlier output: JSON begins with `{`, a page with `<`.
+/// Also refuses one name for two outputs.
+pub(crate) fn guard(json: Option<&Path>, report: Option<&Path>) -> Result<(), Failure> {
+    if let Some(file) = json.filter(|file| report == Some(*file)) {
+        return Err(Failure::SameOutput { file: file.to_owned() });
+    }
+    for (path, first) in [(json, b'{'), (report, b'<')] {
+        if let Some(path) = path.filter(|p| begins_otherwise(p, first)) {
+            return Err(Failure::NotAnOutput { file: path.to_owned() });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses to write over what is read.
+pub(crate) fn guard_inputs(output: Option<&Path>, inputs: &[&Path]) -> Result<(), Failure> {
+    let whole = |path: &Path| path.canonicalize().ok();
+    let Some(file) = output.filter(|file| whole(file).is_some()) else { return Ok(()) };
+    if inputs.iter().any(|input| whole(input) == whole(file)) {
+        return Err(Failure::IsInput { file: file.to_owned() });
+    }
+    Ok(())
+}
+
+/// Refuses, before any work, one name for two outputs and files that cannot be written.
+pub(crate) fn ready(files: &[&Path]) -> Result<(), Failure> {
+    let whole = |path: &Path| -> PathBuf {
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
+        let folder = folder.unwrap_or(Path::new(".")).canonicalize();
+        match (folder, path.file_name()) {
+            (Ok(folder), Some(name)) => folder.join(name),
+            _ => path.to_owned(),
+        }
+    };
+    for (i, file) in files.iter().enumerate() {
+        if files[..i].iter().any(|other| whole(other) == whole(file)) {
+            return Err(Failure::SameOutput { file: (*file).to_owned() });
+        }
+    }
+    files.iter().try_for_each(|file| Ok(Batch::probe(file)?))
+}
+
+/// Whether `path` is a file with a first character other than `first`, blanks left out. What
+/// cannot be read is left to the writing to refuse.
+fn begins_otherwise(path: &Path, first: u8) -> bool {
+    if !path.is_file() {
+        return false;
+    }
+    let Ok(file) = File::open(path) else { return false };
+    let mut reader = BufReader::new(file);
+    let Ok(start) = reader.fill_buf() else { return false };
+    start.iter().find(|b| !b.is_ascii_whitespace()).is_some_and(|b| *b != first)
+}
+
+/// Refuses to write over a file that does not begin with `head`, which our own of this kind do.
+pub(crate) fn guard_headed(path: &Path, head: &str) -> Result<(), Failure> {
+    let mut start = String::new();
+    // What cannot be read is left to the writing to refuse.
+    let other = path.is_file()
+        && File::open(path).is_ok_and(|f| {
+            f.take(head.len() as u64).read_to_string(&mut start).is_err() || start != head
+        });
+    if other { Err(Failure::NotAnOutput { file: path.to_owned() }) } else { Ok(()) }
+}

@@ -1,0 +1,65 @@
+//! Figures known beforehand, to stand beside the identified ones.
+
+use lissom::arm::Arm;
+use lissom::identify::{GeometryCheck, Identified, geometry_check};
+use lissom_io::{CampaignFile, DriveSpec};
+
+use crate::shared::failure::Failure;
+
+/// What an `arm.toml` or a virtual rig says of the machine.
+#[derive(Debug, Clone)]
+pub(crate) struct Reference {
+    /// Where it comes from, as plots and tables call it.
+    pub(crate) label: &'static str,
+    /// Friction forward and backward \[N·m\].
+    pub(crate) coulomb_nm: (f64, f64),
+    /// Viscous friction \[N·m·s/rad\].
+    pub(crate) viscous_nm_s_per_rad: f64,
+    /// Inertia \[kg·m²\].
+    pub(crate) inertia_kg_m2: f64,
+    /// The whole arm, where the beam is known too.
+    pub(crate) arm: Option<Arm>,
+}
+
+impl Reference {
+    /// The truth of a virtual rig.
+    pub(crate) fn truth(arm: &Arm) -> Self {
+        Self {
+            label: "truth",
+            coulomb_nm: (arm.coulomb.forward, arm.coulomb.backward),
+            viscous_nm_s_per_rad: arm.motor.viscous_nm_s_per_rad,
+            inertia_kg_m2: arm.motor.inertia_kg_m2,
+            arm: Some(arm.clone()),
+        }
+    }
+
+    /// The arm that a campaign names to be compared with, if it names one with a drive.
+    pub(crate) fn of(file: &CampaignFile) -> Result<Option<Self>, Failure> {
+        let (Some(arm), Some(path)) = (&file.known.arm, &file.known.arm_path) else {
+            return Ok(None);
+        };
+        let Some(drive) = &arm.drive else { return Ok(None) };
+        let whole = if arm.beam_kind(path).is_ok() {
+            Some(arm.simulated_arm(path).map_err(lissom_io::Error::from)?)
+        } else {
+            None
+        };
+        Ok(Some(Self::drive(drive, whole)))
+    }
+
+    fn drive(drive: &DriveSpec, arm: Option<Arm>) -> Self {
+        Self {
+            label: "arm.toml",
+            coulomb_nm: (drive.coulomb_forward_nm, drive.coulomb_backward_nm),
+            viscous_nm_s_per_rad: drive.viscous_nm_s_per_rad,
+            inertia_kg_m2: drive.inertia_kg_m2,
+            arm,
+        }
+    }
+}
+
+/// What the logs say of the arm that a campaign names.
+pub(crate) fn checked(id: &Identified, reference: Option<&Reference>) -> Option<GeometryCheck> {
+    let arm = reference?.arm.as_ref()?;
+    geometry_check(arm, id.output_error.as_ref().filter(|oe| oe.stands())?)
+}

@@ -1,0 +1,13 @@
+//! What the commands work on: inputs that were read, a beam with what is asked of it, and what comes of them. Nothing
+//! here is printed or written.
+
+pub(crate) mod any_beam;
+pub(crate) mod demo_comparison;
+pub(crate) mod equivalent_input;
+pub(crate) mod identification;
+pub(crate) mod known_arm;
+pub(crate) mod load_study;
+pub(crate) mod mode_shapes;
+pub(crate) mod model_task;
+pub(crate) mod printed_coulomb;
+pub(crate) mod rig_campaign;

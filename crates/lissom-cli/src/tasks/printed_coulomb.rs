@@ -1,0 +1,69 @@
+//! Coulomb friction as Section 6.2.2 of the report prints it, beside what is found here.
+
+use lissom::drive::DryFriction;
+use lissom::identify::{Estimate, Identified};
+use lissom::rig::{JointFriction, Rig};
+use serde_json::{Value, json};
+
+/// Printed in 6.2.2: classical forward and backward, spectral \[A\].
+const PRINTED_A: [f64; 3] = [0.161, 0.152, 0.132];
+
+pub(crate) fn law(rig: &Rig) -> DryFriction {
+    match rig.scene.friction {
+        JointFriction::Dry(law) => law,
+        _ => rig.arm.coulomb.into(),
+    }
+}
+
+/// A figure of Section 6.2.2 \[A\].
+pub(crate) struct CoulombRow {
+    pub(crate) name: &'static str,
+    pub(crate) printed_a: Option<f64>,
+    pub(crate) here: Option<Estimate>,
+}
+
+pub(crate) fn rows(rig: &Rig, id: &Identified) -> Vec<CoulombRow> {
+    let constant = rig.arm.motor.torque_constant_nm_per_a;
+    let classical = id.constant_velocity.as_ref();
+    let side = |line: Option<Estimate>| line.map(|e| e.scaled(1.0 / constant));
+    let [forward, backward, spectral] = PRINTED_A;
+    vec![
+        CoulombRow {
+            name: "classical, forward",
+            printed_a: Some(forward),
+            here: side(classical.and_then(|c| c.forward.as_ref().ok()).map(|l| l.coulomb)),
+        },
+        CoulombRow {
+            name: "classical, backward",
+            printed_a: Some(backward),
+            here: side(classical.and_then(|c| c.backward.as_ref().ok()).map(|l| l.coulomb)),
+        },
+        CoulombRow {
+            name: "spectral, (26)-(29)",
+            printed_a: Some(spectral),
+            here: id.third_harmonic.as_ref().map(|t| t.coulomb_command),
+        },
+        CoulombRow {
+            name: "regression on slip phases",
+            printed_a: None,
+            here: side(id.regression.as_ref().and_then(|r| r.coulomb)),
+        },
+        CoulombRow {
+            name: "truth at rest",
+            printed_a: None,
+            here: Some(Estimate { value: law(rig).at(0.0, 0.0).forward / constant, std: 0.0 }),
+        },
+    ]
+}
+
+pub(crate) fn as_json(rows: &[CoulombRow]) -> Value {
+    let row = |r: &CoulombRow| {
+        json!({
+            "figure": r.name,
+            "printed_a": r.printed_a,
+            "value_a": r.here.map(|e| e.value),
+            "std_a": r.here.map(|e| e.std),
+        })
+    };
+    json!({ "coulomb": rows.iter().map(row).collect::<Vec<_>>() })
+}

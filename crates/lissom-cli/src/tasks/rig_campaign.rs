@@ -1,0 +1,38 @@
+//! The campaign.toml of a virtual rig.
+
+use lissom::record::{Hold, TipQuantity};
+use lissom::rig::Rig;
+use lissom_io::write::{CampaignPlan, PlannedCommand, PlannedRun};
+
+/// A campaign of this rig's drive and sensors.
+pub(crate) fn described(
+    rig: &Rig,
+    title: String,
+    arm: Option<String>,
+    runs: Vec<PlannedRun>,
+) -> CampaignPlan {
+    let instruments = &rig.instruments;
+    // The current stands between two rows where the controller acts at rows alone.
+    let held = instruments.control_every.is_multiple_of(instruments.log_every);
+    let masses = rig.arm.beam().len();
+    CampaignPlan {
+        title,
+        time_column: "t".to_owned(),
+        command: PlannedCommand {
+            column: "i".to_owned(),
+            hold: if held { Hold::Sampled } else { Hold::Measured },
+        },
+        motor_column: "theta_m".to_owned(),
+        tips: (0..masses)
+            .map(|mass| (format!("theta_{}", mass + 1), tip_column(mass), TipQuantity::Angle))
+            .collect(),
+        torque_constant_nm_per_a: Some(rig.arm.motor.torque_constant_nm_per_a),
+        current_limit_a: instruments.amplifier.limit_a(),
+        arm,
+        runs,
+    }
+}
+
+pub(crate) fn tip_column(mass: usize) -> String {
+    format!("theta_{}", mass + 1)
+}

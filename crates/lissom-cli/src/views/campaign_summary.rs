@@ -1,0 +1,99 @@
+//! What was read of a campaign, and what was kept of its runs.
+
+use lissom::identify::{Identified, RunKind};
+use lissom::record::{Campaign, Hold};
+use lissom_io::UnitNames;
+
+use super::printer::{counted, line};
+
+/// The spectrum of a sin⁴ window has its first zero at this over its length.
+const FIRST_NULL: f64 = 3.0;
+
+/// What was read.
+pub(crate) fn campaign(campaign: &Campaign) {
+    let samples: usize = campaign.runs.iter().map(lissom::record::Run::len).sum();
+    let (mut shortest, mut longest) = (f64::INFINITY, 0.0_f64);
+    for run in &campaign.runs {
+        shortest = shortest.min(run.sample_time_s());
+        longest = longest.max(run.sample_time_s());
+    }
+    let sampling = if longest - shortest > 1e-6 * longest {
+        format!("{:.4} to {:.4} ms", 1e3 * shortest, 1e3 * longest)
+    } else {
+        format!("{:.4} ms", 1e3 * longest)
+    };
+    let hold = match campaign.channels.command.hold {
+        Hold::Sampled => "commanded and held",
+        Hold::Measured => "measured",
+    };
+    line(&format!(
+        "{}, {samples} samples every {sampling}, command {hold}, {}",
+        counted(campaign.runs.len(), "run"),
+        counted(campaign.channels.tips.len(), "tip")
+    ));
+}
+
+/// How far and how fast things go: a wrong unit shows here first.
+pub(crate) fn ranges(names: UnitNames, campaign: &Campaign) {
+    let (mut low, mut high, mut speed, mut drive) = (f64::INFINITY, f64::NEG_INFINITY, 0.0, 0.0);
+    for run in &campaign.runs {
+        // Speed over some samples: over one, the sensor's steps would be the fastest.
+        let reach = (run.len() / 50).clamp(1, 10);
+        let moved = run.motor().windows(reach + 1).map(|w| (w[reach] - w[0]).abs());
+        speed = moved.fold(0.0, f64::max).max(speed * reach as f64 * run.sample_time_s())
+            / (reach as f64 * run.sample_time_s());
+        for &x in run.motor() {
+            (low, high) = (f64::min(low, x), f64::max(high, x));
+        }
+        drive = run.command().iter().fold(drive, |m, u| f64::max(m, u.abs()));
+    }
+    let (angle, unit) = (names.angle(), names.command_unit());
+    line(&format!(
+        "motor from {low:.3} to {high:.3} {angle}, up to {speed:.3} {angle}/s; {} up to {drive:.3} {unit}",
+        names.command_name()
+    ));
+}
+
+/// What was kept of the runs.
+pub(crate) fn runs(id: &Identified) {
+    let (mut kept, mut dropped, mut general, mut steady) = (0, 0, 0, 0);
+    let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
+    for run in &id.runs {
+        match &run.kind {
+            RunKind::Sinusoidal(s) => {
+                kept += s.steady.periods;
+                dropped += s.steady.dropped;
+                low = low.min(s.omega_rad_s);
+                high = high.max(s.omega_rad_s);
+            }
+            RunKind::ConstantVelocity => steady += 1,
+            RunKind::General => general += 1,
+        }
+    }
+    let sinusoidal = id.runs.len() - general - steady;
+    if sinusoidal > 0 {
+        line(&format!(
+            "{}, {low:.3} to {high:.3} rad/s: {kept} periods kept, \
+             {dropped} dropped as transients",
+            counted(sinusoidal, "sinusoidal run")
+        ));
+    }
+    if steady > 0 {
+        line(&format!("{} at constant velocities", counted(steady, "run")));
+    }
+    if general > 0 {
+        line(&format!("{} of other motion", counted(general, "run")));
+    }
+    if let Some(r) = &id.regression {
+        let how = if r.window_given { "given" } else { "chosen where the figures are best known" };
+        line(&format!(
+            "regression: {} rows in {} slip phases, window {:.4} s ({how}; motion up to {:.3} Hz), \
+             {:.2} % of the torque left",
+            r.rows,
+            r.phases,
+            r.window_s,
+            FIRST_NULL / r.window_s,
+            100.0 * r.relative_residual
+        ));
+    }
+}

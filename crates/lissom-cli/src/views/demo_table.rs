@@ -1,0 +1,50 @@
+//! The demo's result beside the truth.
+
+use std::path::Path;
+
+use lissom::identify::Identified;
+use lissom::record::Campaign;
+
+use super::{campaign_summary, finding_list, printer, separability_section};
+use crate::tasks::demo_comparison::DemoRow;
+
+pub(crate) fn report(out: &Path, campaign: &Campaign, id: &Identified, rows: &[DemoRow]) {
+    campaign_summary::campaign(campaign);
+    campaign_summary::runs(id);
+    printer::line("");
+    let head = ["figure", "unit", "true", "third harmonic", "error", "regression", "error"];
+    let head = head.into_iter().chain(["output error", "error"]);
+    let mut table = vec![head.map(str::to_owned).collect::<Vec<_>>()];
+    for r in rows {
+        let mut line = vec![r.name.to_owned(), r.unit.to_owned(), significant(r.truth)];
+        for (e, digits) in [(r.third, 2), (r.regression, 2), (r.output_error, 4)] {
+            match e {
+                Some(e) => {
+                    line.push(significant(e.value));
+                    line.push(format!("{:+.digits$} %", 100.0 * (e.value / r.truth - 1.0)));
+                }
+                None => line.extend(["refused".to_owned(), String::new()]),
+            }
+        }
+        table.push(line);
+    }
+    printer::table(&table);
+    separability_section::print(campaign.channels.axis, id);
+    finding_list::findings(&id.findings);
+    printer::line("");
+    printer::line(&format!(
+        "logs, campaign.toml, result.json, report.html and the Bode plots are in {}",
+        out.display()
+    ));
+    printer::line(&format!(
+        "identify them again with: lissom identify {}",
+        out.join("campaign.toml").display()
+    ));
+}
+
+/// Five significant digits.
+fn significant(value: f64) -> String {
+    let digits = (4.0 - value.abs().log10().floor()).clamp(0.0, 12.0);
+    let digits = digits as usize;
+    format!("{value:.digits$}")
+}

@@ -1,0 +1,86 @@
+//! Bode plots of the responses and of the fit.
+
+use lissom::identify::{Deviations, Equivalent, Response};
+use lissom_io::write::Batch;
+use lissom_report::{BodePlot, FrequencyAxis, Role, Series, Style};
+use num_complex::Complex64;
+
+use super::plot_file::Picture;
+use crate::shared::failure::Failure;
+use crate::tasks::equivalent_input::Input;
+
+/// Points of a model's line.
+const LINE: i32 = 1500;
+/// Adds the points' plot, and the motor's where there is one.
+pub(crate) fn add_all(
+    batch: &mut Batch,
+    picture: &Picture,
+    input: &Input,
+    found: &Equivalent,
+) -> Result<(), Failure> {
+    picture.draw(batch, &points(input, found))?;
+    if let Some(plot) = motor(input, found) {
+        picture.beside("motor").draw(batch, &plot)?;
+    }
+    Ok(())
+}
+
+fn grid(omega_rad_s: &[f64]) -> Vec<f64> {
+    let low = omega_rad_s.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = omega_rad_s.iter().copied().fold(0.0, f64::max);
+    (0..=LINE).map(|k| low * (high / low).powf(f64::from(k) / f64::from(LINE))).collect()
+}
+
+fn measured(label: &str, role: Role, omega_rad_s: &[f64], all: &[Response], bars: bool) -> Series {
+    let style = if bars { Style::PointsWithBars } else { Style::Points };
+    let values = all.iter().map(|r| r.value).collect();
+    let series = Series::new(label, role, style, omega_rad_s.to_vec(), values);
+    if bars { series.with_std(all.iter().map(|r| r.std).collect()) } else { series }
+}
+
+fn with_bars(input: &Input) -> bool {
+    input.data.deviations != Deviations::FromResidual
+}
+
+fn points(input: &Input, found: &Equivalent) -> BodePlot {
+    let data = &input.data;
+    let roles = [Role::Corrected, Role::Raw];
+    let role = |i: usize| match roles.get(i) {
+        Some(role) => *role,
+        None => Role::Other(u8::try_from(i % 100).unwrap_or(0)),
+    };
+    let mut plot = BodePlot::new("Points of the beam, per motor angle", "")
+        .subtitle(format!("{} poles fitted together; lines: the fit", found.fit.poles.len()))
+        .frequency_axis(FrequencyAxis::Both);
+    let grid = grid(&data.omega_rad_s);
+    for (i, name) in data.names.iter().enumerate() {
+        let bars = with_bars(input);
+        plot = plot.series(measured(name, role(i), &data.omega_rad_s, &data.outputs[i], bars));
+    }
+    for i in 0..data.names.len() {
+        let line: Vec<Complex64> = grid.iter().map(|w| found.fit.response(i, *w)).collect();
+        plot = plot.series(Series::new("", role(i), Style::Line, grid.clone(), line));
+    }
+    plot
+}
+
+fn motor(input: &Input, found: &Equivalent) -> Option<BodePlot> {
+    let (motor, arm) = (input.data.motor.as_ref()?, found.arm.as_ref()?);
+    let unit = format!("{}/{}", input.names.angle(), input.names.command_unit());
+    let grid = grid(&motor.omega_rad_s);
+    let line = grid.iter().map(|w| arm.motor_response(*w)).collect();
+    let bars = with_bars(input);
+    let title = format!("Motor: {} per {}", input.names.motion(), input.names.command_name());
+    Some(
+        BodePlot::new(title, unit)
+            .frequency_axis(FrequencyAxis::Both)
+            .series(measured(
+                "friction taken out",
+                Role::Corrected,
+                &motor.omega_rad_s,
+                &motor.response,
+                bars,
+            ))
+            .series(Series::new("equivalent arm", Role::Fitted, Style::Line, grid, line)),
+    )
+}

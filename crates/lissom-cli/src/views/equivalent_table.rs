@@ -1,0 +1,233 @@
+//! An equivalent arm for people.
+
+use lissom::beam::RootClass;
+use lissom::identify::{Deviations, Equivalent, Estimate, ResponseZero, StrainlessForm};
+use lissom_io::UnitNames;
+use lissom_report::{Cells, Page, Table, interval, with_uncertainty};
+
+use super::printer;
+use crate::shared::digits::shown as significant;
+use crate::tasks::equivalent_input::{Input, Known};
+
+/// Digits of figures that stand without deviation.
+const DIGITS: usize = 7;
+
+pub(crate) fn print(input: &Input, found: &Equivalent) {
+    head(input, found);
+    printer::line("");
+    modes(input, found);
+    if found.arm.is_some() {
+        printer::line("");
+        figures(input, found);
+    }
+    printer::line("");
+    as_fitted(input, found);
+    if let Some(form) = &found.strainless {
+        printer::line("");
+        for_use(input.names, found, form);
+    }
+    printer::line("");
+    zeros(found);
+}
+
+/// The arm that `identify` gives beside its figures.
+pub(crate) fn brief(names: UnitNames, found: &Equivalent) {
+    let Some(form) = &found.strainless else { return };
+    let modes = printer::counted(found.modes.len(), "mode");
+    printer::line(&format!("\nequivalent arm of {modes}, with intervals by `lissom equivalent`"));
+    for_use(names, found, form);
+}
+
+/// The same on the report's page.
+pub(crate) fn section(page: Page, names: UnitNames, found: Option<&Equivalent>) -> Page {
+    let Some((found, form)) = found.and_then(|e| Some((e, e.strainless.as_ref()?))) else {
+        return page;
+    };
+    let rows = rows_for_use(names, found, form);
+    let columns: Vec<(&str, Cells)> = rows[0]
+        .iter()
+        .enumerate()
+        .map(|(i, title)| match i {
+            0 => ("", Cells::Text),
+            _ => (title.as_str(), Cells::Numbers),
+        })
+        .collect();
+    let caption = "Each line an equation: the sum over its columns, the points' angles in rad";
+    let table = rows[1..].iter().fold(Table::new(caption, &columns), |t, row| t.row(row.clone()));
+    page.heading("Equivalent arm")
+        .paragraph(&format!(
+            "{} from the responses to the motor's angle, made so that turning as one body strains \
+             nothing; with intervals by lissom equivalent.",
+            printer::counted(found.modes.len(), "mode")
+        ))
+        .table(&table)
+}
+
+fn head(input: &Input, found: &Equivalent) {
+    let data = &input.data;
+    let (low, high) = found.fit.range_rad_s;
+    printer::line(&format!(
+        "{} at {} frequencies, {low:.4} to {high:.4} rad/s: {}",
+        printer::counted(data.names.len(), "point"),
+        data.omega_rad_s.len(),
+        data.names.join(", ")
+    ));
+    let left = if found.deviations == Deviations::FromResidual {
+        "deviations from what is left".to_owned()
+    } else {
+        format!("{:.2} of the deviations left", found.fit.weighted_rms)
+    };
+    let poles = printer::counted(found.fit.poles.len(), "pole");
+    let modes = printer::counted(found.modes.len(), "mode");
+    printer::line(&format!(
+        "{poles} fitted, {modes} kept; {:.3} % of each response left (rms), {left}",
+        100.0 * found.relative_residual
+    ));
+}
+
+fn known(figure: Option<Estimate>) -> String {
+    figure.map_or_else(|| "–".to_owned(), |e| with_uncertainty(e.value, e.std))
+}
+
+fn shown(figure: Estimate) -> String {
+    with_uncertainty(figure.value, figure.std)
+}
+
+fn modes(input: &Input, found: &Equivalent) {
+    let coupling = format!("coupling [{}]", input.names.coupling_unit());
+    let mut heading = vec!["motor clamped", "[rad/s]", "95 % interval", "[Hz]", "damping ratio"];
+    if found.arm.is_some() {
+        heading.push(&coupling);
+    }
+    let beside = input.identified.as_ref().map(|k| &k.modes_rad_s);
+    if beside.is_some() {
+        heading.push("identify [rad/s]");
+    }
+    let mut rows = vec![heading.into_iter().map(str::to_owned).collect::<Vec<_>>()];
+    for k in 0..found.modes.len() {
+        let omega = found.kept.natural_frequency_rad_s(k);
+        let mut row = vec![
+            format!("mode {}", k + 1),
+            shown(omega),
+            interval(omega.ci95(), omega.value, omega.std),
+            shown(omega.scaled(1.0 / std::f64::consts::TAU)),
+            shown(found.kept.damping_ratio(k)),
+        ];
+        row.extend(found.arm.as_ref().map(|arm| shown(arm.coupling[k])));
+        row.extend(beside.map(|all| {
+            // The one that is meant, if any: identify may have found fewer.
+            let near = |e: &&Estimate| (e.value / omega.value).ln().abs();
+            let nearest = all.iter().min_by(|a, b| near(a).total_cmp(&near(b)));
+            known(nearest.filter(|e| near(e) < 0.2).copied())
+        }));
+        rows.push(row);
+    }
+    printer::table(&rows);
+}
+
+fn figures(input: &Input, found: &Equivalent) {
+    let Some(arm) = &found.arm else { return };
+    let names = input.names;
+    let of = |get: fn(&Known) -> Option<Estimate>| input.identified.as_ref().map(get);
+    let all = [
+        (names.inertia_name(), arm.inertia, names.inertia_unit(), of(|k| k.inertia)),
+        ("viscous friction", arm.viscous, names.viscous_unit(), of(|k| k.viscous)),
+        ("coupling, ĥ", arm.h_motor, names.coupling_unit(), of(|k| k.coupling)),
+    ];
+    let mut heading = vec!["figure", "value", "unit", "95 % interval"];
+    if input.identified.is_some() {
+        heading.push("identify");
+    }
+    let mut rows = vec![heading.into_iter().map(str::to_owned).collect::<Vec<_>>()];
+    for (name, figure, unit, beside) in all {
+        let within = interval(figure.ci95(), figure.value, figure.std);
+        let mut row = vec![name.to_owned(), shown(figure), unit, within];
+        row.extend(beside.map(known));
+        rows.push(row);
+    }
+    printer::table(&rows);
+}
+
+/// One row an equation, one column a variable.
+fn heading(found: &Equivalent, title: &str) -> Vec<String> {
+    let points = found.points.iter().map(|&i| format!("·θ({})", found.names[i]));
+    std::iter::once(title.to_owned()).chain(points).chain(["·θ_m".to_owned()]).collect()
+}
+
+fn equation(found: &Equivalent, i: usize) -> String {
+    format!("θ̈({}) [1/s²] =", found.names[found.points[i]])
+}
+
+fn torque_name(names: UnitNames) -> String {
+    format!("torque [{}] =", names.coupling_unit())
+}
+
+fn as_fitted(input: &Input, found: &Equivalent) {
+    let mut rows = vec![heading(found, "as fitted (17)-(18)")];
+    let beam = &found.beam;
+    let count = found.points.len();
+    for i in 0..count {
+        let of = |j: usize| with_uncertainty(beam.a[(i, j)], beam.a_std[(i, j)]);
+        let mut row = vec![equation(found, i)];
+        row.extend((0..count).map(of));
+        row.push(with_uncertainty(beam.b[i], beam.b_std[i]));
+        rows.push(row);
+    }
+    if let Some(arm) = &found.arm {
+        let h = arm.h.iter().map(|h| shown(*h));
+        let h = h.chain([shown(arm.h_motor)]);
+        rows.push(std::iter::once(torque_name(input.names)).chain(h).collect());
+    }
+    printer::table(&rows);
+}
+
+fn for_use(names: UnitNames, found: &Equivalent, form: &StrainlessForm) {
+    printer::table(&rows_for_use(names, found, form));
+}
+
+fn rows_for_use(names: UnitNames, found: &Equivalent, form: &StrainlessForm) -> Vec<Vec<String>> {
+    let number = |x: f64| significant(x, DIGITS).replace('-', "−");
+    let mut rows = vec![heading(found, "for use: turning as one body strains nothing")];
+    for i in 0..found.points.len() {
+        let mut row = vec![equation(found, i)];
+        row.extend(form.a.row(i).iter().map(|x| number(*x)));
+        row.push(number(form.b[i]));
+        rows.push(row);
+    }
+    if found.arm.is_some() {
+        let h = form.h.iter().map(|x| number(*x)).chain([number(form.h_motor)]);
+        rows.push(std::iter::once(torque_name(names)).chain(h).collect());
+    }
+    rows
+}
+
+fn zeros(found: &Equivalent) {
+    let mut rows = vec![["zeros of", "[rad/s]", "95 % interval", "class"].map(str::to_owned)];
+    for (name, zeros) in found.names.iter().zip(&found.zeros) {
+        for zero in zeros {
+            let figure = zero.omega_rad_s;
+            let class = class(zero);
+            let within = interval(figure.ci95(), figure.value, figure.std);
+            let value = match zero.class {
+                RootClass::Imaginary => format!("±j·{}", shown(figure)),
+                RootClass::Real => format!("±{}", shown(figure)),
+                RootClass::Quadruple => {
+                    let s = zero.square.sqrt();
+                    format!("±{:.4} ± j·{:.4}", s.re, s.im)
+                }
+            };
+            rows.push([format!("θ({name})/θ_m"), value, within, class]);
+        }
+    }
+    if rows.len() == 1 {
+        printer::line("no zeros: each response has one mode");
+        return;
+    }
+    printer::table(&rows.into_iter().map(Vec::from).collect::<Vec<_>>());
+}
+
+fn class(zero: &ResponseZero) -> String {
+    let beyond = if zero.outside { ", beyond the frequencies measured" } else { "" };
+    let phase = if zero.class == RootClass::Imaginary { "" } else { ", non-minimum phase" };
+    format!("{}{phase}{beyond}", zero.class.letter())
+}

@@ -1,0 +1,44 @@
+//! The findings of a result.
+
+use lissom::identify::{Finding, Severity};
+
+use super::printer::line;
+
+/// Findings of one kind that are shown one by one.
+const SHOWN: usize = 3;
+
+/// The findings as they stand, those of one kind together.
+pub(crate) fn findings(findings: &[Finding]) {
+    if findings.is_empty() {
+        line("\nno findings");
+        return;
+    }
+    line("\nfindings");
+    let kind = |f: &Finding| (f.code, f.severity, f.hint);
+    let mut told = Vec::new();
+    for finding in findings {
+        if told.contains(&kind(finding)) {
+            continue;
+        }
+        told.push(kind(finding));
+        let same: Vec<&Finding> = findings.iter().filter(|f| kind(f) == kind(finding)).collect();
+        let severity = match finding.severity {
+            Severity::Info => "info",
+            Severity::Warning => "warning",
+            Severity::Refusal => "refusal",
+        };
+        for f in same.iter().take(SHOWN) {
+            let run = f.run.as_ref().map_or(String::new(), |r| format!(" {r}:"));
+            line(&format!("  {severity} [{}]{run} {}", f.code, f.message));
+        }
+        if same.len() > SHOWN {
+            line(&format!(
+                "    … and {} more runs (all in the JSON and the report)",
+                same.len() - SHOWN
+            ));
+        }
+        if !finding.hint.is_empty() {
+            line(&format!("    hint: {}", finding.hint));
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! What a person reads: text in the terminal through one printer, plots, the HTML page.
+
+pub(crate) mod arm_check;
+pub(crate) mod bode_plots;
+pub(crate) mod campaign_summary;
+pub(crate) mod demo_table;
+pub(crate) mod equivalent_plots;
+pub(crate) mod equivalent_table;
+pub(crate) mod figure_table;
+pub(crate) mod finding_list;
+pub(crate) mod friction_curve;
+pub(crate) mod friction_truth;
+pub(crate) mod load_table;
+pub(crate) mod model_algebra;
+pub(crate) mod model_plots;
+pub(crate) mod model_table;
+pub(crate) mod payload_plot;
+pub(crate) mod payload_table;
+pub(crate) mod plan_table;
+pub(crate) mod plot_file;
+pub(crate) mod printed_coulomb_table;
+pub(crate) mod printer;
+pub(crate) mod report_page;
+pub(crate) mod result_plots;
+pub(crate) mod rig_table;
+pub(crate) mod separability_section;
+pub(crate) mod validation_plots;
+pub(crate) mod validation_table;
+pub(crate) mod velocity_friction;

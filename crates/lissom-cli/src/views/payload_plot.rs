@@ -1,0 +1,32 @@
+//! The tip's responses with each payload.
+
+use lissom::identify::Response;
+use lissom_io::{PayloadPrediction, PredictedPayload};
+use lissom_report::{BodePlot, FrequencyAxis, Role, Series, Style};
+
+use super::payload_table::DIGITS;
+use crate::shared::digits::trimmed;
+
+/// One line for each payload.
+pub(crate) fn tip(found: &PayloadPrediction) -> BodePlot {
+    let title = format!("{}, per motor angle", found.tip);
+    let plot = BodePlot::new(title, "")
+        .subtitle(format!(
+            "identified with {} kg, predicted with others",
+            trimmed(found.mass_kg, DIGITS)
+        ))
+        .frequency_axis(FrequencyAxis::Both);
+    found.payloads.iter().enumerate().fold(plot, |plot, (i, payload)| {
+        plot.series(line(
+            &found.omega_rad_s,
+            payload,
+            Role::Other(u8::try_from(i % 100).unwrap_or(0)),
+        ))
+    })
+}
+
+fn line(omega_rad_s: &[f64], payload: &PredictedPayload, role: Role) -> Series {
+    let values = payload.tip.iter().map(|r: &Response| r.value).collect();
+    let name = format!("{} kg", trimmed(payload.mass_kg, DIGITS));
+    Series::new(name, role, Style::Line, omega_rad_s.to_vec(), values)
+}

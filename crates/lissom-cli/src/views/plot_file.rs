@@ -1,0 +1,60 @@
+//! Plots as files.
+
+use std::path::{Path, PathBuf};
+
+use lissom_io::write::Batch;
+use lissom_report::{BodePlot, Figure};
+
+use crate::shared::failure::Failure;
+
+/// Scale of the PNG.
+const PNG_SCALE: f32 = 2.0;
+
+/// Adds one plot to what is to be written, as SVG and PNG.
+pub(crate) fn add(
+    batch: &mut Batch,
+    folder: &Path,
+    name: &str,
+    plot: &impl Figure,
+) -> Result<(), Failure> {
+    batch.file(&folder.join(format!("{name}.svg")), plot.to_svg()?.as_bytes())?;
+    batch.file(&folder.join(format!("{name}.png")), &plot.to_png(PNG_SCALE)?)?;
+    Ok(())
+}
+
+/// A file to draw into, of a kind that can be drawn.
+pub(crate) struct Picture {
+    path: PathBuf,
+    png: bool,
+}
+
+impl Picture {
+    /// By the ending of its name, .svg or .png.
+    pub(crate) fn of(path: &Path) -> Result<Self, Failure> {
+        let is = |kind: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(kind));
+        if !is("png") && !is("svg") {
+            let words = format!("{}: is neither .svg nor .png", path.display());
+            return Err(Failure::Asked(words, "end the plot's name in .svg or .png"));
+        }
+        Ok(Self { path: path.to_owned(), png: is("png") })
+    }
+
+    /// Where it goes.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The file beside it of the same kind, for something else.
+    pub(crate) fn beside(&self, what: &str) -> Self {
+        let stem = self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let kind = if self.png { "png" } else { "svg" };
+        Self { path: self.path.with_file_name(format!("{stem}-{what}.{kind}")), png: self.png }
+    }
+
+    /// Adds a plot to the files to be written.
+    pub(crate) fn draw(&self, batch: &mut Batch, plot: &BodePlot) -> Result<(), Failure> {
+        let file = if self.png { plot.to_png(PNG_SCALE)? } else { plot.to_svg()?.into_bytes() };
+        batch.file(&self.path, &file)?;
+        Ok(())
+    }
+}

@@ -1,0 +1,62 @@
+//! The one place that prints: results to standard output, talk to standard error.
+#![expect(clippy::print_stderr, reason = "the command's printer")]
+
+use std::io::{ErrorKind, Write as _};
+
+use serde_json::Value;
+
+use crate::shared::failure::Failure;
+
+/// An error with the way out.
+pub(crate) fn failure(failure: &Failure) {
+    eprintln!("error: {failure}");
+    if let Some(hint) = failure.hint() {
+        eprintln!("hint: {hint}");
+    }
+}
+
+/// A line of the result. A reader that goes away (`| head`) ends the command without a word.
+pub(crate) fn line(text: &str) {
+    if let Err(error) = writeln!(std::io::stdout().lock(), "{text}") {
+        if error.kind() != ErrorKind::BrokenPipe {
+            eprintln!("error: standard output: {error}");
+        }
+        std::process::exit(i32::from(error.kind() != ErrorKind::BrokenPipe));
+    }
+}
+
+/// A remark on the way, which is no part of the result.
+pub(crate) fn note(text: &str) {
+    eprintln!("{text}");
+}
+
+/// JSON, alone on standard output.
+pub(crate) fn json(value: &Value) {
+    line(&format!("{value:#}"));
+}
+
+/// A table with its columns aligned, the first to the left, the others to the right.
+pub(crate) fn table(rows: &[Vec<String>]) {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |c: usize| {
+        rows.iter().filter_map(|r| r.get(c)).map(|s| s.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    for row in rows {
+        let mut text = String::new();
+        for (c, cell) in row.iter().enumerate() {
+            let pad = " ".repeat(widths[c] - cell.chars().count());
+            let (before, after) = if c == 0 { ("", pad.as_str()) } else { (pad.as_str(), "") };
+            text.push_str(if c == 0 { "" } else { "  " });
+            text.push_str(before);
+            text.push_str(cell);
+            text.push_str(after);
+        }
+        line(text.trim_end());
+    }
+}
+
+/// "1 run", "2 runs".
+pub(crate) fn counted(number: usize, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
+}

@@ -1,0 +1,29 @@
+//! What every figure can do.
+
+use crate::figure_error::FigureError;
+
+/// Keeps [`Figure`] to this crate, whose SVG carries no ids that could clash on a page.
+pub trait Sealed {}
+
+/// A figure that can be drawn as SVG or PNG and put on a [`Page`](crate::Page).
+///
+/// The SVG is complete in itself: no ids, no style sheet, no script, no reference to anything outside.
+pub trait Figure: Sealed {
+    /// Draws the figure as a complete SVG document.
+    ///
+    /// # Errors
+    ///
+    /// [`FigureError::Length`] when the vectors of a series differ in length, [`FigureError::NothingToDraw`] when no point
+    /// is drawable, [`FigureError::Range`] when an axis is given a range it cannot have.
+    fn to_svg(&self) -> Result<String, FigureError>;
+
+    /// Draws the figure on white, `scale` pixels to one SVG unit, and returns the bytes of a PNG file.
+    ///
+    /// Text is set in the compiled-in DejaVu Sans, so that the picture is the same on every machine.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`to_svg`](Self::to_svg), [`FigureError::Size`] when the picture would have no pixel or a side of more than
+    /// 16384, [`FigureError::Png`] when the encoder fails.
+    fn to_png(&self, scale: f32) -> Result<Vec<u8>, FigureError>;
+}
