@@ -16,7 +16,7 @@ use crate::identify::methods::third_harmonic::PairFigure;
 use crate::identify::prepare::run_analysis::RunAnalysis;
 use crate::identify::responses::linear_models::LinearModels;
 use crate::identify::responses::rational::{BeamFit, MotorFit};
-use crate::identify::responses::response_table::ResponsePoint;
+use crate::identify::responses::response_point::ResponsePoint;
 use crate::identify::separability::Separability;
 use crate::record::Campaign;
 

@@ -52,7 +52,7 @@ pub use responses::rational::{
     BeamFit, Damping, MotorData, MotorFit, Pole, SharedPoles, SharedPolesError, Spurious, TipData,
     TipForm, fit_beam, fit_motor, fit_shared_poles, fit_shared_poles_by_evidence, without_origin,
 };
-pub use responses::response_table::ResponsePoint;
+pub use responses::response_point::ResponsePoint;
 pub use separability::{Carried, Direction, FigureKnown, Part, RunShare, RunToAdd, Separability};
 pub use validation::{
     Cause, CauseKind, ChannelResidual, Fit, Horizon, MovedBy, MovedMode, PredictedStretch, Stretch,

@@ -27,9 +27,8 @@ use crate::identify::responses::linear_models::LinearModels;
 use crate::identify::responses::models;
 use crate::identify::responses::models::{beam_model, figures_model, motor_and_beam, rigid_model};
 use crate::identify::responses::replayed_bands::ReplayedBands;
-use crate::identify::responses::response_table::{
-    Replayed, ResponsePoint, response_table, weak_points,
-};
+use crate::identify::responses::response_point::ResponsePoint;
+use crate::identify::responses::response_table::{Replayed, response_table, weak_points};
 use crate::record::{Campaign, Run};
 use crate::replay::ModalArm;
 

@@ -1,7 +1,7 @@
 //! Deviations of responses that came without: whether their errors are a share of each, of one size, or both.
 
+use crate::identify::equivalent::data::EquivalentData;
 use crate::identify::equivalent::sound::median;
-use crate::identify::equivalent::whole::EquivalentData;
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{
     MotorData, Pole, SharedPoles, fit_coupling, fit_shared_poles_with_delays,

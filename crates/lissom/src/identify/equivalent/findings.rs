@@ -2,8 +2,8 @@
 
 use crate::identify::equivalent::EquivalentError;
 use crate::identify::equivalent::arm::EquivalentArm;
+use crate::identify::equivalent::data::{Deviations, Equivalent, EquivalentData};
 use crate::identify::equivalent::refusal::side;
-use crate::identify::equivalent::whole::{Deviations, Equivalent, EquivalentData};
 use crate::identify::estimate::Estimate;
 use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::responses::correct::Response;

@@ -2,8 +2,8 @@
 
 use num_complex::Complex64;
 
+use crate::identify::equivalent::data::{Deviations, EquivalentData};
 use crate::identify::equivalent::refusal::{EquivalentRefusal, PartOutside};
-use crate::identify::equivalent::whole::{Deviations, EquivalentData};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{Damping, SharedPoles, Spurious, fit_shared_poles};
 

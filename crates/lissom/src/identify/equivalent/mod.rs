@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
 
 mod arm;
+mod data;
 mod deviations;
 mod findings;
 mod imaginary;
@@ -15,8 +16,9 @@ mod whole;
 mod zeros;
 
 pub use arm::{EquivalentArm, equivalent_arm};
+pub use data::{Deviations, Equivalent, EquivalentData};
 pub use refusal::{EquivalentRefusal, PartOutside};
-pub use whole::{Deviations, Equivalent, EquivalentData, equivalent};
+pub use whole::equivalent;
 pub use zeros::{ResponseZero, response_zeros};
 
 use crate::beam::{ModalForm, completed};

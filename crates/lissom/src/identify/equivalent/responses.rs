@@ -1,10 +1,11 @@
 //! Responses of a campaign as Section 4 takes them.
 
+use crate::identify::equivalent::data::{Deviations, EquivalentData};
 use crate::identify::equivalent::refusal::EquivalentRefusal;
-use crate::identify::equivalent::whole::{Deviations, EquivalentData};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{MotorData, TipForm};
-use crate::identify::responses::response_table::{ResponsePoint, tip_model};
+use crate::identify::responses::response_point::ResponsePoint;
+use crate::identify::responses::response_table::tip_model;
 use crate::record::{Campaign, Channels};
 
 /// Responses are trusted to this share of their size at best: held commands, sensors' steps and windows leave

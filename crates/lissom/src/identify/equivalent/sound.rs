@@ -1,7 +1,7 @@
 //! Numbers that can be computed with.
 
+use crate::identify::equivalent::data::EquivalentData;
 use crate::identify::equivalent::refusal::EquivalentRefusal;
-use crate::identify::equivalent::whole::EquivalentData;
 use crate::identify::responses::correct::Response;
 
 /// Sizes of responses: squares of their products stay within doubles.

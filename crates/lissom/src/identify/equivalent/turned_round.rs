@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use crate::identify::equivalent::whole::EquivalentData;
+use crate::identify::equivalent::data::EquivalentData;
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{
     Damping, SharedPoles, Spurious, fit_shared_poles, fit_shared_poles_by_evidence,

@@ -2,16 +2,17 @@
 
 use nalgebra::DMatrix;
 
-use crate::identify::equivalent::arm::{EquivalentArm, arm_below};
-use crate::identify::equivalent::refusal::{EquivalentRefusal, PartOutside};
+use crate::identify::equivalent::arm::arm_below;
+use crate::identify::equivalent::data::{
+    Deviations, Equivalent, EquivalentData, relative_residual,
+};
+use crate::identify::equivalent::refusal::EquivalentRefusal;
 use crate::identify::equivalent::sound::sound;
 use crate::identify::equivalent::turned_round::turned_round;
-use crate::identify::equivalent::zeros::{ResponseZero, response_zeros};
+use crate::identify::equivalent::zeros::response_zeros;
 use crate::identify::equivalent::{
-    EquivalentBeam, EquivalentError, StrainlessForm, deviations, equivalent_beam, findings,
-    imaginary,
+    EquivalentError, deviations, equivalent_beam, findings, imaginary,
 };
-use crate::identify::finding::Finding;
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{
     MOST_DAMPING, MotorData, Pole, SharedPoles, Spurious, fit_shared_poles_with_delays, information,
@@ -28,65 +29,6 @@ const KNOWN_DAMPING: f64 = 0.05;
 
 /// A point is no angle whose gains, modes left out and all, lack more than this of one.
 const NO_ANGLE: f64 = 0.5;
-
-/// Where the deviations of responses are from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Deviations {
-    /// Measured.
-    Measured,
-    /// Measured, and no less than a share of the response.
-    Floored,
-    /// Not known: a share of each response, of one size or both, and what the model leaves says which.
-    FromResidual,
-}
-
-/// Responses of points of a beam, and of its motor.
-#[derive(Debug, Clone)]
-pub struct EquivalentData {
-    /// Names of the points.
-    pub names: Vec<String>,
-    /// Frequencies \[rad/s\].
-    pub omega_rad_s: Vec<f64>,
-    /// θ_i/θ_m of each point (outer) at each frequency.
-    pub outputs: Vec<Vec<Response>>,
-    /// θ_m per command, friction taken out; `None`: step 5 alone.
-    pub motor: Option<MotorData>,
-    /// Where the deviations are from.
-    pub deviations: Deviations,
-}
-
-/// An equivalent arm and how far it holds.
-#[derive(Debug, Clone)]
-pub struct Equivalent {
-    /// All poles found.
-    pub fit: SharedPoles,
-    /// Why each of them is no mode; `None` of those that are.
-    pub spurious: Vec<Option<Spurious>>,
-    /// Those of the arm.
-    pub modes: Vec<usize>,
-    /// Its points, places in [`EquivalentData::names`].
-    pub points: Vec<usize>,
-    /// The poles of the arm at its points.
-    pub kept: SharedPoles,
-    /// Â and B̂ as fitted.
-    pub beam: EquivalentBeam,
-    /// Ĥ, ĥ, J and V too; `None` without a motor's response that holds them.
-    pub arm: Option<EquivalentArm>,
-    /// The form for use as an arm; `None` where a point is no angle.
-    pub strainless: Option<StrainlessForm>,
-    /// Zeros of every point's response, with all modes found and those that poles above the frequencies stand for.
-    pub zeros: Vec<Vec<ResponseZero>>,
-    /// Names of the points measured.
-    pub names: Vec<String>,
-    /// Imaginary parts that no damping explains, where they stand clear of the noise.
-    pub imaginary: Vec<PartOutside>,
-    /// What the model of all poles leaves of the points' responses, as a share of each, rms.
-    pub relative_residual: f64,
-    /// Where the deviations are from.
-    pub deviations: Deviations,
-    /// What to know of it.
-    pub findings: Vec<Finding>,
-}
 
 /// Steps 1 to 6 of Section 4.
 ///
@@ -235,20 +177,6 @@ fn in_the_torque(fit: &SharedPoles, k: usize) -> Option<Pole> {
     let damping_ratio = if known { pole.damping_ratio } else { 0.0 };
     let near = pole.omega_rad_s < BEYOND * fit.range_rad_s.1;
     (near && pole.damping_ratio.abs() < MOST_DAMPING).then_some(Pole { damping_ratio, ..pole })
-}
-
-/// Σ|H − fit|²/|H|² over all responses, its mean's root.
-fn relative_residual(data: &EquivalentData, fit: &SharedPoles) -> f64 {
-    let (mut sum, mut count) = (0.0, 0.0);
-    for (output, responses) in data.outputs.iter().enumerate() {
-        for (w, r) in data.omega_rad_s.iter().zip(responses) {
-            let share = (r.value - fit.response(output, *w)).norm_sqr() / r.value.norm_sqr();
-            if share.is_finite() {
-                (sum, count) = (sum + share, count + 1.0);
-            }
-        }
-    }
-    f64::sqrt(sum / f64::max(count, 1.0))
 }
 
 /// Whether nothing at all describes the responses as well as the fit does.

@@ -5,7 +5,7 @@ use crate::identify::methods::output_error::{starts, starts_by_motor, starts_by_
 use crate::identify::methods::regression::{BeamRegression, coupled_tips};
 use crate::identify::responses::models;
 use crate::identify::responses::rational::BeamFit;
-use crate::identify::responses::response_table::ResponsePoint;
+use crate::identify::responses::response_point::ResponsePoint;
 use crate::record::Campaign;
 use crate::replay::ModalArm;
 

@@ -10,7 +10,7 @@ use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::MotorFit;
 use crate::identify::responses::replayed_bands::ReplayedBands;
-use crate::identify::responses::response_table::{ResponsePoint, STUCK_LEAST, sticking_error};
+use crate::identify::responses::response_point::{ResponsePoint, STUCK_LEAST, sticking_error};
 use crate::record::{Campaign, Hold, Run};
 use crate::spectrum::{Band, broadband, hold_factor, noise_power};
 

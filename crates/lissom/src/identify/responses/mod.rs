@@ -8,4 +8,5 @@ pub(crate) mod model;
 pub(crate) mod models;
 pub(crate) mod rational;
 pub(crate) mod replayed_bands;
+pub(crate) mod response_point;
 pub(crate) mod response_table;

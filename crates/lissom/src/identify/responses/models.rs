@@ -7,7 +7,8 @@ use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{
     BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_at_once, fit_beam, fit_motor,
 };
-use crate::identify::responses::response_table::{ResponsePoint, tip_model};
+use crate::identify::responses::response_point::ResponsePoint;
+use crate::identify::responses::response_table::tip_model;
 use crate::record::{Campaign, Tip};
 
 /// Windowed torque (or acceleration) that a regression may leave for its figures to make a model.

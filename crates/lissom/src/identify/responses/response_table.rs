@@ -1,7 +1,5 @@
 //! The campaign's frequency responses: one point a sinusoidal run, bands of all other runs.
 
-use std::f64::consts::PI;
-
 use crate::identify::estimate::Estimate;
 use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
@@ -9,43 +7,12 @@ use crate::identify::responses::bands::bands;
 use crate::identify::responses::correct::{Response, corrected_by_harmonics, ratio};
 use crate::identify::responses::rational::TipForm;
 use crate::identify::responses::replayed_bands::ReplayedBands;
+use crate::identify::responses::response_point::{ResponsePoint, STUCK_LEAST, sticking_error};
 use crate::record::{Campaign, TipQuantity};
 use crate::spectrum::Phasor;
 
-/// Sticking shares below this are not measured: what (30) leaves where nothing sticks.
-pub(crate) const STUCK_LEAST: f64 = 0.015;
 /// A corrected point uncertain by more than this share is flagged.
 const WEAK: f64 = 0.5;
-/// A corrected point is vouched for whose 95 % interval, so many deviations to a side, is within this share.
-const VOUCHED: f64 = 0.05;
-const INTERVAL: f64 = 1.96;
-
-/// One frequency of the campaign's responses.
-#[derive(Debug, Clone)]
-pub struct ResponsePoint {
-    /// Frequency \[rad/s\].
-    pub omega_rad_s: f64,
-    /// Index of the sinusoidal run; `None` for a band of broadband records.
-    pub run: Option<usize>,
-    /// θ_m per command as measured: friction and all.
-    pub motor_raw: Response,
-    /// The same with friction taken out; `None` where friction is unknown.
-    pub motor_corrected: Option<Response>,
-    /// Response of each tip to the motor's angle, in the tip's own quantity.
-    pub tips: Vec<Option<Response>>,
-    /// Whether a finding speaks against the corrected point.
-    pub flagged: bool,
-}
-
-impl ResponsePoint {
-    /// Whether the corrected point is vouched for: nothing speaks against it, and its 95 % interval is
-    /// within 5 % of it.
-    pub fn is_vouched_for(&self) -> bool {
-        let known = |r: Response| INTERVAL * r.std <= VOUCHED * r.value.norm();
-        !self.flagged && self.motor_corrected.is_some_and(known)
-    }
-}
-
 /// What the replay says of friction.
 #[derive(Default)]
 pub(crate) struct Replayed<'a> {
@@ -105,13 +72,6 @@ fn sinusoidal(
         tips: s.tips.iter().map(|t| tip_response(t.get(1)?, motor)).collect(),
         flagged: spoken_against || motor_corrected.is_none_or(|r| weak(&r).is_some()),
     })
-}
-
-/// Relative error of friction's fundamental in (30) where the joint sticks for `share` of the
-/// cycle: sticking begins at each reversal and lasts π·share in phase; the square wave is late by
-/// half of that.
-pub(crate) fn sticking_error(share: f64) -> f64 {
-    0.5 * PI * share
 }
 
 /// Relative deviation of a corrected response, where it is too large for the point to count.

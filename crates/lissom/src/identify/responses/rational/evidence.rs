@@ -3,9 +3,9 @@
 use crate::identify::estimate::Estimate;
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::Pole;
-use crate::identify::responses::rational::shared_poles::{
-    Damping, Search, SharedPoles, SharedPolesError, best_near, fit,
-};
+use crate::identify::responses::rational::pole_damping::Damping;
+use crate::identify::responses::rational::shared_poles::{Search, SharedPoles, best_near, fit};
+use crate::identify::responses::rational::shared_poles_error::SharedPolesError;
 use crate::identify::responses::rational::weighted::Weighted;
 
 /// Another pair of poles is looked for until so many in a row say less than they cost.

@@ -7,10 +7,12 @@ mod coupling;
 mod evidence;
 mod motor;
 mod origin;
+mod pole_damping;
 mod products;
 mod refine;
 mod relocate;
 mod shared_poles;
+mod shared_poles_error;
 mod weighted;
 
 pub(crate) use at_once::fit_at_once;
@@ -20,8 +22,10 @@ pub use evidence::fit_shared_poles_by_evidence;
 pub(crate) use evidence::fit_shared_poles_with_delays;
 pub use motor::{MotorData, MotorFit, fit_motor};
 pub use origin::without_origin;
+pub use pole_damping::Damping;
 pub(crate) use shared_poles::MOST_DAMPING;
-pub use shared_poles::{Damping, SharedPoles, SharedPolesError, Spurious, fit_shared_poles};
+pub use shared_poles::{SharedPoles, Spurious, fit_shared_poles};
+pub use shared_poles_error::SharedPolesError;
 
 use num_complex::Complex64;
 

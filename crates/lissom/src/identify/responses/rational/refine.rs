@@ -5,8 +5,8 @@ use num_complex::Complex64;
 
 use crate::identify::responses::rational::Pole;
 use crate::identify::responses::rational::columns::{inverses, push_column, push_weighted, shape};
+use crate::identify::responses::rational::pole_damping::Damping;
 use crate::identify::responses::rational::products::products;
-use crate::identify::responses::rational::shared_poles::Damping;
 use crate::identify::responses::rational::weighted::{Output, Weighted};
 
 /// Most steps.

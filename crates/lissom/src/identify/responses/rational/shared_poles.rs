@@ -2,12 +2,13 @@
 
 use nalgebra::DMatrix;
 use num_complex::Complex64;
-use thiserror::Error;
 
 use crate::identify::estimate::Estimate;
 use crate::identify::responses::correct::Response;
+use crate::identify::responses::rational::pole_damping::Damping;
 use crate::identify::responses::rational::refine::{Point, refined, refined_with_delays};
 use crate::identify::responses::rational::relocate::relocated;
+use crate::identify::responses::rational::shared_poles_error::SharedPolesError;
 use crate::identify::responses::rational::weighted::Weighted;
 use crate::identify::responses::rational::{Pole, information, trial_frequencies};
 
@@ -22,91 +23,6 @@ const POOR: f64 = 1.5;
 pub(crate) const MOST_DAMPING: f64 = 0.25;
 /// A pole is there when one of its gains is this many deviations from zero.
 const PRESENT: f64 = 4.0;
-
-/// What the poles may have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Damping {
-    /// None: even powers of s only, as properties 1 and 2 have it.
-    None,
-    /// A ratio of each pole's own.
-    Small,
-    /// The same, and a term in s in each residue: damping within the beam, or of a shape of its own.
-    Within,
-}
-
-impl Damping {
-    /// Unknowns of a pole.
-    pub(crate) fn unknowns(self) -> usize {
-        match self {
-            Self::None => 1,
-            Self::Small | Self::Within => 2,
-        }
-    }
-
-    /// Figures of a residue.
-    pub(crate) fn terms(self) -> usize {
-        match self {
-            Self::None | Self::Small => 1,
-            Self::Within => 2,
-        }
-    }
-}
-
-/// Why responses cannot be fitted.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[non_exhaustive]
-pub enum SharedPolesError {
-    /// There is nothing to fit.
-    #[error("no output: give one response at least")]
-    NoOutput,
-    /// There is nothing to find.
-    #[error("no poles asked for: one pair at least")]
-    NoPoles,
-    /// A frequency that is none.
-    #[error("frequency {index} is {found_rad_s} rad/s: all must be finite and positive")]
-    Frequency {
-        /// Its place, from 0.
-        index: usize,
-        /// What it is \[rad/s\].
-        found_rad_s: f64,
-    },
-    /// An output on another grid.
-    #[error(
-        "output {output} has {found} responses for {expected} frequencies: all must share one grid"
-    )]
-    Grid {
-        /// Its place, from 0.
-        output: usize,
-        /// Responses it has.
-        found: usize,
-        /// Frequencies there are.
-        expected: usize,
-    },
-    /// A response that is no number, or has no deviation.
-    #[error(
-        "output {output}, point {index}: a response needs a finite value and a deviation above zero"
-    )]
-    Response {
-        /// The output's place, from 0.
-        output: usize,
-        /// The point's, from 0.
-        index: usize,
-    },
-    /// More unknowns than data.
-    #[error("{unknowns} unknowns and {readings} readings: too few frequencies for so many poles")]
-    TooFew {
-        /// Numbers to find.
-        unknowns: usize,
-        /// Real numbers to find them from.
-        readings: usize,
-    },
-    /// The search ended nowhere.
-    #[error("no {modes} pairs of poles can be told apart: try fewer")]
-    NotFound {
-        /// Pairs of poles asked for.
-        modes: usize,
-    },
-}
 
 /// Why a pole is no mode of the beam: it mends the model's edges, or stands for noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

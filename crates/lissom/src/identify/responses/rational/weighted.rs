@@ -7,7 +7,7 @@ use num_complex::Complex64;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use crate::identify::responses::correct::Response;
-use crate::identify::responses::rational::shared_poles::SharedPolesError;
+use crate::identify::responses::rational::shared_poles_error::SharedPolesError;
 
 /// Points times columns from which on an output is worth a thread (`benches/rational`).
 const WORTH_A_THREAD: usize = 16_000;
