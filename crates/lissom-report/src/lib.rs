@@ -10,7 +10,7 @@
 //! so a picture looks the same on every machine, whether it has fonts or not.
 //!
 //! ```
-//! use lissom_report::{Axis, Figure, LinePlot, Page, Role, Trace, svg_to_png};
+//! use lissom_report::{Axis, Figure, LinePlot, Page, Role, Trace};
 //!
 //! let plot = LinePlot::new("Motor angle", Axis::linear("time (s)"), Axis::linear("angle (rad)"))
 //!     .trace(Trace::line("measured", Role::Raw, vec![0.0, 0.1, 0.2], vec![0.0, 0.3, 0.1]));
