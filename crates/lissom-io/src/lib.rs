@@ -16,15 +16,15 @@
 pub mod arm_file;
 pub mod campaign;
 mod config;
-mod error;
 mod excerpt;
+mod io_error;
 pub mod log;
 pub mod model;
 mod nearest;
 pub mod plan;
+mod read_text;
 pub mod responses;
 pub mod result;
-mod text;
 pub mod units;
 pub mod write;
 
@@ -38,10 +38,11 @@ pub use campaign::{
     read_campaign_like, read_campaign_with,
 };
 pub use config::{ConfigError, Place, Rule};
-pub use error::Error;
+pub use io_error::Error;
 pub use log::LogError;
 pub use model::{FrequencyError, Model, model_json, read_frequencies};
 pub use plan::{PlanError, PlanFile, PlanRun};
+pub use read_text::read_text;
 pub use responses::{
     FrequencyResponses, MeasuredResponse, Positive, ResponseError, read_responses,
 };
@@ -49,6 +50,5 @@ pub use result::{
     PayloadPrediction, PredictedPayload, ResultError, UnitNames, channel_name_unit,
     equivalent_json, payload_json, read_arm, result_json, validation_json,
 };
-pub use text::read_text;
 pub use units::UnitError;
 pub use write::WriteError;
