@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use lissom::identify::{Identified, Options, Severity, identify};
 use lissom_io::write::{self, Batch};
-use lissom_io::{CampaignFile, UnitNames, read_campaign, result_json};
+use lissom_io::{CampaignFile, ResultFile, UnitNames, read_campaign};
 
 use crate::cli::{IdentifyArgs, STDOUT};
 use crate::failure::Failure;
@@ -25,7 +25,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     let reference = Reference::of(&file)?;
     let reference = reference.as_ref();
     let geometry = geometry::check(&id, reference);
-    let result = result_json(&file.campaign.channels, &id, geometry.as_ref());
+    let result = ResultFile::of(&file.campaign.channels, &id, geometry.as_ref());
     let mut batch = Batch::new();
     if let Some(path) = &args.report {
         let title = args.campaign.display().to_string();

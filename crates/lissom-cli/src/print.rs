@@ -5,7 +5,8 @@ use lissom::identify::{ConstantVelocity, Estimate, Finding, Identified, RunKind,
 use lissom::record::{Axis, Campaign, Hold};
 use lissom_io::UnitNames;
 use lissom_report::{interval, significant, with_uncertainty};
-use serde_json::Value;
+use serde::Serialize;
+use serde_json::json;
 use std::io::{ErrorKind, Write as _};
 
 use crate::failure::Failure;
@@ -38,8 +39,8 @@ pub(crate) fn note(text: &str) {
 }
 
 /// JSON, alone on standard output.
-pub(crate) fn json(value: &Value) {
-    line(&format!("{value:#}"));
+pub(crate) fn json(value: &impl Serialize) {
+    line(&format!("{:#}", json!(value)));
 }
 
 /// A table with its columns aligned, the first to the left, the others to the right.

@@ -5,7 +5,7 @@
 use lissom::beam::{DistributedBeam, Piece, TruncatedBeam};
 use lissom::identify::{Deviations, EquivalentData, MotorData, Response, equivalent};
 use lissom::record::{Axis, CommandQuantity};
-use lissom_io::{UnitNames, equivalent_json};
+use lissom_io::{EquivalentFile, UnitNames};
 use lissom_testmodels::SchemaCheck;
 use num_complex::Complex64;
 
@@ -69,7 +69,10 @@ fn an_equivalent_arm_and_its_schema_name_the_same_keys() {
             {
                 for torque_known in [false, true] {
                     let names = UnitNames { torque_known, axis, command };
-                    check.look_at(&equivalent_json(names, &found));
+                    let file = EquivalentFile::of(names, &found);
+                    let json = serde_json::to_value(&file).unwrap();
+                    check.look_at(&json);
+                    assert_eq!(serde_json::from_value::<EquivalentFile>(json).unwrap(), file);
                 }
             }
         }

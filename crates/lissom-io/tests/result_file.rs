@@ -13,9 +13,8 @@ use lissom::plan::PlannedMotion;
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Tip, TipQuantity};
 use lissom::replay::{Bristles, DryTerms, NearRest, Ripple};
 use lissom::rig::{Experiment, Settle};
-use lissom_io::result_json;
+use lissom_io::ResultFile;
 use lissom_testmodels::SchemaCheck;
-use serde_json::Value;
 
 /// A campaign of three sines with one pair, and one of them as a motion of any shape.
 fn campaign() -> Campaign {
@@ -47,7 +46,7 @@ fn channels(axis: Axis, quantity: CommandQuantity, constant: Option<f64>) -> Cha
 }
 
 /// Results of every axis and command, with every figure that may be absent.
-fn results() -> Vec<Value> {
+fn results() -> Vec<ResultFile> {
     let mut id = identify(&campaign(), &Options::default(), |_| ()).unwrap();
     let described =
         geometry_check(&lissom_testmodels::report_arm(), id.output_error.as_ref().unwrap());
@@ -59,13 +58,10 @@ fn results() -> Vec<Value> {
         {
             for constant in [None, Some(0.246_759)] {
                 id.torque_per_command = constant;
-                results.push(result_json(&channels(axis, quantity, constant), &id, None));
+                let channels = channels(axis, quantity, constant);
+                results.push(ResultFile::of(&channels, &id, None));
                 let split = with_directions(id.clone());
-                results.push(result_json(
-                    &channels(axis, quantity, constant),
-                    &split,
-                    described.as_ref(),
-                ));
+                results.push(ResultFile::of(&channels, &split, described.as_ref()));
             }
         }
     }
@@ -150,7 +146,12 @@ fn with_directions(mut id: Identified) -> Identified {
 fn a_result_and_its_schema_name_the_same_keys() {
     let mut check = SchemaCheck::new(include_str!("../../../docs/result.schema.json"), "result");
     for result in results() {
-        check.look_at(&result);
+        let json = serde_json::to_value(&result).unwrap();
+        check.look_at(&json);
+        // What was written is read back, every key of it.
+        let read: ResultFile = serde_json::from_value(json.clone()).unwrap();
+        assert_eq!(read, result);
+        assert_eq!(serde_json::to_string(&read).unwrap(), json.to_string());
     }
     // What may be null is not: its keys were looked at too.
     check.holds(&[

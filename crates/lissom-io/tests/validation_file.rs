@@ -8,7 +8,7 @@ use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, Tip, TipQuantity,
 };
 use lissom::rig::{Experiment, Settle};
-use lissom_io::{Error, ResultError, read_arm, result_json, validation_json};
+use lissom_io::{Error, ResultError, ResultFile, ValidationFile, read_arm};
 use lissom_testmodels::SchemaCheck;
 use serde_json::{Value, json};
 
@@ -42,7 +42,8 @@ fn campaign(omega_rad_s: &[f64]) -> Campaign {
 fn result() -> (Value, FoundArm) {
     let used = campaign(&[3.1, 9.3]);
     let id = identify(&used, &Options::default(), |_| ()).unwrap();
-    (result_json(&used.channels, &id, None), id.arm.unwrap())
+    let result = serde_json::to_value(ResultFile::of(&used.channels, &id, None)).unwrap();
+    (result, id.arm.unwrap())
 }
 
 struct Placed {
@@ -75,13 +76,17 @@ fn an_arm_that_was_written_is_read_back_and_predicts() {
         assert!(fit.fit_percent > 99.0, "{fit:?}");
     }
     let mut check = SchemaCheck::new(include_str!("../../../docs/validate.schema.json"), "it");
-    check.look_at(&validation_json(&other, &read, &validation));
+    let file = ValidationFile::of(&other, &read, &validation);
+    let json = serde_json::to_value(&file).unwrap();
+    check.look_at(&json);
+    assert_eq!(serde_json::from_value::<ValidationFile>(json).unwrap(), file);
     // An arm that is off has findings.
     let mut wrong = read;
     wrong.arm.coulomb_nm *= 1.5;
     let validation = validate(&wrong, &other, &ValidationOptions::default()).unwrap();
     assert!(!validation.findings.is_empty());
-    check.look_at(&validation_json(&other, &wrong, &validation));
+    let file = ValidationFile::of(&other, &wrong, &validation);
+    check.look_at(&serde_json::to_value(&file).unwrap());
     check.holds(&["torque.residual_terms[].term", "torque.stretches[].start_s", "findings[].code"]);
 }
 
@@ -110,18 +115,39 @@ fn what_is_no_arm_of_this_log_is_refused_with_a_way_out() {
     assert!(matches!(refused(&good, &no_tips), ResultError::OtherTips { .. }));
     for (key, value) in [
         ("/arm/inertia_kg_m2", json!(-1.0)),
-        ("/arm/inertia_kg_m2", json!("heavy")),
         ("/arm/modes/0/natural_frequency_rad_s", json!(0.0)),
         ("/arm/modes/0/stiffness_nm_per_rad", json!(-0.1)),
         ("/arm/coulomb_nm", json!(1e300)),
         ("/arm/ripples", json!([{ "period_rad": 1e-12, "cosine_nm": 0.01, "sine_nm": 0.0 }])),
         ("/arm/tips/0/shape", json!([1.0, 2.0])),
         ("/arm/damping_at_points_per_s", json!([1.0, 2.0, 3.0])),
-        ("/arm/from", json!("hearsay")),
     ] {
         let mut changed = good.clone();
         *changed.pointer_mut(key).unwrap() = value;
         assert!(matches!(refused(&changed, &own), ResultError::Key { .. }), "{key}");
+    }
+    for (key, value, message) in [
+        (
+            "/arm/inertia_kg_m2",
+            json!("heavy"),
+            "`arm` cannot be read: `inertia_kg_m2`: invalid type: string \"heavy\", expected f64",
+        ),
+        (
+            "/arm/from",
+            json!("hearsay"),
+            "`arm.from` cannot be read: unknown variant `hearsay`, expected `output_error` or `regression`",
+        ),
+        (
+            "/arm/modes/0/damping_within_per_s",
+            json!(null),
+            "`arm.modes[0].damping_within_per_s` cannot be read: invalid type: null, expected f64",
+        ),
+    ] {
+        let mut changed = good.clone();
+        *changed.pointer_mut(key).unwrap() = value;
+        let error = refused(&changed, &own);
+        assert!(error.to_string().contains(message), "{error}");
+        assert!(error.hint().is_some());
     }
     assert!(matches!(refused(&json!([1]), &own), ResultError::NoResult { .. }));
     let placed = place("t,i,theta\n");

@@ -9,7 +9,7 @@ use lissom::arm::Arm;
 use lissom::identify::{Estimate, Identified, OutputError};
 use lissom::replay::{ModalArm, Parameter};
 use lissom_io::write::{self, Batch};
-use lissom_io::{ArmFile, UnitNames, read_campaign, result_json};
+use lissom_io::{ArmFile, ResultFile, UnitNames, read_campaign};
 use serde_json::{Value, json};
 
 use crate::cli::{DemoArgs, STDOUT};
@@ -36,7 +36,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
     let channels = &file.campaign.channels;
     let names = UnitNames::new(channels);
     let truth = Reference::truth(&rig.arm);
-    let result = result_json(channels, &id, None);
+    let result = ResultFile::of(channels, &id, None);
     write::write_json(&out.join("result.json"), &result)?;
     let mut batch = Batch::new();
     figures::add_all(&mut batch, out, channels, names, &id, Some(&truth))?;
@@ -120,7 +120,7 @@ fn comparison(arm: &Arm, id: &Identified) -> Vec<Row> {
     ]
 }
 
-fn compared(rows: &[Row], result: &Value) -> Value {
+fn compared(rows: &[Row], result: &ResultFile) -> Value {
     let value = |e: Option<Estimate>| e.map(|e| json!({ "value": e.value, "std": e.std }));
     let figures: Vec<Value> = rows
         .iter()

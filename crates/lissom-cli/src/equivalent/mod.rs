@@ -15,7 +15,7 @@ use std::process::ExitCode;
 use lissom::beam::{BestPoint, DistributedBeam};
 use lissom::identify::{EquivalentError, EquivalentRefusal, equivalent};
 use lissom_io::write::{self, Batch};
-use lissom_io::{ArmFile, BeamKind, equivalent_json};
+use lissom_io::{ArmFile, BeamKind, EquivalentFile};
 
 use self::input::Input;
 use crate::cli::STDOUT;
@@ -49,7 +49,7 @@ pub(crate) fn run(args: &EquivalentArgs) -> Result<ExitCode, Failure> {
     };
     let mut batch = Batch::new();
     if let Some(path) = json_file {
-        let value = equivalent_json(input.names, &found);
+        let value = EquivalentFile::of(input.names, &found);
         batch.file(path, write::json_text(path, &value)?.as_bytes())?;
     }
     if let Some(path) = &args.save_arm {
@@ -60,7 +60,7 @@ pub(crate) fn run(args: &EquivalentArgs) -> Result<ExitCode, Failure> {
     }
     batch.commit()?;
     if json.is_some() && json_file.is_none() {
-        print::json(&equivalent_json(input.names, &found));
+        print::json(&EquivalentFile::of(input.names, &found));
     } else {
         table::print(&input, &found);
         print::findings(&found.findings);

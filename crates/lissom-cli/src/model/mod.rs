@@ -17,7 +17,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use lissom_io::write::{self, Batch};
-use lissom_io::{ArmFile, model_json, read_frequencies};
+use lissom_io::{ArmFile, ModelFile, read_frequencies};
 
 use self::args::Omega;
 use self::beam::{Beam, MOST_DENSE};
@@ -41,14 +41,14 @@ pub(crate) fn run(args: &ModelArgs) -> Result<ExitCode, Failure> {
     let model = task.model()?;
     let mut batch = Batch::new();
     if let Some(path) = json_file {
-        batch.file(path, write::json_text(path, &model_json(&model))?.as_bytes())?;
+        batch.file(path, write::json_text(path, &ModelFile::of(&model))?.as_bytes())?;
     }
     if let Some(folder) = &args.plots {
         plots::add_all(&mut batch, folder, &task, &model)?;
     }
     batch.commit()?;
     if json.is_some() && json_file.is_none() {
-        print::json(&model_json(&model));
+        print::json(&ModelFile::of(&model));
     } else {
         table::print(&task, &model);
     }

@@ -1,26 +1,76 @@
-//! `result.json`: what identification found, with stable keys that carry their units.
+//! `result.json`: what identification found, with stable keys that carry their units; and the files that are made
+//! from results: those of `lissom equivalent`, `payload` and `validate`.
 //!
-//! Its schema is `docs/result.schema.json`. A figure is `{value, std, ci95}`, or `null` where it
-//! is refused; a finding then says why.
+//! Each file is a type that is written and read ([`ResultFile`], [`EquivalentFile`], [`PayloadFile`],
+//! [`ValidationFile`]); the schemas in `docs/` are generated from these types. An estimate is `{value, std, ci95}`,
+//! or `null` where it is refused; a finding then says why.
 
-mod arm_reader;
-mod equivalent_json;
-mod estimate_json;
-mod payload_json;
-mod result_arm;
-mod result_dry_terms;
+mod arm_entry;
+mod channel_names;
+mod constant_velocity_entry;
+mod equivalent_file;
+mod estimate_entry;
+mod finding_entry;
+mod friction_entry;
+mod friction_law_entry;
+mod geometry_entry;
+mod linear_model_entries;
+mod method_entries;
+mod output_error_entry;
+mod payload_file;
+mod read_arm;
 pub(crate) mod result_error;
-mod result_friction_law;
-mod result_geometry;
-mod result_json;
-mod result_verdict;
+mod result_file;
+mod separability_entry;
+pub mod unit_keys;
 mod unit_names;
-mod validation_json;
+mod validation_file;
 
-pub use equivalent_json::equivalent_json;
-pub use payload_json::{PayloadPrediction, PredictedPayload, payload_json};
-pub use result_arm::read_arm;
+pub use arm_entry::{
+    ArmBristlesEntry, ArmEntry, ArmNearRestEntry, ArmRippleEntry, ArmTipEntry, OscillatorEntry,
+};
+pub use channel_names::{ArmSourceName, AxisName, DirectionName, FalloffName, TipQuantityName};
+pub use constant_velocity_entry::{
+    ConstantVelocityEntry, FrictionLineEntry, LineShapeName, SteadyPointEntry,
+};
+pub use equivalent_file::{
+    DeviationsName, EquivalentBeamEntry, EquivalentEntry, EquivalentFile, EquivalentModeEntry,
+    EquivalentTorqueEntry, PointZerosEntry, ResponseZeroEntry, SpuriousName, SpuriousPoleEntry,
+    StrainlessEntry,
+};
+pub use estimate_entry::{BeamModeEntry, EstimateEntry};
+pub use finding_entry::{FindingEntry, SeverityName};
+pub use friction_entry::{
+    BristlesEntry, CoulombEntry, CurvePointEntry, Estimated, FrictionEntry, NearRestEntry,
+    Refusable, RippleEntry,
+};
+pub use friction_law_entry::{
+    ChosenLawEntry, ChosenTermEntry, FrictionLawEntry, LawCandidateEntry, LawResidualEntry,
+    LawTermEntry, LawTermName,
+};
+pub use geometry_entry::{ArmQuantityName, ExplanationEntry, GeometryEntry};
+pub use linear_model_entries::{
+    FrequencyResponseEntry, LinearModelEntries, ModelSourceName, SeriesEntry, TipModelEntry,
+    TipResponseEntry, TransferFunctionEntry,
+};
+pub use method_entries::{
+    BeamRegressionEntry, MethodEntries, MotorFitEntry, RegressionEntry, SinePairEntry,
+    ThirdHarmonicEntry, ViscousByDirectionEntry, WindowEntry,
+};
+pub use output_error_entry::{ExtensionEntry, OutputErrorEntry, StageEntry, StopName};
+pub use payload_file::{
+    PayloadEntry, PayloadFile, PayloadPrediction, PredictedPayload, ResponseEntry,
+};
+pub use read_arm::read_arm;
 pub use result_error::ResultError;
-pub use result_json::result_json;
+pub use result_file::{BeamEntry, DriveEntry, ResultFile, RunEntry, RunKindName, SinusoidEntry};
+pub use separability_entry::{
+    CarriedFigureEntry, DirectionPartEntry, KnownFigureEntry, MotionKindName,
+    PrincipalDirectionEntry, RunShareEntry, RunToAddEntry, SeparabilityEntry,
+};
 pub use unit_names::UnitNames;
-pub use validation_json::{channel_name_unit, validation_json};
+pub use validation_file::{
+    CauseName, ChannelFitEntry, ChannelResidualEntry, ChannelUnitName, HorizonEntry, MotionEntry,
+    MovedByName, MovedModeEntry, ResidualTermEntry, StretchEntry, TorqueEntry, TorqueRunEntry,
+    ValidationFile, channel_name_unit,
+};

@@ -48,6 +48,16 @@ pub enum ResultError {
         /// What it should be.
         expected: &'static str,
     },
+    /// A value of another type than the file should have there.
+    #[error("{file}: `{key}` cannot be read: {source}")]
+    Value {
+        /// The file.
+        file: String,
+        /// The key, dotted, or the table that it is in.
+        key: String,
+        /// What was found and what is expected.
+        source: serde_json::Error,
+    },
     /// The log is of another kind of axis or command, or with another torque constant.
     #[error("{file}: it is from {of_result}, and the log is {of_log}")]
     OtherDrive {
@@ -81,7 +91,9 @@ impl ResultError {
                 "see its findings: a refused figure, tips without an angle, or no method that gives a \
                  whole arm"
             }
-            Self::Key { .. } => "write it anew with `lissom identify CAMPAIGN --json FILE`",
+            Self::Key { .. } | Self::Value { .. } => {
+                "write it anew with `lissom identify CAMPAIGN --json FILE`"
+            }
             Self::OtherDrive { .. } | Self::OtherTips { .. } => {
                 "describe the log as those that the result is from: the same [signals] and [drive]"
             }

@@ -14,6 +14,26 @@ pub struct UnitNames {
 }
 
 impl UnitNames {
+    /// Every combination of units that a campaign may have.
+    pub(crate) const ALL: [Self; 12] = {
+        let [current, voltage, arbitrary] =
+            [CommandQuantity::Current, CommandQuantity::Voltage, CommandQuantity::Arbitrary];
+        [
+            Self { torque_known: false, axis: Axis::Rotary, command: current },
+            Self { torque_known: false, axis: Axis::Rotary, command: voltage },
+            Self { torque_known: false, axis: Axis::Rotary, command: arbitrary },
+            Self { torque_known: false, axis: Axis::Linear, command: current },
+            Self { torque_known: false, axis: Axis::Linear, command: voltage },
+            Self { torque_known: false, axis: Axis::Linear, command: arbitrary },
+            Self { torque_known: true, axis: Axis::Rotary, command: current },
+            Self { torque_known: true, axis: Axis::Rotary, command: voltage },
+            Self { torque_known: true, axis: Axis::Rotary, command: arbitrary },
+            Self { torque_known: true, axis: Axis::Linear, command: current },
+            Self { torque_known: true, axis: Axis::Linear, command: voltage },
+            Self { torque_known: true, axis: Axis::Linear, command: arbitrary },
+        ]
+    };
+
     /// The names that go with these channels.
     pub fn new(channels: &Channels) -> Self {
         Self {
@@ -61,6 +81,11 @@ impl UnitNames {
     /// Key of a coupling, e.g. `coupling_nm_per_rad`.
     pub fn coupling_key(&self, name: &str) -> String {
         format!("{name}_{}_per_{}", self.torque(), self.angle())
+    }
+
+    /// Key of friction that grows with the root of the speed.
+    pub fn root_key(&self, name: &str) -> String {
+        format!("{name}_{}_per_root_{}_per_s", self.torque(), self.angle())
     }
 
     /// Unit of the command as people write it.
