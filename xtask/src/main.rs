@@ -58,6 +58,12 @@ const RECIPES: &[Recipe] = &[
         run: ci,
     },
     Recipe {
+        name: "schemas",
+        about: "the schemas in docs/ from the types of the files that lissom writes",
+        takes: Takes::Flags(&[]),
+        run: schemas,
+    },
+    Recipe {
         name: "external",
         about: "the rig beside MuJoCo and scipy, and a campaign by MuJoCo; in a Python of its own; minutes",
         takes: Takes::Flags(&[]),
@@ -129,10 +135,19 @@ fn main() -> ExitCode {
 fn test(context: &Context) -> Result<(), Failure> {
     let log = measured::Log::start(&context.root)?;
     let mut command = cargo(&context.root, &["test", "--workspace", "--no-fail-fast"]);
+    // The schemas in `docs/` beside the types.
+    command.args(["--features", "lissom-io/schema"]);
     log.pass_to(&mut command)?;
     let outcome = run("tests and doctests", &mut command);
     println!("{}", log.read()?);
     outcome
+}
+
+/// The schemas in `docs/`, from the types; a test fails where they differ.
+fn schemas(context: &Context) -> Result<(), Failure> {
+    let package = ["run", "--package", "lissom-io", "--features", "schema"];
+    let mut command = cargo(&context.root, &package);
+    run("schemas", command.args(["--example", "schemas"]))
 }
 
 /// What a change must pass: cheap checks first.

@@ -2,11 +2,11 @@
 //!
 //! - [`read_campaign`] reads a `campaign.toml` and its logs into a
 //!   [`Campaign`](lissom::record::Campaign): see [`campaign`] for the file, [`log`] for the logs.
-//! - [`ArmFile::read`] reads an `arm.toml`: see [`arm_file`]; [`model_json`] writes what comes of it.
+//! - [`ArmFile::read`] reads an `arm.toml`: see [`arm_file`]; [`ModelFile`] is what comes of it.
 //! - [`PlanFile::read`] reads a `plan.toml`, the experiments of a virtual campaign: see [`plan`].
 //! - [`read_responses`] reads tables of frequency responses: see [`responses`].
-//! - [`result_json`] writes what was identified, [`read_arm`] reads the arm in it back,
-//!   [`validation_json`] writes how well it predicts another log.
+//! - [`ResultFile`] is what was identified, [`read_arm`] reads the arm in it back, [`ValidationFile`]
+//!   is how well it predicts another log: see [`result`].
 //! - [`units`] reads quantities such as `"2.184 lbf*in/A"`.
 //! - [`mod@write`] writes files whole or not at all.
 //!
@@ -16,15 +16,17 @@
 pub mod arm_file;
 pub mod campaign;
 mod config;
-mod error;
 mod excerpt;
+mod io_error;
 pub mod log;
 pub mod model;
 mod nearest;
 pub mod plan;
+mod read_text;
 pub mod responses;
 pub mod result;
-mod text;
+#[cfg(feature = "schema")]
+mod schema_files;
 pub mod units;
 pub mod write;
 
@@ -38,17 +40,19 @@ pub use campaign::{
     read_campaign_like, read_campaign_with,
 };
 pub use config::{ConfigError, Place, Rule};
-pub use error::Error;
+pub use io_error::Error;
 pub use log::LogError;
-pub use model::{FrequencyError, Model, model_json, read_frequencies};
+pub use model::{FrequencyError, Model, ModelFile, read_frequencies};
 pub use plan::{PlanError, PlanFile, PlanRun};
+pub use read_text::read_text;
 pub use responses::{
     FrequencyResponses, MeasuredResponse, Positive, ResponseError, read_responses,
 };
 pub use result::{
-    PayloadPrediction, PredictedPayload, ResultError, UnitNames, channel_name_unit,
-    equivalent_json, payload_json, read_arm, result_json, validation_json,
+    EquivalentFile, PayloadFile, PayloadPrediction, PredictedPayload, ResultError, ResultFile,
+    UnitNames, ValidationFile, channel_name_unit, read_arm,
 };
-pub use text::read_text;
+#[cfg(feature = "schema")]
+pub use schema_files::schema_files;
 pub use units::UnitError;
 pub use write::WriteError;

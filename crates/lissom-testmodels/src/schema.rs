@@ -59,6 +59,11 @@ impl SchemaCheck {
                 None => self.wrong.push(format!("{at} fits nothing")),
             }
         }
+        if let Some(choices) = schema["oneOf"].as_array()
+            && !choices.iter().any(|choice| choice["const"] == *value)
+        {
+            self.wrong.push(format!("{at} is {value}"));
+        }
         if let Some(choices) = schema["enum"].as_array()
             && !choices.contains(value)
         {
@@ -117,7 +122,7 @@ fn has_type(wanted: &Value, value: &Value) -> bool {
         Some("array") => value.is_array(),
         Some("string") => value.is_string(),
         Some("number") => value.is_number(),
-        Some("integer") => value.is_u64(),
+        Some("integer") => value.is_i64() || value.is_u64(),
         Some("boolean") => value.is_boolean(),
         Some("null") => value.is_null(),
         _ => false,

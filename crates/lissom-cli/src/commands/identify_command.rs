@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use lissom::identify::{Identified, Severity};
 use lissom_io::write::{self, Batch};
-use lissom_io::{UnitNames, read_campaign, result_json};
+use lissom_io::{ResultFile, UnitNames, read_campaign};
 
 use crate::args::identify_args::IdentifyArgs;
 use crate::args::stdout_name::STDOUT;
@@ -29,7 +29,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     let reference = Reference::of(&file)?;
     let reference = reference.as_ref();
     let geometry = checked(&id, reference);
-    let result = result_json(&file.campaign.channels, &id, geometry.as_ref());
+    let result = ResultFile::of(&file.campaign.channels, &id, geometry.as_ref());
     let mut batch = Batch::new();
     if let Some(path) = &args.report {
         let title = args.campaign.display().to_string();

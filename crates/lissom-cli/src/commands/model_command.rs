@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use lissom_io::write::{self, Batch};
-use lissom_io::{ArmFile, model_json, read_frequencies};
+use lissom_io::{ArmFile, ModelFile, read_frequencies};
 
 use crate::args::model_args::{ModelArgs, Omega};
 use crate::args::stdout_name::STDOUT;
@@ -29,14 +29,14 @@ pub(crate) fn run(args: &ModelArgs) -> Result<ExitCode, Failure> {
     let model = task.model()?;
     let mut batch = Batch::new();
     if let Some(path) = json_file {
-        batch.file(path, write::json_text(path, &model_json(&model))?.as_bytes())?;
+        batch.file(path, write::json_text(path, &ModelFile::of(&model))?.as_bytes())?;
     }
     if let Some(folder) = &args.plots {
         model_plots::add_all(&mut batch, folder, &task, &model)?;
     }
     batch.commit()?;
     if json.is_some() && json_file.is_none() {
-        printer::json(&model_json(&model));
+        printer::json(&ModelFile::of(&model));
     } else {
         model_table::print(&task, &model);
     }

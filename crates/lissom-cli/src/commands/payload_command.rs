@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use lissom::identify::{Identified, LoadedArm, OutputError};
 use lissom::record::{Axis, Channels};
 use lissom_io::write::{self, Batch};
-use lissom_io::{PayloadPrediction, PredictedPayload, payload_json, read_campaign};
+use lissom_io::{PayloadFile, PayloadPrediction, PredictedPayload, read_campaign};
 
 use crate::args::payload_args::PayloadArgs;
 use crate::args::stdout_name::STDOUT;
@@ -39,7 +39,7 @@ pub(crate) fn run(args: &PayloadArgs) -> Result<ExitCode, Failure> {
     let found = predicted(args, &file.campaign.channels, &place, &id)?;
     let mut batch = Batch::new();
     if let Some(path) = json_file {
-        let value = payload_json(&found);
+        let value = PayloadFile::of(&found);
         batch.file(path, write::json_text(path, &value)?.as_bytes())?;
     }
     if let Some(picture) = &picture {
@@ -47,7 +47,7 @@ pub(crate) fn run(args: &PayloadArgs) -> Result<ExitCode, Failure> {
     }
     batch.commit()?;
     if json.is_some() && json_file.is_none() {
-        printer::json(&payload_json(&found));
+        printer::json(&PayloadFile::of(&found));
     } else {
         payload_table::table(&found);
         finding_list::findings(&found.findings);

@@ -4,9 +4,10 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use lissom::identify::{Severity, ValidationOptions, validate};
-use lissom_io::validation_json;
 use lissom_io::write::{self, Batch};
-use lissom_io::{CampaignFile, UnitNames, read_arm, read_campaign, read_campaign_like};
+use lissom_io::{
+    CampaignFile, UnitNames, ValidationFile, read_arm, read_campaign, read_campaign_like,
+};
 
 use crate::args::stdout_name::STDOUT;
 use crate::args::validate_args::ValidateArgs;
@@ -26,7 +27,7 @@ pub(crate) fn run(args: &ValidateArgs) -> Result<ExitCode, Failure> {
     let options = ValidationOptions { window_s: args.window, horizon_s: args.horizon };
     let validation = validate(&found, campaign, &options)
         .map_err(|source| Failure::Validate { log: args.log.clone(), source })?;
-    let result = validation_json(campaign, &found, &validation);
+    let result = ValidationFile::of(campaign, &found, &validation);
     let mut batch = Batch::new();
     if let Some(path) = json_file {
         batch.file(path, write::json_text(path, &result)?.as_bytes())?;

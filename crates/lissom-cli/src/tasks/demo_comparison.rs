@@ -3,6 +3,7 @@
 use lissom::arm::Arm;
 use lissom::identify::{Estimate, Identified, OutputError};
 use lissom::replay::{ModalArm, Parameter};
+use lissom_io::ResultFile;
 use serde_json::{Value, json};
 
 /// A figure: name, unit, truth, the report's method, regression, output error.
@@ -68,7 +69,7 @@ pub(crate) fn comparison(arm: &Arm, id: &Identified) -> Vec<DemoRow> {
     ]
 }
 
-pub(crate) fn compared(rows: &[DemoRow], result: &Value) -> Value {
+pub(crate) fn compared(rows: &[DemoRow], result: &ResultFile) -> Value {
     let value = |e: Option<Estimate>| e.map(|e| json!({ "value": e.value, "std": e.std }));
     let figures: Vec<Value> = rows
         .iter()

@@ -3,7 +3,8 @@
 
 use std::io::{ErrorKind, Write as _};
 
-use serde_json::Value;
+use serde::Serialize;
+use serde_json::json;
 
 use crate::shared::failure::Failure;
 
@@ -31,8 +32,8 @@ pub(crate) fn note(text: &str) {
 }
 
 /// JSON, alone on standard output.
-pub(crate) fn json(value: &Value) {
-    line(&format!("{value:#}"));
+pub(crate) fn json(value: &impl Serialize) {
+    line(&format!("{:#}", json!(value)));
 }
 
 /// A table with its columns aligned, the first to the left, the others to the right.

@@ -96,6 +96,7 @@ fn odd_harmonics_of_the_fixed_runs() {
     }
     let even = size(2).max(size(4)).max(size(6));
     assert!(even < 0.25 * size(3), "{even}");
-    let json = lissom_io::result_json(&file.campaign.channels, &id, None);
+    let result = lissom_io::ResultFile::of(&file.campaign.channels, &id, None);
+    let json = serde_json::to_value(result).unwrap();
     assert!(common::has_finding(&json, "friction-visible"));
 }

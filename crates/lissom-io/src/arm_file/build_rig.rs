@@ -10,11 +10,12 @@ use lissom::rig::{
     Quantiser, Rig, RigError, Scene, Sensor, Signal, TipWorld,
 };
 
-use super::build::absent;
-use super::{
-    ArmError, ArmFile, BeamKind, ControllerSpec, DriveSpec, RigSpec, SensorSpec, SensorSteps,
-    SignalSpec, TipSpec,
-};
+use super::arm_error::{ArmError, absent};
+use super::arm_spec::ArmFile;
+use super::beam_spec::BeamKind;
+use super::drive_spec::DriveSpec;
+use super::rig_spec::{ControllerSpec, RigSpec, SensorSpec, SensorSteps};
+use super::tip_spec::{SignalSpec, TipSpec};
 
 /// Beyond this modes are no gain and a run takes hours.
 const COORDINATES_MOST: usize = 150;

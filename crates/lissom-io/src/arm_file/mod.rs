@@ -48,85 +48,24 @@
 //!
 //! Every key is in `docs/arm.md`.
 
-mod beam;
-mod build;
+pub(crate) mod arm_error;
+mod arm_spec;
+mod beam_spec;
+mod build_arm;
 mod build_rig;
-mod drive;
+mod drive_spec;
 mod material;
-mod modes;
-mod rig;
+mod mode_specs;
+mod read_arm_file;
+mod rig_spec;
 #[cfg(test)]
 mod tests;
-mod tip;
+mod tip_spec;
 
-pub use beam::{BeamKind, BeamSpec, SpanSpec};
-pub use build::ArmError;
-pub use drive::{BristlesSpec, DriveSpec, RestSpec, RippleSpec};
-pub use rig::{ControllerSpec, ConverterSpec, IntegerSpec, RigSpec, SensorSpec, SensorSteps};
-pub(crate) use tip::omega;
-pub use tip::{SignalSpec, TipSpec};
-
-use std::path::Path;
-
-use lissom::beam::KnownMode;
-
-use crate::config::{ConfigError, Source};
-use crate::error::Error;
-
-/// What an `arm.toml` says, in SI.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct ArmFile {
-    /// The beam, by its spans.
-    pub beam: Option<BeamSpec>,
-    /// The beam, by its modes, in place of that.
-    pub modes: Option<Vec<KnownMode>>,
-    /// The motor.
-    pub drive: Option<DriveSpec>,
-    /// The world at the tip.
-    pub tip: Option<TipSpec>,
-    /// Sampling, limits, sensors and controller.
-    pub rig: Option<RigSpec>,
-}
-
-impl ArmFile {
-    /// Reads an `arm.toml`.
-    ///
-    /// # Errors
-    /// [`Error::Config`].
-    pub fn read(path: &Path) -> Result<Self, Error> {
-        Ok(Self::from_source(&Source::read(path)?)?)
-    }
-
-    /// Reads the text of an `arm.toml`; `path` stands in errors.
-    ///
-    /// ```
-    /// let text = "[rig]\nsample_time = \"3 ms\"";
-    /// let arm = lissom_io::ArmFile::from_text("arm.toml".as_ref(), text)?;
-    /// assert_eq!(arm.rig.map(|rig| rig.sample_time_s), Some(0.003));
-    /// # Ok::<(), lissom_io::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::Config`].
-    pub fn from_text(path: &Path, text: &str) -> Result<Self, Error> {
-        Ok(Self::from_source(&Source::new(path, text.to_owned()))?)
-    }
-
-    fn from_source(source: &Source) -> Result<Self, ConfigError> {
-        let document = source.parse()?;
-        let root = source.root(&document);
-        root.only(&["beam", "drive", "tip", "rig"])?;
-        let table = root.get("beam").map(|v| v.table()).transpose()?;
-        let (by_modes, by_spans) = match table {
-            Some(table) if table.get("modes").is_some() => (Some(table), None),
-            other => (None, other),
-        };
-        Ok(Self {
-            beam: by_spans.map(|t| beam::beam(&t)).transpose()?,
-            modes: by_modes.map(|t| modes::modes(&t)).transpose()?,
-            drive: root.get("drive").map(|v| drive::drive(&v.table()?)).transpose()?,
-            tip: root.get("tip").map(|v| tip::tip(&v.table()?)).transpose()?,
-            rig: root.get("rig").map(|v| rig::rig(&v.table()?)).transpose()?,
-        })
-    }
-}
+pub use arm_error::ArmError;
+pub use arm_spec::ArmFile;
+pub use beam_spec::{BeamKind, BeamSpec, SpanSpec};
+pub use drive_spec::{BristlesSpec, DriveSpec, RestSpec, RippleSpec};
+pub use rig_spec::{ControllerSpec, ConverterSpec, IntegerSpec, RigSpec, SensorSpec, SensorSteps};
+pub(crate) use tip_spec::omega;
+pub use tip_spec::{SignalSpec, TipSpec};

@@ -13,74 +13,17 @@
 //! measured channel by leaving samples out, without a filter. Rows are counted for this, not
 //! time: a row lost within a sample shifts the later ones, which shows as jitter.
 
-mod error;
-mod layout;
-mod read;
+mod log_columns;
+mod log_error;
+mod log_layout;
 #[cfg(test)]
-mod tests;
-mod thin;
-mod time;
+mod log_tests;
+mod read_log;
+mod thinner;
+mod time_grid;
 
-pub use error::LogError;
-pub(crate) use layout::{Delimiter, comment, is_header, number};
-pub use read::{read_log, read_log_from};
-pub use time::{Pieces, TimeGrid, cut_at_gaps};
-
-use std::fmt;
-
-use lissom::record::Hold;
-
-/// A column of a log.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum ColumnRef {
-    /// By its name in the header, trimmed and exact.
-    Name(String),
-    /// By its number, from 1.
-    Number(usize),
-}
-
-impl fmt::Display for ColumnRef {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Name(name) => write!(f, "\"{name}\""),
-            Self::Number(number) => write!(f, "{number}"),
-        }
-    }
-}
-
-/// A column to read, and how to thin it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct LogColumn {
-    /// Which one.
-    pub column: ColumnRef,
-    /// Thinning takes the mean of a held signal and every n-th sample of a measured one.
-    pub hold: Hold,
-}
-
-/// How to read a log.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct LogOptions {
-    /// Most rows kept; a longer log is thinned by 2, 4, 8, ... while it is read. At least 4.
-    pub max_rows: usize,
-    /// Numbers have a decimal comma; cells are then separated by semicolons, tabs or blanks.
-    pub decimal_comma: bool,
-}
-
-impl Default for LogOptions {
-    fn default() -> Self {
-        Self { max_rows: 1 << 22, decimal_comma: false }
-    }
-}
-
-/// The columns of a log, in its own units.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Log {
-    /// Time stamps, strictly increasing; absent where none were asked for.
-    pub time: Option<Vec<f64>>,
-    /// The columns asked for, in that order.
-    pub columns: Vec<Vec<f64>>,
-    /// Rows of the file per sample; 1 unless the log was thinned.
-    pub factor: usize,
-    /// Step of the stamps' last decimal; 0 where it is unknown.
-    pub time_step: f64,
-}
+pub use log_columns::{ColumnRef, Log, LogColumn, LogOptions};
+pub use log_error::LogError;
+pub(crate) use log_layout::{Delimiter, comment, is_header, number};
+pub use read_log::{read_log, read_log_from};
+pub use time_grid::{Pieces, TimeGrid, cut_at_gaps};

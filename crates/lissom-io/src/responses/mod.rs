@@ -5,11 +5,11 @@
 //! or `mag`) and a phase (`deg`, or `phase [rad]`); `std` may stand beside them. What is left of a name is
 //! the output's: `tip_re` and `tip_im` are of `tip`; where nothing is left it is the file's.
 
-mod columns;
-mod error;
-mod read;
+mod read_responses;
+mod response_columns;
+mod response_error;
 #[cfg(test)]
-mod tests;
+mod responses_tests;
 
-pub use error::{Positive, ResponseError};
-pub use read::{FrequencyResponses, MeasuredResponse, read_responses};
+pub use read_responses::{FrequencyResponses, MeasuredResponse, read_responses};
+pub use response_error::{Positive, ResponseError};

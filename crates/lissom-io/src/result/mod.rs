@@ -1,448 +1,76 @@
-//! `result.json`: what identification found, with stable keys that carry their units.
+//! `result.json`: what identification found, with stable keys that carry their units; and the files that are made
+//! from results: those of `lissom equivalent`, `payload` and `validate`.
 //!
-//! Its schema is `docs/result.schema.json`. A figure is `{value, std, ci95}`, or `null` where it
-//! is refused; a finding then says why.
+//! Each file is a type that is written and read ([`ResultFile`], [`EquivalentFile`], [`PayloadFile`],
+//! [`ValidationFile`]); the schemas in `docs/` are generated from these types. An estimate is `{value, std, ci95}`,
+//! or `null` where it is refused; a finding then says why.
 
-mod arm;
-mod dry_terms;
-mod equivalent;
-mod friction_law;
-mod geometry;
-mod payload;
-mod units;
-mod validation;
-mod verdict;
+mod arm_entry;
+mod channel_names;
+mod constant_velocity_entry;
+mod equivalent_file;
+mod estimate_entry;
+mod finding_entry;
+mod friction_entry;
+mod friction_law_entry;
+mod geometry_entry;
+mod linear_model_entries;
+mod method_entries;
+mod output_error_entry;
+mod payload_file;
+mod read_arm;
+pub(crate) mod result_error;
+mod result_file;
+mod separability_entry;
+pub mod unit_keys;
+mod unit_names;
+mod validation_file;
 
-pub use arm::{ResultError, read_arm};
-pub use equivalent::equivalent_json;
-pub use payload::{PayloadPrediction, PredictedPayload, payload_json};
-pub use units::UnitNames;
-pub use validation::{channel_name_unit, validation_json};
-
-use lissom::identify::{
-    BeamRegression, ByDirection, Candidate, ConstantVelocity, DriveEstimates, Estimate, Finding,
-    FrictionLine, GeometryCheck, Identified, LeastSquares, Method, ModeEstimate, ModelSource,
-    MotorFit, MotorRegression, OutputError, Response, ResponsePoint, RunAnalysis, RunKind,
-    Severity, Shape, StageReport, Stop, ThirdHarmonic, TipModel,
+pub use arm_entry::{
+    ArmBristlesEntry, ArmEntry, ArmNearRestEntry, ArmRippleEntry, ArmTipEntry, OscillatorEntry,
 };
-use lissom::lti::TransferFunction;
-use lissom::record::{Axis, Channels, Tip, TipQuantity};
-use lissom::replay::Parameter;
-use serde_json::{Map, Value, json};
-
-/// The result as JSON, SI and rad/s throughout; with what the logs say of an arm's description, where one
-/// lies beside them.
-pub fn result_json(
-    channels: &Channels,
-    id: &Identified,
-    described: Option<&GeometryCheck>,
-) -> Value {
-    let names = UnitNames::new(channels);
-    let constant = id.torque_per_command.unwrap_or(1.0);
-    json!({
-        "lissom": env!("CARGO_PKG_VERSION"),
-        "axis": axis(channels.axis),
-        "torque_per_command": id.torque_per_command,
-        "from": id.method.map(Method::name),
-        "friction": friction(names, constant, id),
-        "drive": { (names.inertia_key()): figure(id.inertia) },
-        "beam": beam(names, id),
-        "verdict": id.separability.as_ref().map(|s| verdict::verdict(channels.axis, names, s)),
-        "arm": id.arm.as_ref().map(|found| arm::arm(channels, names, found)),
-        "methods": {
-            "third_harmonic": id.third_harmonic.as_ref().map(|t| third(names, constant, t, &id.runs)),
-            "output_error": id.output_error.as_ref().map(|o| replay(names, constant, channels, o)),
-            "regression": id.regression.as_ref().map(|r| {
-                regression(names, constant, r, id.beam_regression.as_ref())
-            }),
-            "least_squares": id.least_squares.as_ref().map(|l| least_squares(names, constant, l)),
-            "friction_law": id.friction_law.as_ref().map(|l| friction_law::law(names, constant, l)),
-            "constant_velocity": id.constant_velocity.as_ref().map(|c| {
-                classical(names, constant, c, &id.runs)
-            }),
-        },
-        "frequency_response": responses(channels, id),
-        "models": models(channels, id),
-        "geometry": described.map(geometry::geometry),
-        "equivalent": id.equivalent.as_ref().map(|e| equivalent::equivalent(names, e)),
-        "runs": id.runs.iter().map(run).collect::<Vec<_>>(),
-        "findings": id.findings.iter().map(finding).collect::<Vec<_>>(),
-    })
-}
-
-fn axis(axis: Axis) -> &'static str {
-    match axis {
-        Axis::Rotary => "rotary",
-        Axis::Linear => "linear",
-    }
-}
-
-/// A figure as JSON.
-fn figure(e: Option<Estimate>) -> Value {
-    e.map_or(Value::Null, |e| json!({ "value": e.value, "std": e.std, "ci95": e.ci95() }))
-}
-
-/// A torque under its own unit and, where both are known, the command's.
-fn torque(map: &mut Map<String, Value>, names: UnitNames, k: f64, key: &str, e: Option<Estimate>) {
-    map.insert(format!("{key}_{}", names.command()), figure(e.map(|e| e.scaled(1.0 / k))));
-    if names.torque_known {
-        map.insert(format!("{key}_{}", names.torque()), figure(e));
-    }
-}
-
-fn friction(names: UnitNames, constant: f64, id: &Identified) -> Value {
-    let f = &id.friction;
-    let mut map = Map::new();
-    torque(&mut map, names, constant, "coulomb", f.coulomb);
-    torque(&mut map, names, constant, "forward", f.forward);
-    torque(&mut map, names, constant, "backward", f.backward);
-    torque(&mut map, names, constant, "offset", f.offset);
-    map.insert(names.viscous_key("viscous"), figure(f.viscous));
-    if let Some((forward, backward)) = f.viscous_by_direction {
-        map.insert(names.viscous_key("viscous_forward"), figure(Some(forward)));
-        map.insert(names.viscous_key("viscous_backward"), figure(Some(backward)));
-    }
-    friction_law::terms(&mut map, names, constant, f);
-    let curve = id.friction_law.as_ref().map_or(&[][..], |law| &law.curve);
-    map.insert("curve".to_owned(), friction_law::curve(names, constant, curve));
-    Value::Object(map)
-}
-
-fn mode(m: &ModeEstimate) -> Value {
-    json!({
-        "natural_frequency_rad_s": figure(Some(m.natural_frequency_rad_s)),
-        "damping_ratio": figure(Some(m.damping_ratio)),
-    })
-}
-
-fn beam(names: UnitNames, id: &Identified) -> Value {
-    let by_tip: Vec<Value> = id.beam.coupling_by_tip.iter().map(|e| figure(*e)).collect();
-    json!({
-        "modes": id.beam.modes.iter().map(mode).collect::<Vec<_>>(),
-        (names.coupling_key("coupling")): figure(id.beam.coupling),
-        (names.coupling_key("coupling_by_tip")): by_tip,
-    })
-}
-
-fn fit(names: UnitNames, m: &MotorFit) -> Value {
-    json!({
-        (names.inertia_key()): figure(Some(m.inertia)),
-        (names.viscous_key("viscous")): figure(Some(m.viscous)),
-        (names.coupling_key("coupling_by_mode")):
-            m.coupling.iter().map(|c| figure(Some(*c))).collect::<Vec<_>>(),
-        "motor": transfer_function(&m.transfer_function),
-        "weighted_rms": m.weighted_rms,
-    })
-}
-
-fn third(names: UnitNames, constant: f64, t: &ThirdHarmonic, runs: &[RunAnalysis]) -> Value {
-    let mut map = Map::new();
-    torque(&mut map, names, constant, "coulomb", Some(t.coulomb_command.scaled(constant)));
-    map.insert(format!("spread_{}", names.command()), json!(t.spread_command));
-    let pairs: Vec<Value> = t
-        .pairs
-        .iter()
-        .zip(&t.used)
-        .map(|(p, used)| {
-            json!({
-                "omega_rad_s": p.omega_rad_s,
-                "run": runs[p.run].name,
-                "triple_run": runs[p.triple_run].name,
-                (format!("coulomb_{}", names.command())): figure(Some(p.coulomb_command)),
-                "cost": p.cost,
-                "used": used,
-            })
-        })
-        .collect();
-    map.insert("pairs".to_owned(), Value::Array(pairs));
-    map.insert("fit".to_owned(), t.motor.as_ref().map_or(Value::Null, |m| fit(names, m)));
-    Value::Object(map)
-}
-
-fn candidates(list: &[Candidate]) -> Vec<Value> {
-    list.iter()
-        .map(|c| {
-            json!({
-                "window_s": c.window_s,
-                "rows": c.rows,
-                "phases": c.clusters,
-                "relative_residual": c.relative_residual,
-                "sensitivity": Some(c.sensitivity).filter(|s| s.is_finite()),
-            })
-        })
-        .collect()
-}
-
-fn regression(
-    names: UnitNames,
-    constant: f64,
-    r: &MotorRegression,
-    beam: Option<&BeamRegression>,
-) -> Value {
-    let mut map = Map::new();
-    torque(&mut map, names, constant, "coulomb", r.coulomb);
-    torque(&mut map, names, constant, "forward", r.forward);
-    torque(&mut map, names, constant, "backward", r.backward);
-    torque(&mut map, names, constant, "offset", r.offset);
-    map.insert(names.viscous_key("viscous"), figure(r.viscous));
-    map.insert(names.inertia_key(), figure(r.inertia));
-    let coupling: Vec<Value> = r.coupling.iter().map(|e| figure(*e)).collect();
-    map.insert(names.coupling_key("coupling_by_tip"), Value::Array(coupling));
-    let split = r.viscous_by_direction.as_ref().map(|d| by_direction(names, d));
-    map.insert("viscous_by_direction".to_owned(), split.unwrap_or(Value::Null));
-    map.insert("window_s".to_owned(), json!(r.window_s));
-    map.insert("window_given".to_owned(), json!(r.window_given));
-    map.insert("rows".to_owned(), json!(r.rows));
-    map.insert("phases".to_owned(), json!(r.phases));
-    map.insert("relative_residual".to_owned(), json!(r.relative_residual));
-    map.insert("candidates".to_owned(), json!(candidates(&r.candidates)));
-    let beam = beam.map(|b| {
-        json!({
-            "modes": b.modes.iter().map(mode).collect::<Vec<_>>(),
-            "window_s": b.window_s,
-            "relative_residual": b.relative_residual,
-        })
-    });
-    map.insert("beam".to_owned(), beam.unwrap_or(Value::Null));
-    Value::Object(map)
-}
-
-fn least_squares(names: UnitNames, constant: f64, fit: &LeastSquares) -> Value {
-    let DriveEstimates { friction, inertia, coupling_by_tip, .. } = &fit.estimates;
-    let mut map = Map::new();
-    torque(&mut map, names, constant, "coulomb", friction.coulomb);
-    torque(&mut map, names, constant, "forward", friction.forward);
-    torque(&mut map, names, constant, "backward", friction.backward);
-    torque(&mut map, names, constant, "offset", friction.offset);
-    map.insert(names.viscous_key("viscous"), figure(friction.viscous));
-    map.insert(names.inertia_key(), figure(*inertia));
-    let coupling: Vec<Value> = coupling_by_tip.iter().map(|e| figure(*e)).collect();
-    map.insert(names.coupling_key("coupling_by_tip"), Value::Array(coupling));
-    map.insert(format!("speed_range_{}_per_s", names.angle()), json!(fit.speed_range));
-    map.insert("samples".to_owned(), json!(fit.samples));
-    map.insert("relative_residual".to_owned(), json!(fit.relative_residual));
-    Value::Object(map)
-}
-
-/// The regression with viscous friction by direction: a fit of its own.
-fn by_direction(names: UnitNames, d: &ByDirection) -> Value {
-    let DriveEstimates { friction, inertia, coupling_by_tip, .. } = &d.estimates;
-    let (forward, backward) = friction.viscous_by_direction.unzip();
-    let of_torque = |key: &str| format!("{key}_{}", names.torque());
-    json!({
-        (names.viscous_key("forward")): figure(forward),
-        (names.viscous_key("backward")): figure(backward),
-        (of_torque("coulomb")): figure(friction.coulomb),
-        (of_torque("coulomb_forward")): figure(friction.forward),
-        (of_torque("coulomb_backward")): figure(friction.backward),
-        (of_torque("offset")): figure(friction.offset),
-        (names.inertia_key()): figure(*inertia),
-        (names.coupling_key("coupling_by_tip")): coupling_by_tip.iter().map(|e| figure(*e)).collect::<Vec<_>>(),
-        "relative_residual": d.relative_residual,
-    })
-}
-
-fn replay(names: UnitNames, constant: f64, channels: &Channels, oe: &OutputError) -> Value {
-    let mut map = Map::new();
-    let friction = oe.friction(channels.command.back_emf_viscous);
-    torque(&mut map, names, constant, "coulomb", friction.coulomb);
-    torque(&mut map, names, constant, "forward", friction.forward);
-    torque(&mut map, names, constant, "backward", friction.backward);
-    torque(&mut map, names, constant, "offset", friction.offset);
-    map.insert(names.viscous_key("viscous"), figure(friction.viscous));
-    map.insert(names.inertia_key(), figure(oe.inertia()));
-    map.insert(names.coupling_key("coupling"), figure(oe.estimates(channels).coupling));
-    map.insert("modes".to_owned(), json!(oe.mode_estimates().iter().map(mode).collect::<Vec<_>>()));
-    let lag = oe.estimate(Parameter::CommandLag);
-    map.insert("command_lag_s".to_owned(), figure(lag));
-    let tips = 0..channels.tips.len();
-    let lags = tips.map(|i| figure(oe.estimate(Parameter::TipLag(i))));
-    map.insert("tip_lags_s".to_owned(), lags.collect());
-    map.insert("whole_runs".to_owned(), json!(oe.whole_runs));
-    let stages: Vec<Value> = oe.stages.iter().map(stage).collect();
-    map.insert("stages".to_owned(), Value::Array(stages));
-    let tried: Vec<Value> = oe
-        .extensions
-        .iter()
-        .map(|e| {
-            json!({
-                "parameter": e.parameter.name(),
-                "value": e.value,
-                "std": e.std,
-                "share_of_cost": e.share,
-                "added": e.added,
-            })
-        })
-        .collect();
-    map.insert("tried".to_owned(), Value::Array(tried));
-    Value::Object(map)
-}
-
-fn stage(s: &StageReport) -> Value {
-    let stop = match s.stop {
-        Stop::Converged => "converged",
-        Stop::NoStepHelps => "no-step-helps",
-        Stop::StepsUsedUp => "steps-used-up",
-    };
-    json!({
-        "window_s": s.window_s,
-        "windows": s.windows,
-        "cost": s.iterations.iter().map(|i| i.cost).collect::<Vec<_>>(),
-        "steps_taken": s.iterations.iter().filter(|i| i.taken).count(),
-        "stop": stop,
-        "noise_sigma": s.noise.iter().map(|n| n.sigma).collect::<Vec<_>>(),
-        "noise_step": s.noise.iter().map(|n| n.step).collect::<Vec<_>>(),
-        "residual_std": s.residual,
-    })
-}
-
-fn classical(names: UnitNames, constant: f64, c: &ConstantVelocity, runs: &[RunAnalysis]) -> Value {
-    let mut map = Map::new();
-    let forward = c.forward.as_ref().ok();
-    let backward = c.backward.as_ref().ok();
-    torque(&mut map, names, constant, "coulomb", c.coulomb);
-    torque(&mut map, names, constant, "forward", forward.map(|l| l.coulomb));
-    torque(&mut map, names, constant, "backward", backward.map(|l| l.coulomb));
-    torque(&mut map, names, constant, "offset", c.offset);
-    map.insert(names.viscous_key("viscous"), figure(c.viscous));
-    let lines: Vec<Value> = c.lines().map(|(name, l)| line(names, constant, name, l)).collect();
-    map.insert("lines".to_owned(), Value::Array(lines));
-    let points: Vec<Value> = c
-        .points
-        .iter()
-        .map(|p| {
-            json!({
-                "run": runs[p.run].name,
-                "direction": if p.velocity.value > 0.0 { "forward" } else { "backward" },
-                "start_s": p.start_s,
-                "end_s": p.end_s,
-                (format!("velocity_{}_per_s", names.angle())): figure(Some(p.velocity)),
-                (format!("command_{}", names.command())): figure(Some(p.command)),
-            })
-        })
-        .collect();
-    map.insert("points".to_owned(), Value::Array(points));
-    Value::Object(map)
-}
-
-fn line(names: UnitNames, constant: f64, direction: &str, l: &FrictionLine) -> Value {
-    let (shape, deviations) = match l.shape {
-        Shape::Unchecked => ("unchecked", None),
-        Shape::Straight => ("straight", None),
-        Shape::Concave { deviations } => ("concave", Some(deviations)),
-        Shape::Convex { deviations } => ("convex", Some(deviations)),
-        Shape::Scattered { rms } => ("scattered", Some(rms)),
-    };
-    let mut map = Map::new();
-    map.insert("direction".to_owned(), json!(direction));
-    torque(&mut map, names, constant, "coulomb", Some(l.coulomb));
-    map.insert(names.viscous_key("viscous"), figure(Some(l.viscous)));
-    map.insert("correlation".to_owned(), json!(l.correlation));
-    map.insert("points".to_owned(), json!(l.points));
-    map.insert("speeds".to_owned(), json!(l.speeds));
-    map.insert("shape".to_owned(), json!(shape));
-    map.insert("deviations".to_owned(), json!(deviations));
-    torque(&mut map, names, constant, "slowest", l.slowest);
-    Value::Object(map)
-}
-
-/// Complex series as parallel lists, `null` where a point has none.
-fn series(points: &[ResponsePoint], get: impl Fn(&ResponsePoint) -> Option<Response>) -> Value {
-    let list = |part: fn(&Response) -> f64| -> Vec<Option<f64>> {
-        points.iter().map(|p| get(p).map(|r| part(&r))).collect()
-    };
-    json!({ "re": list(|r| r.value.re), "im": list(|r| r.value.im), "std": list(|r| r.std) })
-}
-
-fn responses(channels: &Channels, id: &Identified) -> Value {
-    let points = &id.responses;
-    let tips: Vec<Value> = channels
-        .tips
-        .iter()
-        .enumerate()
-        .map(|(i, tip)| {
-            let mut value = series(points, |p| p.tips.get(i).copied().flatten());
-            value["name"] = json!(tip.name);
-            value["quantity"] = json!(quantity(tip.quantity));
-            value
-        })
-        .collect();
-    json!({
-        "omega_rad_s": points.iter().map(|p| p.omega_rad_s).collect::<Vec<_>>(),
-        "run": points.iter().map(|p| p.run.map(|r| &id.runs[r].name)).collect::<Vec<_>>(),
-        "flagged": points.iter().map(|p| p.flagged).collect::<Vec<_>>(),
-        "vouched_for": points.iter().map(ResponsePoint::is_vouched_for).collect::<Vec<_>>(),
-        "motor_raw": series(points, |p| Some(p.motor_raw)),
-        "motor_corrected": series(points, |p| p.motor_corrected),
-        "tips": tips,
-    })
-}
-
-fn quantity(q: TipQuantity) -> &'static str {
-    match q {
-        TipQuantity::Angle => "angle",
-        TipQuantity::Deflection => "deflection",
-        TipQuantity::Acceleration => "acceleration",
-    }
-}
-
-fn transfer_function(g: &TransferFunction) -> Value {
-    json!({ "num": g.num, "den": g.den })
-}
-
-fn models(channels: &Channels, id: &Identified) -> Value {
-    let models = &id.models;
-    let tip = |(tip, model): (&Tip, &TipModel)| {
-        let g = &model.function;
-        json!({ "name": tip.name, "num": g.num, "den": g.den, "delay_s": model.delay_s })
-    };
-    let tips: Vec<Value> = channels.tips.iter().zip(&models.tips).map(tip).collect();
-    json!({
-        "from": match models.source {
-            ModelSource::Arm => "arm",
-            ModelSource::Responses => "responses",
-        },
-        "motor": models.motor.as_ref().map(transfer_function),
-        "motor_delay_s": figure(models.motor_delay),
-        "tips": tips,
-        "state_space": models.state_space.as_ref().map(crate::model::state_space),
-    })
-}
-
-fn run(r: &RunAnalysis) -> Value {
-    let mut value = json!({
-        "name": r.name,
-        "samples": r.samples,
-        "sample_time_s": r.sample_time_s,
-        "kind": "general",
-        "saturated_share": r.saturated_share,
-        "usable": r.usable,
-    });
-    if r.is_constant_velocity() {
-        value["kind"] = json!("constant_velocity");
-    }
-    if let RunKind::Sinusoidal(s) = &r.kind {
-        value["kind"] = json!("sinusoidal");
-        value["omega_rad_s"] = json!(s.omega_rad_s);
-        value["omega_given"] = json!(s.omega_given);
-        value["periods"] = json!(s.steady.periods);
-        value["dropped_periods"] = json!(s.steady.dropped);
-        value["stuck_share"] = json!(r.stuck_share);
-    }
-    value
-}
-
-fn finding(f: &Finding) -> Value {
-    json!({
-        "code": f.code,
-        "severity": match f.severity {
-            Severity::Info => "info",
-            Severity::Warning => "warning",
-            Severity::Refusal => "refusal",
-        },
-        "run": f.run,
-        "affects": f.affects,
-        "message": f.message,
-        "hint": f.hint,
-    })
-}
+pub use channel_names::{ArmSourceName, AxisName, DirectionName, FalloffName, TipQuantityName};
+pub use constant_velocity_entry::{
+    ConstantVelocityEntry, FrictionLineEntry, LineShapeName, SteadyPointEntry,
+};
+pub use equivalent_file::{
+    DeviationsName, EquivalentBeamEntry, EquivalentEntry, EquivalentFile, EquivalentModeEntry,
+    EquivalentTorqueEntry, PointZerosEntry, ResponseZeroEntry, SpuriousName, SpuriousPoleEntry,
+    StrainlessEntry,
+};
+pub use estimate_entry::{BeamModeEntry, EstimateEntry};
+pub use finding_entry::{FindingEntry, SeverityName};
+pub use friction_entry::{
+    BristlesEntry, CoulombEntry, CurvePointEntry, Estimated, FrictionEntry, NearRestEntry,
+    Refusable, RippleEntry,
+};
+pub use friction_law_entry::{
+    ChosenLawEntry, ChosenTermEntry, FrictionLawEntry, LawCandidateEntry, LawResidualEntry,
+    LawTermEntry, LawTermName,
+};
+pub use geometry_entry::{ArmQuantityName, ExplanationEntry, GeometryEntry};
+pub use linear_model_entries::{
+    FrequencyResponseEntry, LinearModelEntries, ModelSourceName, SeriesEntry, TipModelEntry,
+    TipResponseEntry, TransferFunctionEntry,
+};
+pub use method_entries::{
+    BeamRegressionEntry, MethodEntries, MotorFitEntry, RegressionEntry, SinePairEntry,
+    ThirdHarmonicEntry, ViscousByDirectionEntry, WindowEntry,
+};
+pub use output_error_entry::{ExtensionEntry, OutputErrorEntry, StageEntry, StopName};
+pub use payload_file::{
+    PayloadEntry, PayloadFile, PayloadPrediction, PredictedPayload, ResponseEntry,
+};
+pub use read_arm::read_arm;
+pub use result_error::ResultError;
+pub use result_file::{BeamEntry, DriveEntry, ResultFile, RunEntry, RunKindName, SinusoidEntry};
+pub use separability_entry::{
+    CarriedFigureEntry, DirectionPartEntry, KnownFigureEntry, MotionKindName,
+    PrincipalDirectionEntry, RunShareEntry, RunToAddEntry, SeparabilityEntry,
+};
+pub use unit_names::UnitNames;
+pub use validation_file::{
+    CauseName, ChannelFitEntry, ChannelResidualEntry, ChannelUnitName, HorizonEntry, MotionEntry,
+    MovedByName, MovedModeEntry, ResidualTermEntry, StretchEntry, TorqueEntry, TorqueRunEntry,
+    ValidationFile, channel_name_unit,
+};

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use lissom_io::write::{self, Batch};
-use lissom_io::{ArmFile, UnitNames, read_campaign, result_json};
+use lissom_io::{ArmFile, ResultFile, UnitNames, read_campaign};
 
 use super::demo_campaign;
 use crate::args::demo_args::DemoArgs;
@@ -35,7 +35,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
     let channels = &file.campaign.channels;
     let names = UnitNames::new(channels);
     let truth = Reference::truth(&rig.arm);
-    let result = result_json(channels, &id, None);
+    let result = ResultFile::of(channels, &id, None);
     write::write_json(&out.join("result.json"), &result)?;
     let mut batch = Batch::new();
     result_plots::add_all(&mut batch, out, channels, names, &id, Some(&truth))?;

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use lissom::beam::{BestPoint, DistributedBeam};
 use lissom::identify::{EquivalentError, EquivalentRefusal, equivalent};
 use lissom_io::write::{self, Batch};
-use lissom_io::{ArmFile, BeamKind, equivalent_json};
+use lissom_io::{ArmFile, BeamKind, EquivalentFile};
 
 use super::saved_arm;
 use crate::args::equivalent_args::EquivalentArgs;
@@ -43,7 +43,7 @@ pub(crate) fn run(args: &EquivalentArgs) -> Result<ExitCode, Failure> {
     };
     let mut batch = Batch::new();
     if let Some(path) = json_file {
-        let value = equivalent_json(input.names, &found);
+        let value = EquivalentFile::of(input.names, &found);
         batch.file(path, write::json_text(path, &value)?.as_bytes())?;
     }
     if let Some(path) = &args.save_arm {
@@ -54,7 +54,7 @@ pub(crate) fn run(args: &EquivalentArgs) -> Result<ExitCode, Failure> {
     }
     batch.commit()?;
     if json.is_some() && json_file.is_none() {
-        printer::json(&equivalent_json(input.names, &found));
+        printer::json(&EquivalentFile::of(input.names, &found));
     } else {
         equivalent_table::print(&input, &found);
         finding_list::findings(&found.findings);

@@ -1,0 +1,115 @@
+//! Why an `arm.toml` makes no arm or rig.
+
+use std::path::{Path, PathBuf};
+
+use lissom::beam::BeamError;
+use lissom::drive::DriveError;
+use lissom::rig::RigError;
+use thiserror::Error;
+
+/// Why an `arm.toml` makes no arm or rig.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ArmError {
+    /// A table that the task needs is absent.
+    #[error("{}: the table [{table}] is needed and absent", file.display())]
+    MissingTable {
+        /// The file.
+        file: PathBuf,
+        /// Its missing table.
+        table: &'static str,
+    },
+    /// A beam with mass along its length, where one of point masses is needed.
+    #[error("{}: the beam has mass along its length; here it must have point masses", file.display())]
+    Distributed {
+        /// The file.
+        file: PathBuf,
+    },
+    /// A beam of point masses, where one with mass along its length is needed.
+    #[error("{}: the beam has point masses; here it must have mass along its length", file.display())]
+    Lumped {
+        /// The file.
+        file: PathBuf,
+    },
+    /// A beam known by its modes, where one of spans is needed.
+    #[error("{}: the beam is known by its modes; here it must have spans", file.display())]
+    Modal {
+        /// The file.
+        file: PathBuf,
+    },
+    /// The beam's numbers.
+    #[error("{}: {source}", file.display())]
+    Beam {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong.
+        source: BeamError,
+    },
+    /// The drive's numbers.
+    #[error("{}: {source}", file.display())]
+    Drive {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong.
+        source: DriveError,
+    },
+    /// The rig's numbers.
+    #[error("{}: {source}", file.display())]
+    Rig {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong.
+        source: RigError,
+    },
+}
+
+impl ArmError {
+    /// What to do about it.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::MissingTable { table, .. } => Some(format!("add the table [{table}]")),
+            Self::Distributed { .. } => Some(
+                "give each span a `mass` in place of `density` or `mass_per_length`; more spans \
+                 come closer to the heavy beam"
+                    .to_owned(),
+            ),
+            Self::Lumped { .. } => {
+                Some("add `mass_per_length`, or `density` and `section`, to [beam]".to_owned())
+            }
+            Self::Modal { .. } => Some("give `spans` in place of `modes` in [beam]".to_owned()),
+            Self::Beam { source: BeamError::ModesAndPoints { .. }, .. } => {
+                Some("give every mode one gain for each point, and as many modes as points".to_owned())
+            }
+            Self::Beam { source: BeamError::GainsSum { .. }, .. } => Some(
+                "give what a point's gains lack of one to the highest mode: it stands for those left out"
+                    .to_owned(),
+            ),
+            Self::Beam { source: BeamError::NoTip, .. } => {
+                Some("describe the beam by its spans, or leave the load away".to_owned())
+            }
+            Self::Beam { source: BeamError::TooManyMasses { .. }, .. } => {
+                Some("use fewer spans".to_owned())
+            }
+            Self::Beam { source: BeamError::ModalDistributed, .. } => Some(
+                "write damping = { mass_proportional = \"...\", stiffness_proportional = \"...\" }, or \
+                 describe the beam by point masses"
+                    .to_owned(),
+            ),
+            Self::Beam { source: BeamError::ModalWithDampers, .. } => Some(
+                "leave out the `damping` of the spans, or write damping = { mass_proportional = \
+                 \"...\", stiffness_proportional = \"...\" } in place of ratios"
+                    .to_owned(),
+            ),
+            Self::Rig { source: RigError::Unsupported { .. }, .. } => {
+                Some("use fewer spans, or `masses` in [rig] for a beam with mass along it".to_owned())
+            }
+            Self::Beam { .. } | Self::Drive { .. } | Self::Rig { .. } => {
+                Some("check the numbers and their units".to_owned())
+            }
+        }
+    }
+}
+
+pub(super) fn absent(path: &Path, table: &'static str) -> ArmError {
+    ArmError::MissingTable { file: path.to_owned(), table }
+}

@@ -1,0 +1,23 @@
+//! What an `arm.toml` says.
+
+use lissom::beam::KnownMode;
+
+use super::beam_spec::BeamSpec;
+use super::drive_spec::DriveSpec;
+use super::rig_spec::RigSpec;
+use super::tip_spec::TipSpec;
+
+/// What an `arm.toml` says, in SI.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ArmFile {
+    /// The beam, by its spans.
+    pub beam: Option<BeamSpec>,
+    /// The beam, by its modes, in place of that.
+    pub modes: Option<Vec<KnownMode>>,
+    /// The motor.
+    pub drive: Option<DriveSpec>,
+    /// The world at the tip.
+    pub tip: Option<TipSpec>,
+    /// Sampling, limits, sensors and controller.
+    pub rig: Option<RigSpec>,
+}

@@ -1,0 +1,51 @@
+//! From the text of an `arm.toml` to what it says.
+
+use std::path::Path;
+
+use super::arm_spec::ArmFile;
+use super::{beam_spec, drive_spec, mode_specs, rig_spec, tip_spec};
+use crate::config::{ConfigError, Source};
+use crate::io_error::Error;
+
+impl ArmFile {
+    /// Reads an `arm.toml`.
+    ///
+    /// # Errors
+    /// [`Error::Config`].
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        Ok(Self::from_source(&Source::read(path)?)?)
+    }
+
+    /// Reads the text of an `arm.toml`; `path` stands in errors.
+    ///
+    /// ```
+    /// let text = "[rig]\nsample_time = \"3 ms\"";
+    /// let arm = lissom_io::ArmFile::from_text("arm.toml".as_ref(), text)?;
+    /// assert_eq!(arm.rig.map(|rig| rig.sample_time_s), Some(0.003));
+    /// # Ok::<(), lissom_io::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Config`].
+    pub fn from_text(path: &Path, text: &str) -> Result<Self, Error> {
+        Ok(Self::from_source(&Source::new(path, text.to_owned()))?)
+    }
+
+    fn from_source(source: &Source) -> Result<Self, ConfigError> {
+        let document = source.parse()?;
+        let root = source.root(&document);
+        root.only(&["beam", "drive", "tip", "rig"])?;
+        let table = root.get("beam").map(|v| v.table()).transpose()?;
+        let (by_modes, by_spans) = match table {
+            Some(table) if table.get("modes").is_some() => (Some(table), None),
+            other => (None, other),
+        };
+        Ok(Self {
+            beam: by_spans.map(|t| beam_spec::beam(&t)).transpose()?,
+            modes: by_modes.map(|t| mode_specs::modes(&t)).transpose()?,
+            drive: root.get("drive").map(|v| drive_spec::drive(&v.table()?)).transpose()?,
+            tip: root.get("tip").map(|v| tip_spec::tip(&v.table()?)).transpose()?,
+            rig: root.get("rig").map(|v| rig_spec::rig(&v.table()?)).transpose()?,
+        })
+    }
+}

@@ -1,0 +1,130 @@
+//! The table `[tip]`: what acts on the arm's tip, and payloads to come.
+
+use lissom::beam::Payload;
+use lissom::rig::Wall;
+
+use super::beam_spec::payload;
+use crate::config::{ConfigError, Table, Value};
+use crate::units::Dimension;
+
+/// The world at the tip.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TipSpec {
+    /// F(t) \[N\].
+    pub force: Option<SignalSpec>,
+    /// T(t) \[N·m\].
+    pub torque: Option<SignalSpec>,
+    /// Viscous friction \[N·s/m\].
+    pub viscous_n_s_per_m: f64,
+    /// Coulomb friction \[N\].
+    pub coulomb_n: f64,
+    /// Walls.
+    pub walls: Vec<Wall>,
+    /// Times \[s\] from the start of a run on at which the tip carries another payload.
+    pub payloads: Vec<(f64, Payload)>,
+}
+
+/// A quantity over time, counted from the start of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SignalSpec {
+    /// Always the same.
+    Constant(f64),
+    /// `offset + amplitude·sin(ω·t + phase)`.
+    Sine {
+        /// Mean.
+        offset: f64,
+        /// Amplitude.
+        amplitude: f64,
+        /// ω \[rad/s\].
+        omega_rad_s: f64,
+        /// Phase \[rad\].
+        phase_rad: f64,
+    },
+    /// Times \[s\] and values.
+    Table {
+        /// The rows.
+        rows: Vec<(f64, f64)>,
+        /// Whether straight lines join them; else each value is held.
+        lines: bool,
+    },
+}
+
+pub(super) fn tip(table: &Table<'_>) -> Result<TipSpec, ConfigError> {
+    table.only(&["force", "torque", "viscous", "coulomb", "walls", "payloads"])?;
+    let not_negative =
+        |key, dimension| table.get(key).map(|v| v.not_negative(dimension)).transpose();
+    let walls = table.get("walls").map_or(Ok(Vec::new()), |v| {
+        v.list("a list of walls")?.iter().map(|v| wall(&v.table()?)).collect()
+    });
+    let payloads = table.get("payloads").map_or(Ok(Vec::new()), |v| {
+        v.list("a list of payloads, each with `at`")?.iter().map(|v| change(&v.table()?)).collect()
+    });
+    Ok(TipSpec {
+        force: table.get("force").map(|v| signal(&v, Dimension::FORCE)).transpose()?,
+        torque: table.get("torque").map(|v| signal(&v, Dimension::TORQUE)).transpose()?,
+        viscous_n_s_per_m: not_negative("viscous", Dimension::VISCOUS_LINEAR)?.unwrap_or(0.0),
+        coulomb_n: not_negative("coulomb", Dimension::FORCE)?.unwrap_or(0.0),
+        walls: walls?,
+        payloads: payloads?,
+    })
+}
+
+fn wall(table: &Table<'_>) -> Result<Wall, ConfigError> {
+    table.only(&["angle", "stiffness", "side"])?;
+    let side = table.get("side").map(|v| v.choice(&["ahead", "behind"])).transpose()?;
+    Ok(Wall {
+        angle_rad: table.need("angle")?.quantity(Dimension::NUMBER)?,
+        stiffness_n_per_m: table.need("stiffness")?.positive(Dimension::STIFFNESS)?,
+        ahead: side != Some(1),
+    })
+}
+
+fn change(table: &Table<'_>) -> Result<(f64, Payload), ConfigError> {
+    table.only(&["at", "mass", "inertia", "offset"])?;
+    let at = table.need("at")?.positive(Dimension::TIME)?;
+    // None of them: the tip is left without payload.
+    let bare = ["mass", "inertia", "offset"].iter().all(|key| table.get(key).is_none());
+    Ok((at, if bare { Payload::default() } else { payload(table)? }))
+}
+
+fn signal(value: &Value<'_>, dimension: Dimension) -> Result<SignalSpec, ConfigError> {
+    let Some(table) = value.as_table() else {
+        return value.quantity(dimension).map(SignalSpec::Constant);
+    };
+    if table.get("times").is_none() {
+        table.only(&["amplitude", "frequency", "omega_rad_s", "phase", "offset"])?;
+        let given = |key, dimension| table.get(key).map(|v| v.quantity(dimension)).transpose();
+        return Ok(SignalSpec::Sine {
+            offset: given("offset", dimension)?.unwrap_or(0.0),
+            amplitude: table.need("amplitude")?.quantity(dimension)?,
+            omega_rad_s: omega(&table)?,
+            phase_rad: given("phase", Dimension::NUMBER)?.unwrap_or(0.0),
+        });
+    }
+    table.only(&["times", "values", "hold"])?;
+    let column = |key, dimension| -> Result<Vec<f64>, ConfigError> {
+        table.need(key)?.list("a list")?.iter().map(|v| v.quantity(dimension)).collect()
+    };
+    let times = column("times", Dimension::TIME)?;
+    let values = column("values", dimension)?;
+    if times.is_empty() {
+        return Err(table.need("times")?.empty());
+    }
+    if times.len() != values.len() {
+        return Err(table.need("values")?.kind("a list as long as `times`"));
+    }
+    let hold = table.get("hold").map(|v| v.choice(&["steps", "lines"])).transpose()?;
+    Ok(SignalSpec::Table { rows: times.into_iter().zip(values).collect(), lines: hold == Some(1) })
+}
+
+/// A frequency: `frequency`, with a unit such as Hz or rad/s, or `omega_rad_s`.
+pub(crate) fn omega(table: &Table<'_>) -> Result<f64, ConfigError> {
+    match table.one_of(&["frequency", "omega_rad_s"])? {
+        Some((0, value)) => value.positive(Dimension::RATE),
+        Some((_, value)) => value.positive(Dimension::NUMBER),
+        None => {
+            let keys = vec!["frequency", "omega_rad_s"];
+            Err(ConfigError::NoneOf { place: table.place(), keys })
+        }
+    }
+}

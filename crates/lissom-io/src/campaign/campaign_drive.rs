@@ -1,0 +1,123 @@
+//! The table `[drive]`.
+
+use std::path::Path;
+
+use lissom::record::{Axis, Command, CommandQuantity};
+
+use super::campaign_error::CampaignError;
+use super::campaign_file::Known;
+use super::campaign_signals::CommandSource;
+use crate::arm_file::ArmFile;
+use crate::config::{ConfigError, Table, Value};
+use crate::io_error::Error;
+use crate::units::Dimension;
+
+/// The command channel and what is known of the drive.
+pub(super) fn drive(
+    table: Option<&Table<'_>>,
+    axis: Axis,
+    source: &CommandSource,
+    folder: &Path,
+) -> Result<(Command, Known), Error> {
+    let quantity = source.quantity;
+    let mut command = Command {
+        quantity,
+        hold: source.hold,
+        torque_per_command: None,
+        back_emf_viscous: 0.0,
+        limit: None,
+    };
+    let mut known = Known::default();
+    let Some(table) = table else {
+        return Ok((command, known));
+    };
+    table.only(&[
+        "torque_constant",
+        "resistance",
+        "back_emf",
+        "limit",
+        "current_limit",
+        "voltage_limit",
+        "arm",
+    ])?;
+    command.limit = limit(table, quantity)?;
+    let resistance = table.get("resistance").map(|v| v.positive(Dimension::RESISTANCE));
+    known.resistance_ohm = resistance.transpose()?;
+    let back_emf_unit = match axis {
+        Axis::Rotary => Dimension::TORQUE_PER_CURRENT,
+        Axis::Linear => Dimension::FORCE_PER_CURRENT,
+    };
+    known.back_emf = table.get("back_emf").map(|v| v.not_negative(back_emf_unit)).transpose()?;
+    if let Some(value) = table.get("torque_constant") {
+        let (constant, per_ampere) = torque_constant(&value, axis, quantity)?;
+        known.torque_constant = Some(constant);
+        let per_command = if per_ampere && quantity == CommandQuantity::Voltage {
+            let Some(resistance_ohm) = known.resistance_ohm else {
+                return Err(CampaignError::NoResistance { place: value.place() }.into());
+            };
+            if known.back_emf.is_none() {
+                return Err(CampaignError::NoBackEmf { place: value.place() }.into());
+            }
+            constant / resistance_ohm
+        } else {
+            constant
+        };
+        command.torque_per_command = Some(per_command);
+        if quantity == CommandQuantity::Voltage {
+            command.back_emf_viscous = per_command * known.back_emf.unwrap_or(0.0);
+        }
+    }
+    if let Some(value) = table.get("arm") {
+        let path = folder.join(value.text()?);
+        known.arm = Some(ArmFile::read(&path)?);
+        known.arm_path = Some(path);
+    }
+    Ok((command, known))
+}
+
+/// The constant in SI, and whether it is per ampere.
+fn torque_constant(
+    value: &Value<'_>,
+    axis: Axis,
+    quantity: CommandQuantity,
+) -> Result<(f64, bool), Error> {
+    let (per_ampere, per_volt, effort) = match axis {
+        Axis::Rotary => {
+            (Dimension::TORQUE_PER_CURRENT, Dimension::TORQUE_PER_VOLTAGE, Dimension::TORQUE)
+        }
+        Axis::Linear => {
+            (Dimension::FORCE_PER_CURRENT, Dimension::FORCE_PER_VOLTAGE, Dimension::FORCE)
+        }
+    };
+    let (index, constant) = match quantity {
+        CommandQuantity::Current => (0, value.quantity(per_ampere)?),
+        CommandQuantity::Voltage if value.as_text().is_none() => {
+            value.number()?;
+            return Err(CampaignError::TorqueConstantUnit { place: value.place() }.into());
+        }
+        CommandQuantity::Voltage => value.quantity_of(&[per_ampere, per_volt])?,
+        CommandQuantity::Arbitrary => (1, value.quantity(effort)?),
+    };
+    if constant > 0.0 {
+        Ok((constant, index == 0))
+    } else {
+        Err(value.range(crate::config::Rule::Positive).into())
+    }
+}
+
+fn limit(table: &Table<'_>, quantity: CommandQuantity) -> Result<Option<f64>, Error> {
+    let keys = ["limit", "current_limit", "voltage_limit"];
+    let Some((key, value)) = table.one_of(&keys)? else {
+        return Ok(None);
+    };
+    let (fits, dimension, command) = match quantity {
+        CommandQuantity::Current => (key != 2, Dimension::CURRENT, "a current"),
+        CommandQuantity::Voltage => (key != 1, Dimension::VOLTAGE, "a voltage"),
+        CommandQuantity::Arbitrary => (key == 0, Dimension::NUMBER, "of unknown unit"),
+    };
+    if !fits {
+        return Err(CampaignError::NotForCommand { place: value.place(), command }.into());
+    }
+    let limit: Result<f64, ConfigError> = value.positive(dimension);
+    Ok(Some(limit?))
+}

@@ -1,0 +1,238 @@
+//! The table `[signals]`.
+
+use lissom::record::{Axis, CommandQuantity, Hold, Tip, TipQuantity};
+
+use super::campaign_error::CampaignError;
+use crate::config::{ConfigError, Rule, Table, Value};
+use crate::io_error::Error;
+use crate::log::ColumnRef;
+use crate::units::{Dimension, UnitError};
+
+/// Where every channel comes from.
+pub(super) struct Signals {
+    pub(super) time: TimeSource,
+    pub(super) decimal_comma: bool,
+    pub(super) axis: Axis,
+    pub(super) command: CommandSource,
+    pub(super) motor: Reading,
+    pub(super) tips: Vec<(Tip, TipSource)>,
+}
+
+pub(super) enum TimeSource {
+    /// Stamps, and their unit [s].
+    Stamps(ColumnRef, f64),
+    /// A sample time [s].
+    Steps(f64),
+}
+
+pub(super) struct CommandSource {
+    pub(super) reading: Reading,
+    pub(super) quantity: CommandQuantity,
+    pub(super) hold: Hold,
+}
+
+/// A column and the way from its numbers to SI: gain·raw + offset.
+pub(super) struct Reading {
+    pub(super) column: ColumnRef,
+    pub(super) gain: f64,
+    pub(super) offset: f64,
+}
+
+pub(super) enum TipSource {
+    Column(Reading),
+    Camera { x: ColumnRef, y: ColumnRef, origin: [f64; 2], scale: f64 },
+}
+
+const READING: [&str; 4] = ["column", "unit", "scale", "offset"];
+
+pub(super) fn signals(table: &Table<'_>) -> Result<Signals, Error> {
+    table.only(&[
+        "time",
+        "sample_time",
+        "current",
+        "voltage",
+        "command",
+        "motor",
+        "tips",
+        "decimal",
+    ])?;
+    let time = match table.one_of(&["time", "sample_time"])? {
+        None => return Err(none_of(table, &["time", "sample_time"]).into()),
+        Some((0, value)) => stamps(&value.table()?)?,
+        Some((_, value)) => TimeSource::Steps(value.positive(Dimension::TIME)?),
+    };
+    let decimal = table.get("decimal").map(|v| v.choice(&[".", ","])).transpose()?;
+    let kinds = ["current", "voltage", "command"];
+    let Some((kind, value)) = table.one_of(&kinds)? else {
+        return Err(none_of(table, &kinds).into());
+    };
+    let command = command(&value.table()?, kind)?;
+    let (axis, motor) = motor(&table.need("motor")?.table()?)?;
+    let tips = match table.get("tips") {
+        None => Vec::new(),
+        Some(value) => {
+            let items =
+                value.list("a list of tips, as in [{ column = \"theta_t\", unit = \"rad\" }]")?;
+            let several = items.len() > 1;
+            let tip = |(index, item): (usize, &Value<'_>)| {
+                let name = if several { format!("tip {}", index + 1) } else { "tip".to_owned() };
+                tip(&item.table()?, axis, name)
+            };
+            items.iter().enumerate().map(tip).collect::<Result<Vec<_>, _>>()?
+        }
+    };
+    Ok(Signals { time, decimal_comma: decimal == Some(1), axis, command, motor, tips })
+}
+
+fn none_of(table: &Table<'_>, keys: &[&'static str]) -> ConfigError {
+    ConfigError::NoneOf { place: table.place(), keys: keys.to_vec() }
+}
+
+fn stamps(table: &Table<'_>) -> Result<TimeSource, ConfigError> {
+    table.only(&["column", "unit", "scale"])?;
+    let unit_s = table.need("unit")?.unit(Dimension::TIME)?;
+    let scale = table.get("scale").map(|v| v.positive(Dimension::NUMBER)).transpose()?;
+    Ok(TimeSource::Stamps(column(&table.need("column")?)?, unit_s * scale.unwrap_or(1.0)))
+}
+
+pub(crate) fn column(value: &Value<'_>) -> Result<ColumnRef, ConfigError> {
+    match value.as_text() {
+        Some(name) => Ok(ColumnRef::Name(name.to_owned())),
+        None => Ok(ColumnRef::Number(usize::try_from(value.whole(1, 100_000)?).unwrap_or(1))),
+    }
+}
+
+fn scale(table: &Table<'_>) -> Result<f64, ConfigError> {
+    let Some(value) = table.get("scale") else {
+        return Ok(1.0);
+    };
+    match value.number()? {
+        0.0 => Err(value.range(Rule::NotZero)),
+        scale => Ok(scale),
+    }
+}
+
+/// A column in a unit whose size in SI is known.
+fn reading(table: &Table<'_>, unit_size: f64) -> Result<Reading, ConfigError> {
+    let offset = table.get("offset").map(|v| v.number()).transpose()?;
+    Ok(Reading {
+        column: column(&table.need("column")?)?,
+        gain: scale(table)? * unit_size,
+        offset: offset.unwrap_or(0.0) * unit_size,
+    })
+}
+
+fn command(table: &Table<'_>, kind: usize) -> Result<CommandSource, Error> {
+    table.only(&["column", "unit", "scale", "offset", "hold"])?;
+    let unit = table.need("unit")?;
+    let (size, found) = unit.any_unit()?;
+    let quantity = match found {
+        Dimension::CURRENT if kind != 1 => CommandQuantity::Current,
+        Dimension::VOLTAGE if kind != 0 => CommandQuantity::Voltage,
+        Dimension::NUMBER if kind == 2 || unit.text()?.trim() == "1" => CommandQuantity::Arbitrary,
+        _ if kind == 2 => {
+            return Err(CampaignError::CommandUnit { place: unit.place(), found }.into());
+        }
+        _ => {
+            let expected = if kind == 0 { Dimension::CURRENT } else { Dimension::VOLTAGE };
+            return Err(wrong_unit(&unit, found, expected).into());
+        }
+    };
+    let hold = match table.need("hold")?.choice(&["sampled", "measured"])? {
+        0 => Hold::Sampled,
+        _ => Hold::Measured,
+    };
+    Ok(CommandSource { reading: reading(table, size)?, quantity, hold })
+}
+
+fn motor(table: &Table<'_>) -> Result<(Axis, Reading), Error> {
+    table.only(&READING)?;
+    let unit = table.need("unit")?;
+    let (size, found) = unit.any_unit()?;
+    let axis = match found {
+        Dimension::NUMBER => Axis::Rotary,
+        Dimension::LENGTH => Axis::Linear,
+        _ => {
+            return Err(CampaignError::MotorUnit { place: unit.place(), found }.into());
+        }
+    };
+    Ok((axis, reading(table, size)?))
+}
+
+fn wrong_unit(unit: &Value<'_>, found: Dimension, expected: Dimension) -> ConfigError {
+    let text = unit.as_text().unwrap_or_default().to_owned();
+    unit.unit_error(UnitError::Dimension { text, found, expected })
+}
+
+fn tip(table: &Table<'_>, axis: Axis, default_name: String) -> Result<(Tip, TipSource), Error> {
+    let name = table.get("name").map(|v| v.text()).transpose()?;
+    let name = name.map_or(default_name, str::to_owned);
+    if table.get("x").is_some() || table.get("y").is_some() {
+        let tip = Tip { name, quantity: TipQuantity::Angle, calibrated: true };
+        return Ok((tip, camera(table, axis)?));
+    }
+    table.only(&[
+        "name", "column", "unit", "scale", "offset", "quantity", "radius", "x", "y", "origin",
+    ])?;
+    let quantity = quantity(table)?;
+    let unit = table.need("unit")?;
+    let (size, found) = unit.any_unit()?;
+    let calibrated = unit.text()?.trim() != "1";
+    let acceleration = quantity == TipQuantity::Acceleration;
+    // The dimension that needs nothing more, and for a rotary axis the one that needs a radius.
+    let (direct, by_radius) = match (axis, acceleration) {
+        (Axis::Rotary, false) => (Dimension::NUMBER, Some(Dimension::LENGTH)),
+        (Axis::Rotary, true) => (Dimension::ANGULAR_ACCELERATION, Some(Dimension::ACCELERATION)),
+        (Axis::Linear, false) => (Dimension::LENGTH, None),
+        (Axis::Linear, true) => (Dimension::ACCELERATION, None),
+    };
+    let radius = table.get("radius");
+    let size = if calibrated && Some(found) == by_radius {
+        let Some(radius) = radius else {
+            return Err(CampaignError::NoRadius { place: table.place(), found }.into());
+        };
+        size / radius.positive(Dimension::LENGTH)?
+    } else if calibrated && found != direct {
+        return Err(wrong_unit(&unit, found, direct).into());
+    } else if let Some(radius) = radius {
+        return Err(CampaignError::NeedlessRadius { place: radius.place() }.into());
+    } else {
+        size
+    };
+    Ok((Tip { name, quantity, calibrated }, TipSource::Column(reading(table, size)?)))
+}
+
+fn quantity(table: &Table<'_>) -> Result<TipQuantity, ConfigError> {
+    let Some(value) = table.get("quantity") else {
+        return Ok(TipQuantity::Angle);
+    };
+    Ok(match value.choice(&["angle", "deflection", "acceleration"])? {
+        0 => TipQuantity::Angle,
+        1 => TipQuantity::Deflection,
+        _ => TipQuantity::Acceleration,
+    })
+}
+
+fn camera(table: &Table<'_>, axis: Axis) -> Result<TipSource, Error> {
+    table.one_of(&["column", "x"])?;
+    table.only(&["name", "x", "y", "unit", "origin", "scale", "quantity"])?;
+    if axis == Axis::Linear {
+        return Err(CampaignError::CameraOnLinear { place: table.place() }.into());
+    }
+    if quantity(table)? != TipQuantity::Angle {
+        return Err(CampaignError::CameraQuantity { place: table.place() }.into());
+    }
+    let origin = match table.get("origin") {
+        None => [0.0; 2],
+        Some(value) => match &value.list("a list of x and y")?[..] {
+            [x, y] => [x.number()?, y.number()?],
+            _ => return Err(value.kind("a list of x and y").into()),
+        },
+    };
+    Ok(TipSource::Camera {
+        x: column(&table.need("x")?)?,
+        y: column(&table.need("y")?)?,
+        origin,
+        scale: scale(table)?,
+    })
+}

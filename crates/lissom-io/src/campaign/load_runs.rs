@@ -1,0 +1,247 @@
+//! From logs to runs.
+
+use std::collections::HashMap;
+use std::f64::consts::{PI, TAU};
+use std::ops::Range;
+use std::path::Path;
+
+use lissom::record::{Campaign, Channels, Command, Hold, Note, RecordError, Run, TimeBase};
+
+use super::campaign_error::CampaignError;
+use super::campaign_file::ReadOptions;
+use super::campaign_signals::{Reading, Signals, TimeSource, TipSource};
+use super::run_spec::RunSpec;
+use crate::config::MAGNITUDE;
+use crate::io_error::Error;
+use crate::log::{self, ColumnRef, Log, LogColumn, LogError, LogOptions, TimeGrid};
+
+/// Largest magnitude of a sample in SI.
+const LARGEST: f64 = MAGNITUDE.1;
+
+/// Reads every run.
+pub(super) fn load(
+    folder: &Path,
+    signals: &Signals,
+    command: Command,
+    specs: &[RunSpec],
+    options: &ReadOptions,
+) -> Result<Campaign, Error> {
+    let mut runs = Vec::with_capacity(specs.len());
+    let mut named: HashMap<&str, usize> = HashMap::new();
+    for spec in specs {
+        let times = named.entry(&spec.name).and_modify(|n| *n += 1).or_insert(1);
+        // Findings and results tell runs apart by name.
+        let name = if *times == 1 { spec.name.clone() } else { format!("{} ({times})", spec.name) };
+        runs.extend(load_run(folder, signals, spec, &name, options)?);
+    }
+    let tips = signals.tips.iter().map(|(tip, _)| tip.clone()).collect();
+    let channels = Channels { axis: signals.axis, command, tips };
+    Ok(Campaign::new(channels, runs)?)
+}
+
+fn load_run(
+    folder: &Path,
+    signals: &Signals,
+    spec: &RunSpec,
+    name: &str,
+    options: &ReadOptions,
+) -> Result<Vec<Run>, Error> {
+    let path = folder.join(&spec.file);
+    let file = path.display().to_string();
+    let log_options =
+        LogOptions { max_rows: options.max_rows, decimal_comma: signals.decimal_comma };
+    let time = match &signals.time {
+        TimeSource::Stamps(column, _) => Some(column),
+        TimeSource::Steps(_) => None,
+    };
+    let log = log::read_log(&path, time, &columns(signals), &log_options)?;
+    let pieces = pieces(&log, signals, spec, options, &file)?;
+    let factor = log.factor;
+    let (command, motor, tips) = channels(log.columns, signals);
+    let count = pieces.len();
+    in_range(&command, &motor, &tips, signals, &file)?;
+    let mut runs = Vec::with_capacity(count);
+    for (index, (range, base, notes)) in pieces.into_iter().enumerate() {
+        let piece = match count {
+            1 => name.to_owned(),
+            _ => format!("{name} [{}/{count}]", index + 1),
+        };
+        let cut = |channel: &Vec<f64>| channel[range.clone()].to_vec();
+        let mut run =
+            Run::new(piece, base, cut(&command), cut(&motor), tips.iter().map(cut).collect())
+                .map_err(|error| of_log(error, &file))?;
+        if let Some((omega_rad_s, place)) = &spec.omega_rad_s {
+            run = run.with_omega(*omega_rad_s).map_err(|error| match error {
+                RecordError::Omega { found_rad_s, nyquist_rad_s, .. } => {
+                    let (place, log) = (place.clone(), file.clone());
+                    CampaignError::AboveNyquist { place, found_rad_s, log, nyquist_rad_s }.into()
+                }
+                other => of_log(other, &file),
+            })?;
+        }
+        if factor > 1 {
+            run = run.with_note(Note::Thinned { factor });
+        }
+        if spec.skip_s > 0.0 && index == 0 {
+            run = run.with_note(Note::HeadSkipped { seconds: spec.skip_s });
+        }
+        runs.push(notes.into_iter().fold(run, Run::with_note));
+    }
+    Ok(runs)
+}
+
+/// Refuses samples that overflow in their unit or in what is made of them.
+fn in_range(
+    command: &[f64],
+    motor: &[f64],
+    tips: &[Vec<f64>],
+    signals: &Signals,
+    file: &str,
+) -> Result<(), LogError> {
+    let tips = signals.tips.iter().map(|(tip, _)| tip.name.as_str()).zip(tips);
+    let mut all = [("command", command), ("motor", motor)]
+        .into_iter()
+        .chain(tips.map(|(name, tip)| (name, tip.as_slice())));
+    all.try_for_each(|(channel, samples)| channel_in_range(channel, samples, file))
+}
+
+fn channel_in_range(channel: &str, samples: &[f64], file: &str) -> Result<(), LogError> {
+    match samples.iter().position(|v| !v.is_finite() || v.abs() > LARGEST) {
+        None => Ok(()),
+        Some(k) => Err(LogError::OutOfRange {
+            file: file.to_owned(),
+            channel: channel.to_owned(),
+            sample: k + 1,
+            largest: LARGEST,
+        }),
+    }
+}
+
+/// What is wrong with a run, as a flaw of its log.
+fn of_log(error: RecordError, file: &str) -> Error {
+    let file = file.to_owned();
+    match error {
+        RecordError::TooShort { found, least, .. } => {
+            LogError::FewSamples { file, found, least }.into()
+        }
+        RecordError::SampleTime { found_s, .. } => LogError::SampleTime { file, found_s }.into(),
+        other => other.into(),
+    }
+}
+
+/// The columns to read: command, motor, then those of the tips in turn.
+fn columns(signals: &Signals) -> Vec<LogColumn> {
+    let measured = |column: &ColumnRef| LogColumn { column: column.clone(), hold: Hold::Measured };
+    let command = &signals.command;
+    let command = LogColumn { column: command.reading.column.clone(), hold: command.hold };
+    let mut columns = vec![command, measured(&signals.motor.column)];
+    for (_, source) in &signals.tips {
+        match source {
+            TipSource::Column(reading) => columns.push(measured(&reading.column)),
+            TipSource::Camera { x, y, .. } => columns.extend([measured(x), measured(y)]),
+        }
+    }
+    columns
+}
+
+type Piece = (Range<usize>, TimeBase, Vec<Note>);
+
+/// Samples and time base of each run that the log makes.
+fn pieces(
+    log: &Log,
+    signals: &Signals,
+    spec: &RunSpec,
+    options: &ReadOptions,
+    file: &str,
+) -> Result<Vec<Piece>, Error> {
+    let samples = log.columns.first().map_or(0, Vec::len);
+    let skipped_all = |left: usize, length_s: f64| LogError::AllSkipped {
+        file: file.to_owned(),
+        skip_s: spec.skip_s,
+        length_s,
+        left,
+    };
+    match (&signals.time, &log.time) {
+        (TimeSource::Stamps(_, unit_s), Some(stamps)) => {
+            let stamps_s: Vec<f64> = stamps.iter().map(|stamp| stamp * unit_s).collect();
+            channel_in_range("time", &stamps_s, file)?;
+            let start_s = stamps_s.first().copied().unwrap_or(0.0);
+            let first = stamps_s.partition_point(|stamp| stamp - start_s < spec.skip_s);
+            let kept = &stamps_s[first..];
+            let Some(grid) = TimeGrid::of(kept, log.time_step * unit_s) else {
+                let length_s = stamps_s.last().map_or(0.0, |end| end - start_s);
+                return Err(skipped_all(kept.len(), length_s).into());
+            };
+            let cut = log::cut_at_gaps(kept, grid, options.least_piece);
+            if cut.kept.is_empty() {
+                return Err(LogError::AllPiecesShort {
+                    file: file.to_owned(),
+                    gaps: cut.gaps,
+                    least: options.least_piece,
+                    longest: cut.longest,
+                }
+                .into());
+            }
+            let shifted =
+                |(range, base, notes): Piece| (range.start + first..range.end + first, base, notes);
+            Ok(cut.kept.into_iter().map(shifted).collect())
+        }
+        (TimeSource::Steps(sample_time_s), _) => {
+            let step_s = sample_time_s * log.factor as f64;
+            let first = (0..samples).take_while(|&k| (k as f64) * step_s < spec.skip_s).count();
+            if samples - first < 2 {
+                return Err(skipped_all(samples - first, samples as f64 * step_s).into());
+            }
+            let base = TimeBase::uniform(first as f64 * step_s, step_s);
+            Ok(vec![(first..samples, base, Vec::new())])
+        }
+        (TimeSource::Stamps(..), None) => Ok(Vec::new()),
+    }
+}
+
+/// Command, motor and tips in SI.
+fn channels(columns: Vec<Vec<f64>>, signals: &Signals) -> (Vec<f64>, Vec<f64>, Vec<Vec<f64>>) {
+    let mut columns = columns.into_iter();
+    let mut next = || columns.next().unwrap_or_default();
+    let command = in_si(next(), &signals.command.reading);
+    let motor = in_si(next(), &signals.motor);
+    let mut tips = Vec::with_capacity(signals.tips.len());
+    for (_, source) in &signals.tips {
+        tips.push(match source {
+            TipSource::Column(reading) => in_si(next(), reading),
+            TipSource::Camera { origin, scale, .. } => {
+                let (x, y) = (next(), next());
+                camera_angle(&x, &y, *origin, *scale)
+            }
+        });
+    }
+    (command, motor, tips)
+}
+
+fn in_si(mut column: Vec<f64>, reading: &Reading) -> Vec<f64> {
+    for value in &mut column {
+        *value = *value * reading.gain + reading.offset;
+    }
+    column
+}
+
+/// Angle of the radius from the origin to a point, continued across ±π.
+fn camera_angle(x: &[f64], y: &[f64], origin: [f64; 2], scale: f64) -> Vec<f64> {
+    let mut turns = 0.0;
+    let mut last: Option<f64> = None;
+    x.iter()
+        .zip(y)
+        .map(|(x, y)| {
+            let angle = (y - origin[1]).atan2(x - origin[0]);
+            if let Some(last) = last {
+                if angle - last > PI {
+                    turns -= TAU;
+                } else if angle - last < -PI {
+                    turns += TAU;
+                }
+            }
+            last = Some(angle);
+            scale * (angle + turns)
+        })
+        .collect()
+}

@@ -1,0 +1,330 @@
+//! Reading a log row by row.
+
+use std::collections::VecDeque;
+use std::fs::File;
+use std::io::{BufRead, BufReader, ErrorKind, Read};
+use std::path::Path;
+
+use lissom::record::Hold;
+
+use super::log_columns::{ColumnRef, Log, LogColumn, LogOptions};
+use super::log_error::LogError;
+use super::log_layout::{self, Delimiter};
+use super::thinner::Thinner;
+
+/// Longest row in bytes.
+const LONGEST_ROW: u64 = 1 << 20;
+/// Comment lines before the data in which names are looked for.
+const LAST_COMMENTS: usize = 50;
+/// Longest of them in bytes.
+const LONGEST_COMMENT: usize = 1 << 16;
+
+/// Reads the columns of a log file, and its time stamps where `time` names them.
+///
+/// # Errors
+/// Any [`LogError`] but those about pieces and skipping.
+pub fn read_log(
+    path: &Path,
+    time: Option<&ColumnRef>,
+    columns: &[LogColumn],
+    options: &LogOptions,
+) -> Result<Log, LogError> {
+    let name = path.display().to_string();
+    match File::open(path).and_then(only_file) {
+        Ok(file) => {
+            let reader = BufReader::with_capacity(1 << 16, file);
+            read_log_from(reader, &name, time, columns, options)
+        }
+        Err(source) => Err(LogError::Open { file: name, source }),
+    }
+}
+
+/// Folders can be opened too.
+fn only_file(file: File) -> std::io::Result<File> {
+    if file.metadata()?.is_dir() { Err(ErrorKind::IsADirectory.into()) } else { Ok(file) }
+}
+
+/// Reads the columns of a log from any reader; `name` stands in errors.
+///
+/// # Errors
+/// Any [`LogError`] but those about opening, pieces and skipping.
+pub fn read_log_from(
+    reader: impl BufRead,
+    name: &str,
+    time: Option<&ColumnRef>,
+    columns: &[LogColumn],
+    options: &LogOptions,
+) -> Result<Log, LogError> {
+    let mut rows = Rows { reader, name, row: 0, bytes: Vec::new() };
+    let Some(head) = Head::read(&mut rows, options)? else {
+        return Err(LogError::Empty { file: name.to_owned() });
+    };
+    let refs: Vec<&ColumnRef> = time.into_iter().chain(columns.iter().map(|c| &c.column)).collect();
+    // Where all columns are told by number, words above them may be a title.
+    let by_name = refs.iter().any(|column| matches!(column, ColumnRef::Name(_)));
+    let wanted = refs
+        .iter()
+        .map(|column| log_layout::find_column(name, column, &head.names, head.columns))
+        .collect::<Result<Vec<_>, _>>()?;
+    let holds = time.map(|_| Hold::Measured).into_iter().chain(columns.iter().map(|c| c.hold));
+    let mut body = Body {
+        file: name,
+        delimiter: head.delimiter,
+        decimal_comma: options.decimal_comma,
+        columns: if by_name { head.most } else { head.columns },
+        labels: refs.iter().map(ToString::to_string).collect(),
+        wanted,
+        has_time: time.is_some(),
+        values: vec![f64::NAN; refs.len()],
+        last_stamp: None,
+        decimals: Some(0),
+        thinner: Thinner::new(holds.collect(), options.max_rows),
+        count: 0,
+    };
+    let first_row = head.row;
+    if let Some(first) = head.first {
+        body.take(&first, first_row)?;
+    }
+    while let Some((row, line)) = rows.next()? {
+        if !line.trim().is_empty() && log_layout::comment(&line).is_none() {
+            body.take(&line, row)?;
+        }
+    }
+    body.finish(first_row)
+}
+
+/// Lines of a text file.
+struct Rows<'a, R> {
+    reader: R,
+    name: &'a str,
+    row: usize,
+    bytes: Vec<u8>,
+}
+
+impl<R: BufRead> Rows<'_, R> {
+    /// The next line and its number from 1.
+    fn next(&mut self) -> Result<Option<(usize, std::borrow::Cow<'_, str>)>, LogError> {
+        self.row += 1;
+        let row = self.row;
+        let file = || self.name.to_owned();
+        self.bytes.clear();
+        let mut limited = (&mut self.reader).take(LONGEST_ROW);
+        let length = limited
+            .read_until(b'\n', &mut self.bytes)
+            .map_err(|source| LogError::Read { file: file(), row, source })?;
+        if length == 0 {
+            return Ok(None);
+        }
+        let whole = self.bytes.last() == Some(&b'\n') || (length as u64) < LONGEST_ROW;
+        let bytes = self.bytes.as_slice();
+        if row == 1 && (bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF")) {
+            return Err(LogError::Utf16 { file: file() });
+        }
+        if bytes.iter().any(|&byte| is_control(byte)) {
+            return Err(LogError::NotText { file: file(), row });
+        }
+        if !whole {
+            return Err(LogError::LongRow { file: file(), row, most: LONGEST_ROW });
+        }
+        let bytes =
+            if row == 1 { bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes) } else { bytes };
+        let line = match std::str::from_utf8(bytes) {
+            Ok(line) => line.trim_end_matches(['\r', '\n']).into(),
+            Err(_) => {
+                String::from_utf8_lossy(bytes).trim_end_matches(['\r', '\n']).to_owned().into()
+            }
+        };
+        Ok(Some((row, line)))
+    }
+}
+
+/// A byte that stands in no text.
+fn is_control(byte: u8) -> bool {
+    byte.is_ascii_control() && !matches!(byte, b'\t' | b'\r' | b'\n' | b'\x0C')
+}
+
+/// What stands before the second row of numbers.
+struct Head {
+    delimiter: Delimiter,
+    names: Vec<String>,
+    /// Cells of the first row of numbers, or names of a header without rows.
+    columns: usize,
+    /// Names of a header, else cells of that row: names in a comment need not be all.
+    most: usize,
+    /// First row of numbers.
+    first: Option<String>,
+    row: usize,
+}
+
+impl Head {
+    fn read(
+        rows: &mut Rows<'_, impl BufRead>,
+        options: &LogOptions,
+    ) -> Result<Option<Self>, LogError> {
+        let mut comments: VecDeque<String> = VecDeque::new();
+        let mut names: Option<Vec<String>> = None;
+        let mut units = false;
+        while let Some((row, line)) = rows.next()? {
+            if line.trim().is_empty() {
+                continue;
+            }
+            if let Some(text) = log_layout::comment(&line) {
+                if comments.len() == LAST_COMMENTS {
+                    comments.pop_front();
+                }
+                comments.push_back(text.chars().take(LONGEST_COMMENT).collect());
+                continue;
+            }
+            let decimal_comma = options.decimal_comma;
+            let delimiter = Delimiter::of(&line, decimal_comma);
+            if names.is_none() && log_layout::is_header(&line, delimiter, decimal_comma) {
+                names = Some(delimiter.split(&line).map(str::to_owned).collect());
+                continue;
+            }
+            if names.is_some() && !units && log_layout::is_words(&line, delimiter, decimal_comma) {
+                units = true;
+                continue;
+            }
+            let columns = delimiter.split(&line).count();
+            let most = names.as_ref().map_or(columns, Vec::len);
+            let names = names
+                .unwrap_or_else(|| log_layout::names_from_comments(&comments, delimiter, columns));
+            return Ok(Some(Self {
+                delimiter,
+                names,
+                columns,
+                most,
+                first: Some(line.into_owned()),
+                row,
+            }));
+        }
+        if names.is_none() && comments.is_empty() {
+            return Ok(None);
+        }
+        Err(LogError::HeaderOnly { file: rows.name.to_owned() })
+    }
+}
+
+/// The rows of numbers.
+struct Body<'a> {
+    file: &'a str,
+    delimiter: Delimiter,
+    decimal_comma: bool,
+    /// Number of columns.
+    columns: usize,
+    /// Columns wanted, as errors name them; time first where it is wanted.
+    labels: Vec<String>,
+    /// Their indices.
+    wanted: Vec<usize>,
+    has_time: bool,
+    values: Vec<f64>,
+    last_stamp: Option<f64>,
+    /// Most decimals of a stamp; none once a stamp had an exponent.
+    decimals: Option<usize>,
+    thinner: Thinner,
+    count: usize,
+}
+
+impl Body<'_> {
+    fn take(&mut self, line: &str, row: usize) -> Result<(), LogError> {
+        self.values.fill(f64::NAN);
+        let mut found = 0;
+        for (index, cell) in self.delimiter.split(line).enumerate() {
+            if index >= self.columns && !cell.is_empty() {
+                // The cells before it may stand under the wrong names.
+                let (file, column, found) = (self.file.to_owned(), index + 1, cell.to_owned());
+                return Err(LogError::ExtraCell {
+                    file,
+                    row,
+                    column,
+                    found,
+                    columns: self.columns,
+                });
+            }
+            for k in 0..self.wanted.len() {
+                if self.wanted[k] == index {
+                    self.values[k] = self.number(cell, row, k)?;
+                    found += 1;
+                    if k == 0 && self.has_time {
+                        self.note_decimals(cell);
+                    }
+                }
+            }
+        }
+        if found < self.wanted.len() {
+            let missing = self.values.iter().position(|value| value.is_nan()).unwrap_or(0);
+            return Err(self.missing(row, missing));
+        }
+        if self.has_time {
+            self.check_time(row)?;
+        }
+        self.count += 1;
+        self.thinner.push(&self.values);
+        Ok(())
+    }
+
+    fn number(&self, cell: &str, row: usize, k: usize) -> Result<f64, LogError> {
+        let file = || self.file.to_owned();
+        let column = || self.labels[k].clone();
+        match log_layout::number(cell, self.decimal_comma) {
+            Some(value) if value.is_finite() => Ok(value),
+            _ if cell.is_empty() => Err(self.missing(row, k)),
+            Some(_) => Err(LogError::NotFinite {
+                file: file(),
+                row,
+                column: column(),
+                found: cell.to_owned(),
+            }),
+            None => Err(LogError::NotANumber {
+                file: file(),
+                row,
+                column: column(),
+                found: cell.to_owned(),
+            }),
+        }
+    }
+
+    fn missing(&self, row: usize, k: usize) -> LogError {
+        LogError::MissingCell { file: self.file.to_owned(), row, column: self.labels[k].clone() }
+    }
+
+    fn note_decimals(&mut self, cell: &str) {
+        let decimals = match cell.find(['.', ',']) {
+            _ if cell.contains(['e', 'E']) => None,
+            Some(point) => Some(cell.len() - point - 1),
+            None => Some(0),
+        };
+        self.decimals = self.decimals.zip(decimals).map(|(a, b)| a.max(b));
+    }
+
+    fn check_time(&mut self, row: usize) -> Result<(), LogError> {
+        let after = self.values[0];
+        if let Some(before) = self.last_stamp
+            && after <= before
+        {
+            let (file, column) = (self.file.to_owned(), self.labels[0].clone());
+            return Err(if after < before {
+                LogError::TimeBack { file, row, column, before, after }
+            } else {
+                LogError::TimeStill { file, row, column, stamp: after }
+            });
+        }
+        self.last_stamp = Some(after);
+        Ok(())
+    }
+
+    fn finish(self, first_row: usize) -> Result<Log, LogError> {
+        if self.count < 2 {
+            return Err(LogError::OneRow { file: self.file.to_owned(), row: first_row });
+        }
+        let (mut columns, factor) = self.thinner.finish();
+        let time = self.has_time.then(|| columns.remove(0));
+        let time_step = match self.decimals {
+            Some(decimals) if self.has_time => {
+                0.1_f64.powi(i32::try_from(decimals.min(300)).unwrap_or(300))
+            }
+            _ => 0.0,
+        };
+        Ok(Log { time, columns, factor, time_step })
+    }
+}

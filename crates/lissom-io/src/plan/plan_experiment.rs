@@ -1,0 +1,238 @@
+//! One entry of a plan's `[[runs]]`.
+
+use std::path::Path;
+
+use lissom::record::Hold;
+use lissom::rig::{
+    Drive, Experiment, Multisine, Reference, RigError, Settle, Start, Sweep, Table as Rows,
+    TableHold,
+};
+
+use super::plan_error::PlanError;
+use super::plan_settle::settle;
+use crate::arm_file::omega;
+use crate::campaign::column;
+use crate::config::{ConfigError, Table, Value};
+use crate::io_error::Error;
+use crate::log::{ColumnRef, LogColumn, LogOptions, read_log};
+use crate::units::Dimension;
+
+/// A run as an entry describes it.
+#[derive(Debug, Clone)]
+pub(super) struct Planned {
+    pub(super) experiment: Experiment,
+    pub(super) omega_rad_s: Option<f64>,
+    /// Whether the entry stands for this run alone.
+    pub(super) alone: bool,
+}
+
+/// Most runs of a plan.
+pub(super) const RUNS_MOST: usize = 10_000;
+/// The kinds of experiment.
+const KINDS: [&str; 7] = ["sine", "multisine", "square", "chirp", "table", "velocity", "release"];
+/// Where the highest frequency of a multisine has no `to`: that many lines.
+const LINES: f64 = 20.0;
+
+/// All runs that an entry stands for.
+pub(super) fn read(
+    table: &Table<'_>,
+    common: Settle,
+    seed: u64,
+    folder: &Path,
+) -> Result<Vec<Planned>, Error> {
+    let own = ["name", "drive", "record", "periods", "settle", "start", "repeat"];
+    table.only(&[&KINDS[..], &own].concat())?;
+    let Some((kind, value)) = table.one_of(&KINDS)? else {
+        let keys = KINDS.to_vec();
+        return Err(ConfigError::NoneOf { place: table.place(), keys }.into());
+    };
+    let drive = table.get("drive").map(|v| v.choice(&["angle", "current"])).transpose()?;
+    // A release leaves the motor to itself unless it says otherwise.
+    let current = drive.map_or(KINDS[kind] == "release", |choice| choice == 1);
+    if current && KINDS[kind] == "velocity" {
+        let place = table.place();
+        let (first, second) = ("velocity", "drive = \"current\"");
+        return Err(ConfigError::Clash { place, first, second }.into());
+    }
+    let unit = if current { Dimension::CURRENT } else { Dimension::NUMBER };
+    let references = match KINDS[kind] {
+        "sine" => sines(&value, unit, Reference::sine)?,
+        "square" => sines(&value, unit, Reference::square)?,
+        "multisine" => vec![multisine(&value, unit, seed)?],
+        "chirp" => vec![chirp(&value, unit, record(table)?)?],
+        "table" => vec![rows(&value, folder)?],
+        "velocity" => velocities(&value)?,
+        _ => vec![made(&value, Reference::hold(0.0))?],
+    };
+    let is_sine = KINDS[kind] == "sine";
+    let alone = references.len() == 1 && table.get("repeat").is_none();
+    let settle = table.get("settle").map_or(Ok(common), |v| settle(&v))?;
+    let start = start(table, KINDS[kind], &value)?;
+    let mut planned = Vec::with_capacity(references.len());
+    for reference in references {
+        let record_s = record_of(table, &reference)?;
+        let omega_rad_s = reference.highest_rad_s().filter(|_| is_sine);
+        let drive = if current { Drive::Current(reference) } else { Drive::Angle(reference) };
+        let experiment =
+            Experiment::new(drive, record_s).map_err(|e| experiment_error(&value, e))?;
+        let experiment = experiment.starting(start).settling(match KINDS[kind] {
+            // It begins where it is let go.
+            "release" => Settle::AtOnce,
+            _ => settle,
+        });
+        planned.push(Planned { experiment, omega_rad_s, alone });
+    }
+    Ok(planned)
+}
+
+fn experiment_error(value: &Value<'_>, source: RigError) -> Error {
+    PlanError::Experiment { place: value.place(), source }.into()
+}
+
+fn made<T>(value: &Value<'_>, outcome: Result<T, RigError>) -> Result<T, Error> {
+    outcome.map_err(|source| experiment_error(value, source))
+}
+
+/// Every frequency with every amplitude.
+fn sines(
+    value: &Value<'_>,
+    unit: Dimension,
+    make: fn(f64, f64) -> Result<Reference, RigError>,
+) -> Result<Vec<Reference>, Error> {
+    let table = value.table()?;
+    table.only(&["frequency", "omega_rad_s", "amplitude"])?;
+    let frequencies: Vec<f64> = match table.one_of(&["frequency", "omega_rad_s"])? {
+        Some((0, list)) => each(&list, |v| v.positive(Dimension::RATE))?,
+        Some((_, list)) => each(&list, |v| v.positive(Dimension::NUMBER))?,
+        None => vec![omega(&table)?],
+    };
+    let amplitudes = each(&table.need("amplitude")?, |v| v.positive(unit))?;
+    let found = frequencies.len().saturating_mul(amplitudes.len());
+    if found > RUNS_MOST {
+        return Err(ConfigError::TooMany { place: value.place(), found, most: RUNS_MOST }.into());
+    }
+    let mut references = Vec::with_capacity(found);
+    for amplitude in &amplitudes {
+        for frequency in &frequencies {
+            references.push(made(value, make(*frequency, *amplitude))?);
+        }
+    }
+    Ok(references)
+}
+
+fn each(
+    value: &Value<'_>,
+    read: impl Fn(&Value<'_>) -> Result<f64, ConfigError>,
+) -> Result<Vec<f64>, ConfigError> {
+    let all = value.one_or_list();
+    if all.is_empty() {
+        return Err(value.empty());
+    }
+    all.iter().map(read).collect()
+}
+
+fn multisine(value: &Value<'_>, unit: Dimension, seed: u64) -> Result<Reference, Error> {
+    let table = value.table()?;
+    table.only(&["frequency", "omega_rad_s", "to", "amplitude", "crest", "phases"])?;
+    let base = omega(&table)?;
+    let to = table.get("to").map(|v| v.positive(Dimension::RATE)).transpose()?;
+    let amplitude = table.need("amplitude")?.positive(unit)?;
+    let own = table.get("phases").map(|v| v.whole(0, i64::MAX)).transpose()?;
+    let seed = own.map_or(seed, i64::unsigned_abs);
+    let top = to.unwrap_or((2.0 * LINES - 1.0) * base);
+    let mut multisine = made(value, Multisine::odd(base, top, amplitude, seed))?;
+    if let Some(goal) = table.get("crest") {
+        multisine = made(&goal, multisine.with_crest(goal.positive(Dimension::NUMBER)?))?;
+    }
+    Ok(Reference::Multisine(multisine))
+}
+
+fn chirp(value: &Value<'_>, unit: Dimension, record_s: f64) -> Result<Reference, Error> {
+    let table = value.table()?;
+    table.only(&["from", "to", "amplitude", "sweep"])?;
+    let sweep = table.get("sweep").map(|v| v.choice(&["logarithmic", "linear"])).transpose()?;
+    let sweep = if sweep == Some(1) { Sweep::Linear } else { Sweep::Logarithmic };
+    let span = (
+        table.need("from")?.positive(Dimension::RATE)?,
+        table.need("to")?.positive(Dimension::RATE)?,
+    );
+    let amplitude = table.need("amplitude")?.positive(unit)?;
+    made(value, Reference::chirp(sweep, span, amplitude, record_s))
+}
+
+fn velocities(value: &Value<'_>) -> Result<Vec<Reference>, Error> {
+    let rates = each(value, |v| v.quantity(Dimension::RATE))?;
+    rates.into_iter().map(|rate| made(value, Reference::ramp(rate))).collect()
+}
+
+/// A table of times and values in a file beside the plan.
+fn rows(value: &Value<'_>, folder: &Path) -> Result<Reference, Error> {
+    let table = value.table()?;
+    table.only(&["file", "time", "time_unit", "value", "unit", "hold"])?;
+    let column = |key: &str, or: usize| {
+        table.get(key).map_or(Ok(ColumnRef::Number(or)), |value| column(&value))
+    };
+    let scale = |key: &str| -> Result<f64, ConfigError> {
+        table.get(key).map_or(Ok(1.0), |v| v.any_unit().map(|(size, _)| size))
+    };
+    let hold = table.get("hold").map(|v| v.choice(&["lines", "steps"])).transpose()?;
+    let hold = if hold == Some(1) { TableHold::Zero } else { TableHold::Linear };
+    let path = folder.join(table.need("file")?.text()?);
+    let (time, reading) = (column("time", 1)?, column("value", 2)?);
+    let columns = [LogColumn { column: reading, hold: Hold::Measured }];
+    let log = read_log(&path, Some(&time), &columns, &LogOptions::default())?;
+    let (seconds, size) = (scale("time_unit")?, scale("unit")?);
+    let times = log.time.unwrap_or_default();
+    // The table begins with the run.
+    let first = times.first().copied().unwrap_or(0.0);
+    let times = times.iter().map(|t| seconds * (t - first)).collect();
+    let values = log.columns.into_iter().next().unwrap_or_default();
+    let values = values.iter().map(|v| size * v).collect();
+    Ok(Reference::Table(made(value, Rows::new(times, values, hold))?))
+}
+
+fn start(table: &Table<'_>, kind: &str, value: &Value<'_>) -> Result<Start, Error> {
+    if kind == "release" {
+        if table.get("start").is_some() {
+            let place = table.place();
+            return Err(ConfigError::Clash { place, first: "release", second: "start" }.into());
+        }
+        return Ok(Start::Deflected { tip_force_n: value.quantity(Dimension::FORCE)? });
+    }
+    match table.get("start") {
+        None => Ok(Start::Rest),
+        Some(start) => {
+            let start = start.table()?;
+            start.only(&["tip_force"])?;
+            Ok(Start::Deflected {
+                tip_force_n: start.need("tip_force")?.quantity(Dimension::FORCE)?,
+            })
+        }
+    }
+}
+
+fn record(table: &Table<'_>) -> Result<f64, Error> {
+    Ok(table.need("record")?.positive(Dimension::TIME)?)
+}
+
+/// The time that is logged: `record`, or whole `periods`, of both the longer.
+fn record_of(table: &Table<'_>, reference: &Reference) -> Result<f64, Error> {
+    let least = table.get("record").map(|v| v.positive(Dimension::TIME)).transpose()?;
+    let Some(periods) = table.get("periods") else {
+        return match (least, reference) {
+            (Some(least), _) => Ok(least),
+            // A table says itself how long it is.
+            (None, Reference::Table(rows)) if rows.end_s() > 0.0 => Ok(rows.end_s()),
+            (None, reference) if reference.period_s().is_some() => {
+                let keys = vec!["periods", "record"];
+                Err(ConfigError::NoneOf { place: table.place(), keys }.into())
+            }
+            (None, _) => record(table),
+        };
+    };
+    let Some(period) = reference.period_s() else {
+        return Err(ConfigError::NoPeriod { place: periods.place() }.into());
+    };
+    let time = periods.positive(Dimension::NUMBER)? * period;
+    Ok(least.map_or(time, |least| time.max(least)))
+}

@@ -1,0 +1,30 @@
+//! The key `settle`.
+
+use lissom::rig::Settle;
+
+use crate::config::{ConfigError, Table, Value};
+use crate::units::Dimension;
+
+/// How the transient before a log goes.
+pub(super) fn settle(value: &Value<'_>) -> Result<Settle, ConfigError> {
+    if let Some(table) = value.as_table() {
+        return detected(&table);
+    }
+    Ok(match value.as_text() {
+        Some("detected") => Settle::DETECTED,
+        Some("none") => Settle::AtOnce,
+        _ => Settle::Wait { wait_s: value.not_negative(Dimension::TIME)? },
+    })
+}
+
+fn detected(table: &Table<'_>) -> Result<Settle, ConfigError> {
+    table.only(&["tolerance", "longest"])?;
+    let Settle::Detected { tolerance, longest_s } = Settle::DETECTED else {
+        return Ok(Settle::DETECTED);
+    };
+    let given = |key, dimension| table.get(key).map(|v| v.positive(dimension)).transpose();
+    Ok(Settle::Detected {
+        tolerance: given("tolerance", Dimension::NUMBER)?.unwrap_or(tolerance),
+        longest_s: given("longest", Dimension::TIME)?.unwrap_or(longest_s),
+    })
+}

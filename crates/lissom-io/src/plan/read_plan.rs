@@ -1,0 +1,105 @@
+//! From a `plan.toml` to its runs.
+
+use std::collections::HashSet;
+use std::path::Path;
+
+use lissom::rig::Settle;
+
+use super::plan_error::PlanError;
+use super::plan_experiment::{Planned, RUNS_MOST, read};
+use super::plan_file::{PlanFile, PlanRun};
+use super::plan_settle::settle;
+use crate::config::{ConfigError, Source, Table};
+use crate::io_error::Error;
+
+impl PlanFile {
+    /// Reads a `plan.toml` and the tables that it names.
+    ///
+    /// # Errors
+    /// [`Error::Config`], [`Error::Plan`], [`Error::Log`] for a table.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        Self::from_source(&Source::read(path)?)
+    }
+
+    /// Reads the text of a `plan.toml`; `path` stands in errors, and tables start from its folder.
+    ///
+    /// ```
+    /// let text = "[[runs]]\nsine = { frequency = \"1 Hz\", amplitude = \"0.5 rad\" }\nperiods = 9";
+    /// let plan = lissom_io::PlanFile::from_text("plan.toml".as_ref(), text)?;
+    /// assert_eq!((plan.runs.len(), plan.runs[0].experiment.record_s), (1, 9.0));
+    /// # Ok::<(), lissom_io::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn from_text(path: &Path, text: &str) -> Result<Self, Error> {
+        Self::from_source(&Source::new(path, text.to_owned()))
+    }
+
+    fn from_source(source: &Source) -> Result<Self, Error> {
+        let document = source.parse()?;
+        let root = source.root(&document);
+        root.only(&["title", "seed", "settle", "runs"])?;
+        let title = root.get("title").map(|v| v.text()).transpose()?.unwrap_or("");
+        let seed = root.get("seed").map(|v| v.whole(0, i64::MAX)).transpose()?;
+        let seed = seed.map_or(1, i64::unsigned_abs);
+        let common = root.get("settle").map_or(Ok(Settle::DETECTED), |v| settle(&v))?;
+        let list = root.need("runs")?;
+        let entries = list.list("a list of runs, each under [[runs]]")?;
+        if entries.is_empty() {
+            return Err(list.empty().into());
+        }
+        let mut made: Vec<(Option<String>, Planned)> = Vec::new();
+        for entry in &entries {
+            let table = entry.table()?;
+            let name = table.get("name").map(|v| v.text().map(str::to_owned)).transpose()?;
+            let repeat = table.get("repeat").map(|v| v.whole(1, 10_000)).transpose()?.unwrap_or(1);
+            let planned = read(&table, common, seed, source.folder())?;
+            let repeat = usize::try_from(repeat).unwrap_or(usize::MAX);
+            let found = made.len() + planned.len().saturating_mul(repeat);
+            if found > RUNS_MOST {
+                let (place, most) = (entry.place(), RUNS_MOST);
+                return Err(ConfigError::TooMany { place, found, most }.into());
+            }
+            for _ in 0..repeat {
+                made.extend(planned.iter().map(|p| (name.clone(), p.clone())));
+            }
+        }
+        let digits = made.len().to_string().len().max(2);
+        let runs: Vec<PlanRun> = made
+            .into_iter()
+            .enumerate()
+            .map(|(index, (name, planned))| PlanRun {
+                name: match name {
+                    Some(name) if planned.alone => name,
+                    Some(name) => format!("{name}-{:0digits$}", index + 1),
+                    None => format!("run-{:0digits$}", index + 1),
+                },
+                experiment: planned.experiment,
+                omega_rad_s: planned.omega_rad_s,
+                seed: seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(index as u64),
+            })
+            .collect();
+        names(&root, &runs)?;
+        Ok(Self { title: title.to_owned(), seed, runs })
+    }
+}
+
+/// Checks that names are file names, each once.
+fn names(root: &Table<'_>, runs: &[PlanRun]) -> Result<(), PlanError> {
+    let place = || root.get("runs").map_or_else(|| root.place(), |v| v.place());
+    let mut seen = HashSet::new();
+    for run in runs {
+        let name = run.name.clone();
+        let fits = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.');
+        let begins = name.chars().next().is_some_and(char::is_alphanumeric);
+        if !begins || !name.chars().all(fits) || name.len() > 100 {
+            return Err(PlanError::Name { place: place(), name });
+        }
+        // Some file systems do not tell capitals from small letters.
+        if !seen.insert(name.to_lowercase()) {
+            return Err(PlanError::SameName { place: place(), name });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,226 @@
+//! What the columns of a table are, from their names.
+
+use std::f64::consts::{PI, TAU};
+
+use super::response_error::ResponseError;
+use crate::nearest::nearest;
+use crate::units::{Dimension, parse_any_unit, parse_unit};
+
+/// Part of a response that a column holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Part {
+    Real,
+    Imaginary,
+    Magnitude,
+    Decibel,
+    Phase,
+    Deviation,
+}
+
+impl Part {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Real => "real part",
+            Self::Imaginary => "imaginary part",
+            Self::Magnitude => "magnitude",
+            Self::Decibel => "magnitude in dB",
+            Self::Phase => "phase",
+            Self::Deviation => "deviation",
+        }
+    }
+}
+
+/// A column of a response.
+#[derive(Debug, Clone)]
+pub(super) struct PartColumn {
+    pub(super) index: usize,
+    /// The output's name; empty where the column's says none.
+    pub(super) output: String,
+    pub(super) part: Part,
+    /// By which its numbers are multiplied.
+    pub(super) factor: f64,
+    /// Of the response, where a unit says it.
+    pub(super) dimension: Option<Dimension>,
+}
+
+/// The columns of a table; those that are neither are passed over.
+#[derive(Debug)]
+pub(super) struct Columns {
+    pub(super) frequency: usize,
+    /// rad/s of one unit of the frequency.
+    pub(super) rad_s: f64,
+    pub(super) parts: Vec<PartColumn>,
+}
+
+/// Words that a frequency's name consists of.
+const FREQUENCY: [&str; 6] = ["omega", "ω", "w", "frequency", "freq", "f"];
+
+impl Columns {
+    pub(super) fn of(file: &str, names: &[String]) -> Result<Self, ResponseError> {
+        let mut frequency: Option<(usize, f64)> = None;
+        let mut parts = Vec::new();
+        for (index, name) in names.iter().enumerate() {
+            let split = Split::of(name);
+            if let Some(unit) = split.frequency() {
+                let rad_s = rate(file, name, &unit)?;
+                if let Some((first, _)) = frequency {
+                    let (first, second) = (names[first].clone(), name.clone());
+                    let file = file.to_owned();
+                    return Err(ResponseError::TwoFrequencies { file, first, second });
+                }
+                frequency = Some((index, rad_s));
+            } else if let Some((output, part)) = split.part() {
+                let (factor, dimension) = factor(file, name, part, &split)?;
+                parts.push(PartColumn { index, output, part, factor, dimension });
+            }
+        }
+        let Some((frequency, rad_s)) = frequency else {
+            let nearest = nearest("frequency_hz", names.iter().map(String::as_str));
+            let (file, names) = (file.to_owned(), names.to_vec());
+            return Err(ResponseError::NoFrequency { file, names, nearest });
+        };
+        Ok(Self { frequency, rad_s, parts })
+    }
+}
+
+/// A column's name in its words and unit.
+struct Split {
+    words: Vec<String>,
+    /// In brackets.
+    unit: Option<String>,
+}
+
+impl Split {
+    fn of(name: &str) -> Self {
+        let name = name.trim();
+        let open = name.find(['[', '(']);
+        let (plain, unit) = match open {
+            Some(at) => {
+                let unit = name[at + 1..].trim_end_matches([']', ')', ' ']).trim().to_owned();
+                (&name[..at], Some(unit))
+            }
+            None => (name, None),
+        };
+        let words = plain.split(['_', ' ', '.', '-', '/']).filter(|w| !w.is_empty());
+        Self { words: words.map(str::to_owned).collect(), unit }
+    }
+
+    fn lower(&self) -> Vec<String> {
+        self.words.iter().map(|w| w.to_lowercase()).collect()
+    }
+
+    /// The unit of a frequency, empty where it has none; `None` where it is no frequency.
+    fn frequency(&self) -> Option<String> {
+        let words = self.lower();
+        let (first, rest) = words.split_first()?;
+        let is_part = |w: &String| w != "rad" && part_of(w).is_some();
+        if !FREQUENCY.contains(&first.as_str()) || rest.iter().any(is_part) {
+            return None;
+        }
+        match (&self.unit, rest) {
+            (Some(unit), []) => Some(unit.clone()),
+            (None, []) => Some(String::new()),
+            (None, rest) => {
+                let per: Vec<&str> =
+                    rest.iter().map(String::as_str).filter(|w| *w != "per").collect();
+                Some(per.join("/"))
+            }
+            // A response that is called so.
+            (Some(_), _) => None,
+        }
+    }
+
+    /// The output's name and the part of its response: the last words say which.
+    fn part(&self) -> Option<(String, Part)> {
+        let lower = self.lower();
+        let mut count = lower.len();
+        let mut part = None;
+        // `phase_deg`, `mag_db`: the unit may be a word too.
+        while let Some(found) = count.checked_sub(1).and_then(|i| part_of(&lower[i])) {
+            part = Some(match (part, found) {
+                (Some(Part::Decibel), Part::Magnitude) => Part::Decibel,
+                (Some(Part::Phase) | None, Part::Phase) => Part::Phase,
+                (None, found) => found,
+                // Of another output's name.
+                (Some(_), _) => break,
+            });
+            count -= 1;
+        }
+        let decibel = self.unit.as_deref().is_some_and(|u| u.eq_ignore_ascii_case("db"));
+        match part {
+            Some(Part::Magnitude) if decibel => {
+                Some((self.words[..count].join("_"), Part::Decibel))
+            }
+            Some(part) => Some((self.words[..count].join("_"), part)),
+            // `tip [dB]`, `tip [deg]`.
+            None if decibel => Some((self.words.join("_"), Part::Decibel)),
+            None => {
+                let degrees = self.unit.as_deref().is_some_and(|u| u == "deg" || u == "°");
+                degrees.then(|| (self.words.join("_"), Part::Phase))
+            }
+        }
+    }
+
+    /// Whether a word says that a phase is in degrees, or in radians.
+    fn phase_unit(&self) -> Option<String> {
+        let word = |w: &String| matches!(w.as_str(), "deg" | "degree" | "degrees" | "rad");
+        self.unit.clone().or_else(|| self.lower().into_iter().rev().find(word))
+    }
+}
+
+fn part_of(word: &str) -> Option<Part> {
+    Some(match word {
+        "re" | "real" => Part::Real,
+        "im" | "imag" | "imaginary" => Part::Imaginary,
+        "mag" | "magnitude" | "abs" | "gain" | "amplitude" => Part::Magnitude,
+        "db" => Part::Decibel,
+        "phase" | "deg" | "degree" | "degrees" | "arg" | "rad" => Part::Phase,
+        "std" | "sigma" | "deviation" => Part::Deviation,
+        _ => return None,
+    })
+}
+
+/// rad/s of one unit of a frequency.
+fn rate(file: &str, column: &str, unit: &str) -> Result<f64, ResponseError> {
+    let (file, column) = (file.to_owned(), column.to_owned());
+    match unit.to_lowercase().as_str() {
+        "" => Err(ResponseError::NoUnit { file, column }),
+        "hz" => Ok(TAU),
+        "khz" => Ok(1e3 * TAU),
+        "rad/s" | "rad/sec" | "1/s" => Ok(1.0),
+        _ => parse_unit(unit, Dimension::RATE).map_err(|_| ResponseError::Unit {
+            file,
+            column,
+            unit: unit.to_owned(),
+        }),
+    }
+}
+
+/// What a part's numbers are multiplied by, and of which dimension the response is.
+fn factor(
+    file: &str,
+    column: &str,
+    part: Part,
+    split: &Split,
+) -> Result<(f64, Option<Dimension>), ResponseError> {
+    let wrong = |unit: &str| ResponseError::Unit {
+        file: file.to_owned(),
+        column: column.to_owned(),
+        unit: unit.to_owned(),
+    };
+    match (part, split.unit.as_deref()) {
+        (Part::Phase, _) => match split.phase_unit().map(|u| u.to_lowercase()).as_deref() {
+            Some("deg" | "degree" | "degrees" | "°") => Ok((PI / 180.0, None)),
+            Some("rad") => Ok((1.0, None)),
+            Some(unit) => Err(wrong(unit)),
+            None => Err(ResponseError::NoUnit { file: file.to_owned(), column: column.to_owned() }),
+        },
+        (Part::Decibel, None | Some("" | "dB" | "db" | "DB")) => Ok((1.0, None)),
+        (Part::Decibel, Some(unit)) => Err(wrong(unit)),
+        (_, None | Some("" | "-" | "1")) => Ok((1.0, None)),
+        (_, Some(unit)) => match parse_any_unit(unit) {
+            Ok((factor, dimension)) => Ok((factor, Some(dimension))),
+            Err(_) => Err(wrong(unit)),
+        },
+    }
+}

@@ -1,0 +1,184 @@
+//! Axis, direction and quantities by their names in JSON.
+
+use lissom::drive::Falloff;
+use lissom::identify::{ArmSource, Method};
+use lissom::record::{Axis, TipQuantity};
+use serde::{Deserialize, Serialize};
+
+/// Kind of axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum AxisName {
+    /// It turns: angles in rad.
+    Rotary,
+    /// It moves along a line: positions in m.
+    Linear,
+}
+
+impl AxisName {
+    /// The name of an axis.
+    pub fn of(axis: Axis) -> Self {
+        match axis {
+            Axis::Rotary => Self::Rotary,
+            Axis::Linear => Self::Linear,
+        }
+    }
+
+    /// The name as JSON has it.
+    pub(crate) fn text(self) -> &'static str {
+        match self {
+            Self::Rotary => "rotary",
+            Self::Linear => "linear",
+        }
+    }
+}
+
+/// What a tip measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum TipQuantityName {
+    /// Angle of the radius to its point.
+    Angle,
+    /// Deflection of its point from the motor's line.
+    Deflection,
+    /// Acceleration of its point.
+    Acceleration,
+}
+
+impl TipQuantityName {
+    /// The name of a quantity.
+    pub fn of(quantity: TipQuantity) -> Self {
+        match quantity {
+            TipQuantity::Angle => Self::Angle,
+            TipQuantity::Deflection => Self::Deflection,
+            TipQuantity::Acceleration => Self::Acceleration,
+        }
+    }
+
+    /// The name as JSON has it.
+    pub(crate) fn text(self) -> &'static str {
+        match self {
+            Self::Angle => "angle",
+            Self::Deflection => "deflection",
+            Self::Acceleration => "acceleration",
+        }
+    }
+}
+
+/// Direction of the motor's motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum DirectionName {
+    /// Towards larger angles.
+    Forward,
+    /// Towards smaller angles.
+    Backward,
+}
+
+impl DirectionName {
+    /// Forward where `forward`.
+    pub(crate) fn of(forward: bool) -> Self {
+        if forward { Self::Forward } else { Self::Backward }
+    }
+}
+
+/// How friction near rest falls off with speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum FalloffName {
+    /// exp(-|v|/v_s).
+    Exponential,
+    /// exp(-(v/v_s)^2).
+    Gaussian,
+}
+
+impl FalloffName {
+    /// The name of a falloff.
+    pub fn of(falloff: Falloff) -> Self {
+        match falloff {
+            Falloff::Exponential => Self::Exponential,
+            Falloff::Gaussian => Self::Gaussian,
+        }
+    }
+
+    /// The falloff of this name.
+    pub(crate) fn falloff(self) -> Falloff {
+        match self {
+            Self::Exponential => Falloff::Exponential,
+            Self::Gaussian => Falloff::Gaussian,
+        }
+    }
+}
+
+/// Method that estimates are from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum ArmSourceName {
+    /// The output-error method.
+    OutputError,
+    /// The regression.
+    Regression,
+}
+
+impl ArmSourceName {
+    /// The name of a method.
+    pub fn of(source: ArmSource) -> Self {
+        match source {
+            ArmSource::OutputError => Self::OutputError,
+            ArmSource::Regression => Self::Regression,
+        }
+    }
+
+    /// The method of this name.
+    pub(crate) fn source(self) -> ArmSource {
+        match self {
+            Self::OutputError => ArmSource::OutputError,
+            Self::Regression => ArmSource::Regression,
+        }
+    }
+}
+
+/// A method that estimates the drive's parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum MethodName {
+    /// Replay of the logged command through an arm whose parameters are moved.
+    OutputError,
+    /// Regression in slip phases under the friction law that the data call for.
+    FrictionLaw,
+    /// Regression in slip phases with viscous friction by direction.
+    RegressionByDirection,
+    /// Regression in slip phases with Coulomb friction and one viscous coefficient.
+    Regression,
+    /// Ordinary least squares of smoothed samples.
+    LeastSquares,
+    /// Rational model of the corrected frequency response.
+    FrequencyResponse,
+    /// Third harmonic of the command.
+    ThirdHarmonic,
+    /// Command at constant velocities, extrapolated to standstill.
+    ConstantVelocity,
+}
+
+impl MethodName {
+    /// The name of a method; `None` of one that the file has no name for.
+    pub(crate) fn of(method: Method) -> Option<Self> {
+        Some(match method {
+            Method::OutputError => Self::OutputError,
+            Method::FrictionLaw => Self::FrictionLaw,
+            Method::RegressionByDirection => Self::RegressionByDirection,
+            Method::Regression => Self::Regression,
+            Method::LeastSquares => Self::LeastSquares,
+            Method::FrequencyResponse => Self::FrequencyResponse,
+            Method::ThirdHarmonic => Self::ThirdHarmonic,
+            Method::ConstantVelocity => Self::ConstantVelocity,
+            _ => return None,
+        })
+    }
+}

@@ -1,0 +1,163 @@
+//! Steady velocities extrapolated to rest, in JSON.
+
+use lissom::identify::{ConstantVelocity, FrictionLine, RunAnalysis, Shape, SteadyPoint};
+use serde::{Deserialize, Serialize};
+
+use super::channel_names::DirectionName;
+use super::estimate_entry::EstimateEntry;
+use super::friction_entry::{Estimated, Refusable};
+use super::unit_keys::{
+    BackwardKey, CoulombKey, ForwardKey, MeanCommandKey, OffsetKey, SlowestKey, VelocityKey,
+    ViscousKey, WithUnit,
+};
+use super::unit_names::UnitNames;
+
+/// Steady velocities, extrapolated to rest.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ConstantVelocityEntry {
+    /// Mean of both directions.
+    #[serde(flatten)]
+    pub coulomb: Refusable<CoulombKey>,
+    /// While moving forward.
+    #[serde(flatten)]
+    pub forward: Refusable<ForwardKey>,
+    /// While moving backward.
+    #[serde(flatten)]
+    pub backward: Refusable<BackwardKey>,
+    /// (forward - backward)/2.
+    #[serde(flatten)]
+    pub offset: Refusable<OffsetKey>,
+    /// Mean of the lines.
+    #[serde(flatten)]
+    pub viscous: Refusable<ViscousKey>,
+    /// By direction, where there is one.
+    pub lines: Vec<FrictionLineEntry>,
+    /// Stretches at a constant velocity.
+    pub points: Vec<SteadyPointEntry>,
+}
+
+/// A line of friction over speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct FrictionLineEntry {
+    /// Direction of motion.
+    pub direction: DirectionName,
+    /// The line extrapolated to rest.
+    #[serde(flatten)]
+    pub coulomb: Refusable<CoulombKey>,
+    /// Its slope, back-EMF taken out.
+    #[serde(flatten)]
+    pub viscous: Estimated<ViscousKey>,
+    /// Correlation of the two.
+    pub correlation: f64,
+    /// Stretches.
+    pub points: usize,
+    /// Different speeds.
+    pub speeds: usize,
+    /// Whether a line describes them.
+    pub shape: LineShapeName,
+    /// Size of the quadratic term, or of the scatter (rms), in standard errors; null where a line holds.
+    pub deviations: Option<f64>,
+    /// The extrapolation from the slowest third of the speeds.
+    #[serde(flatten)]
+    pub slowest: Refusable<SlowestKey>,
+}
+
+/// Whether a line describes friction over speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum LineShapeName {
+    /// Too few speeds to tell.
+    Unchecked,
+    /// It does.
+    Straight,
+    /// Friction grows less at high speeds.
+    Concave,
+    /// Friction grows more at high speeds.
+    Convex,
+    /// The points scatter beyond their standard errors.
+    Scattered,
+}
+
+/// A stretch at a constant velocity.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct SteadyPointEntry {
+    /// Its run.
+    pub run: String,
+    /// Direction of motion.
+    pub direction: DirectionName,
+    /// Its start, from the first sample of the run.
+    pub start_s: f64,
+    /// Its end.
+    pub end_s: f64,
+    /// Velocity with its sign.
+    #[serde(flatten)]
+    pub velocity: Estimated<VelocityKey>,
+    /// Mean command.
+    #[serde(flatten)]
+    pub command: Estimated<MeanCommandKey>,
+}
+
+impl ConstantVelocityEntry {
+    /// The lines and what they give; `constant` is torque per command.
+    pub(crate) fn of(
+        names: UnitNames,
+        constant: f64,
+        c: &ConstantVelocity,
+        runs: &[RunAnalysis],
+    ) -> Self {
+        let (forward, backward) = (c.forward.as_ref().ok(), c.backward.as_ref().ok());
+        let both = [(true, forward), (false, backward)];
+        let lines = both.into_iter().filter_map(|(direction, line)| {
+            Some(FrictionLineEntry::of(names, constant, direction, line?))
+        });
+        Self {
+            coulomb: WithUnit::torque(names, constant, c.coulomb),
+            forward: WithUnit::torque(names, constant, forward.map(|l| l.coulomb)),
+            backward: WithUnit::torque(names, constant, backward.map(|l| l.coulomb)),
+            offset: WithUnit::torque(names, constant, c.offset),
+            viscous: WithUnit::new(names, EstimateEntry::or_null(c.viscous)),
+            lines: lines.collect(),
+            points: c.points.iter().map(|p| SteadyPointEntry::of(names, p, runs)).collect(),
+        }
+    }
+}
+
+impl FrictionLineEntry {
+    fn of(names: UnitNames, constant: f64, forward: bool, l: &FrictionLine) -> Self {
+        let (shape, deviations) = match l.shape {
+            Shape::Unchecked => (LineShapeName::Unchecked, None),
+            Shape::Straight => (LineShapeName::Straight, None),
+            Shape::Concave { deviations } => (LineShapeName::Concave, Some(deviations)),
+            Shape::Convex { deviations } => (LineShapeName::Convex, Some(deviations)),
+            Shape::Scattered { rms } => (LineShapeName::Scattered, Some(rms)),
+        };
+        Self {
+            direction: DirectionName::of(forward),
+            coulomb: WithUnit::torque(names, constant, Some(l.coulomb)),
+            viscous: WithUnit::new(names, EstimateEntry::of(l.viscous)),
+            correlation: l.correlation,
+            points: l.points,
+            speeds: l.speeds,
+            shape,
+            deviations,
+            slowest: WithUnit::torque(names, constant, l.slowest),
+        }
+    }
+}
+
+impl SteadyPointEntry {
+    fn of(names: UnitNames, p: &SteadyPoint, runs: &[RunAnalysis]) -> Self {
+        Self {
+            run: runs[p.run].name.clone(),
+            direction: DirectionName::of(p.velocity.value > 0.0),
+            start_s: p.start_s,
+            end_s: p.end_s,
+            velocity: WithUnit::new(names, EstimateEntry::of(p.velocity)),
+            command: WithUnit::new(names, EstimateEntry::of(p.command)),
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Findings in JSON.
+
+use lissom::identify::{Finding, Severity};
+use serde::{Deserialize, Serialize};
+
+/// A finding: what the data do not allow, or what to know about an estimate.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct FindingEntry {
+    /// Stable name; docs/findings.md has them all.
+    pub code: String,
+    /// How much it matters.
+    pub severity: SeverityName,
+    /// Name of the run that it is about; null for all runs together.
+    pub run: Option<String>,
+    /// Keys that it affects, without the suffix of their unit.
+    pub affects: Vec<String>,
+    /// What was found.
+    pub message: String,
+    /// What to do about it.
+    pub hint: String,
+}
+
+/// How much a finding matters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum SeverityName {
+    /// Worth knowing.
+    Info,
+    /// The estimates are less certain than their standard errors say.
+    Warning,
+    /// The estimates are not given.
+    Refusal,
+}
+
+impl FindingEntry {
+    /// The entry of a finding.
+    pub fn of(f: &Finding) -> Self {
+        Self {
+            code: f.code.to_owned(),
+            severity: match f.severity {
+                Severity::Info => SeverityName::Info,
+                Severity::Warning => SeverityName::Warning,
+                Severity::Refusal => SeverityName::Refusal,
+            },
+            run: f.run.clone(),
+            affects: f.affects.iter().map(|key| (*key).to_owned()).collect(),
+            message: f.message.clone(),
+            hint: f.hint.to_owned(),
+        }
+    }
+
+    /// The entries of a list.
+    pub(crate) fn list(all: &[Finding]) -> Vec<Self> {
+        all.iter().map(Self::of).collect()
+    }
+}

@@ -1,0 +1,168 @@
+//! Frequency responses and linear models, in JSON.
+
+use lissom::identify::{Identified, LinearModels, ModelSource, Response, ResponsePoint, TipModel};
+use lissom::lti::TransferFunction;
+use lissom::record::{Channels, Tip};
+use serde::{Deserialize, Serialize};
+
+use super::channel_names::TipQuantityName;
+use super::estimate_entry::EstimateEntry;
+use crate::model::StateSpaceEntry;
+
+/// Coefficients in descending powers of s.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct TransferFunctionEntry {
+    /// Numerator.
+    pub num: Vec<f64>,
+    /// Denominator.
+    pub den: Vec<f64>,
+}
+
+impl TransferFunctionEntry {
+    /// The entry of a transfer function.
+    pub fn of(g: &TransferFunction) -> Self {
+        Self { num: g.num.clone(), den: g.den.clone() }
+    }
+}
+
+/// Complex values as parallel lists; null where a point has none.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct SeriesEntry {
+    /// Real parts.
+    pub re: Vec<Option<f64>>,
+    /// Imaginary parts.
+    pub im: Vec<Option<f64>>,
+    /// Standard errors of the complex values, sqrt(E|G^ - G|^2).
+    pub std: Vec<Option<f64>>,
+}
+
+impl SeriesEntry {
+    fn of(points: &[ResponsePoint], get: impl Fn(&ResponsePoint) -> Option<Response>) -> Self {
+        let list = |part: fn(&Response) -> f64| -> Vec<Option<f64>> {
+            points.iter().map(|p| get(p).map(|r| part(&r))).collect()
+        };
+        Self { re: list(|r| r.value.re), im: list(|r| r.value.im), std: list(|r| r.std) }
+    }
+}
+
+/// Frequency responses, one point a frequency.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct FrequencyResponseEntry {
+    /// Frequencies.
+    pub omega_rad_s: Vec<f64>,
+    /// Name of the sinusoidal run; null for a band of broadband records.
+    pub run: Vec<Option<String>>,
+    /// Whether a finding speaks against the corrected point.
+    pub flagged: Vec<bool>,
+    /// Whether nothing speaks against the corrected point and its 95 % interval is within 5 % of it.
+    pub vouched_for: Vec<bool>,
+    /// Motor angle (or position) per command as measured.
+    pub motor_raw: SeriesEntry,
+    /// The same with friction taken out; null where that is unknown.
+    pub motor_corrected: SeriesEntry,
+    /// Response of each tip to the motor's angle, in the tip's own quantity.
+    pub tips: Vec<TipResponseEntry>,
+}
+
+/// Response of a tip to the motor's angle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct TipResponseEntry {
+    /// Its values.
+    #[serde(flatten)]
+    pub series: SeriesEntry,
+    /// Name of the tip.
+    pub name: String,
+    /// What it measures.
+    pub quantity: TipQuantityName,
+}
+
+impl FrequencyResponseEntry {
+    /// The responses of a result.
+    pub(crate) fn of(channels: &Channels, id: &Identified) -> Self {
+        let points = &id.responses;
+        let tip = |(i, tip): (usize, &Tip)| TipResponseEntry {
+            series: SeriesEntry::of(points, |p| p.tips.get(i).copied().flatten()),
+            name: tip.name.clone(),
+            quantity: TipQuantityName::of(tip.quantity),
+        };
+        let run = |p: &ResponsePoint| p.run.map(|r| id.runs[r].name.clone());
+        Self {
+            omega_rad_s: points.iter().map(|p| p.omega_rad_s).collect(),
+            run: points.iter().map(run).collect(),
+            flagged: points.iter().map(|p| p.flagged).collect(),
+            vouched_for: points.iter().map(ResponsePoint::is_vouched_for).collect(),
+            motor_raw: SeriesEntry::of(points, |p| Some(p.motor_raw)),
+            motor_corrected: SeriesEntry::of(points, |p| p.motor_corrected),
+            tips: channels.tips.iter().enumerate().map(tip).collect(),
+        }
+    }
+}
+
+/// Linear models of drive and beam.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct LinearModelEntries {
+    /// What they are made of.
+    pub from: ModelSourceName,
+    /// Motor angle per command, friction taken out; without `motor_delay_s`.
+    pub motor: Option<TransferFunctionEntry>,
+    /// By how much the command acts later than it is logged; null where no delay is called for.
+    pub motor_delay_s: Option<EstimateEntry>,
+    /// Tip per motor angle: the angle of a calibrated deflection, the acceleration of an acceleration, the deflection
+    /// itself of one of unknown scale.
+    pub tips: Vec<TipModelEntry>,
+    /// From the command to the motor and each tip that is an angle.
+    pub state_space: Option<StateSpaceEntry>,
+}
+
+/// What linear models are made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum ModelSourceName {
+    /// The arm under `arm`.
+    Arm,
+    /// Fits to the responses, or the estimates of the regressions with the beam's damping against the frame.
+    Responses,
+}
+
+/// A tip's response to the motor's angle as a transfer function.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct TipModelEntry {
+    /// Name of the tip.
+    pub name: String,
+    /// Numerator, descending powers of s.
+    pub num: Vec<f64>,
+    /// Denominator, descending powers of s.
+    pub den: Vec<f64>,
+    /// The tip is read this much later than the motor, not part of `num` and `den`; null where that is not looked
+    /// for.
+    pub delay_s: Option<f64>,
+}
+
+impl LinearModelEntries {
+    /// The models of a result.
+    pub(crate) fn of(channels: &Channels, models: &LinearModels) -> Self {
+        let tip = |(tip, model): (&Tip, &TipModel)| TipModelEntry {
+            name: tip.name.clone(),
+            num: model.function.num.clone(),
+            den: model.function.den.clone(),
+            delay_s: model.delay_s,
+        };
+        Self {
+            from: match models.source {
+                ModelSource::Arm => ModelSourceName::Arm,
+                ModelSource::Responses => ModelSourceName::Responses,
+            },
+            motor: models.motor.as_ref().map(TransferFunctionEntry::of),
+            motor_delay_s: EstimateEntry::or_null(models.motor_delay),
+            tips: channels.tips.iter().zip(&models.tips).map(tip).collect(),
+            state_space: models.state_space.as_ref().map(StateSpaceEntry::of),
+        }
+    }
+}

@@ -1,0 +1,355 @@
+//! What each method found, in JSON.
+
+use lissom::identify::{
+    BeamRegression, ByDirection, Candidate, DriveEstimates, Estimate, Friction, Identified,
+    LeastSquares, MotorFit, MotorRegression, RunAnalysis, ThirdHarmonic,
+};
+use lissom::record::Channels;
+use serde::{Deserialize, Serialize};
+
+use super::constant_velocity_entry::ConstantVelocityEntry;
+use super::estimate_entry::{BeamModeEntry, EstimateEntry, finite};
+use super::friction_entry::{CoulombEntry, Estimated, Refusable};
+use super::friction_law_entry::FrictionLawEntry;
+use super::linear_model_entries::TransferFunctionEntry;
+use super::output_error_entry::OutputErrorEntry;
+use super::unit_keys::{
+    CoulombKey, CouplingByModeKey, CouplingByTipKey, InertiaKey, SpeedRangeKey, SpreadKey,
+    ViscousBackwardKey, ViscousForwardKey, ViscousKey, WithUnit,
+};
+use super::unit_names::UnitNames;
+
+/// What each method found; null where it was not asked for or the data do not allow it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct MethodEntries {
+    /// The third harmonic of pairs of sines, (26)-(30).
+    pub third_harmonic: Option<ThirdHarmonicEntry>,
+    /// The output-error method.
+    pub output_error: Option<OutputErrorEntry>,
+    /// Regression on slip phases.
+    pub regression: Option<RegressionEntry>,
+    /// Ordinary least squares of smoothed samples, the baseline.
+    pub least_squares: Option<LeastSquaresEntry>,
+    /// The friction law by evidence.
+    pub friction_law: Option<FrictionLawEntry>,
+    /// Steady velocities, extrapolated to rest.
+    pub constant_velocity: Option<ConstantVelocityEntry>,
+}
+
+/// Coulomb friction from the third harmonic.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ThirdHarmonicEntry {
+    /// Mean of the pairs in use.
+    #[serde(flatten)]
+    pub coulomb: Refusable<CoulombKey>,
+    /// Standard deviation of one pair about that mean.
+    #[serde(flatten)]
+    pub spread: WithUnit<SpreadKey, f64>,
+    /// Every pair of sines.
+    pub pairs: Vec<SinePairEntry>,
+    /// Model (35) of the response corrected with this mean.
+    pub fit: Option<MotorFitEntry>,
+}
+
+/// A sine and one of three times its frequency.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct SinePairEntry {
+    /// Lower frequency of the pair.
+    pub omega_rad_s: f64,
+    /// Run at that frequency.
+    pub run: String,
+    /// Run at three times that frequency.
+    pub triple_run: String,
+    /// Coulomb friction from this pair.
+    #[serde(flatten)]
+    pub coulomb: Estimated<CoulombKey>,
+    /// Cost (29) at its minimum.
+    pub cost: f64,
+    /// Whether it is in the mean.
+    pub used: bool,
+}
+
+/// Rational model of the motor's response.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct MotorFitEntry {
+    /// Inertia or mass.
+    #[serde(flatten)]
+    pub inertia: Estimated<InertiaKey>,
+    /// Viscous friction, back-EMF included.
+    #[serde(flatten)]
+    pub viscous: Estimated<ViscousKey>,
+    /// Coupling through each mode.
+    #[serde(flatten)]
+    pub coupling_by_mode: WithUnit<CouplingByModeKey, Vec<EstimateEntry>>,
+    /// Motor angle per command as (35).
+    pub motor: TransferFunctionEntry,
+    /// Root mean square of the residuals relative to the standard errors of the response.
+    pub weighted_rms: f64,
+}
+
+/// Estimates of the regression on slip phases.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RegressionEntry {
+    /// Coulomb friction.
+    #[serde(flatten)]
+    pub coulomb: CoulombEntry,
+    /// Viscous friction.
+    #[serde(flatten)]
+    pub viscous: Refusable<ViscousKey>,
+    /// Inertia or mass.
+    #[serde(flatten)]
+    pub inertia: Refusable<InertiaKey>,
+    /// Coupling by tip.
+    #[serde(flatten)]
+    pub coupling_by_tip: WithUnit<CouplingByTipKey, Vec<Option<EstimateEntry>>>,
+    /// One viscous constant for each direction; null where one was enough.
+    pub viscous_by_direction: Option<ViscousByDirectionEntry>,
+    /// Length of the window used.
+    pub window_s: f64,
+    /// Whether it was given rather than chosen.
+    pub window_given: bool,
+    /// Rows of the regression.
+    pub rows: usize,
+    /// Slip phases used.
+    pub phases: usize,
+    /// Part of the windowed torque that the equation leaves.
+    pub relative_residual: f64,
+    /// Windows tried.
+    pub candidates: Vec<WindowEntry>,
+    /// The beam's own equation on windows.
+    pub beam: Option<BeamRegressionEntry>,
+}
+
+/// The same equation with one viscous coefficient for each direction: a fit of its own.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ViscousByDirectionEntry {
+    /// Viscous friction forward.
+    #[serde(flatten)]
+    pub viscous_forward: Estimated<ViscousForwardKey>,
+    /// Viscous friction backward.
+    #[serde(flatten)]
+    pub viscous_backward: Estimated<ViscousBackwardKey>,
+    /// Coulomb friction of this fit.
+    #[serde(flatten)]
+    pub coulomb: CoulombEntry,
+    /// Inertia or mass of this fit.
+    #[serde(flatten)]
+    pub inertia: Refusable<InertiaKey>,
+    /// Coupling by tip of this fit.
+    #[serde(flatten)]
+    pub coupling_by_tip: WithUnit<CouplingByTipKey, Vec<Option<EstimateEntry>>>,
+    /// Part of the windowed torque that the equation then leaves.
+    pub relative_residual: f64,
+}
+
+/// Ordinary least squares of smoothed samples, the baseline.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct LeastSquaresEntry {
+    /// Coulomb friction.
+    #[serde(flatten)]
+    pub coulomb: CoulombEntry,
+    /// Viscous friction.
+    #[serde(flatten)]
+    pub viscous: Refusable<ViscousKey>,
+    /// Inertia or mass.
+    #[serde(flatten)]
+    pub inertia: Refusable<InertiaKey>,
+    /// Coupling by tip.
+    #[serde(flatten)]
+    pub coupling_by_tip: WithUnit<CouplingByTipKey, Vec<Option<EstimateEntry>>>,
+    /// Least and largest speed of the samples used.
+    #[serde(flatten)]
+    pub speed_range: WithUnit<SpeedRangeKey, [f64; 2]>,
+    /// Samples used.
+    pub samples: usize,
+    /// Part of the smoothed torque that is left.
+    pub relative_residual: f64,
+}
+
+/// A window tried.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct WindowEntry {
+    /// Its length.
+    pub window_s: f64,
+    /// Rows of the regression.
+    pub rows: usize,
+    /// Slip phases used.
+    pub phases: usize,
+    /// Part of the windowed torque that the equation leaves.
+    pub relative_residual: f64,
+    /// RMS relative change of the estimates from the next shorter to the next longer window; null at the ends.
+    pub sensitivity: Option<f64>,
+}
+
+/// Regression of the beam's own equation.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct BeamRegressionEntry {
+    /// Modes with the motor clamped.
+    pub modes: Vec<BeamModeEntry>,
+    /// Length of the window, by tip.
+    pub window_s: Vec<f64>,
+    /// Part of the acceleration that is left, by tip.
+    pub relative_residual: Vec<f64>,
+}
+
+impl MethodEntries {
+    /// What each method found; `constant` is torque per command.
+    pub(crate) fn of(
+        names: UnitNames,
+        constant: f64,
+        channels: &Channels,
+        id: &Identified,
+    ) -> Self {
+        let runs = &id.runs;
+        let third = id.third_harmonic.as_ref();
+        let output_error = id.output_error.as_ref();
+        let beam = id.beam_regression.as_ref();
+        let velocity = id.constant_velocity.as_ref();
+        Self {
+            third_harmonic: third.map(|t| ThirdHarmonicEntry::of(names, constant, t, runs)),
+            output_error: output_error.map(|o| OutputErrorEntry::of(names, constant, channels, o)),
+            regression: id
+                .regression
+                .as_ref()
+                .map(|r| RegressionEntry::of(names, constant, r, beam)),
+            least_squares: id
+                .least_squares
+                .as_ref()
+                .map(|l| LeastSquaresEntry::of(names, constant, l)),
+            friction_law: id
+                .friction_law
+                .as_ref()
+                .map(|l| FrictionLawEntry::of(names, constant, l)),
+            constant_velocity: velocity
+                .map(|c| ConstantVelocityEntry::of(names, constant, c, runs)),
+        }
+    }
+}
+
+impl ThirdHarmonicEntry {
+    fn of(names: UnitNames, constant: f64, t: &ThirdHarmonic, runs: &[RunAnalysis]) -> Self {
+        let pairs = t.pairs.iter().zip(&t.used).map(|(p, used)| SinePairEntry {
+            omega_rad_s: p.omega_rad_s,
+            run: runs[p.run].name.clone(),
+            triple_run: runs[p.triple_run].name.clone(),
+            coulomb: WithUnit::under(
+                format!("coulomb_{}", names.command()),
+                EstimateEntry::of(p.coulomb_command),
+            ),
+            cost: p.cost,
+            used: *used,
+        });
+        let coulomb = t.coulomb_command.scaled(constant);
+        Self {
+            coulomb: WithUnit::torque(names, constant, Some(coulomb)),
+            spread: WithUnit::new(names, t.spread_command),
+            pairs: pairs.collect(),
+            fit: t.motor.as_ref().map(|m| MotorFitEntry::of(names, m)),
+        }
+    }
+}
+
+impl MotorFitEntry {
+    fn of(names: UnitNames, m: &MotorFit) -> Self {
+        Self {
+            inertia: WithUnit::new(names, EstimateEntry::of(m.inertia)),
+            viscous: WithUnit::new(names, EstimateEntry::of(m.viscous)),
+            coupling_by_mode: WithUnit::new(names, EstimateEntry::list(&m.coupling)),
+            motor: TransferFunctionEntry::of(&m.transfer_function),
+            weighted_rms: m.weighted_rms,
+        }
+    }
+}
+
+impl RegressionEntry {
+    fn of(
+        names: UnitNames,
+        constant: f64,
+        r: &MotorRegression,
+        beam: Option<&BeamRegression>,
+    ) -> Self {
+        let coulomb = Friction {
+            coulomb: r.coulomb,
+            forward: r.forward,
+            backward: r.backward,
+            offset: r.offset,
+            ..Friction::default()
+        };
+        let coupling = r.coupling.iter().map(|e| EstimateEntry::or_null(*e));
+        Self {
+            coulomb: CoulombEntry::of(names, constant, &coulomb),
+            viscous: WithUnit::new(names, EstimateEntry::or_null(r.viscous)),
+            inertia: WithUnit::new(names, EstimateEntry::or_null(r.inertia)),
+            coupling_by_tip: WithUnit::new(names, coupling.collect()),
+            viscous_by_direction: r
+                .viscous_by_direction
+                .as_ref()
+                .map(|d| ViscousByDirectionEntry::of(names, constant, d)),
+            window_s: r.window_s,
+            window_given: r.window_given,
+            rows: r.rows,
+            phases: r.phases,
+            relative_residual: r.relative_residual,
+            candidates: r.candidates.iter().map(WindowEntry::of).collect(),
+            beam: beam.map(|b| BeamRegressionEntry {
+                modes: BeamModeEntry::list(&b.modes),
+                window_s: b.window_s.clone(),
+                relative_residual: b.relative_residual.clone(),
+            }),
+        }
+    }
+}
+
+impl ViscousByDirectionEntry {
+    fn of(names: UnitNames, constant: f64, d: &ByDirection) -> Self {
+        let DriveEstimates { friction, inertia, coupling_by_tip, .. } = &d.estimates;
+        let (forward, backward) = friction.viscous_by_direction.unzip();
+        let coupling = coupling_by_tip.iter().map(|e| EstimateEntry::or_null(*e));
+        let given = |e: Option<Estimate>| e.map(EstimateEntry::of);
+        Self {
+            viscous_forward: WithUnit::where_some(names, given(forward)),
+            viscous_backward: WithUnit::where_some(names, given(backward)),
+            coulomb: CoulombEntry::of(names, constant, friction),
+            inertia: WithUnit::new(names, EstimateEntry::or_null(*inertia)),
+            coupling_by_tip: WithUnit::new(names, coupling.collect()),
+            relative_residual: d.relative_residual,
+        }
+    }
+}
+
+impl LeastSquaresEntry {
+    fn of(names: UnitNames, constant: f64, fit: &LeastSquares) -> Self {
+        let DriveEstimates { friction, inertia, coupling_by_tip, .. } = &fit.estimates;
+        let coupling = coupling_by_tip.iter().map(|e| EstimateEntry::or_null(*e));
+        Self {
+            coulomb: CoulombEntry::of(names, constant, friction),
+            viscous: WithUnit::new(names, EstimateEntry::or_null(friction.viscous)),
+            inertia: WithUnit::new(names, EstimateEntry::or_null(*inertia)),
+            coupling_by_tip: WithUnit::new(names, coupling.collect()),
+            speed_range: WithUnit::new(names, fit.speed_range),
+            samples: fit.samples,
+            relative_residual: fit.relative_residual,
+        }
+    }
+}
+
+impl WindowEntry {
+    fn of(c: &Candidate) -> Self {
+        Self {
+            window_s: c.window_s,
+            rows: c.rows,
+            phases: c.clusters,
+            relative_residual: c.relative_residual,
+            sensitivity: finite(c.sensitivity),
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! From a `result.json` to the arm in it.
+
+use std::path::Path;
+
+use lissom::identify::FoundArm;
+use lissom::record::Channels;
+use serde::Deserialize;
+use serde_json::Value;
+
+use super::arm_entry::ArmEntry;
+use super::channel_names::{AxisName, TipQuantityName};
+use super::result_error::ResultError;
+use super::unit_names::UnitNames;
+use crate::io_error::Error;
+use crate::read_text::read_text;
+
+/// Relative difference of torque constants beyond which they are two: six digits may be written of one.
+const SAME: f64 = 1e-5;
+
+/// What a prediction needs of a [`ResultFile`](super::ResultFile).
+#[derive(Debug, Deserialize)]
+struct PredictingPart {
+    axis: AxisName,
+    torque_per_command: Option<f64>,
+    arm: Option<ArmEntry>,
+}
+
+/// Reads the arm of a result, to predict logs of these channels.
+///
+/// # Errors
+/// [`Error::Result`] where the file is no result, has no arm, or belongs to another drive.
+pub fn read_arm(path: &Path, channels: &Channels) -> Result<FoundArm, Error> {
+    let file = path.display().to_string();
+    let text =
+        read_text(path).map_err(|source| ResultError::Read { file: file.clone(), source })?;
+    Ok(arm_of(&file, &text, channels)?)
+}
+
+fn arm_of(file: &str, text: &str, channels: &Channels) -> Result<FoundArm, ResultError> {
+    let file = || file.to_owned();
+    let root: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
+        .map_err(|source| ResultError::Json { file: file(), source })?;
+    for key in ["lissom", "axis", "torque_per_command", "arm"] {
+        if root.get(key).is_none() {
+            return Err(ResultError::NoResult { file: file(), key });
+        }
+    }
+    let part: PredictingPart = serde_path_to_error::deserialize(&root).map_err(|error| {
+        let key = error.path().to_string();
+        ResultError::Value { file: file(), key, source: error.into_inner() }
+    })?;
+    same_drive(&part, channels, file)?;
+    let Some(arm) = part.arm else { return Err(ResultError::NoArm { file: file() }) };
+    same_tips(&arm, channels, file)?;
+    arm.found(UnitNames::new(channels)).map_err(|wrong| ResultError::Key {
+        file: file(),
+        key: wrong.key,
+        expected: wrong.expected,
+    })
+}
+
+/// A result of another axis, command or torque constant is in other units.
+fn same_drive(
+    part: &PredictingPart,
+    channels: &Channels,
+    file: impl Fn() -> String,
+) -> Result<(), ResultError> {
+    let axis = AxisName::of(channels.axis);
+    let constant = channels.command.torque_per_command;
+    let said = |constant: Option<f64>| match constant {
+        Some(k) => format!("with a torque constant of {k} in SI units"),
+        None => "without a torque constant".to_owned(),
+    };
+    let same = match (part.torque_per_command, constant) {
+        (Some(a), Some(b)) => (a - b).abs() <= SAME * b.abs(),
+        (None, None) => true,
+        _ => false,
+    };
+    if part.axis == axis && same {
+        return Ok(());
+    }
+    Err(ResultError::OtherDrive {
+        file: file(),
+        of_result: format!("a {} axis {}", part.axis.text(), said(part.torque_per_command)),
+        of_log: format!("of a {} one {}", axis.text(), said(constant)),
+    })
+}
+
+fn same_tips(
+    arm: &ArmEntry,
+    channels: &Channels,
+    file: impl Fn() -> String,
+) -> Result<(), ResultError> {
+    let of_result: Vec<_> = arm.tips.iter().map(|tip| tip.quantity).collect();
+    let of_log: Vec<_> =
+        channels.tips.iter().map(|tip| TipQuantityName::of(tip.quantity)).collect();
+    if of_result == of_log {
+        return Ok(());
+    }
+    let told = |list: &[TipQuantityName]| match list {
+        [] => "none".to_owned(),
+        list => list.iter().map(|quantity| quantity.text()).collect::<Vec<_>>().join(", "),
+    };
+    Err(ResultError::OtherTips { file: file(), of_result: told(&of_result), of_log: told(&of_log) })
+}

@@ -1,0 +1,278 @@
+//! Quantities whose JSON key carries their unit, such as `viscous_nm_s_per_rad`.
+//!
+//! The unit depends on the campaign, so the key is not a field's name: a [`WithUnit`] holds it beside the
+//! value and is flattened into the table that it belongs to. [`UnitNames`] makes every key.
+
+use std::fmt;
+use std::marker::PhantomData;
+
+use lissom::identify::Estimate;
+use serde::de::{Error as _, IgnoredAny, MapAccess, Visitor};
+use serde::ser::SerializeMap as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::estimate_entry::EstimateEntry;
+use super::unit_names::UnitNames;
+
+/// A quantity whose key carries its unit.
+pub trait Quantity {
+    /// What the quantity is.
+    const DESCRIPTION: &'static str;
+    /// The keys that it may have in a campaign with these units.
+    fn keys(names: UnitNames) -> Vec<String>;
+}
+
+/// The unit of a quantity.
+#[derive(Debug, Clone, Copy)]
+enum Unit {
+    /// Torque or force, or the command's.
+    Torque,
+    /// The command's.
+    Command,
+    /// Torque or force per speed.
+    Viscous,
+    /// Torque or force per angle or position.
+    Coupling,
+    /// Inertia or mass.
+    Inertia,
+    /// Angle or position.
+    Angle,
+    /// Speed.
+    Speed,
+    /// That of a term of the friction law.
+    LawTerm,
+}
+
+impl Unit {
+    /// Keys of a quantity that has this unit and this name.
+    fn keys(self, name: &str, names: UnitNames) -> Vec<String> {
+        let (torque, command, angle) = (names.torque(), names.command(), names.angle());
+        match self {
+            Self::Torque if torque == command => vec![format!("{name}_{command}")],
+            Self::Torque => vec![format!("{name}_{command}"), format!("{name}_{torque}")],
+            Self::Command => vec![format!("{name}_{command}")],
+            Self::Viscous => vec![names.viscous_key(name)],
+            Self::Coupling => vec![names.coupling_key(name)],
+            Self::Inertia => vec![names.inertia_key()],
+            Self::Angle => vec![format!("{name}_{angle}")],
+            Self::Speed => vec![format!("{name}_{angle}_per_s")],
+            Self::LawTerm => vec![
+                names.viscous_key(name),
+                format!("{name}_{torque}"),
+                names.root_key(name),
+                format!("{name}_{angle}"),
+                format!("{name}_s"),
+            ],
+        }
+    }
+}
+
+macro_rules! quantities {
+    ($($(#[doc = $text:literal])+ $type:ident = $name:literal in $unit:ident;)+) => {
+        $(
+            $(#[doc = $text])+
+            #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+            pub enum $type {}
+
+            impl Quantity for $type {
+                const DESCRIPTION: &'static str = concat!($($text),+);
+                fn keys(names: UnitNames) -> Vec<String> {
+                    Unit::$unit.keys($name, names)
+                }
+            }
+        )+
+    };
+}
+
+quantities! {
+    /// Coulomb friction, mean of both directions, (forward + backward)/2.
+    CoulombKey = "coulomb" in Torque;
+    /// Coulomb friction while moving forward.
+    ForwardKey = "forward" in Torque;
+    /// Coulomb friction while moving backward.
+    BackwardKey = "backward" in Torque;
+    /// (forward - backward)/2: direction-dependent friction or a constant load.
+    OffsetKey = "offset" in Torque;
+    /// Viscous friction.
+    ViscousKey = "viscous" in Viscous;
+    /// Viscous friction while moving forward.
+    ViscousForwardKey = "viscous_forward" in Viscous;
+    /// Viscous friction while moving backward.
+    ViscousBackwardKey = "viscous_backward" in Viscous;
+    /// Inertia, or mass of a linear axis.
+    InertiaKey = "inertia" in Inertia;
+    /// Torque per angle between motor and beam, h_{n+1} of (15).
+    CouplingKey = "coupling" in Coupling;
+    /// The coupling of each tip that is a calibrated angle or deflection, in their order; empty without regression.
+    CouplingByTipKey = "coupling_by_tip" in Coupling;
+    /// The coupling through each mode.
+    CouplingByModeKey = "coupling_by_mode" in Coupling;
+    /// Amplitude of a term of friction.
+    AmplitudeKey = "amplitude" in Torque;
+    /// Amplitude of a term of the friction law, in the term's own unit; of a ripple cosine and sine.
+    LawAmplitudeKey = "amplitude" in LawTerm;
+    /// Amplitude of the motor's angle or position.
+    MotionKey = "amplitude" in Angle;
+    /// Magnitude of a speed; v_s of friction near rest.
+    SpeedKey = "speed" in Speed;
+    /// Least and largest speed.
+    SpeedRangeKey = "speed_range" in Speed;
+    /// Velocity with its sign.
+    VelocityKey = "velocity" in Speed;
+    /// Period over the travel, 2*pi/k.
+    PeriodKey = "period" in Angle;
+    /// Travel after a reversal; of bristles Coulomb friction over the stiffness.
+    TravelKey = "travel" in Angle;
+    /// Torque on the motor per deflection of a mode; sigma_0 of bristles.
+    StiffnessKey = "stiffness" in Coupling;
+    /// sigma_1 of bristles.
+    DampingKey = "damping" in Viscous;
+    /// Amplitude of the cosine over the travel.
+    CosineKey = "cosine" in Torque;
+    /// Amplitude of the sine over the travel.
+    SineKey = "sine" in Torque;
+    /// Friction against the motion, positive where it brakes; a constant load is in it.
+    FrictionKey = "friction" in Torque;
+    /// Friction at rest with the term, in the direction where it is less.
+    AtRestKey = "at_rest" in Torque;
+    /// Coulomb friction from the slowest third of the speeds; null where these are all.
+    SlowestKey = "slowest" in Torque;
+    /// Standard deviation of the Coulomb friction of one pair about the mean.
+    SpreadKey = "spread" in Command;
+    /// Mean command.
+    MeanCommandKey = "command" in Command;
+    /// H of (18): torque on the motor per angle of each point.
+    PointTorqueKey = "h" in Coupling;
+    /// h_{n+1} of (18): torque on the motor per motor angle.
+    MotorTorqueKey = "h_motor" in Coupling;
+    /// Root mean square of the logged torque.
+    LoggedRmsKey = "logged_rms" in Torque;
+}
+
+/// Values of one quantity under keys that carry their units: none where the table has no such key, two where a
+/// torque is given in the command's unit too.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WithUnit<Q, T> {
+    entries: Vec<(String, T)>,
+    quantity: PhantomData<Q>,
+}
+
+impl<Q: Quantity, T> WithUnit<Q, T> {
+    /// No key at all.
+    pub(crate) fn absent() -> Self {
+        Self { entries: Vec::new(), quantity: PhantomData }
+    }
+
+    /// One value under the key of the last unit: of torques that of torque.
+    pub(crate) fn new(names: UnitNames, value: T) -> Self {
+        let key = Q::keys(names).pop();
+        Self { entries: key.map(|key| (key, value)).into_iter().collect(), quantity: PhantomData }
+    }
+
+    /// A value that may be absent, under the key of the last unit.
+    pub(crate) fn where_some(names: UnitNames, value: Option<T>) -> Self {
+        value.map_or_else(Self::absent, |value| Self::new(names, value))
+    }
+
+    /// One value under one of the quantity's keys.
+    pub(crate) fn under(key: String, value: T) -> Self {
+        Self { entries: vec![(key, value)], quantity: PhantomData }
+    }
+
+    /// The value and its key in a campaign with these units; of torques that in the unit of torque.
+    pub fn get(&self, names: UnitNames) -> Option<&T> {
+        let key = Q::keys(names).pop()?;
+        self.entries.iter().find(|entry| entry.0 == key).map(|entry| &entry.1)
+    }
+
+    /// Whether some campaign has the quantity under this key.
+    fn has_key(key: &str) -> bool {
+        UnitNames::ALL.iter().any(|names| Q::keys(*names).iter().any(|own| own == key))
+    }
+}
+
+impl<Q: Quantity> WithUnit<Q, Option<EstimateEntry>> {
+    /// A torque in the command's unit and, where the torque constant is known, in its own.
+    pub(crate) fn torque(names: UnitNames, constant: f64, value: Option<Estimate>) -> Self {
+        let of_command = value.map(|e| e.scaled(1.0 / constant));
+        let values = [of_command, value].map(|e| e.map(EstimateEntry::of));
+        Self { entries: Q::keys(names).into_iter().zip(values).collect(), quantity: PhantomData }
+    }
+}
+
+impl<Q, T: Serialize> Serialize for WithUnit<Q, T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.entries.len()))?;
+        for (key, value) in &self.entries {
+            map.serialize_entry(key, value)?;
+        }
+        map.end()
+    }
+}
+
+impl<'de, Q: Quantity, T: Deserialize<'de>> Deserialize<'de> for WithUnit<Q, T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(OwnKeys(PhantomData))
+    }
+}
+
+/// Takes the quantity's own keys out of those of a table.
+struct OwnKeys<Q, T>(PhantomData<(Q, T)>);
+
+impl<'de, Q: Quantity, T: Deserialize<'de>> Visitor<'de> for OwnKeys<Q, T> {
+    type Value = WithUnit<Q, T>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a table")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+        let mut found = WithUnit::absent();
+        while let Some(key) = map.next_key::<String>()? {
+            if WithUnit::<Q, T>::has_key(&key) {
+                let value = map.next_value();
+                // A flattened table has no place for the key in an error.
+                let value = value.map_err(|e| A::Error::custom(format!("`{key}`: {e}")))?;
+                found.entries.push((key, value));
+            } else {
+                map.next_value::<IgnoredAny>()?;
+            }
+        }
+        Ok(found)
+    }
+}
+
+#[cfg(feature = "schema")]
+impl<Q: Quantity, T: schemars::JsonSchema> schemars::JsonSchema for WithUnit<Q, T> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        format!("WithUnit_{}", T::schema_name()).into()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let mut value = generator.subschema_for::<T>();
+        value.insert("description".to_owned(), Q::DESCRIPTION.trim().into());
+        schemars::json_schema!({ "type": "object", "patternProperties": { key_pattern::<Q>(): value } })
+    }
+}
+
+/// The pattern of all keys that a quantity may have.
+#[cfg(feature = "schema")]
+fn key_pattern<Q: Quantity>() -> String {
+    let mut keys: Vec<String> = Vec::new();
+    for key in UnitNames::ALL.iter().flat_map(|names| Q::keys(*names)) {
+        if !keys.contains(&key) {
+            keys.push(key);
+        }
+    }
+    // The words that all of them begin with are written once.
+    let first = keys.first().map_or("", String::as_str);
+    let mut ends = first.match_indices('_').map(|(at, _)| &first[..=at]);
+    let shared = ends.rfind(|start| keys.iter().all(|key| key.starts_with(start)));
+    let shared = shared.unwrap_or_default();
+    let rests: Vec<&str> = keys.iter().map(|key| &key[shared.len()..]).collect();
+    format!("^{shared}({})$", rests.join("|"))
+}

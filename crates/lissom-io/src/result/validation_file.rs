@@ -1,0 +1,417 @@
+//! How well a result predicts a log that it is not from, in JSON.
+
+use lissom::identify::{
+    Cause, CauseKind, ChannelResidual, FoundArm, Horizon, MovedBy, MovedMode, Stretch,
+    TorquePrediction, Validation,
+};
+use lissom::record::{Axis, Campaign, Channels, TipQuantity};
+use serde::{Deserialize, Serialize};
+
+use super::arm_entry::ArmEntry;
+use super::channel_names::{AxisName, DirectionName};
+use super::finding_entry::FindingEntry;
+use super::unit_keys::{LoggedRmsKey, WithUnit};
+use super::unit_names::UnitNames;
+
+/// SI units. The suffix of a key is its unit, as in result.schema.json. A share is a part of one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ValidationFile {
+    /// Version that wrote the file.
+    pub lissom: String,
+    /// Kind of axis.
+    pub axis: AxisName,
+    /// The arm of the result.
+    pub arm: ArmEntry,
+    /// Torque (or force) that the estimates predict from the logged motion, compared with the one logged; null where
+    /// the tips do not give the coupling torque.
+    pub torque: Option<TorqueEntry>,
+    /// Motion that the estimates predict from the logged command.
+    pub motion: MotionEntry,
+    /// Measured minus predicted motion of each channel, each stretch about its mean.
+    pub residuals: Vec<ChannelResidualEntry>,
+    /// What speaks against the estimates.
+    pub findings: Vec<FindingEntry>,
+}
+
+/// The torque predicted compared with the one logged.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct TorqueEntry {
+    /// |logged - predicted|/|logged|, root sums of squares over all rows that count.
+    pub relative_error: f64,
+    /// The same of the logs that the result is from.
+    pub relative_error_of_logs_used: Option<f64>,
+    /// What the same recipe leaves of the arm's own motion, shown by the same sensors; null where it could not be
+    /// followed for a window.
+    pub relative_error_expected: Option<f64>,
+    /// While the motor moves forward.
+    pub relative_error_forward: Option<f64>,
+    /// While it moves backward.
+    pub relative_error_backward: Option<f64>,
+    /// Root mean square of the logged torque.
+    #[serde(flatten)]
+    pub logged_rms: WithUnit<LoggedRmsKey, f64>,
+    /// Length of the sin^4 window that both sides are averaged with.
+    pub window_s: f64,
+    /// Frequency at which it leaves half the power.
+    pub half_power_hz: f64,
+    /// Share of the time in which the motor rests or a sensor is at the end of its range, which does not count.
+    pub rest_share: f64,
+    /// By run.
+    pub runs: Vec<TorqueRunEntry>,
+    /// Each stretch in which the motor moves one way for three windows or more.
+    pub stretches: Vec<StretchEntry>,
+    /// What the residual looks like, the largest share first.
+    pub residual_terms: Vec<ResidualTermEntry>,
+}
+
+/// The torque of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct TorqueRunEntry {
+    /// Its name.
+    pub run: String,
+    /// Relative to its own torque.
+    pub relative_error: Option<f64>,
+}
+
+/// The torque of a stretch.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct StretchEntry {
+    /// Its run.
+    pub run: String,
+    /// Its start, from the run's first sample.
+    pub start_s: f64,
+    /// Its end.
+    pub end_s: f64,
+    /// Direction of motion.
+    pub direction: DirectionName,
+    /// Root mean square of the residual relative to that of the whole log's torque.
+    pub relative_error: f64,
+}
+
+/// A term that the residual looks like.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ResidualTermEntry {
+    /// Which.
+    pub term: CauseName,
+    /// Its coefficient in SI units (s; the parameter's own unit), to be added to the estimate; of coupling relative to
+    /// it.
+    pub value: f64,
+    /// Share of the squared residual that it takes away by itself.
+    pub share: f64,
+    /// What the same recipe makes of the motion of the arm itself, in the unit of value; 0 where that could not be
+    /// followed.
+    pub expected_value: f64,
+}
+
+/// A term that a residual may look like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum CauseName {
+    /// A delay between command and motion.
+    Delay,
+    /// Another inertia.
+    Inertia,
+    /// Another viscous friction.
+    Viscous,
+    /// Viscous friction that differs by direction.
+    ViscousByDirection,
+    /// Another Coulomb friction.
+    Coulomb,
+    /// A constant torque.
+    Offset,
+    /// A torque that grows with the angle.
+    Position,
+    /// Friction near rest.
+    NearRest,
+    /// Another coupling torque.
+    Coupling,
+}
+
+/// Motion predicted from the logged command.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct MotionEntry {
+    /// Over ever shorter times from one initial state each.
+    pub horizons: Vec<HorizonEntry>,
+    /// Index of the horizon that the residuals are of: the longest over which all channels fit 90 %, else the shortest.
+    pub chosen: Option<usize>,
+    /// The mode whose frequency, moved, explains most of the residual; null where it does not take away half of the
+    /// squared residual by a move of 0.3 % or more, or no tip's residual is beyond its sensor's noise.
+    pub moved_mode: Option<MovedModeEntry>,
+}
+
+/// Motion predicted over times of one length.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct HorizonEntry {
+    /// The length.
+    pub length_s: f64,
+    /// Whether these are whole runs.
+    pub whole_runs: bool,
+    /// Stretches predicted.
+    pub windows: usize,
+    /// How well each channel is predicted.
+    pub channels: Vec<ChannelFitEntry>,
+}
+
+/// How well a channel is predicted.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ChannelFitEntry {
+    /// motor, or a tip's name.
+    pub channel: String,
+    /// Its unit.
+    pub unit: ChannelUnitName,
+    /// Root mean square of measured minus predicted.
+    pub residual_rms: f64,
+    /// 100*(1 - |y - predicted|/|y - mean of y|).
+    pub fit_percent: f64,
+}
+
+/// Unit of a channel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum ChannelUnitName {
+    /// An angle.
+    #[serde(rename = "rad")]
+    Angle,
+    /// A position.
+    #[serde(rename = "m")]
+    Position,
+    /// An angular acceleration.
+    #[serde(rename = "rad/s²")]
+    AngularAcceleration,
+    /// An acceleration.
+    #[serde(rename = "m/s²")]
+    Acceleration,
+    /// Unknown.
+    #[serde(rename = "1")]
+    Unknown,
+}
+
+/// A mode that is elsewhere in the log.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct MovedModeEntry {
+    /// Which, from 1.
+    pub mode: usize,
+    /// What moves it.
+    pub by: MovedByName,
+    /// Its frequency in the result.
+    pub natural_frequency_rad_s: f64,
+    /// The frequency that the log looks like.
+    pub of_log_rad_s: f64,
+    /// Squared residual of all channels relative to that of the result's arm.
+    pub residual_ratio: f64,
+}
+
+/// What moves a mode.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum MovedByName {
+    /// The mode's stiffness stays as it is.
+    Load,
+    /// The stiffness changes with the square of the frequency.
+    Stiffness,
+}
+
+/// The residual of a channel.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ChannelResidualEntry {
+    /// motor, or a tip's name.
+    pub channel: String,
+    /// Its unit.
+    pub unit: ChannelUnitName,
+    /// Samples tested.
+    pub samples: usize,
+    /// Root mean square.
+    pub rms: f64,
+    /// Step of the sensor, 0 where none is seen; by itself it makes a residual of step/sqrt(12).
+    pub sensor_step: f64,
+    /// Standard deviation that the sensor adds by itself, steps included.
+    pub sensor_noise: f64,
+    /// Autocorrelation, lags 0 to 25.
+    pub autocorrelation: Vec<f64>,
+    /// Half the 95 % band of white noise.
+    pub autocorrelation_band: f64,
+    /// Ljung-Box statistic of lags 1 to 25.
+    pub ljung_box: f64,
+    /// Probability of as large a statistic of white noise.
+    pub white_probability: f64,
+    /// Lags of the residual behind the command, in samples.
+    pub lags: Vec<isize>,
+    /// Correlation with the command at these lags.
+    pub cross_correlation: Vec<f64>,
+    /// Half the 95 % band if residual and command are independent.
+    pub cross_correlation_band: f64,
+    /// Share of these lags beyond the band.
+    pub outside_share: f64,
+}
+
+impl ValidationFile {
+    /// What `lissom validate` writes.
+    pub fn of(campaign: &Campaign, found: &FoundArm, v: &Validation) -> Self {
+        let channels = &campaign.channels;
+        let names = UnitNames::new(channels);
+        let residual = |(c, r)| ChannelResidualEntry::of(channels, c, r);
+        Self {
+            lissom: env!("CARGO_PKG_VERSION").to_owned(),
+            axis: AxisName::of(channels.axis),
+            arm: ArmEntry::of(channels, names, found),
+            torque: v.torque.as_ref().map(|t| TorqueEntry::of(campaign, names, found, t)),
+            motion: MotionEntry {
+                horizons: v.horizons.iter().map(|h| HorizonEntry::of(channels, h)).collect(),
+                chosen: if v.horizons.is_empty() { None } else { Some(v.chosen) },
+                moved_mode: v.moved_mode.as_ref().map(MovedModeEntry::of),
+            },
+            residuals: v.residuals.iter().enumerate().map(residual).collect(),
+            findings: FindingEntry::list(&v.findings),
+        }
+    }
+}
+
+impl TorqueEntry {
+    fn of(campaign: &Campaign, names: UnitNames, found: &FoundArm, t: &TorquePrediction) -> Self {
+        let name = |run: usize| campaign.runs[run].name().to_owned();
+        let stretch = |s: &Stretch| StretchEntry {
+            run: name(s.run),
+            start_s: s.start_s,
+            end_s: s.end_s,
+            direction: DirectionName::of(s.forward),
+            relative_error: s.relative_error,
+        };
+        let runs = t
+            .runs
+            .iter()
+            .map(|r| TorqueRunEntry { run: name(r.run), relative_error: r.relative_error });
+        Self {
+            relative_error: t.relative_error,
+            relative_error_of_logs_used: found.torque_used.map(|t| t.relative_error),
+            relative_error_expected: t.expected_error,
+            relative_error_forward: t.by_direction[0],
+            relative_error_backward: t.by_direction[1],
+            logged_rms: WithUnit::new(names, t.logged_nm),
+            window_s: t.window_s,
+            half_power_hz: t.half_power_hz,
+            rest_share: t.rest_share,
+            runs: runs.collect(),
+            stretches: t.stretches.iter().map(stretch).collect(),
+            residual_terms: t.causes.iter().map(ResidualTermEntry::of).collect(),
+        }
+    }
+}
+
+impl ResidualTermEntry {
+    fn of(c: &Cause) -> Self {
+        Self {
+            term: match c.kind {
+                CauseKind::Delay => CauseName::Delay,
+                CauseKind::Inertia => CauseName::Inertia,
+                CauseKind::Viscous => CauseName::Viscous,
+                CauseKind::ViscousByDirection => CauseName::ViscousByDirection,
+                CauseKind::Coulomb => CauseName::Coulomb,
+                CauseKind::Offset => CauseName::Offset,
+                CauseKind::Position => CauseName::Position,
+                CauseKind::NearRest => CauseName::NearRest,
+                CauseKind::Coupling => CauseName::Coupling,
+            },
+            value: c.value,
+            share: c.share,
+            expected_value: c.expected_value,
+        }
+    }
+}
+
+impl MovedModeEntry {
+    fn of(m: &MovedMode) -> Self {
+        Self {
+            mode: m.mode + 1,
+            by: match m.by {
+                MovedBy::Load => MovedByName::Load,
+                MovedBy::Stiffness => MovedByName::Stiffness,
+            },
+            natural_frequency_rad_s: m.omega_rad_s,
+            of_log_rad_s: m.of_log_rad_s,
+            residual_ratio: m.residual_ratio,
+        }
+    }
+}
+
+impl HorizonEntry {
+    fn of(channels: &Channels, h: &Horizon) -> Self {
+        let fits = h.channels.iter().enumerate().map(|(c, f)| ChannelFitEntry {
+            channel: channel_name_unit(channels, c).0.to_owned(),
+            unit: ChannelUnitName::of(channels, c),
+            residual_rms: f.residual_rms,
+            fit_percent: f.fit_percent,
+        });
+        Self {
+            length_s: h.length_s,
+            whole_runs: h.whole_runs,
+            windows: h.windows,
+            channels: fits.collect(),
+        }
+    }
+}
+
+impl ChannelResidualEntry {
+    fn of(channels: &Channels, channel: usize, r: &ChannelResidual) -> Self {
+        Self {
+            channel: channel_name_unit(channels, channel).0.to_owned(),
+            unit: ChannelUnitName::of(channels, channel),
+            samples: r.samples,
+            rms: r.rms,
+            sensor_step: r.sensor_step,
+            sensor_noise: r.sensor_noise,
+            autocorrelation: r.autocorrelation.clone(),
+            autocorrelation_band: r.autocorrelation_band,
+            ljung_box: r.ljung_box,
+            white_probability: r.white_probability,
+            lags: r.lags(),
+            cross_correlation: r.cross_correlation.clone(),
+            cross_correlation_band: r.cross_correlation_band,
+            outside_share: r.outside(),
+        }
+    }
+}
+
+impl ChannelUnitName {
+    fn of(channels: &Channels, channel: usize) -> Self {
+        let (angle, acceleration) = match channels.axis {
+            Axis::Rotary => (Self::Angle, Self::AngularAcceleration),
+            Axis::Linear => (Self::Position, Self::Acceleration),
+        };
+        let Some(tip) = channel.checked_sub(1).map(|i| &channels.tips[i]) else { return angle };
+        match (tip.calibrated, tip.quantity) {
+            (false, _) => Self::Unknown,
+            (true, TipQuantity::Acceleration) => acceleration,
+            (true, _) => angle,
+        }
+    }
+
+    /// The unit as people write it.
+    fn text(self) -> &'static str {
+        match self {
+            Self::Angle => "rad",
+            Self::Position => "m",
+            Self::AngularAcceleration => "rad/s²",
+            Self::Acceleration => "m/s²",
+            Self::Unknown => "1",
+        }
+    }
+}
+
+/// Name and unit of a channel, the motor first, then tips.
+pub fn channel_name_unit(channels: &Channels, channel: usize) -> (&str, &'static str) {
+    let tip = channel.checked_sub(1).map(|i| &channels.tips[i]);
+    let name = tip.map_or("motor", |tip| &tip.name);
+    (name, ChannelUnitName::of(channels, channel).text())
+}

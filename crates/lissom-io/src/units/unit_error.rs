@@ -1,0 +1,129 @@
+//! What can be wrong with a quantity.
+
+use thiserror::Error;
+
+use super::dimension::Dimension;
+use crate::excerpt::excerpt;
+
+/// Why a text is not the quantity or unit that is wanted.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum UnitError {
+    /// It does not begin with a number.
+    #[error("\"{}\" does not begin with a number", excerpt(text))]
+    NoNumber {
+        /// The whole text.
+        text: String,
+    },
+    /// A number without a unit.
+    #[error("\"{}\" has no unit; {expected} is expected", excerpt(text))]
+    NoUnit {
+        /// The whole text.
+        text: String,
+        /// Dimension wanted.
+        expected: Dimension,
+    },
+    /// A name that is no unit.
+    #[error("\"{}\": there is no unit `{}`", excerpt(text), excerpt(unit))]
+    Unknown {
+        /// The whole text.
+        text: String,
+        /// The name.
+        unit: String,
+        /// The unit whose name is nearest.
+        nearest: Option<String>,
+    },
+    /// The expression breaks off or holds a character that does not belong there.
+    #[error("\"{}\" is not a unit: {}", excerpt(text), found.map_or("it breaks off".to_owned(), |c| format!("unexpected `{c}`")))]
+    Syntax {
+        /// The whole text.
+        text: String,
+        /// The character, or none at the end.
+        found: Option<char>,
+    },
+    /// An exponent that is too large.
+    #[error("\"{}\" has an exponent above {largest}", excerpt(text))]
+    Power {
+        /// The whole text.
+        text: String,
+        /// The largest there may be.
+        largest: i32,
+    },
+    /// A unit of another dimension.
+    #[error("\"{}\" is {found}, where {expected} is expected", excerpt(text))]
+    Dimension {
+        /// The whole text.
+        text: String,
+        /// Its dimension.
+        found: Dimension,
+        /// Dimension wanted.
+        expected: Dimension,
+    },
+    /// Too large or too small for a number.
+    #[error("\"{}\" is out of range", excerpt(text))]
+    OutOfRange {
+        /// The whole text.
+        text: String,
+    },
+}
+
+impl UnitError {
+    /// What to do about it.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::NoNumber { .. } => Some("write a number and a unit, such as \"7 in\"".to_owned()),
+            Self::NoUnit { expected, .. } => expected
+                .example()
+                .map(|e| format!("write it as in \"{e}\"; in a file, a number without quotes is SI")),
+            Self::Unknown { nearest, .. } => Some(match nearest {
+                Some(name) => format!("did you mean `{name}`?"),
+                None => "write units as in \"mA\", \"deg\" or \"lbf*in/A\": products with *, quotients with /".to_owned(),
+            }),
+            Self::Syntax { .. } => {
+                Some("write products with * and quotients with /, as in \"N*m^2\"".to_owned())
+            }
+            Self::Dimension { found, expected, .. } => Some(dimension_hint(*found, *expected)),
+            Self::Power { .. } => Some("check the exponent of the unit".to_owned()),
+            Self::OutOfRange { .. } => {
+                Some("check the exponent of the number and its unit".to_owned())
+            }
+        }
+    }
+
+    /// The same error in a longer text.
+    pub(super) fn within(mut self, whole: &str) -> Self {
+        match &mut self {
+            Self::NoNumber { text }
+            | Self::NoUnit { text, .. }
+            | Self::Unknown { text, .. }
+            | Self::Syntax { text, .. }
+            | Self::Power { text, .. }
+            | Self::Dimension { text, .. }
+            | Self::OutOfRange { text } => whole.clone_into(text),
+        }
+        self
+    }
+}
+
+/// A mass where a force belongs is the usual slip, and a voltage where a current does.
+fn dimension_hint(found: Dimension, expected: Dimension) -> String {
+    match (found, expected) {
+        (Dimension::VOLTAGE, Dimension::CURRENT) => {
+            return "a drive that logs its voltage has `voltage = …` in place of `current`, and `voltage_limit`".into();
+        }
+        (Dimension::CURRENT, Dimension::VOLTAGE) => {
+            return "a drive that logs its current has `current = …` in place of `voltage`, and `current_limit`".into();
+        }
+        _ => {}
+    }
+    if found.times(Dimension::ACCELERATION, 1) == expected {
+        return "`lb`, `oz` and `kg` are masses; the forces are `lbf`, `ozf` and `kgf`".into();
+    }
+    if expected.times(Dimension::ACCELERATION, 1) == found {
+        return "`lbf`, `ozf` and `kgf` are forces; the masses are `lb`, `oz` and `kg`".into();
+    }
+    expected.example().map_or_else(
+        || "check the unit against the quantity it stands for".to_owned(),
+        |example| format!("write it as in \"{example}\""),
+    )
+}

@@ -1,0 +1,204 @@
+//! `docs/result.schema.json` names every key that a result has, and a result has every key that it
+//! names.
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use lissom::drive::Falloff;
+use lissom::identify::{
+    BristlesEstimate, ByDirection, ConstantVelocity, Estimate, FrictionLine, Identified,
+    LawCandidate, LawTerm, NearRestEstimate, Options, RippleEstimate, RunToAdd, Shape, SteadyPoint,
+    geometry_check, identify, motor_regression,
+};
+use lissom::information::Figure;
+use lissom::plan::PlannedMotion;
+use lissom::record::{
+    Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
+};
+use lissom::replay::{Bristles, DryTerms, NearRest, Ripple};
+use lissom::rig::{Experiment, Settle};
+use lissom_io::ResultFile;
+use lissom_testmodels::SchemaCheck;
+
+/// A campaign of three sines with one pair, and one of them as a motion of any shape.
+fn campaign() -> Campaign {
+    let rig = lissom_testmodels::report_rig(Some(12));
+    let sine = |name: &str, omega_rad_s: f64| {
+        let sine = Experiment::sine(omega_rad_s, 0.7, 20.0).unwrap();
+        rig.run(name, &sine.settling(Settle::Wait { wait_s: 120.0 }), 0).unwrap().run
+    };
+    let mut runs = vec![sine("low", 3.1), sine("triple", 9.3), sine("fast", 20.0)];
+    // The last half turned about: no sinusoid any more.
+    let low = runs[0].clone();
+    let turned = |x: &[f64]| x.iter().chain(x.iter().rev()).copied().collect::<Vec<f64>>();
+    let tips = vec![turned(&low.tips()[0])];
+    let (command, motor) = (turned(low.command()), turned(low.motor()));
+    runs.push(lissom::record::Run::new("other", low.time(), command, motor, tips).unwrap());
+    Campaign::new(channels(Axis::Rotary, CommandQuantity::Current, Some(0.246_759)), runs).unwrap()
+}
+
+fn channels(axis: Axis, quantity: CommandQuantity, constant: Option<f64>) -> Channels {
+    let command = Command {
+        quantity,
+        hold: Hold::Sampled,
+        torque_per_command: constant,
+        back_emf_viscous: 0.0,
+        limit: Some(4.12),
+    };
+    let tip = Tip { name: "tip".to_owned(), quantity: TipQuantity::Angle, calibrated: true };
+    Channels { axis, command, tips: vec![tip] }
+}
+
+/// Results of every axis and command, with every figure that may be absent.
+fn results() -> Vec<ResultFile> {
+    let mut id = identify(&campaign(), &Options::default(), |_| ()).unwrap();
+    let described =
+        geometry_check(&lissom_testmodels::report_arm(), id.output_error.as_ref().unwrap());
+    assert!(described.is_some());
+    let mut results = Vec::new();
+    for axis in [Axis::Rotary, Axis::Linear] {
+        for quantity in
+            [CommandQuantity::Current, CommandQuantity::Voltage, CommandQuantity::Arbitrary]
+        {
+            for constant in [None, Some(0.246_759)] {
+                id.torque_per_command = constant;
+                let channels = channels(axis, quantity, constant);
+                results.push(ResultFile::of(&channels, &id, None));
+                let split = with_directions(id.clone());
+                results.push(ResultFile::of(&channels, &split, described.as_ref()));
+            }
+        }
+    }
+    results
+}
+
+fn with_directions(mut id: Identified) -> Identified {
+    let figure = Estimate { value: 1.0, std: 0.1 };
+    id.friction.viscous_by_direction = Some((figure, figure));
+    let line = |shape| FrictionLine {
+        coulomb: figure,
+        viscous: figure,
+        correlation: -0.8,
+        points: 3,
+        speeds: 3,
+        shape,
+        slowest: Some(figure),
+    };
+    id.constant_velocity = Some(ConstantVelocity {
+        coulomb: Some(figure),
+        offset: Some(figure),
+        viscous: Some(figure),
+        forward: Ok(line(Shape::Concave { deviations: 4.0 })),
+        backward: Ok(line(Shape::Straight)),
+        points: vec![SteadyPoint {
+            run: 0,
+            start_s: 0.0,
+            end_s: 1.0,
+            velocity: figure,
+            command: figure,
+        }],
+    });
+    if let Some(law) = &mut id.friction_law {
+        let terms = [
+            LawTerm::NearRest { speed: 0.1, falloff: Falloff::Gaussian },
+            LawTerm::AfterTravel { travel: 0.01 },
+            LawTerm::Ripple { per_angle: 12.0 },
+        ];
+        law.chosen.terms = terms.map(|term| (term, vec![figure])).to_vec();
+        let tried = law.candidates[0];
+        law.candidates = terms.map(|term| LawCandidate { term, ..tried }).to_vec();
+    }
+    let falloff = Falloff::Exponential;
+    id.friction.near_rest = Some(NearRestEstimate { torque: figure, speed: figure, falloff });
+    id.friction.ripples = vec![RippleEstimate { torque: figure, per_angle: figure }];
+    id.friction.bristles =
+        Some(BristlesEstimate { stiffness: figure, damping: figure, travel: figure });
+    if let Some(found) = &mut id.arm {
+        found.arm.dry_terms = DryTerms {
+            near_rest: Some(NearRest {
+                torque_nm: 0.1,
+                speed_rad_s: 0.2,
+                falloff: Falloff::Exponential,
+            }),
+            ripples: vec![Ripple { per_rad: 9.0, cosine_nm: 0.1, sine_nm: 0.0 }],
+            bristles: Some(Bristles { stiffness_nm_per_rad: 90.0, damping_nm_s_per_rad: 0.1 }),
+        };
+    }
+    if let Some(verdict) = &mut id.separability {
+        verdict.run_to_add = Some(RunToAdd {
+            motion: PlannedMotion::Sine { omega_rad_s: 2.0 },
+            amplitude_rad: 0.3,
+            record_s: 20.0,
+            figure: Figure::Viscous,
+            std_now: 0.1,
+            std_then: 0.02,
+        });
+    }
+    if let Some(regression) = &mut id.regression {
+        regression.viscous_by_direction = by_direction();
+    }
+    id
+}
+
+/// A regression of sines whose viscous friction is larger forward than backward.
+fn by_direction() -> Option<ByDirection> {
+    let (sample_time_s, omega) = (0.002, 3.0_f64);
+    let wave = |of: &dyn Fn(f64) -> f64| -> Vec<f64> {
+        (0..20_000).map(|k| of(sample_time_s * f64::from(k))).collect()
+    };
+    let velocity = |t: f64| omega * (omega * t).cos() + 0.6 * omega * (0.4 * omega * t).cos();
+    let motor = wave(&|t| (omega * t).sin() + 1.5 * (0.4 * omega * t).sin());
+    let torque = wave(&|t| {
+        let v = velocity(t);
+        let viscous = if v > 0.0 { 0.3 } else { 0.1 };
+        0.3 * v.signum() + viscous * v - 0.02 * omega * omega * (omega * t).sin()
+    });
+    let command = Command {
+        quantity: CommandQuantity::Current,
+        hold: Hold::Measured,
+        torque_per_command: Some(1.0),
+        back_emf_viscous: 0.0,
+        limit: None,
+    };
+    let run = Run::new("sines", TimeBase::uniform(0.0, sample_time_s), torque, motor, vec![]);
+    let channels = Channels { axis: Axis::Rotary, command, tips: vec![] };
+    let campaign = Campaign::new(channels, vec![run.unwrap()]).unwrap();
+    motor_regression(&campaign, &[]).unwrap().viscous_by_direction
+}
+
+#[test]
+fn a_result_and_its_schema_name_the_same_keys() {
+    let mut check = SchemaCheck::new(include_str!("../../../docs/result.schema.json"), "result");
+    for result in results() {
+        let json = serde_json::to_value(&result).unwrap();
+        check.look_at(&json);
+        // What was written is read back, every key of it.
+        let read: ResultFile = serde_json::from_value(json.clone()).unwrap();
+        assert_eq!(read, result);
+        assert_eq!(serde_json::to_string(&read).unwrap(), json.to_string());
+    }
+    // What may be null is not: its keys were looked at too.
+    check.holds(&[
+        "verdict.directions[].parts[].share_of_variance",
+        "verdict.runs[].figures[].std_growth_without",
+        "verdict.run_to_add.record_s",
+        "arm.modes[].damping_within_per_s",
+        "arm.tips[].shape",
+        "methods.third_harmonic.fit.weighted_rms",
+        "methods.regression.beam.modes",
+        "methods.regression.viscous_by_direction.relative_residual",
+        "methods.friction_law.candidates[].residual_ratio",
+        "friction.curve[].windows",
+        "friction.near_rest",
+        "friction.ripples",
+        "friction.bristles",
+        "arm.near_rest",
+        "arm.ripples",
+        "arm.bristles",
+        "methods.constant_velocity.lines[].deviations",
+        "methods.constant_velocity.points[].start_s",
+        "models.from",
+        "models.motor.den",
+        "models.state_space.outputs",
+        "runs[].stuck_share",
+        "findings[].code",
+    ]);
+}
