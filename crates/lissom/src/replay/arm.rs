@@ -3,8 +3,6 @@
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
-use super::arm_modes::ArmModes;
-use crate::arm::Arm;
 use crate::eigenvalues::eigenvalues;
 use crate::friction::DryTerms;
 
@@ -81,15 +79,6 @@ pub struct ModalArm {
 }
 
 impl ModalArm {
-    /// The modes of an arm of point masses, all masses as tips, in order from the motor.
-    ///
-    /// `None` for an arm without distinct modes, with more than [`MOST_MODES`], or whose payload turns
-    /// beside dampers at masses.
-    pub fn of_arm(arm: &Arm) -> Option<Self> {
-        let modes = ArmModes::of(arm)?;
-        if modes.omega_rad_s().len() > MOST_MODES { None } else { modes.whole() }
-    }
-
     /// Natural frequency |s| \[rad/s\] and damping ratio −Re s/|s| of each mode with the motor clamped,
     /// ascending. Dampers at points couple the oscillators: |s| is not their ω then.
     pub fn clamped_modes(&self) -> Vec<(f64, f64)> {

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::arm::{ModalArm, Oscillator};
+use super::arm::{MOST_MODES, ModalArm, Oscillator};
 use crate::arm::Arm;
 use crate::beam::BeamDynamics;
 use crate::friction::DryTerms;
@@ -133,5 +133,16 @@ impl<'a> ArmModes<'a> {
             command_lag_s: 0.0,
             tip_lags_s: Vec::new(),
         }
+    }
+}
+
+impl ModalArm {
+    /// The modes of an arm of point masses, all masses as tips, in order from the motor.
+    ///
+    /// `None` for an arm without distinct modes, with more than [`MOST_MODES`], or whose payload turns
+    /// beside dampers at masses.
+    pub fn of_arm(arm: &Arm) -> Option<Self> {
+        let modes = ArmModes::of(arm)?;
+        if modes.omega_rad_s().len() > MOST_MODES { None } else { modes.whole() }
     }
 }

@@ -1,6 +1,7 @@
 //! Deflection of the replayed bristles, with derivatives.
 
-use super::tangents::{Answers, Lanes};
+use super::lanes::Lanes;
+use super::tangents::Answers;
 
 /// Deflection of a replay's bristles, with its derivatives by every unknown.
 #[derive(Debug, Clone, Default)]

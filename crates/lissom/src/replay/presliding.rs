@@ -1,9 +1,10 @@
 //! The replayed arm on bristles: steps short enough for what they do, and their tangents.
 
 use super::bent::Bent;
+use super::lanes::LANES;
 use super::motion::{Motion, Mover, Torque};
 use super::parameter::Parameter;
-use super::tangents::{LANES, Rubbed};
+use super::tangents::Rubbed;
 use crate::friction::{
     Bending, BristleStep, Bristled, Bristles, DAMPING, DEFLECTION, INPUTS, LEVEL, LinearStep, Mode,
     Place, SHARE_PER_STEP, STIFFNESS, VELOCITY,

@@ -1,8 +1,8 @@
 //! The arm's equations as matrices, with their derivatives by each parameter.
 
 use super::arm::ModalArm;
+use super::lanes::{LANES, MatrixPack, Pack};
 use super::parameter::{Enters, Parameter};
-use super::tangents::{LANES, MatrixPack, Pack};
 use crate::number::{Dual, Number};
 
 /// `ẋ = A·x + b·τ` of the state `[θ, θ̇, ψ_1, ψ̇_1, …]`, with dA/dp and db/dp of every parameter.

@@ -5,20 +5,10 @@
     reason = "loops over unknowns, compiled for vectors chosen at run time"
 )]
 
+use super::lanes::{LANES, Lanes, Pack};
 use super::rates::Rates;
 use super::series::{Ramp, Terms, input, orders};
 use super::transition::Transition;
-
-/// Unknowns that are worked on together: their loops become vectors.
-pub(super) const LANES: usize = 8;
-/// A number of each of them.
-pub(super) type Lanes = [f64; LANES];
-
-/// `∂x/∂u` of [`LANES`] unknowns u, state by state.
-pub(super) type Pack<const D: usize> = [Lanes; D];
-
-/// Derivatives of a matrix and a vector by [`LANES`] parameters, row by row.
-pub(super) type MatrixPack<const D: usize> = [[Lanes; D]; D];
 
 /// Tangents of the unknowns in their order: the parameters, then the initial state.
 #[derive(Debug, Clone)]

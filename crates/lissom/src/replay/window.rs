@@ -4,10 +4,11 @@ use std::ops::RangeInclusive;
 
 use super::arm::ModalArm;
 use super::friction::Friction;
+use super::lanes::LANES;
 use super::motion::{Columns, Motion, Mover, Torque, direction};
 use super::parameter::{Enters, Parameter};
 use super::rates::Phases;
-use super::tangents::{LANES, Tangents};
+use super::tangents::Tangents;
 use crate::friction::Mode;
 use crate::record::{Channels, Hold, Run, TipQuantity};
 

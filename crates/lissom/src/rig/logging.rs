@@ -2,7 +2,10 @@
 
 use super::experiment::{Drive, Experiment};
 use super::finding::{RigFinding, SensorPlace};
-use super::sampled_loop::{Rig, Settled};
+use super::instrument::Instruments;
+use super::scene::Scene;
+use super::settled::Settled;
+use crate::arm::Arm;
 use crate::record::{RecordError, Run, TimeBase};
 
 /// A motor that moves by less in a whole record stands still \[rad\].
@@ -55,12 +58,11 @@ impl Log {
     /// What the counts say; `moved_rad` is the lowest and highest true angle of the motor.
     pub(super) fn findings(
         &self,
-        rig: &Rig,
+        (instruments, arm, scene): (&Instruments, &Arm, &Scene),
         experiment: &Experiment,
         settled: Settled,
         moved_rad: (f64, f64),
     ) -> Vec<RigFinding> {
-        let (instruments, arm) = (&rig.instruments, &rig.arm);
         let share = |count: usize| count as f64 / self.samples as f64;
         let moved = moved_rad.1 - moved_rad.0;
         let mut findings = Vec::new();
@@ -83,7 +85,7 @@ impl Log {
             let current = instruments.amplifier.current_a(self.largest_a);
             findings.push(RigFinding::NeverMoved {
                 torque_nm: arm.motor.torque_constant_nm_per_a * current,
-                coulomb_nm: rig.scene.holds_nm(arm),
+                coulomb_nm: scene.holds_nm(arm),
             });
         }
         for (place, count) in self.cut_off.iter().enumerate().filter(|(_, count)| **count > 0) {

@@ -8,6 +8,7 @@ use super::experiment::{Drive, Experiment, Reference, Settle};
 use super::finding::RigFinding;
 use super::instrument::{DelayLine, Instruments, Streams};
 use super::logging::Log;
+use super::settled::Settled;
 use super::settling::Settling;
 use super::{HeldArm, Motion, RigError, Scene};
 use crate::arm::Arm;
@@ -45,17 +46,6 @@ pub struct Rig {
     pub instruments: Instruments,
     /// The controller, of no use to experiments with an open drive.
     pub controller: ControlLaw,
-}
-
-/// How the transient before a log went.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settled {
-    /// Time that passed before the log \[s\].
-    pub waited_s: f64,
-    /// What is left of the transient at most \[rad\]; `None` where that was not judged.
-    pub left_rad: Option<f64>,
-    /// What was allowed \[rad\]; `None` where that was not judged.
-    pub tolerance_rad: Option<f64>,
 }
 
 /// A simulated run, and what is known of it.
@@ -431,7 +421,12 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
         }
         let recorded_s = (rows * every) as f64 * sample;
         let stuck_share = (self.motion.stuck_s() - stuck_before) / recorded_s;
-        let findings = log.findings(self.rig, self.experiment, settled, self.range_rad);
+        let findings = log.findings(
+            (&self.rig.instruments, &self.rig.arm, &self.rig.scene),
+            self.experiment,
+            settled,
+            self.range_rad,
+        );
         let run = log.run(name, clock(first), instruments.log_time_s())?;
         let run = match self.reference() {
             Reference::Sine(sine) => run.with_omega(sine.omega_rad_s())?,

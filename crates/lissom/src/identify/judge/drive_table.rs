@@ -141,7 +141,9 @@ fn by_regression_with_friction(evidence: &Evidence<'_>) -> Option<DriveEstimates
 /// Where slip phases are too few for the regression, or the regression leaves more than this baseline.
 fn by_least_squares(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
     let fit = evidence.methods.least_squares.as_ref()?;
-    let needed = evidence.methods.regression.is_none() || is_beaten(evidence);
+    // Transitions between constant velocities are short: what they show is not worth more than the velocities.
+    let missing = evidence.methods.regression.is_none() && !evidence.has_only_constant_velocities();
+    let needed = missing || is_beaten(evidence);
     let sound = fit.relative_residual < BASELINE_LEAVES
         && fit.estimates.inertia.is_some_and(is_known)
         && fit.estimates.friction.coulomb.is_some_and(is_known);
