@@ -4,9 +4,9 @@
 
 use lissom::drive::Falloff;
 use lissom::identify::{
-    BristlesEstimate, ByDirection, ConstantVelocity, Estimate, FrictionLine, Identified,
-    LawCandidate, LawTerm, NearRestEstimate, Options, RippleEstimate, RunToAdd, Shape, SteadyPoint,
-    geometry_check, identify, motor_regression,
+    ByDirection, ConstantVelocity, Estimate, FrictionLine, Identified, LawCandidate, LawTerm,
+    NearRestEstimate, Options, RippleEstimate, RunToAdd, Shape, SteadyPoint, geometry_check,
+    identify, motor_regression,
 };
 use lissom::information::Figure;
 use lissom::plan::PlannedMotion;
@@ -109,8 +109,6 @@ fn with_directions(mut id: Identified) -> Identified {
     let falloff = Falloff::Exponential;
     id.friction.near_rest = Some(NearRestEstimate { torque: figure, speed: figure, falloff });
     id.friction.ripples = vec![RippleEstimate { torque: figure, per_angle: figure }];
-    id.friction.bristles =
-        Some(BristlesEstimate { stiffness: figure, damping: figure, travel: figure });
     if let Some(found) = &mut id.arm {
         found.arm.dry_terms = DryTerms {
             near_rest: Some(NearRest {
@@ -189,7 +187,6 @@ fn a_result_and_its_schema_name_the_same_keys() {
         "friction.curve[].windows",
         "friction.near_rest",
         "friction.ripples",
-        "friction.bristles",
         "arm.near_rest",
         "arm.ripples",
         "arm.bristles",

@@ -131,11 +131,6 @@ pub(crate) fn figure_rows(
         add("friction's ripple", Some(ripple.torque), torque(), None);
         add("  period", Some(ripple.period()), names.angle().to_owned(), None);
     }
-    if let Some(b) = f.bristles {
-        add("bristles, stiffness", Some(b.stiffness), names.coupling_unit(), None);
-        add("  damping", Some(b.damping), names.viscous_unit(), None);
-        add("  bend before slipping", Some(b.travel), names.angle().to_owned(), None);
-    }
     let inertia = reference.map(|r| r.inertia_kg_m2);
     add(names.inertia_name(), id.inertia, names.inertia_unit(), inertia);
     if !id.beam.coupling_by_tip.is_empty() || id.beam.coupling.is_some() {

@@ -87,9 +87,6 @@ fn term(names: UnitNames, term: LawTerm) -> String {
         LawTerm::AfterTravel { travel } => {
             format!("after {} {angle} of travel", significant(travel, 4))
         }
-        LawTerm::Bristles { travel } => {
-            format!("bristles that bend by {} {angle}", significant(travel, 4))
-        }
         LawTerm::Root => "root of speed".to_owned(),
         LawTerm::Ripple { per_angle } => {
             let period = std::f64::consts::TAU / per_angle;

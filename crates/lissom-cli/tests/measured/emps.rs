@@ -31,8 +31,8 @@ fn viscous_friction_by_direction_is_found() {
     // The log's provenance: 166.7 forward, 239.6 backward, error 4.43 to 3.62 %.
     let split = &result["methods"]["regression"]["viscous_by_direction"];
     let value = |key: &str| split[key]["value"].as_f64().unwrap();
-    assert!((value("forward_n_s_per_m") / 166.7 - 1.0).abs() < 0.03);
-    assert!((value("backward_n_s_per_m") / 239.6 - 1.0).abs() < 0.03);
+    assert!((value("viscous_forward_n_s_per_m") / 166.7 - 1.0).abs() < 0.03);
+    assert!((value("viscous_backward_n_s_per_m") / 239.6 - 1.0).abs() < 0.03);
     assert!(common::has_finding(&result, "viscous-by-direction"));
 }
 

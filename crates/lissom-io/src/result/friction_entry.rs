@@ -1,16 +1,13 @@
 //! Friction as it was identified, in JSON.
 
-use lissom::identify::{
-    BristlesEstimate, CurvePoint, Friction, Identified, NearRestEstimate, RippleEstimate,
-};
+use lissom::identify::{CurvePoint, Friction, Identified, NearRestEstimate, RippleEstimate};
 use serde::{Deserialize, Serialize};
 
 use super::channel_names::{DirectionName, FalloffName};
 use super::estimate_entry::EstimateEntry;
 use super::unit_keys::{
-    AmplitudeKey, BackwardKey, CoulombKey, DampingKey, ForwardKey, FrictionKey, OffsetKey,
-    PeriodKey, SpeedKey, StiffnessKey, TravelKey, ViscousBackwardKey, ViscousForwardKey,
-    ViscousKey, WithUnit,
+    AmplitudeKey, BackwardKey, CoulombKey, ForwardKey, FrictionKey, OffsetKey, PeriodKey, SpeedKey,
+    ViscousBackwardKey, ViscousForwardKey, ViscousKey, WithUnit,
 };
 use super::unit_names::UnitNames;
 
@@ -60,9 +57,6 @@ pub struct FrictionEntry {
     /// Waves of friction over the travel, s*A*cos(2*pi*x/period + phase); absent unless the data show them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ripples: Vec<RippleEntry>,
-    /// What bends before the joint slips; absent unless the replay calls for it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub bristles: Option<BristlesEntry>,
     /// Friction against speed without a law, ascending in speed, forward then backward; speeds that no slip phase
     /// holds are not there.
     pub curve: Vec<CurvePointEntry>,
@@ -92,21 +86,6 @@ pub struct RippleEntry {
     /// Its period.
     #[serde(flatten)]
     pub period: Estimated<PeriodKey>,
-}
-
-/// F = stiffness*z + damping*dz/dt, z below the level of the rest of the law.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct BristlesEntry {
-    /// sigma_0.
-    #[serde(flatten)]
-    pub stiffness: Estimated<StiffnessKey>,
-    /// sigma_1.
-    #[serde(flatten)]
-    pub damping: Estimated<DampingKey>,
-    /// How far they bend at speed.
-    #[serde(flatten)]
-    pub travel: Estimated<TravelKey>,
 }
 
 /// A point of the friction curve.
@@ -150,7 +129,6 @@ impl FrictionEntry {
             viscous_backward: WithUnit::where_some(names, EstimateEntry::or_null(backward)),
             near_rest: f.near_rest.map(|near| NearRestEntry::of(names, constant, near)),
             ripples: f.ripples.iter().map(|r| RippleEntry::of(names, constant, *r)).collect(),
-            bristles: f.bristles.map(|b| BristlesEntry::of(names, b)),
             curve: curve.iter().map(|p| CurvePointEntry::of(names, constant, p)).collect(),
         }
     }
@@ -171,16 +149,6 @@ impl RippleEntry {
         Self {
             amplitude: WithUnit::torque(names, constant, Some(ripple.torque)),
             period: WithUnit::new(names, EstimateEntry::of(ripple.period())),
-        }
-    }
-}
-
-impl BristlesEntry {
-    fn of(names: UnitNames, b: BristlesEstimate) -> Self {
-        Self {
-            stiffness: WithUnit::new(names, EstimateEntry::of(b.stiffness)),
-            damping: WithUnit::new(names, EstimateEntry::of(b.damping)),
-            travel: WithUnit::new(names, EstimateEntry::of(b.travel)),
         }
     }
 }

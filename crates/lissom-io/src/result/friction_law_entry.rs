@@ -76,7 +76,7 @@ pub struct LawTermEntry {
     /// Its period; of `ripple` alone.
     #[serde(flatten)]
     pub period: WithUnit<PeriodKey, f64>,
-    /// Travel after a reversal that is left out; of `after-travel` and `bristles` alone.
+    /// Travel after a reversal that is left out; of `after-travel` alone.
     #[serde(flatten)]
     pub travel: WithUnit<TravelKey, f64>,
 }
@@ -129,8 +129,6 @@ pub enum LawTermName {
     NearRest,
     /// No amplitude: the first travel after reversals is left out.
     AfterTravel,
-    /// Bristles that bend before the joint slips.
-    Bristles,
     /// s*A*sqrt|v|.
     Root,
     /// s*(A1*cos(k*x) + A2*sin(k*x)) over the travel x.
@@ -209,7 +207,7 @@ impl LawTermEntry {
             LawTerm::Ripple { per_angle } => {
                 entry.period = WithUnit::new(names, std::f64::consts::TAU / per_angle);
             }
-            LawTerm::AfterTravel { travel } | LawTerm::Bristles { travel } => {
+            LawTerm::AfterTravel { travel } => {
                 entry.travel = WithUnit::new(names, travel);
             }
             LawTerm::ViscousByDirection | LawTerm::Root | LawTerm::CommandLag => {}
@@ -224,7 +222,6 @@ impl LawTermName {
             LawTerm::ViscousByDirection => Self::ViscousByDirection,
             LawTerm::NearRest { .. } => Self::NearRest,
             LawTerm::AfterTravel { .. } => Self::AfterTravel,
-            LawTerm::Bristles { .. } => Self::Bristles,
             LawTerm::Root => Self::Root,
             LawTerm::Ripple { .. } => Self::Ripple,
             LawTerm::CommandLag => Self::CommandLag,
@@ -240,7 +237,6 @@ fn amplitude_key(names: UnitNames, term: LawTerm) -> String {
             format!("amplitude_{}", names.torque())
         }
         LawTerm::Root => names.root_key("amplitude"),
-        LawTerm::Bristles { .. } => format!("amplitude_{}", names.angle()),
         LawTerm::CommandLag => "amplitude_s".to_owned(),
     }
 }

@@ -41,8 +41,7 @@ pub use equivalent_file::{
 pub use estimate_entry::{BeamModeEntry, EstimateEntry};
 pub use finding_entry::{FindingEntry, SeverityName};
 pub use friction_entry::{
-    BristlesEntry, CoulombEntry, CurvePointEntry, Estimated, FrictionEntry, NearRestEntry,
-    Refusable, RippleEntry,
+    CoulombEntry, CurvePointEntry, Estimated, FrictionEntry, NearRestEntry, Refusable, RippleEntry,
 };
 pub use friction_law_entry::{
     ChosenLawEntry, ChosenTermEntry, FrictionLawEntry, LawCandidateEntry, LawResidualEntry,

@@ -121,7 +121,7 @@ quantities! {
     VelocityKey = "velocity" in Speed;
     /// Period over the travel, 2*pi/k.
     PeriodKey = "period" in Angle;
-    /// Travel after a reversal; of bristles Coulomb friction over the stiffness.
+    /// Travel after a reversal.
     TravelKey = "travel" in Angle;
     /// Torque on the motor per deflection of a mode; sigma_0 of bristles.
     StiffnessKey = "stiffness" in Coupling;

@@ -22,8 +22,6 @@ pub struct Friction {
     pub near_rest: Option<NearRestEstimate>,
     /// Waves over the travel, where the data show them.
     pub ripples: Vec<RippleEstimate>,
-    /// What yields before the joint slips, where the replay calls for it.
-    pub bristles: Option<BristlesEstimate>,
 }
 
 impl Friction {
@@ -48,17 +46,6 @@ impl Friction {
             self.near_rest.map_or(0.0, |n| n.torque.value * n.falloff.share(speed / n.speed.value));
         Some(coulomb.value + viscous.value * speed + near)
     }
-}
-
-/// Bristles that bend before the joint slips: `F = σ0·z + σ1·ż`, all of the law above the level that they slip at.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BristlesEstimate {
-    /// σ0.
-    pub stiffness: Estimate,
-    /// σ1.
-    pub damping: Estimate,
-    /// How far they bend at speed, C/σ0.
-    pub travel: Estimate,
 }
 
 /// `s·A·e^{−|v|/v_s}` or `s·A·e^{−(v/v_s)²}`, s the direction.

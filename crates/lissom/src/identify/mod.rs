@@ -26,7 +26,7 @@ pub use equivalent::{
 pub use estimate::{Estimate, ModeEstimate};
 pub use finding::{Finding, Severity};
 pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
-pub use friction_estimates::{BristlesEstimate, Friction, NearRestEstimate, RippleEstimate};
+pub use friction_estimates::{Friction, NearRestEstimate, RippleEstimate};
 pub use geometry::{ArmQuantity, Explanation, GeometryCheck, geometry_check};
 pub use identified::{Beam, Identified, ThirdHarmonic};
 pub use methods::constant_velocity::{

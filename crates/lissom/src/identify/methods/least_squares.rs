@@ -72,7 +72,7 @@ pub struct LeastSquares {
 /// `[Feliu1989, eqs. (14), (15)]` is the equation.
 pub fn least_squares(campaign: &Campaign) -> Option<LeastSquares> {
     let tips = coupled_tips(campaign);
-    let runs: Vec<Smoothed<'_>> = campaign.runs.iter().map(|run| Smoothed::new(run)).collect();
+    let runs: Vec<Smoothed<'_>> = campaign.runs.iter().map(Smoothed::new).collect();
     let fastest = runs.iter().map(Smoothed::fastest).fold(0.0, f64::max);
     let least = LEAST_SPEED * fastest;
     let mut clusters = Vec::new();
@@ -271,12 +271,10 @@ impl<'a> Smoothed<'a> {
             }
         }));
         let command = self.value(run.command(), k);
-        let command = match channels.command.hold {
-            Hold::Measured => command,
-            // Held from each sample to the next: half of it is the sample before.
-            Hold::Sampled if k > self.half => 0.5 * (command + self.value(run.command(), k - 1)),
-            Hold::Sampled => command,
-        };
+        // Held from each sample to the next: half of it is the sample before.
+        let held = channels.command.hold == Hold::Sampled && k > self.half;
+        let command =
+            if held { 0.5 * (command + self.value(run.command(), k - 1)) } else { command };
         row.push(command * channels.command.torque_per_command.unwrap_or(1.0));
         row
     }

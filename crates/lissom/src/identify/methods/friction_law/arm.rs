@@ -11,7 +11,7 @@ impl LawFit {
     /// where the law has a term that an arm cannot have.
     pub(crate) fn put_terms_into(&self, arm: &mut ModalArm) -> bool {
         let unknown = self.terms.iter().any(|(term, _)| match term {
-            LawTerm::Root | LawTerm::AfterTravel { .. } | LawTerm::Bristles { .. } => true,
+            LawTerm::Root | LawTerm::AfterTravel { .. } => true,
             LawTerm::NearRest { falloff, .. } => *falloff != Falloff::Exponential,
             _ => false,
         });

@@ -46,12 +46,6 @@ pub enum LawTerm {
         /// That travel \[rad\].
         travel: f64,
     },
-    /// The joint bends before it slips (presliding): a state of its own, which the replay alone has. Its amplitude
-    /// is how far.
-    Bristles {
-        /// That travel \[rad\].
-        travel: f64,
-    },
     /// `s·A·√|v|`.
     Root,
     /// `s·(A_1·cos kθ + A_2·sin kθ)`.
@@ -70,7 +64,6 @@ impl LawTerm {
             Self::ViscousByDirection => "viscous-by-direction",
             Self::NearRest { .. } => "near-rest",
             Self::AfterTravel { .. } => "after-travel",
-            Self::Bristles { .. } => "bristles",
             Self::Root => "root",
             Self::Ripple { .. } => "ripple",
             Self::CommandLag => "command-lag",

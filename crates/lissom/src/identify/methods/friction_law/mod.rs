@@ -116,10 +116,7 @@ impl LawFit {
                 LawTerm::ViscousByDirection => direction * a * speed,
                 LawTerm::NearRest { speed: fall, falloff } => a * falloff.share(speed / fall),
                 LawTerm::Root => a * speed.sqrt(),
-                LawTerm::CommandLag
-                | LawTerm::Ripple { .. }
-                | LawTerm::AfterTravel { .. }
-                | LawTerm::Bristles { .. } => 0.0,
+                LawTerm::CommandLag | LawTerm::Ripple { .. } | LawTerm::AfterTravel { .. } => 0.0,
             };
         }
         Some(sum)

@@ -57,7 +57,6 @@ fn friction(law: &LawFit) -> Friction {
     Friction {
         near_rest,
         ripples: law.terms.iter().filter_map(ripple).collect(),
-        bristles: None,
         coulomb: law.coulomb,
         forward: sum(law.coulomb, law.offset, 1.0),
         backward: sum(law.coulomb, law.offset, -1.0),
@@ -85,10 +84,7 @@ pub(crate) fn finding(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<Findin
                 "nothing: all of it is less than a thousandth of Coulomb and viscous friction";
             return Some(told(Severity::Info, message, hint));
         }
-        let yields =
-            |(term, _): &(LawTerm, Vec<Estimate>)| matches!(term, LawTerm::Bristles { .. });
-        let hint = if by_replay.iter().any(yields) { YIELDS } else { AT_SPEED };
-        return Some(told(Severity::Warning, message, hint));
+        return Some(told(Severity::Warning, message, AT_SPEED));
     }
     let law = evidence.methods.friction_law.as_ref().filter(|law| law.chosen.departs())?;
     let taken = law.candidates.iter().filter(|c| c.taken && c.term != LawTerm::CommandLag);
@@ -127,7 +123,7 @@ fn is_negligible(friction: &Friction, (term, amplitude): &(LawTerm, Vec<Estimate
     let of = match term {
         LawTerm::ViscousByDirection => friction.viscous,
         LawTerm::NearRest { .. } | LawTerm::Ripple { .. } => friction.coulomb,
-        LawTerm::Root | LawTerm::AfterTravel { .. } | LawTerm::Bristles { .. } => None,
+        LawTerm::Root | LawTerm::AfterTravel { .. } => None,
         LawTerm::CommandLag => return true,
     };
     let largest = amplitude.iter().take(2).map(|a| a.value.abs()).fold(0.0, f64::max);
@@ -137,9 +133,6 @@ fn is_negligible(friction: &Friction, (term, amplitude): &(LawTerm, Vec<Estimate
 const AT_SPEED: &str = "Coulomb and viscous friction are those of this law at speed, not at rest: use \
                         the friction curve at the speed that matters; runs at other speeds show \
                         whether the law holds there";
-
-const YIELDS: &str = "Coulomb and viscous friction are those of this law at speed; at rest the joint is held by a \
-                      spring: a small reversal bends it and does not slip";
 
 const BRISTLES: &str = "Coulomb and viscous friction are those of this law at speed, not at rest; inertia and \
                         coupling are off by what bristles lag where friction changes with speed: drive \
@@ -176,9 +169,6 @@ fn term_in_words(axis: Axis, (term, amplitude): &(LawTerm, Vec<Estimate>)) -> St
         LawTerm::NearRest { speed, .. } => {
             format!("it falls by {:.3e} towards rest, within {speed:.3e} {angle}/s", -a)
         }
-        LawTerm::Bristles { travel } => format!(
-            "the joint bends by {travel:.3e} {angle} before it slips (bristles, presliding)"
-        ),
         LawTerm::Root => format!("it grows with the root of speed, by {a:.3e}"),
         LawTerm::Ripple { per_angle } => {
             let size = amplitude.iter().take(2).map(|e| e.value * e.value).sum::<f64>().sqrt();

@@ -2,9 +2,7 @@
 
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::{Estimate, ModeEstimate};
-use crate::identify::friction_estimates::{
-    BristlesEstimate, Friction, NearRestEstimate, RippleEstimate,
-};
+use crate::identify::friction_estimates::{Friction, NearRestEstimate, RippleEstimate};
 use crate::identify::methods::friction_law::LawTerm;
 use crate::identify::methods::output_error::describes::{is_left, stands};
 use crate::identify::methods::output_error::found::OutputError;
@@ -28,17 +26,7 @@ impl OutputError {
             viscous_by_direction: split.then(|| (viscous(0), viscous(1))),
             near_rest: self.near_rest(),
             ripples: self.ripples(),
-            bristles: self.bristles(),
         }
-    }
-
-    fn bristles(&self) -> Option<BristlesEstimate> {
-        let bends = |arm: &ModalArm| arm.coulomb_nm / Parameter::BristleStiffness.of(arm);
-        Some(BristlesEstimate {
-            stiffness: self.estimate(Parameter::BristleStiffness)?,
-            damping: self.estimate(Parameter::BristleDamping)?,
-            travel: self.figure(bends),
-        })
     }
 
     fn near_rest(&self) -> Option<NearRestEstimate> {
@@ -72,9 +60,6 @@ impl OutputError {
         }
         for r in self.ripples() {
             terms.push((LawTerm::Ripple { per_angle: r.per_angle.value }, vec![r.torque]));
-        }
-        if let Some(b) = self.bristles() {
-            terms.push((LawTerm::Bristles { travel: b.travel.value }, vec![b.travel]));
         }
         terms
     }
