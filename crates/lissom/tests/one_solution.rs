@@ -89,13 +89,11 @@ fn viscous_friction_by_direction_comes_with_its_own_coulomb_friction() {
     let id = found(sines, 40.0, friction);
     let regression = id.regression.as_ref().unwrap();
     let law = id.friction_law.as_ref().filter(|law| law.chosen.departs());
-    let (method, solution) = match law {
-        Some(law) => (Method::FrictionLaw, law.chosen.estimates()),
-        None => {
-            let split = regression.viscous_by_direction.as_ref().unwrap();
-            (Method::RegressionByDirection, split.estimates.clone())
-        }
-    };
+    let split = || regression.viscous_by_direction.as_ref().unwrap().estimates.clone();
+    let (method, solution) = law.map_or_else(
+        || (Method::RegressionByDirection, split()),
+        |law| (Method::FrictionLaw, law.chosen.estimates()),
+    );
     is_whole(&id, method, &solution);
     assert_ne!(id.friction.forward, regression.forward);
     let (forward, backward) = (id.friction.forward.unwrap(), id.friction.backward.unwrap());

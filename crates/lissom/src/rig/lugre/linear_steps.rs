@@ -113,8 +113,6 @@ fn made(scaled: &DMatrix<f64>, rate_per_s: f64, per_torque: f64, duration_s: f64
 
 #[cfg(test)]
 mod tests {
-    #![expect(clippy::unwrap_used, reason = "tests")]
-
     use super::*;
     use crate::beam::{LumpedBeam, Span};
     use crate::drive::{Coulomb, Motor};
