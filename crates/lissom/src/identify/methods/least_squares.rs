@@ -1,10 +1,8 @@
 //! Ordinary least squares of the motor's equation: the baseline that other methods must beat.
 
 use crate::identify::drive_estimates::DriveEstimates;
-use crate::identify::estimate::Estimate;
-use crate::identify::friction_estimates::Friction;
 use crate::identify::methods::regression::{
-    Cluster, Solution, Term, coupled_tips, slip_phases, smoothing, solve,
+    Cluster, Fitted, Term, coupled_tips, slip_phases, smoothing, solve,
 };
 use crate::identify::prepare::channel_noise::channel_noise;
 use crate::record::{Campaign, Hold, Run, TipQuantity};
@@ -102,19 +100,21 @@ pub fn least_squares(campaign: &Campaign) -> Option<LeastSquares> {
         return None;
     }
     let solution = solve(&clusters, &terms)?;
-    let back_emf_viscous = campaign.channels.command.back_emf_viscous;
+    // One width of smoothing: no change with it is known.
+    let unchanged = vec![0.0; terms.len()];
+    let fitted = Fitted { solution: &solution, change: &unchanged, tips: &tips };
     let mut products = [1.0, -1.0].map(|sign| Cluster::new(0, sign, TIPS + tips.len() + 1));
     for cluster in &clusters {
         products[usize::from(cluster.sign < 0.0)].merge(cluster);
     }
     Some(LeastSquares {
-        estimates: estimates(&solution, &tips, campaign.channels.tips.len(), back_emf_viscous),
+        estimates: fitted.estimates(&campaign.channels),
         speed_range: [slowest, fastest],
         samples,
         relative_residual: solution.relative_residual,
         products,
+        back_emf_viscous: campaign.channels.command.back_emf_viscous,
         tips,
-        back_emf_viscous,
     })
 }
 
@@ -147,34 +147,6 @@ impl LeastSquares {
             power += cluster.products[(last, last)];
         }
         (power > 0.0).then(|| (left.max(0.0) / power).sqrt())
-    }
-}
-
-fn estimates(s: &Solution, tips: &[usize], channels: usize, back_emf: f64) -> DriveEstimates {
-    let combined = |weights: &[(usize, f64)]| {
-        let lost = weights.is_empty() || weights.iter().any(|(i, _)| s.inseparable[*i]);
-        let sum = |of: &dyn Fn(usize) -> f64| weights.iter().map(|(i, w)| w * of(*i)).sum::<f64>();
-        let variance = sum(&|i| sum(&|k| s.covariance[(i, k)]));
-        (!lost).then(|| Estimate { value: sum(&|i| s.value[i]), std: variance.max(0.0).sqrt() })
-    };
-    let couplings: Vec<(usize, f64)> = (4..4 + tips.len()).map(|i| (i, 1.0)).collect();
-    let mut coupling_by_tip = vec![None; if tips.is_empty() { 0 } else { channels }];
-    for (i, tip) in tips.iter().enumerate() {
-        coupling_by_tip[*tip] = combined(&[(4 + i, 1.0)]);
-    }
-    let viscous = combined(&[(1, 1.0)]);
-    DriveEstimates {
-        friction: Friction {
-            coulomb: combined(&[(2, 1.0)]),
-            forward: combined(&[(2, 1.0), (3, 1.0)]),
-            backward: combined(&[(2, 1.0), (3, -1.0)]),
-            offset: combined(&[(3, 1.0)]),
-            viscous: viscous.map(|v| Estimate { value: v.value - back_emf, std: v.std }),
-            ..Friction::default()
-        },
-        inertia: combined(&[(0, 1.0)]),
-        coupling: combined(&couplings),
-        coupling_by_tip,
     }
 }
 

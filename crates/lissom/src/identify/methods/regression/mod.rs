@@ -3,6 +3,7 @@
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one: half the time")]
 
 mod beam;
+mod fitted;
 mod missing;
 mod motor;
 mod motor_rows;
@@ -14,9 +15,10 @@ mod verdict;
 mod window;
 
 pub use beam::{BeamRegression, beam_regression};
+pub(crate) use fitted::{COUPLING, Fitted};
 pub use missing::{MissingKind, MissingTerm};
+pub(crate) use motor::Terms;
 pub use motor::{ByDirection, MotorRegression, motor_regression};
-pub(crate) use motor::{COUPLING, Terms};
 pub(crate) use motor_rows::{MotorEquation, coupled_tips};
 pub(crate) use normal::{Cluster, Rows, Solution, Term, solve};
 pub(crate) use phases::{Phase, slip_phases, slip_sign, smoothing};

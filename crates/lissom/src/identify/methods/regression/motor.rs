@@ -5,23 +5,17 @@ use nalgebra::{DMatrix, DVector};
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::Estimate;
 use crate::identify::friction_estimates::Friction;
+use crate::identify::methods::regression::fitted::{COUPLING, Fitted, PLACE_OFFSET, PLACE_VISCOUS};
 use crate::identify::methods::regression::missing::{MissingTerm, missing_term};
 use crate::identify::methods::regression::motor_rows::{DRY, INERTIA, MotorRows, TIPS, VISCOUS};
 use crate::identify::methods::regression::normal::{Solution, Term, solve};
-use crate::identify::methods::regression::scan::{Candidate, RATIO, SYSTEMATIC, change, scan};
+use crate::identify::methods::regression::scan::{Candidate, RATIO, change, scan};
 use crate::record::{Campaign, Channels, Run};
 
 /// Directional viscous terms are reported when they differ by this many deviations…
 const DIRECTION_DEVIATIONS: f64 = 4.0;
 /// …and leave at most this share of the residual.
 const DIRECTION_RESIDUAL: f64 = 0.9;
-
-/// Places of the terms in the equation; that of half the difference of viscous friction follows the couplings.
-const PLACE_INERTIA: usize = 0;
-const PLACE_VISCOUS: usize = 1;
-const PLACE_COULOMB: usize = 2;
-const PLACE_OFFSET: usize = 3;
-pub(crate) const COUPLING: usize = 4;
 
 /// Figures of the motor's equation, in torque (or force) as the command's constant gives it.
 #[derive(Debug, Clone, PartialEq)]
@@ -158,75 +152,9 @@ fn on_slip_phases(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRegressi
         coupling: coupling_by_tip,
         viscous_by_direction,
         missing,
-        terms: one.terms(),
+        terms: terms_of(&one),
         candidates: found.candidates,
     })
-}
-
-/// A solution of the equation with what its window's length adds to the standard errors.
-struct Fitted<'a> {
-    solution: &'a Solution,
-    /// Change of each term from the next shorter to the next longer window.
-    change: &'a [f64],
-    /// Tips whose couplings are among the terms.
-    tips: &'a [usize],
-}
-
-impl Fitted<'_> {
-    /// `Σ w_i·q_i` over pairs of a term and its weight; `None` where the logs do not tell a term of it.
-    fn combined(&self, weights: &[(usize, f64)]) -> Option<Estimate> {
-        let Self { solution: s, change, .. } = self;
-        if weights.is_empty() || weights.iter().any(|(i, _)| s.inseparable[*i]) {
-            return None;
-        }
-        let sum = |of: &dyn Fn(usize) -> f64| weights.iter().map(|(i, w)| w * of(*i)).sum::<f64>();
-        let variance = sum(&|i| sum(&|k| s.covariance[(i, k)]));
-        let systematic = SYSTEMATIC * sum(&|i| change[i]);
-        let std = (variance.max(0.0) + systematic * systematic).sqrt();
-        Some(Estimate { value: sum(&|i| s.value[i]), std })
-    }
-
-    /// All estimates; with viscous friction by direction where the solution has a term for it.
-    fn estimates(&self, channels: &Channels) -> DriveEstimates {
-        let back_emf = channels.command.back_emf_viscous;
-        let without_back_emf = |e: Estimate| Estimate { value: e.value - back_emf, std: e.std };
-        let viscous = |weights: &[(usize, f64)]| self.combined(weights).map(without_back_emf);
-        let single = |i: usize| self.combined(&[(i, 1.0)]);
-        let (count, difference) = (self.tips.len(), COUPLING + self.tips.len());
-        let by_direction = (self.solution.value.len() > difference)
-            .then(|| [1.0, -1.0].map(|sign| viscous(&[(PLACE_VISCOUS, 1.0), (difference, sign)])));
-        let mut coupling_by_tip = vec![None; if count == 0 { 0 } else { channels.tips.len() }];
-        for (i, &tip) in self.tips.iter().enumerate() {
-            coupling_by_tip[tip] = single(COUPLING + i);
-        }
-        let coulomb = |sign: f64| self.combined(&[(PLACE_COULOMB, 1.0), (PLACE_OFFSET, sign)]);
-        let friction = Friction {
-            coulomb: single(PLACE_COULOMB),
-            forward: coulomb(1.0),
-            backward: coulomb(-1.0),
-            offset: single(PLACE_OFFSET),
-            viscous: viscous(&[(PLACE_VISCOUS, 1.0)]),
-            viscous_by_direction: by_direction.and_then(|[f, b]| f.zip(b)),
-            ..Friction::default()
-        };
-        let all: Vec<(usize, f64)> = (COUPLING..difference).map(|i| (i, 1.0)).collect();
-        DriveEstimates {
-            friction,
-            inertia: single(PLACE_INERTIA),
-            coupling: self.combined(&all),
-            coupling_by_tip,
-        }
-    }
-
-    fn terms(&self) -> Terms {
-        let s = self.solution;
-        Terms {
-            values: s.value.iter().copied().collect(),
-            covariance: s.covariance.clone(),
-            lost: s.lost.clone(),
-            tips: self.tips.len(),
-        }
-    }
 }
 
 impl MotorRegression {
@@ -300,6 +228,16 @@ fn by_direction(
     Some(ByDirection {
         estimates: fitted.estimates(channels),
         relative_residual: two.relative_residual,
-        terms: fitted.terms(),
+        terms: terms_of(&fitted),
     })
+}
+
+fn terms_of(fitted: &Fitted<'_>) -> Terms {
+    let s = fitted.solution;
+    Terms {
+        values: s.value.iter().copied().collect(),
+        covariance: s.covariance.clone(),
+        lost: s.lost.clone(),
+        tips: fitted.tips.len(),
+    }
 }
