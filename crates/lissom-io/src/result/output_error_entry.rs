@@ -36,7 +36,7 @@ pub struct OutputErrorEntry {
     pub whole_runs: bool,
     /// Every length of windows, in order.
     pub stages: Vec<StageEntry>,
-    /// Parameters tried beside those of the simplest law: what one step with each promises.
+    /// Further parameters that were tried: what one step with each promises.
     pub tried: Vec<ExtensionEntry>,
 }
 

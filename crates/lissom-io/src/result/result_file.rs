@@ -100,7 +100,7 @@ pub struct RunEntry {
     pub saturated_share: f64,
     /// Whether the regression uses it.
     pub usable: bool,
-    /// What a sinusoidal run has beside that; absent for other runs.
+    /// Further values of a sinusoidal run; absent for other runs.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub sinusoid: Option<SinusoidEntry>,
 }
@@ -118,7 +118,7 @@ pub enum RunKindName {
     General,
 }
 
-/// What a sinusoidal run has beside what every run has.
+/// Values that only a sinusoidal run has.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SinusoidEntry {

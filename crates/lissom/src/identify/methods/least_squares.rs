@@ -154,7 +154,7 @@ impl LeastSquares {
 struct Smoothed<'a> {
     run: &'a Run,
     sample_s: f64,
-    /// Samples over which the direction of motion is told.
+    /// Samples over which the velocity is smoothed for its sign.
     smooth: usize,
     /// Samples to either side in a parabola.
     half: usize,
