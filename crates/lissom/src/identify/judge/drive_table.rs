@@ -194,3 +194,190 @@ fn is_positive(e: Estimate) -> bool {
 fn is_known(e: Estimate) -> bool {
     e.value > e.std
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::identify::estimate::Estimate;
+    use crate::identify::identified::ThirdHarmonic;
+    use crate::identify::methods::constant_velocity::constant_velocity;
+    use crate::identify::methods::least_squares::least_squares;
+    use crate::identify::methods::regression::motor_regression;
+    use crate::record::{
+        Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
+    };
+
+    const TORQUE_PER_COMMAND: f64 = 2.0;
+    const BACK_EMF: f64 = 0.01;
+
+    fn about(value: f64) -> Estimate {
+        Estimate { value, std: 0.01 * value }
+    }
+
+    /// A sine of 20 s, and friction of 0.3 N·m with 0.05 N·m·s/rad.
+    fn campaign(tips: Vec<Tip>) -> Campaign {
+        let wave = |of: &dyn Fn(f64) -> f64| -> Vec<f64> {
+            (0..10_000).map(|k| of(2e-3 * f64::from(k))).collect()
+        };
+        let angle = |t: f64| (3.0 * t).sin();
+        let torque = |t: f64| {
+            let v = 3.0 * (3.0 * t).cos();
+            (-0.18 * (3.0 * t).sin() + 0.05 * v + 0.3 * v.signum()) / TORQUE_PER_COMMAND
+        };
+        let logged = tips.iter().map(|_| wave(&angle)).collect();
+        let time = TimeBase::uniform(0.0, 2e-3);
+        let run = Run::new("sine", time, wave(&torque), wave(&angle), logged).unwrap();
+        let command = Command {
+            quantity: CommandQuantity::Current,
+            hold: Hold::Measured,
+            torque_per_command: Some(TORQUE_PER_COMMAND),
+            back_emf_viscous: BACK_EMF,
+            limit: None,
+        };
+        Campaign::new(Channels { axis: Axis::Rotary, command, tips }, vec![run]).unwrap()
+    }
+
+    fn nothing() -> Methods {
+        Methods {
+            third_harmonic: None,
+            regression: None,
+            regression_residual: None,
+            least_squares: None,
+            friction_law: None,
+            constant_velocity: None,
+            beam_regression: None,
+            output_error: None,
+            beam_model: None,
+            motor_model: None,
+        }
+    }
+
+    fn chosen(campaign: &Campaign, methods: &Methods) -> (Option<Method>, DriveEstimates) {
+        choose(&Evidence { campaign, used: campaign, runs: &[], methods })
+    }
+
+    fn third_harmonic() -> ThirdHarmonic {
+        ThirdHarmonic {
+            pairs: Vec::new(),
+            coulomb_command: about(0.15),
+            spread_command: 0.0,
+            used: Vec::new(),
+            motor: None,
+        }
+    }
+
+    /// Rigid, or with one mode through which a beam is coupled.
+    fn model(flexible: bool) -> MotorFit {
+        let pole =
+            crate::identify::responses::rational::Pole { omega_rad_s: 9.0, damping_ratio: 0.01 };
+        let mode = flexible.then(|| (pole, about(0.4)));
+        MotorFit::of_figures(about(0.02), about(0.05), mode, TORQUE_PER_COMMAND, BACK_EMF)
+    }
+
+    #[test]
+    fn nothing_gives_nothing() {
+        assert_eq!(chosen(&campaign(vec![]), &nothing()), (None, DriveEstimates::default()));
+    }
+
+    #[test]
+    fn constant_velocities_come_last() {
+        let campaign = campaign(vec![]);
+        let mut found = constant_velocity(&campaign);
+        found.viscous = Some(about(0.07));
+        let mut methods = Methods { constant_velocity: Some(found), ..nothing() };
+        let (method, estimates) = chosen(&campaign, &methods);
+        assert_eq!(method, Some(Method::ConstantVelocity));
+        assert_eq!((estimates.friction.viscous, estimates.inertia), (Some(about(0.07)), None));
+        methods.third_harmonic = Some(third_harmonic());
+        assert_eq!(chosen(&campaign, &methods).0, Some(Method::ThirdHarmonic));
+    }
+
+    /// Coulomb friction alone, and with the model that it corrects the response for.
+    #[test]
+    fn the_third_harmonic_gives_its_own_model_whole() {
+        let campaign = campaign(vec![]);
+        let mut methods = Methods { third_harmonic: Some(third_harmonic()), ..nothing() };
+        let (method, alone) = chosen(&campaign, &methods);
+        assert_eq!(method, Some(Method::ThirdHarmonic));
+        assert_eq!(alone.friction.coulomb, Some(about(0.15).scaled(TORQUE_PER_COMMAND)));
+        assert_eq!((alone.inertia, alone.friction.viscous), (None, None));
+        methods.third_harmonic.as_mut().unwrap().motor = Some(model(false));
+        let (_, with) = chosen(&campaign, &methods);
+        assert_eq!(with.inertia, Some(about(0.02)));
+    }
+
+    /// The response is corrected for the third harmonic's friction, and back-EMF is no friction.
+    #[test]
+    fn without_a_regression_the_response_gives_all() {
+        let campaign = campaign(vec![]);
+        let methods = Methods {
+            third_harmonic: Some(third_harmonic()),
+            motor_model: Some(model(false)),
+            ..nothing()
+        };
+        let (method, estimates) = chosen(&campaign, &methods);
+        assert_eq!(method, Some(Method::FrequencyResponse));
+        assert_eq!(estimates.inertia, Some(about(0.02)));
+        assert!((estimates.friction.viscous.unwrap().value - 0.05).abs() < 1e-12);
+        assert_eq!(estimates.friction.coulomb, Some(about(0.15).scaled(TORQUE_PER_COMMAND)));
+    }
+
+    #[test]
+    fn least_squares_stand_in_for_a_regression_that_is_missing() {
+        let campaign = campaign(vec![]);
+        let methods = Methods {
+            least_squares: least_squares(&campaign),
+            motor_model: Some(model(false)),
+            ..nothing()
+        };
+        let (method, estimates) = chosen(&campaign, &methods);
+        assert_eq!(method, Some(Method::LeastSquares));
+        assert_eq!(estimates, methods.least_squares.unwrap().estimates);
+    }
+
+    #[test]
+    fn a_regression_comes_before_its_baseline() {
+        let campaign = campaign(vec![]);
+        let methods = Methods {
+            regression: motor_regression(&campaign, &[]),
+            least_squares: least_squares(&campaign),
+            motor_model: Some(model(false)),
+            ..nothing()
+        };
+        let (method, estimates) = chosen(&campaign, &methods);
+        assert_eq!(method, Some(Method::Regression));
+        assert_eq!(estimates, methods.regression.unwrap().estimates());
+    }
+
+    /// A regression that leaves far more of the torque than least squares do is not taken.
+    #[test]
+    fn a_regression_that_is_beaten_is_not_taken() {
+        let campaign = campaign(vec![]);
+        let mut regression = motor_regression(&campaign, &[]).unwrap();
+        regression.inertia = regression.inertia.map(|e| e.scaled(3.0));
+        let methods = Methods {
+            regression: Some(regression),
+            least_squares: least_squares(&campaign),
+            ..nothing()
+        };
+        assert_eq!(chosen(&campaign, &methods).0, Some(Method::LeastSquares));
+    }
+
+    /// Slip phases count a beam's inertia as the motor's where no tip shows an angle.
+    #[test]
+    fn a_response_with_modes_comes_before_slip_phases_without_angles() {
+        let tip =
+            Tip { name: "tip".to_owned(), quantity: TipQuantity::Acceleration, calibrated: false };
+        let campaign = campaign(vec![tip]);
+        let methods = Methods {
+            regression: motor_regression(&campaign, &[]),
+            motor_model: Some(model(true)),
+            ..nothing()
+        };
+        let (method, estimates) = chosen(&campaign, &methods);
+        assert_eq!(method, Some(Method::FrequencyResponse));
+        assert_eq!((estimates.inertia, estimates.coupling), (Some(about(0.02)), Some(about(0.4))));
+        let by_phases = methods.regression.as_ref().unwrap();
+        assert_eq!(estimates.friction.coulomb, by_phases.coulomb);
+    }
+}
