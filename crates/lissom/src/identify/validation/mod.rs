@@ -7,7 +7,7 @@ mod motion;
 mod moved_mode;
 mod residual;
 mod torque;
-mod verdict;
+mod validation_findings;
 mod zeros;
 
 pub use cause::{Cause, CauseKind};
@@ -158,7 +158,7 @@ pub fn validate(
     let findings = Vec::new();
     let mut validation =
         Validation { torque, horizons, chosen, stretches, residuals, moved_mode, findings };
-    validation.findings = verdict::findings(found, campaign, &validation);
+    validation.findings = validation_findings::findings(found, campaign, &validation);
     Ok(validation)
 }
 

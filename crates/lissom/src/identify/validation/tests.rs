@@ -1,7 +1,7 @@
 use super::*;
 use crate::identify::finding::Severity;
 use crate::identify::found_arm::{ArmSource, TorqueUsed};
-use crate::identify::validation::verdict::GOOD;
+use crate::identify::validation::validation_findings::GOOD;
 use crate::record::{
     Axis, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
 };

@@ -3,15 +3,15 @@
 mod average;
 mod findings;
 mod line;
+mod steady_friction;
 mod stretches;
-mod verdict;
 
 use crate::identify::estimate::Estimate;
 use crate::record::{Campaign, Channels, Run};
 pub(crate) use findings::{findings, no_stretch};
 pub use line::{FrictionLine, LineError, Shape};
+pub(crate) use steady_friction::{only_constant_velocities, taken};
 use stretches::stretches;
-pub(crate) use verdict::{only_constant_velocities, taken};
 
 /// A run that turns one way, and does so at constant velocities for this share of the time in
 /// motion, is made for them…

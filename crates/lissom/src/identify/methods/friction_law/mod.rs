@@ -7,18 +7,18 @@ mod arm;
 mod choice;
 mod curve;
 mod described;
+mod friction_law_findings;
 mod held;
 mod refine;
 mod ripple;
 mod rows;
 #[cfg(test)]
 mod tests;
-mod verdict;
 
 pub use choice::{LawCandidate, LawTerm};
 pub use curve::CurvePoint;
 pub(crate) use curve::CurveSums;
-pub(crate) use verdict::finding;
+pub(crate) use friction_law_findings::finding;
 
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::regression::{MotorRegression, RunNoise};
