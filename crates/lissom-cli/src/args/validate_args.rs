@@ -36,7 +36,7 @@ const HELP: &str = "\
   lissom identify campaign.toml --json result.json
   lissom validate result.json run-09.csv --like campaign.toml --plots plots
 
-Two predictions, and what is left of them:
+Two predictions and their residuals:
 
   torque   from the logged motion: what the figures say it takes, beside what was commanded.
            No figure is better known than this is predicted.

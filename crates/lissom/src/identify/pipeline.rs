@@ -387,8 +387,8 @@ fn kept(runs: &[RunAnalysis]) -> Vec<usize> {
     (0..runs.len()).filter(|&i| kept(&runs[i])).collect()
 }
 
-/// The output error on the usable runs, the `kept` ones of `runs`: from the arms `plain`, with the law of
-/// friction that slip phases show before them where it has more than Coulomb's.
+/// The output-error method on the usable runs, the `kept` ones of `runs`, from the arms `plain`. Friction terms that
+/// `law` tried are tried there too, where the residual calls for another law.
 fn replayed(
     usable: &Campaign,
     runs: &[RunAnalysis],
