@@ -13,7 +13,7 @@ use lissom::plan::PlannedMotion;
 use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
 };
-use lissom::replay::{Bristles, DryTerms, NearRest, Ripple};
+use lissom::replay::{DryTerms, NearRest, Ripple};
 use lissom::rig::{Experiment, Settle};
 use lissom_io::ResultFile;
 use lissom_testmodels::SchemaCheck;
@@ -117,7 +117,6 @@ fn with_directions(mut id: Identified) -> Identified {
                 falloff: Falloff::Exponential,
             }),
             ripples: vec![Ripple { per_rad: 9.0, cosine_nm: 0.1, sine_nm: 0.0 }],
-            bristles: Some(Bristles { stiffness_nm_per_rad: 90.0, damping_nm_s_per_rad: 0.1 }),
         };
     }
     if let Some(verdict) = &mut id.separability {
@@ -189,7 +188,6 @@ fn a_result_and_its_schema_name_the_same_keys() {
         "friction.ripples",
         "arm.near_rest",
         "arm.ripples",
-        "arm.bristles",
         "methods.constant_velocity.lines[].deviations",
         "methods.constant_velocity.points[].start_s",
         "models.from",

@@ -4,13 +4,13 @@ use std::f64::consts::TAU;
 
 use lissom::identify::{FoundArm, TorqueUsed};
 use lissom::record::{Channels, Tip};
-use lissom::replay::{Bristles, DryTerms, ModalArm, NearRest, Oscillator, Parameter, Ripple};
+use lissom::replay::{DryTerms, ModalArm, NearRest, Oscillator, Parameter, Ripple};
 use serde::{Deserialize, Serialize};
 
 use super::channel_names::{ArmSourceName, FalloffName, TipQuantityName};
 use super::unit_keys::{
-    AmplitudeKey, CosineKey, CoulombKey, DampingKey, InertiaKey, OffsetKey, PeriodKey, Quantity,
-    SineKey, SpeedKey, StiffnessKey, ViscousBackwardKey, ViscousForwardKey, WithUnit,
+    AmplitudeKey, CosineKey, CoulombKey, InertiaKey, OffsetKey, PeriodKey, Quantity, SineKey,
+    SpeedKey, StiffnessKey, ViscousBackwardKey, ViscousForwardKey, WithUnit,
 };
 use super::unit_names::UnitNames;
 
@@ -48,8 +48,6 @@ pub struct ArmEntry {
     pub near_rest: Option<ArmNearRestEntry>,
     /// Friction over the travel.
     pub ripples: Vec<ArmRippleEntry>,
-    /// Bristles.
-    pub bristles: Option<ArmBristlesEntry>,
     /// The command acts this much later than it is logged.
     pub command_lag_s: f64,
     /// Modes with the motor clamped, as oscillators on the motor.
@@ -92,19 +90,6 @@ pub struct ArmRippleEntry {
     /// Amplitude of the sine.
     #[serde(flatten)]
     pub sine: Number<SineKey>,
-}
-
-/// F = stiffness*z + damping*dz/dt, dz/dt = v - stiffness*|v|/g*z with g Coulomb friction and what is near rest and
-/// over the travel.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct ArmBristlesEntry {
-    /// sigma_0.
-    #[serde(flatten)]
-    pub stiffness: Number<StiffnessKey>,
-    /// sigma_1.
-    #[serde(flatten)]
-    pub damping: Number<DampingKey>,
 }
 
 /// A mode as an oscillator on the motor.
@@ -169,10 +154,6 @@ impl ArmEntry {
                 falloff: FalloffName::of(n.falloff),
             }),
             ripples: terms.ripples.iter().map(|r| ArmRippleEntry::of(names, r)).collect(),
-            bristles: terms.bristles.map(|b| ArmBristlesEntry {
-                stiffness: WithUnit::new(names, b.stiffness_nm_per_rad),
-                damping: WithUnit::new(names, b.damping_nm_s_per_rad),
-            }),
             command_lag_s: a.command_lag_s,
             modes: a.modes.iter().map(|m| OscillatorEntry::of(names, m)).collect(),
             tips: channels.tips.iter().zip(&a.shapes).enumerate().map(tip).collect(),
@@ -209,7 +190,6 @@ impl ArmEntry {
             dry_terms: DryTerms {
                 near_rest: self.near_rest.as_ref().map(|n| n.near_rest(names)).transpose()?,
                 ripples: ripples.collect::<Result<_, _>>()?,
-                bristles: self.bristles.as_ref().map(|b| b.bristles(names)).transpose()?,
             },
             shapes: self.tips.iter().map(|tip| tip.shape.clone()).collect(),
             at_points_per_s: self.damping_at_points_per_s.clone(),
@@ -259,16 +239,6 @@ impl ArmRippleEntry {
             per_rad: TAU / period,
             cosine_nm: number.of(&self.cosine)?,
             sine_nm: number.of(&self.sine)?,
-        })
-    }
-}
-
-impl ArmBristlesEntry {
-    fn bristles(&self, names: UnitNames) -> Result<Bristles, WrongKey> {
-        let number = Numbers { names, at: "arm.bristles" };
-        Ok(Bristles {
-            stiffness_nm_per_rad: number.positive(&self.stiffness)?,
-            damping_nm_s_per_rad: number.positive(&self.damping)?,
         })
     }
 }

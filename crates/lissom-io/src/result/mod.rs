@@ -26,9 +26,7 @@ pub mod unit_keys;
 mod unit_names;
 mod validation_file;
 
-pub use arm_entry::{
-    ArmBristlesEntry, ArmEntry, ArmNearRestEntry, ArmRippleEntry, ArmTipEntry, OscillatorEntry,
-};
+pub use arm_entry::{ArmEntry, ArmNearRestEntry, ArmRippleEntry, ArmTipEntry, OscillatorEntry};
 pub use channel_names::{ArmSourceName, AxisName, DirectionName, FalloffName, TipQuantityName};
 pub use constant_velocity_entry::{
     ConstantVelocityEntry, FrictionLineEntry, LineShapeName, SteadyPointEntry,

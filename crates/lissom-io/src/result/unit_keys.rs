@@ -123,10 +123,8 @@ quantities! {
     PeriodKey = "period" in Angle;
     /// Travel after a reversal.
     TravelKey = "travel" in Angle;
-    /// Torque on the motor per deflection of a mode; sigma_0 of bristles.
+    /// Torque on the motor per deflection of a mode.
     StiffnessKey = "stiffness" in Coupling;
-    /// sigma_1 of bristles.
-    DampingKey = "damping" in Viscous;
     /// Amplitude of the cosine over the travel.
     CosineKey = "cosine" in Torque;
     /// Amplitude of the sine over the travel.

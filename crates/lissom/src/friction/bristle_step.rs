@@ -31,9 +31,9 @@ pub(crate) struct BristleStep {
     pub(crate) linear: LinearStep,
     /// Beginning, middle and end.
     pub(crate) places: [Place; 3],
-    pub(crate) bending: Bending<f64>,
+    pub(crate) bending: Bending,
     /// Friction and deflection; friction without that of the [`LinearStep`]'s spring.
-    pub(crate) found: Bristled<f64>,
+    pub(crate) found: Bristled,
     /// Whether friction and motion agree.
     pub(crate) agrees: bool,
 }

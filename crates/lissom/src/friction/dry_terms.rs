@@ -1,12 +1,11 @@
 //! What dry friction has beyond one Coulomb constant: a change near rest, ripple over the travel.
 
-use super::bristles::Bristles;
 use super::falloff::Falloff;
 use super::place::Place;
 
 /// Largest share of its range by which an argument of the law may move over a step that is replayed
 /// with friction linear in time, its mean over the step right.
-pub(crate) const SHARE_PER_STEP: f64 = 0.4;
+const SHARE_PER_STEP: f64 = 0.4;
 /// Largest (rate × step) at which friction that falls with speed lets the speed grow, and the same where
 /// the motor has just been let go: what it errs by there grows with it.
 const GROWTH: f64 = 0.5;
@@ -17,8 +16,7 @@ const BEYOND: f64 = -0.5;
 const GONE: [f64; 2] = [9.0, 3.0];
 
 /// Dry friction's terms beside Coulomb and offset:
-/// `s·(A·e^{−|θ̇|/v_s} + Σ_i B_i·cos k_iθ + C_i·sin k_iθ)`, s the direction of motion; the joint sticks at rest,
-/// or is held by [`Bristles`], whose level all of dry friction then is.
+/// `s·(A·e^{−|θ̇|/v_s} + Σ_i B_i·cos k_iθ + C_i·sin k_iθ)`, s the direction of motion.
 ///
 /// # Source
 /// `[Armstrong1994]` for the falloff: with A > 0 the Stribeck effect, with A < 0 friction that grows less
@@ -29,8 +27,6 @@ pub struct DryTerms {
     pub near_rest: Option<NearRest>,
     /// Waves over the angle.
     pub ripples: Vec<Ripple>,
-    /// What yields before the joint slips.
-    pub bristles: Option<Bristles>,
 }
 
 /// `s·A·e^{−|θ̇|/v_s}` or `s·A·e^{−(θ̇/v_s)²}`.
@@ -58,7 +54,7 @@ pub struct Ripple {
 impl DryTerms {
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
-        self.near_rest.is_none() && self.ripples.is_empty() && self.bristles.is_none()
+        self.near_rest.is_none() && self.ripples.is_empty()
     }
 
     /// Torque against the motion at an angle and a speed: without s.

@@ -12,14 +12,10 @@ mod mode;
 mod place;
 
 pub(crate) use bristle_step::{BristleStep, LinearStep};
-pub use bristles::Bristles;
-pub(crate) use bristles::{
-    Bending, Bristled, DAMPING, DEFLECTION, INPUTS, LEVEL, STIFFNESS, VELOCITY,
-};
+pub(crate) use bristles::Bristles;
 pub use coulomb::Coulomb;
 pub use dry_friction::DryFriction;
 pub(crate) use dry_friction::FrictionSeries;
-pub(crate) use dry_terms::SHARE_PER_STEP;
 pub use dry_terms::{DryTerms, NearRest, Ripple};
 pub use error::DriveError;
 pub use falloff::Falloff;

@@ -18,9 +18,4 @@ impl Place {
         let sign = if way < 0.0 { -1.0 } else { 1.0 };
         Self { angle, speed: velocity.abs(), sign }
     }
-
-    /// Number of its direction: 0 forward, 1 backward.
-    pub(crate) fn direction(self) -> usize {
-        usize::from(self.sign < 0.0)
-    }
 }

@@ -17,9 +17,6 @@ impl DryTerms {
                 Parameter::RippleRate(i),
             ]);
         }
-        if self.bristles.is_some() {
-            found.extend([Parameter::BristleStiffness, Parameter::BristleDamping]);
-        }
         found
     }
 

@@ -103,25 +103,6 @@ impl Friction {
         }
     }
 
-    /// Its level g against the motion, without the offset.
-    pub(super) fn level(&self, at: Place) -> f64 {
-        self.coulomb + self.terms.braking_nm(at.angle, at.speed)
-    }
-
-    /// Derivatives of the level by angle and velocity.
-    pub(super) fn level_slopes(&self, at: Place) -> [f64; 2] {
-        // The level is the torque over the direction.
-        self.terms.slopes(at).map(|slope| at.sign * slope)
-    }
-
-    /// Its derivative by a parameter of its own.
-    pub(super) fn level_by(&self, p: Parameter, at: Place) -> f64 {
-        match p {
-            Parameter::Offset => 0.0,
-            _ => at.sign * self.by_at(p, at),
-        }
-    }
-
     /// Longest step over which it may be taken for linear in time \[s\].
     pub(super) fn step_s<const D: usize>(
         &self,

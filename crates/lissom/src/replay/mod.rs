@@ -6,7 +6,6 @@
 
 mod arm;
 mod arm_modes;
-mod bent;
 mod dry_parameters;
 mod events;
 mod friction;
@@ -21,7 +20,6 @@ mod parameter;
 mod piece_matrices;
 mod point_masses;
 mod prediction;
-mod presliding;
 mod rates;
 mod series;
 mod sums;
@@ -29,7 +27,7 @@ mod tangents;
 mod transition;
 mod window;
 
-pub use crate::friction::{Bristles, DryTerms, NearRest, Ripple};
+pub use crate::friction::{DryTerms, NearRest, Ripple};
 pub(crate) use arm::TURN_MOST;
 pub use arm::{MOST_MODES, ModalArm, Oscillator};
 pub use arm_modes::ArmModes;

@@ -1,6 +1,5 @@
 //! The replayed arm in motion: whole pieces of samples stuck or slipping, and their tangents.
 
-use super::bent::Bent;
 use super::friction::{Ends, Friction, Held, sign};
 use super::parameter::Parameter;
 use super::rates::{Phases, Rates};
@@ -72,8 +71,6 @@ pub(super) struct Motion<const D: usize> {
     pub(super) x: [f64; D],
     pub(super) tangents: Tangents<D>,
     pub(super) mode: Mode,
-    /// Where the joint rests on bristles.
-    pub(super) bristles: Bent,
     /// Time spent stuck \[s\].
     pub(super) stuck_s: f64,
     /// ∫ friction's torque dt \[N·m·s\], where it is wanted.
@@ -123,9 +120,6 @@ impl<const D: usize> Mover<D> {
 
     /// Friction's torque on the motor now: what holds it, or what it slips against.
     pub(super) fn friction_torque(&self, motion: &Motion<D>, torque: f64) -> f64 {
-        if self.friction.terms.bristles.is_some() {
-            return self.bristle_torque(motion);
-        }
         match motion.mode {
             Mode::Forward => self.friction.torque(&motion.x, 0),
             Mode::Backward => self.friction.torque(&motion.x, 1),
@@ -141,22 +135,13 @@ impl<const D: usize> Mover<D> {
     /// The motor's acceleration now.
     pub(super) fn motor_acceleration(&self, motion: &Motion<D>, torque: f64) -> f64 {
         let Some(direction) = direction(motion.mode) else { return 0.0 };
-        let own = self.acceleration(&motion.x, torque, direction);
-        if self.friction.terms.bristles.is_none() {
-            return own;
-        }
-        let rubs = self.friction.torque(&motion.x, direction) - self.bristle_torque(motion);
-        own + self.phases.slip[direction].b[1] * rubs
+        self.acceleration(&motion.x, torque, direction)
     }
 
     /// Moves on over prepared piece number `piece`, in parts where friction changes on the way.
     pub(super) fn advance(&self, motion: &mut Motion<D>, piece: usize, torque: Torque) {
         if self.halvings() == 0 {
             self.part(motion, piece, torque);
-            return;
-        }
-        if let Some(bristles) = &self.friction.terms.bristles {
-            self.over_bristles(motion, bristles, piece, torque);
             return;
         }
         let all = 1_usize << HALVINGS;
@@ -199,7 +184,7 @@ impl<const D: usize> Mover<D> {
 
     /// A motor at rest under a torque that has just changed: held or let go.
     fn settle(&self, motion: &mut Motion<D>, torque: f64) {
-        if motion.x[1] == 0.0 && self.friction.terms.bristles.is_none() {
+        if motion.x[1] == 0.0 {
             motion.mode = self.mode_at_rest(&motion.x, torque);
         }
     }

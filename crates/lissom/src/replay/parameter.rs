@@ -36,10 +36,6 @@ pub enum Parameter {
     RippleSine(usize),
     /// Waves of a ripple per angle.
     RippleRate(usize),
-    /// Stiffness σ0 of the bristles.
-    BristleStiffness,
-    /// Damping σ1 of the bristles.
-    BristleDamping,
     /// Lag of the command.
     CommandLag,
     /// Lag of a tip's readings behind the motor's.
@@ -84,9 +80,7 @@ impl Parameter {
             | Self::NearRestSpeed
             | Self::RippleCosine(_)
             | Self::RippleSine(_)
-            | Self::RippleRate(_)
-            | Self::BristleStiffness
-            | Self::BristleDamping => Enters::Torque,
+            | Self::RippleRate(_) => Enters::Torque,
             Self::CommandLag => Enters::Lag,
             Self::Shape(..) | Self::ShapeShare(..) | Self::TipLag(_) => Enters::Output,
         }
@@ -96,12 +90,7 @@ impl Parameter {
     pub fn is_scale(self) -> bool {
         matches!(
             self,
-            Self::Inertia
-                | Self::Frequency(_)
-                | Self::Stiffness(_)
-                | Self::NearRestSpeed
-                | Self::BristleStiffness
-                | Self::BristleDamping
+            Self::Inertia | Self::Frequency(_) | Self::Stiffness(_) | Self::NearRestSpeed
         )
     }
 
@@ -127,9 +116,7 @@ impl Parameter {
             | Self::Stiffness(_)
             | Self::Frequency(_)
             | Self::NearRestSpeed
-            | Self::RippleRate(_)
-            | Self::BristleStiffness
-            | Self::BristleDamping => positive(self.of(arm).abs(), 1.0),
+            | Self::RippleRate(_) => positive(self.of(arm).abs(), 1.0),
             Self::CommandLag => positive(self.of(arm), 1e-3),
             Self::TipLag(_) => positive(self.of(arm).abs(), 1e-3),
             _ => 1.0,
@@ -154,8 +141,6 @@ impl Parameter {
             Self::RippleCosine(i) => format!("ripple-cosine-{}", i + 1),
             Self::RippleSine(i) => format!("ripple-sine-{}", i + 1),
             Self::RippleRate(i) => format!("ripple-rate-{}", i + 1),
-            Self::BristleStiffness => "bristle-stiffness".to_owned(),
-            Self::BristleDamping => "bristle-damping".to_owned(),
             Self::CommandLag => "command-lag".to_owned(),
             Self::TipLag(i) => format!("tip-lag-{}", i + 1),
             Self::Shape(i, j) | Self::ShapeShare(i, j) => format!("shape-{}-{}", i + 1, j + 1),
@@ -181,10 +166,6 @@ impl Parameter {
             Self::RippleCosine(i) => arm.dry_terms.ripples[i].cosine_nm,
             Self::RippleSine(i) => arm.dry_terms.ripples[i].sine_nm,
             Self::RippleRate(i) => arm.dry_terms.ripples[i].per_rad,
-            Self::BristleStiffness => {
-                arm.dry_terms.bristles.map_or(0.0, |b| b.stiffness_nm_per_rad)
-            }
-            Self::BristleDamping => arm.dry_terms.bristles.map_or(0.0, |b| b.damping_nm_s_per_rad),
             Self::CommandLag => arm.command_lag_s,
             Self::TipLag(i) => arm.tip_lags_s.get(i).copied().unwrap_or(0.0),
             Self::Shape(i, j) | Self::ShapeShare(i, j) => arm.shapes[i][j],
@@ -217,12 +198,6 @@ impl Parameter {
             Self::RippleCosine(i) => arm.dry_terms.ripples[i].cosine_nm = value,
             Self::RippleSine(i) => arm.dry_terms.ripples[i].sine_nm = value,
             Self::RippleRate(i) => arm.dry_terms.ripples[i].per_rad = value,
-            Self::BristleStiffness => {
-                arm.dry_terms.bristles.iter_mut().for_each(|b| b.stiffness_nm_per_rad = value);
-            }
-            Self::BristleDamping => {
-                arm.dry_terms.bristles.iter_mut().for_each(|b| b.damping_nm_s_per_rad = value);
-            }
             Self::CommandLag => arm.command_lag_s = value,
             Self::TipLag(i) => {
                 arm.tip_lags_s.resize(arm.shapes.len(), 0.0);

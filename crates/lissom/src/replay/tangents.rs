@@ -53,14 +53,6 @@ impl<const D: usize> Tangents<D> {
         }
     }
 
-    /// After a whole piece over which friction answered the motor's motion: by `answers` to angle and velocity before
-    /// and after the piece as it would be without, and to the deflections `z`, beside what is each unknown's `own`.
-    /// The deflections at the end take the place of those.
-    pub(super) fn rubbed(&mut self, answers: &Rubbed<'_, D>, own: &[Answers], z: &mut [Lanes]) {
-        let (packs, before) = (&mut self.packs, &self.next);
-        self.arch.dispatch(Rubs { packs, before, answers, own, z });
-    }
-
     /// Multiplies the derivatives of one state.
     pub(super) fn scale(&mut self, state: usize, factor: f64) {
         for pack in &mut self.packs {
@@ -90,49 +82,6 @@ impl<const D: usize> Tangents<D> {
     /// Its numbers, [`LANES`] unknowns at a time.
     pub(super) fn packs(&self) -> &[Pack<D>] {
         &self.packs
-    }
-}
-
-/// Derivatives of friction at the beginning of a step, of its rise over it and of the bristles' deflection at the end,
-/// by [`LANES`] unknowns.
-pub(super) type Answers = [Lanes; 3];
-
-/// What friction, its rise and the deflection answer to the motor's angle and velocity before and after a piece and to
-/// the deflection before, and what torques do to the state.
-pub(super) struct Rubbed<'a, const D: usize> {
-    pub(super) to: [[f64; 3]; 5],
-    pub(super) push: &'a [f64; D],
-    pub(super) ramp: &'a [f64; D],
-}
-
-struct Rubs<'a, const D: usize> {
-    packs: &'a mut [Pack<D>],
-    before: &'a [Pack<D>],
-    answers: &'a Rubbed<'a, D>,
-    own: &'a [Answers],
-    z: &'a mut [Lanes],
-}
-
-impl<const D: usize> pulp::WithSimd for Rubs<'_, D> {
-    type Output = ();
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        let states = self.packs.iter_mut().zip(self.before);
-        for ((pack, before), (own, z)) in states.zip(self.own.iter().zip(self.z)) {
-            let known = [before[0], before[1], pack[0], pack[1], *z];
-            let mut sums = *own;
-            for (known, answers) in known.iter().zip(&self.answers.to) {
-                for (sum, answer) in sums.iter_mut().zip(answers) {
-                    add(sum, *answer, known);
-                }
-            }
-            let [from, rise, deflection] = sums;
-            for (i, lanes) in pack.iter_mut().enumerate() {
-                add(lanes, -self.answers.push[i], &from);
-                add(lanes, -self.answers.ramp[i], &rise);
-            }
-            *z = deflection;
-        }
     }
 }
 

@@ -102,15 +102,9 @@ impl<'a, const D: usize> Replayer<'a, D> {
         if with_tangents {
             (0..D).for_each(|i| *tangents.entry(i, shared + i) = 1.0);
         }
-        let bristles = self.mover.bent_steadily(&start, if with_tangents { shared + D } else { 0 });
-        let mode = match Mode::of(start[1]) {
-            // Nothing sticks on bristles.
-            Mode::Stick if self.arm.dry_terms.bristles.is_some() => Mode::Forward,
-            mode => mode,
-        };
+        let mode = Mode::of(start[1]);
         let friction_impulse = (!with_tangents).then_some(0.0);
-        let mut motion =
-            Motion { x: start, tangents, mode, bristles, stuck_s: 0.0, friction_impulse };
+        let mut motion = Motion { x: start, tangents, mode, stuck_s: 0.0, friction_impulse };
         let (first, last) = (*range.start(), *range.end());
         for sample in first..=last {
             let torque = self.before(run, sample);
@@ -288,11 +282,7 @@ impl<'a, const D: usize> Replayer<'a, D> {
                     for (c, a) in c.iter_mut().zip(&rates.a[1]) {
                         *c += left * a;
                     }
-                    let friction = match self.arm.dry_terms.bristles {
-                        Some(_) => self.mover.bristle_slopes(seen.motion).0,
-                        None => self.mover.friction.slopes(x, d),
-                    };
-                    for (c, f) in c.iter_mut().zip(friction) {
+                    for (c, f) in c.iter_mut().zip(self.mover.friction.slopes(x, d)) {
                         *c -= left * rates.b[1] * f;
                     }
                 }
@@ -324,14 +314,6 @@ impl<'a, const D: usize> Replayer<'a, D> {
         }
         let left = self.left(tip);
         let slip = direction(seen.motion.mode);
-        let bristles = self.arm.dry_terms.bristles.is_some();
-        if let Some(d) = slip.filter(|_| bristles) {
-            let by_z =
-                left * self.mover.phases.slip[d].b[1] * self.mover.bristle_slopes(seen.motion).1;
-            for (row, z) in row.iter_mut().zip(seen.motion.bristles.by.iter().flatten()) {
-                *row -= by_z * z;
-            }
-        }
         for (index, p) in self.parameters.iter().enumerate() {
             let enters = p.enters(self.arm);
             if enters == Enters::Matrices {
@@ -344,9 +326,6 @@ impl<'a, const D: usize> Replayer<'a, D> {
             let friction = &self.mover.friction;
             row[index] += left
                 * match enters {
-                    Enters::Torque if bristles => {
-                        -rates.b[1] * self.mover.bristle_torque_by(*p, seen.motion)
-                    }
                     Enters::Torque => -rates.b[1] * friction.by(*p, x, d),
                     Enters::Matrices => {
                         rates.row_by(index, 1, x)

@@ -8,7 +8,7 @@ use crate::identify::methods::output_error::windows::{fastest_rad_s, travel};
 use crate::information::{Reduced, inverse};
 use crate::record::{Campaign, Run};
 use crate::replay::{
-    Bristles, ModalArm, Oscillator, Parameter, Ripple, Sampling, Window, WindowSums, costs, sums,
+    ModalArm, Oscillator, Parameter, Ripple, Sampling, Window, WindowSums, costs, sums,
 };
 
 /// Damping of the first step, relative to the diagonal; and over sensors' steps, whose edges refuse long ones.
@@ -40,9 +40,6 @@ const FASTEST_RIPPLE: f64 = 16.0;
 const SLOWEST_RIPPLE: f64 = 0.5;
 /// Speed over which friction near rest may change, at least, as a share of the fastest.
 const SLOWEST_LAW: f64 = 1e-3;
-/// Largest angle by which a motor may swing on its bristles in a sample \[rad\], and rate at which they may damp
-/// it over a sample: stiffer ones hold it as if it stuck, and take ever shorter steps to follow.
-const LARGEST_SWING: f64 = 12.0;
 /// Largest change of a window's first velocity in one step, as a share of the fastest in it: where the joint sticks
 /// soon the rest forgets that velocity, and nothing else bounds what a step makes of it. It may always come to rest.
 const LARGEST_KICK: f64 = 0.3;
@@ -287,12 +284,7 @@ fn is_braking(campaign: &Campaign, arm: &ModalArm, sample_s: f64) -> bool {
     let turns = |r: &Ripple| {
         r.per_rad * travel > SLOWEST_RIPPLE && r.per_rad * fastest * sample_s < FASTEST_RIPPLE
     };
-    let swings = |b: Bristles| {
-        let rate = (b.stiffness_nm_per_rad / arm.inertia_kg_m2).sqrt();
-        rate.max(b.damping_nm_s_per_rad / arm.inertia_kg_m2) * sample_s
-    };
-    terms.bristles.is_none_or(|b| swings(b) < LARGEST_SWING)
-        && terms.near_rest.is_none_or(|n| n.speed_rad_s > SLOWEST_LAW * fastest)
+    terms.near_rest.is_none_or(|n| n.speed_rad_s > SLOWEST_LAW * fastest)
         && terms.ripples.iter().all(turns)
         && arm.coulomb_nm + near > waves
 }
