@@ -32,8 +32,8 @@ pub mod write;
 
 pub use arm_file::{
     ArmError, ArmFile, BeamKind, BeamSpec, BristlesSpec, ControllerSpec, ConverterSpec, DriveSpec,
-    IntegerSpec, RestSpec, RigSpec, RippleSpec, SensorSpec, SensorSteps, SignalSpec, SpanSpec,
-    TipSpec,
+    FrictionSpec, IntegerSpec, RestSpec, RigSpec, RippleSpec, SensorSpec, SensorSteps, SignalSpec,
+    SpanSpec, TipSpec,
 };
 pub use campaign::{
     AnalysisOptions, CampaignError, CampaignFile, Known, ReadOptions, read_campaign,

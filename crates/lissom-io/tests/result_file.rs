@@ -113,6 +113,7 @@ fn with_directions(mut id: Identified) -> Identified {
         found.arm.dry_terms = DryTerms {
             near_rest: Some(NearRest {
                 torque_nm: 0.1,
+                offset_nm: 0.0,
                 speed_rad_s: 0.2,
                 falloff: Falloff::Exponential,
             }),

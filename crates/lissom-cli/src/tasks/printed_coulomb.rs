@@ -9,8 +9,8 @@ use serde_json::{Value, json};
 const PRINTED_A: [f64; 3] = [0.161, 0.152, 0.132];
 
 pub(crate) fn law(rig: &Rig) -> DryFriction {
-    match rig.scene.friction {
-        JointFriction::Dry(law) => law,
+    match &rig.scene.friction {
+        JointFriction::Dry(law) => law.clone(),
         _ => rig.arm.coulomb.into(),
     }
 }

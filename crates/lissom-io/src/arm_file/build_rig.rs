@@ -4,7 +4,6 @@ use std::path::Path;
 
 use lissom::arm::Arm;
 use lissom::beam::BeamError;
-use lissom::drive::{Coulomb, DriveError, DryFriction, LuGre};
 use lissom::rig::{
     Amplifier, ControlLaw, Delay, Harmonic, Instruments, IntegerPd, JointFriction, Noise, Pd, Pid,
     Quantiser, Rig, RigError, Scene, Sensor, Signal, TipWorld,
@@ -13,7 +12,6 @@ use lissom::rig::{
 use super::arm_error::{ArmError, absent};
 use super::arm_spec::ArmFile;
 use super::beam_spec::BeamKind;
-use super::drive_spec::DriveSpec;
 use super::rig_spec::{ControllerSpec, RigSpec, SensorSpec, SensorSteps};
 use super::tip_spec::{SignalSpec, TipSpec};
 
@@ -74,7 +72,7 @@ impl ArmFile {
         let rig_failed = |source| ArmError::Rig { file: path.to_owned(), source };
         let beam_failed = |source| ArmError::Beam { file: path.to_owned(), source };
         let friction = match &self.drive {
-            Some(drive) => friction(drive, arm.coulomb).map_err(drive_failed)?,
+            Some(drive) => drive.friction.joint(arm.coulomb).map_err(drive_failed)?,
             None => JointFriction::Arm,
         };
         let Some(tip) = &self.tip else { return Ok(Scene { friction, ..Scene::default() }) };
@@ -90,31 +88,6 @@ impl ArmFile {
         scene.check().map_err(rig_failed)?;
         Ok(scene)
     }
-}
-
-/// The joint's friction where it is more than the arm's constants.
-fn friction(drive: &DriveSpec, sliding: Coulomb) -> Result<JointFriction, DriveError> {
-    if let Some(bristles) = &drive.bristles {
-        let rest = match &drive.rest {
-            Some(rest) => Coulomb::by_direction(rest.forward_nm, rest.backward_nm)?,
-            None => sliding,
-        };
-        // Without another friction at rest its speed is of no use.
-        let velocity = drive.rest.map_or(1.0, |rest| rest.velocity_rad_s);
-        let (stiffness, damping) = (bristles.stiffness_nm_per_rad, bristles.damping_nm_s_per_rad);
-        let law = LuGre::new(stiffness, damping, sliding, rest, velocity)?;
-        return Ok(JointFriction::Bristles { law, tolerance: bristles.tolerance });
-    }
-    let mut law = DryFriction::from(sliding);
-    if let Some(rest) = &drive.rest {
-        let limits = Coulomb::by_direction(rest.forward_nm, rest.backward_nm)?;
-        law = law.with_rest(limits, rest.velocity_rad_s, rest.falloff)?;
-    }
-    if let Some(ripple) = &drive.ripple {
-        law = law.with_ripple(ripple.share, ripple.per_turn, ripple.phase_rad)?;
-    }
-    law = law.with_viscous_apart(drive.viscous_apart_nm_s_per_rad)?;
-    Ok(if law.is_constant() { JointFriction::Arm } else { JointFriction::Dry(law) })
 }
 
 fn world(tip: &TipSpec) -> Result<TipWorld, RigError> {

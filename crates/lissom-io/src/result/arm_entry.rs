@@ -1,27 +1,18 @@
 //! The arm of a result, in JSON: written from the arm found, and read back to it.
 
-use std::f64::consts::TAU;
-
 use lissom::identify::{FoundArm, TorqueUsed};
 use lissom::record::{Channels, Tip};
-use lissom::replay::{DryTerms, ModalArm, NearRest, Oscillator, Parameter, Ripple};
+use lissom::replay::{ModalArm, Oscillator, Parameter};
 use serde::{Deserialize, Serialize};
 
-use super::channel_names::{ArmSourceName, FalloffName, TipQuantityName};
+use super::arm_numbers::{Number, Numbers, WrongKey};
+use super::channel_names::{ArmSourceName, TipQuantityName};
+use super::friction_term_entries::ArmTermsEntry;
 use super::unit_keys::{
-    AmplitudeKey, CosineKey, CoulombKey, InertiaKey, OffsetKey, PeriodKey, Quantity, SineKey,
-    SpeedKey, StiffnessKey, ViscousBackwardKey, ViscousForwardKey, WithUnit,
+    CoulombKey, InertiaKey, OffsetKey, StiffnessKey, ViscousBackwardKey, ViscousForwardKey,
+    WithUnit,
 };
 use super::unit_names::UnitNames;
-
-/// No machine has a larger number in SI.
-const LARGEST: f64 = 1e12;
-
-/// Shortest period of a ripple, in radians or metres: a replay follows each wave.
-const SHORTEST: f64 = 1e-6;
-
-/// A number under a key with its unit.
-type Number<Q> = WithUnit<Q, f64>;
 
 /// The arm of a result. Torques are in N*m or N where the torque constant is known, else in the command's unit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -44,10 +35,9 @@ pub struct ArmEntry {
     /// (forward - backward)/2.
     #[serde(flatten)]
     pub offset: Number<OffsetKey>,
-    /// Friction near rest.
-    pub near_rest: Option<ArmNearRestEntry>,
-    /// Friction over the travel.
-    pub ripples: Vec<ArmRippleEntry>,
+    /// Its further friction.
+    #[serde(flatten)]
+    pub terms: ArmTermsEntry,
     /// The command acts this much later than it is logged.
     pub command_lag_s: f64,
     /// Modes with the motor clamped, as oscillators on the motor.
@@ -61,35 +51,6 @@ pub struct ArmEntry {
     pub torque_error: Option<f64>,
     /// Length of the window that both sides were averaged with.
     pub torque_window_s: Option<f64>,
-}
-
-/// s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), s the direction: friction at rest is A more than Coulomb friction.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct ArmNearRestEntry {
-    /// A.
-    #[serde(flatten)]
-    pub amplitude: Number<AmplitudeKey>,
-    /// v_s.
-    #[serde(flatten)]
-    pub speed: Number<SpeedKey>,
-    /// Which of the two.
-    pub falloff: FalloffName,
-}
-
-/// s*(cosine*cos(k*x) + sine*sin(k*x)) over the travel x, k = 2*pi/period.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct ArmRippleEntry {
-    /// Its period.
-    #[serde(flatten)]
-    pub period: Number<PeriodKey>,
-    /// Amplitude of the cosine.
-    #[serde(flatten)]
-    pub cosine: Number<CosineKey>,
-    /// Amplitude of the sine.
-    #[serde(flatten)]
-    pub sine: Number<SineKey>,
 }
 
 /// A mode as an oscillator on the motor.
@@ -121,15 +82,6 @@ pub struct ArmTipEntry {
     pub lag_s: f64,
 }
 
-/// A key of an arm that is missing, or not what it should be.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct WrongKey {
-    /// The key, dotted.
-    pub(crate) key: String,
-    /// What it should be.
-    pub(crate) expected: &'static str,
-}
-
 impl ArmEntry {
     /// The entry of an arm found.
     pub fn of(channels: &Channels, names: UnitNames, found: &FoundArm) -> Self {
@@ -140,7 +92,6 @@ impl ArmEntry {
             shape: shape.clone(),
             lag_s: Parameter::TipLag(i).of(a),
         };
-        let terms = &a.dry_terms;
         Self {
             from: ArmSourceName::of(found.source),
             inertia: WithUnit::new(names, a.inertia_kg_m2),
@@ -148,12 +99,7 @@ impl ArmEntry {
             viscous_backward: WithUnit::new(names, a.viscous_nm_s_per_rad[1]),
             coulomb: WithUnit::new(names, a.coulomb_nm),
             offset: WithUnit::new(names, a.offset_nm),
-            near_rest: terms.near_rest.map(|n| ArmNearRestEntry {
-                amplitude: WithUnit::new(names, n.torque_nm),
-                speed: WithUnit::new(names, n.speed_rad_s),
-                falloff: FalloffName::of(n.falloff),
-            }),
-            ripples: terms.ripples.iter().map(|r| ArmRippleEntry::of(names, r)).collect(),
+            terms: ArmTermsEntry::of(names, &a.dry_terms),
             command_lag_s: a.command_lag_s,
             modes: a.modes.iter().map(|m| OscillatorEntry::of(names, m)).collect(),
             tips: channels.tips.iter().zip(&a.shapes).enumerate().map(tip).collect(),
@@ -177,7 +123,6 @@ impl ArmEntry {
         }
         let lag = |tip: &ArmTipEntry| Numbers { names, at: "arm.tips[]" }.sane("lag_s", tip.lag_s);
         let lags = self.tips.iter().map(lag).collect::<Result<Vec<_>, _>>()?;
-        let ripples = self.ripples.iter().map(|r| r.ripple(names));
         let window = self.torque_window_s.filter(|window| *window > 0.0);
         let arm = ModalArm {
             inertia_kg_m2: number.positive(&self.inertia)?,
@@ -187,10 +132,7 @@ impl ArmEntry {
             ],
             coulomb_nm: number.of(&self.coulomb)?,
             offset_nm: number.of(&self.offset)?,
-            dry_terms: DryTerms {
-                near_rest: self.near_rest.as_ref().map(|n| n.near_rest(names)).transpose()?,
-                ripples: ripples.collect::<Result<_, _>>()?,
-            },
+            dry_terms: self.terms.dry_terms(names)?,
             shapes: self.tips.iter().map(|tip| tip.shape.clone()).collect(),
             at_points_per_s: self.damping_at_points_per_s.clone(),
             command_lag_s: number.sane("command_lag_s", self.command_lag_s)?,
@@ -205,40 +147,6 @@ impl ArmEntry {
                 .torque_error
                 .zip(window)
                 .map(|(relative_error, window_s)| TorqueUsed { relative_error, window_s }),
-        })
-    }
-}
-
-impl ArmNearRestEntry {
-    fn near_rest(&self, names: UnitNames) -> Result<NearRest, WrongKey> {
-        let number = Numbers { names, at: "arm.near_rest" };
-        Ok(NearRest {
-            torque_nm: number.of(&self.amplitude)?,
-            speed_rad_s: number.positive(&self.speed)?,
-            falloff: self.falloff.falloff(),
-        })
-    }
-}
-
-impl ArmRippleEntry {
-    fn of(names: UnitNames, r: &Ripple) -> Self {
-        Self {
-            period: WithUnit::new(names, TAU / r.per_rad),
-            cosine: WithUnit::new(names, r.cosine_nm),
-            sine: WithUnit::new(names, r.sine_nm),
-        }
-    }
-
-    fn ripple(&self, names: UnitNames) -> Result<Ripple, WrongKey> {
-        let number = Numbers { names, at: "arm.ripples[]" };
-        let period = number.of(&self.period)?;
-        if period < SHORTEST {
-            return Err(number.wrong(&number.key::<PeriodKey>(), "1e-6 or more"));
-        }
-        Ok(Ripple {
-            per_rad: TAU / period,
-            cosine_nm: number.of(&self.cosine)?,
-            sine_nm: number.of(&self.sine)?,
         })
     }
 }
@@ -266,39 +174,5 @@ impl OscillatorEntry {
             within_per_s: number.sane("damping_within_per_s", self.damping_within_per_s)?,
             grounded_per_s: number.sane("damping_grounded_per_s", self.damping_grounded_per_s)?,
         })
-    }
-}
-
-/// Takes numbers out of a table of an arm.
-struct Numbers {
-    names: UnitNames,
-    at: &'static str,
-}
-
-impl Numbers {
-    fn wrong(&self, key: &str, expected: &'static str) -> WrongKey {
-        WrongKey { key: format!("{}.{key}", self.at), expected }
-    }
-
-    fn key<Q: Quantity>(&self) -> String {
-        Q::keys(self.names).pop().unwrap_or_default()
-    }
-
-    fn sane(&self, key: &str, value: f64) -> Result<f64, WrongKey> {
-        if value.abs() > LARGEST {
-            return Err(self.wrong(key, "a number that a machine may have"));
-        }
-        Ok(value)
-    }
-
-    fn of<Q: Quantity>(&self, number: &Number<Q>) -> Result<f64, WrongKey> {
-        let key = self.key::<Q>();
-        let value = number.get(self.names).ok_or_else(|| self.wrong(&key, "a number"))?;
-        self.sane(&key, *value)
-    }
-
-    fn positive<Q: Quantity>(&self, number: &Number<Q>) -> Result<f64, WrongKey> {
-        let value = self.of(number)?;
-        if value > 0.0 { Ok(value) } else { Err(self.wrong(&self.key::<Q>(), "greater than zero")) }
     }
 }

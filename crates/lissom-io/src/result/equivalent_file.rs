@@ -7,8 +7,8 @@ use lissom::identify::{
 use serde::{Deserialize, Serialize};
 
 use super::estimate_entry::EstimateEntry;
+use super::estimate_entry::{Estimated, Refusable};
 use super::finding_entry::FindingEntry;
-use super::friction_entry::{Estimated, Refusable};
 use super::unit_keys::{
     CouplingKey, InertiaKey, MotorTorqueKey, PointTorqueKey, ViscousKey, WithUnit,
 };

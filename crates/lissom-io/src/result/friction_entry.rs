@@ -1,21 +1,16 @@
 //! Friction as it was identified, in JSON.
 
-use lissom::identify::{CurvePoint, Friction, Identified, NearRestEstimate, RippleEstimate};
+use lissom::identify::{CurvePoint, Friction, Identified};
 use serde::{Deserialize, Serialize};
 
-use super::channel_names::{DirectionName, FalloffName};
-use super::estimate_entry::EstimateEntry;
+use super::channel_names::DirectionName;
+use super::estimate_entry::{EstimateEntry, Estimated, Refusable};
+use super::friction_term_entries::FrictionTermsEntry;
 use super::unit_keys::{
-    AmplitudeKey, BackwardKey, CoulombKey, ForwardKey, FrictionKey, OffsetKey, PeriodKey, SpeedKey,
-    ViscousBackwardKey, ViscousForwardKey, ViscousKey, WithUnit,
+    BackwardKey, CoulombKey, ForwardKey, FrictionKey, OffsetKey, SpeedKey, ViscousBackwardKey,
+    ViscousForwardKey, ViscousKey, WithUnit,
 };
 use super::unit_names::UnitNames;
-
-/// An estimate that may be refused, under a key with its unit.
-pub type Refusable<Q> = WithUnit<Q, Option<EstimateEntry>>;
-
-/// An estimate under a key with its unit.
-pub type Estimated<Q> = WithUnit<Q, EstimateEntry>;
 
 /// Coulomb friction by direction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -51,41 +46,12 @@ pub struct FrictionEntry {
     /// Viscous friction backward; absent unless the data reject one constant.
     #[serde(flatten)]
     pub viscous_backward: Estimated<ViscousBackwardKey>,
-    /// What friction has near rest beyond Coulomb friction; absent unless the data call for it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub near_rest: Option<NearRestEntry>,
-    /// Waves of friction over the travel, s*A*cos(2*pi*x/period + phase); absent unless the data show them.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub ripples: Vec<RippleEntry>,
+    /// Its further terms.
+    #[serde(flatten)]
+    pub terms: FrictionTermsEntry,
     /// Friction against speed without a law, ascending in speed, forward then backward; speeds that no slip phase
     /// holds are not there.
     pub curve: Vec<CurvePointEntry>,
-}
-
-/// s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), s the direction.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct NearRestEntry {
-    /// A: friction at rest is Coulomb friction and this.
-    #[serde(flatten)]
-    pub amplitude: Refusable<AmplitudeKey>,
-    /// v_s.
-    #[serde(flatten)]
-    pub speed: Estimated<SpeedKey>,
-    /// Which of the two.
-    pub falloff: FalloffName,
-}
-
-/// A wave of friction over the travel.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct RippleEntry {
-    /// A.
-    #[serde(flatten)]
-    pub amplitude: Refusable<AmplitudeKey>,
-    /// Its period.
-    #[serde(flatten)]
-    pub period: Estimated<PeriodKey>,
 }
 
 /// A point of the friction curve.
@@ -127,28 +93,8 @@ impl FrictionEntry {
             viscous: WithUnit::new(names, EstimateEntry::or_null(f.viscous)),
             viscous_forward: WithUnit::where_some(names, EstimateEntry::or_null(forward)),
             viscous_backward: WithUnit::where_some(names, EstimateEntry::or_null(backward)),
-            near_rest: f.near_rest.map(|near| NearRestEntry::of(names, constant, near)),
-            ripples: f.ripples.iter().map(|r| RippleEntry::of(names, constant, *r)).collect(),
+            terms: FrictionTermsEntry::of(names, constant, f),
             curve: curve.iter().map(|p| CurvePointEntry::of(names, constant, p)).collect(),
-        }
-    }
-}
-
-impl NearRestEntry {
-    fn of(names: UnitNames, constant: f64, near: NearRestEstimate) -> Self {
-        Self {
-            amplitude: WithUnit::torque(names, constant, Some(near.torque)),
-            speed: WithUnit::new(names, EstimateEntry::of(near.speed)),
-            falloff: FalloffName::of(near.falloff),
-        }
-    }
-}
-
-impl RippleEntry {
-    fn of(names: UnitNames, constant: f64, ripple: RippleEstimate) -> Self {
-        Self {
-            amplitude: WithUnit::torque(names, constant, Some(ripple.torque)),
-            period: WithUnit::new(names, EstimateEntry::of(ripple.period())),
         }
     }
 }

@@ -3,12 +3,11 @@
 use lissom::identify::{Estimate, FrictionLaw, LawCandidate, LawFit, LawTerm};
 use serde::{Deserialize, Serialize};
 
-use super::channel_names::FalloffName;
-use super::estimate_entry::EstimateEntry;
-use super::friction_entry::{Estimated, Refusable};
+use super::estimate_entry::{EstimateEntry, Estimated, Refusable};
+use super::friction_term_entries::{LawTermEntry, amplitude_key};
 use super::unit_keys::{
-    AtRestKey, CoulombKey, CouplingKey, InertiaKey, LawAmplitudeKey, OffsetKey, PeriodKey,
-    SpeedKey, TravelKey, ViscousKey, WithUnit,
+    AtRestKey, CoulombKey, CouplingKey, InertiaKey, LawAmplitudeKey, OffsetKey, ViscousKey,
+    WithUnit,
 };
 use super::unit_names::UnitNames;
 
@@ -61,26 +60,6 @@ pub struct ChosenLawEntry {
     pub terms: Vec<ChosenTermEntry>,
 }
 
-/// A term of friction, without its amplitude.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct LawTermEntry {
-    /// Which.
-    pub term: LawTermName,
-    /// How it falls off with speed; of `near-rest` alone.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub falloff: Option<FalloffName>,
-    /// v_s; of `near-rest` alone.
-    #[serde(flatten)]
-    pub speed: WithUnit<SpeedKey, f64>,
-    /// Its period; of `ripple` alone.
-    #[serde(flatten)]
-    pub period: WithUnit<PeriodKey, f64>,
-    /// Travel after a reversal that is left out; of `after-travel` alone.
-    #[serde(flatten)]
-    pub travel: WithUnit<TravelKey, f64>,
-}
-
 /// A term of the law chosen.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -116,25 +95,6 @@ pub struct LawCandidateEntry {
     pub at_rest: Estimated<AtRestKey>,
     /// Whether it was taken.
     pub taken: bool,
-}
-
-/// A term of friction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case")]
-pub enum LawTermName {
-    /// s*D*v, s the direction.
-    ViscousByDirection,
-    /// s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), by falloff.
-    NearRest,
-    /// No amplitude: the first travel after reversals is left out.
-    AfterTravel,
-    /// s*A*sqrt|v|.
-    Root,
-    /// s*(A1*cos(k*x) + A2*sin(k*x)) over the travel x.
-    Ripple,
-    /// Time by which the command acts later.
-    CommandLag,
 }
 
 impl FrictionLawEntry {
@@ -187,56 +147,5 @@ impl LawCandidateEntry {
             at_rest: WithUnit::new(names, EstimateEntry::of(at_rest)),
             taken: c.taken,
         }
-    }
-}
-
-impl LawTermEntry {
-    fn of(names: UnitNames, term: LawTerm) -> Self {
-        let mut entry = Self {
-            term: LawTermName::of(term),
-            falloff: None,
-            speed: WithUnit::absent(),
-            period: WithUnit::absent(),
-            travel: WithUnit::absent(),
-        };
-        match term {
-            LawTerm::NearRest { speed, falloff } => {
-                entry.falloff = Some(FalloffName::of(falloff));
-                entry.speed = WithUnit::new(names, speed);
-            }
-            LawTerm::Ripple { per_angle } => {
-                entry.period = WithUnit::new(names, std::f64::consts::TAU / per_angle);
-            }
-            LawTerm::AfterTravel { travel } => {
-                entry.travel = WithUnit::new(names, travel);
-            }
-            LawTerm::ViscousByDirection | LawTerm::Root | LawTerm::CommandLag => {}
-        }
-        entry
-    }
-}
-
-impl LawTermName {
-    fn of(term: LawTerm) -> Self {
-        match term {
-            LawTerm::ViscousByDirection => Self::ViscousByDirection,
-            LawTerm::NearRest { .. } => Self::NearRest,
-            LawTerm::AfterTravel { .. } => Self::AfterTravel,
-            LawTerm::Root => Self::Root,
-            LawTerm::Ripple { .. } => Self::Ripple,
-            LawTerm::CommandLag => Self::CommandLag,
-        }
-    }
-}
-
-/// `amplitude` with the unit of the term.
-fn amplitude_key(names: UnitNames, term: LawTerm) -> String {
-    match term {
-        LawTerm::ViscousByDirection => names.viscous_key("amplitude"),
-        LawTerm::NearRest { .. } | LawTerm::AfterTravel { .. } | LawTerm::Ripple { .. } => {
-            format!("amplitude_{}", names.torque())
-        }
-        LawTerm::Root => names.root_key("amplitude"),
-        LawTerm::CommandLag => "amplitude_s".to_owned(),
     }
 }

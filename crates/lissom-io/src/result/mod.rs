@@ -6,6 +6,7 @@
 //! or `null` where it is refused; a finding then says why.
 
 mod arm_entry;
+mod arm_numbers;
 mod channel_names;
 mod constant_velocity_entry;
 mod equivalent_file;
@@ -13,6 +14,7 @@ mod estimate_entry;
 mod finding_entry;
 mod friction_entry;
 mod friction_law_entry;
+mod friction_term_entries;
 mod geometry_entry;
 mod linear_model_entries;
 mod method_entries;
@@ -26,7 +28,7 @@ pub mod unit_keys;
 mod unit_names;
 mod validation_file;
 
-pub use arm_entry::{ArmEntry, ArmNearRestEntry, ArmRippleEntry, ArmTipEntry, OscillatorEntry};
+pub use arm_entry::{ArmEntry, ArmTipEntry, OscillatorEntry};
 pub use channel_names::{ArmSourceName, AxisName, DirectionName, FalloffName, TipQuantityName};
 pub use constant_velocity_entry::{
     ConstantVelocityEntry, FrictionLineEntry, LineShapeName, SteadyPointEntry,
@@ -36,14 +38,15 @@ pub use equivalent_file::{
     EquivalentTorqueEntry, PointZerosEntry, ResponseZeroEntry, SpuriousName, SpuriousPoleEntry,
     StrainlessEntry,
 };
-pub use estimate_entry::{BeamModeEntry, EstimateEntry};
+pub use estimate_entry::{BeamModeEntry, EstimateEntry, Estimated, Refusable};
 pub use finding_entry::{FindingEntry, SeverityName};
-pub use friction_entry::{
-    CoulombEntry, CurvePointEntry, Estimated, FrictionEntry, NearRestEntry, Refusable, RippleEntry,
-};
+pub use friction_entry::{CoulombEntry, CurvePointEntry, FrictionEntry};
 pub use friction_law_entry::{
     ChosenLawEntry, ChosenTermEntry, FrictionLawEntry, LawCandidateEntry, LawResidualEntry,
-    LawTermEntry, LawTermName,
+};
+pub use friction_term_entries::{
+    ArmNearRestEntry, ArmRippleEntry, ArmTermsEntry, FrictionTermsEntry, LawTermEntry, LawTermName,
+    NearRestEntry, RippleEntry,
 };
 pub use geometry_entry::{ArmQuantityName, ExplanationEntry, GeometryEntry};
 pub use linear_model_entries::{

@@ -1,30 +1,20 @@
-//! Dry friction whose size follows speed and position: Coulomb, Stribeck, ripple.
+//! A joint's dry friction in the rig: Coulomb friction by direction, and the terms that all parts of the library share.
 
 use super::coulomb::Coulomb;
+use super::dry_terms::{DryTerms, TermSeries};
 use super::error::DriveError;
 use super::falloff::Falloff;
-
-/// Friction at rest that differs from the friction at speed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Stribeck {
-    rest: Coulomb,
-    velocity_rad_s: f64,
-    falloff: Falloff,
-}
-
-/// Friction that differs over the turn.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Ripple {
-    share: f64,
-    per_turn: f64,
-    phase_rad: f64,
-}
+use super::near_rest::NearRest;
+use super::place::Place;
+use super::ripple::Ripple;
+use super::taylor_row::Row;
 
 /// A joint's dry friction, with true sticking.
 ///
-/// While the joint turns forward it takes `F = [F_c + (F_s − F_c)·g(v/v_s)]·[1 + r·cos(N·θ_m + φ)] + D·|v|`,
-/// with `g` = 1 at rest and 0 at speed; backward likewise with that direction's figures, and −D. At rest
-/// the joint holds any torque up to `F_s` times the ripple at its angle. Viscous friction is the
+/// While the joint turns forward it takes
+/// `F = F_c + (F_s − F_c)·g(v/v_s) + r·C·cos(N·θ_m + φ) + D·|v|`, with `g` = 1 at rest and 0 at speed, and C the mean
+/// Coulomb friction of both directions; backward likewise with the values of that direction, and −D. At rest the
+/// joint holds any torque up to `F_s + r·C·cos(N·θ_m + φ)`. Viscous friction is the
 /// [`Motor`](crate::drive::Motor)'s, V + D forward and V − D backward.
 ///
 /// `F_s > F_c` is the Stribeck effect. `F_s < F_c` is viscous friction that grows less than
@@ -42,17 +32,16 @@ struct Ripple {
 ///
 /// # Source
 /// `[Feliu1989, Section 5]` for the constant; `[Armstrong1994]` for the rest.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct DryFriction {
     sliding: Coulomb,
-    stribeck: Option<Stribeck>,
-    ripple: Option<Ripple>,
+    terms: DryTerms,
     viscous_apart_nm_s_per_rad: f64,
 }
 
 impl From<Coulomb> for DryFriction {
     fn from(sliding: Coulomb) -> Self {
-        Self { sliding, stribeck: None, ripple: None, viscous_apart_nm_s_per_rad: 0.0 }
+        Self { sliding, terms: DryTerms::default(), viscous_apart_nm_s_per_rad: 0.0 }
     }
 }
 
@@ -61,9 +50,9 @@ impl DryFriction {
     /// speed over `velocity_rad_s` (v_s).
     ///
     /// # Errors
-    /// [`DriveError`] unless v_s > 0 and finite.
+    /// [`DriveError`] unless v_s > 0 and finite, and friction at rest is more than its ripple.
     pub fn with_rest(
-        self,
+        mut self,
         rest: Coulomb,
         velocity_rad_s: f64,
         falloff: Falloff,
@@ -72,16 +61,24 @@ impl DryFriction {
             let quantity = "velocity of the Stribeck law";
             return Err(DriveError::NotPositive { quantity, found: velocity_rad_s });
         }
-        Ok(Self { stribeck: Some(Stribeck { rest, velocity_rad_s, falloff }), ..self })
+        let (forward, backward) =
+            (rest.forward - self.sliding.forward, rest.backward - self.sliding.backward);
+        self.terms.near_rest = Some(NearRest {
+            torque_nm: 0.5 * (forward + backward),
+            offset_nm: 0.5 * (forward - backward),
+            speed_rad_s: velocity_rad_s,
+            falloff,
+        });
+        self.braking()
     }
 
-    /// The same with friction that changes over the turn by the share `share` (r), `per_turn` (N)
-    /// times a turn, from the phase `phase_rad` (φ) at angle zero.
+    /// The same with friction that changes over the turn by the share `share` (r) of the mean Coulomb friction,
+    /// `per_turn` (N) times a turn, from the phase `phase_rad` (φ) at angle zero.
     ///
     /// # Errors
-    /// [`DriveError`] unless 0 ≤ r < 1, N > 0 and φ is finite.
+    /// [`DriveError`] unless 0 ≤ r < 1, N > 0, φ is finite, and friction in both directions is more than its ripple.
     pub fn with_ripple(
-        self,
+        mut self,
         share: f64,
         per_turn: f64,
         phase_rad: f64,
@@ -100,7 +97,14 @@ impl DryFriction {
                 found: phase_rad,
             });
         }
-        Ok(Self { ripple: Some(Ripple { share, per_turn, phase_rad }), ..self })
+        let amplitude = 0.5 * share * (self.sliding.forward + self.sliding.backward);
+        let (sine, cosine) = phase_rad.sin_cos();
+        self.terms.ripples = vec![Ripple {
+            per_rad: per_turn,
+            cosine_nm: amplitude * cosine,
+            sine_nm: -amplitude * sine,
+        }];
+        self.braking()
     }
 
     /// The same with `apart_nm_s_per_rad` (D) more viscous friction forward, and as much less backward.
@@ -115,6 +119,21 @@ impl DryFriction {
         Ok(Self { viscous_apart_nm_s_per_rad: apart_nm_s_per_rad, ..self })
     }
 
+    /// Refuses friction that would push somewhere.
+    fn braking(self) -> Result<Self, DriveError> {
+        let waves: f64 = self.terms.ripples.iter().map(Ripple::amplitude_nm).sum();
+        let Coulomb { forward, backward } = self.sliding;
+        let (near, apart) = self.terms.near_rest.map_or((0.0, 0.0), |n| (n.torque_nm, n.offset_nm));
+        let rest = [forward + near + apart, backward + near - apart];
+        let least = rest.into_iter().fold(forward.min(backward), f64::min);
+        // A sum of the same numbers in another order is off by its rounding.
+        if least - waves < -f64::EPSILON * (forward + backward) {
+            let quantity = "friction in one direction, its ripple taken off";
+            return Err(DriveError::Negative { quantity, found: least - waves });
+        }
+        Ok(self)
+    }
+
     /// The friction at speed, ripple and viscous friction left out.
     pub fn sliding(&self) -> Coulomb {
         self.sliding
@@ -122,55 +141,33 @@ impl DryFriction {
 
     /// Whether there is none.
     pub fn is_zero(&self) -> bool {
-        let none = |c: Coulomb| c.forward == 0.0 && c.backward == 0.0;
-        let constant = none(self.sliding) && self.stribeck.is_none_or(|s| none(s.rest));
-        constant && self.viscous_apart_nm_s_per_rad == 0.0
+        let Coulomb { forward, backward } = self.at(0.0, 0.0);
+        let none = self.sliding.forward == 0.0 && self.sliding.backward == 0.0;
+        none && forward == 0.0 && backward == 0.0 && self.viscous_apart_nm_s_per_rad == 0.0
     }
 
     /// Whether it is constant in slip, so that the motion between events is linear.
     pub fn is_constant(&self) -> bool {
-        let terms = self.stribeck.is_some() || self.ripple.is_some();
-        !terms && self.viscous_apart_nm_s_per_rad == 0.0
+        self.terms.is_empty() && self.viscous_apart_nm_s_per_rad == 0.0
     }
 
     /// Friction in both directions at the speed `velocity_rad_s` and the angle `angle_rad`; at rest
     /// what the joint holds.
     pub fn at(&self, velocity_rad_s: f64, angle_rad: f64) -> Coulomb {
-        let ripple = self
-            .ripple
-            .map_or(1.0, |r| 1.0 + r.share * (r.per_turn * angle_rad + r.phase_rad).cos());
-        let side = |pick: fn(Coulomb) -> f64| {
-            let rest = self.stribeck.map_or(0.0, |s| {
-                let fall = s.falloff.share(velocity_rad_s.abs() / s.velocity_rad_s);
-                (pick(s.rest) - pick(self.sliding)) * fall
-            });
-            ripple * (pick(self.sliding) + rest)
-        };
-        let apart = self.viscous_apart_nm_s_per_rad * velocity_rad_s.abs();
-        Coulomb { forward: side(|c| c.forward) + apart, backward: side(|c| c.backward) - apart }
+        let speed = velocity_rad_s.abs();
+        let terms = |sign| self.terms.braking_nm(Place { angle: angle_rad, speed, sign });
+        let apart = self.viscous_apart_nm_s_per_rad * speed;
+        Coulomb {
+            forward: self.sliding.forward + terms(1.0) + apart,
+            backward: self.sliding.backward + terms(-1.0) - apart,
+        }
     }
 }
-
-/// Most Taylor coefficients of a friction torque.
-pub(crate) const COEFFICIENTS: usize = 25;
-type Row = [f64; COEFFICIENTS];
 
 /// Taylor coefficients of a friction torque along a motion, one after the other.
-///
-/// For `f = e^u`: `k·f_k = Σ j·u_j·f_{k−j}`, and likewise for the pair of sine and cosine.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct FrictionSeries {
-    exponent: Row,
-    fall: Row,
-    sine: Row,
-    cosine: Row,
-}
-
-impl Default for FrictionSeries {
-    fn default() -> Self {
-        let zero = [0.0; COEFFICIENTS];
-        Self { exponent: zero, fall: zero, sine: zero, cosine: zero }
-    }
+    terms: TermSeries,
 }
 
 impl FrictionSeries {
@@ -183,58 +180,16 @@ impl FrictionSeries {
         sign: f64,
         (angle, velocity): (&Row, &Row),
     ) -> f64 {
-        let pick = |c: Coulomb| if sign > 0.0 { c.forward } else { c.backward };
-        let sliding = pick(law.sliding);
+        let sliding = if sign > 0.0 { law.sliding.forward } else { law.sliding.backward };
         let constant = if k == 0 { sliding } else { 0.0 };
-        let smooth = law.stribeck.map_or(0.0, |s| {
-            self.extend_fall(&s, k, sign, velocity);
-            (pick(s.rest) - sliding) * self.fall[k]
-        });
-        let apart = law.viscous_apart_nm_s_per_rad * velocity[k];
-        let Some(ripple) = law.ripple else { return sign * (constant + smooth + apart) };
-        self.extend_waves(&ripple, k, angle);
-        // The product of the series (F_c + fall) and (1 + r·cos).
-        let rest = law.stribeck.map_or(0.0, |s| pick(s.rest) - sliding);
-        let size = |j: usize| if j == 0 { sliding } else { 0.0 } + rest * self.fall[j];
-        let product: f64 = (0..=k).map(|j| size(j) * self.cosine[k - j]).sum();
-        sign * (constant + smooth + apart + ripple.share * product)
-    }
-
-    fn extend_fall(&mut self, law: &Stribeck, k: usize, sign: f64, velocity: &Row) {
-        let scale = 1.0 / law.velocity_rad_s;
-        self.exponent[k] = match law.falloff {
-            Falloff::Exponential => -sign * scale * velocity[k],
-            Falloff::Gaussian => {
-                let square: f64 = (0..=k).map(|j| velocity[j] * velocity[k - j]).sum();
-                -scale * scale * square
-            }
-        };
-        self.fall[k] = if k == 0 {
-            self.exponent[0].exp()
-        } else {
-            let sum: f64 = (1..=k).map(|j| j as f64 * self.exponent[j] * self.fall[k - j]).sum();
-            sum / k as f64
-        };
-    }
-
-    fn extend_waves(&mut self, law: &Ripple, k: usize, angle: &Row) {
-        if k == 0 {
-            (self.sine[0], self.cosine[0]) = (law.per_turn * angle[0] + law.phase_rad).sin_cos();
-            return;
-        }
-        let (mut sine, mut cosine) = (0.0, 0.0);
-        for (j, turned) in angle[..=k].iter().enumerate() {
-            let rate = j as f64 * law.per_turn * turned;
-            sine += rate * self.cosine[k - j];
-            cosine -= rate * self.sine[k - j];
-        }
-        self.sine[k] = sine / k as f64;
-        self.cosine[k] = cosine / k as f64;
+        let terms = self.terms.next(&law.terms, k, sign, (angle, velocity));
+        sign * (constant + terms + law.viscous_apart_nm_s_per_rad * velocity[k])
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::taylor_row::COEFFICIENTS;
     use super::*;
 
     /// Friction along θ = 0.3 + 0.5·t − 0.2·t², summed and asked for directly.
@@ -242,7 +197,7 @@ mod tests {
     fn series_add_up_to_the_law() {
         for falloff in [Falloff::Exponential, Falloff::Gaussian] {
             let law = DryFriction::from(Coulomb::by_direction(0.03, 0.02).unwrap())
-                .with_rest(Coulomb::by_direction(0.05, 0.01).unwrap(), 0.7, falloff)
+                .with_rest(Coulomb::by_direction(0.05, 0.015).unwrap(), 0.7, falloff)
                 .and_then(|law| law.with_ripple(0.3, 7.0, 0.4))
                 .and_then(|law| law.with_viscous_apart(4e-3))
                 .unwrap();
@@ -268,11 +223,14 @@ mod tests {
     fn senseless_numbers_are_refused() {
         let law = DryFriction::from(Coulomb::symmetric(0.03).unwrap());
         let rest = Coulomb::symmetric(0.05).unwrap();
-        assert!(law.with_rest(rest, 0.0, Falloff::Gaussian).is_err());
-        assert!(law.with_rest(rest, f64::NAN, Falloff::Gaussian).is_err());
-        assert!(law.with_ripple(1.0, 6.0, 0.0).is_err());
-        assert!(law.with_ripple(0.1, 0.0, 0.0).is_err());
-        assert!(law.with_ripple(0.1, 6.0, f64::INFINITY).is_err());
-        assert!(law.with_viscous_apart(f64::NAN).is_err());
+        assert!(law.clone().with_rest(rest, 0.0, Falloff::Gaussian).is_err());
+        assert!(law.clone().with_rest(rest, f64::NAN, Falloff::Gaussian).is_err());
+        assert!(law.clone().with_ripple(1.0, 6.0, 0.0).is_err());
+        assert!(law.clone().with_ripple(0.1, 0.0, 0.0).is_err());
+        assert!(law.clone().with_ripple(0.1, 6.0, f64::INFINITY).is_err());
+        assert!(law.clone().with_viscous_apart(f64::NAN).is_err());
+        let least = Coulomb::symmetric(0.01).unwrap();
+        let rippled = law.with_ripple(0.5, 6.0, 0.0).unwrap();
+        assert!(rippled.with_rest(least, 1.0, Falloff::Gaussian).is_err());
     }
 }

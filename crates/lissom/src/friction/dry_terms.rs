@@ -1,26 +1,14 @@
 //! What dry friction has beyond one Coulomb constant: a change near rest, ripple over the travel.
 
-use super::falloff::Falloff;
+use super::near_rest::{NearRest, NearRestNumber, NearRestSeries};
 use super::place::Place;
+use super::ripple::{Ripple, RippleNumber, RippleSeries};
+use super::taylor_row::Row;
 
-/// Largest share of its range by which an argument of the law may move over a step that is replayed
-/// with friction linear in time, its mean over the step right.
-const SHARE_PER_STEP: f64 = 0.4;
-/// Largest (rate × step) at which friction that falls with speed lets the speed grow, and the same where
-/// the motor has just been let go: what it errs by there grows with it.
-const GROWTH: f64 = 0.5;
-const LET_GO: f64 = 0.1;
-/// Share of its speed by which the law is continued beyond a reversal.
-const BEYOND: f64 = -0.5;
-/// Speeds at which friction near rest has nothing left, over its own: of an exponential, and of a square's.
-const GONE: [f64; 2] = [9.0, 3.0];
-
-/// Dry friction's terms beside Coulomb and offset:
+/// Dry friction's terms beside Coulomb friction and offset: the torque of a sliding joint is
 /// `s·(A·e^{−|θ̇|/v_s} + Σ_i B_i·cos k_iθ + C_i·sin k_iθ)`, s the direction of motion.
 ///
-/// # Source
-/// `[Armstrong1994]` for the falloff: with A > 0 the Stribeck effect, with A < 0 friction that grows less
-/// than in proportion.
+/// The rig, the replay and the identification share them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DryTerms {
     /// Change near rest.
@@ -29,57 +17,48 @@ pub struct DryTerms {
     pub ripples: Vec<Ripple>,
 }
 
-/// `s·A·e^{−|θ̇|/v_s}` or `s·A·e^{−(θ̇/v_s)²}`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NearRest {
-    /// A \[N·m\]: friction at rest is C + A.
-    pub torque_nm: f64,
-    /// v_s \[rad/s\].
-    pub speed_rad_s: f64,
-    /// Which of the two.
-    pub falloff: Falloff,
-}
-
-/// `s·(B·cos kθ + C·sin kθ)`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ripple {
-    /// k: waves per turn, or radians per metre.
-    pub per_rad: f64,
-    /// B \[N·m\].
-    pub cosine_nm: f64,
-    /// C \[N·m\].
-    pub sine_nm: f64,
-}
-
 impl DryTerms {
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.near_rest.is_none() && self.ripples.is_empty()
     }
 
-    /// Torque against the motion at an angle and a speed: without s.
-    pub fn braking_nm(&self, angle_rad: f64, speed_rad_s: f64) -> f64 {
-        let near = self.near_rest.map_or(0.0, |n| n.torque_nm * n.share(speed_rad_s));
-        let wave = |r: &Ripple| {
-            let (sine, cosine) = (r.per_rad * angle_rad).sin_cos();
-            r.cosine_nm * cosine + r.sine_nm * sine
-        };
-        near + self.ripples.iter().map(wave).sum::<f64>()
+    /// Torque against the motion \[N·m\].
+    pub(crate) fn braking_nm(&self, at: Place) -> f64 {
+        let near = self.near_rest.map_or(0.0, |n| n.braking_nm(at));
+        near + self.ripples.iter().map(|r| r.braking_nm(at)).sum::<f64>()
     }
 
     /// Their torque on the motor, signed.
     pub(crate) fn torque_nm(&self, at: Place) -> f64 {
-        at.sign * self.braking_nm(at.angle, at.speed)
+        at.sign * self.braking_nm(at)
     }
 
     /// Derivatives of that by the angle and by the velocity.
     pub(crate) fn slopes(&self, at: Place) -> [f64; 2] {
-        let wave = |r: &Ripple| {
-            let (sine, cosine) = (r.per_rad * at.angle).sin_cos();
-            r.per_rad * (r.sine_nm * cosine - r.cosine_nm * sine)
+        let by_angle = self.ripples.iter().map(|r| r.slope(at)).sum::<f64>();
+        [at.sign * by_angle, self.near_rest.map_or(0.0, |n| n.slope(at))]
+    }
+
+    /// Derivative of that by one of the terms' own numbers.
+    pub(crate) fn torque_by(&self, number: FrictionNumber, at: Place) -> f64 {
+        let by = match number {
+            FrictionNumber::NearRest(number) => {
+                self.near_rest.map_or(0.0, |n| n.braking_by(number, at))
+            }
+            FrictionNumber::Ripple(i, number) => {
+                self.ripples.get(i).map_or(0.0, |r| r.braking_by(number, at))
+            }
         };
-        let near = self.near_rest.map_or(0.0, |n| n.torque_nm * n.falls(at.speed) / n.speed_rad_s);
-        [at.sign * self.ripples.iter().map(wave).sum::<f64>(), -near]
+        at.sign * by
+    }
+
+    /// All numbers in them.
+    pub(crate) fn numbers(&self) -> Vec<FrictionNumber> {
+        let of_ripple = |i| RippleNumber::ALL.map(|number| FrictionNumber::Ripple(i, number));
+        let near = self.near_rest.iter().flat_map(|_| NearRestNumber::ALL);
+        let near = near.map(FrictionNumber::NearRest);
+        near.chain((0..self.ripples.len()).flat_map(of_ripple)).collect()
     }
 
     /// Longest step over which friction may be taken for linear in time \[s\], for a motor that turns at
@@ -92,41 +71,81 @@ impl DryTerms {
         acceleration: f64,
         per_torque: f64,
     ) -> f64 {
-        let near = self.near_rest.filter(|n| n.acts_at(at.speed)).map(|n| {
-            let moves = SHARE_PER_STEP * n.speed_rad_s / acceleration.abs();
-            let growth = if at.speed < n.speed_rad_s { LET_GO } else { GROWTH };
-            moves.min(growth * n.speed_rad_s / (per_torque * n.torque_nm).abs())
-        });
-        let turns = self.ripples.iter().map(|r| SHARE_PER_STEP / (r.per_rad * turning).abs());
-        turns.chain(near).fold(f64::INFINITY, f64::min)
+        let near = self.near_rest.iter().map(|n| n.step_s(at, acceleration, per_torque));
+        near.chain(self.ripples.iter().map(|r| r.step_s(turning))).fold(f64::INFINITY, f64::min)
     }
 }
 
-impl NearRest {
-    /// What of it is there at a speed.
-    pub(crate) fn share(&self, speed: f64) -> f64 {
-        self.falloff.share(self.ratio(speed))
+/// One number of [`DryTerms`] that a search may move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FrictionNumber {
+    /// Of the change near rest.
+    NearRest(NearRestNumber),
+    /// Of a ripple, counted from zero.
+    Ripple(usize, RippleNumber),
+}
+
+impl FrictionNumber {
+    /// Whether it is positive by nature and spans decades, so that a search moves its logarithm.
+    pub fn is_scale(self) -> bool {
+        self == Self::NearRest(NearRestNumber::Speed)
     }
 
-    /// By how much that falls as the speed rises by v_s.
-    pub(crate) fn falls(&self, speed: f64) -> f64 {
-        let steeper = match self.falloff {
-            Falloff::Exponential => 1.0,
-            Falloff::Gaussian => 2.0 * self.ratio(speed),
+    /// Whether it is a torque, which is compared with Coulomb friction: the term has no effect where all of its torques
+    /// are zero.
+    pub fn is_torque(self) -> bool {
+        match self {
+            Self::NearRest(number) => number == NearRestNumber::Torque,
+            Self::Ripple(_, number) => number != RippleNumber::Rate,
+        }
+    }
+
+    /// Its name in results, ripples counted from one.
+    pub fn name(self) -> String {
+        match self {
+            Self::NearRest(number) => number.name().to_owned(),
+            Self::Ripple(i, number) => format!("{}-{}", number.name(), i + 1),
+        }
+    }
+
+    /// Its value; zero where its term is not there.
+    pub fn of(self, terms: &DryTerms) -> f64 {
+        match self {
+            Self::NearRest(number) => terms.near_rest.map_or(0.0, |n| number.of(&n)),
+            Self::Ripple(i, number) => terms.ripples.get(i).map_or(0.0, |r| number.of(r)),
+        }
+    }
+
+    /// Sets it; nothing happens where its term is not there.
+    pub fn set(self, terms: &mut DryTerms, value: f64) {
+        let place = match self {
+            Self::NearRest(number) => terms.near_rest.as_mut().map(|n| number.in_term(n)),
+            Self::Ripple(i, number) => terms.ripples.get_mut(i).map(|r| number.in_term(r)),
         };
-        steeper * self.share(speed)
+        place.into_iter().for_each(|place| *place = value);
     }
+}
 
-    fn ratio(&self, speed: f64) -> f64 {
-        (speed / self.speed_rad_s).max(BEYOND)
-    }
+/// Taylor coefficients of the terms' torque along a motion, one after the other.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct TermSeries {
+    near_rest: NearRestSeries,
+    ripples: Vec<RippleSeries>,
+}
 
-    /// Whether anything is left of it at a speed.
-    pub(crate) fn acts_at(&self, speed: f64) -> bool {
-        let gone = match self.falloff {
-            Falloff::Exponential => GONE[0],
-            Falloff::Gaussian => GONE[1],
-        };
-        speed < gone * self.speed_rad_s
+impl TermSeries {
+    /// The coefficient of order `k` of the torque against the motion while slipping in the direction of `sign`,
+    /// from those of angle and velocity up to that order.
+    pub(crate) fn next(
+        &mut self,
+        terms: &DryTerms,
+        k: usize,
+        sign: f64,
+        (angle, velocity): (&Row, &Row),
+    ) -> f64 {
+        self.ripples.resize_with(terms.ripples.len(), RippleSeries::default);
+        let near = terms.near_rest.map_or(0.0, |n| self.near_rest.next(&n, k, sign, velocity));
+        let ripples = self.ripples.iter_mut().zip(&terms.ripples);
+        near + ripples.map(|(series, ripple)| series.next(ripple, k, angle)).sum::<f64>()
     }
 }

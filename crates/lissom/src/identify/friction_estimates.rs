@@ -2,6 +2,8 @@
 
 use crate::drive::Falloff;
 use crate::identify::estimate::Estimate;
+use crate::identify::methods::friction_law::LawTerm;
+use crate::replay::{DryTerms, FrictionNumber, NearRestNumber};
 
 /// Friction, in torque (or force).
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -45,6 +47,39 @@ impl Friction {
         let near =
             self.near_rest.map_or(0.0, |n| n.torque.value * n.falloff.share(speed / n.speed.value));
         Some(coulomb.value + viscous.value * speed + near)
+    }
+}
+
+impl Friction {
+    /// The estimates of the terms of an arm: `number` gives that of one of their numbers where it was free, `any` that
+    /// of anything made of them.
+    pub(crate) fn of_terms(
+        terms: &DryTerms,
+        number: impl Fn(FrictionNumber) -> Option<Estimate>,
+        any: impl Fn(&dyn Fn(&DryTerms) -> f64) -> Estimate,
+    ) -> Self {
+        let near_rest = terms.near_rest.and_then(|n| {
+            let torque = number(FrictionNumber::NearRest(NearRestNumber::Torque))?;
+            let speed = number(FrictionNumber::NearRest(NearRestNumber::Speed))?;
+            Some(NearRestEstimate { torque, speed, falloff: n.falloff })
+        });
+        let ripple = |i: usize| RippleEstimate {
+            torque: any(&|terms| terms.ripples[i].amplitude_nm()),
+            per_angle: any(&|terms| terms.ripples[i].per_rad),
+        };
+        let ripples = (0..terms.ripples.len()).map(ripple).collect();
+        Self { near_rest, ripples, ..Self::default() }
+    }
+
+    /// Its terms as those of a law, with their amplitudes.
+    pub(crate) fn law_terms(&self) -> Vec<(LawTerm, Vec<Estimate>)> {
+        let near = self.near_rest.iter().map(|n| {
+            let term = LawTerm::NearRest { speed: n.speed.value, falloff: n.falloff };
+            (term, vec![n.torque])
+        });
+        let ripple =
+            |r: &RippleEstimate| (LawTerm::Ripple { per_angle: r.per_angle.value }, vec![r.torque]);
+        near.chain(self.ripples.iter().map(ripple)).collect()
     }
 }
 

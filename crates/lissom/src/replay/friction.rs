@@ -99,7 +99,8 @@ impl Friction {
         match p {
             Parameter::Coulomb => at.sign,
             Parameter::Offset => 1.0,
-            _ => self.terms.by(p, at),
+            Parameter::Friction(number) => self.terms.torque_by(number, at),
+            _ => 0.0,
         }
     }
 

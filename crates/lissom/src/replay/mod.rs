@@ -6,7 +6,6 @@
 
 mod arm;
 mod arm_modes;
-mod dry_parameters;
 mod events;
 mod friction;
 mod lanes;
@@ -27,7 +26,9 @@ mod tangents;
 mod transition;
 mod window;
 
-pub use crate::friction::{DryTerms, NearRest, Ripple};
+pub use crate::friction::{
+    DryTerms, FrictionNumber, NearRest, NearRestNumber, Ripple, RippleNumber,
+};
 pub(crate) use arm::TURN_MOST;
 pub use arm::{MOST_MODES, ModalArm, Oscillator};
 pub use arm_modes::ArmModes;

@@ -1,6 +1,7 @@
 //! Parameters of a replayed arm, each by name.
 
 use super::arm::ModalArm;
+use crate::friction::FrictionNumber;
 use crate::record::Channels;
 
 /// One number of a [`ModalArm`].
@@ -26,16 +27,8 @@ pub enum Parameter {
     Coulomb,
     /// Offset.
     Offset,
-    /// A, what friction near rest has beyond Coulomb's.
-    NearRest,
-    /// v_s, the speed over which it goes.
-    NearRestSpeed,
-    /// Cosine of a ripple.
-    RippleCosine(usize),
-    /// Sine of a ripple.
-    RippleSine(usize),
-    /// Waves of a ripple per angle.
-    RippleRate(usize),
+    /// A number of the friction terms beside Coulomb friction and offset.
+    Friction(FrictionNumber),
     /// Lag of the command.
     CommandLag,
     /// Lag of a tip's readings behind the motor's.
@@ -74,13 +67,7 @@ impl Parameter {
             | Self::DampingWithin(_)
             | Self::DampingGrounded(_)
             | Self::DampingAtPoint(_) => Enters::Matrices,
-            Self::Coulomb
-            | Self::Offset
-            | Self::NearRest
-            | Self::NearRestSpeed
-            | Self::RippleCosine(_)
-            | Self::RippleSine(_)
-            | Self::RippleRate(_) => Enters::Torque,
+            Self::Coulomb | Self::Offset | Self::Friction(_) => Enters::Torque,
             Self::CommandLag => Enters::Lag,
             Self::Shape(..) | Self::ShapeShare(..) | Self::TipLag(_) => Enters::Output,
         }
@@ -88,10 +75,11 @@ impl Parameter {
 
     /// Whether it is positive by nature and spans decades, so that a search moves its logarithm.
     pub fn is_scale(self) -> bool {
-        matches!(
-            self,
-            Self::Inertia | Self::Frequency(_) | Self::Stiffness(_) | Self::NearRestSpeed
-        )
+        match self {
+            Self::Inertia | Self::Frequency(_) | Self::Stiffness(_) => true,
+            Self::Friction(number) => number.is_scale(),
+            _ => false,
+        }
     }
 
     /// Whether it is a damper of the beam, of whatever kind.
@@ -105,18 +93,15 @@ impl Parameter {
         let first = arm.modes.first().map_or(1.0, |m| m.omega_rad_s);
         match self {
             Self::Viscous => positive(self.of(arm), 0.01 * arm.inertia_kg_m2 * first),
-            Self::Coulomb
-            | Self::Offset
-            | Self::NearRest
-            | Self::RippleCosine(_)
-            | Self::RippleSine(_) => positive(arm.coulomb_nm, arm.inertia_kg_m2 * first * first),
+            Self::Coulomb | Self::Offset => {
+                positive(arm.coulomb_nm, arm.inertia_kg_m2 * first * first)
+            }
+            Self::Friction(number) if number.is_torque() => Self::Coulomb.size(arm),
             // A damping ratio of a hundredth.
             Self::DampingWithin(j) | Self::DampingGrounded(j) => 0.02 * arm.modes[j].omega_rad_s,
-            Self::Inertia
-            | Self::Stiffness(_)
-            | Self::Frequency(_)
-            | Self::NearRestSpeed
-            | Self::RippleRate(_) => positive(self.of(arm).abs(), 1.0),
+            Self::Inertia | Self::Stiffness(_) | Self::Frequency(_) | Self::Friction(_) => {
+                positive(self.of(arm).abs(), 1.0)
+            }
             Self::CommandLag => positive(self.of(arm), 1e-3),
             Self::TipLag(_) => positive(self.of(arm).abs(), 1e-3),
             _ => 1.0,
@@ -136,11 +121,7 @@ impl Parameter {
             Self::DampingAtPoint(i) => format!("damping-at-point-{}", i + 1),
             Self::Coulomb => "coulomb".to_owned(),
             Self::Offset => "offset".to_owned(),
-            Self::NearRest => "near-rest".to_owned(),
-            Self::NearRestSpeed => "near-rest-speed".to_owned(),
-            Self::RippleCosine(i) => format!("ripple-cosine-{}", i + 1),
-            Self::RippleSine(i) => format!("ripple-sine-{}", i + 1),
-            Self::RippleRate(i) => format!("ripple-rate-{}", i + 1),
+            Self::Friction(number) => number.name(),
             Self::CommandLag => "command-lag".to_owned(),
             Self::TipLag(i) => format!("tip-lag-{}", i + 1),
             Self::Shape(i, j) | Self::ShapeShare(i, j) => format!("shape-{}-{}", i + 1, j + 1),
@@ -161,11 +142,7 @@ impl Parameter {
             Self::DampingAtPoint(i) => arm.at_points_per_s[i],
             Self::Coulomb => arm.coulomb_nm,
             Self::Offset => arm.offset_nm,
-            Self::NearRest => arm.dry_terms.near_rest.map_or(0.0, |n| n.torque_nm),
-            Self::NearRestSpeed => arm.dry_terms.near_rest.map_or(0.0, |n| n.speed_rad_s),
-            Self::RippleCosine(i) => arm.dry_terms.ripples[i].cosine_nm,
-            Self::RippleSine(i) => arm.dry_terms.ripples[i].sine_nm,
-            Self::RippleRate(i) => arm.dry_terms.ripples[i].per_rad,
+            Self::Friction(number) => number.of(&arm.dry_terms),
             Self::CommandLag => arm.command_lag_s,
             Self::TipLag(i) => arm.tip_lags_s.get(i).copied().unwrap_or(0.0),
             Self::Shape(i, j) | Self::ShapeShare(i, j) => arm.shapes[i][j],
@@ -189,15 +166,7 @@ impl Parameter {
             Self::DampingAtPoint(i) => arm.at_points_per_s[i] = value,
             Self::Coulomb => arm.coulomb_nm = value,
             Self::Offset => arm.offset_nm = value,
-            Self::NearRest => {
-                arm.dry_terms.near_rest.iter_mut().for_each(|n| n.torque_nm = value);
-            }
-            Self::NearRestSpeed => {
-                arm.dry_terms.near_rest.iter_mut().for_each(|n| n.speed_rad_s = value);
-            }
-            Self::RippleCosine(i) => arm.dry_terms.ripples[i].cosine_nm = value,
-            Self::RippleSine(i) => arm.dry_terms.ripples[i].sine_nm = value,
-            Self::RippleRate(i) => arm.dry_terms.ripples[i].per_rad = value,
+            Self::Friction(number) => number.set(&mut arm.dry_terms, value),
             Self::CommandLag => arm.command_lag_s = value,
             Self::TipLag(i) => {
                 arm.tip_lags_s.resize(arm.shapes.len(), 0.0);
@@ -234,6 +203,6 @@ pub fn free_parameters(channels: &Channels, arm: &ModalArm) -> Vec<Parameter> {
             free.extend((0..modes).map(|j| Parameter::Shape(i, j)));
         }
     }
-    free.extend(arm.dry_terms.parameters());
+    free.extend(arm.dry_terms.numbers().into_iter().map(Parameter::Friction));
     free
 }

@@ -281,6 +281,7 @@ fn with_terms(model: &ModalArm) -> ModalArm {
     model.dry_terms = DryTerms {
         near_rest: Some(NearRest {
             torque_nm: 0.02,
+            offset_nm: 0.0,
             speed_rad_s: 0.15,
             falloff: Falloff::Exponential,
         }),
@@ -299,14 +300,14 @@ fn derivatives_are_exact_under_further_terms_of_friction() {
     model.command_lag_s = 0.0013;
     let parameters = [
         Parameter::Inertia,
-        Parameter::NearRest,
+        Parameter::Friction(FrictionNumber::NearRest(NearRestNumber::Torque)),
         Parameter::Coulomb,
         Parameter::Frequency(0),
-        Parameter::NearRestSpeed,
-        Parameter::RippleSine(0),
+        Parameter::Friction(FrictionNumber::NearRest(NearRestNumber::Speed)),
+        Parameter::Friction(FrictionNumber::Ripple(0, RippleNumber::Sine)),
         Parameter::Offset,
-        Parameter::RippleCosine(0),
-        Parameter::RippleRate(0),
+        Parameter::Friction(FrictionNumber::Ripple(0, RippleNumber::Cosine)),
+        Parameter::Friction(FrictionNumber::Ripple(0, RippleNumber::Rate)),
         Parameter::CommandLag,
     ];
     // Steps over which friction is linear end elsewhere when parameters move, and the lag moves all of
@@ -323,11 +324,13 @@ fn replays_further_terms_of_friction_as_the_event_engine_does() {
     let arm = arm_of(crate::beam::Damping::Modal { ratios: vec![0.02, 0.01] }, 0.0);
     let plain = ModalArm::of_arm(&arm).unwrap();
     let sliding = Coulomb::symmetric(0.045).unwrap();
-    let rest = Coulomb::symmetric(0.065).unwrap();
+    let rest = Coulomb::by_direction(0.069, 0.061).unwrap();
     let stribeck = DryFriction::from(sliding).with_rest(rest, 0.15, Falloff::Exponential).unwrap();
     let ripple = DryFriction::from(sliding).with_ripple(0.2, 9.0, 0.4).unwrap();
     let whole = with_terms(&plain);
-    let near = DryTerms { ripples: vec![], ..whole.dry_terms.clone() };
+    let by_direction = |n: NearRest| NearRest { offset_nm: 0.004, ..n };
+    let near_rest = whole.dry_terms.near_rest.map(by_direction);
+    let near = DryTerms { near_rest, ripples: vec![] };
     let waves = DryTerms { near_rest: None, ..whole.dry_terms };
     for (friction, dry_terms) in [(stribeck, near), (ripple, waves)] {
         let model = ModalArm { offset_nm: 0.0, dry_terms, ..plain.clone() };

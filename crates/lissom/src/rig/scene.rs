@@ -5,7 +5,7 @@ use crate::arm::Arm;
 use crate::drive::{DryFriction, LuGre};
 
 /// The friction of a joint.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub enum JointFriction {
     /// Coulomb friction as the arm has it. Exact.
@@ -55,16 +55,16 @@ impl Scene {
 
     /// Relative tolerance of a step of the motion; `None` where it is exact to rounding.
     pub fn tolerance(&self) -> Option<f64> {
-        match self.friction {
+        match &self.friction {
             JointFriction::Dry(law) if !law.is_constant() => Some(Hybrid::BENT),
-            JointFriction::Bristles { tolerance, .. } => Some(tolerance),
+            JointFriction::Bristles { tolerance, .. } => Some(*tolerance),
             _ => None,
         }
     }
 
     /// What friction holds at rest, the lesser of both directions \[N·m\].
     pub(super) fn holds_nm(&self, arm: &Arm) -> f64 {
-        let rest = match self.friction {
+        let rest = match &self.friction {
             JointFriction::Arm => arm.coulomb,
             JointFriction::Dry(law) => law.at(0.0, 0.0),
             JointFriction::Bristles { law, .. } => law.at_rest(),
@@ -100,16 +100,16 @@ impl Scene {
         if let Some(held) = held {
             return Ok(Box::new(HeldMotion::with_state(held, &state)?));
         }
-        let dry = match self.friction {
+        let dry = match &self.friction {
             JointFriction::Arm => arm.coulomb.into(),
-            JointFriction::Dry(law) => law,
+            JointFriction::Dry(law) => law.clone(),
             JointFriction::Bristles { .. } if !self.is_alone() => {
                 return Err(RigError::Unsupported {
                     what: "bristles beside a world at the tip or changing payloads",
                 });
             }
             JointFriction::Bristles { law, tolerance } => {
-                return Ok(Box::new(LuGreMotion::with_state(arm, law, tolerance, &state, 0.0)?));
+                return Ok(Box::new(LuGreMotion::with_state(arm, *law, *tolerance, &state, 0.0)?));
             }
         };
         let later: Vec<(f64, &Arm)> = self.later.iter().map(|(t, arm)| (*t, arm)).collect();

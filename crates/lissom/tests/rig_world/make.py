@@ -64,7 +64,8 @@ def simulate(arm, friction, world, torques, dt, x0=None, changes=()):
         out = fc + (fs - fc) * g
         if "ripple" in friction:
             r, per, ph = friction["ripple"]
-            out *= 1 + r * np.cos(per * th + ph)
+            mean = 0.5 * (friction["forward"] + friction["backward"])
+            out += r * mean * np.cos(per * th + ph)
         return out
 
     def parts(x):

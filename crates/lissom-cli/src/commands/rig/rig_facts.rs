@@ -42,7 +42,7 @@ fn code(finding: &RigFinding) -> &'static str {
 /// The campaign, and the truth that identification is to find.
 pub(crate) fn campaign(rig: &Rig, plan: &PlanFile, runs: &[Value]) -> Value {
     let (arm, motor) = (&rig.arm, &rig.arm.motor);
-    let (sliding, rest) = match rig.scene.friction {
+    let (sliding, rest) = match &rig.scene.friction {
         JointFriction::Dry(law) => (law.sliding(), law.at(0.0, 0.0)),
         JointFriction::Bristles { law, .. } => (law.coulomb(), law.at_rest()),
         _ => (arm.coulomb, arm.coulomb),

@@ -3,6 +3,7 @@
 
 use std::ops::RangeInclusive;
 
+use crate::friction::Place;
 use crate::identify::methods::output_error::{Masks, masks};
 use crate::identify::prepare::channel_noise::channel_noise;
 use crate::identify::validation::cause::{Cause, Causes};
@@ -288,9 +289,13 @@ impl Predictor<'_> {
         let rows = (0..run.len() - n)
             .map(|k| {
                 let bent = |i: usize| {
-                    let dry = self.arm.coulomb_nm
-                        + self.arm.dry_terms.braking_nm(run.motor()[i], speed.velocity[i].abs());
-                    speed.sign(i) * dry + half * speed.velocity[i].abs()
+                    let at = Place {
+                        angle: run.motor()[i],
+                        speed: speed.velocity[i].abs(),
+                        sign: speed.sign(i),
+                    };
+                    let dry = self.arm.coulomb_nm + self.arm.dry_terms.braking_nm(at);
+                    at.sign * dry + half * speed.velocity[i].abs()
                 };
                 let velocity = kernel.rate(k, |i| run.motor()[i]);
                 let acceleration = kernel.acceleration(k, |i| run.motor()[i]);

@@ -6,6 +6,7 @@ use crate::drive::Falloff;
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::friction_law::described::Described;
 use crate::identify::methods::friction_law::held::Held;
+use crate::identify::methods::friction_law::law_term::LawTerm;
 use crate::identify::methods::friction_law::rows::{Block, Column, Cut, Sampled, fixed};
 use crate::identify::methods::friction_law::{LawFit, POSITIVE, ripple};
 use crate::identify::methods::regression::{Cluster, Solution, Term, coupled_tips, solve};
@@ -27,57 +28,6 @@ pub(super) const LAG_RATIO: f64 = 0.97;
 const LAG_STD: f64 = 0.1;
 /// Most terms.
 const MOST: usize = 4;
-
-/// A term beside Coulomb friction, one viscous constant and an offset.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum LawTerm {
-    /// `s·D·v`: viscous friction V + D forward, V − D backward.
-    ViscousByDirection,
-    /// `s·A·e^{−|v|/v_s}` or `s·A·e^{−(v/v_s)²}`: friction at rest is C + A (A > 0: Stribeck).
-    NearRest {
-        /// v_s \[rad/s\].
-        speed: f64,
-        /// Which of the two.
-        falloff: Falloff,
-    },
-    /// No amplitude of its own: friction that has not grown to its level yet, over so much travel since a
-    /// reversal (presliding), is left out.
-    AfterTravel {
-        /// That travel \[rad\].
-        travel: f64,
-    },
-    /// `s·A·√|v|`.
-    Root,
-    /// `s·(A_1·cos kθ + A_2·sin kθ)`.
-    Ripple {
-        /// k, radians of ripple per radian of angle (1/m on linear axes).
-        per_angle: f64,
-    },
-    /// The command acts later than it is logged; its amplitude is that time \[s\].
-    CommandLag,
-}
-
-impl LawTerm {
-    /// Its name in results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ViscousByDirection => "viscous-by-direction",
-            Self::NearRest { .. } => "near-rest",
-            Self::AfterTravel { .. } => "after-travel",
-            Self::Root => "root",
-            Self::Ripple { .. } => "ripple",
-            Self::CommandLag => "command-lag",
-        }
-    }
-
-    pub(super) fn is_near_rest(self) -> bool {
-        matches!(self, Self::NearRest { .. })
-    }
-
-    pub(super) fn is_ripple(self) -> bool {
-        matches!(self, Self::Ripple { .. })
-    }
-}
 
 /// A term that was tried, beside others that were in the law already.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -381,7 +331,7 @@ impl<'a> Search<'a> {
     /// Columns and terms that were taken and are no friction by speed.
     fn beside_friction(&self) -> (Vec<Column>, Vec<Term>) {
         let first = fixed(self.sampled.campaign);
-        let beside = |t: &&Tried| matches!(t.term, LawTerm::CommandLag | LawTerm::Ripple { .. });
+        let beside = |t: &&Tried| !t.term.is_by_speed();
         let (mut columns, mut terms) = (Vec::new(), Vec::new());
         for term in self.taken.iter().filter(beside).flat_map(|t| &t.terms) {
             let at = first + columns.len();

@@ -6,7 +6,7 @@ use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::friction_estimates::{Friction, NearRestEstimate, RippleEstimate};
 use crate::identify::judge::{Chosen, Evidence};
 use crate::identify::methods::friction_law::LawFit;
-use crate::identify::methods::friction_law::choice::LawTerm;
+use crate::identify::methods::friction_law::law_term::LawTerm;
 use crate::identify::methods::friction_law::refine::NEAR_REST_STEP;
 use crate::identify::methods::output_error::OutputError;
 use crate::record::Axis;

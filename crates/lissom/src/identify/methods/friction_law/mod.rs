@@ -9,16 +9,18 @@ mod curve;
 mod described;
 mod friction_law_findings;
 mod held;
+mod law_term;
 mod refine;
 mod ripple;
 mod rows;
 #[cfg(test)]
 mod tests;
 
-pub use choice::{LawCandidate, LawTerm};
+pub use choice::LawCandidate;
 pub use curve::CurvePoint;
 pub(crate) use curve::CurveSums;
 pub(crate) use friction_law_findings::finding;
+pub use law_term::LawTerm;
 
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::regression::{MotorRegression, RunNoise};
@@ -112,12 +114,7 @@ impl LawFit {
         sum += direction * self.offset.map_or(0.0, |o| o.value);
         for (term, amplitude) in &self.terms {
             let a = amplitude.first().map_or(0.0, |e| e.value);
-            sum += match *term {
-                LawTerm::ViscousByDirection => direction * a * speed,
-                LawTerm::NearRest { speed: fall, falloff } => a * falloff.share(speed / fall),
-                LawTerm::Root => a * speed.sqrt(),
-                LawTerm::CommandLag | LawTerm::Ripple { .. } | LawTerm::AfterTravel { .. } => 0.0,
-            };
+            sum += term.at_speed(a, speed, direction);
         }
         Some(sum)
     }

@@ -1,6 +1,7 @@
 //! The speed or the period of a term that was taken, to where least is left.
 
-use crate::identify::methods::friction_law::choice::{LawTerm, NEAR_REST, Search, solved};
+use crate::identify::methods::friction_law::choice::{NEAR_REST, Search, solved};
+use crate::identify::methods::friction_law::law_term::LawTerm;
 use crate::identify::methods::friction_law::ripple;
 use crate::identify::methods::friction_law::rows::{Column, fixed};
 use crate::identify::methods::regression::Term;

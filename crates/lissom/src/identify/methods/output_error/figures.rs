@@ -2,12 +2,12 @@
 
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::{Estimate, ModeEstimate};
-use crate::identify::friction_estimates::{Friction, NearRestEstimate, RippleEstimate};
+use crate::identify::friction_estimates::Friction;
 use crate::identify::methods::friction_law::LawTerm;
 use crate::identify::methods::output_error::describes::{is_left, stands};
 use crate::identify::methods::output_error::found::OutputError;
 use crate::record::{Channels, TipQuantity};
-use crate::replay::{ModalArm, Parameter};
+use crate::replay::{DryTerms, FrictionNumber, ModalArm, Parameter};
 
 impl OutputError {
     /// Friction, the damping of the command's back-EMF taken out.
@@ -24,28 +24,15 @@ impl OutputError {
             offset: self.estimate(Parameter::Offset),
             viscous: Some(self.figure(mean)),
             viscous_by_direction: split.then(|| (viscous(0), viscous(1))),
-            near_rest: self.near_rest(),
-            ripples: self.ripples(),
+            ..self.terms()
         }
     }
 
-    fn near_rest(&self) -> Option<NearRestEstimate> {
-        let torque = self.estimate(Parameter::NearRest)?;
-        let speed = self.estimate(Parameter::NearRestSpeed)?;
-        let falloff = self.arm.dry_terms.near_rest?.falloff;
-        Some(NearRestEstimate { torque, speed, falloff })
-    }
-
-    fn ripples(&self) -> Vec<RippleEstimate> {
-        let size = |arm: &ModalArm, i: usize| {
-            let r = arm.dry_terms.ripples[i];
-            r.cosine_nm.hypot(r.sine_nm)
-        };
-        let ripple = |i: usize| RippleEstimate {
-            torque: self.figure(|arm| size(arm, i)),
-            per_angle: self.figure(|arm| Parameter::RippleRate(i).of(arm)),
-        };
-        (0..self.arm.dry_terms.ripples.len()).map(ripple).collect()
+    /// The terms of friction beside Coulomb's, offset and viscous friction.
+    fn terms(&self) -> Friction {
+        let number = |number: FrictionNumber| self.estimate(Parameter::Friction(number));
+        let any = |of: &dyn Fn(&DryTerms) -> f64| self.figure(|arm| of(&arm.dry_terms));
+        Friction::of_terms(&self.arm.dry_terms, number, any)
     }
 
     /// What its friction has beyond Coulomb's and one viscous constant, as terms of a law.
@@ -54,13 +41,7 @@ impl OutputError {
         if let Some(difference) = self.estimate(Parameter::ViscousDifference) {
             terms.push((LawTerm::ViscousByDirection, vec![difference]));
         }
-        if let Some(n) = self.near_rest() {
-            let term = LawTerm::NearRest { speed: n.speed.value, falloff: n.falloff };
-            terms.push((term, vec![n.torque]));
-        }
-        for r in self.ripples() {
-            terms.push((LawTerm::Ripple { per_angle: r.per_angle.value }, vec![r.torque]));
-        }
+        terms.extend(self.terms().law_terms());
         terms
     }
 

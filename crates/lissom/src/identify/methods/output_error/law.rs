@@ -8,7 +8,7 @@ use crate::identify::methods::output_error::fit::{Extension, Fit};
 use crate::identify::methods::output_error::fitting::Fitting;
 use crate::identify::methods::output_error::scores::{scores, share};
 use crate::identify::methods::output_error::windows::{fastest_rad_s, travel};
-use crate::replay::{DryTerms, NearRest, Parameter, Ripple};
+use crate::replay::{DryTerms, FrictionNumber, Parameter};
 
 /// Speeds over which friction near rest is tried to change, as shares of the fastest.
 const NEAR_REST: [f64; 4] = [0.02, 0.06, 0.2, 0.6];
@@ -22,19 +22,31 @@ const RIPPLES: usize = 46;
 const AT_ONCE: usize = 8;
 
 /// A term of friction that may be added: the arm's terms with it, still without effect, and the numbers
-/// that it makes free: its amplitude first, and what else it has.
+/// that it makes free: its torques, and what else it has.
 pub(super) struct LawTrial {
     terms: DryTerms,
-    amplitude: Vec<Parameter>,
-    shape: Parameter,
+    torques: Vec<Parameter>,
+    shapes: Vec<Parameter>,
 }
 
 impl LawTrial {
+    /// `terms` with one more.
+    fn of(terms: &DryTerms, term: LawTerm) -> Self {
+        let (known, mut terms) = (terms.numbers(), terms.clone());
+        term.put_into(&mut terms, term.without_effect());
+        let new = terms.numbers().into_iter().filter(|n| !known.contains(n));
+        let (torques, shapes): (Vec<_>, Vec<_>) = new.partition(|n| n.is_torque());
+        let free = |numbers: Vec<FrictionNumber>| {
+            numbers.into_iter().map(Parameter::Friction).collect::<Vec<_>>()
+        };
+        Self { terms, torques: free(torques), shapes: free(shapes) }
+    }
+
     /// Puts the term into the fit, all of it free.
     pub(super) fn put_into(&self, fit: &mut Fit) {
         fit.body.arm.dry_terms = self.terms.clone();
-        fit.free.extend(&self.amplitude);
-        fit.free.push(self.shape);
+        fit.free.extend(&self.torques);
+        fit.free.extend(&self.shapes);
     }
 }
 
@@ -50,7 +62,7 @@ pub(super) fn best(
     let promise = |trial: LawTrial| {
         let mut with = fit.clone();
         with.body.arm.dry_terms = trial.terms.clone();
-        let found = scores(fitting, &with, std::slice::from_ref(&trial.amplitude)).concat();
+        let found = scores(fitting, &with, std::slice::from_ref(&trial.torques)).concat();
         (trial, found)
     };
     let all = trials(fitting, fit).into_iter().map(promise);
@@ -61,7 +73,7 @@ pub(super) fn best(
     let terms = &fit.body.arm.dry_terms;
     let open = terms.ripples.len() < MOST_RIPPLES && fitting.beyond_noise(fit) > FAR;
     let found = open.then(|| strongest_ripple(fitting, fit)).flatten()?;
-    Some(promise(rippled(terms, found)))
+    Some(promise(LawTrial::of(terms, LawTerm::Ripple { per_angle: found })))
 }
 
 /// Waves per angle at which a ripple promises most, over the frequencies that the travel tells apart.
@@ -74,59 +86,35 @@ fn strongest_ripple(fitting: &Fitting<'_>, fit: &Fit) -> Option<f64> {
     let all: Vec<f64> = (2..2 + RIPPLES).map(|waves| waves as f64 * half_wave).collect();
     let promised = all.chunks(AT_ONCE).flat_map(|some| {
         let mut with = fit.clone();
-        let ripples = &mut with.body.arm.dry_terms.ripples;
-        let first = ripples.len();
-        ripples.extend(some.iter().map(|k| still(*k)));
-        let groups: Vec<_> = (first..first + some.len()).map(amplitude).collect();
+        let one = |per_angle: &f64| {
+            let terms = &mut with.body.arm.dry_terms;
+            let trial = LawTrial::of(terms, LawTerm::Ripple { per_angle: *per_angle });
+            *terms = trial.terms;
+            trial.torques
+        };
+        let groups: Vec<_> = some.iter().map(one).collect();
         let found = scores(fitting, &with, &groups);
         some.iter().copied().zip(found).collect::<Vec<_>>()
     });
     promised.max_by(|a, b| share(&a.1).total_cmp(&share(&b.1))).map(|(k, _)| k)
 }
 
-/// A ripple without effect.
-fn still(per_rad: f64) -> Ripple {
-    Ripple { per_rad, cosine_nm: 0.0, sine_nm: 0.0 }
-}
-
-fn amplitude(ripple: usize) -> Vec<Parameter> {
-    vec![Parameter::RippleCosine(ripple), Parameter::RippleSine(ripple)]
-}
-
-/// One more ripple.
-fn rippled(terms: &DryTerms, per_rad: f64) -> LawTrial {
-    let new = terms.ripples.len();
-    let mut terms = terms.clone();
-    terms.ripples.push(still(per_rad));
-    LawTrial { terms, amplitude: amplitude(new), shape: Parameter::RippleRate(new) }
-}
-
+/// Terms that slip phases show or were tried with, and friction near rest over a few speeds.
 fn trials(fitting: &Fitting<'_>, fit: &Fit) -> Vec<LawTrial> {
     let terms = &fit.body.arm.dry_terms;
-    let mut found = Vec::new();
-    if terms.near_rest.is_none() {
-        let fastest = fastest_rad_s(fitting.campaign);
-        let seen = fitting.law.iter().filter_map(|term| match term {
-            LawTerm::NearRest { speed, .. } => Some(*speed),
-            _ => None,
-        });
-        let speeds = seen.chain(NEAR_REST.map(|share| share * fastest));
-        for speed_rad_s in speeds.filter(|speed| *speed > 0.0) {
-            let falloff = Falloff::Exponential;
-            let near_rest = Some(NearRest { torque_nm: 0.0, speed_rad_s, falloff });
-            found.push(LawTrial {
-                terms: DryTerms { near_rest, ..terms.clone() },
-                amplitude: vec![Parameter::NearRest],
-                shape: Parameter::NearRestSpeed,
-            });
-        }
-    }
+    let fastest = fastest_rad_s(fitting.campaign);
+    let falloff = Falloff::Exponential;
+    let listed = NEAR_REST.map(|share| LawTerm::NearRest { speed: share * fastest, falloff });
     let known = |k: f64| terms.ripples.iter().any(|r| (r.per_rad / k).ln().abs() < SQRT_2.ln());
-    if terms.ripples.len() < MOST_RIPPLES {
-        found.extend(fitting.law.iter().filter_map(|term| match *term {
-            LawTerm::Ripple { per_angle } if !known(per_angle) => Some(rippled(terms, per_angle)),
-            _ => None,
-        }));
-    }
-    found
+    let open = |term: &LawTerm| match term {
+        LawTerm::NearRest { speed, .. } => terms.near_rest.is_none() && *speed > 0.0,
+        LawTerm::Ripple { per_angle } => terms.ripples.len() < MOST_RIPPLES && !known(*per_angle),
+        _ => false,
+    };
+    let seen = fitting.law.iter().map(|term| match *term {
+        LawTerm::NearRest { speed, .. } => LawTerm::NearRest { speed, falloff },
+        term => term,
+    });
+    let all = seen.chain(listed).filter(open);
+    all.map(|term| LawTrial::of(terms, term)).collect()
 }

@@ -1,0 +1,178 @@
+//! What the table `[drive]` says of friction beyond constants, and the joint made of it.
+
+use lissom::drive::{Coulomb, DriveError, DryFriction, Falloff, LuGre};
+use lissom::rig::JointFriction;
+
+use crate::config::{ConfigError, Rule, Table, Value};
+use crate::units::Dimension;
+
+/// What a joint's friction has beyond one Coulomb constant a direction and one viscous constant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrictionSpec {
+    /// What viscous friction is more forward than in the mean, and less backward \[N·m·s/rad\].
+    pub viscous_apart_nm_s_per_rad: f64,
+    /// Friction at rest where it is another.
+    pub rest: Option<RestSpec>,
+    /// Friction that changes over the turn.
+    pub ripple: Option<RippleSpec>,
+    /// Bristles (LuGre).
+    pub bristles: Option<BristlesSpec>,
+}
+
+/// Bristles below Coulomb friction, and how exactly they are solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BristlesSpec {
+    /// σ0 \[N·m/rad\].
+    pub stiffness_nm_per_rad: f64,
+    /// σ1 \[N·m·s/rad\].
+    pub damping_nm_s_per_rad: f64,
+    /// Relative tolerance of a step.
+    pub tolerance: f64,
+}
+
+/// Tolerance of bristles where the file does not say.
+const TOLERANCE: f64 = 1e-8;
+
+/// Friction at rest, and the speed over which it passes into Coulomb friction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RestSpec {
+    /// What holds against forward motion \[N·m\].
+    pub forward_nm: f64,
+    /// What holds against backward motion \[N·m\].
+    pub backward_nm: f64,
+    /// v_s \[rad/s\].
+    pub velocity_rad_s: f64,
+    /// How it falls off.
+    pub falloff: Falloff,
+}
+
+/// Friction that changes over the turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RippleSpec {
+    /// Largest change over the mean Coulomb friction \[1\].
+    pub share: f64,
+    /// Periods in a turn.
+    pub per_turn: f64,
+    /// Phase at angle zero \[rad\].
+    pub phase_rad: f64,
+}
+
+impl FrictionSpec {
+    /// Its keys in `[drive]`.
+    pub(super) const KEYS: [&'static str; 3] = ["rest", "ripple", "bristles"];
+
+    pub(super) fn read(
+        drive: &Table<'_>,
+        viscous_apart_nm_s_per_rad: f64,
+        torque: impl Fn(&Value<'_>) -> Result<f64, ConfigError>,
+    ) -> Result<Self, ConfigError> {
+        let both = drive.one_of(&["ripple", "bristles"])?;
+        if let Some((_, bristles)) = both.filter(|(i, _)| *i == 1) {
+            bristles_fit(drive, &bristles)?;
+        }
+        Ok(Self {
+            viscous_apart_nm_s_per_rad,
+            rest: drive.get("rest").map(|v| rest(&v.table()?, torque)).transpose()?,
+            ripple: drive.get("ripple").map(|v| ripple(&v.table()?)).transpose()?,
+            bristles: drive.get("bristles").map(|v| bristles(&v.table()?)).transpose()?,
+        })
+    }
+
+    /// The joint's friction, `sliding` at speed.
+    pub(super) fn joint(&self, sliding: Coulomb) -> Result<JointFriction, DriveError> {
+        if let Some(bristles) = &self.bristles {
+            let rest = match &self.rest {
+                Some(rest) => Coulomb::by_direction(rest.forward_nm, rest.backward_nm)?,
+                None => sliding,
+            };
+            // Without another friction at rest its speed is of no use.
+            let velocity = self.rest.map_or(1.0, |rest| rest.velocity_rad_s);
+            let (stiffness, damping) =
+                (bristles.stiffness_nm_per_rad, bristles.damping_nm_s_per_rad);
+            let law = LuGre::new(stiffness, damping, sliding, rest, velocity)?;
+            return Ok(JointFriction::Bristles { law, tolerance: bristles.tolerance });
+        }
+        let mut law = DryFriction::from(sliding);
+        if let Some(rest) = &self.rest {
+            let limits = Coulomb::by_direction(rest.forward_nm, rest.backward_nm)?;
+            law = law.with_rest(limits, rest.velocity_rad_s, rest.falloff)?;
+        }
+        if let Some(ripple) = &self.ripple {
+            law = law.with_ripple(ripple.share, ripple.per_turn, ripple.phase_rad)?;
+        }
+        law = law.with_viscous_apart(self.viscous_apart_nm_s_per_rad)?;
+        Ok(if law.is_constant() { JointFriction::Arm } else { JointFriction::Dry(law) })
+    }
+}
+
+/// One value for both directions, or for each.
+pub(super) fn by_direction(
+    value: &Value<'_>,
+    read: impl Fn(&Value<'_>) -> Result<f64, ConfigError>,
+) -> Result<(f64, f64), ConfigError> {
+    match value.as_table() {
+        Some(table) => {
+            table.only(&["forward", "backward"])?;
+            let side = |key| read(&table.need(key)?);
+            Ok((side("forward")?, side("backward")?))
+        }
+        None => read(value).map(|both| (both, both)),
+    }
+}
+
+fn rest(
+    table: &Table<'_>,
+    torque: impl Fn(&Value<'_>) -> Result<f64, ConfigError>,
+) -> Result<RestSpec, ConfigError> {
+    table.only(&["friction", "velocity", "falloff"])?;
+    let (forward_nm, backward_nm) = by_direction(&table.need("friction")?, torque)?;
+    let shapes = [Falloff::Exponential, Falloff::Gaussian];
+    let falloff = table.get("falloff").map(|v| v.choice(&shapes.map(Falloff::name))).transpose()?;
+    Ok(RestSpec {
+        forward_nm,
+        backward_nm,
+        velocity_rad_s: table.need("velocity")?.positive(Dimension::RATE)?,
+        falloff: falloff.map_or(shapes[0], |i| shapes[i]),
+    })
+}
+
+fn ripple(table: &Table<'_>) -> Result<RippleSpec, ConfigError> {
+    table.only(&["share", "per_turn", "phase"])?;
+    let value = table.need("share")?;
+    let share = value.not_negative(Dimension::NUMBER)?;
+    if share >= 1.0 {
+        return Err(value.range(Rule::Below(1.0)));
+    }
+    let phase = table.get("phase").map(|v| v.quantity(Dimension::NUMBER));
+    Ok(RippleSpec {
+        share,
+        per_turn: table.need("per_turn")?.positive(Dimension::NUMBER)?,
+        phase_rad: phase.transpose()?.unwrap_or(0.0),
+    })
+}
+
+fn bristles(table: &Table<'_>) -> Result<BristlesSpec, ConfigError> {
+    table.only(&["stiffness", "damping", "tolerance"])?;
+    let damping = table.get("damping").map(|v| v.not_negative(Dimension::VISCOUS_ROTARY));
+    let tolerance = table.get("tolerance").map(|v| v.positive(Dimension::NUMBER)).transpose()?;
+    Ok(BristlesSpec {
+        stiffness_nm_per_rad: table.need("stiffness")?.positive(Dimension::TORQUE)?,
+        damping_nm_s_per_rad: damping.transpose()?.unwrap_or(0.0),
+        tolerance: tolerance.unwrap_or(TOLERANCE),
+    })
+}
+
+/// Bristles need Coulomb friction, and the law's fall from rest is Gaussian.
+fn bristles_fit(drive: &Table<'_>, bristles: &Value<'_>) -> Result<(), ConfigError> {
+    if drive.get("coulomb").is_none() {
+        return Err(ConfigError::Needs { place: bristles.place(), key: "drive.coulomb" });
+    }
+    if let Some(sides) = drive.get("viscous").filter(|v| v.as_table().is_some()) {
+        return Err(sides.kind("one figure for both directions (beside `bristles`)"));
+    }
+    let falloff = drive.get("rest").and_then(|v| v.as_table()).and_then(|t| t.get("falloff"));
+    match falloff {
+        Some(value) => value.choice(&["gaussian"]).map(|_| ()),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,274 @@
+//! Friction's terms beside Coulomb and viscous friction, in JSON: as estimates, as terms of a law, and of an arm.
+
+use std::f64::consts::TAU;
+
+use lissom::identify::{Friction, LawTerm, NearRestEstimate, RippleEstimate};
+use lissom::replay::{DryTerms, NearRest, Ripple};
+use serde::{Deserialize, Serialize};
+
+use super::arm_numbers::{Number, Numbers, WrongKey};
+use super::channel_names::FalloffName;
+use super::estimate_entry::{EstimateEntry, Estimated, Refusable};
+use super::unit_keys::{
+    AmplitudeKey, CosineKey, PeriodKey, SineKey, SpeedKey, TravelKey, WithUnit,
+};
+use super::unit_names::UnitNames;
+
+/// Shortest period of a ripple, in radians or metres: a replay follows each wave.
+const SHORTEST: f64 = 1e-6;
+
+/// What friction has beyond Coulomb and viscous friction.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct FrictionTermsEntry {
+    /// What friction has near rest beyond Coulomb friction; absent unless the data call for it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub near_rest: Option<NearRestEntry>,
+    /// Waves of friction over the travel, s*A*cos(2*pi*x/period + phase); absent unless the data show them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ripples: Vec<RippleEntry>,
+}
+
+/// s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), s the direction.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct NearRestEntry {
+    /// A: friction at rest is Coulomb friction and this.
+    #[serde(flatten)]
+    pub amplitude: Refusable<AmplitudeKey>,
+    /// v_s.
+    #[serde(flatten)]
+    pub speed: Estimated<SpeedKey>,
+    /// Which of the two.
+    pub falloff: FalloffName,
+}
+
+/// A wave of friction over the travel.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RippleEntry {
+    /// A.
+    #[serde(flatten)]
+    pub amplitude: Refusable<AmplitudeKey>,
+    /// Its period.
+    #[serde(flatten)]
+    pub period: Estimated<PeriodKey>,
+}
+
+/// What an arm's friction has beyond Coulomb and viscous friction.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ArmTermsEntry {
+    /// Friction near rest.
+    pub near_rest: Option<ArmNearRestEntry>,
+    /// Friction over the travel.
+    pub ripples: Vec<ArmRippleEntry>,
+}
+
+/// s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), s the direction: friction at rest is A more than Coulomb friction.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ArmNearRestEntry {
+    /// A.
+    #[serde(flatten)]
+    pub amplitude: Number<AmplitudeKey>,
+    /// v_s.
+    #[serde(flatten)]
+    pub speed: Number<SpeedKey>,
+    /// Which of the two.
+    pub falloff: FalloffName,
+}
+
+/// s*(cosine*cos(k*x) + sine*sin(k*x)) over the travel x, k = 2*pi/period.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ArmRippleEntry {
+    /// Its period.
+    #[serde(flatten)]
+    pub period: Number<PeriodKey>,
+    /// Amplitude of the cosine.
+    #[serde(flatten)]
+    pub cosine: Number<CosineKey>,
+    /// Amplitude of the sine.
+    #[serde(flatten)]
+    pub sine: Number<SineKey>,
+}
+
+/// A term of friction, without its amplitude.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct LawTermEntry {
+    /// Which.
+    pub term: LawTermName,
+    /// How it falls off with speed; of `near-rest` alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub falloff: Option<FalloffName>,
+    /// v_s; of `near-rest` alone.
+    #[serde(flatten)]
+    pub speed: WithUnit<SpeedKey, f64>,
+    /// Its period; of `ripple` alone.
+    #[serde(flatten)]
+    pub period: WithUnit<PeriodKey, f64>,
+    /// Travel after a reversal that is left out; of `after-travel` alone.
+    #[serde(flatten)]
+    pub travel: WithUnit<TravelKey, f64>,
+}
+
+/// A term of friction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum LawTermName {
+    /// s*D*v, s the direction.
+    ViscousByDirection,
+    /// s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), by falloff.
+    NearRest,
+    /// No amplitude: the first travel after reversals is left out.
+    AfterTravel,
+    /// s*A*sqrt|v|.
+    Root,
+    /// s*(A1*cos(k*x) + A2*sin(k*x)) over the travel x.
+    Ripple,
+    /// Time by which the command acts later.
+    CommandLag,
+}
+
+impl FrictionTermsEntry {
+    /// The terms that were estimated; `constant` is torque per command.
+    pub(super) fn of(names: UnitNames, constant: f64, f: &Friction) -> Self {
+        Self {
+            near_rest: f.near_rest.map(|near| NearRestEntry::of(names, constant, near)),
+            ripples: f.ripples.iter().map(|r| RippleEntry::of(names, constant, *r)).collect(),
+        }
+    }
+}
+
+impl NearRestEntry {
+    fn of(names: UnitNames, constant: f64, near: NearRestEstimate) -> Self {
+        Self {
+            amplitude: WithUnit::torque(names, constant, Some(near.torque)),
+            speed: WithUnit::new(names, EstimateEntry::of(near.speed)),
+            falloff: FalloffName::of(near.falloff),
+        }
+    }
+}
+
+impl RippleEntry {
+    fn of(names: UnitNames, constant: f64, ripple: RippleEstimate) -> Self {
+        Self {
+            amplitude: WithUnit::torque(names, constant, Some(ripple.torque)),
+            period: WithUnit::new(names, EstimateEntry::of(ripple.period())),
+        }
+    }
+}
+
+impl ArmTermsEntry {
+    pub(super) fn of(names: UnitNames, terms: &DryTerms) -> Self {
+        Self {
+            near_rest: terms.near_rest.map(|n| ArmNearRestEntry::of(names, &n)),
+            ripples: terms.ripples.iter().map(|r| ArmRippleEntry::of(names, r)).collect(),
+        }
+    }
+
+    pub(super) fn dry_terms(&self, names: UnitNames) -> Result<DryTerms, WrongKey> {
+        let ripples = self.ripples.iter().map(|r| r.ripple(names));
+        Ok(DryTerms {
+            near_rest: self.near_rest.as_ref().map(|n| n.near_rest(names)).transpose()?,
+            ripples: ripples.collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+impl ArmNearRestEntry {
+    fn of(names: UnitNames, n: &NearRest) -> Self {
+        Self {
+            amplitude: WithUnit::new(names, n.torque_nm),
+            speed: WithUnit::new(names, n.speed_rad_s),
+            falloff: FalloffName::of(n.falloff),
+        }
+    }
+
+    fn near_rest(&self, names: UnitNames) -> Result<NearRest, WrongKey> {
+        let number = Numbers { names, at: "arm.near_rest" };
+        Ok(NearRest {
+            offset_nm: 0.0,
+            torque_nm: number.of(&self.amplitude)?,
+            speed_rad_s: number.positive(&self.speed)?,
+            falloff: self.falloff.falloff(),
+        })
+    }
+}
+
+impl ArmRippleEntry {
+    fn of(names: UnitNames, r: &Ripple) -> Self {
+        Self {
+            period: WithUnit::new(names, TAU / r.per_rad),
+            cosine: WithUnit::new(names, r.cosine_nm),
+            sine: WithUnit::new(names, r.sine_nm),
+        }
+    }
+
+    fn ripple(&self, names: UnitNames) -> Result<Ripple, WrongKey> {
+        let number = Numbers { names, at: "arm.ripples[]" };
+        let period = number.of(&self.period)?;
+        if period < SHORTEST {
+            return Err(number.wrong(&number.key::<PeriodKey>(), "1e-6 or more"));
+        }
+        Ok(Ripple {
+            per_rad: TAU / period,
+            cosine_nm: number.of(&self.cosine)?,
+            sine_nm: number.of(&self.sine)?,
+        })
+    }
+}
+
+impl LawTermEntry {
+    pub(super) fn of(names: UnitNames, term: LawTerm) -> Self {
+        let mut entry = Self {
+            term: LawTermName::of(term),
+            falloff: None,
+            speed: WithUnit::absent(),
+            period: WithUnit::absent(),
+            travel: WithUnit::absent(),
+        };
+        match term {
+            LawTerm::NearRest { speed, falloff } => {
+                entry.falloff = Some(FalloffName::of(falloff));
+                entry.speed = WithUnit::new(names, speed);
+            }
+            LawTerm::Ripple { per_angle } => {
+                entry.period = WithUnit::new(names, TAU / per_angle);
+            }
+            LawTerm::AfterTravel { travel } => {
+                entry.travel = WithUnit::new(names, travel);
+            }
+            LawTerm::ViscousByDirection | LawTerm::Root | LawTerm::CommandLag => {}
+        }
+        entry
+    }
+}
+
+impl LawTermName {
+    fn of(term: LawTerm) -> Self {
+        match term {
+            LawTerm::ViscousByDirection => Self::ViscousByDirection,
+            LawTerm::NearRest { .. } => Self::NearRest,
+            LawTerm::AfterTravel { .. } => Self::AfterTravel,
+            LawTerm::Root => Self::Root,
+            LawTerm::Ripple { .. } => Self::Ripple,
+            LawTerm::CommandLag => Self::CommandLag,
+        }
+    }
+}
+
+/// `amplitude` with the unit of the term.
+pub(super) fn amplitude_key(names: UnitNames, term: LawTerm) -> String {
+    match term {
+        LawTerm::ViscousByDirection => names.viscous_key("amplitude"),
+        LawTerm::NearRest { .. } | LawTerm::AfterTravel { .. } | LawTerm::Ripple { .. } => {
+            format!("amplitude_{}", names.torque())
+        }
+        LawTerm::Root => names.root_key("amplitude"),
+        LawTerm::CommandLag => "amplitude_s".to_owned(),
+    }
+}

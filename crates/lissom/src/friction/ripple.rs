@@ -1,0 +1,122 @@
+//! Friction that changes over the travel.
+
+use super::place::Place;
+use super::taylor_row::Row;
+
+/// Largest phase that may pass over a step with friction linear in time \[rad\].
+const PHASE_PER_STEP: f64 = 0.4;
+
+/// `s·(B·cos kθ + C·sin kθ)`, s the direction of motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ripple {
+    /// k: waves per turn, or radians per metre.
+    pub per_rad: f64,
+    /// B \[N·m\].
+    pub cosine_nm: f64,
+    /// C \[N·m\].
+    pub sine_nm: f64,
+}
+
+/// A number of [`Ripple`] that a search may move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RippleNumber {
+    /// B.
+    Cosine,
+    /// C.
+    Sine,
+    /// k.
+    Rate,
+}
+
+impl RippleNumber {
+    /// All of them.
+    pub(super) const ALL: [Self; 3] = [Self::Cosine, Self::Sine, Self::Rate];
+
+    /// Its name in results, that of ripple number one, two and so on follows.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Cosine => "ripple-cosine",
+            Self::Sine => "ripple-sine",
+            Self::Rate => "ripple-rate",
+        }
+    }
+
+    /// Its value.
+    pub(super) fn of(self, term: &Ripple) -> f64 {
+        match self {
+            Self::Cosine => term.cosine_nm,
+            Self::Sine => term.sine_nm,
+            Self::Rate => term.per_rad,
+        }
+    }
+
+    /// Its place in the term.
+    pub(super) fn in_term(self, term: &mut Ripple) -> &mut f64 {
+        match self {
+            Self::Cosine => &mut term.cosine_nm,
+            Self::Sine => &mut term.sine_nm,
+            Self::Rate => &mut term.per_rad,
+        }
+    }
+}
+
+impl Ripple {
+    /// Largest torque √(B² + C²) \[N·m\].
+    pub fn amplitude_nm(&self) -> f64 {
+        self.cosine_nm.hypot(self.sine_nm)
+    }
+
+    /// Torque against the motion \[N·m\].
+    pub(super) fn braking_nm(&self, at: Place) -> f64 {
+        let (sine, cosine) = (self.per_rad * at.angle).sin_cos();
+        self.cosine_nm * cosine + self.sine_nm * sine
+    }
+
+    /// Derivative of the torque against the motion by the angle.
+    pub(super) fn slope(&self, at: Place) -> f64 {
+        let (sine, cosine) = (self.per_rad * at.angle).sin_cos();
+        self.per_rad * (self.sine_nm * cosine - self.cosine_nm * sine)
+    }
+
+    /// Derivative of the torque against the motion by one of its numbers.
+    pub(super) fn braking_by(&self, number: RippleNumber, at: Place) -> f64 {
+        let (sine, cosine) = (self.per_rad * at.angle).sin_cos();
+        match number {
+            RippleNumber::Cosine => cosine,
+            RippleNumber::Sine => sine,
+            RippleNumber::Rate => at.angle * (self.sine_nm * cosine - self.cosine_nm * sine),
+        }
+    }
+
+    /// Longest step over which it may be taken for linear in time \[s\], for a motor that turns at `turning` at most.
+    pub(super) fn step_s(&self, turning: f64) -> f64 {
+        PHASE_PER_STEP / (self.per_rad * turning).abs()
+    }
+}
+
+/// Taylor coefficients along a motion, of sine and cosine at a time:
+/// `k·s_k = Σ j·u_j·c_{k−j}`, `k·c_k = −Σ j·u_j·s_{k−j}`.
+#[derive(Debug, Clone, Default)]
+pub(super) struct RippleSeries {
+    sine: Row,
+    cosine: Row,
+}
+
+impl RippleSeries {
+    /// The coefficient of order `k` of the torque against the motion.
+    pub(super) fn next(&mut self, law: &Ripple, k: usize, angle: &Row) -> f64 {
+        if k == 0 {
+            (self.sine[0], self.cosine[0]) = (law.per_rad * angle[0]).sin_cos();
+        } else {
+            let (mut sine, mut cosine) = (0.0, 0.0);
+            for (j, turned) in angle[..=k].iter().enumerate() {
+                let rate = j as f64 * law.per_rad * turned;
+                sine += rate * self.cosine[k - j];
+                cosine -= rate * self.sine[k - j];
+            }
+            self.sine[k] = sine / k as f64;
+            self.cosine[k] = cosine / k as f64;
+        }
+        law.cosine_nm * self.cosine[k] + law.sine_nm * self.sine[k]
+    }
+}
