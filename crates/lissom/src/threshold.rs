@@ -7,7 +7,6 @@
 
 /// Where a threshold's value comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum Basis {
     /// It follows from theory or from another number; the reason says how.
     Derived,
@@ -30,7 +29,6 @@ impl Basis {
 
 /// The value of a threshold.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
 pub enum ThresholdValue {
     /// A real number.
     Number(f64),

@@ -12,8 +12,9 @@ thresholds! {
         /// chance.
         CLEARLY_PRESENT: f64 = 4.0, "standard errors", Convention;
         /// The sign of an estimate is taken as shown if it is this many standard errors from zero;
-        /// chance alone gives the wrong one in 2 % of all cases. Damping is negative below that,
-        /// friction positive above.
+        /// chance alone gives the wrong one in 2 % of all cases. A mode
+        /// whose damping ratio is negative by this is rejected, and so is a friction law with
+        /// negative friction.
         SIGN_SHOWN: f64 = 2.0, "standard errors", Convention;
         /// A hypothesis (a straight line, a white residual) is rejected if chance alone gives what
         /// was measured with a probability below this.
@@ -28,8 +29,7 @@ thresholds! {
         /// it: the regression's estimates are refused, and a prediction has failed.
         REFUSED_TORQUE: f64 = 0.6, "1", Convention;
         /// A velocity is taken over the time in which the motor moves by this many standard
-        /// deviations of its sensor's noise: its sign is then certain to about seven standard
-        /// deviations.
+        /// deviations of its sensor's noise, so that its sign is certain.
         TRAVEL_OVER_NOISE: f64 = 10.0, "standard deviations", Convention;
         /// Two frequencies are the same if they differ by less than this share: two sines of a
         /// campaign, or the frequency given and the one found.

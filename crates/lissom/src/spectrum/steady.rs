@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::harmonics::least_squares;
 use crate::record::Run;
-use crate::spectrum::thresholds::{BLOCKS_LEAST, STEADY_SCATTER, STEADY_SHARE};
+use crate::spectrum::thresholds::{BLOCKS_LEAST, SETTLED_CHANGE, STEADY_SCATTER, STEADY_SHARE};
 
 /// Fewest samples from which a block's phasor is taken.
 const BLOCK_SAMPLES: f64 = 24.0;
@@ -95,7 +95,7 @@ pub fn steady_state(run: &Run, omega_rad_s: f64) -> Result<Steady, SteadyError> 
         dropped: first_block * per_block,
         motor_change: changes[0],
         other_change: changes[1..].iter().copied().fold(0.0, f64::max),
-        settled: settled_by_half && changes.iter().all(|c| *c < 0.02),
+        settled: settled_by_half && changes.iter().all(|c| *c < SETTLED_CHANGE),
     })
 }
 

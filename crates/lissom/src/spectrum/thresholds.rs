@@ -10,6 +10,9 @@ thresholds! {
         /// A block also belongs to the steady state if its phasor is within this share of the
         /// amplitude: without noise the scatter is nearly zero.
         STEADY_SHARE: f64 = 2e-3, "1", Convention;
+        /// A run is reported as not settled if its phasor changes by this share or more over
+        /// the blocks that are kept.
+        SETTLED_CHANGE: f64 = 0.02, "1", Convention;
         /// A band has this many bins at least: a variance needs more than one.
         BINS_LEAST: usize = 4, "bins", Convention;
         /// Bands at either end are left out as not driven if their power is less than this share of

@@ -46,14 +46,14 @@ thresholds! {
         /// The damping ratio of a pole above the frequencies is not known if it is larger, and zero
         /// is taken.
         OUTSIDE_DAMPING_MOST: f64 = 0.05, "1", Convention;
-        /// A point is no angle of the arm if its gains, with modes left out, add up to one but for
-        /// more than this.
+        /// A point is not an angle of the arm if the sum of its gains, with those of modes that are
+        /// left out, differs from one by more than this.
         NO_ANGLE: f64 = 0.5, "1", Convention;
         /// A zero outside the frequencies is reported only if its relative standard error is below
         /// this.
         ZERO_KNOWN: f64 = 0.1, "1", Convention;
-        /// Share that is not known of what poles above the frequencies move a zero, where they are
-        /// not measured themselves.
-        MODES_ABOVE_KNOWN: f64 = 0.1, "1", Convention;
+        /// Standard error of what poles above the frequencies add to a zero, as a share of it, if
+        /// they are not measured themselves.
+        MODES_ABOVE_ERROR: f64 = 0.1, "1", Convention;
     }
 }

@@ -4,7 +4,7 @@ use num_complex::Complex64;
 
 use crate::beam::{RootClass, class, zero_squares};
 use crate::identify::equivalent::deviation;
-use crate::identify::equivalent::thresholds::{MODES_ABOVE_KNOWN, ZERO_KNOWN};
+use crate::identify::equivalent::thresholds::{MODES_ABOVE_ERROR, ZERO_KNOWN};
 use crate::identify::estimate::Estimate;
 use crate::identify::responses::rational::SharedPoles;
 
@@ -112,7 +112,7 @@ fn spread(
     let measured = class(z) == RootClass::Imaginary && (low..=high).contains(&size);
     let each = residues.iter().zip(squares).filter(|(_, s)| s.sqrt() > high);
     let above: Complex64 = each.map(|(r, s)| r / (z + s)).sum();
-    let left_out = if measured { 0.0 } else { MODES_ABOVE_KNOWN };
+    let left_out = if measured { 0.0 } else { MODES_ABOVE_ERROR };
     let by_modes_left_out = 0.5 * size * left_out * (above / (slope * z)).norm();
     let by_covariance = deviation(&fit.covariance, |u| {
         let dz = if u < modes * unknowns {

@@ -2,7 +2,8 @@
 
 use crate::identify::prepare::thresholds::{
     CLIPPED_SLOPE, CLIPPED_SLOWED, ENCODER_STEPS, FROZEN_LONGER, FROZEN_SAMPLES, FROZEN_TRAVEL,
-    MOVED_STEPS, SLOWING_SHOWN, SPIKE_AT_END_LEAST, SPIKE_SHAPE, SPIKE_SIZE,
+    MOVED_STEPS, REST_RANGE, REST_STEPS, SLOWING_SHOWN, SPIKE_AT_END_LEAST, SPIKE_SHAPE,
+    SPIKE_SIZE,
 };
 
 /// Samples over which slopes are taken: a quantised signal has none over one.
@@ -205,7 +206,7 @@ const REST: usize = 10;
 /// thousandth of its range.
 pub(crate) fn rest_share(motor: &[f64]) -> f64 {
     let block = motor.len().div_ceil(50).max(REST);
-    let allowed = (2.0 * step(motor)).max(1e-3 * range(motor));
+    let allowed = (REST_STEPS * step(motor)).max(REST_RANGE * range(motor));
     let still: usize = motor.chunks(block).filter(|c| range(c) <= allowed).map(<[f64]>::len).sum();
     still as f64 / motor.len() as f64
 }

@@ -50,15 +50,20 @@ thresholds! {
         /// A run whose frequency is given is a sine if its harmonics above the first have at most
         /// this share of the first's amplitude.
         SINE_DISTORTION_GIVEN: f64 = 0.1, "1", Convention;
-        /// The same of a run whose frequency is not given: trapezoidal moves have 5 to 10 %, and
-        /// are no sines.
+        /// A run whose frequency is not given is a sine if its harmonics above the first have at
+        /// most this share of the first's amplitude: trapezoidal moves have 5 to 10 %, and are not
+        /// sines.
         SINE_DISTORTION_FOUND: f64 = 0.04, "1", Derived;
         /// A sine of fewer periods is reported: its standard errors rest on the differences between
         /// periods.
         FEW_PERIODS: usize = 6, "periods", Convention;
-        /// Share of a cycle in which the joint sticks above which it is reported: the third-
-        /// harmonic method is then about 3 % low (`STICKING_BIAS`).
+        /// Share of a cycle in which the joint sticks above which it is reported: the
+        /// third-harmonic method is then about 3 % low (`STICKING_BIAS`).
         STICKING_REPORTED: f64 = 0.05, "1", Convention;
+        /// A motor is at rest if it stays within this many steps of its sensor, or `REST_RANGE`.
+        REST_STEPS: f64 = 2.0, "steps", Convention;
+        /// A motor is at rest if it stays within this share of its range, or `REST_STEPS`.
+        REST_RANGE: f64 = 1e-3, "1", Convention;
         /// Share of a run at rest above which it is reported.
         AT_REST_REPORTED: f64 = 0.3, "1", Convention;
         /// Time stamps that are off an even grid by more than this share of the sample time (rms)

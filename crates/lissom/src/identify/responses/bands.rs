@@ -12,8 +12,8 @@ use crate::identify::responses::rational::MotorFit;
 use crate::identify::responses::replayed_bands::ReplayedBands;
 use crate::identify::responses::response_point::{ResponsePoint, sticking_error};
 use crate::identify::responses::thresholds::{
-    BAND_COHERENCE, BAND_CONTRADICTED, BAND_POWER, BAND_UNCERTAIN, NEAREST_BAND, SHORT_RUN,
-    STUCK_LEAST,
+    BAND_COHERENCE, BAND_CONTRADICTED, BAND_POWER, BAND_UNCERTAIN, LONG_RUNS, NEAREST_BAND,
+    SHORT_RUN, STUCK_LEAST,
 };
 use crate::record::{Campaign, Hold, Run};
 use crate::spectrum::{Band, broadband, hold_factor, noise_power};
@@ -32,7 +32,7 @@ fn long_enough(campaign: &Campaign, runs: Vec<usize>) -> Vec<usize> {
     let long: Vec<usize> =
         runs.iter().copied().filter(|i| duration_s(i) >= SHORT_RUN * longest_s).collect();
     let total_s = |runs: &[usize]| runs.iter().map(duration_s).sum::<f64>();
-    if total_s(&long) >= 0.5 * total_s(&runs) { long } else { runs }
+    if total_s(&long) >= LONG_RUNS * total_s(&runs) { long } else { runs }
 }
 
 /// Bands of all such runs. Friction is taken out by the replay where it describes the runs, else in

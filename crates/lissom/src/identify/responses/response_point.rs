@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::identify::responses::correct::Response;
-use crate::identify::responses::thresholds::POINT_KNOWN;
+use crate::identify::responses::thresholds::POINT_VOUCHED_FOR;
 use crate::identify::thresholds::NORMAL_95;
 
 /// One frequency of the campaign's responses.
@@ -27,7 +27,7 @@ impl ResponsePoint {
     /// Whether the corrected point is vouched for: nothing speaks against it, and its 95 % interval is
     /// within 5 % of it.
     pub fn is_vouched_for(&self) -> bool {
-        let known = |r: Response| NORMAL_95 * r.std <= POINT_KNOWN * r.value.norm();
+        let known = |r: Response| NORMAL_95 * r.std <= POINT_VOUCHED_FOR * r.value.norm();
         !self.flagged && self.motor_corrected.is_some_and(known)
     }
 }

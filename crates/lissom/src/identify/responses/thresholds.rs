@@ -11,6 +11,8 @@ thresholds! {
         BAND_POWER: f64 = 1e-3, "1", Convention;
         /// Runs shorter than this share of the longest are left out of the bands.
         SHORT_RUN: f64 = 0.25, "1", Convention;
+        /// Short runs are left out only if the others have this share of the time of all.
+        LONG_RUNS: f64 = 0.5, "1", Convention;
         /// A band stands for a frequency if it is this near to it: bands are 4 % apart (60 a
         /// decade).
         NEAREST_BAND: f64 = 0.03, "1", Convention;
@@ -22,9 +24,9 @@ thresholds! {
         /// A corrected point of a sine is flagged, and left out of the motor's model, if its
         /// relative standard error is above this.
         POINT_UNCERTAIN: f64 = 0.5, "1", Convention;
-        /// A corrected point is called known if half its 95 % interval is within this share of it,
-        /// and no finding speaks against it.
-        POINT_KNOWN: f64 = 0.05, "1", Convention;
+        /// A corrected point is vouched for (`vouched_for` in the result) if half its 95 % interval
+        /// is within this share of it, and no finding speaks against it.
+        POINT_VOUCHED_FOR: f64 = 0.05, "1", Convention;
         /// Sticking share of the cycle that counts at least in the error of a corrected point:
         /// smaller ones are not measured, and equation (30) of the 1989 report leaves as much where
         /// nothing sticks.

@@ -23,8 +23,8 @@ thresholds! {
         /// A missing term that hardly lowers the residual is reported if its regressor is exact, it
         /// is this many standard errors from zero, and it moves an estimate by `PRESENT`.
         MISSING_SURE: f64 = 10.0, "standard errors", Convention;
-        /// Command friction by sign is not tried if its regressor and the torque correlate by this
-        /// much: with torque of one sign it is the torque itself.
+        /// The magnitude of the command is not tried as a missing term if it correlates with the
+        /// torque by this much: with torque of one sign it is the torque itself.
         MISSING_ONE_SIGN: f64 = 0.5, "1", Convention;
         /// A window length is used only if this many slip phases (or blocks of a beam's equation)
         /// are left: the covariance rests on their scatter.
