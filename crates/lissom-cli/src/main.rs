@@ -16,7 +16,7 @@ use clap::Parser as _;
 use crate::args::command_line::{Cli, Command};
 use crate::commands::{
     demo, equivalent, identify_command, model_command, payload_command, plan, report_figures, rig,
-    validate_command,
+    thresholds_command, validate_command,
 };
 use crate::views::printer;
 
@@ -29,6 +29,7 @@ fn main() -> ExitCode {
         Command::Model(args) => model_command::run(&args),
         Command::Plan(args) => plan::run(&args),
         Command::Rig(args) => rig::run(&args),
+        Command::Thresholds(args) => thresholds_command::run(&args),
         Command::Figures(args) => report_figures::run(&args),
         Command::Demo(args) => demo::run(&args),
     };

@@ -6,7 +6,7 @@
 //! - [`PlanFile::read`] reads a `plan.toml`, the experiments of a virtual campaign: see [`plan`].
 //! - [`read_responses`] reads tables of frequency responses: see [`responses`].
 //! - [`ResultFile`] is what was identified, [`read_arm`] reads the arm in it back, [`ValidationFile`]
-//!   is how well it predicts another log: see [`result`].
+//!   is how well it predicts another log, [`ThresholdsFile`] the list of thresholds: see [`result`].
 //! - [`units`] reads quantities such as `"2.184 lbf*in/A"`.
 //! - [`mod@write`] writes files whole or not at all.
 //!
@@ -50,7 +50,7 @@ pub use responses::{
 };
 pub use result::{
     EquivalentFile, PayloadFile, PayloadPrediction, PredictedPayload, ResultError, ResultFile,
-    UnitNames, ValidationFile, channel_name_unit, read_arm,
+    ThresholdsFile, UnitNames, ValidationFile, channel_name_unit, read_arm,
 };
 #[cfg(feature = "schema")]
 pub use schema_files::schema_files;

@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema};
 use serde_json::Value;
 
 use crate::model::ModelFile;
-use crate::result::{EquivalentFile, PayloadFile, ResultFile, ValidationFile};
+use crate::result::{EquivalentFile, PayloadFile, ResultFile, ThresholdsFile, ValidationFile};
 
 /// File names of the schemas in `docs/`, and their text.
 pub fn schema_files() -> Vec<(&'static str, String)> {
@@ -18,6 +18,10 @@ pub fn schema_files() -> Vec<(&'static str, String)> {
             text::<EquivalentFile>("What lissom equivalent writes with --json"),
         ),
         ("payload.schema.json", text::<PayloadFile>("What lissom payload writes with --json")),
+        (
+            "thresholds.schema.json",
+            text::<ThresholdsFile>("What lissom thresholds writes with --json"),
+        ),
         ("validate.schema.json", text::<ValidationFile>("What lissom validate writes with --json")),
     ]
 }

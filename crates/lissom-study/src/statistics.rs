@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-/// Two-sided 95 % quantile of the normal distribution.
-pub(crate) const NORMAL_95: f64 = 1.959_964;
+pub(crate) use lissom::identify::NORMAL_95;
 
 /// The quantile `share` of the values, between two of them in proportion; `None` of none.
 pub fn quantile(values: &[f64], share: f64) -> Option<f64> {

@@ -8,6 +8,9 @@
 //!
 //! SI units and rad/s throughout; no files, no printing.
 
+#[macro_use]
+mod threshold;
+
 pub mod arm;
 pub mod beam;
 pub mod drive;
@@ -22,6 +25,10 @@ pub mod record;
 pub mod replay;
 pub mod rig;
 pub mod spectrum;
+mod thresholds;
+
+pub use threshold::{Basis, Threshold, ThresholdValue};
+pub use thresholds::thresholds;
 
 /// Dense matrix of the public interface.
 pub type Matrix = nalgebra::DMatrix<f64>;

@@ -7,12 +7,12 @@ use lissom_testmodels::limit::cantilever;
 use num_complex::Complex64;
 
 /// |s| up to which zeros are looked for \[1/s\].
-const BEYOND: f64 = 500.0;
+const FARTHEST_ZERO: f64 = 500.0;
 
 /// The zeros of θ/θ_m at `point_m` of the uniform beam with this payload, one s of each pair or
 /// quadruple.
 pub(crate) fn zeros(payload: Payload, point_m: f64) -> Result<Vec<Complex64>, Box<dyn Error>> {
-    let zeros = cantilever().with_payload(payload)?.zeros_below(point_m, BEYOND);
+    let zeros = cantilever().with_payload(payload)?.zeros_below(point_m, FARTHEST_ZERO);
     let zeros = zeros.ok_or_else(|| format!("zeros cannot be counted with {payload:?}"))?;
     if zeros.missing > 0 {
         return Err(format!("{} zeros are not found with {payload:?}", zeros.missing).into());

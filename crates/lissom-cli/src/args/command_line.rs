@@ -10,6 +10,7 @@ use super::model_args::ModelArgs;
 use super::payload_args::PayloadArgs;
 use super::plan_args::PlanArgs;
 use super::rig_args::RigArgs;
+use super::thresholds_args::ThresholdsArgs;
 use super::validate_args::ValidateArgs;
 
 /// Models and identifies flexible arms and drives whose joint has friction.
@@ -46,6 +47,8 @@ pub(crate) enum Command {
     Rig(RigArgs),
     /// Remake Figures 6, 7 and 8 of the report on a virtual rig
     Figures(FiguresArgs),
+    /// List every number that decides what is accepted, refused, warned of or chosen
+    Thresholds(ThresholdsArgs),
     /// Run the report's experiment on a virtual arm and identify it from its logs
     Demo(DemoArgs),
 }

@@ -11,4 +11,5 @@ pub(crate) mod plan_args;
 pub(crate) mod positive_time;
 pub(crate) mod rig_args;
 pub(crate) mod stdout_name;
+pub(crate) mod thresholds_args;
 pub(crate) mod validate_args;

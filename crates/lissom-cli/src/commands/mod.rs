@@ -8,4 +8,5 @@ pub(crate) mod payload_command;
 pub(crate) mod plan;
 pub(crate) mod report_figures;
 pub(crate) mod rig;
+pub(crate) mod thresholds_command;
 pub(crate) mod validate_command;

@@ -18,7 +18,7 @@ use crate::views::{finding_list, payload_plot, payload_table, printer};
 
 /// Frequencies of the responses, logarithmic, and how far they go beyond the modes either way.
 const FREQUENCIES: i32 = 400;
-const BEYOND: f64 = 3.0;
+const PLOTTED_BEYOND: f64 = 3.0;
 
 pub(crate) fn run(args: &PayloadArgs) -> Result<ExitCode, Failure> {
     let json = args.json.as_deref();
@@ -115,7 +115,7 @@ fn predicted(
     let loaded = args.to.iter().map(|m| load(*m)).collect::<Result<Vec<_>, _>>()?;
     let omega = loaded.iter().flat_map(|l| l.modes.iter().map(|m| m.natural_frequency_rad_s.value));
     let (low, high) = omega.fold((f64::INFINITY, 0.0_f64), |(a, b), w| (a.min(w), b.max(w)));
-    let (low, high) = (low / BEYOND, high * BEYOND);
+    let (low, high) = (low / PLOTTED_BEYOND, high * PLOTTED_BEYOND);
     let step = |k: i32| low * (high / low).powf(f64::from(k) / f64::from(FREQUENCIES));
     let omega_rad_s: Vec<f64> = (0..=FREQUENCIES).map(step).collect();
     let mut payloads = Vec::new();

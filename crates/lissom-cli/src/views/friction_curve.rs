@@ -1,14 +1,12 @@
 //! Friction against speed: the curve without a law, and the law found, in a plot and a table.
 
 use lissom::drive::Falloff;
-use lissom::identify::{FrictionLaw, Identified, LawTerm, OutputError};
+use lissom::identify::{FrictionLaw, Identified, LawTerm, NORMAL_95, OutputError};
 use lissom_io::UnitNames;
 use lissom_report::{Axis, Cells, LinePlot, Role, Table, Trace, significant};
 
 /// Points of the law's line.
 const LINE: i32 = 200;
-/// Bars: this many deviations.
-const BARS: f64 = 1.96;
 /// Directions, with their signs and colours.
 const DIRECTIONS: [(&str, f64, Role); 2] =
     [("forward", 1.0, Role::Corrected), ("backward", -1.0, Role::Other(0))];
@@ -30,7 +28,7 @@ pub(crate) fn plot(names: UnitNames, id: &Identified) -> Option<LinePlot> {
         let points = || law.curve.iter().filter(move |p| p.direction * sign > 0.0);
         let speeds: Vec<f64> = points().map(|p| p.speed).collect();
         let values = points().map(|p| p.friction.value).collect();
-        let bars = points().map(|p| BARS * p.friction.std).collect();
+        let bars = points().map(|p| NORMAL_95 * p.friction.std).collect();
         plot = plot.trace(Trace::points_with_bars(name, role, speeds.clone(), values, bars));
         let (Some(from), Some(to)) = (speeds.first(), speeds.last()) else { continue };
         let at = |k: i32| from + (to - from) * f64::from(k) / f64::from(LINE);

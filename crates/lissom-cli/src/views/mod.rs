@@ -24,6 +24,7 @@ pub(crate) mod report_page;
 pub(crate) mod result_plots;
 pub(crate) mod rig_table;
 pub(crate) mod separability_section;
+pub(crate) mod threshold_table;
 pub(crate) mod validation_plots;
 pub(crate) mod validation_table;
 pub(crate) mod velocity_friction;

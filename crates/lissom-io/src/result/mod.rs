@@ -24,7 +24,8 @@ mod read_arm;
 pub(crate) mod result_error;
 mod result_file;
 mod separability_entry;
-pub mod unit_keys;
+pub mod thresholds_file;
+mod unit_keys;
 mod unit_names;
 mod validation_file;
 
@@ -68,6 +69,7 @@ pub use separability_entry::{
     CarriedFigureEntry, DirectionPartEntry, KnownFigureEntry, MotionKindName,
     PrincipalDirectionEntry, RunShareEntry, RunToAddEntry, SeparabilityEntry,
 };
+pub use thresholds_file::{BasisName, ThresholdEntry, ThresholdsFile};
 pub use unit_names::UnitNames;
 pub use validation_file::{
     CauseName, ChannelFitEntry, ChannelResidualEntry, ChannelUnitName, HorizonEntry, MotionEntry,

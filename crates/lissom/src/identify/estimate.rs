@@ -1,7 +1,9 @@
 //! A figure with its uncertainty.
 
-/// Two-sided 95 % quantile of the normal distribution.
-const NORMAL_95: f64 = 1.959_964;
+use crate::identify::thresholds;
+
+/// Half width of a 95 % interval \[standard errors\]: the two-sided 95 % point of the normal distribution.
+pub const NORMAL_95: f64 = thresholds::NORMAL_95;
 
 /// An estimated figure.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,14 +15,14 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// 95 % interval, `value ± 1.96·std`.
+    /// 95 % interval, `value ± NORMAL_95·std`.
     pub fn ci95(&self) -> [f64; 2] {
         [self.value - NORMAL_95 * self.std, self.value + NORMAL_95 * self.std]
     }
 
     /// Whether it is below zero by more than two deviations.
     pub(crate) fn is_negative(&self) -> bool {
-        self.value < -2.0 * self.std
+        self.value < -thresholds::SIGN_SHOWN * self.std
     }
 
     /// The figure in a unit of which one is `factor` of the present one.

@@ -6,12 +6,11 @@ use crate::arm::Arm;
 use crate::beam::{BeamError, LumpedBeam, Payload, Span};
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::output_error::OutputError;
+use crate::identify::thresholds::{
+    GEOMETRY_AGREES, GEOMETRY_AS_GOOD, GEOMETRY_KNOWN, SINGLE_SPANS_MOST,
+};
 use crate::replay::ModalArm;
 
-/// Figures are compared to this share at best: no dimension is known better.
-const FLOOR: f64 = 1e-3;
-/// Spans up to which each is looked at by itself.
-const EACH: usize = 4;
 /// Steps of the search, the largest of them, and the one for slopes, all of the factor's logarithm.
 const STEPS: usize = 30;
 const LARGEST: f64 = 0.2;
@@ -74,7 +73,7 @@ pub fn geometry_check(described: &Arm, found: &OutputError) -> Option<GeometryCh
     let own: Vec<f64> = (0..figures).map(|i| variance(&|arm| shown(arm, i))).collect();
     let covariance = DMatrix::from_fn(figures, figures, |i, j| {
         if i == j {
-            return own[i] + FLOOR * FLOOR;
+            return own[i] + GEOMETRY_KNOWN * GEOMETRY_KNOWN;
         }
         0.5 * (variance(&|arm| shown(arm, i) + shown(arm, j)) - own[i] - own[j])
     });
@@ -95,13 +94,13 @@ pub fn geometry_check(described: &Arm, found: &OutputError) -> Option<GeometryCh
 impl GeometryCheck {
     /// Whether the description is as near as it can be told: nothing to explain.
     pub fn agrees(&self) -> bool {
-        self.before < 3.0 * FLOOR
+        self.before < GEOMETRY_AGREES * GEOMETRY_KNOWN
     }
 
     /// Those that explain as much as the best does, or nearly.
     pub fn as_good(&self) -> impl Iterator<Item = &Explanation> {
-        let best = self.explanations.first().map_or(0.0, |e| e.left.max(FLOOR));
-        let near = move |e: &&Explanation| e.left <= 1.5 * best;
+        let best = self.explanations.first().map_or(0.0, |e| e.left.max(GEOMETRY_KNOWN));
+        let near = move |e: &&Explanation| e.left <= GEOMETRY_AS_GOOD * best;
         self.explanations.iter().take_while(near)
     }
 }
@@ -180,7 +179,7 @@ fn quantities(described: &Arm) -> Vec<ArmQuantity> {
     let spans = described.beam().len();
     let mut all =
         vec![ArmQuantity::Length(None), ArmQuantity::Stiffness(None), ArmQuantity::Mass(None)];
-    if (2..=EACH).contains(&spans) {
+    if (2..=SINGLE_SPANS_MOST).contains(&spans) {
         for i in 0..spans {
             let one = Some(i);
             all.extend([

@@ -1,21 +1,22 @@
 //! From records to friction, parameters and a verdict.
 
 mod drive_estimates;
-mod equivalent;
+pub(crate) mod equivalent;
 mod estimate;
 mod finding;
 mod found_arm;
 mod friction_estimates;
 mod geometry;
 mod identified;
-mod judge;
-mod methods;
+pub(crate) mod judge;
+pub(crate) mod methods;
 mod payload;
 mod pipeline;
-mod prepare;
-mod responses;
-mod separability;
-mod validation;
+pub(crate) mod prepare;
+pub(crate) mod responses;
+pub(crate) mod separability;
+pub(crate) mod thresholds;
+pub(crate) mod validation;
 
 pub use drive_estimates::{DriveEstimates, Method};
 pub use equivalent::{
@@ -23,7 +24,7 @@ pub use equivalent::{
     EquivalentRefusal, PartOutside, ResponseZero, StrainlessForm, equivalent, equivalent_arm,
     equivalent_beam, response_zeros,
 };
-pub use estimate::{Estimate, ModeEstimate};
+pub use estimate::{Estimate, ModeEstimate, NORMAL_95};
 pub use finding::{Finding, Severity};
 pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
 pub use friction_estimates::{Friction, NearRestEstimate, RippleEstimate};

@@ -29,25 +29,15 @@ use crate::identify::responses::models::{beam_model, figures_model, motor_and_be
 use crate::identify::responses::replayed_bands::ReplayedBands;
 use crate::identify::responses::response_point::ResponsePoint;
 use crate::identify::responses::response_table::{Replayed, response_table, weak_points};
+use crate::identify::thresholds::{
+    BEAM_RESIDUAL, CONSTANT_VELOCITY_ALONE, MODE_DAMPING_LEAST, REFUSED_TORQUE,
+    STEPPED_SINES_LEAST, TRIPLE_FREQUENCY, UNEXPLAINED_TORQUE,
+};
 use crate::record::{Campaign, Run};
 use crate::replay::ModalArm;
 
 /// Harmonics fitted to a periodic run.
 const HARMONICS: usize = 9;
-/// A run is the triple of another when its frequency is 3ω0 to this share.
-const TRIPLE: f64 = 2e-3;
-/// Windowed torque that the regression may leave before its figures are refused.
-const RESIDUAL_REFUSED: f64 = 0.6;
-/// Sinusoidal runs from which on the rational models are fitted to the responses.
-const STEPPED: usize = 4;
-/// Relative deviation, and share of the torque left, up to which a regression on constant velocities
-/// alone stands.
-const ALONE: f64 = 0.15;
-/// Share of the beam's windowed acceleration that its regression may leave.
-const BEAM_RESIDUAL: f64 = 0.1;
-/// Least damping ratio of a mode that it may show: one that feeds on nothing and grows is none of a beam, and
-/// its frequencies are as wrong.
-const LEAST_DAMPING: f64 = -0.05;
 
 /// What a user may ask for.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -157,7 +147,7 @@ pub fn identify(
     let any_regression = motor_regression(&usable, &options.window_s)
         .filter(|r| !alone || constant_velocity.is_none() || stands_alone(r));
     let regression_residual = any_regression.as_ref().map(|r| r.relative_residual);
-    let regression = any_regression.clone().filter(|r| r.relative_residual < RESIDUAL_REFUSED);
+    let regression = any_regression.clone().filter(|r| r.relative_residual < REFUSED_TORQUE);
     let mut friction_law = regression.as_ref().and_then(|r| friction_law(&usable, r));
     progress(Stage::Beam);
     let any_beam_regression = beam_regression(&usable);
@@ -191,7 +181,7 @@ pub fn identify(
     }
     let replay = replay.map_or_else(Replayed::default, |o| corrected(o, &usable, &runs, &kept));
     let mut responses = response_table(campaign, &runs, best, &replay, &findings);
-    let stepped = responses.iter().filter(|p| p.run.is_some()).count() >= STEPPED;
+    let stepped = responses.iter().filter(|p| p.run.is_some()).count() >= STEPPED_SINES_LEAST;
     let law = friction_law.as_ref().map(|(law, _)| law);
     let phases = slip_phase_solution(regression.as_ref(), law).map(|(_, drive)| drive);
     let explained = regression.as_ref().zip(phases.as_ref());
@@ -242,7 +232,7 @@ pub fn identify(
 
 /// Whether the beam's regression leaves little, and all its modes fade.
 fn beam_stands(b: &BeamRegression) -> bool {
-    let damped = |m: &ModeEstimate| m.damping_ratio.value > LEAST_DAMPING;
+    let damped = |m: &ModeEstimate| m.damping_ratio.value > MODE_DAMPING_LEAST;
     b.relative_residual.iter().all(|r| *r < BEAM_RESIDUAL) && b.modes.iter().all(damped)
 }
 
@@ -360,8 +350,11 @@ fn classical(
 
 /// Whether a regression on nothing but constant velocities gives all of the motor's figures.
 fn stands_alone(r: &MotorRegression) -> bool {
-    let known = |e: Option<Estimate>| e.is_some_and(|e| e.std < ALONE * e.value);
-    known(r.inertia) && known(r.coulomb) && known(r.viscous) && r.relative_residual < ALONE
+    let known = |e: Option<Estimate>| e.is_some_and(|e| e.std < CONSTANT_VELOCITY_ALONE * e.value);
+    known(r.inertia)
+        && known(r.coulomb)
+        && known(r.viscous)
+        && r.relative_residual < UNEXPLAINED_TORQUE
 }
 
 /// What the regressions may use: no run with a dead channel, no tip that is dead in all, and runs of
@@ -432,7 +425,9 @@ fn pairs(runs: &[RunAnalysis], findings: &[Finding]) -> Option<ThirdHarmonic> {
             .iter()
             .enumerate()
             .filter_map(|(k, p)| Some((k, (*p)?)))
-            .filter(|(_, p)| (p.omega_rad_s / (3.0 * low.omega_rad_s) - 1.0).abs() < TRIPLE)
+            .filter(|(_, p)| {
+                (p.omega_rad_s / (3.0 * low.omega_rad_s) - 1.0).abs() < TRIPLE_FREQUENCY
+            })
             .min_by(|(_, a), (_, b)| {
                 let far = |p: f64| (p / amplitude).ln().abs();
                 far(a.motor_1.value.norm()).total_cmp(&far(b.motor_1.value.norm()))

@@ -1,9 +1,7 @@
 //! The figures of an arm that a user asks for.
 
+use crate::information::thresholds::DAMPING_LEAST;
 use crate::replay::{ModalArm, Parameter};
-
-/// Damping ratio below which a mode's damping is not measured by its own size.
-const LEAST_RATIO: f64 = 1e-3;
 
 /// A figure of an arm that a user asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,7 +67,7 @@ impl Figure {
     pub fn size(self, arm: &ModalArm) -> f64 {
         match self {
             Self::Offset => arm.coulomb_nm,
-            Self::Damping(j) => self.value(arm).max(2.0 * LEAST_RATIO * arm.modes[j].omega_rad_s),
+            Self::Damping(j) => self.value(arm).max(2.0 * DAMPING_LEAST * arm.modes[j].omega_rad_s),
             _ => self.value(arm).abs(),
         }
     }

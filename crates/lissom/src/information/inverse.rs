@@ -2,12 +2,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// Eigenvalue of the scaled matrix, relative to the largest, below which its direction is unknown.
-const RANK: f64 = 1e-14;
+use crate::information::thresholds::{LOST_PARAMETER, UNKNOWN_DIRECTION};
+
 /// Square of a pivot of the scaled matrix above which no direction is near that.
 const SOUND: f64 = 1e-11;
-/// Share of a parameter in an unknown direction from which on it counts as lost.
-const TAKES_PART: f64 = 1e-6;
 
 /// Pseudo-inverse of an information matrix.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,7 +30,7 @@ pub fn inverse_root(matrix: &DMatrix<f64>) -> DMatrix<f64> {
         return DMatrix::zeros(matrix.nrows(), matrix.nrows());
     }
     let eigen = scaled.symmetric_eigen();
-    let least = RANK * eigen.eigenvalues.max();
+    let least = UNKNOWN_DIRECTION * eigen.eigenvalues.max();
     let root = |value: f64| if value > least { 1.0 / value.sqrt() } else { 0.0 };
     let roots = eigen.eigenvalues.map(root);
     DMatrix::from_diagonal(&scale) * eigen.eigenvectors * DMatrix::from_diagonal(&roots)
@@ -72,7 +70,7 @@ pub fn inverted(matrix: &DMatrix<f64>) -> Inverse {
         return Inverse { matrix, lost: vec![false; n] };
     }
     let eigen = scaled.symmetric_eigen();
-    let least = RANK * eigen.eigenvalues.max();
+    let least = UNKNOWN_DIRECTION * eigen.eigenvalues.max();
     let mut found = DMatrix::zeros(n, n);
     let mut lost = vec![false; n];
     for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
@@ -81,7 +79,7 @@ pub fn inverted(matrix: &DMatrix<f64>) -> Inverse {
             found.ger(1.0 / value, &v, &v, 1.0);
         } else {
             for (lost, share) in lost.iter_mut().zip(&vector) {
-                *lost |= share.abs() > TAKES_PART;
+                *lost |= share.abs() > LOST_PARAMETER;
             }
         }
     }

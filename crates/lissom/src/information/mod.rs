@@ -9,6 +9,7 @@ mod figure;
 mod inverse;
 mod propagated;
 mod reduced;
+pub(crate) mod thresholds;
 
 pub use expected::{expected_covariance, growing_information};
 pub use figure::Figure;

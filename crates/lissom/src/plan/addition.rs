@@ -6,12 +6,11 @@ use rayon::prelude::*;
 use super::motion::{Reach, groups, rounded};
 use super::{PlannedMotion, Wishes};
 use crate::information::growing_information;
+use crate::plan::thresholds::TRAVEL_LEAST;
 use crate::record::{Campaign, Channels, Run, TimeBase, TipQuantity};
 use crate::replay::{ModalArm, Parameter, SensorNoise, Window};
 use crate::rig::Reference;
 
-/// The motor moves by this many deviations of its sensor at least.
-const LEAST_STEPS: f64 = 20.0;
 /// Radians of the fastest mode in a step of its integration.
 const STEP_RAD: f64 = 0.25;
 /// Step of differences for a reference's speed, as a share of the sample time.
@@ -117,7 +116,7 @@ pub fn additions(
         let followed = Followed::of(arm, motion, bounds.sample_time_s)?;
         let amplitude_rad = rounded(followed.largest(arm, bounds));
         let moves = followed.travel * amplitude_rad;
-        if !(moves.is_finite() && moves > LEAST_STEPS * noise[0].deviation()) {
+        if !(moves.is_finite() && moves > TRAVEL_LEAST * noise[0].deviation()) {
             return None;
         }
         let (campaign, window) = followed.record(arm, channels, amplitude_rad)?;

@@ -2,11 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::plan::thresholds::GAIN_LEAST;
+
 /// Information that is there without any run: a deviation of 100 times the scale of each parameter, so
 /// that what no run shows has one at all.
 const BEFORE: f64 = 1e-4;
-/// A step has to better the sum of squares by this share.
-const LEAST_GAIN: f64 = 1e-4;
 /// Steps at most, and rounds of exchanges.
 const STEPS: usize = 200;
 /// See [`STEPS`].
@@ -146,7 +146,7 @@ impl Search<'_> {
             other
         });
         let better = others.filter(|other| {
-            time_s(self.choices, other) < time * (1.0 - LEAST_GAIN) && self.as_good(other, now)
+            time_s(self.choices, other) < time * (1.0 - GAIN_LEAST) && self.as_good(other, now)
         });
         better.min_by(|a, b| time_s(self.choices, a).total_cmp(&time_s(self.choices, b)))
     }
@@ -178,7 +178,7 @@ impl Search<'_> {
                     }
                     let then = self.goal.distance(&(&without + &choice.information[k - 1]));
                     let worth = (now / then).ln() / more;
-                    if now > (1.0 + LEAST_GAIN) * then && best.is_none_or(|b| worth > b.0) {
+                    if now > (1.0 + GAIN_LEAST) * then && best.is_none_or(|b| worth > b.0) {
                         best = Some((worth, i, k));
                     }
                 }

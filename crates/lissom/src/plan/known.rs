@@ -3,16 +3,13 @@
 use std::ops::Range;
 
 use super::PlanError;
+use crate::plan::thresholds::{MODE_FOLLOWED, MODE_INERTIA_LEAST};
 use crate::record::{Campaign, Channels, Run};
 use crate::replay::{
     ArmModes, MOST_MODES, ModalArm, Parameter, SensorNoise, Window, free_parameters,
 };
 use crate::rig::{Logged, Rig, Sensor};
 
-/// Modes of more than this many radians a sample are not followed: six samples a period.
-const FASTEST: f64 = 1.0;
-/// Modes that carry less than this share of the inertia turn with the motor.
-const LEAST_SHARE: f64 = 1e-3;
 /// Deviation of a sensor that has neither steps nor noise \[rad\].
 const IDEAL_RAD: f64 = 1e-6;
 
@@ -43,8 +40,8 @@ impl<'a> Known<'a> {
         let modes = ArmModes::of(&rig.arm).ok_or(PlanError::Modes { masses })?;
         let omega = modes.omega_rad_s();
         let followed = |j: &usize| {
-            omega[*j] * rig.instruments.log_time_s() <= FASTEST
-                && modes.inertia_kg_m2(*j) > LEAST_SHARE * rig.arm.motor.inertia_kg_m2
+            omega[*j] * rig.instruments.log_time_s() <= MODE_FOLLOWED
+                && modes.inertia_kg_m2(*j) > MODE_INERTIA_LEAST * rig.arm.motor.inertia_kg_m2
         };
         let kept: Vec<usize> = (0..omega.len()).filter(followed).take(MOST_MODES).collect();
         let left_out = (0..omega.len()).filter(|j| !kept.contains(j));

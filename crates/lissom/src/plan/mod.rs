@@ -13,6 +13,7 @@ mod note;
 mod planner;
 mod sizing;
 mod table;
+pub(crate) mod thresholds;
 mod wish;
 
 use nalgebra::DMatrix;
@@ -21,6 +22,7 @@ use thiserror::Error;
 
 pub use crate::information::Figure;
 use crate::information::growing_information;
+use crate::plan::thresholds::{TRANSIENT_MOST_S, TRANSIENT_MOST_SHARE};
 use crate::replay::{Parameter, TURN_MOST};
 use crate::rig::{Rig, Scene};
 pub use addition::{Addition, Bounds, additions};
@@ -39,10 +41,6 @@ pub use wish::{Kinds, Precision, Wishes};
 const SHARES: [f64; 2] = [1.0, 0.4];
 /// Time from one run to the next: the arm goes back to its start \[s\].
 pub const BETWEEN_S: f64 = 5.0;
-/// Longest wait for a transient \[s\], and as a share of the time of all runs.
-const LONGEST_S: f64 = 300.0;
-/// See [`LONGEST_S`].
-const LONGEST_SHARE: f64 = 0.25;
 /// Most numbers that one simulation goes through, samples times states: a fraction of a second, as there
 /// are some hundred.
 const WORK_MOST: f64 = 2e6;
@@ -274,7 +272,7 @@ fn longest_wait_s(rig: &Rig, wishes: &Wishes, all: &[Group]) -> Result<f64, Plan
         let samples = record_s / rig.instruments.sample_time_s;
         return Err(PlanError::TooMuch { record_s, samples, states });
     }
-    Ok(LONGEST_S.min(LONGEST_SHARE * wishes.within_s).min(most_s - record_s))
+    Ok(TRANSIENT_MOST_S.min(TRANSIENT_MOST_SHARE * wishes.within_s).min(most_s - record_s))
 }
 
 fn candidate(

@@ -2,32 +2,19 @@
 
 use std::f64::consts::{PI, TAU};
 
+use crate::plan::thresholds::{
+    HIGHEST_LINE, KEEP_OFF, KEEP_OFF_WIDTHS, LIGHTLY_DAMPED, MULTISINE_PERIODS, NYQUIST_SHARE,
+    RUN_LEAST_S, SINE_PERIODS,
+};
 use crate::replay::ModalArm;
 use crate::rig::{Drive, Experiment, Multisine, Reference, RigError, Settle, Sweep};
 
-/// Sines keep off every mode that is damped less than this…
-const LIGHTLY: f64 = 0.1;
-/// …by this share of its frequency, with their triples: the true one may be elsewhere…
-const KEEP_OFF: f64 = 0.12;
-/// …and by so many half-widths.
-const HALF_WIDTHS: f64 = 4.0;
 /// Sines tried, each with its triple.
 const SINES: usize = 14;
-/// Periods of a sine and of a multisine that a run lasts at least…
-const PERIODS: f64 = 6.0;
-/// See [`PERIODS`].
-const MULTISINE_PERIODS: f64 = 3.0;
-/// …and its time \[s\]: a shorter run shows friction, but not which damping a mode has, and what is
-/// taken wrong there is wrong in all figures.
-const LEAST_S: f64 = 10.0;
-/// Lines of a multisine, at most: odd multiples of its frequency.
-const HIGHEST_LINE: f64 = 39.0;
 /// Seeds of multisines' phases.
 const PHASES: u64 = 3;
 /// Times of a sweep \[s\].
 const SWEEPS_S: [f64; 3] = [10.0, 20.0, 40.0];
-/// Nothing is driven above this share of the Nyquist frequency.
-const NYQUIST: f64 = 0.5;
 /// The band where neither beam nor current says one \[rad/s\].
 const BAND_RAD_S: (f64, f64) = (1.0, 30.0);
 
@@ -64,10 +51,10 @@ impl PlannedMotion {
     pub fn stretch_s(&self) -> f64 {
         let whole = |omega_rad_s: f64, periods: f64| {
             let period_s = TAU / omega_rad_s;
-            periods.max((LEAST_S / period_s).ceil()) * period_s
+            periods.max((RUN_LEAST_S / period_s).ceil()) * period_s
         };
         match *self {
-            Self::Sine { omega_rad_s } => whole(omega_rad_s, PERIODS),
+            Self::Sine { omega_rad_s } => whole(omega_rad_s, SINE_PERIODS),
             Self::Multisine { omega_rad_s, .. } => whole(omega_rad_s, MULTISINE_PERIODS),
             Self::Chirp { sweep_s, .. } => sweep_s,
         }
@@ -189,7 +176,7 @@ fn is_clear(arm: &ModalArm, omega_rad_s: f64) -> bool {
     let ratios = arm.damping_ratios();
     arm.modes.iter().zip(ratios).all(|(mode, ratio)| {
         let off = (omega_rad_s / mode.omega_rad_s - 1.0).abs();
-        ratio > LIGHTLY || off > KEEP_OFF.max(HALF_WIDTHS * ratio)
+        ratio > LIGHTLY_DAMPED || off > KEEP_OFF.max(KEEP_OFF_WIDTHS * ratio)
     })
 }
 
@@ -208,7 +195,7 @@ fn band(reach: &Reach<'_>) -> (f64, f64) {
     let highest = corner.map(|c| 3.0 * c).into_iter().chain(last.map(|w| 1.6 * w));
     let highest = highest.fold(0.0, f64::max);
     let (low, high) = if highest > 0.0 { (0.2 * lowest, highest) } else { BAND_RAD_S };
-    let fastest = NYQUIST * PI / reach.command_time_s;
+    let fastest = NYQUIST_SHARE * PI / reach.command_time_s;
     (low.min(0.05 * fastest), high.min(fastest))
 }
 

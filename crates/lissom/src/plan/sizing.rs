@@ -4,15 +4,9 @@ use std::fmt;
 
 use super::Wishes;
 use super::motion::{PlannedMotion, rounded};
+use crate::plan::thresholds::{RANGE_USED, STUCK_MOST, TRAVEL_LEAST};
 use crate::rig::{Logged, Rig, RigError, RigFinding, Sensor};
 
-/// Share of a run in which the joint may stick: the third-harmonic method and the response need it to
-/// slip.
-const STUCK_MOST: f64 = 0.15;
-/// The motor moves by this many steps of its sensor, or deviations of its noise, at least.
-const STEPS_LEAST: f64 = 20.0;
-/// Share of a sensor's range that is used.
-const RANGE: f64 = 0.9;
 /// Sizes tried until one fits.
 const TRIES: usize = 12;
 /// A size is reduced to this share of what would just fit, and by no more than to a fifth at once.
@@ -73,7 +67,7 @@ pub(super) struct Limits {
 impl Limits {
     pub(super) fn of(rig: &Rig, wishes: &Wishes, longest_s: f64) -> Self {
         let range = |sensor: Sensor| {
-            sensor.quantiser.map_or(f64::INFINITY, |q| RANGE * q.ends().1.min(-q.ends().0))
+            sensor.quantiser.map_or(f64::INFINITY, |q| RANGE_USED * q.ends().1.min(-q.ends().0))
         };
         let instruments = &rig.instruments;
         Self {
@@ -81,7 +75,7 @@ impl Limits {
             travel_rad: wishes.travel_rad.min(range(instruments.motor)),
             bend_rad: wishes.bend_rad,
             tips_rad: (0..rig.arm.beam().len()).map(|i| range(instruments.tip(i))).collect(),
-            least_rad: STEPS_LEAST * instruments.motor.resolution(),
+            least_rad: TRAVEL_LEAST * instruments.motor.resolution(),
             longest_s,
         }
     }

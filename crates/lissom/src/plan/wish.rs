@@ -1,6 +1,7 @@
 //! What a plan is to reach, and within which bounds.
 
 use crate::information::Figure;
+use crate::plan::thresholds::DAMPING_WISHED;
 
 /// Wanted standard deviations, relative to the figures.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,11 +20,6 @@ pub struct Precision {
     pub damping: f64,
 }
 
-/// Damping wanted where nothing else is said. Damping of one kind that is taken for the other puts viscous
-/// friction off, and identification tells them apart only where that matters to the residual: at 4 % it
-/// did, at 14 % it did not (`docs/planning.md`).
-const DAMPING: f64 = 0.05;
-
 impl Default for Precision {
     /// 0.5 %, viscous friction 2 %, frequencies 0.1 %, damping 5 %.
     fn default() -> Self {
@@ -33,7 +29,7 @@ impl Default for Precision {
             inertia: 5e-3,
             coupling: 5e-3,
             frequency: 1e-3,
-            damping: DAMPING,
+            damping: DAMPING_WISHED,
         }
     }
 }
@@ -47,7 +43,7 @@ impl Precision {
             inertia: relative,
             coupling: relative,
             frequency: relative,
-            damping: DAMPING,
+            damping: DAMPING_WISHED,
         }
     }
 

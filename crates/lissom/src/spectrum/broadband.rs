@@ -3,14 +3,10 @@
 use num_complex::Complex64;
 use rustfft::FftPlanner;
 
+use crate::spectrum::thresholds::{BAND_DRIVEN, BAND_NEXT, BINS_LEAST};
+
 /// Bands per decade of frequency.
 const BANDS_PER_DECADE: f64 = 60.0;
-/// Fewest bins in a band: a variance needs more than one.
-const LEAST_BINS: usize = 4;
-/// Beyond the last band with this share of the power next to it, the input was not driven…
-const DRIVEN: f64 = 0.05;
-/// …where next to it is within this ratio of frequency.
-const NEXT: f64 = 1.3;
 /// Share of a record over which each end is tapered.
 const TAPER: f64 = 0.05;
 
@@ -96,9 +92,9 @@ pub fn groups(records: &[Lines]) -> Vec<Vec<Bin>> {
     let mut from = 0;
     while from < bins.len() {
         let start = bins[from].omega_rad_s;
-        let to_omega = (start * ratio).max(start + widest * (LEAST_BINS as f64 - 0.5));
+        let to_omega = (start * ratio).max(start + widest * (BINS_LEAST as f64 - 0.5));
         let to = from + bins[from..].partition_point(|b| b.omega_rad_s < to_omega);
-        if to - from >= LEAST_BINS {
+        if to - from >= BINS_LEAST {
             groups.push(bins[from..to].to_vec());
         }
         from = to.max(from + 1);
@@ -123,10 +119,10 @@ pub fn noise_power(samples: &[usize], sample_time_s: &[f64], stds: &[f64]) -> f6
 fn driven(bands: &[Band]) -> Vec<Band> {
     let beside = |b: &Band, low: f64, high: f64| {
         let next = bands.iter().filter(|o| (low..=high).contains(&(o.omega_rad_s / b.omega_rad_s)));
-        b.input_power >= DRIVEN * next.map(|o| o.input_power).fold(0.0, f64::max)
+        b.input_power >= BAND_DRIVEN * next.map(|o| o.input_power).fold(0.0, f64::max)
     };
-    let first = bands.iter().position(|b| beside(b, 1.0, NEXT)).unwrap_or(0);
-    let last = bands.iter().rposition(|b| beside(b, 1.0 / NEXT, 1.0)).unwrap_or(0);
+    let first = bands.iter().position(|b| beside(b, 1.0, BAND_NEXT)).unwrap_or(0);
+    let last = bands.iter().rposition(|b| beside(b, 1.0 / BAND_NEXT, 1.0)).unwrap_or(0);
     bands.get(first..=last).map_or_else(Vec::new, <[Band]>::to_vec)
 }
 

@@ -4,6 +4,7 @@ mod broadband;
 mod frequency;
 mod harmonics;
 mod steady;
+pub(crate) mod thresholds;
 
 pub use broadband::{Band, Bin, Lines, average, broadband, groups, noise_power};
 pub use frequency::find_frequency;

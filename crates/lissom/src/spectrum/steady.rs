@@ -5,15 +5,10 @@ use thiserror::Error;
 
 use super::harmonics::least_squares;
 use crate::record::Run;
+use crate::spectrum::thresholds::{BLOCKS_LEAST, SETTLED_CHANGE, STEADY_SCATTER, STEADY_SHARE};
 
 /// Fewest samples from which a block's phasor is taken.
 const BLOCK_SAMPLES: f64 = 24.0;
-/// Fewest whole blocks for anything to be said of steadiness.
-const LEAST_BLOCKS: usize = 3;
-/// A block belongs to the steady state within this many standard deviations of the later half…
-const SCATTER: f64 = 5.0;
-/// …or within this share of the amplitude.
-const SHARE: f64 = 2e-3;
 
 /// Whole periods of a run in steady state.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,8 +57,8 @@ pub fn steady_state(run: &Run, omega_rad_s: f64) -> Result<Steady, SteadyError> 
     let periods_a_block = (BLOCK_SAMPLES / per_period).ceil().max(1.0);
     let block = per_period * periods_a_block;
     let blocks = (run.len() as f64 / block + 1e-9).floor() as usize;
-    if blocks < LEAST_BLOCKS {
-        return Err(SteadyError::TooFewPeriods { found: blocks, least: LEAST_BLOCKS });
+    if blocks < BLOCKS_LEAST {
+        return Err(SteadyError::TooFewPeriods { found: blocks, least: BLOCKS_LEAST });
     }
     // Blocks are aligned with the end: what is dropped is dropped from the beginning.
     let origin = run.len() as f64 - block * blocks as f64;
@@ -100,7 +95,7 @@ pub fn steady_state(run: &Run, omega_rad_s: f64) -> Result<Steady, SteadyError> 
         dropped: first_block * per_block,
         motor_change: changes[0],
         other_change: changes[1..].iter().copied().fold(0.0, f64::max),
-        settled: settled_by_half && changes.iter().all(|c| *c < 0.02),
+        settled: settled_by_half && changes.iter().all(|c| *c < SETTLED_CHANGE),
     })
 }
 
@@ -110,7 +105,7 @@ fn first_settled(track: &[Complex64], half: usize) -> usize {
     let mean = later.iter().sum::<Complex64>() / later.len() as f64;
     let scatter =
         (later.iter().map(|z| (z - mean).norm_sqr()).sum::<f64>() / later.len() as f64).sqrt();
-    let allowed = (SCATTER * scatter).max(SHARE * mean.norm());
+    let allowed = (STEADY_SCATTER * scatter).max(STEADY_SHARE * mean.norm());
     track.iter().rposition(|z| (z - mean).norm() > allowed).map_or(0, |last| last + 1)
 }
 

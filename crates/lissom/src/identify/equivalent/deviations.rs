@@ -2,6 +2,7 @@
 
 use crate::identify::equivalent::data::EquivalentData;
 use crate::identify::equivalent::sound::median;
+use crate::identify::equivalent::thresholds::OUTPUT_ERROR_LEAST;
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{
     MotorData, Pole, SharedPoles, fit_coupling, fit_shared_poles_with_delays,
@@ -9,9 +10,6 @@ use crate::identify::responses::rational::{
 
 /// Shares of the error's square that are of one size at the median response, the rest a share of each.
 const MIXES: [f64; 9] = [0.0, 1e-4, 1e-3, 0.01, 0.1, 0.5, 0.9, 0.99, 1.0];
-/// No output is better than the worst by more than this, in shares of its median: a model may describe few
-/// points exactly.
-const BETTER: f64 = 0.03;
 /// What is left is rounding below this share of the responses.
 const ROUNDING: f64 = 1e-9;
 
@@ -124,7 +122,7 @@ impl Fitted {
         let worst = found.iter().map(|f| f.0).fold(0.0, f64::max);
         let each = self.outputs.iter().zip(found);
         each.map(|(output, (scale, shape))| {
-            let scale = size * (scale / worst).max(BETTER);
+            let scale = size * (scale / worst).max(OUTPUT_ERROR_LEAST);
             let with = |(r, s): (&Response, &f64)| Response { std: scale * s, ..*r };
             output.iter().zip(&shape).map(with).collect()
         })

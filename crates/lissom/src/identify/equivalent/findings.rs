@@ -4,27 +4,14 @@ use crate::identify::equivalent::EquivalentError;
 use crate::identify::equivalent::arm::EquivalentArm;
 use crate::identify::equivalent::data::{Deviations, Equivalent, EquivalentData};
 use crate::identify::equivalent::refusal::side;
+use crate::identify::equivalent::thresholds::{
+    ERRORS_TOO_LARGE, GAIN_CHANGED, GIVEN_TO_LAST_MODE, MISFIT, MOTOR_LEFT, MOTOR_WORSE,
+};
 use crate::identify::estimate::Estimate;
 use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{Damping, Spurious};
-
-/// A model that leaves more than so many deviations is not all there is…
-const MISFIT: f64 = 2.0;
-/// …and one that leaves less than this share of them says that they are too large.
-const TOO_GOOD: f64 = 0.5;
-/// What the last mode is given is told from this size on.
-const GIVEN: f64 = 0.02;
-
-/// …and where it changes a gain of its own by this share.
-const CHANGED: f64 = 0.05;
-
-/// Without deviations the motor's response is misfitted where more than so many times the points' share of
-/// it is left, and more than this share.
-const NOISIER: f64 = 3.0;
-const LEFT_OF_MOTOR: f64 = 0.02;
-/// Friction left in the motor's response is told of from so many of its deviations on.
-const FRICTION_LEFT: f64 = 4.0;
+use crate::identify::thresholds::CLEARLY_PRESENT;
 
 /// Largest change, as a share, of a gain for use as an arm.
 fn changed(whole: &Equivalent) -> f64 {
@@ -61,7 +48,7 @@ fn of_motor(
         );
         let hint = "look at the plot of the motor";
         add("equivalent-motor-misfit", Severity::Warning, message, hint);
-    } else if !known && left > LEFT_OF_MOTOR && left > NOISIER * points {
+    } else if !known && left > MOTOR_LEFT && left > MOTOR_WORSE * points {
         let message = format!(
             "the arm leaves {:.1} % of the motor's response (rms), and {:.2} % of the points': friction left in it, \
              modes that are not in the arm, another quantity than angle per command, or a poor channel",
@@ -83,7 +70,7 @@ fn of_motor(
             "sample command and angle at one time, with one filter, or correct the response by it";
         add("equivalent-motor-delay", Severity::Warning, message, hint);
     }
-    if arm.friction_left.abs() > FRICTION_LEFT {
+    if arm.friction_left.abs() > CLEARLY_PRESENT {
         let message = format!(
             "the motor's response has a torque against the motion that does not grow with its speed, {:.1} deviations \
              from zero, as Coulomb friction leaves it: viscous friction and inertia may be off by more than their \
@@ -146,7 +133,7 @@ pub(super) fn findings(
         );
         let hint = "look at the plot: a misfit at one frequency is a disturbance, one everywhere a wrong deviation";
         add("equivalent-misfit", Severity::Warning, message, hint);
-    } else if data.deviations == Deviations::Measured && rms < TOO_GOOD {
+    } else if data.deviations == Deviations::Measured && rms < ERRORS_TOO_LARGE {
         let message =
             format!("the model leaves {rms:.2} of the deviations: they are larger than the errors");
         let hint = "intervals are wider than they need to be";
@@ -177,7 +164,7 @@ pub(super) fn findings(
         );
         let hint = "check for an angle of the wrong sign or in another unit than the motor's";
         add("equivalent-no-angle", Severity::Warning, message, hint);
-    } else if given > GIVEN || changed(whole) > CHANGED {
+    } else if given > GIVEN_TO_LAST_MODE || changed(whole) > GAIN_CHANGED {
         let message = format!(
             "the points' gains add up to one but for {given:.3}: for use as an arm the last mode is given the rest, \
              so that turning as one body strains nothing. It changes a gain by up to {:.0} %, and zeros with it",

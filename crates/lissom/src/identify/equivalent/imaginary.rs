@@ -4,19 +4,11 @@ use num_complex::Complex64;
 
 use crate::identify::equivalent::data::{Deviations, EquivalentData};
 use crate::identify::equivalent::refusal::{EquivalentRefusal, PartOutside};
+use crate::identify::equivalent::thresholds::{
+    IMAGINARY_PRESENT, IMAGINARY_UNLIKE, NOT_OF_AN_ARM, PHASE_LEAST, PHASE_SIGN_CERTAIN,
+};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{Damping, SharedPoles, Spurious, fit_shared_poles};
-
-/// From this share of a response (its median) on they are none of an arm's…
-const UNEVEN: f64 = 0.1;
-/// …where they are this many deviations, rms: so many are told of, too.
-const DEVIATIONS: f64 = 3.0;
-/// A phase that is the same at all frequencies is told of from so many of its deviations on…
-const PHASE: f64 = 5.0;
-/// …and from this angle on \[rad\].
-const LEAST_PHASE: f64 = 1e-3;
-/// Without deviations, imaginary parts are none of noise that are so many times as large as the real ones.
-const UNLIKE: f64 = 2.0;
 
 /// Of each output that has one: what its imaginary part has beside damping.
 ///
@@ -48,10 +40,11 @@ pub(super) fn parts(
         };
         let left: Vec<Left> = data.omega_rad_s.iter().zip(responses).map(left).collect();
         let (imaginary, real) = (rms(&left, |d| d.im), rms(&left, |d| d.re));
-        let unlike = data.deviations == Deviations::FromResidual && imaginary > UNLIKE * real;
-        let clear = imaginary > real && (imaginary > DEVIATIONS || unlike);
+        let unlike =
+            data.deviations == Deviations::FromResidual && imaginary > IMAGINARY_UNLIKE * real;
+        let clear = imaginary > real && (imaginary > IMAGINARY_PRESENT || unlike);
         let late = fit.delays_s.get(output).copied().flatten();
-        let late = late.filter(|late| late.value.abs() > DEVIATIONS * late.std);
+        let late = late.filter(|late| late.value.abs() > IMAGINARY_PRESENT * late.std);
         if !(clear || late.is_some() || turned(&left)) {
             continue;
         }
@@ -62,7 +55,7 @@ pub(super) fn parts(
             delay_s: late,
         };
         let larger = worst.as_ref().is_none_or(|w| w.share < part.share);
-        if clear && part.share > UNEVEN && larger {
+        if clear && part.share > NOT_OF_AN_ARM && larger {
             worst = Some(part.clone());
         }
         told.push(part);
@@ -101,5 +94,5 @@ fn turned(left: &[Left]) -> bool {
         spread += (weight * turn).powi(2);
         size += weight * l.value.norm_sqr();
     }
-    across.abs() > PHASE * spread.sqrt() && across.abs() > LEAST_PHASE * size
+    across.abs() > PHASE_SIGN_CERTAIN * spread.sqrt() && across.abs() > PHASE_LEAST * size
 }

@@ -11,6 +11,7 @@ mod imaginary;
 mod refusal;
 mod responses;
 mod sound;
+pub(crate) mod thresholds;
 mod turned_round;
 mod whole;
 mod zeros;
@@ -22,15 +23,9 @@ pub use whole::equivalent;
 pub use zeros::{ResponseZero, response_zeros};
 
 use crate::beam::{ModalForm, completed};
+use crate::identify::equivalent::thresholds::POINTS_DEPENDENT;
 use crate::identify::responses::rational::SharedPoles;
-
-/// The matrix of the points' gains counts as singular where its least singular value is not this many
-/// deviations from zero…
-const DEVIATIONS: f64 = 4.0;
-/// …or this share of the largest.
-const DEPENDENT: f64 = 1e-10;
-/// Gains whose sum is within so many deviations of one are those of all modes there are.
-const COMPLETE: f64 = 3.0;
+use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT};
 
 /// `Θ̈ = Â·Θ + B̂·θ_m` (17): N_v points of a beam whose responses show N_v modes.
 #[derive(Debug, Clone, PartialEq)]
@@ -112,7 +107,7 @@ fn with_sum_of_one(fit: &SharedPoles, gains: &DMatrix<f64>) -> (DMatrix<f64>, Ve
         let at = first + i * modes;
         let moves = fit.covariance.view((at, at), (modes, modes)).column_sum();
         let (missing, variance) = (1.0 - gains.row(i).sum(), moves.sum());
-        if missing * missing <= COMPLETE * COMPLETE * variance && variance > 0.0 {
+        if missing * missing <= PRESENT * PRESENT * variance && variance > 0.0 {
             all.set_row(i, &(gains.row(i) + moves.transpose() * (missing / variance)));
             *given = false;
         }
@@ -256,7 +251,7 @@ fn inverted(fit: &SharedPoles, gains: &DMatrix<f64>) -> Result<DMatrix<f64>, Equ
         let gain = u.checked_sub(first);
         gain.map_or(0.0, |g| left[(g / points, at)] * right[(at, g % points)])
     });
-    if points > 1 && (ratio < DEPENDENT || least < DEVIATIONS * std) {
+    if points > 1 && (ratio < POINTS_DEPENDENT || least < CLEARLY_PRESENT * std) {
         return Err(refused(ratio, mode));
     }
     gains.clone().try_inverse().ok_or_else(|| refused(ratio, mode))

@@ -6,11 +6,8 @@ use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{MotorData, TipForm};
 use crate::identify::responses::response_point::ResponsePoint;
 use crate::identify::responses::response_table::tip_model;
+use crate::identify::responses::thresholds::RESPONSE_FLOOR;
 use crate::record::{Campaign, Channels};
-
-/// Responses are trusted to this share of their size at best: held commands, sensors' steps and windows leave
-/// errors that no deviation shows.
-const FLOOR: f64 = 2e-3;
 
 impl EquivalentData {
     /// The responses that `identify` made of a campaign: θ_i/θ_m of its tips that are angles, where all of
@@ -65,5 +62,5 @@ impl EquivalentData {
 }
 
 fn trusted(response: Response) -> Response {
-    Response { std: response.std.hypot(FLOOR * response.value.norm()), ..response }
+    Response { std: response.std.hypot(RESPONSE_FLOOR * response.value.norm()), ..response }
 }

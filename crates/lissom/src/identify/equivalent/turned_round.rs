@@ -3,6 +3,7 @@
 use num_complex::Complex64;
 
 use crate::identify::equivalent::data::EquivalentData;
+use crate::identify::equivalent::thresholds::{CONJUGATE_LEAVES, PHASE_SIGN_CERTAIN};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{
     Damping, SharedPoles, Spurious, fit_shared_poles, fit_shared_poles_by_evidence,
@@ -10,10 +11,6 @@ use crate::identify::responses::rational::{
 
 /// Pairs of poles of one response at most.
 const POLES: usize = 4;
-/// A damping ratio's sign is known from so many of its deviations on.
-const KNOWN: f64 = 5.0;
-/// The conjugated response fits clearly better that leaves this share or less.
-const BETTER: f64 = 0.7;
 
 /// Names of the points whose responses fit clearly better conjugated.
 pub(super) fn turned_round(data: &EquivalentData) -> Vec<String> {
@@ -33,7 +30,9 @@ fn is_turned(omega_rad_s: &[f64], output: &[Response]) -> bool {
     // As it is, with as many poles: they may have gone below zero themselves.
     let outputs = [output.to_vec()];
     let own = fit_shared_poles(omega_rad_s, &outputs, other.poles.len(), Damping::Small).ok();
-    own.is_none_or(|own| damped(&own, -1.0) || other.weighted_rms < BETTER * own.weighted_rms)
+    own.is_none_or(|own| {
+        damped(&own, -1.0) || other.weighted_rms < CONJUGATE_LEAVES * own.weighted_rms
+    })
 }
 
 /// Whether poles within the frequencies that are felt have damping whose sign is known and this one, and none
@@ -45,7 +44,7 @@ fn damped(fit: &SharedPoles, sign: f64) -> bool {
     });
     let known = |k: &usize| {
         let ratio = fit.damping_ratio(*k);
-        if ratio.value.abs() > KNOWN * ratio.std { sign * ratio.value } else { 0.0 }
+        if ratio.value.abs() > PHASE_SIGN_CERTAIN * ratio.std { sign * ratio.value } else { 0.0 }
     };
     let signs: Vec<f64> = beams.map(|k| known(&k)).collect();
     signs.iter().any(|s| *s > 0.0) && signs.iter().all(|s| *s >= 0.0)

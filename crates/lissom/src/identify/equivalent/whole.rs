@@ -8,6 +8,7 @@ use crate::identify::equivalent::data::{
 };
 use crate::identify::equivalent::refusal::EquivalentRefusal;
 use crate::identify::equivalent::sound::sound;
+use crate::identify::equivalent::thresholds::{NO_ANGLE, OUTSIDE_DAMPING_MOST, POLE_IN_TORQUE};
 use crate::identify::equivalent::turned_round::turned_round;
 use crate::identify::equivalent::zeros::response_zeros;
 use crate::identify::equivalent::{
@@ -15,20 +16,13 @@ use crate::identify::equivalent::{
 };
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{
-    MOST_DAMPING, MotorData, Pole, SharedPoles, Spurious, fit_shared_poles_with_delays, information,
+    MotorData, Pole, SharedPoles, Spurious, fit_shared_poles_with_delays, information,
 };
+use crate::identify::responses::thresholds::MODE_DAMPING_MOST;
+use crate::identify::thresholds::SIGN_SHOWN;
 
 /// Pairs of poles looked for, whatever the number of points.
 const POLES_LEAST: usize = 8;
-
-/// Poles above the frequencies carry torque of their own up to so many times the highest one, farther ones cannot
-/// be told from inertia.
-const BEYOND: f64 = 4.0;
-/// More damping than this of such a pole is not known.
-const KNOWN_DAMPING: f64 = 0.05;
-
-/// A point is no angle whose gains, modes left out and all, lack more than this of one.
-const NO_ANGLE: f64 = 0.5;
 
 /// Steps 1 to 6 of Section 4.
 ///
@@ -162,7 +156,7 @@ impl Equivalent {
     fn may_be_a_turned_phase(&self) -> bool {
         let below = |k: usize| {
             let ratio = self.fit.damping_ratio(k);
-            ratio.value < -2.0 * ratio.std
+            ratio.value < -SIGN_SHOWN * ratio.std
         };
         self.imaginary.iter().any(|part| part.delay_s.is_none())
             || self.findings.iter().any(|f| f.code == "equivalent-misfit")
@@ -173,10 +167,10 @@ impl Equivalent {
 /// A pole above the frequencies as the motor's torque has it; `None` where it has none of its own.
 fn in_the_torque(fit: &SharedPoles, k: usize) -> Option<Pole> {
     let pole = fit.poles[k];
-    let known = (0.0..KNOWN_DAMPING).contains(&pole.damping_ratio);
+    let known = (0.0..OUTSIDE_DAMPING_MOST).contains(&pole.damping_ratio);
     let damping_ratio = if known { pole.damping_ratio } else { 0.0 };
-    let near = pole.omega_rad_s < BEYOND * fit.range_rad_s.1;
-    (near && pole.damping_ratio.abs() < MOST_DAMPING).then_some(Pole { damping_ratio, ..pole })
+    let near = pole.omega_rad_s < POLE_IN_TORQUE * fit.range_rad_s.1;
+    (near && pole.damping_ratio.abs() < MODE_DAMPING_MOST).then_some(Pole { damping_ratio, ..pole })
 }
 
 /// Whether nothing at all describes the responses as well as the fit does.

@@ -4,6 +4,7 @@ use num_complex::Complex64;
 
 use crate::beam::{RootClass, class, zero_squares};
 use crate::identify::equivalent::deviation;
+use crate::identify::equivalent::thresholds::{MODES_ABOVE_ERROR, ZERO_KNOWN};
 use crate::identify::estimate::Estimate;
 use crate::identify::responses::rational::SharedPoles;
 
@@ -11,12 +12,6 @@ use crate::identify::responses::rational::SharedPoles;
 const STEPS: usize = 40;
 /// Imaginary part of s², as a share of its size, that eigenvalues of a real root may have by rounding.
 const MEET: f64 = 1e-7;
-
-/// A zero outside the frequencies is told of that is known to this share.
-const KNOWN: f64 = 0.1;
-
-/// Of what poles above the frequencies move a zero that is not measured itself, the share that is not known.
-const STANDS_FOR: f64 = 0.1;
 
 /// A zero of θ_i/θ_m, damping left out: a root in s².
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,7 +59,7 @@ pub fn response_zeros(fit: &SharedPoles, output: usize) -> Vec<ResponseZero> {
         })
         .collect();
     // Beyond the frequencies most are of the poles that stand for all modes there.
-    zeros.retain(|z| !z.outside || z.omega_rad_s.std < KNOWN * z.omega_rad_s.value);
+    zeros.retain(|z| !z.outside || z.omega_rad_s.std < ZERO_KNOWN * z.omega_rad_s.value);
     zeros.sort_by(|a, b| a.omega_rad_s.value.total_cmp(&b.omega_rad_s.value));
     zeros
 }
@@ -117,7 +112,7 @@ fn spread(
     let measured = class(z) == RootClass::Imaginary && (low..=high).contains(&size);
     let each = residues.iter().zip(squares).filter(|(_, s)| s.sqrt() > high);
     let above: Complex64 = each.map(|(r, s)| r / (z + s)).sum();
-    let left_out = if measured { 0.0 } else { STANDS_FOR };
+    let left_out = if measured { 0.0 } else { MODES_ABOVE_ERROR };
     let by_modes_left_out = 0.5 * size * left_out * (above / (slope * z)).norm();
     let by_covariance = deviation(&fit.covariance, |u| {
         let dz = if u < modes * unknowns {

@@ -4,18 +4,14 @@ use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::ModeEstimate;
 use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::identified::Beam;
-use crate::identify::judge::drive_table::MODEL_MISFIT;
 use crate::identify::judge::evidence::Evidence;
+use crate::identify::judge::thresholds::MODEL_MISFIT;
+use crate::identify::judge::thresholds::TIPS_COMPLETE;
 use crate::identify::methods::regression::BeamRegression;
-
-/// Share of the tips' windowed acceleration below which their own equations explain it all.
-///
-/// Convention.
-const COMPLETE: f64 = 0.02;
 
 /// Whether the beam's equations on the measured tips explain their motion.
 pub(super) fn complete(r: &BeamRegression) -> bool {
-    r.relative_residual.iter().all(|left| *left < COMPLETE)
+    r.relative_residual.iter().all(|left| *left < TIPS_COMPLETE)
 }
 
 /// The beam beside the drive's estimates, which its coupling is of: modes of the output error where that is taken,

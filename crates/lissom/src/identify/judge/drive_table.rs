@@ -4,24 +4,11 @@ use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::estimate::Estimate;
 use crate::identify::friction_estimates::Friction;
 use crate::identify::judge::evidence::{Evidence, Methods};
+use crate::identify::judge::thresholds::{BEATEN_FACTOR, BEATEN_SHARE, MODEL_MISFIT};
 use crate::identify::methods::friction_law::FrictionLaw;
 use crate::identify::methods::regression::{MotorRegression, coupled_tips};
 use crate::identify::responses::rational::MotorFit;
-
-/// Weighted residual of the motor's rational model from which on its estimates are not taken \[standard errors, rms\].
-///
-/// Convention: three times what its own standard errors explain.
-pub(super) const MODEL_MISFIT: f64 = 3.0;
-
-/// Part of the smoothed torque that least squares may leave for their estimates to be taken \[1\].
-///
-/// Convention: what is called unexplained torque of the regression.
-const BASELINE_LEAVES: f64 = 0.15;
-/// A regression that leaves this many times what least squares leave, and this part of the torque more, is beaten \[1\].
-///
-/// Convention: least squares leave the least by construction, others a few percent of that more.
-const BEATEN: f64 = 1.5;
-const BEATEN_SHARE: f64 = 0.02;
+use crate::identify::thresholds::UNEXPLAINED_TORQUE;
 
 /// A method in the order of trust: the first that offers a solution which nothing speaks against is taken, whole.
 pub(super) struct Row {
@@ -144,7 +131,7 @@ fn by_least_squares(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
     // Transitions between constant velocities are short: what they show is not worth more than the velocities.
     let missing = evidence.methods.regression.is_none() && !evidence.has_only_constant_velocities();
     let needed = missing || is_beaten(evidence);
-    let sound = fit.relative_residual < BASELINE_LEAVES
+    let sound = fit.relative_residual < UNEXPLAINED_TORQUE
         && fit.estimates.inertia.is_some_and(is_known)
         && fit.estimates.friction.coulomb.is_some_and(is_known);
     (needed && sound).then(|| fit.estimates.clone())
@@ -157,7 +144,7 @@ pub(super) fn is_beaten(evidence: &Evidence<'_>) -> bool {
     let (Some((method, estimates)), Some(baseline)) = (phases, least_squares) else { return false };
     // A law has terms that this equation has not.
     let left = (method != Method::FrictionLaw).then(|| baseline.left_by(&estimates)).flatten();
-    left.is_some_and(|left| left > BEATEN * baseline.relative_residual + BEATEN_SHARE)
+    left.is_some_and(|left| left > BEATEN_FACTOR * baseline.relative_residual + BEATEN_SHARE)
 }
 
 fn by_regression(evidence: &Evidence<'_>) -> Option<DriveEstimates> {

@@ -5,6 +5,7 @@ mod conclude;
 mod drive_table;
 mod evidence;
 mod remarks;
+pub(crate) mod thresholds;
 mod unknown;
 
 pub(crate) use conclude::{Conclusion, conclude};

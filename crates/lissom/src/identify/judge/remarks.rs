@@ -4,20 +4,14 @@ use crate::identify::drive_estimates::Method;
 use crate::identify::finding::Severity::Warning;
 use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::judge::beam_choice::complete;
-use crate::identify::judge::drive_table::MODEL_MISFIT;
 use crate::identify::judge::evidence::{Chosen, Evidence};
+use crate::identify::judge::thresholds::{
+    METHODS_DISAGREE, MODEL_MISFIT, ODD_HARMONICS, OFFSET_REPORTED,
+};
 use crate::identify::methods::regression::coupled_tips;
 use crate::identify::prepare::run_analysis::RunKind;
+use crate::identify::thresholds::PRESENT;
 use crate::record::{CommandQuantity, Hold, TipQuantity};
-
-/// Methods that differ by more than this share disagree.
-///
-/// Convention.
-const DISAGREE: f64 = 0.15;
-/// An estimate this many standard errors from zero is there.
-///
-/// Convention.
-const PRESENT: f64 = 3.0;
 
 /// All of them.
 pub(super) fn remarks(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding> {
@@ -68,7 +62,7 @@ fn friction(evidence: &Evidence<'_>, chosen: &Chosen, findings: &mut Vec<Finding
         let size = |k: usize| s.command.get(k).map_or(0.0, |p| p.value.norm());
         let (odd, even) = (size(3) + size(5), size(2) + size(4));
         let certain = s.command.get(3).is_some_and(|p| p.value.norm() > PRESENT * p.std);
-        if certain && odd > 2.0 * even {
+        if certain && odd > ODD_HARMONICS * even {
             let share = 100.0 * size(3) / size(1).max(f64::MIN_POSITIVE);
             shown = Some(format!(
                 "odd harmonics stand out of the command (third {share:.1} % of the fundamental in \
@@ -100,7 +94,7 @@ fn friction(evidence: &Evidence<'_>, chosen: &Chosen, findings: &mut Vec<Finding
     if let Some(offset) = chosen.drive.friction.offset
         && offset.value.abs() > PRESENT * offset.std
         && let Some(c) = chosen.drive.friction.coulomb
-        && offset.value.abs() > 0.01 * c.value
+        && offset.value.abs() > OFFSET_REPORTED * c.value
     {
         findings.push(Finding::new(
             "offset",
@@ -159,7 +153,7 @@ fn methods(evidence: &Evidence<'_>, chosen: &Chosen, findings: &mut Vec<Finding>
     for (other, name, affected, hint) in others {
         let (Some(other), Some(taken)) = (other, taken) else { continue };
         let apart = other.value / taken.value - 1.0;
-        if apart.abs() > DISAGREE {
+        if apart.abs() > METHODS_DISAGREE {
             findings.push(Finding::new(
                 "methods-disagree",
                 Warning,

@@ -4,15 +4,7 @@ use crate::identify::estimate::Estimate;
 use crate::identify::finding::Severity::Warning;
 use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::judge::evidence::{Chosen, Evidence};
-
-/// An estimate whose standard error is beyond this share of it is called uncertain…
-///
-/// Convention.
-pub(super) const UNCERTAIN: f64 = 0.2;
-/// …and beyond this share it is refused: it is not known to its own size.
-///
-/// Convention.
-const UNKNOWN: f64 = 1.0;
+use crate::identify::judge::thresholds::{REFUSED_ERROR, UNCERTAIN_ERROR};
 
 /// Figures that are not known to their own size are taken back.
 pub(super) fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -> Vec<Finding> {
@@ -39,9 +31,9 @@ pub(super) fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -
             ("negative-figure", "negative: the model does not fit".to_owned())
         } else if share.is_infinite() {
             ("poor-excitation", "with nothing in the runs that shows it".to_owned())
-        } else if share > UNKNOWN || share.is_nan() || e.value < 0.0 {
+        } else if share > REFUSED_ERROR || share.is_nan() || e.value < 0.0 {
             ("poor-excitation", format!("uncertain by ±{:.0} %: not known", 100.0 * share))
-        } else if share > UNCERTAIN {
+        } else if share > UNCERTAIN_ERROR {
             let message = format!(
                 "{name} is known to ±{:.0} % only (one deviation): these motions hardly show it",
                 100.0 * share

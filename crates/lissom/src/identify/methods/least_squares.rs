@@ -4,17 +4,10 @@ use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::methods::regression::{
     Cluster, Fitted, Term, coupled_tips, slip_phases, smoothing, solve,
 };
+use crate::identify::methods::thresholds::{ACCELERATION_NOISE, SLOWEST_SAMPLE};
 use crate::identify::prepare::channel_noise::channel_noise;
 use crate::record::{Campaign, Hold, Run, TipQuantity};
 
-/// Samples slower than this share of the largest speed are left out: friction near standstill is another \[1\].
-///
-/// Convention: what published fits of Coulomb and viscous friction use.
-const LEAST_SPEED: f64 = 0.05;
-/// Share of the acceleration's mean square that the sensor's noise may make \[1\].
-///
-/// Convention: noise in the acceleration lowers the inertia by this share.
-const ACCELERATION_NOISE: f64 = 0.01;
 /// Shortest and longest half width of the smoothing \[samples\].
 ///
 /// Convention.
@@ -72,7 +65,7 @@ pub fn least_squares(campaign: &Campaign) -> Option<LeastSquares> {
     let tips = coupled_tips(campaign);
     let runs: Vec<Smoothed<'_>> = campaign.runs.iter().map(Smoothed::new).collect();
     let fastest = runs.iter().map(Smoothed::fastest).fold(0.0, f64::max);
-    let least = LEAST_SPEED * fastest;
+    let least = SLOWEST_SAMPLE * fastest;
     let mut clusters = Vec::new();
     let mut slowest = f64::INFINITY;
     for (index, smoothed) in runs.iter().enumerate() {

@@ -7,3 +7,4 @@ pub(crate) mod output_error;
 pub(crate) mod regression;
 pub(crate) mod starting_arms;
 pub(crate) mod third_harmonic;
+pub(crate) mod thresholds;

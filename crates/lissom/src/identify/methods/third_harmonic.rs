@@ -8,6 +8,7 @@ use nalgebra::{Matrix2x1, U1, U2, Vector1, Vector2};
 use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
+use crate::identify::methods::thresholds::{STICKING_BIAS, STICKING_MEASURED};
 use crate::spectrum::Phasor;
 
 /// Phasors of one run: the command with its hold taken into account, and the motor.
@@ -110,12 +111,6 @@ pub fn pair_figure(
     })
 }
 
-/// How much lower a pair's figure comes out for each unit of sticking share of its run: with a
-/// share of 4 and 8 % of the cycle 2.3 and 4.9 % were found on the report's arm.
-const STICKING_BIAS: f64 = 0.6;
-/// Sticking shares below this are not measured.
-const LEAST_SHARE: f64 = 0.01;
-
 /// Mean of the pairs' figures and the standard deviation of one pair about it.
 ///
 /// The mean's deviation counts the pairs' scatter and the bias that sticking leaves, by
@@ -129,7 +124,7 @@ pub fn mean_figure(
     let first = pairs.first()?;
     let value = pairs.iter().map(|p| p.coulomb_command.value).sum::<f64>() / n;
     let stuck = pairs.iter().map(stuck_share).sum::<f64>() / n;
-    let bias = STICKING_BIAS * stuck.max(LEAST_SHARE);
+    let bias = STICKING_BIAS * stuck.max(STICKING_MEASURED);
     let spread = if pairs.len() == 1 {
         first.coulomb_command.std
     } else {

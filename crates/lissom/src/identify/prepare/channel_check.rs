@@ -1,24 +1,13 @@
 //! Checks of single channels: dead, clipped, jumping, frozen, sticking.
 
-/// Within a plateau's length before it, a smooth signal rounded to steps comes up by about four of
-/// them; one that runs into a stop by more than this many.
-const STEPS: f64 = 16.0;
-/// Steps of its sensor over which a motion shows whether it slows down.
-const TELLING_STEPS: f64 = 4.0;
+use crate::identify::prepare::thresholds::{
+    CLIPPED_SLOPE, CLIPPED_SLOWED, ENCODER_STEPS, FROZEN_LONGER, FROZEN_SAMPLES, FROZEN_TRAVEL,
+    MOVED_STEPS, REST_RANGE, REST_STEPS, SLOWING_SHOWN, SPIKE_AT_END_LEAST, SPIKE_SHAPE,
+    SPIKE_SIZE,
+};
+
 /// Samples over which slopes are taken: a quantised signal has none over one.
 const REACH: usize = 4;
-/// Share of the largest slope from which on a signal is at speed.
-const AT_SPEED: f64 = 0.3;
-/// What comes to rest within twice as many samples goes three times less far over the last of them than before; what
-/// runs into a stop as far, but for half a sample.
-const SLOWED: f64 = 0.65;
-
-/// A spike bends by so many times what all but a twentieth of the samples do, and so many steps…
-const SPIKE: f64 = 20.0;
-/// …and its neighbours by minus half of that, to this share.
-const LONE: f64 = 0.1;
-/// Fewer second differences do not show what the first and the last of them may be.
-const FEW: usize = 20;
 
 /// Smallest difference between neighbouring values that a channel takes: its step.
 ///
@@ -69,10 +58,10 @@ pub(crate) fn clipped_share(samples: &[f64]) -> f64 {
             end += 1;
         }
         let plateau = end - k;
-        let ran_in = way(k, plateau.min(k)) > STEPS * quantum;
-        let is_long = |over: &usize| way(k, *over) > TELLING_STEPS * quantum;
+        let ran_in = way(k, plateau.min(k)) > MOVED_STEPS * quantum;
+        let is_long = |over: &usize| way(k, *over) > SLOWING_SHOWN * quantum;
         let over = (REACH..plateau.min(k)).find(is_long).unwrap_or(REACH);
-        let is_fast = || way(k, over) > AT_SPEED * steepest * over as f64;
+        let is_fast = || way(k, over) > CLIPPED_SLOPE * steepest * over as f64;
         if plateau >= 3 && !at(samples[k - 1]) && ran_in && is_fast() {
             clipped += plateau;
             if k >= 2 * over {
@@ -82,16 +71,16 @@ pub(crate) fn clipped_share(samples: &[f64]) -> f64 {
         }
         k = end.max(k + 1);
     }
-    if entry < SLOWED * before { 0.0 } else { clipped as f64 / samples.len() as f64 }
+    if entry < CLIPPED_SLOWED * before { 0.0 } else { clipped as f64 / samples.len() as f64 }
 }
 
-/// Largest change per sample, over as many samples, four at least, as it takes to come by [`STEPS`] steps.
+/// Largest change per sample, over as many samples, four at least, as it takes to come by [`MOVED_STEPS`] steps.
 fn steepest(samples: &[f64], quantum: f64) -> f64 {
     let mut over = REACH;
     loop {
         let ways = samples.iter().zip(samples.iter().skip(over)).map(|(a, b)| (b - a).abs());
         let most = ways.fold(0.0, f64::max);
-        if most > STEPS * quantum || 4 * over > samples.len() {
+        if most > MOVED_STEPS * quantum || 4 * over > samples.len() {
             return most / over as f64;
         }
         over *= 2;
@@ -118,15 +107,15 @@ fn bends(samples: &[f64]) -> Option<(Vec<f64>, f64)> {
 /// readings that stand alone.
 pub(crate) fn spikes(samples: &[f64]) -> Vec<usize> {
     let Some((bend, usual)) = bends(samples) else { return Vec::new() };
-    let least = (SPIKE * usual).max(SPIKE * step(samples));
-    let halved = |side: f64, middle: f64| (side / middle + 0.5).abs() < LONE;
+    let least = (SPIKE_SIZE * usual).max(SPIKE_SIZE * step(samples));
+    let halved = |side: f64, middle: f64| (side / middle + 0.5).abs() < SPIKE_SHAPE;
     let alone = |(k, w): (usize, &[f64])| {
         let spike = w[1].abs() > least && halved(w[0], w[1]) && halved(w[2], w[1]);
         // The middle of three second differences is that of the sample two on.
         spike.then_some(k + 2)
     };
     let mut found: Vec<usize> = bend.windows(3).enumerate().filter_map(alone).collect();
-    if bend.len() < FEW {
+    if bend.len() < SPIKE_AT_END_LEAST {
         return found;
     }
     let last = bend.len() - 1;
@@ -136,7 +125,7 @@ pub(crate) fn spikes(samples: &[f64]) -> Vec<usize> {
     // Bends from an end inwards: one of the reading at the end, −2 and 1 of the one beside it.
     let at_end = |[outer, inner]: [f64; 2]| {
         let large = outer.abs() > most;
-        match (large && halved(inner, outer), large && inner.abs() < LONE * outer.abs()) {
+        match (large && halved(inner, outer), large && inner.abs() < SPIKE_SHAPE * outer.abs()) {
             (true, _) => Some(1),
             (_, true) => Some(0),
             _ => None,
@@ -155,12 +144,13 @@ pub(crate) fn spikes(samples: &[f64]) -> Vec<usize> {
 /// Second differences are 1, −1 there, many times what the motion bends elsewhere.
 pub(crate) fn jumps(samples: &[f64]) -> Vec<(usize, f64)> {
     let Some((bend, usual)) = bends(samples) else { return Vec::new() };
-    let least = (SPIKE * usual).max(SPIKE * step(samples));
+    let least = (SPIKE_SIZE * usual).max(SPIKE_SIZE * step(samples));
     let around = |k: usize| bend.get(k).map_or(0.0, |b| b.abs());
     let jump = |(k, w): (usize, &[f64])| {
         let size = w[0].abs();
-        let level = size > least && (w[1] / w[0] + 1.0).abs() < LONE;
-        let quiet = around(k + 2) < LONE * size && (k == 0 || around(k - 1) < LONE * size);
+        let level = size > least && (w[1] / w[0] + 1.0).abs() < SPIKE_SHAPE;
+        let quiet =
+            around(k + 2) < SPIKE_SHAPE * size && (k == 0 || around(k - 1) < SPIKE_SHAPE * size);
         // The first of two second differences is that of the sample one on, whose neighbour jumps.
         (level && quiet).then_some((k + 2, 0.5 * (w[0] - w[1])))
     };
@@ -169,8 +159,6 @@ pub(crate) fn jumps(samples: &[f64]) -> Vec<(usize, f64)> {
 
 /// Steps of an encoder are a whole turn over 2^8 to 2^24.
 const BITS: std::ops::RangeInclusive<i32> = 8..=24;
-/// Readings lie on such steps to this share of one, root mean square; any others lie 0.29 off.
-const ON_STEPS: f64 = 0.02;
 
 /// Bits of an encoder whose steps the readings show, a turn being `turn` of their unit.
 pub(crate) fn encoder_bits(samples: &[f64], turn: f64) -> Option<i32> {
@@ -186,15 +174,8 @@ fn is_on_steps(samples: &[f64], quantum: f64) -> bool {
         (steps - steps.round()).powi(2)
     };
     let rms = (samples.iter().map(off).sum::<f64>() / samples.len() as f64).sqrt();
-    range(samples) > STEPS * quantum && rms < ON_STEPS
+    range(samples) > MOVED_STEPS * quantum && rms < ENCODER_STEPS
 }
-
-/// A sensor that stands still for fewer samples is not called frozen.
-const FROZEN: usize = 50;
-/// Frozen is what stands for so many times longer than it does elsewhere…
-const LONGER: f64 = 10.0;
-/// …while the motor moves on by this share of its range.
-const TRAVELS: f64 = 0.2;
 
 /// The stretch over which a tip's angle takes one value while the `motor` moves on: far longer than it stands anywhere
 /// else.
@@ -211,10 +192,10 @@ pub(crate) fn frozen(tip: &[f64], motor: &[f64]) -> Option<std::ops::Range<usize
     let longest = plateaus.iter().max_by_key(|p| p.len())?.clone();
     let second = plateaus.iter().filter(|p| **p != longest).map(ExactSizeIterator::len).max()?;
     let travel = range(&motor[longest.clone()]);
-    let frozen = longest.len() >= FROZEN
-        && longest.len() as f64 > LONGER * second as f64
-        && travel > TRAVELS * range(motor)
-        && travel > STEPS * step(motor);
+    let frozen = longest.len() >= FROZEN_SAMPLES
+        && longest.len() as f64 > FROZEN_LONGER * second as f64
+        && travel > FROZEN_TRAVEL * range(motor)
+        && travel > MOVED_STEPS * step(motor);
     frozen.then_some(longest)
 }
 
@@ -225,7 +206,7 @@ const REST: usize = 10;
 /// thousandth of its range.
 pub(crate) fn rest_share(motor: &[f64]) -> f64 {
     let block = motor.len().div_ceil(50).max(REST);
-    let allowed = (2.0 * step(motor)).max(1e-3 * range(motor));
+    let allowed = (REST_STEPS * step(motor)).max(REST_RANGE * range(motor));
     let still: usize = motor.chunks(block).filter(|c| range(c) <= allowed).map(<[f64]>::len).sum();
     still as f64 / motor.len() as f64
 }

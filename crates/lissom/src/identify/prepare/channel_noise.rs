@@ -1,11 +1,9 @@
 //! How noisy a channel is: its sensor's step and the noise beyond it, from its samples alone.
 
+use crate::identify::prepare::thresholds::{STEP_MULTIPLES, STEP_WHOLE};
+
 /// Differences below this share of the range are rounding, not steps.
 const ROUNDING: f64 = 1e-9;
-/// Share of differences that must be whole multiples of the step…
-const MULTIPLES: f64 = 0.99;
-/// …to this share of it.
-const WHOLE: f64 = 0.01;
 /// Samples looked at, spread over the record.
 const SAMPLES: usize = 8192;
 /// Share of the fourth differences that is kept, the smaller ones, and the mean square of so many of a normal
@@ -81,10 +79,10 @@ fn step(x: &[f64]) -> f64 {
     if !step.is_finite() {
         return 0.0;
     }
-    let is_whole = |d: f64| (d / step - (d / step).round()).abs() < WHOLE;
+    let is_whole = |d: f64| (d / step - (d / step).round()).abs() < STEP_WHOLE;
     let (whole, all) =
         moves(apart(x)).fold((0, 0), |(whole, all), d| (whole + i32::from(is_whole(d)), all + 1));
-    if f64::from(whole) >= MULTIPLES * f64::from(all) { step } else { 0.0 }
+    if f64::from(whole) >= STEP_MULTIPLES * f64::from(all) { step } else { 0.0 }
 }
 
 #[cfg(test)]

@@ -5,3 +5,4 @@ pub(crate) mod channel_noise;
 pub(crate) mod repeated_run;
 pub(crate) mod run_analysis;
 pub(crate) mod sensor_check;
+pub(crate) mod thresholds;

@@ -3,8 +3,9 @@
 use num_complex::Complex64;
 
 use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::methods::constant_velocity::thresholds::{STEADY_BOTH_WAYS, STEADY_ONE_WAY};
 use crate::identify::methods::constant_velocity::{
-    SHARE, SHARE_ONE_WAY, SteadyPoint, no_stretch, steady_points, steady_share,
+    SteadyPoint, no_stretch, steady_points, steady_share,
 };
 use crate::identify::methods::regression::slip_sign;
 use crate::identify::methods::third_harmonic::RunPhasors;
@@ -13,30 +14,16 @@ use crate::identify::prepare::channel_check::{
 };
 use crate::identify::prepare::repeated_run::repeats;
 use crate::identify::prepare::sensor_check;
+use crate::identify::prepare::thresholds::{
+    AT_LIMIT, AT_REST_REPORTED, DRIFT_REPORTED, DRIFT_STEPS, FEW_PERIODS, JITTER_REPORTED, ONE_WAY,
+    ONE_WAY_MOVES, SATURATION_REPORTED, SINE_DISTORTION_FOUND, SINE_DISTORTION_GIVEN,
+    SINE_UNEXPLAINED, STICKING_REPORTED,
+};
+use crate::identify::thresholds::SAME_FREQUENCY;
 use crate::record::{Campaign, Hold, Note, Run};
 use crate::spectrum::{
     Harmonics, Phasor, Steady, find_frequency, hold_factor, least_squares, steady_state,
 };
-
-/// A run is sinusoidal when harmonics leave at most this share of the motor's power…
-const UNEXPLAINED: f64 = 0.02;
-/// …and the harmonics above the first have at most this share of the first's amplitude, where the
-/// frequency is given…
-const DISTORTION_GIVEN: f64 = 0.1;
-/// …or found: a trapezoidal move has 5 to 10 %, and is none.
-const DISTORTION_FOUND: f64 = 0.04;
-/// Fewer periods than this are few for a covariance.
-const FEW_PERIODS: usize = 6;
-/// Sticking share of the cycle from which on the third harmonic is off by per cents.
-const STICKING: f64 = 0.05;
-/// Share of a run at rest from which on it is said.
-const AT_REST: f64 = 0.3;
-/// Stamps off the grid by more than this share of the sample time, rms.
-const JITTER: f64 = 0.05;
-/// Share of the time in motion from which on the motor turns one way throughout.
-const ONE_WAY: f64 = 0.95;
-/// Drift over the run, relative to the amplitude.
-const DRIFT: f64 = 0.1;
 
 /// What was found in one run.
 #[derive(Debug, Clone)]
@@ -147,7 +134,7 @@ pub(crate) fn analyse(
     if let Some(found) = sinusoidal(campaign, run, harmonics, findings) {
         let kept = &run.motor()[found.steady.first..];
         let share = dwell_share(kept, found.omega_rad_s, run.sample_time_s());
-        if share > STICKING {
+        if share > STICKING_REPORTED {
             findings.push(
                 Finding::new(
                     "sticking",
@@ -165,7 +152,7 @@ pub(crate) fn analyse(
     }
     steady = steady_points(campaign, index);
     let one_way = turns_one_way(run);
-    let least = if one_way { SHARE_ONE_WAY } else { SHARE };
+    let least = if one_way { STEADY_ONE_WAY } else { STEADY_BOTH_WAYS };
     if steady_share(run, &steady, rest_share(run.motor())) > least {
         analysis.kind = RunKind::ConstantVelocity;
     } else if steady.is_empty() && one_way {
@@ -182,7 +169,7 @@ fn turns_one_way(run: &Run) -> bool {
     let count = |s: f64| sign.iter().filter(|x| **x * s > 0.0).count() as f64;
     let (forward, backward) = (count(1.0), count(-1.0));
     let moves = forward + backward;
-    forward.max(backward) > ONE_WAY * moves && moves > 0.5 * run.len() as f64
+    forward.max(backward) > ONE_WAY * moves && moves > ONE_WAY_MOVES * run.len() as f64
 }
 
 /// Dead and clipped channels; whether motor and command are alive. A constant command of a motor
@@ -241,7 +228,7 @@ fn channels(
 /// Long stands, in which a log says nothing but that friction holds.
 fn at_rest(run: &Run, findings: &mut Vec<Finding>) {
     let share = rest_share(run.motor());
-    if share > AT_REST {
+    if share > AT_REST_REPORTED {
         findings.push(
             Finding::new(
                 "mostly-at-rest",
@@ -258,12 +245,12 @@ fn at_rest(run: &Run, findings: &mut Vec<Finding>) {
 fn saturation(campaign: &Campaign, run: &Run, findings: &mut Vec<Finding>) -> f64 {
     let (share, known) = match campaign.channels.command.limit {
         Some(limit) => {
-            let at = run.command().iter().filter(|u| u.abs() >= 0.999 * limit).count();
+            let at = run.command().iter().filter(|u| u.abs() >= AT_LIMIT * limit).count();
             (at as f64 / run.len() as f64, true)
         }
         None => (clipped_share(run.command()), false),
     };
-    if share > 0.001 {
+    if share > SATURATION_REPORTED {
         let how = if known { "is at its limit" } else { "stands at its largest value" };
         findings.push(
             Finding::new(
@@ -281,7 +268,7 @@ fn saturation(campaign: &Campaign, run: &Run, findings: &mut Vec<Finding>) -> f6
 
 fn time_base(run: &Run, findings: &mut Vec<Finding>) {
     let time = run.time();
-    if time.jitter_rms_s > JITTER * time.sample_time_s {
+    if time.jitter_rms_s > JITTER_REPORTED * time.sample_time_s {
         findings.push(
             Finding::new(
                 "jitter",
@@ -324,7 +311,8 @@ fn sinusoidal(
     let given = run.omega_rad_s().is_some();
     // A frequency given in Hz, or of another run, shows beside the log's own.
     let own = || {
-        let own = find_frequency(run.motor(), t).filter(|w| (w / omega - 1.0).abs() > 0.02);
+        let own =
+            find_frequency(run.motor(), t).filter(|w| (w / omega - 1.0).abs() > SAME_FREQUENCY);
         own.map_or_else(String::new, |w| {
             format!("; the motor itself moves at {w:.4} rad/s, {:.4} Hz", w / std::f64::consts::TAU)
         })
@@ -351,9 +339,9 @@ fn sinusoidal(
     let motor = fit(run.motor())?;
     let distortion = motor.phasors[1..].iter().map(|p| p.value.norm_sqr()).sum::<f64>().sqrt()
         / motor.phasors[0].value.norm();
-    let allowed = if given { DISTORTION_GIVEN } else { DISTORTION_FOUND };
+    let allowed = if given { SINE_DISTORTION_GIVEN } else { SINE_DISTORTION_FOUND };
     // At rest in all that is kept, neither is a number: no sinusoid either.
-    let sinusoid = motor.unexplained() <= UNEXPLAINED && distortion <= allowed;
+    let sinusoid = motor.unexplained() <= SINE_UNEXPLAINED && distortion <= allowed;
     if !sinusoid {
         if given {
             let message = if distortion.is_finite() {
@@ -438,7 +426,7 @@ fn steadiness(run: &Run, steady: &Steady, findings: &mut Vec<Finding>) {
 
 fn drift(run: &Run, motor: &Harmonics, quantum: f64, findings: &mut Vec<Finding>) {
     let amplitude = motor.phasors[0].value.norm();
-    if motor.drift.abs() > DRIFT * amplitude && motor.drift.abs() > 3.0 * quantum {
+    if motor.drift.abs() > DRIFT_REPORTED * amplitude && motor.drift.abs() > DRIFT_STEPS * quantum {
         findings.push(
             Finding::new(
                 "drift",

@@ -2,12 +2,8 @@
 
 use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::prepare::channel_check::{clipped_share, encoder_bits, frozen, jumps, spikes};
+use crate::identify::prepare::thresholds::{CLIPPED_REPORTED, WHOLE_TURN};
 use crate::record::{Axis, Campaign, Run, TipQuantity};
-
-/// Share of a run at an end stop from which on it is told of.
-const CLIPPED: f64 = 0.002;
-/// A jump by whole turns is one to this part of a turn.
-const WHOLE: f64 = 0.02;
 
 pub(crate) fn findings(campaign: &Campaign, run: &Run) -> Vec<Finding> {
     let mut found = Vec::new();
@@ -45,7 +41,7 @@ fn jumping(name: &str, x: &[f64], run: &Run) -> Option<Finding> {
         n => format!(", the first of {n} such jumps"),
     };
     let turns = by.abs() / std::f64::consts::TAU;
-    let whole = turns.round() >= 1.0 && (turns - turns.round()).abs() < WHOLE;
+    let whole = turns.round() >= 1.0 && (turns - turns.round()).abs() < WHOLE_TURN;
     let (what, hint) = if whole {
         (
             " (whole turns)",
@@ -105,7 +101,7 @@ fn stands_still(tip: &str, x: &[f64], run: &Run) -> Option<Finding> {
 
 fn clipped(name: &str, x: &[f64]) -> Option<Finding> {
     let share = clipped_share(x);
-    (share > CLIPPED).then(|| {
+    (share > CLIPPED_REPORTED).then(|| {
         Finding::new(
             "clipped-channel",
             Severity::Warning,

@@ -10,20 +10,13 @@ use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::MotorFit;
 use crate::identify::responses::replayed_bands::ReplayedBands;
-use crate::identify::responses::response_point::{ResponsePoint, STUCK_LEAST, sticking_error};
+use crate::identify::responses::response_point::{ResponsePoint, sticking_error};
+use crate::identify::responses::thresholds::{
+    BAND_COHERENCE, BAND_CONTRADICTED, BAND_POWER, BAND_UNCERTAIN, LONG_RUNS, NEAREST_BAND,
+    SHORT_RUN, STUCK_LEAST,
+};
 use crate::record::{Campaign, Hold, Run};
 use crate::spectrum::{Band, broadband, hold_factor, noise_power};
-
-/// Least coherence at which a band of a broadband record is worth showing.
-const COHERENCE: f64 = 0.3;
-/// Least power of the input in a band, relative to the strongest.
-const POWER: f64 = 1e-3;
-/// A run is short beside the longest below this share of its time.
-const SHORT: f64 = 0.25;
-/// Relative difference from the regression's model at which a band is flagged.
-const CONTRADICTED: f64 = 0.1;
-/// Relative deviation from which on a band is flagged.
-const UNCERTAIN: f64 = 0.02;
 
 /// Runs that go into bands: usable, and neither sines nor constant velocities.
 pub(crate) fn general(runs: &[RunAnalysis]) -> Vec<usize> {
@@ -37,9 +30,9 @@ fn long_enough(campaign: &Campaign, runs: Vec<usize>) -> Vec<usize> {
     let duration_s = |&i: &usize| campaign.runs[i].len() as f64 * campaign.runs[i].sample_time_s();
     let longest_s = runs.iter().map(duration_s).fold(0.0, f64::max);
     let long: Vec<usize> =
-        runs.iter().copied().filter(|i| duration_s(i) >= SHORT * longest_s).collect();
+        runs.iter().copied().filter(|i| duration_s(i) >= SHORT_RUN * longest_s).collect();
     let total_s = |runs: &[usize]| runs.iter().map(duration_s).sum::<f64>();
-    if total_s(&long) >= 0.5 * total_s(&runs) { long } else { runs }
+    if total_s(&long) >= LONG_RUNS * total_s(&runs) { long } else { runs }
 }
 
 /// Bands of all such runs. Friction is taken out by the replay where it describes the runs, else in
@@ -64,7 +57,7 @@ pub(crate) fn bands(
         .map(|k| records.spectrum(&motor, &|i| campaign.runs[i].tips()[k].clone()))
         .collect();
     raw.iter()
-        .filter(|b| b.coherence > COHERENCE && b.input_power > POWER)
+        .filter(|b| b.coherence > BAND_COHERENCE && b.input_power > BAND_POWER)
         .map(|b| {
             let square = nearest(&square, b.omega_rad_s);
             let w = square.map_or(b.omega_rad_s, |c| c.omega_rad_s);
@@ -163,7 +156,8 @@ impl Records<'_> {
 }
 
 fn nearest(bands: &[Band], w: f64) -> Option<Band> {
-    let near = |b: &&Band| (b.omega_rad_s / w - 1.0).abs() < 0.03 && b.coherence > COHERENCE;
+    let near =
+        |b: &&Band| (b.omega_rad_s / w - 1.0).abs() < NEAREST_BAND && b.coherence > BAND_COHERENCE;
     bands.iter().find(near).copied()
 }
 
@@ -174,7 +168,7 @@ pub(crate) fn uncertain(responses: &mut [ResponsePoint]) -> Option<Finding> {
         all += 1;
         let Some(corrected) = point.motor_corrected else { continue };
         let relative = corrected.std / corrected.value.norm();
-        if relative.is_nan() || relative > UNCERTAIN {
+        if relative.is_nan() || relative > BAND_UNCERTAIN {
             point.flagged = true;
             number += 1;
         }
@@ -182,7 +176,7 @@ pub(crate) fn uncertain(responses: &mut [ResponsePoint]) -> Option<Finding> {
     let message = format!(
         "{number} of {all} bands of the corrected response are uncertain by more than {:.0} %: they \
          are flagged",
-        100.0 * UNCERTAIN
+        100.0 * BAND_UNCERTAIN
     );
     let hint = "hardly driven there: take the model's response, or add a run that drives it";
     let affects = [key::CORRECTED];
@@ -199,7 +193,7 @@ pub(crate) fn against(responses: &mut [ResponsePoint], model: &MotorFit) -> Opti
         let Some(corrected) = point.motor_corrected else { continue };
         let expected = model.transfer_function.response(point.omega_rad_s);
         let distance = (corrected.value - expected).norm();
-        if distance > CONTRADICTED * expected.norm() {
+        if distance > BAND_CONTRADICTED * expected.norm() {
             point.flagged = true;
             number += 1;
         }
@@ -207,7 +201,7 @@ pub(crate) fn against(responses: &mut [ResponsePoint], model: &MotorFit) -> Opti
     let message = format!(
         "{number} of {all} bands of the corrected response differ by more than {:.0} % from what \
          the regression's figures give: they are flagged",
-        100.0 * CONTRADICTED
+        100.0 * BAND_CONTRADICTED
     );
     let hint = "hardly driven there, or biased by the loop: take the model's response";
     let affects = [key::CORRECTED];

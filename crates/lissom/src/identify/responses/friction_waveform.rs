@@ -5,12 +5,11 @@ use num_complex::Complex64;
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::prepare::run_analysis::Sinusoidal;
 use crate::identify::responses::correct::Response;
+use crate::identify::responses::thresholds::WAVEFORM_PERIODS;
 use crate::record::{Campaign, Hold};
 use crate::replay::{ModalArm, Window, predict};
 use crate::spectrum::hold_factor;
 
-/// Fewest periods.
-const PERIODS: usize = 3;
 /// Lines of the spectrum beside the fundamental that noise is read off, on either side: Hann's window
 /// spreads a line over its neighbours, and the next harmonic is as many lines away as there are periods.
 const LINES: usize = 6;
@@ -94,7 +93,7 @@ impl FrictionWaveform<'_> {
         let len = (periods as f64 * period).round() as usize;
         let part = |x: Vec<f64>| x.into_iter().skip(begin - first).take(len).collect();
         let (friction, motor) = (part(replayed.friction_nm), part(replayed.motor));
-        (periods >= PERIODS).then_some(Net { begin, len, periods, friction, motor })
+        (periods >= WAVEFORM_PERIODS).then_some(Net { begin, len, periods, friction, motor })
     }
 }
 

@@ -10,3 +10,4 @@ pub(crate) mod rational;
 pub(crate) mod replayed_bands;
 pub(crate) mod response_point;
 pub(crate) mod response_table;
+pub(crate) mod thresholds;

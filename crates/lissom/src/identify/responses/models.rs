@@ -9,10 +9,8 @@ use crate::identify::responses::rational::{
 };
 use crate::identify::responses::response_point::ResponsePoint;
 use crate::identify::responses::response_table::tip_model;
+use crate::identify::responses::thresholds::MODEL_EXPLAINED;
 use crate::record::{Campaign, Tip};
-
-/// Windowed torque (or acceleration) that a regression may leave for its figures to make a model.
-const EXPLAINED: f64 = 0.05;
 
 /// The model that the slip phases' estimates make, where they explain all: a rigid axis without
 /// tips, or one tip that follows one mode.
@@ -21,11 +19,11 @@ pub(crate) fn figures_model(
     motor: Option<(&MotorRegression, &DriveEstimates)>,
     beam: Option<&BeamRegression>,
 ) -> Option<(MotorFit, Option<BeamFit>)> {
-    let (_, drive) = motor.filter(|(m, _)| m.relative_residual < EXPLAINED)?;
+    let (_, drive) = motor.filter(|(m, _)| m.relative_residual < MODEL_EXPLAINED)?;
     let (inertia, viscous) = (drive.inertia?, drive.friction.viscous?);
     let mode = match (campaign.channels.tips.len(), beam) {
         (0, _) => None,
-        (1, Some(beam)) if beam.relative_residual[0] < EXPLAINED => {
+        (1, Some(beam)) if beam.relative_residual[0] < MODEL_EXPLAINED => {
             let mode = *beam.modes.first()?;
             let pole = Pole {
                 omega_rad_s: mode.natural_frequency_rad_s.value,

@@ -4,12 +4,10 @@ use num_complex::Complex64;
 
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::responses::correct::Response;
+use crate::identify::responses::thresholds::NEAREST_BAND;
 use crate::record::{Campaign, Hold, TipQuantity};
 use crate::replay::{ModalArm, Prediction, Window, predict};
 use crate::spectrum::{Band, Bin, Lines, average, groups, hold_factor};
-
-/// A band's frequency is another's to this share.
-const NEAR: f64 = 0.03;
 
 /// Bands of runs that an arm was found to describe from end to end.
 pub(crate) struct ReplayedBands<'a> {
@@ -77,7 +75,8 @@ impl<'a> ReplayedBands<'a> {
         let bands = self.beyond[channel].iter();
         let band = bands.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
         let own = self.replayed.own(&self.replayed.found.arm, channel, omega_rad_s);
-        (distance(&band) < NEAR).then(|| Response { value: own + band.response, std: band.std })
+        (distance(&band) < NEAREST_BAND)
+            .then(|| Response { value: own + band.response, std: band.std })
     }
 }
 

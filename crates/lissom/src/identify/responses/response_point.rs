@@ -3,12 +3,8 @@
 use std::f64::consts::PI;
 
 use crate::identify::responses::correct::Response;
-
-/// Sticking shares below this are not measured: what (30) leaves where nothing sticks.
-pub(crate) const STUCK_LEAST: f64 = 0.015;
-/// A corrected point is vouched for whose 95 % interval, so many deviations to a side, is within this share.
-const VOUCHED: f64 = 0.05;
-const INTERVAL: f64 = 1.96;
+use crate::identify::responses::thresholds::POINT_VOUCHED_FOR;
+use crate::identify::thresholds::NORMAL_95;
 
 /// One frequency of the campaign's responses.
 #[derive(Debug, Clone)]
@@ -31,7 +27,7 @@ impl ResponsePoint {
     /// Whether the corrected point is vouched for: nothing speaks against it, and its 95 % interval is
     /// within 5 % of it.
     pub fn is_vouched_for(&self) -> bool {
-        let known = |r: Response| INTERVAL * r.std <= VOUCHED * r.value.norm();
+        let known = |r: Response| NORMAL_95 * r.std <= POINT_VOUCHED_FOR * r.value.norm();
         !self.flagged && self.motor_corrected.is_some_and(known)
     }
 }

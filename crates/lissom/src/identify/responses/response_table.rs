@@ -7,12 +7,11 @@ use crate::identify::responses::bands::bands;
 use crate::identify::responses::correct::{Response, corrected_by_harmonics, ratio};
 use crate::identify::responses::rational::TipForm;
 use crate::identify::responses::replayed_bands::ReplayedBands;
-use crate::identify::responses::response_point::{ResponsePoint, STUCK_LEAST, sticking_error};
+use crate::identify::responses::response_point::{ResponsePoint, sticking_error};
+use crate::identify::responses::thresholds::{POINT_UNCERTAIN, STUCK_LEAST};
 use crate::record::{Campaign, TipQuantity};
 use crate::spectrum::Phasor;
 
-/// A corrected point uncertain by more than this share is flagged.
-const WEAK: f64 = 0.5;
 /// What the replay says of friction.
 #[derive(Default)]
 pub(crate) struct Replayed<'a> {
@@ -77,7 +76,7 @@ fn sinusoidal(
 /// Relative deviation of a corrected response, where it is too large for the point to count.
 fn weak(response: &Response) -> Option<f64> {
     let relative = response.std / response.value.norm();
-    (relative.is_nan() || relative > WEAK).then_some(relative)
+    (relative.is_nan() || relative > POINT_UNCERTAIN).then_some(relative)
 }
 
 /// Findings about corrected points that friction leaves too uncertain.

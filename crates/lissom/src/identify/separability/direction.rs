@@ -2,13 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::identify::separability::judged::{Judged, TAKES_PART};
+use crate::identify::separability::judged::Judged;
+use crate::identify::separability::thresholds::{
+    DIRECTION_OF_ESTIMATE, ESTIMATE_OF_DIRECTION, LOST_SHARE,
+};
 use crate::information::Figure;
-
-/// A figure takes part in a direction that carries this share of its variance…
-const OF_FIGURE: f64 = 0.5;
-/// …or of which it is this share.
-const OF_DIRECTION: f64 = 0.1;
 
 /// A change of figures together.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +49,7 @@ pub(super) fn of(figures: &[Figure], covariance: &DMatrix<f64>) -> Vec<Direction
 pub(super) fn lost(judged: &Judged) -> Vec<Direction> {
     let direction = |change: &DVector<f64>| Direction {
         std: f64::INFINITY,
-        parts: parts(&judged.figures, change, &|i| f64::from(change[i].abs() > TAKES_PART)),
+        parts: parts(&judged.figures, change, &|i| f64::from(change[i].abs() > LOST_SHARE)),
     };
     judged.lost.iter().map(direction).collect()
 }
@@ -62,7 +60,9 @@ fn parts(figures: &[Figure], vector: &DVector<f64>, share: &dyn Fn(usize) -> f64
         weight: vector[i],
         of_variance: share(i),
     };
-    let takes = |p: &Part| p.of_variance > OF_FIGURE || p.weight.powi(2) > OF_DIRECTION;
+    let takes = |p: &Part| {
+        p.of_variance > DIRECTION_OF_ESTIMATE || p.weight.powi(2) > ESTIMATE_OF_DIRECTION
+    };
     let mut parts: Vec<Part> = figures.iter().enumerate().map(part).filter(takes).collect();
     parts.sort_by(|a, b| b.weight.abs().total_cmp(&a.weight.abs()));
     if parts.first().is_some_and(|p| p.weight < 0.0) {

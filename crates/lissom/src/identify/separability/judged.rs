@@ -6,14 +6,13 @@ use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::{COUPLING, Terms};
+use crate::identify::separability::thresholds::LOST_SHARE;
 use crate::identify::separability::{FigureKnown, correlation};
 use crate::information::{Figure, inverse, slopes};
 use crate::record::Campaign;
 
 /// Differences for the slopes of figures are taken over this many deviations of a parameter.
 const HALF: f64 = 0.5;
-/// Share of a lost direction from which on a figure takes part in it.
-pub(super) const TAKES_PART: f64 = 0.01;
 
 /// Figures and their covariance.
 pub(super) struct Judged {
@@ -105,7 +104,7 @@ impl Judged {
 
     /// Whether a figure takes part in a change that the logs do not show.
     fn is_lost(&self, figure: usize) -> bool {
-        self.lost.iter().any(|change| change[figure].abs() > TAKES_PART)
+        self.lost.iter().any(|change| change[figure].abs() > LOST_SHARE)
     }
 
     pub(super) fn known(&self) -> Vec<FigureKnown> {

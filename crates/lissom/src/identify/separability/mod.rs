@@ -5,6 +5,7 @@ mod direction;
 mod judged;
 mod run_to_add;
 mod runs;
+pub(crate) mod thresholds;
 mod words;
 
 use nalgebra::DMatrix;
@@ -18,10 +19,8 @@ use crate::identify::drive_estimates::Method;
 use crate::identify::finding::{Finding, Severity, key};
 use crate::identify::found_arm::ArmSource;
 use crate::identify::judge::{Chosen, Evidence, Methods};
+use crate::identify::separability::thresholds::ALL_SHARP;
 use crate::information::Figure;
-
-/// Relative deviation up to which a figure is sharp: where all are, nothing is left to separate.
-const SHARP: f64 = 0.01;
 
 /// A figure beside the others. Deviations are shares of its [size](Figure::size).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -94,7 +93,7 @@ impl Separability {
             figures: judged.known(),
             condition: judged.condition(),
             run_to_add: replay.and_then(|oe| {
-                RunToAdd::of(oe, used, &judged, directions.first().filter(|d| d.std > SHARP)?)
+                RunToAdd::of(oe, used, &judged, directions.first().filter(|d| d.std > ALL_SHARP)?)
             }),
             directions,
             runs,
@@ -105,7 +104,7 @@ impl Separability {
 
     /// Whether every figure is known to 1 % or better.
     pub fn is_sharp(&self) -> bool {
-        self.figures.iter().all(|f| f.std <= SHARP)
+        self.figures.iter().all(|f| f.std <= ALL_SHARP)
     }
 
     /// The run that fits the others least, where it does not fit. One at a time: it is in the figures that

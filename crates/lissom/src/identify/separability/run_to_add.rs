@@ -3,14 +3,10 @@
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::separability::direction::Direction;
 use crate::identify::separability::judged::Judged;
+use crate::identify::separability::thresholds::{RUN_AS_GOOD, RUN_WORTH};
 use crate::information::Figure;
 use crate::plan::{Addition, Bounds, PlannedMotion, additions};
 use crate::record::Campaign;
-
-/// A shorter run is as good whose deviation is larger by no more than this factor.
-const AS_GOOD: f64 = 1.1;
-/// A run is worth its time that leaves no more than this share of the deviation.
-const WORTH: f64 = 0.9;
 
 /// A run worth adding.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +46,7 @@ impl RunToAdd {
         let share = tried.iter().map(|addition| white(Some(addition)) / now);
         let all: Vec<(f64, &Addition)> = share.zip(&tried).filter(|(s, _)| s.is_finite()).collect();
         let best = all.iter().map(|(share, _)| *share).reduce(f64::min)?;
-        let as_good = all.iter().filter(|(share, _)| *share <= AS_GOOD * best);
+        let as_good = all.iter().filter(|(share, _)| *share <= RUN_AS_GOOD * best);
         let order = |a: &&(f64, &Addition), b: &&(f64, &Addition)| {
             (a.1.record_s, a.0)
                 .partial_cmp(&(b.1.record_s, b.0))
@@ -58,7 +54,7 @@ impl RunToAdd {
         };
         let (share, chosen) = *as_good.min_by(order)?;
         let std_now = judged.covariance[(at, at)].sqrt();
-        (share <= WORTH).then_some(Self {
+        (share <= RUN_WORTH).then_some(Self {
             motion: chosen.motion,
             amplitude_rad: chosen.amplitude_rad,
             record_s: chosen.record_s,

@@ -4,17 +4,10 @@ use nalgebra::DMatrix;
 
 use crate::identify::methods::output_error::ByRun;
 use crate::identify::separability::judged::Judged;
+use crate::identify::separability::thresholds::{RUN_CARRIES, RUN_MOVES, RUN_RESIDUAL};
+use crate::identify::thresholds::PRESENT;
 use crate::information::Figure;
 use crate::record::Campaign;
-
-/// A run stands out whose residual is this many times that of the others…
-const RESIDUAL: f64 = 1.5;
-/// …and without which a figure would move by this many of its deviations…
-const DEVIATIONS: f64 = 3.0;
-/// …and by this share of itself.
-const MOVES: f64 = 1e-3;
-/// A run carries a figure whose deviation grows by this factor without it.
-const CARRIES: f64 = 2.0;
 
 /// What a run says beside the others.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,17 +37,17 @@ pub struct Carried {
 impl RunShare {
     /// Whether its residual is beyond that of the others and figures move by it.
     pub fn spoils(&self) -> bool {
-        self.residual > RESIDUAL && self.moved().next().is_some()
+        self.residual > RUN_RESIDUAL && self.moved().next().is_some()
     }
 
     /// Figures that would be others without it.
     pub fn moved(&self) -> impl Iterator<Item = &Carried> {
-        self.figures.iter().filter(|c| c.deviations.abs() > DEVIATIONS && c.change.abs() > MOVES)
+        self.figures.iter().filter(|c| c.deviations.abs() > PRESENT && c.change.abs() > RUN_MOVES)
     }
 
     /// Figures that are known from it above all.
     pub fn carries(&self) -> impl Iterator<Item = &Carried> {
-        self.figures.iter().filter(|c| c.growth > CARRIES)
+        self.figures.iter().filter(|c| c.growth > RUN_CARRIES)
     }
 }
 

@@ -3,21 +3,15 @@
 use crate::identify::separability::direction::{Direction, Part};
 use crate::identify::separability::run_to_add::RunToAdd;
 use crate::identify::separability::runs::{Carried, RunShare};
+use crate::identify::separability::thresholds::{CHANGE_SHOWN, CORRELATED, LARGE_CHANGE};
 use crate::identify::separability::{FigureKnown, Separability};
+use crate::identify::thresholds::NORMAL_95;
 use crate::information::Figure;
 use crate::plan::{PlannedMotion, percent};
 use crate::record::Axis;
 
-/// Deviations of a 95 % interval.
-const NORMAL_95: f64 = 1.96;
-/// Change of the leading figure by which a direction without deviation is told.
-const TOLD: f64 = 0.1;
-/// Changes beyond this share are told as such.
-const LARGE: f64 = 0.2;
 /// Figures named that a run moves.
 const TOLD_MOST: usize = 3;
-/// A figure suffers from the others where its deviation is this many times that with them known.
-const SUFFERS: f64 = 3.0;
 
 impl Separability {
     /// The verdict, a sentence or two for each thing to know.
@@ -52,7 +46,7 @@ impl Separability {
         if worst.std.is_infinite() {
             return Some(format!(
                 "The logs do not tell these apart: {}; they would be the same.",
-                moved(&worst.parts, TOLD / worst.parts.first()?.weight)
+                moved(&worst.parts, CHANGE_SHOWN / worst.parts.first()?.weight)
             ));
         }
         Some(format!("{}{}", told(worst)?, self.best_known()))
@@ -81,7 +75,7 @@ impl Separability {
         let lead = self.directions.first()?.parts.first()?.figure;
         let known = self.figures.iter().find(|f| f.figure == lead)?;
         let FigureKnown { std, alone, .. } = *known;
-        (!self.is_sharp() && std.is_finite() && std > SUFFERS * alone).then(|| {
+        (!self.is_sharp() && std.is_finite() && std > CORRELATED * alone).then(|| {
             format!(
                 "Were the other figures known, {} would be known to ± {}: what is missing is not \
                  signal but a motion that tells them apart.",
@@ -149,8 +143,8 @@ pub(super) fn spoils(run: &RunShare) -> String {
     let change = |c: &&Carried| {
         let name = c.figure.name();
         // One step does not tell how far a large change goes.
-        if c.change.abs() > LARGE {
-            return format!("{name} by more than {}", percent(LARGE));
+        if c.change.abs() > LARGE_CHANGE {
+            return format!("{name} by more than {}", percent(LARGE_CHANGE));
         }
         let sign = if c.change < 0.0 { "−" } else { "+" };
         format!("{name} by {sign}{}", percent(c.change.abs()))

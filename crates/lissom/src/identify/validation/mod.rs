@@ -22,15 +22,13 @@ use thiserror::Error;
 
 use crate::identify::finding::Finding;
 use crate::identify::found_arm::FoundArm;
+use crate::identify::validation::thresholds::FITS_PERCENT;
 use crate::record::{Campaign, Run};
 use crate::replay::{MOST_MODES, TURN_MOST};
 use expected::expected;
 use motion::{Followed, followed, lengths_s};
 use moved_mode::moved_mode;
 use residual::channel_residual;
-
-/// The residual is looked at over the longest time at which every channel still fits this well.
-const FITS_PERCENT: f64 = 90.0;
 
 /// What a user may ask for.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -184,3 +182,4 @@ fn predicted(found: &FoundArm, campaign: &Campaign, horizon_s: Option<f64>) -> V
 
 #[cfg(test)]
 mod tests;
+pub(crate) mod thresholds;

@@ -3,6 +3,7 @@
 use crate::identify::found_arm::FoundArm;
 use crate::identify::methods::output_error::{Masks, masks};
 use crate::identify::validation::motion::{Followed, PredictedStretch, followed, logged};
+use crate::identify::validation::thresholds::{MODE_MOVED_BY, MODE_MOVED_LEAVES};
 use crate::record::Campaign;
 use crate::replay::ModalArm;
 
@@ -14,11 +15,6 @@ const LARGEST_STEP: f64 = 0.1;
 const STEPS: usize = 4;
 /// …or until less than this share of the squared residual goes by it.
 const STILL: f64 = 0.01;
-
-/// A mode is moved where this share of the squared residual is left, or less…
-const LEAST_GAIN: f64 = 0.5;
-/// …by more than this share of its frequency: less is what other figures that are off look like, too.
-const LEAST_MOVE: f64 = 3e-3;
 
 /// What else changes with a mode's frequency.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,7 +60,7 @@ pub(super) fn moved_mode(
     let moved = ways.filter_map(|(mode, by)| search.moved(&found.arm, mode, by));
     let tells = |m: &MovedMode| {
         let moved = (m.of_log_rad_s / m.omega_rad_s - 1.0).abs();
-        m.residual_ratio < LEAST_GAIN && moved > LEAST_MOVE
+        m.residual_ratio < MODE_MOVED_LEAVES && moved > MODE_MOVED_BY
     };
     moved.filter(tells).min_by(|a, b| a.residual_ratio.total_cmp(&b.residual_ratio))
 }

@@ -4,7 +4,9 @@ use statrs::distribution::{ChiSquared, ContinuousCDF as _};
 
 use crate::identify::methods::output_error::{Masks, masks};
 use crate::identify::prepare::channel_noise::channel_noise;
+use crate::identify::thresholds::NORMAL_95;
 use crate::identify::validation::motion::{PredictedStretch, logged};
+use crate::identify::validation::thresholds::AT_SENSOR_NOISE;
 use crate::record::{Campaign, Run};
 
 /// Lags looked at, to either side.
@@ -13,10 +15,6 @@ const LAGS: usize = 25;
 const COLOUR: usize = 500;
 /// …and as a share of a stretch.
 const COLOUR_SHARE: usize = 4;
-/// Two-sided 95 % quantile of the normal distribution.
-const NORMAL_95: f64 = 1.959_964;
-/// A residual of up to this many times the sensor's own noise is as good as that.
-const NOISE: f64 = 1.5;
 
 /// What is left of one channel, tested.
 ///
@@ -61,7 +59,7 @@ impl ChannelResidual {
 
     /// Whether more is left than the sensor makes by itself, by half.
     pub fn is_beyond_noise(&self) -> bool {
-        self.rms >= NOISE * self.sensor_noise
+        self.rms >= AT_SENSOR_NOISE * self.sensor_noise
     }
 
     /// Share of the cross-correlation's lags beyond its band.

@@ -1,7 +1,7 @@
 use super::*;
 use crate::identify::finding::Severity;
 use crate::identify::found_arm::{ArmSource, TorqueUsed};
-use crate::identify::validation::validation_findings::GOOD;
+use crate::identify::validation::thresholds::GOOD_PREDICTION;
 use crate::record::{
     Axis, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
 };
@@ -127,7 +127,7 @@ fn a_right_arm_has_no_warning_where_reversals_leave_much() {
     let log = log_at(&rigid(), [17.0, 29.0]);
     let v = validate(&found(rigid()), &log, &ValidationOptions::default()).unwrap();
     let torque = v.torque.unwrap();
-    assert!(torque.relative_error > GOOD, "{}", torque.relative_error);
+    assert!(torque.relative_error > GOOD_PREDICTION, "{}", torque.relative_error);
     let beside = torque.relative_error / torque.expected_error.unwrap();
     assert!((beside - 1.0).abs() < 0.05, "{beside}");
     assert!(v.findings.iter().all(|f| f.severity == Severity::Info), "{:?}", v.findings);
@@ -163,7 +163,7 @@ fn torque_takes_a_late_tip_as_late() {
         };
         let in_time = ModalArm { tip_lags_s: Vec::new(), ..late.clone() };
         let (by_late, by_in_time) = (left(&late), left(&in_time));
-        assert!(by_late < GOOD && by_in_time > 3.0 * by_late, "{by_late} {by_in_time}");
+        assert!(by_late < GOOD_PREDICTION && by_in_time > 3.0 * by_late, "{by_late} {by_in_time}");
     }
 }
 

@@ -8,23 +8,18 @@ use crate::identify::methods::output_error::{Masks, masks};
 use crate::identify::prepare::channel_noise::channel_noise;
 use crate::identify::validation::cause::{Cause, Causes};
 use crate::identify::validation::kernel::Kernel;
+use crate::identify::validation::thresholds::{
+    MOVING, NOISE_OF_TORQUE, RESTING_SHARE, STRETCH_LEAST,
+};
 use crate::record::{Campaign, Run, TipQuantity};
 use crate::replay::ModalArm;
 
-/// Noise of the motor's sensor may make this share of the torque, by the acceleration.
-const NOISE_SHARE: f64 = 0.01;
 /// Shortest window, in samples: half power at a tenth of the sampling rate.
 const LEAST_SAMPLES: usize = 10;
 /// Windows tried are longer than the one before by this factor.
 const LONGER: f64 = 1.1;
 /// Of a run a window is at most this share.
 const LONGEST: f64 = 0.1;
-/// The motor is taken to move where its speed is this many deviations of its noise.
-const MOVES: f64 = 3.0;
-/// A row counts where the motor rests under no more than this share of its window.
-const AT_REST: f64 = 0.1;
-/// Shortest stretch that is told, in windows.
-const STRETCH: usize = 3;
 
 /// The torque of a log as the figures give it.
 #[derive(Debug, Clone, PartialEq)]
@@ -164,7 +159,7 @@ fn chosen_window_s(arm: &ModalArm, campaign: &Campaign) -> Option<f64> {
     let of_run = |run: &Run| {
         let t = run.sample_time_s();
         let power: f64 = run.command().iter().map(|u| (constant * u).powi(2)).sum();
-        let allowed = NOISE_SHARE * (power / run.len() as f64).sqrt();
+        let allowed = NOISE_OF_TORQUE * (power / run.len() as f64).sqrt();
         let noise = arm.inertia_kg_m2 * channel_noise(run.motor()).std;
         let most = (LONGEST * run.len() as f64) as usize;
         let mut n = LEAST_SAMPLES;
@@ -247,7 +242,7 @@ impl RunRows {
         let together = |a: &Row, b: &Row| a.counts == b.counts && a.velocity * b.velocity > 0.0;
         let told = |rows: &[Row]| {
             let (first, last) = (rows.first()?, rows.last()?);
-            let long = last.time_s - first.time_s >= STRETCH as f64 * window_s;
+            let long = last.time_s - first.time_s >= STRETCH_LEAST as f64 * window_s;
             let left: f64 = rows.iter().map(|r| r.residual().powi(2)).sum();
             (first.counts && long).then(|| Stretch {
                 run: self.run,
@@ -311,7 +306,7 @@ impl Predictor<'_> {
                     logged: constant * kernel.command(k, run.command()),
                     predicted,
                     velocity,
-                    counts: kernel.mean(k, resting) <= AT_REST
+                    counts: kernel.mean(k, resting) <= RESTING_SHARE
                         && self.reads(index, k..=k + n)
                         && self.logged(run, &kernel, k),
                 };
@@ -390,7 +385,7 @@ impl Speed {
         let n = kernel.len();
         let at = |i: usize| i.saturating_sub(n / 2).min(run.len() - 1 - n);
         let velocity = (0..run.len()).map(|i| kernel.rate(at(i), |k| run.motor()[k])).collect();
-        let least = MOVES * kernel.rate_noise() * channel_noise(run.motor()).std;
+        let least = MOVING * kernel.rate_noise() * channel_noise(run.motor()).std;
         Self { velocity, least }
     }
 

@@ -3,34 +3,16 @@
 use crate::identify::finding::Finding;
 use crate::identify::finding::Severity::{Info, Refusal, Warning};
 use crate::identify::found_arm::FoundArm;
+use crate::identify::thresholds::{REFUSED_TORQUE, REJECTED_CHANCE, UNEXPLAINED_TORQUE};
 use crate::identify::validation::Validation;
 use crate::identify::validation::cause::{Cause, CauseKind};
 use crate::identify::validation::moved_mode::MovedBy;
+use crate::identify::validation::thresholds::{
+    AS_EXPECTED, CAUSE_NAMED, FITS_PERCENT, FOLLOWS_COMMAND, GOOD_PREDICTION, SAME_WINDOW,
+    WORSE_THAN_USED,
+};
 use crate::identify::validation::torque::{TorquePrediction, shows_coupling};
 use crate::record::{Axis, Campaign, Channels};
-
-/// Of a torque of which less is left nothing is said.
-pub(super) const GOOD: f64 = 0.03;
-/// Nothing is called bad where no more is left than this many times what the arm's own motion leaves.
-const AS_EXPECTED: f64 = 1.2;
-/// Torque left from which on a prediction is called bad…
-const BAD: f64 = 0.15;
-/// …and from which on it is none.
-const NONE: f64 = 0.6;
-/// A log not used that is predicted worse than those used by this factor.
-const WORSE: f64 = 1.5;
-/// A term that takes this share of the squared residual away by itself is named: the residual falls
-/// to 0.9 of itself.
-const NAMED: f64 = 0.19;
-/// Share of the residual's lags with the command beyond the 95 % band, four times what chance puts
-/// there.
-const FOLLOWS: f64 = 0.2;
-/// Probability below which a residual is not white.
-const WHITE: f64 = 0.01;
-/// Relative difference of two windows under which figures still compare.
-const SAME_WINDOW: f64 = 0.2;
-/// Fit of whole runs below which the motion departs \[%\].
-const DEPARTS: f64 = 90.0;
 
 /// What findings are about.
 const TORQUE: &str = "torque";
@@ -78,7 +60,7 @@ fn torque_findings(
 ) {
     let error = torque.relative_error;
     let expected = torque.expected_error.unwrap_or(0.0);
-    if expected > BAD {
+    if expected > UNEXPLAINED_TORQUE {
         findings.push(Finding::new(
             "torque-hidden",
             Info,
@@ -91,23 +73,23 @@ fn torque_findings(
             "a longer window (`--window`) tells more, or slower and larger motion",
         ));
     }
-    if error < GOOD {
+    if error < GOOD_PREDICTION {
         return;
     }
     let beyond = error > AS_EXPECTED * expected;
     let hint = "look at what the residual looks like, and at the stretches where it is largest";
-    if beyond && error > NONE {
+    if beyond && error > REFUSED_TORQUE {
         let message =
             format!("{:.0} % of the torque is left: the figures do not hold", 100.0 * error);
         findings.push(Finding::new("prediction-failed", Refusal, &[TORQUE], message, hint));
-    } else if beyond && error > BAD {
+    } else if beyond && error > UNEXPLAINED_TORQUE {
         let message = format!("{:.0} % of the torque is left", 100.0 * error);
         findings.push(Finding::new("prediction-poor", Warning, &[TORQUE], message, hint));
     }
     if let Some(used) = found.torque_used
         && (torque.window_s / used.window_s - 1.0).abs() < SAME_WINDOW
         && beyond
-        && error > WORSE * used.relative_error
+        && error > WORSE_THAN_USED * used.relative_error
     {
         findings.push(Finding::new(
             "prediction-worse",
@@ -124,7 +106,9 @@ fn torque_findings(
         ));
     }
     let beyond = |a: &&Cause, b: &&Cause| a.share_beyond().total_cmp(&b.share_beyond());
-    if let Some(cause) = torque.causes.iter().max_by(beyond).filter(|c| c.share_beyond() > NAMED) {
+    if let Some(cause) =
+        torque.causes.iter().max_by(beyond).filter(|c| c.share_beyond() > CAUSE_NAMED)
+    {
         findings.push(Finding::new(
             "residual-torque",
             Warning,
@@ -188,12 +172,12 @@ fn departure(validation: &Validation) -> Option<Finding> {
     let worst = whole.channels.iter().map(|c| c.fit_percent).fold(f64::INFINITY, f64::min);
     let holds = validation.horizons.get(validation.chosen)?;
     let least = holds.channels.iter().map(|c| c.fit_percent).fold(f64::INFINITY, f64::min);
-    let until = if least >= DEPARTS {
+    let until = if least >= FITS_PERCENT {
         format!("over {:.3} s it holds {least:.1} %", holds.length_s)
     } else {
         format!("over {:.3} s still {least:.1} %", holds.length_s)
     };
-    (worst < DEPARTS).then(|| {
+    (worst < FITS_PERCENT).then(|| {
         Finding::new(
             "motion-departs",
             Info,
@@ -243,7 +227,7 @@ fn residual_findings(campaign: &Campaign, validation: &Validation, findings: &mu
         if !r.is_beyond_noise() {
             continue;
         }
-        if r.outside() > FOLLOWS {
+        if r.outside() > FOLLOWS_COMMAND {
             findings.push(Finding::new(
                 "residual-follows-command",
                 Warning,
@@ -256,7 +240,7 @@ fn residual_findings(campaign: &Campaign, validation: &Validation, findings: &mu
                  or friction",
             ));
         }
-        if r.white_probability < WHITE {
+        if r.white_probability < REJECTED_CHANCE {
             findings.push(Finding::new(
                 "residual-not-white",
                 Info,

@@ -5,6 +5,8 @@ use std::f64::consts::PI;
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::identify::thresholds::PRESENT;
+
 /// Longer series are first averaged to about this many values: only slow changes matter here.
 const VALUES_MOST: usize = 4096;
 /// Bins of the residual's spectrum that stand for its level at zero frequency. The mean and the
@@ -18,8 +20,6 @@ const LINES: usize = 4;
 /// Independent values in that level: twelve complex bins, of which a Hann window correlates
 /// neighbours by 2/3 and the next by 1/6: `2·12/(1 + 2·(2/3)² + 2·(1/6)²)`.
 pub(super) const FREEDOM: f64 = 12.4;
-/// A change of this many deviations is there.
-const PRESENT: f64 = 3.0;
 
 /// What a series is, averaged under a Hann window.
 ///

@@ -6,13 +6,9 @@ use thiserror::Error;
 
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::constant_velocity::average::FREEDOM;
+use crate::identify::methods::constant_velocity::thresholds::SAME_SPEED;
+use crate::identify::thresholds::{NORMAL_95, REJECTED_CHANCE};
 
-/// Speeds closer than this ratio are one.
-const ONE_SPEED: f64 = 1.05;
-/// Chance at which a straight line is rejected though it holds.
-const REJECTED: f64 = 0.01;
-/// Upper quantile of the normal distribution that intervals are made of.
-const NORMAL_975: f64 = 1.959_964;
 /// Deviations below this share of the largest command are rounding.
 const ROUNDING: f64 = 1e-9;
 /// Rounds in which the slope that turns velocity's deviations into the command's settles: each
@@ -168,7 +164,7 @@ fn speeds(points: &[Point]) -> Vec<usize> {
     let mut starts: Vec<usize> = Vec::new();
     for (k, p) in points.iter().enumerate() {
         let from = starts.last().map(|s| points[*s].speed.value);
-        if from.is_none_or(|from| p.speed.value > ONE_SPEED * from) {
+        if from.is_none_or(|from| p.speed.value > SAME_SPEED * from) {
             starts.push(k);
         }
     }
@@ -193,7 +189,7 @@ fn shape(points: &[Point], line: &Fit, speeds: usize) -> Shape {
     for (deviations, freedom) in parabola.into_iter().chain(sharp) {
         let chance = StudentsT::new(0.0, 1.0, freedom)
             .map_or(1.0, |t| 2.0 * t.cdf(-deviations.abs().min(f64::MAX)));
-        if chance < REJECTED {
+        if chance < REJECTED_CHANCE {
             let size = deviations.abs();
             return if deviations < 0.0 {
                 Shape::Concave { deviations: size }
@@ -213,7 +209,7 @@ impl Fit {
         let reduced = own.chi_squared / freedom;
         let rejected = own.freedom > 0
             && FisherSnedecor::new(freedom, own.own_freedom())
-                .is_ok_and(|f| f.sf(reduced) < REJECTED);
+                .is_ok_and(|f| f.sf(reduced) < REJECTED_CHANCE);
         if !rejected {
             return Some(own);
         }
@@ -297,7 +293,7 @@ impl Fit {
     fn figure(&self, k: usize) -> Estimate {
         let (scale, freedom) = self.scale();
         let wider =
-            StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |t| t.inverse_cdf(0.975) / NORMAL_975);
+            StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |t| t.inverse_cdf(0.975) / NORMAL_95);
         let std = (self.covariance[(k, k)] * scale).max(0.0).sqrt() * wider;
         Estimate { value: self.value[k], std }
     }

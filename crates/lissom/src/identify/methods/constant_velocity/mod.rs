@@ -5,6 +5,7 @@ mod findings;
 mod line;
 mod steady_friction;
 mod stretches;
+pub(crate) mod thresholds;
 
 use crate::identify::estimate::Estimate;
 use crate::record::{Campaign, Channels, Run};
@@ -12,12 +13,6 @@ pub(crate) use findings::{findings, no_stretch};
 pub use line::{FrictionLine, LineError, Shape};
 pub(crate) use steady_friction::{only_constant_velocities, taken};
 use stretches::stretches;
-
-/// A run that turns one way, and does so at constant velocities for this share of the time in
-/// motion, is made for them…
-pub(crate) const SHARE_ONE_WAY: f64 = 0.5;
-/// …and one that turns both ways from this share on: ordinary moves have up to 0.8.
-pub(crate) const SHARE: f64 = 0.9;
 
 /// A stretch of a run in which the motor turns at a constant velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -7,10 +7,8 @@ use crate::identify::friction_estimates::Friction;
 use crate::identify::judge::{Chosen, Evidence};
 use crate::identify::methods::constant_velocity::ConstantVelocity;
 use crate::identify::methods::constant_velocity::line::FrictionLine;
+use crate::identify::thresholds::CLEARLY_PRESENT;
 use crate::record::Campaign;
-
-/// Viscous friction by direction differs from this many deviations on.
-const DIRECTIONS_DIFFER: f64 = 4.0;
 
 /// What a campaign of nothing but constant velocities cannot give.
 pub(crate) fn only_constant_velocities(campaign: &Campaign) -> Finding {
@@ -72,7 +70,7 @@ fn friction_near_rest(found: &ConstantVelocity) -> Option<Friction> {
     let std = 0.5 * forward.std.hypot(backward.std);
     let half = |value: f64| Some(Estimate { value: 0.5 * value, std });
     let apart = (f.viscous.value - b.viscous.value).abs();
-    let differ = apart > DIRECTIONS_DIFFER * f.viscous.std.hypot(b.viscous.std);
+    let differ = apart > CLEARLY_PRESENT * f.viscous.std.hypot(b.viscous.std);
     Some(Friction {
         coulomb: half(forward.value + backward.value),
         forward: Some(forward),

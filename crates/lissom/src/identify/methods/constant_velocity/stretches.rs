@@ -4,6 +4,11 @@ use std::collections::VecDeque;
 use std::ops::Range;
 
 use crate::identify::methods::constant_velocity::average::{Average, VALUES_LEAST, average};
+use crate::identify::methods::constant_velocity::thresholds::{
+    COMMAND_CHANGE, CREEP, GROWN_BY, SAME_STRETCH, STEADY_PART, STOPPED_SHARE, STOPPED_SPEED,
+    VELOCITY_KNOWN,
+};
+use crate::identify::thresholds::TRAVEL_OVER_NOISE;
 use crate::record::{Hold, Run};
 
 /// Velocities are first looked at over blocks of this many samples, then of twice as many…
@@ -12,28 +17,8 @@ const BLOCK_LEAST: usize = 8;
 const BLOCKS_MOST: usize = 2000;
 /// Blocks in a stretch.
 const BLOCKS_LEAST: usize = 8;
-/// A stretch is grown until its velocity differs by one of these shares…
-const GROWN: [f64; 3] = [0.12, 0.06, 0.03];
-/// …and is steady if what is left of it after trimming changes by this part of that share. Grown
-/// over a ramp it would change by 3/4, about a sine's crest by 9/16, over a cubic's inflection by
-/// 27/64.
-const STEADY: f64 = 1.0 / 6.0;
 /// Two to this many sixteenths of a grown stretch are trimmed, one at each end at least: transients.
 const TRIMMED_MOST: usize = 4;
-/// Change of the command over a stretch beyond which something else than friction drives it.
-const COMMAND_CHANGE: f64 = 0.1;
-/// Relative deviation of a velocity beyond which it is not known.
-const VELOCITY_KNOWN: f64 = 0.01;
-/// The motor moves by this many times its sensor's noise while it is looked at for stops.
-const STEPS: f64 = 10.0;
-/// Below this share of the mean velocity it stops or turns back…
-const STOPPED: f64 = 0.1;
-/// …and this share of a stretch may do so: an odd reading.
-const STOPPED_SHARE: f64 = 0.01;
-/// Stretches slower than this share of the run's fastest are creep.
-const CREEP: f64 = 1e-3;
-/// A grown stretch that is the same as one that was rejected, up to this share, is not tried.
-const TRIED: f64 = 0.9;
 
 /// A stretch of a run at one velocity.
 #[derive(Debug, Clone)]
@@ -66,8 +51,9 @@ pub(super) fn stretches(run: &Run, hold: Hold) -> Vec<Stretch> {
     let mut rejected: Vec<Range<usize>> = Vec::new();
     for candidate in grown {
         let whole = &candidate.intervals;
-        let same =
-            |r: &Range<usize>| overlap(r, whole) as f64 > TRIED * r.len().max(whole.len()) as f64;
+        let same = |r: &Range<usize>| {
+            overlap(r, whole) as f64 > SAME_STRETCH * r.len().max(whole.len()) as f64
+        };
         if rejected.iter().any(same) {
             continue;
         }
@@ -103,7 +89,7 @@ fn grown(run: &Run) -> Vec<Grown> {
     let mut block = BLOCK_LEAST.max(x.len().div_ceil(BLOCKS_MOST));
     while x.len() / block > BLOCKS_LEAST {
         let velocity = block_velocities(x, block, t);
-        for share in GROWN {
+        for share in GROWN_BY {
             out.extend(agreeing(&velocity, share).into_iter().map(|blocks| {
                 // Velocity j lies between the middles of blocks j and j + 1.
                 let middle = |b: usize| b * block + block / 2;
@@ -179,7 +165,7 @@ fn judged(run: &Run, hold: Hold, r: Range<usize>, share: f64) -> Option<Stretch>
     let velocity = average(&series)?;
     let speed = velocity.mean.abs();
     let changed = velocity.change + 2.0 * velocity.change_std;
-    if !(changed <= STEADY * share * speed && velocity.std <= VELOCITY_KNOWN * speed) {
+    if !(changed <= STEADY_PART * share * speed && velocity.std <= VELOCITY_KNOWN * speed) {
         return None;
     }
     if stops(&x[r.start..=r.end], velocity.mean * t) {
@@ -206,8 +192,8 @@ fn stops(x: &[f64], per_sample: f64) -> bool {
     // Of white noise the second difference has √6 times the deviation.
     let second: f64 = x.windows(3).map(|w| (w[2] - 2.0 * w[1] + w[0]).powi(2)).sum();
     let noise = (second / 6.0 / x.len() as f64).sqrt();
-    let block = ((STEPS * noise / per_sample.abs()).ceil() as usize).max(BLOCK_LEAST);
+    let block = ((TRAVEL_OVER_NOISE * noise / per_sample.abs()).ceil() as usize).max(BLOCK_LEAST);
     let velocity = block_velocities(x, block, 1.0);
-    let slow = velocity.iter().filter(|v| **v / per_sample < STOPPED).count();
+    let slow = velocity.iter().filter(|v| **v / per_sample < STOPPED_SPEED).count();
     slow as f64 > STOPPED_SHARE * velocity.len() as f64
 }

@@ -8,26 +8,16 @@ use crate::identify::methods::friction_law::described::Described;
 use crate::identify::methods::friction_law::held::Held;
 use crate::identify::methods::friction_law::law_term::LawTerm;
 use crate::identify::methods::friction_law::rows::{Block, Column, Cut, Sampled, fixed};
-use crate::identify::methods::friction_law::{LawFit, POSITIVE, ripple};
+use crate::identify::methods::friction_law::thresholds::{
+    AFTER_TRAVEL_FALLS_TO, LAG_FALLS_TO, LAG_KNOWN, TERMS_MOST,
+};
+use crate::identify::methods::friction_law::{LawFit, ripple};
 use crate::identify::methods::regression::{Cluster, Solution, Term, coupled_tips, solve};
+use crate::identify::thresholds::{PRESENT, RESIDUAL_FALLS_TO, SIGN_SHOWN};
 use crate::record::Run;
 
 /// Speeds over which friction near rest may change, as shares of the fastest.
 pub(super) const NEAR_REST: [f64; 10] = [0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.3, 0.5, 0.8, 1.3];
-/// A term must do better on phases left out by this many deviations of the difference…
-const PAIRED: f64 = 3.0;
-/// …and leave at most this share of the residual: a smaller one does not pay for a parameter.
-const RATIO: f64 = 0.9;
-/// Where stretches after reversals are left out, a change near rest pays with less: it is what bristles go
-/// with, and noise is most of what is left.
-const AFTER_TRAVEL_RATIO: f64 = 0.95;
-/// A lag counts at the ends of a motion alone, and pays with less: it may leave this share…
-pub(super) const LAG_RATIO: f64 = 0.97;
-/// …and must be known to this share of a sample. Taken before friction's law is settled it would stand in
-/// for it, and come out with either sign.
-const LAG_STD: f64 = 0.1;
-/// Most terms.
-const MOST: usize = 4;
 
 /// A term that was tried, beside others that were in the law already.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,11 +69,11 @@ pub(super) struct Tried {
 pub(super) fn choose(sampled: &Sampled<'_>, cut: &Cut, fastest: f64) -> Option<Choice> {
     let mut search = Search::new(sampled, cut, fastest)?;
     let simplest = search.solution.relative_residual;
-    while search.taken.len() < MOST && search.add_best() {}
+    while search.taken.len() < TERMS_MOST && search.add_best() {}
     search.refine_near_rest();
     search.settled = true;
     // A ripple and a lag may stand in for each other: both are open at once.
-    while search.taken.len() < MOST {
+    while search.taken.len() < TERMS_MOST {
         search.offer_ripple();
         if !search.add_best() {
             break;
@@ -216,18 +206,21 @@ impl<'a> Search<'a> {
         let amplitude = amplitude(&solution, first, tried.terms.len());
         let (at_rest, at_rest_std) = self.at_rest(&solution, tried.term, first);
         let (least, allowed) = match tried.term {
-            LawTerm::CommandLag => (LAG_RATIO, self.lag_allowed(&late(amplitude))),
-            term if term.is_near_rest() && self.sampled.after > 0.0 => (AFTER_TRAVEL_RATIO, true),
-            _ => (RATIO, true),
+            LawTerm::CommandLag => (LAG_FALLS_TO, self.lag_allowed(&late(amplitude))),
+            term if term.is_near_rest() && self.sampled.after > 0.0 => {
+                (AFTER_TRAVEL_FALLS_TO, true)
+            }
+            _ => (RESIDUAL_FALLS_TO, true),
         };
         // A line cut in two far beyond the speeds of the logs has any Coulomb friction.
         let (coulomb, coulomb_std) = Self::coulomb(&solution);
-        let allowed = allowed && (!tried.term.is_near_rest() || coulomb > -POSITIVE * coulomb_std);
-        let taken = paired > PAIRED
+        let allowed =
+            allowed && (!tried.term.is_near_rest() || coulomb > -SIGN_SHOWN * coulomb_std);
+        let taken = paired > PRESENT
             && allowed
             && residual_ratio < least
             && stretch_ratio < 1.0
-            && at_rest > -POSITIVE * at_rest_std;
+            && at_rest > -SIGN_SHOWN * at_rest_std;
         let (term, beside) = (tried.term, self.taken.len());
         let candidate = LawCandidate {
             term,
@@ -263,7 +256,7 @@ impl<'a> Search<'a> {
     fn lag_allowed(&self, lag: &Estimate) -> bool {
         let runs = &self.sampled.campaign.runs;
         let sample_s = runs.iter().map(Run::sample_time_s).fold(f64::INFINITY, f64::min);
-        self.settled && lag.value > 0.0 && lag.std < LAG_STD * sample_s
+        self.settled && lag.value > 0.0 && lag.std < LAG_KNOWN * sample_s
     }
 
     fn tips(&self) -> usize {

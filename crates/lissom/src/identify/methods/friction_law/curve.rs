@@ -7,6 +7,7 @@ use crate::identify::estimate::Estimate;
 use crate::identify::methods::friction_law::choice::solved;
 use crate::identify::methods::friction_law::held::without_each;
 use crate::identify::methods::friction_law::rows::{Block, Column, Cut, Sampled, fixed, hat};
+use crate::identify::methods::friction_law::thresholds::KNOT_ROWS;
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::{Cluster, Solution, Term, coupled_tips, solve};
 use crate::replay::ModalArm;
@@ -19,8 +20,6 @@ const MOST: usize = 9;
 const ENDS: [f64; 2] = [0.01, 0.99];
 /// Most groups of slip phases that are left out, one after another, for the deviation.
 const MOST_GROUPS: usize = 100;
-/// A knot is left out where fewer windows than this lie about it.
-const LEAST_ROWS: f64 = 20.0;
 
 /// Friction at one speed in one direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -256,7 +255,7 @@ fn knots(speeds: &[f64], about: impl Fn(&[f64], usize) -> [f64; 2]) -> Option<Ve
     while knots.len() > 2 {
         let poor = |j: usize| about(&knots, j).into_iter().fold(f64::INFINITY, f64::min);
         let poorest = (0..knots.len()).min_by(|a, b| poor(*a).total_cmp(&poor(*b)))?;
-        if poor(poorest) >= LEAST_ROWS {
+        if poor(poorest) >= KNOT_ROWS {
             break;
         }
         knots.remove(poorest);

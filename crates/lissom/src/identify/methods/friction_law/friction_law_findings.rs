@@ -8,11 +8,9 @@ use crate::identify::judge::{Chosen, Evidence};
 use crate::identify::methods::friction_law::LawFit;
 use crate::identify::methods::friction_law::law_term::LawTerm;
 use crate::identify::methods::friction_law::refine::NEAR_REST_STEP;
+use crate::identify::methods::friction_law::thresholds::NEGLIGIBLE_TERM;
 use crate::identify::methods::output_error::OutputError;
 use crate::record::Axis;
-
-/// Share of Coulomb or of viscous friction below which a term is of no matter.
-const NEGLIGIBLE: f64 = 1e-3;
 
 impl LawFit {
     /// All estimates under this law.
@@ -118,7 +116,7 @@ pub(crate) fn finding(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<Findin
     })
 }
 
-/// Whether a term changes friction by less than [`NEGLIGIBLE`]; a root of speed is never taken for that little.
+/// Whether a term changes friction by less than [`NEGLIGIBLE_TERM`]; a root of speed is never taken for that little.
 fn is_negligible(friction: &Friction, (term, amplitude): &(LawTerm, Vec<Estimate>)) -> bool {
     let of = match term {
         LawTerm::ViscousByDirection => friction.viscous,
@@ -127,7 +125,7 @@ fn is_negligible(friction: &Friction, (term, amplitude): &(LawTerm, Vec<Estimate
         LawTerm::CommandLag => return true,
     };
     let largest = amplitude.iter().take(2).map(|a| a.value.abs()).fold(0.0, f64::max);
-    of.is_some_and(|of| largest < NEGLIGIBLE * of.value)
+    of.is_some_and(|of| largest < NEGLIGIBLE_TERM * of.value)
 }
 
 const AT_SPEED: &str = "Coulomb and viscous friction are those of this law at speed, not at rest: use \

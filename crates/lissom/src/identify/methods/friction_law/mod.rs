@@ -15,6 +15,7 @@ mod ripple;
 mod rows;
 #[cfg(test)]
 mod tests;
+pub(crate) mod thresholds;
 
 pub use choice::LawCandidate;
 pub use curve::CurvePoint;
@@ -23,10 +24,14 @@ pub(crate) use friction_law_findings::finding;
 pub use law_term::LawTerm;
 
 use crate::identify::estimate::Estimate;
+use crate::identify::methods::friction_law::thresholds::{
+    AFTER_TRAVEL_LEAVES, FASTEST_QUANTILE, LAG_FALLS_TO, NOTHING_LEFT, TORQUE_OF_NOISE,
+    TRAVEL_AFTER_REVERSAL,
+};
 use crate::identify::methods::regression::{MotorRegression, RunNoise};
 use crate::identify::prepare::channel_noise::channel_noise;
+use crate::identify::thresholds::{RESIDUAL_FALLS_TO, SIGN_SHOWN};
 use crate::record::{Campaign, Run};
-use choice::LAG_RATIO;
 use described::Described;
 use rows::{Cut, Sampled};
 
@@ -34,20 +39,6 @@ use rows::{Cut, Sampled};
 const LEAST_SAMPLES: f64 = 20.0;
 /// Ratio of one window tried to that before it.
 const LONGER: f64 = std::f64::consts::SQRT_2;
-/// Share of the windowed torque that the sensor's noise may make by way of the inertia.
-const NOISE: f64 = 0.02;
-/// A law that leaves no more of the windowed torque, beyond noise, has nothing left to explain.
-const LITTLE: f64 = 0.005;
-/// Travel after reversals that is left out, as shares of the usual travel of a slip phase; the share of what
-/// was left beyond noise that it may leave, and of what was left with noise: where noise is most of it, the
-/// rest of it is hardly known.
-const AFTER: [f64; 3] = [0.03, 0.06, 0.12];
-const FAR_LESS: f64 = 0.75;
-const LESS: f64 = 0.9;
-/// Friction must be positive within this many deviations.
-const POSITIVE: f64 = 2.0;
-/// Quantile of the windows' speeds that counts as the fastest.
-const FASTEST: f64 = 0.98;
 
 /// What the slip phases say of friction.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,7 +81,7 @@ impl FrictionLaw {
     pub(crate) fn leaves_no_lag(&self) -> bool {
         let lags = self.candidates.iter().filter(|c| c.term == LawTerm::CommandLag);
         let last = lags.max_by_key(|c| c.beside);
-        last.is_some_and(|c| c.beside > 0 && c.residual_ratio > LAG_RATIO)
+        last.is_some_and(|c| c.beside > 0 && c.residual_ratio > LAG_FALLS_TO)
     }
 
     /// Terms that were tried last of their kind, those of the law first.
@@ -127,7 +118,7 @@ impl LawFit {
 
     /// Whether Coulomb friction, surely there, may have grown from `less` than it is.
     fn may_grow_by(&self, less: f64) -> bool {
-        let sure = |e: &Estimate| e.value > POSITIVE * e.std;
+        let sure = |e: &Estimate| e.value > SIGN_SHOWN * e.std;
         let surely = self.inertia.as_ref().is_some_and(sure);
         surely && self.coulomb.is_some_and(|c| sure(&c) && 0.0 < less && less < c.value)
     }
@@ -149,7 +140,7 @@ pub(crate) fn friction_law(
     let window_s = window_s(campaign, motor, inertia, &noise);
     let mut sampled = Sampled::new(campaign, &noise, window_s);
     let (law, sums, described) = under(&sampled)?;
-    if described.left(&sampled).beyond_noise() < LITTLE {
+    if described.left(&sampled).beyond_noise() < NOTHING_LEFT {
         return Some((law, sums));
     }
     Some(after_travel(&mut sampled, &described).unwrap_or((law, sums)))
@@ -164,7 +155,7 @@ fn after_travel(sampled: &mut Sampled<'_>, whole: &Described) -> Option<(Frictio
     let windows = sampled.places().len();
     let mut tried: Vec<(FrictionLaw, CurveSums)> = Vec::new();
     let mut worth = false;
-    for share in AFTER {
+    for share in TRAVEL_AFTER_REVERSAL {
         sampled.after = share * usual;
         if sampled.places().len() < windows / 2 {
             break;
@@ -175,8 +166,8 @@ fn after_travel(sampled: &mut Sampled<'_>, whole: &Described) -> Option<(Frictio
         let less = -described.left(sampled).more_friction_without(&with);
         if law.chosen.may_grow_by(less) {
             // On the same windows: without some, little may be left of what was never to be explained.
-            worth |= with.beyond_noise() < FAR_LESS * without.beyond_noise()
-                && with.relative() < LESS * without.relative();
+            worth |= with.beyond_noise() < AFTER_TRAVEL_LEAVES * without.beyond_noise()
+                && with.relative() < RESIDUAL_FALLS_TO * without.relative();
             tried.push((law, sums));
         }
     }
@@ -194,7 +185,7 @@ fn under(sampled: &Sampled<'_>) -> Option<(FrictionLaw, CurveSums, Described)> {
     speeds.sort_by(f64::total_cmp);
     angles.sort_by(f64::total_cmp);
     let quantile = |x: &[f64], q: f64| x.get((q * x.len() as f64) as usize).copied();
-    let fastest = quantile(&speeds, FASTEST).filter(|v| *v > 0.0)?;
+    let fastest = quantile(&speeds, FASTEST_QUANTILE).filter(|v| *v > 0.0)?;
     let cut = Cut {
         middle: quantile(&angles, 0.5)?,
         thirds: [quantile(&speeds, 1.0 / 3.0)?, quantile(&speeds, 2.0 / 3.0)?],
@@ -213,7 +204,7 @@ fn under(sampled: &Sampled<'_>) -> Option<(FrictionLaw, CurveSums, Described)> {
     Some((law, sums, choice.described))
 }
 
-/// The shortest window in which the motor's sensor makes no more than [`NOISE`] of the torque, and no
+/// The shortest window in which the motor's sensor makes no more than [`TORQUE_OF_NOISE`] of the torque, and no
 /// longer than the regression's.
 fn window_s(campaign: &Campaign, motor: &MotorRegression, inertia: f64, noise: &[RunNoise]) -> f64 {
     let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
@@ -230,7 +221,7 @@ fn window_s(campaign: &Campaign, motor: &MotorRegression, inertia: f64, noise: &
             power += row.last().map_or(0.0, |y| y * y);
             rows += 1.0;
         });
-        if rows > 0.0 && inertia.abs() * sensor < NOISE * (power / rows).sqrt() {
+        if rows > 0.0 && inertia.abs() * sensor < TORQUE_OF_NOISE * (power / rows).sqrt() {
             break;
         }
         window_s *= LONGER;

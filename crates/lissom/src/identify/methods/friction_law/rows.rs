@@ -4,14 +4,11 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::drive::Falloff;
 use crate::identify::methods::regression::{
-    Cluster, MotorEquation, Phase, Rows, RunNoise, Window, coupled_tips, slip_phases, smoothing,
+    Cluster, MotorEquation, Phase, Rows, RunNoise, SMOOTHED_PART, WINDOW_STEP, Window,
+    coupled_tips, slip_phases, smoothing,
 };
 use crate::record::{Campaign, Run};
 
-/// Windows overlap by all but this part of their length.
-const STEP: f64 = 0.25;
-/// The velocity is smoothed over no more than this part of the window's length.
-const SMOOTH: f64 = 1.0 / 3.0;
 /// Rows looked at, about; windows overlap less in longer logs.
 const MOST_ROWS: usize = 40_000;
 
@@ -150,7 +147,7 @@ impl<'a> Sampled<'a> {
         for (index, slipping) in self.runs.iter().enumerate() {
             let Some(window) = &slipping.window else { continue };
             let n = window.len();
-            let step = ((n as f64 * STEP) as usize).max(samples / MOST_ROWS).max(1);
+            let step = ((n as f64 * WINDOW_STEP) as usize).max(samples / MOST_ROWS).max(1);
             let motor = self.campaign.runs[index].motor();
             for phase in &slipping.phases {
                 let gone = |k: &usize| (motor[*k] - motor[phase.from]).abs();
@@ -258,7 +255,7 @@ impl<'a> Sampled<'a> {
 /// Samples over which the velocity is smoothed.
 fn smooth(run: &Run, window_s: f64) -> usize {
     let n = window_s / run.sample_time_s();
-    smoothing(run.motor()).min((n * SMOOTH) as usize).max(4)
+    smoothing(run.motor()).min((n * SMOOTHED_PART) as usize).max(4)
 }
 
 /// Velocity at every sample: the angle weighted with the derivative of a window about it.

@@ -10,12 +10,11 @@ use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::methods::regression::motor_rows::behind;
 use crate::identify::methods::regression::normal::{Cluster, Rows, Term, solve};
 use crate::identify::methods::regression::row_noise::{Part, RunNoise, products};
-use crate::identify::methods::regression::scan::{Candidate, SYSTEMATIC, Scan, scan};
-use crate::identify::methods::regression::window::{Weights, Window};
+use crate::identify::methods::regression::scan::{Candidate, Scan, scan};
+use crate::identify::methods::regression::thresholds::WINDOW_SYSTEMATIC;
+use crate::identify::methods::regression::window::{WINDOW_STEP, Weights, Window};
 use crate::record::{Campaign, Run, TipQuantity};
 
-/// Windows overlap by all but this part of their length.
-const STEP: f64 = 0.25;
 /// Windows in a block that the covariance takes as one.
 const BLOCK: usize = 40;
 
@@ -155,8 +154,8 @@ fn deviations(
         for (mode, total) in variance.iter_mut().enumerate() {
             let mut systematic = (0.0, 0.0);
             for (a, ga) in gradients.iter().enumerate() {
-                systematic.0 += SYSTEMATIC * scan.change[a] * ga[mode].0;
-                systematic.1 += SYSTEMATIC * scan.change[a] * ga[mode].1;
+                systematic.0 += WINDOW_SYSTEMATIC * scan.change[a] * ga[mode].0;
+                systematic.1 += WINDOW_SYSTEMATIC * scan.change[a] * ga[mode].1;
                 for (b, gb) in gradients.iter().enumerate() {
                     total.0 += ga[mode].0 * gb[mode].0 * covariance[(a, b)];
                     total.1 += ga[mode].1 * gb[mode].1 * covariance[(a, b)];
@@ -175,7 +174,7 @@ fn clusters(campaign: &Campaign, noise: &[RunNoise], i: usize, length_s: f64) ->
     let windows = Window::of_runs(&campaign.runs, length_s, |_, _| true);
     let of_run = |(index, window): (usize, &Option<Arc<Window>>)| {
         let (Some(window), run) = (window, &campaign.runs[index]) else { return Vec::new() };
-        let step = ((window.len() as f64 * STEP) as usize).max(1);
+        let step = ((window.len() as f64 * WINDOW_STEP) as usize).max(1);
         let equation = BeamEquation { campaign, run, tip: i, window };
         let noise = equation.noise(&noise[index]);
         let starts: Vec<usize> = (0..run.len() - window.len()).step_by(step).collect();

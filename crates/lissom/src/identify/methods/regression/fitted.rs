@@ -4,7 +4,7 @@ use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::Estimate;
 use crate::identify::friction_estimates::Friction;
 use crate::identify::methods::regression::normal::Solution;
-use crate::identify::methods::regression::scan::SYSTEMATIC;
+use crate::identify::methods::regression::thresholds::WINDOW_SYSTEMATIC;
 use crate::record::Channels;
 
 /// Places of the terms in the equation; that of half the difference of viscous friction follows the couplings.
@@ -32,7 +32,7 @@ impl Fitted<'_> {
         }
         let sum = |of: &dyn Fn(usize) -> f64| weights.iter().map(|(i, w)| w * of(*i)).sum::<f64>();
         let variance = sum(&|i| sum(&|k| s.covariance[(i, k)]));
-        let systematic = SYSTEMATIC * sum(&|i| change[i]);
+        let systematic = WINDOW_SYSTEMATIC * sum(&|i| change[i]);
         let std = (variance.max(0.0) + systematic * systematic).sqrt();
         Some(Estimate { value: sum(&|i| s.value[i]), std })
     }

@@ -1,21 +1,11 @@
 //! Whether the motor's equation lacks a term: one is added at a time, and the residual decides.
 
 use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve};
-
-/// A term is missing where it stands this many deviations from zero…
-const DEVIATIONS: f64 = 4.0;
-/// …and leaves at most this share of the residual: a term that chance makes significant leaves
-/// nearly all of it…
-const RESIDUAL: f64 = 0.9;
-/// …or, known without noise, stands this many deviations from zero…
-const SURE: f64 = 10.0;
-/// …and takes so many of a figure's own deviations with it.
-const MOVES: f64 = 3.0;
+use crate::identify::methods::regression::thresholds::{MISSING_ONE_SIGN, MISSING_SURE};
+use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT, RESIDUAL_FALLS_TO};
 
 /// A residual of less is rounding: nothing is missing.
 const ROUNDING: f64 = 1e-6;
-/// Correlation with the torque from which on its magnitude is the torque itself, of one sign.
-const ONE_SIGN: f64 = 0.5;
 
 /// What the equation may lack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,7 +80,7 @@ pub(super) fn missing_term(
     let kinds = MissingKind::ALL.into_iter().enumerate();
     let kinds = kinds.filter(|(i, kind)| match kind {
         MissingKind::BeamDamping => tips > 0,
-        MissingKind::CommandBySign => follows_torque(clusters, first + i).abs() < ONE_SIGN,
+        MissingKind::CommandBySign => follows_torque(clusters, first + i).abs() < MISSING_ONE_SIGN,
         _ => true,
     });
     let tried = kinds.filter_map(|(i, kind)| {
@@ -105,12 +95,12 @@ pub(super) fn missing_term(
         let value = solution.value[last];
         let moves = (0..last).any(|k| {
             let own = without.covariance[(k, k)].max(0.0).sqrt();
-            (solution.value[k] - without.value[k]).abs() > MOVES * own
+            (solution.value[k] - without.value[k]).abs() > PRESENT * own
         });
-        let shows = solution.relative_residual < RESIDUAL * without.relative_residual;
+        let shows = solution.relative_residual < RESIDUAL_FALLS_TO * without.relative_residual;
         let called_for = !solution.inseparable[last]
-            && value.abs() > DEVIATIONS * std
-            && (shows || kind.is_exact() && moves && value.abs() > SURE * std);
+            && value.abs() > CLEARLY_PRESENT * std
+            && (shows || kind.is_exact() && moves && value.abs() > MISSING_SURE * std);
         called_for.then(|| MissingTerm {
             kind,
             value: match kind {

@@ -12,6 +12,7 @@ mod phases;
 mod regression_findings;
 mod row_noise;
 mod scan;
+pub(crate) mod thresholds;
 mod window;
 
 pub use beam::{BeamRegression, beam_regression};
@@ -25,4 +26,4 @@ pub(crate) use phases::{Phase, slip_phases, slip_sign, smoothing};
 pub(crate) use regression_findings::{findings, reversed_tip};
 pub(crate) use row_noise::RunNoise;
 pub use scan::Candidate;
-pub(crate) use window::Window;
+pub(crate) use window::{SMOOTHED_PART, WINDOW_STEP, Window};

@@ -10,12 +10,8 @@ use crate::identify::methods::regression::missing::{MissingTerm, missing_term};
 use crate::identify::methods::regression::motor_rows::{DRY, INERTIA, MotorRows, TIPS, VISCOUS};
 use crate::identify::methods::regression::normal::{Solution, Term, solve};
 use crate::identify::methods::regression::scan::{Candidate, RATIO, change, scan};
+use crate::identify::thresholds::{CLEARLY_PRESENT, RESIDUAL_FALLS_TO};
 use crate::record::{Campaign, Channels, Run};
-
-/// Directional viscous terms are reported when they differ by this many deviations…
-const DIRECTION_DEVIATIONS: f64 = 4.0;
-/// …and leave at most this share of the residual.
-const DIRECTION_RESIDUAL: f64 = 0.9;
 
 /// Figures of the motor's equation, in torque (or force) as the command's constant gives it.
 #[derive(Debug, Clone, PartialEq)]
@@ -216,8 +212,8 @@ fn by_direction(
         return None;
     }
     let deviation = two.covariance[(difference, difference)].max(0.0).sqrt();
-    let called_for = two.value[difference].abs() > DIRECTION_DEVIATIONS * deviation
-        && two.relative_residual < DIRECTION_RESIDUAL * one.solution.relative_residual;
+    let called_for = two.value[difference].abs() > CLEARLY_PRESENT * deviation
+        && two.relative_residual < RESIDUAL_FALLS_TO * one.solution.relative_residual;
     if !called_for {
         return None;
     }

@@ -12,15 +12,9 @@ use crate::identify::methods::regression::phases::{
     LEAST_SAMPLES, LEAST_SMOOTH, Phase, needed_smoothing, unreversed_phases,
 };
 use crate::identify::methods::regression::row_noise::{Part, RunNoise, products};
-use crate::identify::methods::regression::window::Window;
+use crate::identify::methods::regression::thresholds::SURE_SIGN;
+use crate::identify::methods::regression::window::{SMOOTHED_PART, WINDOW_STEP, Window};
 use crate::record::{Campaign, Hold, Run, TipQuantity};
-
-/// Windows overlap by all but this part of their length.
-const STEP: f64 = 0.25;
-/// The velocity is smoothed over no more than this part of the window's length.
-const SMOOTH: f64 = 1.0 / 3.0;
-/// A window is too short where that is less than this part of what a sure sign needs.
-const SURE: f64 = 0.4;
 
 /// Columns of a row; tips follow after these.
 pub(super) const INERTIA: usize = 0;
@@ -75,7 +69,7 @@ impl<'a> MotorRows<'a> {
         let (campaign, slipping) = (self.campaign, &self.runs[index]);
         let (run, n) = (slipping.run, window.len());
         let columns = TIPS + self.tips.len() + 1 + more.map_or(0, |_| EXTRA);
-        let step = ((n as f64 * STEP) as usize).max(1);
+        let step = ((n as f64 * WINDOW_STEP) as usize).max(1);
         let (phases, smooth) = slipping.phases(n);
         let plain = MotorEquation { campaign, run, tips: &self.tips, window };
         let origin = campaign.runs.first().map_or(0.0, |run| run.motor()[0]);
@@ -128,7 +122,7 @@ impl<'a> Slipping<'a> {
     /// within so short a window has no sure sign.
     fn phases(&self, n: usize) -> (Cow<'_, [Phase]>, usize) {
         let smooth = self.smooth_for(n);
-        let phases = if SURE * self.needed as f64 > smooth as f64 {
+        let phases = if SURE_SIGN * self.needed as f64 > smooth as f64 {
             Cow::Owned(Vec::new())
         } else if smooth == self.smooth {
             Cow::Borrowed(&self.phases[..])
@@ -141,7 +135,7 @@ impl<'a> Slipping<'a> {
 
     /// What phases for windows of `n` samples are smoothed over.
     fn smooth_for(&self, n: usize) -> usize {
-        let most = (n as f64 * SMOOTH) as usize;
+        let most = (n as f64 * SMOOTHED_PART) as usize;
         self.smooth.min(most).max(LEAST_SMOOTH)
     }
 

@@ -2,11 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// Smallest eigenvalue of the scaled normal matrix, relative to the largest, that still counts:
-/// below it two columns are the same to 1e-5.
-const RANK: f64 = 1e-10;
-/// Weight in a direction of deficient rank from which on a parameter is called inseparable.
-const SHARE: f64 = 0.2;
+use crate::identify::methods::regression::thresholds::{
+    INSEPARABLE_WEIGHT, MOTION_LEAST, NOISE_FILLS, SAME_COLUMN,
+};
 
 /// Products of the columns `[x_1 … x_p, y]`, summed over the rows of one cluster.
 #[derive(Debug, Clone)]
@@ -117,11 +115,6 @@ impl Term {
     }
 }
 
-/// Noise fills a direction of the regressors with this share of it.
-const FILLED: f64 = 0.6;
-/// Motion is never taken for less than this share.
-const LEAST_MOTION: f64 = 0.05;
-
 /// A least-squares solution.
 #[derive(Debug, Clone)]
 pub(crate) struct Solution {
@@ -183,10 +176,10 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
     let (mut kept, mut lost) = (Vec::new(), Vec::new());
     for (k, &lambda) in eigen.eigenvalues.iter().enumerate() {
         let v = eigen.eigenvectors.column(k);
-        if lambda > RANK * largest {
+        if lambda > SAME_COLUMN * largest {
             kept.push(v.component_div(&scale) / lambda.sqrt());
         } else {
-            (0..p).filter(|&i| v[i].abs() > SHARE).for_each(|i| inseparable[i] = true);
+            (0..p).filter(|&i| v[i].abs() > INSEPARABLE_WEIGHT).for_each(|i| inseparable[i] = true);
             lost.push(v.component_div(&scale));
         }
     }
@@ -194,7 +187,7 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
     let white = DMatrix::from_columns(&kept);
     let shares = (white.transpose() * &noise * &white).symmetric_eigen();
     let directions = &white * &shares.eigenvectors;
-    let taken_out = shares.eigenvalues.map(|share| if share < FILLED { share } else { 0.0 });
+    let taken_out = shares.eigenvalues.map(|share| if share < NOISE_FILLS { share } else { 0.0 });
     let stretched = DMatrix::from_diagonal(&taken_out.map(|share| 1.0 / (1.0 - share)));
     let inverse = &directions * stretched * directions.transpose();
     let value: DVector<f64> = &inverse * &right;
@@ -224,9 +217,9 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
     } else {
         by_cluster
     };
-    for (k, &share) in shares.eigenvalues.iter().enumerate().filter(|(_, s)| **s >= FILLED) {
+    for (k, &share) in shares.eigenvalues.iter().enumerate().filter(|(_, s)| **s >= NOISE_FILLS) {
         let direction = directions.column(k);
-        let short = direction.dot(&right) * share / (1.0 - share).max(LEAST_MOTION);
+        let short = direction.dot(&right) * share / (1.0 - share).max(MOTION_LEAST);
         covariance.ger(short * short, &direction, &direction, 1.0);
     }
     let left = power - 2.0 * value.dot(&right) + value.dot(&(&normal * &value));

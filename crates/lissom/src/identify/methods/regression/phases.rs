@@ -1,6 +1,8 @@
 //! Phases in which the motor slips one way.
 
+use crate::identify::methods::regression::thresholds::SURELY_REVERSED;
 use crate::identify::methods::regression::window::Window;
+use crate::identify::thresholds::TRAVEL_OVER_NOISE;
 
 /// Samples `from..to` in which the motor moves in the direction of `sign`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,7 +24,7 @@ pub(crate) fn slip_phases(motor: &[f64], smooth: usize, sample_time_s: f64) -> V
 }
 
 /// The same without what reverses within the smoothing: where the velocity over half of it is against the
-/// phase's by more than [`REVERSED`] of its own deviations, `σ·√Σẇ²` for angles with noise of deviation `noise_rad`.
+/// phase's by more than [`SURELY_REVERSED`] of its own deviations, `σ·√Σẇ²` for angles with noise of deviation `noise_rad`.
 pub(super) fn unreversed_phases(
     motor: &[f64],
     smooth: usize,
@@ -35,12 +37,10 @@ pub(super) fn unreversed_phases(
     }
     let window = Window::new(smooth / 2, sample_time_s);
     let std = noise_rad * window.first.iter().map(|w| w * w).sum::<f64>().sqrt();
-    let within = slips(motor, &window, REVERSED * std);
+    let within = slips(motor, &window, SURELY_REVERSED * std);
     phases.iter().flat_map(|phase| without_reversals(*phase, &within)).collect()
 }
 
-/// Deviations of a velocity that surely is against the phase it is in: of many thousands none is by chance.
-const REVERSED: f64 = 5.0;
 /// Fewest samples over which a velocity is smoothed.
 pub(super) const LEAST_SMOOTH: usize = 4;
 
@@ -128,8 +128,6 @@ fn extend(phases: &mut Vec<Phase>, k: usize, velocity: f64) {
 
 /// Fewest samples over which a velocity is smoothed.
 pub(super) const LEAST_SAMPLES: usize = 8;
-/// The motor moves by this many times its sensor's noise within the smoothing.
-const STEPS: f64 = 10.0;
 
 /// Samples over which the motor's velocity is smoothed: [`needed_smoothing`], and a few at least.
 pub(crate) fn smoothing(motor: &[f64]) -> usize {
@@ -144,7 +142,7 @@ pub(super) fn needed_smoothing(motor: &[f64]) -> usize {
     let rms = |sum: f64, n: usize| (sum / n.max(1) as f64).sqrt();
     let second = motor.windows(3).map(|w| (w[2] - 2.0 * w[1] + w[0]).powi(2)).sum();
     let noise = rms(second, motor.len() - 2) / 6.0_f64.sqrt();
-    let samples = STEPS * noise / usual_speed(motor, noise).max(f64::MIN_POSITIVE);
+    let samples = TRAVEL_OVER_NOISE * noise / usual_speed(motor, noise).max(f64::MIN_POSITIVE);
     samples.min(motor.len() as f64) as usize
 }
 

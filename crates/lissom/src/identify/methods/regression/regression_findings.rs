@@ -8,11 +8,7 @@ use crate::identify::methods::friction_law::FrictionLaw;
 use crate::identify::methods::regression::missing::{MissingKind, MissingTerm};
 use crate::identify::methods::regression::motor::{ByDirection, MotorRegression};
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
-
-/// Windowed torque left by the regression from which on its figures are called uncertain.
-const RESIDUAL: f64 = 0.15;
-/// Relative difference up to which two sines are of one frequency.
-const SAME_FREQUENCY: f64 = 0.02;
+use crate::identify::thresholds::{SAME_FREQUENCY, UNEXPLAINED_TORQUE};
 
 /// What speaks against the regression's figures.
 pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding> {
@@ -46,7 +42,7 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
         ));
         return findings;
     };
-    if r.relative_residual > RESIDUAL && !explained {
+    if r.relative_residual > UNEXPLAINED_TORQUE && !explained {
         findings.push(Finding::new(
             "unexplained-torque",
             Severity::Warning,

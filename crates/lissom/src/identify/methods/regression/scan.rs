@@ -3,26 +3,19 @@
 use std::collections::VecDeque;
 
 use crate::identify::methods::regression::normal::Solution;
+use crate::identify::methods::regression::thresholds::{
+    CLUSTERS_LEAST, WINDOW_FAR_WORSE, WINDOW_HOPELESS,
+};
 
 /// Fewest samples in a window.
 const LEAST_SAMPLES: f64 = 10.0;
 /// Ratio of one candidate's length to that before it.
 pub(super) const RATIO: f64 = std::f64::consts::SQRT_2;
-/// Fewest clusters (phases, blocks) that a candidate must rest on.
-const LEAST_CLUSTERS: usize = 4;
-/// No shorter window is tried where the figures' scatter is so many times the least sensitivity, or all of the
-/// sensitivity of the one before so many times…
-const HOPELESS: f64 = 1.5;
-const FAR_WORSE: f64 = 4.0;
-/// …where the scatter has grown twice on end, and rests on more rows than this: few rows scatter anyhow, and
-/// cost little.
+/// The scan ends early only if the scatter has grown twice in a row and rests on more rows than this: few rows scatter
+/// anyhow, and cost little.
 const MANY_ROWS: usize = 2000;
 /// Most candidates: √2⁴⁰ is a factor of a million in length.
 const MOST_CANDIDATES: i32 = 40;
-
-/// Share of a figure's change from the next shorter to the next longer window that counts as its
-/// systematic deviation: half of it, the change to one neighbour.
-pub(crate) const SYSTEMATIC: f64 = 0.5;
 
 /// A window length that was tried.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,7 +59,7 @@ pub(crate) fn scan(
     let shortest = LEAST_SAMPLES * sample_time_s;
     let usable = |length: f64| {
         let solution = (length >= 0.5 * shortest).then(|| solve(length)).flatten();
-        solution.filter(|s| s.clusters >= LEAST_CLUSTERS && s.rows >= 3 * s.value.len())
+        solution.filter(|s| s.clusters >= CLUSTERS_LEAST && s.rows >= 3 * s.value.len())
     };
     if !given.is_empty() {
         let scans = given.iter().filter_map(|&length| {
@@ -91,7 +84,7 @@ pub(crate) fn scan(
             least = least.min(before);
         }
         let rises = scatters.is_sorted_by(|longer, shorter| longer < shorter);
-        let hopeless = scatters[2] > HOPELESS * least || before > FAR_WORSE * least;
+        let hopeless = scatters[2] > WINDOW_HOPELESS * least || before > WINDOW_FAR_WORSE * least;
         if rows > MANY_ROWS && rises && hopeless {
             break;
         }

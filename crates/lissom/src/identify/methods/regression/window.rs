@@ -6,6 +6,10 @@ use std::sync::Arc;
 
 use crate::record::Run;
 
+/// Distance from one window to the next, as a part of its length: neighbours then share nearly all that they show.
+pub(crate) const WINDOW_STEP: f64 = 0.25;
+/// Longest smoothing of the velocity, as a part of a window's length: what is smoothed away is then small in the window.
+pub(crate) const SMOOTHED_PART: f64 = 1.0 / 3.0;
 /// Fewest sample intervals in a window.
 const LEAST_SAMPLES: usize = 4;
 

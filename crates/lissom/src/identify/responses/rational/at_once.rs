@@ -10,11 +10,10 @@ use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::beam::{BeamFit, Data, TipData, functions};
 use crate::identify::responses::rational::motor::{MotorData, MotorFit, Solution, finish, solve};
 use crate::identify::responses::rational::{Pole, information};
+use crate::identify::responses::thresholds::CRITERION_CALLED_FOR;
 
 /// Share of an unknown's size over which slopes are taken to either side.
 const STEP: f64 = 1e-6;
-/// A delay is there where it lowers the information criterion by this much.
-const CALLED_FOR: f64 = 8.0;
 
 /// Beam and motor with the same poles.
 pub(crate) struct AtOnce {
@@ -57,7 +56,7 @@ pub(crate) fn fit_at_once(
     problem = minimal(problem);
     let delayed = Problem { x: problem.x.push(0.0), ..problem.clone() };
     let delayed = minimal(delayed);
-    if delayed.information()? + CALLED_FOR < problem.information()? {
+    if delayed.information()? + CRITERION_CALLED_FOR < problem.information()? {
         let left = delayed.linear()?.motor.weighted_rms();
         problem = minimal(Problem { motor_weight: 1.0 / left.max(1.0), ..delayed });
     }

@@ -10,22 +10,15 @@ use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{
     Pole, common_denominator, information, others, trial_frequencies,
 };
+use crate::identify::responses::thresholds::{
+    MODE_DAMPING_MOST, MODES_MOST, POLE_ABOVE, POLE_BELOW, POLE_DAMPING_LEAST, POLE_DAMPING_MOST,
+    RESPONSE_FLOOR,
+};
+use crate::identify::thresholds::{CLEARLY_PRESENT, SIGN_SHOWN};
 use crate::lti::{TransferFunction, add, multiply};
 
-/// Most modes looked for.
-const MOST_MODES: usize = 4;
 /// Damping ratio with which a new mode starts.
 const START_DAMPING: f64 = 0.02;
-/// Poles damped less or more than this are none of a beam: the search ends before them.
-const DAMPING: std::ops::Range<f64> = -0.01..0.5;
-/// A pole more damped than this, or outside the data's frequencies, mends the model's edges and is
-/// not called a mode.
-const MODE_DAMPING: f64 = 0.25;
-/// A mode is there when one of its residues is this many deviations from zero.
-const PRESENT: f64 = 4.0;
-/// Responses are trusted to this share of their size at best: held currents, quantised angles
-/// and windows leave errors that no residual shows.
-const FLOOR: f64 = 2e-3;
 
 /// How a tip's response follows from the modes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -98,7 +91,7 @@ pub fn fit_beam(omega_rad_s: &[f64], tips: &[TipData]) -> Option<BeamFit> {
     let data = Data::new(omega_rad_s, tips)?;
     let mut best: Option<(f64, Problem)> = None;
     let mut poles: Vec<Pole> = Vec::new();
-    for count in 1..=MOST_MODES {
+    for count in 1..=MODES_MOST {
         let parameters = count * (2 + tips.len());
         if parameters + 2 > 2 * m * tips.len() {
             break;
@@ -112,9 +105,9 @@ pub fn fit_beam(omega_rad_s: &[f64], tips: &[TipData]) -> Option<BeamFit> {
         let low = omega_rad_s.iter().copied().fold(f64::INFINITY, f64::min);
         let high = omega_rad_s.iter().copied().fold(0.0, f64::max);
         let plausible = |p: &Pole| {
-            DAMPING.contains(&p.damping_ratio)
-                && p.omega_rad_s > 0.3 * low
-                && p.omega_rad_s < 3.0 * high
+            (POLE_DAMPING_LEAST..POLE_DAMPING_MOST).contains(&p.damping_ratio)
+                && p.omega_rad_s > POLE_BELOW * low
+                && p.omega_rad_s < POLE_ABOVE * high
         };
         if !poles.iter().all(plausible) || !solved.all_residues_are_there() {
             break;
@@ -150,7 +143,7 @@ impl Data {
                 t.response
                     .iter()
                     .map(|r| {
-                        let sigma = r.std.hypot(FLOOR * r.value.norm());
+                        let sigma = r.std.hypot(RESPONSE_FLOOR * r.value.norm());
                         (sigma > 0.0 && sigma.is_finite()).then_some((r.value, 1.0 / sigma))
                     })
                     .collect::<Option<Vec<_>>>()
@@ -260,7 +253,7 @@ impl Problem<'_> {
         (0..self.modes()).all(|k| {
             (0..self.data.forms.len()).any(|tip| {
                 let at = self.residue(tip, k);
-                self.x[at].abs() > PRESENT * spread * covariance[(at, at)].max(0.0).sqrt()
+                self.x[at].abs() > CLEARLY_PRESENT * spread * covariance[(at, at)].max(0.0).sqrt()
             })
         })
     }
@@ -363,7 +356,7 @@ fn finish(data: &Data, tips: &[TipData], solved: &Problem) -> Option<BeamFit> {
     let mode_poles: Vec<usize> = (0..poles.len())
         .filter(|&i| {
             let (zeta, at) = (poles[i].damping_ratio, poles[i].omega_rad_s);
-            let damped = zeta < MODE_DAMPING && zeta > -2.0 * std(2 * order[i] + 1);
+            let damped = zeta < MODE_DAMPING_MOST && zeta > -SIGN_SHOWN * std(2 * order[i] + 1);
             damped && (low..=high).contains(&at)
         })
         .collect();

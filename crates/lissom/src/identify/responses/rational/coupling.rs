@@ -7,6 +7,7 @@ use crate::identify::estimate::Estimate;
 use crate::identify::responses::rational::motor::{MotorData, Rows, least_squares};
 use crate::identify::responses::rational::shared_poles::SharedPoles;
 use crate::identify::responses::rational::{Pole, information};
+use crate::identify::responses::thresholds::MOTOR_DELAY_CALLED_FOR;
 
 /// Most steps, and halvings of one.
 const STEPS: usize = 30;
@@ -17,8 +18,6 @@ const SHARE: f64 = 1e-12;
 const STARTS: usize = 4;
 /// Rounds in which what is left and the room of ζ_w, which counts in it, settle.
 const ROUNDS: usize = 3;
-/// A delay of the motor's response must lower the information criterion by more than this.
-const CALLED_FOR: f64 = 4.0;
 /// A delay of less than this of a turn \[rad\] at the highest frequency, or found to this and no better, is
 /// rounding.
 const LEAST_TURN: f64 = 1e-7;
@@ -71,7 +70,7 @@ pub(crate) fn fit_coupling(
     let highest = data.omega_rad_s.iter().copied().fold(0.0, f64::max);
     let late = motor.fitted(true).filter(|late| {
         let turn = highest * late.values.delay_s.unwrap_or(0.0).abs();
-        late.criterion < prompt.criterion - CALLED_FOR && turn > LEAST_TURN
+        late.criterion < prompt.criterion - MOTOR_DELAY_CALLED_FOR && turn > LEAST_TURN
     });
     motor.figures(&late.unwrap_or(prompt))
 }

@@ -7,12 +7,8 @@ use crate::identify::responses::rational::pole_damping::Damping;
 use crate::identify::responses::rational::shared_poles::{Search, SharedPoles, best_near, fit};
 use crate::identify::responses::rational::shared_poles_error::SharedPolesError;
 use crate::identify::responses::rational::weighted::Weighted;
+use crate::identify::responses::thresholds::{CRITERION_CALLED_FOR, POLES_IN_VAIN};
 
-/// Another pair of poles is looked for until so many in a row say less than they cost.
-const IN_VAIN: usize = 2;
-/// Terms in s and delays must lower the information criterion by more than this: as four deviations of one
-/// figure do beyond what it costs.
-const CALLED_FOR: f64 = 8.0;
 /// What is left is rounding below this share of the responses.
 const ROUNDING: f64 = 1e-10;
 
@@ -47,7 +43,7 @@ pub(crate) fn fit_shared_poles_with_delays(
     }
     // What either explains needs no poles of its own.
     let most = plain.poles.len();
-    let called_for = |f: &SharedPoles| f.criterion < plain.criterion - CALLED_FOR;
+    let called_for = |f: &SharedPoles| f.criterion < plain.criterion - CRITERION_CALLED_FOR;
     let fitted = |data: &Weighted, damping: Damping| {
         by_evidence(data, most, damping, Search::Quick).ok().filter(called_for)
     };
@@ -55,7 +51,8 @@ pub(crate) fn fit_shared_poles_with_delays(
     let within = fitted(&data, Damping::Within);
     Ok(match (late, within) {
         (Some(late), Some(within)) => {
-            let handicap = if within.damps() { CALLED_FOR } else { -CALLED_FOR };
+            let handicap =
+                if within.damps() { CRITERION_CALLED_FOR } else { -CRITERION_CALLED_FOR };
             let taken = within.criterion < late.criterion + handicap;
             if taken { within.counting_hidden_delays() } else { late.may_damp_within() }
         }
@@ -89,7 +86,7 @@ fn by_evidence(
     let mut in_vain = 0;
     for modes in 2..=most {
         let good = |f: &SharedPoles| f.weighted_rms <= 1.0 || left_of(data, f) < ROUNDING;
-        if best.as_ref().is_ok_and(good) || in_vain == IN_VAIN {
+        if best.as_ref().is_ok_and(good) || in_vain == POLES_IN_VAIN {
             break;
         }
         match fit(data, modes, damping, search) {

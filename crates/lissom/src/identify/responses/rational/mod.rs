@@ -23,7 +23,6 @@ pub(crate) use evidence::fit_shared_poles_with_delays;
 pub use motor::{MotorData, MotorFit, fit_motor};
 pub use origin::without_origin;
 pub use pole_damping::Damping;
-pub(crate) use shared_poles::MOST_DAMPING;
 pub use shared_poles::{SharedPoles, Spurious, fit_shared_poles};
 pub use shared_poles_error::SharedPolesError;
 

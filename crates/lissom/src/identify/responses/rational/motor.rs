@@ -8,10 +8,9 @@ use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{
     Pole, common_denominator, information, others, trial_frequencies,
 };
+use crate::identify::responses::thresholds::RESPONSE_FLOOR;
 use crate::lti::{TransferFunction, add, multiply};
 
-/// Responses are trusted to this share of their size at best.
-const FLOOR: f64 = 2e-3;
 /// Damping ratios tried for a pole that no tip shows.
 const TRIAL_DAMPING: [f64; 4] = [0.005, 0.02, 0.06, 0.15];
 /// Halvings of the grid about the best trial pole.
@@ -241,7 +240,7 @@ impl Solution {
 }
 
 pub(super) fn solve(data: &MotorData, poles: &[Pole]) -> Option<Solution> {
-    let rows = Rows::new(data, poles, FLOOR)?;
+    let rows = Rows::new(data, poles, RESPONSE_FLOOR)?;
     let (value, covariance) = rows.solved()?;
     let left = &rows.b - &rows.a * &value;
     Some(Solution { value, covariance, left })

@@ -11,18 +11,14 @@ use crate::identify::responses::rational::relocate::relocated;
 use crate::identify::responses::rational::shared_poles_error::SharedPolesError;
 use crate::identify::responses::rational::weighted::Weighted;
 use crate::identify::responses::rational::{Pole, information, trial_frequencies};
+use crate::identify::responses::thresholds::{MODE_DAMPING_MOST, POOR_FIT};
+use crate::identify::thresholds::{CLEARLY_PRESENT, SIGN_SHOWN};
 
 /// Damping ratio of the poles that vector fitting begins with.
 const START_DAMPING: f64 = 0.01;
 /// Most relocations, and the change of every frequency below which they end: refining does the rest.
 const RELOCATIONS: usize = 12;
 const NEAR: f64 = 0.02;
-/// Residuals in the responses' deviations from which on vector fitting may have come to the wrong poles.
-const POOR: f64 = 1.5;
-/// A pole more damped than this is none of a beam.
-pub(crate) const MOST_DAMPING: f64 = 0.25;
-/// A pole is there when one of its gains is this many deviations from zero.
-const PRESENT: f64 = 4.0;
 
 /// Why a pole is no mode of the beam: it mends the model's edges, or stands for noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -135,7 +131,7 @@ pub(super) fn fit(
     let together = 4 * modes < 2 * data.omega.len();
     let together = together.then(|| found(relocated_and_refined(data, modes, damping))).flatten();
     if let Some(fit) = &together
-        && (fit.weighted_rms < POOR || search == Search::Quick)
+        && (fit.weighted_rms < POOR_FIT || search == Search::Quick)
     {
         return together.ok_or(SharedPolesError::NotFound { modes });
     }
@@ -332,11 +328,11 @@ impl SharedPoles {
         let damping = self.damping_ratio(k);
         let felt = |i: usize| {
             let gain = self.static_gain(i, k);
-            gain.value.abs() > PRESENT * gain.std
+            gain.value.abs() > CLEARLY_PRESENT * gain.std
         };
         if !(low..=high).contains(&pole.omega_rad_s) {
             Some(Spurious::Outside)
-        } else if damping.value > MOST_DAMPING || damping.value < -2.0 * damping.std {
+        } else if damping.value > MODE_DAMPING_MOST || damping.value < -SIGN_SHOWN * damping.std {
             Some(Spurious::Damped)
         } else if !(0..self.static_gains.len()).any(felt) {
             Some(Spurious::Unfelt)

@@ -1,0 +1,56 @@
+//! The list of thresholds.
+
+use lissom::{Threshold, ThresholdValue};
+
+use super::printer::line;
+use crate::shared::digits::trimmed;
+
+/// Significant digits of values.
+const DIGITS: usize = 7;
+/// Width of the lines.
+const WIDTH: usize = 96;
+/// What reasons are indented by.
+const INDENT: &str = "      ";
+
+/// Every threshold with its value, unit and basis, its reason below; those of a method together.
+pub(crate) fn thresholds() {
+    let all: Vec<&Threshold> = lissom::thresholds().collect();
+    for (place, of_method) in all.chunk_by(|a, b| a.method == b.method).enumerate() {
+        if place > 0 {
+            line("");
+        }
+        line(of_method[0].method);
+        let width = of_method.iter().map(|t| t.name.len()).max().unwrap_or(0);
+        for t in of_method {
+            let unit = if t.unit == "1" { String::new() } else { format!(" {}", t.unit) };
+            line(&format!("  {:width$}  {}{unit}, {}", t.name, value(t.value), t.basis.name()));
+            for part in wrapped(t.reason, WIDTH - INDENT.len()) {
+                line(&format!("{INDENT}{part}"));
+            }
+        }
+    }
+}
+
+fn value(value: ThresholdValue) -> String {
+    let number = |x: &f64| trimmed(*x, DIGITS);
+    match value {
+        ThresholdValue::Count(count) => count.to_string(),
+        ThresholdValue::Numbers(values) => values.iter().map(number).collect::<Vec<_>>().join(", "),
+        ThresholdValue::Number(x) => number(&x),
+    }
+}
+
+/// Lines of at most `width` characters; a longer word has one of its own.
+fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(last) if last.chars().count() + 1 + word.chars().count() <= width => {
+                last.push(' ');
+                last.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}

@@ -1,0 +1,38 @@
+//! `lissom thresholds`: the list is complete, and says why.
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::collections::BTreeSet;
+
+use assert_cmd::Command;
+use lissom_io::ThresholdsFile;
+use lissom_testmodels::SchemaCheck;
+
+fn printed(arguments: &[&str]) -> String {
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("lissom"));
+    let output = command.args(arguments).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn every_threshold_has_a_unit_a_reason_and_a_name_of_its_own() {
+    let text = printed(&["thresholds", "--json"]);
+    let mut check =
+        SchemaCheck::new(include_str!("../../../docs/thresholds.schema.json"), "thresholds");
+    check.look_at(&serde_json::from_str(&text).unwrap());
+    check.holds(&["thresholds[].reason"]);
+    let list: ThresholdsFile = serde_json::from_str(&text).unwrap();
+    let mut names = BTreeSet::new();
+    for t in &list.thresholds {
+        assert!(!t.unit.is_empty() && !t.values.is_empty(), "{t:?}");
+        assert!(t.values.iter().all(|value| value.is_finite()), "{t:?}");
+        assert!(t.reason.ends_with('.') && !t.reason.contains("  "), "{t:?}");
+        assert!(names.insert((t.method.clone(), t.name.clone())), "twice: {t:?}");
+    }
+    let table = printed(&["thresholds"]);
+    for t in &list.thresholds {
+        assert!(table.contains(&format!("  {} ", t.name)), "{}", t.name);
+        assert!(table.lines().any(|line| line == t.method), "{}", t.method);
+    }
+    assert!(table.lines().all(|line| line.chars().count() <= 100));
+}

@@ -1,0 +1,76 @@
+//! The list of thresholds in JSON.
+
+use lissom::{Basis, Threshold, ThresholdValue};
+use serde::{Deserialize, Serialize};
+
+/// Every number that decides what is accepted, refused, warned of or chosen.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ThresholdsFile {
+    /// Version that wrote the file.
+    pub lissom: String,
+    /// The thresholds, those of one method together.
+    pub thresholds: Vec<ThresholdEntry>,
+}
+
+/// A threshold.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ThresholdEntry {
+    /// The method or step that it belongs to.
+    pub method: String,
+    /// Name of the constant in the source; unique within a method.
+    pub name: String,
+    /// Its value, or the values that are tried or applied in turn.
+    pub values: Vec<f64>,
+    /// Unit of the values; "1" for shares and ratios.
+    pub unit: String,
+    /// Where the value comes from.
+    pub basis: BasisName,
+    /// What it is, and why it has this value.
+    pub reason: String,
+}
+
+/// Where a threshold's value comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum BasisName {
+    /// It follows from theory or from another number.
+    Derived,
+    /// It was chosen from measured logs or from simulated campaigns.
+    Measured,
+    /// A usual level or a round number.
+    Convention,
+}
+
+impl ThresholdsFile {
+    /// The list of this version.
+    pub fn all() -> Self {
+        Self {
+            lissom: env!("CARGO_PKG_VERSION").to_owned(),
+            thresholds: lissom::thresholds().map(ThresholdEntry::of).collect(),
+        }
+    }
+}
+
+impl ThresholdEntry {
+    fn of(t: &Threshold) -> Self {
+        Self {
+            method: t.method.to_owned(),
+            name: t.name.to_owned(),
+            values: match t.value {
+                ThresholdValue::Number(value) => vec![value],
+                ThresholdValue::Count(count) => vec![count as f64],
+                ThresholdValue::Numbers(values) => values.to_vec(),
+            },
+            unit: t.unit.to_owned(),
+            basis: match t.basis {
+                Basis::Derived => BasisName::Derived,
+                Basis::Measured => BasisName::Measured,
+                Basis::Convention => BasisName::Convention,
+            },
+            reason: t.reason.to_owned(),
+        }
+    }
+}

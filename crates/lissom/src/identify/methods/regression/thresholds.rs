@@ -1,0 +1,42 @@
+//! Regression in slip phases: what is accepted, which window is chosen, what is reported.
+
+thresholds! {
+    "regression" {
+        /// A velocity against its slip phase by this many standard deviations is a reversal, and is
+        /// cut out: noise alone gives none in many thousands of samples.
+        SURELY_REVERSED: f64 = 5.0, "standard deviations", Derived;
+        /// A window is too short if its velocities are smoothed over less than this share of what a
+        /// certain sign needs (`TRAVEL_OVER_NOISE`).
+        SURE_SIGN: f64 = 0.4, "1", Convention;
+        /// Two parameters are inseparable if an eigenvalue of the scaled normal matrix is below
+        /// this share of the largest: their regressors are then the same to 1e-5.
+        SAME_COLUMN: f64 = 1e-10, "1", Convention;
+        /// A parameter is refused as inseparable if it has more than this weight in a direction
+        /// that the data do not show.
+        INSEPARABLE_WEIGHT: f64 = 0.2, "1", Convention;
+        /// Noise is taken out of a direction of the regressors up to this share of its square.
+        /// Above it too little motion is left, and the standard error counts the direction instead.
+        NOISE_FILLS: f64 = 0.6, "1", Convention;
+        /// Share of a direction's square that is taken as motion at least, so that its standard
+        /// error stays finite.
+        MOTION_LEAST: f64 = 0.05, "1", Convention;
+        /// A missing term that hardly lowers the residual is reported if its regressor is exact, it
+        /// is this many standard errors from zero, and it moves an estimate by `PRESENT`.
+        MISSING_SURE: f64 = 10.0, "standard errors", Convention;
+        /// The magnitude of the command is not tried as a missing term if it correlates with the
+        /// torque by this much: with torque of one sign it is the torque itself.
+        MISSING_ONE_SIGN: f64 = 0.5, "1", Convention;
+        /// A window length is used only if this many slip phases (or blocks of a beam's equation)
+        /// are left: the covariance rests on their scatter.
+        CLUSTERS_LEAST: usize = 4, "slip phases or blocks", Convention;
+        /// No shorter window is tried if the scatter of the estimates is this many times the least
+        /// sensitivity so far: shorter ones scatter more, and cost most.
+        WINDOW_HOPELESS: f64 = 1.5, "1", Convention;
+        /// No shorter window is tried if the sensitivity to the length is this many times the least
+        /// so far.
+        WINDOW_FAR_WORSE: f64 = 4.0, "1", Convention;
+        /// Share of an estimate's change from the next shorter to the next longer window that
+        /// counts as systematic error: half of it is the change to one neighbour.
+        WINDOW_SYSTEMATIC: f64 = 0.5, "1", Derived;
+    }
+}

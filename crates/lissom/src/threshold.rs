@@ -1,0 +1,92 @@
+//! A threshold, and the macro that declares a method's thresholds in one place.
+//!
+//! A threshold is a number that decides an outcome that the user sees: what is accepted, refused, warned of, chosen or
+//! left out. Three kinds of numbers are no thresholds, and stay beside their use: limits of the input (guards),
+//! tolerances, step counts and seeds of an algorithm, and floors against rounding. The root finders, event searches and
+//! series of `beam`, `lti`, `rig` and `replay` have only such numbers.
+
+/// Where a threshold's value comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Basis {
+    /// It follows from theory or from another number; the reason says how.
+    Derived,
+    /// It was chosen from measured logs or from simulated campaigns; the reason says which.
+    Measured,
+    /// A usual level, such as 5 % or three standard errors, or a round number.
+    Convention,
+}
+
+impl Basis {
+    /// Its name in tables and files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Derived => "derived",
+            Self::Measured => "measured",
+            Self::Convention => "convention",
+        }
+    }
+}
+
+/// The value of a threshold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ThresholdValue {
+    /// A real number.
+    Number(f64),
+    /// A count.
+    Count(usize),
+    /// Real numbers that are tried or applied in turn.
+    Numbers(&'static [f64]),
+}
+
+/// A number that decides an outcome that the user sees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Threshold {
+    /// The method or step that it belongs to.
+    pub method: &'static str,
+    /// Name of the constant in the source.
+    pub name: &'static str,
+    /// Value, in `unit`.
+    pub value: ThresholdValue,
+    /// Unit; "1" for shares and ratios.
+    pub unit: &'static str,
+    /// Where the value comes from.
+    pub basis: Basis,
+    /// What it is, and why it has this value.
+    pub reason: &'static str,
+}
+
+/// Declares the thresholds of one or more methods: a constant for each, and the list `LIST` of them all.
+///
+/// The doc comment of a constant is its reason in the list.
+///
+/// ```ignore
+/// thresholds! {
+///     "regression" {
+///         /// A regression is poor if it leaves more than this share of the torque.
+///         POOR_RESIDUAL: f64 = 0.15, "1", Convention;
+///     }
+/// }
+/// ```
+macro_rules! thresholds {
+    (
+        $($method:literal {
+            $($(#[doc = $reason:literal])+ $name:ident: $kind:tt = $value:expr, $unit:literal, $basis:ident;)+
+        })+
+    ) => {
+        $($($(#[doc = $reason])+ pub(crate) const $name: $kind = $value;)+)+
+
+        /// All of them.
+        pub(crate) const LIST: &[$crate::threshold::Threshold] = &[$($($crate::threshold::Threshold {
+            method: $method,
+            name: stringify!($name),
+            value: thresholds!(@value $kind, $name),
+            unit: $unit,
+            basis: $crate::threshold::Basis::$basis,
+            reason: concat!($($reason),+).trim_ascii(),
+        },)+)+];
+    };
+    (@value f64, $name:ident) => { $crate::threshold::ThresholdValue::Number($name) };
+    (@value usize, $name:ident) => { $crate::threshold::ThresholdValue::Count($name) };
+    (@value [f64; $count:literal], $name:ident) => { $crate::threshold::ThresholdValue::Numbers(&$name) };
+}

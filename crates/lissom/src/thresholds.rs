@@ -1,0 +1,40 @@
+//! The list of all thresholds.
+
+use crate::identify::{
+    equivalent, judge, methods, prepare, responses, separability, thresholds as all_methods,
+    validation,
+};
+use crate::threshold::Threshold;
+use crate::{information, plan, spectrum};
+
+/// The lists of all methods, in the order of the data flow.
+const GROUPS: [&[Threshold]; 14] = [
+    all_methods::LIST,
+    spectrum::thresholds::LIST,
+    prepare::thresholds::LIST,
+    methods::thresholds::LIST,
+    methods::regression::thresholds::LIST,
+    methods::friction_law::thresholds::LIST,
+    methods::constant_velocity::thresholds::LIST,
+    responses::thresholds::LIST,
+    judge::thresholds::LIST,
+    information::thresholds::LIST,
+    separability::thresholds::LIST,
+    validation::thresholds::LIST,
+    equivalent::thresholds::LIST,
+    plan::thresholds::LIST,
+];
+
+/// All thresholds of the library: every number that decides what is accepted, refused, warned of or chosen.
+///
+/// Each has a unit, a reason, and a [`Basis`](crate::Basis) that says where its value comes from. Limits of the input, and
+/// tolerances of algorithms, are no thresholds and are not in the list.
+///
+/// ```
+/// let refused = lissom::thresholds().find(|t| t.name == "REFUSED_TORQUE").unwrap();
+/// assert_eq!(refused.unit, "1");
+/// assert!(refused.reason.contains("torque"));
+/// ```
+pub fn thresholds() -> impl Iterator<Item = &'static Threshold> {
+    GROUPS.into_iter().flatten()
+}
