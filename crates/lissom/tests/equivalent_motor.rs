@@ -116,8 +116,8 @@ fn off(found: &Equivalent) -> f64 {
 }
 
 fn warnings(found: &Equivalent) -> Vec<&str> {
-    let warned = found.findings.iter().filter(|f| f.severity == Severity::Warning);
-    warned.map(|f| f.code).collect()
+    let warned = found.findings.iter().filter(|f| f.severity() == Severity::Warning);
+    warned.map(|f| f.code()).collect()
 }
 
 /// Seeds 0 to 19: each figure is within 4.5 deviations, and this is warned of.
