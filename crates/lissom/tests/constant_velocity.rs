@@ -106,7 +106,7 @@ fn covers(e: Estimate, truth: f64) -> bool {
 }
 
 fn codes(findings: &[Finding]) -> Vec<&'static str> {
-    findings.iter().map(|f| f.code()).collect()
+    findings.iter().map(Finding::code).collect()
 }
 
 #[test]

@@ -65,7 +65,7 @@ fn data(of: Channels) -> EquivalentData {
 }
 
 fn codes(found: &Equivalent) -> Vec<&str> {
-    found.findings.iter().map(|f| f.code()).collect()
+    found.findings.iter().map(Finding::code).collect()
 }
 
 /// Largest error of a frequency or gain in its deviations, and of a frequency as a share.

@@ -2,7 +2,7 @@
 //! samples, which no interpolation touches.
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use lissom::identify::{Identified, Options, Severity, identify};
+use lissom::identify::{Finding, Identified, Options, Severity, identify};
 use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
 };
@@ -70,7 +70,7 @@ fn a_late_tip_is_counted_and_said() {
             assert!(figure.std < 5e-3 * truth.abs(), "{late} {name} {figure:?}");
         }
         let warned = found.findings.iter().filter(|f| f.severity() != Severity::Info);
-        let codes: Vec<&str> = warned.map(|f| f.code()).collect();
+        let codes: Vec<&str> = warned.map(Finding::code).collect();
         assert!(!codes.contains(&"replay-departs"), "{late} {codes:?}");
     }
 }

@@ -1,7 +1,8 @@
 //! What options of this command, or other commands, do about a finding. The library names none of them.
 
 use lissom::identify::findings::{
-    EquivalentFinding, FindingKind, OutputErrorFinding, RegressionFinding, ValidationFinding,
+    EquivalentFinding, EquivalentMotorFinding, FindingKind, OutputErrorFinding, RegressionFinding,
+    ValidationFinding,
 };
 use lissom::identify::{EquivalentRefusal, MissingKind, MovedBy};
 
@@ -19,6 +20,9 @@ pub(crate) fn command_hint(kind: &FindingKind) -> Option<&'static str> {
             Some("`lissom model ARM` gives the frequencies of a beam of known dimensions")
         }
         FindingKind::Equivalent(found) => equivalent(found),
+        FindingKind::EquivalentMotor(EquivalentMotorFinding::EquivalentMotorFriction {
+            ..
+        }) => Some("`lissom identify CAMPAIGN` removes friction and gives the arm from logs"),
         FindingKind::Validation(
             ValidationFinding::TorqueNotPredicted { coupling_known: true }
             | ValidationFinding::TorqueHidden { .. },
@@ -35,9 +39,6 @@ fn equivalent(found: &EquivalentFinding) -> Option<&'static str> {
         EquivalentFinding::EquivalentRefused { refusal } => refusal_hint(refusal),
         EquivalentFinding::EquivalentModesLeftOut { .. } => {
             Some("--modes N keeps the N lowest modes")
-        }
-        EquivalentFinding::EquivalentMotorFriction { .. } => {
-            Some("`lissom identify CAMPAIGN` removes friction and gives the arm from logs")
         }
         EquivalentFinding::EquivalentTermsInS { .. } => {
             Some("`lissom identify CAMPAIGN` gives the arm from logs")

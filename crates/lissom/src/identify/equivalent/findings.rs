@@ -4,7 +4,7 @@ use crate::identify::equivalent::arm::EquivalentArm;
 use crate::identify::equivalent::data::{Deviations, Equivalent, EquivalentData};
 use crate::identify::equivalent::equivalent_error::EquivalentError;
 use crate::identify::estimate::Estimate;
-use crate::identify::findings::{EquivalentFinding, Finding};
+use crate::identify::findings::{EquivalentFinding, EquivalentMotorFinding, Finding, FindingKind};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::Damping;
 
@@ -48,7 +48,7 @@ fn of_motor(
     data: &EquivalentData,
     whole: &Equivalent,
     arm: &EquivalentArm,
-    findings: &mut Vec<EquivalentFinding>,
+    findings: &mut Vec<FindingKind>,
 ) {
     let (share, share_of_points) = (left_of_motor(data, arm), whole.relative_residual);
     let known = data.deviations != Deviations::FromResidual;
@@ -58,19 +58,25 @@ fn of_motor(
         share > LEFT_OF_MOTOR && share > NOISIER * share_of_points
     };
     if misfit {
-        findings.push(EquivalentFinding::EquivalentMotorMisfit {
-            rms_standard_errors: known.then_some(arm.weighted_rms),
-            share,
-            share_of_points,
-        });
+        findings.push(
+            EquivalentMotorFinding::EquivalentMotorMisfit {
+                rms_standard_errors: known.then_some(arm.weighted_rms),
+                share,
+                share_of_points,
+            }
+            .into(),
+        );
     }
     if let Some(delay_s) = arm.delay_s {
-        findings.push(EquivalentFinding::EquivalentMotorDelay { delay_s });
+        findings.push(EquivalentMotorFinding::EquivalentMotorDelay { delay_s }.into());
     }
     if arm.friction_left.abs() > FRICTION_LEFT {
-        findings.push(EquivalentFinding::EquivalentMotorFriction {
-            standard_errors: arm.friction_left.abs(),
-        });
+        findings.push(
+            EquivalentMotorFinding::EquivalentMotorFriction {
+                standard_errors: arm.friction_left.abs(),
+            }
+            .into(),
+        );
     }
 }
 
@@ -81,60 +87,65 @@ pub(super) fn findings(
     given: f64,
     no_torque: Option<EquivalentError>,
 ) -> Vec<Finding> {
-    let mut findings = Vec::new();
+    let mut findings: Vec<FindingKind> = Vec::new();
     for (pole, why) in whole.fit.poles.iter().zip(&whole.spurious) {
         let Some(reason) = *why else { continue };
         let omega_rad_s = pole.omega_rad_s;
-        findings.push(EquivalentFinding::EquivalentSpuriousPole { omega_rad_s, reason });
+        findings.push(EquivalentFinding::EquivalentSpuriousPole { omega_rad_s, reason }.into());
     }
     let modes = whole.modes.len();
     if modes < modes_found {
-        findings
-            .push(EquivalentFinding::EquivalentModesLeftOut { kept: modes, found: modes_found });
+        let (kept, found) = (modes, modes_found);
+        findings.push(EquivalentFinding::EquivalentModesLeftOut { kept, found }.into());
     }
     let unused = (0..data.names.len()).filter(|i| !whole.points.contains(i));
     let points: Vec<String> = unused.map(|i| data.names[i].clone()).collect();
     if !points.is_empty() {
-        findings.push(EquivalentFinding::EquivalentPointsLeftOut { modes, points });
+        findings.push(EquivalentFinding::EquivalentPointsLeftOut { modes, points }.into());
     }
     of_phase(whole, &mut findings);
     let rms_standard_errors = whole.fit.weighted_rms;
     let known = data.deviations != Deviations::FromResidual;
     if known && rms_standard_errors > MISFIT {
-        findings.push(EquivalentFinding::EquivalentMisfit { rms_standard_errors });
+        findings.push(EquivalentFinding::EquivalentMisfit { rms_standard_errors }.into());
     } else if data.deviations == Deviations::Measured && rms_standard_errors < TOO_GOOD {
-        findings.push(EquivalentFinding::EquivalentDeviationsLarge { rms_standard_errors });
+        findings.push(EquivalentFinding::EquivalentDeviationsLarge { rms_standard_errors }.into());
     }
     if let Some(arm) = &whole.arm {
         of_motor(data, whole, arm, &mut findings);
         let negative = named(arm).into_iter().filter(|(_, figure)| figure.is_negative());
         let parameters: Vec<String> = negative.map(|(name, _)| name).collect();
         if !parameters.is_empty() {
-            findings.push(EquivalentFinding::EquivalentImplausible { parameters });
+            findings.push(EquivalentMotorFinding::EquivalentImplausible { parameters }.into());
         }
     }
-    findings.extend(no_torque.map(|error| EquivalentFinding::EquivalentWithoutTorque { error }));
+    if let Some(error) = no_torque {
+        findings.push(EquivalentMotorFinding::EquivalentWithoutTorque { error }.into());
+    }
     let (missing_gain, change_share) = (given, changed(whole));
     if whole.strainless.is_none() && given > 0.0 {
-        findings.push(EquivalentFinding::EquivalentNoAngle { missing_gain });
+        findings.push(EquivalentFinding::EquivalentNoAngle { missing_gain }.into());
     } else if given > GIVEN || change_share > CHANGED {
-        findings.push(EquivalentFinding::EquivalentCompleted { missing_gain, change_share });
+        findings.push(EquivalentFinding::EquivalentCompleted { missing_gain, change_share }.into());
     }
     findings.into_iter().map(Finding::new).collect()
 }
 
 /// What imaginary parts show beside the damping of poles.
-fn of_phase(whole: &Equivalent, findings: &mut Vec<EquivalentFinding>) {
+fn of_phase(whole: &Equivalent, findings: &mut Vec<FindingKind>) {
     for part in &whole.imaginary {
         let point = part.name.clone();
-        findings.push(match part.delay_s {
-            None => EquivalentFinding::EquivalentImaginaryPart {
-                point,
-                share: part.share,
-                standard_errors: part.deviations,
-            },
-            Some(delay_s) => EquivalentFinding::EquivalentDelay { point, delay_s },
-        });
+        findings.push(
+            match part.delay_s {
+                None => EquivalentFinding::EquivalentImaginaryPart {
+                    point,
+                    share: part.share,
+                    standard_errors: part.deviations,
+                },
+                Some(delay_s) => EquivalentFinding::EquivalentDelay { point, delay_s },
+            }
+            .into(),
+        );
     }
     if whole.fit.damping == Damping::Within {
         let shares = (0..whole.kept.poles.len()).flat_map(|k| {
@@ -142,10 +153,13 @@ fn of_phase(whole: &Equivalent, findings: &mut Vec<EquivalentFinding>) {
             each.map(move |(terms, gains)| terms[k].value.abs() / gains[k].abs())
         });
         let outputs = 0..whole.fit.static_gains.len();
-        findings.push(EquivalentFinding::EquivalentTermsInS {
-            largest_share: shares.filter(|s| s.is_finite()).fold(0.0, f64::max),
-            hidden_delay_s: outputs.map(|i| whole.fit.hidden_delay_s(i)).fold(0.0, f64::max),
-        });
+        findings.push(
+            EquivalentFinding::EquivalentTermsInS {
+                largest_share: shares.filter(|s| s.is_finite()).fold(0.0, f64::max),
+                hidden_delay_s: outputs.map(|i| whole.fit.hidden_delay_s(i)).fold(0.0, f64::max),
+            }
+            .into(),
+        );
     }
 }
 

@@ -161,7 +161,7 @@ impl fmt::Display for ChannelFinding {
                 };
                 write!(
                     f,
-                    "{channel} has a spike{others}: it reads {} between {}, {time_s:.4} s after the run's first \
+                    "{channel} has a spike{others}: it reads {} next to {}, {time_s:.4} s after the run's first \
                      sample. All estimates from this run are affected",
                     reading(*value, unit),
                     neighbours.join(" and ")

@@ -1,10 +1,9 @@
-//! An equivalent arm: what is in it, and how far it holds.
+//! An equivalent arm: its points and modes.
 
 use std::fmt;
 
 use strum::{IntoStaticStr, VariantNames};
 
-use crate::identify::equivalent::equivalent_error::EquivalentError;
 use crate::identify::equivalent::refusal::EquivalentRefusal;
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::describe::Describe;
@@ -13,7 +12,7 @@ use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
 use crate::identify::responses::rational::Spurious;
 
-/// An equivalent arm: what is in it, and how far it holds.
+/// An equivalent arm: its points and modes.
 #[derive(Debug, Clone, PartialEq, IntoStaticStr, VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 #[non_exhaustive]
@@ -76,35 +75,6 @@ pub enum EquivalentFinding {
     EquivalentDeviationsLarge {
         /// Root mean square of the difference from the model, in standard errors.
         rms_standard_errors: f64,
-    },
-    /// The motor's response differs from the arm's, in standard errors or by its share.
-    EquivalentMotorMisfit {
-        /// Root mean square of the difference in standard errors; `None` where these are not known.
-        rms_standard_errors: Option<f64>,
-        /// The difference relative to the response, rms.
-        share: f64,
-        /// The same of the points' responses.
-        share_of_points: f64,
-    },
-    /// The motor's response is delayed against the command.
-    EquivalentMotorDelay {
-        /// How much later it comes \[s\].
-        delay_s: Estimate,
-    },
-    /// The motor's response contains Coulomb friction.
-    EquivalentMotorFriction {
-        /// How far from zero, in standard errors.
-        standard_errors: f64,
-    },
-    /// Parameters of the arm are negative.
-    EquivalentImplausible {
-        /// Names of the parameters.
-        parameters: Vec<String>,
-    },
-    /// Inertia, viscous friction and coupling cannot be found.
-    EquivalentWithoutTorque {
-        /// Why.
-        error: EquivalentError,
     },
     /// The gains of a point do not add up to one: it is no angle.
     EquivalentNoAngle {
@@ -182,40 +152,6 @@ impl fmt::Display for EquivalentFinding {
                 "the responses differ from the model by {rms_standard_errors:.2} standard errors (rms) only: the given \
                  standard errors are too large, and intervals are wider than they need to be"
             ),
-            Self::EquivalentMotorMisfit { rms_standard_errors: Some(errors), .. } => write!(
-                f,
-                "the motor's response differs from the model by {errors:.1} standard errors (rms): it contains friction, \
-                 or modes that are not in the arm. Intervals count it"
-            ),
-            Self::EquivalentMotorMisfit { rms_standard_errors: None, share, share_of_points } => {
-                write!(
-                    f,
-                    "the motor's response differs from the model by {:.1} % (rms), and the points' responses by {:.2} %: it \
-                 contains friction or modes that are not in the arm, is not an angle per command, or is poorly measured",
-                    100.0 * share,
-                    100.0 * share_of_points
-                )
-            }
-            Self::EquivalentMotorDelay { delay_s } => write!(
-                f,
-                "the motor's response comes {} {} than the command: the delay is removed, and intervals count its \
-                 uncertainty",
-                milliseconds(*delay_s),
-                later(delay_s.value)
-            ),
-            Self::EquivalentMotorFriction { standard_errors } => write!(
-                f,
-                "the motor's response contains a torque against the motion that does not grow with speed, as Coulomb \
-                 friction ({standard_errors:.1} standard errors from zero): errors of viscous friction and inertia may \
-                 be larger than their intervals"
-            ),
-            Self::EquivalentImplausible { parameters } => write!(
-                f,
-                "{} {} below zero, which no arm has",
-                parameters.join(", "),
-                if parameters.len() == 1 { "is" } else { "are" }
-            ),
-            Self::EquivalentWithoutTorque { error } => error.fmt(f),
             Self::EquivalentNoAngle { missing_gain } => write!(
                 f,
                 "the gains of a point add up to one except for {missing_gain:.3}: it does not turn with a slowly turning \
@@ -249,11 +185,6 @@ impl Describe for EquivalentFinding {
             Self::EquivalentImaginaryPart { .. }
             | Self::EquivalentDelay { .. }
             | Self::EquivalentMisfit { .. }
-            | Self::EquivalentMotorMisfit { .. }
-            | Self::EquivalentMotorDelay { .. }
-            | Self::EquivalentMotorFriction { .. }
-            | Self::EquivalentImplausible { .. }
-            | Self::EquivalentWithoutTorque { .. }
             | Self::EquivalentNoAngle { .. } => Severity::Warning,
         }
     }
@@ -288,23 +219,6 @@ impl Describe for EquivalentFinding {
                 "look at the plot: a misfit at one frequency is a disturbance, a misfit everywhere a wrong standard error"
             }
             Self::EquivalentDeviationsLarge { .. } => "check the standard errors of the responses",
-            Self::EquivalentMotorMisfit { rms_standard_errors: Some(_), .. } => {
-                "look at the plot of the motor"
-            }
-            Self::EquivalentMotorMisfit { .. } => {
-                "look at the plot of the motor; give standard errors (columns that end in _std) to separate noise from \
-                 misfit"
-            }
-            Self::EquivalentMotorDelay { .. } => {
-                "sample command and angle at the same time and with the same filter, or correct the response by the delay"
-            }
-            Self::EquivalentMotorFriction { .. } => {
-                "remove the friction first (an identification from the logs does so), or measure at larger amplitudes"
-            }
-            Self::EquivalentImplausible { .. } => {
-                "check the motor's response: its sign, the torque constant, and whether friction is removed"
-            }
-            Self::EquivalentWithoutTorque { .. } => "give the motor's response at more frequencies",
             Self::EquivalentNoAngle { .. } => {
                 "check for an angle with the wrong sign, or in another unit than the motor's angle"
             }

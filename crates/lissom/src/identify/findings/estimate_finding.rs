@@ -209,13 +209,15 @@ impl fmt::Display for EstimateFinding {
             Self::FrictionVisible { sign: FrictionSign::OddHarmonics { run, third_share, odd_over_even } } => write!(
                 f,
                 "the command has odd harmonics, as dry friction causes them (in {run} the third is {:.1} % of the \
-                 fundamental, even ones are {odd_over_even:.1} times smaller): the raw response is not linear",
-                100.0 * third_share
+                 fundamental, even ones are {} times smaller): the raw response is not linear",
+                100.0 * third_share,
+                significant(*odd_over_even, 2)
             ),
             Self::FrictionVisible { sign: FrictionSign::TorqueJump { standard_errors } } => write!(
                 f,
-                "the torque jumps with the direction of motion, as dry friction causes it ({standard_errors:.1} standard \
-                 errors): the raw response is not linear"
+                "the torque jumps with the direction of motion, as dry friction causes it ({} standard errors): the raw \
+                 response is not linear",
+                significant(*standard_errors, 2)
             ),
             Self::Offset { share } => write!(
                 f,

@@ -9,6 +9,7 @@ use crate::identify::findings::channel_finding::ChannelFinding;
 use crate::identify::findings::constant_velocity_finding::ConstantVelocityFinding;
 use crate::identify::findings::describe::Describe;
 use crate::identify::findings::equivalent_finding::EquivalentFinding;
+use crate::identify::findings::equivalent_motor_finding::EquivalentMotorFinding;
 use crate::identify::findings::estimate_finding::EstimateFinding;
 use crate::identify::findings::friction_law_finding::FrictionLawFinding;
 use crate::identify::findings::log_finding::LogFinding;
@@ -72,8 +73,10 @@ areas! {
     Beam(BeamFinding),
     /// The estimates of the result.
     Estimate(EstimateFinding),
-    /// An equivalent arm.
+    /// An equivalent arm: its points and modes.
     Equivalent(EquivalentFinding),
+    /// An equivalent arm: what the motor's response gives.
+    EquivalentMotor(EquivalentMotorFinding),
     /// Another payload.
     Payload(PayloadFinding),
     /// Prediction of a log.

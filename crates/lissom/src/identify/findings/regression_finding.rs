@@ -101,8 +101,7 @@ impl fmt::Display for RegressionFinding {
         match self {
             Self::RegressionRefused { residual_share: Some(share) } => write!(
                 f,
-                "the motor's equation does not explain {:.0} % of the windowed torque: the regression gives no \
-                 estimates",
+                "{:.0} % of the windowed torque is not explained by the motor's equation: the regression gives no estimates",
                 100.0 * share
             ),
             Self::RegressionRefused { residual_share: None } => f.write_str(
@@ -114,7 +113,7 @@ impl fmt::Display for RegressionFinding {
             ),
             Self::UnexplainedTorque { residual_share } => write!(
                 f,
-                "the motor's equation does not explain {:.0} % of the windowed torque: errors of the estimates may be \
+                "{:.0} % of the windowed torque is not explained by the motor's equation: errors of the estimates may be \
                  larger than their standard errors",
                 100.0 * residual_share
             ),

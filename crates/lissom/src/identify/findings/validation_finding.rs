@@ -201,8 +201,9 @@ impl fmt::Display for ValidationFinding {
             ),
             Self::ResidualNotWhite { channel, noise_ratio } => write!(
                 f,
-                "the residual of {channel} is {noise_ratio:.1} times the noise of its sensor and not white: standard \
-                 errors that assume a white residual are too small"
+                "the residual of {channel} is {} times the noise of its sensor and not white: standard errors that assume \
+                 a white residual are too small",
+                significant(*noise_ratio, 2)
             ),
         }
     }
