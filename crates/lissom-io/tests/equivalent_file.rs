@@ -61,7 +61,7 @@ fn an_equivalent_arm_and_its_schema_name_the_same_keys() {
         let found = equivalent(data, None).unwrap();
         assert_eq!(found.points.len(), data.names.len(), "{:?}", found.findings);
         if i == 0 {
-            assert!(found.findings.iter().any(|f| f.code == "equivalent-spurious-pole"));
+            assert!(found.findings.iter().any(|f| f.code() == "equivalent-spurious-pole"));
         }
         for axis in [Axis::Rotary, Axis::Linear] {
             for command in

@@ -1,6 +1,10 @@
 //! Figures against truth.
 
-use lissom::identify::{Estimate, Finding, Identified, ModeEstimate, RunKind, Severity, corrected};
+use lissom::identify::findings::{
+    BeamFinding, ChannelFinding, EstimateFinding, Finding, FindingKind, OutputErrorFinding,
+    Severity,
+};
+use lissom::identify::{Estimate, Identified, ModeEstimate, RunKind, corrected};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
@@ -134,10 +138,8 @@ impl CurveScore {
 pub struct FindingScore {
     /// Its code.
     pub code: String,
-    /// Whether it is a warning or a refusal.
-    pub warns: bool,
-    /// Whether it names a figure of the equation of motion.
-    pub about_equation: bool,
+    /// Whether it says that the equation of motion does not hold.
+    pub law_alarm: bool,
 }
 
 /// All scores of one campaign.
@@ -154,20 +156,6 @@ pub struct Score {
     /// Modes given beyond those that there are.
     pub surplus_modes: usize,
 }
-
-/// Findings about what the runs show, not about the equation that they should follow.
-const ABOUT_DATA: [&str; 10] = [
-    "damping-kind",
-    "faint-mode",
-    "poor-excitation",
-    "not-separable",
-    "modes-not-found",
-    "no-pairs",
-    "methods-disagree",
-    "dead-channel",
-    "more-modes-than-tips",
-    "friction-visible",
-];
 
 impl Score {
     /// The score of one figure.
@@ -188,11 +176,7 @@ impl Score {
     /// refusals about the campaign that name friction, inertia or coupling and are not about its
     /// data; and `offset`, which says that friction differs by direction.
     pub fn law_alarms(&self) -> Vec<&str> {
-        let speaks = |f: &&FindingScore| {
-            let about_data = ABOUT_DATA.contains(&f.code.as_str());
-            f.code == "offset" || (f.about_equation && f.warns && !about_data)
-        };
-        self.findings.iter().filter(speaks).map(|f| f.code.as_str()).collect()
+        self.findings.iter().filter(|f| f.law_alarm).map(|f| f.code.as_str()).collect()
     }
 }
 
@@ -200,7 +184,7 @@ impl Score {
 pub fn score(truth: &Truth, id: &Identified) -> Score {
     let named = |figure: Figure| {
         let speaks =
-            |f: &Finding| f.severity >= Severity::Warning && f.affects.contains(&figure.key());
+            |f: &Finding| f.severity() >= Severity::Warning && f.affects().contains(&figure.key());
         id.findings.iter().any(speaks)
     };
     let one = |figure: Figure, truth: f64, estimate: Option<Estimate>| FigureScore {
@@ -234,19 +218,48 @@ pub fn score(truth: &Truth, id: &Identified) -> Score {
 
 impl FindingScore {
     fn of(finding: &Finding) -> Self {
-        Self {
-            code: finding.code.to_owned(),
-            warns: finding.severity >= Severity::Warning,
-            about_equation: about_equation(finding),
-        }
+        Self { code: finding.code().to_owned(), law_alarm: is_law_alarm(finding) }
     }
+}
+
+/// Whether a finding says that the equation of motion does not hold.
+fn is_law_alarm(finding: &Finding) -> bool {
+    if matches!(finding.kind, FindingKind::Estimate(EstimateFinding::Offset { .. })) {
+        return true;
+    }
+    let warns = finding.severity() >= Severity::Warning;
+    warns && about_equation(finding) && !about_data(&finding.kind)
 }
 
 /// Whether a finding about the whole campaign names what the motor's equation of motion gives.
 fn about_equation(finding: &Finding) -> bool {
-    let named = |figure: Figure| finding.affects.contains(&figure.key());
+    let affects = finding.affects();
+    let named = |figure: Figure| affects.contains(&figure.key());
     let figures = [Figure::Coulomb, Figure::Viscous, Figure::Inertia, Figure::Coupling];
     finding.run.is_none() && figures.into_iter().any(named)
+}
+
+/// Whether a finding is about what the runs show, not about the equation that they should follow.
+fn about_data(kind: &FindingKind) -> bool {
+    match kind {
+        FindingKind::Channel(found) => matches!(found, ChannelFinding::DeadChannel { .. }),
+        FindingKind::OutputError(found) => matches!(
+            found,
+            OutputErrorFinding::DampingKind { .. } | OutputErrorFinding::FaintMode { .. }
+        ),
+        FindingKind::Beam(found) => {
+            matches!(found, BeamFinding::ModesNotFound | BeamFinding::MoreModesThanTips { .. })
+        }
+        FindingKind::Estimate(found) => matches!(
+            found,
+            EstimateFinding::PoorExcitation { .. }
+                | EstimateFinding::NotSeparable { .. }
+                | EstimateFinding::NoPairs
+                | EstimateFinding::MethodsDisagree { .. }
+                | EstimateFinding::FrictionVisible { .. }
+        ),
+        _ => false,
+    }
 }
 
 /// The mode found for each true one: in order where there are as many, else the nearest left.
@@ -333,6 +346,7 @@ mod estimate {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lissom::identify::findings::{JudgedParameter, RegressionFinding, ResponseFinding};
 
     fn mode(omega: f64) -> ModeEstimate {
         let of = |value| Estimate { value, std: 0.1 };
@@ -424,14 +438,14 @@ mod tests {
 
     #[test]
     fn alarms_speak_of_the_law() {
-        let alarms = |code: &str, warns, about_equation| {
-            let findings = vec![FindingScore { code: code.to_owned(), warns, about_equation }];
-            Score { findings, ..Score::default() }.law_alarms().len()
-        };
-        assert_eq!(alarms("missing-term", true, true), 1);
-        assert_eq!(alarms("missing-term", false, true), 0);
-        assert_eq!(alarms("sticking", true, false), 0);
-        assert_eq!(alarms("poor-excitation", true, true), 0);
-        assert_eq!(alarms("offset", false, false), 1);
+        let unexplained =
+            || Finding::new(RegressionFinding::UnexplainedTorque { residual_share: 0.3 });
+        assert!(is_law_alarm(&unexplained()));
+        assert!(!is_law_alarm(&Finding { run: Some("a".to_owned()), ..unexplained() }));
+        let bands = ResponseFinding::BandsUncertain { bands: 1, of: 2, limit: 0.02 };
+        assert!(!is_law_alarm(&Finding::new(bands)));
+        let parameter = JudgedParameter::Inertia;
+        assert!(!is_law_alarm(&Finding::new(EstimateFinding::NotSeparable { parameter })));
+        assert!(is_law_alarm(&Finding::new(EstimateFinding::Offset { share: 0.1 })));
     }
 }

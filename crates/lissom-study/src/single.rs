@@ -40,11 +40,9 @@ pub fn describe(campaign: &Campaign, seed: u64, quick: bool) -> String {
             lines.extend(id.friction_law.iter().map(friction));
             for f in &id.findings {
                 let run = f.run.as_deref().unwrap_or("campaign");
-                let affects = f.affects.join(" ");
-                lines.push(format!(
-                    "{:?} {} [{run}] {affects}\n    {}",
-                    f.severity, f.code, f.message
-                ));
+                let affects = f.affects().join(" ");
+                let (severity, code) = (f.severity(), f.code());
+                lines.push(format!("{severity:?} {code} [{run}] {affects}\n    {f}"));
             }
         }
     }

@@ -106,7 +106,7 @@ fn covers(e: Estimate, truth: f64) -> bool {
 }
 
 fn codes(findings: &[Finding]) -> Vec<&'static str> {
-    findings.iter().map(|f| f.code).collect()
+    findings.iter().map(Finding::code).collect()
 }
 
 #[test]
@@ -219,8 +219,8 @@ fn sub_linear_friction_is_flagged_as_too_high() {
         }
     }
     let id = identify(&both(QUIET, saturating), &Options::default(), |_| {}).unwrap();
-    let curved = id.findings.iter().find(|f| f.code == "extrapolation-curved").unwrap();
-    assert!(curved.message.contains("is too high"), "{}", curved.message);
+    let curved = id.findings.iter().find(|f| f.code() == "extrapolation-curved").unwrap();
+    assert!(curved.message().contains("is too high"), "{}", curved.message());
     // The figure taken is that of the slowest speeds.
     let taken = id.friction.forward.unwrap();
     let line = id.constant_velocity.as_ref().unwrap().forward.unwrap();
@@ -331,7 +331,7 @@ fn a_campaign_of_constant_velocities_alone_gives_a_clear_result() {
     let id = identify(&both(QUIET, coulomb), &Options::default(), |_| {}).unwrap();
     assert!(id.runs.iter().all(|r| matches!(r.kind, RunKind::ConstantVelocity)));
     assert_eq!(codes(&id.findings), ["constant-velocity-only", "classical-figures", "offset"]);
-    assert_eq!(id.findings[0].severity, Severity::Refusal);
+    assert_eq!(id.findings[0].severity(), Severity::Refusal);
     assert!(id.regression.is_none() && id.third_harmonic.is_none() && id.responses.is_empty());
     let classical = id.constant_velocity.unwrap();
     assert_eq!(id.friction.coulomb, classical.coulomb);

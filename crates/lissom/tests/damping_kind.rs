@@ -45,7 +45,7 @@ fn one_steady_sine_does_not_tell_the_dampings_apart() {
     for (runs, doubtful) in [(one, true), (two, false)] {
         let found = identified(runs);
         assert!(found.output_error.as_ref().unwrap().whole_runs);
-        let said = found.findings.iter().any(|f| f.code == "damping-kind");
+        let said = found.findings.iter().any(|f| f.code() == "damping-kind");
         assert_eq!(said, doubtful, "{:?}", found.findings);
         let damping = found.beam.modes[0].damping_ratio;
         assert!(deviations(damping, ratio) < 4.0, "{damping:?}, true {ratio}");

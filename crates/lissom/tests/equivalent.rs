@@ -327,7 +327,7 @@ fn modes_beyond_the_frequencies_are_counted_with_the_inertia() {
             deviations: Deviations::Measured,
         };
         let found = equivalent(&data, None).unwrap();
-        assert!(found.findings.iter().any(|f| f.code == "equivalent-spurious-pole"));
+        assert!(found.findings.iter().any(|f| f.code() == "equivalent-spurious-pole"));
         // Of the whole response: two modes alone have others.
         for (exact, found) in exact_zeros.iter().zip(&found.zeros) {
             for square in exact {

@@ -4,8 +4,8 @@
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use lissom::identify::{
-    Deviations, Equivalent, EquivalentData, EquivalentRefusal, MotorData, Response, Severity,
-    equivalent,
+    Deviations, Equivalent, EquivalentData, EquivalentRefusal, Finding, MotorData, Response,
+    Severity, equivalent,
 };
 use num_complex::Complex64;
 use rand_distr::{Distribution, StandardNormal};
@@ -65,7 +65,7 @@ fn data(of: Channels) -> EquivalentData {
 }
 
 fn codes(found: &Equivalent) -> Vec<&str> {
-    found.findings.iter().map(|f| f.code).collect()
+    found.findings.iter().map(Finding::code).collect()
 }
 
 /// Largest error of a frequency or gain in its deviations, and of a frequency as a share.
@@ -85,8 +85,8 @@ fn off(found: &Equivalent) -> (f64, f64) {
 }
 
 /// What the fit has of a code: its message.
-fn said<'a>(found: &'a Equivalent, code: &str) -> Option<&'a str> {
-    found.findings.iter().find(|f| f.code == code).map(|f| f.message.as_str())
+fn said(found: &Equivalent, code: &str) -> Option<String> {
+    found.findings.iter().find(|f| f.code() == code).map(Finding::message)
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn damping_within_the_beam_is_in_the_fit() {
         println!("ζ {damping}, noise {noise}: {worst:.2} deviations, {share:.1e} off");
         assert!(worst < 4.0 && said(&found, "equivalent-terms-in-s").is_some());
         assert!(!codes(&found).contains(&"equivalent-spurious-pole"));
-        assert!(!found.findings.iter().any(|f| f.severity == Severity::Warning));
+        assert!(!found.findings.iter().any(|f| f.severity() == Severity::Warning));
         if noise == 0.0 {
             assert!(share < 1e-10);
         }
@@ -175,7 +175,7 @@ fn delay_and_damping_within_at_once_do_not_pass_silently() {
         let delays_s = [1e-3 * delay_ms; 2];
         let of = Channels { damping: 0.01, within: 1.0, delays_s, noise, ..CLEAN };
         let found = equivalent(&data(of), None).unwrap();
-        let warned = found.findings.iter().any(|f| f.severity == Severity::Warning);
+        let warned = found.findings.iter().any(|f| f.severity() == Severity::Warning);
         println!("{delay_ms} ms, noise {noise}: {:?} {:?}", off(&found), codes(&found));
         assert!(warned || off(&found).0 < 4.0);
     }
@@ -201,7 +201,7 @@ fn a_turned_phase_is_told_of() {
         }
         let found = equivalent(&data, None).unwrap();
         println!("{:?} {:?}", off(&found), codes(&found));
-        let warned = found.findings.iter().any(|f| f.severity == Severity::Warning);
+        let warned = found.findings.iter().any(|f| f.severity() == Severity::Warning);
         assert!(warned || off(&found).0 < 4.0);
     }
 }

@@ -4,8 +4,8 @@
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use lissom::identify::{
-    Deviations, Equivalent, EquivalentData, EquivalentRefusal, Estimate, MotorData, Response,
-    Severity, equivalent,
+    Deviations, Equivalent, EquivalentData, EquivalentRefusal, Estimate, Finding, MotorData,
+    Response, Severity, equivalent,
 };
 use num_complex::Complex64;
 use rand_distr::{Distribution, StandardNormal};
@@ -116,8 +116,8 @@ fn off(found: &Equivalent) -> f64 {
 }
 
 fn warnings(found: &Equivalent) -> Vec<&str> {
-    let warned = found.findings.iter().filter(|f| f.severity == Severity::Warning);
-    warned.map(|f| f.code).collect()
+    let warned = found.findings.iter().filter(|f| f.severity() == Severity::Warning);
+    warned.map(Finding::code).collect()
 }
 
 /// Seeds 0 to 19: each figure is within 4.5 deviations, and this is warned of.

@@ -177,7 +177,7 @@ fn a_delay_is_noticed_and_measured() {
 
     // The output error counts it in all figures.
     let id = identified(current(0.2), Axis::Rotary, vec![], late);
-    assert!(id.findings.iter().any(|f| f.code == "command-lag"));
+    assert!(id.findings.iter().any(|f| f.code() == "command-lag"));
     let lag = id.output_error.as_ref().unwrap().estimate(Parameter::CommandLag).unwrap();
     assert!((lag.value - 0.010).abs() < 4.0 * lag.std + 1e-6 && lag.std < 1e-4, "{lag:?}");
     within("inertia", id.inertia, 2e-3, 1e-3);
@@ -243,7 +243,7 @@ fn unknown_constant_gives_figures_per_unit_of_command() {
     let id = identified(command, Axis::Linear, vec![], stiff_axis(0.2, 0.0));
     within("inertia", id.inertia, 2e-3 / 0.2, 0.01);
     within("coulomb", id.friction.coulomb, 0.06 / 0.2, 0.01);
-    assert!(id.findings.iter().any(|f| f.code == "per-unit-of-command"));
+    assert!(id.findings.iter().any(|f| f.code() == "per-unit-of-command"));
 }
 
 #[test]
@@ -272,7 +272,7 @@ fn one_direction_only_refuses_coulomb_and_offset() {
     let refused = id
         .findings
         .iter()
-        .any(|f| f.code == "not-separable" && f.affects.contains(&"friction.coulomb"));
+        .any(|f| f.code() == "not-separable" && f.affects().contains(&"friction.coulomb"));
     assert!(refused, "{:?}", id.findings);
 }
 
@@ -288,7 +288,7 @@ fn a_tip_dead_in_every_run_is_left_out() {
     let id = identified(current(0.2), Axis::Rotary, vec![tip("gauge", TipQuantity::Angle)], runs);
     within("inertia", id.inertia, 2e-3, 0.01);
     assert!(id.beam.coupling.is_none() && id.beam.modes.is_empty());
-    assert!(id.findings.iter().any(|f| f.code == "dead-channel" && f.run.is_none()));
+    assert!(id.findings.iter().any(|f| f.code() == "dead-channel" && f.run.is_none()));
 }
 
 #[test]

@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use lissom::identify::{Options, Severity, identify};
+use lissom::identify::{Finding, Options, Severity, identify};
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
 use lissom::replay::Parameter;
 
@@ -84,8 +84,8 @@ fn a_lag_of_samples_is_no_law_of_friction() {
                 "{late} {name} {figure:?}"
             );
         }
-        let warned = found.findings.iter().filter(|f| f.severity != Severity::Info);
-        let codes: Vec<&str> = warned.map(|f| f.code).collect();
+        let warned = found.findings.iter().filter(|f| f.severity() != Severity::Info);
+        let codes: Vec<&str> = warned.map(Finding::code).collect();
         assert!(!codes.contains(&"friction-law"), "{late} {codes:?}");
         // The replay has found the axis rigid: so is the model, whatever noise in responses looks like.
         assert!(!codes.contains(&"flexible-without-tip"), "{late} {codes:?}");

@@ -2,7 +2,7 @@
 //! samples, which no interpolation touches.
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use lissom::identify::{Identified, Options, Severity, identify};
+use lissom::identify::{Finding, Identified, Options, Severity, identify};
 use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
 };
@@ -49,7 +49,7 @@ fn a_late_tip_is_counted_and_said() {
     for late in [3, -1, 0] {
         let found = identified(late);
         let lag = found.output_error.as_ref().unwrap().estimate(Parameter::TipLag(0));
-        let said = found.findings.iter().find(|f| f.code == "tip-lag");
+        let said = found.findings.iter().find(|f| f.code() == "tip-lag");
         assert_eq!((lag.is_some(), said.is_some()), (late != 0, late != 0), "{late} {lag:?}");
         let beam = &found.beam;
         let mode = truth.modes[0];
@@ -69,8 +69,8 @@ fn a_late_tip_is_counted_and_said() {
             assert!(deviations.abs() < 4.0, "{late} {name} {figure:?} {truth}");
             assert!(figure.std < 5e-3 * truth.abs(), "{late} {name} {figure:?}");
         }
-        let warned = found.findings.iter().filter(|f| f.severity != Severity::Info);
-        let codes: Vec<&str> = warned.map(|f| f.code).collect();
+        let warned = found.findings.iter().filter(|f| f.severity() != Severity::Info);
+        let codes: Vec<&str> = warned.map(Finding::code).collect();
         assert!(!codes.contains(&"replay-departs"), "{late} {codes:?}");
     }
 }

@@ -47,7 +47,7 @@ fn found(noise: Option<f64>, sway_rad: f64) -> Identified {
 }
 
 fn says_so(id: &Identified) -> bool {
-    id.findings.iter().any(|f| f.code == "more-than-noise")
+    id.findings.iter().any(|f| f.code() == "more-than-noise")
 }
 
 /// With noise, and with nothing but steps, whose errors are slow where the motion is.

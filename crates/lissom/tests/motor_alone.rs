@@ -70,7 +70,7 @@ fn are_the_arms(id: &Identified, rig: &Rig) {
     for (found, truth) in id.beam.modes.iter().zip(&arm.modes) {
         is("frequency", Some(found.natural_frequency_rad_s), truth.omega_rad_s, 2e-3);
     }
-    assert!(id.findings.iter().any(|f| f.code == "modes-by-the-motor"), "{:?}", id.findings);
+    assert!(id.findings.iter().any(|f| f.code() == "modes-by-the-motor"), "{:?}", id.findings);
 }
 
 #[test]

@@ -123,7 +123,7 @@ fn the_run_that_spoils_is_named() {
         at.iter().enumerate().map(run).collect::<Vec<Run>>()
     };
     let spoilers = |id: &Identified| {
-        let all = id.findings.iter().filter(|f| f.code == "run-stands-out");
+        let all = id.findings.iter().filter(|f| f.code() == "run-stands-out");
         all.map(|f| f.run.clone().unwrap()).collect::<Vec<String>>()
     };
     println!("sound");

@@ -64,6 +64,6 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
 }
 
 fn code(id: &Identified) -> ExitCode {
-    let refused = id.findings.iter().any(|f| f.severity == Severity::Refusal);
+    let refused = id.findings.iter().any(|f| f.severity() == Severity::Refusal);
     if refused { ExitCode::from(REFUSED) } else { ExitCode::SUCCESS }
 }

@@ -48,7 +48,7 @@ pub(crate) fn run(args: &ValidateArgs) -> Result<ExitCode, Failure> {
         );
         finding_list::findings(&validation.findings);
     }
-    let refused = validation.findings.iter().any(|f| f.severity == Severity::Refusal);
+    let refused = validation.findings.iter().any(|f| f.severity() == Severity::Refusal);
     Ok(if refused { ExitCode::from(REFUSED) } else { ExitCode::SUCCESS })
 }
 

@@ -8,6 +8,8 @@ use lissom::rig::RigError;
 use lissom_report::FigureError;
 use thiserror::Error;
 
+use super::command_hint::refusal_hint;
+
 /// A reason that goes to the user with its hint.
 #[derive(Debug, Error)]
 pub(crate) enum Failure {
@@ -69,7 +71,7 @@ impl Failure {
             ),
             Self::Model { hint, .. } | Self::Asked(_, hint) => Some((*hint).to_owned()),
             Self::Equivalent { source, place, .. } => {
-                Some(place.clone().unwrap_or_else(|| source.hint().to_owned()))
+                Some(place.clone().unwrap_or_else(|| equivalent_hint(source)))
             }
             Self::UndescribedLog { log } if log.extension().is_some_and(|e| e == "json") => {
                 Some("first the result, then the log: lissom validate result.json campaign.toml".to_owned())
@@ -119,6 +121,11 @@ impl Failure {
             _ => None,
         }
     }
+}
+
+fn equivalent_hint(refusal: &EquivalentRefusal) -> String {
+    let hint = refusal.hint();
+    refusal_hint(refusal).map_or_else(|| hint.to_owned(), |more| format!("{hint}; {more}"))
 }
 
 fn plan_hint(error: &PlanError) -> &'static str {

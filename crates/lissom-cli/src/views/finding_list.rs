@@ -3,6 +3,7 @@
 use lissom::identify::{Finding, Severity};
 
 use super::printer::line;
+use crate::shared::command_hint::command_hint;
 
 /// Findings of one kind that are shown one by one.
 const SHOWN: usize = 3;
@@ -14,7 +15,7 @@ pub(crate) fn findings(findings: &[Finding]) {
         return;
     }
     line("\nfindings");
-    let kind = |f: &Finding| (f.code, f.severity, f.hint);
+    let kind = |f: &Finding| (f.code(), f.severity(), f.hint());
     let mut told = Vec::new();
     for finding in findings {
         if told.contains(&kind(finding)) {
@@ -22,14 +23,14 @@ pub(crate) fn findings(findings: &[Finding]) {
         }
         told.push(kind(finding));
         let same: Vec<&Finding> = findings.iter().filter(|f| kind(f) == kind(finding)).collect();
-        let severity = match finding.severity {
+        let severity = match finding.severity() {
             Severity::Info => "info",
             Severity::Warning => "warning",
             Severity::Refusal => "refusal",
         };
         for f in same.iter().take(SHOWN) {
             let run = f.run.as_ref().map_or(String::new(), |r| format!(" {r}:"));
-            line(&format!("  {severity} [{}]{run} {}", f.code, f.message));
+            line(&format!("  {severity} [{}]{run} {f}", f.code()));
         }
         if same.len() > SHOWN {
             line(&format!(
@@ -37,8 +38,11 @@ pub(crate) fn findings(findings: &[Finding]) {
                 same.len() - SHOWN
             ));
         }
-        if !finding.hint.is_empty() {
-            line(&format!("    hint: {}", finding.hint));
+        if !finding.hint().is_empty() {
+            line(&format!("    hint: {}", finding.hint()));
+        }
+        if let Some(command) = command_hint(&finding.kind) {
+            line(&format!("    command: {command}"));
         }
     }
 }

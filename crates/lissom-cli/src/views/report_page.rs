@@ -14,6 +14,7 @@ use super::{
     arm_check, bode_plots, equivalent_table, friction_curve, separability_section,
     velocity_friction,
 };
+use crate::shared::command_hint::command_hint;
 use crate::tasks::known_arm::Reference;
 
 /// The page as HTML.
@@ -25,8 +26,8 @@ pub(crate) fn page(
     reference: Option<&Reference>,
     described: Option<&GeometryCheck>,
 ) -> String {
-    let refusals = id.findings.iter().filter(|f| f.severity == Severity::Refusal).count();
-    let warnings = id.findings.iter().filter(|f| f.severity == Severity::Warning).count();
+    let refusals = id.findings.iter().filter(|f| f.severity() == Severity::Refusal).count();
+    let warnings = id.findings.iter().filter(|f| f.severity() == Severity::Warning).count();
     let summary = format!(
         "{}; {}, {}. Figures are estimates with one \
          standard deviation and a 95 % interval; what the data could not carry stands under \
@@ -304,13 +305,15 @@ fn runs(id: &Identified) -> Table {
 }
 
 fn finding(f: &Finding) -> ReportFinding {
-    let severity = match f.severity {
+    let severity = match f.severity() {
         Severity::Info => ReportSeverity::Info,
         Severity::Warning => ReportSeverity::Warning,
         Severity::Refusal => ReportSeverity::Refusal,
     };
-    let mut finding = ReportFinding::new(severity, f.code, &f.message);
+    let mut finding = ReportFinding::new(severity, f.code(), f.message());
     finding.run.clone_from(&f.run);
-    finding.affects = f.affects.iter().map(|a| (*a).to_owned()).collect();
-    if f.hint.is_empty() { finding } else { finding.hint(f.hint) }
+    finding.affects = f.affects().into_iter().map(str::to_owned).collect();
+    let hints: Vec<&str> = [f.hint()].into_iter().chain(command_hint(&f.kind)).collect();
+    let hint = hints.join("; ");
+    if hint.is_empty() { finding } else { finding.hint(hint) }
 }

@@ -51,13 +51,15 @@ fn gaps_cut_a_log_into_runs() {
     assert_eq!(
         bench.findings("gap"),
         [
-            "run.csv [2/2]: cut at a gap of 0.5050 s after 6.9950 s",
-            "run.csv [2/2]: cut at a gap of 0.4050 s after 7.5950 s"
+            "run.csv [2/2]: the log has a gap of 0.5050 s after 6.9950 s: it is cut there, and this run begins after the gap",
+            "run.csv [2/2]: the log has a gap of 0.4050 s after 7.5950 s: it is cut there, and this run begins after the gap"
         ]
     );
     assert_eq!(
         bench.findings("piece-dropped"),
-        ["run.csv [2/2]: a piece of 20 samples from 7.5000 s on, between gaps, left out"]
+        [
+            "run.csv [2/2]: the piece from 7.5000 s on, between two gaps, has only 20 samples: it is not used"
+        ]
     );
 }
 
@@ -68,16 +70,19 @@ fn a_long_log_is_thinned() {
     let file = read_campaign_with(&bench.path().join("campaign.toml"), &options).unwrap();
     assert_eq!(file.campaign.runs[0].len(), 1000);
     let identified = identify(&file.campaign, &Options::default(), |_| {}).unwrap();
-    let thinned: Vec<_> = identified.findings.iter().filter(|f| f.code == "thinned").collect();
+    let thinned: Vec<_> = identified.findings.iter().filter(|f| f.code() == "thinned").collect();
     let [finding] = &thinned[..] else { panic!("{thinned:?}") };
-    assert_eq!(finding.message, "thinned: one sample from 4 rows of the log");
+    assert_eq!(finding.message(), "the log is thinned: each sample stands for 4 rows of it");
     assert_eq!(finding.run.as_deref(), Some("run.csv"));
 }
 
 #[test]
 fn a_head_is_skipped() {
     let bench = Bench::adding("skip = \"2 s\"\n");
-    assert_eq!(bench.findings("head-skipped"), ["run.csv: the first 2 s left out as asked"]);
+    assert_eq!(
+        bench.findings("head-skipped"),
+        ["run.csv: the first 2 s are left out, as the campaign asks"]
+    );
 }
 
 #[test]
@@ -85,7 +90,10 @@ fn jitter_is_measured() {
     let off = |k: usize| ((k * 7919 % 11) as f64 / 5.0 - 1.0) * 1e-3;
     assert_eq!(
         changed(|k, row| row[0] += off(k)).findings("jitter"),
-        ["run.csv: time stamps lie 13.8 % of the sample time off the grid (rms; 46 % at most)"]
+        [
+            "run.csv: time stamps differ from an even grid by 13.8 % of the sample time (rms; at most 46 %): samples are \
+          taken as evenly spaced"
+        ]
     );
 }
 
@@ -95,11 +103,16 @@ fn saturation_is_seen_with_and_without_a_known_limit() {
     let campaign = crate::bench::CAMPAIGN.replace("[drive]", "[drive]\ncurrent_limit = \"0.5 A\"");
     assert_eq!(
         bench.findings("saturation"),
-        ["run.csv: the command stands at its largest value for 50.2 % of the run"]
+        [
+            "run.csv: the command stays at its largest value for 50.2 % of the run: its harmonics are not those of friction \
+          alone"
+        ]
     );
     assert_eq!(
         bench.file("campaign.toml", campaign).findings("saturation"),
-        ["run.csv: the command is at its limit for 50.2 % of the run"]
+        [
+            "run.csv: the command is at its limit for 50.2 % of the run: its harmonics are not those of friction alone"
+        ]
     );
 }
 
@@ -107,12 +120,15 @@ fn saturation_is_seen_with_and_without_a_known_limit() {
 fn periods_are_counted() {
     assert_eq!(
         Bench::log(csv(&motion(1.0, 0.005, 26.0))).findings("few-periods"),
-        ["run.csv: only 4 periods in steady state"]
+        ["run.csv: only 4 periods are in steady state: standard errors of the harmonics are rough"]
     );
     let slow = Bench::adding("omega_rad_s = 0.5\n").file("run.csv", csv(&motion(0.5, 0.005, 20.0)));
     assert_eq!(
         slow.findings("too-few-periods"),
-        ["run.csv: driven at 0.5000 rad/s: 1 whole blocks of periods; at least 3 are needed"]
+        [
+            "run.csv: at the given 0.5000 rad/s the log has 1 of the 3 blocks of whole periods that a steady state needs. \
+          The run is used as a motion of any shape"
+        ]
     );
 }
 
@@ -120,8 +136,11 @@ fn periods_are_counted() {
 fn another_frequency_than_the_stated_one_is_seen() {
     assert_eq!(
         Bench::adding("omega_rad_s = 5\n").findings("not-sinusoidal"),
-        ["run.csv: not a sinusoid of 5.0000 rad/s: 100 % of the motor's power is left, harmonics \
-          have 76 % of the fundamental; the motor itself moves at 4.0000 rad/s, 0.6366 Hz"]
+        [
+            "run.csv: the motion is not a sinusoid of the given 5.0000 rad/s: 100 % of the motor's power is not explained, \
+          and harmonics have 76 % of the fundamental; the motor itself moves at 4.0000 rad/s (0.6366 Hz). The run is \
+          used as a motion of any shape"
+        ]
     );
 }
 
@@ -136,17 +155,15 @@ fn a_dead_channel_is_named() {
     };
     assert_eq!(
         dead(3).findings("dead-channel"),
-        [
-            "dead.csv: the tip channel tip is constant at 0.25: the run is left out of the regression"
-        ]
+        ["dead.csv: tip tip is constant at 0.25 rad: the regression does not use this run"]
     );
     assert_eq!(
         dead(2).findings("dead-channel"),
-        ["dead.csv: the motor channel is constant at 0.25: the run is left out"]
+        ["dead.csv: the motor channel is constant at 0.25 rad: this run is not used"]
     );
     assert_eq!(
         dead(1).findings("dead-channel"),
-        ["dead.csv: the command channel is constant at 0.25: the run is left out"]
+        ["dead.csv: the command channel is constant at 0.25 A: this run is not used"]
     );
 }
 
@@ -154,7 +171,10 @@ fn a_dead_channel_is_named() {
 fn a_clipped_motor_is_seen() {
     assert_eq!(
         changed(|_, row| row[2] = row[2].clamp(-0.8, 0.8)).findings("clipped-channel"),
-        ["run.csv: channel motor stands at its end stop for 41.2 % of the run"]
+        [
+            "run.csv: the motor channel stays at its largest or smallest value for 41.2 % of the run: the motion beyond it is \
+          not in the log"
+        ]
     );
 }
 
@@ -167,8 +187,7 @@ fn a_lone_reading_is_seen() {
     };
     let found = changed(spiked).findings("spike");
     let [told] = &found[..] else { panic!("{found:?}") };
-    assert!(told.contains("channel motor reads 3."), "{told}");
-    assert!(told.contains("a spike."), "{told}");
+    assert!(told.contains("the motor channel has a spike: it reads 3."), "{told}");
 }
 
 #[test]
@@ -179,7 +198,7 @@ fn drift_is_measured() {
     };
     assert_eq!(
         changed(drifting).findings("drift"),
-        ["run.csv: the motor drifts by 38 % of its amplitude over the periods kept"]
+        ["run.csv: the motor drifts by 38 % of its amplitude over the periods used"]
     );
 }
 
@@ -187,7 +206,9 @@ fn drift_is_measured() {
 fn a_third_harmonic_above_nyquist_is_seen() {
     assert_eq!(
         Bench::log(csv(&motion(4.0, 0.3, 300.0))).findings("harmonic-above-nyquist"),
-        ["run.csv: the third harmonic, 12.0 rad/s, is not below the Nyquist frequency 10.5 rad/s"]
+        [
+            "run.csv: the third harmonic (12.0 rad/s) is not below 0.9 of the Nyquist frequency (10.5 rad/s)"
+        ]
     );
 }
 
@@ -195,7 +216,10 @@ fn a_third_harmonic_above_nyquist_is_seen() {
 fn sticking_is_measured() {
     assert_eq!(
         Bench::log(csv(&sticking())).findings("sticking"),
-        ["run.csv: the motor sticks for about 9 % of the cycle"]
+        [
+            "run.csv: the motor sticks for about 9 % of the cycle: friction is not the square wave that the third-harmonic \
+          method assumes"
+        ]
     );
 }
 

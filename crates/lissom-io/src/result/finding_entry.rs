@@ -38,16 +38,16 @@ impl FindingEntry {
     /// The entry of a finding.
     pub fn of(f: &Finding) -> Self {
         Self {
-            code: f.code.to_owned(),
-            severity: match f.severity {
+            code: f.code().to_owned(),
+            severity: match f.severity() {
                 Severity::Info => SeverityName::Info,
                 Severity::Warning => SeverityName::Warning,
                 Severity::Refusal => SeverityName::Refusal,
             },
             run: f.run.clone(),
-            affects: f.affects.iter().map(|key| (*key).to_owned()).collect(),
-            message: f.message.clone(),
-            hint: f.hint.to_owned(),
+            affects: f.affects().into_iter().map(str::to_owned).collect(),
+            message: f.message(),
+            hint: f.hint().to_owned(),
         }
     }
 

@@ -3,7 +3,7 @@
 use crate::identify::drive_estimates::Method;
 use crate::identify::equivalent::Equivalent;
 use crate::identify::estimate::{Estimate, ModeEstimate};
-use crate::identify::finding::Finding;
+use crate::identify::findings::Finding;
 use crate::identify::found_arm::FoundArm;
 use crate::identify::friction_estimates::Friction;
 use crate::identify::judge::{Conclusion, Methods};

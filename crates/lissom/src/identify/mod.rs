@@ -3,7 +3,7 @@
 mod drive_estimates;
 pub(crate) mod equivalent;
 mod estimate;
-mod finding;
+pub mod findings;
 mod found_arm;
 mod friction_estimates;
 mod geometry;
@@ -25,7 +25,7 @@ pub use equivalent::{
     equivalent_beam, response_zeros,
 };
 pub use estimate::{Estimate, ModeEstimate, NORMAL_95};
-pub use finding::{Finding, Severity};
+pub use findings::{Finding, FindingKind, Severity};
 pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
 pub use friction_estimates::{Friction, NearRestEstimate, RippleEstimate};
 pub use geometry::{ArmQuantity, Explanation, GeometryCheck, geometry_check};

@@ -1,7 +1,7 @@
 //! What another payload does to an arm that was identified with one.
 
 use crate::identify::estimate::{Estimate, ModeEstimate};
-use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::findings::{Finding, PayloadFinding};
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::responses::correct::Response;
 use crate::replay::ModalArm;
@@ -20,13 +20,7 @@ pub struct LoadedArm {
 impl LoadedArm {
     /// What its intervals do not count.
     pub fn caveat(&self) -> Finding {
-        let message = format!(
-            "modes above the {} found bend under another load, too: the highest mode's interval does not count them",
-            self.modes.len()
-        );
-        let hint = "of a beam with mass along it trust the modes below the highest; to know that one find one more: \
-                    runs near its frequency, a tip more";
-        Finding::new("payload-highest-mode", Severity::Info, &[key::MODES], message, hint)
+        Finding::new(PayloadFinding::PayloadHighestMode { modes: self.modes.len() })
     }
 }
 

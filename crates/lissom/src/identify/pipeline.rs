@@ -6,7 +6,10 @@ use thiserror::Error;
 
 use crate::identify::equivalent::{Equivalent, EquivalentData, equivalent};
 use crate::identify::estimate::{Estimate, ModeEstimate};
-use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::findings::{
+    Channel, ChannelFinding, EquivalentFinding, Finding, FindingKind, RunFinding, Severity,
+    result_key as key,
+};
 use crate::identify::identified::{Identified, ThirdHarmonic};
 use crate::identify::judge::{Evidence, Methods, conclude, slip_phase_solution};
 use crate::identify::methods::constant_velocity;
@@ -286,15 +289,7 @@ fn equivalent_arm(
     match equivalent(&data, None) {
         Ok(found) => Some(found),
         Err(refusal) => {
-            let (message, hint) = (refusal.to_string(), refusal.hint());
-            let affects = [key::EQUIVALENT];
-            findings.push(Finding::new(
-                "equivalent-refused",
-                Severity::Info,
-                &affects,
-                message,
-                hint,
-            ));
+            findings.push(Finding::new(EquivalentFinding::EquivalentRefused { refusal }));
             None
         }
     }
@@ -325,13 +320,8 @@ fn dead_everywhere(campaign: &Campaign) -> Vec<bool> {
 /// Says which tips are dead in every run.
 fn dead_tips(campaign: &Campaign, dead: &[bool], findings: &mut Vec<Finding>) {
     for (tip, _) in campaign.channels.tips.iter().zip(dead).filter(|(_, dead)| **dead) {
-        findings.push(Finding::new(
-            "dead-channel",
-            Severity::Warning,
-            &[key::COUPLING, key::MODES, key::INERTIA],
-            format!("tip {} is constant in every run: nothing is taken from it", tip.name),
-            "check the sensor; of a flexible beam the motor's figures are then rough",
-        ));
+        let channel = Channel::Tip(tip.name.clone());
+        findings.push(Finding::new(ChannelFinding::DeadChannel { channel, value: None, unit: "" }));
     }
 }
 
@@ -412,9 +402,9 @@ fn pairs(runs: &[RunAnalysis], findings: &[Finding]) -> Option<ThirdHarmonic> {
     let flagged = |i: usize| {
         findings.iter().any(|f| {
             f.run.as_deref() == Some(&runs[i].name)
-                && f.severity >= Severity::Warning
-                && f.code != "sticking"
-                && f.affects.contains(&key::THIRD)
+                && f.severity() >= Severity::Warning
+                && !matches!(f.kind, FindingKind::Run(RunFinding::Sticking { .. }))
+                && f.affects().contains(&key::THIRD_HARMONIC)
         })
     };
     let mut pairs = Vec::new();

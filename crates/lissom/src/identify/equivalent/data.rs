@@ -4,7 +4,7 @@ use crate::identify::equivalent::arm::EquivalentArm;
 use crate::identify::equivalent::refusal::PartOutside;
 use crate::identify::equivalent::zeros::ResponseZero;
 use crate::identify::equivalent::{EquivalentBeam, StrainlessForm};
-use crate::identify::finding::Finding;
+use crate::identify::findings::Finding;
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{MotorData, SharedPoles, Spurious};
 

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::identify::equivalent::EquivalentError;
+use crate::identify::equivalent::equivalent_error::EquivalentError;
 use crate::identify::estimate::Estimate;
 use crate::identify::responses::rational::SharedPolesError;
 
@@ -13,7 +13,7 @@ pub struct PartOutside {
     pub name: String,
     /// Imaginary part that no damping explains, as a share of the response, median.
     pub share: f64,
-    /// The same in deviations, rms; `None` where these are not known.
+    /// The same in standard errors, rms; `None` where these are not known.
     pub deviations: Option<f64>,
     /// The delay that the response shows, where it explains that part \[s\].
     pub delay_s: Option<Estimate>,
@@ -58,9 +58,9 @@ pub enum EquivalentRefusal {
         /// Its size.
         size: f64,
     },
-    /// A deviation that is none of its response.
+    /// A standard error that does not go with its response.
     #[error(
-        "{name}, frequency {} ({omega_rad_s:.6} rad/s): a deviation of {std:.1e} for a response of size {size:.1e}",
+        "{name}, frequency {} ({omega_rad_s:.6} rad/s): a standard error of {std:.1e} for a response of size {size:.1e}",
         index + 1
     )]
     Deviation {
@@ -70,7 +70,7 @@ pub enum EquivalentRefusal {
         index: usize,
         /// The frequency \[rad/s\].
         omega_rad_s: f64,
-        /// The deviation.
+        /// The standard error.
         std: f64,
         /// Of the response.
         size: f64,
@@ -80,8 +80,8 @@ pub enum EquivalentRefusal {
     NoAngle,
     /// Nothing but noise.
     #[error(
-        "the responses are all noise: of {poles} poles fitted none stands four deviations clear of it, or none \
-         describes the responses better than nothing does"
+        "the responses are all noise: of {poles} poles fitted none has a gain four standard errors from zero, or none \
+         describes the responses better than zero does"
     )]
     Noise {
         /// Poles tried.
@@ -148,7 +148,7 @@ impl EquivalentRefusal {
                     "measure at more frequencies: five for each mode at least"
                 }
                 SharedPolesError::Frequency { .. } | SharedPolesError::Response { .. } => {
-                    "leave out what is no number, and points whose deviation is zero"
+                    "leave out what is no number, and points whose standard error is zero"
                 }
                 _ => "measure about the resonances, at more frequencies",
             },
@@ -161,13 +161,13 @@ impl EquivalentRefusal {
                 "check the units: points' responses are angle per angle of the motor, about one at rest"
             }
             Self::Deviation { .. } => {
-                "correct it; where no deviations are known leave them all out: `lissom equivalent` then has them \
-                 from what the model leaves"
+                "correct it; where no standard errors are known leave them all out: they are then estimated from the \
+                 residual of the model"
             }
             Self::NoAngle => {
                 "measure angles of points of the beam, or deflections in rad or with a radius: accelerations and \
-                 unscaled signals do not say how far a point moves. What they and the motor \
-                 show together, modes and torques through them, is in lissom identify"
+                 unscaled signals do not say how far a point moves. An identification from logs gives modes and torques \
+                 from such signals and the motor"
             }
             Self::Noise { .. } => "drive the motor harder, average longer, and check the sensors",
             Self::NoModeWithin { .. } => {
@@ -178,11 +178,10 @@ impl EquivalentRefusal {
                  the channels, their sampling and the phase's sign and unit"
             }
             Self::FewerPoints { .. } => {
-                "measure as many points as modes, or keep the lowest modes: `lissom equivalent` with --modes N"
+                "measure as many points as modes, or keep the lowest modes only"
             }
             Self::Beam { .. } => {
-                "put one of the two where this mode moves it by another size or sign; `lissom equivalent --arm \
-                 ARM --at NAME=LENGTH` says where on a beam of known dimensions"
+                "put one of the two where this mode moves it by another size or sign; the dimensions of the beam say where"
             }
         }
     }
@@ -203,7 +202,7 @@ fn fit_words(error: &SharedPolesError, names: &[String]) -> String {
             name(names, *output)
         ),
         SharedPolesError::Response { output, index } => format!(
-            "{}, frequency {}: a response needs a finite value and a deviation above zero",
+            "{}, frequency {}: a response needs a finite value and a standard error above zero",
             name(names, *output),
             index + 1
         ),
@@ -213,7 +212,7 @@ fn fit_words(error: &SharedPolesError, names: &[String]) -> String {
 
 fn uneven_words(part: &PartOutside) -> String {
     let deviations =
-        part.deviations.map_or(String::new(), |d| format!(" ({d:.1} times its deviations)"));
+        part.deviations.map_or(String::new(), |d| format!(" ({d:.1} standard errors)"));
     let late = part.delay_s.map_or(String::new(), |late| {
         format!(", as if it came {:.3} ms {}", 1e3 * late.value.abs(), side(late.value))
     });

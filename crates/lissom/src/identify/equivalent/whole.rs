@@ -14,6 +14,7 @@ use crate::identify::equivalent::zeros::response_zeros;
 use crate::identify::equivalent::{
     EquivalentError, deviations, equivalent_beam, findings, imaginary,
 };
+use crate::identify::findings::{EquivalentFinding, FindingKind};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{
     MotorData, Pole, SharedPoles, Spurious, fit_shared_poles_with_delays, information,
@@ -159,9 +160,13 @@ impl Equivalent {
             ratio.value < -SIGN_SHOWN * ratio.std
         };
         self.imaginary.iter().any(|part| part.delay_s.is_none())
-            || self.findings.iter().any(|f| f.code == "equivalent-misfit")
+            || self.findings.iter().any(|f| is_misfit(&f.kind))
             || (0..self.fit.poles.len()).any(below)
     }
+}
+
+fn is_misfit(kind: &FindingKind) -> bool {
+    matches!(kind, FindingKind::Equivalent(EquivalentFinding::EquivalentMisfit { .. }))
 }
 
 /// A pole above the frequencies as the motor's torque has it; `None` where it has none of its own.

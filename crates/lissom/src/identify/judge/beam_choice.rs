@@ -2,7 +2,7 @@
 
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::ModeEstimate;
-use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::findings::{BeamFinding, Finding};
 use crate::identify::identified::Beam;
 use crate::identify::judge::evidence::Evidence;
 use crate::identify::judge::thresholds::MODEL_MISFIT;
@@ -43,30 +43,15 @@ pub(super) fn findings(evidence: &Evidence<'_>, beam: &Beam) -> Vec<Finding> {
         return found;
     }
     if beam.modes.is_empty() && tips > 0 && !evidence.has_only_constant_velocities() {
-        found.push(Finding::new(
-            "modes-not-found",
-            Severity::Refusal,
-            &[key::MODES],
-            "no mode explains the tips' responses to the motor".to_owned(),
-            "drive it at six or more frequencies about the beam's resonance, or with a sweep",
-        ));
+        found.push(Finding::new(BeamFinding::ModesNotFound));
     }
     let model = evidence.methods.motor_model.as_ref();
     if tips == 0
         && let Some(model) = model.filter(|m| m.weighted_rms < MODEL_MISFIT)
         && let Some(pole) = model.poles.first()
     {
-        found.push(Finding::new(
-            "flexible-without-tip",
-            Severity::Warning,
-            &[key::INERTIA, key::VISCOUS, key::COULOMB],
-            format!(
-                "the motor's response looks flexible, clamped at about {:.3e} rad/s, and no tip is \
-                 measured",
-                pole.omega_rad_s
-            ),
-            "measure a tip: from the motor alone its figures are rough",
-        ));
+        let omega_rad_s = pole.omega_rad_s;
+        found.push(Finding::new(BeamFinding::FlexibleWithoutTip { omega_rad_s }));
     }
     found
 }

@@ -1,7 +1,7 @@
 //! From the methods' solutions to the estimates of the result and the findings about them.
 
 use crate::identify::drive_estimates::Method;
-use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::findings::{EstimateFinding, Finding};
 use crate::identify::found_arm::FoundArm;
 use crate::identify::judge::evidence::{Chosen, Evidence};
 use crate::identify::judge::{beam_choice, drive_table, remarks, unknown};
@@ -42,7 +42,7 @@ pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> C
     let separability = Separability::of(evidence, &chosen, &findings);
     findings.extend(separability.as_ref().and_then(Separability::finding));
     // What is wrong with the logs comes before what follows from it.
-    findings.sort_by_key(|f| (!f.is_about_readings(), std::cmp::Reverse(f.severity)));
+    findings.sort_by_key(|f| (!f.kind.is_about_readings(), std::cmp::Reverse(f.severity())));
     let arm = FoundArm::of(evidence, &chosen);
     Conclusion { chosen, separability, arm, findings }
 }
@@ -51,17 +51,7 @@ pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> C
 fn reversed_command(evidence: &Evidence<'_>) -> Option<Finding> {
     let r = evidence.methods.regression.as_ref()?;
     let negative = [r.inertia, r.coulomb].iter().all(|e| e.is_some_and(|e| e.is_negative()));
-    negative.then(|| {
-        Finding::new(
-            "command-sign",
-            Severity::Refusal,
-            &[key::COULOMB, key::VISCOUS, key::INERTIA],
-            "inertia and friction come out negative together: the command's sign is reversed \
-             against the motor's"
-                .to_owned(),
-            "give the command or the motor a negative scale in the campaign",
-        )
-    })
+    negative.then(|| Finding::new(EstimateFinding::CommandSign))
 }
 
 /// A delay that the motor's response shows, where its model is taken.

@@ -1,6 +1,6 @@
 //! A run that is another once more.
 
-use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::findings::{Finding, LogFinding};
 use crate::record::{Campaign, Run};
 
 /// Whether a run is one before it once more, to the last bit: it knows nothing new.
@@ -12,16 +12,8 @@ pub(crate) fn repeats(campaign: &Campaign, index: usize, findings: &mut Vec<Find
             && other.tips() == run.tips()
     };
     let Some(first) = campaign.runs[..index].iter().find(same) else { return false };
-    findings.push(
-        Finding::new(
-            "repeated-run",
-            Severity::Warning,
-            &[key::RAW],
-            format!("its samples are those of {} once more: the run is left out", first.name()),
-            "a log listed twice would make every figure look surer than it is",
-        )
-        .of(run.name()),
-    );
+    let found = LogFinding::RepeatedRun { first: first.name().to_owned() };
+    findings.push(Finding::of_run(run.name(), found));
     true
 }
 
@@ -49,6 +41,6 @@ mod tests {
         let mut findings = Vec::new();
         let repeated: Vec<bool> = (0..3).map(|i| repeats(&campaign, i, &mut findings)).collect();
         assert_eq!(repeated, [false, false, true]);
-        assert!(findings.len() == 1 && findings[0].message.contains("of a once more"));
+        assert!(findings.len() == 1 && findings[0].message().contains("those of a"));
     }
 }

@@ -2,7 +2,9 @@
 
 use num_complex::Complex64;
 
-use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::findings::{
+    Channel, ChannelFinding, EstimateUnits, Finding, LogFinding, RunFinding,
+};
 use crate::identify::methods::constant_velocity::thresholds::{STEADY_BOTH_WAYS, STEADY_ONE_WAY};
 use crate::identify::methods::constant_velocity::{
     SteadyPoint, no_stretch, steady_points, steady_share,
@@ -14,15 +16,17 @@ use crate::identify::prepare::channel_check::{
 };
 use crate::identify::prepare::repeated_run::repeats;
 use crate::identify::prepare::sensor_check;
+use crate::identify::prepare::sensor_check::tip_unit;
 use crate::identify::prepare::thresholds::{
     AT_LIMIT, AT_REST_REPORTED, DRIFT_REPORTED, DRIFT_STEPS, FEW_PERIODS, JITTER_REPORTED, ONE_WAY,
     ONE_WAY_MOVES, SATURATION_REPORTED, SINE_DISTORTION_FOUND, SINE_DISTORTION_GIVEN,
     SINE_UNEXPLAINED, STICKING_REPORTED,
 };
 use crate::identify::thresholds::SAME_FREQUENCY;
-use crate::record::{Campaign, Hold, Note, Run};
+use crate::record::{Campaign, Hold, Run};
 use crate::spectrum::{
-    Harmonics, Phasor, Steady, find_frequency, hold_factor, least_squares, steady_state,
+    Harmonics, Phasor, Steady, SteadyError, find_frequency, hold_factor, least_squares,
+    steady_state,
 };
 
 /// What was found in one run.
@@ -135,16 +139,7 @@ pub(crate) fn analyse(
         let kept = &run.motor()[found.steady.first..];
         let share = dwell_share(kept, found.omega_rad_s, run.sample_time_s());
         if share > STICKING_REPORTED {
-            findings.push(
-                Finding::new(
-                    "sticking",
-                    Severity::Warning,
-                    &[key::THIRD],
-                    format!("the motor sticks for about {:.0} % of the cycle", 100.0 * share),
-                    "friction is no square wave there: drive it with a larger amplitude or faster",
-                )
-                .of(run.name()),
-            );
+            findings.push(Finding::of_run(run.name(), RunFinding::Sticking { share }));
         }
         analysis.stuck_share = Some(share);
         analysis.kind = RunKind::Sinusoidal(Box::new(found));
@@ -182,43 +177,28 @@ fn channels(
     findings: &mut Vec<Finding>,
 ) -> bool {
     let alive = |x: &[f64]| range(x) > 0.0;
-    let everything = [key::COULOMB, key::VISCOUS, key::INERTIA];
+    let units = EstimateUnits::new(&campaign.channels);
     let mut usable = true;
-    for (name, x) in [("motor", run.motor()), ("command", run.command())] {
+    let mut dead_channel = |channel: Channel, x: &[f64], unit: &'static str| {
+        let found = ChannelFinding::DeadChannel { channel, value: Some(x[0]), unit };
+        findings.push(Finding::of_run(run.name(), found));
+    };
+    for (channel, x, unit) in [
+        (Channel::Motor, run.motor(), units.angle()),
+        (Channel::Command, run.command(), units.command()),
+    ] {
         if !alive(x) {
             usable = false;
-            if turns && name == "command" {
+            if turns && channel == Channel::Command {
                 continue;
             }
-            findings.push(
-                Finding::new(
-                    "dead-channel",
-                    Severity::Warning,
-                    &everything,
-                    format!("the {name} channel is constant at {}: the run is left out", x[0]),
-                    "check the wiring and which column the campaign names",
-                )
-                .of(run.name()),
-            );
+            dead_channel(channel, x, unit);
         }
     }
     for ((tip, x), dead) in campaign.channels.tips.iter().zip(run.tips()).zip(dead) {
         if !alive(x) && !dead {
             usable = false;
-            findings.push(
-                Finding::new(
-                    "dead-channel",
-                    Severity::Warning,
-                    &[key::COUPLING, key::MODES],
-                    format!(
-                        "the tip channel {} is constant at {}: the run is left out of the \
-                         regression",
-                        tip.name, x[0]
-                    ),
-                    "check the sensor; without it nothing can be said of the beam",
-                )
-                .of(run.name()),
-            );
+            dead_channel(Channel::Tip(tip.name.clone()), x, tip_unit(units, tip));
         }
     }
     findings.extend(sensor_check::findings(campaign, run));
@@ -229,21 +209,12 @@ fn channels(
 fn at_rest(run: &Run, findings: &mut Vec<Finding>) {
     let share = rest_share(run.motor());
     if share > AT_REST_REPORTED {
-        findings.push(
-            Finding::new(
-                "mostly-at-rest",
-                Severity::Info,
-                &[key::COULOMB, key::VISCOUS, key::INERTIA, key::RAW],
-                format!("the motor stands still for {:.0} % of the run", 100.0 * share),
-                "a drive that keeps moving (sines, a sweep) tells more in less time",
-            )
-            .of(run.name()),
-        );
+        findings.push(Finding::of_run(run.name(), RunFinding::MostlyAtRest { share }));
     }
 }
 
 fn saturation(campaign: &Campaign, run: &Run, findings: &mut Vec<Finding>) -> f64 {
-    let (share, known) = match campaign.channels.command.limit {
+    let (share, limit_given) = match campaign.channels.command.limit {
         Some(limit) => {
             let at = run.command().iter().filter(|u| u.abs() >= AT_LIMIT * limit).count();
             (at as f64 / run.len() as f64, true)
@@ -251,17 +222,8 @@ fn saturation(campaign: &Campaign, run: &Run, findings: &mut Vec<Finding>) -> f6
         None => (clipped_share(run.command()), false),
     };
     if share > SATURATION_REPORTED {
-        let how = if known { "is at its limit" } else { "stands at its largest value" };
-        findings.push(
-            Finding::new(
-                "saturation",
-                Severity::Warning,
-                &[key::THIRD, key::CORRECTED],
-                format!("the command {how} for {:.1} % of the run", 100.0 * share),
-                "its harmonics are then not friction's: less amplitude, or away from the resonance",
-            )
-            .of(run.name()),
-        );
+        let found = ChannelFinding::Saturation { share, limit_given };
+        findings.push(Finding::of_run(run.name(), found));
     }
     share
 }
@@ -269,31 +231,14 @@ fn saturation(campaign: &Campaign, run: &Run, findings: &mut Vec<Finding>) -> f6
 fn time_base(run: &Run, findings: &mut Vec<Finding>) {
     let time = run.time();
     if time.jitter_rms_s > JITTER_REPORTED * time.sample_time_s {
-        findings.push(
-            Finding::new(
-                "jitter",
-                Severity::Warning,
-                &[key::INERTIA, key::VISCOUS, key::RAW],
-                format!(
-                    "time stamps lie {:.1} % of the sample time off the grid (rms; {:.0} % at most)",
-                    100.0 * time.jitter_rms_s / time.sample_time_s,
-                    100.0 * time.jitter_max_s / time.sample_time_s
-                ),
-                "log on the controller's clock; samples are taken as evenly spaced",
-            )
-            .of(run.name()),
-        );
-    }
-    for note in run.notes() {
-        let (code, hint) = match note {
-            Note::GapCut { .. } => ("gap", "log without interruption"),
-            Note::PieceDropped { .. } => ("piece-dropped", "log without interruption"),
-            Note::Thinned { .. } => ("thinned", "log fewer samples, or cut the log into runs"),
-            Note::HeadSkipped { .. } => ("head-skipped", ""),
+        let found = LogFinding::Jitter {
+            rms_share: time.jitter_rms_s / time.sample_time_s,
+            max_share: time.jitter_max_s / time.sample_time_s,
         };
-        let message = note.to_string();
-        findings.push(Finding::new(code, Severity::Info, &[], message, hint).of(run.name()));
+        findings.push(Finding::of_run(run.name(), found));
     }
+    let notes = run.notes().iter().map(LogFinding::from);
+    findings.extend(notes.map(|note| Finding::of_run(run.name(), note)));
 }
 
 /// The run as one sinusoid in steady state, if it is one.
@@ -310,24 +255,19 @@ fn sinusoidal(
     };
     let given = run.omega_rad_s().is_some();
     // A frequency given in Hz, or of another run, shows beside the log's own.
-    let own = || {
-        let own =
-            find_frequency(run.motor(), t).filter(|w| (w / omega - 1.0).abs() > SAME_FREQUENCY);
-        own.map_or_else(String::new, |w| {
-            format!("; the motor itself moves at {w:.4} rad/s, {:.4} Hz", w / std::f64::consts::TAU)
-        })
-    };
-    let refuse = |findings: &mut Vec<Finding>, code, severity, message: String, hint| {
-        let affects = [key::THIRD, key::CORRECTED];
-        findings.push(Finding::new(code, severity, &affects, message, hint).of(run.name()));
-    };
+    let own =
+        || find_frequency(run.motor(), t).filter(|w| (w / omega - 1.0).abs() > SAME_FREQUENCY);
     let steady = match steady_state(run, omega) {
         Ok(steady) => steady,
-        Err(error) => {
+        Err(SteadyError::TooFewPeriods { found, least }) => {
             if given {
-                let message = format!("driven at {omega:.4} rad/s: {error}{}", own());
-                let hint = "log at least six periods in steady state";
-                refuse(findings, "too-few-periods", Severity::Warning, message, hint);
+                let found = RunFinding::TooFewPeriods {
+                    omega_rad_s: omega,
+                    blocks: found,
+                    blocks_needed: least,
+                    own_omega_rad_s: own(),
+                };
+                findings.push(Finding::of_run(run.name(), found));
             }
             return None;
         }
@@ -344,19 +284,13 @@ fn sinusoidal(
     let sinusoid = motor.unexplained() <= SINE_UNEXPLAINED && distortion <= allowed;
     if !sinusoid {
         if given {
-            let message = if distortion.is_finite() {
-                format!(
-                    "not a sinusoid of {omega:.4} rad/s: {:.0} % of the motor's power is left, \
-                     harmonics have {:.0} % of the fundamental{}",
-                    100.0 * motor.unexplained(),
-                    100.0 * distortion,
-                    own()
-                )
-            } else {
-                format!("the motor does not move at {omega:.4} rad/s in the periods kept")
+            let found = RunFinding::NotSinusoidal {
+                omega_rad_s: omega,
+                unexplained_share: motor.unexplained(),
+                harmonics_share: distortion,
+                own_omega_rad_s: own(),
             };
-            let hint = "check omega_rad_s; the run is used as a motion of any shape";
-            refuse(findings, "not-sinusoidal", Severity::Warning, message, hint);
+            findings.push(Finding::of_run(run.name(), found));
         }
         return None;
     }
@@ -367,79 +301,37 @@ fn sinusoidal(
     let tips: Vec<Harmonics> = run.tips().iter().map(|x| fit(x)).collect::<Option<_>>()?;
     steadiness(run, &steady, findings);
     if 3.0 * omega > 0.9 * std::f64::consts::PI / t {
-        let message = format!(
-            "the third harmonic, {:.1} rad/s, is not below the Nyquist frequency {:.1} rad/s",
-            3.0 * omega,
-            std::f64::consts::PI / t
-        );
-        let hint = "sample faster, or do not use this run as ω0 of a pair";
-        refuse(findings, "harmonic-above-nyquist", Severity::Info, message, hint);
+        let found = RunFinding::HarmonicAboveNyquist {
+            omega_rad_s: 3.0 * omega,
+            nyquist_rad_s: std::f64::consts::PI / t,
+        };
+        findings.push(Finding::of_run(run.name(), found));
     }
     drift(run, &motor, step(run.motor()), findings);
     Some(Sinusoidal { omega_rad_s: omega, omega_given: given, steady, motor, command, tips })
 }
 
 fn steadiness(run: &Run, steady: &Steady, findings: &mut Vec<Finding>) {
-    let affects = [key::THIRD, key::RAW, key::CORRECTED, key::TIPS];
+    let mut add = |found: RunFinding| findings.push(Finding::of_run(run.name(), found));
     if !steady.settled {
-        findings.push(
-            Finding::new(
-                "not-periodic",
-                Severity::Warning,
-                &affects,
-                format!(
-                    "not yet periodic: the fundamental changes by {:.1} % (motor), {:.1} % (others) \
-                     within the periods kept",
-                    100.0 * steady.motor_change,
-                    100.0 * steady.other_change
-                ),
-                "wait longer before logging; a lightly damped mode needs several times 1/(ζω)",
-            )
-            .of(run.name()),
-        );
+        add(RunFinding::NotPeriodic {
+            motor_change: steady.motor_change,
+            other_change: steady.other_change,
+        });
     }
     if steady.periods < FEW_PERIODS {
-        findings.push(
-            Finding::new(
-                "few-periods",
-                Severity::Warning,
-                &affects,
-                format!("only {} periods in steady state", steady.periods),
-                "log ten periods or more: deviations from so few are rough",
-            )
-            .of(run.name()),
-        );
+        add(RunFinding::FewPeriods { periods: steady.periods });
     }
     if steady.dropped > 0 {
-        findings.push(
-            Finding::new(
-                "transient-dropped",
-                Severity::Info,
-                &[],
-                format!("the first {} periods are a transient and left out", steady.dropped),
-                "",
-            )
-            .of(run.name()),
-        );
+        add(RunFinding::TransientDropped { periods: steady.dropped });
     }
 }
 
 fn drift(run: &Run, motor: &Harmonics, quantum: f64, findings: &mut Vec<Finding>) {
     let amplitude = motor.phasors[0].value.norm();
     if motor.drift.abs() > DRIFT_REPORTED * amplitude && motor.drift.abs() > DRIFT_STEPS * quantum {
-        findings.push(
-            Finding::new(
-                "drift",
-                Severity::Warning,
-                &[key::OFFSET, key::CORRECTED],
-                format!(
-                    "the motor drifts by {:.0} % of its amplitude over the periods kept",
-                    100.0 * motor.drift.abs() / amplitude
-                ),
-                "a load or an offset of the loop carries it away: close the position loop",
-            )
-            .of(run.name()),
-        );
+        let share = motor.drift.abs() / amplitude;
+        findings.push(Finding::of_run(run.name(), RunFinding::Drift { share }));
     }
 }
 

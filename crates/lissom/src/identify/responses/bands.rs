@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
-use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::findings::{Finding, ResponseFinding};
 use crate::identify::methods::regression::slip_sign;
 use crate::identify::prepare::channel_noise::channel_noise;
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
@@ -161,7 +161,7 @@ fn nearest(bands: &[Band], w: f64) -> Option<Band> {
     bands.iter().find(near).copied()
 }
 
-/// Flags the bands that are hardly known, and says so.
+/// Flags the bands that are hardly known, and reports how many.
 pub(crate) fn uncertain(responses: &mut [ResponsePoint]) -> Option<Finding> {
     let (mut number, mut all) = (0, 0);
     for point in responses.iter_mut().filter(|p| p.run.is_none()) {
@@ -173,17 +173,11 @@ pub(crate) fn uncertain(responses: &mut [ResponsePoint]) -> Option<Finding> {
             number += 1;
         }
     }
-    let message = format!(
-        "{number} of {all} bands of the corrected response are uncertain by more than {:.0} %: they \
-         are flagged",
-        100.0 * BAND_UNCERTAIN
-    );
-    let hint = "hardly driven there: take the model's response, or add a run that drives it";
-    let affects = [key::CORRECTED];
-    (number > 0).then(|| Finding::new("bands-uncertain", Severity::Info, &affects, message, hint))
+    let found = ResponseFinding::BandsUncertain { bands: number, of: all, limit: BAND_UNCERTAIN };
+    (number > 0).then(|| Finding::new(found))
 }
 
-/// Flags the bands whose corrected response the regression's figures contradict, and says so.
+/// Flags the bands whose corrected response the regression's model contradicts, and reports how many.
 pub(crate) fn against(responses: &mut [ResponsePoint], model: &MotorFit) -> Option<Finding> {
     let mut number = 0;
     let bands = responses.iter_mut().filter(|p| p.run.is_none());
@@ -198,13 +192,7 @@ pub(crate) fn against(responses: &mut [ResponsePoint], model: &MotorFit) -> Opti
             number += 1;
         }
     }
-    let message = format!(
-        "{number} of {all} bands of the corrected response differ by more than {:.0} % from what \
-         the regression's figures give: they are flagged",
-        100.0 * BAND_CONTRADICTED
-    );
-    let hint = "hardly driven there, or biased by the loop: take the model's response";
-    let affects = [key::CORRECTED];
-    (number > 0)
-        .then(|| Finding::new("bands-contradicted", Severity::Info, &affects, message, hint))
+    let found =
+        ResponseFinding::BandsContradicted { bands: number, of: all, limit: BAND_CONTRADICTED };
+    (number > 0).then(|| Finding::new(found))
 }

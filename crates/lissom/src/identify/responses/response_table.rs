@@ -1,7 +1,7 @@
 //! The campaign's frequency responses: one point a sinusoidal run, bands of all other runs.
 
 use crate::identify::estimate::Estimate;
-use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::findings::{Finding, ResponseFinding, Severity, result_key as key};
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
 use crate::identify::responses::bands::bands;
 use crate::identify::responses::correct::{Response, corrected_by_harmonics, ratio};
@@ -54,8 +54,8 @@ fn sinusoidal(
     let (motor, command) = (s.motor.get(1)?, s.command.get(1)?);
     let spoken_against = findings.iter().any(|f| {
         f.run.as_deref() == Some(&run.name)
-            && f.severity >= Severity::Warning
-            && f.affects.contains(&key::CORRECTED)
+            && f.severity() >= Severity::Warning
+            && f.affects().contains(&key::CORRECTED_RESPONSE)
     });
     let square = |c: Estimate| {
         let stuck = run.stuck_share.unwrap_or(0.0).max(STUCK_LEAST);
@@ -84,19 +84,11 @@ pub(crate) fn weak_points(points: &[ResponsePoint], runs: &[RunAnalysis]) -> Vec
     points
         .iter()
         .filter_map(|p| {
-            let relative = weak(&p.motor_corrected?)?;
+            let std_share = weak(&p.motor_corrected?)?;
             let run = &runs[p.run?];
-            let message = format!(
-                "at {:.3} rad/s nearly all of the current overcomes friction: the corrected \
-                 response is uncertain by {:.0} %",
-                p.omega_rad_s,
-                100.0 * relative
-            );
-            let hint = "drive it with a larger amplitude: friction's share of the current falls";
-            let affects = [key::CORRECTED];
-            let finding =
-                Finding::new("correction-weak", Severity::Warning, &affects, message, hint);
-            Some(finding.of(&run.name))
+            let omega_rad_s = p.omega_rad_s;
+            let found = ResponseFinding::CorrectionWeak { omega_rad_s, std_share };
+            Some(Finding::of_run(&run.name, found))
         })
         .collect()
 }

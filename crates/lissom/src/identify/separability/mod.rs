@@ -16,7 +16,9 @@ pub use run_to_add::RunToAdd;
 pub use runs::{Carried, RunShare};
 
 use crate::identify::drive_estimates::Method;
-use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::findings::{
+    EstimateFinding, Finding, FindingKind, MovedParameter, OutputErrorFinding, RunFinding,
+};
 use crate::identify::found_arm::ArmSource;
 use crate::identify::judge::{Chosen, Evidence, Methods};
 use crate::identify::separability::thresholds::ALL_SHARP;
@@ -57,12 +59,18 @@ pub struct Separability {
     pub doubted_by: Vec<&'static str>,
 }
 
-/// Findings that say so.
-const DOUBTS: [&str; 5] =
-    ["replay-departs", "more-than-noise", "modes-missing", "damper-drives", "others-doubtful"];
-
-/// A finding with which no figure is given: there is nothing to judge.
-const NOTHING: &str = "command-sign";
+/// Whether a finding says so.
+fn doubts(finding: &Finding) -> bool {
+    matches!(
+        finding.kind,
+        FindingKind::OutputError(
+            OutputErrorFinding::ReplayDeparts { .. }
+                | OutputErrorFinding::MoreThanNoise { .. }
+                | OutputErrorFinding::ModesMissing { .. }
+                | OutputErrorFinding::DamperDrives { .. }
+        ) | FindingKind::Estimate(EstimateFinding::OthersDoubtful)
+    )
+}
 
 impl Separability {
     /// Of the solution that was taken.
@@ -71,7 +79,9 @@ impl Separability {
         chosen: &Chosen,
         findings: &[Finding],
     ) -> Option<Self> {
-        if findings.iter().any(|f| f.code == NOTHING) {
+        // No estimate is given then: there is nothing to judge.
+        let nothing = FindingKind::Estimate(EstimateFinding::CommandSign);
+        if findings.iter().any(|f| f.kind == nothing) {
             return None;
         }
         let (methods, used) = (evidence.methods, evidence.used);
@@ -97,7 +107,7 @@ impl Separability {
             }),
             directions,
             runs,
-            doubted_by: findings.iter().map(|f| f.code).filter(|c| DOUBTS.contains(c)).collect(),
+            doubted_by: findings.iter().filter(|f| doubts(f)).map(Finding::code).collect(),
         };
         (!found.figures.is_empty() || !found.runs.is_empty()).then_some(found)
     }
@@ -117,19 +127,17 @@ impl Separability {
     /// The run that does not fit the others, as a finding.
     pub(super) fn finding(&self) -> Option<Finding> {
         let run = self.stands_out()?;
-        let affects: Vec<&'static str> = run.moved().map(|c| key_of(c.figure)).collect();
-        let hint = "another load or friction in this run, a loose part, a sensor's scale: leave it out or make \
-             it again, then identify anew";
-        let told = words::spoils(run);
-        // The others' figures are those of a replay that does not describe them.
-        let message = match self.source {
-            ArmSource::OutputError => told,
-            ArmSource::Regression => {
-                format!("{told}. The replay does not describe the runs: it may blame the wrong one")
-            }
+        let moved = run.moved().map(|c| MovedParameter {
+            parameter: c.figure,
+            change_share: c.change,
+            change_standard_errors: c.deviations,
+        });
+        let found = RunFinding::RunStandsOut {
+            residual_ratio: run.residual,
+            moved: moved.collect(),
+            others_described: self.source == ArmSource::OutputError,
         };
-        let finding = Finding::new("run-stands-out", Severity::Warning, &affects, message, hint);
-        Some(finding.of(&run.run))
+        Some(Finding::of_run(&run.run, found))
     }
 }
 
@@ -144,18 +152,6 @@ fn of_regression(methods: &Methods, chosen: &Chosen) -> Judged {
         _ => None,
     };
     terms.map_or_else(Judged::none, |terms| Judged::of_regression(terms, &chosen.drive))
-}
-
-/// The result's key of a figure.
-fn key_of(figure: Figure) -> &'static str {
-    match figure {
-        Figure::Coulomb => key::COULOMB,
-        Figure::Viscous => key::VISCOUS,
-        Figure::Inertia => key::INERTIA,
-        Figure::Coupling => key::COUPLING,
-        Figure::Frequency(_) | Figure::Damping(_) => key::MODES,
-        Figure::Offset => key::OFFSET,
-    }
 }
 
 /// With ones on its diagonal.

@@ -1,24 +1,22 @@
 //! What the logs separate, in words.
 
+use crate::identify::findings::Finding;
 use crate::identify::separability::direction::{Direction, Part};
 use crate::identify::separability::run_to_add::RunToAdd;
 use crate::identify::separability::runs::{Carried, RunShare};
-use crate::identify::separability::thresholds::{CHANGE_SHOWN, CORRELATED, LARGE_CHANGE};
+use crate::identify::separability::thresholds::{CHANGE_SHOWN, CORRELATED};
 use crate::identify::separability::{FigureKnown, Separability};
 use crate::identify::thresholds::NORMAL_95;
 use crate::information::Figure;
 use crate::plan::{PlannedMotion, percent};
 use crate::record::Axis;
 
-/// Figures named that a run moves.
-const TOLD_MOST: usize = 3;
-
 impl Separability {
     /// The verdict, a sentence or two for each thing to know.
     pub fn words(&self, axis: Axis) -> Vec<String> {
-        let stands_out = self.stands_out();
-        let mut lines: Vec<String> =
-            stands_out.iter().map(|run| format!("Run {}: {}.", run.run, spoils(run))).collect();
+        let stands_out = self.finding();
+        let line = |f: &Finding| format!("Run {}: {f}.", f.run.as_deref().unwrap_or_default());
+        let mut lines: Vec<String> = stands_out.iter().map(line).collect();
         lines.extend(self.least_known());
         lines.extend(self.suffering());
         lines.extend(self.doubted());
@@ -134,27 +132,6 @@ fn carries(run: &RunShare) -> Option<String> {
         .map(|names| format!("carries {names}: without it deviations grow up to {growth:.1}-fold"));
     let all: Vec<String> = alone.into_iter().chain(mostly).collect();
     (!all.is_empty()).then(|| format!("Run {} {}.", run.run, all.join(" and ")))
-}
-
-/// What a run spoils.
-pub(super) fn spoils(run: &RunShare) -> String {
-    let mut moved: Vec<&Carried> = run.moved().collect();
-    moved.sort_by(|a, b| b.deviations.abs().total_cmp(&a.deviations.abs()));
-    let change = |c: &&Carried| {
-        let name = c.figure.name();
-        // One step does not tell how far a large change goes.
-        if c.change.abs() > LARGE_CHANGE {
-            return format!("{name} by more than {}", percent(LARGE_CHANGE));
-        }
-        let sign = if c.change < 0.0 { "−" } else { "+" };
-        format!("{name} by {sign}{}", percent(c.change.abs()))
-    };
-    let moved: Vec<String> = moved.iter().take(TOLD_MOST).map(change).collect();
-    format!(
-        "with the figures of the other runs its residual is {:.1} times theirs; left out, it would move {}",
-        run.residual,
-        moved.join(", ")
-    )
 }
 
 fn worth_adding(run: &RunToAdd, axis: Axis) -> String {

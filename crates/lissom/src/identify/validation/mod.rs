@@ -1,10 +1,10 @@
 //! How well an identified arm predicts logs that it was not found from.
 
-mod cause;
+pub(crate) mod cause;
 mod expected;
 mod kernel;
 mod motion;
-mod moved_mode;
+pub(crate) mod moved_mode;
 mod residual;
 mod torque;
 mod validation_findings;
@@ -20,7 +20,7 @@ pub(super) use zeros::zeros;
 
 use thiserror::Error;
 
-use crate::identify::finding::Finding;
+use crate::identify::findings::Finding;
 use crate::identify::found_arm::FoundArm;
 use crate::identify::validation::thresholds::FITS_PERCENT;
 use crate::record::{Campaign, Run};

@@ -1,5 +1,5 @@
 use super::*;
-use crate::identify::finding::Severity;
+use crate::identify::findings::Severity;
 use crate::identify::found_arm::{ArmSource, TorqueUsed};
 use crate::identify::validation::thresholds::GOOD_PREDICTION;
 use crate::record::{
@@ -116,8 +116,8 @@ fn what_is_wrong_is_named() {
         assert!((cause.value / expected - 1.0).abs() < 0.15, "{cause:?}");
         let torque = v.torque.unwrap();
         let errors = (torque.relative_error, torque.expected_error);
-        assert!(v.findings.iter().any(|f| f.code == "residual-torque"), "{errors:?} {cause:?}");
-        assert!(v.findings.iter().any(|f| f.code == "prediction-worse"), "{errors:?}");
+        assert!(v.findings.iter().any(|f| f.code() == "residual-torque"), "{errors:?} {cause:?}");
+        assert!(v.findings.iter().any(|f| f.code() == "prediction-worse"), "{errors:?}");
     }
 }
 
@@ -130,12 +130,12 @@ fn a_right_arm_has_no_warning_where_reversals_leave_much() {
     assert!(torque.relative_error > GOOD_PREDICTION, "{}", torque.relative_error);
     let beside = torque.relative_error / torque.expected_error.unwrap();
     assert!((beside - 1.0).abs() < 0.05, "{beside}");
-    assert!(v.findings.iter().all(|f| f.severity == Severity::Info), "{:?}", v.findings);
+    assert!(v.findings.iter().all(|f| f.severity() == Severity::Info), "{:?}", v.findings);
     // An arm that is wrong is told from it.
     let heavy = ModalArm { inertia_kg_m2: 0.024, ..rigid() };
     let v = validate(&found(heavy), &log, &ValidationOptions::default()).unwrap();
-    let named = v.findings.iter().find(|f| f.code == "residual-torque").unwrap();
-    assert!(named.message.contains("another inertia"), "{named:?}");
+    let named = v.findings.iter().find(|f| f.code() == "residual-torque").unwrap();
+    assert!(named.message().contains("another inertia"), "{named:?}");
 }
 
 /// A tip that is read late is taken as much later; read as if it were in time its coupling torque is not
@@ -193,7 +193,7 @@ fn a_softer_beam_is_named() {
     // Another figure that is off is not taken for the beam.
     let heavy = ModalArm { inertia_kg_m2: 1.01 * flexible().inertia_kg_m2, ..flexible() };
     assert_eq!(by_options(&flexible(), &heavy).moved_mode, None);
-    assert!(v.findings.iter().any(|f| f.code == "residual-torque"), "{:?}", v.findings);
+    assert!(v.findings.iter().any(|f| f.code() == "residual-torque"), "{:?}", v.findings);
 }
 
 /// The load at the tip is another one, and the tip shows another angle undeflected: the motor's equation is the
@@ -225,7 +225,7 @@ fn torque_does_not_depend_on_the_load_behind_the_tip() {
     assert!((moved.of_log_rad_s / omega_rad_s - 1.0).abs() < 0.01, "{moved:?}");
     assert!(moved.mode == 0 && moved.residual_ratio < 0.05, "{moved:?}");
     assert_eq!(moved.by, MovedBy::Load);
-    assert!(all.findings.iter().any(|f| f.code == "mode-moved"), "{:?}", all.findings);
+    assert!(all.findings.iter().any(|f| f.code() == "mode-moved"), "{:?}", all.findings);
     let error = all.torque.unwrap().relative_error;
     let own = validate(&found(truth), &log, &ValidationOptions::default()).unwrap();
     assert_eq!(own.moved_mode, None);
@@ -245,7 +245,7 @@ fn a_wrong_arm_departs_and_its_residual_is_not_white() {
     let last = v.horizons.last().unwrap().channels[0];
     assert!(first.fit_percent < last.fit_percent && first.residual_rms > last.residual_rms);
     assert!(v.residuals[0].white_probability < 1e-6);
-    assert!(v.findings.iter().any(|f| f.code == "residual-not-white"));
+    assert!(v.findings.iter().any(|f| f.code() == "residual-not-white"));
 }
 
 /// What the arm's own motion leaves is known whatever time motion is predicted over.
@@ -260,7 +260,7 @@ fn a_short_horizon_says_nothing_against_a_right_arm() {
     for horizon_s in [1e-9, 0.02, 0.1] {
         let v = by(Some(horizon_s));
         assert_eq!(v.torque.unwrap().expected_error, expected);
-        assert!(v.findings.iter().all(|f| f.severity == Severity::Info), "{:?}", v.findings);
+        assert!(v.findings.iter().all(|f| f.severity() == Severity::Info), "{:?}", v.findings);
     }
 }
 
@@ -269,7 +269,7 @@ fn a_short_horizon_says_nothing_against_a_right_arm() {
 fn an_arm_that_does_not_move_has_failed() {
     let stuck = ModalArm { coulomb_nm: 20.0 * rigid().coulomb_nm, ..rigid() };
     let v = by_options(&stuck, &rigid());
-    assert!(v.findings.iter().any(|f| f.code == "prediction-failed"), "{:?}", v.findings);
+    assert!(v.findings.iter().any(|f| f.code() == "prediction-failed"), "{:?}", v.findings);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::estimate::Estimate;
-use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::findings::{ConstantVelocityFinding, Finding};
 use crate::identify::friction_estimates::Friction;
 use crate::identify::judge::{Chosen, Evidence};
 use crate::identify::methods::constant_velocity::ConstantVelocity;
@@ -13,15 +13,7 @@ use crate::record::Campaign;
 /// What a campaign of nothing but constant velocities cannot give.
 pub(crate) fn only_constant_velocities(campaign: &Campaign) -> Finding {
     let flexible = !campaign.channels.tips.is_empty();
-    let affects = [key::INERTIA, key::MODES, key::COUPLING];
-    Finding::new(
-        "constant-velocity-only",
-        Severity::Refusal,
-        &affects[..if flexible { 3 } else { 1 }],
-        "every run turns at constant velocities: they show friction, and nothing that is accelerated"
-            .to_owned(),
-        "for the other figures add runs that move back and forth: sines, a sweep, ordinary moves",
-    )
+    Finding::new(ConstantVelocityFinding::ConstantVelocityOnly { flexible })
 }
 
 /// That friction is from constant velocities, where it is.
@@ -31,25 +23,10 @@ pub(crate) fn taken(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding> {
     let Some(found) = found.filter(|_| taken && chosen.drive.friction.coulomb.is_some()) else {
         return Vec::new();
     };
-    let mut findings = vec![Finding::new(
-        "classical-figures",
-        Severity::Info,
-        &[key::COULOMB, key::OFFSET, key::VISCOUS],
-        "friction is that of constant velocities, extrapolated to rest".to_owned(),
-        "sines or ordinary moves at the speeds you work at show friction without \
-         extrapolating",
-    )];
+    let mut findings = vec![Finding::new(ConstantVelocityFinding::ClassicalFigures)];
     let curved = |l: &FrictionLine| l.near_rest() != l.coulomb;
     if found.lines().any(|(_, line)| curved(line)) {
-        findings.push(Finding::new(
-            "slowest-speeds-taken",
-            Severity::Warning,
-            &[key::COULOMB, key::OFFSET, key::VISCOUS],
-            "friction does not lie on a line: Coulomb friction is that of the slowest third \
-             of the speeds, viscous friction the slope over all of them"
-                .to_owned(),
-            "keep to the speeds that you work at",
-        ));
+        findings.push(Finding::new(ConstantVelocityFinding::SlowestSpeedsTaken));
     }
     findings
 }

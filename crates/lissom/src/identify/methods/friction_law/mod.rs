@@ -4,7 +4,7 @@
 //! the sensor allows: what friction does near rest is lost in long ones.
 
 mod arm;
-mod choice;
+pub(crate) mod choice;
 mod curve;
 mod described;
 mod friction_law_findings;

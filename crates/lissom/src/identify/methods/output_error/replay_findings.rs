@@ -1,7 +1,9 @@
-//! What the output error's figures are worth, in findings.
+//! What speaks against the estimates of the output-error method, in findings.
 
 use crate::identify::estimate::Estimate;
-use crate::identify::finding::{Finding, Severity, key};
+use crate::identify::findings::{
+    Channel, Finding, LagCause, OutputErrorFinding, result_key as key,
+};
 use crate::identify::judge::Evidence;
 use crate::identify::methods::output_error::describes::is_left;
 use crate::identify::methods::output_error::fit::{GROWN, StageReport};
@@ -39,18 +41,8 @@ pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
 /// Windows are shorter than the runs that they describe.
 fn motions_part(oe: &OutputError) -> Option<Finding> {
     let window_s = oe.stages.last()?.window_s;
-    (oe.describes_whole_runs() && oe.is_in_windows()).then(|| {
-        Finding::new(
-            "motions-part",
-            Severity::Info,
-            &[],
-            format!(
-                "friction drives neighbouring motions apart, as it does where it changes over the angle or falls with \
-                 speed: the runs are replayed {window_s:.2} s at a time, each time from a state of its own"
-            ),
-            "nothing is wrong: a prediction from a run's first state alone does not hold for longer",
-        )
-    })
+    (oe.describes_whole_runs() && oe.is_in_windows())
+        .then(|| Finding::new(OutputErrorFinding::MotionsPart { window_s }))
 }
 
 /// The arm does not describe the runs from end to end.
@@ -60,30 +52,12 @@ fn departs(oe: &OutputError) -> Option<Finding> {
     }
     let (first, last) = (oe.stages.first()?, longest(oe)?);
     let grown = first.residual.iter().zip(&last.residual).map(|(a, b)| b / a).fold(0.0, f64::max);
-    let taken = if oe.stands() {
-        "the figures are those of the windows that it describes"
-    } else {
-        "the regression's figures are taken"
-    };
-    Some(Finding::new(
-        "replay-departs",
-        Severity::Warning,
-        &[key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES],
-        if grown > GROWN {
-            format!(
-                "replayed over {:.2} s at a time the residual is {grown:.1} times that over {:.2} s: \
-                 something moves the axis that the arm has not; {taken}",
-                last.window_s, first.window_s
-            )
-        } else {
-            format!(
-                "replayed over {:.2} s at a time the residual is {:.1} times the sensors' noise, as it is over shorter \
-                 ones: something moves the axis that the arm has not, or the search did not find the arm; {taken}",
-                last.window_s, oe.beyond_noise
-            )
-        },
-        "other friction than Coulomb and viscous, a load, backlash, a mode without a tip",
-    ))
+    Some(Finding::new(OutputErrorFinding::ReplayDeparts {
+        window_s: last.window_s,
+        grown_from: (grown > GROWN).then_some((first.window_s, grown)),
+        noise_ratio: oe.beyond_noise,
+        used: oe.stands(),
+    }))
 }
 
 /// Whole runs are described, and yet not to the noise of the sensors.
@@ -92,21 +66,11 @@ fn more_than_noise(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
         return None;
     }
     let (channel, share) = oe.left_over.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
-    let name = match channel.checked_sub(1) {
-        None => "the motor".to_owned(),
-        Some(tip) => format!("tip {}", campaign.channels.tips[tip].name),
+    let channel = match channel.checked_sub(1) {
+        None => Channel::Motor,
+        Some(tip) => Channel::Tip(campaign.channels.tips[tip].name.clone()),
     };
-    Some(Finding::new(
-        "more-than-noise",
-        Severity::Warning,
-        &[key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES],
-        format!(
-            "{:.1} % of what the replay leaves of {name} is slower than its sensor's noise: something \
-             small moves that the arm has not, or the highest mode stands at a wrong frequency",
-            100.0 * share
-        ),
-        "the intervals do not count it: add runs near the highest mode, and look at lissom validate",
-    ))
+    Some(Finding::new(OutputErrorFinding::MoreThanNoise { channel, share: *share }))
 }
 
 /// A highest mode that the runs hardly drive: what they show of it is k/ω², and its frequency is where the
@@ -115,41 +79,18 @@ fn faint_mode(arm: &ModalArm, estimate: impl Fn(Parameter) -> Option<Estimate>) 
     let mode = highest(arm);
     let stiffness = estimate(Parameter::Stiffness(mode)).filter(|_| arm.modes.len() > 1)?;
     let share = stiffness.std / stiffness.value.abs();
-    (share > FAINT).then(|| {
-        Finding::new(
-            "faint-mode",
-            Severity::Warning,
-            &[key::COUPLING, key::MODES],
-            format!(
-                "the runs hardly drive the highest mode, at {:.1} rad/s: its stiffness is known to {:.1} %, and at another \
-                 frequency it would leave hardly more. Others have been tried; the coupling goes with it",
-                arm.modes[mode].omega_rad_s,
-                100.0 * share
-            ),
-            "add a run that drives it, about the frequency that `lissom model` gives for the beam's dimensions",
-        )
-    })
+    let omega_rad_s = arm.modes[mode].omega_rad_s;
+    let found = OutputErrorFinding::FaintMode { omega_rad_s, stiffness_std_share: share };
+    (share > FAINT).then(|| Finding::new(found))
 }
 
 /// A damper that is less than none: what dampers of one kind take too much, one of another kind gives back, and
 /// viscous friction and damping ratios are moved by what is left.
 fn driving_damper(figures: impl Iterator<Item = (Parameter, Estimate)>) -> Option<Finding> {
     let drives = figures.filter(|(p, e)| p.is_damper() && e.value < -DRIVES * e.std);
-    let (damper, found) =
+    let (damper, rate_per_s) =
         drives.min_by(|(_, a), (_, b)| (a.value / a.std).total_cmp(&(b.value / b.std)))?;
-    Some(Finding::new(
-        "damper-drives",
-        Severity::Warning,
-        &[key::VISCOUS, key::MODES],
-        format!(
-            "{} comes out at {:.3e} ± {:.1e} 1/s: a damper takes energy, and gives none. Viscous friction \
-             and damping ratios make up for it",
-            damper.name(),
-            found.value,
-            found.std
-        ),
-        "add runs near the modes, where damping shows most",
-    ))
+    Some(Finding::new(OutputErrorFinding::DamperDrives { damper, rate_per_s }))
 }
 
 /// The stage of the longest windows tried.
@@ -160,36 +101,15 @@ fn longest(oe: &OutputError) -> Option<&StageReport> {
 /// Modes that no tip shows.
 fn modes_by_the_motor(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
     let modes = oe.arm.modes.len();
-    (modes > 0 && campaign.channels.tips.is_empty()).then(|| {
-        Finding::new(
-            "modes-by-the-motor",
-            Severity::Info,
-            &[key::COUPLING, key::MODES],
-            format!(
-                "{modes} flexible {} from the motor's motion alone: modes that it hardly feels ride on \
-                 its inertia",
-                if modes == 1 { "mode" } else { "modes" }
-            ),
-            "measure a tip to see how the arm itself moves",
-        )
-    })
+    (modes > 0 && campaign.channels.tips.is_empty())
+        .then(|| Finding::new(OutputErrorFinding::ModesByTheMotor { modes }))
 }
 
 /// Fewer modes than tips: a mode that no run shows, whose inertia rides on the motor's.
 fn modes_missing(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
     let (modes, tips) = (oe.arm.modes.len(), campaign.channels.tips.len());
-    (modes > 0 && modes < tips).then(|| {
-        Finding::new(
-            "modes-missing",
-            Severity::Warning,
-            &[key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES],
-            format!(
-                "{tips} tips are measured and the runs show {modes} modes: what the others add to \
-                 inertia and coupling is counted wrongly"
-            ),
-            "add runs above the modes found: a sweep, or sines at several times the highest",
-        )
-    })
+    (modes > 0 && modes < tips)
+        .then(|| Finding::new(OutputErrorFinding::ModesMissing { modes, tips }))
 }
 
 /// Damping within the beam that cannot be told from damping against the frame. A warning where more than damping
@@ -203,88 +123,32 @@ fn damping_kind(oe: &OutputError) -> Option<Finding> {
         _ => None,
     };
     let open = &oe.open_by_damping;
-    let mut affects: Vec<&'static str> = open.iter().filter_map(of_figure).collect();
-    let damping_alone = affects.is_empty();
-    affects.push(key::MODES);
-    affects.dedup();
-    (!open.is_empty()).then(|| {
-        Finding::new(
-            "damping-kind",
-            if damping_alone { Severity::Info } else { Severity::Warning },
-            &affects,
-            "these runs do not tell damping within the beam from damping against the frame, and figures depend on it: \
-             their deviations count both"
-                .to_owned(),
-            "one steady sine shows the two alike: add a run at another frequency, best a sweep, or log from the start",
-        )
-    })
+    let parameters = open.iter().filter_map(of_figure).collect();
+    (!open.is_empty()).then(|| Finding::new(OutputErrorFinding::DampingKind { parameters }))
 }
 
 /// A command that acts later than it is logged.
 pub(crate) fn command_lag(campaign: &Campaign, lag: Estimate) -> Finding {
     let hold = campaign.channels.command.hold;
     // A held command's samples are half a sample earlier than what they stand for.
-    let (towards_other, hint) = match hold {
-        Hold::Measured => (
-            0.5,
-            "half a sample: the command looks as if it were held from sample to sample, hold = \"sampled\"",
-        ),
-        Hold::Sampled => (
-            -0.5,
-            "half a sample: the command looks measured rather than held from sample to sample, hold = \
-             \"measured\"",
-        ),
+    let (towards_other, other) = match hold {
+        Hold::Measured => (0.5, LagCause::LooksHeld),
+        Hold::Sampled => (-0.5, LagCause::LooksMeasured),
     };
     let is_half = |run: &Run| {
         let half_s = towards_other * run.sample_time_s();
         (lag.value - half_s).abs() < (3.0 * lag.std).max(HALF * half_s.abs())
     };
     let told = lag.std < 0.1 * lag.value.abs();
-    let hint = if told && campaign.runs.iter().all(is_half) {
-        hint
-    } else {
-        "an amplifier's delay, or channels that are not sampled together"
-    };
-    let digits = digits(1e3 * lag.std);
-    Finding::new(
-        "command-lag",
-        Severity::Info,
-        &[key::INERTIA, key::VISCOUS, key::RAW],
-        format!(
-            "the command acts {:.digits$} ms (± {:.digits$}) {} than it is logged: counted in all figures",
-            1e3 * lag.value.abs(),
-            1e3 * lag.std,
-            if lag.value < 0.0 { "earlier" } else { "later" }
-        ),
-        hint,
-    )
-}
-
-/// Decimals with which a deviation has two digits, three at least.
-fn digits(std: f64) -> usize {
-    let first = std.log10().floor();
-    if first.is_finite() { (1.0 - first).clamp(3.0, 9.0) as usize } else { 3 }
+    let cause = if told && campaign.runs.iter().all(is_half) { other } else { LagCause::Delay };
+    Finding::new(OutputErrorFinding::CommandLag { lag_s: lag, cause })
 }
 
 /// Tips that are read later than the motor.
 fn tip_lags(campaign: &Campaign, oe: &OutputError) -> Vec<Finding> {
     let late = |(i, tip): (usize, &Tip)| {
-        let lag = oe.estimate(Parameter::TipLag(i))?;
-        let digits = digits(1e3 * lag.std);
-        Some(Finding::new(
-            "tip-lag",
-            Severity::Info,
-            &[key::COUPLING, key::MODES, key::TIPS],
-            format!(
-                "tip {} is read {:.digits$} ms (± {:.digits$}) {} than the motor: counted in the figures, and left in the tips' \
-                 responses",
-                tip.name,
-                1e3 * lag.value.abs(),
-                1e3 * lag.std,
-                if lag.value < 0.0 { "earlier" } else { "later" }
-            ),
-            "a camera's or a filter's delay, or channels that are not sampled together",
-        ))
+        let lag_s = oe.estimate(Parameter::TipLag(i))?;
+        Some(Finding::new(OutputErrorFinding::TipLag { tip: tip.name.clone(), lag_s }))
     };
     campaign.channels.tips.iter().enumerate().filter_map(late).collect()
 }
@@ -320,11 +184,8 @@ mod tests {
             (p == Parameter::Stiffness(1)).then_some(Estimate { value: 2.0, std })
         };
         let said = faint_mode(&three, |p| known(p, 0.05)).unwrap();
-        assert!(
-            said.message.contains("80.0 rad/s") && said.message.contains("2.5 %"),
-            "{}",
-            said.message
-        );
+        let text = said.message();
+        assert!(text.contains("80.0 rad/s") && text.contains("2.5 %"), "{text}");
         assert!(faint_mode(&three, |p| known(p, 0.01)).is_none());
         // One alone is driven or not there.
         let alone = |_: Parameter| Some(Estimate { value: 2.0, std: 0.5 });
@@ -342,6 +203,6 @@ mod tests {
         assert!(driving_damper(sound.into_iter()).is_none());
         let drives = [(Parameter::DampingAtPoint(2), figure(-0.011, 0.0003))];
         let said = driving_damper(sound.into_iter().chain(drives)).unwrap();
-        assert!(said.message.contains("damping-at-point-3"), "{}", said.message);
+        assert!(said.message().contains("damping-at-point-3"), "{said}");
     }
 }

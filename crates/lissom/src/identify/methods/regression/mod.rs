@@ -4,7 +4,7 @@
 
 mod beam;
 mod fitted;
-mod missing;
+pub(crate) mod missing;
 mod motor;
 mod motor_rows;
 mod normal;

@@ -1,0 +1,273 @@
+//! Wrong or suspicious readings of one channel.
+
+use std::fmt;
+
+use strum::{IntoStaticStr, VariantNames};
+
+use crate::identify::findings::describe::Describe;
+use crate::identify::findings::number_text::{significant, trimmed};
+use crate::identify::findings::result_key as key;
+use crate::identify::findings::severity::Severity;
+
+/// Digits of a reading.
+const DIGITS: usize = 5;
+
+/// A channel of a log.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Channel {
+    /// The motor's angle or position.
+    Motor,
+    /// The command.
+    Command,
+    /// A tip, by its name.
+    Tip(String),
+}
+
+impl fmt::Display for Channel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Motor => f.write_str("the motor channel"),
+            Self::Command => f.write_str("the command channel"),
+            Self::Tip(name) => write!(f, "tip {name}"),
+        }
+    }
+}
+
+/// Wrong or suspicious readings of one channel.
+#[derive(Debug, Clone, PartialEq, IntoStaticStr, VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+#[non_exhaustive]
+pub enum ChannelFinding {
+    /// A channel is constant.
+    DeadChannel {
+        /// Which.
+        channel: Channel,
+        /// Its value in this run; `None` where it is constant in every run.
+        value: Option<f64>,
+        /// Unit of that value; empty where it has none.
+        unit: &'static str,
+    },
+    /// A sensor stays at its largest or smallest value.
+    ClippedChannel {
+        /// Which.
+        channel: Channel,
+        /// Share of the run.
+        share: f64,
+    },
+    /// Single readings far from their neighbours.
+    Spike {
+        /// Which.
+        channel: Channel,
+        /// The first of these readings.
+        value: f64,
+        /// Readings before and after it.
+        neighbours: Vec<f64>,
+        /// Time since the run's first sample \[s\].
+        time_s: f64,
+        /// How many there are.
+        count: usize,
+        /// Unit of the readings; empty where it is not known.
+        unit: &'static str,
+    },
+    /// Readings that jump to another level and stay there.
+    ReadingJumps {
+        /// Which.
+        channel: Channel,
+        /// The first jump.
+        step: f64,
+        /// Time since the run's first sample \[s\].
+        time_s: f64,
+        /// How many jumps there are.
+        count: usize,
+        /// Whether the first jump is a number of whole turns.
+        whole_turns: bool,
+        /// Unit of the readings; empty where it is not known.
+        unit: &'static str,
+    },
+    /// An angle given in rad has the steps of an encoder in degrees.
+    AngleInDegrees {
+        /// Which.
+        channel: Channel,
+        /// Bits of the encoder.
+        bits: i32,
+    },
+    /// A tip that repeats one value while the motor moves.
+    FrozenChannel {
+        /// Which.
+        channel: Channel,
+        /// The value.
+        value: f64,
+        /// When it begins, since the run's first sample \[s\].
+        from_s: f64,
+        /// When it ends \[s\].
+        to_s: f64,
+        /// Unit of the readings; empty where it is not known.
+        unit: &'static str,
+    },
+    /// The command is limited.
+    Saturation {
+        /// Share of the run.
+        share: f64,
+        /// Whether the limit is given in the campaign, or taken from the log.
+        limit_given: bool,
+    },
+}
+
+impl ChannelFinding {
+    /// Whether other findings may follow from it.
+    pub(super) fn is_wrong_reading(&self) -> bool {
+        match self {
+            Self::Spike { .. }
+            | Self::ReadingJumps { .. }
+            | Self::AngleInDegrees { .. }
+            | Self::FrozenChannel { .. } => true,
+            Self::DeadChannel { .. } | Self::ClippedChannel { .. } | Self::Saturation { .. } => {
+                false
+            }
+        }
+    }
+}
+
+/// A reading with its unit.
+fn reading(value: f64, unit: &str) -> String {
+    format!("{} {unit}", trimmed(&significant(value, DIGITS))).trim_end().to_owned()
+}
+
+impl fmt::Display for ChannelFinding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::DeadChannel { channel, value: None, .. } => {
+                write!(f, "{channel} is constant in every run: it is not used")
+            }
+            Self::DeadChannel { channel, value: Some(value), unit } => {
+                let effect = match channel {
+                    Channel::Motor | Channel::Command => "this run is not used",
+                    Channel::Tip(_) => "the regression does not use this run",
+                };
+                write!(f, "{channel} is constant at {}: {effect}", reading(*value, unit))
+            }
+            Self::ClippedChannel { channel, share } => write!(
+                f,
+                "{channel} stays at its largest or smallest value for {:.1} % of the run: the motion beyond it is \
+                 not in the log",
+                100.0 * share
+            ),
+            Self::Spike { channel, value, neighbours, time_s, count, unit } => {
+                let neighbours: Vec<String> =
+                    neighbours.iter().map(|x| reading(*x, unit)).collect();
+                let others = match count {
+                    1 => String::new(),
+                    n => format!(", the first of {n}"),
+                };
+                write!(
+                    f,
+                    "{channel} has a spike{others}: it reads {} next to {}, {time_s:.4} s after the run's first \
+                     sample. All estimates from this run are affected",
+                    reading(*value, unit),
+                    neighbours.join(" and ")
+                )
+            }
+            Self::ReadingJumps { channel, step, time_s, count, whole_turns, unit } => {
+                let turns = if *whole_turns { " (whole turns)" } else { "" };
+                let others = match count {
+                    1 => String::new(),
+                    n => format!(", the first of {n} such jumps"),
+                };
+                write!(
+                    f,
+                    "{channel} jumps by {}{turns} from one sample to the next, {time_s:.4} s after the run's first \
+                     sample{others}. All estimates from this run are affected",
+                    reading(*step, unit)
+                )
+            }
+            Self::AngleInDegrees { channel, bits } => write!(
+                f,
+                "{channel} is given in rad and has steps of 360/2^{bits}, as an encoder with {bits} bits in degrees \
+                 has. If it is in degrees, estimates are wrong by a factor of 57.3 or its powers"
+            ),
+            Self::FrozenChannel { channel, value, from_s, to_s, unit } => write!(
+                f,
+                "{channel} is frozen: it reads {} from {from_s:.4} s to {to_s:.4} s after the run's first sample while \
+                 the motor moves. All estimates from this run are affected",
+                reading(*value, unit)
+            ),
+            Self::Saturation { share, limit_given } => write!(
+                f,
+                "the command {} for {:.1} % of the run: its harmonics are not those of friction alone",
+                if *limit_given { "is at its limit" } else { "stays at its largest value" },
+                100.0 * share
+            ),
+        }
+    }
+}
+
+impl Describe for ChannelFinding {
+    fn code(&self) -> &'static str {
+        self.into()
+    }
+
+    fn severity(&self) -> Severity {
+        Severity::Warning
+    }
+
+    fn affects(&self) -> Vec<&'static str> {
+        match self {
+            Self::DeadChannel { channel: Channel::Motor | Channel::Command, .. } => {
+                vec![key::COULOMB, key::VISCOUS, key::INERTIA]
+            }
+            Self::DeadChannel { value: None, .. } => vec![key::COUPLING, key::MODES, key::INERTIA],
+            Self::DeadChannel { .. } => vec![key::COUPLING, key::MODES],
+            Self::ClippedChannel { .. } => {
+                vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::TIP_RESPONSES]
+            }
+            Self::Spike { .. }
+            | Self::ReadingJumps { .. }
+            | Self::AngleInDegrees { .. }
+            | Self::FrozenChannel { .. } => vec![
+                key::COULOMB,
+                key::VISCOUS,
+                key::INERTIA,
+                key::COUPLING,
+                key::MODES,
+                key::TIP_RESPONSES,
+            ],
+            Self::Saturation { .. } => vec![key::THIRD_HARMONIC, key::CORRECTED_RESPONSE],
+        }
+    }
+
+    fn hint(&self) -> &'static str {
+        match self {
+            Self::DeadChannel { channel: Channel::Motor | Channel::Command, .. } => {
+                "check the wiring and which column the campaign names"
+            }
+            Self::DeadChannel { value: None, .. } => {
+                "check the sensor; without a tip the estimates of a flexible beam's motor are rough"
+            }
+            Self::DeadChannel { .. } => {
+                "check the sensor; without its readings the beam cannot be identified"
+            }
+            Self::ClippedChannel { .. } => {
+                "the range of the sensor or the travel of the axis ends there: use a smaller amplitude"
+            }
+            Self::Spike { .. } => {
+                "a wrong reading or a lost count: replace it by the mean of its neighbours, or leave that part of the \
+                 log out (skip)"
+            }
+            Self::ReadingJumps { whole_turns: true, .. } => {
+                "the sensor wraps around: unwrap the angle over the log before identifying"
+            }
+            Self::ReadingJumps { .. } => {
+                "lost counts, a sensor that wraps around, or missing samples: subtract the jump from the samples after \
+                 it, or leave that part of the log out (skip)"
+            }
+            Self::AngleInDegrees { .. } => "give its column unit = \"deg\"",
+            Self::FrozenChannel { .. } => {
+                "a lost connection, or a logger that repeats its last value: leave that part of the log out (skip, or \
+                 cut the log)"
+            }
+            Self::Saturation { .. } => {
+                "use a smaller amplitude, or a frequency farther from the resonance"
+            }
+        }
+    }
+}

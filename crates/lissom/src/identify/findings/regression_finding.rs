@@ -1,0 +1,228 @@
+//! Regression in slip phases: what the motor's equation does not explain.
+
+use std::fmt;
+
+use strum::{IntoStaticStr, VariantNames};
+
+use crate::identify::estimate::Estimate;
+use crate::identify::findings::describe::Describe;
+use crate::identify::findings::number_text::{later, significant, with_error};
+use crate::identify::findings::result_key as key;
+use crate::identify::findings::severity::Severity;
+use crate::identify::findings::units::EstimateUnits;
+use crate::identify::methods::regression::missing::{MissingKind, MissingTerm};
+
+/// Digits of a coefficient whose standard error is not given.
+const DIGITS: usize = 3;
+
+/// Regression in slip phases: what the motor's equation does not explain.
+#[derive(Debug, Clone, PartialEq, IntoStaticStr, VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+#[non_exhaustive]
+pub enum RegressionFinding {
+    /// The regression gives no estimates.
+    RegressionRefused {
+        /// Share of the windowed torque that it does not explain; `None` without enough slip phases.
+        residual_share: Option<f64>,
+    },
+    /// Too few reversals for the regression: ordinary least squares are used.
+    FewPhases,
+    /// The regression leaves much of the torque.
+    UnexplainedTorque {
+        /// Share of the windowed torque.
+        residual_share: f64,
+    },
+    /// All runs are a sine of one frequency.
+    OneSine,
+    /// The motor's equation lacks a term.
+    MissingTerm {
+        /// The term, its coefficient and how well it is known.
+        term: MissingTerm,
+        /// Units of the coefficient.
+        units: EstimateUnits,
+    },
+    /// Viscous friction differs by direction.
+    ViscousByDirection {
+        /// Viscous friction forward.
+        forward: Estimate,
+        /// Viscous friction backward.
+        backward: Estimate,
+        /// Share of the torque that one constant leaves.
+        residual_share_of_one: f64,
+        /// Share of the torque that two constants leave.
+        residual_share_of_two: f64,
+        /// Offset of friction with two constants.
+        offset: Estimate,
+        /// Units of these.
+        units: EstimateUnits,
+    },
+}
+
+/// What the data look like when a term is missing, with its coefficient.
+fn looks_like(term: &MissingTerm, units: EstimateUnits) -> String {
+    let size = significant(term.value.abs(), DIGITS);
+    let grows = if term.value < 0.0 { "falls" } else { "grows" };
+    match term.kind {
+        MissingKind::Delay => format!(
+            "the command acts {} ms {} than it is logged",
+            significant(1e3 * term.value.abs(), DIGITS),
+            later(term.value)
+        ),
+        MissingKind::Position => {
+            format!("a torque {grows} with position, by {size} {}", units.stiffness())
+        }
+        MissingKind::Stribeck => format!(
+            "friction near zero speed is {size} {} {} than Coulomb and viscous friction",
+            units.torque(),
+            if term.value < 0.0 { "lower" } else { "higher" }
+        ),
+        MissingKind::BeamDamping => format!(
+            "the beam has internal damping of {} ms times its stiffness",
+            significant(1e3 * term.value, DIGITS)
+        ),
+        MissingKind::CommandBySign => format!(
+            "positive commands give {:.1} % {} torque than negative ones",
+            200.0 * term.value.abs(),
+            if term.value > 0.0 { "more" } else { "less" }
+        ),
+        MissingKind::CoulombDrift => format!(
+            "Coulomb friction {grows} by {size} {} from the beginning of the campaign to its end",
+            units.torque()
+        ),
+        MissingKind::ViscousDrift => format!(
+            "viscous friction {grows} by {size} {} from the beginning of the campaign to its end",
+            units.viscous()
+        ),
+    }
+}
+
+impl fmt::Display for RegressionFinding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::RegressionRefused { residual_share: Some(share) } => write!(
+                f,
+                "{:.0} % of the windowed torque is not explained by the motor's equation: the regression gives no estimates",
+                100.0 * share
+            ),
+            Self::RegressionRefused { residual_share: None } => f.write_str(
+                "too few slip phases are long enough for a window: the regression gives no estimates",
+            ),
+            Self::FewPhases => f.write_str(
+                "the motor reverses too seldom to show how friction scatters from stroke to stroke: the estimates are \
+                 those of ordinary least squares, and their standard errors are rough",
+            ),
+            Self::UnexplainedTorque { residual_share } => write!(
+                f,
+                "{:.0} % of the windowed torque is not explained by the motor's equation: errors of the estimates may be \
+                 larger than their standard errors",
+                100.0 * residual_share
+            ),
+            Self::OneSine => f.write_str(
+                "all runs are a sine of one frequency: only the harmonics due to friction then separate motor and \
+                 beam, and systematic errors repeat in every period. Errors of the estimates may be larger than their \
+                 standard errors",
+            ),
+            Self::MissingTerm { term, units } => write!(
+                f,
+                "it looks as if {} ({:.0} standard errors; with this term the residual torque drops to {:.1} %). The \
+                 equation has no such term, and errors of the estimates are larger than their standard errors",
+                looks_like(term, *units),
+                term.deviations,
+                100.0 * term.residual_ratio
+            ),
+            Self::ViscousByDirection {
+                forward,
+                backward,
+                residual_share_of_one,
+                residual_share_of_two,
+                offset,
+                units,
+            } => write!(
+                f,
+                "viscous friction differs by direction: {} {viscous} forward, {} {viscous} backward. With two \
+                 constants the residual torque drops from {:.1} % to {:.1} %, and the offset of friction is {} {}",
+                with_error(*forward),
+                with_error(*backward),
+                100.0 * residual_share_of_one,
+                100.0 * residual_share_of_two,
+                with_error(*offset),
+                units.torque(),
+                viscous = units.viscous()
+            ),
+        }
+    }
+}
+
+impl Describe for RegressionFinding {
+    fn code(&self) -> &'static str {
+        self.into()
+    }
+
+    fn severity(&self) -> Severity {
+        match self {
+            Self::RegressionRefused { .. } => Severity::Refusal,
+            Self::FewPhases
+            | Self::UnexplainedTorque { .. }
+            | Self::OneSine
+            | Self::MissingTerm { .. }
+            | Self::ViscousByDirection { .. } => Severity::Warning,
+        }
+    }
+
+    fn affects(&self) -> Vec<&'static str> {
+        match self {
+            Self::RegressionRefused { .. }
+            | Self::FewPhases
+            | Self::UnexplainedTorque { .. }
+            | Self::MissingTerm { .. } => {
+                vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING]
+            }
+            Self::OneSine => {
+                vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES]
+            }
+            Self::ViscousByDirection { .. } => vec![key::VISCOUS, key::OFFSET],
+        }
+    }
+
+    fn hint(&self) -> &'static str {
+        match self {
+            Self::RegressionRefused { .. } => {
+                "use longer moves in both directions at a measured current; measure the tip of a flexible beam; check \
+                 columns, units and signs"
+            }
+            Self::FewPhases => "log four strokes or more in each direction",
+            Self::UnexplainedTorque { .. } => {
+                "look for a delay, a load, other friction, or a flexible mode without a tip; check units and signs"
+            }
+            Self::OneSine => "use the output-error method, or add a run at another frequency",
+            Self::MissingTerm { term, .. } => match term.kind {
+                MissingKind::Delay => {
+                    "shift the channels against each other, or log the current where it is measured"
+                }
+                MissingKind::Position => {
+                    "look for gravity, a spring, cogging, or a wrong scale of a tip"
+                }
+                MissingKind::Stribeck => {
+                    "Stribeck friction or presliding: one constant and one slope do not describe it"
+                }
+                MissingKind::BeamDamping => {
+                    "use the output-error method: it identifies damping within the beam"
+                }
+                MissingKind::CommandBySign => {
+                    "an amplifier that is stronger one way, or a current sensor with two gains: log the current itself, \
+                     and calibrate it in both directions"
+                }
+                MissingKind::CoulombDrift => {
+                    "the joint warms up, wears or was lubricated: warm it up first, or identify the runs separately"
+                }
+                MissingKind::ViscousDrift => {
+                    "the joint warms up: warm it up first, or identify the runs separately"
+                }
+            },
+            Self::ViscousByDirection { .. } => {
+                "the scalar estimate is the mean of both; the offset depends on which law is chosen: look for a brush, \
+                 a screw or a cable"
+            }
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! Frequency responses and the models that are fitted to them.
+
+use std::fmt;
+
+use strum::{IntoStaticStr, VariantNames};
+
+use crate::identify::findings::describe::Describe;
+use crate::identify::findings::result_key as key;
+use crate::identify::findings::severity::Severity;
+
+/// Frequency responses and the models that are fitted to them.
+#[derive(Debug, Clone, PartialEq, IntoStaticStr, VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+#[non_exhaustive]
+pub enum ResponseFinding {
+    /// A corrected point is too uncertain.
+    CorrectionWeak {
+        /// Its frequency \[rad/s\].
+        omega_rad_s: f64,
+        /// Its relative standard error.
+        std_share: f64,
+    },
+    /// Bands of the corrected response differ from the regression's model.
+    BandsContradicted {
+        /// Bands that do.
+        bands: usize,
+        /// Bands in all.
+        of: usize,
+        /// Relative difference from which a band counts.
+        limit: f64,
+    },
+    /// Bands of the corrected response are uncertain.
+    BandsUncertain {
+        /// Bands that are.
+        bands: usize,
+        /// Bands in all.
+        of: usize,
+        /// Relative standard error from which a band counts.
+        limit: f64,
+    },
+    /// The motor's rational model does not fit its responses.
+    ModelMisfit {
+        /// Root mean square of the difference, in standard errors.
+        rms_standard_errors: f64,
+    },
+}
+
+impl fmt::Display for ResponseFinding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::CorrectionWeak { omega_rad_s, std_share } => write!(
+                f,
+                "at {omega_rad_s:.3} rad/s nearly all of the current overcomes friction: the corrected response has a \
+                 standard error of {:.0} % and is flagged",
+                100.0 * std_share
+            ),
+            Self::BandsContradicted { bands, of, limit } => write!(
+                f,
+                "{bands} of {of} bands of the corrected response differ by more than {:.0} % from the model of the \
+                 regression: they are flagged",
+                100.0 * limit
+            ),
+            Self::BandsUncertain { bands, of, limit } => write!(
+                f,
+                "{bands} of {of} bands of the corrected response have a standard error above {:.0} %: they are flagged",
+                100.0 * limit
+            ),
+            Self::ModelMisfit { rms_standard_errors } => write!(
+                f,
+                "the motor's rational model differs from the measured responses by {rms_standard_errors:.1} standard \
+                 errors (rms): the linear models may be wrong"
+            ),
+        }
+    }
+}
+
+impl Describe for ResponseFinding {
+    fn code(&self) -> &'static str {
+        self.into()
+    }
+
+    fn severity(&self) -> Severity {
+        match self {
+            Self::CorrectionWeak { .. } | Self::ModelMisfit { .. } => Severity::Warning,
+            Self::BandsContradicted { .. } | Self::BandsUncertain { .. } => Severity::Info,
+        }
+    }
+
+    fn affects(&self) -> Vec<&'static str> {
+        match self {
+            Self::CorrectionWeak { .. }
+            | Self::BandsContradicted { .. }
+            | Self::BandsUncertain { .. } => vec![key::CORRECTED_RESPONSE],
+            Self::ModelMisfit { .. } => vec![key::MOTOR_MODEL, key::TIP_MODELS, key::STATE_SPACE],
+        }
+    }
+
+    fn hint(&self) -> &'static str {
+        match self {
+            Self::CorrectionWeak { .. } => {
+                "use a larger amplitude: the share of the current that overcomes friction gets smaller"
+            }
+            Self::BandsContradicted { .. } => {
+                "use the response of the model there: these bands are hardly excited, or biased by the control loop"
+            }
+            Self::BandsUncertain { .. } => {
+                "use the response of the model there, or add a run that excites these bands"
+            }
+            Self::ModelMisfit { .. } => {
+                "look for a delay, a lag, a mode without a tip or damping within the beam, which the model does not have, \
+                 or for responses that are worse than their standard errors say"
+            }
+        }
+    }
+}

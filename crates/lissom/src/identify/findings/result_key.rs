@@ -1,0 +1,35 @@
+//! Result keys that findings affect, without the suffix of their unit.
+
+use crate::information::Figure;
+
+pub(crate) const COULOMB: &str = "friction.coulomb";
+pub(crate) const OFFSET: &str = "friction.offset";
+pub(crate) const VISCOUS: &str = "friction.viscous";
+pub(crate) const INERTIA: &str = "drive.inertia";
+pub(crate) const COUPLING: &str = "beam.coupling";
+pub(crate) const MODES: &str = "beam.modes";
+pub(crate) const THIRD_HARMONIC: &str = "methods.third_harmonic";
+pub(crate) const CONSTANT_VELOCITY: &str = "methods.constant_velocity";
+pub(crate) const RAW_RESPONSE: &str = "frequency_response.motor_raw";
+pub(crate) const CORRECTED_RESPONSE: &str = "frequency_response.motor_corrected";
+pub(crate) const TIP_RESPONSES: &str = "frequency_response.tips";
+pub(crate) const MOTOR_MODEL: &str = "models.motor";
+pub(crate) const TIP_MODELS: &str = "models.tips";
+pub(crate) const STATE_SPACE: &str = "models.state_space";
+pub(crate) const EQUIVALENT: &str = "equivalent";
+/// Keys of a validation.
+pub(crate) const TORQUE: &str = "torque";
+pub(crate) const MOTION: &str = "motion";
+pub(crate) const RESIDUALS: &str = "residuals";
+
+/// The key of a parameter.
+pub(super) fn of(parameter: Figure) -> &'static str {
+    match parameter {
+        Figure::Coulomb => COULOMB,
+        Figure::Viscous => VISCOUS,
+        Figure::Inertia => INERTIA,
+        Figure::Coupling => COUPLING,
+        Figure::Frequency(_) | Figure::Damping(_) => MODES,
+        Figure::Offset => OFFSET,
+    }
+}

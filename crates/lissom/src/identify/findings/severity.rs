@@ -1,0 +1,12 @@
+//! How much a finding matters.
+
+/// How much a finding matters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// Worth knowing.
+    Info,
+    /// The affected estimates are less certain than their standard errors say.
+    Warning,
+    /// The affected estimates are not given.
+    Refusal,
+}
