@@ -2,7 +2,8 @@
 
 use crate::drive::Falloff;
 use crate::identify::estimate::Estimate;
-use crate::identify::methods::friction_law::LawTerm;
+use crate::identify::methods::friction_law::thresholds::NEGLIGIBLE_TERM;
+use crate::identify::methods::friction_law::{LawTerm, NEAR_REST_STEP};
 use crate::replay::{DryTerms, FrictionNumber, NearRestNumber};
 
 /// Friction, in torque (or force).
@@ -69,6 +70,43 @@ impl Friction {
         };
         let ripples = (0..terms.ripples.len()).map(ripple).collect();
         Self { near_rest, ripples, ..Self::default() }
+    }
+
+    /// The same of the terms of a law with their amplitudes.
+    pub(crate) fn of_law_terms(terms: &[(LawTerm, Vec<Estimate>)]) -> Self {
+        let mut found = Self::default();
+        for (term, amplitude) in terms {
+            match (*term, &amplitude[..]) {
+                (LawTerm::NearRest { speed, falloff }, [torque]) => {
+                    let speed = Estimate { value: speed, std: NEAR_REST_STEP * speed };
+                    found.near_rest = Some(NearRestEstimate { torque: *torque, speed, falloff });
+                }
+                (LawTerm::Ripple { per_angle }, [cosine, sine, rate @ ..]) => {
+                    let unknown = Estimate { value: per_angle, std: f64::INFINITY };
+                    let torque = Estimate {
+                        value: cosine.value.hypot(sine.value),
+                        std: cosine.std.hypot(sine.std),
+                    };
+                    let per_angle = rate.first().copied().unwrap_or(unknown);
+                    found.ripples.push(RippleEstimate { torque, per_angle });
+                }
+                _ => {}
+            }
+        }
+        found
+    }
+
+    /// Whether a term changes this friction by less than [`NEGLIGIBLE_TERM`].
+    pub(crate) fn hardly_has(&self, (term, amplitude): &(LawTerm, Vec<Estimate>)) -> bool {
+        let of = match term {
+            LawTerm::ViscousByDirection => self.viscous,
+            LawTerm::NearRest { .. } | LawTerm::Ripple { .. } => self.coulomb,
+            // Never taken for that little.
+            LawTerm::Root | LawTerm::AfterTravel { .. } => None,
+            LawTerm::CommandLag => return true,
+        };
+        let largest = amplitude.iter().take(2).map(|a| a.value.abs()).fold(0.0, f64::max);
+        of.is_some_and(|of| largest < NEGLIGIBLE_TERM * of.value)
     }
 
     /// Its terms as those of a law, with their amplitudes.

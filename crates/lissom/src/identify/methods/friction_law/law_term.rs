@@ -3,6 +3,9 @@
 use crate::drive::Falloff;
 use crate::replay::{DryTerms, NearRest, Ripple};
 
+/// The speed of a term near rest is found to this share: neighbours tried last are as far apart.
+pub(crate) const NEAR_REST_STEP: f64 = 0.05;
+
 /// A term beside Coulomb friction, one viscous constant and an offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LawTerm {

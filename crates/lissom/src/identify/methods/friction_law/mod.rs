@@ -9,6 +9,7 @@ mod curve;
 mod described;
 mod friction_law_findings;
 mod held;
+mod law_estimates;
 mod law_term;
 mod refine;
 mod ripple;
@@ -22,6 +23,7 @@ pub use curve::CurvePoint;
 pub(crate) use curve::CurveSums;
 pub(crate) use friction_law_findings::finding;
 pub use law_term::LawTerm;
+pub(crate) use law_term::NEAR_REST_STEP;
 
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::friction_law::thresholds::{

@@ -8,8 +8,6 @@ use crate::identify::methods::regression::Term;
 
 /// A speed near rest is looked for between its neighbours on the list in so many steps.
 const FINER: i32 = 8;
-/// One such step: a neighbour on the list is half as much again.
-pub(super) const NEAR_REST_STEP: f64 = 0.05;
 /// A ripple is moved by so many steps either way, as far as its neighbour on the list;…
 const RIPPLE_STEPS: i32 = 3;
 /// …where the best is no end, steps become so many times finer, down to this share of the list's.

@@ -1,0 +1,37 @@
+//! All estimates under a law of friction.
+
+use crate::identify::drive_estimates::DriveEstimates;
+use crate::identify::estimate::Estimate;
+use crate::identify::friction_estimates::Friction;
+use crate::identify::methods::friction_law::LawFit;
+use crate::identify::methods::friction_law::law_term::LawTerm;
+
+impl LawFit {
+    /// All estimates under this law.
+    pub fn estimates(&self) -> DriveEstimates {
+        DriveEstimates {
+            friction: friction(self),
+            inertia: self.inertia,
+            coupling: self.total_coupling,
+            coupling_by_tip: self.coupling.clone(),
+        }
+    }
+}
+
+fn friction(law: &LawFit) -> Friction {
+    let sum = |a: Option<Estimate>, b: Option<Estimate>, sign: f64| {
+        let (a, b) = (a?, b?);
+        Some(Estimate { value: a.value + sign * b.value, std: a.std.hypot(b.std) })
+    };
+    let difference = law.term(|t| *t == LawTerm::ViscousByDirection);
+    let by_direction = |sign: f64| sum(law.viscous, difference, sign);
+    Friction {
+        coulomb: law.coulomb,
+        forward: sum(law.coulomb, law.offset, 1.0),
+        backward: sum(law.coulomb, law.offset, -1.0),
+        offset: law.offset,
+        viscous: law.viscous,
+        viscous_by_direction: by_direction(1.0).zip(by_direction(-1.0)),
+        ..Friction::of_law_terms(&law.terms)
+    }
+}
