@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::channel_names::DirectionName;
 use super::estimate_entry::EstimateEntry;
-use super::estimate_entry::{Estimated, Refusable};
+use super::estimate_keys::{Estimated, Refusable};
 use super::unit_keys::{
     BackwardKey, CoulombKey, ForwardKey, MeanCommandKey, OffsetKey, SlowestKey, VelocityKey,
     ViscousKey, WithUnit,

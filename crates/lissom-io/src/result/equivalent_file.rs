@@ -7,7 +7,7 @@ use lissom::identify::{
 use serde::{Deserialize, Serialize};
 
 use super::estimate_entry::EstimateEntry;
-use super::estimate_entry::{Estimated, Refusable};
+use super::estimate_keys::{Estimated, Refusable};
 use super::finding_entry::FindingEntry;
 use super::unit_keys::{
     CouplingKey, InertiaKey, MotorTorqueKey, PointTorqueKey, ViscousKey, WithUnit,

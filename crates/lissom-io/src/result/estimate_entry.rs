@@ -1,14 +1,7 @@
 //! Estimates in JSON.
 
-use super::unit_keys::WithUnit;
 use lissom::identify::{Estimate, ModeEstimate};
 use serde::{Deserialize, Serialize};
-
-/// An estimate that may be refused, under a key with its unit.
-pub type Refusable<Q> = WithUnit<Q, Option<EstimateEntry>>;
-
-/// An estimate under a key with its unit.
-pub type Estimated<Q> = WithUnit<Q, EstimateEntry>;
 
 /// An estimate with its standard error and its 95 % interval; null where a finding refuses it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

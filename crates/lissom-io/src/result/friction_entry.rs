@@ -4,7 +4,8 @@ use lissom::identify::{CurvePoint, Friction, Identified};
 use serde::{Deserialize, Serialize};
 
 use super::channel_names::DirectionName;
-use super::estimate_entry::{EstimateEntry, Estimated, Refusable};
+use super::estimate_entry::EstimateEntry;
+use super::estimate_keys::{Estimated, Refusable};
 use super::friction_term_entries::FrictionTermsEntry;
 use super::unit_keys::{
     BackwardKey, CoulombKey, ForwardKey, FrictionKey, OffsetKey, SpeedKey, ViscousBackwardKey,

@@ -3,7 +3,8 @@
 use lissom::identify::{Estimate, FrictionLaw, LawCandidate, LawFit, LawTerm};
 use serde::{Deserialize, Serialize};
 
-use super::estimate_entry::{EstimateEntry, Estimated, Refusable};
+use super::estimate_entry::EstimateEntry;
+use super::estimate_keys::{Estimated, Refusable};
 use super::friction_term_entries::{LawTermEntry, amplitude_key};
 use super::unit_keys::{
     AtRestKey, CoulombKey, CouplingKey, InertiaKey, LawAmplitudeKey, OffsetKey, ViscousKey,

@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::arm_numbers::{Number, Numbers, WrongKey};
 use super::channel_names::FalloffName;
-use super::estimate_entry::{EstimateEntry, Estimated, Refusable};
+use super::estimate_entry::EstimateEntry;
+use super::estimate_keys::{Estimated, Refusable};
 use super::unit_keys::{
     AmplitudeKey, CosineKey, PeriodKey, SineKey, SpeedKey, TravelKey, WithUnit,
 };

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::constant_velocity_entry::ConstantVelocityEntry;
 use super::estimate_entry::{BeamModeEntry, EstimateEntry, finite};
-use super::estimate_entry::{Estimated, Refusable};
+use super::estimate_keys::{Estimated, Refusable};
 use super::friction_entry::CoulombEntry;
 use super::friction_law_entry::FrictionLawEntry;
 use super::linear_model_entries::TransferFunctionEntry;

@@ -11,6 +11,7 @@ mod channel_names;
 mod constant_velocity_entry;
 mod equivalent_file;
 mod estimate_entry;
+mod estimate_keys;
 mod finding_entry;
 mod friction_entry;
 mod friction_law_entry;
@@ -39,7 +40,8 @@ pub use equivalent_file::{
     EquivalentTorqueEntry, PointZerosEntry, ResponseZeroEntry, SpuriousName, SpuriousPoleEntry,
     StrainlessEntry,
 };
-pub use estimate_entry::{BeamModeEntry, EstimateEntry, Estimated, Refusable};
+pub use estimate_entry::{BeamModeEntry, EstimateEntry};
+pub use estimate_keys::{Estimated, Refusable};
 pub use finding_entry::{FindingEntry, SeverityName};
 pub use friction_entry::{CoulombEntry, CurvePointEntry, FrictionEntry};
 pub use friction_law_entry::{

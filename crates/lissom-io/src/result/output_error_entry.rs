@@ -5,8 +5,8 @@ use lissom::record::Channels;
 use lissom::replay::Parameter;
 use serde::{Deserialize, Serialize};
 
-use super::estimate_entry::Refusable;
 use super::estimate_entry::{BeamModeEntry, EstimateEntry};
+use super::estimate_keys::Refusable;
 use super::friction_entry::CoulombEntry;
 use super::unit_keys::{CouplingKey, InertiaKey, ViscousKey, WithUnit};
 use super::unit_names::UnitNames;
