@@ -51,6 +51,7 @@ fn start(campaign: &Campaign, omega_rad_s: &[Option<f64>]) -> OutputErrorStart {
     let beam = beam_regression(campaign);
     let arms = starts(campaign, &motor.estimates(), beam.as_ref(), None);
     OutputErrorStart {
+        most_evaluations: None,
         arms,
         omega_rad_s: omega_rad_s.to_vec(),
         first_window_s: None,

@@ -103,6 +103,7 @@ fn a_mode_that_is_none_goes() {
         grounded_per_s: 0.0,
     }];
     let start = OutputErrorStart {
+        most_evaluations: None,
         arms: vec![arm],
         omega_rad_s: vec![None; campaign.runs.len()],
         first_window_s: None,

@@ -77,6 +77,7 @@ fn wrong(arm: &ModalArm, ([inertia, viscous, coulomb], [omega, stiffness]): Fact
 
 fn from(campaign: &Campaign, sines_rad_s: &[f64], arm: ModalArm) -> OutputError {
     let start = OutputErrorStart {
+        most_evaluations: None,
         arms: vec![arm],
         omega_rad_s: sines_rad_s.iter().map(|omega| Some(*omega)).collect(),
         first_window_s: None,

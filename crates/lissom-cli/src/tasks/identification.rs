@@ -17,7 +17,7 @@ pub(crate) fn identified(
 ) -> Result<Identified, Failure> {
     let window_s = window.map_or_else(|| file.analysis.window_s.clone(), |w| vec![w]);
     let harmonics = file.analysis.harmonics;
-    let options = Options { window_s, harmonics, without_output_error };
+    let options = Options { window_s, harmonics, without_output_error, most_evaluations: None };
     let bar = progress_bar::stages(progress_bar::steps(file.campaign.runs.len()));
     let id = identify(&file.campaign, &options, |stage| progress_bar::stage(&bar, stage));
     bar.finish_and_clear();

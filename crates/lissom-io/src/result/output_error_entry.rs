@@ -35,6 +35,8 @@ pub struct OutputErrorEntry {
     pub tip_lags_s: Vec<Option<EstimateEntry>>,
     /// Whether the arm describes whole runs, or windows of them as long as neighbouring motions stay together.
     pub whole_runs: bool,
+    /// Samples replayed, and derivatives of these by a parameter.
+    pub evaluations: u64,
     /// Every length of windows, in order.
     pub stages: Vec<StageEntry>,
     /// Further parameters that were tried: what one step with each promises.
@@ -74,6 +76,8 @@ pub enum StopName {
     NoStepHelps,
     /// All steps allowed were used.
     StepsUsedUp,
+    /// All evaluations allowed were used.
+    BudgetSpent,
 }
 
 /// A parameter that was tried.
@@ -112,6 +116,7 @@ impl OutputErrorEntry {
             command_lag_s: EstimateEntry::or_null(oe.estimate(Parameter::CommandLag)),
             tip_lags_s: (0..channels.tips.len()).map(lag).collect(),
             whole_runs: oe.whole_runs,
+            evaluations: oe.evaluations,
             stages: oe.stages.iter().map(StageEntry::of).collect(),
             tried: oe.extensions.iter().map(ExtensionEntry::of).collect(),
         }
@@ -129,6 +134,7 @@ impl StageEntry {
                 Stop::Converged => StopName::Converged,
                 Stop::NoStepHelps => StopName::NoStepHelps,
                 Stop::StepsUsedUp => StopName::StepsUsedUp,
+                Stop::BudgetSpent => StopName::BudgetSpent,
             },
             noise_sigma: s.noise.iter().map(|n| n.sigma).collect(),
             noise_step: s.noise.iter().map(|n| n.step).collect(),

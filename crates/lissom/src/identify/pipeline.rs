@@ -52,6 +52,9 @@ pub struct Options {
     pub harmonics: Option<usize>,
     /// Leaves out the replay of the runs through the arm: the regression's figures stand.
     pub without_output_error: bool,
+    /// Most evaluations of the output-error method ([`OutputError::evaluations`]); a number that campaigns rarely reach
+    /// when `None`. A result depends on this number and not on how fast the machine is.
+    pub most_evaluations: Option<u64>,
 }
 
 /// Why a campaign cannot be identified at all.
@@ -170,7 +173,14 @@ pub fn identify(
         let (beam, tips) = (any_beam_regression.as_ref(), beam_model.as_ref());
         let drive = motor.estimates();
         let plain = starting_arms(&usable, &drive, beam, tips, &shown, table);
-        replayed(&usable, &runs, &kept, &plain, friction_law.as_ref().map(|(law, _)| law))
+        replayed(
+            &usable,
+            &runs,
+            &kept,
+            &plain,
+            friction_law.as_ref().map(|(law, _)| law),
+            options.most_evaluations,
+        )
     });
 
     let beam_regression = any_beam_regression.filter(beam_stands);
@@ -378,6 +388,7 @@ fn replayed(
     kept: &[usize],
     plain: &[ModalArm],
     law: Option<&FrictionLaw>,
+    most_evaluations: Option<u64>,
 ) -> Option<OutputError> {
     let omega = |&i: &usize| match &runs[i].kind {
         RunKind::Sinusoidal(s) => Some(s.omega_rad_s),
@@ -386,7 +397,9 @@ fn replayed(
     let omega_rad_s: Vec<Option<f64>> = kept.iter().map(omega).collect();
     let arms = plain.to_vec();
     let law = law.map_or(Vec::new(), FrictionLaw::tried);
-    output_error(usable, &OutputErrorStart { arms, omega_rad_s, first_window_s: None, law })
+    let first_window_s = None;
+    let start = OutputErrorStart { arms, omega_rad_s, first_window_s, most_evaluations, law };
+    output_error(usable, &start)
 }
 
 /// Every pair of runs at ω0 and 3ω0; each run meets the triple nearest to it in amplitude.

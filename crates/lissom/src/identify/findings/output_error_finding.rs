@@ -92,6 +92,15 @@ pub enum OutputErrorFinding {
         /// Whether its estimates over short windows are used; else the regression's are.
         used: bool,
     },
+    /// The output-error method made all evaluations that it may make before it was done.
+    BudgetSpent {
+        /// Evaluations made.
+        evaluations: u64,
+        /// Length of the longest windows \[s\].
+        window_s: f64,
+        /// Whether its estimates are used; else the regression's are.
+        used: bool,
+    },
     /// The runs are described in windows, each from its own initial state.
     MotionsPart {
         /// Length of a window \[s\].
@@ -170,6 +179,13 @@ impl fmt::Display for OutputErrorFinding {
                     ". The estimates are those of the regression"
                 })
             }
+            Self::BudgetSpent { evaluations, window_s, used } => write!(
+                f,
+                "the output-error method was not done after {:.1} million evaluations, at windows of {window_s:.2} s. \
+                 The estimates are those {}",
+                *evaluations as f64 / 1e6,
+                if *used { "that it had come to" } else { "of the regression" }
+            ),
             Self::MotionsPart { window_s } => write!(
                 f,
                 "with friction that changes over the angle or falls with speed, neighbouring motions diverge: the runs \
@@ -196,6 +212,7 @@ impl Describe for OutputErrorFinding {
             | Self::FaintMode { .. }
             | Self::MoreThanNoise { .. }
             | Self::DamperDrives { .. }
+            | Self::BudgetSpent { .. }
             | Self::ReplayDeparts { .. } => Severity::Warning,
         }
     }
@@ -204,7 +221,10 @@ impl Describe for OutputErrorFinding {
         match self {
             Self::CommandLag { .. } => vec![key::INERTIA, key::VISCOUS, key::RAW_RESPONSE],
             Self::TipLag { .. } => vec![key::COUPLING, key::MODES, key::TIP_RESPONSES],
-            Self::ModesMissing { .. } | Self::MoreThanNoise { .. } | Self::ReplayDeparts { .. } => {
+            Self::ModesMissing { .. }
+            | Self::MoreThanNoise { .. }
+            | Self::BudgetSpent { .. }
+            | Self::ReplayDeparts { .. } => {
                 vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES]
             }
             Self::ModesByTheMotor { .. } | Self::FaintMode { .. } => {
@@ -253,6 +273,9 @@ impl Describe for OutputErrorFinding {
             Self::DamperDrives { .. } => "add runs near the modes, where damping shows most",
             Self::ReplayDeparts { .. } => {
                 "look for other friction than Coulomb and viscous, a load, backlash, or a mode without a tip"
+            }
+            Self::BudgetSpent { .. } => {
+                "allow more evaluations, or use fewer and shorter runs: ten strokes a run, three to eight runs"
             }
             Self::MotionsPart { .. } => {
                 "nothing to do; a prediction from the initial state of a run holds no longer than that"

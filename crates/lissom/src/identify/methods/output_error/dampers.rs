@@ -3,8 +3,7 @@
 use crate::identify::methods::output_error::covariance::deviation;
 use crate::identify::methods::output_error::fit::{Fit, Report};
 use crate::identify::methods::output_error::fitting::Fitting;
-use crate::identify::methods::output_error::scores::EVEN;
-use crate::replay::{Parameter, SensorNoise};
+use crate::replay::Parameter;
 
 /// A kind of dampers is there when one of them lies this many standard errors from zero \[1\].
 const THERE: f64 = 2.0;
@@ -30,10 +29,9 @@ pub(super) fn dampers_at_points(fitting: &Fitting<'_>, fit: &mut Fit, report: &m
     let points = (0..modes).map(Parameter::DampingAtPoint);
     other.free.extend(points.filter(|p| !fit.free.contains(p)));
     let mut alone = other.clone();
-    let noise = fit.noise.clone();
     let mut take = |mut other: Fit| {
         fitting.search(&mut other, report);
-        if price(fitting, &other, &noise) < price(fitting, fit, &noise) {
+        if fitting.is_better(&other, fit) {
             *fit = other;
         }
     };
@@ -42,12 +40,6 @@ pub(super) fn dampers_at_points(fitting: &Fitting<'_>, fit: &mut Fit, report: &m
         alone.body.arm.modes.iter_mut().for_each(|m| m.within_per_s = 0.0);
         take(alone);
     }
-}
-
-/// Cost of a fit where the noise is `noise`, and what its coordinates are worth: with as many more a fit that
-/// costs as much is as likely as without.
-pub(super) fn price(fitting: &Fitting<'_>, fit: &Fit, noise: &[SensorNoise]) -> f64 {
-    fitting.cost(fit, noise) + EVEN * EVEN * fit.coordinates() as f64
 }
 
 /// A kind of dampers of which those of another kind leave nothing goes, as a whole: one damper of a
@@ -80,7 +72,7 @@ pub(super) fn drop_dampers(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Re
         p.set(&mut without.body.arm, least);
     }
     fitting.search(&mut without, report);
-    if price(fitting, &without, &fit.noise) < price(fitting, fit, &fit.noise) {
+    if fitting.is_better(&without, fit) {
         *fit = without;
     }
 }

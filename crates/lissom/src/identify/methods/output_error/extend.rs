@@ -17,8 +17,6 @@ const SHARE: f64 = 1e-4;
 const LARGE: f64 = 0.02;
 /// Residual relative to the noise of the samples from which on friction may have another law, and tips may be late.
 const BEYOND_NOISE: f64 = 1.2;
-/// Share of what is beyond the noise that another law may leave: a term takes some of anything else too.
-const LAW_LEAVES: f64 = 0.7;
 /// Most groups added at a time.
 const MOST: usize = 3;
 
@@ -60,7 +58,7 @@ fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: 
     let mut with = fit.clone();
     trial.put_into(&mut with);
     fitting.search(&mut with, report);
-    let better = fitting.excess(&with) <= LAW_LEAVES * fitting.excess(fit);
+    let better = fitting.is_better(&with, fit);
     if better {
         *fit = with;
         report.law_changed();

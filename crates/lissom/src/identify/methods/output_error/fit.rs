@@ -10,6 +10,9 @@ use crate::replay::{ModalArm, Parameter, SensorNoise, Window, WindowSums};
 /// not describe adds up over a window, and what a sensor adds does not.
 pub(super) const GROWN: f64 = 1.5;
 
+/// Standard errors at which a group is as likely to be there as not \[1\].
+pub(super) const EVEN: f64 = 3.0;
+
 /// Where a fit is.
 #[derive(Debug, Clone)]
 pub(super) struct Fit {

@@ -3,11 +3,12 @@
 use rayon::prelude::*;
 
 use crate::identify::methods::friction_law::LawTerm;
+use crate::identify::methods::output_error::budget::Budget;
 use crate::identify::methods::output_error::coordinates::Body;
 use crate::identify::methods::output_error::covariance::Covariances;
 use crate::identify::methods::output_error::data::Masks;
 use crate::identify::methods::output_error::describes::BEYOND;
-use crate::identify::methods::output_error::fit::{Fit, Report, StageReport};
+use crate::identify::methods::output_error::fit::{EVEN, Fit, Report, StageReport};
 use crate::identify::methods::output_error::noise;
 use crate::identify::methods::output_error::repeats::without_repeats;
 use crate::identify::methods::output_error::search::{
@@ -39,6 +40,9 @@ const SETTLED: f64 = 0.9;
 /// Samples of the first windows, at least, and their share of the slowest mode's period.
 const FIRST_SAMPLES: f64 = 80.0;
 const FIRST_PERIODS: f64 = 0.3;
+/// Share of the cost that a further coordinate is worth \[1\].
+const WORTH: f64 = 1e-4;
+
 /// A campaign as the fits see it.
 pub(super) struct Fitting<'a> {
     pub(super) campaign: &'a Campaign,
@@ -48,6 +52,8 @@ pub(super) struct Fitting<'a> {
     pub(super) law: &'a [LawTerm],
     /// Noise that the samples show by themselves.
     pub(super) noise: &'a [SensorNoise],
+    /// What the whole search may cost.
+    pub(super) budget: &'a Budget,
     /// Factor by which each stage's windows are longer than the ones before.
     pub(super) widening: f64,
     /// Whether other friction laws than that of the start are tried.
@@ -69,16 +75,11 @@ impl Fitting<'_> {
             campaign: self.campaign,
             parameters: free,
             sampling,
+            budget: self.budget,
             robust,
             promise,
             near_enough,
         }
-    }
-
-    /// Squares of the residuals beyond the noise that the samples show by themselves, in that noise.
-    pub(super) fn excess(&self, fit: &Fit) -> f64 {
-        let each = fit.residual.iter().zip(self.noise);
-        each.map(|(r, n)| ((r / n.sigma).powi(2) - 1.0).max(0.0)).sum()
     }
 
     /// Largest ratio of a channel's residual to the noise that its samples show by themselves.
@@ -100,8 +101,21 @@ impl Fitting<'_> {
 
     /// Cost of an arm and its windows where the noise is `noise`.
     pub(super) fn cost(&self, fit: &Fit, noise: &[SensorNoise]) -> f64 {
+        let samples: usize = fit.windows.iter().map(Window::len).sum();
+        self.budget.count(samples, 0);
         let sampling = Sampling { noise, blocks: &[], masks: self.masks };
         costs(&fit.body.arm, self.campaign, &fit.windows, sampling).iter().sum()
+    }
+
+    /// Whether `other` is better than `fit`: the one rule by which a change of the model is accepted.
+    ///
+    /// The cost falls by more than further coordinates are worth, or rises by less than fewer of them are: [`EVEN`]
+    /// standard errors each, at which a parameter is as likely to be there as not, and no less than the share
+    /// [`WORTH`] of the cost, which is what errors that are no white noise may take.
+    pub(super) fn is_better(&self, other: &Fit, fit: &Fit) -> bool {
+        let (before, after) = (self.cost(fit, &fit.noise), self.cost(other, &fit.noise));
+        let more = other.coordinates() as f64 - fit.coordinates() as f64;
+        after + (EVEN * EVEN).max(WORTH * before) * more < before
     }
 
     /// A fit before its first step; `None` where no window can be cut.

@@ -1,5 +1,6 @@
 //! The motion of a given arm along runs that it was not found from.
 
+use crate::identify::methods::output_error::budget::Budget;
 use crate::identify::methods::output_error::coordinates::Body;
 use crate::identify::methods::output_error::search::{PROMISE, Problem, is_possible};
 use crate::identify::methods::output_error::windows::widen;
@@ -24,9 +25,17 @@ pub(crate) fn follow(
     let masks = data::masks(campaign);
     let noise: Vec<SensorNoise> = noise::of_samples(campaign).into_iter().map(weighable).collect();
     let sampling = Sampling { noise: &noise, blocks: &[], masks: &masks };
-    let (promise, near_enough) = (PROMISE, 0.0);
-    let problem =
-        Problem { campaign, parameters: &[], sampling, robust: false, promise, near_enough };
+    // Each window has few unknowns and few steps.
+    let budget = Budget::new(u64::MAX);
+    let problem = Problem {
+        campaign,
+        parameters: &[],
+        sampling,
+        budget: &budget,
+        robust: false,
+        promise: PROMISE,
+        near_enough: 0.0,
+    };
     if !is_possible(campaign, arm) {
         return Vec::new();
     }

@@ -43,6 +43,10 @@ pub struct OutputError {
     /// Whether windows were widened to the whole of the runs, or as far as neighbouring motions stay together: the arm
     /// describes them.
     pub whole_runs: bool,
+    /// Evaluations made: samples replayed, and derivatives of these by a parameter.
+    pub evaluations: u64,
+    /// Whether these were all that it was allowed: the search ended where it was.
+    pub budget_spent: bool,
     /// Parameters whose deviations are twice as long or more because the samples do not tell damping within the beam from
     /// damping against the frame: they count both.
     pub open_by_damping: Vec<Parameter>,
@@ -104,6 +108,8 @@ pub struct OutputErrorStart {
     /// Length of the first windows \[s\]; chosen from the arm when `None`. Short ones find the way from
     /// a start that is wrong by factors.
     pub first_window_s: Option<f64>,
+    /// Most evaluations; the method's own number when `None`.
+    pub most_evaluations: Option<u64>,
     /// Terms of friction that slip phases show: speeds and periods to try, where the residual calls for
     /// another law.
     pub law: Vec<LawTerm>,

@@ -1,6 +1,7 @@
 //! Output error: the logged command replayed through an arm whose parameters are moved until it shows
 //! the logged angles.
 
+mod budget;
 mod by_run;
 mod coordinates;
 mod covariance;

@@ -1,4 +1,4 @@
-//! How many modes: those that the runs do not show go, those that they call for come.
+//! How many modes: those that the runs call for are added.
 
 use crate::identify::methods::output_error::coordinates::Body;
 use crate::identify::methods::output_error::covariance::deviation;
@@ -6,17 +6,9 @@ use crate::identify::methods::output_error::fit::{Fit, Report};
 use crate::identify::methods::output_error::fitting::{Fitting, STEPS_OF_A_PROBE};
 use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
 
-/// A mode is in doubt whose stiffness is not this many deviations from zero…
-const DEVIATIONS: f64 = 5.0;
-/// …or whose frequency is not known to this share.
-const FREQUENCY: f64 = 0.02;
-/// It goes where the cost rises by no more than this share without it.
-const SHARE: f64 = 2e-3;
 /// The highest mode is faint whose stiffness is not known to this share: at a wrong frequency it would leave
 /// hardly more.
 pub(super) const FAINT: f64 = 0.01;
-/// Frequencies this near to each other are one mode's, in doubt.
-const TWINS: f64 = 0.01;
 /// A mode put beyond the others begins at one of these times the highest, with this share of what that
 /// one has and this damping ratio.
 const BEYOND: [f64; 2] = [2.0, 4.0];
@@ -29,52 +21,17 @@ const NEARER: [f64; 5] = [1.0, 0.97, 1.03, 0.93, 1.07];
 const AGAIN: usize = 4;
 /// Angle by which point masses turn the two into each other \[rad\].
 const BEYOND_TURN: f64 = 0.4;
-/// Damping ratio from which on a mode is tried without.
-const DAMPED: f64 = 0.005;
-/// Share of the coupling below which a mode is not felt.
-const UNFELT: f64 = 1e-3;
 
-/// Takes out one mode in doubt after another, as long as the residual allows it; tells whether the
-/// modes are others now.
-pub(super) fn prune(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) -> bool {
-    let mut changed = false;
-    while let Some(mode) = doubtful(fitting, fit) {
-        let before = fitting.cost(fit, &fit.noise);
-        let without = refitted(fitting, less(fit, mode), report);
-        if fitting.cost(&without, &fit.noise) <= before * (1.0 + SHARE) {
-            *fit = without;
-            changed = true;
-            continue;
-        }
-        if without.body.arm.modes.is_empty() {
-            break;
-        }
-        // It stands for something: for a mode beyond the others, perhaps.
-        let beyond = with_one_more(fitting, &without, report);
-        if fitting.cost(&beyond, &fit.noise) > before * (1.0 - SHARE) {
-            break;
-        }
-        *fit = beyond;
-        changed = true;
-    }
-    changed
-}
-
-/// Adds modes above the others, up to as many as tips, while each takes more than noise away; tells
-/// whether it added any.
-pub(super) fn grow(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) -> bool {
+/// Adds modes above the others, up to as many as tips, while the fit is better for each.
+pub(super) fn grow(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let tips = fitting.campaign.channels.tips.len().min(MOST_MODES);
-    let mut grown = false;
     while !fit.body.arm.modes.is_empty() && fit.body.arm.modes.len() < tips {
         let beyond = with_one_more(fitting, fit, report);
-        let before = fitting.cost(fit, &fit.noise);
-        if fitting.cost(&beyond, &fit.noise) > before * (1.0 - SHARE) {
+        if !fitting.is_better(&beyond, fit) {
             break;
         }
         *fit = beyond;
-        grown = true;
     }
-    grown
 }
 
 /// Searched again, free what its modes make free.
@@ -206,40 +163,6 @@ fn one_beyond(mut fit: Fit, last: usize, times: f64) -> Fit {
     fit
 }
 
-/// Tries the highest mode without damping of its own: from where modes begin, one that nothing drives
-/// may be caught at a damping that is not there.
-pub(super) fn undamp(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
-    let ratios = fit.body.arm.damping_ratios();
-    let mode = highest(&fit.body.arm);
-    if ratios.len() < 2 || ratios[mode] < DAMPED {
-        return;
-    }
-    let mut other = fit.clone();
-    other.body.arm.modes[mode].within_per_s = 0.0;
-    fitting.search(&mut other, report);
-    if fitting.cost(&other, &fit.noise) < fitting.cost(fit, &fit.noise) {
-        *fit = other;
-    }
-}
-
-/// Takes out modes that the motor hardly feels, and no tip shows: noise put them where they are, and
-/// no search would move them from there.
-pub(super) fn drop_unfelt(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
-    let unfelt = |arm: &ModalArm| {
-        let least = UNFELT * arm.coupling_nm_per_rad();
-        let few = arm.modes.iter().position(|m| m.stiffness_nm_per_rad < least);
-        few.filter(|_| arm.modes.len() > 1)
-    };
-    let mut dropped = false;
-    while let Some(mode) = unfelt(&fit.body.arm) {
-        *fit = less(fit, mode);
-        dropped = true;
-    }
-    if dropped {
-        *fit = refitted(fitting, fit.clone(), report);
-    }
-}
-
 /// Whether the highest of several modes is faint.
 pub(super) fn highest_is_faint(fitting: &Fitting<'_>, fit: &Fit) -> bool {
     let arm = &fit.body.arm;
@@ -257,64 +180,4 @@ fn known_to<'a>(
         let i = fit.free.iter().position(|q| *q == p)?;
         Some(deviation(&covariance, i) / p.of(&fit.body.arm).abs())
     }
-}
-
-/// The mode that stands least.
-fn doubtful(fitting: &Fitting<'_>, fit: &Fit) -> Option<usize> {
-    let relative = known_to(fitting, fit);
-    let doubt = |j: usize| {
-        let stiffness = relative(Parameter::Stiffness(j))? * DEVIATIONS;
-        let frequency = relative(Parameter::Frequency(j))? / FREQUENCY;
-        Some((j, stiffness.max(frequency)))
-    };
-    let all = (0..fit.body.arm.modes.len()).filter_map(doubt);
-    all.filter(|(_, d)| *d > 1.0).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(j, _)| j)
-}
-
-/// With two modes of one frequency taken for one, searched again: a start had one too many, and a search
-/// brought both to the one there is. `None` where no two are alike.
-pub(super) fn twins_joined(fitting: &Fitting<'_>, fit: &Fit, report: &mut Report) -> Option<Fit> {
-    joined(fit).map(|one| refitted(fitting, one, report))
-}
-
-/// With two modes of one frequency taken for one; `None` where no two are alike.
-fn joined(fit: &Fit) -> Option<Fit> {
-    let modes = &fit.body.arm.modes;
-    let alike =
-        |[i, j]: &[usize; 2]| (modes[*i].omega_rad_s / modes[*j].omega_rad_s - 1.0).abs() < TWINS;
-    let mut pairs = (0..modes.len()).flat_map(|i| (0..i).map(move |j| [i, j]));
-    let [gone, stays] = pairs.find(alike)?;
-    let mut fit = fit.clone();
-    let arm = &mut fit.body.arm;
-    arm.modes[stays].stiffness_nm_per_rad += arm.modes[gone].stiffness_nm_per_rad;
-    for row in &mut arm.shapes {
-        row[stays] += std::mem::take(&mut row[gone]);
-    }
-    Some(less(&fit, gone))
-}
-
-/// Whether `other`, of a mode less, leaves as little as `fit` does.
-pub(super) fn leaves_no_more(fitting: &Fitting<'_>, other: &Fit, fit: &Fit) -> bool {
-    fitting.cost(other, &fit.noise) <= fitting.cost(fit, &fit.noise) * (1.0 + SHARE)
-}
-
-/// Without one of its modes; the rest of Σr = 1 goes to the last that is left.
-fn less(fit: &Fit, mode: usize) -> Fit {
-    let mut fit = fit.clone();
-    fit.body.masses = None;
-    let arm = &mut fit.body.arm;
-    for (j, ratio) in arm.damping_ratios().into_iter().enumerate() {
-        let oscillator = &mut arm.modes[j];
-        oscillator.grounded_per_s = 2.0 * ratio * oscillator.omega_rad_s - oscillator.within_per_s;
-    }
-    arm.at_points_per_s.clear();
-    arm.modes.remove(mode);
-    for row in &mut arm.shapes {
-        let gone = row.remove(mode);
-        row.last_mut().into_iter().for_each(|r| *r += gone);
-    }
-    for window in &mut fit.windows {
-        window.start.drain(2 + 2 * mode..4 + 2 * mode);
-    }
-    fit
 }

@@ -33,7 +33,7 @@ pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
         let figures = oe.parameters.iter().filter_map(|p| Some((*p, oe.estimate(*p)?)));
         findings.extend(driving_damper(figures));
     }
-    findings.extend(departs(oe));
+    findings.extend(if oe.budget_spent { budget_spent(oe) } else { departs(oe) });
     findings.extend(motions_part(oe));
     findings
 }
@@ -43,6 +43,15 @@ fn motions_part(oe: &OutputError) -> Option<Finding> {
     let window_s = oe.stages.last()?.window_s;
     (oe.describes_whole_runs() && oe.is_in_windows())
         .then(|| Finding::new(OutputErrorFinding::MotionsPart { window_s }))
+}
+
+/// The search was not done.
+fn budget_spent(oe: &OutputError) -> Option<Finding> {
+    Some(Finding::new(OutputErrorFinding::BudgetSpent {
+        evaluations: oe.evaluations,
+        window_s: longest(oe)?.window_s,
+        used: oe.stands(),
+    }))
 }
 
 /// The arm does not describe the runs from end to end.

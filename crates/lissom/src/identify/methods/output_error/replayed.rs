@@ -1,6 +1,7 @@
 //! Output error: the logged command replayed through an arm whose parameters are moved until it shows
 //! the logged angles.
 
+use crate::identify::methods::output_error::budget::Budget;
 use crate::identify::methods::output_error::fitting::Fitting;
 use crate::identify::methods::output_error::found::{OutputError, OutputErrorStart};
 use crate::identify::methods::output_error::schedule::{Attempt, WIDENING, best};
@@ -8,6 +9,9 @@ use crate::identify::methods::output_error::undecided::{Known, undecided};
 use crate::identify::methods::output_error::{data, noise};
 use crate::record::Campaign;
 use crate::replay::SensorNoise;
+
+/// Most evaluations of the output-error method: a sample replayed, or its derivative by a parameter, is one.
+const MOST_EVALUATIONS: u64 = u64::MAX;
 
 /// Moves the figures of an arm until the replayed command shows the logged angles.
 ///
@@ -27,12 +31,14 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
     let blocks = data::blocks(campaign, &start.omega_rad_s);
     let law = &start.law;
     let noise = noise::of_samples(campaign);
+    let budget = Budget::new(start.most_evaluations.unwrap_or(MOST_EVALUATIONS));
     let fitting = Fitting {
         campaign,
         masks: &masks,
         blocks: &blocks,
         law,
         noise: &noise,
+        budget: &budget,
         widening: WIDENING,
         tries_laws: true,
     };
@@ -65,5 +71,7 @@ pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<Out
         extensions: report.added,
         open_by_damping,
         whole_runs: fit.whole_runs,
+        evaluations: budget.spent(),
+        budget_spent: budget.is_spent(),
     })
 }

@@ -33,7 +33,7 @@ pub(super) fn tighten(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report)
     }
     let mut tight = Fit { body, ..fit.clone() };
     fitting.search(&mut tight, report);
-    if fitting.cost(&tight, &fit.noise) <= fitting.cost(fit, &fit.noise) * (1.0 + RIGID_SHARE) {
+    if fitting.is_better(&tight, fit) {
         *fit = tight;
     }
 }

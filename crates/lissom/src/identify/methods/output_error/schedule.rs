@@ -7,17 +7,16 @@
 //! 4. Modes, dampers and point masses settled ([`settle`]), sensors' steps counted.
 //! 5. Once more, more slowly, where the search was caught ([`again`]).
 
-use crate::identify::methods::output_error::dampers::{dampers_at_points, drop_dampers, price};
+use crate::identify::methods::output_error::dampers::{dampers_at_points, drop_dampers};
 use crate::identify::methods::output_error::data::Masks;
-use crate::identify::methods::output_error::describes::{AT_NOISE, BEYOND, is_left, most, stands};
-use crate::identify::methods::output_error::extend::{candidates, drop_tip_lags, extend};
+use crate::identify::methods::output_error::describes::{AT_NOISE, BEYOND, is_left, stands};
+use crate::identify::methods::output_error::extend::{drop_tip_lags, extend};
 use crate::identify::methods::output_error::fit::{Fit, Report};
 use crate::identify::methods::output_error::fitting::{Fitting, STEPS_OF_A_PROBE, some};
 use crate::identify::methods::output_error::found::OutputErrorStart;
 use crate::identify::methods::output_error::left_over::left_over;
 use crate::identify::methods::output_error::modes;
 use crate::identify::methods::output_error::rigid_points::{relax, tighten};
-use crate::identify::methods::output_error::scores::scores;
 use crate::identify::methods::output_error::windows::widen as widened;
 use crate::replay::{ModalArm, Oscillator, Parameter};
 
@@ -51,7 +50,7 @@ pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<At
         if stands || best.as_ref().is_none_or(|b| found.nearness(fitting) > b.nearness(fitting)) {
             best = Some(found);
         }
-        if stands {
+        if stands || fitting.budget.is_spent() {
             break;
         }
     }
@@ -115,7 +114,6 @@ fn attempt(fitting: &Fitting<'_>, arm: &ModalArm, first_window_s: Option<f64>) -
 fn begin(fitting: &Fitting<'_>, arm: &ModalArm, window_s: f64, report: &mut Report) -> Option<Fit> {
     let mut fit = fitting.first_fit(arm, window_s)?;
     fitting.search(&mut fit, report);
-    modes::drop_unfelt(fitting, &mut fit, report);
     modes::grow(fitting, &mut fit, report);
     extend(fitting, &mut fit, report);
     Some(fit)
@@ -126,7 +124,7 @@ fn begin(fitting: &Fitting<'_>, arm: &ModalArm, window_s: f64, report: &mut Repo
 fn widen(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let longest = fitting.longest_s();
     let mut factor = fitting.widening;
-    while !fit.whole_runs {
+    while !fit.whole_runs && !fitting.budget.is_spent() {
         let (before, mark) = (fit.clone(), report.mark());
         fit.window_s = (fit.window_s * factor).min(longest);
         fit.whole_runs = fit.window_s >= longest;
@@ -160,20 +158,7 @@ fn widen(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
 fn go_on(fitting: &Fitting<'_>, mut fit: Fit, mut report: Report) -> Attempt {
     widen(fitting, &mut fit, &mut report);
     modes::grow(fitting, &mut fit, &mut report);
-    modes::undamp(fitting, &mut fit, &mut report);
     settle(fitting, &mut fit, &mut report);
-    while let Some(mut joined) = modes::twins_joined(fitting, &fit, &mut report) {
-        settle(fitting, &mut joined, &mut report);
-        if !modes::leaves_no_more(fitting, &joined, &fit) {
-            break;
-        }
-        fit = joined;
-    }
-    if modes::prune(fitting, &mut fit, &mut report) {
-        settle(fitting, &mut fit, &mut report);
-        widen(fitting, &mut fit, &mut report);
-        report.refused = scores(fitting, &fit, &candidates(fitting, &fit)).concat();
-    }
     let without_repeats = fitting.count_steps(&mut fit, &mut report);
     let left = left_over(fitting.campaign, &fit, fitting.masks);
     Attempt { fit, report, without_repeats, left }
@@ -210,22 +195,17 @@ fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> 
     let mut best = first;
     let caught = is_left(&best.left);
     let faint = || modes::highest_is_faint(fitting, &best.fit);
-    if !best.fit.whole_runs || !(caught || faint()) {
+    if fitting.budget.is_spent() || !best.fit.whole_runs || !(caught || faint()) {
         return best;
     }
     // Not for another law: that has had its trial.
     let slowly = Fitting { widening: SLOWER, tries_laws: false, ..*fitting };
     for arm in modes::starts_again(fitting, &best.fit) {
         let Some(other) = attempt(&slowly, &arm, first_window_s) else { continue };
-        let better = if caught {
-            most(&other.left) < most(&best.left)
-        } else {
-            best.leaves_more(fitting, &other)
-        };
-        if other.fit.whole_runs && better {
+        if other.fit.whole_runs && best.is_worse(fitting, &other) {
             best = other;
         }
-        if caught && !is_left(&best.left) {
+        if fitting.budget.is_spent() || (caught && !is_left(&best.left)) {
             break;
         }
     }
@@ -243,13 +223,10 @@ impl Attempt {
         )
     }
 
-    /// Whether another, with the same noise over the same samples, costs less by more than what it has more of
-    /// free is worth.
-    fn leaves_more(&self, fitting: &Fitting<'_>, other: &Self) -> bool {
+    /// Whether another is better over the same samples.
+    fn is_worse(&self, fitting: &Fitting<'_>, other: &Self) -> bool {
         let masks = self.without_repeats.as_deref().unwrap_or(fitting.masks);
-        let fitting = Fitting { masks, ..*fitting };
-        let price = |a: &Self| price(&fitting, &a.fit, &self.fit.noise);
-        price(other) < price(self)
+        Fitting { masks, ..*fitting }.is_better(&other.fit, &self.fit)
     }
 
     /// How near it comes, for comparison: whole runs before parts of them.

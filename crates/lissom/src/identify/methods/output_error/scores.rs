@@ -4,15 +4,13 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::identify::methods::output_error::covariance::{Covariances, deviation};
-use crate::identify::methods::output_error::fit::{Extension, Fit};
+use crate::identify::methods::output_error::fit::{EVEN, Extension, Fit};
 use crate::identify::methods::output_error::fitting::Fitting;
 use crate::information::{inverse, normal_equations};
 use crate::replay::{Parameter, WindowSums};
 
 /// Standard errors from zero at which a group that is called for lies, at least \[1\].
 pub(super) const DEVIATIONS: f64 = 4.0;
-/// Standard errors at which a group is as likely to be there as not \[1\].
-pub(super) const EVEN: f64 = 3.0;
 
 /// What one step of a search with each of some groups beside the free parameters promises.
 pub(super) fn scores(

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::identify::methods::output_error::budget::Budget;
 use crate::identify::methods::output_error::coordinates::{Body, in_coordinates};
 use crate::identify::methods::output_error::noise::is_least;
 use crate::identify::methods::output_error::windows::{fastest_rad_s, travel};
@@ -96,6 +97,8 @@ pub enum Stop {
     NoStepHelps,
     /// All steps allowed are made.
     StepsUsedUp,
+    /// All evaluations allowed are made.
+    BudgetSpent,
 }
 
 /// A step of the search.
@@ -117,6 +120,7 @@ pub(super) struct Problem<'a> {
     pub(super) campaign: &'a Campaign,
     pub(super) parameters: &'a [Parameter],
     pub(super) sampling: Sampling<'a>,
+    pub(super) budget: &'a Budget,
     /// Whether windows that fit far worse than the others count less.
     pub(super) robust: bool,
     /// Fall of the cost below which a step is not worth a replay.
@@ -128,6 +132,7 @@ pub(super) struct Problem<'a> {
 impl Problem<'_> {
     /// Replays `windows` through `body`.
     pub(super) fn at(&self, body: Body, windows: Vec<Window>) -> Point {
+        self.budget.count(samples_of(&windows), self.parameters.len());
         let mut sums = sums(&body.arm, self.parameters, self.campaign, &windows, self.sampling);
         if let Some(jacobian) = body.jacobian(self.parameters) {
             sums = sums.iter().map(|s| in_coordinates(s, &jacobian)).collect();
@@ -147,6 +152,9 @@ impl Problem<'_> {
         let mut kept_its_promise = false;
         let mut iterations = Vec::new();
         for _ in 0..steps {
+            if self.budget.is_spent() {
+                return (point, iterations, Stop::BudgetSpent);
+            }
             let usual = if self.robust { point.usual() } else { f64::INFINITY };
             let Some(step) = self.step(&point, damping, usual) else {
                 return (point, iterations, Stop::NoStepHelps);
@@ -164,6 +172,7 @@ impl Problem<'_> {
             let after = match &ahead {
                 Some(ahead) => ahead.robust_cost(usual),
                 None if possible => {
+                    self.budget.count(samples_of(&windows), 0);
                     let costs = costs(&body.arm, self.campaign, &windows, self.sampling);
                     let samples = point.sums.iter().map(|s| s.samples);
                     costs.iter().zip(samples).map(|(c, n)| robust(*c, n, usual)).sum()
@@ -253,6 +262,10 @@ impl Problem<'_> {
         }
         promised.is_finite().then_some(Step { shared: change, own, promised })
     }
+}
+
+fn samples_of(windows: &[Window]) -> usize {
+    windows.iter().map(Window::len).sum()
 }
 
 /// What a step may change a window's first velocity by where it would by `change`.

@@ -1,0 +1,35 @@
+//! What a fit may cost, in evaluations, so that its result does not depend on the machine.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Evaluations that a fit has made, and the most that it may make.
+///
+/// One evaluation is one sample of a log replayed, or the derivative of one by one parameter: a replay of n samples with
+/// derivatives by p parameters is n·(1 + p) of them.
+#[derive(Debug)]
+pub(super) struct Budget {
+    spent: AtomicU64,
+    most: u64,
+}
+
+impl Budget {
+    pub(super) fn new(most: u64) -> Self {
+        Self { spent: AtomicU64::new(0), most }
+    }
+
+    /// Counts a replay of so many samples with derivatives by so many parameters.
+    pub(super) fn count(&self, samples: usize, parameters: usize) {
+        let evaluations = samples as u64 * (1 + parameters as u64);
+        self.spent.fetch_add(evaluations, Ordering::Relaxed);
+    }
+
+    /// Evaluations made so far.
+    pub(super) fn spent(&self) -> u64 {
+        self.spent.load(Ordering::Relaxed)
+    }
+
+    /// Whether no more may be made.
+    pub(super) fn is_spent(&self) -> bool {
+        self.spent() >= self.most
+    }
+}
