@@ -5,8 +5,8 @@
 use lissom::drive::Falloff;
 use lissom::identify::{
     ByDirection, ConstantVelocity, Estimate, FrictionLine, Identified, LawCandidate, LawTerm,
-    NearRestEstimate, Options, RippleEstimate, RunToAdd, Shape, SteadyPoint, geometry_check,
-    identify, motor_regression,
+    NearRestEstimate, Options, Prepared, RippleEstimate, RunToAdd, Shape, SteadyPoint,
+    geometry_check, identify, motor_regression,
 };
 use lissom::information::Figure;
 use lissom::plan::PlannedMotion;
@@ -159,7 +159,7 @@ fn by_direction() -> Option<ByDirection> {
     let run = Run::new("sines", TimeBase::uniform(0.0, sample_time_s), torque, motor, vec![]);
     let channels = Channels { axis: Axis::Rotary, command, tips: vec![] };
     let campaign = Campaign::new(channels, vec![run.unwrap()]).unwrap();
-    motor_regression(&campaign, &[]).unwrap().viscous_by_direction
+    motor_regression(&Prepared::of(&campaign), &Options::default()).unwrap().viscous_by_direction
 }
 
 #[test]

@@ -16,7 +16,9 @@ use std::time::Duration;
 use criterion::{Criterion, criterion_group, criterion_main};
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
-use lissom::identify::{OutputErrorStart, beam_regression, motor_regression, output_error, starts};
+use lissom::identify::{
+    Options, OutputErrorStart, Prepared, beam_regression, motor_regression, output_error, starts,
+};
 use lissom::record::{Campaign, Run};
 use lissom::replay::{
     ArmModes, ModalArm, Parameter, Sampling, SensorNoise, Window, costs, free_parameters, sums,
@@ -47,8 +49,8 @@ fn campaign() -> (Campaign, Vec<Option<f64>>) {
 }
 
 fn start(campaign: &Campaign, omega_rad_s: &[Option<f64>]) -> OutputErrorStart {
-    let motor = motor_regression(campaign, &[]).unwrap();
-    let beam = beam_regression(campaign);
+    let motor = motor_regression(&Prepared::of(campaign), &Options::default()).unwrap();
+    let beam = beam_regression(&Prepared::of(campaign));
     let arms = starts(campaign, &motor.estimates(), beam.as_ref(), None);
     OutputErrorStart {
         most_evaluations: None,
@@ -131,7 +133,7 @@ impl Case<'_> {
 fn demo(c: &mut Criterion) {
     let (campaign, omega) = campaign();
     let start = start(&campaign, &omega);
-    let found = output_error(&campaign, &start).unwrap();
+    let found = output_error(&Prepared::of(&campaign), &start).unwrap();
     let figures = found.parameters.iter().map(|p| found.estimate(*p).unwrap());
     for (p, e) in found.parameters.iter().zip(figures.clone()) {
         eprintln!("  {} {:.8e} ± {:.1e}", p.name(), e.value, e.std);
@@ -155,10 +157,14 @@ fn demo(c: &mut Criterion) {
     let mut group = c.benchmark_group("demo's campaign");
     group.sample_size(10).measurement_time(Duration::from_secs(2));
     group.bench_function("regression of the motor", |b| {
-        b.iter(|| motor_regression(&campaign, &[]));
+        b.iter(|| motor_regression(&Prepared::of(&campaign), &Options::default()));
     });
-    group.bench_function("regression of the beam", |b| b.iter(|| beam_regression(&campaign)));
-    group.bench_function("output error", |b| b.iter(|| output_error(&campaign, &start)));
+    group.bench_function("regression of the beam", |b| {
+        b.iter(|| beam_regression(&Prepared::of(&campaign)))
+    });
+    group.bench_function("output error", |b| {
+        b.iter(|| output_error(&Prepared::of(&campaign), &start))
+    });
     group.finish();
 }
 

@@ -6,7 +6,7 @@
 use std::f64::consts::{PI, TAU};
 
 use lissom::identify::{
-    ConstantVelocity, Estimate, Finding, LineError, Options, RunKind, Severity, Shape,
+    ConstantVelocity, Estimate, Finding, LineError, Options, Prepared, RunKind, Severity, Shape,
     constant_velocity, identify,
 };
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
@@ -98,7 +98,7 @@ fn both(bench: Bench, friction: impl Fn(f64) -> f64) -> Campaign {
 }
 
 fn one(run: Run) -> ConstantVelocity {
-    constant_velocity(&campaign_of(command(), Axis::Rotary, vec![run]))
+    constant_velocity(&Prepared::of(&campaign_of(command(), Axis::Rotary, vec![run])))
 }
 
 fn covers(e: Estimate, truth: f64) -> bool {
@@ -111,7 +111,7 @@ fn codes(findings: &[Finding]) -> Vec<&'static str> {
 
 #[test]
 fn friction_by_direction_comes_out_of_two_staircases() {
-    let found = constant_velocity(&both(QUIET, coulomb));
+    let found = constant_velocity(&Prepared::of(&both(QUIET, coulomb)));
     assert_eq!(found.points.len(), 12);
     let (f, b) = (found.forward.unwrap(), found.backward.unwrap());
     // Within 4 deviations, and these within 2 % of the figure.
@@ -148,7 +148,7 @@ fn the_points_are_the_means_of_their_stretches() {
 #[test]
 fn nothing_but_rounding_is_left_without_noise() {
     let bench = Bench { noise_a: 0.0, ..QUIET };
-    let found = constant_velocity(&both(bench, coulomb));
+    let found = constant_velocity(&Prepared::of(&both(bench, coulomb)));
     // What 12 bits and the trimmed transients leave: below 2e-4 of the figure.
     assert!((found.coulomb.unwrap().value / (0.5 * (FORWARD + BACKWARD)) - 1.0).abs() < 2e-4);
 }
@@ -157,7 +157,7 @@ fn nothing_but_rounding_is_left_without_noise() {
 fn coverage(bench: Bench) -> [f64; 3] {
     let mut held = [0.0; 3];
     for seed in 0..SEEDS {
-        let found = constant_velocity(&both(Bench { seed, ..bench }, coulomb));
+        let found = constant_velocity(&Prepared::of(&both(Bench { seed, ..bench }, coulomb)));
         let figures = [
             (found.coulomb, 0.5 * (FORWARD + BACKWARD)),
             (found.viscous, V),
@@ -188,7 +188,7 @@ fn intervals_hold_the_truth_as_often_as_they_say() {
 fn straight_data_are_seldom_called_curved() {
     let mut alarms = 0.0;
     for seed in 0..SEEDS {
-        let found = constant_velocity(&both(Bench { seed, ..QUIET }, coulomb));
+        let found = constant_velocity(&Prepared::of(&both(Bench { seed, ..QUIET }, coulomb)));
         alarms += found.lines().filter(|(_, l)| l.shape != Shape::Straight).count() as f64;
     }
     let share = alarms / (2 * SEEDS) as f64;
@@ -207,7 +207,7 @@ fn saturating(velocity: f64) -> f64 {
 fn sub_linear_friction_is_flagged_as_too_high() {
     for seed in 0..20 {
         let campaign = both(Bench { seed, ..QUIET }, saturating);
-        let found = constant_velocity(&campaign);
+        let found = constant_velocity(&Prepared::of(&campaign));
         for (line, truth) in [(found.forward, FORWARD), (found.backward, BACKWARD)] {
             let line = line.unwrap();
             assert!(matches!(line.shape, Shape::Concave { .. }), "{line:?}");
@@ -234,7 +234,7 @@ fn friction_that_falls_or_grows_with_the_square_is_flagged_as_too_low() {
     let stribeck = |v: f64| coulomb(v) + 0.02 * v.signum() * (-v.abs() / 2.0).exp();
     let laws: [&dyn Fn(f64) -> f64; 2] = [&drag, &stribeck];
     for law in laws {
-        let found = constant_velocity(&both(QUIET, law));
+        let found = constant_velocity(&Prepared::of(&both(QUIET, law)));
         for (_, line) in found.lines() {
             assert!(matches!(line.shape, Shape::Convex { .. }), "{line:?}");
             assert!(line.slowest.unwrap().value > line.coulomb.value);
@@ -246,8 +246,8 @@ fn friction_that_falls_or_grows_with_the_square_is_flagged_as_too_low() {
 fn scatter_beyond_the_noise_widens_the_interval() {
     // Friction that differs from step to step: a stretch knows nothing of it.
     let uneven = |v: f64| coulomb(v) * (1.0 + 0.03 * (1e3 * v.round()).sin());
-    let found = constant_velocity(&both(QUIET, uneven));
-    let quiet = constant_velocity(&both(QUIET, coulomb));
+    let found = constant_velocity(&Prepared::of(&both(QUIET, uneven)));
+    let quiet = constant_velocity(&Prepared::of(&both(QUIET, coulomb)));
     let line = found.forward.unwrap();
     assert!(matches!(line.shape, Shape::Scattered { rms } if rms > 2.0), "{line:?}");
     assert!(line.coulomb.std > 3.0 * quiet.forward.unwrap().coulomb.std, "{line:?}");
@@ -432,8 +432,9 @@ fn a_motor_at_a_constant_voltage_is_no_dead_channel() {
 fn linear_axes_and_unknown_torque_constants_have_their_own_units() {
     let runs = both(QUIET, coulomb).runs;
     let per_command = Command { torque_per_command: None, ..command() };
-    let found = constant_velocity(&campaign_of(per_command, Axis::Rotary, runs.clone()));
-    let torque = constant_velocity(&campaign_of(command(), Axis::Linear, runs));
+    let found =
+        constant_velocity(&Prepared::of(&campaign_of(per_command, Axis::Rotary, runs.clone())));
+    let torque = constant_velocity(&Prepared::of(&campaign_of(command(), Axis::Linear, runs)));
     let (a, n) = (found.coulomb.unwrap(), torque.coulomb.unwrap());
     assert!((a.value * K / n.value - 1.0).abs() < 1e-9 && (a.std * K / n.std - 1.0).abs() < 1e-9);
 }
@@ -452,7 +453,7 @@ fn a_negative_torque_constant_turns_the_directions_about() {
 fn ringing_does_not_move_the_figure() {
     // 15 % of the Coulomb current; a step of 10 s holds ten periods.
     let bench = Bench { ringing_a: 0.02, hold_s: 10.0, noise_a: 0.001, ..QUIET };
-    let found = constant_velocity(&both(bench, coulomb));
+    let found = constant_velocity(&Prepared::of(&both(bench, coulomb)));
     assert_eq!(found.points.len(), 12);
     let c = found.coulomb.unwrap();
     assert!((c.value / (0.5 * (FORWARD + BACKWARD)) - 1.0).abs() < 2e-3, "{c:?}");

@@ -4,7 +4,9 @@
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
-use lissom::identify::{Estimate, Identified, MissingKind, Options, identify, motor_regression};
+use lissom::identify::{
+    Estimate, Identified, MissingKind, Options, Prepared, identify, motor_regression,
+};
 use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
 };
@@ -169,7 +171,11 @@ fn a_delay_is_noticed_and_measured() {
             Run::new(r.name(), r.time(), command, motor, vec![]).unwrap()
         })
         .collect();
-    let missing = |runs| motor_regression(&campaign(current(0.2), runs), &[]).unwrap().missing;
+    let missing = |runs| {
+        motor_regression(&Prepared::of(&campaign(current(0.2), runs)), &Options::default())
+            .unwrap()
+            .missing
+    };
     assert_eq!(missing(stiff_axis(0.2, 0.0)), None);
     let found = missing(late.clone()).unwrap();
     assert_eq!(found.kind, MissingKind::Delay);
@@ -196,7 +202,11 @@ fn an_amplifier_that_is_stronger_one_way_is_noticed_and_measured() {
         runs.map(of_run).collect()
     };
     for share in [0.95, 0.99] {
-        let fit = motor_regression(&campaign(current(0.2), as_logged(share)), &[]).unwrap();
+        let fit = motor_regression(
+            &Prepared::of(&campaign(current(0.2), as_logged(share))),
+            &Options::default(),
+        )
+        .unwrap();
         let found = fit.missing.unwrap();
         assert_eq!(found.kind, MissingKind::CommandBySign);
         // 1/share one way beside 1 the other: (1 + ε)/(1 − ε).
@@ -223,7 +233,9 @@ fn friction_that_changes_over_the_campaign_is_noticed_and_measured() {
         };
         let runs = vec![run("slow", 3.0, 0.0), run("fast", 7.0, 20.0)];
         let command = Command { hold: Hold::Measured, ..current(1.0) };
-        motor_regression(&campaign(command, runs), &[]).unwrap().missing
+        motor_regression(&Prepared::of(&campaign(command, runs)), &Options::default())
+            .unwrap()
+            .missing
     };
     assert_eq!(with(0.0, 0.0), None);
     for (coulomb, viscous, kind, asked) in [

@@ -5,7 +5,7 @@ use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
 use lissom::identify::{
-    ArmSource, Estimate, Identified, Options, OutputErrorStart, identify, output_error,
+    ArmSource, Estimate, Identified, Options, OutputErrorStart, Prepared, identify, output_error,
 };
 use lissom::record::{Campaign, Run};
 use lissom::replay::{ModalArm, Oscillator, Parameter};
@@ -109,7 +109,7 @@ fn a_mode_that_is_none_goes() {
         first_window_s: None,
         law: Vec::new(),
     };
-    let found = output_error(&campaign, &start).unwrap();
+    let found = output_error(&Prepared::of(&campaign), &start).unwrap();
     assert!(found.arm.modes.is_empty(), "{:?}", found.arm.modes);
     let truth = 8e-4;
     let inertia = found.estimate(Parameter::Inertia).unwrap();

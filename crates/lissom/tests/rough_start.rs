@@ -9,7 +9,7 @@
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
-use lissom::identify::{OutputError, OutputErrorStart, output_error};
+use lissom::identify::{OutputError, OutputErrorStart, Prepared, output_error};
 use lissom::record::{Campaign, Run};
 use lissom::replay::ModalArm;
 use lissom::rig::{Experiment, Instruments, Noise, Pd, Quantiser, Rig, Sensor, Settle};
@@ -83,7 +83,7 @@ fn from(campaign: &Campaign, sines_rad_s: &[f64], arm: ModalArm) -> OutputError 
         first_window_s: None,
         law: Vec::new(),
     };
-    output_error(campaign, &start).unwrap()
+    output_error(&Prepared::of(campaign), &start).unwrap()
 }
 
 #[track_caller]

@@ -18,7 +18,7 @@ pub(crate) struct DemoRow {
 
 pub(crate) fn comparison(arm: &Arm, id: &Identified) -> Vec<DemoRow> {
     let third = id.third_harmonic.as_ref();
-    let fit = third.and_then(|t| t.motor.as_ref());
+    let fit = id.third_harmonic_model.as_ref();
     let r = id.regression.as_ref();
     let oe = id.output_error.as_ref();
     let k = arm.motor.torque_constant_nm_per_a;

@@ -76,7 +76,11 @@ fn friction_is_no_line_over_speed() {
 fn predicts_the_force_of_the_other_log() {
     let Some(data) = common::data("emps") else { return };
     let read = |file| common::read(include_str!("emps.toml"), &data, file).campaign;
-    let train = lissom::identify::motor_regression(&read("DATA_EMPS.csv"), &[]).unwrap();
+    let train = lissom::identify::motor_regression(
+        &lissom::identify::Prepared::of(&read("DATA_EMPS.csv")),
+        &lissom::identify::Options::default(),
+    )
+    .unwrap();
     let error = train.prediction_error(&read("DATA_EMPS_PULSES.csv")).unwrap();
     assert!(error < 0.065, "{error}");
     // And not because there is nothing to predict: the fit's own error is of the same size.

@@ -2,7 +2,7 @@
 
 use lissom::identify::{
     BeamRegression, ByDirection, Candidate, DriveEstimates, Estimate, Friction, Identified,
-    LeastSquares, MotorFit, MotorRegression, RunAnalysis, ThirdHarmonic,
+    LeastSquares, MotorFit, MotorRegression, ThirdHarmonic,
 };
 use lissom::record::Channels;
 use serde::{Deserialize, Serialize};
@@ -210,13 +210,12 @@ impl MethodEntries {
         channels: &Channels,
         id: &Identified,
     ) -> Self {
-        let runs = &id.runs;
         let third = id.third_harmonic.as_ref();
         let output_error = id.output_error.as_ref();
         let beam = id.beam_regression.as_ref();
         let velocity = id.constant_velocity.as_ref();
         Self {
-            third_harmonic: third.map(|t| ThirdHarmonicEntry::of(names, constant, t, runs)),
+            third_harmonic: third.map(|t| ThirdHarmonicEntry::of(names, constant, t, id)),
             output_error: output_error.map(|o| OutputErrorEntry::of(names, constant, channels, o)),
             regression: id
                 .regression
@@ -231,13 +230,14 @@ impl MethodEntries {
                 .as_ref()
                 .map(|l| FrictionLawEntry::of(names, constant, l)),
             constant_velocity: velocity
-                .map(|c| ConstantVelocityEntry::of(names, constant, c, runs)),
+                .map(|c| ConstantVelocityEntry::of(names, constant, c, &id.runs)),
         }
     }
 }
 
 impl ThirdHarmonicEntry {
-    fn of(names: UnitNames, constant: f64, t: &ThirdHarmonic, runs: &[RunAnalysis]) -> Self {
+    fn of(names: UnitNames, constant: f64, t: &ThirdHarmonic, id: &Identified) -> Self {
+        let runs = &id.runs;
         let pairs = t.pairs.iter().zip(&t.used).map(|(p, used)| SinePairEntry {
             omega_rad_s: p.omega_rad_s,
             run: runs[p.run].name.clone(),
@@ -254,7 +254,7 @@ impl ThirdHarmonicEntry {
             coulomb: WithUnit::torque(names, constant, Some(coulomb)),
             spread: WithUnit::new(names, t.spread_command),
             pairs: pairs.collect(),
-            fit: t.motor.as_ref().map(|m| MotorFitEntry::of(names, m)),
+            fit: id.third_harmonic_model.as_ref().map(|m| MotorFitEntry::of(names, m)),
         }
     }
 }

@@ -12,28 +12,13 @@ use crate::identify::methods::friction_law::FrictionLaw;
 use crate::identify::methods::least_squares::LeastSquares;
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::{BeamRegression, MotorRegression};
-use crate::identify::methods::third_harmonic::PairFigure;
+use crate::identify::methods::third_harmonic::ThirdHarmonic;
 use crate::identify::prepare::run_analysis::RunAnalysis;
 use crate::identify::responses::linear_models::LinearModels;
 use crate::identify::responses::rational::{BeamFit, MotorFit};
 use crate::identify::responses::response_point::ResponsePoint;
 use crate::identify::separability::Separability;
 use crate::record::Campaign;
-
-/// Figures of the report's own method.
-#[derive(Debug, Clone)]
-pub struct ThirdHarmonic {
-    /// Every pair's figure.
-    pub pairs: Vec<PairFigure>,
-    /// Mean of the pairs that no finding flags (of all, where all are flagged).
-    pub coulomb_command: Estimate,
-    /// Standard deviation of one pair about that mean.
-    pub spread_command: f64,
-    /// Pairs in that mean.
-    pub used: Vec<bool>,
-    /// Rational fit of the response corrected with that mean, as in 6.2.2.
-    pub motor: Option<MotorFit>,
-}
 
 /// The beam's figures.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -59,6 +44,8 @@ pub struct Identified {
     pub beam: Beam,
     /// The report's method.
     pub third_harmonic: Option<ThirdHarmonic>,
+    /// Rational model of the motor from the response corrected with that friction, as in Section 6.2.2 of the 1989 report.
+    pub third_harmonic_model: Option<MotorFit>,
     /// Regression on slip phases.
     pub regression: Option<MotorRegression>,
     /// ‖y − X·q‖/‖y‖ of the regression, also where it is refused; `None` without windows enough.
@@ -113,6 +100,7 @@ impl Identified {
             inertia: chosen.drive.inertia,
             beam: chosen.beam,
             third_harmonic: methods.third_harmonic,
+            third_harmonic_model: methods.third_harmonic_model,
             regression: methods.regression,
             regression_residual: methods.regression_residual,
             least_squares: methods.least_squares,

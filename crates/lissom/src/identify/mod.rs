@@ -10,6 +10,7 @@ mod geometry;
 mod identified;
 pub(crate) mod judge;
 pub(crate) mod methods;
+mod options;
 mod payload;
 mod pipeline;
 pub(crate) mod prepare;
@@ -29,9 +30,9 @@ pub use findings::{Finding, FindingKind, Severity};
 pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
 pub use friction_estimates::{Friction, NearRestEstimate, RippleEstimate};
 pub use geometry::{ArmQuantity, Explanation, GeometryCheck, geometry_check};
-pub use identified::{Beam, Identified, ThirdHarmonic};
+pub use identified::{Beam, Identified};
 pub use methods::constant_velocity::{
-    ConstantVelocity, FrictionLine, LineError, Shape, SteadyPoint, constant_velocity,
+    ConstantVelocity, FrictionLine, LineError, Shape, constant_velocity,
 };
 pub use methods::friction_law::{CurvePoint, FrictionLaw, LawCandidate, LawFit, LawTerm};
 pub use methods::least_squares::{LeastSquares, least_squares};
@@ -43,10 +44,14 @@ pub use methods::regression::{
     BeamRegression, ByDirection, Candidate, MissingKind, MissingTerm, MotorRegression,
     beam_regression, motor_regression,
 };
-pub use methods::third_harmonic::{PairFigure, RunPhasors, mean_figure, pair_figure};
+pub use methods::third_harmonic::{PairFigure, ThirdHarmonic, mean_figure, pair_figure};
+pub use options::Options;
 pub use payload::LoadedArm;
-pub use pipeline::{IdentifyError, Options, Stage, identify};
+pub use pipeline::{IdentifyError, Stage, identify};
+pub use prepare::prepared::Prepared;
 pub use prepare::run_analysis::{RunAnalysis, RunKind, Sinusoidal};
+pub use prepare::run_phasors::RunPhasors;
+pub use prepare::steady_points::SteadyPoint;
 pub use responses::correct::{Response, corrected, ratio};
 pub use responses::linear_models::{LinearModels, ModelSource, TipModel};
 pub use responses::rational::{

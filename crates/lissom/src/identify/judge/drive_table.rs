@@ -161,7 +161,7 @@ fn by_third_harmonic(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
     let third = evidence.methods.third_harmonic.as_ref()?;
     let coulomb = third.coulomb_command.scaled(evidence.torque_per_command());
     let friction = Friction { coulomb: Some(coulomb), ..Friction::default() };
-    Some(match &third.motor {
+    Some(match &evidence.methods.third_harmonic_model {
         Some(model) => of_model(evidence, model, friction),
         None => DriveEstimates { friction, ..DriveEstimates::default() },
     })
@@ -186,10 +186,12 @@ fn is_known(e: Estimate) -> bool {
 mod tests {
     use super::*;
     use crate::identify::estimate::Estimate;
-    use crate::identify::identified::ThirdHarmonic;
     use crate::identify::methods::constant_velocity::constant_velocity;
     use crate::identify::methods::least_squares::least_squares;
     use crate::identify::methods::regression::motor_regression;
+    use crate::identify::methods::third_harmonic::ThirdHarmonic;
+    use crate::identify::options::Options;
+    use crate::identify::prepare::prepared::Prepared;
     use crate::record::{
         Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
     };
@@ -227,6 +229,7 @@ mod tests {
     fn nothing() -> Methods {
         Methods {
             third_harmonic: None,
+            third_harmonic_model: None,
             regression: None,
             regression_residual: None,
             least_squares: None,
@@ -249,7 +252,6 @@ mod tests {
             coulomb_command: about(0.15),
             spread_command: 0.0,
             used: Vec::new(),
-            motor: None,
         }
     }
 
@@ -269,7 +271,7 @@ mod tests {
     #[test]
     fn constant_velocities_come_last() {
         let campaign = campaign(vec![]);
-        let mut found = constant_velocity(&campaign);
+        let mut found = constant_velocity(&Prepared::of(&campaign));
         found.viscous = Some(about(0.07));
         let mut methods = Methods { constant_velocity: Some(found), ..nothing() };
         let (method, estimates) = chosen(&campaign, &methods);
@@ -288,7 +290,7 @@ mod tests {
         assert_eq!(method, Some(Method::ThirdHarmonic));
         assert_eq!(alone.friction.coulomb, Some(about(0.15).scaled(TORQUE_PER_COMMAND)));
         assert_eq!((alone.inertia, alone.friction.viscous), (None, None));
-        methods.third_harmonic.as_mut().unwrap().motor = Some(model(false));
+        methods.third_harmonic_model = Some(model(false));
         let (_, with) = chosen(&campaign, &methods);
         assert_eq!(with.inertia, Some(about(0.02)));
     }
@@ -313,7 +315,7 @@ mod tests {
     fn least_squares_stand_in_for_a_regression_that_is_missing() {
         let campaign = campaign(vec![]);
         let methods = Methods {
-            least_squares: least_squares(&campaign),
+            least_squares: least_squares(&Prepared::of(&campaign)),
             motor_model: Some(model(false)),
             ..nothing()
         };
@@ -326,8 +328,8 @@ mod tests {
     fn a_regression_comes_before_its_baseline() {
         let campaign = campaign(vec![]);
         let methods = Methods {
-            regression: motor_regression(&campaign, &[]),
-            least_squares: least_squares(&campaign),
+            regression: motor_regression(&Prepared::of(&campaign), &Options::default()),
+            least_squares: least_squares(&Prepared::of(&campaign)),
             motor_model: Some(model(false)),
             ..nothing()
         };
@@ -340,11 +342,12 @@ mod tests {
     #[test]
     fn a_regression_that_is_beaten_is_not_taken() {
         let campaign = campaign(vec![]);
-        let mut regression = motor_regression(&campaign, &[]).unwrap();
+        let mut regression =
+            motor_regression(&Prepared::of(&campaign), &Options::default()).unwrap();
         regression.inertia = regression.inertia.map(|e| e.scaled(3.0));
         let methods = Methods {
             regression: Some(regression),
-            least_squares: least_squares(&campaign),
+            least_squares: least_squares(&Prepared::of(&campaign)),
             ..nothing()
         };
         assert_eq!(chosen(&campaign, &methods).0, Some(Method::LeastSquares));
@@ -357,7 +360,7 @@ mod tests {
             Tip { name: "tip".to_owned(), quantity: TipQuantity::Acceleration, calibrated: false };
         let campaign = campaign(vec![tip]);
         let methods = Methods {
-            regression: motor_regression(&campaign, &[]),
+            regression: motor_regression(&Prepared::of(&campaign), &Options::default()),
             motor_model: Some(model(true)),
             ..nothing()
         };

@@ -1,12 +1,14 @@
 //! What the methods found, and what was taken of it.
 
 use crate::identify::drive_estimates::{DriveEstimates, Method};
-use crate::identify::identified::{Beam, ThirdHarmonic};
+use crate::identify::identified::Beam;
 use crate::identify::methods::constant_velocity::ConstantVelocity;
 use crate::identify::methods::friction_law::FrictionLaw;
 use crate::identify::methods::least_squares::LeastSquares;
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::{BeamRegression, MotorRegression};
+use crate::identify::methods::third_harmonic::ThirdHarmonic;
+use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_analysis::RunAnalysis;
 use crate::identify::responses::rational::{BeamFit, MotorFit};
 use crate::record::Campaign;
@@ -15,6 +17,9 @@ use crate::record::Campaign;
 #[derive(Debug)]
 pub(crate) struct Methods {
     pub(crate) third_harmonic: Option<ThirdHarmonic>,
+    /// Rational model of the motor from the response corrected with that method's friction, as in Section 6.2.2 of
+    /// [Feliu1989].
+    pub(crate) third_harmonic_model: Option<MotorFit>,
     pub(crate) regression: Option<MotorRegression>,
     /// Share of the torque that the regression leaves, also where it is refused.
     pub(crate) regression_residual: Option<f64>,
@@ -40,6 +45,12 @@ pub(crate) struct Evidence<'a> {
 }
 
 impl<'a> Evidence<'a> {
+    /// What `methods` found in a prepared campaign.
+    pub(crate) fn of(prepared: &'a Prepared<'_>, methods: &'a Methods) -> Self {
+        let (campaign, used, runs) = (prepared.campaign(), prepared.used(), prepared.runs());
+        Self { campaign, used, runs, methods }
+    }
+
     /// The output-error method, where its arm describes the runs.
     pub(crate) fn replay(&self) -> Option<&'a OutputError> {
         self.methods.output_error.as_ref().filter(|oe| oe.stands())

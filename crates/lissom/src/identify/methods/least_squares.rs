@@ -6,6 +6,7 @@ use crate::identify::methods::regression::{
 };
 use crate::identify::methods::thresholds::{ACCELERATION_NOISE, SLOWEST_SAMPLE};
 use crate::identify::prepare::channel_noise::channel_noise;
+use crate::identify::prepare::prepared::Prepared;
 use crate::record::{Campaign, Hold, Run, TipQuantity};
 
 /// Shortest and longest half width of the smoothing \[samples\].
@@ -54,14 +55,16 @@ pub struct LeastSquares {
 /// # let command = Command { quantity: CommandQuantity::Current, hold: Hold::Measured, torque_per_command: Some(1.0), back_emf_viscous: 0.0, limit: None };
 /// # let run = Run::new("sine", TimeBase::uniform(0.0, t), torque, motor, vec![]).unwrap();
 /// # let campaign = Campaign::new(Channels { axis: Axis::Rotary, command, tips: vec![] }, vec![run]).unwrap();
-/// use lissom::identify::least_squares; // of a sine with J = 0.02, V = 0.05, C = 0.3
-/// let fit = least_squares(&campaign).unwrap();
+/// use lissom::identify::{Prepared, least_squares}; // of a sine with J = 0.02, V = 0.05, C = 0.3
+/// let prepared = Prepared::of(&campaign);
+/// let fit = least_squares(&prepared).unwrap();
 /// assert!((fit.estimates.friction.coulomb.unwrap().value - 0.3).abs() < 1e-3);
 /// ```
 ///
 /// # Source
 /// `[Feliu1989, eqs. (14), (15)]` is the equation.
-pub fn least_squares(campaign: &Campaign) -> Option<LeastSquares> {
+pub fn least_squares(prepared: &Prepared<'_>) -> Option<LeastSquares> {
+    let campaign = prepared.used();
     let tips = coupled_tips(campaign);
     let runs: Vec<Smoothed<'_>> = campaign.runs.iter().map(Smoothed::new).collect();
     let fastest = runs.iter().map(Smoothed::fastest).fold(0.0, f64::max);
@@ -296,7 +299,8 @@ mod tests {
         for (hold, noise, within) in
             [(Hold::Measured, 0.0, 2e-3), (Hold::Sampled, 0.0, 2e-3), (Hold::Measured, 1e-3, 0.03)]
         {
-            let found = least_squares(&campaign(hold, noise)).unwrap();
+            let campaign = campaign(hold, noise);
+            let found = least_squares(&Prepared::of(&campaign)).unwrap();
             let (friction, inertia) = (&found.estimates.friction, found.estimates.inertia.unwrap());
             for (name, value, truth) in [
                 ("inertia", inertia.value, INERTIA_KG_M2),
@@ -312,7 +316,8 @@ mod tests {
     /// Nothing of the same equation leaves less, and a wrong inertia leaves more.
     #[test]
     fn no_other_estimates_leave_less() {
-        let found = least_squares(&campaign(Hold::Measured, 1e-3)).unwrap();
+        let campaign = campaign(Hold::Measured, 1e-3);
+        let found = least_squares(&Prepared::of(&campaign)).unwrap();
         let own = found.left_by(&found.estimates).unwrap();
         assert!((own - found.relative_residual).abs() < 1e-6, "{own}");
         let mut other = found.estimates.clone();

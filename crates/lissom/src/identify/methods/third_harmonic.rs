@@ -8,23 +8,13 @@ use nalgebra::{Matrix2x1, U1, U2, Vector1, Vector2};
 use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
+use crate::identify::findings::{FindingKind, RunFinding, Severity, result_key as key};
 use crate::identify::methods::thresholds::{STICKING_BIAS, STICKING_MEASURED};
+use crate::identify::prepare::prepared::Prepared;
+use crate::identify::prepare::run_analysis::RunKind;
+use crate::identify::prepare::run_phasors::RunPhasors;
+use crate::identify::thresholds::TRIPLE_FREQUENCY;
 use crate::spectrum::Phasor;
-
-/// Phasors of one run: the command with its hold taken into account, and the motor.
-#[derive(Debug, Clone, Copy)]
-pub struct RunPhasors {
-    /// Drive frequency ω0 \[rad/s\].
-    pub omega_rad_s: f64,
-    /// Command at ω0, `i_1`.
-    pub command_1: Phasor,
-    /// Command at 3ω0, `i_3`.
-    pub command_3: Phasor,
-    /// Motor at ω0.
-    pub motor_1: Phasor,
-    /// Motor at 3ω0.
-    pub motor_3: Phasor,
-}
 
 /// Friction from one pair of runs, at ω0 and at 3ω0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,6 +33,19 @@ pub struct PairFigure {
     pub cost: f64,
     /// Evaluations the minimiser needed.
     pub evaluations: usize,
+}
+
+/// Coulomb friction by the method of the 1989 report.
+#[derive(Debug, Clone)]
+pub struct ThirdHarmonic {
+    /// Every pair's figure.
+    pub pairs: Vec<PairFigure>,
+    /// Mean of the pairs that no finding flags (of all, where all are flagged).
+    pub coulomb_command: Estimate,
+    /// Standard deviation of one pair about that mean.
+    pub spread_command: f64,
+    /// Pairs in that mean.
+    pub used: Vec<bool>,
 }
 
 /// Friction from one pair of runs by (27)-(29); CF/K in the command's unit.
@@ -170,6 +173,54 @@ impl LeastSquaresProblem<f64, U2, U1> for Cost {
         let d = self.beta * c / derived - 1.0;
         Some(Matrix2x1::new(d.re, d.im))
     }
+}
+
+/// Every pair of runs at ω0 and 3ω0; each run meets the triple nearest to it in amplitude.
+pub(crate) fn third_harmonic(prepared: &Prepared<'_>) -> Option<ThirdHarmonic> {
+    let (runs, findings) = (prepared.runs(), prepared.findings());
+    let phasors: Vec<_> = runs
+        .iter()
+        .map(|r| match &r.kind {
+            RunKind::Sinusoidal(s) => s.phasors(),
+            RunKind::ConstantVelocity | RunKind::General => None,
+        })
+        .collect();
+    // Sticking lowers every pair's figure, and counts in the mean's deviation.
+    let flagged = |i: usize| {
+        findings.iter().any(|f| {
+            f.run.as_deref() == Some(&runs[i].name)
+                && f.severity() >= Severity::Warning
+                && !matches!(f.kind, FindingKind::Run(RunFinding::Sticking { .. }))
+                && f.affects().contains(&key::THIRD_HARMONIC)
+        })
+    };
+    let mut pairs = Vec::new();
+    for (i, low) in phasors.iter().enumerate() {
+        let Some(low) = low else { continue };
+        let amplitude = low.motor_1.value.norm();
+        let triple = phasors
+            .iter()
+            .enumerate()
+            .filter_map(|(k, p)| Some((k, (*p)?)))
+            .filter(|(_, p)| {
+                (p.omega_rad_s / (3.0 * low.omega_rad_s) - 1.0).abs() < TRIPLE_FREQUENCY
+            })
+            .min_by(|(_, a), (_, b)| {
+                let far = |p: f64| (p / amplitude).ln().abs();
+                far(a.motor_1.value.norm()).total_cmp(&far(b.motor_1.value.norm()))
+            });
+        if let Some((k, triple)) = triple {
+            pairs.extend(pair_figure(i, k, low, &triple));
+        }
+    }
+    let clean: Vec<bool> =
+        pairs.iter().map(|p| !flagged(p.run) && !flagged(p.triple_run)).collect();
+    let used = if clean.iter().any(|c| *c) { clean } else { vec![true; pairs.len()] };
+    let chosen: Vec<PairFigure> =
+        pairs.iter().zip(&used).filter(|(_, u)| **u).map(|(p, _)| *p).collect();
+    let stuck = |i: usize| runs[i].stuck_share.unwrap_or(0.0);
+    let (coulomb_command, spread_command) = mean_figure(&chosen, |p| stuck(p.run))?;
+    Some(ThirdHarmonic { pairs, coulomb_command, spread_command, used })
 }
 
 #[cfg(test)]

@@ -2,7 +2,13 @@
 
 pub(crate) mod channel_check;
 pub(crate) mod channel_noise;
+pub(crate) mod correlated_average;
+pub(crate) mod prepared;
 pub(crate) mod repeated_run;
 pub(crate) mod run_analysis;
+pub(crate) mod run_noise;
+pub(crate) mod run_phasors;
 pub(crate) mod sensor_check;
+pub(crate) mod steady_points;
+pub(crate) mod steady_stretches;
 pub(crate) mod thresholds;

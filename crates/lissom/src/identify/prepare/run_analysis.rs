@@ -3,20 +3,19 @@
 use num_complex::Complex64;
 
 use crate::identify::findings::{
-    Channel, ChannelFinding, EstimateUnits, Finding, LogFinding, RunFinding,
+    Channel, ChannelFinding, ConstantVelocityFinding, EstimateUnits, Finding, LogFinding,
+    RunFinding,
 };
 use crate::identify::methods::constant_velocity::thresholds::{STEADY_BOTH_WAYS, STEADY_ONE_WAY};
-use crate::identify::methods::constant_velocity::{
-    SteadyPoint, no_stretch, steady_points, steady_share,
-};
 use crate::identify::methods::regression::slip_sign;
-use crate::identify::methods::third_harmonic::RunPhasors;
 use crate::identify::prepare::channel_check::{
     clipped_share, dwell_share, range, rest_share, step,
 };
 use crate::identify::prepare::repeated_run::repeats;
+use crate::identify::prepare::run_phasors::RunPhasors;
 use crate::identify::prepare::sensor_check;
 use crate::identify::prepare::sensor_check::tip_unit;
+use crate::identify::prepare::steady_points::{SteadyPoint, steady_points, steady_share};
 use crate::identify::prepare::thresholds::{
     AT_LIMIT, AT_REST_REPORTED, DRIFT_REPORTED, DRIFT_STEPS, FEW_PERIODS, JITTER_REPORTED, ONE_WAY,
     ONE_WAY_MOVES, SATURATION_REPORTED, SINE_DISTORTION_FOUND, SINE_DISTORTION_GIVEN,
@@ -151,7 +150,8 @@ pub(crate) fn analyse(
     if steady_share(run, &steady, rest_share(run.motor())) > least {
         analysis.kind = RunKind::ConstantVelocity;
     } else if steady.is_empty() && one_way {
-        findings.push(no_stretch(run));
+        let found = ConstantVelocityFinding::NoSteadyVelocity;
+        findings.push(Finding::of_run(run.name(), found));
     }
     analysis.steady = steady;
     analysis

@@ -9,5 +9,6 @@ pub(crate) mod models;
 pub(crate) mod rational;
 pub(crate) mod replayed_bands;
 pub(crate) mod response_point;
+pub(crate) mod response_step;
 pub(crate) mod response_table;
 pub(crate) mod thresholds;

@@ -6,7 +6,7 @@ use crate::identify::findings::{
 };
 use crate::identify::methods::constant_velocity::ConstantVelocity;
 use crate::identify::methods::constant_velocity::line::{FrictionLine, LineError, Shape};
-use crate::record::{Campaign, Run};
+use crate::record::Campaign;
 
 /// Findings about friction from constant velocities. `meant`: there are runs made for it, so that what is missing
 /// is reported, too.
@@ -27,11 +27,6 @@ pub(crate) fn findings(campaign: &Campaign, found: &ConstantVelocity, meant: boo
         out.extend(errors.map(|(direction, error)| refused(direction, *error, command)));
     }
     out.into_iter().map(Finding::new).collect()
-}
-
-/// A run that turns one way without any stretch at a constant velocity.
-pub(crate) fn no_stretch(run: &Run) -> Finding {
-    Finding::of_run(run.name(), ConstantVelocityFinding::NoSteadyVelocity)
 }
 
 /// The command of a torque.

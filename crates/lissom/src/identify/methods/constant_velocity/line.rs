@@ -5,8 +5,8 @@ use statrs::distribution::{ContinuousCDF as _, FisherSnedecor, StudentsT};
 use thiserror::Error;
 
 use crate::identify::estimate::Estimate;
-use crate::identify::methods::constant_velocity::average::FREEDOM;
 use crate::identify::methods::constant_velocity::thresholds::SAME_SPEED;
+use crate::identify::prepare::correlated_average::FREEDOM;
 use crate::identify::thresholds::{NORMAL_95, REJECTED_CHANCE};
 
 /// Deviations below this share of the largest command are rounding.

@@ -1,33 +1,19 @@
 //! The classical measurement: the current that keeps up a steady velocity, extrapolated to rest.
 
-mod average;
 mod findings;
 mod line;
 mod steady_friction;
-mod stretches;
 pub(crate) mod thresholds;
 
 use crate::identify::estimate::Estimate;
-use crate::record::{Campaign, Channels, Run};
-pub(crate) use findings::{findings, no_stretch};
+use crate::identify::findings::Finding;
+use crate::identify::prepare::prepared::Prepared;
+use crate::identify::prepare::run_analysis::RunAnalysis;
+use crate::identify::prepare::steady_points::SteadyPoint;
+use crate::record::Channels;
+use findings::findings;
 pub use line::{FrictionLine, LineError, Shape};
 pub(crate) use steady_friction::{only_constant_velocities, taken};
-use stretches::stretches;
-
-/// A stretch of a run in which the motor turns at a constant velocity.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SteadyPoint {
-    /// Index of its run.
-    pub run: usize,
-    /// Where it begins, from the run's first sample on \[s\].
-    pub start_s: f64,
-    /// Where it ends \[s\].
-    pub end_s: f64,
-    /// Velocity, with its sign \[rad/s or m/s\].
-    pub velocity: Estimate,
-    /// Mean command.
-    pub command: Estimate,
-}
 
 /// Friction from steady velocities.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,40 +51,25 @@ pub struct ConstantVelocity {
 /// # });
 /// # let command = Command { quantity: CommandQuantity::Current, hold: Hold::Measured, torque_per_command: Some(1.0), back_emf_viscous: 0.0, limit: None };
 /// # let campaign = Campaign::new(Channels { axis: Axis::Rotary, command, tips: vec![] }, runs.to_vec()).unwrap();
-/// use lissom::identify::constant_velocity; // of six speeds with V = 0.05, CF = 0.3
-/// let found = constant_velocity(&campaign);
+/// use lissom::identify::{Prepared, constant_velocity}; // of six speeds with V = 0.05, CF = 0.3
+/// let prepared = Prepared::of(&campaign);
+/// let found = constant_velocity(&prepared);
 /// assert!((found.coulomb.unwrap().value - 0.3).abs() < 1e-4);
 /// ```
 ///
 /// # Source
 /// `[Feliu1989, Section 6.2.2 and Figure 8]`, there without deviations.
-pub fn constant_velocity(campaign: &Campaign) -> ConstantVelocity {
-    let points = (0..campaign.runs.len()).flat_map(|run| steady_points(campaign, run)).collect();
-    ConstantVelocity::of_points(&campaign.channels, points)
+pub fn constant_velocity(prepared: &Prepared<'_>) -> ConstantVelocity {
+    let points = prepared.runs().iter().flat_map(|r| r.steady.iter().copied()).collect();
+    ConstantVelocity::of_points(&prepared.campaign().channels, points)
 }
 
-/// The stretches at constant velocity of run `index`.
-pub(crate) fn steady_points(campaign: &Campaign, index: usize) -> Vec<SteadyPoint> {
-    let run = &campaign.runs[index];
-    let t = run.sample_time_s();
-    stretches(run, campaign.channels.command.hold)
-        .into_iter()
-        .map(|s| SteadyPoint {
-            run: index,
-            start_s: s.intervals.start as f64 * t,
-            end_s: s.intervals.end as f64 * t,
-            velocity: Estimate { value: s.velocity.mean, std: s.velocity.std },
-            command: Estimate { value: s.command.mean, std: s.command.std },
-        })
-        .collect()
-}
-
-/// Share of the time in motion that the points of a run take up; the motor rests for `at_rest` of
-/// the run.
-pub(crate) fn steady_share(run: &Run, points: &[SteadyPoint], at_rest: f64) -> f64 {
-    let steady: f64 = points.iter().map(|p| p.end_s - p.start_s).sum();
-    let whole = (run.len() - 1) as f64 * run.sample_time_s();
-    steady / (whole * (1.0 - at_rest)).max(steady).max(f64::MIN_POSITIVE)
+/// The same where a line goes through some points or a run was made for it, with what there is to know of it.
+pub(crate) fn where_meant(prepared: &Prepared<'_>) -> (Option<ConstantVelocity>, Vec<Finding>) {
+    let found = constant_velocity(prepared);
+    let meant = prepared.runs().iter().any(RunAnalysis::is_constant_velocity);
+    let findings = findings(prepared.campaign(), &found, meant);
+    ((meant || found.lines().next().is_some()).then_some(found), findings)
 }
 
 impl ConstantVelocity {

@@ -30,8 +30,11 @@ use crate::identify::methods::friction_law::thresholds::{
     AFTER_TRAVEL_LEAVES, FASTEST_QUANTILE, LAG_FALLS_TO, NOTHING_LEFT, TORQUE_OF_NOISE,
     TRAVEL_AFTER_REVERSAL,
 };
-use crate::identify::methods::regression::{MotorRegression, RunNoise};
+use crate::identify::methods::output_error::OutputError;
+use crate::identify::methods::regression::MotorRegression;
 use crate::identify::prepare::channel_noise::channel_noise;
+use crate::identify::prepare::prepared::Prepared;
+use crate::identify::prepare::run_noise::RunNoise;
 use crate::identify::thresholds::{RESIDUAL_FALLS_TO, SIGN_SHOWN};
 use crate::record::{Campaign, Run};
 use described::Described;
@@ -79,6 +82,17 @@ pub struct LawFit {
 }
 
 impl FrictionLaw {
+    /// With the curve that the output-error method's arm gives, if there is one that describes the runs: with what it
+    /// knows of the arm, or with standard errors that count what it knows of friction.
+    pub(crate) fn beside(self, sums: &CurveSums, replay: Option<&OutputError>) -> Self {
+        let Some(found) = replay else { return self };
+        let curve = match sums.beside_arm(found) {
+            Some(curve) => curve,
+            None => sums.beside_law(self.curve, found),
+        };
+        Self { curve, ..self }
+    }
+
     /// Whether beside the law a lag of the command explains nothing that pays for it.
     pub(crate) fn leaves_no_lag(&self) -> bool {
         let lags = self.candidates.iter().filter(|c| c.term == LawTerm::CommandLag);
@@ -134,13 +148,13 @@ impl LawFit {
 /// Curve and law of a campaign whose motor's figures are roughly known, and the sums that the curve is
 /// from; `None` where slip phases are too few or too short.
 pub(crate) fn friction_law(
-    campaign: &Campaign,
+    prepared: &Prepared<'_>,
     motor: &MotorRegression,
 ) -> Option<(FrictionLaw, CurveSums)> {
     let inertia = motor.inertia?.value;
-    let noise: Vec<RunNoise> = campaign.runs.iter().map(RunNoise::of).collect();
-    let window_s = window_s(campaign, motor, inertia, &noise);
-    let mut sampled = Sampled::new(campaign, &noise, window_s);
+    let (campaign, noise) = (prepared.used(), prepared.noise());
+    let window_s = window_s(campaign, motor, inertia, noise);
+    let mut sampled = Sampled::new(campaign, noise, window_s);
     let (law, sums, described) = under(&sampled)?;
     if described.left(&sampled).beyond_noise() < NOTHING_LEFT {
         return Some((law, sums));

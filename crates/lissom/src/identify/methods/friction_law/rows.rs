@@ -4,9 +4,10 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::drive::Falloff;
 use crate::identify::methods::regression::{
-    Cluster, MotorEquation, Phase, Rows, RunNoise, SMOOTHED_PART, WINDOW_STEP, Window,
-    coupled_tips, slip_phases, smoothing,
+    Cluster, MotorEquation, Phase, Rows, SMOOTHED_PART, WINDOW_STEP, Window, coupled_tips,
+    slip_phases, smoothing,
 };
+use crate::identify::prepare::run_noise::RunNoise;
 use crate::record::{Campaign, Run};
 
 /// Rows looked at, about; windows overlap less in longer logs.

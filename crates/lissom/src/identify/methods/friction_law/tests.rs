@@ -3,6 +3,7 @@
 use super::*;
 use crate::drive::Falloff;
 use crate::identify::methods::regression::motor_regression;
+use crate::identify::options::Options;
 use crate::record::{Axis, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
 
 /// J \[kg·m²\], V \[N·m·s/rad\] and C \[N·m\] of all joints here.
@@ -41,7 +42,9 @@ fn law_of(mut friction: impl FnMut(f64, f64) -> f64) -> FrictionLaw {
     let channels = Channels { axis: Axis::Rotary, command, tips: vec![] };
     let runs = vec![run("run 1", 1.1, 3.7), run("run 2", 2.3, 7.9)];
     let campaign = Campaign::new(channels, runs).unwrap();
-    friction_law(&campaign, &motor_regression(&campaign, &[]).unwrap()).unwrap().0
+    let prepared = Prepared::of(&campaign);
+    let motor = motor_regression(&prepared, &Options::default()).unwrap();
+    friction_law(&prepared, &motor).unwrap().0
 }
 
 fn simple(v: f64) -> f64 {

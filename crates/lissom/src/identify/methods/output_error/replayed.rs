@@ -7,7 +7,7 @@ use crate::identify::methods::output_error::found::{OutputError, OutputErrorStar
 use crate::identify::methods::output_error::schedule::{Attempt, WIDENING, best};
 use crate::identify::methods::output_error::undecided::{Known, undecided};
 use crate::identify::methods::output_error::{data, noise};
-use crate::record::Campaign;
+use crate::identify::prepare::prepared::Prepared;
 use crate::replay::SensorNoise;
 
 /// Most evaluations of the output-error method: a sample replayed, or its derivative by a parameter, is one.
@@ -26,7 +26,8 @@ const MOST_EVALUATIONS: u64 = u64::MAX;
 /// other frequencies of that mode, too.
 ///
 /// `None` where no window can be cut or nothing is left of the search.
-pub fn output_error(campaign: &Campaign, start: &OutputErrorStart) -> Option<OutputError> {
+pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option<OutputError> {
+    let campaign = prepared.used();
     let masks = data::masks(campaign);
     let blocks = data::blocks(campaign, &start.omega_rad_s);
     let law = &start.law;

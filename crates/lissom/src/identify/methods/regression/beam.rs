@@ -9,10 +9,12 @@ use crate::eigenvalues::eigenvalues;
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::methods::regression::motor_rows::behind;
 use crate::identify::methods::regression::normal::{Cluster, Rows, Term, solve};
-use crate::identify::methods::regression::row_noise::{Part, RunNoise, products};
+use crate::identify::methods::regression::row_noise::{Part, products};
 use crate::identify::methods::regression::scan::{Candidate, Scan, scan};
 use crate::identify::methods::regression::thresholds::WINDOW_SYSTEMATIC;
 use crate::identify::methods::regression::window::{WINDOW_STEP, Weights, Window};
+use crate::identify::prepare::prepared::Prepared;
+use crate::identify::prepare::run_noise::RunNoise;
 use crate::record::{Campaign, Run, TipQuantity};
 
 /// Windows in a block that the covariance takes as one.
@@ -48,14 +50,16 @@ pub struct BeamRegression {
 /// # let tips = vec![Tip { name: "tip".into(), quantity: TipQuantity::Angle, calibrated: true }];
 /// # let run = Run::new("two sines", TimeBase::uniform(0.0, t), motor.clone(), motor, vec![tip]).unwrap();
 /// # let campaign = Campaign::new(Channels { axis: Axis::Rotary, command, tips }, vec![run]).unwrap();
-/// use lissom::identify::beam_regression; // of a beam with θ_t/θ_m = 36/(s² + 36)
-/// let mode = beam_regression(&campaign).unwrap().modes[0];
+/// use lissom::identify::{Prepared, beam_regression}; // of a beam with θ_t/θ_m = 36/(s² + 36)
+/// let prepared = Prepared::of(&campaign);
+/// let mode = beam_regression(&prepared).unwrap().modes[0];
 /// assert!((mode.natural_frequency_rad_s.value - 6.0).abs() < 1e-3);
 /// ```
 ///
 /// # Source
 /// `[Feliu1989, eqs. (13), (17)]`, by parts as in the motor's regression; A·1 + B = 0 is built in.
-pub fn beam_regression(campaign: &Campaign) -> Option<BeamRegression> {
+pub fn beam_regression(prepared: &Prepared<'_>) -> Option<BeamRegression> {
+    let campaign = prepared.used();
     let tips = &campaign.channels.tips;
     if tips.is_empty()
         || tips.iter().any(|t| !t.calibrated || t.quantity == TipQuantity::Acceleration)
@@ -63,20 +67,19 @@ pub fn beam_regression(campaign: &Campaign) -> Option<BeamRegression> {
         return None;
     }
     // Many short loops: within the pool none of them has to wake it first.
-    rayon::scope(|_| on_windows(campaign))
+    rayon::scope(|_| on_windows(campaign, prepared.noise()))
 }
 
-fn on_windows(campaign: &Campaign) -> Option<BeamRegression> {
+fn on_windows(campaign: &Campaign, noise: &[RunNoise]) -> Option<BeamRegression> {
     let n = campaign.channels.tips.len();
     // Columns: ∫w(θ_m − θ_j) for each j, ∫ẇθ_i, ∫w, then the right side ∫ẅθ_i.
     let terms: Vec<Term> = (0..n + 2).map(Term::Plain).collect();
     let counts: Vec<bool> = (0..n + 2).map(|i| i < n).collect();
     let sample_time = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
-    let noise: Vec<RunNoise> = campaign.runs.par_iter().map(RunNoise::of).collect();
     let scans: Vec<Scan> = (0..n)
         .map(|i| {
             scan(sample_time, &[], &counts, |length| {
-                solve(&clusters(campaign, &noise, i, length), &terms)
+                solve(&clusters(campaign, noise, i, length), &terms)
             })
         })
         .collect::<Option<_>>()?;

@@ -24,6 +24,5 @@ pub(crate) use motor_rows::{MotorEquation, coupled_tips};
 pub(crate) use normal::{Cluster, Rows, Solution, Term, solve};
 pub(crate) use phases::{Phase, slip_phases, slip_sign, smoothing};
 pub(crate) use regression_findings::{findings, reversed_tip};
-pub(crate) use row_noise::RunNoise;
 pub use scan::Candidate;
 pub(crate) use window::{SMOOTHED_PART, WINDOW_STEP, Window};

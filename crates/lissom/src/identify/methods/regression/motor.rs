@@ -10,8 +10,10 @@ use crate::identify::methods::regression::missing::{MissingTerm, missing_term};
 use crate::identify::methods::regression::motor_rows::{DRY, INERTIA, MotorRows, TIPS, VISCOUS};
 use crate::identify::methods::regression::normal::{Solution, Term, solve};
 use crate::identify::methods::regression::scan::{Candidate, RATIO, change, scan};
+use crate::identify::options::Options;
+use crate::identify::prepare::prepared::Prepared;
 use crate::identify::thresholds::{CLEARLY_PRESENT, RESIDUAL_FALLS_TO};
-use crate::record::{Campaign, Channels, Run};
+use crate::record::{Channels, Run};
 
 /// Figures of the motor's equation, in torque (or force) as the command's constant gives it.
 #[derive(Debug, Clone, PartialEq)]
@@ -97,21 +99,23 @@ pub struct ByDirection {
 /// # let command = Command { quantity: CommandQuantity::Current, hold: Hold::Measured, torque_per_command: Some(1.0), back_emf_viscous: 0.0, limit: None };
 /// # let run = Run::new("sine", TimeBase::uniform(0.0, t), torque, motor, vec![]).unwrap();
 /// # let campaign = Campaign::new(Channels { axis: Axis::Rotary, command, tips: vec![] }, vec![run]).unwrap();
-/// use lissom::identify::motor_regression; // of a sine with J = 0.02, V = 0.05, CF = 0.3
-/// let fit = motor_regression(&campaign, &[]).unwrap();
+/// use lissom::identify::{Options, Prepared, motor_regression}; // of a sine with J = 0.02, V = 0.05, CF = 0.3
+/// let prepared = Prepared::of(&campaign);
+/// let fit = motor_regression(&prepared, &Options::default()).unwrap();
 /// assert!((fit.coulomb.unwrap().value - 0.3).abs() < 1e-3);
 /// ```
 ///
 /// # Source
 /// `[Feliu1989, eqs. (14), (15)]` is the equation; the way of fitting it is this project's own
 /// (DESIGN.md, "How does the regression work?").
-pub fn motor_regression(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRegression> {
+pub fn motor_regression(prepared: &Prepared<'_>, options: &Options) -> Option<MotorRegression> {
     // Many short loops: within the pool none of them has to wake it first.
-    rayon::scope(|_| on_slip_phases(campaign, window_s))
+    rayon::scope(|_| on_slip_phases(prepared, &options.window_s))
 }
 
-fn on_slip_phases(campaign: &Campaign, window_s: &[f64]) -> Option<MotorRegression> {
-    let equation = MotorRows::of(campaign);
+fn on_slip_phases(prepared: &Prepared<'_>, window_s: &[f64]) -> Option<MotorRegression> {
+    let campaign = prepared.used();
+    let equation = MotorRows::of(campaign, prepared.noise());
     let tips = &equation.tips;
     let mut terms =
         vec![Term::Plain(INERTIA), Term::Plain(VISCOUS), Term::Signed(DRY), Term::Plain(DRY)];
@@ -174,8 +178,8 @@ impl MotorRegression {
 
     /// Relative error with which these figures predict the windowed torque of other records:
     /// ‖y − X·q‖/‖y‖ on their slip phases, at this fit's window. `None` where no phase holds one.
-    pub fn prediction_error(&self, campaign: &Campaign) -> Option<f64> {
-        let equation = MotorRows::of(campaign);
+    pub fn prediction_error(&self, prepared: &Prepared<'_>) -> Option<f64> {
+        let equation = MotorRows::of(prepared.used(), prepared.noise());
         let values = &self.terms.values;
         if self.terms.tips != equation.tips.len() {
             return None;

@@ -11,9 +11,10 @@ use crate::identify::methods::regression::normal::{Cluster, Rows};
 use crate::identify::methods::regression::phases::{
     LEAST_SAMPLES, LEAST_SMOOTH, Phase, needed_smoothing, unreversed_phases,
 };
-use crate::identify::methods::regression::row_noise::{Part, RunNoise, products};
+use crate::identify::methods::regression::row_noise::{Part, products};
 use crate::identify::methods::regression::thresholds::SURE_SIGN;
 use crate::identify::methods::regression::window::{SMOOTHED_PART, WINDOW_STEP, Window};
+use crate::identify::prepare::run_noise::RunNoise;
 use crate::record::{Campaign, Hold, Run, TipQuantity};
 
 /// Columns of a row; tips follow after these.
@@ -40,8 +41,9 @@ pub(super) struct MotorRows<'a> {
 }
 
 impl<'a> MotorRows<'a> {
-    pub(super) fn of(campaign: &'a Campaign) -> Self {
-        let runs = campaign.runs.par_iter().with_max_len(1).map(Slipping::of).collect();
+    pub(super) fn of(campaign: &'a Campaign, noise: &'a [RunNoise]) -> Self {
+        let runs = campaign.runs.par_iter().zip(noise).with_max_len(1);
+        let runs = runs.map(|(run, noise)| Slipping::of(run, noise)).collect();
         Self { campaign, tips: coupled_tips(campaign), runs }
     }
 
@@ -106,14 +108,13 @@ struct Slipping<'a> {
     needed: usize,
     smooth: usize,
     phases: Vec<Phase>,
-    noise: RunNoise,
+    noise: &'a RunNoise,
 }
 
 impl<'a> Slipping<'a> {
-    fn of(run: &'a Run) -> Self {
+    fn of(run: &'a Run, noise: &'a RunNoise) -> Self {
         let needed = needed_smoothing(run.motor());
         let smooth = needed.max(LEAST_SAMPLES);
-        let noise = RunNoise::of(run);
         let phases = unreversed_phases(run.motor(), smooth, run.sample_time_s(), noise.motor);
         Self { run, needed, smooth, phases, noise }
     }

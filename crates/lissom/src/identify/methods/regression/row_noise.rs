@@ -3,21 +3,6 @@
 use nalgebra::DMatrix;
 
 use crate::identify::methods::regression::window::dot;
-use crate::identify::prepare::channel_noise::independent_noise;
-use crate::record::Run;
-
-/// Deviation of what is independent from sample to sample in each channel of a run.
-pub(crate) struct RunNoise {
-    pub(super) motor: f64,
-    pub(super) tips: Vec<f64>,
-}
-
-impl RunNoise {
-    pub(crate) fn of(run: &Run) -> Self {
-        let tips = run.tips().iter().map(|tip| independent_noise(tip)).collect();
-        Self { motor: independent_noise(run.motor()), tips }
-    }
-}
 
 /// A column's weights on the samples of a channel, and their sign.
 pub(super) type Part<'a> = (usize, &'a [f64], f64);

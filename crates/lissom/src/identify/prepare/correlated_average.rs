@@ -13,36 +13,36 @@ const VALUES_MOST: usize = 4096;
 /// quadratic, under the window, end below the first of them.
 const BINS: std::ops::RangeInclusive<usize> = 3..=18;
 /// Fewest values from which a level is read: the bins stay below half the Nyquist frequency.
-pub(super) const VALUES_LEAST: usize = 72;
+pub(crate) const VALUES_LEAST: usize = 72;
 /// Of these the strongest are left out: an oscillation of the beam, or of friction once a turn,
 /// stands in so many of them, and the window takes it out of the mean.
 const LINES: usize = 4;
 /// Independent values in that level: twelve complex bins, of which a Hann window correlates
 /// neighbours by 2/3 and the next by 1/6: `2·12/(1 + 2·(2/3)² + 2·(1/6)²)`.
-pub(super) const FREEDOM: f64 = 12.4;
+pub(crate) const FREEDOM: f64 = 12.4;
 
 /// What a series is, averaged under a Hann window.
 ///
 /// The window takes oscillations out of the mean with the third power of their number of periods,
 /// where a plain mean does with the first.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Average {
+pub(crate) struct Average {
     /// Mean.
-    pub(super) mean: f64,
+    pub(crate) mean: f64,
     /// Its standard deviation: the residual's spectrum at low frequency, and the slow change where
     /// one is there.
-    pub(super) std: f64,
+    pub(crate) std: f64,
     /// Largest minus smallest value of the parabola through the series.
-    pub(super) change: f64,
+    pub(crate) change: f64,
     /// Standard deviation of that.
-    pub(super) change_std: f64,
+    pub(crate) change_std: f64,
 }
 
 /// Averages `series`; `None` with fewer than [`VALUES_LEAST`] values.
 ///
 /// A parabola in time is fitted under the same weights. What it leaves is coloured (ringing,
 /// sensor steps): the deviations come from the level of its spectrum at low frequency.
-pub(super) fn average(series: &[f64]) -> Option<Average> {
+pub(crate) fn average(series: &[f64]) -> Option<Average> {
     let series = thinned(series);
     let n = series.len();
     if n < VALUES_LEAST {

@@ -3,11 +3,11 @@
 use std::collections::VecDeque;
 use std::ops::Range;
 
-use crate::identify::methods::constant_velocity::average::{Average, VALUES_LEAST, average};
 use crate::identify::methods::constant_velocity::thresholds::{
     COMMAND_CHANGE, CREEP, GROWN_BY, SAME_STRETCH, STEADY_PART, STOPPED_SHARE, STOPPED_SPEED,
     VELOCITY_KNOWN,
 };
+use crate::identify::prepare::correlated_average::{Average, VALUES_LEAST, average};
 use crate::identify::thresholds::TRAVEL_OVER_NOISE;
 use crate::record::{Hold, Run};
 
@@ -22,13 +22,13 @@ const TRIMMED_MOST: usize = 4;
 
 /// A stretch of a run at one velocity.
 #[derive(Debug, Clone)]
-pub(super) struct Stretch {
+pub(crate) struct Stretch {
     /// Sample intervals: the motor from sample `start` to sample `end`.
-    pub(super) intervals: Range<usize>,
+    pub(crate) intervals: Range<usize>,
     /// Mean velocity \[rad/s or m/s\].
-    pub(super) velocity: Average,
+    pub(crate) velocity: Average,
     /// Mean command.
-    pub(super) command: Average,
+    pub(crate) command: Average,
 }
 
 /// A grown stretch, to be trimmed and judged.
@@ -44,7 +44,7 @@ struct Grown {
 /// are judged first and none may overlap. A stretch stands where a parabola through its velocity
 /// changes by less than a sixth of that share, two deviations counted; where the motor never stops
 /// in it; and where the command does not change by more than 10 %.
-pub(super) fn stretches(run: &Run, hold: Hold) -> Vec<Stretch> {
+pub(crate) fn stretches(run: &Run, hold: Hold) -> Vec<Stretch> {
     let mut grown = grown(run);
     grown.sort_by_key(|g| std::cmp::Reverse(g.intervals.len()));
     let mut found: Vec<Stretch> = Vec::new();

@@ -1,0 +1,153 @@
+//! A campaign prepared for the methods: what each run is, and the runs that they use.
+
+use std::borrow::Cow;
+
+use rayon::prelude::*;
+
+use crate::identify::findings::{Channel, ChannelFinding, Finding};
+use crate::identify::options::Options;
+use crate::identify::prepare::channel_check::range;
+use crate::identify::prepare::run_analysis::{RunAnalysis, analyse};
+use crate::identify::prepare::run_noise::RunNoise;
+use crate::record::{Campaign, Run, Tip};
+
+/// A campaign prepared once for all methods.
+///
+/// Runs with a dead channel and repeated runs are left out; a tip that is dead in all runs has no known angle. Runs at
+/// constant velocity are used only if there are no others: they lie outside the speeds that a drive works at, and one
+/// viscous constant need not hold there.
+#[derive(Debug, Clone)]
+pub struct Prepared<'a> {
+    campaign: &'a Campaign,
+    runs: Vec<RunAnalysis>,
+    kept: Vec<usize>,
+    used: Cow<'a, Campaign>,
+    noise: Vec<RunNoise>,
+    findings: Vec<Finding>,
+}
+
+impl<'a> Prepared<'a> {
+    /// Checks and analyses every run. `progress` is called with the number of each run before it is analysed.
+    pub fn new(campaign: &'a Campaign, options: &Options, mut progress: impl FnMut(usize)) -> Self {
+        let mut findings = Vec::new();
+        let mut runs = Vec::with_capacity(campaign.runs.len());
+        let dead = dead_everywhere(campaign);
+        for index in 0..campaign.runs.len() {
+            progress(index);
+            let harmonics = options.highest_harmonic();
+            runs.push(analyse(campaign, index, harmonics, &dead, &mut findings));
+        }
+        findings.extend(dead_tips(campaign, &dead));
+        let kept = kept(&runs);
+        let used = used(campaign, &kept, &dead);
+        let noise = used.runs.par_iter().map(RunNoise::of).collect();
+        Self { campaign, runs, kept, used, noise, findings }
+    }
+
+    /// The same with default options and without a progress display.
+    pub fn of(campaign: &'a Campaign) -> Self {
+        Self::new(campaign, &Options::default(), |_run| ())
+    }
+
+    /// The campaign as it was logged.
+    pub fn campaign(&self) -> &'a Campaign {
+        self.campaign
+    }
+
+    /// What each run of the campaign is.
+    pub fn runs(&self) -> &[RunAnalysis] {
+        &self.runs
+    }
+
+    /// The runs that the methods use.
+    pub fn used(&self) -> &Campaign {
+        &self.used
+    }
+
+    /// Which runs of the campaign these are.
+    pub fn kept(&self) -> &[usize] {
+        &self.kept
+    }
+
+    /// What was found in the runs.
+    pub fn findings(&self) -> &[Finding] {
+        &self.findings
+    }
+
+    /// Noise of the sensors in each of the runs used.
+    pub(crate) fn noise(&self) -> &[RunNoise] {
+        &self.noise
+    }
+
+    /// Whether every usable run is at constant velocity.
+    pub(crate) fn has_only_constant_velocities(&self) -> bool {
+        !self.runs.iter().any(|r| r.usable && !r.is_constant_velocity())
+    }
+
+    /// Torque per command; one if it is unknown.
+    pub(crate) fn torque_per_command(&self) -> f64 {
+        self.campaign.channels.command.torque_per_command.unwrap_or(1.0)
+    }
+
+    /// Channels that are constant in some runs, and in how many.
+    pub(crate) fn constant_channels(&self) -> Vec<(String, usize)> {
+        constant_channels(self.campaign)
+    }
+
+    /// What each run of the campaign is.
+    pub(crate) fn into_runs(self) -> Vec<RunAnalysis> {
+        self.runs
+    }
+}
+
+/// Channels that are constant in some runs, and in how many.
+fn constant_channels(campaign: &Campaign) -> Vec<(String, usize)> {
+    let count = |channel: &dyn Fn(&Run) -> &[f64]| {
+        campaign.runs.iter().filter(|run| range(channel(run)) <= 0.0).count()
+    };
+    let mut constant = vec![
+        ("motor".to_owned(), count(&Run::motor)),
+        ("command".to_owned(), count(&Run::command)),
+    ];
+    constant.extend(campaign.channels.tips.iter().enumerate().map(|(i, tip)| {
+        (format!("tip \"{}\"", tip.name), count(&|run: &Run| run.tips()[i].as_slice()))
+    }));
+    constant.retain(|(_, runs)| *runs > 0);
+    constant
+}
+
+/// Which tips are constant in every run.
+fn dead_everywhere(campaign: &Campaign) -> Vec<bool> {
+    let dead = |i: usize| campaign.runs.iter().all(|run| range(&run.tips()[i]) <= 0.0);
+    (0..campaign.channels.tips.len()).map(dead).collect()
+}
+
+/// Findings about tips that are dead in every run.
+fn dead_tips(campaign: &Campaign, dead: &[bool]) -> Vec<Finding> {
+    let tips = campaign.channels.tips.iter().zip(dead).filter(|(_, dead)| **dead);
+    let found = |tip: &Tip| {
+        let channel = Channel::Tip(tip.name.clone());
+        Finding::new(ChannelFinding::DeadChannel { channel, value: None, unit: "" })
+    };
+    tips.map(|(tip, _)| found(tip)).collect()
+}
+
+/// Logs are long: they are copied only where something falls out.
+fn used<'a>(campaign: &'a Campaign, kept: &[usize], dead: &[bool]) -> Cow<'a, Campaign> {
+    if kept.len() == campaign.runs.len() && !dead.iter().any(|d| *d) {
+        return Cow::Borrowed(campaign);
+    }
+    let mut channels = campaign.channels.clone();
+    for (tip, dead) in channels.tips.iter_mut().zip(dead) {
+        tip.calibrated &= !dead;
+    }
+    let runs = kept.iter().map(|&i| campaign.runs[i].clone()).collect();
+    Cow::Owned(Campaign { channels, runs })
+}
+
+/// Runs that the regressions and the output error may use.
+fn kept(runs: &[RunAnalysis]) -> Vec<usize> {
+    let others = runs.iter().any(|r| r.usable && !r.is_constant_velocity());
+    let kept = |a: &RunAnalysis| a.usable && !(others && a.is_constant_velocity());
+    (0..runs.len()).filter(|&i| kept(&runs[i])).collect()
+}

@@ -1,0 +1,18 @@
+//! Noise of the sensors in a run.
+
+use crate::identify::prepare::channel_noise::independent_noise;
+use crate::record::Run;
+
+/// Standard deviation of what is independent from sample to sample in each channel of a run.
+#[derive(Debug, Clone)]
+pub(crate) struct RunNoise {
+    pub(crate) motor: f64,
+    pub(crate) tips: Vec<f64>,
+}
+
+impl RunNoise {
+    pub(crate) fn of(run: &Run) -> Self {
+        let tips = run.tips().iter().map(|tip| independent_noise(tip)).collect();
+        Self { motor: independent_noise(run.motor()), tips }
+    }
+}
