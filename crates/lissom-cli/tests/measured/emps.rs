@@ -81,7 +81,9 @@ fn predicts_the_force_of_the_other_log() {
         &lissom::identify::Options::default(),
     )
     .unwrap();
-    let error = train.prediction_error(&read("DATA_EMPS_PULSES.csv")).unwrap();
+    let error = train
+        .prediction_error(&lissom::identify::Prepared::of(&read("DATA_EMPS_PULSES.csv")))
+        .unwrap();
     assert!(error < 0.065, "{error}");
     // And not because there is nothing to predict: the fit's own error is of the same size.
     assert!(error > 0.5 * train.relative_residual);
