@@ -24,3 +24,25 @@ fn every_finding_is_explained() {
     let stale: Vec<_> = document.difference(&codes).collect();
     assert!(stale.is_empty(), "docs/findings.md explains {stale:?}, which is no code");
 }
+
+/// Lines of a file or of the files in a folder that are not comments.
+fn code_lines(path: &Path) -> Vec<String> {
+    if path.is_dir() {
+        let entries = std::fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path());
+        return entries.flat_map(|entry| code_lines(&entry)).collect();
+    }
+    let text = std::fs::read_to_string(path).unwrap();
+    let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
+    code.map(str::to_owned).collect()
+}
+
+#[test]
+fn no_text_names_an_option_or_a_command() {
+    let identify = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/identify");
+    for place in ["findings", "equivalent/refusal.rs"] {
+        for line in code_lines(&identify.join(place)) {
+            let names = ["--", "`lissom", "lissom "].iter().any(|word| line.contains(word));
+            assert!(!names, "{place}: the command adds this, the library does not: {line}");
+        }
+    }
+}
