@@ -1,9 +1,9 @@
 //! A threshold, and the macro that declares a method's thresholds in one place.
 //!
 //! A threshold is a number that decides an outcome that the user sees: what is accepted, refused, warned of, chosen or
-//! left out. Three kinds of numbers are no thresholds, and stay beside their use: limits of the input (guards),
-//! tolerances, step counts and seeds of an algorithm, and floors against rounding. The root finders, event searches and
-//! series of `beam`, `lti`, `rig` and `replay` have only such numbers.
+//! left out, and how far a search of the estimates goes. Three kinds of numbers are no thresholds, and stay beside their
+//! use: limits of the input (guards), tolerances, step counts and seeds of a numerical algorithm, and floors against
+//! rounding. The root finders, event searches and series of `beam`, `lti`, `rig` and `replay` have only such numbers.
 
 /// Where a threshold's value comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub enum ThresholdValue {
     /// A real number.
     Number(f64),
     /// A count.
-    Count(usize),
+    Count(u64),
     /// Real numbers that are tried or applied in turn.
     Numbers(&'static [f64]),
 }
@@ -87,6 +87,7 @@ macro_rules! thresholds {
         },)+)+];
     };
     (@value f64, $name:ident) => { $crate::threshold::ThresholdValue::Number($name) };
-    (@value usize, $name:ident) => { $crate::threshold::ThresholdValue::Count($name) };
+    (@value usize, $name:ident) => { $crate::threshold::ThresholdValue::Count($name as u64) };
+    (@value u64, $name:ident) => { $crate::threshold::ThresholdValue::Count($name) };
     (@value [f64; $count:literal], $name:ident) => { $crate::threshold::ThresholdValue::Numbers(&$name) };
 }

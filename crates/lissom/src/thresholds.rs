@@ -8,7 +8,7 @@ use crate::threshold::Threshold;
 use crate::{information, plan, spectrum};
 
 /// The lists of all methods, in the order of the data flow.
-const GROUPS: [&[Threshold]; 14] = [
+const GROUPS: [&[Threshold]; 15] = [
     all_methods::LIST,
     spectrum::thresholds::LIST,
     prepare::thresholds::LIST,
@@ -16,6 +16,7 @@ const GROUPS: [&[Threshold]; 14] = [
     methods::regression::thresholds::LIST,
     methods::friction_law::thresholds::LIST,
     methods::constant_velocity::thresholds::LIST,
+    methods::output_error::thresholds::LIST,
     responses::thresholds::LIST,
     judge::thresholds::LIST,
     information::thresholds::LIST,

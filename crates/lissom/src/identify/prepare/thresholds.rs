@@ -15,7 +15,8 @@ thresholds! {
         /// A channel is clipped only if it was not slowed down before by more than this. A motion
         /// that comes to rest gives 1/3, one that is cut off gives 1 less half a sample.
         CLIPPED_SLOWED: f64 = 0.65, "1", Convention;
-        /// Share of a run's readings at the end of a sensor's range above which it is reported.
+        /// Share of a run's readings at the end of a sensor's range above which it is reported, and
+        /// the output-error method leaves these readings out.
         CLIPPED_REPORTED: f64 = 0.002, "1", Convention;
         /// A reading is a spike, or a jump to another level, if its second difference is this many
         /// times what 95 % of the others stay below, and this many steps of the sensor.

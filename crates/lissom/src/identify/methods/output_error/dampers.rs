@@ -3,10 +3,8 @@
 use crate::identify::methods::output_error::covariance::deviation;
 use crate::identify::methods::output_error::fit::{Fit, Report};
 use crate::identify::methods::output_error::fitting::Fitting;
+use crate::identify::thresholds::SIGN_SHOWN;
 use crate::replay::Parameter;
-
-/// A kind of dampers is there when one of them lies this many standard errors from zero \[1\].
-const THERE: f64 = 2.0;
 
 /// Takes damping against the frame for dampers at the tips' points where these leave less than a damper
 /// for each mode: single ones of both kinds can hardly be told apart, and all of them can. Alone where that
@@ -56,7 +54,7 @@ pub(super) fn drop_dampers(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Re
     let covariance = fitting.covariances(fit).larger();
     let nothing = |kind: &fn(&Parameter) -> bool| {
         let mut own = fit.free.iter().enumerate().filter(|(_, p)| kind(p));
-        own.all(|(i, p)| p.of(&fit.body.arm) < THERE * deviation(&covariance, i))
+        own.all(|(i, p)| p.of(&fit.body.arm) < SIGN_SHOWN * deviation(&covariance, i))
     };
     let Some(gone) = kinds.iter().find(|kind| fit.free.iter().any(kind) && nothing(kind)) else {
         return;

@@ -1,16 +1,12 @@
 //! What of the records counts, and how residuals belong together.
 
+use crate::identify::methods::output_error::thresholds::{
+    RESIDUAL_BLOCK, RESIDUAL_BLOCKS_LEAST, RESIDUAL_BLOCKS_MOST,
+};
 use crate::identify::prepare::channel_check::{clipped_share, range};
+use crate::identify::prepare::thresholds::CLIPPED_REPORTED;
 use crate::record::{Campaign, Run};
 use crate::replay::Blocks;
-
-/// Share of clipped readings from which on a channel's ends are left out.
-const CLIPPED: f64 = 0.002;
-/// Samples of a block, in general: steps and noise of sensors forget themselves within.
-const BLOCK: f64 = 40.0;
-/// Fewest blocks of a run, and most of all runs together: each costs the inverse of a matrix.
-const FEWEST: f64 = 6.0;
-const MOST: f64 = 400.0;
 
 /// Readings of each channel that count, of one run.
 pub(crate) type Masks = Vec<Option<Vec<bool>>>;
@@ -24,7 +20,7 @@ pub(crate) fn masks(campaign: &Campaign) -> Vec<Masks> {
 }
 
 fn mask(x: &[f64]) -> Option<Vec<bool>> {
-    if clipped_share(x) < CLIPPED {
+    if clipped_share(x) < CLIPPED_REPORTED {
         return None;
     }
     let low = x.iter().copied().fold(f64::INFINITY, f64::min);
@@ -35,8 +31,9 @@ fn mask(x: &[f64]) -> Option<Vec<bool>> {
 
 /// Blocks of each run; `omega_rad_s` where it is a sinusoid in steady state.
 pub(super) fn blocks(campaign: &Campaign, omega_rad_s: &[Option<f64>]) -> Vec<Blocks> {
-    let most = (MOST / campaign.runs.len() as f64).max(FEWEST);
-    let count = |samples: f64| (samples / BLOCK).round().clamp(FEWEST, most);
+    let most = (RESIDUAL_BLOCKS_MOST / campaign.runs.len() as f64).max(RESIDUAL_BLOCKS_LEAST);
+    let count =
+        |samples: f64| (samples / RESIDUAL_BLOCK).round().clamp(RESIDUAL_BLOCKS_LEAST, most);
     let of_run = |(run, omega): (&Run, &Option<f64>)| {
         let period = omega.map(|w| std::f64::consts::TAU / (w * run.sample_time_s()));
         let samples = period.unwrap_or(run.len() as f64);

@@ -2,19 +2,14 @@
 
 use nalgebra::DMatrix;
 
+use crate::identify::methods::output_error::thresholds::{
+    RESIDUAL_AT_NOISE, RESIDUAL_FAR_ABOVE_NOISE, SLOW_RESIDUAL,
+};
 use crate::replay::ModalArm;
-
-/// Residual relative to the sensors' noise beyond which something else is in it \[1\].
-pub(super) const BEYOND: f64 = 3.0;
-/// Residual relative to the sensors' noise below which nothing else is in it \[1\].
-pub(super) const AT_NOISE: f64 = 1.25;
-/// Share of a channel's squared residual that is slower than its sensor's noise, from which on the arm
-/// has not all that moves \[1\].
-const LEFT: f64 = 0.003;
 
 /// Whether some channel's share is more than its sensor's noise leaves.
 pub(super) fn is_left(shares: &[f64]) -> bool {
-    most(shares) > LEFT
+    most(shares) > SLOW_RESIDUAL
 }
 
 /// The largest of some shares.
@@ -31,6 +26,6 @@ pub(super) fn stands(
     beyond_noise: f64,
 ) -> bool {
     let finite = covariance.diagonal().iter().all(|v| v.is_finite() && *v > 0.0);
-    let most = if whole_runs { BEYOND } else { AT_NOISE };
+    let most = if whole_runs { RESIDUAL_FAR_ABOVE_NOISE } else { RESIDUAL_AT_NOISE };
     beyond_noise < most && finite && arm.inertia_kg_m2 > 0.0
 }

@@ -1,21 +1,19 @@
 //! Motions that part: friction that falls with speed or over the angle drives neighbours away from each other
 //! exponentially, and windows can be too long.
 
-use crate::identify::methods::output_error::describes::AT_NOISE;
 use crate::identify::methods::output_error::fit::{Fit, Report};
 use crate::identify::methods::output_error::fitting::Fitting;
+use crate::identify::methods::output_error::thresholds::{
+    NEIGHBOURS_GROW_APART, RESIDUAL_AT_NOISE,
+};
 use crate::identify::methods::output_error::windows::widen;
 use crate::record::TipQuantity;
 use crate::replay::{SensorNoise, WindowSums};
 
-/// Windows over which neighbouring motions part by more than this factor are too long: its square is what the sums
-/// of squares lose of their digits, and what a step of the replay errs by grows with it.
-const MOST_GROWTH: f64 = 100.0;
-
 impl Fitting<'_> {
     /// Whether neighbouring motions part within a fit's windows.
     pub(super) fn diverges(&self, fit: &Fit) -> bool {
-        self.growth(fit) > MOST_GROWTH
+        self.growth(fit) > NEIGHBOURS_GROW_APART
     }
 
     /// All windows of the length that a fit has, in place of some: longer ones tell no more. Not where these are not
@@ -25,7 +23,7 @@ impl Fitting<'_> {
         fit.windows = widen(self.campaign, &fit.body.arm, &fit.windows, fit.window_s);
         fit.whole_runs = true;
         self.search(fit, report);
-        if self.beyond_noise(fit) > AT_NOISE {
+        if self.beyond_noise(fit) > RESIDUAL_AT_NOISE {
             *fit = before;
         }
     }

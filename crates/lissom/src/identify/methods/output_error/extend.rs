@@ -5,33 +5,27 @@ use crate::identify::methods::output_error::dampers::drop_dampers;
 use crate::identify::methods::output_error::fit::{Extension, Fit, Report};
 use crate::identify::methods::output_error::fitting::Fitting;
 use crate::identify::methods::output_error::law;
-use crate::identify::methods::output_error::scores::{DEVIATIONS, Promise, all_scores, share};
+use crate::identify::methods::output_error::scores::{Promise, all_scores, share};
+use crate::identify::methods::output_error::thresholds::{
+    GROUP_SHARE_LARGE, GROUPS_ADDED_MOST, PARAMETER_SHARE_LEAST, RESIDUAL_ABOVE_NOISE,
+};
+use crate::identify::thresholds::CLEARLY_PRESENT;
 use crate::record::TipQuantity;
 use crate::replay::Parameter;
 
-/// A parameter is called for that takes at least this share of the cost away. Small as it is, it counts: damping
-/// against the frame that is left out goes into viscous friction, by many of its standard errors.
-const SHARE: f64 = 1e-4;
-/// A group that takes this share of the cost is called for whatever its standard errors: what it lacks is in
-/// them.
-const LARGE: f64 = 0.02;
-/// Residual relative to the noise of the samples from which on friction may have another law, and tips may be late.
-const BEYOND_NOISE: f64 = 1.2;
-/// Most groups added at a time.
-const MOST: usize = 3;
-
 /// Adds parameters while the residual calls for some, each time the group that takes most away.
 pub(super) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
-    for _ in 0..MOST {
+    for _ in 0..GROUPS_ADDED_MOST {
         let mut found = all_scores(fitting, fit, &candidates(fitting, fit)).1;
         let called_for = |(_, promise): &(usize, &Promise)| {
-            let stands = |e: &Extension| e.value.abs() > DEVIATIONS * e.std;
+            let stands = |e: &Extension| e.value.abs() > CLEARLY_PRESENT * e.std;
             let stand = promise.group.iter().any(stands) || promise.stands_together();
-            promise.share() > LARGE || (promise.share() > SHARE && stand)
+            promise.share() > GROUP_SHARE_LARGE
+                || (promise.share() > PARAMETER_SHARE_LEAST && stand)
         };
         let best = found.iter().enumerate().filter(called_for);
         let best = best.max_by(|a, b| a.1.share().total_cmp(&b.1.share())).map(|(k, _)| k);
-        let least = best.map_or(LARGE, |k| found[k].share().max(LARGE));
+        let least = best.map_or(GROUP_SHARE_LARGE, |k| found[k].share().max(GROUP_SHARE_LARGE));
         if add_to_law(fitting, fit, report, least) {
             continue;
         }
@@ -48,7 +42,7 @@ pub(super) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) 
 /// Adds a term to friction's law where more than the sensors' noise is left, and it promises to take
 /// more than the share `least` of that; tells whether it did.
 fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: f64) -> bool {
-    if !fitting.tries_laws || fitting.beyond_noise(fit) < BEYOND_NOISE {
+    if !fitting.tries_laws || fitting.beyond_noise(fit) < RESIDUAL_ABOVE_NOISE {
         return false;
     }
     let Some((trial, found)) = law::best(fitting, fit, least) else { return false };
@@ -72,7 +66,7 @@ pub(super) fn drop_tip_lags(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut R
     let covariance = fitting.covariances(fit).larger();
     let is_nothing = |(i, p): (usize, &Parameter)| {
         let lag = matches!(p, Parameter::TipLag(_));
-        let stands = p.of(&fit.body.arm).abs() > DEVIATIONS * deviation(&covariance, i);
+        let stands = p.of(&fit.body.arm).abs() > CLEARLY_PRESENT * deviation(&covariance, i);
         (lag && !stands).then_some(*p)
     };
     let gone: Vec<Parameter> = fit.free.iter().enumerate().filter_map(is_nothing).collect();
@@ -99,7 +93,7 @@ pub(super) fn candidates(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Parameter>
     } else {
         modes.map(Parameter::DampingAtPoint).collect()
     });
-    if fitting.beyond_noise(fit) >= BEYOND_NOISE {
+    if fitting.beyond_noise(fit) >= RESIDUAL_ABOVE_NOISE {
         let tips = fitting.campaign.channels.tips.iter().enumerate();
         let shows = tips.filter(|(_, tip)| tip.quantity != TipQuantity::Acceleration);
         groups.push(shows.map(|(i, _)| Parameter::TipLag(i)).collect());

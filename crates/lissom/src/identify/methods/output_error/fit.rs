@@ -4,14 +4,8 @@ use crate::identify::methods::output_error::by_run::ByRun;
 use crate::identify::methods::output_error::coordinates::Body;
 use crate::identify::methods::output_error::covariance::Covariances;
 use crate::identify::methods::output_error::search::{Iteration, Stop};
+use crate::identify::methods::output_error::thresholds::RESIDUAL_GROWN;
 use crate::replay::{ModalArm, Parameter, SensorNoise, Window, WindowSums};
-
-/// Windows are not widened further once the residual has grown by this factor: what the arm does
-/// not describe adds up over a window, and what a sensor adds does not.
-pub(super) const GROWN: f64 = 1.5;
-
-/// Standard errors at which a group is as likely to be there as not \[1\].
-pub(super) const EVEN: f64 = 3.0;
 
 /// Where a fit is.
 #[derive(Debug, Clone)]
@@ -102,7 +96,7 @@ impl Report {
     pub(super) fn grown(&self, residual: &[f64]) -> bool {
         let first = self.stages.get(self.under_law);
         let least = first.map_or(residual, |s| &s.residual);
-        least.iter().zip(residual).any(|(a, b)| *b > GROWN * a)
+        least.iter().zip(residual).any(|(a, b)| *b > RESIDUAL_GROWN * a)
     }
 
     /// Friction has another law from the last stage on.

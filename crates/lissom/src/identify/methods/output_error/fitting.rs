@@ -7,41 +7,22 @@ use crate::identify::methods::output_error::budget::Budget;
 use crate::identify::methods::output_error::coordinates::Body;
 use crate::identify::methods::output_error::covariance::Covariances;
 use crate::identify::methods::output_error::data::Masks;
-use crate::identify::methods::output_error::describes::BEYOND;
-use crate::identify::methods::output_error::fit::{EVEN, Fit, Report, StageReport};
+use crate::identify::methods::output_error::fit::{Fit, Report, StageReport};
 use crate::identify::methods::output_error::noise;
 use crate::identify::methods::output_error::repeats::without_repeats;
-use crate::identify::methods::output_error::search::{
-    PROMISE, PROMISE_ON_THE_WAY, Point, Problem, Stop, is_possible,
+use crate::identify::methods::output_error::search::{Point, Problem, Stop, is_possible};
+use crate::identify::methods::output_error::thresholds::{
+    FIRST_WINDOW_PERIODS, FIRST_WINDOW_SAMPLES, LAST_STEP_FALL, LAST_STEPS_MOST, NOISE_ROUNDS_MOST,
+    NOISE_SETTLED, PARAMETER_SHARE_LEAST, PROBE_SAMPLES, RESIDUAL_FAR_ABOVE_NOISE, STAGE_SAMPLES,
+    STAGE_STEP_FALL, STAGE_STEPS_MOST, STEP_SHARE_LEAST,
 };
 use crate::identify::methods::output_error::windows::cut;
+use crate::identify::thresholds::PRESENT;
 use crate::record::{Campaign, Run};
 use crate::replay::{
     Blocks, ModalArm, Parameter, Prediction, Sampling, SensorNoise, Window, WindowSums, costs,
     free_parameters, predict,
 };
-
-/// Most steps of a stage before the last, which only leads to it.
-const STEPS_ON_THE_WAY: usize = 12;
-/// Samples replayed on that way, about.
-const SAMPLES_ON_THE_WAY: usize = 40_000;
-/// Steps of a probe, and samples replayed for it, about.
-pub(super) const STEPS_OF_A_PROBE: usize = 8;
-const SAMPLES_OF_A_PROBE: usize = 15_000;
-/// On the way, and where more than noise is left, a step is not worth a replay that promises less
-/// than this share of the cost.
-const NEAR_ENOUGH: f64 = 1e-4;
-/// Most steps of the last stage.
-const MOST_STEPS: usize = 40;
-/// Most searches on end, each with the noise that the one before left, until no channel's falls by more
-/// than this.
-const MOST_ROUNDS: usize = 4;
-const SETTLED: f64 = 0.9;
-/// Samples of the first windows, at least, and their share of the slowest mode's period.
-const FIRST_SAMPLES: f64 = 80.0;
-const FIRST_PERIODS: f64 = 0.3;
-/// Share of the cost that a further coordinate is worth \[1\].
-const WORTH: f64 = 1e-4;
 
 /// A campaign as the fits see it.
 pub(super) struct Fitting<'a> {
@@ -69,8 +50,8 @@ impl Fitting<'_> {
     ) -> Problem<'b> {
         let sampling = Sampling { noise, blocks: &[], masks: self.masks };
         let robust = !whole_runs;
-        let near_enough = if robust { NEAR_ENOUGH } else { 0.0 };
-        let promise = PROMISE_ON_THE_WAY;
+        let near_enough = if robust { STEP_SHARE_LEAST } else { 0.0 };
+        let promise = STAGE_STEP_FALL;
         Problem {
             campaign: self.campaign,
             parameters: free,
@@ -109,13 +90,13 @@ impl Fitting<'_> {
 
     /// Whether `other` is better than `fit`: the one rule by which a change of the model is accepted.
     ///
-    /// The cost falls by more than further coordinates are worth, or rises by less than fewer of them are: [`EVEN`]
+    /// The cost falls by more than further coordinates are worth, or rises by less than fewer of them are: [`PRESENT`]
     /// standard errors each, at which a parameter is as likely to be there as not, and no less than the share
-    /// [`WORTH`] of the cost, which is what errors that are no white noise may take.
+    /// [`PARAMETER_SHARE_LEAST`] of the cost, which is what errors that are no white noise may take.
     pub(super) fn is_better(&self, other: &Fit, fit: &Fit) -> bool {
         let (before, after) = (self.cost(fit, &fit.noise), self.cost(other, &fit.noise));
         let more = other.coordinates() as f64 - fit.coordinates() as f64;
-        after + (EVEN * EVEN).max(WORTH * before) * more < before
+        after + (PRESENT * PRESENT).max(PARAMETER_SHARE_LEAST * before) * more < before
     }
 
     /// A fit before its first step; `None` where no window can be cut.
@@ -157,18 +138,19 @@ impl Fitting<'_> {
 
     /// Searches from where the fit is and takes its noise from what is left.
     pub(super) fn search(&self, fit: &mut Fit, report: &mut Report) {
-        for _ in 0..MOST_ROUNDS {
-            let (point, stop) = self.steps(fit, report, STEPS_ON_THE_WAY, PROMISE_ON_THE_WAY, None);
+        for _ in 0..NOISE_ROUNDS_MOST {
+            let (point, stop) = self.steps(fit, report, STAGE_STEPS_MOST, STAGE_STEP_FALL, None);
             // Another law is there to the end or not at all.
             let lawful = !fit.body.arm.dry_terms.is_empty();
             let to_the_end = fit.whole_runs || lawful || report.grown(&fit.residual);
             if stop == Stop::StepsUsedUp && to_the_end {
-                self.steps(fit, report, MOST_STEPS, PROMISE_ON_THE_WAY, Some(point));
+                self.steps(fit, report, LAST_STEPS_MOST, STAGE_STEP_FALL, Some(point));
             }
             let noise = self.noise_of(fit);
             let before = std::mem::replace(&mut fit.noise, noise);
-            let same =
-                |(a, b): (&SensorNoise, &SensorNoise)| b.deviation() > SETTLED * a.deviation();
+            let same = |(a, b): (&SensorNoise, &SensorNoise)| {
+                b.deviation() > NOISE_SETTLED * a.deviation()
+            };
             if before.iter().zip(&fit.noise).all(same) || !to_the_end {
                 break;
             }
@@ -201,8 +183,8 @@ impl Fitting<'_> {
     ) -> (Point, Stop) {
         let mut problem =
             Problem { promise, ..self.problem(&fit.free, &fit.noise, fit.whole_runs) };
-        if self.beyond_noise(fit) > BEYOND {
-            problem.near_enough = NEAR_ENOUGH;
+        if self.beyond_noise(fit) > RESIDUAL_FAR_ABOVE_NOISE {
+            problem.near_enough = STEP_SHARE_LEAST;
         }
         let start =
             from.unwrap_or_else(|| problem.at(fit.body.clone(), std::mem::take(&mut fit.windows)));
@@ -228,10 +210,10 @@ impl Fitting<'_> {
             return None;
         }
         let samples: usize = fit.windows.iter().map(Window::len).sum();
-        let every = samples.div_ceil(SAMPLES_OF_A_PROBE).min(fit.windows.len()).max(1);
+        let every = samples.div_ceil(PROBE_SAMPLES).min(fit.windows.len()).max(1);
         let windows = fit.windows.iter().step_by(every).cloned().collect();
         let mut problem = self.problem(&fit.free, &fit.noise, fit.whole_runs);
-        problem.near_enough = NEAR_ENOUGH;
+        problem.near_enough = STEP_SHARE_LEAST;
         let (point, ..) = problem.search(problem.at(fit.body.clone(), windows), steps);
         Some((point.sums.iter().map(|s| s.cost).sum(), point.body))
     }
@@ -241,7 +223,7 @@ impl Fitting<'_> {
             self.campaign.runs.iter().map(Run::sample_time_s).fold(f64::INFINITY, f64::min);
         let slowest = arm.modes.iter().map(|m| m.omega_rad_s).fold(f64::INFINITY, f64::min);
         let period_s = std::f64::consts::TAU / slowest;
-        (FIRST_SAMPLES * sample_s).max(FIRST_PERIODS * period_s)
+        (FIRST_WINDOW_SAMPLES * sample_s).max(FIRST_WINDOW_PERIODS * period_s)
     }
 
     /// The sensors' steps as what they are. They count once the fit is near: within one there is
@@ -257,11 +239,17 @@ impl Fitting<'_> {
         let left = noise::residuals(self.campaign, &fit.windows, &predicted, self.masks);
         fit.noise = left.iter().zip(&steps).map(|(e, q)| noise::most_likely(e, *q)).collect();
         let Some(masks) = without_repeats(self.campaign, fit, &predicted, self.masks) else {
-            self.steps(fit, report, STEPS_ON_THE_WAY, PROMISE, None);
+            self.steps(fit, report, STAGE_STEPS_MOST, LAST_STEP_FALL, None);
             return None;
         };
         // Without noise there is no cost lower than another but by the edges of steps: a longer way.
-        Fitting { masks: &masks, ..*self }.steps(fit, report, MOST_STEPS, PROMISE, None);
+        Fitting { masks: &masks, ..*self }.steps(
+            fit,
+            report,
+            LAST_STEPS_MOST,
+            LAST_STEP_FALL,
+            None,
+        );
         Some(masks)
     }
 }
@@ -269,7 +257,7 @@ impl Fitting<'_> {
 /// Windows enough to find the way: every so manieth.
 pub(super) fn some(windows: Vec<Window>) -> Vec<Window> {
     let samples: usize = windows.iter().map(Window::len).sum();
-    windows.into_iter().step_by(samples.div_ceil(SAMPLES_ON_THE_WAY).max(1)).collect()
+    windows.into_iter().step_by(samples.div_ceil(STAGE_SAMPLES).max(1)).collect()
 }
 
 fn duration_s(run: &Run) -> f64 {

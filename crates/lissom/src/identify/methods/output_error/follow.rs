@@ -2,14 +2,12 @@
 
 use crate::identify::methods::output_error::budget::Budget;
 use crate::identify::methods::output_error::coordinates::Body;
-use crate::identify::methods::output_error::search::{PROMISE, Problem, is_possible};
+use crate::identify::methods::output_error::search::{Problem, is_possible};
+use crate::identify::methods::output_error::thresholds::{LAST_STEP_FALL, LAST_STEPS_MOST};
 use crate::identify::methods::output_error::windows::widen;
 use crate::identify::methods::output_error::{data, noise};
 use crate::record::Campaign;
 use crate::replay::{ModalArm, Sampling, SensorNoise, Window};
-
-/// Most steps of a window's search.
-const MOST_STEPS: usize = 40;
 
 /// Windows of about `length_s` (whole runs where that is longer), each with the initial state and the
 /// tips' zeros from which the arm's motion comes nearest to the log. Nothing of the arm is moved.
@@ -33,7 +31,7 @@ pub(crate) fn follow(
         sampling,
         budget: &budget,
         robust: false,
-        promise: PROMISE,
+        promise: LAST_STEP_FALL,
         near_enough: 0.0,
     };
     if !is_possible(campaign, arm) {
@@ -41,7 +39,7 @@ pub(crate) fn follow(
     }
     let nearest = |window: Window| {
         let point = problem.at(Body::free(arm.clone()), vec![window]);
-        problem.search(point, MOST_STEPS).0.windows
+        problem.search(point, LAST_STEPS_MOST).0.windows
     };
     widen(campaign, arm, shorter, length_s).into_iter().flat_map(nearest).collect()
 }

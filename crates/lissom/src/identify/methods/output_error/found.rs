@@ -11,8 +11,8 @@ use crate::identify::methods::output_error::fit::{Extension, StageReport};
 use crate::information::{beside, propagated};
 use crate::replay::{ModalArm, Parameter, SensorNoise, Window};
 
-/// Differences for the slopes of estimates are taken over this many standard errors \[1\].
-const HALF: f64 = 0.5;
+/// Differences for the slopes of estimates are taken over this many standard errors to either side \[1\].
+const SLOPE_STEP: f64 = 0.5;
 
 /// What the output error gives.
 #[derive(Debug, Clone)]
@@ -65,7 +65,7 @@ impl OutputError {
 
     /// Any figure of the arm, its deviation from the parameters'.
     pub fn figure(&self, of: impl Fn(&ModalArm) -> f64) -> Estimate {
-        let std = propagated(&self.arm, &self.parameters, &self.covariance, HALF, &of);
+        let std = propagated(&self.arm, &self.parameters, &self.covariance, SLOPE_STEP, &of);
         Estimate { value: of(&self.arm), std }
     }
 
@@ -76,7 +76,7 @@ impl OutputError {
         of: &dyn Fn(&ModalArm) -> Option<Vec<Complex64>>,
     ) -> Option<Vec<f64>> {
         let slopes = |(i, p): (usize, &Parameter)| {
-            let half = HALF * deviation(&self.covariance, i);
+            let half = SLOPE_STEP * deviation(&self.covariance, i);
             let (half, [above, below]) = beside(&self.arm, *p, half);
             let (above, below) = (of(&above)?, of(&below)?);
             let slope = |(a, b)| if half > 0.0 { (a - b) / (2.0 * half) } else { Complex64::ZERO };

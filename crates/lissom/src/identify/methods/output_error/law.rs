@@ -7,18 +7,13 @@ use crate::identify::methods::friction_law::LawTerm;
 use crate::identify::methods::output_error::fit::{Extension, Fit};
 use crate::identify::methods::output_error::fitting::Fitting;
 use crate::identify::methods::output_error::scores::{scores, share};
+use crate::identify::methods::output_error::thresholds::{
+    NEAR_REST_SPEEDS, RESIDUAL_FAR_ABOVE_NOISE, RIPPLE_PERIODS, RIPPLES_MOST,
+};
 use crate::identify::methods::output_error::windows::{fastest_rad_s, travel};
 use crate::replay::{DryTerms, FrictionNumber, Parameter};
 
-/// Speeds over which friction near rest is tried to change, as shares of the fastest.
-const NEAR_REST: [f64; 4] = [0.02, 0.06, 0.2, 0.6];
-/// Most ripples.
-const MOST_RIPPLES: usize = 2;
-/// Residual beside the noise from which on ripples are looked for at all periods: a mode that is missing
-/// leaves less.
-const FAR: f64 = 3.0;
-/// Half waves over the travel, from two on, at which ripples are looked for, and how many at once.
-const RIPPLES: usize = 46;
+/// Periods of ripples whose scores come from one replay.
 const AT_ONCE: usize = 8;
 
 /// A term of friction that may be added: the arm's terms with it, still without effect, and the numbers
@@ -71,7 +66,8 @@ pub(super) fn best(
         return best;
     }
     let terms = &fit.body.arm.dry_terms;
-    let open = terms.ripples.len() < MOST_RIPPLES && fitting.beyond_noise(fit) > FAR;
+    let open =
+        terms.ripples.len() < RIPPLES_MOST && fitting.beyond_noise(fit) > RESIDUAL_FAR_ABOVE_NOISE;
     let found = open.then(|| strongest_ripple(fitting, fit)).flatten()?;
     Some(promise(LawTrial::of(terms, LawTerm::Ripple { per_angle: found })))
 }
@@ -83,7 +79,7 @@ fn strongest_ripple(fitting: &Fitting<'_>, fit: &Fit) -> Option<f64> {
         return None;
     }
     let half_wave = std::f64::consts::PI / travel;
-    let all: Vec<f64> = (2..2 + RIPPLES).map(|waves| waves as f64 * half_wave).collect();
+    let all: Vec<f64> = (2..2 + RIPPLE_PERIODS).map(|waves| waves as f64 * half_wave).collect();
     let promised = all.chunks(AT_ONCE).flat_map(|some| {
         let mut with = fit.clone();
         let one = |per_angle: &f64| {
@@ -104,11 +100,12 @@ fn trials(fitting: &Fitting<'_>, fit: &Fit) -> Vec<LawTrial> {
     let terms = &fit.body.arm.dry_terms;
     let fastest = fastest_rad_s(fitting.campaign);
     let falloff = Falloff::Exponential;
-    let listed = NEAR_REST.map(|share| LawTerm::NearRest { speed: share * fastest, falloff });
+    let listed =
+        NEAR_REST_SPEEDS.map(|share| LawTerm::NearRest { speed: share * fastest, falloff });
     let known = |k: f64| terms.ripples.iter().any(|r| (r.per_rad / k).ln().abs() < SQRT_2.ln());
     let open = |term: &LawTerm| match term {
         LawTerm::NearRest { speed, .. } => terms.near_rest.is_none() && *speed > 0.0,
-        LawTerm::Ripple { per_angle } => terms.ripples.len() < MOST_RIPPLES && !known(*per_angle),
+        LawTerm::Ripple { per_angle } => terms.ripples.len() < RIPPLES_MOST && !known(*per_angle),
         _ => false,
     };
     let seen = fitting.law.iter().map(|term| match *term {

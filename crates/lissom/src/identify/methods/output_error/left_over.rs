@@ -8,13 +8,12 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use crate::identify::methods::output_error::data::Masks;
 use crate::identify::methods::output_error::fit::Fit;
 use crate::identify::prepare::channel_noise::reading;
+use crate::identify::thresholds::CLEARLY_PRESENT;
 use crate::record::{Campaign, Run};
 use crate::replay::{SensorNoise, Window, predict};
 
 /// Samples whose mean is taken: noise averages out, and what an arm lacks moves slowly beside them.
 const AVERAGED: [usize; 3] = [4, 16, 64];
-/// Deviations of the shares that chance alone may make.
-const CHANCE: f64 = 4.0;
 
 /// Share of each channel's squared residual, motor first, that is slower than what its sensor adds, and
 /// that chance does not explain; zero where there is none.
@@ -57,7 +56,7 @@ impl Slow {
 
     fn share(&self) -> f64 {
         let of = |(samples, [left, noisy, plain]): (&usize, &[f64; 3])| {
-            let chance = CHANCE * 2.0 / (*samples as f64 * self.readings as f64).sqrt();
+            let chance = CLEARLY_PRESENT * 2.0 / (*samples as f64 * self.readings as f64).sqrt();
             (left - noisy.max(*plain)) / self.squares - chance
         };
         AVERAGED.iter().zip(&self.means).map(of).fold(0.0, f64::max)

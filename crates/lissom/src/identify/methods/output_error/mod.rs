@@ -27,6 +27,7 @@ mod schedule;
 mod scores;
 mod search;
 mod start;
+pub(crate) mod thresholds;
 mod undecided;
 mod windows;
 

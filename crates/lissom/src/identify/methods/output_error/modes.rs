@@ -3,24 +3,12 @@
 use crate::identify::methods::output_error::coordinates::Body;
 use crate::identify::methods::output_error::covariance::deviation;
 use crate::identify::methods::output_error::fit::{Fit, Report};
-use crate::identify::methods::output_error::fitting::{Fitting, STEPS_OF_A_PROBE};
+use crate::identify::methods::output_error::fitting::Fitting;
+use crate::identify::methods::output_error::thresholds::{
+    MODE_FAINT, MODE_RETUNED, MODE_RETUNED_CLOSELY, NEW_MODE_DAMPING, NEW_MODE_FREQUENCIES,
+    NEW_MODE_SHARE, NEW_MODE_TURN, PROBE_STEPS, REPETITIONS_MOST,
+};
 use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
-
-/// The highest mode is faint whose stiffness is not known to this share: at a wrong frequency it would leave
-/// hardly more.
-pub(super) const FAINT: f64 = 0.01;
-/// A mode put beyond the others begins at one of these times the highest, with this share of what that
-/// one has and this damping ratio.
-const BEYOND: [f64; 2] = [2.0, 4.0];
-const BEYOND_SHARE: f64 = 0.25;
-const BEYOND_DAMPING: f64 = 0.1;
-/// Times its frequency at which it is tried again.
-const RETUNED: [f64; 8] = [0.5, 0.6, 0.72, 0.85, 1.18, 1.4, 1.7, 2.0];
-/// The same where a search was caught near it, and how often it is then begun again.
-const NEARER: [f64; 5] = [1.0, 0.97, 1.03, 0.93, 1.07];
-const AGAIN: usize = 4;
-/// Angle by which point masses turn the two into each other \[rad\].
-const BEYOND_TURN: f64 = 0.4;
 
 /// Adds modes above the others, up to as many as tips, while the fit is better for each.
 pub(super) fn grow(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
@@ -60,19 +48,19 @@ fn refreed(fitting: &Fitting<'_>, mut fit: Fit) -> Fit {
 fn with_one_more(fitting: &Fitting<'_>, fit: &Fit, report: &mut Report) -> Fit {
     let last = highest(&fit.body.arm);
     let mut best: Option<(f64, Fit)> = None;
-    for times in BEYOND {
+    for times in NEW_MODE_FREQUENCIES {
         let beyond = one_beyond(fit.clone(), last, times);
         let new = beyond.body.arm.modes.len() - 1;
         let body = Body::of_masses(fitting.campaign, beyond.body.arm.clone());
         let bodies = match body.masses {
             Some(_) => {
-                [BEYOND_TURN, -BEYOND_TURN].map(|t| body.clone().turned(last, new, t)).into()
+                [NEW_MODE_TURN, -NEW_MODE_TURN].map(|t| body.clone().turned(last, new, t)).into()
             }
             None => vec![beyond.body.clone()],
         };
         for body in bodies {
             let start = refreed(fitting, Fit { body, ..beyond.clone() });
-            let Some((cost, body)) = fitting.probe(&start, STEPS_OF_A_PROBE) else { continue };
+            let Some((cost, body)) = fitting.probe(&start, PROBE_STEPS) else { continue };
             if best.as_ref().is_none_or(|(least, _)| cost < *least) {
                 best = Some((cost, Fit { body, ..start }));
             }
@@ -89,8 +77,8 @@ fn with_one_more(fitting: &Fitting<'_>, fit: &Fit, report: &mut Report) -> Fit {
 /// The highest mode at another frequency, if a few steps from there come to less than from here: now
 /// that the other figures are about right the cost tells.
 fn retuned(fitting: &Fitting<'_>, fit: &Fit) -> Option<Fit> {
-    let (least, _) = fitting.probe(fit, STEPS_OF_A_PROBE)?;
-    let others = RETUNED.iter().filter_map(|times| probed(fitting, fit, *times));
+    let (least, _) = fitting.probe(fit, PROBE_STEPS)?;
+    let others = MODE_RETUNED.iter().filter_map(|times| probed(fitting, fit, *times));
     let others = others.filter(|(cost, _)| *cost < least);
     others.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, other)| other)
 }
@@ -105,7 +93,7 @@ fn probed(fitting: &Fitting<'_>, fit: &Fit, times: f64) -> Option<(f64, Fit)> {
         let (angle, speed) = (window.start[0], window.start[1]);
         window.start[2 + 2 * mode..4 + 2 * mode].copy_from_slice(&[angle, speed]);
     }
-    let (cost, body) = fitting.probe(&other, STEPS_OF_A_PROBE)?;
+    let (cost, body) = fitting.probe(&other, PROBE_STEPS)?;
     Some((cost, Fit { body, ..other }))
 }
 
@@ -119,10 +107,13 @@ pub(super) fn starts_again(fitting: &Fitting<'_>, fit: &Fit) -> Vec<ModalArm> {
     let mut short = fit.clone();
     short.body = Body::of_masses(fitting.campaign, undamped(fit.body.arm.clone()));
     fitting.shorten(&mut short);
-    let mut tried: Vec<(f64, Fit)> =
-        NEARER.iter().chain(&RETUNED).filter_map(|times| probed(fitting, &short, *times)).collect();
+    let mut tried: Vec<(f64, Fit)> = MODE_RETUNED_CLOSELY
+        .iter()
+        .chain(&MODE_RETUNED)
+        .filter_map(|times| probed(fitting, &short, *times))
+        .collect();
     tried.sort_by(|a, b| a.0.total_cmp(&b.0));
-    tried.into_iter().take(AGAIN).map(|(_, fit)| undamped(fit.body.arm)).collect()
+    tried.into_iter().take(REPETITIONS_MOST).map(|(_, fit)| undamped(fit.body.arm)).collect()
 }
 
 /// Without dampers against the frame, which a search is to find, and with none within the beam that drives it.
@@ -144,17 +135,17 @@ pub(super) fn highest(arm: &ModalArm) -> usize {
 fn one_beyond(mut fit: Fit, last: usize, times: f64) -> Fit {
     let arm = &mut fit.body.arm;
     let cut = arm.modes[last];
-    arm.modes[last].stiffness_nm_per_rad *= 1.0 - BEYOND_SHARE;
+    arm.modes[last].stiffness_nm_per_rad *= 1.0 - NEW_MODE_SHARE;
     arm.modes.push(Oscillator {
         omega_rad_s: times * cut.omega_rad_s,
-        stiffness_nm_per_rad: BEYOND_SHARE * cut.stiffness_nm_per_rad,
+        stiffness_nm_per_rad: NEW_MODE_SHARE * cut.stiffness_nm_per_rad,
         // Its ringing must not outlast how well its frequency is known.
-        within_per_s: 2.0 * BEYOND_DAMPING * times * cut.omega_rad_s,
+        within_per_s: 2.0 * NEW_MODE_DAMPING * times * cut.omega_rad_s,
         grounded_per_s: 0.0,
     });
     for row in &mut arm.shapes {
-        row.push(BEYOND_SHARE * row[last]);
-        row[last] *= 1.0 - BEYOND_SHARE;
+        row.push(NEW_MODE_SHARE * row[last]);
+        row[last] *= 1.0 - NEW_MODE_SHARE;
     }
     for window in &mut fit.windows {
         let still = [window.start[0], window.start[1]];
@@ -167,7 +158,7 @@ fn one_beyond(mut fit: Fit, last: usize, times: f64) -> Fit {
 pub(super) fn highest_is_faint(fitting: &Fitting<'_>, fit: &Fit) -> bool {
     let arm = &fit.body.arm;
     let stiffness = || known_to(fitting, fit)(Parameter::Stiffness(highest(arm)));
-    arm.modes.len() > 1 && stiffness().is_some_and(|share| share > FAINT)
+    arm.modes.len() > 1 && stiffness().is_some_and(|share| share > MODE_FAINT)
 }
 
 /// Deviations of parameters relative to their values.

@@ -1,18 +1,13 @@
 //! The noise of each channel, from what a fit leaves.
 
 use crate::identify::methods::output_error::data::Masks;
+use crate::identify::methods::output_error::thresholds::{
+    NOISE_LEAST_FACTOR, NOISE_OVER_STEP_LEAST, NOISE_RESIDUALS, SENSOR_STEP_COUNTED,
+};
 use crate::identify::prepare::channel_noise::channel_noise;
 use crate::record::{Campaign, Run};
 use crate::replay::{Prediction, SensorNoise, Window};
 
-/// Residuals looked at for each channel.
-const LOOKED_AT: usize = 4000;
-/// Noise is never taken below this share of a sensor's step: no drive is known that well.
-const LEAST_SHARE: f64 = 0.1;
-/// Steps of less than this many deviations are as good as none.
-const STEP_COUNTS: f64 = 0.5;
-/// Noise within this share of the least is as good as none.
-const AT_LEAST: f64 = 1.1;
 /// Golden section of ln σ down to a factor of 1 %.
 const GOLDEN_STEPS: usize = 24;
 
@@ -70,11 +65,11 @@ pub(super) fn residuals(
 
 /// The noise that makes residuals of a sensor with steps of `step` most likely.
 pub(super) fn most_likely(residuals: &[f64], step: f64) -> SensorNoise {
-    let pieces = (residuals.len() / LOOKED_AT).max(1);
+    let pieces = (residuals.len() / NOISE_RESIDUALS).max(1);
     let looked_at: Vec<f64> = residuals.iter().copied().step_by(pieces).collect();
     let squares: f64 = looked_at.iter().map(|e| e * e).sum();
     let deviation = (squares / looked_at.len().max(1) as f64).sqrt().max(f64::MIN_POSITIVE);
-    if step < STEP_COUNTS * deviation {
+    if step < SENSOR_STEP_COUNTED * deviation {
         return SensorNoise::gaussian(deviation);
     }
     // −ln of the probability that a step of the sensor holds the reading.
@@ -83,7 +78,8 @@ pub(super) fn most_likely(residuals: &[f64], step: f64) -> SensorNoise {
         looked_at.iter().map(|e| noise.surprise(*e)).sum::<f64>()
     };
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let (mut low, mut high) = ((LEAST_SHARE * step).ln(), (2.0 * deviation.max(step)).ln());
+    let (mut low, mut high) =
+        ((NOISE_OVER_STEP_LEAST * step).ln(), (2.0 * deviation.max(step)).ln());
     for _ in 0..GOLDEN_STEPS {
         let (a, b) = (high - golden * (high - low), low + golden * (high - low));
         if unlikely(a) < unlikely(b) { high = b } else { low = a }
@@ -93,5 +89,5 @@ pub(super) fn most_likely(residuals: &[f64], step: f64) -> SensorNoise {
 
 /// Whether a sensor shows its steps and hardly any noise: less, at any rate, than it is ever taken to have.
 pub(super) fn is_least(noise: &SensorNoise) -> bool {
-    noise.step > 0.0 && noise.sigma < AT_LEAST * LEAST_SHARE * noise.step
+    noise.step > 0.0 && noise.sigma < NOISE_LEAST_FACTOR * NOISE_OVER_STEP_LEAST * noise.step
 }

@@ -6,16 +6,15 @@ use crate::identify::findings::{
 };
 use crate::identify::judge::Evidence;
 use crate::identify::methods::output_error::describes::is_left;
-use crate::identify::methods::output_error::fit::{GROWN, StageReport};
+use crate::identify::methods::output_error::fit::StageReport;
 use crate::identify::methods::output_error::found::OutputError;
-use crate::identify::methods::output_error::modes::{FAINT, highest};
+use crate::identify::methods::output_error::modes::highest;
+use crate::identify::methods::output_error::thresholds::{
+    DAMPER_DRIVES, LAG_COMPARED, LAG_HALF_SAMPLE, MODE_FAINT, RESIDUAL_GROWN,
+};
+use crate::identify::thresholds::PRESENT;
 use crate::record::{Campaign, Hold, Run, Tip};
 use crate::replay::{ModalArm, Parameter};
-
-/// Deviations below zero from which on a damper is none.
-const DRIVES: f64 = 5.0;
-/// A lag is half a sample to this share of it.
-const HALF: f64 = 0.05;
 
 /// What the replay found, and that it does not describe the runs where it does not.
 pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
@@ -63,7 +62,7 @@ fn departs(oe: &OutputError) -> Option<Finding> {
     let grown = first.residual.iter().zip(&last.residual).map(|(a, b)| b / a).fold(0.0, f64::max);
     Some(Finding::new(OutputErrorFinding::ReplayDeparts {
         window_s: last.window_s,
-        grown_from: (grown > GROWN).then_some((first.window_s, grown)),
+        grown_from: (grown > RESIDUAL_GROWN).then_some((first.window_s, grown)),
         noise_ratio: oe.beyond_noise,
         used: oe.stands(),
     }))
@@ -90,13 +89,13 @@ fn faint_mode(arm: &ModalArm, estimate: impl Fn(Parameter) -> Option<Estimate>) 
     let share = stiffness.std / stiffness.value.abs();
     let omega_rad_s = arm.modes[mode].omega_rad_s;
     let found = OutputErrorFinding::FaintMode { omega_rad_s, stiffness_std_share: share };
-    (share > FAINT).then(|| Finding::new(found))
+    (share > MODE_FAINT).then(|| Finding::new(found))
 }
 
 /// A damper that is less than none: what dampers of one kind take too much, one of another kind gives back, and
 /// viscous friction and damping ratios are moved by what is left.
 fn driving_damper(figures: impl Iterator<Item = (Parameter, Estimate)>) -> Option<Finding> {
-    let drives = figures.filter(|(p, e)| p.is_damper() && e.value < -DRIVES * e.std);
+    let drives = figures.filter(|(p, e)| p.is_damper() && e.value < -DAMPER_DRIVES * e.std);
     let (damper, rate_per_s) =
         drives.min_by(|(_, a), (_, b)| (a.value / a.std).total_cmp(&(b.value / b.std)))?;
     Some(Finding::new(OutputErrorFinding::DamperDrives { damper, rate_per_s }))
@@ -146,9 +145,9 @@ pub(crate) fn command_lag(campaign: &Campaign, lag: Estimate) -> Finding {
     };
     let is_half = |run: &Run| {
         let half_s = towards_other * run.sample_time_s();
-        (lag.value - half_s).abs() < (3.0 * lag.std).max(HALF * half_s.abs())
+        (lag.value - half_s).abs() < (PRESENT * lag.std).max(LAG_HALF_SAMPLE * half_s.abs())
     };
-    let told = lag.std < 0.1 * lag.value.abs();
+    let told = lag.std < LAG_COMPARED * lag.value.abs();
     let cause = if told && campaign.runs.iter().all(is_half) { other } else { LagCause::Delay };
     Finding::new(OutputErrorFinding::CommandLag { lag_s: lag, cause })
 }

@@ -4,14 +4,12 @@
 use crate::identify::methods::output_error::budget::Budget;
 use crate::identify::methods::output_error::fitting::Fitting;
 use crate::identify::methods::output_error::found::{OutputError, OutputErrorStart};
-use crate::identify::methods::output_error::schedule::{Attempt, WIDENING, best};
+use crate::identify::methods::output_error::schedule::{Attempt, best};
+use crate::identify::methods::output_error::thresholds::{EVALUATIONS_MOST, WINDOW_WIDENING};
 use crate::identify::methods::output_error::undecided::{Known, undecided};
 use crate::identify::methods::output_error::{data, noise};
 use crate::identify::prepare::prepared::Prepared;
 use crate::replay::SensorNoise;
-
-/// Most evaluations of the output-error method: a sample replayed, or its derivative by a parameter, is one.
-const MOST_EVALUATIONS: u64 = u64::MAX;
 
 /// Moves the figures of an arm until the replayed command shows the logged angles.
 ///
@@ -32,7 +30,7 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
     let blocks = data::blocks(campaign, &start.omega_rad_s);
     let law = &start.law;
     let noise = noise::of_samples(campaign);
-    let budget = Budget::new(start.most_evaluations.unwrap_or(MOST_EVALUATIONS));
+    let budget = Budget::new(start.most_evaluations.unwrap_or(EVALUATIONS_MOST));
     let fitting = Fitting {
         campaign,
         masks: &masks,
@@ -40,7 +38,7 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
         law,
         noise: &noise,
         budget: &budget,
-        widening: WIDENING,
+        widening: WINDOW_WIDENING,
         tries_laws: true,
     };
     let Attempt { fit, mut report, without_repeats, left } = best(&fitting, start)?;

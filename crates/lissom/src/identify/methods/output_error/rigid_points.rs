@@ -5,9 +5,7 @@ use crate::identify::methods::output_error::fit::{Fit, Report};
 use crate::identify::methods::output_error::fitting::Fitting;
 use crate::identify::methods::output_error::scores::Promised;
 use crate::identify::methods::output_error::search::Stop;
-
-/// Share of the cost by which point masses may leave more than free modes \[1\].
-const RIGID_SHARE: f64 = 1e-3;
+use crate::identify::methods::output_error::thresholds::POINT_MASSES_COST;
 
 /// Lets the modes go each its own way where point masses at the tips leave more than noise.
 pub(super) fn relax(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
@@ -18,7 +16,7 @@ pub(super) fn relax(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     }
     let free = Fit { body: Body::free(fit.body.arm.clone()), ..fit.clone() };
     let promised = |fit: &Fit| Promised::of(&fitting.point(fit, &fit.free).sums, fit.coordinates());
-    if promised(&free).share - promised(fit).share > RIGID_SHARE {
+    if promised(&free).share - promised(fit).share > POINT_MASSES_COST {
         *fit = free;
         fitting.search(fit, report);
     }

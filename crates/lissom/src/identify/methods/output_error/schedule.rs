@@ -9,26 +9,20 @@
 
 use crate::identify::methods::output_error::dampers::{dampers_at_points, drop_dampers};
 use crate::identify::methods::output_error::data::Masks;
-use crate::identify::methods::output_error::describes::{AT_NOISE, BEYOND, is_left, stands};
+use crate::identify::methods::output_error::describes::{is_left, stands};
 use crate::identify::methods::output_error::extend::{drop_tip_lags, extend};
 use crate::identify::methods::output_error::fit::{Fit, Report};
-use crate::identify::methods::output_error::fitting::{Fitting, STEPS_OF_A_PROBE, some};
+use crate::identify::methods::output_error::fitting::{Fitting, some};
 use crate::identify::methods::output_error::found::OutputErrorStart;
 use crate::identify::methods::output_error::left_over::left_over;
 use crate::identify::methods::output_error::modes;
 use crate::identify::methods::output_error::rigid_points::{relax, tighten};
+use crate::identify::methods::output_error::thresholds::{
+    PROBE_STEPS, RESIDUAL_AT_NOISE, RESIDUAL_FAR_ABOVE_NOISE, START_COST_FAR, STARTS_ALIKE,
+    WINDOW_WIDENING, WINDOW_WIDENING_SLOW,
+};
 use crate::identify::methods::output_error::windows::widen as widened;
 use crate::replay::{ModalArm, Oscillator, Parameter};
-
-/// An arm is tried after the others where a few steps on short windows leave this many times what they
-/// leave from the best \[1\].
-const FAR: f64 = 3.0;
-/// Modes are the same to this share \[1\].
-const ALIKE: f64 = 0.05;
-/// Each stage's windows are longer than the ones before by this factor \[1\].
-pub(super) const WIDENING: f64 = 4.0;
-/// By this one after a search that was caught \[1\].
-const SLOWER: f64 = 1.6;
 
 /// Where a search has come to.
 pub(super) struct Attempt {
@@ -69,11 +63,11 @@ fn likely_first(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Vec<ModalArm
     let window_s = start.first_window_s.unwrap_or(shortest);
     let probed = |arm: &ModalArm| {
         let found =
-            fitting.first_fit(arm, window_s).and_then(|fit| fitting.probe(&fit, STEPS_OF_A_PROBE));
+            fitting.first_fit(arm, window_s).and_then(|fit| fitting.probe(&fit, PROBE_STEPS));
         found.map_or((f64::INFINITY, arm.clone()), |(cost, body)| (cost, body.arm))
     };
     let probed: Vec<(f64, ModalArm)> = start.arms.iter().map(probed).collect();
-    let near = FAR * probed.iter().map(|p| p.0).fold(f64::INFINITY, f64::min);
+    let near = START_COST_FAR * probed.iter().map(|p| p.0).fold(f64::INFINITY, f64::min);
     let mut order: Vec<usize> = (0..probed.len()).collect();
     let rank = |i: &usize| if probed[*i].0 <= near { 0.0 } else { probed[*i].0 };
     order.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
@@ -89,8 +83,8 @@ fn likely_first(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Vec<ModalArm
 /// Whether two arms have the same modes, and both or neither a law of friction beyond the simplest.
 fn are_alike(a: &ModalArm, b: &ModalArm) -> bool {
     let near = |(p, q): (&Oscillator, &Oscillator)| {
-        (p.omega_rad_s / q.omega_rad_s - 1.0).abs() < ALIKE
-            && (p.stiffness_nm_per_rad / q.stiffness_nm_per_rad - 1.0).abs() < ALIKE
+        (p.omega_rad_s / q.omega_rad_s - 1.0).abs() < STARTS_ALIKE
+            && (p.stiffness_nm_per_rad / q.stiffness_nm_per_rad - 1.0).abs() < STARTS_ALIKE
     };
     a.dry_terms.is_empty() == b.dry_terms.is_empty()
         && a.modes.len() == b.modes.len()
@@ -103,7 +97,7 @@ fn attempt(fitting: &Fitting<'_>, arm: &ModalArm, first_window_s: Option<f64>) -
     let mut report = Report::default();
     let window_s = first_window_s.unwrap_or_else(|| fitting.first_window_s(arm));
     let fit = begin(fitting, arm, window_s, &mut report)?;
-    if fitting.beyond_noise(&fit) > BEYOND {
+    if fitting.beyond_noise(&fit) > RESIDUAL_FAR_ABOVE_NOISE {
         let left = vec![0.0; fit.noise.len()];
         return Some(Attempt { fit, report, without_repeats: None, left });
     }
@@ -140,8 +134,8 @@ fn widen(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
         if report.grown(&fit.residual) || diverges {
             *fit = before;
             report.back_to(&mark);
-            let at_noise = fitting.beyond_noise(fit) <= AT_NOISE;
-            if factor < WIDENING || !at_noise {
+            let at_noise = fitting.beyond_noise(fit) <= RESIDUAL_AT_NOISE;
+            if factor < WINDOW_WIDENING || !at_noise {
                 let lawful = !fit.body.arm.dry_terms.is_empty();
                 if diverges && at_noise && lawful {
                     fitting.take_all(fit, report);
@@ -149,7 +143,7 @@ fn widen(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
                 return;
             }
             // The windows before are described to the noise: this search was caught on the way.
-            factor = SLOWER;
+            factor = WINDOW_WIDENING_SLOW;
         }
     }
 }
@@ -199,7 +193,7 @@ fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> 
         return best;
     }
     // Not for another law: that has had its trial.
-    let slowly = Fitting { widening: SLOWER, tries_laws: false, ..*fitting };
+    let slowly = Fitting { widening: WINDOW_WIDENING_SLOW, tries_laws: false, ..*fitting };
     for arm in modes::starts_again(fitting, &best.fit) {
         let Some(other) = attempt(&slowly, &arm, first_window_s) else { continue };
         if other.fit.whole_runs && best.is_worse(fitting, &other) {

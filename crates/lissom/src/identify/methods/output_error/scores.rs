@@ -4,13 +4,11 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::identify::methods::output_error::covariance::{Covariances, deviation};
-use crate::identify::methods::output_error::fit::{EVEN, Extension, Fit};
+use crate::identify::methods::output_error::fit::{Extension, Fit};
 use crate::identify::methods::output_error::fitting::Fitting;
+use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT};
 use crate::information::{inverse, normal_equations};
 use crate::replay::{Parameter, WindowSums};
-
-/// Standard errors from zero at which a group that is called for lies, at least \[1\].
-pub(super) const DEVIATIONS: f64 = 4.0;
 
 /// What one step of a search with each of some groups beside the free parameters promises.
 pub(super) fn scores(
@@ -46,7 +44,7 @@ impl Promise {
 
     /// Whether the group is there, though each of it may be nothing beside the others: dampers of several modes say.
     pub(super) fn stands_together(&self) -> bool {
-        self.together > DEVIATIONS * DEVIATIONS * self.group.len() as f64
+        self.together > CLEARLY_PRESENT * CLEARLY_PRESENT * self.group.len() as f64
     }
 
     /// The most that a parameter of the group stands from zero, in its deviations.
@@ -65,7 +63,7 @@ impl Promise {
     /// How likely the group is to be there: `1/(1 + exp((9 − d²)/2))`. The likelihoods' ratio is
     /// exp(d²/2), and beforehand a group is held for as rare as lets d = 3 decide nothing.
     pub(super) fn likelihood(&self) -> f64 {
-        1.0 / (1.0 + (0.5 * (EVEN * EVEN - self.deviations().powi(2))).exp())
+        1.0 / (1.0 + (0.5 * (PRESENT * PRESENT - self.deviations().powi(2))).exp())
     }
 }
 

@@ -5,6 +5,10 @@ use nalgebra::{DMatrix, DVector};
 use crate::identify::methods::output_error::budget::Budget;
 use crate::identify::methods::output_error::coordinates::{Body, in_coordinates};
 use crate::identify::methods::output_error::noise::is_least;
+use crate::identify::methods::output_error::thresholds::{
+    MODE_TURN_MOST, NEAR_REST_SPEED_LEAST, RIPPLE_PHASE_LEAST, RIPPLE_PHASE_MOST,
+    STEP_DAMPING_MOST, STEP_LOGARITHM_MOST, STEP_VELOCITY_MOST, TIP_LAG_MOST, WINDOW_COST_HALF,
+};
 use crate::identify::methods::output_error::windows::{fastest_rad_s, travel};
 use crate::information::{Reduced, inverse};
 use crate::record::{Campaign, Run};
@@ -15,39 +19,12 @@ use crate::replay::{
 /// Damping of the first step, relative to the diagonal; and over sensors' steps, whose edges refuse long ones.
 const FIRST_DAMPING: f64 = 1e-3;
 const FIRST_DAMPING_OVER_STEPS: f64 = 0.1;
-/// Damping beyond which no step helps.
-const MOST_DAMPING: f64 = 1e8;
-/// The last search ends when a step promises to lower the cost, a sum of squared deviations, by less than
-/// this: parameters would move by a seventh of their deviation.
-pub(super) const PROMISE: f64 = 0.02;
-/// The same of searches that others follow: by one deviation.
-pub(super) const PROMISE_ON_THE_WAY: f64 = 1.0;
 /// Factor by which damping falls after a step that did all it promised, as Nielsen has it; and where
 /// sensors show steps and hardly any noise: their edges let it grow first, and it has far to fall.
 const EASING: f64 = 1.0 / 3.0;
 const EASING_OVER_STEPS: f64 = 0.1;
 /// A step that lowers the cost by this share of what it promised has kept its promise.
 const PROMISE_KEPT: f64 = 0.5;
-/// Largest change of the logarithm of a parameter that is positive by nature, in one step.
-const LARGEST_FACTOR: f64 = 0.7;
-
-/// Largest angle that a mode may turn by in a sample \[rad\], half as much again as Nyquist's.
-const LARGEST_TURN: f64 = 4.5;
-/// Largest phase of a ripple that may pass in a sample at the fastest speed \[rad\]: at slow ones it is
-/// seen still.
-const FASTEST_RIPPLE: f64 = 16.0;
-/// Smallest phase of a ripple over all of the travel \[rad\]: slower ones are a constant, which Coulomb
-/// friction is.
-const SLOWEST_RIPPLE: f64 = 0.5;
-/// Speed over which friction near rest may change, at least, as a share of the fastest.
-const SLOWEST_LAW: f64 = 1e-3;
-/// Largest change of a window's first velocity in one step, as a share of the fastest in it: where the joint sticks
-/// soon the rest forgets that velocity, and nothing else bounds what a step makes of it. It may always come to rest.
-const LARGEST_KICK: f64 = 0.3;
-/// Most samples that a tip may be late: the shortest windows have some eighty.
-const MOST_LATE: f64 = 40.0;
-/// A window whose cost per sample is this many times the usual one counts half in a robust search.
-const ROBUST: f64 = 10.0;
 
 /// Parameters, windows and what they leave.
 #[derive(Debug, Clone)]
@@ -59,11 +36,11 @@ pub(in crate::identify::methods::output_error) struct Point {
 }
 
 impl Point {
-    /// [`ROBUST`] times the median of the windows' costs per sample.
+    /// [`WINDOW_COST_HALF`] times the median of the windows' costs per sample.
     fn usual(&self) -> f64 {
         let mut each: Vec<f64> = self.sums.iter().map(per_sample).collect();
         each.sort_by(f64::total_cmp);
-        ROBUST * each.get(each.len() / 2).copied().unwrap_or(0.0).max(1.0)
+        WINDOW_COST_HALF * each.get(each.len() / 2).copied().unwrap_or(0.0).max(1.0)
     }
 
     fn robust_cost(&self, usual: f64) -> f64 {
@@ -191,7 +168,7 @@ impl Problem<'_> {
             } else {
                 damping *= growth;
                 growth *= 2.0;
-                if damping > MOST_DAMPING {
+                if damping > STEP_DAMPING_MOST {
                     return (point, iterations, Stop::NoStepHelps);
                 }
             }
@@ -205,7 +182,8 @@ impl Problem<'_> {
         for (coordinate, change) in coordinates.into_iter().zip(step.shared.iter()) {
             let change = match body.scale(coordinate) {
                 Some(value) => {
-                    value * (change / value).clamp(-LARGEST_FACTOR, LARGEST_FACTOR).exp_m1()
+                    value
+                        * (change / value).clamp(-STEP_LOGARITHM_MOST, STEP_LOGARITHM_MOST).exp_m1()
                 }
                 None => *change,
             };
@@ -270,7 +248,7 @@ fn samples_of(windows: &[Window]) -> usize {
 
 /// What a step may change a window's first velocity by where it would by `change`.
 fn kick(change: f64, velocity: f64, fastest: f64) -> f64 {
-    let (most, to_rest) = (LARGEST_KICK * fastest, -velocity);
+    let (most, to_rest) = (STEP_VELOCITY_MOST * fastest, -velocity);
     change.clamp(to_rest.min(-most), to_rest.max(most))
 }
 
@@ -295,24 +273,25 @@ fn is_braking(campaign: &Campaign, arm: &ModalArm, sample_s: f64) -> bool {
     let waves: f64 = terms.ripples.iter().map(|r| r.cosine_nm.hypot(r.sine_nm)).sum();
     let travel = if terms.ripples.is_empty() { 0.0 } else { travel(campaign) };
     let turns = |r: &Ripple| {
-        r.per_rad * travel > SLOWEST_RIPPLE && r.per_rad * fastest * sample_s < FASTEST_RIPPLE
+        r.per_rad * travel > RIPPLE_PHASE_LEAST
+            && r.per_rad * fastest * sample_s < RIPPLE_PHASE_MOST
     };
-    terms.near_rest.is_none_or(|n| n.speed_rad_s > SLOWEST_LAW * fastest)
+    terms.near_rest.is_none_or(|n| n.speed_rad_s > NEAR_REST_SPEED_LEAST * fastest)
         && terms.ripples.iter().all(turns)
         && arm.coulomb_nm + near > waves
 }
 
-/// Whether a search may go there: friction brakes, and every mode turns by less than [`LARGEST_TURN`] in
+/// Whether a search may go there: friction brakes, and every mode turns by less than [`MODE_TURN_MOST`] in
 /// a sample: faster ones are in no log, and take ever shorter steps to follow.
 pub(super) fn is_possible(campaign: &Campaign, arm: &ModalArm) -> bool {
     let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let turn = |m: &Oscillator| m.omega_rad_s * sample_s;
     let damped = |m: &Oscillator| (m.within_per_s.abs() + m.grounded_per_s.abs()) * sample_s;
     let rigid = arm.coupling_nm_per_rad() / arm.inertia_kg_m2 * sample_s * sample_s;
-    arm.modes.iter().all(|m| turn(m) < LARGEST_TURN && damped(m) < LARGEST_TURN)
-        && arm.at_points_per_s.iter().all(|c| (c * sample_s).abs() < LARGEST_TURN)
-        && arm.tip_lags_s.iter().all(|lag| lag.abs() < MOST_LATE * sample_s)
-        && rigid < LARGEST_TURN * LARGEST_TURN
+    arm.modes.iter().all(|m| turn(m) < MODE_TURN_MOST && damped(m) < MODE_TURN_MOST)
+        && arm.at_points_per_s.iter().all(|c| (c * sample_s).abs() < MODE_TURN_MOST)
+        && arm.tip_lags_s.iter().all(|lag| lag.abs() < TIP_LAG_MOST * sample_s)
+        && rigid < MODE_TURN_MOST * MODE_TURN_MOST
         && is_braking(campaign, arm, sample_s)
 }
 

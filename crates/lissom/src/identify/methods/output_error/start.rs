@@ -1,27 +1,19 @@
 //! Where the output error starts: the figures of the regressions as an arm.
 
-use std::ops::Range;
-
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::Estimate;
+use crate::identify::methods::output_error::thresholds::{
+    START_POLE_OUTSIDE, START_SHAPE_LEAST, START_STIFFNESS_LEAST,
+};
 use crate::identify::methods::regression::BeamRegression;
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{
     BeamFit, Damping, MotorData, MotorFit, Pole, fit_motor, fit_shared_poles,
 };
+use crate::identify::responses::thresholds::MODE_DAMPING_MOST;
+use crate::identify::thresholds::MODE_DAMPING_LEAST;
 use crate::record::Campaign;
 use crate::replay::{DryTerms, MOST_MODES, ModalArm, Oscillator};
-
-/// Smallest stiffness of a mode to start with, as a share of the coupling: its logarithm is moved.
-const LEAST_SHARE: f64 = 0.02;
-
-/// A pole is none to start with that lies beyond the responses' frequencies by more than this factor…
-const BEYOND: f64 = 3.0;
-/// …or is damped otherwise.
-const POSSIBLE: Range<f64> = -0.05..0.25;
-
-/// Share of every tip's motion below which a mode is none to start with.
-const NEGLIGIBLE: f64 = 0.05;
 
 /// Arms to start from where a tip's angle is known, the likelier first: the `drive`'s estimates with the
 /// beam's own, and with the modes of the rational model `tips`. Empty where no tip's angle is known, or the
@@ -89,9 +81,11 @@ pub fn starts_by_responses(
     let found = |modes: usize| {
         let fit = fit_shared_poles(omega_rad_s, tips, modes, Damping::Small).ok()?;
         let (low, high) = fit.range_rad_s;
-        let near = low / BEYOND..high * BEYOND;
-        let is_mode =
-            |p: &Pole| near.contains(&p.omega_rad_s) && POSSIBLE.contains(&p.damping_ratio);
+        let near = low / START_POLE_OUTSIDE..high * START_POLE_OUTSIDE;
+        let is_mode = |p: &Pole| {
+            near.contains(&p.omega_rad_s)
+                && (MODE_DAMPING_LEAST..MODE_DAMPING_MOST).contains(&p.damping_ratio)
+        };
         let kept: Vec<usize> = (0..modes).filter(|k| is_mode(&fit.poles[*k])).collect();
         let poles: Vec<Pole> = kept.iter().map(|k| fit.poles[*k]).collect();
         let of_kept = |row: &Vec<f64>| kept.iter().map(|k| row[*k]).collect();
@@ -113,7 +107,7 @@ fn coupled(
     }
     let fit = fit_motor(response, Some(poles))?;
     let total: f64 = fit.coupling.iter().map(|c| c.value.max(0.0)).sum();
-    let least = LEAST_SHARE * total;
+    let least = START_STIFFNESS_LEAST * total;
     let modes = poles.iter().zip(&fit.coupling).map(|(p, c)| oscillator(p, c.value.max(least)));
     for row in &mut shapes {
         whole(row);
@@ -156,7 +150,7 @@ fn flexible(
         shapes
     };
     let modes = response.poles.iter().zip(&response.coupling);
-    let least = LEAST_SHARE * total;
+    let least = START_STIFFNESS_LEAST * total;
     let modes = modes.map(|(pole, coupling)| oscillator(pole, coupling.value.max(least)));
     let inertia = Some(response.inertia.value).filter(|j| *j > 0.0);
     Some(ModalArm {
@@ -179,7 +173,7 @@ fn shown((mut omega, mut ratios, mut shapes): Modes) -> Modes {
         shapes.iter().map(|row: &Vec<f64>| row[j].abs()).fold(0.0, f64::max)
     };
     for j in (0..omega.len()).rev() {
-        if omega.len() > 1 && share(&shapes, j) < NEGLIGIBLE {
+        if omega.len() > 1 && share(&shapes, j) < START_SHAPE_LEAST {
             omega.remove(j);
             ratios.remove(j);
             for row in &mut shapes {
@@ -251,7 +245,7 @@ fn with_modes(mut arm: ModalArm, (omega, ratios, shapes): Modes, coupling: &[f64
         let damping_ratio = ratios.get(j).copied().unwrap_or(0.0);
         let stiffness: f64 = coupling.iter().zip(&shapes).map(|(k, r)| k * r[j]).sum();
         let pole = Pole { omega_rad_s, damping_ratio };
-        arm.modes.push(oscillator(&pole, stiffness.max(LEAST_SHARE * total.abs())));
+        arm.modes.push(oscillator(&pole, stiffness.max(START_STIFFNESS_LEAST * total.abs())));
     }
     arm.at_points_per_s =
         if omega.len() == shapes.len() { vec![0.0; omega.len()] } else { Vec::new() };

@@ -6,18 +6,14 @@ use crate::identify::methods::output_error::extend::candidates;
 use crate::identify::methods::output_error::fit::{Extension, Fit};
 use crate::identify::methods::output_error::fitting::Fitting;
 use crate::identify::methods::output_error::scores::all_scores;
+use crate::identify::methods::output_error::thresholds::{
+    OTHER_DAMPING_FELT, OTHER_DAMPING_LIKELY, OTHER_DAMPING_REPORTED,
+};
+use crate::identify::thresholds::SIGN_SHOWN;
 use crate::replay::{Parameter, WindowSums};
 
-/// With fewer deviations than these nothing speaks for a group, as in any test at 5 %.
-const SPEAKS: f64 = 2.0;
 /// Singular values below this mean nothing.
 const ROUNDING: f64 = 1e-12;
-/// Another kind of damping that is less likely does not count.
-const LEAST_LIKELY: f64 = 1e-3;
-/// Nor does one that adds less than this share to every variance.
-const FELT: f64 = 0.1;
-/// Deviations longer by this factor for want of the damping's kind are told of.
-const KINDS: f64 = 2.0;
 
 /// What a fit leaves undecided.
 pub(super) struct Undecided {
@@ -60,7 +56,8 @@ impl Undecided {
             let root = other.root(&parameters);
             covariance.ger(1.0, &root, &root, 1.0);
         }
-        let longer = |i: &usize| (covariance[(*i, *i)] / before[*i]).sqrt() >= KINDS;
+        let longer =
+            |i: &usize| (covariance[(*i, *i)] / before[*i]).sqrt() >= OTHER_DAMPING_REPORTED;
         let open_by_damping = (0..free.len()).filter(longer).map(|i| free[i]).collect();
         Known { parameters, covariance, open_by_damping }
     }
@@ -80,13 +77,13 @@ impl OtherKind {
     fn counts(&self) -> bool {
         let values = self.dampers.iter().map(|(_, value)| value);
         let finite = self.moved.iter().chain(values).all(|v| v.is_finite());
-        finite && self.likely > LEAST_LIKELY
+        finite && self.likely > OTHER_DAMPING_LIKELY
     }
 
     /// Whether any of the free parameters, whose `variances` these are without it, is known less for it.
     fn is_felt(&self, variances: &DVector<f64>) -> bool {
         let mut each = self.moved.iter().zip(variances.iter());
-        each.any(|(moved, variance)| self.likely * moved * moved > FELT * variance)
+        each.any(|(moved, variance)| self.likely * moved * moved > OTHER_DAMPING_FELT * variance)
     }
 
     /// What it adds to the covariance of `parameters`, of which the free ones come first, as the root of an
@@ -107,7 +104,7 @@ impl OtherKind {
 pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Undecided {
     let (sums, promises) = all_scores(fitting, fit, &candidates(fitting, fit));
     let jacobian = fit.body.jacobian(&fit.free);
-    let speaking = promises.iter().filter(|p| p.deviations() > SPEAKS);
+    let speaking = promises.iter().filter(|p| p.deviations() > SIGN_SHOWN);
     let weighed = speaking.map(|p| {
         let moved = &p.moved * p.likelihood().sqrt();
         jacobian.as_ref().map_or(moved.clone(), |jacobian| jacobian * moved)

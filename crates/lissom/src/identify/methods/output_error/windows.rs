@@ -3,16 +3,13 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use crate::identify::methods::friction_law::thresholds::FASTEST_QUANTILE;
+use crate::identify::methods::output_error::thresholds::{
+    WINDOW_SAMPLES_LEAST, WINDOW_START_SPEED,
+};
 use crate::identify::methods::regression::smoothing;
 use crate::record::{Campaign, Run, TipQuantity};
 use crate::replay::{ModalArm, Window, predict};
-
-/// A window begins where the motor's speed is at least this share of its usual one.
-const MOVES: f64 = 0.1;
-/// Quantile of the speeds that counts as the fastest.
-const FASTEST: f64 = 0.98;
-/// Shortest window worth replaying, in samples.
-const LEAST_SAMPLES: usize = 20;
 
 /// Cuts every run into windows of `length_s`, each beginning where the motor moves: its velocity's
 /// sign is then known, and with it the phase.
@@ -20,16 +17,16 @@ pub(super) fn cut(campaign: &Campaign, arm: &ModalArm, length_s: f64) -> Vec<Win
     let of_run = |(index, run): (usize, &Run)| {
         let mut windows = Vec::new();
         let speed = Speed::new(run);
-        let samples = ((length_s / run.sample_time_s()).round() as usize).max(LEAST_SAMPLES);
+        let samples = ((length_s / run.sample_time_s()).round() as usize).max(WINDOW_SAMPLES_LEAST);
         let mut first = speed.moves_from(0);
         while let Some(from) = first {
             // A rest too short for a window of its own goes to this one.
-            let to = if from + samples + LEAST_SAMPLES > run.len() {
+            let to = if from + samples + WINDOW_SAMPLES_LEAST > run.len() {
                 run.len() - 1
             } else {
                 from + samples - 1
             };
-            if to < from + LEAST_SAMPLES {
+            if to < from + WINDOW_SAMPLES_LEAST {
                 break;
             }
             windows.push(Window {
@@ -78,7 +75,7 @@ pub(super) fn fastest_rad_s(campaign: &Campaign) -> f64 {
     let speeds = |run: &Run| Speed::new(run).velocity;
     let mut all: Vec<f64> = campaign.runs.iter().flat_map(speeds).map(f64::abs).collect();
     all.sort_by(f64::total_cmp);
-    all.get((FASTEST * all.len() as f64) as usize).copied().unwrap_or(0.0)
+    all.get((FASTEST_QUANTILE * all.len() as f64) as usize).copied().unwrap_or(0.0)
 }
 
 /// From the least to the largest angle of all runs.
@@ -101,7 +98,7 @@ impl Speed {
         let velocity: Vec<f64> =
             (0..run.len()).map(|k| slope(run.motor(), k, half) / run.sample_time_s()).collect();
         let power: f64 = velocity.iter().map(|v| v * v).sum();
-        let least = MOVES * (power / run.len() as f64).sqrt();
+        let least = WINDOW_START_SPEED * (power / run.len() as f64).sqrt();
         Self { half, velocity, least }
     }
 
