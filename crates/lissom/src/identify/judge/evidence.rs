@@ -14,7 +14,7 @@ use crate::identify::responses::rational::{BeamFit, MotorFit};
 use crate::record::Campaign;
 
 /// What each method gave, complete: nothing is added later.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Methods {
     pub(crate) third_harmonic: Option<ThirdHarmonic>,
     /// Rational model of the motor from the response corrected with that method's friction, as in Section 6.2.2 of
