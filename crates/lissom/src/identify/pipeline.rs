@@ -1,4 +1,4 @@
-//! The whole way from a campaign to its figures and their verdict.
+//! The steps from a campaign to its result: prepare, methods, responses, judge.
 
 use thiserror::Error;
 
@@ -72,10 +72,11 @@ pub enum Stage {
 
 /// Identifies drive and beam from a campaign.
 ///
-/// Run by run: checks of the channels, steady state and harmonics. Then over all runs: regression
-/// on slip phases of motor and beam, third harmonic of every pair of runs at ω0 and 3ω0,
-/// responses with friction taken out, rational models, and the verdict, which takes the regression's
-/// figures where they stand and those of the third harmonic and its model where they do not.
+/// The runs are prepared once: channels checked, noise measured, harmonics of sinusoidal runs. Each method makes its own
+/// complete estimates of the prepared runs: regression in slip phases, friction law, third harmonic, constant
+/// velocities, least squares, and the output-error method. Frequency responses are corrected for friction, and rational
+/// models are fitted to them. A table then takes one method's whole solution for friction, inertia and coupling, and
+/// refuses what the data do not support.
 /// `progress` is called at the beginning of each stage.
 ///
 /// ```
@@ -94,10 +95,10 @@ pub enum Stage {
 /// ```
 ///
 /// # Source
-/// `[Feliu1989, Sections 4 (step 6), 5 and 6.2.2]`, with the regression beside it.
+/// `[Feliu1989, Sections 4 (step 6), 5 and 6.2.2]` for the third harmonic, the corrected responses and their models.
 ///
 /// # Errors
-/// [`IdentifyError`] where nothing can be said at all. Everything less is a finding.
+/// [`IdentifyError`] if no run moves, or an option is no valid number. All else is reported by findings.
 pub fn identify(
     campaign: &Campaign,
     options: &Options,
@@ -176,7 +177,7 @@ pub fn identify(
     Ok(Identified::new(campaign, methods, runs, points, (models, equivalent), conclusion))
 }
 
-/// Whether the beam's regression leaves little, and all its modes fade.
+/// Whether the beam's regression has a small residual, and all its modes are damped.
 fn is_sound_beam(b: &BeamRegression) -> bool {
     let damped = |m: &ModeEstimate| m.damping_ratio.value > MODE_DAMPING_LEAST;
     b.relative_residual.iter().all(|r| *r < BEAM_RESIDUAL) && b.modes.iter().all(damped)
@@ -199,7 +200,7 @@ fn coulomb_command(
     from_regression.filter(|c| c.value > 0.0).or(third_harmonic.map(|t| t.coulomb_command))
 }
 
-/// Whether a regression on nothing but constant velocities gives all of the motor's figures.
+/// Whether a regression of nothing but constant velocities gives all parameters of the drive.
 fn is_sound_alone(r: &MotorRegression) -> bool {
     let known = |e: Option<Estimate>| e.is_some_and(|e| e.std < CONSTANT_VELOCITY_ALONE * e.value);
     known(r.inertia)
