@@ -1,4 +1,4 @@
-//! What a fit may cost, in evaluations, so that its result does not depend on the machine.
+//! A limit of evaluations for a search. It does not depend on the speed of the machine.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 

@@ -1,4 +1,4 @@
-//! What each run says of the parameters, and what the others would say without it.
+//! The information of each run on the parameters, and the estimates of the other runs without it.
 
 use std::collections::BTreeSet;
 
@@ -7,12 +7,14 @@ use nalgebra::{DMatrix, DVector};
 use crate::information::{Inverse, Reduced, inverted};
 use crate::replay::{Window, WindowSums};
 
-/// Normal equations of each run, in the numbers that the search moved. Near the figures found the squared
-/// residuals of a run are a parabola, so that what other runs would say follows without another fit.
+/// Normal equations of each run, in the coordinates that the search changes.
+///
+/// Near the estimates the sum of squared residuals of a run is a quadratic function. So the estimates without a run
+/// follow without another fit.
 #[derive(Debug, Clone)]
 pub struct ByRun {
     runs: Vec<OneRun>,
-    /// ∂parameter/∂number.
+    /// ∂parameter/∂coordinate.
     jacobian: DMatrix<f64>,
 }
 
@@ -21,21 +23,21 @@ struct OneRun {
     run: usize,
     normal: DMatrix<f64>,
     right: DVector<f64>,
-    /// Sum of squared residuals, in deviations of the noise taken.
+    /// Sum of squared residuals, in standard deviations of the assumed noise.
     squares: f64,
-    /// Readings less the unknowns of the run's windows.
+    /// Number of readings minus the number of unknowns of the run's windows.
     free: f64,
 }
 
 impl OneRun {
-    /// Squares where the numbers are moved by `step`.
+    /// Sum of squares after the coordinates change by `step`.
     fn squares_at(&self, step: &DVector<f64>) -> f64 {
         self.squares - 2.0 * step.dot(&self.right) + step.dot(&(&self.normal * step))
     }
 }
 
 impl ByRun {
-    /// From sums over windows of which the first `shared` columns are the numbers moved.
+    /// From sums over windows of which the first `shared` columns are the coordinates.
     pub(super) fn of(
         sums: &[WindowSums],
         windows: &[Window],
@@ -65,18 +67,18 @@ impl ByRun {
         Self { runs, jacobian: jacobian.unwrap_or_else(|| DMatrix::identity(shared, shared)) }
     }
 
-    /// The same where parameters follow that the search did not move, `count` in all.
+    /// Adds parameters that the search did not change, to `count` in all.
     pub(super) fn of_parameters(mut self, count: usize) -> Self {
         self.jacobian.resize_vertically_mut(count, 0.0);
         self
     }
 
-    /// Places of the runs in their campaign.
+    /// Indices of the runs in their campaign.
     pub(crate) fn runs(&self) -> impl Iterator<Item = usize> + '_ {
         self.runs.iter().map(|r| r.run)
     }
 
-    /// A run beside all others, at the figures that these have without it.
+    /// Compares a run with all others, at the estimates of the others.
     pub(crate) fn beside_others(&self, run: usize) -> Option<BesideOthers> {
         let one = self.runs.iter().find(|r| r.run == run)?;
         let step = self.step(Some(run));
@@ -89,9 +91,9 @@ impl ByRun {
         found.residual.is_finite().then_some(found)
     }
 
-    /// Covariance of figures from all runs but `without`, residuals white and of the noise taken; `more`
-    /// is information on the parameters from elsewhere. `slopes` has a column ∂figure/∂parameter for each
-    /// figure. What is then not known at all has an infinite variance.
+    /// Covariance of quantities of the arm from all runs but `without`. The residuals are taken as white, with the
+    /// assumed noise. `more` is further information on the parameters. `slopes` has a column ∂quantity/∂parameter for
+    /// each quantity. A quantity that cannot be identified has an infinite variance.
     pub(crate) fn covariance(
         &self,
         slopes: &DMatrix<f64>,
@@ -114,12 +116,12 @@ impl ByRun {
         found
     }
 
-    /// How figures would change without a run, by one step of the normal equations of the others.
+    /// Change of quantities of the arm if a run is left out, by one step of the normal equations of the others.
     pub(crate) fn change_without(&self, slopes: &DMatrix<f64>, run: usize) -> DVector<f64> {
         slopes.tr_mul(&(&self.jacobian * (self.step(Some(run)) - self.step(None))))
     }
 
-    /// From the figures found to those that all runs but one call for.
+    /// Step from the estimates to those of all runs but `without`.
     fn step(&self, without: Option<usize>) -> DVector<f64> {
         let (normal, right) = self.normal(without);
         inverted(&normal).matrix * right
@@ -134,11 +136,11 @@ impl ByRun {
     }
 }
 
-/// A run beside the others.
+/// A run compared with the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct BesideOthers {
-    /// Root mean square of its residual over that of the others.
+    /// Rms of its residual, relative to that of the others.
     pub(crate) residual: f64,
-    /// Root mean square of the others' residual, in deviations of the noise taken.
+    /// Rms of the others' residual, in standard deviations of the assumed noise.
     pub(crate) noise: f64,
 }

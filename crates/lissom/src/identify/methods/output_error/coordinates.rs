@@ -1,18 +1,18 @@
-//! What a search moves: parameters one by one, or a beam of point masses as a whole.
+//! Coordinates of a search: single parameters, or those of a beam with point masses.
 
 use nalgebra::DMatrix;
 
 use crate::record::Campaign;
 use crate::replay::{BeamCoordinate, ModalArm, Parameter, PointMasses, WindowSums};
 
-/// One number that a search moves.
+/// One coordinate that a search changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Coordinate {
     Parameter(Parameter),
     Beam(BeamCoordinate),
 }
 
-/// An arm, and its beam as point masses where it is taken for such.
+/// An arm, and its point masses if the beam is modelled by them.
 #[derive(Debug, Clone)]
 pub(super) struct Body {
     pub(super) arm: ModalArm,
@@ -20,7 +20,8 @@ pub(super) struct Body {
 }
 
 impl Body {
-    /// With a beam of point masses where there are as many tips as modes, and all show angles.
+    /// An arm whose beam has point masses at its tips, if there are as many tips as modes and all tips are
+    /// calibrated.
     pub(super) fn of_masses(campaign: &Campaign, arm: ModalArm) -> Self {
         let angles = campaign.channels.tips.iter().all(|t| t.calibrated);
         let mut body = Self { masses: PointMasses::nearest(&arm).filter(|_| angles), arm };
@@ -30,7 +31,7 @@ impl Body {
         body
     }
 
-    /// Lets dampers stand at the tips' points, where there are as many as modes.
+    /// Adds dampers at the tips' points, still zero, if there are as many tips as modes.
     pub(super) fn allow_dampers_at_points(&mut self) {
         let modes = self.arm.modes.len();
         if self.arm.shapes.len() == modes && self.arm.at_points_per_s.is_empty() {
@@ -47,19 +48,19 @@ impl Body {
         self.shift(own, change_rad_s);
     }
 
-    /// With two of the modes turned into each other, where the beam is one of point masses.
+    /// Turns two of the modes into each other, if the beam has point masses.
     pub(super) fn turned(mut self, first: usize, second: usize, angle_rad: f64) -> Self {
         self.shift(Coordinate::Beam(BeamCoordinate::Turn(first, second)), angle_rad);
         self
     }
 
-    /// Whose modes know nothing of each other.
+    /// An arm whose modes are independent of each other.
     pub(super) fn free(arm: ModalArm) -> Self {
         Self { arm, masses: None }
     }
 
-    /// What moves when `parameters` may, in their order; the beam's own numbers stand where the first
-    /// of those that they replace would.
+    /// Coordinates of a search in `parameters`, in their order. The coordinates of point masses take the place of the
+    /// first parameter that they replace.
     pub(super) fn coordinates(&self, parameters: &[Parameter]) -> Vec<Coordinate> {
         let Some(masses) = &self.masses else {
             return parameters.iter().copied().map(Coordinate::Parameter).collect();
@@ -76,7 +77,7 @@ impl Body {
         found
     }
 
-    /// Value of a coordinate where it is positive by nature.
+    /// Value of a coordinate that is positive by nature; `None` of others.
     pub(super) fn scale(&self, coordinate: Coordinate) -> Option<f64> {
         match coordinate {
             Coordinate::Parameter(p) => p.is_scale().then(|| p.of(&self.arm)),
@@ -106,7 +107,7 @@ impl Body {
         masses.put_into(&mut self.arm);
     }
 
-    /// ∂parameter/∂coordinate; `None` where each is its own.
+    /// ∂parameter/∂coordinate; `None` if the coordinates are the parameters.
     pub(super) fn jacobian(&self, parameters: &[Parameter]) -> Option<DMatrix<f64>> {
         let masses = self.masses.as_ref()?;
         let coordinates = self.coordinates(parameters);
@@ -138,7 +139,7 @@ impl Body {
     }
 }
 
-/// Whether point masses have it from their own numbers.
+/// Whether point masses determine this parameter.
 fn is_of_beam(p: Parameter) -> bool {
     matches!(
         p,
@@ -149,7 +150,7 @@ fn is_of_beam(p: Parameter) -> bool {
     )
 }
 
-/// Sums by parameters as sums by coordinates.
+/// Converts sums with derivatives by parameters to sums with derivatives by coordinates.
 pub(super) fn in_coordinates(sums: &WindowSums, jacobian: &DMatrix<f64>) -> WindowSums {
     let (shared, fewer) = jacobian.shape();
     let own = sums.gram.ncols() - shared;

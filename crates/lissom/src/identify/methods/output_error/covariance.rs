@@ -1,4 +1,4 @@
-//! Covariance of the shared parameters from the residual that is really left.
+//! Covariance of the shared parameters, from the residual.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -6,26 +6,28 @@ use rayon::prelude::*;
 use crate::information::{Reduced, inverse, inverse_root};
 use crate::replay::WindowSums;
 
-/// Share of a direction that other blocks than one have, at least, as far as rounding lets it be told.
+/// Smallest share of the information on a direction that is outside of one block: a floor against rounding.
 const LEAST_REST: f64 = 1e-9;
 
-/// Two covariances of the same figures.
+/// Two covariances of the same parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Covariances {
-    /// As if residuals were white, of the deviation that they have or, where they have less, of the one that
-    /// the fit takes them to have.
+    /// If residuals are white noise, with their own variance or, if that is smaller, the variance assumed in the fit.
     pub(super) white: DMatrix<f64>,
-    /// By blocks of samples: residuals within a block may belong together as they like.
+    /// By blocks of samples: residuals within a block may be correlated in any way.
     pub(super) blocks: DMatrix<f64>,
 }
 
 impl Covariances {
     /// From sums of which the first `shared` columns are the parameters.
     ///
-    /// White: `N⁻¹·s²`, N the normal matrix with the windows' own unknowns eliminated, s² ≥ 1 the squares of
-    /// the costs' slopes over their curvatures: less than one where a sensor's noise is less than a fit ever
-    /// takes it to be, and then too few readings near its steps' edges are left to tell by how much. Blocks:
-    /// `Σ δ_b·δ_bᵀ` of what each block's residuals move the parameters by, [`moved_by_blocks`].
+    /// White: `N⁻¹·s²`. N is the normal matrix after the windows' own unknowns are eliminated. s² is the sum of the
+    /// squared slopes of the costs over the sum of their curvatures, and 1 at least. It is below 1 only if a sensor's
+    /// noise is below the smallest that a fit assumes; too few readings near the edges of its steps then show how
+    /// small the noise is.
+    ///
+    /// Blocks: `Σ δ_b·δ_bᵀ`, where δ_b is the change of the parameters by the residuals of a block,
+    /// [`moved_by_blocks`].
     pub(super) fn at(sums: &[WindowSums], shared: usize) -> Self {
         let reduced: Vec<Reduced> = sums.iter().map(|s| Reduced::new(s, shared, 0.0)).collect();
         let zero = DMatrix::zeros(shared, shared);
@@ -61,7 +63,7 @@ impl Covariances {
         Self { white: through(&self.white), blocks: through(&self.blocks) }
     }
 
-    /// The white one, stretched where blocks say more.
+    /// The white covariance, with standard errors increased to those by blocks where these are larger.
     pub(super) fn larger(&self) -> DMatrix<f64> {
         let stretch = DVector::from_fn(self.white.nrows(), |i, _| {
             let ratio = self.blocks[(i, i)] / self.white[(i, i)];
@@ -73,19 +75,19 @@ impl Covariances {
     }
 }
 
-/// Deviation of parameter `i`.
+/// Standard error of parameter `i`.
 pub(super) fn deviation(covariance: &DMatrix<f64>, i: usize) -> f64 {
     covariance[(i, i)].max(0.0).sqrt()
 }
 
-/// What the residuals of one block of a window after another move the shared parameters by.
-/// `others` is the normal matrix of all other windows.
+/// Change of the shared parameters by the residuals of each block of a window. `others` is the normal matrix of all
+/// other windows.
 ///
-/// `L⁻ᵀ·(I − P)^(−1/2)·L⁻¹·g_b` with `M = L·Lᵀ` the whole normal matrix, g_b the block's slope and
-/// `P = L⁻¹·M_b·L⁻ᵀ` its share in M by directions. A block that all of a direction hangs on leaves
-/// hardly a residual along it: white residuals have the slope's variance `P·(I − P)`, so that with the root
-/// the sum over blocks is that of white residuals where they are white (HC2 of \[MacKinnon1985\]). Leaving
-/// the blocks out instead, with `(I − P)⁻¹`, gives the deviation that such a direction has without its block.
+/// It is `L⁻ᵀ·(I − P)^(−1/2)·L⁻¹·g_b`, with the whole normal matrix `M = L·Lᵀ`, the block's slope g_b and its share
+/// `P = L⁻¹·M_b·L⁻ᵀ` in M by directions. If one block has nearly all of the information on a direction, its residual
+/// along that direction is nearly zero: for white residuals the slope has the variance `P·(I − P)`. With the root the
+/// sum over blocks is then the white covariance (HC2 of \[MacKinnon1985\]). The factor `(I − P)⁻¹`, which leaves each
+/// block out, would give the standard error that the direction has without its block.
 fn moved_by_blocks<'a>(
     sums: &'a WindowSums,
     others: &'a DMatrix<f64>,

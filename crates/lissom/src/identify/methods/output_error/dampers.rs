@@ -1,4 +1,4 @@
-//! Which kinds of dampers there are.
+//! Choice between the kinds of damping.
 
 use crate::identify::methods::output_error::covariance::deviation;
 use crate::identify::methods::output_error::fit::{Fit, Report};
@@ -6,10 +6,10 @@ use crate::identify::methods::output_error::fitting::Fitting;
 use crate::identify::thresholds::SIGN_SHOWN;
 use crate::replay::Parameter;
 
-/// Takes damping against the frame for dampers at the tips' points where these leave less than a damper
-/// for each mode: single ones of both kinds can hardly be told apart, and all of them can. Alone where that
-/// leaves hardly more than with damping within the beam beside them: each mode damped against the frame by
-/// itself is not what dampers at points do, and damping within makes up for some of that.
+/// Replaces the damping of each mode against the frame by dampers at the tips' points, if that is better.
+///
+/// Single dampers of the two kinds can hardly be distinguished, but all of them together can. The dampers at points
+/// are tried with damping within the beam and without it: it can partly replace the difference between the two kinds.
 pub(super) fn dampers_at_points(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let grounded = |p: &Parameter| matches!(p, Parameter::DampingGrounded(_));
     let within = |p: &Parameter| matches!(p, Parameter::DampingWithin(_));
@@ -40,8 +40,8 @@ pub(super) fn dampers_at_points(fitting: &Fitting<'_>, fit: &mut Fit, report: &m
     }
 }
 
-/// A kind of dampers of which those of another kind leave nothing goes, as a whole: one damper of a
-/// kind stands for the others where they cannot be told apart. Not where the others cannot do without it.
+/// Removes a kind of dampers of which none is significantly above zero, if the fit is better without it. Where the
+/// logs do not distinguish two kinds, a damper of one kind may replace those of the other.
 pub(super) fn drop_dampers(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let kinds: [fn(&Parameter) -> bool; 3] = [
         |p| matches!(p, Parameter::DampingWithin(_)),
@@ -64,7 +64,7 @@ pub(super) fn drop_dampers(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Re
     for p in &dropped {
         p.set(&mut without.body.arm, 0.0);
     }
-    // What is left may have been less than none to make up for them: a replay would run away.
+    // The others may be negative to compensate for them, and a replay would diverge.
     for p in without.free.iter().filter(|p| kinds.iter().any(|kind| kind(p))) {
         let least = p.of(&without.body.arm).max(0.0);
         p.set(&mut without.body.arm, least);

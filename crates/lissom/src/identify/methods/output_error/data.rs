@@ -1,4 +1,4 @@
-//! What of the records counts, and how residuals belong together.
+//! Which readings are used, and which residuals may be correlated.
 
 use crate::identify::methods::output_error::thresholds::{
     RESIDUAL_BLOCK, RESIDUAL_BLOCKS_LEAST, RESIDUAL_BLOCKS_MOST,
@@ -8,10 +8,10 @@ use crate::identify::prepare::thresholds::CLIPPED_REPORTED;
 use crate::record::{Campaign, Run};
 use crate::replay::Blocks;
 
-/// Readings of each channel that count, of one run.
+/// Readings of each channel of a run that are used; `None` if all are.
 pub(crate) type Masks = Vec<Option<Vec<bool>>>;
 
-/// Leaves out the readings of channels that stand at the ends of their range.
+/// Leaves out readings at the ends of a channel's range, if the channel is clipped.
 pub(crate) fn masks(campaign: &Campaign) -> Vec<Masks> {
     let of_run = |run: &Run| {
         std::iter::once(run.motor()).chain(run.tips().iter().map(Vec::as_slice)).map(mask).collect()
@@ -29,7 +29,7 @@ fn mask(x: &[f64]) -> Option<Vec<bool>> {
     Some(x.iter().map(|v| v - low > near && high - v > near).collect())
 }
 
-/// Blocks of each run; `omega_rad_s` where it is a sinusoid in steady state.
+/// Blocks of samples of each run. `omega_rad_s` is the frequency of a run that is a sine in steady state.
 pub(super) fn blocks(campaign: &Campaign, omega_rad_s: &[Option<f64>]) -> Vec<Blocks> {
     let most = (RESIDUAL_BLOCKS_MOST / campaign.runs.len() as f64).max(RESIDUAL_BLOCKS_LEAST);
     let count =

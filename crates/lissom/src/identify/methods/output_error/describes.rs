@@ -7,7 +7,7 @@ use crate::identify::methods::output_error::thresholds::{
 };
 use crate::replay::ModalArm;
 
-/// Whether some channel's share is more than its sensor's noise leaves.
+/// Whether the slow share of some channel's residual is larger than its sensor's noise explains.
 pub(super) fn is_left(shares: &[f64]) -> bool {
     most(shares) > SLOW_RESIDUAL
 }
@@ -17,8 +17,8 @@ pub(super) fn most(shares: &[f64]) -> f64 {
     shares.iter().copied().fold(0.0, f64::max)
 }
 
-/// Whether an arm is accepted: over whole runs it leaves no more than a few times the sensors' noise, over shorter
-/// windows no more than that noise.
+/// Whether an arm is accepted: its residual is at most a few times the sensors' noise if whole runs are replayed, and
+/// about that noise if shorter windows are replayed.
 pub(super) fn stands(
     arm: &ModalArm,
     covariance: &DMatrix<f64>,

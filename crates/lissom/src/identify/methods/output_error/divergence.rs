@@ -1,4 +1,4 @@
-//! Motions that part: friction that falls with speed or over the angle drives neighbours away from each other
+//! Neighbouring motions that grow apart. If friction falls with speed or changes over the angle, they do so
 //! exponentially, and windows can be too long.
 
 use crate::identify::methods::output_error::fit::{Fit, Report};
@@ -11,13 +11,13 @@ use crate::record::TipQuantity;
 use crate::replay::{SensorNoise, WindowSums};
 
 impl Fitting<'_> {
-    /// Whether neighbouring motions part within a fit's windows.
+    /// Whether neighbouring motions grow apart within a fit's windows, by more than [`NEIGHBOURS_GROW_APART`].
     pub(super) fn diverges(&self, fit: &Fit) -> bool {
         self.growth(fit) > NEIGHBOURS_GROW_APART
     }
 
-    /// All windows of the length that a fit has, in place of some: longer ones tell no more. Not where these are not
-    /// described to the noise.
+    /// Uses all windows of the fit's present length instead of some, because longer ones give no more information.
+    /// The fit stays as it was if its residual is then above the noise.
     pub(super) fn take_all(&self, fit: &mut Fit, report: &mut Report) {
         let before = fit.clone();
         fit.windows = widen(self.campaign, &fit.body.arm, &fit.windows, fit.window_s);
@@ -28,14 +28,14 @@ impl Fitting<'_> {
         }
     }
 
-    /// How many times a change of a window's first angle has grown, root mean square over the window as the sensors of
-    /// angles show it; the largest of all windows. Friction that falls with speed or over the angle drives motions
-    /// apart exponentially, and long windows then rest on the last digits of their first states.
+    /// Growth of a change of a window's first angle: its rms over the window in the sensors of angles, relative to
+    /// the change; the largest of all windows. If it is large, the motion depends on the last digits of the first
+    /// state.
     fn growth(&self, fit: &Fit) -> f64 {
         if fit.body.arm.dry_terms.is_empty() {
             return 1.0;
         }
-        // Accelerations change by squares of frequencies beside the angle: they weigh nothing.
+        // The change of an acceleration contains the square of a frequency: it does not show the growth of the angle.
         let tips = self.campaign.channels.tips.iter();
         let counts = tips.map(|tip| tip.quantity != TipQuantity::Acceleration);
         let counts: Vec<bool> = std::iter::once(true).chain(counts).collect();

@@ -1,4 +1,4 @@
-//! Which parameters beyond the simplest law the residual calls for.
+//! Parameters beyond the simplest law, added if the residual shows them.
 
 use crate::identify::methods::output_error::covariance::deviation;
 use crate::identify::methods::output_error::dampers::drop_dampers;
@@ -13,7 +13,7 @@ use crate::identify::thresholds::CLEARLY_PRESENT;
 use crate::record::TipQuantity;
 use crate::replay::Parameter;
 
-/// Adds parameters while the residual calls for some, each time the group that takes most away.
+/// Adds groups of parameters that are significant, each time the one that lowers the cost most.
 pub(super) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     for _ in 0..GROUPS_ADDED_MOST {
         let mut found = all_scores(fitting, fit, &candidates(fitting, fit)).1;
@@ -39,8 +39,8 @@ pub(super) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) 
     }
 }
 
-/// Adds a term to friction's law where more than the sensors' noise is left, and it promises to take
-/// more than the share `least` of that; tells whether it did.
+/// Adds a term to the friction law, if the residual is above the noise and the term is expected to lower the cost by
+/// more than the share `least`. Returns whether it was added.
 fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: f64) -> bool {
     if !fitting.tries_laws || fitting.beyond_noise(fit) < RESIDUAL_ABOVE_NOISE {
         return false;
@@ -61,7 +61,7 @@ fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: 
     better
 }
 
-/// Lags of tips that are not there for certain go again: what is called for before the arm is found need not be after.
+/// Removes lags of tips that are not significant: a lag may have been significant only before the arm was found.
 pub(super) fn drop_tip_lags(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let covariance = fitting.covariances(fit).larger();
     let is_nothing = |(i, p): (usize, &Parameter)| {
@@ -81,8 +81,8 @@ pub(super) fn drop_tip_lags(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut R
     fitting.search(fit, report);
 }
 
-/// Groups of parameters that may be added to the free ones, each as a whole. Tips may be late where more than the
-/// sensors' noise is left.
+/// Groups of parameters that may be added, each as a whole. Lags of tips are among them if the residual is above the
+/// noise.
 pub(super) fn candidates(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Parameter>> {
     let arm = &fit.body.arm;
     let modes = 0..arm.modes.len();

@@ -1,4 +1,4 @@
-//! The output error's arm as figures of friction, drive and beam.
+//! Estimates of friction, drive and beam from the identified arm.
 
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::{Estimate, ModeEstimate};
@@ -10,7 +10,7 @@ use crate::record::{Channels, TipQuantity};
 use crate::replay::{DryTerms, FrictionNumber, ModalArm, Parameter};
 
 impl OutputError {
-    /// Friction, the damping of the command's back-EMF taken out.
+    /// Friction, without the damping by the back-EMF of the command.
     pub fn friction(&self, back_emf_viscous: f64) -> Friction {
         let viscous = |direction: usize| {
             self.figure(|arm| arm.viscous_nm_s_per_rad[direction] - back_emf_viscous)
@@ -28,14 +28,14 @@ impl OutputError {
         }
     }
 
-    /// The terms of friction beside Coulomb's, offset and viscous friction.
+    /// Terms of friction other than Coulomb friction, offset and viscous friction.
     fn terms(&self) -> Friction {
         let number = |number: FrictionNumber| self.estimate(Parameter::Friction(number));
         let any = |of: &dyn Fn(&DryTerms) -> f64| self.figure(|arm| of(&arm.dry_terms));
         Friction::of_terms(&self.arm.dry_terms, number, any)
     }
 
-    /// What its friction has beyond Coulomb's and one viscous constant, as terms of a law.
+    /// Terms of friction beyond Coulomb friction and one viscous coefficient, as terms of a law.
     pub fn law_terms(&self) -> Vec<(LawTerm, Vec<Estimate>)> {
         let mut terms = Vec::new();
         if let Some(difference) = self.estimate(Parameter::ViscousDifference) {
@@ -77,7 +77,8 @@ impl OutputError {
         (0..self.arm.modes.len()).map(mode).collect()
     }
 
-    /// Whether the arm stands and describes the runs from end to end, be it by windows as long as motions stay together.
+    /// Whether the arm is accepted and describes whole runs: in one window each, or in the longest windows over which
+    /// neighbouring motions do not grow apart.
     pub fn describes_whole_runs(&self) -> bool {
         self.whole_runs && self.stands()
     }
@@ -87,14 +88,13 @@ impl OutputError {
         self.windows.windows(2).any(|pair| pair[0].run == pair[1].run)
     }
 
-    /// Whether the axis is rigid: no more than the sensors' noise is left of whole runs without any mode.
+    /// Whether the axis is rigid: an arm without modes describes whole runs to the sensors' noise.
     pub fn is_rigid(&self) -> bool {
         self.describes_whole_runs() && self.arm.modes.is_empty() && !is_left(&self.left_over)
     }
 
-    /// Whether the arm describes the runs: from end to end, the residual of whole runs being that of
-    /// short windows and no more than a few times what the sensors show of noise by themselves; or over
-    /// shorter windows to that noise.
+    /// Whether the arm is accepted: its residual is at most a few times the sensors' noise if whole runs are
+    /// replayed, and about that noise if shorter windows are replayed.
     pub fn stands(&self) -> bool {
         stands(&self.arm, &self.covariance, self.whole_runs, self.beyond_noise)
     }

@@ -1,4 +1,4 @@
-//! Where a fit is, and what led there.
+//! State of a fit, and a report of its stages.
 
 use crate::identify::methods::output_error::by_run::ByRun;
 use crate::identify::methods::output_error::coordinates::Body;
@@ -7,29 +7,29 @@ use crate::identify::methods::output_error::search::{Iteration, Stop};
 use crate::identify::methods::output_error::thresholds::RESIDUAL_GROWN;
 use crate::replay::{ModalArm, Parameter, SensorNoise, Window, WindowSums};
 
-/// Where a fit is.
+/// State of a fit.
 #[derive(Debug, Clone)]
 pub(super) struct Fit {
     pub(super) body: Body,
     pub(super) windows: Vec<Window>,
-    /// What is free.
+    /// Parameters that are estimated.
     pub(super) free: Vec<Parameter>,
-    /// Noise that each channel is taken to have.
+    /// Assumed noise of each channel.
     pub(super) noise: Vec<SensorNoise>,
-    /// Deviation of each channel's residual, its share of the unknowns taken out.
+    /// Standard deviation of each channel's residual, corrected for the number of unknowns.
     pub(super) residual: Vec<f64>,
-    /// Whether windows are as long as can be told: whole runs, or all windows of the longest that do not diverge.
+    /// Whether windows are whole runs, or all windows of the longest length over which motions do not grow apart.
     pub(super) whole_runs: bool,
     pub(super) window_s: f64,
 }
 
 impl Fit {
-    /// How many numbers a search moves.
+    /// Number of coordinates that a search changes.
     pub(super) fn coordinates(&self) -> usize {
         self.body.coordinates(&self.free).len()
     }
 
-    /// Covariances of the free parameters, from sums by what they move.
+    /// Covariances of the free parameters, from sums by the coordinates.
     pub(super) fn covariances(&self, sums: &[WindowSums]) -> Covariances {
         let found = Covariances::at(sums, self.coordinates());
         match self.body.jacobian(&self.free) {
@@ -38,7 +38,7 @@ impl Fit {
         }
     }
 
-    /// The same sums run by run.
+    /// The sums of each run.
     pub(super) fn by_run(&self, sums: &[WindowSums]) -> ByRun {
         ByRun::of(sums, &self.windows, self.coordinates(), self.body.jacobian(&self.free))
     }
@@ -47,19 +47,19 @@ impl Fit {
 /// A parameter that was tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extension {
-    /// Which.
+    /// The parameter.
     pub parameter: Parameter,
-    /// The one that a single step promises.
+    /// Value that a single step of the search would give it.
     pub value: f64,
-    /// Deviation of that.
+    /// Standard error of the value.
     pub std: f64,
-    /// Share of the cost that it, or its group, was expected to take away.
+    /// Share by which it, or its group, was expected to lower the cost.
     pub share: f64,
     /// Whether it was added.
     pub added: bool,
 }
 
-/// One length of windows.
+/// A stage: a search at one length of the windows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StageReport {
     /// Longest window \[s\].
@@ -68,13 +68,13 @@ pub struct StageReport {
     pub windows: usize,
     /// Every step tried.
     pub iterations: Vec<Iteration>,
-    /// Why it ended.
+    /// Why the search ended.
     pub stop: Stop,
-    /// Noise that each channel was taken to have, motor first, then tips.
+    /// Assumed noise of each channel, motor first, then tips.
     pub noise: Vec<SensorNoise>,
-    /// Deviation of each channel's residual, its share of the unknowns taken out.
+    /// Standard deviation of each channel's residual, corrected for the number of unknowns.
     pub residual: Vec<f64>,
-    /// The arm at its end.
+    /// The arm after the search.
     pub arm: ModalArm,
 }
 
@@ -82,41 +82,40 @@ pub struct StageReport {
 #[derive(Debug, Default)]
 pub(super) struct Report {
     pub(super) stages: Vec<StageReport>,
-    /// First of them under the law that friction has now.
+    /// Index of the first stage with the present friction law.
     under_law: usize,
     /// Parameters that were added.
     pub(super) added: Vec<Extension>,
-    /// Those that were not, when last tried.
+    /// Parameters that were not added when they were last tried.
     pub(super) refused: Vec<Extension>,
 }
 
 impl Report {
-    /// Whether a residual is larger than that of the first windows, under the friction law that they have now, by
-    /// what no sensor adds.
+    /// Whether a residual is larger than on the first windows with the present friction law, by [`RESIDUAL_GROWN`].
     pub(super) fn grown(&self, residual: &[f64]) -> bool {
         let first = self.stages.get(self.under_law);
         let least = first.map_or(residual, |s| &s.residual);
         least.iter().zip(residual).any(|(a, b)| *b > RESIDUAL_GROWN * a)
     }
 
-    /// Friction has another law from the last stage on.
+    /// Notes that friction has another law from the last stage on.
     pub(super) fn law_changed(&mut self) {
         self.under_law = self.stages.len().saturating_sub(1);
     }
 
-    /// What a stage that is taken back began with.
+    /// State of the report before a stage.
     pub(super) fn mark(&self) -> Mark {
         Mark { under_law: self.under_law, added: self.added.len() }
     }
 
-    /// Takes back what was added since.
+    /// Removes what was added after `mark`.
     pub(super) fn back_to(&mut self, mark: &Mark) {
         self.under_law = mark.under_law;
         self.added.truncate(mark.added);
     }
 }
 
-/// A place that a report may go back to.
+/// A state of a report to which it may return.
 pub(super) struct Mark {
     under_law: usize,
     added: usize,

@@ -1,4 +1,4 @@
-//! Searches, probes and costs of a campaign's fits.
+//! Searches, short searches (probes) and costs of a campaign's fits.
 
 use rayon::prelude::*;
 
@@ -24,16 +24,16 @@ use crate::replay::{
     free_parameters, predict,
 };
 
-/// A campaign as the fits see it.
+/// A campaign with what all of its fits share.
 pub(super) struct Fitting<'a> {
     pub(super) campaign: &'a Campaign,
     pub(super) masks: &'a [Masks],
     pub(super) blocks: &'a [Blocks],
     /// Terms of friction that slip phases show.
     pub(super) law: &'a [LawTerm],
-    /// Noise that the samples show by themselves.
+    /// Noise of each channel, estimated from its samples alone.
     pub(super) noise: &'a [SensorNoise],
-    /// What the whole search may cost.
+    /// Limit of evaluations of the whole search.
     pub(super) budget: &'a Budget,
     /// Factor by which each stage's windows are longer than the ones before.
     pub(super) widening: f64,
@@ -63,12 +63,12 @@ impl Fitting<'_> {
         }
     }
 
-    /// Largest ratio of a channel's residual to the noise that its samples show by themselves.
+    /// Largest ratio of a channel's residual to its noise as estimated from the samples alone.
     pub(super) fn beyond_noise(&self, fit: &Fit) -> f64 {
         fit.residual.iter().zip(self.noise).map(|(r, n)| r / n.sigma).fold(0.0, f64::max)
     }
 
-    /// Replays a fit, the parameters `free` moving, with sums by blocks.
+    /// Replays a fit with derivatives by the parameters `free`, and with sums by blocks.
     pub(super) fn point(&self, fit: &Fit, free: &[Parameter]) -> Point {
         let mut problem = self.problem(free, &fit.noise, true);
         problem.sampling.blocks = self.blocks;
@@ -80,7 +80,7 @@ impl Fitting<'_> {
         fit.covariances(&self.point(fit, &fit.free).sums)
     }
 
-    /// Cost of an arm and its windows where the noise is `noise`.
+    /// Cost of a fit for the noise `noise`.
     pub(super) fn cost(&self, fit: &Fit, noise: &[SensorNoise]) -> f64 {
         let samples: usize = fit.windows.iter().map(Window::len).sum();
         self.budget.count(samples, 0);
@@ -90,16 +90,17 @@ impl Fitting<'_> {
 
     /// Whether `other` is better than `fit`: the one rule by which a change of the model is accepted.
     ///
-    /// The cost falls by more than further coordinates are worth, or rises by less than fewer of them are: [`PRESENT`]
-    /// standard errors each, at which a parameter is as likely to be there as not, and no less than the share
-    /// [`PARAMETER_SHARE_LEAST`] of the cost, which is what errors that are no white noise may take.
+    /// If it has more coordinates, the cost must fall by more than these are worth. If it has fewer, the cost may
+    /// rise by less than these are worth. A coordinate is worth the square of [`PRESENT`], the standard errors at
+    /// which a parameter is as likely to be present as not, and at least the share [`PARAMETER_SHARE_LEAST`] of the
+    /// cost, which errors that are not white noise may take.
     pub(super) fn is_better(&self, other: &Fit, fit: &Fit) -> bool {
         let (before, after) = (self.cost(fit, &fit.noise), self.cost(other, &fit.noise));
         let more = other.coordinates() as f64 - fit.coordinates() as f64;
         after + (PRESENT * PRESENT).max(PARAMETER_SHARE_LEAST * before) * more < before
     }
 
-    /// A fit before its first step; `None` where no window can be cut.
+    /// A fit before its first step; `None` if no window can be cut or the arm is outside the limits of the search.
     pub(super) fn first_fit(&self, arm: &ModalArm, window_s: f64) -> Option<Fit> {
         let longest = self.longest_s();
         let window_s = window_s.min(longest);
@@ -125,7 +126,7 @@ impl Fitting<'_> {
         })
     }
 
-    /// Back on windows as short as the first.
+    /// Returns to windows as short as the first.
     pub(super) fn shorten(&self, fit: &mut Fit) {
         fit.window_s = self.first_window_s(&fit.body.arm).min(self.longest_s());
         fit.whole_runs = fit.window_s >= self.longest_s();
@@ -136,11 +137,11 @@ impl Fitting<'_> {
         self.campaign.runs.iter().map(duration_s).fold(0.0, f64::max)
     }
 
-    /// Searches from where the fit is and takes its noise from what is left.
+    /// Searches from the fit's present state, and estimates its noise from the residual.
     pub(super) fn search(&self, fit: &mut Fit, report: &mut Report) {
         for _ in 0..NOISE_ROUNDS_MOST {
             let (point, stop) = self.steps(fit, report, STAGE_STEPS_MOST, STAGE_STEP_FALL, None);
-            // Another law is there to the end or not at all.
+            // A fit with further friction terms is searched to the end before it is compared.
             let lawful = !fit.body.arm.dry_terms.is_empty();
             let to_the_end = fit.whole_runs || lawful || report.grown(&fit.residual);
             if stop == Stop::StepsUsedUp && to_the_end {
@@ -157,9 +158,9 @@ impl Fitting<'_> {
         }
     }
 
-    /// Noise for what follows: short windows leave each channel what it has. Over whole runs a channel
-    /// that the arm misses would count less and be missed by more: the channels keep the ratios of the
-    /// noise that their samples show.
+    /// Noise of each channel for the next search. On short windows it is the channel's residual. Over whole runs a
+    /// channel that the arm does not describe would get a lower weight, and would be described even worse. So the
+    /// channels keep the ratios of the noise that their samples show.
     fn noise_of(&self, fit: &Fit) -> Vec<SensorNoise> {
         if !fit.whole_runs {
             return fit.residual.iter().map(|r| SensorNoise::gaussian(*r)).collect();
@@ -171,8 +172,8 @@ impl Fitting<'_> {
         own.iter().map(|n| SensorNoise::gaussian(common * n.deviation())).collect()
     }
 
-    /// At most `most` steps that promise at least `promise`, from where others have come to if there were
-    /// some; where these come to, and why they ended.
+    /// Makes at most `most` steps, each of which must be expected to lower the cost by `promise`. Begins at `from` if
+    /// it is given. Returns where the steps end and why.
     fn steps(
         &self,
         fit: &mut Fit,
@@ -203,8 +204,8 @@ impl Fitting<'_> {
         (point, stop)
     }
 
-    /// At most so many steps on a part of the windows: the cost that they come to, and the body. `None` where a
-    /// mode is too fast for the samples.
+    /// Makes a short search on a part of the windows. Returns its cost and the body; `None` if the arm is outside the
+    /// limits of the search.
     pub(super) fn probe(&self, fit: &Fit, steps: usize) -> Option<(f64, Body)> {
         if !is_possible(self.campaign, &fit.body.arm) {
             return None;
@@ -226,8 +227,9 @@ impl Fitting<'_> {
         (FIRST_WINDOW_SAMPLES * sample_s).max(FIRST_WINDOW_PERIODS * period_s)
     }
 
-    /// The sensors' steps as what they are. They count once the fit is near: within one there is
-    /// nothing that would lead there. Gives the samples that count where some only repeat a step.
+    /// Searches with the probability of each sensor's steps in place of Gaussian noise. The fit must be close
+    /// already, because the cost is flat within a step. Returns the samples that are used if readings that only
+    /// repeat a step are left out.
     pub(super) fn count_steps(&self, fit: &mut Fit, report: &mut Report) -> Option<Vec<Masks>> {
         let steps = noise::steps(self.campaign);
         let predicted: Vec<Option<Prediction>> = fit
@@ -242,7 +244,7 @@ impl Fitting<'_> {
             self.steps(fit, report, STAGE_STEPS_MOST, LAST_STEP_FALL, None);
             return None;
         };
-        // Without noise there is no cost lower than another but by the edges of steps: a longer way.
+        // Without noise only the edges of the steps change the cost: the search needs more steps.
         Fitting { masks: &masks, ..*self }.steps(
             fit,
             report,
@@ -254,7 +256,7 @@ impl Fitting<'_> {
     }
 }
 
-/// Windows enough to find the way: every so manieth.
+/// Every n-th window, so that about [`STAGE_SAMPLES`] samples are replayed.
 pub(super) fn some(windows: Vec<Window>) -> Vec<Window> {
     let samples: usize = windows.iter().map(Window::len).sum();
     windows.into_iter().step_by(samples.div_ceil(STAGE_SAMPLES).max(1)).collect()
@@ -264,7 +266,7 @@ fn duration_s(run: &Run) -> f64 {
     run.len() as f64 * run.sample_time_s()
 }
 
-/// Deviation of each channel's residual, its share of the unknowns taken out.
+/// Standard deviation of each channel's residual, corrected for the number of unknowns.
 fn residual_deviation(point: &Point, shared: usize) -> Vec<f64> {
     let channels = point.sums.first().map_or(0, |s| s.squares.len());
     let own = |s: &WindowSums| s.gram.ncols() - 1 - shared;

@@ -1,4 +1,4 @@
-//! The motion of a given arm along runs that it was not found from.
+//! The motion of a given arm in runs from which it was not identified.
 
 use crate::identify::methods::output_error::budget::Budget;
 use crate::identify::methods::output_error::coordinates::Body;
@@ -9,11 +9,11 @@ use crate::identify::methods::output_error::{data, noise};
 use crate::record::Campaign;
 use crate::replay::{ModalArm, Sampling, SensorNoise, Window};
 
-/// Windows of about `length_s` (whole runs where that is longer), each with the initial state and the
-/// tips' zeros from which the arm's motion comes nearest to the log. Nothing of the arm is moved.
+/// Windows of about `length_s` (whole runs if that is longer), each with the initial state and the tips' zeros for
+/// which the arm's motion is closest to the log. The arm itself is not changed.
 ///
-/// The search for them starts where `shorter` windows, if any, have come to: over a long one it may
-/// be caught on another way of sticking and slipping.
+/// The search starts from the result of `shorter` windows, if there are any: over a long window it may end in a
+/// motion that sticks and slips at other times than the log.
 pub(crate) fn follow(
     arm: &ModalArm,
     campaign: &Campaign,
@@ -23,7 +23,7 @@ pub(crate) fn follow(
     let masks = data::masks(campaign);
     let noise: Vec<SensorNoise> = noise::of_samples(campaign).into_iter().map(weighable).collect();
     let sampling = Sampling { noise: &noise, blocks: &[], masks: &masks };
-    // Each window has few unknowns and few steps.
+    // No limit is needed: each window has few unknowns and few steps.
     let budget = Budget::new(u64::MAX);
     let problem = Problem {
         campaign,
@@ -44,7 +44,7 @@ pub(crate) fn follow(
     widen(campaign, arm, shorter, length_s).into_iter().flat_map(nearest).collect()
 }
 
-/// A channel without any noise, which stands still, weighs nothing.
+/// Gives no weight to a channel without noise: it does not move.
 fn weighable(noise: SensorNoise) -> SensorNoise {
     if noise.sigma > 0.0 { noise } else { SensorNoise::gaussian(f64::MAX.sqrt()) }
 }

@@ -1,4 +1,4 @@
-//! What the output-error method gives, and where it begins.
+//! Input and result of the output-error method.
 
 use nalgebra::DMatrix;
 use num_complex::Complex64;
@@ -14,63 +14,64 @@ use crate::replay::{ModalArm, Parameter, SensorNoise, Window};
 /// Differences for the slopes of estimates are taken over this many standard errors to either side \[1\].
 const SLOPE_STEP: f64 = 0.5;
 
-/// What the output error gives.
+/// Result of the output-error method.
 #[derive(Debug, Clone)]
 pub struct OutputError {
-    /// The arm found.
+    /// The identified arm.
     pub arm: ModalArm,
-    /// What was free.
+    /// Parameters that were estimated.
     pub parameters: Vec<Parameter>,
-    /// Covariance of these, in their own units; what an undecided term of the equation would move them
-    /// by counts in it.
+    /// Covariance of the parameters, in their own units. It includes the changes by terms whose presence the logs do
+    /// not decide.
     pub covariance: DMatrix<f64>,
-    /// As if the residual were white.
+    /// Covariance if the residual is white noise.
     pub white: DMatrix<f64>,
-    /// By blocks left out.
+    /// Covariance by blocks of samples within which the residual may be correlated.
     pub blocks: DMatrix<f64>,
-    /// What each run says of them.
+    /// The information of each run on the parameters.
     pub by_run: ByRun,
-    /// Noise of each channel, its sensor's steps counted with it, motor first, then tips.
+    /// Noise of each channel, including its sensor's steps, motor first, then tips.
     pub noise: Vec<SensorNoise>,
-    /// Windows of the last stage, with the states at which they begin.
+    /// Windows of the last stage, with their initial states.
     pub windows: Vec<Window>,
-    /// Every length of windows, in order.
+    /// All stages, in order.
     pub stages: Vec<StageReport>,
-    /// Every parameter that was tried beside those of the simplest law.
+    /// All parameters that were tried in addition to those of the simplest law.
     pub extensions: Vec<Extension>,
-    /// Whether the beam is taken for point masses at its tips: nothing speaks against it.
+    /// Whether the beam is modelled by point masses at its tips.
     pub point_masses: bool,
-    /// Whether windows were widened to the whole of the runs, or as far as neighbouring motions stay together: the arm
-    /// describes them.
+    /// Whether windows were lengthened to whole runs, or to the longest over which neighbouring motions do not grow
+    /// apart.
     pub whole_runs: bool,
     /// Evaluations made: samples replayed, and derivatives of these by a parameter.
     pub evaluations: u64,
-    /// Whether these were all that it was allowed: the search ended where it was.
+    /// Whether the limit of evaluations ended the search.
     pub budget_spent: bool,
-    /// Parameters whose deviations are twice as long or more because the samples do not tell damping within the beam from
-    /// damping against the frame: they count both.
+    /// Parameters whose standard errors are at least twice as large because the samples do not distinguish damping
+    /// within the beam from damping against the frame. The standard errors include both cases.
     pub open_by_damping: Vec<Parameter>,
-    /// Residual of the last stage beside the noise of the samples alone: the largest ratio of a channel.
+    /// Largest ratio of a channel's residual in the last stage to its noise as estimated from the samples alone.
     pub beyond_noise: f64,
-    /// Share of each channel's squared residual, motor first, that is slower than what its sensor adds.
+    /// Share of each channel's squared residual, motor first, that is slower than its sensor's noise.
     pub left_over: Vec<f64>,
 }
 
 impl OutputError {
-    /// A parameter with its deviation; `None` where it was not free.
+    /// Estimate of a parameter; `None` if it was not free.
     pub fn estimate(&self, parameter: Parameter) -> Option<Estimate> {
         let i = self.parameters.iter().position(|p| *p == parameter)?;
         Some(Estimate { value: parameter.of(&self.arm), std: deviation(&self.covariance, i) })
     }
 
-    /// Any figure of the arm, its deviation from the parameters'.
+    /// Estimate of a quantity of the arm, with its standard error from the parameters' covariance.
     pub fn figure(&self, of: impl Fn(&ModalArm) -> f64) -> Estimate {
         let std = propagated(&self.arm, &self.parameters, &self.covariance, SLOPE_STEP, &of);
         Estimate { value: of(&self.arm), std }
     }
 
-    /// What the parameters' covariance gives quantities of the arm: `E|Δ|²` of each, by differences over
-    /// half a deviation of each parameter to both sides. `None` where they cannot be had of an arm beside.
+    /// Variances `E|Δ|²` of quantities of the arm, from the parameters' covariance. The derivatives are differences
+    /// over half a standard error of each parameter to either side. `None` if the quantities cannot be computed for a
+    /// changed arm.
     pub(crate) fn variances(
         &self,
         of: &dyn Fn(&ModalArm) -> Option<Vec<Complex64>>,
@@ -98,19 +99,18 @@ impl OutputError {
     }
 }
 
-/// Where an output error begins and what it may know.
+/// Input of the output-error method in addition to the logs.
 #[derive(Debug, Clone)]
 pub struct OutputErrorStart {
     /// Arms to start from, the likelier or simpler first.
     pub arms: Vec<ModalArm>,
     /// Frequency of each run that is a sinusoid in steady state \[rad/s\].
     pub omega_rad_s: Vec<Option<f64>>,
-    /// Length of the first windows \[s\]; chosen from the arm when `None`. Short ones find the way from
-    /// a start that is wrong by factors.
+    /// Length of the first windows \[s\]; chosen from the arm if `None`. Short windows also lead to the result from a
+    /// start that is wrong by a large factor.
     pub first_window_s: Option<f64>,
-    /// Most evaluations; the method's own number when `None`.
+    /// Most evaluations; the method's default if `None`.
     pub most_evaluations: Option<u64>,
-    /// Terms of friction that slip phases show: speeds and periods to try, where the residual calls for
-    /// another law.
+    /// Terms of friction that slip phases show: speeds and periods to try if the residual is above the noise.
     pub law: Vec<LawTerm>,
 }

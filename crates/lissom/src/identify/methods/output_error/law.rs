@@ -1,4 +1,4 @@
-//! What friction has beyond Coulomb's, where the residual calls for it.
+//! Terms of friction beyond Coulomb and viscous friction, tried if the residual is above the noise.
 
 use std::f64::consts::SQRT_2;
 
@@ -16,8 +16,8 @@ use crate::replay::{DryTerms, FrictionNumber, Parameter};
 /// Periods of ripples whose scores come from one replay.
 const AT_ONCE: usize = 8;
 
-/// A term of friction that may be added: the arm's terms with it, still without effect, and the numbers
-/// that it makes free: its torques, and what else it has.
+/// A term of friction that may be added: the arm's terms with it, still without effect, and the parameters that it
+/// adds, its torques and others.
 pub(super) struct LawTrial {
     terms: DryTerms,
     torques: Vec<Parameter>,
@@ -37,7 +37,7 @@ impl LawTrial {
         Self { terms, torques: free(torques), shapes: free(shapes) }
     }
 
-    /// Puts the term into the fit, all of it free.
+    /// Adds the term to the fit, with all of its parameters free.
     pub(super) fn put_into(&self, fit: &mut Fit) {
         fit.body.arm.dry_terms = self.terms.clone();
         fit.free.extend(&self.torques);
@@ -45,9 +45,9 @@ impl LawTrial {
     }
 }
 
-/// The trial that one step of a search promises to take most of the cost with, and that promise.
+/// The term whose first step is expected to lower the cost most, with its expected values.
 ///
-/// Ripples at frequencies that slip phases did not show are looked for where nothing else promises more
+/// Ripples at periods that slip phases did not show are tried if no other term is expected to lower the cost by more
 /// than the share `least`.
 pub(super) fn best(
     fitting: &Fitting<'_>,
@@ -72,7 +72,8 @@ pub(super) fn best(
     Some(promise(LawTrial::of(terms, LawTerm::Ripple { per_angle: found })))
 }
 
-/// Waves per angle at which a ripple promises most, over the frequencies that the travel tells apart.
+/// Waves per angle of the ripple that is expected to lower the cost most, among the periods that the travel can
+/// distinguish.
 fn strongest_ripple(fitting: &Fitting<'_>, fit: &Fit) -> Option<f64> {
     let travel = travel(fitting.campaign);
     if travel <= 0.0 {
@@ -95,7 +96,7 @@ fn strongest_ripple(fitting: &Fitting<'_>, fit: &Fit) -> Option<f64> {
     promised.max_by(|a, b| share(&a.1).total_cmp(&share(&b.1))).map(|(k, _)| k)
 }
 
-/// Terms that slip phases show or were tried with, and friction near rest over a few speeds.
+/// Terms that slip phases show, and friction near standstill over a few speeds.
 fn trials(fitting: &Fitting<'_>, fit: &Fit) -> Vec<LawTrial> {
     let terms = &fit.body.arm.dry_terms;
     let fastest = fastest_rad_s(fitting.campaign);

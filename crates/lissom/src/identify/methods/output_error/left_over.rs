@@ -1,4 +1,4 @@
-//! What of a residual no sensor makes.
+//! The share of a residual that no sensor's noise explains.
 
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -12,15 +12,14 @@ use crate::identify::thresholds::CLEARLY_PRESENT;
 use crate::record::{Campaign, Run};
 use crate::replay::{SensorNoise, Window, predict};
 
-/// Samples whose mean is taken: noise averages out, and what an arm lacks moves slowly beside them.
+/// Numbers of samples over which means are taken: noise averages out, and motion that the arm lacks is slower.
 const AVERAGED: [usize; 3] = [4, 16, 64];
 
-/// Share of each channel's squared residual, motor first, that is slower than what its sensor adds, and
-/// that chance does not explain; zero where there is none.
+/// Share of each channel's squared residual, motor first, that is slower than its sensor's noise and larger than
+/// chance explains; zero if there is none.
 ///
-/// A sensor's steps on a slow motion make slow errors, too. So the means of 4, 16 and 64 residuals are
-/// taken twice: of those that are left, and of those that the same sensor would leave of the replayed
-/// motion itself, with its noise and without.
+/// A sensor's steps also make slow errors if the motion is slow. So the means of 4, 16 and 64 residuals are compared
+/// with those that the same sensor would leave of the replayed motion itself, with its noise and without.
 pub(super) fn left_over(campaign: &Campaign, fit: &Fit, masks: &[Masks]) -> Vec<f64> {
     let of_windows: Vec<Vec<Slow>> = fit
         .windows
@@ -35,12 +34,12 @@ pub(super) fn left_over(campaign: &Campaign, fit: &Fit, masks: &[Masks]) -> Vec<
         .collect()
 }
 
-/// Squares of a channel's residuals, and of their means over each number of samples.
+/// Sums of squares of a channel's residuals, and of their means over each number of samples.
 #[derive(Debug, Clone, Copy, Default)]
 struct Slow {
     readings: usize,
     squares: f64,
-    /// Of what is left, of what the sensor leaves, and of what its steps alone leave.
+    /// Of the residual, of the sensor's errors, and of the errors by its steps alone.
     means: [[f64; 3]; AVERAGED.len()],
 }
 

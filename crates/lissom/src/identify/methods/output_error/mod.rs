@@ -1,5 +1,5 @@
-//! Output error: the logged command replayed through an arm whose parameters are moved until it shows
-//! the logged angles.
+//! The output-error method: the logged command is replayed through an arm, and the arm's parameters are changed until
+//! the replay shows the logged angles.
 
 mod budget;
 mod by_run;

@@ -1,4 +1,4 @@
-//! How many modes: those that the runs call for are added.
+//! Number of modes: modes are added while they make the fit better.
 
 use crate::identify::methods::output_error::coordinates::Body;
 use crate::identify::methods::output_error::covariance::deviation;
@@ -10,7 +10,7 @@ use crate::identify::methods::output_error::thresholds::{
 };
 use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
 
-/// Adds modes above the others, up to as many as tips, while the fit is better for each.
+/// Adds modes above the others, up to as many as tips, while each makes the fit better.
 pub(super) fn grow(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let tips = fitting.campaign.channels.tips.len().min(MOST_MODES);
     while !fit.body.arm.modes.is_empty() && fit.body.arm.modes.len() < tips {
@@ -22,14 +22,14 @@ pub(super) fn grow(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     }
 }
 
-/// Searched again, free what its modes make free.
+/// Searches again with the free parameters of the fit's modes.
 fn refitted(fitting: &Fitting<'_>, fit: Fit, report: &mut Report) -> Fit {
     let mut fit = refreed(fitting, fit);
     fitting.search(&mut fit, report);
     fit
 }
 
-/// Free what its modes make free.
+/// Sets the free parameters to those of the fit's modes. Lags and viscous friction by direction stay free.
 fn refreed(fitting: &Fitting<'_>, mut fit: Fit) -> Fit {
     let beside = |p: &Parameter| {
         matches!(p, Parameter::CommandLag | Parameter::ViscousDifference | Parameter::TipLag(_))
@@ -40,11 +40,11 @@ fn refreed(fitting: &Fitting<'_>, mut fit: Fit) -> Fit {
     fit
 }
 
-/// Searched with a mode above all others, which takes over a part of the highest: that one stands for
-/// all that were cut off with it.
+/// Searches with a mode above all others. It takes over a part of the highest mode, which may represent several.
 ///
-/// Where it rings at a wrong frequency a search is caught there. So a few steps are made from each of
-/// some frequencies, and of both ways in which point masses may have it, on a part of the windows.
+/// A search that begins at a wrong frequency of the new mode ends in a wrong minimum. So short searches on a part of
+/// the windows begin at each of some frequencies, and with both signs of the turn of point masses. The best
+/// continues.
 fn with_one_more(fitting: &Fitting<'_>, fit: &Fit, report: &mut Report) -> Fit {
     let last = highest(&fit.body.arm);
     let mut best: Option<(f64, Fit)> = None;
@@ -74,8 +74,8 @@ fn with_one_more(fitting: &Fitting<'_>, fit: &Fit, report: &mut Report) -> Fit {
     }
 }
 
-/// The highest mode at another frequency, if a few steps from there come to less than from here: now
-/// that the other figures are about right the cost tells.
+/// The highest mode at another frequency, if a short search from there ends at a lower cost than one from here. The
+/// cost is conclusive, because the other parameters are about right.
 fn retuned(fitting: &Fitting<'_>, fit: &Fit) -> Option<Fit> {
     let (least, _) = fitting.probe(fit, PROBE_STEPS)?;
     let others = MODE_RETUNED.iter().filter_map(|times| probed(fitting, fit, *times));
@@ -83,8 +83,7 @@ fn retuned(fitting: &Fitting<'_>, fit: &Fit) -> Option<Fit> {
     others.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, other)| other)
 }
 
-/// What a few steps make of a fit whose highest mode is put at so many `times` its frequency, and their
-/// cost.
+/// Result and cost of a short search from a fit whose highest mode is put at `times` its frequency.
 fn probed(fitting: &Fitting<'_>, fit: &Fit, times: f64) -> Option<(f64, Fit)> {
     let mode = highest(&fit.body.arm);
     let mut other = fit.clone();
@@ -97,10 +96,10 @@ fn probed(fitting: &Fitting<'_>, fit: &Fit, times: f64) -> Option<(f64, Fit)> {
     Some((cost, Fit { body, ..other }))
 }
 
-/// Arms from which to try again where a search was caught: the same one, and those that a few steps on
-/// short windows make of it with its highest mode elsewhere, the likeliest first.
+/// Arms from which to search again after a wrong minimum, the likeliest first: results of short searches on short
+/// windows with the highest mode at its own and at other frequencies.
 pub(super) fn starts_again(fitting: &Fitting<'_>, fit: &Fit) -> Vec<ModalArm> {
-    // A single mode is driven or not there: what one leaves is something else.
+    // A single mode is driven or absent: the residual has another cause.
     if fit.body.arm.modes.len() < 2 {
         return Vec::new();
     }
@@ -116,7 +115,7 @@ pub(super) fn starts_again(fitting: &Fitting<'_>, fit: &Fit) -> Vec<ModalArm> {
     tried.into_iter().take(REPETITIONS_MOST).map(|(_, fit)| undamped(fit.body.arm)).collect()
 }
 
-/// Without dampers against the frame, which a search is to find, and with none within the beam that drives it.
+/// Removes damping against the frame, which the search has to find again, and negative damping within the beam.
 fn undamped(mut arm: ModalArm) -> ModalArm {
     for mode in &mut arm.modes {
         mode.within_per_s = mode.within_per_s.max(0.0);
@@ -139,7 +138,7 @@ fn one_beyond(mut fit: Fit, last: usize, times: f64) -> Fit {
     arm.modes.push(Oscillator {
         omega_rad_s: times * cut.omega_rad_s,
         stiffness_nm_per_rad: NEW_MODE_SHARE * cut.stiffness_nm_per_rad,
-        // Its ringing must not outlast how well its frequency is known.
+        // It must not ring for long, because its frequency is hardly known.
         within_per_s: 2.0 * NEW_MODE_DAMPING * times * cut.omega_rad_s,
         grounded_per_s: 0.0,
     });
@@ -154,14 +153,14 @@ fn one_beyond(mut fit: Fit, last: usize, times: f64) -> Fit {
     fit
 }
 
-/// Whether the highest of several modes is faint.
+/// Whether the highest of several modes is faint: its stiffness is hardly known.
 pub(super) fn highest_is_faint(fitting: &Fitting<'_>, fit: &Fit) -> bool {
     let arm = &fit.body.arm;
     let stiffness = || known_to(fitting, fit)(Parameter::Stiffness(highest(arm)));
     arm.modes.len() > 1 && stiffness().is_some_and(|share| share > MODE_FAINT)
 }
 
-/// Deviations of parameters relative to their values.
+/// Relative standard errors of parameters.
 fn known_to<'a>(
     fitting: &Fitting<'_>,
     fit: &'a Fit,

@@ -1,4 +1,4 @@
-//! The noise of each channel, from what a fit leaves.
+//! The noise of each channel, from the residual of a fit.
 
 use crate::identify::methods::output_error::data::Masks;
 use crate::identify::methods::output_error::thresholds::{
@@ -8,10 +8,10 @@ use crate::identify::prepare::channel_noise::channel_noise;
 use crate::record::{Campaign, Run};
 use crate::replay::{Prediction, SensorNoise, Window};
 
-/// Golden section of ln σ down to a factor of 1 %.
+/// Steps of the golden-section search for ln σ, to 1 % of σ.
 const GOLDEN_STEPS: usize = 24;
 
-/// First guess, from the samples alone: all noise as one, without steps.
+/// First estimate, from the samples alone. A sensor's steps are counted as Gaussian noise.
 pub(super) fn of_samples(campaign: &Campaign) -> Vec<SensorNoise> {
     each_channel(campaign, &|x| channel_noise(x).std)
         .into_iter()
@@ -24,7 +24,7 @@ pub(super) fn steps(campaign: &Campaign) -> Vec<f64> {
     each_channel(campaign, &|x| channel_noise(x).step)
 }
 
-/// Median over the runs of a figure of each channel, motor first, then tips.
+/// Median over the runs of a quantity of each channel, motor first, then tips.
 fn each_channel(campaign: &Campaign, figure: &dyn Fn(&[f64]) -> f64) -> Vec<f64> {
     let channel = |c: usize, run: &Run| match c.checked_sub(1) {
         None => figure(run.motor()),
@@ -39,7 +39,7 @@ fn each_channel(campaign: &Campaign, figure: &dyn Fn(&[f64]) -> f64) -> Vec<f64>
         .collect()
 }
 
-/// Residuals of each channel over windows of which this is predicted.
+/// Residuals of each channel over windows whose readings are `predicted`.
 pub(super) fn residuals(
     campaign: &Campaign,
     windows: &[Window],
@@ -63,7 +63,7 @@ pub(super) fn residuals(
     all
 }
 
-/// The noise that makes residuals of a sensor with steps of `step` most likely.
+/// Most likely noise of a sensor with steps of `step`, from its residuals.
 pub(super) fn most_likely(residuals: &[f64], step: f64) -> SensorNoise {
     let pieces = (residuals.len() / NOISE_RESIDUALS).max(1);
     let looked_at: Vec<f64> = residuals.iter().copied().step_by(pieces).collect();
@@ -72,7 +72,7 @@ pub(super) fn most_likely(residuals: &[f64], step: f64) -> SensorNoise {
     if step < SENSOR_STEP_COUNTED * deviation {
         return SensorNoise::gaussian(deviation);
     }
-    // −ln of the probability that a step of the sensor holds the reading.
+    // −ln of the probability of the sensor's readings.
     let unlikely = |log_sigma: f64| {
         let noise = SensorNoise { sigma: log_sigma.exp(), step };
         looked_at.iter().map(|e| noise.surprise(*e)).sum::<f64>()
@@ -87,7 +87,7 @@ pub(super) fn most_likely(residuals: &[f64], step: f64) -> SensorNoise {
     SensorNoise { sigma: (0.5 * (low + high)).exp(), step }
 }
 
-/// Whether a sensor shows its steps and hardly any noise: less, at any rate, than it is ever taken to have.
+/// Whether a sensor shows its steps and no noise: its noise is the smallest that is assumed.
 pub(super) fn is_least(noise: &SensorNoise) -> bool {
     noise.step > 0.0 && noise.sigma < NOISE_LEAST_FACTOR * NOISE_OVER_STEP_LEAST * noise.step
 }

@@ -6,11 +6,11 @@ use crate::identify::methods::output_error::noise::is_least;
 use crate::record::Campaign;
 use crate::replay::Prediction;
 
-/// Leaves out the readings at which what a sensor without noise reads has moved by less than the noise that
-/// it is taken to have since the last one that counts; `None` where all sensors have noise of their own.
+/// Leaves out readings of a sensor without noise until the predicted value has changed by the assumed noise since the
+/// last reading that counts. `None` if all sensors have noise of their own.
 ///
-/// Such a sensor shows one step for as long as a joint rests, and each reading would say once more, with
-/// noise taken to be its own, that the angle is not near the step's edge. One says it once.
+/// Such a sensor shows one step as long as the joint rests. With the assumed noise, each reading would say again that
+/// the angle is not near the edge of the step. So it is counted once.
 pub(super) fn without_repeats(
     campaign: &Campaign,
     fit: &Fit,

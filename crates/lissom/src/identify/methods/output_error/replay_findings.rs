@@ -1,4 +1,4 @@
-//! What speaks against the estimates of the output-error method, in findings.
+//! Findings about the estimates of the output-error method.
 
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::{
@@ -16,7 +16,7 @@ use crate::identify::thresholds::PRESENT;
 use crate::record::{Campaign, Hold, Run, Tip};
 use crate::replay::{ModalArm, Parameter};
 
-/// What the replay found, and that it does not describe the runs where it does not.
+/// Findings of the replay, among them that it does not describe the runs.
 pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
     let campaign = evidence.campaign;
     let Some(oe) = &evidence.methods.output_error else { return Vec::new() };
@@ -37,14 +37,14 @@ pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
     findings
 }
 
-/// Windows are shorter than the runs that they describe.
+/// Windows are shorter than the runs, because neighbouring motions grow apart.
 fn motions_part(oe: &OutputError) -> Option<Finding> {
     let window_s = oe.stages.last()?.window_s;
     (oe.describes_whole_runs() && oe.is_in_windows())
         .then(|| Finding::new(OutputErrorFinding::MotionsPart { window_s }))
 }
 
-/// The search was not done.
+/// The limit of evaluations ended the search.
 fn budget_spent(oe: &OutputError) -> Option<Finding> {
     Some(Finding::new(OutputErrorFinding::BudgetSpent {
         evaluations: oe.evaluations,
@@ -53,7 +53,7 @@ fn budget_spent(oe: &OutputError) -> Option<Finding> {
     }))
 }
 
-/// The arm does not describe the runs from end to end.
+/// The arm does not describe whole runs.
 fn departs(oe: &OutputError) -> Option<Finding> {
     if oe.describes_whole_runs() {
         return None;
@@ -68,7 +68,7 @@ fn departs(oe: &OutputError) -> Option<Finding> {
     }))
 }
 
-/// Whole runs are described, and yet not to the noise of the sensors.
+/// Whole runs are described, but the residual is larger than the sensors' noise explains.
 fn more_than_noise(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
     if !oe.whole_runs || !is_left(&oe.left_over) {
         return None;
@@ -81,8 +81,7 @@ fn more_than_noise(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
     Some(Finding::new(OutputErrorFinding::MoreThanNoise { channel, share: *share }))
 }
 
-/// A highest mode that the runs hardly drive: what they show of it is k/ω², and its frequency is where the
-/// noise happens to ring like it.
+/// The runs hardly drive the highest mode: they show its k/ω², and noise determines its frequency.
 fn faint_mode(arm: &ModalArm, estimate: impl Fn(Parameter) -> Option<Estimate>) -> Option<Finding> {
     let mode = highest(arm);
     let stiffness = estimate(Parameter::Stiffness(mode)).filter(|_| arm.modes.len() > 1)?;
@@ -92,8 +91,8 @@ fn faint_mode(arm: &ModalArm, estimate: impl Fn(Parameter) -> Option<Estimate>) 
     (share > MODE_FAINT).then(|| Finding::new(found))
 }
 
-/// A damper that is less than none: what dampers of one kind take too much, one of another kind gives back, and
-/// viscous friction and damping ratios are moved by what is left.
+/// A damping coefficient is below zero. Dampers of one kind are too large, and one of another kind compensates for
+/// them. Viscous friction and damping ratios are then wrong.
 fn driving_damper(figures: impl Iterator<Item = (Parameter, Estimate)>) -> Option<Finding> {
     let drives = figures.filter(|(p, e)| p.is_damper() && e.value < -DAMPER_DRIVES * e.std);
     let (damper, rate_per_s) =
@@ -101,27 +100,27 @@ fn driving_damper(figures: impl Iterator<Item = (Parameter, Estimate)>) -> Optio
     Some(Finding::new(OutputErrorFinding::DamperDrives { damper, rate_per_s }))
 }
 
-/// The stage of the longest windows tried.
+/// The stage with the longest windows.
 fn longest(oe: &OutputError) -> Option<&StageReport> {
     oe.stages.iter().max_by(|a, b| a.window_s.total_cmp(&b.window_s))
 }
 
-/// Modes that no tip shows.
+/// Modes that only the motor shows.
 fn modes_by_the_motor(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
     let modes = oe.arm.modes.len();
     (modes > 0 && campaign.channels.tips.is_empty())
         .then(|| Finding::new(OutputErrorFinding::ModesByTheMotor { modes }))
 }
 
-/// Fewer modes than tips: a mode that no run shows, whose inertia rides on the motor's.
+/// There are fewer modes than tips: no run shows the missing mode, and its inertia is counted with the motor's.
 fn modes_missing(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
     let (modes, tips) = (oe.arm.modes.len(), campaign.channels.tips.len());
     (modes > 0 && modes < tips)
         .then(|| Finding::new(OutputErrorFinding::ModesMissing { modes, tips }))
 }
 
-/// Damping within the beam that cannot be told from damping against the frame. A warning where more than damping
-/// depends on it.
+/// Damping within the beam cannot be distinguished from damping against the frame. It is a warning if other estimates
+/// depend on it.
 fn damping_kind(oe: &OutputError) -> Option<Finding> {
     let of_figure = |p: &Parameter| match p {
         Parameter::Inertia => Some(key::INERTIA),
@@ -135,10 +134,10 @@ fn damping_kind(oe: &OutputError) -> Option<Finding> {
     (!open.is_empty()).then(|| Finding::new(OutputErrorFinding::DampingKind { parameters }))
 }
 
-/// A command that acts later than it is logged.
+/// The command acts later than it is logged.
 pub(crate) fn command_lag(campaign: &Campaign, lag: Estimate) -> Finding {
     let hold = campaign.channels.command.hold;
-    // A held command's samples are half a sample earlier than what they stand for.
+    // A held sample acts, on average, half a sample later than its time.
     let (towards_other, other) = match hold {
         Hold::Measured => (0.5, LagCause::LooksHeld),
         Hold::Sampled => (-0.5, LagCause::LooksMeasured),
@@ -195,7 +194,7 @@ mod tests {
         let text = said.message();
         assert!(text.contains("80.0 rad/s") && text.contains("2.5 %"), "{text}");
         assert!(faint_mode(&three, |p| known(p, 0.01)).is_none());
-        // One alone is driven or not there.
+        // A single mode is driven or absent.
         let alone = |_: Parameter| Some(Estimate { value: 2.0, std: 0.5 });
         assert!(faint_mode(&arm(vec![mode(5.0)]), alone).is_none());
     }

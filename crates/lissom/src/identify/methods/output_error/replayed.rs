@@ -1,5 +1,5 @@
-//! Output error: the logged command replayed through an arm whose parameters are moved until it shows
-//! the logged angles.
+//! The output-error method: the logged command is replayed through an arm, and the arm's parameters are changed until
+//! the replay shows the logged angles.
 
 use crate::identify::methods::output_error::budget::Budget;
 use crate::identify::methods::output_error::fitting::Fitting;
@@ -11,19 +11,19 @@ use crate::identify::methods::output_error::{data, noise};
 use crate::identify::prepare::prepared::Prepared;
 use crate::replay::SensorNoise;
 
-/// Moves the figures of an arm until the replayed command shows the logged angles.
+/// Identifies the arm whose replay of the logged command shows the logged angles.
 ///
-/// From one of the arms after another, until one describes the runs; else the one that comes nearest: where short
-/// windows show that an arm does not describe the runs it is given up there.
-/// In stages: windows with an initial state each, short at first, so that sticking and slipping
-/// follow the log; then ever longer ones, until they are whole runs or the residual grows because the
-/// arm does not describe what happens. Parameters beyond the simplest law (lag, viscous friction by
-/// direction, the other kind of damping, friction near rest, ripple) are added where the residual calls for them. At the end the
-/// sensors' steps are counted as what they are, and readings that only repeat a step once. Where more
-/// than the sensors' noise is left then, or the highest mode is faint, it is done again more slowly, from
-/// other frequencies of that mode, too.
+/// The search starts from one arm after another, until one describes the runs. If none does, the one that comes
+/// closest is returned. An arm that does not describe short windows is given up there.
 ///
-/// `None` where no window can be cut or nothing is left of the search.
+/// Each window has its own initial state. Windows are short at first, so that sticking and slipping follow the log.
+/// They become longer until they are whole runs, or until the residual grows because the arm does not describe the
+/// motion. Parameters beyond the simplest law are added if they are significant: a lag, viscous friction by
+/// direction, another kind of damping, friction near standstill, a ripple. At the end the sensors' steps are counted
+/// as steps, and readings that only repeat a step are counted once. If the residual is then above the noise, or the
+/// highest mode is faint, the search is repeated with slower widening and from other frequencies of that mode.
+///
+/// `None` if no window can be cut or no starting arm is within the limits of the search.
 pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option<OutputError> {
     let campaign = prepared.used();
     let masks = data::masks(campaign);

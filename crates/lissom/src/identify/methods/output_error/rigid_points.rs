@@ -1,4 +1,4 @@
-//! Whether the beam is one of point masses at its tips.
+//! Choice between point masses at the tips and independent modes.
 
 use crate::identify::methods::output_error::coordinates::Body;
 use crate::identify::methods::output_error::fit::{Fit, Report};
@@ -7,9 +7,9 @@ use crate::identify::methods::output_error::scores::Promised;
 use crate::identify::methods::output_error::search::Stop;
 use crate::identify::methods::output_error::thresholds::POINT_MASSES_COST;
 
-/// Lets the modes go each its own way where point masses at the tips leave more than noise.
+/// Replaces point masses at the tips by independent modes, if that is expected to lower the cost.
 pub(super) fn relax(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
-    // Before a search has ended anything promises to help.
+    // Before a search has converged, any coordinate is expected to lower the cost.
     let ended = report.stages.last().is_some_and(|s| s.stop != Stop::StepsUsedUp);
     if fit.body.masses.is_none() || !ended {
         return;
@@ -22,8 +22,7 @@ pub(super) fn relax(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     }
 }
 
-/// Takes the beam for point masses at the tips where that leaves no more than modes that go each its own
-/// way.
+/// Replaces independent modes by point masses at the tips, if that is better.
 pub(super) fn tighten(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let body = Body::of_masses(fitting.campaign, fit.body.arm.clone());
     if fit.body.masses.is_some() || body.masses.is_none() {

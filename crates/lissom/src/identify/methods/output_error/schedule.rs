@@ -1,11 +1,11 @@
-//! The order of the moves: from an arm on short windows to one that whole runs have shaped.
+//! Order of the steps, from a starting arm on short windows to an arm identified from whole runs.
 //!
 //! 1. Starting arms, the likelier first ([`best`]).
-//! 2. Short windows ([`begin`]): search, modes, parameters that the residual calls for. An arm that does not describe
-//!    short windows is given up.
+//! 2. Short windows ([`begin`]): search, modes, significant parameters. An arm that does not describe short windows is
+//!    given up.
 //! 3. Longer and longer windows ([`widen`]), until they are whole runs or the residual grows.
-//! 4. Modes, dampers and point masses settled ([`settle`]), sensors' steps counted.
-//! 5. Once more, more slowly, where the search was caught ([`again`]).
+//! 4. Choice of modes, dampers and point masses ([`settle`]); sensors' steps are counted as steps.
+//! 5. A slower repetition if the search may have ended in a wrong minimum ([`again`]).
 
 use crate::identify::methods::output_error::dampers::{dampers_at_points, drop_dampers};
 use crate::identify::methods::output_error::data::Masks;
@@ -24,18 +24,18 @@ use crate::identify::methods::output_error::thresholds::{
 use crate::identify::methods::output_error::windows::widen as widened;
 use crate::replay::{ModalArm, Oscillator, Parameter};
 
-/// Where a search has come to.
+/// Result of a search from one starting arm.
 pub(super) struct Attempt {
     pub(super) fit: Fit,
     pub(super) report: Report,
-    /// The samples that count where some only repeat a step of their sensor.
+    /// Samples that are used if readings that only repeat a step of their sensor are left out.
     pub(super) without_repeats: Option<Vec<Masks>>,
-    /// Share of each channel's squared residual, motor first, that is slower than what its sensor adds.
+    /// Share of each channel's squared residual, motor first, that is slower than its sensor's noise.
     pub(super) left: Vec<f64>,
 }
 
-/// The first attempt that describes the runs, else the one that comes nearest. Where more than the
-/// sensors' noise is left it is made again more slowly, from other frequencies of the highest mode, too.
+/// The first attempt that describes the runs; if none does, the closest one. It is repeated with slower widening, and
+/// from other frequencies of the highest mode, if it may have ended in a wrong minimum.
 pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<Attempt> {
     let mut best: Option<Attempt> = None;
     for arm in likely_first(fitting, start) {
@@ -51,9 +51,9 @@ pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<At
     Some(again(fitting, best?, start.first_window_s))
 }
 
-/// The arms to start from. Those go last, the farther the later, from which a few steps on the same short
-/// windows come nowhere near what they come to from the best: a search from there takes long and ends
-/// elsewhere. One that these steps bring to the modes of an arm before it is none of its own.
+/// Orders the starting arms. Those whose cost after a short search is far above the best one's go last, in the order
+/// of that cost: a search from there takes long and ends elsewhere. All short searches are on the same short windows.
+/// An arm that its short search brings to the modes of an earlier arm is left out.
 fn likely_first(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Vec<ModalArm> {
     if start.arms.len() < 2 {
         return start.arms.clone();
@@ -80,7 +80,7 @@ fn likely_first(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Vec<ModalArm
     kept.into_iter().map(|i| start.arms[i].clone()).collect()
 }
 
-/// Whether two arms have the same modes, and both or neither a law of friction beyond the simplest.
+/// Whether two arms have the same modes, and both or neither have friction terms beyond the simplest law.
 fn are_alike(a: &ModalArm, b: &ModalArm) -> bool {
     let near = |(p, q): (&Oscillator, &Oscillator)| {
         (p.omega_rad_s / q.omega_rad_s - 1.0).abs() < STARTS_ALIKE
@@ -91,8 +91,8 @@ fn are_alike(a: &ModalArm, b: &ModalArm) -> bool {
         && a.modes.iter().zip(&b.modes).all(near)
 }
 
-/// From an arm to one that whole runs and the sensors' steps have shaped; only to where the first windows bring it where
-/// these show that it does not describe the runs: longer ones leave more.
+/// Searches from a starting arm to whole runs and the sensors' steps. Ends at the first windows if these show that
+/// the arm does not describe the runs: on longer windows the residual is larger.
 fn attempt(fitting: &Fitting<'_>, arm: &ModalArm, first_window_s: Option<f64>) -> Option<Attempt> {
     let mut report = Report::default();
     let window_s = first_window_s.unwrap_or_else(|| fitting.first_window_s(arm));
@@ -104,7 +104,7 @@ fn attempt(fitting: &Fitting<'_>, arm: &ModalArm, first_window_s: Option<f64>) -
     Some(go_on(fitting, fit, report))
 }
 
-/// Searches on the first windows, short ones; `None` where no window can be cut.
+/// Searches on the first windows, which are short; `None` if no window can be cut.
 fn begin(fitting: &Fitting<'_>, arm: &ModalArm, window_s: f64, report: &mut Report) -> Option<Fit> {
     let mut fit = fitting.first_fit(arm, window_s)?;
     fitting.search(&mut fit, report);
@@ -113,8 +113,8 @@ fn begin(fitting: &Fitting<'_>, arm: &ModalArm, window_s: f64, report: &mut Repo
     Some(fit)
 }
 
-/// To whole runs, as far as the arm describes them and neighbouring motions stay together; parameters are added
-/// where it does not.
+/// Lengthens the windows to whole runs, as far as the arm describes them and neighbouring motions do not grow apart.
+/// Parameters are added if the residual grows.
 fn widen(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let longest = fitting.longest_s();
     let mut factor = fitting.widening;
@@ -142,13 +142,13 @@ fn widen(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
                 }
                 return;
             }
-            // The windows before are described to the noise: this search was caught on the way.
+            // The arm describes the shorter windows to the noise: this search ended in a wrong minimum.
             factor = WINDOW_WIDENING_SLOW;
         }
     }
 }
 
-/// On to whole runs and the sensors' steps.
+/// Continues to whole runs and the sensors' steps.
 fn go_on(fitting: &Fitting<'_>, mut fit: Fit, mut report: Report) -> Attempt {
     widen(fitting, &mut fit, &mut report);
     modes::grow(fitting, &mut fit, &mut report);
@@ -158,7 +158,7 @@ fn go_on(fitting: &Fitting<'_>, mut fit: Fit, mut report: Report) -> Attempt {
     Attempt { fit, report, without_repeats, left }
 }
 
-/// Which kinds of dampers there are, and whether the beam is one of point masses.
+/// Chooses the kinds of dampers, and between point masses and independent modes.
 fn settle(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let dampers =
         |fit: &Fit| fit.free.iter().copied().filter(|p| p.is_damper()).collect::<Vec<Parameter>>();
@@ -167,15 +167,15 @@ fn settle(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let added = report.added.len();
     extend(fitting, fit, report);
     if report.added.len() > added {
-        // It may describe longer windows.
+        // The arm may now describe longer windows.
         widen(fitting, fit, report);
     }
     let before = dampers(fit);
     dampers_at_points(fitting, fit, report);
     drop_dampers(fitting, fit, report);
     if dampers(fit) != before {
-        // Modes that made up for the dampers that there were may be those of point masses now, and longer windows
-        // may be described.
+        // Without the earlier dampers the modes may be those of point masses, and the arm may describe longer
+        // windows.
         tighten(fitting, fit, report);
         widen(fitting, fit, report);
     }
@@ -183,8 +183,8 @@ fn settle(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     relax(fitting, fit, report);
 }
 
-/// The same once more where its search was caught, if a slower one comes to less: where more than the sensors'
-/// noise is left, or the highest mode is so faint that at a wrong frequency it would leave hardly more.
+/// Repeats the search with slower widening, if it may have ended in a wrong minimum: the residual is above the noise,
+/// or the highest mode is so faint that a wrong frequency would leave hardly more. Returns the best result.
 fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> Attempt {
     let mut best = first;
     let caught = is_left(&best.left);
@@ -192,7 +192,7 @@ fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> 
     if fitting.budget.is_spent() || !best.fit.whole_runs || !(caught || faint()) {
         return best;
     }
-    // Not for another law: that has had its trial.
+    // Other friction laws are not tried again.
     let slowly = Fitting { widening: WINDOW_WIDENING_SLOW, tries_laws: false, ..*fitting };
     for arm in modes::starts_again(fitting, &best.fit) {
         let Some(other) = attempt(&slowly, &arm, first_window_s) else { continue };
@@ -223,7 +223,7 @@ impl Attempt {
         Fitting { masks, ..*fitting }.is_better(&other.fit, &self.fit)
     }
 
-    /// How near it comes, for comparison: whole runs before parts of them.
+    /// Order of attempts that do not describe the runs: whole runs come first, then smaller residuals.
     fn nearness(&self, fitting: &Fitting<'_>) -> (bool, f64) {
         (self.fit.whole_runs, -fitting.beyond_noise(&self.fit))
     }

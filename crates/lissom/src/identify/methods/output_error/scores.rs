@@ -1,4 +1,4 @@
-//! What one step of a search with further parameters promises: score tests, all from one replay.
+//! Score tests: the expected result of one step of a search with further parameters, for all groups from one replay.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -10,7 +10,7 @@ use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT};
 use crate::information::{inverse, normal_equations};
 use crate::replay::{Parameter, WindowSums};
 
-/// What one step of a search with each of some groups beside the free parameters promises.
+/// Expected result of one step of a search in the free parameters and each of some groups.
 pub(super) fn scores(
     fitting: &Fitting<'_>,
     fit: &Fit,
@@ -19,21 +19,21 @@ pub(super) fn scores(
     all_scores(fitting, fit, groups).1.into_iter().map(|promise| promise.group).collect()
 }
 
-/// Share of the cost that a group takes.
+/// Share by which a group is expected to lower the cost.
 pub(super) fn share(group: &[Extension]) -> f64 {
     group.first().map_or(0.0, |e| e.share)
 }
 
-/// What a group of parameters promises.
+/// Expected result of adding a group of parameters.
 pub(super) struct Promise {
     pub(super) group: Vec<Extension>,
-    /// Square of how many deviations all of the group together stand from zero, `vᵀ·C⁻¹·v`.
+    /// Squared distance of the whole group from zero in standard errors, `vᵀ·C⁻¹·v`.
     together: f64,
-    /// Change of the coordinates that are free without it, beside the change without it.
+    /// Change of the other coordinates, relative to a step without the group.
     pub(super) moved: DVector<f64>,
-    /// The same by each of the group, per unit.
+    /// The same for a unit of each parameter of the group.
     pub(super) slopes: DMatrix<f64>,
-    /// What the samples know of the group, the inverse of its covariance.
+    /// Information on the group: the inverse of its covariance.
     information: DMatrix<f64>,
 }
 
@@ -42,32 +42,33 @@ impl Promise {
         share(&self.group)
     }
 
-    /// Whether the group is there, though each of it may be nothing beside the others: dampers of several modes say.
+    /// Whether the group as a whole is significant. Single parameters of it may not be, such as dampers of several
+    /// modes.
     pub(super) fn stands_together(&self) -> bool {
         self.together > CLEARLY_PRESENT * CLEARLY_PRESENT * self.group.len() as f64
     }
 
-    /// The most that a parameter of the group stands from zero, in its deviations.
+    /// Largest distance of a parameter of the group from zero, in its standard errors.
     pub(super) fn deviations(&self) -> f64 {
         let of = |e: &Extension| if e.std > 0.0 { (e.value / e.std).abs() } else { 0.0 };
         self.group.iter().map(of).fold(0.0, f64::max)
     }
 
-    /// How likely `other` values are beside none, both held for as likely beforehand.
+    /// Probability of the values `other` compared with zero, if both are equally likely beforehand.
     pub(super) fn instead(&self, other: &DVector<f64>) -> f64 {
         let values = DVector::from_iterator(self.group.len(), self.group.iter().map(|e| e.value));
         let off = |v: &DVector<f64>| v.dot(&(&self.information * v));
         1.0 / (1.0 + (0.5 * (off(&(other - &values)) - off(&values))).exp())
     }
 
-    /// How likely the group is to be there: `1/(1 + exp((9 − d²)/2))`. The likelihoods' ratio is
-    /// exp(d²/2), and beforehand a group is held for as rare as lets d = 3 decide nothing.
+    /// Probability that the group is present, `1/(1 + exp((9 − d²)/2))`, where d is the distance from zero in
+    /// standard errors. The ratio of the likelihoods is exp(d²/2). The prior is such that d = 3 gives one half.
     pub(super) fn likelihood(&self) -> f64 {
         1.0 / (1.0 + (0.5 * (PRESENT * PRESENT - self.deviations().powi(2))).exp())
     }
 }
 
-/// Sums by what is free, and what each group promises beside: from one replay.
+/// Sums by the free coordinates, and the expected result of each group, from one replay.
 pub(super) fn all_scores(
     fitting: &Fitting<'_>,
     fit: &Fit,
@@ -95,9 +96,9 @@ pub(super) fn all_scores(
 /// One step of a search in all coordinates.
 pub(super) struct Promised {
     step: DVector<f64>,
-    /// Of the normal matrix.
+    /// Inverse of the normal matrix.
     inverse: DMatrix<f64>,
-    /// Share of the cost that it promises to take.
+    /// Share by which it is expected to lower the cost.
     pub(super) share: f64,
 }
 
@@ -112,8 +113,8 @@ impl Promised {
     }
 }
 
-/// The step that a search would make in the parameters of `group`, which follow `before` others that
-/// promise `alone` by themselves.
+/// The step that a search would make in the parameters of `group`, which follow `before` others. `alone` is the step
+/// in those others only.
 fn score(sums: &[WindowSums], before: usize, group: &[Parameter], alone: &Promised) -> Promise {
     let shared = before + group.len();
     let Promised { step, share, inverse: known } = Promised::of(sums, shared);
@@ -142,8 +143,8 @@ fn score(sums: &[WindowSums], before: usize, group: &[Parameter], alone: &Promis
 mod tests {
     use super::*;
 
-    /// Two dampers whose readings are nearly the same; what they have in common is ten deviations from zero, and each
-    /// less than one, since the other may stand for it.
+    /// Two dampers whose readings are nearly the same. Their sum is ten standard errors from zero, and each is less
+    /// than one from zero, since the other can replace it.
     #[test]
     fn twins_stand_together() {
         let (alike, shown) = (0.99, 10.0);

@@ -1,4 +1,4 @@
-//! Levenberg-Marquardt on parameters that all windows share and unknowns of each window's own.
+//! Levenberg-Marquardt search in parameters that all windows share and in unknowns of each window.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -16,22 +16,23 @@ use crate::replay::{
     ModalArm, Oscillator, Parameter, Ripple, Sampling, Window, WindowSums, costs, sums,
 };
 
-/// Damping of the first step, relative to the diagonal; and over sensors' steps, whose edges refuse long ones.
+/// Damping of the first step, relative to the diagonal; and where sensors' steps are counted, because their edges
+/// reject long steps of the search.
 const FIRST_DAMPING: f64 = 1e-3;
 const FIRST_DAMPING_OVER_STEPS: f64 = 0.1;
-/// Factor by which damping falls after a step that did all it promised, as Nielsen has it; and where
-/// sensors show steps and hardly any noise: their edges let it grow first, and it has far to fall.
+/// Factor by which damping falls after a step that lowers the cost as expected (Nielsen); and where sensors show
+/// steps and no noise, because the damping grows first at the edges of their steps.
 const EASING: f64 = 1.0 / 3.0;
 const EASING_OVER_STEPS: f64 = 0.1;
-/// A step that lowers the cost by this share of what it promised has kept its promise.
+/// A step keeps its promise if the cost falls by this share of the expected fall.
 const PROMISE_KEPT: f64 = 0.5;
 
-/// Parameters, windows and what they leave.
+/// A point of the search: parameters, windows, and sums over their residuals.
 #[derive(Debug, Clone)]
 pub(in crate::identify::methods::output_error) struct Point {
     pub(super) body: Body,
     pub(super) windows: Vec<Window>,
-    /// Derivatives in them are by the body's coordinates.
+    /// Sums, with derivatives by the body's coordinates.
     pub(super) sums: Vec<WindowSums>,
 }
 
@@ -48,8 +49,8 @@ impl Point {
     }
 }
 
-/// `n·κ·ln(1 + c/(n·κ))` of a window's cost c and samples n: what it adds grows slowly once it is on
-/// another way of sticking and slipping than its log.
+/// Robust cost `n·κ·ln(1 + c/(n·κ))` of a window with cost c and n samples. It grows slowly if the replay sticks and
+/// slips at other times than the log.
 fn robust(cost: f64, samples: usize, usual: f64) -> f64 {
     let n = samples as f64 * usual;
     if usual.is_finite() { n * (cost / n).ln_1p() } else { cost }
@@ -67,27 +68,27 @@ fn weight(sums: &WindowSums, usual: f64) -> f64 {
 /// Why a search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stop {
-    /// A further step promises nothing that counts beside the noise, nor, where what is left is no
-    /// noise or the stage only leads to the next, beside what is left.
+    /// A further step is expected to lower the cost by too little: compared with the noise, or compared with the cost
+    /// itself if other stages follow or the residual is far above the noise.
     Converged,
     /// No step, however short, lowers the cost: it has a kink there.
     NoStepHelps,
-    /// All steps allowed are made.
+    /// The largest number of steps is reached.
     StepsUsedUp,
-    /// All evaluations allowed are made.
+    /// The limit of evaluations is reached.
     BudgetSpent,
 }
 
 /// A step of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Iteration {
-    /// Sum of squared residuals in units of their deviation, after the step.
+    /// Sum of squared residuals in standard deviations of the noise, after the step.
     pub cost: f64,
-    /// What the step was expected to lower it by.
+    /// Expected fall of the cost.
     pub promised: f64,
     /// Damping of Levenberg and Marquardt.
     pub damping: f64,
-    /// Whether it was taken.
+    /// Whether the step was accepted.
     pub taken: bool,
 }
 
@@ -100,9 +101,9 @@ pub(super) struct Problem<'a> {
     pub(super) budget: &'a Budget,
     /// Whether windows that fit far worse than the others count less.
     pub(super) robust: bool,
-    /// Fall of the cost below which a step is not worth a replay.
+    /// Expected fall of the cost below which the search ends.
     pub(super) promise: f64,
-    /// Share of the cost below which it is not either, whatever it is beside the noise.
+    /// Expected fall, as a share of the cost, below which the search ends as well.
     pub(super) near_enough: f64,
 }
 
@@ -142,8 +143,8 @@ impl Problem<'_> {
             }
             let (body, windows) = self.moved(&point, &step);
             let possible = is_possible(self.campaign, &body.arm);
-            // A step after one that did what it promised is taken as a rule: its derivatives, wanted
-            // then, come with the cost.
+            // A step after one that kept its promise is usually accepted, so it is replayed with its derivatives at
+            // once.
             let ahead =
                 (possible && kept_its_promise).then(|| self.at(body.clone(), windows.clone()));
             let after = match &ahead {
@@ -246,23 +247,22 @@ fn samples_of(windows: &[Window]) -> usize {
     windows.iter().map(Window::len).sum()
 }
 
-/// What a step may change a window's first velocity by where it would by `change`.
+/// Limits the change of a window's first velocity in one step.
 fn kick(change: f64, velocity: f64, fastest: f64) -> f64 {
     let (most, to_rest) = (STEP_VELOCITY_MOST * fastest, -velocity);
     change.clamp(to_rest.min(-most), to_rest.max(most))
 }
 
-/// The fastest that the log moves the motor in a window.
+/// Largest speed of the logged motor in a window.
 fn fastest_within(run: &Run, window: &Window) -> f64 {
     let moves =
         run.motor()[window.samples.clone()].windows(2).map(|pair| (pair[1] - pair[0]).abs());
     moves.fold(0.0, f64::max) / run.sample_time_s()
 }
 
-/// Whether friction with all of its terms brakes, at rest and at speed, else nothing holds the motor and
-/// it is pushed both ways; and whether the runs can show its terms: a change within speeds that no log
-/// resolves, or waves that pass within a sample, take ever shorter steps to follow, and waves far longer than
-/// the travel are no waves.
+/// Whether friction with all of its terms brakes, at rest and at speed; otherwise nothing holds the motor. Also
+/// whether the runs can show its terms: a change within very low speeds, or waves that pass within a sample, need
+/// ever shorter steps of the replay, and waves far longer than the travel are nearly constant.
 fn is_braking(campaign: &Campaign, arm: &ModalArm, sample_s: f64) -> bool {
     let terms = &arm.dry_terms;
     if terms.is_empty() {
@@ -281,8 +281,8 @@ fn is_braking(campaign: &Campaign, arm: &ModalArm, sample_s: f64) -> bool {
         && arm.coulomb_nm + near > waves
 }
 
-/// Whether a search may go there: friction brakes, and every mode turns by less than [`MODE_TURN_MOST`] in
-/// a sample: faster ones are in no log, and take ever shorter steps to follow.
+/// Whether an arm is within the limits of the search: friction brakes, and every mode turns by less than
+/// [`MODE_TURN_MOST`] in a sample. Faster modes are in no log, and need ever shorter steps of the replay.
 pub(super) fn is_possible(campaign: &Campaign, arm: &ModalArm) -> bool {
     let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let turn = |m: &Oscillator| m.omega_rad_s * sample_s;
@@ -307,7 +307,7 @@ mod tests {
     use crate::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
     use crate::replay::{DryTerms, ModalArm, Ripple};
 
-    /// Waves far longer than the travel are a constant, and such that pass within a sample no wave.
+    /// A ripple far longer than the travel is a constant, and one that passes within a sample is no ripple.
     #[test]
     fn ripples_are_waves_over_the_travel() {
         let motor: Vec<f64> = (0..400).map(|k| 0.35 * (0.05 * f64::from(k)).sin()).collect();

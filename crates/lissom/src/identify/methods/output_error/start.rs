@@ -1,4 +1,4 @@
-//! Where the output error starts: the figures of the regressions as an arm.
+//! Starting arms of the output-error method, from the estimates of other methods.
 
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::Estimate;
@@ -15,9 +15,9 @@ use crate::identify::thresholds::MODE_DAMPING_LEAST;
 use crate::record::Campaign;
 use crate::replay::{DryTerms, MOST_MODES, ModalArm, Oscillator};
 
-/// Arms to start from where a tip's angle is known, the likelier first: the `drive`'s estimates with the
-/// beam's own, and with the modes of the rational model `tips`. Empty where no tip's angle is known, or the
-/// motor's figures lack what it needs.
+/// Starting arms if a tip's angle is known, the likelier first: the `drive`'s estimates with the modes of the beam
+/// regression, and with the modes of the rational model `tips`. Empty if no tip's angle is known, or if an estimate
+/// of the drive that an arm needs is missing.
 pub fn starts(
     campaign: &Campaign,
     drive: &DriveEstimates,
@@ -52,8 +52,8 @@ pub fn starts(
         .collect()
 }
 
-/// Arms to start from where no tip's angle is known, the simpler first: a rigid axis where there is no tip
-/// at all, and what the motor's rational model `response` has, where it has modes.
+/// Starting arms if no tip's angle is known, the simpler first: a rigid axis if there is no tip at all, and the modes
+/// of the motor's rational model `response`, if it has modes.
 pub fn starts_by_motor(
     campaign: &Campaign,
     drive: &DriveEstimates,
@@ -66,10 +66,10 @@ pub fn starts_by_motor(
     rigid.into_iter().chain(flexible).collect()
 }
 
-/// Arms to start from by responses alone, with one mode, two, … as many as there are tips: poles that the
-/// `tips`' responses θ_i/θ_m at `omega_rad_s` share, and the coupling through them that the motor's response
-/// shows. Slip phases need a tip that is read finely for the coupling, and the beam's own equation motions that
-/// every mode takes part in.
+/// Starting arms from responses alone, with one mode, two, and so on up to the number of tips. The poles are those
+/// that the `tips`' responses θ_i/θ_m at `omega_rad_s` share, and the coupling is that of the motor's response with
+/// these poles. Other starts need more: slip phases need a tip sensor with fine resolution for the coupling, and the
+/// beam's own equation needs motions in which every mode takes part.
 pub fn starts_by_responses(
     campaign: &Campaign,
     drive: &DriveEstimates,
@@ -95,7 +95,7 @@ pub fn starts_by_responses(
     (1..=tips.len().min(MOST_MODES)).filter_map(found).collect()
 }
 
-/// An axis with modes of which each tip has a share, and the coupling that its response shows with them.
+/// An arm with these poles and shapes, with the coupling from the motor's response.
 fn coupled(
     rigid: &ModalArm,
     poles: &[Pole],
@@ -123,8 +123,8 @@ fn coupled(
     })
 }
 
-/// An axis with the modes that its own response shows, and each tip's part in them by `tips`, whose
-/// modes these are then. Its inertia is that of the response: slip phases alone count the beam's with it.
+/// An arm with the modes of the motor's response, and with each tip's share in them from `tips`, which has the same
+/// modes. The inertia is that of the response: slip phases alone count the beam's inertia with the motor's.
 fn flexible(
     rigid: &ModalArm,
     campaign: &Campaign,
@@ -166,8 +166,8 @@ fn flexible(
 /// Frequencies, damping ratios, and shapes by tip.
 type Modes = (Vec<f64>, Vec<f64>, Vec<Vec<f64>>);
 
-/// Without modes that no tip shows beside the others: noise makes them, and they stand in the place of
-/// those that the fit adds where it needs them.
+/// Removes modes that no tip shows: noise makes them, and they would replace modes that the fit adds where it needs
+/// them.
 fn shown((mut omega, mut ratios, mut shapes): Modes) -> Modes {
     let share = |shapes: &[Vec<f64>], j: usize| {
         shapes.iter().map(|row: &Vec<f64>| row[j].abs()).fold(0.0, f64::max)
@@ -223,7 +223,7 @@ fn modes_of_responses(fit: &BeamFit) -> Option<Modes> {
     (!omega.is_empty()).then_some((omega, ratios, shapes))
 }
 
-/// A mode damped within the beam, if at all.
+/// A mode with damping within the beam.
 fn oscillator(pole: &Pole, stiffness_nm_per_rad: f64) -> Oscillator {
     Oscillator {
         omega_rad_s: pole.omega_rad_s,
@@ -233,7 +233,7 @@ fn oscillator(pole: &Pole, stiffness_nm_per_rad: f64) -> Oscillator {
     }
 }
 
-/// The rest of Σr = 1 goes to the last mode.
+/// Adds to the last mode what is missing for Σr = 1.
 fn whole(row: &mut [f64]) {
     let sum: f64 = row.iter().sum();
     row.last_mut().into_iter().for_each(|r| *r += 1.0 - sum);

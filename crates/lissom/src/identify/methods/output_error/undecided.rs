@@ -1,4 +1,4 @@
-//! What a fit leaves undecided: terms that may be there, and the kind of damping.
+//! Terms whose presence the logs do not decide, and the kind of damping: what they add to the standard errors.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,32 +12,31 @@ use crate::identify::methods::output_error::thresholds::{
 use crate::identify::thresholds::SIGN_SHOWN;
 use crate::replay::{Parameter, WindowSums};
 
-/// Singular values below this mean nothing.
+/// Smallest singular value that is used: a floor against rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// What a fit leaves undecided.
+/// Terms that the logs do not decide.
 pub(super) struct Undecided {
-    /// Sums by what is free.
+    /// Sums by the free coordinates.
     pub(super) sums: Vec<WindowSums>,
-    /// By how much each group that is not free would move the free parameters, times the root of how likely it
-    /// is to be there: what they do not know of themselves for want of an answer. Outer products of these are
-    /// what it adds to the covariance, the mean over both answers.
+    /// Change of the free parameters by each group that is not free, times the root of the probability that the group
+    /// is present. Outer products of these are added to the covariance, which is then the mean over both cases.
     moved: Vec<DVector<f64>>,
-    /// Damping being of another kind.
+    /// Damping of another kind.
     by_kind: Vec<OtherKind>,
 }
 
-/// What is known of the parameters.
+/// Parameters and their covariance.
 pub(super) struct Known {
-    /// The free ones, and behind them dampers that may be there in place of those.
+    /// The free parameters, then dampers of another kind that may be present instead.
     pub(super) parameters: Vec<Parameter>,
     pub(super) covariance: DMatrix<f64>,
-    /// Free ones whose deviations are much longer for want of the damping's kind.
+    /// Free parameters whose standard errors are much larger because the kind of damping is not known.
     pub(super) open_by_damping: Vec<Parameter>,
 }
 
 impl Undecided {
-    /// The covariance of the free parameters as it is `decided`, with all that is not.
+    /// Adds the undecided terms to the covariance `decided` of the free parameters.
     pub(super) fn known(&self, free: &[Parameter], decided: DMatrix<f64>) -> Known {
         let mut covariance = decided;
         for moved in &self.moved {
@@ -65,11 +64,11 @@ impl Undecided {
 
 /// Dampers of one kind in place of those that are free.
 struct OtherKind {
-    /// What they are then.
+    /// The dampers and their values.
     dampers: Vec<(Parameter, f64)>,
-    /// By how much the free parameters move.
+    /// Change of the free parameters.
     moved: DVector<f64>,
-    /// How likely that is beside the dampers that are free, both held for as likely beforehand.
+    /// Probability compared with the dampers that are free, if both are equally likely beforehand.
     likely: f64,
 }
 
@@ -80,14 +79,14 @@ impl OtherKind {
         finite && self.likely > OTHER_DAMPING_LIKELY
     }
 
-    /// Whether any of the free parameters, whose `variances` these are without it, is known less for it.
+    /// Whether it makes some free parameter less certain; `variances` are those without it.
     fn is_felt(&self, variances: &DVector<f64>) -> bool {
         let mut each = self.moved.iter().zip(variances.iter());
         each.any(|(moved, variance)| self.likely * moved * moved > OTHER_DAMPING_FELT * variance)
     }
 
-    /// What it adds to the covariance of `parameters`, of which the free ones come first, as the root of an
-    /// outer product.
+    /// What it adds to the covariance of `parameters`, of which the free ones come first: a vector whose outer
+    /// product is added.
     fn root(&self, parameters: &[Parameter]) -> DVector<f64> {
         let mut root = DVector::zeros(parameters.len());
         root.rows_mut(0, self.moved.len()).copy_from(&self.moved);
@@ -100,7 +99,7 @@ impl OtherKind {
     }
 }
 
-/// What the samples leave undecided of the groups that are not free.
+/// Groups that are not free and whose presence the samples do not decide.
 pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Undecided {
     let (sums, promises) = all_scores(fitting, fit, &candidates(fitting, fit));
     let jacobian = fit.body.jacobian(&fit.free);
@@ -112,7 +111,7 @@ pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Undecided {
     let of_kind = promises.iter().flat_map(|p| {
         let slopes = jacobian.as_ref().map_or(p.slopes.clone(), |jacobian| jacobian * &p.slopes);
         let whole = in_place_of_others(fit, &p.group, &slopes);
-        // All of them, and where there are several each by itself.
+        // All dampers of the group, and each alone if there are several.
         let each = whole.iter().flat_map(|all| {
             let several = if all.len() > 1 { all.len() } else { 0 };
             let only = |k| DVector::from_fn(all.len(), |i, _| if i == k { all[k] } else { 0.0 });
@@ -129,9 +128,8 @@ pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Undecided {
     Undecided { moved: weighed.collect(), by_kind: of_kind.collect(), sums }
 }
 
-/// What the dampers of a group are where they stand for all others \[1/s\]: the values at which the free ones
-/// come to nothing, to first order by `slopes`, what each of the group moves the free parameters by. `None` of other
-/// groups.
+/// Values of a group's dampers if they replace all others \[1/s\]: those for which the free ones become zero, to
+/// first order. `slopes` has the changes of the free parameters by each of the group. `None` for other groups.
 fn in_place_of_others(
     fit: &Fit,
     group: &[Extension],

@@ -1,4 +1,4 @@
-//! Windows of the runs and their first initial states.
+//! Windows of the runs and their initial states.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -11,8 +11,8 @@ use crate::identify::methods::regression::smoothing;
 use crate::record::{Campaign, Run, TipQuantity};
 use crate::replay::{ModalArm, Window, predict};
 
-/// Cuts every run into windows of `length_s`, each beginning where the motor moves: its velocity's
-/// sign is then known, and with it the phase.
+/// Cuts every run into windows of `length_s`. Each begins where the motor moves, so that the sign of its velocity is
+/// known, and with it the direction of slip.
 pub(super) fn cut(campaign: &Campaign, arm: &ModalArm, length_s: f64) -> Vec<Window> {
     let of_run = |(index, run): (usize, &Run)| {
         let mut windows = Vec::new();
@@ -20,7 +20,7 @@ pub(super) fn cut(campaign: &Campaign, arm: &ModalArm, length_s: f64) -> Vec<Win
         let samples = ((length_s / run.sample_time_s()).round() as usize).max(WINDOW_SAMPLES_LEAST);
         let mut first = speed.moves_from(0);
         while let Some(from) = first {
-            // A rest too short for a window of its own goes to this one.
+            // A remainder that is too short for its own window is added to this one.
             let to = if from + samples + WINDOW_SAMPLES_LEAST > run.len() {
                 run.len() - 1
             } else {
@@ -42,8 +42,7 @@ pub(super) fn cut(campaign: &Campaign, arm: &ModalArm, length_s: f64) -> Vec<Win
     campaign.runs.par_iter().enumerate().flat_map_iter(of_run).collect()
 }
 
-/// Windows of `length_s` that begin with the states which `before`, windows of the same runs, have
-/// there.
+/// Windows of `length_s` whose initial states are those of `before`, windows of the same runs.
 pub(super) fn widen(
     campaign: &Campaign,
     arm: &ModalArm,
@@ -70,7 +69,7 @@ pub(super) fn widen(
     windows
 }
 
-/// The speed that the motor exceeds for a fiftieth of its time.
+/// Speed that the motor exceeds in 2 % of the time.
 pub(super) fn fastest_rad_s(campaign: &Campaign) -> f64 {
     let speeds = |run: &Run| Speed::new(run).velocity;
     let mut all: Vec<f64> = campaign.runs.iter().flat_map(speeds).map(f64::abs).collect();
@@ -78,7 +77,7 @@ pub(super) fn fastest_rad_s(campaign: &Campaign) -> f64 {
     all.get((FASTEST_QUANTILE * all.len() as f64) as usize).copied().unwrap_or(0.0)
 }
 
-/// From the least to the largest angle of all runs.
+/// Difference between the largest and the smallest angle of all runs.
 pub(super) fn travel(campaign: &Campaign) -> f64 {
     let angles = || campaign.runs.iter().flat_map(Run::motor).copied();
     angles().fold(f64::NEG_INFINITY, f64::max) - angles().fold(f64::INFINITY, f64::min)
@@ -128,8 +127,8 @@ fn mean(x: &[f64], k: usize, half: usize) -> f64 {
     x[from..=to].iter().sum::<f64>() / (to + 1 - from) as f64
 }
 
-/// State at sample `k`: the motor's from the log; the oscillators' from the tips, by the least
-/// squares that their shapes allow, undeflected where no tip shows an angle.
+/// State at sample `k`. The motor's part comes from the log. The oscillators' part comes from the tips, by least
+/// squares with their shapes; the beam is undeflected if no tip shows an angle.
 fn initial_state(
     campaign: &Campaign,
     run: &Run,
