@@ -4,8 +4,8 @@ use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::friction_estimates::Friction;
 use crate::identify::methods::friction_law::LawTerm;
-use crate::identify::methods::output_error::describes::{is_left, stands};
 use crate::identify::methods::output_error::found::OutputError;
+use crate::identify::methods::output_error::model::describes::{is_left, stands};
 use crate::record::{Channels, TipQuantity};
 use crate::replay::{DryTerms, FrictionNumber, ModalArm, Parameter};
 

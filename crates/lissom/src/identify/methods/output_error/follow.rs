@@ -1,11 +1,11 @@
 //! The motion of a given arm in runs from which it was not identified.
 
-use crate::identify::methods::output_error::budget::Budget;
-use crate::identify::methods::output_error::coordinates::Body;
-use crate::identify::methods::output_error::search::{Problem, is_possible};
+use crate::identify::methods::output_error::engine::budget::Budget;
+use crate::identify::methods::output_error::engine::coordinates::Body;
+use crate::identify::methods::output_error::engine::search::{Problem, is_possible};
+use crate::identify::methods::output_error::engine::windows::widen;
+use crate::identify::methods::output_error::engine::{data, noise};
 use crate::identify::methods::output_error::thresholds::{LAST_STEP_FALL, LAST_STEPS_MOST};
-use crate::identify::methods::output_error::windows::widen;
-use crate::identify::methods::output_error::{data, noise};
 use crate::record::Campaign;
 use crate::replay::{ModalArm, Sampling, SensorNoise, Window};
 

@@ -5,9 +5,9 @@ use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::friction_law::LawTerm;
-use crate::identify::methods::output_error::by_run::ByRun;
-use crate::identify::methods::output_error::covariance::deviation;
-use crate::identify::methods::output_error::fit::{Extension, StageReport};
+use crate::identify::methods::output_error::engine::by_run::ByRun;
+use crate::identify::methods::output_error::engine::covariance::deviation;
+use crate::identify::methods::output_error::model::fit::{Extension, StageReport};
 use crate::information::{beside, propagated};
 use crate::replay::{ModalArm, Parameter, SensorNoise, Window};
 

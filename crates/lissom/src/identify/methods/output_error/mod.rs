@@ -1,42 +1,23 @@
 //! The output-error method: the logged command is replayed through an arm, and the arm's parameters are changed until
 //! the replay shows the logged angles.
 
-mod budget;
-mod by_run;
-mod coordinates;
-mod covariance;
-mod dampers;
-mod data;
-mod describes;
-mod divergence;
-mod extend;
+mod engine;
 mod figures;
-mod fit;
-mod fitting;
 mod follow;
 mod found;
-mod law;
-mod left_over;
-mod modes;
-mod noise;
-mod repeats;
+mod model;
+mod moves;
 mod replay_findings;
 mod replayed;
-mod rigid_points;
 mod schedule;
-mod scores;
-mod search;
-mod start;
 pub(crate) mod thresholds;
-mod undecided;
-mod windows;
 
-pub use by_run::ByRun;
-pub(crate) use data::{Masks, masks};
-pub use fit::{Extension, StageReport};
+pub use engine::by_run::ByRun;
+pub(crate) use engine::data::{Masks, masks};
+pub use engine::search::{Iteration, Stop};
 pub(crate) use follow::follow;
 pub use found::{OutputError, OutputErrorStart};
+pub use model::fit::{Extension, StageReport};
+pub use model::start::{starts, starts_by_motor, starts_by_responses};
 pub(crate) use replay_findings::{command_lag, findings};
 pub use replayed::output_error;
-pub use search::{Iteration, Stop};
-pub use start::{starts, starts_by_motor, starts_by_responses};

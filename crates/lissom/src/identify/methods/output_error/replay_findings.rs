@@ -5,10 +5,10 @@ use crate::identify::findings::{
     Channel, Finding, LagCause, OutputErrorFinding, result_key as key,
 };
 use crate::identify::judge::Evidence;
-use crate::identify::methods::output_error::describes::is_left;
-use crate::identify::methods::output_error::fit::StageReport;
 use crate::identify::methods::output_error::found::OutputError;
-use crate::identify::methods::output_error::modes::highest;
+use crate::identify::methods::output_error::model::describes::is_left;
+use crate::identify::methods::output_error::model::fit::StageReport;
+use crate::identify::methods::output_error::moves::modes::highest;
 use crate::identify::methods::output_error::thresholds::{
     DAMPER_DRIVES, LAG_COMPARED, LAG_HALF_SAMPLE, MODE_FAINT, RESIDUAL_GROWN,
 };

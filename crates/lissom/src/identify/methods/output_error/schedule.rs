@@ -7,21 +7,21 @@
 //! 4. Choice of modes, dampers and point masses ([`settle`]); sensors' steps are counted as steps.
 //! 5. A slower repetition if the search may have ended in a wrong minimum ([`again`]).
 
-use crate::identify::methods::output_error::dampers::{dampers_at_points, drop_dampers};
-use crate::identify::methods::output_error::data::Masks;
-use crate::identify::methods::output_error::describes::{is_left, stands};
-use crate::identify::methods::output_error::extend::{drop_tip_lags, extend};
-use crate::identify::methods::output_error::fit::{Fit, Report};
-use crate::identify::methods::output_error::fitting::{Fitting, some};
+use crate::identify::methods::output_error::engine::data::Masks;
+use crate::identify::methods::output_error::engine::windows::widen as widened;
 use crate::identify::methods::output_error::found::OutputErrorStart;
-use crate::identify::methods::output_error::left_over::left_over;
-use crate::identify::methods::output_error::modes;
-use crate::identify::methods::output_error::rigid_points::{relax, tighten};
+use crate::identify::methods::output_error::model::describes::{is_left, stands};
+use crate::identify::methods::output_error::model::fit::{Fit, Report};
+use crate::identify::methods::output_error::model::fitting::{Fitting, some};
+use crate::identify::methods::output_error::model::left_over::left_over;
+use crate::identify::methods::output_error::moves::dampers::{dampers_at_points, drop_dampers};
+use crate::identify::methods::output_error::moves::extend::{drop_tip_lags, extend};
+use crate::identify::methods::output_error::moves::modes;
+use crate::identify::methods::output_error::moves::rigid_points::{relax, tighten};
 use crate::identify::methods::output_error::thresholds::{
     PROBE_STEPS, RESIDUAL_AT_NOISE, RESIDUAL_FAR_ABOVE_NOISE, START_COST_FAR, STARTS_ALIKE,
     WINDOW_WIDENING, WINDOW_WIDENING_SLOW,
 };
-use crate::identify::methods::output_error::windows::widen as widened;
 use crate::replay::{ModalArm, Oscillator, Parameter};
 
 /// Result of a search from one starting arm.

@@ -38,7 +38,7 @@ impl OneRun {
 
 impl ByRun {
     /// From sums over windows of which the first `shared` columns are the coordinates.
-    pub(super) fn of(
+    pub(crate) fn of(
         sums: &[WindowSums],
         windows: &[Window],
         shared: usize,
@@ -68,7 +68,7 @@ impl ByRun {
     }
 
     /// Adds parameters that the search did not change, to `count` in all.
-    pub(super) fn of_parameters(mut self, count: usize) -> Self {
+    pub(crate) fn of_parameters(mut self, count: usize) -> Self {
         self.jacobian.resize_vertically_mut(count, 0.0);
         self
     }

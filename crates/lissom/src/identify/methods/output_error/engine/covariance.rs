@@ -11,11 +11,11 @@ const LEAST_REST: f64 = 1e-9;
 
 /// Two covariances of the same parameters.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Covariances {
+pub(crate) struct Covariances {
     /// If residuals are white noise, with their own variance or, if that is smaller, the variance assumed in the fit.
-    pub(super) white: DMatrix<f64>,
+    pub(crate) white: DMatrix<f64>,
     /// By blocks of samples: residuals within a block may be correlated in any way.
-    pub(super) blocks: DMatrix<f64>,
+    pub(crate) blocks: DMatrix<f64>,
 }
 
 impl Covariances {
@@ -28,7 +28,7 @@ impl Covariances {
     ///
     /// Blocks: `Σ δ_b·δ_bᵀ`, where δ_b is the change of the parameters by the residuals of a block,
     /// [`moved_by_blocks`].
-    pub(super) fn at(sums: &[WindowSums], shared: usize) -> Self {
+    pub(crate) fn at(sums: &[WindowSums], shared: usize) -> Self {
         let reduced: Vec<Reduced> = sums.iter().map(|s| Reduced::new(s, shared, 0.0)).collect();
         let zero = DMatrix::zeros(shared, shared);
         let normal = reduced.iter().fold(zero.clone(), |sum, r| sum + &r.normal);
@@ -58,13 +58,13 @@ impl Covariances {
     }
 
     /// Of parameters that depend on those of this covariance by `jacobian`.
-    pub(super) fn through(self, jacobian: &DMatrix<f64>) -> Self {
+    pub(crate) fn through(self, jacobian: &DMatrix<f64>) -> Self {
         let through = |c: &DMatrix<f64>| jacobian * c * jacobian.transpose();
         Self { white: through(&self.white), blocks: through(&self.blocks) }
     }
 
     /// The white covariance, with standard errors increased to those by blocks where these are larger.
-    pub(super) fn larger(&self) -> DMatrix<f64> {
+    pub(crate) fn larger(&self) -> DMatrix<f64> {
         let stretch = DVector::from_fn(self.white.nrows(), |i, _| {
             let ratio = self.blocks[(i, i)] / self.white[(i, i)];
             if ratio > 1.0 && ratio.is_finite() { ratio.sqrt() } else { 1.0 }
@@ -76,7 +76,7 @@ impl Covariances {
 }
 
 /// Standard error of parameter `i`.
-pub(super) fn deviation(covariance: &DMatrix<f64>, i: usize) -> f64 {
+pub(crate) fn deviation(covariance: &DMatrix<f64>, i: usize) -> f64 {
     covariance[(i, i)].max(0.0).sqrt()
 }
 

@@ -13,7 +13,7 @@ use crate::replay::{ModalArm, Window, predict};
 
 /// Cuts every run into windows of `length_s`. Each begins where the motor moves, so that the sign of its velocity is
 /// known, and with it the direction of slip.
-pub(super) fn cut(campaign: &Campaign, arm: &ModalArm, length_s: f64) -> Vec<Window> {
+pub(crate) fn cut(campaign: &Campaign, arm: &ModalArm, length_s: f64) -> Vec<Window> {
     let of_run = |(index, run): (usize, &Run)| {
         let mut windows = Vec::new();
         let speed = Speed::new(run);
@@ -43,7 +43,7 @@ pub(super) fn cut(campaign: &Campaign, arm: &ModalArm, length_s: f64) -> Vec<Win
 }
 
 /// Windows of `length_s` whose initial states are those of `before`, windows of the same runs.
-pub(super) fn widen(
+pub(crate) fn widen(
     campaign: &Campaign,
     arm: &ModalArm,
     before: &[Window],
@@ -70,7 +70,7 @@ pub(super) fn widen(
 }
 
 /// Speed that the motor exceeds in 2 % of the time.
-pub(super) fn fastest_rad_s(campaign: &Campaign) -> f64 {
+pub(crate) fn fastest_rad_s(campaign: &Campaign) -> f64 {
     let speeds = |run: &Run| Speed::new(run).velocity;
     let mut all: Vec<f64> = campaign.runs.iter().flat_map(speeds).map(f64::abs).collect();
     all.sort_by(f64::total_cmp);
@@ -78,7 +78,7 @@ pub(super) fn fastest_rad_s(campaign: &Campaign) -> f64 {
 }
 
 /// Difference between the largest and the smallest angle of all runs.
-pub(super) fn travel(campaign: &Campaign) -> f64 {
+pub(crate) fn travel(campaign: &Campaign) -> f64 {
     let angles = || campaign.runs.iter().flat_map(Run::motor).copied();
     angles().fold(f64::NEG_INFINITY, f64::max) - angles().fold(f64::INFINITY, f64::min)
 }

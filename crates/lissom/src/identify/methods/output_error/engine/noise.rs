@@ -1,6 +1,6 @@
 //! The noise of each channel, from the residual of a fit.
 
-use crate::identify::methods::output_error::data::Masks;
+use crate::identify::methods::output_error::engine::data::Masks;
 use crate::identify::methods::output_error::thresholds::{
     NOISE_LEAST_FACTOR, NOISE_OVER_STEP_LEAST, NOISE_RESIDUALS, SENSOR_STEP_COUNTED,
 };
@@ -12,7 +12,7 @@ use crate::replay::{Prediction, SensorNoise, Window};
 const GOLDEN_STEPS: usize = 24;
 
 /// First estimate, from the samples alone. A sensor's steps are counted as Gaussian noise.
-pub(super) fn of_samples(campaign: &Campaign) -> Vec<SensorNoise> {
+pub(crate) fn of_samples(campaign: &Campaign) -> Vec<SensorNoise> {
     each_channel(campaign, &|x| channel_noise(x).std)
         .into_iter()
         .map(SensorNoise::gaussian)
@@ -20,7 +20,7 @@ pub(super) fn of_samples(campaign: &Campaign) -> Vec<SensorNoise> {
 }
 
 /// Step of each channel's sensor; zero where it has none.
-pub(super) fn steps(campaign: &Campaign) -> Vec<f64> {
+pub(crate) fn steps(campaign: &Campaign) -> Vec<f64> {
     each_channel(campaign, &|x| channel_noise(x).step)
 }
 
@@ -40,7 +40,7 @@ fn each_channel(campaign: &Campaign, figure: &dyn Fn(&[f64]) -> f64) -> Vec<f64>
 }
 
 /// Residuals of each channel over windows whose readings are `predicted`.
-pub(super) fn residuals(
+pub(crate) fn residuals(
     campaign: &Campaign,
     windows: &[Window],
     predicted: &[Option<Prediction>],
@@ -64,7 +64,7 @@ pub(super) fn residuals(
 }
 
 /// Most likely noise of a sensor with steps of `step`, from its residuals.
-pub(super) fn most_likely(residuals: &[f64], step: f64) -> SensorNoise {
+pub(crate) fn most_likely(residuals: &[f64], step: f64) -> SensorNoise {
     let pieces = (residuals.len() / NOISE_RESIDUALS).max(1);
     let looked_at: Vec<f64> = residuals.iter().copied().step_by(pieces).collect();
     let squares: f64 = looked_at.iter().map(|e| e * e).sum();
@@ -88,6 +88,6 @@ pub(super) fn most_likely(residuals: &[f64], step: f64) -> SensorNoise {
 }
 
 /// Whether a sensor shows its steps and no noise: its noise is the smallest that is assumed.
-pub(super) fn is_least(noise: &SensorNoise) -> bool {
+pub(crate) fn is_least(noise: &SensorNoise) -> bool {
     noise.step > 0.0 && noise.sigma < NOISE_LEAST_FACTOR * NOISE_OVER_STEP_LEAST * noise.step
 }

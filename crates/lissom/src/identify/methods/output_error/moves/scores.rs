@@ -3,15 +3,15 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::identify::methods::output_error::covariance::{Covariances, deviation};
-use crate::identify::methods::output_error::fit::{Extension, Fit};
-use crate::identify::methods::output_error::fitting::Fitting;
+use crate::identify::methods::output_error::engine::covariance::{Covariances, deviation};
+use crate::identify::methods::output_error::model::fit::{Extension, Fit};
+use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT};
 use crate::information::{inverse, normal_equations};
 use crate::replay::{Parameter, WindowSums};
 
 /// Expected result of one step of a search in the free parameters and each of some groups.
-pub(super) fn scores(
+pub(crate) fn scores(
     fitting: &Fitting<'_>,
     fit: &Fit,
     groups: &[Vec<Parameter>],
@@ -20,42 +20,42 @@ pub(super) fn scores(
 }
 
 /// Share by which a group is expected to lower the cost.
-pub(super) fn share(group: &[Extension]) -> f64 {
+pub(crate) fn share(group: &[Extension]) -> f64 {
     group.first().map_or(0.0, |e| e.share)
 }
 
 /// Expected result of adding a group of parameters.
-pub(super) struct Promise {
-    pub(super) group: Vec<Extension>,
+pub(crate) struct Promise {
+    pub(crate) group: Vec<Extension>,
     /// Squared distance of the whole group from zero in standard errors, `vᵀ·C⁻¹·v`.
     together: f64,
     /// Change of the other coordinates, relative to a step without the group.
-    pub(super) moved: DVector<f64>,
+    pub(crate) moved: DVector<f64>,
     /// The same for a unit of each parameter of the group.
-    pub(super) slopes: DMatrix<f64>,
+    pub(crate) slopes: DMatrix<f64>,
     /// Information on the group: the inverse of its covariance.
     information: DMatrix<f64>,
 }
 
 impl Promise {
-    pub(super) fn share(&self) -> f64 {
+    pub(crate) fn share(&self) -> f64 {
         share(&self.group)
     }
 
     /// Whether the group as a whole is significant. Single parameters of it may not be, such as dampers of several
     /// modes.
-    pub(super) fn stands_together(&self) -> bool {
+    pub(crate) fn stands_together(&self) -> bool {
         self.together > CLEARLY_PRESENT * CLEARLY_PRESENT * self.group.len() as f64
     }
 
     /// Largest distance of a parameter of the group from zero, in its standard errors.
-    pub(super) fn deviations(&self) -> f64 {
+    pub(crate) fn deviations(&self) -> f64 {
         let of = |e: &Extension| if e.std > 0.0 { (e.value / e.std).abs() } else { 0.0 };
         self.group.iter().map(of).fold(0.0, f64::max)
     }
 
     /// Probability of the values `other` compared with zero, if both are equally likely beforehand.
-    pub(super) fn instead(&self, other: &DVector<f64>) -> f64 {
+    pub(crate) fn instead(&self, other: &DVector<f64>) -> f64 {
         let values = DVector::from_iterator(self.group.len(), self.group.iter().map(|e| e.value));
         let off = |v: &DVector<f64>| v.dot(&(&self.information * v));
         1.0 / (1.0 + (0.5 * (off(&(other - &values)) - off(&values))).exp())
@@ -63,13 +63,13 @@ impl Promise {
 
     /// Probability that the group is present, `1/(1 + exp((9 − d²)/2))`, where d is the distance from zero in
     /// standard errors. The ratio of the likelihoods is exp(d²/2). The prior is such that d = 3 gives one half.
-    pub(super) fn likelihood(&self) -> f64 {
+    pub(crate) fn likelihood(&self) -> f64 {
         1.0 / (1.0 + (0.5 * (PRESENT * PRESENT - self.deviations().powi(2))).exp())
     }
 }
 
 /// Sums by the free coordinates, and the expected result of each group, from one replay.
-pub(super) fn all_scores(
+pub(crate) fn all_scores(
     fitting: &Fitting<'_>,
     fit: &Fit,
     groups: &[Vec<Parameter>],
@@ -94,17 +94,17 @@ pub(super) fn all_scores(
 }
 
 /// One step of a search in all coordinates.
-pub(super) struct Promised {
+pub(crate) struct Promised {
     step: DVector<f64>,
     /// Inverse of the normal matrix.
     inverse: DMatrix<f64>,
     /// Share by which it is expected to lower the cost.
-    pub(super) share: f64,
+    pub(crate) share: f64,
 }
 
 impl Promised {
     /// In the first `shared` coordinates.
-    pub(super) fn of(sums: &[WindowSums], shared: usize) -> Self {
+    pub(crate) fn of(sums: &[WindowSums], shared: usize) -> Self {
         let (normal, right) = normal_equations(sums, shared);
         let inverse = inverse(&normal);
         let step = &inverse * &right;

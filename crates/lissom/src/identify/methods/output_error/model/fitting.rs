@@ -3,20 +3,20 @@
 use rayon::prelude::*;
 
 use crate::identify::methods::friction_law::LawTerm;
-use crate::identify::methods::output_error::budget::Budget;
-use crate::identify::methods::output_error::coordinates::Body;
-use crate::identify::methods::output_error::covariance::Covariances;
-use crate::identify::methods::output_error::data::Masks;
-use crate::identify::methods::output_error::fit::{Fit, Report, StageReport};
-use crate::identify::methods::output_error::noise;
-use crate::identify::methods::output_error::repeats::without_repeats;
-use crate::identify::methods::output_error::search::{Point, Problem, Stop, is_possible};
+use crate::identify::methods::output_error::engine::budget::Budget;
+use crate::identify::methods::output_error::engine::coordinates::Body;
+use crate::identify::methods::output_error::engine::covariance::Covariances;
+use crate::identify::methods::output_error::engine::data::Masks;
+use crate::identify::methods::output_error::engine::noise;
+use crate::identify::methods::output_error::engine::repeats::without_repeats;
+use crate::identify::methods::output_error::engine::search::{Point, Problem, Stop, is_possible};
+use crate::identify::methods::output_error::engine::windows::cut;
+use crate::identify::methods::output_error::model::fit::{Fit, Report, StageReport};
 use crate::identify::methods::output_error::thresholds::{
     FIRST_WINDOW_PERIODS, FIRST_WINDOW_SAMPLES, LAST_STEP_FALL, LAST_STEPS_MOST, NOISE_ROUNDS_MOST,
     NOISE_SETTLED, PARAMETER_SHARE_LEAST, PROBE_SAMPLES, RESIDUAL_FAR_ABOVE_NOISE, STAGE_SAMPLES,
     STAGE_STEP_FALL, STAGE_STEPS_MOST, STEP_SHARE_LEAST,
 };
-use crate::identify::methods::output_error::windows::cut;
 use crate::identify::thresholds::PRESENT;
 use crate::record::{Campaign, Run};
 use crate::replay::{
@@ -25,24 +25,24 @@ use crate::replay::{
 };
 
 /// A campaign with what all of its fits share.
-pub(super) struct Fitting<'a> {
-    pub(super) campaign: &'a Campaign,
-    pub(super) masks: &'a [Masks],
-    pub(super) blocks: &'a [Blocks],
+pub(crate) struct Fitting<'a> {
+    pub(crate) campaign: &'a Campaign,
+    pub(crate) masks: &'a [Masks],
+    pub(crate) blocks: &'a [Blocks],
     /// Terms of friction that slip phases show.
-    pub(super) law: &'a [LawTerm],
+    pub(crate) law: &'a [LawTerm],
     /// Noise of each channel, estimated from its samples alone.
-    pub(super) noise: &'a [SensorNoise],
+    pub(crate) noise: &'a [SensorNoise],
     /// Limit of evaluations of the whole search.
-    pub(super) budget: &'a Budget,
+    pub(crate) budget: &'a Budget,
     /// Factor by which each stage's windows are longer than the ones before.
-    pub(super) widening: f64,
+    pub(crate) widening: f64,
     /// Whether other friction laws than that of the start are tried.
-    pub(super) tries_laws: bool,
+    pub(crate) tries_laws: bool,
 }
 
 impl Fitting<'_> {
-    pub(super) fn problem<'b>(
+    pub(crate) fn problem<'b>(
         &'b self,
         free: &'b [Parameter],
         noise: &'b [SensorNoise],
@@ -64,24 +64,24 @@ impl Fitting<'_> {
     }
 
     /// Largest ratio of a channel's residual to its noise as estimated from the samples alone.
-    pub(super) fn beyond_noise(&self, fit: &Fit) -> f64 {
+    pub(crate) fn beyond_noise(&self, fit: &Fit) -> f64 {
         fit.residual.iter().zip(self.noise).map(|(r, n)| r / n.sigma).fold(0.0, f64::max)
     }
 
     /// Replays a fit with derivatives by the parameters `free`, and with sums by blocks.
-    pub(super) fn point(&self, fit: &Fit, free: &[Parameter]) -> Point {
+    pub(crate) fn point(&self, fit: &Fit, free: &[Parameter]) -> Point {
         let mut problem = self.problem(free, &fit.noise, true);
         problem.sampling.blocks = self.blocks;
         problem.at(fit.body.clone(), fit.windows.clone())
     }
 
     /// Covariances of the free parameters.
-    pub(super) fn covariances(&self, fit: &Fit) -> Covariances {
+    pub(crate) fn covariances(&self, fit: &Fit) -> Covariances {
         fit.covariances(&self.point(fit, &fit.free).sums)
     }
 
     /// Cost of a fit for the noise `noise`.
-    pub(super) fn cost(&self, fit: &Fit, noise: &[SensorNoise]) -> f64 {
+    pub(crate) fn cost(&self, fit: &Fit, noise: &[SensorNoise]) -> f64 {
         let samples: usize = fit.windows.iter().map(Window::len).sum();
         self.budget.count(samples, 0);
         let sampling = Sampling { noise, blocks: &[], masks: self.masks };
@@ -94,14 +94,14 @@ impl Fitting<'_> {
     /// rise by less than these are worth. A coordinate is worth the square of [`PRESENT`], the standard errors at
     /// which a parameter is as likely to be present as not, and at least the share [`PARAMETER_SHARE_LEAST`] of the
     /// cost, which errors that are not white noise may take.
-    pub(super) fn is_better(&self, other: &Fit, fit: &Fit) -> bool {
+    pub(crate) fn is_better(&self, other: &Fit, fit: &Fit) -> bool {
         let (before, after) = (self.cost(fit, &fit.noise), self.cost(other, &fit.noise));
         let more = other.coordinates() as f64 - fit.coordinates() as f64;
         after + (PRESENT * PRESENT).max(PARAMETER_SHARE_LEAST * before) * more < before
     }
 
     /// A fit before its first step; `None` if no window can be cut or the arm is outside the limits of the search.
-    pub(super) fn first_fit(&self, arm: &ModalArm, window_s: f64) -> Option<Fit> {
+    pub(crate) fn first_fit(&self, arm: &ModalArm, window_s: f64) -> Option<Fit> {
         let longest = self.longest_s();
         let window_s = window_s.min(longest);
         let body = Body::of_masses(self.campaign, arm.clone());
@@ -127,18 +127,18 @@ impl Fitting<'_> {
     }
 
     /// Returns to windows as short as the first.
-    pub(super) fn shorten(&self, fit: &mut Fit) {
+    pub(crate) fn shorten(&self, fit: &mut Fit) {
         fit.window_s = self.first_window_s(&fit.body.arm).min(self.longest_s());
         fit.whole_runs = fit.window_s >= self.longest_s();
         fit.windows = some(cut(self.campaign, &fit.body.arm, fit.window_s));
     }
 
-    pub(super) fn longest_s(&self) -> f64 {
+    pub(crate) fn longest_s(&self) -> f64 {
         self.campaign.runs.iter().map(duration_s).fold(0.0, f64::max)
     }
 
     /// Searches from the fit's present state, and estimates its noise from the residual.
-    pub(super) fn search(&self, fit: &mut Fit, report: &mut Report) {
+    pub(crate) fn search(&self, fit: &mut Fit, report: &mut Report) {
         for _ in 0..NOISE_ROUNDS_MOST {
             let (point, stop) = self.steps(fit, report, STAGE_STEPS_MOST, STAGE_STEP_FALL, None);
             // A fit with further friction terms is searched to the end before it is compared.
@@ -206,7 +206,7 @@ impl Fitting<'_> {
 
     /// Makes a short search on a part of the windows. Returns its cost and the body; `None` if the arm is outside the
     /// limits of the search.
-    pub(super) fn probe(&self, fit: &Fit, steps: usize) -> Option<(f64, Body)> {
+    pub(crate) fn probe(&self, fit: &Fit, steps: usize) -> Option<(f64, Body)> {
         if !is_possible(self.campaign, &fit.body.arm) {
             return None;
         }
@@ -219,7 +219,7 @@ impl Fitting<'_> {
         Some((point.sums.iter().map(|s| s.cost).sum(), point.body))
     }
 
-    pub(super) fn first_window_s(&self, arm: &ModalArm) -> f64 {
+    pub(crate) fn first_window_s(&self, arm: &ModalArm) -> f64 {
         let sample_s =
             self.campaign.runs.iter().map(Run::sample_time_s).fold(f64::INFINITY, f64::min);
         let slowest = arm.modes.iter().map(|m| m.omega_rad_s).fold(f64::INFINITY, f64::min);
@@ -230,7 +230,7 @@ impl Fitting<'_> {
     /// Searches with the probability of each sensor's steps in place of Gaussian noise. The fit must be close
     /// already, because the cost is flat within a step. Returns the samples that are used if readings that only
     /// repeat a step are left out.
-    pub(super) fn count_steps(&self, fit: &mut Fit, report: &mut Report) -> Option<Vec<Masks>> {
+    pub(crate) fn count_steps(&self, fit: &mut Fit, report: &mut Report) -> Option<Vec<Masks>> {
         let steps = noise::steps(self.campaign);
         let predicted: Vec<Option<Prediction>> = fit
             .windows
@@ -257,7 +257,7 @@ impl Fitting<'_> {
 }
 
 /// Every n-th window, so that about [`STAGE_SAMPLES`] samples are replayed.
-pub(super) fn some(windows: Vec<Window>) -> Vec<Window> {
+pub(crate) fn some(windows: Vec<Window>) -> Vec<Window> {
     let samples: usize = windows.iter().map(Window::len).sum();
     windows.into_iter().step_by(samples.div_ceil(STAGE_SAMPLES).max(1)).collect()
 }

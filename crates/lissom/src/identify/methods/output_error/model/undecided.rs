@@ -2,10 +2,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::identify::methods::output_error::extend::candidates;
-use crate::identify::methods::output_error::fit::{Extension, Fit};
-use crate::identify::methods::output_error::fitting::Fitting;
-use crate::identify::methods::output_error::scores::all_scores;
+use crate::identify::methods::output_error::model::fit::{Extension, Fit};
+use crate::identify::methods::output_error::model::fitting::Fitting;
+use crate::identify::methods::output_error::moves::extend::candidates;
+use crate::identify::methods::output_error::moves::scores::all_scores;
 use crate::identify::methods::output_error::thresholds::{
     OTHER_DAMPING_FELT, OTHER_DAMPING_LIKELY, OTHER_DAMPING_REPORTED,
 };
@@ -16,9 +16,9 @@ use crate::replay::{Parameter, WindowSums};
 const ROUNDING: f64 = 1e-12;
 
 /// Terms that the logs do not decide.
-pub(super) struct Undecided {
+pub(crate) struct Undecided {
     /// Sums by the free coordinates.
-    pub(super) sums: Vec<WindowSums>,
+    pub(crate) sums: Vec<WindowSums>,
     /// Change of the free parameters by each group that is not free, times the root of the probability that the group
     /// is present. Outer products of these are added to the covariance, which is then the mean over both cases.
     moved: Vec<DVector<f64>>,
@@ -27,17 +27,17 @@ pub(super) struct Undecided {
 }
 
 /// Parameters and their covariance.
-pub(super) struct Known {
+pub(crate) struct Known {
     /// The free parameters, then dampers of another kind that may be present instead.
-    pub(super) parameters: Vec<Parameter>,
-    pub(super) covariance: DMatrix<f64>,
+    pub(crate) parameters: Vec<Parameter>,
+    pub(crate) covariance: DMatrix<f64>,
     /// Free parameters whose standard errors are much larger because the kind of damping is not known.
-    pub(super) open_by_damping: Vec<Parameter>,
+    pub(crate) open_by_damping: Vec<Parameter>,
 }
 
 impl Undecided {
     /// Adds the undecided terms to the covariance `decided` of the free parameters.
-    pub(super) fn known(&self, free: &[Parameter], decided: DMatrix<f64>) -> Known {
+    pub(crate) fn known(&self, free: &[Parameter], decided: DMatrix<f64>) -> Known {
         let mut covariance = decided;
         for moved in &self.moved {
             covariance.ger(1.0, moved, moved, 1.0);
@@ -100,7 +100,7 @@ impl OtherKind {
 }
 
 /// Groups that are not free and whose presence the samples do not decide.
-pub(super) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Undecided {
+pub(crate) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Undecided {
     let (sums, promises) = all_scores(fitting, fit, &candidates(fitting, fit));
     let jacobian = fit.body.jacobian(&fit.free);
     let speaking = promises.iter().filter(|p| p.deviations() > SIGN_SHOWN);

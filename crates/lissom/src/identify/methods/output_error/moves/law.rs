@@ -4,13 +4,13 @@ use std::f64::consts::SQRT_2;
 
 use crate::drive::Falloff;
 use crate::identify::methods::friction_law::LawTerm;
-use crate::identify::methods::output_error::fit::{Extension, Fit};
-use crate::identify::methods::output_error::fitting::Fitting;
-use crate::identify::methods::output_error::scores::{scores, share};
+use crate::identify::methods::output_error::engine::windows::{fastest_rad_s, travel};
+use crate::identify::methods::output_error::model::fit::{Extension, Fit};
+use crate::identify::methods::output_error::model::fitting::Fitting;
+use crate::identify::methods::output_error::moves::scores::{scores, share};
 use crate::identify::methods::output_error::thresholds::{
     NEAR_REST_SPEEDS, RESIDUAL_FAR_ABOVE_NOISE, RIPPLE_PERIODS, RIPPLES_MOST,
 };
-use crate::identify::methods::output_error::windows::{fastest_rad_s, travel};
 use crate::replay::{DryTerms, FrictionNumber, Parameter};
 
 /// Periods of ripples whose scores come from one replay.
@@ -18,7 +18,7 @@ const AT_ONCE: usize = 8;
 
 /// A term of friction that may be added: the arm's terms with it, still without effect, and the parameters that it
 /// adds, its torques and others.
-pub(super) struct LawTrial {
+pub(crate) struct LawTrial {
     terms: DryTerms,
     torques: Vec<Parameter>,
     shapes: Vec<Parameter>,
@@ -38,7 +38,7 @@ impl LawTrial {
     }
 
     /// Adds the term to the fit, with all of its parameters free.
-    pub(super) fn put_into(&self, fit: &mut Fit) {
+    pub(crate) fn put_into(&self, fit: &mut Fit) {
         fit.body.arm.dry_terms = self.terms.clone();
         fit.free.extend(&self.torques);
         fit.free.extend(&self.shapes);
@@ -49,7 +49,7 @@ impl LawTrial {
 ///
 /// Ripples at periods that slip phases did not show are tried if no other term is expected to lower the cost by more
 /// than the share `least`.
-pub(super) fn best(
+pub(crate) fn best(
     fitting: &Fitting<'_>,
     fit: &Fit,
     least: f64,

@@ -1,36 +1,36 @@
 //! State of a fit, and a report of its stages.
 
-use crate::identify::methods::output_error::by_run::ByRun;
-use crate::identify::methods::output_error::coordinates::Body;
-use crate::identify::methods::output_error::covariance::Covariances;
-use crate::identify::methods::output_error::search::{Iteration, Stop};
+use crate::identify::methods::output_error::engine::by_run::ByRun;
+use crate::identify::methods::output_error::engine::coordinates::Body;
+use crate::identify::methods::output_error::engine::covariance::Covariances;
+use crate::identify::methods::output_error::engine::search::{Iteration, Stop};
 use crate::identify::methods::output_error::thresholds::RESIDUAL_GROWN;
 use crate::replay::{ModalArm, Parameter, SensorNoise, Window, WindowSums};
 
 /// State of a fit.
 #[derive(Debug, Clone)]
-pub(super) struct Fit {
-    pub(super) body: Body,
-    pub(super) windows: Vec<Window>,
+pub(crate) struct Fit {
+    pub(crate) body: Body,
+    pub(crate) windows: Vec<Window>,
     /// Parameters that are estimated.
-    pub(super) free: Vec<Parameter>,
+    pub(crate) free: Vec<Parameter>,
     /// Assumed noise of each channel.
-    pub(super) noise: Vec<SensorNoise>,
+    pub(crate) noise: Vec<SensorNoise>,
     /// Standard deviation of each channel's residual, corrected for the number of unknowns.
-    pub(super) residual: Vec<f64>,
+    pub(crate) residual: Vec<f64>,
     /// Whether windows are whole runs, or all windows of the longest length over which motions do not grow apart.
-    pub(super) whole_runs: bool,
-    pub(super) window_s: f64,
+    pub(crate) whole_runs: bool,
+    pub(crate) window_s: f64,
 }
 
 impl Fit {
     /// Number of coordinates that a search changes.
-    pub(super) fn coordinates(&self) -> usize {
+    pub(crate) fn coordinates(&self) -> usize {
         self.body.coordinates(&self.free).len()
     }
 
     /// Covariances of the free parameters, from sums by the coordinates.
-    pub(super) fn covariances(&self, sums: &[WindowSums]) -> Covariances {
+    pub(crate) fn covariances(&self, sums: &[WindowSums]) -> Covariances {
         let found = Covariances::at(sums, self.coordinates());
         match self.body.jacobian(&self.free) {
             Some(jacobian) => found.through(&jacobian),
@@ -39,7 +39,7 @@ impl Fit {
     }
 
     /// The sums of each run.
-    pub(super) fn by_run(&self, sums: &[WindowSums]) -> ByRun {
+    pub(crate) fn by_run(&self, sums: &[WindowSums]) -> ByRun {
         ByRun::of(sums, &self.windows, self.coordinates(), self.body.jacobian(&self.free))
     }
 }
@@ -80,43 +80,43 @@ pub struct StageReport {
 
 /// What was done.
 #[derive(Debug, Default)]
-pub(super) struct Report {
-    pub(super) stages: Vec<StageReport>,
+pub(crate) struct Report {
+    pub(crate) stages: Vec<StageReport>,
     /// Index of the first stage with the present friction law.
     under_law: usize,
     /// Parameters that were added.
-    pub(super) added: Vec<Extension>,
+    pub(crate) added: Vec<Extension>,
     /// Parameters that were not added when they were last tried.
-    pub(super) refused: Vec<Extension>,
+    pub(crate) refused: Vec<Extension>,
 }
 
 impl Report {
     /// Whether a residual is larger than on the first windows with the present friction law, by [`RESIDUAL_GROWN`].
-    pub(super) fn grown(&self, residual: &[f64]) -> bool {
+    pub(crate) fn grown(&self, residual: &[f64]) -> bool {
         let first = self.stages.get(self.under_law);
         let least = first.map_or(residual, |s| &s.residual);
         least.iter().zip(residual).any(|(a, b)| *b > RESIDUAL_GROWN * a)
     }
 
     /// Notes that friction has another law from the last stage on.
-    pub(super) fn law_changed(&mut self) {
+    pub(crate) fn law_changed(&mut self) {
         self.under_law = self.stages.len().saturating_sub(1);
     }
 
     /// State of the report before a stage.
-    pub(super) fn mark(&self) -> Mark {
+    pub(crate) fn mark(&self) -> Mark {
         Mark { under_law: self.under_law, added: self.added.len() }
     }
 
     /// Removes what was added after `mark`.
-    pub(super) fn back_to(&mut self, mark: &Mark) {
+    pub(crate) fn back_to(&mut self, mark: &Mark) {
         self.under_law = mark.under_law;
         self.added.truncate(mark.added);
     }
 }
 
 /// A state of a report to which it may return.
-pub(super) struct Mark {
+pub(crate) struct Mark {
     under_law: usize,
     added: usize,
 }

@@ -1,8 +1,8 @@
 //! Readings that only repeat the one before.
 
-use crate::identify::methods::output_error::data::Masks;
-use crate::identify::methods::output_error::fit::Fit;
-use crate::identify::methods::output_error::noise::is_least;
+use crate::identify::methods::output_error::engine::data::Masks;
+use crate::identify::methods::output_error::engine::noise::is_least;
+use crate::identify::methods::output_error::model::fit::Fit;
 use crate::record::Campaign;
 use crate::replay::Prediction;
 
@@ -11,7 +11,7 @@ use crate::replay::Prediction;
 ///
 /// Such a sensor shows one step as long as the joint rests. With the assumed noise, each reading would say again that
 /// the angle is not near the edge of the step. So it is counted once.
-pub(super) fn without_repeats(
+pub(crate) fn without_repeats(
     campaign: &Campaign,
     fit: &Fit,
     predicted: &[Option<Prediction>],

@@ -1,9 +1,9 @@
 //! Number of modes: modes are added while they make the fit better.
 
-use crate::identify::methods::output_error::coordinates::Body;
-use crate::identify::methods::output_error::covariance::deviation;
-use crate::identify::methods::output_error::fit::{Fit, Report};
-use crate::identify::methods::output_error::fitting::Fitting;
+use crate::identify::methods::output_error::engine::coordinates::Body;
+use crate::identify::methods::output_error::engine::covariance::deviation;
+use crate::identify::methods::output_error::model::fit::{Fit, Report};
+use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::thresholds::{
     MODE_FAINT, MODE_RETUNED, MODE_RETUNED_CLOSELY, NEW_MODE_DAMPING, NEW_MODE_FREQUENCIES,
     NEW_MODE_SHARE, NEW_MODE_TURN, PROBE_STEPS, REPETITIONS_MOST,
@@ -11,7 +11,7 @@ use crate::identify::methods::output_error::thresholds::{
 use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
 
 /// Adds modes above the others, up to as many as tips, while each makes the fit better.
-pub(super) fn grow(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+pub(crate) fn grow(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let tips = fitting.campaign.channels.tips.len().min(MOST_MODES);
     while !fit.body.arm.modes.is_empty() && fit.body.arm.modes.len() < tips {
         let beyond = with_one_more(fitting, fit, report);
@@ -98,7 +98,7 @@ fn probed(fitting: &Fitting<'_>, fit: &Fit, times: f64) -> Option<(f64, Fit)> {
 
 /// Arms from which to search again after a wrong minimum, the likeliest first: results of short searches on short
 /// windows with the highest mode at its own and at other frequencies.
-pub(super) fn starts_again(fitting: &Fitting<'_>, fit: &Fit) -> Vec<ModalArm> {
+pub(crate) fn starts_again(fitting: &Fitting<'_>, fit: &Fit) -> Vec<ModalArm> {
     // A single mode is driven or absent: the residual has another cause.
     if fit.body.arm.modes.len() < 2 {
         return Vec::new();
@@ -126,7 +126,7 @@ fn undamped(mut arm: ModalArm) -> ModalArm {
 }
 
 /// The mode of the highest frequency.
-pub(super) fn highest(arm: &ModalArm) -> usize {
+pub(crate) fn highest(arm: &ModalArm) -> usize {
     let omega = |j: &usize| arm.modes[*j].omega_rad_s;
     (0..arm.modes.len()).max_by(|a, b| omega(a).total_cmp(&omega(b))).unwrap_or(0)
 }
@@ -154,7 +154,7 @@ fn one_beyond(mut fit: Fit, last: usize, times: f64) -> Fit {
 }
 
 /// Whether the highest of several modes is faint: its stiffness is hardly known.
-pub(super) fn highest_is_faint(fitting: &Fitting<'_>, fit: &Fit) -> bool {
+pub(crate) fn highest_is_faint(fitting: &Fitting<'_>, fit: &Fit) -> bool {
     let arm = &fit.body.arm;
     let stiffness = || known_to(fitting, fit)(Parameter::Stiffness(highest(arm)));
     arm.modes.len() > 1 && stiffness().is_some_and(|share| share > MODE_FAINT)

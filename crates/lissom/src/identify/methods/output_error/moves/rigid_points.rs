@@ -1,14 +1,14 @@
 //! Choice between point masses at the tips and independent modes.
 
-use crate::identify::methods::output_error::coordinates::Body;
-use crate::identify::methods::output_error::fit::{Fit, Report};
-use crate::identify::methods::output_error::fitting::Fitting;
-use crate::identify::methods::output_error::scores::Promised;
-use crate::identify::methods::output_error::search::Stop;
+use crate::identify::methods::output_error::engine::coordinates::Body;
+use crate::identify::methods::output_error::engine::search::Stop;
+use crate::identify::methods::output_error::model::fit::{Fit, Report};
+use crate::identify::methods::output_error::model::fitting::Fitting;
+use crate::identify::methods::output_error::moves::scores::Promised;
 use crate::identify::methods::output_error::thresholds::POINT_MASSES_COST;
 
 /// Replaces point masses at the tips by independent modes, if that is expected to lower the cost.
-pub(super) fn relax(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+pub(crate) fn relax(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     // Before a search has converged, any coordinate is expected to lower the cost.
     let ended = report.stages.last().is_some_and(|s| s.stop != Stop::StepsUsedUp);
     if fit.body.masses.is_none() || !ended {
@@ -23,7 +23,7 @@ pub(super) fn relax(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
 }
 
 /// Replaces independent modes by point masses at the tips, if that is better.
-pub(super) fn tighten(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+pub(crate) fn tighten(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let body = Body::of_masses(fitting.campaign, fit.body.arm.clone());
     if fit.body.masses.is_some() || body.masses.is_none() {
         return;

@@ -8,18 +8,18 @@ use crate::identify::methods::output_error::thresholds::{
 use crate::replay::ModalArm;
 
 /// Whether the slow share of some channel's residual is larger than its sensor's noise explains.
-pub(super) fn is_left(shares: &[f64]) -> bool {
+pub(crate) fn is_left(shares: &[f64]) -> bool {
     most(shares) > SLOW_RESIDUAL
 }
 
 /// The largest of some shares.
-pub(super) fn most(shares: &[f64]) -> f64 {
+pub(crate) fn most(shares: &[f64]) -> f64 {
     shares.iter().copied().fold(0.0, f64::max)
 }
 
 /// Whether an arm is accepted: its residual is at most a few times the sensors' noise if whole runs are replayed, and
 /// about that noise if shorter windows are replayed.
-pub(super) fn stands(
+pub(crate) fn stands(
     arm: &ModalArm,
     covariance: &DMatrix<f64>,
     whole_runs: bool,

@@ -1,8 +1,8 @@
 //! Choice between the kinds of damping.
 
-use crate::identify::methods::output_error::covariance::deviation;
-use crate::identify::methods::output_error::fit::{Fit, Report};
-use crate::identify::methods::output_error::fitting::Fitting;
+use crate::identify::methods::output_error::engine::covariance::deviation;
+use crate::identify::methods::output_error::model::fit::{Fit, Report};
+use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::thresholds::SIGN_SHOWN;
 use crate::replay::Parameter;
 
@@ -10,7 +10,7 @@ use crate::replay::Parameter;
 ///
 /// Single dampers of the two kinds can hardly be distinguished, but all of them together can. The dampers at points
 /// are tried with damping within the beam and without it: it can partly replace the difference between the two kinds.
-pub(super) fn dampers_at_points(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+pub(crate) fn dampers_at_points(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let grounded = |p: &Parameter| matches!(p, Parameter::DampingGrounded(_));
     let within = |p: &Parameter| matches!(p, Parameter::DampingWithin(_));
     let modes = fit.body.arm.modes.len();
@@ -42,7 +42,7 @@ pub(super) fn dampers_at_points(fitting: &Fitting<'_>, fit: &mut Fit, report: &m
 
 /// Removes a kind of dampers of which none is significantly above zero, if the fit is better without it. Where the
 /// logs do not distinguish two kinds, a damper of one kind may replace those of the other.
-pub(super) fn drop_dampers(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+pub(crate) fn drop_dampers(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let kinds: [fn(&Parameter) -> bool; 3] = [
         |p| matches!(p, Parameter::DampingWithin(_)),
         |p| matches!(p, Parameter::DampingGrounded(_)),

@@ -30,7 +30,7 @@ fn mask(x: &[f64]) -> Option<Vec<bool>> {
 }
 
 /// Blocks of samples of each run. `omega_rad_s` is the frequency of a run that is a sine in steady state.
-pub(super) fn blocks(campaign: &Campaign, omega_rad_s: &[Option<f64>]) -> Vec<Blocks> {
+pub(crate) fn blocks(campaign: &Campaign, omega_rad_s: &[Option<f64>]) -> Vec<Blocks> {
     let most = (RESIDUAL_BLOCKS_MOST / campaign.runs.len() as f64).max(RESIDUAL_BLOCKS_LEAST);
     let count =
         |samples: f64| (samples / RESIDUAL_BLOCK).round().clamp(RESIDUAL_BLOCKS_LEAST, most);

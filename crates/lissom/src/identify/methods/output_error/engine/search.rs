@@ -2,14 +2,14 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::identify::methods::output_error::budget::Budget;
-use crate::identify::methods::output_error::coordinates::{Body, in_coordinates};
-use crate::identify::methods::output_error::noise::is_least;
+use crate::identify::methods::output_error::engine::budget::Budget;
+use crate::identify::methods::output_error::engine::coordinates::{Body, in_coordinates};
+use crate::identify::methods::output_error::engine::noise::is_least;
+use crate::identify::methods::output_error::engine::windows::{fastest_rad_s, travel};
 use crate::identify::methods::output_error::thresholds::{
     MODE_TURN_MOST, NEAR_REST_SPEED_LEAST, RIPPLE_PHASE_LEAST, RIPPLE_PHASE_MOST,
     STEP_DAMPING_MOST, STEP_LOGARITHM_MOST, STEP_VELOCITY_MOST, TIP_LAG_MOST, WINDOW_COST_HALF,
 };
-use crate::identify::methods::output_error::windows::{fastest_rad_s, travel};
 use crate::information::{Reduced, inverse};
 use crate::record::{Campaign, Run};
 use crate::replay::{
@@ -29,11 +29,11 @@ const PROMISE_KEPT: f64 = 0.5;
 
 /// A point of the search: parameters, windows, and sums over their residuals.
 #[derive(Debug, Clone)]
-pub(in crate::identify::methods::output_error) struct Point {
-    pub(super) body: Body,
-    pub(super) windows: Vec<Window>,
+pub(crate) struct Point {
+    pub(crate) body: Body,
+    pub(crate) windows: Vec<Window>,
     /// Sums, with derivatives by the body's coordinates.
-    pub(super) sums: Vec<WindowSums>,
+    pub(crate) sums: Vec<WindowSums>,
 }
 
 impl Point {
@@ -94,22 +94,22 @@ pub struct Iteration {
 
 /// The problem that a search solves.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Problem<'a> {
-    pub(super) campaign: &'a Campaign,
-    pub(super) parameters: &'a [Parameter],
-    pub(super) sampling: Sampling<'a>,
-    pub(super) budget: &'a Budget,
+pub(crate) struct Problem<'a> {
+    pub(crate) campaign: &'a Campaign,
+    pub(crate) parameters: &'a [Parameter],
+    pub(crate) sampling: Sampling<'a>,
+    pub(crate) budget: &'a Budget,
     /// Whether windows that fit far worse than the others count less.
-    pub(super) robust: bool,
+    pub(crate) robust: bool,
     /// Expected fall of the cost below which the search ends.
-    pub(super) promise: f64,
+    pub(crate) promise: f64,
     /// Expected fall, as a share of the cost, below which the search ends as well.
-    pub(super) near_enough: f64,
+    pub(crate) near_enough: f64,
 }
 
 impl Problem<'_> {
     /// Replays `windows` through `body`.
-    pub(super) fn at(&self, body: Body, windows: Vec<Window>) -> Point {
+    pub(crate) fn at(&self, body: Body, windows: Vec<Window>) -> Point {
         self.budget.count(samples_of(&windows), self.parameters.len());
         let mut sums = sums(&body.arm, self.parameters, self.campaign, &windows, self.sampling);
         if let Some(jacobian) = body.jacobian(self.parameters) {
@@ -119,7 +119,7 @@ impl Problem<'_> {
     }
 
     /// Lowers the cost from `point` by at most `steps` steps.
-    pub(super) fn search(&self, mut point: Point, steps: usize) -> (Point, Vec<Iteration>, Stop) {
+    pub(crate) fn search(&self, mut point: Point, steps: usize) -> (Point, Vec<Iteration>, Stop) {
         let over_steps = self.sampling.noise.iter().any(is_least);
         let (mut damping, easing) = if over_steps {
             (FIRST_DAMPING_OVER_STEPS, EASING_OVER_STEPS)
@@ -283,7 +283,7 @@ fn is_braking(campaign: &Campaign, arm: &ModalArm, sample_s: f64) -> bool {
 
 /// Whether an arm is within the limits of the search: friction brakes, and every mode turns by less than
 /// [`MODE_TURN_MOST`] in a sample. Faster modes are in no log, and need ever shorter steps of the replay.
-pub(super) fn is_possible(campaign: &Campaign, arm: &ModalArm) -> bool {
+pub(crate) fn is_possible(campaign: &Campaign, arm: &ModalArm) -> bool {
     let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let turn = |m: &Oscillator| m.omega_rad_s * sample_s;
     let damped = |m: &Oscillator| (m.within_per_s.abs() + m.grounded_per_s.abs()) * sample_s;
@@ -303,7 +303,7 @@ struct Step {
 
 #[cfg(test)]
 mod tests {
-    use crate::identify::methods::output_error::search::{is_possible, kick};
+    use crate::identify::methods::output_error::engine::search::{is_possible, kick};
     use crate::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
     use crate::replay::{DryTerms, ModalArm, Ripple};
 

@@ -7,29 +7,29 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// One evaluation is one sample of a log replayed, or the derivative of one by one parameter: a replay of n samples with
 /// derivatives by p parameters is n·(1 + p) of them.
 #[derive(Debug)]
-pub(super) struct Budget {
+pub(crate) struct Budget {
     spent: AtomicU64,
     most: u64,
 }
 
 impl Budget {
-    pub(super) fn new(most: u64) -> Self {
+    pub(crate) fn new(most: u64) -> Self {
         Self { spent: AtomicU64::new(0), most }
     }
 
     /// Counts a replay of so many samples with derivatives by so many parameters.
-    pub(super) fn count(&self, samples: usize, parameters: usize) {
+    pub(crate) fn count(&self, samples: usize, parameters: usize) {
         let evaluations = samples as u64 * (1 + parameters as u64);
         self.spent.fetch_add(evaluations, Ordering::Relaxed);
     }
 
     /// Evaluations made so far.
-    pub(super) fn spent(&self) -> u64 {
+    pub(crate) fn spent(&self) -> u64 {
         self.spent.load(Ordering::Relaxed)
     }
 
     /// Whether no more may be made.
-    pub(super) fn is_spent(&self) -> bool {
+    pub(crate) fn is_spent(&self) -> bool {
         self.spent() >= self.most
     }
 }

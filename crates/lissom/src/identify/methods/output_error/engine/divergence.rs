@@ -1,24 +1,24 @@
 //! Neighbouring motions that grow apart. If friction falls with speed or changes over the angle, they do so
 //! exponentially, and windows can be too long.
 
-use crate::identify::methods::output_error::fit::{Fit, Report};
-use crate::identify::methods::output_error::fitting::Fitting;
+use crate::identify::methods::output_error::engine::windows::widen;
+use crate::identify::methods::output_error::model::fit::{Fit, Report};
+use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::thresholds::{
     NEIGHBOURS_GROW_APART, RESIDUAL_AT_NOISE,
 };
-use crate::identify::methods::output_error::windows::widen;
 use crate::record::TipQuantity;
 use crate::replay::{SensorNoise, WindowSums};
 
 impl Fitting<'_> {
     /// Whether neighbouring motions grow apart within a fit's windows, by more than [`NEIGHBOURS_GROW_APART`].
-    pub(super) fn diverges(&self, fit: &Fit) -> bool {
+    pub(crate) fn diverges(&self, fit: &Fit) -> bool {
         self.growth(fit) > NEIGHBOURS_GROW_APART
     }
 
     /// Uses all windows of the fit's present length instead of some, because longer ones give no more information.
     /// The fit stays as it was if its residual is then above the noise.
-    pub(super) fn take_all(&self, fit: &mut Fit, report: &mut Report) {
+    pub(crate) fn take_all(&self, fit: &mut Fit, report: &mut Report) {
         let before = fit.clone();
         fit.windows = widen(self.campaign, &fit.body.arm, &fit.windows, fit.window_s);
         fit.whole_runs = true;

@@ -7,22 +7,22 @@ use crate::replay::{BeamCoordinate, ModalArm, Parameter, PointMasses, WindowSums
 
 /// One coordinate that a search changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Coordinate {
+pub(crate) enum Coordinate {
     Parameter(Parameter),
     Beam(BeamCoordinate),
 }
 
 /// An arm, and its point masses if the beam is modelled by them.
 #[derive(Debug, Clone)]
-pub(super) struct Body {
-    pub(super) arm: ModalArm,
-    pub(super) masses: Option<PointMasses>,
+pub(crate) struct Body {
+    pub(crate) arm: ModalArm,
+    pub(crate) masses: Option<PointMasses>,
 }
 
 impl Body {
     /// An arm whose beam has point masses at its tips, if there are as many tips as modes and all tips are
     /// calibrated.
-    pub(super) fn of_masses(campaign: &Campaign, arm: ModalArm) -> Self {
+    pub(crate) fn of_masses(campaign: &Campaign, arm: ModalArm) -> Self {
         let angles = campaign.channels.tips.iter().all(|t| t.calibrated);
         let mut body = Self { masses: PointMasses::nearest(&arm).filter(|_| angles), arm };
         if let Some(masses) = &body.masses {
@@ -32,7 +32,7 @@ impl Body {
     }
 
     /// Adds dampers at the tips' points, still zero, if there are as many tips as modes.
-    pub(super) fn allow_dampers_at_points(&mut self) {
+    pub(crate) fn allow_dampers_at_points(&mut self) {
         let modes = self.arm.modes.len();
         if self.arm.shapes.len() == modes && self.arm.at_points_per_s.is_empty() {
             self.arm.at_points_per_s = vec![0.0; modes];
@@ -40,7 +40,7 @@ impl Body {
     }
 
     /// Adds `change_rad_s` to a mode's frequency.
-    pub(super) fn tune(&mut self, mode: usize, change_rad_s: f64) {
+    pub(crate) fn tune(&mut self, mode: usize, change_rad_s: f64) {
         let own = match self.masses {
             Some(_) => Coordinate::Beam(BeamCoordinate::Frequency(mode)),
             None => Coordinate::Parameter(Parameter::Frequency(mode)),
@@ -49,19 +49,19 @@ impl Body {
     }
 
     /// Turns two of the modes into each other, if the beam has point masses.
-    pub(super) fn turned(mut self, first: usize, second: usize, angle_rad: f64) -> Self {
+    pub(crate) fn turned(mut self, first: usize, second: usize, angle_rad: f64) -> Self {
         self.shift(Coordinate::Beam(BeamCoordinate::Turn(first, second)), angle_rad);
         self
     }
 
     /// An arm whose modes are independent of each other.
-    pub(super) fn free(arm: ModalArm) -> Self {
+    pub(crate) fn free(arm: ModalArm) -> Self {
         Self { arm, masses: None }
     }
 
     /// Coordinates of a search in `parameters`, in their order. The coordinates of point masses take the place of the
     /// first parameter that they replace.
-    pub(super) fn coordinates(&self, parameters: &[Parameter]) -> Vec<Coordinate> {
+    pub(crate) fn coordinates(&self, parameters: &[Parameter]) -> Vec<Coordinate> {
         let Some(masses) = &self.masses else {
             return parameters.iter().copied().map(Coordinate::Parameter).collect();
         };
@@ -78,7 +78,7 @@ impl Body {
     }
 
     /// Value of a coordinate that is positive by nature; `None` of others.
-    pub(super) fn scale(&self, coordinate: Coordinate) -> Option<f64> {
+    pub(crate) fn scale(&self, coordinate: Coordinate) -> Option<f64> {
         match coordinate {
             Coordinate::Parameter(p) => p.is_scale().then(|| p.of(&self.arm)),
             Coordinate::Beam(b) => {
@@ -93,7 +93,7 @@ impl Body {
     }
 
     /// Adds `change` to a coordinate.
-    pub(super) fn shift(&mut self, coordinate: Coordinate, change: f64) {
+    pub(crate) fn shift(&mut self, coordinate: Coordinate, change: f64) {
         let b = match coordinate {
             Coordinate::Beam(b) => b,
             Coordinate::Parameter(p) => {
@@ -108,7 +108,7 @@ impl Body {
     }
 
     /// ∂parameter/∂coordinate; `None` if the coordinates are the parameters.
-    pub(super) fn jacobian(&self, parameters: &[Parameter]) -> Option<DMatrix<f64>> {
+    pub(crate) fn jacobian(&self, parameters: &[Parameter]) -> Option<DMatrix<f64>> {
         let masses = self.masses.as_ref()?;
         let coordinates = self.coordinates(parameters);
         let mut found = DMatrix::zeros(parameters.len(), coordinates.len());
@@ -151,7 +151,7 @@ fn is_of_beam(p: Parameter) -> bool {
 }
 
 /// Converts sums with derivatives by parameters to sums with derivatives by coordinates.
-pub(super) fn in_coordinates(sums: &WindowSums, jacobian: &DMatrix<f64>) -> WindowSums {
+pub(crate) fn in_coordinates(sums: &WindowSums, jacobian: &DMatrix<f64>) -> WindowSums {
     let (shared, fewer) = jacobian.shape();
     let own = sums.gram.ncols() - shared;
     let mut whole = DMatrix::identity(shared + own, fewer + own);
