@@ -11,6 +11,7 @@ mod replay_findings;
 mod replayed;
 mod schedule;
 pub(crate) mod thresholds;
+mod undecided;
 
 pub use engine::by_run::ByRun;
 pub(crate) use engine::data::{Masks, masks};

@@ -5,9 +5,9 @@ use crate::identify::methods::output_error::engine::budget::Budget;
 use crate::identify::methods::output_error::engine::{data, noise};
 use crate::identify::methods::output_error::found::{OutputError, OutputErrorStart};
 use crate::identify::methods::output_error::model::fitting::Fitting;
-use crate::identify::methods::output_error::model::undecided::{Known, undecided};
 use crate::identify::methods::output_error::schedule::{Attempt, best};
 use crate::identify::methods::output_error::thresholds::{EVALUATIONS_MOST, WINDOW_WIDENING};
+use crate::identify::methods::output_error::undecided::{Known, undecided};
 use crate::identify::prepare::prepared::Prepared;
 use crate::replay::SensorNoise;
 

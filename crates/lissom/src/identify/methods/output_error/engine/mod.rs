@@ -5,8 +5,6 @@ pub(crate) mod by_run;
 pub(crate) mod coordinates;
 pub(crate) mod covariance;
 pub(crate) mod data;
-pub(crate) mod divergence;
 pub(crate) mod noise;
-pub(crate) mod repeats;
 pub(crate) mod search;
 pub(crate) mod windows;

@@ -8,10 +8,10 @@ use crate::identify::methods::output_error::engine::coordinates::Body;
 use crate::identify::methods::output_error::engine::covariance::Covariances;
 use crate::identify::methods::output_error::engine::data::Masks;
 use crate::identify::methods::output_error::engine::noise;
-use crate::identify::methods::output_error::engine::repeats::without_repeats;
 use crate::identify::methods::output_error::engine::search::{Point, Problem, Stop, is_possible};
 use crate::identify::methods::output_error::engine::windows::cut;
 use crate::identify::methods::output_error::model::fit::{Fit, Report, StageReport};
+use crate::identify::methods::output_error::model::repeats::without_repeats;
 use crate::identify::methods::output_error::thresholds::{
     FIRST_WINDOW_PERIODS, FIRST_WINDOW_SAMPLES, LAST_STEP_FALL, LAST_STEPS_MOST, NOISE_ROUNDS_MOST,
     NOISE_SETTLED, PARAMETER_SHARE_LEAST, PROBE_SAMPLES, RESIDUAL_FAR_ABOVE_NOISE, STAGE_SAMPLES,
