@@ -36,6 +36,10 @@ thresholds! {
         /// errors are large: they contain the error of the arm without it. A term of friction must
         /// lower the cost by more than this.
         GROUP_SHARE_LARGE: f64 = 0.02, "1", Convention;
+        /// Largest share of the squared residual beyond the noise that further parameters may leave
+        /// where the residual is above the noise. Without it, terms of friction were added on logs
+        /// with a wrong sample rate.
+        EXCESS_LEFT: f64 = 0.7, "1", Measured;
         /// Most groups of parameters that are added at one length of the windows.
         GROUPS_ADDED_MOST: usize = 3, "groups", Convention;
         /// The modes are freed from the equations of point masses at the tips if that lowers the

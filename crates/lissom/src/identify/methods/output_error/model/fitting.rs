@@ -13,9 +13,9 @@ use crate::identify::methods::output_error::engine::windows::cut;
 use crate::identify::methods::output_error::model::fit::{Fit, Report, StageReport};
 use crate::identify::methods::output_error::model::repeats::without_repeats;
 use crate::identify::methods::output_error::thresholds::{
-    FIRST_WINDOW_PERIODS, FIRST_WINDOW_SAMPLES, LAST_STEP_FALL, LAST_STEPS_MOST, NOISE_ROUNDS_MOST,
-    NOISE_SETTLED, PARAMETER_SHARE_LEAST, PROBE_SAMPLES, RESIDUAL_FAR_ABOVE_NOISE, STAGE_SAMPLES,
-    STAGE_STEP_FALL, STAGE_STEPS_MOST, STEP_SHARE_LEAST,
+    EXCESS_LEFT, FIRST_WINDOW_PERIODS, FIRST_WINDOW_SAMPLES, LAST_STEP_FALL, LAST_STEPS_MOST,
+    NOISE_ROUNDS_MOST, NOISE_SETTLED, PARAMETER_SHARE_LEAST, PROBE_SAMPLES, RESIDUAL_ABOVE_NOISE,
+    RESIDUAL_FAR_ABOVE_NOISE, STAGE_SAMPLES, STAGE_STEP_FALL, STAGE_STEPS_MOST, STEP_SHARE_LEAST,
 };
 use crate::identify::thresholds::PRESENT;
 use crate::record::{Campaign, Run};
@@ -93,11 +93,23 @@ impl Fitting<'_> {
     /// If it has more coordinates, the cost must fall by more than these are worth. If it has fewer, the cost may
     /// rise by less than these are worth. A coordinate is worth the square of [`PRESENT`], the standard errors at
     /// which a parameter is as likely to be present as not, and at least the share [`PARAMETER_SHARE_LEAST`] of the
-    /// cost, which errors that are not white noise may take.
+    /// cost, which errors that are not white noise may take. Where the residual is above the noise, more coordinates
+    /// must also explain a good part of that excess ([`EXCESS_LEFT`]): any parameter takes some of the error of an arm
+    /// that lacks something else.
     pub(crate) fn is_better(&self, other: &Fit, fit: &Fit) -> bool {
         let (before, after) = (self.cost(fit, &fit.noise), self.cost(other, &fit.noise));
         let more = other.coordinates() as f64 - fit.coordinates() as f64;
-        after + (PRESENT * PRESENT).max(PARAMETER_SHARE_LEAST * before) * more < before
+        let cheaper =
+            after + (PRESENT * PRESENT).max(PARAMETER_SHARE_LEAST * before) * more < before;
+        let above_noise = self.beyond_noise(fit) > RESIDUAL_ABOVE_NOISE;
+        let explains = || self.excess(other) <= EXCESS_LEFT * self.excess(fit);
+        cheaper && (more <= 0.0 || !above_noise || explains())
+    }
+
+    /// Squares of the residuals beyond the sensors' noise, relative to that noise, summed over the channels.
+    fn excess(&self, fit: &Fit) -> f64 {
+        let each = fit.residual.iter().zip(self.noise);
+        each.map(|(r, n)| ((r / n.sigma).powi(2) - 1.0).max(0.0)).sum()
     }
 
     /// A fit before its first step; `None` if no window can be cut or the arm is outside the limits of the search.
