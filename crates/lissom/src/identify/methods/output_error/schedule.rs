@@ -108,9 +108,19 @@ fn attempt(fitting: &Fitting<'_>, arm: &ModalArm, first_window_s: Option<f64>) -
 fn begin(fitting: &Fitting<'_>, arm: &ModalArm, window_s: f64, report: &mut Report) -> Option<Fit> {
     let mut fit = fitting.first_fit(arm, window_s)?;
     fitting.search(&mut fit, report);
-    modes::grow(fitting, &mut fit, report);
-    extend(fitting, &mut fit, report);
+    make(modes::grow, fitting, &mut fit, report);
+    make(extend, fitting, &mut fit, report);
     Some(fit)
+}
+
+/// A step of the schedule.
+type Move = fn(&Fitting<'_>, &mut Fit, &mut Report);
+
+/// Makes a step, unless all evaluations allowed are made.
+fn make(step: Move, fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+    if !fitting.budget.is_spent() {
+        step(fitting, fit, report);
+    }
 }
 
 /// Lengthens the windows to whole runs, as far as the arm describes them and neighbouring motions do not grow apart.
@@ -126,9 +136,9 @@ fn widen(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
         fit.windows = if fit.whole_runs { windows } else { some(windows) };
         fitting.search(fit, report);
         if report.grown(&fit.residual) {
-            modes::grow(fitting, fit, report);
-            extend(fitting, fit, report);
-            relax(fitting, fit, report);
+            make(modes::grow, fitting, fit, report);
+            make(extend, fitting, fit, report);
+            make(relax, fitting, fit, report);
         }
         let diverges = fitting.diverges(fit);
         if report.grown(&fit.residual) || diverges {
@@ -150,9 +160,9 @@ fn widen(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
 
 /// Continues to whole runs and the sensors' steps.
 fn go_on(fitting: &Fitting<'_>, mut fit: Fit, mut report: Report) -> Attempt {
-    widen(fitting, &mut fit, &mut report);
-    modes::grow(fitting, &mut fit, &mut report);
-    settle(fitting, &mut fit, &mut report);
+    make(widen, fitting, &mut fit, &mut report);
+    make(modes::grow, fitting, &mut fit, &mut report);
+    make(settle, fitting, &mut fit, &mut report);
     let without_repeats = fitting.count_steps(&mut fit, &mut report);
     let left = left_over(fitting.campaign, &fit, fitting.masks);
     Attempt { fit, report, without_repeats, left }
@@ -162,25 +172,25 @@ fn go_on(fitting: &Fitting<'_>, mut fit: Fit, mut report: Report) -> Attempt {
 fn settle(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
     let dampers =
         |fit: &Fit| fit.free.iter().copied().filter(|p| p.is_damper()).collect::<Vec<Parameter>>();
-    tighten(fitting, fit, report);
+    make(tighten, fitting, fit, report);
     fit.body.allow_dampers_at_points();
     let added = report.added.len();
-    extend(fitting, fit, report);
+    make(extend, fitting, fit, report);
     if report.added.len() > added {
         // The arm may now describe longer windows.
-        widen(fitting, fit, report);
+        make(widen, fitting, fit, report);
     }
     let before = dampers(fit);
-    dampers_at_points(fitting, fit, report);
-    drop_dampers(fitting, fit, report);
+    make(dampers_at_points, fitting, fit, report);
+    make(drop_dampers, fitting, fit, report);
     if dampers(fit) != before {
         // Without the earlier dampers the modes may be those of point masses, and the arm may describe longer
         // windows.
-        tighten(fitting, fit, report);
-        widen(fitting, fit, report);
+        make(tighten, fitting, fit, report);
+        make(widen, fitting, fit, report);
     }
-    drop_tip_lags(fitting, fit, report);
-    relax(fitting, fit, report);
+    make(drop_tip_lags, fitting, fit, report);
+    make(relax, fitting, fit, report);
 }
 
 /// Repeats the search with slower widening, if it may have ended in a wrong minimum: the residual is above the noise,
