@@ -122,7 +122,9 @@ impl FrictionNumber {
             Self::NearRest(number) => terms.near_rest.as_mut().map(|n| number.in_term(n)),
             Self::Ripple(i, number) => terms.ripples.get_mut(i).map(|r| number.in_term(r)),
         };
-        place.into_iter().for_each(|place| *place = value);
+        if let Some(place) = place {
+            *place = value;
+        }
     }
 }
 

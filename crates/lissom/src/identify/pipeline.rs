@@ -20,7 +20,6 @@ use crate::identify::options::Options;
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_analysis::RunKind;
 use crate::identify::responses::linear_models::LinearModels;
-use crate::identify::responses::models;
 use crate::identify::responses::models::{beam_model, figures_model, rigid_model};
 use crate::identify::responses::response_point::ResponsePoint;
 use crate::identify::responses::response_step::{ResponseTables, Responses};
@@ -150,10 +149,9 @@ pub fn identify(
     let rigid = output_error.as_ref().and_then(|oe| rigid_model(campaign, oe));
     let Responses { points, motor_model, beam_model, findings: response_findings } =
         tables.with_models(replay, tips_model, by_regression, rigid);
-    let third_harmonic_model = third_harmonic.as_ref().and_then(|third| {
-        let table = tables.with_square_wave(Some(third.coulomb_command));
-        models::motor_model(&table, constant, beam_model.as_ref())
-    });
+    let third = third_harmonic.as_ref();
+    let third_harmonic_model =
+        third.and_then(|t| tables.model_with(t.coulomb_command, beam_model.as_ref()));
     let (equivalent, refused) = equivalent_arm(campaign, &points);
     let methods = Methods {
         third_harmonic,
@@ -169,8 +167,8 @@ pub fn identify(
         motor_model,
     };
     let evidence = Evidence::of(&prepared, &methods);
-    let mut findings = prepared.findings().to_vec();
-    findings.extend(steady_findings.into_iter().chain(response_findings).chain(refused));
+    let findings =
+        [prepared.findings().to_vec(), steady_findings, response_findings, refused].concat();
     let conclusion = conclude(&evidence, findings);
     let models = LinearModels::of(&evidence);
     let runs = prepared.into_runs();
@@ -213,13 +211,13 @@ fn is_sound_alone(r: &MotorRegression) -> bool {
 fn equivalent_arm(
     campaign: &Campaign,
     responses: &[ResponsePoint],
-) -> (Option<Equivalent>, Option<Finding>) {
+) -> (Option<Equivalent>, Vec<Finding>) {
     let data = EquivalentData::of_campaign(campaign, responses).ok();
     match data.filter(|data| data.names.len() > 1).map(|data| equivalent(&data, None)) {
-        None => (None, None),
-        Some(Ok(found)) => (Some(found), None),
+        None => (None, Vec::new()),
+        Some(Ok(found)) => (Some(found), Vec::new()),
         Some(Err(refusal)) => {
-            (None, Some(Finding::new(EquivalentFinding::EquivalentRefused { refusal })))
+            (None, vec![Finding::new(EquivalentFinding::EquivalentRefused { refusal })])
         }
     }
 }

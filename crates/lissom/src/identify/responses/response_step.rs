@@ -7,7 +7,7 @@ use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
 use crate::identify::responses::bands::{against, general, uncertain};
 use crate::identify::responses::friction_waveform::FrictionWaveform;
-use crate::identify::responses::models::motor_and_beam;
+use crate::identify::responses::models::{motor_and_beam, motor_model};
 use crate::identify::responses::rational::{BeamFit, MotorFit};
 use crate::identify::responses::replayed_bands::ReplayedBands;
 use crate::identify::responses::response_point::ResponsePoint;
@@ -39,6 +39,12 @@ impl<'a> ResponseTables<'a> {
     /// Corrected for friction as a square wave of this amplitude.
     pub(crate) fn with_square_wave(&self, coulomb_command: Option<Estimate>) -> Vec<ResponsePoint> {
         self.table(coulomb_command, &Replayed::default())
+    }
+
+    /// Rational model of the motor from responses corrected for friction as a square wave of this amplitude.
+    pub(crate) fn model_with(&self, coulomb: Estimate, beam: Option<&BeamFit>) -> Option<MotorFit> {
+        let constant = self.prepared.torque_per_command();
+        motor_model(&self.with_square_wave(Some(coulomb)), constant, beam)
     }
 
     /// Corrected by the output-error method where its arm describes whole runs, with models of motor and beam.
