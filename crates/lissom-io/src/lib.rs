@@ -7,6 +7,8 @@
 //! - [`read_responses`] reads tables of frequency responses: see [`responses`].
 //! - [`ResultFile`] is what was identified, [`read_arm`] reads the arm in it back, [`ValidationFile`]
 //!   is how well it predicts another log, [`ThresholdsFile`] the list of thresholds: see [`result`].
+//! - [`PlannedFile`] is a plan for programs, [`RigFile`] what is known of a virtual campaign, [`DemoFile`] and
+//!   [`FiguresFile`] are estimates compared with known values.
 //! - [`units`] reads quantities such as `"2.184 lbf*in/A"`.
 //! - [`mod@write`] writes files whole or not at all.
 //!
@@ -15,6 +17,7 @@
 
 pub mod arm_file;
 pub mod campaign;
+pub mod comparison;
 mod config;
 mod excerpt;
 mod io_error;
@@ -22,9 +25,11 @@ pub mod log;
 pub mod model;
 mod nearest;
 pub mod plan;
+pub mod planned;
 mod read_text;
 pub mod responses;
 pub mod result;
+pub mod rig;
 #[cfg(feature = "schema")]
 mod schema_files;
 pub mod units;
@@ -39,11 +44,13 @@ pub use campaign::{
     AnalysisOptions, CampaignError, CampaignFile, Known, ReadOptions, read_campaign,
     read_campaign_like, read_campaign_with,
 };
+pub use comparison::{DemoFile, FiguresFile};
 pub use config::{ConfigError, Place, Rule};
 pub use io_error::Error;
 pub use log::LogError;
 pub use model::{FrequencyError, Model, ModelFile, read_frequencies};
 pub use plan::{PlanError, PlanFile, PlanRun};
+pub use planned::PlannedFile;
 pub use read_text::read_text;
 pub use responses::{
     FrequencyResponses, MeasuredResponse, Positive, ResponseError, read_responses,
@@ -52,6 +59,7 @@ pub use result::{
     EquivalentFile, PayloadFile, PayloadPrediction, PredictedPayload, ResultError, ResultFile,
     ThresholdsFile, UnitNames, ValidationFile, channel_name_unit, read_arm,
 };
+pub use rig::{RigFile, RigRunEntry};
 #[cfg(feature = "schema")]
 pub use schema_files::schema_files;
 pub use units::UnitError;

@@ -6,7 +6,9 @@ use schemars::{JsonSchema, Schema};
 use serde_json::Value;
 
 use crate::model::ModelFile;
+use crate::planned::PlannedFile;
 use crate::result::{EquivalentFile, PayloadFile, ResultFile, ThresholdsFile, ValidationFile};
+use crate::rig::RigFile;
 
 /// File names of the schemas in `docs/`, and their text.
 pub fn schema_files() -> Vec<(&'static str, String)> {
@@ -18,6 +20,8 @@ pub fn schema_files() -> Vec<(&'static str, String)> {
             text::<EquivalentFile>("What lissom equivalent writes with --json"),
         ),
         ("payload.schema.json", text::<PayloadFile>("What lissom payload writes with --json")),
+        ("planned.schema.json", text::<PlannedFile>("What lissom plan writes with --json")),
+        ("rig.schema.json", text::<RigFile>("rig.json of lissom rig")),
         (
             "thresholds.schema.json",
             text::<ThresholdsFile>("What lissom thresholds writes with --json"),

@@ -45,7 +45,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     }
     batch.commit()?;
     if json.is_some() && json_file.is_none() {
-        printer::json(&result);
+        printer::json(&result)?;
     } else {
         campaign_summary::campaign(&file.campaign);
         campaign_summary::ranges(names, &file.campaign);

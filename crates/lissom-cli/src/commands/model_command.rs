@@ -36,7 +36,7 @@ pub(crate) fn run(args: &ModelArgs) -> Result<ExitCode, Failure> {
     }
     batch.commit()?;
     if json.is_some() && json_file.is_none() {
-        printer::json(&ModelFile::of(&model));
+        printer::json(&ModelFile::of(&model))?;
     } else {
         model_table::print(&task, &model);
     }

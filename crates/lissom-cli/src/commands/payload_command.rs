@@ -47,7 +47,7 @@ pub(crate) fn run(args: &PayloadArgs) -> Result<ExitCode, Failure> {
     }
     batch.commit()?;
     if json.is_some() && json_file.is_none() {
-        printer::json(&PayloadFile::of(&found));
+        printer::json(&PayloadFile::of(&found))?;
     } else {
         payload_table::table(&found);
         finding_list::findings(&found.findings);

@@ -22,7 +22,7 @@ pub(crate) fn run(args: &ThresholdsArgs) -> Result<ExitCode, Failure> {
         batch.commit()?;
     }
     if json.is_some() && json_file.is_none() {
-        printer::json(&ThresholdsFile::all());
+        printer::json(&ThresholdsFile::all())?;
     } else {
         threshold_table::thresholds();
     }

@@ -37,7 +37,7 @@ pub(crate) fn run(args: &ValidateArgs) -> Result<ExitCode, Failure> {
     }
     batch.commit()?;
     if json.is_some() && json_file.is_none() {
-        printer::json(&result);
+        printer::json(&result)?;
     } else {
         campaign_summary::campaign(campaign);
         validation_table::validation(

@@ -3,8 +3,8 @@
 use lissom::arm::Arm;
 use lissom::identify::{Estimate, Identified, OutputError};
 use lissom::replay::{ModalArm, Parameter};
-use lissom_io::ResultFile;
-use serde_json::{Value, json};
+use lissom_io::comparison::{ComparedEstimateEntry, ComparisonEntry};
+use lissom_io::{DemoFile, ResultFile};
 
 /// A figure: name, unit, truth, the report's method, regression, output error.
 pub(crate) struct DemoRow {
@@ -69,20 +69,15 @@ pub(crate) fn comparison(arm: &Arm, id: &Identified) -> Vec<DemoRow> {
     ]
 }
 
-pub(crate) fn compared(rows: &[DemoRow], result: &ResultFile) -> Value {
-    let value = |e: Option<Estimate>| e.map(|e| json!({ "value": e.value, "std": e.std }));
-    let figures: Vec<Value> = rows
-        .iter()
-        .map(|r| {
-            json!({
-                "figure": r.name,
-                "unit": r.unit,
-                "true": r.truth,
-                "third_harmonic": value(r.third),
-                "regression": value(r.regression),
-                "output_error": value(r.output_error),
-            })
-        })
-        .collect();
-    json!({ "comparison": figures, "result": result })
+pub(crate) fn compared(rows: &[DemoRow], result: ResultFile) -> DemoFile {
+    let estimate = |e: Option<Estimate>| e.map(ComparedEstimateEntry::of);
+    let entry = |r: &DemoRow| ComparisonEntry {
+        figure: r.name.to_owned(),
+        unit: r.unit.to_owned(),
+        truth: r.truth,
+        third_harmonic: estimate(r.third),
+        regression: estimate(r.regression),
+        output_error: estimate(r.output_error),
+    };
+    DemoFile { comparison: rows.iter().map(entry).collect(), result }
 }

@@ -3,7 +3,8 @@
 use lissom::drive::DryFriction;
 use lissom::identify::{Estimate, Identified};
 use lissom::rig::{JointFriction, Rig};
-use serde_json::{Value, json};
+use lissom_io::FiguresFile;
+use lissom_io::comparison::ComparedCoulombEntry;
 
 /// Printed in 6.2.2: classical forward and backward, spectral \[A\].
 const PRINTED_A: [f64; 3] = [0.161, 0.152, 0.132];
@@ -56,14 +57,12 @@ pub(crate) fn rows(rig: &Rig, id: &Identified) -> Vec<CoulombRow> {
     ]
 }
 
-pub(crate) fn as_json(rows: &[CoulombRow]) -> Value {
-    let row = |r: &CoulombRow| {
-        json!({
-            "figure": r.name,
-            "printed_a": r.printed_a,
-            "value_a": r.here.map(|e| e.value),
-            "std_a": r.here.map(|e| e.std),
-        })
+pub(crate) fn compared(rows: &[CoulombRow]) -> FiguresFile {
+    let entry = |r: &CoulombRow| ComparedCoulombEntry {
+        figure: r.name.to_owned(),
+        printed_a: r.printed_a,
+        value_a: r.here.map(|e| e.value),
+        std_a: r.here.map(|e| e.std),
     };
-    json!({ "coulomb": rows.iter().map(row).collect::<Vec<_>>() })
+    FiguresFile { coulomb: rows.iter().map(entry).collect() }
 }

@@ -2,9 +2,10 @@
 #![expect(clippy::print_stderr, reason = "the command's printer")]
 
 use std::io::{ErrorKind, Write as _};
+use std::path::Path;
 
+use lissom_io::write;
 use serde::Serialize;
-use serde_json::json;
 
 use crate::shared::failure::Failure;
 
@@ -31,9 +32,10 @@ pub(crate) fn note(text: &str) {
     eprintln!("{text}");
 }
 
-/// JSON, alone on standard output.
-pub(crate) fn json(value: &impl Serialize) {
-    line(&format!("{:#}", json!(value)));
+/// JSON, alone on standard output: the text that a file would have.
+pub(crate) fn json(value: &impl Serialize) -> Result<(), Failure> {
+    line(write::json_text(Path::new("standard output"), value)?.trim_end());
+    Ok(())
 }
 
 /// A table with its columns aligned, the first to the left, the others to the right.

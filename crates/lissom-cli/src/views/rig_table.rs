@@ -4,8 +4,8 @@ use std::path::Path;
 
 use lissom::beam::Base;
 use lissom::rig::Rig;
-use lissom_io::{ArmFile, PlanFile};
-use serde_json::Value;
+use lissom_io::rig::RigFindingName;
+use lissom_io::{ArmFile, PlanFile, RigRunEntry};
 
 use super::printer;
 
@@ -29,40 +29,33 @@ pub(crate) fn lumped(file: &ArmFile, path: &Path, rig: &Rig) -> Option<String> {
     ))
 }
 
-pub(crate) fn report(plan: &PlanFile, facts: &[Value], campaign: &Path) {
+pub(crate) fn report(plan: &PlanFile, entries: &[RigRunEntry], campaign: &Path) {
     let head = ["run", "samples", "settled after", "left [rad]", "stuck"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
-    let figure = |facts: &Value, key: &str, digits: usize, unit: &str| {
-        facts[key].as_f64().map_or_else(|| "-".to_owned(), |v| format!("{v:.digits$}{unit}"))
-    };
-    for (run, facts) in plan.runs.iter().zip(facts) {
-        let left = facts["transient_left_rad"].as_f64();
+    for (run, entry) in plan.runs.iter().zip(entries) {
         rows.push(vec![
             run.name.clone(),
-            facts["samples"].to_string(),
-            figure(facts, "waited_s", 1, " s"),
-            left.map_or_else(|| "-".to_owned(), |v| format!("{v:.1e}")),
-            facts["stuck_share"]
-                .as_f64()
-                .map_or_else(String::new, |v| format!("{:.1} %", 100.0 * v)),
+            entry.samples.to_string(),
+            format!("{:.1} s", entry.waited_s),
+            entry.transient_left_rad.map_or_else(|| "-".to_owned(), |v| format!("{v:.1e}")),
+            format!("{:.1} %", 100.0 * entry.stuck_share),
         ]);
     }
     printer::table(&rows);
-    warn(plan, facts);
+    warn(plan, entries);
     printer::line("");
     printer::line(&format!("identify it with: lissom identify {}", campaign.display()));
 }
 
 /// The findings, those of one kind together.
-fn warn(plan: &PlanFile, facts: &[Value]) {
-    let mut kinds: Vec<(&str, Vec<String>)> = Vec::new();
-    for (run, facts) in plan.runs.iter().zip(facts) {
-        for finding in facts["findings"].as_array().into_iter().flatten() {
-            let text = |key: &str| finding[key].as_str().unwrap_or_default();
-            let line = format!("warning: {}: {}", run.name, text("message"));
-            match kinds.iter_mut().find(|(code, _)| *code == text("code")) {
+fn warn(plan: &PlanFile, entries: &[RigRunEntry]) {
+    let mut kinds: Vec<(RigFindingName, Vec<String>)> = Vec::new();
+    for (run, entry) in plan.runs.iter().zip(entries) {
+        for finding in &entry.findings {
+            let line = format!("warning: {}: {}", run.name, finding.message);
+            match kinds.iter_mut().find(|(code, _)| *code == finding.code) {
                 Some((_, lines)) => lines.push(line),
-                None => kinds.push((text("code"), vec![line])),
+                None => kinds.push((finding.code, vec![line])),
             }
         }
     }

@@ -40,6 +40,7 @@ pub use equivalent_file::{
     EquivalentTorqueEntry, PointZerosEntry, ResponseZeroEntry, SpuriousName, SpuriousPoleEntry,
     StrainlessEntry,
 };
+pub(crate) use estimate_entry::finite;
 pub use estimate_entry::{BeamModeEntry, EstimateEntry};
 pub use estimate_keys::{Estimated, Refusable};
 pub use finding_entry::{FindingEntry, SeverityName};

@@ -45,10 +45,10 @@ pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
 
     let rows = comparison(&rig.arm, &id);
     match args.json.as_deref() {
-        Some(path) if path == Path::new(STDOUT) => printer::json(&compared(&rows, &result)),
+        Some(path) if path == Path::new(STDOUT) => printer::json(&compared(&rows, result))?,
         json => {
             if let Some(path) = json {
-                write::write_json(path, &compared(&rows, &result))?;
+                write::write_json(path, &compared(&rows, result))?;
             }
             demo_table::report(out, &file.campaign, &id, &rows);
         }

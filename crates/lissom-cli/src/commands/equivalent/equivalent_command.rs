@@ -54,7 +54,7 @@ pub(crate) fn run(args: &EquivalentArgs) -> Result<ExitCode, Failure> {
     }
     batch.commit()?;
     if json.is_some() && json_file.is_none() {
-        printer::json(&EquivalentFile::of(input.names, &found));
+        printer::json(&EquivalentFile::of(input.names, &found))?;
     } else {
         equivalent_table::print(&input, &found);
         finding_list::findings(&found.findings);

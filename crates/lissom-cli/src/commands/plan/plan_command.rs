@@ -5,10 +5,10 @@ use std::process::ExitCode;
 
 use lissom::plan::{Plan, Wishes, plan};
 use lissom::rig::Rig;
-use lissom_io::ArmFile;
 use lissom_io::write::{self, Batch};
+use lissom_io::{ArmFile, PlannedFile};
 
-use super::{planned_json, reference_tables};
+use super::reference_tables;
 use crate::args::plan_args::PlanArgs;
 use crate::args::stdout_name::STDOUT;
 use crate::shared::failure::Failure;
@@ -30,7 +30,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     }
     let wishes = args.wishes();
     let made = planned(&args.arm, &rig, &wishes)?;
-    let value = planned_json::plan(&wishes, &made);
+    let value = PlannedFile::of(&wishes, &made);
     if let Some(folder) = &args.tables {
         reference_tables::write(folder, &rig, &made)?;
     }
@@ -43,7 +43,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     }
     batch.commit()?;
     match (to_stdout, &args.out) {
-        (true, _) => printer::json(&value),
+        (true, _) => printer::json(&value)?,
         // The plan itself, which says in comments what the table would.
         (false, None) => printer::line(write::plan_text(&made).trim_end()),
         (false, Some(path)) => plan_table::report(&args.arm, &made, path),

@@ -13,7 +13,7 @@ use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::identification::identified;
 use crate::tasks::known_arm::Reference;
-use crate::tasks::printed_coulomb::{as_json, rows};
+use crate::tasks::printed_coulomb::{compared, rows};
 use crate::views::bode_plots::bode_plots;
 use crate::views::friction_truth::with_truth;
 use crate::views::plot_file::add;
@@ -55,10 +55,10 @@ pub(crate) fn run(args: &FiguresArgs) -> Result<ExitCode, Failure> {
     batch.commit()?;
     let rows = rows(&made, &id);
     match args.json.as_deref() {
-        Some(_) if to_stdout => printer::json(&as_json(&rows)),
+        Some(_) if to_stdout => printer::json(&compared(&rows))?,
         json => {
             if let Some(path) = json {
-                write::write_json(path, &as_json(&rows))?;
+                write::write_json(path, &compared(&rows))?;
             }
             printed_coulomb_table::report(out, &rows);
         }

@@ -9,9 +9,10 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use lissom::rig::Rig;
-use lissom_io::PlanFile;
 use lissom_io::write;
-use serde_json::{Value, json};
+use lissom_io::{PlanFile, RigFile, RigRunEntry};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 
 use crate::shared::failure::Failure;
 
@@ -27,19 +28,29 @@ pub(crate) struct Folder {
     path: PathBuf,
     fingerprint: String,
     /// What a campaign that was finished left in `rig.json`.
-    finished: Option<Value>,
+    finished: Option<RigFile>,
+}
+
+/// Which campaign a folder belongs to: what `input.json` holds, and a key of `rig.json`.
+#[derive(Debug, Serialize, Deserialize)]
+struct CampaignInput {
+    fingerprint: Option<String>,
 }
 
 impl Folder {
     /// Makes the folder, or takes up the campaign in it where that is the same.
     pub(crate) fn open(path: &Path, rig: &Rig, plan: &PlanFile) -> Result<Self, Failure> {
-        let finished = read_json(&path.join(DONE));
-        let folder = Self { path: path.to_owned(), fingerprint: fingerprint(rig, plan), finished };
+        let folder = Self {
+            path: path.to_owned(),
+            fingerprint: fingerprint(rig, plan),
+            finished: read_json(&path.join(DONE)),
+        };
         let other =
             |what: &str| Failure::OtherCampaign { folder: path.to_owned(), what: what.to_owned() };
         let parts = folder.path(PARTS).join(INPUT);
-        let same = |found: &Value| found["fingerprint"].as_str() == Some(&folder.fingerprint);
-        match folder.finished.clone().or_else(|| read_json(&parts)) {
+        let same =
+            |found: &CampaignInput| found.fingerprint.as_deref() == Some(&folder.fingerprint);
+        match read_json(&folder.path(DONE)).or_else(|| read_json(&parts)) {
             Some(found) if same(&found) => {}
             // One that failed before its first log.
             Some(_) if !folder.path(DONE).exists() && !folder.has_logs() => {
@@ -55,7 +66,7 @@ impl Folder {
             }
         }
         write::create_folder(&folder.path(PARTS))?;
-        let input = json!({ "fingerprint": folder.fingerprint });
+        let input = CampaignInput { fingerprint: Some(folder.fingerprint.clone()) };
         write::write_json(&folder.path(PARTS).join(INPUT), &input)?;
         Ok(folder)
     }
@@ -71,37 +82,36 @@ impl Folder {
         entries.flatten().any(|entry| csv(entry.file_name()))
     }
 
-    /// The facts of a run whose log is there and whole.
-    pub(crate) fn done(&self, name: &str) -> Option<Value> {
+    /// The entry of a run whose log is there and whole.
+    pub(crate) fn done(&self, name: &str) -> Option<RigRunEntry> {
         let log = format!("{name}.csv");
-        let own = |facts: &Value| facts["file"].as_str() == Some(&log);
-        let facts = read_json(&self.part(name)).filter(own).or_else(|| {
+        let own = |entry: &RigRunEntry| entry.file == log;
+        let entry = read_json(&self.part(name)).filter(own).or_else(|| {
             // A campaign that was finished has them together.
-            self.finished.as_ref()?["runs"].as_array()?.iter().find(|run| own(run)).cloned()
+            self.finished.as_ref()?.runs.iter().find(|run| own(run)).cloned()
         })?;
         // A header, and a row for each sample, all of them ended.
         let text = std::fs::read_to_string(self.path(&log)).ok()?;
-        let rows = text.lines().count() as u64;
-        let whole = facts["samples"].as_u64()?.checked_add(1)? == rows && text.ends_with('\n');
-        whole.then_some(facts)
+        let rows = text.lines().count();
+        let whole = entry.samples.checked_add(1)? == rows && text.ends_with('\n');
+        whole.then_some(entry)
     }
 
     /// Keeps a run.
     pub(crate) fn store(
         &self,
         name: &str,
-        facts: &Value,
+        entry: &RigRunEntry,
         columns: &[(&str, &[f64])],
     ) -> Result<(), Failure> {
-        write::write_json(&self.part(name), facts)?;
+        write::write_json(&self.part(name), entry)?;
         write::write_csv(&self.path(&format!("{name}.csv")), columns)?;
         Ok(())
     }
 
     /// Writes what is known of the whole and clears up.
-    pub(crate) fn finish(&self, whole: &Value) -> Result<(), Failure> {
-        let mut whole = whole.clone();
-        whole["fingerprint"] = json!(self.fingerprint);
+    pub(crate) fn finish(&self, whole: &RigFile) -> Result<(), Failure> {
+        let whole = RigFile { fingerprint: Some(self.fingerprint.clone()), ..whole.clone() };
         write::write_json(&self.path(DONE), &whole)?;
         // What is left there does no harm.
         let _ = std::fs::remove_dir_all(self.path(PARTS));
@@ -129,7 +139,7 @@ impl Folder {
     }
 }
 
-fn read_json(path: &Path) -> Option<Value> {
+fn read_json<File: DeserializeOwned>(path: &Path) -> Option<File> {
     serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()
 }
 

@@ -2,7 +2,6 @@
 
 mod campaign_folder;
 mod rig_command;
-mod rig_facts;
 pub(crate) mod virtual_campaign;
 
 pub(crate) use rig_command::run;

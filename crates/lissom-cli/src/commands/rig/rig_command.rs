@@ -30,14 +30,14 @@ pub(crate) fn run(args: &RigArgs) -> Result<ExitCode, Failure> {
     if let Some(run) = plan.runs.iter().find(loops).filter(|_| !file.has_controller()) {
         return Err(Failure::NoController { arm: args.arm.clone(), run: run.name.clone() });
     }
-    let (facts, whole) = campaign(&rig, &plan, &inputs, &args.out, args.jobs)?;
+    let whole = campaign(&rig, &plan, &inputs, &args.out, args.jobs)?;
     match args.json.as_deref() {
-        Some(_) if to_stdout => printer::json(&whole),
+        Some(_) if to_stdout => printer::json(&whole)?,
         json => {
             if let Some(path) = json {
                 write::write_json(path, &whole)?;
             }
-            report(&plan, &facts, &args.out.join(CAMPAIGN));
+            report(&plan, &whole.runs, &args.out.join(CAMPAIGN));
             if let Some(line) = lumped(&file, &args.arm, &rig) {
                 printer::line(&line);
             }

@@ -4,12 +4,10 @@ use std::path::Path;
 
 use lissom::rig::{Logged, Rig};
 use lissom_io::write::{self, CampaignPlan, PlannedRun};
-use lissom_io::{PlanFile, PlanRun};
+use lissom_io::{PlanFile, PlanRun, RigFile, RigRunEntry};
 use rayon::prelude::*;
-use serde_json::Value;
 
 use super::campaign_folder::Folder;
-use super::rig_facts;
 use crate::shared::failure::Failure;
 use crate::shared::progress_bar;
 use crate::tasks::rig_campaign::{described, tip_column};
@@ -37,45 +35,45 @@ impl Inputs {
     }
 }
 
-/// Carries out a campaign, or the rest of it; gives the facts of each run and what `rig.json` holds.
+/// Carries out a campaign, or the rest of it; gives what `rig.json` holds.
 pub(crate) fn campaign(
     rig: &Rig,
     plan: &PlanFile,
     inputs: &Inputs,
     out: &Path,
     jobs: Option<u16>,
-) -> Result<(Vec<Value>, Value), Failure> {
+) -> Result<RigFile, Failure> {
     let folder = Folder::open(out, rig, plan)?;
-    let facts = carry_out(rig, plan, &folder, jobs)?;
-    let whole = rig_facts::campaign(rig, plan, &facts);
+    let whole = RigFile::of(rig, plan, carry_out(rig, plan, &folder, jobs)?);
     write::write_text(&folder.path("arm.toml"), &inputs.arm)?;
     write::write_text(&folder.path("plan.toml"), &inputs.plan)?;
     write::write_campaign(&folder.path(CAMPAIGN), &campaign_plan(rig, plan))?;
     folder.finish(&whole)?;
-    Ok((facts, whole))
+    Ok(whole)
 }
 
-/// Makes every log that is not there yet; gives the facts of all, in order.
+/// Makes every log that is not there yet; gives the entries of all runs, in order.
 fn carry_out(
     rig: &Rig,
     plan: &PlanFile,
     folder: &Folder,
     jobs: Option<u16>,
-) -> Result<Vec<Value>, Failure> {
-    let done: Vec<Option<Value>> = plan.runs.iter().map(|run| folder.done(&run.name)).collect();
+) -> Result<Vec<RigRunEntry>, Failure> {
+    let done: Vec<Option<RigRunEntry>> =
+        plan.runs.iter().map(|run| folder.done(&run.name)).collect();
     let there = done.iter().flatten().count();
     if there > 0 {
         printer::note(&format!("{there} of {} logs are there already", plan.runs.len()));
     }
     let bar = progress_bar::bar(plan.runs.len(), "virtual campaign");
     bar.enable_steady_tick(std::time::Duration::from_millis(250));
-    let one = |(run, done): (&PlanRun, Option<Value>)| -> Result<Value, Failure> {
-        let facts = match done {
-            Some(facts) => facts,
+    let one = |(run, done): (&PlanRun, Option<RigRunEntry>)| -> Result<RigRunEntry, Failure> {
+        let entry = match done {
+            Some(entry) => entry,
             None => simulate(rig, run, folder)?,
         };
         bar.inc(1);
-        Ok(facts)
+        Ok(entry)
     };
     let all = || plan.runs.par_iter().zip(done.clone()).map(one).collect::<Vec<_>>();
     let threads = jobs.map_or(0, usize::from);
@@ -89,16 +87,16 @@ fn carry_out(
     made.into_iter().collect()
 }
 
-fn simulate(rig: &Rig, run: &PlanRun, folder: &Folder) -> Result<Value, Failure> {
+fn simulate(rig: &Rig, run: &PlanRun, folder: &Folder) -> Result<RigRunEntry, Failure> {
     let logged = rig
         .run(&run.name, &run.experiment, run.seed)
         .map_err(|source| Failure::VirtualRun { run: run.name.clone(), source })?;
-    let facts = rig_facts::run(run, &logged);
+    let entry = RigRunEntry::of(run, &logged);
     let columns = columns(&logged);
     let columns: Vec<(&str, &[f64])> =
         columns.iter().map(|(name, values)| (name.as_str(), values.as_slice())).collect();
-    folder.store(&run.name, &facts, &columns)?;
-    Ok(facts)
+    folder.store(&run.name, &entry, &columns)?;
+    Ok(entry)
 }
 
 /// Time, current, motor and every mass.

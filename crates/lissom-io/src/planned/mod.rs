@@ -1,0 +1,12 @@
+//! A plan for programs: what `lissom plan` writes with `--json`.
+//!
+//! Its schema is `docs/planned.schema.json`, generated from [`PlannedFile`]. The `plan.toml` of the same runs is written
+//! by [`plan_text`](crate::write::plan_text) and read by [`PlanFile`](crate::PlanFile).
+
+mod plan_note_entry;
+mod planned_file;
+
+pub use plan_note_entry::{NoteSeverityName, PlanNoteEntry, PlanNoteName};
+pub use planned_file::{
+    ExpectedEntry, PlannedFile, PlannedParameterEntry, PlannedRunEntry, WithoutRunEntry,
+};

@@ -1,0 +1,9 @@
+//! `rig.json`: what is known of a virtual campaign in addition to its logs.
+//!
+//! Its schema is `docs/rig.schema.json`, generated from [`RigFile`].
+
+mod rig_file;
+mod rig_run_entry;
+
+pub use rig_file::{RigFile, RigTruthEntry};
+pub use rig_run_entry::{RigFindingEntry, RigFindingName, RigRunEntry};

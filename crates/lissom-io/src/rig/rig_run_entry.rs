@@ -1,0 +1,99 @@
+//! A run of a virtual campaign in JSON.
+
+use lissom::rig::{Logged, RigFinding};
+use serde::{Deserialize, Serialize};
+
+use crate::plan::PlanRun;
+use crate::result::finite;
+
+/// A run of a virtual campaign.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RigRunEntry {
+    /// File name of the log.
+    pub file: String,
+    /// Rows of the log.
+    pub samples: usize,
+    /// Time from one row to the next.
+    pub sample_time_s: f64,
+    /// Frequency of a sine; null for other motions.
+    pub omega_rad_s: Option<f64>,
+    /// Seed of the sensors' noise, a whole number.
+    pub seed: String,
+    /// Time before the log, in which the transient decays.
+    pub waited_s: f64,
+    /// Bound on the transient that is left when the log begins; null where it was not checked or nothing bounds it.
+    pub transient_left_rad: Option<f64>,
+    /// The transient that was allowed; null where it was not checked.
+    pub transient_allowed_rad: Option<f64>,
+    /// Share of the record in which the joint stuck, 0 to 1.
+    pub stuck_share: f64,
+    /// What the log alone does not say.
+    pub findings: Vec<RigFindingEntry>,
+}
+
+/// A finding about a simulated run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RigFindingEntry {
+    /// What the finding is about; docs/plan.md has them all.
+    pub code: RigFindingName,
+    /// The same in words, with numbers.
+    pub message: String,
+}
+
+/// What a finding about a simulated run is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum RigFindingName {
+    /// The log began before the transient had decayed.
+    NotSettled,
+    /// The amplifier or its converter limited the current.
+    CurrentLimited,
+    /// Friction held the joint throughout the record.
+    NeverMoved,
+    /// A sensor was taken beyond its range.
+    SensorRange,
+    /// The controller acts between two rows of the log.
+    CurrentBetweenSamples,
+    /// A finding that has no code of its own.
+    Other,
+}
+
+impl RigRunEntry {
+    /// The entry of a run that was simulated.
+    pub fn of(run: &PlanRun, logged: &Logged) -> Self {
+        Self {
+            file: format!("{}.csv", run.name),
+            samples: logged.run.len(),
+            sample_time_s: logged.run.sample_time_s(),
+            omega_rad_s: run.omega_rad_s,
+            seed: run.seed.to_string(),
+            waited_s: logged.settled.waited_s,
+            transient_left_rad: logged.settled.left_rad.and_then(finite),
+            transient_allowed_rad: logged.settled.tolerance_rad.and_then(finite),
+            stuck_share: logged.stuck_share,
+            findings: logged.findings.iter().map(RigFindingEntry::of).collect(),
+        }
+    }
+}
+
+impl RigFindingEntry {
+    fn of(finding: &RigFinding) -> Self {
+        Self { code: RigFindingName::of(finding), message: finding.to_string() }
+    }
+}
+
+impl RigFindingName {
+    fn of(finding: &RigFinding) -> Self {
+        match finding {
+            RigFinding::NotSettled { .. } => Self::NotSettled,
+            RigFinding::CurrentLimited { .. } => Self::CurrentLimited,
+            RigFinding::NeverMoved { .. } => Self::NeverMoved,
+            RigFinding::SensorRange { .. } => Self::SensorRange,
+            RigFinding::CurrentBetweenSamples { .. } => Self::CurrentBetweenSamples,
+            _ => Self::Other,
+        }
+    }
+}
