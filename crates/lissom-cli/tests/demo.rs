@@ -5,6 +5,7 @@
 use std::path::Path;
 use std::sync::OnceLock;
 
+use lissom_io::{DemoFile, ResultFile};
 use lissom_testmodels::report_arm;
 use num_complex::Complex64;
 use serde_json::Value;
@@ -24,6 +25,8 @@ const UNFLAGGED: f64 = 0.8;
 
 struct Demo {
     folder: tempfile::TempDir,
+    /// What was written with `--json`, and what it says.
+    json: String,
     output: Value,
     talk: String,
 }
@@ -45,6 +48,7 @@ fn demo() -> &'static Demo {
         Demo {
             folder,
             output: serde_json::from_str(&text).unwrap(),
+            json: text,
             talk: String::from_utf8(output.stdout).unwrap(),
         }
     })
@@ -72,6 +76,15 @@ fn figures_are_within_their_bars() {
             assert!(error("third_harmonic") < bar, "{name}: {}", error("third_harmonic"));
         }
     }
+}
+
+#[test]
+fn the_json_is_read_back_by_the_type_that_wrote_it() {
+    let demo = demo();
+    let read: DemoFile = serde_json::from_str(&demo.json).unwrap();
+    assert_eq!(serde_json::to_string_pretty(&read).unwrap() + "\n", demo.json);
+    let result = std::fs::read_to_string(demo.folder.path().join("lissom-demo/result.json"));
+    assert_eq!(serde_json::from_str::<ResultFile>(&result.unwrap()).unwrap(), read.result);
 }
 
 #[test]

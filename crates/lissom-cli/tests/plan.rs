@@ -6,6 +6,8 @@ use std::path::Path;
 use std::process::Output;
 
 use assert_cmd::Command;
+use lissom_io::PlannedFile;
+use lissom_io::planned::PlanNoteName;
 use lissom_testmodels::SchemaCheck;
 use serde_json::Value;
 use tempfile::TempDir;
@@ -121,6 +123,19 @@ fn the_json_and_its_schema_name_the_same_keys() {
     let told = notes.iter().find(|n| n["code"] == "unreached").unwrap();
     assert!(told["message"].as_str().unwrap().contains("within 180 s"), "{told}");
     assert!(unreached["time_s"].as_f64().unwrap() <= 180.0);
+}
+
+#[test]
+fn the_json_is_read_back_by_the_type_that_wrote_it() {
+    let folder = folder(ARM);
+    let sines = ["--runs", "sines", "--within", "3 min", "--coulomb", "1e-6"];
+    let output =
+        lissom(folder.path(), &[&["plan", "arm.toml", "--json", "plan.json"][..], &sines].concat());
+    assert_eq!(output.status.code(), Some(3), "{}", text(&output.stderr));
+    let written = fs::read_to_string(folder.path().join("plan.json")).unwrap();
+    let read: PlannedFile = serde_json::from_str(&written).unwrap();
+    assert!(read.notes.iter().any(|note| note.code == PlanNoteName::Unreached), "{read:?}");
+    assert_eq!(serde_json::to_string_pretty(&read).unwrap() + "\n", written);
 }
 
 #[test]

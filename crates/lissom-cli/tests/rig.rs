@@ -7,6 +7,7 @@ use std::path::Path;
 use std::process::Output;
 
 use assert_cmd::Command;
+use lissom_io::{FiguresFile, RigFile};
 use lissom_testmodels::SchemaCheck;
 use serde_json::Value;
 use tempfile::TempDir;
@@ -125,6 +126,24 @@ fn the_logs_are_read_back_and_tell_the_truth() {
     };
     near(&found["friction"]["coulomb_nm"], &rig["truth"]["forward_nm"], 0.02);
     near(&found["drive"]["inertia_kg_m2"], &rig["truth"]["inertia_kg_m2"], 0.03);
+}
+
+#[test]
+fn rig_json_is_read_back_by_the_type_that_wrote_it() {
+    let bench = Bench::new(ARM, PLAN);
+    let files = bench.done("out", &["--json", "copy.json"]);
+    let copy = fs::read(bench.0.path().join("copy.json")).unwrap();
+    let mut read: Vec<RigFile> = Vec::new();
+    for written in [files["rig.json"].as_slice(), &copy] {
+        let written = std::str::from_utf8(written).unwrap();
+        let file: RigFile = serde_json::from_str(written).unwrap();
+        assert_eq!(serde_json::to_string_pretty(&file).unwrap() + "\n", written);
+        read.push(file);
+    }
+    // The fingerprint is of the folder alone.
+    assert!(read[0].fingerprint.is_some());
+    read[0].fingerprint = None;
+    assert_eq!(read[0], read[1]);
 }
 
 #[test]
@@ -247,7 +266,9 @@ fn a_heavy_beam_is_lumped_and_identified() {
 fn figure_8_is_explained() {
     let folder = tempfile::tempdir().unwrap();
     let mut command = Command::cargo_bin("lissom").unwrap();
-    let output = command.arg("figures").arg("--out").arg(folder.path()).output().unwrap();
+    let json = folder.path().join("figures.json");
+    command.arg("figures").arg("--out").arg(folder.path()).arg("--json").arg(&json);
+    let output = command.output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let printed = String::from_utf8(output.stdout).unwrap();
     let table = printed.split("\n\n").next().unwrap();
@@ -265,6 +286,11 @@ fn figure_8_is_explained() {
         let (printed, here) = (figure(name, 0), figure(name, 1));
         assert!((printed - here).abs() < 1e-3, "{name}: {printed} {here}");
     }
+    // What was written is read back by the type that wrote it.
+    let written = fs::read_to_string(json).unwrap();
+    let read: FiguresFile = serde_json::from_str(&written).unwrap();
+    assert_eq!(serde_json::to_string_pretty(&read).unwrap() + "\n", written);
+    assert_eq!(read.coulomb[0].printed_a, Some(0.161));
 }
 
 #[test]
