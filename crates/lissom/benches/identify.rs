@@ -160,10 +160,10 @@ fn demo(c: &mut Criterion) {
         b.iter(|| motor_regression(&Prepared::of(&campaign), &Options::default()));
     });
     group.bench_function("regression of the beam", |b| {
-        b.iter(|| beam_regression(&Prepared::of(&campaign)))
+        b.iter(|| beam_regression(&Prepared::of(&campaign)));
     });
     group.bench_function("output error", |b| {
-        b.iter(|| output_error(&Prepared::of(&campaign), &start))
+        b.iter(|| output_error(&Prepared::of(&campaign), &start));
     });
     group.finish();
 }

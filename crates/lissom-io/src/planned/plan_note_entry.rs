@@ -51,12 +51,10 @@ pub enum NoteSeverityName {
 
 impl PlanNoteEntry {
     pub(super) fn of(note: &PlanNote) -> Self {
+        let warning = note.is_warning();
         Self {
             code: PlanNoteName::of(note),
-            severity: match note.is_warning() {
-                true => NoteSeverityName::Warning,
-                false => NoteSeverityName::Info,
-            },
+            severity: if warning { NoteSeverityName::Warning } else { NoteSeverityName::Info },
             message: note.to_string(),
         }
     }
@@ -79,8 +77,6 @@ impl PlanNoteName {
 
 #[cfg(test)]
 mod tests {
-    #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
-
     use lissom::plan::{Expected, Figure, Unfit};
 
     use super::*;

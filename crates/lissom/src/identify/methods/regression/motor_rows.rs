@@ -83,7 +83,7 @@ impl<'a> MotorRows<'a> {
             elapsed: Elapsed::of(campaign, index),
             coupling,
         });
-        let mut noise = plain.noise(&slipping.noise);
+        let mut noise = plain.noise(slipping.noise);
         if more.is_some() {
             // That of the further columns is left in: they are only tried.
             let right = noise.ncols() - 1;
