@@ -41,11 +41,11 @@ pub use arm_file::{
     SpanSpec, TipSpec,
 };
 pub use campaign::{
-    AnalysisOptions, CampaignError, CampaignFile, Known, ReadOptions, read_campaign,
+    AnalysisOptions, CampaignError, CampaignFile, DriveConstants, ReadOptions, read_campaign,
     read_campaign_like, read_campaign_with,
 };
 pub use comparison::{DemoFile, FiguresFile};
-pub use config::{ConfigError, Place, Rule};
+pub use config::{ConfigError, ConfigPlace, Rule};
 pub use io_error::Error;
 pub use log::LogError;
 pub use model::{FrequencyError, Model, ModelFile, read_frequencies};

@@ -5,7 +5,7 @@
 use lissom::drive::Falloff;
 use lissom::identify::{
     ByDirection, ConstantVelocity, Estimate, FrictionLine, Identified, LawCandidate, LawTerm,
-    NearRestEstimate, Options, Prepared, RippleEstimate, RunToAdd, Shape, SteadyPoint,
+    LineShape, NearRestEstimate, Options, Prepared, RippleEstimate, RunToAdd, SteadyPoint,
     geometry_check, identify, motor_regression,
 };
 use lissom::information::Figure;
@@ -86,8 +86,8 @@ fn with_directions(mut id: Identified) -> Identified {
         coulomb: Some(figure),
         offset: Some(figure),
         viscous: Some(figure),
-        forward: Ok(line(Shape::Concave { deviations: 4.0 })),
-        backward: Ok(line(Shape::Straight)),
+        forward: Ok(line(LineShape::Concave { deviations: 4.0 })),
+        backward: Ok(line(LineShape::Straight)),
         points: vec![SteadyPoint {
             run: 0,
             start_s: 0.0,

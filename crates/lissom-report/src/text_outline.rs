@@ -3,7 +3,7 @@
 use tiny_skia::{Path, PathBuilder};
 
 use crate::font::{Weight, font};
-use crate::truetype::{Glyph, Point};
+use crate::truetype::{Glyph, GlyphPoint};
 
 /// The box that stands for what a font lacks.
 const MISSING: Glyph = 0;
@@ -58,7 +58,7 @@ pub(crate) struct Pen {
 
 impl Pen {
     /// Adds a closed contour. Between two control points there is a point of the curve in the middle.
-    pub(crate) fn contour(&mut self, points: &[Point]) {
+    pub(crate) fn contour(&mut self, points: &[GlyphPoint]) {
         let (Some(first), Some(last)) = (points.first(), points.last()) else { return };
         let (start, rest) = match (first.on, last.on) {
             (true, _) => (*first, &points[1..]),
@@ -86,18 +86,18 @@ impl Pen {
         self.path.close();
     }
 
-    fn curve(&mut self, control: Point, end: Point) {
+    fn curve(&mut self, control: GlyphPoint, end: GlyphPoint) {
         let ((cx, cy), (x, y)) = (self.at(control), self.at(end));
         self.path.quad_to(cx, cy, x, y);
     }
 
-    fn at(&self, point: Point) -> (f32, f32) {
+    fn at(&self, point: GlyphPoint) -> (f32, f32) {
         (self.x + self.scale * point.x, -self.scale * point.y)
     }
 }
 
-fn middle(a: Point, b: Point) -> Point {
-    Point { x: 0.5 * (a.x + b.x), y: 0.5 * (a.y + b.y), on: true }
+fn middle(a: GlyphPoint, b: GlyphPoint) -> GlyphPoint {
+    GlyphPoint { x: 0.5 * (a.x + b.x), y: 0.5 * (a.y + b.y), on: true }
 }
 
 #[cfg(test)]

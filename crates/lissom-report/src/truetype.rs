@@ -29,7 +29,7 @@ pub(crate) type Glyph = u16;
 
 /// A point of a contour in units of the font, y upward.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Point {
+pub(crate) struct GlyphPoint {
     pub(crate) x: f32,
     pub(crate) y: f32,
     /// On the curve; otherwise the control point of a quadratic curve.
@@ -105,11 +105,11 @@ impl TrueType {
     }
 
     /// The closed contours of a glyph.
-    pub(crate) fn contours(&self, glyph: Glyph) -> Vec<Vec<Point>> {
+    pub(crate) fn contours(&self, glyph: Glyph) -> Vec<Vec<GlyphPoint>> {
         self.nested(glyph, 0).unwrap_or_default()
     }
 
-    fn nested(&self, glyph: Glyph, depth: u8) -> Option<Vec<Vec<Point>>> {
+    fn nested(&self, glyph: Glyph, depth: u8) -> Option<Vec<Vec<GlyphPoint>>> {
         let offset = |index: usize| {
             if self.long_offsets {
                 u32_at(self.loca, 4 * index).map(|offset| offset as usize)
@@ -126,7 +126,7 @@ impl TrueType {
     }
 
     /// A glyph that is made of others.
-    fn parts(&self, data: &[u8], depth: u8) -> Option<Vec<Vec<Point>>> {
+    fn parts(&self, data: &[u8], depth: u8) -> Option<Vec<Vec<GlyphPoint>>> {
         let (mut contours, mut at) = (Vec::new(), 10);
         loop {
             let (flags, part) = (u16_at(data, at)?, u16_at(data, at + 2)?);
@@ -155,7 +155,7 @@ impl TrueType {
             };
             at += size;
             let [xx, xy, yx, yy] = matrix;
-            let placed = |p: Point| Point {
+            let placed = |p: GlyphPoint| GlyphPoint {
                 x: xx * p.x + yx * p.y + f32::from(dx),
                 y: xy * p.x + yy * p.y + f32::from(dy),
                 on: p.on,
@@ -170,7 +170,7 @@ impl TrueType {
 }
 
 /// The contours of a glyph that has its own points.
-fn simple_contours(data: &[u8], count: usize) -> Option<Vec<Vec<Point>>> {
+fn simple_contours(data: &[u8], count: usize) -> Option<Vec<Vec<GlyphPoint>>> {
     let ends = (0..count).map(|k| u16_at(data, 10 + 2 * k).map(usize::from));
     let ends = ends.collect::<Option<Vec<_>>>()?;
     let points = ends.last().map_or(0, |last| last + 1);
@@ -190,7 +190,7 @@ fn simple_contours(data: &[u8], count: usize) -> Option<Vec<Vec<Point>>> {
     flags.truncate(points);
     let x = coordinates(data, &mut at, &flags, simple::X_SHORT, simple::X_SAME_OR_POSITIVE)?;
     let y = coordinates(data, &mut at, &flags, simple::Y_SHORT, simple::Y_SAME_OR_POSITIVE)?;
-    let point = |k: usize| Point { x: x[k], y: y[k], on: flags[k] & simple::ON_CURVE != 0 };
+    let point = |k: usize| GlyphPoint { x: x[k], y: y[k], on: flags[k] & simple::ON_CURVE != 0 };
     let starts = std::iter::once(0).chain(ends.iter().map(|end| end + 1));
     Some(starts.zip(&ends).map(|(start, end)| (start..=*end).map(point).collect()).collect())
 }

@@ -37,7 +37,7 @@ const PATIENCE_S: f64 = 120.0;
 
 /// A run but for its amplitude.
 #[derive(Debug, Clone)]
-pub(crate) enum Shape {
+pub(crate) enum MotionShape {
     Sine { omega_rad_s: f64, record_s: f64 },
     Multisine { omega_rad_s: f64, lines: Vec<u32>, phases: u64, record_s: f64 },
     Chirp { from_rad_s: f64, to_rad_s: f64, record_s: f64 },
@@ -46,12 +46,12 @@ pub(crate) enum Shape {
 /// A run to try.
 #[derive(Debug, Clone)]
 pub(crate) struct Idea {
-    pub(crate) shape: Shape,
+    pub(crate) shape: MotionShape,
     /// Amplitude of the reference to begin with \[rad\].
     pub(crate) reference_rad: f64,
 }
 
-impl Shape {
+impl MotionShape {
     pub(crate) fn experiment(&self, amplitude: f64) -> Result<Experiment, RigError> {
         let settle = Settle::Detected { tolerance: 1e-4, longest_s: PATIENCE_S };
         match self {
@@ -180,7 +180,7 @@ fn sine(draw: &mut Draw, bench: &Bench, omega_rad_s: f64) -> Option<Idea> {
         .min(BEND_RAD / bench.bend(omega_rad_s));
     let smaller = (amplitude * draw.uniform(0.5, 1.0)).max(bench.least_rad());
     let reference_rad = bench.reference_rad(omega_rad_s, smaller.min(amplitude));
-    Some(Idea { shape: Shape::Sine { omega_rad_s, record_s }, reference_rad })
+    Some(Idea { shape: MotionShape::Sine { omega_rad_s, record_s }, reference_rad })
 }
 
 /// Three periods of odd lines between two frequencies, evenly spread over their logarithm, none near
@@ -201,7 +201,7 @@ fn multisine(draw: &mut Draw, bench: &Bench, (low, high): (f64, f64)) -> Option<
     let per_reference = CREST * (0.5 * power).sqrt();
     let reference_rad = planned(draw, bench, per_reference);
     let record_s = 3.0 * period_s;
-    let shape = Shape::Multisine { omega_rad_s, lines, phases: draw.seed(), record_s };
+    let shape = MotionShape::Multisine { omega_rad_s, lines, phases: draw.seed(), record_s };
     Some(Idea { shape, reference_rad })
 }
 
@@ -223,7 +223,7 @@ fn chirp(draw: &mut Draw, bench: &Bench, (low, high): (f64, f64), mode: f64) -> 
     let reference_rad = planned(draw, bench, per_reference);
     let record_s = draw.uniform(time.0, time.1);
     let (from_rad_s, to_rad_s) = if draw.chance(0.75) { (low, high) } else { (high, low) };
-    Idea { shape: Shape::Chirp { from_rad_s, to_rad_s, record_s }, reference_rad }
+    Idea { shape: MotionShape::Chirp { from_rad_s, to_rad_s, record_s }, reference_rad }
 }
 
 fn planned(draw: &mut Draw, bench: &Bench, per_reference: f64) -> f64 {

@@ -6,8 +6,8 @@
 use std::f64::consts::{PI, TAU};
 
 use lissom::identify::{
-    ConstantVelocity, Estimate, Finding, LineError, Options, Prepared, RunKind, Severity, Shape,
-    constant_velocity, identify,
+    ConstantVelocity, Estimate, Finding, LineError, LineShape, Options, Prepared, RunKind,
+    Severity, constant_velocity, identify,
 };
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
 use rand_distr::{Distribution as _, StandardNormal};
@@ -119,7 +119,7 @@ fn friction_by_direction_comes_out_of_two_staircases() {
     {
         assert!((e.value - truth).abs() < 4.0 * e.std && e.std < 0.02 * truth, "{e:?} {truth}");
     }
-    assert_eq!((f.shape, b.shape), (Shape::Straight, Shape::Straight));
+    assert_eq!((f.shape, b.shape), (LineShape::Straight, LineShape::Straight));
     assert!(
         (found.coulomb.unwrap().value - 0.5 * (f.coulomb.value + b.coulomb.value)).abs() < 1e-12
     );
@@ -189,7 +189,7 @@ fn straight_data_are_seldom_called_curved() {
     let mut alarms = 0.0;
     for seed in 0..SEEDS {
         let found = constant_velocity(&Prepared::of(&both(Bench { seed, ..QUIET }, coulomb)));
-        alarms += found.lines().filter(|(_, l)| l.shape != Shape::Straight).count() as f64;
+        alarms += found.lines().filter(|(_, l)| l.shape != LineShape::Straight).count() as f64;
     }
     let share = alarms / (2 * SEEDS) as f64;
     println!("false alarms: {:.1} %", 100.0 * share);
@@ -210,7 +210,7 @@ fn sub_linear_friction_is_flagged_as_too_high() {
         let found = constant_velocity(&Prepared::of(&campaign));
         for (line, truth) in [(found.forward, FORWARD), (found.backward, BACKWARD)] {
             let line = line.unwrap();
-            assert!(matches!(line.shape, Shape::Concave { .. }), "{line:?}");
+            assert!(matches!(line.shape, LineShape::Concave { .. }), "{line:?}");
             let slowest = line.slowest.unwrap();
             assert!(line.coulomb.value > slowest.value && slowest.value > truth, "{line:?}");
             // Both intervals own up to the misfit.
@@ -236,7 +236,7 @@ fn friction_that_falls_or_grows_with_the_square_is_flagged_as_too_low() {
     for law in laws {
         let found = constant_velocity(&Prepared::of(&both(QUIET, law)));
         for (_, line) in found.lines() {
-            assert!(matches!(line.shape, Shape::Convex { .. }), "{line:?}");
+            assert!(matches!(line.shape, LineShape::Convex { .. }), "{line:?}");
             assert!(line.slowest.unwrap().value > line.coulomb.value);
         }
     }
@@ -249,7 +249,7 @@ fn scatter_beyond_the_noise_widens_the_interval() {
     let found = constant_velocity(&Prepared::of(&both(QUIET, uneven)));
     let quiet = constant_velocity(&Prepared::of(&both(QUIET, coulomb)));
     let line = found.forward.unwrap();
-    assert!(matches!(line.shape, Shape::Scattered { rms } if rms > 2.0), "{line:?}");
+    assert!(matches!(line.shape, LineShape::Scattered { rms } if rms > 2.0), "{line:?}");
     assert!(line.coulomb.std > 3.0 * quiet.forward.unwrap().coulomb.std, "{line:?}");
 }
 
@@ -323,7 +323,7 @@ fn lines_are_refused_with_a_reason() {
     let close = close.count();
     assert!((8..20).contains(&close), "{close}");
     let two = refused(&[4.0, 8.0], QUIET).unwrap();
-    assert_eq!((two.shape, two.slowest), (Shape::Unchecked, None));
+    assert_eq!((two.shape, two.slowest), (LineShape::Unchecked, None));
 }
 
 #[test]

@@ -34,7 +34,7 @@ pub(crate) fn run(args: &PayloadArgs) -> Result<ExitCode, Failure> {
         return Err(Failure::Asked(words, hint));
     }
     let file = read_campaign(&args.campaign)?;
-    let place = Place::of(args, &file.campaign.channels)?;
+    let place = PayloadPlace::of(args, &file.campaign.channels)?;
     let id = identified(&args.campaign, &file, None, false)?;
     let found = predicted(args, &file.campaign.channels, &place, &id)?;
     let mut batch = Batch::new();
@@ -56,12 +56,12 @@ pub(crate) fn run(args: &PayloadArgs) -> Result<ExitCode, Failure> {
 }
 
 /// Where the payload is.
-struct Place {
+struct PayloadPlace {
     tip: usize,
     distance_m: Option<f64>,
 }
 
-impl Place {
+impl PayloadPlace {
     fn of(args: &PayloadArgs, channels: &Channels) -> Result<Self, Failure> {
         let refused = |words: String, hint| Err(Failure::Asked(words, hint));
         let names: Vec<&str> = channels.tips.iter().map(|t| t.name.as_str()).collect();
@@ -96,7 +96,7 @@ impl Place {
 fn predicted(
     args: &PayloadArgs,
     channels: &Channels,
-    place: &Place,
+    place: &PayloadPlace,
     id: &Identified,
 ) -> Result<PayloadPrediction, Failure> {
     let refused = |words: String, hint| Failure::Asked(words, hint);

@@ -24,11 +24,11 @@ pub(crate) struct Input {
     pub(crate) data: EquivalentData,
     pub(crate) names: UnitNames,
     /// What `identify` made of a campaign: J, V with back-EMF, coupling, natural frequencies.
-    pub(crate) identified: Option<Known>,
+    pub(crate) identified: Option<KnownMotor>,
 }
 
 /// Figures to stand beside those of the equivalent arm.
-pub(crate) struct Known {
+pub(crate) struct KnownMotor {
     pub(crate) inertia: Option<Estimate>,
     pub(crate) viscous: Option<Estimate>,
     pub(crate) coupling: Option<Estimate>,
@@ -68,7 +68,7 @@ impl Input {
             })?;
         let names = UnitNames::new(&file.campaign.channels);
         let back_emf = file.campaign.channels.command.back_emf_viscous;
-        Ok(Self { data, names, identified: Some(Known::of(&id, back_emf)) })
+        Ok(Self { data, names, identified: Some(KnownMotor::of(&id, back_emf)) })
     }
 
     fn tables(args: &EquivalentArgs) -> Result<Self, Failure> {
@@ -106,7 +106,7 @@ impl Input {
     }
 }
 
-impl Known {
+impl KnownMotor {
     fn of(id: &Identified, back_emf: f64) -> Self {
         let viscous = id.friction.viscous.map(|v| Estimate { value: v.value + back_emf, ..v });
         Self {

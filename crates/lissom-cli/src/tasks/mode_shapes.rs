@@ -6,7 +6,7 @@ use super::any_beam::{Beam, MOST_DENSE};
 
 /// A mode's deflection over the distance from the axis.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Shape {
+pub(crate) struct ModeShape {
     /// The beam's line.
     pub(crate) line: Vec<(f64, f64)>,
     /// Masses; none where they are too many to be told apart.
@@ -19,7 +19,7 @@ const LINE: usize = 300;
 const MOST_POINTS: usize = 40;
 
 /// The shapes of the lowest `count` modes, the largest deflection of each being 1.
-pub(crate) fn shapes(beam: &Beam, count: usize) -> Vec<Shape> {
+pub(crate) fn shapes(beam: &Beam, count: usize) -> Vec<ModeShape> {
     let mut shapes = match beam {
         Beam::Lumped(beam) => beam.modes(count).iter().map(|m| lumped(beam, m)).collect(),
         Beam::Distributed(beam) => distributed(beam, count),
@@ -40,7 +40,7 @@ fn distances(hub: f64, tip: f64) -> Vec<f64> {
     (1..=LINE).map(|k| hub + (tip - hub) * k as f64 / LINE as f64).collect()
 }
 
-fn lumped(beam: &LumpedBeam, mode: &Mode) -> Shape {
+fn lumped(beam: &LumpedBeam, mode: &Mode) -> ModeShape {
     let masses: Vec<(f64, f64)> =
         beam.position_m().iter().copied().zip(mode.shape.iter().copied()).collect();
     let hub = beam.hub_radius_m();
@@ -58,7 +58,7 @@ fn lumped(beam: &LumpedBeam, mode: &Mode) -> Shape {
         start.into_iter().chain(bent).collect()
     });
     let points = if masses.len() > MOST_POINTS { Vec::new() } else { masses };
-    Shape { line, points }
+    ModeShape { line, points }
 }
 
 /// The torque of the payload's motion on the tip, per the mode's scale.
@@ -81,14 +81,14 @@ fn tip_torque(beam: &LumpedBeam, mode: &Mode) -> Option<f64> {
     torque.is_finite().then_some(torque)
 }
 
-fn distributed(beam: &DistributedBeam, count: usize) -> Vec<Shape> {
+fn distributed(beam: &DistributedBeam, count: usize) -> Vec<ModeShape> {
     let hub = beam.hub_radius_m();
     let points = distances(hub, beam.length_m());
     let modes = beam.modes(count, &points);
     let shape = |mode: &Mode| {
         let bent = points.iter().copied().zip(mode.shape.iter().copied());
         let line = [(0.0, 0.0), (hub, 0.0)].into_iter().chain(bent).collect();
-        Shape { line, points: Vec::new() }
+        ModeShape { line, points: Vec::new() }
     };
     modes.iter().map(shape).collect()
 }

@@ -7,7 +7,7 @@ use lissom_report::{Cells, Page, Table, interval, with_uncertainty};
 
 use super::printer;
 use crate::shared::digits::shown as significant;
-use crate::tasks::equivalent_input::{Input, Known};
+use crate::tasks::equivalent_input::{Input, KnownMotor};
 
 /// Digits of figures that stand without deviation.
 const DIGITS: usize = 7;
@@ -128,7 +128,7 @@ fn modes(input: &Input, found: &Equivalent) {
 fn figures(input: &Input, found: &Equivalent) {
     let Some(arm) = &found.arm else { return };
     let names = input.names;
-    let of = |get: fn(&Known) -> Option<Estimate>| input.identified.as_ref().map(get);
+    let of = |get: fn(&KnownMotor) -> Option<Estimate>| input.identified.as_ref().map(get);
     let all = [
         (names.inertia_name(), arm.inertia, names.inertia_unit(), of(|k| k.inertia)),
         ("viscous friction", arm.viscous, names.viscous_unit(), of(|k| k.viscous)),

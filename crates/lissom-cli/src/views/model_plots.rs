@@ -14,7 +14,7 @@ use crate::shared::digits::shown;
 use crate::shared::failure::Failure;
 use crate::shared::progress_bar;
 use crate::tasks::load_study::of_class;
-use crate::tasks::mode_shapes::{Shape, shapes};
+use crate::tasks::mode_shapes::{ModeShape, shapes};
 use crate::tasks::model_task::{Task, motor_response};
 
 /// Points of a response's line.
@@ -113,7 +113,7 @@ fn bode(task: &Task<'_>, model: &Model) -> (BodePlot, Option<BodePlot>) {
 }
 
 /// The shapes of the first modes.
-fn modes(shapes: Vec<Shape>, model: &Model) -> LinePlot {
+fn modes(shapes: Vec<ModeShape>, model: &Model) -> LinePlot {
     let mut plot = LinePlot::new(
         "Modes with the motor clamped",
         Axis::linear("distance from the motor's axis (m)"),

@@ -1,6 +1,6 @@
 //! Friction by constant velocities, as a plot.
 
-use lissom::identify::{Identified, Shape};
+use lissom::identify::{Identified, LineShape};
 use lissom::record::Channels;
 use lissom_io::UnitNames;
 use lissom_report::{Axis, LinePlot, Role, Trace, TraceStyle, with_uncertainty};
@@ -46,7 +46,7 @@ pub(crate) fn friction_plot(
         let to_rest = vec![at(0.0), at(slowest)];
         lines.push(through);
         lines.push(Trace::new(label, role, TraceStyle::Dashes, vec![0.0, slowest], to_rest));
-        if let (Shape::Concave { .. } | Shape::Convex { .. }, Some(slow)) =
+        if let (LineShape::Concave { .. } | LineShape::Convex { .. }, Some(slow)) =
             (line.shape, line.slowest)
         {
             bent.push(slow.scaled(1.0 / constant));

@@ -3,7 +3,7 @@
 use lissom::beam::{Damping, Payload};
 
 use super::material::{MATERIAL_KEYS, Material};
-use crate::config::{ConfigError, Place, Rule, Table, Value};
+use crate::config::{ConfigError, ConfigPlace, Rule, Table, Value};
 use crate::units::Dimension;
 
 /// Most times that one span is repeated.
@@ -90,7 +90,7 @@ pub(super) fn beam(table: &Table<'_>) -> Result<BeamSpec, ConfigError> {
     let payload = table.get("payload").map(|v| v.table()).transpose()?;
     if let Some(both) = payload.as_ref().filter(|p| inertia.is_some() && p.get("inertia").is_some())
     {
-        let place = Place { key: table.place().key, ..both.place() };
+        let place = ConfigPlace { key: table.place().key, ..both.place() };
         let (first, second) = ("payload.inertia", "spans[].inertia");
         return Err(ConfigError::Clash { place, first, second });
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use lissom::record::{Axis, Command, CommandQuantity};
 
 use super::campaign_error::CampaignError;
-use super::campaign_file::Known;
+use super::campaign_file::DriveConstants;
 use super::campaign_signals::CommandSource;
 use crate::arm_file::ArmFile;
 use crate::config::{ConfigError, Table, Value};
@@ -18,7 +18,7 @@ pub(super) fn drive(
     axis: Axis,
     source: &CommandSource,
     folder: &Path,
-) -> Result<(Command, Known), Error> {
+) -> Result<(Command, DriveConstants), Error> {
     let quantity = source.quantity;
     let mut command = Command {
         quantity,
@@ -27,7 +27,7 @@ pub(super) fn drive(
         back_emf_viscous: 0.0,
         limit: None,
     };
-    let mut known = Known::default();
+    let mut known = DriveConstants::default();
     let Some(table) = table else {
         return Ok((command, known));
     };

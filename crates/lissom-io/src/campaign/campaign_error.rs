@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::config::Place;
+use crate::config::ConfigPlace;
 use crate::units::Dimension;
 
 /// Why a campaign's signals and drive do not fit together.
@@ -13,7 +13,7 @@ pub enum CampaignError {
     #[error("{place}: the motor is measured in {found}, which is neither an angle nor a length")]
     MotorUnit {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
         /// Dimension found.
         found: Dimension,
     },
@@ -23,7 +23,7 @@ pub enum CampaignError {
     )]
     CommandUnit {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
         /// Dimension found.
         found: Dimension,
     },
@@ -33,7 +33,7 @@ pub enum CampaignError {
     )]
     NoResistance {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
     },
     /// A torque constant per current for a voltage channel, without the back-EMF constant.
     #[error(
@@ -41,19 +41,19 @@ pub enum CampaignError {
     )]
     NoBackEmf {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
     },
     /// A bare number that could be per ampere or per volt.
     #[error("{place}: a torque constant without a unit could be per ampere or per volt")]
     TorqueConstantUnit {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
     },
     /// A drive key that says nothing about this kind of command.
     #[error("{place} says nothing where the command is {command}")]
     NotForCommand {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
         /// The kind of command.
         command: &'static str,
     },
@@ -61,7 +61,7 @@ pub enum CampaignError {
     #[error("{place}: {found} at a tip of a rotary axis needs `radius`")]
     NoRadius {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
         /// Dimension found.
         found: Dimension,
     },
@@ -69,7 +69,7 @@ pub enum CampaignError {
     #[error("{place}: a radius means nothing for this tip")]
     NeedlessRadius {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
     },
     /// A run driven at or above the Nyquist frequency of its log.
     #[error(
@@ -77,7 +77,7 @@ pub enum CampaignError {
     )]
     AboveNyquist {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
         /// The drive frequency given \[rad/s\].
         found_rad_s: f64,
         /// The log.
@@ -89,13 +89,13 @@ pub enum CampaignError {
     #[error("{place}: a camera's x and y give an angle, and the motor is measured in metres")]
     CameraOnLinear {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
     },
     /// A camera's quantity is not an angle.
     #[error("{place}: a camera's x and y give the angle of the radius to the point, nothing else")]
     CameraQuantity {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
     },
 }
 

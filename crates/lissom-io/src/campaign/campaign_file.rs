@@ -12,14 +12,14 @@ pub struct CampaignFile {
     /// The runs and their channels.
     pub campaign: Campaign,
     /// What is known of the drive.
-    pub known: Known,
+    pub known: DriveConstants,
     /// How it wants to be analysed.
     pub analysis: AnalysisOptions,
 }
 
 /// Constants of the table `[drive]`, in SI.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Known {
+pub struct DriveConstants {
     /// As it was given: per ampere, per volt or per unit of command (N·m or N each).
     pub torque_constant: Option<f64>,
     /// Resistance of the winding \[Ω\].

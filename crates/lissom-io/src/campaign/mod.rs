@@ -50,6 +50,6 @@ mod read_campaign;
 mod run_spec;
 
 pub use campaign_error::CampaignError;
-pub use campaign_file::{AnalysisOptions, CampaignFile, Known, ReadOptions};
+pub use campaign_file::{AnalysisOptions, CampaignFile, DriveConstants, ReadOptions};
 pub(crate) use campaign_signals::column;
 pub use read_campaign::{read_campaign, read_campaign_like, read_campaign_with};

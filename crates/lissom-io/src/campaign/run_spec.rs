@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::config::{ConfigError, Place, Rule, Value};
+use crate::config::{ConfigError, ConfigPlace, Rule, Value};
 use crate::units::Dimension;
 
 /// A table `[[runs]]`.
@@ -10,7 +10,7 @@ pub(super) struct RunSpec {
     pub(super) file: PathBuf,
     pub(super) name: String,
     /// With its place in the campaign.
-    pub(super) omega_rad_s: Option<(f64, Place)>,
+    pub(super) omega_rad_s: Option<(f64, ConfigPlace)>,
     pub(super) skip_s: f64,
 }
 

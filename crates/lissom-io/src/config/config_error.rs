@@ -11,7 +11,7 @@ use crate::units::UnitError;
 
 /// A key in a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
+pub struct ConfigPlace {
     /// The file.
     pub file: String,
     /// The line, from 1.
@@ -20,7 +20,7 @@ pub struct Place {
     pub key: String,
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for ConfigPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.key.is_empty() {
             write!(f, "{}", self.file)
@@ -94,7 +94,7 @@ pub enum ConfigError {
     #[error("{place} is not a key that is known here")]
     UnknownKey {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
         /// The keys that are.
         known: Vec<&'static str>,
         /// The one that was probably meant.
@@ -104,7 +104,7 @@ pub enum ConfigError {
     #[error("{place} has no `{key}`")]
     MissingKey {
         /// The table.
-        place: Place,
+        place: ConfigPlace,
         /// The key.
         key: &'static str,
     },
@@ -112,7 +112,7 @@ pub enum ConfigError {
     #[error("{place} has none of `{}`", keys.join("`, `"))]
     NoneOf {
         /// The table.
-        place: Place,
+        place: ConfigPlace,
         /// The keys.
         keys: Vec<&'static str>,
     },
@@ -120,7 +120,7 @@ pub enum ConfigError {
     #[error("{place} has both `{first}` and `{second}`")]
     Clash {
         /// The table.
-        place: Place,
+        place: ConfigPlace,
         /// One key.
         first: &'static str,
         /// The other.
@@ -130,7 +130,7 @@ pub enum ConfigError {
     #[error("{place} needs `{key}`")]
     Needs {
         /// The value.
-        place: Place,
+        place: ConfigPlace,
         /// The key.
         key: &'static str,
     },
@@ -138,13 +138,13 @@ pub enum ConfigError {
     #[error("{place} is for what repeats itself")]
     NoPeriod {
         /// The value.
-        place: Place,
+        place: ConfigPlace,
     },
     /// A span without mass along it in a beam that has spans with one.
     #[error("{place} has no mass along its length, but `{other}` has")]
     NoMassAlong {
         /// The span.
-        place: Place,
+        place: ConfigPlace,
         /// A span that has one.
         other: String,
     },
@@ -152,7 +152,7 @@ pub enum ConfigError {
     #[error("{place} stands for {found} entries, but {most} is the most")]
     TooMany {
         /// The list.
-        place: Place,
+        place: ConfigPlace,
         /// Its entries, each as often as it is repeated.
         found: usize,
         /// The most there may be.
@@ -162,13 +162,13 @@ pub enum ConfigError {
     #[error("{place} may stand in the last entry alone")]
     LastOnly {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
     },
     /// A value of another kind.
     #[error("{place} is {found}, where {expected} is expected")]
     Kind {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
         /// What is expected.
         expected: &'static str,
         /// What stands there.
@@ -178,7 +178,7 @@ pub enum ConfigError {
     #[error("{place}: {source}")]
     Unit {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
         /// What is wrong with it.
         source: Box<UnitError>,
     },
@@ -186,7 +186,7 @@ pub enum ConfigError {
     #[error("{place} is {found}, but must be {rule}")]
     Range {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
         /// The value as it stands in the file.
         found: String,
         /// What it must be.
@@ -196,7 +196,7 @@ pub enum ConfigError {
     #[error("{place} is \"{}\", but must be \"{}\"", excerpt(found), choices.join("\" or \""))]
     Choice {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
         /// The word.
         found: String,
         /// The choices.
@@ -206,7 +206,7 @@ pub enum ConfigError {
     #[error("{place} is an empty list")]
     EmptyList {
         /// Where.
-        place: Place,
+        place: ConfigPlace,
     },
 }
 

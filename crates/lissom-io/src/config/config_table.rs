@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use super::config_error::{ConfigError, Place, Rule};
+use super::config_error::{ConfigError, ConfigPlace, Rule};
 use crate::excerpt::excerpt;
 use crate::nearest::nearest;
 use crate::read_text::read_text;
@@ -74,8 +74,8 @@ impl Source {
         self.before(at).matches('\n').count() + 1
     }
 
-    fn place(&self, key: &str, at: usize) -> Place {
-        Place { file: self.name(), line: self.line(at), key: key.to_owned() }
+    fn place(&self, key: &str, at: usize) -> ConfigPlace {
+        ConfigPlace { file: self.name(), line: self.line(at), key: key.to_owned() }
     }
 }
 
@@ -89,7 +89,7 @@ pub(crate) struct Table<'a> {
 }
 
 impl<'a> Table<'a> {
-    pub(crate) fn place(&self) -> Place {
+    pub(crate) fn place(&self) -> ConfigPlace {
         self.source.place(&self.key, self.at)
     }
 
@@ -154,7 +154,7 @@ pub(crate) struct Value<'a> {
 }
 
 impl<'a> Value<'a> {
-    pub(crate) fn place(&self) -> Place {
+    pub(crate) fn place(&self) -> ConfigPlace {
         self.source.place(&self.key, self.at)
     }
 

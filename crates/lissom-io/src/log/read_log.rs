@@ -55,7 +55,7 @@ pub fn read_log_from(
     columns: &[LogColumn],
     options: &LogOptions,
 ) -> Result<Log, LogError> {
-    let mut rows = Rows { reader, name, row: 0, bytes: Vec::new() };
+    let mut rows = LogRows { reader, name, row: 0, bytes: Vec::new() };
     let Some(head) = Head::read(&mut rows, options)? else {
         return Err(LogError::Empty { file: name.to_owned() });
     };
@@ -94,14 +94,14 @@ pub fn read_log_from(
 }
 
 /// Lines of a text file.
-struct Rows<'a, R> {
+struct LogRows<'a, R> {
     reader: R,
     name: &'a str,
     row: usize,
     bytes: Vec<u8>,
 }
 
-impl<R: BufRead> Rows<'_, R> {
+impl<R: BufRead> LogRows<'_, R> {
     /// The next line and its number from 1.
     fn next(&mut self) -> Result<Option<(usize, std::borrow::Cow<'_, str>)>, LogError> {
         self.row += 1;
@@ -158,7 +158,7 @@ struct Head {
 
 impl Head {
     fn read(
-        rows: &mut Rows<'_, impl BufRead>,
+        rows: &mut LogRows<'_, impl BufRead>,
         options: &LogOptions,
     ) -> Result<Option<Self>, LogError> {
         let mut comments: VecDeque<String> = VecDeque::new();

@@ -3,7 +3,7 @@
 use lissom::rig::RigError;
 use thiserror::Error;
 
-use crate::config::Place;
+use crate::config::ConfigPlace;
 
 /// Why a plan cannot be carried out.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -13,7 +13,7 @@ pub enum PlanError {
     #[error("{place}: {source}")]
     Experiment {
         /// Its key.
-        place: Place,
+        place: ConfigPlace,
         /// What is wrong with it.
         source: RigError,
     },
@@ -21,7 +21,7 @@ pub enum PlanError {
     #[error("{place}: two runs are named `{name}`")]
     SameName {
         /// The list of runs.
-        place: Place,
+        place: ConfigPlace,
         /// The name.
         name: String,
     },
@@ -29,7 +29,7 @@ pub enum PlanError {
     #[error("{place}: `{name}` is no name for a log")]
     Name {
         /// The list of runs.
-        place: Place,
+        place: ConfigPlace,
         /// The name.
         name: String,
     },

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use num_complex::Complex64;
 
-use super::response_columns::{Columns, Part, PartColumn};
+use super::response_columns::{Columns, ComplexPart, PartColumn};
 use super::response_error::{Positive, ResponseError};
 use crate::log::{Delimiter, comment, is_header, number};
 use crate::units::Dimension;
@@ -271,7 +271,7 @@ fn outputs<'a>(
     }
     let output = |&own: &&str| {
         let output = || if own.is_empty() { stem.to_owned() } else { own.to_owned() };
-        let find = |part: Part| -> Result<Option<&'a PartColumn>, ResponseError> {
+        let find = |part: ComplexPart| -> Result<Option<&'a PartColumn>, ResponseError> {
             let mut found = columns.parts.iter().filter(|c| c.output == own && c.part == part);
             let first = found.next();
             match found.next() {
@@ -282,24 +282,27 @@ fn outputs<'a>(
                 None => Ok(first),
             }
         };
-        let half = |has: Part, missing: Part| ResponseError::Half {
+        let half = |has: ComplexPart, missing: ComplexPart| ResponseError::Half {
             file: file(),
             output: output(),
             has: has.name(),
             missing: missing.name(),
         };
-        let (re, im) = (find(Part::Real)?, find(Part::Imaginary)?);
-        let (db, plain, phase) = (find(Part::Decibel)?, find(Part::Magnitude)?, find(Part::Phase)?);
+        let (re, im) = (find(ComplexPart::Real)?, find(ComplexPart::Imaginary)?);
+        let (db, plain, phase) =
+            (find(ComplexPart::Decibel)?, find(ComplexPart::Magnitude)?, find(ComplexPart::Phase)?);
         let (first, second) = match (re, im, db.or(plain), phase) {
             (Some(re), Some(im), _, _) => (re, im),
             (_, _, Some(size), Some(phase)) => (size, phase),
-            (Some(_), None, _, _) => return Err(half(Part::Real, Part::Imaginary)),
-            (None, Some(_), _, _) => return Err(half(Part::Imaginary, Part::Real)),
-            (_, _, Some(size), None) => return Err(half(size.part, Part::Phase)),
-            (_, _, None, Some(_)) => return Err(half(Part::Phase, Part::Magnitude)),
-            (None, None, None, None) => return Err(half(Part::Deviation, Part::Real)),
+            (Some(_), None, _, _) => return Err(half(ComplexPart::Real, ComplexPart::Imaginary)),
+            (None, Some(_), _, _) => return Err(half(ComplexPart::Imaginary, ComplexPart::Real)),
+            (_, _, Some(size), None) => return Err(half(size.part, ComplexPart::Phase)),
+            (_, _, None, Some(_)) => return Err(half(ComplexPart::Phase, ComplexPart::Magnitude)),
+            (None, None, None, None) => {
+                return Err(half(ComplexPart::Deviation, ComplexPart::Real));
+            }
         };
-        Ok(Output { name: output(), first, second, std: find(Part::Deviation)? })
+        Ok(Output { name: output(), first, second, std: find(ComplexPart::Deviation)? })
     };
     order.iter().map(output).collect()
 }
@@ -316,8 +319,8 @@ impl Output<'_> {
         let value = |i: usize| {
             let (a, b) = (at(self.first, i), at(self.second, i));
             match self.first.part {
-                Part::Decibel => Complex64::from_polar(10f64.powf(a / 20.0), b),
-                Part::Magnitude => Complex64::from_polar(a, b),
+                ComplexPart::Decibel => Complex64::from_polar(10f64.powf(a / 20.0), b),
+                ComplexPart::Magnitude => Complex64::from_polar(a, b),
                 _ => Complex64::new(a, b),
             }
         };
@@ -330,7 +333,7 @@ impl Output<'_> {
         };
         let response: Vec<Complex64> = (0..rows.len()).map(value).collect();
         for (i, value) in response.iter().enumerate() {
-            if self.first.part == Part::Magnitude {
+            if self.first.part == ComplexPart::Magnitude {
                 positive(self.first, at(self.first, i), i, Positive::Magnitude)?;
             }
             let (file, row, column) = cell(self.first, i);

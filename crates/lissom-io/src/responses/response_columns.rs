@@ -8,7 +8,7 @@ use crate::units::{Dimension, parse_any_unit, parse_unit};
 
 /// Part of a response that a column holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Part {
+pub(super) enum ComplexPart {
     Real,
     Imaginary,
     Magnitude,
@@ -17,7 +17,7 @@ pub(super) enum Part {
     Deviation,
 }
 
-impl Part {
+impl ComplexPart {
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Real => "real part",
@@ -36,7 +36,7 @@ pub(super) struct PartColumn {
     pub(super) index: usize,
     /// The output's name; empty where the column's says none.
     pub(super) output: String,
-    pub(super) part: Part,
+    pub(super) part: ComplexPart,
     /// By which its numbers are multiplied.
     pub(super) factor: f64,
     /// Of the response, where a unit says it.
@@ -131,15 +131,15 @@ impl Split {
     }
 
     /// The output's name and the part of its response: the last words say which.
-    fn part(&self) -> Option<(String, Part)> {
+    fn part(&self) -> Option<(String, ComplexPart)> {
         let lower = self.lower();
         let mut count = lower.len();
         let mut part = None;
         // `phase_deg`, `mag_db`: the unit may be a word too.
         while let Some(found) = count.checked_sub(1).and_then(|i| part_of(&lower[i])) {
             part = Some(match (part, found) {
-                (Some(Part::Decibel), Part::Magnitude) => Part::Decibel,
-                (Some(Part::Phase) | None, Part::Phase) => Part::Phase,
+                (Some(ComplexPart::Decibel), ComplexPart::Magnitude) => ComplexPart::Decibel,
+                (Some(ComplexPart::Phase) | None, ComplexPart::Phase) => ComplexPart::Phase,
                 (None, found) => found,
                 // Of another output's name.
                 (Some(_), _) => break,
@@ -148,15 +148,15 @@ impl Split {
         }
         let decibel = self.unit.as_deref().is_some_and(|u| u.eq_ignore_ascii_case("db"));
         match part {
-            Some(Part::Magnitude) if decibel => {
-                Some((self.words[..count].join("_"), Part::Decibel))
+            Some(ComplexPart::Magnitude) if decibel => {
+                Some((self.words[..count].join("_"), ComplexPart::Decibel))
             }
             Some(part) => Some((self.words[..count].join("_"), part)),
             // `tip [dB]`, `tip [deg]`.
-            None if decibel => Some((self.words.join("_"), Part::Decibel)),
+            None if decibel => Some((self.words.join("_"), ComplexPart::Decibel)),
             None => {
                 let degrees = self.unit.as_deref().is_some_and(|u| u == "deg" || u == "°");
-                degrees.then(|| (self.words.join("_"), Part::Phase))
+                degrees.then(|| (self.words.join("_"), ComplexPart::Phase))
             }
         }
     }
@@ -168,14 +168,14 @@ impl Split {
     }
 }
 
-fn part_of(word: &str) -> Option<Part> {
+fn part_of(word: &str) -> Option<ComplexPart> {
     Some(match word {
-        "re" | "real" => Part::Real,
-        "im" | "imag" | "imaginary" => Part::Imaginary,
-        "mag" | "magnitude" | "abs" | "gain" | "amplitude" => Part::Magnitude,
-        "db" => Part::Decibel,
-        "phase" | "deg" | "degree" | "degrees" | "arg" | "rad" => Part::Phase,
-        "std" | "sigma" | "deviation" => Part::Deviation,
+        "re" | "real" => ComplexPart::Real,
+        "im" | "imag" | "imaginary" => ComplexPart::Imaginary,
+        "mag" | "magnitude" | "abs" | "gain" | "amplitude" => ComplexPart::Magnitude,
+        "db" => ComplexPart::Decibel,
+        "phase" | "deg" | "degree" | "degrees" | "arg" | "rad" => ComplexPart::Phase,
+        "std" | "sigma" | "deviation" => ComplexPart::Deviation,
         _ => return None,
     })
 }
@@ -200,7 +200,7 @@ fn rate(file: &str, column: &str, unit: &str) -> Result<f64, ResponseError> {
 fn factor(
     file: &str,
     column: &str,
-    part: Part,
+    part: ComplexPart,
     split: &Split,
 ) -> Result<(f64, Option<Dimension>), ResponseError> {
     let wrong = |unit: &str| ResponseError::Unit {
@@ -209,14 +209,14 @@ fn factor(
         unit: unit.to_owned(),
     };
     match (part, split.unit.as_deref()) {
-        (Part::Phase, _) => match split.phase_unit().map(|u| u.to_lowercase()).as_deref() {
+        (ComplexPart::Phase, _) => match split.phase_unit().map(|u| u.to_lowercase()).as_deref() {
             Some("deg" | "degree" | "degrees" | "°") => Ok((PI / 180.0, None)),
             Some("rad") => Ok((1.0, None)),
             Some(unit) => Err(wrong(unit)),
             None => Err(ResponseError::NoUnit { file: file.to_owned(), column: column.to_owned() }),
         },
-        (Part::Decibel, None | Some("" | "dB" | "db" | "DB")) => Ok((1.0, None)),
-        (Part::Decibel, Some(unit)) => Err(wrong(unit)),
+        (ComplexPart::Decibel, None | Some("" | "dB" | "db" | "DB")) => Ok((1.0, None)),
+        (ComplexPart::Decibel, Some(unit)) => Err(wrong(unit)),
         (_, None | Some("" | "-" | "1")) => Ok((1.0, None)),
         (_, Some(unit)) => match parse_any_unit(unit) {
             Ok((factor, dimension)) => Ok((factor, Some(dimension))),

@@ -1,6 +1,6 @@
 //! Steady velocities extrapolated to rest, in JSON.
 
-use lissom::identify::{ConstantVelocity, FrictionLine, RunAnalysis, Shape, SteadyPoint};
+use lissom::identify::{ConstantVelocity, FrictionLine, LineShape, RunAnalysis, SteadyPoint};
 use serde::{Deserialize, Serialize};
 
 use super::channel_names::DirectionName;
@@ -129,11 +129,11 @@ impl ConstantVelocityEntry {
 impl FrictionLineEntry {
     fn of(names: UnitNames, constant: f64, forward: bool, l: &FrictionLine) -> Self {
         let (shape, deviations) = match l.shape {
-            Shape::Unchecked => (LineShapeName::Unchecked, None),
-            Shape::Straight => (LineShapeName::Straight, None),
-            Shape::Concave { deviations } => (LineShapeName::Concave, Some(deviations)),
-            Shape::Convex { deviations } => (LineShapeName::Convex, Some(deviations)),
-            Shape::Scattered { rms } => (LineShapeName::Scattered, Some(rms)),
+            LineShape::Unchecked => (LineShapeName::Unchecked, None),
+            LineShape::Straight => (LineShapeName::Straight, None),
+            LineShape::Concave { deviations } => (LineShapeName::Concave, Some(deviations)),
+            LineShape::Convex { deviations } => (LineShapeName::Convex, Some(deviations)),
+            LineShape::Scattered { rms } => (LineShapeName::Scattered, Some(rms)),
         };
         Self {
             direction: DirectionName::of(forward),

@@ -1,8 +1,8 @@
 //! How well a result predicts a log that it is not from, in JSON.
 
 use lissom::identify::{
-    Cause, CauseKind, ChannelResidual, FoundArm, Horizon, MovedBy, MovedMode, Stretch,
-    TorquePrediction, Validation,
+    Cause, CauseKind, ChannelResidual, FoundArm, Horizon, MovedBy, MovedMode, TorquePrediction,
+    TorqueStretch, Validation,
 };
 use lissom::record::{Axis, Campaign, Channels, TipQuantity};
 use serde::{Deserialize, Serialize};
@@ -281,7 +281,7 @@ impl ValidationFile {
 impl TorqueEntry {
     fn of(campaign: &Campaign, names: UnitNames, found: &FoundArm, t: &TorquePrediction) -> Self {
         let name = |run: usize| campaign.runs[run].name().to_owned();
-        let stretch = |s: &Stretch| StretchEntry {
+        let stretch = |s: &TorqueStretch| StretchEntry {
             run: name(s.run),
             start_s: s.start_s,
             end_s: s.end_s,

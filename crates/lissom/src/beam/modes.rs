@@ -23,7 +23,7 @@ pub struct Mode {
 }
 
 /// What a mode does, any scale.
-struct Motion {
+struct ModeMotion {
     /// Deflection at each joint asked for.
     deflection: Vec<f64>,
     /// ∫ w² dm and its like for slopes.
@@ -40,7 +40,7 @@ struct Motion {
 ///
 /// # Source
 /// The twisted factorisation of `[DhillonParlett2004]`, with 2×2 blocks.
-fn motion(elements: &[Element], joints: &[usize], z: f64) -> Motion {
+fn motion(elements: &[Element], joints: &[usize], z: f64) -> ModeMotion {
     let (elements, place) = cut_up(elements, At::undamped(z));
     let at = At::undamped(z);
     let mut base = BaseSide::clamped();
@@ -81,7 +81,7 @@ fn motion(elements: &[Element], joints: &[usize], z: f64) -> Motion {
         (inward, moves[k]) = inner[k].carried(at, &elements[k], inward, moves[k + 1]);
     }
     let (mass, lever) = modal_mass(&elements, cut, z, (w, phi), load);
-    Motion { deflection: joints.iter().map(|k| moves[place[*k]].0).collect(), mass, lever }
+    ModeMotion { deflection: joints.iter().map(|k| moves[place[*k]].0).collect(), mass, lever }
 }
 
 /// Modal mass and lever from both sides of a cut: the mass is the derivative by z of the dynamic
@@ -108,7 +108,7 @@ fn modal_mass(
 
 /// The mode at ω, at the joints with these distances from the axis.
 pub(crate) fn mode(elements: &[Element], joints: &[usize], position: &[f64], omega: f64) -> Mode {
-    let Motion { deflection, mass, lever } = motion(elements, joints, -omega * omega);
+    let ModeMotion { deflection, mass, lever } = motion(elements, joints, -omega * omega);
     let largest = deflection.iter().fold(0.0, |m: f64, v| if v.abs() > m.abs() { *v } else { m });
     let share = deflection.iter().zip(position).map(|(w, l)| w * lever / (mass * l)).collect();
     Mode {

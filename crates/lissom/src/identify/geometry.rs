@@ -78,7 +78,7 @@ pub fn geometry_check(described: &Arm, found: &OutputError) -> Option<GeometryCh
         0.5 * (variance(&|arm| shown(arm, i) + shown(arm, j)) - own[i] - own[j])
     });
     let weight = covariance.try_inverse()?;
-    let problem = Problem {
+    let problem = GeometryProblem {
         described,
         modes,
         weight,
@@ -105,7 +105,7 @@ impl GeometryCheck {
     }
 }
 
-struct Problem<'a> {
+struct GeometryProblem<'a> {
     described: &'a Arm,
     modes: usize,
     weight: DMatrix<f64>,
@@ -113,7 +113,7 @@ struct Problem<'a> {
     found: DVector<f64>,
 }
 
-impl Problem<'_> {
+impl GeometryProblem<'_> {
     /// Logarithms of the figures, described less found, where a number is e^x times what is described.
     fn difference(&self, quantity: Option<ArmQuantity>, x: f64) -> Option<DVector<f64>> {
         let factor = x.exp();

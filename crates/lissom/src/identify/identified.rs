@@ -22,7 +22,7 @@ use crate::record::Campaign;
 
 /// The beam's figures.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Beam {
+pub struct BeamEstimates {
     /// Modes with the motor clamped, ascending.
     pub modes: Vec<ModeEstimate>,
     /// Torque per angle between motor and beam, Σκ_i = h_{n+1} of (15).
@@ -41,7 +41,7 @@ pub struct Identified {
     /// Inertia or mass of that solution.
     pub inertia: Option<Estimate>,
     /// The beam.
-    pub beam: Beam,
+    pub beam: BeamEstimates,
     /// The report's method.
     pub third_harmonic: Option<ThirdHarmonic>,
     /// Rational model of the motor from the response corrected with that friction, as in Section 6.2.2 of the 1989 report.

@@ -30,9 +30,9 @@ pub use findings::{Finding, FindingKind, Severity};
 pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
 pub use friction_estimates::{Friction, NearRestEstimate, RippleEstimate};
 pub use geometry::{ArmQuantity, Explanation, GeometryCheck, geometry_check};
-pub use identified::{Beam, Identified};
+pub use identified::{BeamEstimates, Identified};
 pub use methods::constant_velocity::{
-    ConstantVelocity, FrictionLine, LineError, Shape, constant_velocity,
+    ConstantVelocity, FrictionLine, LineError, LineShape, constant_velocity,
 };
 pub use methods::friction_law::{CurvePoint, FrictionLaw, LawCandidate, LawFit, LawTerm};
 pub use methods::least_squares::{LeastSquares, least_squares};
@@ -59,8 +59,11 @@ pub use responses::rational::{
     TipForm, fit_beam, fit_motor, fit_shared_poles, fit_shared_poles_by_evidence, without_origin,
 };
 pub use responses::response_point::ResponsePoint;
-pub use separability::{Carried, Direction, FigureKnown, Part, RunShare, RunToAdd, Separability};
+pub use separability::{
+    Carried, Direction, DirectionPart, FigureKnown, RunShare, RunToAdd, Separability,
+};
 pub use validation::{
-    Cause, CauseKind, ChannelResidual, Fit, Horizon, MovedBy, MovedMode, PredictedStretch, Stretch,
-    TorquePrediction, TorqueRun, Validation, ValidationError, ValidationOptions, validate,
+    Cause, CauseKind, ChannelFit, ChannelResidual, Horizon, MovedBy, MovedMode, PredictedStretch,
+    TorquePrediction, TorqueRun, TorqueStretch, Validation, ValidationError, ValidationOptions,
+    validate,
 };

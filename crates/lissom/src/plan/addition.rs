@@ -113,7 +113,7 @@ pub fn additions(
         |m: &PlannedMotion| !matches!(m, PlannedMotion::Multisine { phases, .. } if *phases > 1);
     let motions: Vec<PlannedMotion> = motions.filter(once).collect();
     let addition = |motion: &PlannedMotion| {
-        let followed = Followed::of(arm, motion, bounds.sample_time_s)?;
+        let followed = FollowedPlan::of(arm, motion, bounds.sample_time_s)?;
         let amplitude_rad = rounded(followed.largest(arm, bounds));
         let moves = followed.travel * amplitude_rad;
         if !(moves.is_finite() && moves > TRAVEL_LEAST * noise[0].deviation()) {
@@ -130,7 +130,7 @@ pub fn additions(
 }
 
 /// A motor that follows a reference of amplitude one, and what that takes.
-struct Followed {
+struct FollowedPlan {
     sample_time_s: f64,
     /// θ and θ̇ at the first sample.
     start: [f64; 2],
@@ -144,14 +144,14 @@ struct Followed {
     bend: Vec<f64>,
 }
 
-impl Followed {
+impl FollowedPlan {
     fn of(arm: &ModalArm, motion: &PlannedMotion, sample_time_s: f64) -> Option<Self> {
         let reference = motion.reference(1.0).ok()?;
         let samples = (motion.stretch_s() / sample_time_s).floor() as usize;
         let fastest = arm.modes.iter().map(|m| m.omega_rad_s).fold(0.0, f64::max);
         let steps = (fastest * sample_time_s / STEP_RAD).ceil().max(1.0) as usize;
         let motor = Driven { reference, difference_s: DIFFERENCE * sample_time_s };
-        let mut beam = Beam::at(arm, motor.at(0.0));
+        let mut beam = PlannedBeam::at(arm, motor.at(0.0));
         let start = motor.at(0.0);
         let mut followed = Self {
             sample_time_s,
@@ -248,7 +248,7 @@ impl Driven {
 }
 
 /// The modes of the beam on such a motor.
-struct Beam<'a> {
+struct PlannedBeam<'a> {
     arm: &'a ModalArm,
     points: Option<DMatrix<f64>>,
     motor: [f64; 2],
@@ -256,7 +256,7 @@ struct Beam<'a> {
     rates: DVector<f64>,
 }
 
-impl<'a> Beam<'a> {
+impl<'a> PlannedBeam<'a> {
     /// Undeflected.
     fn at(arm: &'a ModalArm, motor: [f64; 2]) -> Self {
         let n = arm.modes.len();

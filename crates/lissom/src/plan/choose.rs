@@ -78,7 +78,7 @@ pub(super) fn time_s(choices: &[Choice], chosen: &Chosen) -> f64 {
 /// tried without one of the chosen runs after another.
 pub(super) fn choose(choices: &[Choice], goal: &Goal) -> Chosen {
     let size = goal.wanted.first().map_or(0, |(along, _)| along.len());
-    let search = Search { choices, goal, size, barred: None };
+    let search = MotionSearch { choices, goal, size, barred: None };
     let mut chosen = vec![0; choices.len()];
     if goal.pair
         && let Some(pair) = search.best_pair()
@@ -93,7 +93,7 @@ pub(super) fn choose(choices: &[Choice], goal: &Goal) -> Chosen {
     chosen
 }
 
-struct Search<'a> {
+struct MotionSearch<'a> {
     choices: &'a [Choice],
     goal: &'a Goal,
     size: usize,
@@ -101,7 +101,7 @@ struct Search<'a> {
     barred: Option<usize>,
 }
 
-impl Search<'_> {
+impl MotionSearch<'_> {
     fn information(&self, chosen: &Chosen) -> DMatrix<f64> {
         information(self.choices, chosen, self.size)
     }

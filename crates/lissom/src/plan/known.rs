@@ -15,7 +15,7 @@ const IDEAL_RAD: f64 = 1e-6;
 
 /// An arm that is roughly known, with what its sensors add.
 #[derive(Debug, Clone)]
-pub(super) struct Known<'a> {
+pub(super) struct KnownRig<'a> {
     /// As its motor feels it, modes that are too fast turning with the motor.
     pub(super) arm: ModalArm,
     pub(super) channels: Channels,
@@ -34,7 +34,7 @@ pub(super) struct Known<'a> {
     kept: Vec<usize>,
 }
 
-impl<'a> Known<'a> {
+impl<'a> KnownRig<'a> {
     pub(super) fn of(rig: &'a Rig) -> Result<Self, PlanError> {
         let masses = rig.arm.beam().len();
         let modes = ArmModes::of(&rig.arm).ok_or(PlanError::Modes { masses })?;

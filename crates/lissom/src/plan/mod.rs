@@ -27,7 +27,7 @@ use crate::replay::{Parameter, TURN_MOST};
 use crate::rig::{Rig, Scene};
 pub use addition::{Addition, Bounds, additions};
 use choose::choose;
-use known::Known;
+use known::KnownRig;
 pub use motion::PlannedMotion;
 use motion::{Group, Reach, groups};
 pub use note::PlanNote;
@@ -211,7 +211,7 @@ pub fn plan(
     if turn > TURN_MOST || turn.is_nan() {
         return Err(PlanError::TooFast { rate_per_s, sample_time_s });
     }
-    let known = Known::of(&plain)?;
+    let known = KnownRig::of(&plain)?;
     let reach = Reach {
         arm: &known.arm,
         torque_nm: rig.arm.motor.torque_constant_nm_per_a * rig.instruments.amplifier.most_a(),
@@ -277,7 +277,7 @@ fn longest_wait_s(rig: &Rig, wishes: &Wishes, all: &[Group]) -> Result<f64, Plan
 
 fn candidate(
     rig: &Rig,
-    known: &Known<'_>,
+    known: &KnownRig<'_>,
     limits: &Limits,
     motion: &PlannedMotion,
     share: f64,

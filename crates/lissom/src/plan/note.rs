@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use super::known::Known;
+use super::known::KnownRig;
 use super::sizing::Unfit;
 use super::{Candidate, Expected, Figure, percent};
 use crate::rig::{JointFriction, Rig};
@@ -133,7 +133,7 @@ fn duration(time_s: f64) -> String {
 }
 
 /// What of the rig is not planned with.
-pub(super) fn of_rig(rig: &Rig, known: &Known<'_>) -> Vec<PlanNote> {
+pub(super) fn of_rig(rig: &Rig, known: &KnownRig<'_>) -> Vec<PlanNote> {
     let mut notes = Vec::new();
     let scene = &rig.scene;
     if scene.friction != JointFriction::Arm || !scene.tip.is_empty() || !scene.later.is_empty() {

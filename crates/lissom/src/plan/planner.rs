@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::choose::{self, Choice, Chosen, Goal};
-use super::known::Known;
+use super::known::KnownRig;
 use super::{
     BETWEEN_S, Candidate, Expected, Figure, Kinds, Plan, PlanError, PlanNote, PlannedMotion,
     PlannedRun, Unfit, Wishes, note,
@@ -14,7 +14,7 @@ use crate::rig::Rig;
 
 /// What there is to choose from, and what is to be reached.
 pub(super) struct Planner<'a> {
-    known: &'a Known<'a>,
+    known: &'a KnownRig<'a>,
     rig: &'a Rig,
     wishes: &'a Wishes,
     /// Motions made together.
@@ -27,7 +27,7 @@ pub(super) struct Planner<'a> {
 
 impl<'a> Planner<'a> {
     pub(super) fn new(
-        known: &'a Known<'a>,
+        known: &'a KnownRig<'a>,
         rig: &'a Rig,
         wishes: &'a Wishes,
         found: &'a [Result<Vec<Candidate>, Unfit>],

@@ -1,7 +1,7 @@
 //! The replayed arm from event to event within a piece of a sample, by Taylor series.
 
 use super::friction::{Ends, Held, sign};
-use super::motion::{Motion, Mover, Torque, direction};
+use super::motion::{Mover, ReplayedMotion, Torque, direction};
 use super::rates::Rates;
 use super::series::{Ramp, Terms, reach_s, terms, value};
 use crate::friction::Mode;
@@ -15,7 +15,7 @@ const ROUNDING: f64 = 1e-13;
 const SHORTEST: f64 = 1.0 / 64.0;
 
 /// A stretch that one series describes.
-struct Stretch<const D: usize> {
+struct SeriesStretch<const D: usize> {
     series: Terms<D>,
     /// Net torque on the motor.
     net: Ramp,
@@ -28,7 +28,12 @@ struct Stretch<const D: usize> {
 
 impl<const D: usize> Mover<D> {
     /// Moves on over `duration_s` from event to event.
-    pub(super) fn through_events(&self, motion: &mut Motion<D>, torque: Torque, duration_s: f64) {
+    pub(super) fn through_events(
+        &self,
+        motion: &mut ReplayedMotion<D>,
+        torque: Torque,
+        duration_s: f64,
+    ) {
         let by_lag = Ramp {
             from: torque.by_lag[0],
             slope: (torque.by_lag[1] - torque.by_lag[0]) / duration_s,
@@ -64,7 +69,13 @@ impl<const D: usize> Mover<D> {
     }
 
     /// How far one series reaches, with friction linear in time.
-    fn reach_s(&self, motion: &Motion<D>, torque: f64, left_s: f64, shortest_s: f64) -> f64 {
+    fn reach_s(
+        &self,
+        motion: &ReplayedMotion<D>,
+        torque: f64,
+        left_s: f64,
+        shortest_s: f64,
+    ) -> f64 {
         let mut most = reach_s(self.rates(motion.mode)).min(left_s);
         while most > shortest_s && most > self.step_s(motion, torque, most) {
             most *= 0.5;
@@ -74,15 +85,15 @@ impl<const D: usize> Mover<D> {
 
     fn stretch(
         &self,
-        motion: &Motion<D>,
+        motion: &ReplayedMotion<D>,
         torque: Ramp,
         by_lag: Ramp,
         duration_s: f64,
-    ) -> Stretch<D> {
+    ) -> SeriesStretch<D> {
         let rates = self.rates(motion.mode);
         let Some(direction) = direction(motion.mode) else {
             let series = terms(rates, &motion.x, torque, duration_s);
-            return Stretch { series, net: torque, by_lag, duration_s, friction: None };
+            return SeriesStretch { series, net: torque, by_lag, duration_s, friction: None };
         };
         let mut net = torque.less(self.friction.torque(&motion.x, direction));
         let mut series = terms(rates, &motion.x, net, duration_s);
@@ -106,7 +117,7 @@ impl<const D: usize> Mover<D> {
             series = terms(rates, &motion.x, net, duration_s);
         }
         let friction = Some((ends, push, ramp));
-        Stretch { series, net, by_lag, duration_s, friction }
+        SeriesStretch { series, net, by_lag, duration_s, friction }
     }
 
     fn rates(&self, mode: Mode) -> &Rates<D> {
@@ -163,7 +174,7 @@ impl<const D: usize> Mover<D> {
     /// (f⁻ − f⁺)·dσ, and `dσ = −s_v/θ̈⁻` where the motor comes to rest. Only θ̈ jumps: s_v becomes
     /// zero in a stick and is multiplied by θ̈⁺/θ̈⁻ in a reversal. Let go, θ̈ begins at zero, and
     /// nothing jumps.
-    fn pass(&self, motion: &mut Motion<D>, torque: f64, chatters: bool) {
+    fn pass(&self, motion: &mut ReplayedMotion<D>, torque: f64, chatters: bool) {
         if motion.mode == Mode::Stick {
             // At the threshold itself rounding decides the sign: the side nearer to it lets go.
             let forward = self.acceleration(&motion.x, torque, 0);
@@ -179,7 +190,12 @@ impl<const D: usize> Mover<D> {
         motion.tangents.scale(1, ratio);
     }
 
-    fn series_tangents(&self, motion: &mut Motion<D>, stretch: &Stretch<D>, time_s: f64) {
+    fn series_tangents(
+        &self,
+        motion: &mut ReplayedMotion<D>,
+        stretch: &SeriesStretch<D>,
+        time_s: f64,
+    ) {
         if motion.tangents.is_empty() {
             return;
         }
@@ -195,7 +211,11 @@ impl<const D: usize> Mover<D> {
     }
 
     /// Derivatives of the net torque by the unknowns that it depends on.
-    fn torques_by(&self, motion: &Motion<D>, stretch: &Stretch<D>) -> Vec<(usize, Ramp)> {
+    fn torques_by(
+        &self,
+        motion: &ReplayedMotion<D>,
+        stretch: &SeriesStretch<D>,
+    ) -> Vec<(usize, Ramp)> {
         let mut found: Vec<_> = self.columns.lag.iter().map(|k| (*k, stretch.by_lag)).collect();
         let Some((ends, push, ramp)) = &stretch.friction else { return found };
         // Constant friction asks for nothing at its end.

@@ -67,7 +67,7 @@ struct Slip {
 
 /// State, mode and tangents.
 #[derive(Debug, Clone)]
-pub(super) struct Motion<const D: usize> {
+pub(super) struct ReplayedMotion<const D: usize> {
     pub(super) x: [f64; D],
     pub(super) tangents: Tangents<D>,
     pub(super) mode: Mode,
@@ -77,7 +77,7 @@ pub(super) struct Motion<const D: usize> {
     pub(super) friction_impulse: Option<f64>,
 }
 
-impl<const D: usize> Motion<D> {
+impl<const D: usize> ReplayedMotion<D> {
     pub(super) fn rub(&mut self, mean_torque: f64, duration_s: f64) {
         if let Some(impulse) = &mut self.friction_impulse {
             *impulse += mean_torque * duration_s;
@@ -119,7 +119,7 @@ impl<const D: usize> Mover<D> {
     }
 
     /// Friction's torque on the motor now: what holds it, or what it slips against.
-    pub(super) fn friction_torque(&self, motion: &Motion<D>, torque: f64) -> f64 {
+    pub(super) fn friction_torque(&self, motion: &ReplayedMotion<D>, torque: f64) -> f64 {
         match motion.mode {
             Mode::Forward => self.friction.torque(&motion.x, 0),
             Mode::Backward => self.friction.torque(&motion.x, 1),
@@ -133,13 +133,13 @@ impl<const D: usize> Mover<D> {
     }
 
     /// The motor's acceleration now.
-    pub(super) fn motor_acceleration(&self, motion: &Motion<D>, torque: f64) -> f64 {
+    pub(super) fn motor_acceleration(&self, motion: &ReplayedMotion<D>, torque: f64) -> f64 {
         let Some(direction) = direction(motion.mode) else { return 0.0 };
         self.acceleration(&motion.x, torque, direction)
     }
 
     /// Moves on over prepared piece number `piece`, in parts where friction changes on the way.
-    pub(super) fn advance(&self, motion: &mut Motion<D>, piece: usize, torque: Torque) {
+    pub(super) fn advance(&self, motion: &mut ReplayedMotion<D>, piece: usize, torque: Torque) {
         if self.halvings() == 0 {
             self.part(motion, piece, torque);
             return;
@@ -162,14 +162,14 @@ impl<const D: usize> Mover<D> {
     }
 
     /// Longest step within `within_s` over which friction may be taken for linear in time.
-    pub(super) fn step_s(&self, motion: &Motion<D>, torque: f64, within_s: f64) -> f64 {
+    pub(super) fn step_s(&self, motion: &ReplayedMotion<D>, torque: f64, within_s: f64) -> f64 {
         let Some(direction) = direction(motion.mode) else { return f64::INFINITY };
         let acceleration = self.acceleration(&motion.x, torque, direction);
         let pushed = (acceleration, self.phases.slip[direction].b[1]);
         self.friction.step_s(&motion.x, direction, pushed, within_s)
     }
 
-    fn part(&self, motion: &mut Motion<D>, piece: usize, torque: Torque) {
+    fn part(&self, motion: &mut ReplayedMotion<D>, piece: usize, torque: Torque) {
         self.settle(motion, torque.from);
         let transitions = &self.pieces[piece];
         let done = match motion.mode {
@@ -183,7 +183,7 @@ impl<const D: usize> Mover<D> {
     }
 
     /// A motor at rest under a torque that has just changed: held or let go.
-    fn settle(&self, motion: &mut Motion<D>, torque: f64) {
+    fn settle(&self, motion: &mut ReplayedMotion<D>, torque: f64) {
         if motion.x[1] == 0.0 {
             motion.mode = self.mode_at_rest(&motion.x, torque);
         }
@@ -200,7 +200,7 @@ impl<const D: usize> Mover<D> {
     }
 
     /// Tries a whole piece without leaving the stick.
-    fn stays(&self, motion: &mut Motion<D>, piece: &Transition<D>, torque: Torque) -> bool {
+    fn stays(&self, motion: &mut ReplayedMotion<D>, piece: &Transition<D>, torque: Torque) -> bool {
         let next = piece.own.apply(&motion.x, 0.0, 0.0);
         let held = self.acceleration(&next, torque.to, 0) <= 0.0
             && self.acceleration(&next, torque.to, 1) >= 0.0;
@@ -219,7 +219,7 @@ impl<const D: usize> Mover<D> {
     /// Tries a whole piece without a reversal.
     fn slips(
         &self,
-        motion: &mut Motion<D>,
+        motion: &mut ReplayedMotion<D>,
         piece: &Transition<D>,
         torque: Torque,
         direction: usize,
@@ -266,7 +266,12 @@ impl<const D: usize> Mover<D> {
     }
 
     /// Tangents over a whole piece, stuck or slipping.
-    fn move_tangents(&self, motion: &mut Motion<D>, piece: &Transition<D>, slip: Option<&Slip>) {
+    fn move_tangents(
+        &self,
+        motion: &mut ReplayedMotion<D>,
+        piece: &Transition<D>,
+        slip: Option<&Slip>,
+    ) {
         let (net, change) = slip.map_or((0.0, 0.0), |s| (s.net, s.change));
         motion.tangents.over(piece, &motion.x, net, change);
         let Some(slip) = slip.filter(|_| !motion.tangents.is_empty()) else {
@@ -295,7 +300,7 @@ impl<const D: usize> Mover<D> {
     }
 
     /// Under a torque that jumps from `before` to `after` at an instant that the lag moves.
-    pub(super) fn jump(&self, motion: &mut Motion<D>, before: f64, after: f64) {
+    pub(super) fn jump(&self, motion: &mut ReplayedMotion<D>, before: f64, after: f64) {
         let Some(k) = self.columns.lag else { return };
         let old = self.motor_acceleration(motion, before);
         self.settle(motion, after);

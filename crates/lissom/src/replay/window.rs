@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use super::arm::ModalArm;
 use super::friction::Friction;
 use super::lanes::LANES;
-use super::motion::{Columns, Motion, Mover, Torque, direction};
+use super::motion::{Columns, Mover, ReplayedMotion, Torque, direction};
 use super::parameter::{Enters, Parameter};
 use super::rates::Phases;
 use super::tangents::Tangents;
@@ -34,7 +34,7 @@ pub(super) struct Replayer<'a, const D: usize> {
 /// What is seen at one sample.
 pub(super) struct Seen<'m, const D: usize> {
     pub(super) sample: usize,
-    pub(super) motion: &'m Motion<D>,
+    pub(super) motion: &'m ReplayedMotion<D>,
     /// Torque that acts just before the sample \[N·m\].
     pub(super) torque: f64,
 }
@@ -96,7 +96,7 @@ impl<'a, const D: usize> Replayer<'a, D> {
         start: [f64; D],
         with_tangents: bool,
         mut see: impl FnMut(&Seen<'_, D>),
-    ) -> Motion<D> {
+    ) -> ReplayedMotion<D> {
         let shared = self.parameters.len();
         let mut tangents = Tangents::new(if with_tangents { shared + D } else { 0 });
         if with_tangents {
@@ -104,7 +104,8 @@ impl<'a, const D: usize> Replayer<'a, D> {
         }
         let mode = Mode::of(start[1]);
         let friction_impulse = (!with_tangents).then_some(0.0);
-        let mut motion = Motion { x: start, tangents, mode, stuck_s: 0.0, friction_impulse };
+        let mut motion =
+            ReplayedMotion { x: start, tangents, mode, stuck_s: 0.0, friction_impulse };
         let (first, last) = (*range.start(), *range.end());
         for sample in first..=last {
             let torque = self.before(run, sample);
@@ -137,7 +138,7 @@ impl<'a, const D: usize> Replayer<'a, D> {
     }
 
     /// From sample `k` to the next.
-    fn sample(&self, run: &Run, k: usize, motion: &mut Motion<D>) {
+    fn sample(&self, run: &Run, k: usize, motion: &mut ReplayedMotion<D>) {
         let at = k.cast_signed() - self.lag_samples;
         let whole = self.pieces[1].unwrap_or(0);
         match self.channels.command.hold {

@@ -295,7 +295,7 @@ struct Group<'a> {
 
 /// Some samples of a group, for whatever vectors the machine has: they change no result, as nothing
 /// is contracted or reordered.
-struct Block<'a, 'b> {
+struct BatchBlock<'a, 'b> {
     group: &'b mut Group<'a>,
     modes: &'b Modes,
     duration: &'b Duration,
@@ -304,7 +304,7 @@ struct Block<'a, 'b> {
     tables: &'b [[f64; BLOCK]; 4],
 }
 
-impl pulp::WithSimd for Block<'_, '_> {
+impl pulp::WithSimd for BatchBlock<'_, '_> {
     type Output = ();
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
@@ -349,7 +349,7 @@ impl<'a> Group<'a> {
             }
             fill(&self.plan.waves, from, &mut tables);
             let noise = &noise[..count];
-            arch.dispatch(Block {
+            arch.dispatch(BatchBlock {
                 group: &mut self,
                 modes,
                 duration,

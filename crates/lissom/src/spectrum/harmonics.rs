@@ -87,7 +87,7 @@ pub fn least_squares(
     if n < columns + 2 {
         return None;
     }
-    let basis = Basis::new(n, omega_rad_s, sample_time_s, count);
+    let basis = HarmonicBasis::new(n, omega_rad_s, sample_time_s, count);
     let mut normal = DMatrix::<f64>::zeros(columns, columns);
     let mut right = DVector::zeros(columns);
     let mut row = vec![0.0; columns];
@@ -147,13 +147,13 @@ pub fn least_squares(
 }
 
 /// Rows of the regression: 1, a line from −1 to 1, cos kω0t, sin kω0t.
-struct Basis {
+struct HarmonicBasis {
     n: usize,
     phase_step: f64,
     count: usize,
 }
 
-impl Basis {
+impl HarmonicBasis {
     fn new(n: usize, omega: f64, sample_time: f64, count: usize) -> Self {
         Self { n, phase_step: omega * sample_time, count }
     }

@@ -23,7 +23,7 @@ pub(super) fn of_points(
     let readings = 2 * data.omega_rad_s.len() * data.outputs.len();
     let judged = |fit: SharedPoles, outputs: Vec<Vec<Response>>| {
         let criterion = fit.criterion() + spread(outputs.iter().flatten());
-        Fitted { fit, outputs, readings, criterion }
+        FittedPoles { fit, outputs, readings, criterion }
     };
     let fitted = |outputs: Vec<Vec<Response>>| {
         let fit = fit_shared_poles_with_delays(&data.omega_rad_s, &outputs, most).ok()?;
@@ -34,13 +34,13 @@ pub(super) fn of_points(
     if shares.left() < ROUNDING {
         return (shares.outputs, shares.fit);
     }
-    let better = |a: Fitted, b: Fitted| if b.criterion < a.criterion { b } else { a };
+    let better = |a: FittedPoles, b: FittedPoles| if b.criterion < a.criterion { b } else { a };
     let one_size = fitted(data.outputs.iter().map(|output| of_one_size(output, size)).collect());
     let best = one_size.into_iter().fold(shares, better);
     let mixed = fitted(best.mixed(&data.omega_rad_s, size));
     // A mix and a size of each output.
     let cost = (2 * data.outputs.len()) as f64 * (readings as f64).ln();
-    let mixed = mixed.map(|m| Fitted { criterion: m.criterion + cost, ..m });
+    let mixed = mixed.map(|m| FittedPoles { criterion: m.criterion + cost, ..m });
     let best = mixed.into_iter().fold(best, better);
     (best.outputs, best.fit)
 }
@@ -58,7 +58,7 @@ pub(super) fn of_motor(motor: &MotorData, fit: &SharedPoles, beyond: &[Pole]) ->
     each.min_by(|a, b| a.0.total_cmp(&b.0)).map_or_else(|| motor.clone(), |best| best.1)
 }
 
-struct Fitted {
+struct FittedPoles {
     fit: SharedPoles,
     outputs: Vec<Vec<Response>>,
     readings: usize,
@@ -85,7 +85,7 @@ fn of_one_size(output: &[Response], share: f64) -> Vec<Response> {
     output.iter().map(|r| Response { std, ..*r }).collect()
 }
 
-impl Fitted {
+impl FittedPoles {
     /// Root mean square of what is left, as a share of each response.
     fn left(&self) -> f64 {
         let all = self.outputs.iter().flatten();

@@ -3,7 +3,7 @@
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::ModeEstimate;
 use crate::identify::findings::{BeamFinding, Finding};
-use crate::identify::identified::Beam;
+use crate::identify::identified::BeamEstimates;
 use crate::identify::judge::evidence::Evidence;
 use crate::identify::judge::thresholds::MODEL_MISFIT;
 use crate::identify::judge::thresholds::TIPS_COMPLETE;
@@ -35,9 +35,9 @@ const MODES: [ModesRow; 3] = [
 ];
 
 /// The beam: modes by the table, and the coupling of the drive's solution.
-pub(super) fn choose(evidence: &Evidence<'_>, drive: &DriveEstimates) -> Beam {
+pub(super) fn choose(evidence: &Evidence<'_>, drive: &DriveEstimates) -> BeamEstimates {
     let offered = |row: &ModesRow| (row.modes)(evidence);
-    Beam {
+    BeamEstimates {
         modes: MODES.iter().find_map(offered).unwrap_or_default(),
         coupling: drive.coupling,
         coupling_by_tip: drive.coupling_by_tip.clone(),
@@ -63,7 +63,7 @@ fn by_tip_responses(evidence: &Evidence<'_>) -> Option<Vec<ModeEstimate>> {
 }
 
 /// What is missing of the beam.
-pub(super) fn findings(evidence: &Evidence<'_>, beam: &Beam) -> Vec<Finding> {
+pub(super) fn findings(evidence: &Evidence<'_>, beam: &BeamEstimates) -> Vec<Finding> {
     let mut found = Vec::new();
     let tips = evidence.campaign.channels.tips.len();
     if evidence.replay().is_some_and(|oe| !oe.arm.modes.is_empty()) {

@@ -1,7 +1,7 @@
 //! What the methods found, and what was taken of it.
 
 use crate::identify::drive_estimates::{DriveEstimates, Method};
-use crate::identify::identified::Beam;
+use crate::identify::identified::BeamEstimates;
 use crate::identify::methods::constant_velocity::ConstantVelocity;
 use crate::identify::methods::friction_law::FrictionLaw;
 use crate::identify::methods::least_squares::LeastSquares;
@@ -80,5 +80,5 @@ pub(crate) struct Chosen {
     /// The same without what the data do not support.
     pub(crate) drive: DriveEstimates,
     /// Modes, and the coupling of `drive`.
-    pub(crate) beam: Beam,
+    pub(crate) beam: BeamEstimates,
 }

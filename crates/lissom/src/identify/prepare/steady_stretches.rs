@@ -22,7 +22,7 @@ const TRIMMED_MOST: usize = 4;
 
 /// A stretch of a run at one velocity.
 #[derive(Debug, Clone)]
-pub(crate) struct Stretch {
+pub(crate) struct SteadyStretch {
     /// Sample intervals: the motor from sample `start` to sample `end`.
     pub(crate) intervals: Range<usize>,
     /// Mean velocity \[rad/s or m/s\].
@@ -44,10 +44,10 @@ struct Grown {
 /// are judged first and none may overlap. A stretch stands where a parabola through its velocity
 /// changes by less than a sixth of that share, two deviations counted; where the motor never stops
 /// in it; and where the command does not change by more than 10 %.
-pub(crate) fn stretches(run: &Run, hold: Hold) -> Vec<Stretch> {
+pub(crate) fn stretches(run: &Run, hold: Hold) -> Vec<SteadyStretch> {
     let mut grown = grown(run);
     grown.sort_by_key(|g| std::cmp::Reverse(g.intervals.len()));
-    let mut found: Vec<Stretch> = Vec::new();
+    let mut found: Vec<SteadyStretch> = Vec::new();
     let mut rejected: Vec<Range<usize>> = Vec::new();
     for candidate in grown {
         let whole = &candidate.intervals;
@@ -159,7 +159,7 @@ fn drop_before(queue: &mut VecDeque<usize>, first: usize) {
 }
 
 /// The stretch with its averages, if it is steady.
-fn judged(run: &Run, hold: Hold, r: Range<usize>, share: f64) -> Option<Stretch> {
+fn judged(run: &Run, hold: Hold, r: Range<usize>, share: f64) -> Option<SteadyStretch> {
     let (x, t) = (run.motor(), run.sample_time_s());
     let series: Vec<f64> = x[r.start..=r.end].windows(2).map(|w| (w[1] - w[0]) / t).collect();
     let velocity = average(&series)?;
@@ -173,7 +173,7 @@ fn judged(run: &Run, hold: Hold, r: Range<usize>, share: f64) -> Option<Stretch>
     }
     let command = average(&acting(&run.command()[r.start..=r.end], hold))?;
     let drifts = command.change - 2.0 * command.change_std > COMMAND_CHANGE * command.mean.abs();
-    (!drifts).then_some(Stretch { intervals: r, velocity, command })
+    (!drifts).then_some(SteadyStretch { intervals: r, velocity, command })
 }
 
 /// The command over each sample interval.

@@ -14,12 +14,12 @@ pub struct Direction {
     /// Deviation along it, in shares of the figures' sizes; infinite where the logs do not show it at all.
     pub std: f64,
     /// The figures that take part, those that move most first.
-    pub parts: Vec<Part>,
+    pub parts: Vec<DirectionPart>,
 }
 
 /// A figure in a direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Part {
+pub struct DirectionPart {
     /// Which.
     pub figure: Figure,
     /// Its share of a change of length one along the direction; positive for the first part.
@@ -54,16 +54,21 @@ pub(super) fn lost(judged: &Judged) -> Vec<Direction> {
     judged.lost.iter().map(direction).collect()
 }
 
-fn parts(figures: &[Figure], vector: &DVector<f64>, share: &dyn Fn(usize) -> f64) -> Vec<Part> {
-    let part = |(i, figure): (usize, &Figure)| Part {
+fn parts(
+    figures: &[Figure],
+    vector: &DVector<f64>,
+    share: &dyn Fn(usize) -> f64,
+) -> Vec<DirectionPart> {
+    let part = |(i, figure): (usize, &Figure)| DirectionPart {
         figure: *figure,
         weight: vector[i],
         of_variance: share(i),
     };
-    let takes = |p: &Part| {
+    let takes = |p: &DirectionPart| {
         p.of_variance > DIRECTION_OF_ESTIMATE || p.weight.powi(2) > ESTIMATE_OF_DIRECTION
     };
-    let mut parts: Vec<Part> = figures.iter().enumerate().map(part).filter(takes).collect();
+    let mut parts: Vec<DirectionPart> =
+        figures.iter().enumerate().map(part).filter(takes).collect();
     parts.sort_by(|a, b| b.weight.abs().total_cmp(&a.weight.abs()));
     if parts.first().is_some_and(|p| p.weight < 0.0) {
         for part in &mut parts {

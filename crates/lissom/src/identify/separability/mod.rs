@@ -10,7 +10,7 @@ mod words;
 
 use nalgebra::DMatrix;
 
-pub use direction::{Direction, Part};
+pub use direction::{Direction, DirectionPart};
 use judged::Judged;
 pub use run_to_add::RunToAdd;
 pub use runs::{Carried, RunShare};

@@ -1,7 +1,7 @@
 //! What the logs separate, in words.
 
 use crate::identify::findings::Finding;
-use crate::identify::separability::direction::{Direction, Part};
+use crate::identify::separability::direction::{Direction, DirectionPart};
 use crate::identify::separability::run_to_add::RunToAdd;
 use crate::identify::separability::runs::{Carried, RunShare};
 use crate::identify::separability::thresholds::{CHANGE_SHOWN, CORRELATED};
@@ -99,8 +99,8 @@ fn told(worst: &Direction) -> Option<String> {
 }
 
 /// "viscous friction up by 10 % with Coulomb friction down by 0.8 %".
-fn moved(parts: &[Part], length: f64) -> String {
-    let part = |p: &Part| {
+fn moved(parts: &[DirectionPart], length: f64) -> String {
+    let part = |p: &DirectionPart| {
         let change = p.weight * length;
         let way = if change < 0.0 { "down" } else { "up" };
         let of = if p.figure == Figure::Offset { " of Coulomb friction" } else { "" };

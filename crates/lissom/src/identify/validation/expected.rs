@@ -6,7 +6,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng as _;
 
 use crate::identify::prepare::channel_noise::{channel_noise, reading};
-use crate::identify::validation::motion::{Followed, PredictedStretch, logged};
+use crate::identify::validation::motion::{FollowedLog, PredictedStretch, logged};
 use crate::identify::validation::torque::{TorquePrediction, torque};
 use crate::record::{Campaign, Run, TimeBase};
 use crate::replay::{ModalArm, Window};
@@ -21,7 +21,7 @@ const SEED: u64 = 1;
 pub(super) fn expected(
     arm: &ModalArm,
     campaign: &Campaign,
-    followed: &Followed,
+    followed: &FollowedLog,
     window_s: f64,
 ) -> Option<TorquePrediction> {
     let mut source = Xoshiro256PlusPlus::seed_from_u64(SEED);

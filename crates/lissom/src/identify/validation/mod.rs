@@ -11,11 +11,11 @@ mod validation_findings;
 mod zeros;
 
 pub use cause::{Cause, CauseKind};
-pub use motion::{Fit, Horizon, PredictedStretch};
+pub use motion::{ChannelFit, Horizon, PredictedStretch};
 pub use moved_mode::{MovedBy, MovedMode};
 pub use residual::ChannelResidual;
 pub(super) use torque::torque;
-pub use torque::{Stretch, TorquePrediction, TorqueRun};
+pub use torque::{TorquePrediction, TorqueRun, TorqueStretch};
 pub(super) use zeros::zeros;
 
 use thiserror::Error;
@@ -26,7 +26,7 @@ use crate::identify::validation::thresholds::FITS_PERCENT;
 use crate::record::{Campaign, Run};
 use crate::replay::{MOST_MODES, TURN_MOST};
 use expected::expected;
-use motion::{Followed, followed, lengths_s};
+use motion::{FollowedLog, followed, lengths_s};
 use moved_mode::moved_mode;
 use residual::channel_residual;
 
@@ -135,7 +135,7 @@ pub fn validate(
         None => all,
     };
     let chosen = fitting(&predicted).unwrap_or(predicted.len().saturating_sub(1));
-    let finite = |f: &Followed| f.horizon.channels.iter().all(|c| c.residual_rms.is_finite());
+    let finite = |f: &FollowedLog| f.horizon.channels.iter().all(|c| c.residual_rms.is_finite());
     let told = torque.as_ref().is_none_or(|t| t.relative_error.is_finite());
     if !(told && predicted.iter().all(finite)) {
         return Err(ValidationError::RunsAway);
@@ -161,14 +161,14 @@ pub fn validate(
 }
 
 /// The longest time over which every channel fits.
-fn fitting(predicted: &[Followed]) -> Option<usize> {
-    let fits = |f: &Followed| f.horizon.channels.iter().all(|c| c.fit_percent >= FITS_PERCENT);
+fn fitting(predicted: &[FollowedLog]) -> Option<usize> {
+    let fits = |f: &FollowedLog| f.horizon.channels.iter().all(|c| c.fit_percent >= FITS_PERCENT);
     predicted.iter().position(fits)
 }
 
 /// The motion over ever shorter times, or over the one asked for.
-fn predicted(found: &FoundArm, campaign: &Campaign, horizon_s: Option<f64>) -> Vec<Followed> {
-    let mut predicted: Vec<Followed> = Vec::new();
+fn predicted(found: &FoundArm, campaign: &Campaign, horizon_s: Option<f64>) -> Vec<FollowedLog> {
+    let mut predicted: Vec<FollowedLog> = Vec::new();
     for length_s in lengths_s(campaign, horizon_s).into_iter().rev() {
         let shorter = predicted.last().map_or(&[][..], |f| &f.windows);
         predicted.extend(followed(&found.arm, campaign, length_s, shorter));

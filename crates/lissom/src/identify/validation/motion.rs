@@ -21,12 +21,12 @@ pub struct Horizon {
     /// Stretches predicted.
     pub windows: usize,
     /// Motor, then tips.
-    pub channels: Vec<Fit>,
+    pub channels: Vec<ChannelFit>,
 }
 
 /// How near a channel's prediction is, over readings within its sensor's range.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fit {
+pub struct ChannelFit {
     /// Root mean square of logged minus predicted, in the channel's unit.
     pub residual_rms: f64,
     /// `100·(1 − ‖y − ŷ‖/‖y − ȳ‖)`, ȳ the mean of each run \[%\].
@@ -45,7 +45,7 @@ pub struct PredictedStretch {
 }
 
 /// A horizon with what it was judged by.
-pub(super) struct Followed {
+pub(super) struct FollowedLog {
     pub(super) horizon: Horizon,
     pub(super) windows: Vec<Window>,
     pub(super) stretches: Vec<PredictedStretch>,
@@ -76,7 +76,7 @@ pub(super) fn followed(
     campaign: &Campaign,
     length_s: f64,
     shorter: &[Window],
-) -> Option<Followed> {
+) -> Option<FollowedLog> {
     let windows = follow(arm, campaign, length_s, shorter);
     let stretches: Vec<PredictedStretch> = windows
         .iter()
@@ -94,7 +94,7 @@ pub(super) fn followed(
         campaign.runs.iter().all(|r| r.len() as f64 * r.sample_time_s() <= length_s * (1.0 + 1e-9));
     let horizon =
         Horizon { length_s, whole_runs, windows: stretches.len(), channels: channels.collect() };
-    Some(Followed { horizon, windows, stretches })
+    Some(FollowedLog { horizon, windows, stretches })
 }
 
 /// The samples of a channel that a stretch predicts.
@@ -116,7 +116,7 @@ fn fit(
     masks: &[Masks],
     stretches: &[PredictedStretch],
     channel: usize,
-) -> Fit {
+) -> ChannelFit {
     let (mut left, mut power, mut number) = (0.0, 0.0, 0_usize);
     for of_run in stretches.chunk_by(|a, b| a.run == b.run) {
         let pairs = || {
@@ -137,5 +137,5 @@ fn fit(
     }
     let residual_rms = (left / number.max(1) as f64).sqrt();
     let fit_percent = if power > 0.0 { 100.0 * (1.0 - (left / power).sqrt()) } else { 0.0 };
-    Fit { residual_rms, fit_percent }
+    ChannelFit { residual_rms, fit_percent }
 }

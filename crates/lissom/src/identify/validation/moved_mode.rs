@@ -2,7 +2,7 @@
 
 use crate::identify::found_arm::FoundArm;
 use crate::identify::methods::output_error::{Masks, masks};
-use crate::identify::validation::motion::{Followed, PredictedStretch, followed, logged};
+use crate::identify::validation::motion::{FollowedLog, PredictedStretch, followed, logged};
 use crate::identify::validation::thresholds::{MODE_MOVED_BY, MODE_MOVED_LEAVES};
 use crate::record::Campaign;
 use crate::replay::ModalArm;
@@ -48,13 +48,13 @@ pub struct MovedMode {
 pub(super) fn moved_mode(
     found: &FoundArm,
     campaign: &Campaign,
-    at: &Followed,
+    at: &FollowedLog,
 ) -> Option<MovedMode> {
     let weights: Vec<f64> = at.horizon.channels.iter().map(|c| c.residual_rms.powi(-2)).collect();
     if weights.iter().any(|w| !w.is_finite()) {
         return None;
     }
-    let search = Search { campaign, masks: masks(campaign), weights, at };
+    let search = ModeSearch { campaign, masks: masks(campaign), weights, at };
     let modes = 0..found.arm.modes.len();
     let ways = modes.flat_map(|mode| [(mode, MovedBy::Load), (mode, MovedBy::Stiffness)]);
     let moved = ways.filter_map(|(mode, by)| search.moved(&found.arm, mode, by));
@@ -65,14 +65,14 @@ pub(super) fn moved_mode(
     moved.filter(tells).min_by(|a, b| a.residual_ratio.total_cmp(&b.residual_ratio))
 }
 
-struct Search<'a> {
+struct ModeSearch<'a> {
     campaign: &'a Campaign,
     masks: Vec<Masks>,
     weights: Vec<f64>,
-    at: &'a Followed,
+    at: &'a FollowedLog,
 }
 
-impl Search<'_> {
+impl ModeSearch<'_> {
     fn moved(&self, arm: &ModalArm, mode: usize, by: MovedBy) -> Option<MovedMode> {
         let omega_rad_s = arm.modes[mode].omega_rad_s;
         let with = |share: f64| {

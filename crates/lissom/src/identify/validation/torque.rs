@@ -43,7 +43,7 @@ pub struct TorquePrediction {
     /// One for each run.
     pub runs: Vec<TorqueRun>,
     /// Each stretch of one direction that is long enough, errors relative to the whole log's torque.
-    pub stretches: Vec<Stretch>,
+    pub stretches: Vec<TorqueStretch>,
     /// What the residual looks like, the largest share first.
     pub causes: Vec<Cause>,
 }
@@ -77,7 +77,7 @@ pub struct TorqueRun {
 
 /// A stretch in which the motor moves one way.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stretch {
+pub struct TorqueStretch {
     /// Index of the run.
     pub run: usize,
     /// Begin, from the run's first sample \[s\].
@@ -238,13 +238,13 @@ impl RunRows {
     }
 
     /// Rows on end that count and move one way.
-    fn stretches(&self, logged_nm: f64, window_s: f64) -> Vec<Stretch> {
+    fn stretches(&self, logged_nm: f64, window_s: f64) -> Vec<TorqueStretch> {
         let together = |a: &Row, b: &Row| a.counts == b.counts && a.velocity * b.velocity > 0.0;
         let told = |rows: &[Row]| {
             let (first, last) = (rows.first()?, rows.last()?);
             let long = last.time_s - first.time_s >= STRETCH_LEAST as f64 * window_s;
             let left: f64 = rows.iter().map(|r| r.residual().powi(2)).sum();
-            (first.counts && long).then(|| Stretch {
+            (first.counts && long).then(|| TorqueStretch {
                 run: self.run,
                 start_s: first.time_s,
                 end_s: last.time_s,

@@ -1,7 +1,7 @@
 //! An arm made ready for torques that are held over samples.
 
 use super::HeldStep;
-use super::flow::{Block, Flow, Part, sum_push};
+use super::flow::{ArmPart, Flow, ModalBlock, sum_push};
 use super::modal::Modal;
 use crate::arm::Arm;
 use crate::rig::RigError;
@@ -45,8 +45,8 @@ pub(in crate::rig) struct Modes {
 #[derive(Debug, Clone)]
 pub(in crate::rig) struct Duration {
     pub(in crate::rig) time_s: f64,
-    pub(in crate::rig) slip: Vec<Part>,
-    pub(in crate::rig) stick: Vec<Part>,
+    pub(in crate::rig) slip: Vec<ArmPart>,
+    pub(in crate::rig) stick: Vec<ArmPart>,
     /// Angle that a torque of 1 N·m turns the motor by.
     pub(in crate::rig) turned: f64,
 }
@@ -72,7 +72,7 @@ impl Duration {
     }
 }
 
-fn fill(parts: &mut [Part], blocks: &[Block], time_s: f64) {
+fn fill(parts: &mut [ArmPart], blocks: &[ModalBlock], time_s: f64) {
     parts.iter_mut().zip(blocks).for_each(|(part, block)| *part = block.over(time_s));
 }
 

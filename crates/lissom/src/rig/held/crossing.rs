@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 
 use super::blocks::Rates;
-use super::flow::{Block, phi};
+use super::flow::{ModalBlock, phi};
 
 /// Halvings of the interval before two crossings count as one.
 const DEPTH: u32 = 52;
@@ -32,7 +32,7 @@ struct Term {
 
 /// A point of a wave: value and slope.
 #[derive(Debug, Clone, Copy)]
-struct Point {
+struct CrossingPoint {
     time: f64,
     value: f64,
     slope: f64,
@@ -49,7 +49,7 @@ impl Wave {
         &mut self,
         start: f64,
         sign: f64,
-        blocks: &[Block],
+        blocks: &[ModalBlock],
         y: &[[f64; 2]],
         torque: f64,
     ) {
@@ -92,9 +92,9 @@ impl Wave {
         self.terms.iter().map(|t| t.size * t.speed.powi(order - 1)).sum()
     }
 
-    fn at(&mut self, time: f64) -> Point {
+    fn at(&mut self, time: f64) -> CrossingPoint {
         self.evaluations += 1;
-        let mut point = Point { time, value: 0.0, slope: 0.0 };
+        let mut point = CrossingPoint { time, value: 0.0, slope: 0.0 };
         for t in &self.terms {
             let z = t.rate * time;
             let [once, _] = phi(z);
@@ -118,7 +118,7 @@ impl Wave {
         let first = if from > 0.0 {
             self.at(from)
         } else {
-            Point { time: 0.0, value: self.start, slope: self.slope() }
+            CrossingPoint { time: 0.0, value: self.start, slope: self.slope() }
         };
         if first.value <= 0.0 {
             return Some(from);
@@ -127,7 +127,7 @@ impl Wave {
         self.descend(first, last, DEPTH)
     }
 
-    fn descend(&mut self, first: Point, last: Point, depth: u32) -> Option<f64> {
+    fn descend(&mut self, first: CrossingPoint, last: CrossingPoint, depth: u32) -> Option<f64> {
         let width = last.time - first.time;
         let (mut stray, mut turn) = (0.0, 0.0);
         for t in self.terms.iter().filter(|t| t.rate.re * first.time > GONE) {
@@ -150,7 +150,7 @@ impl Wave {
     }
 
     /// The crossing where the wave falls all the way: Newton's method fenced by bisection.
-    fn single_crossing(&mut self, first: Point, last: Point) -> f64 {
+    fn single_crossing(&mut self, first: CrossingPoint, last: CrossingPoint) -> f64 {
         let (mut low, mut high) = (first.time, last.time);
         let smallest = f64::EPSILON * last.time;
         let bend = self.bound(2);

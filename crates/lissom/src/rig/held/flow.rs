@@ -20,7 +20,7 @@ const SHORT: f64 = 0.08;
 /// Two states of an arm, what a torque does to them, and their part in what is watched: the
 /// motor's velocity while it slips, the coupling torque while it sticks.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::rig) struct Block {
+pub(in crate::rig) struct ModalBlock {
     pub(in crate::rig) rates: Rates,
     /// ẏ per torque \[1/(N·m)\].
     pub(in crate::rig) gain: [f64; 2],
@@ -32,15 +32,15 @@ pub(in crate::rig) struct Block {
 /// A phase, slip or stick, as blocks.
 #[derive(Debug, Clone)]
 pub(in crate::rig) struct Flow {
-    pub(in crate::rig) blocks: Vec<Block>,
+    pub(in crate::rig) blocks: Vec<ModalBlock>,
     /// Blocks' states to the phase's and back.
     pub(in crate::rig) basis: DMatrix<f64>,
     pub(in crate::rig) inverse: DMatrix<f64>,
 }
 
-/// A [`Block`] over a given time t.
+/// A [`ModalBlock`] over a given time t.
 #[derive(Debug, Clone, Copy, Default)]
-pub(in crate::rig) struct Part {
+pub(in crate::rig) struct ArmPart {
     /// e^{Λ·t} by rows.
     turn: [f64; 4],
     /// y after t from rest, per torque.
@@ -80,7 +80,11 @@ impl Flow {
             .iter()
             .enumerate()
             .map(|(i, rates)| {
-                Block::new(*rates, [gain[2 * i], gain[2 * i + 1]], [read[2 * i], read[2 * i + 1]])
+                ModalBlock::new(
+                    *rates,
+                    [gain[2 * i], gain[2 * i + 1]],
+                    [read[2 * i], read[2 * i + 1]],
+                )
             })
             .collect();
         Some(Self { blocks, basis, inverse })
@@ -102,7 +106,7 @@ impl Flow {
     }
 }
 
-impl Block {
+impl ModalBlock {
     fn new(rates: Rates, gain: [f64; 2], read: [f64; 2]) -> Self {
         let sizes = match rates {
             Rates::Oscillating(mu) => [(read[0].hypot(read[1]), mu.norm()); 2],
@@ -112,7 +116,7 @@ impl Block {
     }
 
     /// Over `time_s`.
-    pub(in crate::rig) fn over(&self, time_s: f64) -> Part {
+    pub(in crate::rig) fn over(&self, time_s: f64) -> ArmPart {
         let ([g1, g2], [c1, c2]) = (self.gain, self.read);
         let (turn, push, sum, sum_push, rate);
         match self.rates {
@@ -141,7 +145,7 @@ impl Block {
             }
         }
         let stray = self.stray(time_s);
-        Part { turn, push, read: self.read, sum, sum_push, rate, gain: self.gain, stray }
+        ArmPart { turn, push, read: self.read, sum, sum_push, rate, gain: self.gain, stray }
     }
 
     /// A part of ẏ that decays at rate λ, |λ| = r, makes the watched depart from its chord by
@@ -205,7 +209,7 @@ const INVERSE_FACTORIALS: [f64; TERMS + 3] = {
 /// Moves the states on by the parts' time under `torque`.
 #[inline(always)]
 pub(in crate::rig) fn step<F: Lane>(
-    parts: &[Part],
+    parts: &[ArmPart],
     y: &[[F; 2]],
     torque: F,
     next: &mut [[F; 2]],
@@ -226,7 +230,7 @@ pub(in crate::rig) fn step<F: Lane>(
 }
 
 /// ∫ of what is watched per torque.
-pub(in crate::rig) fn sum_push(parts: &[Part]) -> f64 {
+pub(in crate::rig) fn sum_push(parts: &[ArmPart]) -> f64 {
     parts.iter().map(|p| p.sum_push).sum()
 }
 

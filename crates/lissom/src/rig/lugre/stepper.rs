@@ -33,7 +33,7 @@ pub(super) struct Bristling {
 
 /// What a time under a held torque leads to.
 #[derive(Debug, Clone)]
-pub(super) struct Followed {
+pub(super) struct FollowedTime {
     pub(super) end: Bristling,
     pub(super) steps: usize,
     /// Time in presliding \[s\].
@@ -87,13 +87,13 @@ impl Stepper {
         torque_nm: f64,
         duration_s: f64,
         step_s: f64,
-    ) -> Result<Followed, Stopped> {
+    ) -> Result<FollowedTime, Stopped> {
         self.alone.begin(duration_s);
         self.sprung.begin(duration_s);
         let all = 1_u64 << MOST;
         let seconds = |parts: u64| duration_s * (parts as f64 / all as f64);
         let mut halvings = (duration_s / step_s).log2().ceil().clamp(0.0, MOST as f64) as usize;
-        let mut found = Followed { end: start.clone(), steps: 0, held_s: 0.0, step_s: 0.0 };
+        let mut found = FollowedTime { end: start.clone(), steps: 0, held_s: 0.0, step_s: 0.0 };
         let (mut done, mut computed, mut whole) = (0, 0, None);
         while done < all {
             // A step begins at a multiple of its length.

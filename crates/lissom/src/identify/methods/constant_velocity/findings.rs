@@ -5,7 +5,7 @@ use crate::identify::findings::{
     ConstantVelocityFinding, Curvature, EstimateUnits, Finding, SlipDirection,
 };
 use crate::identify::methods::constant_velocity::ConstantVelocity;
-use crate::identify::methods::constant_velocity::line::{FrictionLine, LineError, Shape};
+use crate::identify::methods::constant_velocity::line::{FrictionLine, LineError, LineShape};
 use crate::record::Campaign;
 
 /// Findings about friction from constant velocities. `meant`: there are runs made for it, so that what is missing
@@ -59,16 +59,16 @@ fn shape(
         })
     };
     match line.shape {
-        Shape::Straight => None,
-        Shape::Concave { deviations } => curved(Curvature::Concave, deviations),
-        Shape::Convex { deviations } => curved(Curvature::Convex, deviations),
-        Shape::Scattered { rms } => Some(ConstantVelocityFinding::SpeedsScatter {
+        LineShape::Straight => None,
+        LineShape::Concave { deviations } => curved(Curvature::Concave, deviations),
+        LineShape::Convex { deviations } => curved(Curvature::Convex, deviations),
+        LineShape::Scattered { rms } => Some(ConstantVelocityFinding::SpeedsScatter {
             direction,
             rms_standard_errors: rms,
             command,
             unit,
         }),
-        Shape::Unchecked => Some(ConstantVelocityFinding::TwoSpeeds { direction }),
+        LineShape::Unchecked => Some(ConstantVelocityFinding::TwoSpeeds { direction }),
     }
 }
 

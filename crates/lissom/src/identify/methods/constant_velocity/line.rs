@@ -31,7 +31,7 @@ pub struct FrictionLine {
     /// Speeds that differ by 5 % or more.
     pub speeds: usize,
     /// Whether a line describes the points.
-    pub shape: Shape,
+    pub shape: LineShape,
     /// Coulomb friction from the slowest third of the speeds alone; `None` where these are all
     /// speeds, or fewer than two.
     pub slowest: Option<Estimate>,
@@ -39,7 +39,7 @@ pub struct FrictionLine {
 
 /// How the points lie about their line.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Shape {
+pub enum LineShape {
     /// Two speeds: nothing speaks for or against a line.
     Unchecked,
     /// Within their deviations.
@@ -68,7 +68,7 @@ impl FrictionLine {
     /// changes counts as a deviation: the curve goes on within the slowest third.
     pub fn near_rest(&self) -> Estimate {
         match (self.shape, self.slowest) {
-            (Shape::Concave { .. } | Shape::Convex { .. }, Some(slowest)) => {
+            (LineShape::Concave { .. } | LineShape::Convex { .. }, Some(slowest)) => {
                 let change = slowest.value - self.coulomb.value;
                 Estimate { std: slowest.std.hypot(0.5 * change), ..slowest }
             }
@@ -102,14 +102,14 @@ pub enum LineError {
 
 /// A point of the plot, magnitudes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Point {
+pub(super) struct SpeedPoint {
     pub(super) speed: Estimate,
     /// Torque (or force) that keeps up the speed.
     pub(super) drive: Estimate,
 }
 
 /// Polynomial through points by weighted least squares.
-struct Fit {
+struct LineFit {
     /// Coefficients in ascending powers of the speed.
     value: Vec<f64>,
     covariance: DMatrix<f64>,
@@ -125,7 +125,7 @@ struct Fit {
 }
 
 /// The line through `points`, `back_emf` taken off its slope.
-pub(super) fn line(points: &[Point], back_emf: f64) -> Result<FrictionLine, LineError> {
+pub(super) fn line(points: &[SpeedPoint], back_emf: f64) -> Result<FrictionLine, LineError> {
     let mut points = points.to_vec();
     points.sort_by(|a, b| a.speed.value.total_cmp(&b.speed.value));
     let starts = speeds(&points);
@@ -134,13 +134,14 @@ pub(super) fn line(points: &[Point], back_emf: f64) -> Result<FrictionLine, Line
         return Err(LineError::NoPoints);
     }
     let few = LineError::TooFewSpeeds { found: speeds };
-    let fit = if speeds < 2 { None } else { Fit::new(&points, 1) }.ok_or(few)?;
+    let fit = if speeds < 2 { None } else { LineFit::new(&points, 1) }.ok_or(few)?;
     let shape = shape(&points, &fit, speeds);
     // Two at least, and a third of them: the rest is what a curve bends away by.
     let slow = starts.get(starts.len().div_ceil(3).max(2));
-    let slowest = slow.and_then(|to| Fit::new(&points[..*to], 1)).map(|f| f.figure(0));
+    let slowest = slow.and_then(|to| LineFit::new(&points[..*to], 1)).map(|f| f.figure(0));
     let mut coulomb = fit.figure(0);
-    if let (Shape::Concave { .. } | Shape::Convex { .. }, Some(slowest)) = (shape, slowest) {
+    if let (LineShape::Concave { .. } | LineShape::Convex { .. }, Some(slowest)) = (shape, slowest)
+    {
         coulomb.std = coulomb.std.hypot(slowest.value - coulomb.value);
     }
     if coulomb.std.is_nan() || coulomb.std > coulomb.value.abs() {
@@ -160,7 +161,7 @@ pub(super) fn line(points: &[Point], back_emf: f64) -> Result<FrictionLine, Line
 }
 
 /// Where each speed begins among points in ascending order.
-fn speeds(points: &[Point]) -> Vec<usize> {
+fn speeds(points: &[SpeedPoint]) -> Vec<usize> {
     let mut starts: Vec<usize> = Vec::new();
     for (k, p) in points.iter().enumerate() {
         let from = starts.last().map(|s| points[*s].speed.value);
@@ -171,17 +172,17 @@ fn speeds(points: &[Point]) -> Vec<usize> {
     starts
 }
 
-fn shape(points: &[Point], line: &Fit, speeds: usize) -> Shape {
+fn shape(points: &[SpeedPoint], line: &LineFit, speeds: usize) -> LineShape {
     if speeds < 3 {
-        return Shape::Unchecked;
+        return LineShape::Unchecked;
     }
     // By the quadratic term; a sharper bend by what a cubic makes of rest, where it fits.
-    let parabola = Fit::new(points, 2).map(|p| {
+    let parabola = LineFit::new(points, 2).map(|p| {
         let (scale, freedom) = p.scale();
         (p.value[2] / (p.covariance[(2, 2)] * scale).sqrt(), freedom)
     });
     let cubic = || {
-        let cubic = Fit::new(points, 3).filter(|c| c.freedom >= 2 && c.rejected.is_none())?;
+        let cubic = LineFit::new(points, 3).filter(|c| c.freedom >= 2 && c.rejected.is_none())?;
         let bent = (cubic.value[0] - line.value[0]) / cubic.covariance[(0, 0)].sqrt();
         Some((bent, cubic.own_freedom()))
     };
@@ -192,18 +193,18 @@ fn shape(points: &[Point], line: &Fit, speeds: usize) -> Shape {
         if chance < REJECTED_CHANCE {
             let size = deviations.abs();
             return if deviations < 0.0 {
-                Shape::Concave { deviations: size }
+                LineShape::Concave { deviations: size }
             } else {
-                Shape::Convex { deviations: size }
+                LineShape::Convex { deviations: size }
             };
         }
     }
-    line.rejected.map_or(Shape::Straight, |rms| Shape::Scattered { rms })
+    line.rejected.map_or(LineShape::Straight, |rms| LineShape::Scattered { rms })
 }
 
-impl Fit {
+impl LineFit {
     /// `None` where the speeds do not carry the powers.
-    fn new(points: &[Point], degree: usize) -> Option<Self> {
+    fn new(points: &[SpeedPoint], degree: usize) -> Option<Self> {
         let own = Self::weighted(points, degree, 0.0)?;
         let freedom = own.freedom as f64;
         let reduced = own.chi_squared / freedom;
@@ -230,8 +231,8 @@ impl Fit {
     }
 
     /// The fit with `shared` added to the variance of every point.
-    fn weighted(points: &[Point], degree: usize, shared: f64) -> Option<Self> {
-        let most = |get: fn(&Point) -> f64| points.iter().map(get).fold(0.0, f64::max);
+    fn weighted(points: &[SpeedPoint], degree: usize, shared: f64) -> Option<Self> {
+        let most = |get: fn(&SpeedPoint) -> f64| points.iter().map(get).fold(0.0, f64::max);
         let (fastest, largest) = (most(|p| p.speed.value), most(|p| p.drive.value.abs()));
         let columns = degree + 1;
         let mut value = DVector::zeros(columns);

@@ -3,10 +3,10 @@ use super::*;
 /// Relative tolerance of closed forms.
 const CLOSED: f64 = 1e-9;
 
-fn points(list: &[(f64, f64, f64)]) -> Vec<Point> {
+fn points(list: &[(f64, f64, f64)]) -> Vec<SpeedPoint> {
     let exact = |value: f64| Estimate { value, std: 0.0 };
     list.iter()
-        .map(|&(speed, drive, std)| Point {
+        .map(|&(speed, drive, std)| SpeedPoint {
             speed: exact(speed),
             drive: Estimate { value: drive, std },
         })
@@ -31,7 +31,7 @@ fn a_line_through_equal_weights_is_the_closed_form() {
     // 3·FREEDOM degrees of freedom widen the interval a little.
     let wider = StudentsT::new(0.0, 1.0, 3.0 * FREEDOM).unwrap().inverse_cdf(0.975) / 1.959_964;
     close(found.viscous.std, 0.5_f64.sqrt() * wider);
-    assert_eq!((found.points, found.speeds, found.shape), (3, 3, Shape::Straight));
+    assert_eq!((found.points, found.speeds, found.shape), (3, 3, LineShape::Straight));
 }
 
 #[test]
@@ -64,7 +64,7 @@ fn scatter_alone_makes_the_interval_where_it_is_beyond_the_deviations() {
 fn exact_points_have_deviations_of_rounding() {
     let found = line(&points(&[(1.0, 3.0, 0.0), (2.0, 4.0, 0.0), (3.0, 5.0, 0.0)]), 0.0).unwrap();
     close(found.coulomb.value, 2.0);
-    assert!(found.coulomb.std < 1e-7 && found.shape == Shape::Straight, "{found:?}");
+    assert!(found.coulomb.std < 1e-7 && found.shape == LineShape::Straight, "{found:?}");
 }
 
 #[test]
@@ -74,12 +74,12 @@ fn a_parabola_and_a_falling_start_are_seen() {
         line(&points(&list), 0.0).unwrap()
     };
     let concave = of(&|x| 1.0 + x - 0.01 * x * x);
-    assert!(matches!(concave.shape, Shape::Concave { deviations } if deviations > 10.0));
+    assert!(matches!(concave.shape, LineShape::Concave { deviations } if deviations > 10.0));
     // Its slowest third: a line through 1, 2, 3 of the parabola meets rest at 1 + 0.01·10/3.
     close(concave.slowest.unwrap().value, 1.0 + 0.1 / 3.0);
     assert!(concave.coulomb.value > concave.slowest.unwrap().value);
     let falling = of(&|x| 1.0 + x + 0.3 * (-x).exp());
-    assert!(matches!(falling.shape, Shape::Convex { .. }), "{falling:?}");
+    assert!(matches!(falling.shape, LineShape::Convex { .. }), "{falling:?}");
 }
 
 #[test]

@@ -12,7 +12,7 @@ use crate::identify::prepare::run_analysis::RunAnalysis;
 use crate::identify::prepare::steady_points::SteadyPoint;
 use crate::record::Channels;
 use findings::findings;
-pub use line::{FrictionLine, LineError, Shape};
+pub use line::{FrictionLine, LineError, LineShape};
 pub(crate) use steady_friction::{only_constant_velocities, taken};
 
 /// Friction from steady velocities.
@@ -40,7 +40,7 @@ pub struct ConstantVelocity {
 /// stretch scatters by, coloured as that is; velocities have deviations too and enter through the
 /// slope. Where the points scatter about the line by more than they should, that scatter counts.
 ///
-/// What a line hides is tested for: [`Shape`].
+/// What a line hides is tested for: [`LineShape`].
 ///
 /// ```
 /// # use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
@@ -77,10 +77,10 @@ impl ConstantVelocity {
     pub(crate) fn of_points(channels: &Channels, points: Vec<SteadyPoint>) -> Self {
         let constant = channels.command.torque_per_command.unwrap_or(1.0);
         let direction = |sign: f64| {
-            let points: Vec<line::Point> = points
+            let points: Vec<line::SpeedPoint> = points
                 .iter()
                 .filter(|p| p.velocity.value * sign > 0.0)
-                .map(|p| line::Point {
+                .map(|p| line::SpeedPoint {
                     speed: p.velocity.scaled(sign),
                     drive: p.command.scaled(sign * constant),
                 })

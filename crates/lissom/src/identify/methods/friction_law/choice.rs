@@ -7,7 +7,7 @@ use crate::identify::estimate::Estimate;
 use crate::identify::methods::friction_law::described::Described;
 use crate::identify::methods::friction_law::held::Held;
 use crate::identify::methods::friction_law::law_term::LawTerm;
-use crate::identify::methods::friction_law::rows::{Block, Column, Cut, Sampled, fixed};
+use crate::identify::methods::friction_law::rows::{Column, Cut, PhaseBlock, Sampled, fixed};
 use crate::identify::methods::friction_law::thresholds::{
     AFTER_TRAVEL_FALLS_TO, LAG_FALLS_TO, LAG_KNOWN, TERMS_MOST,
 };
@@ -67,7 +67,7 @@ pub(super) struct Tried {
 /// and with which friction at rest stays positive, the one that does best on phases left out is taken.
 /// A test by deviations alone would take them all: in a log of seconds everything is significant.
 pub(super) fn choose(sampled: &Sampled<'_>, cut: &Cut, fastest: f64) -> Option<Choice> {
-    let mut search = Search::new(sampled, cut, fastest)?;
+    let mut search = LawSearch::new(sampled, cut, fastest)?;
     let simplest = search.solution.relative_residual;
     while search.taken.len() < TERMS_MOST && search.add_best() {}
     search.refine_near_rest();
@@ -88,11 +88,11 @@ pub(super) fn choose(sampled: &Sampled<'_>, cut: &Cut, fastest: f64) -> Option<C
     Some(Choice { fit, candidates: search.candidates, simplest, residual, beside, described })
 }
 
-pub(super) struct Search<'a> {
+pub(super) struct LawSearch<'a> {
     pub(super) sampled: &'a Sampled<'a>,
     pub(super) cut: Cut,
     pub(super) columns: Vec<Column>,
-    pub(super) blocks: Vec<Block>,
+    pub(super) blocks: Vec<PhaseBlock>,
     pub(super) terms: Vec<Term>,
     pub(super) solution: Solution,
     open: Vec<Tried>,
@@ -102,7 +102,7 @@ pub(super) struct Search<'a> {
     settled: bool,
 }
 
-impl<'a> Search<'a> {
+impl<'a> LawSearch<'a> {
     fn new(sampled: &'a Sampled<'a>, cut: &Cut, fastest: f64) -> Option<Self> {
         let first = fixed(sampled.campaign);
         let mut columns = vec![Column::Lag, Column::Root];
@@ -358,7 +358,7 @@ fn amplitude(s: &Solution, first: usize, count: usize) -> Estimate {
 }
 
 /// Least squares with a covariance by phases.
-pub(super) fn solved(blocks: &[Block], terms: &[Term]) -> Option<Solution> {
+pub(super) fn solved(blocks: &[PhaseBlock], terms: &[Term]) -> Option<Solution> {
     let mut clusters: Vec<Cluster> = Vec::new();
     let mut phase = None;
     for b in blocks {

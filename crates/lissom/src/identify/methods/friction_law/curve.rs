@@ -6,7 +6,7 @@ use num_complex::Complex64;
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::friction_law::choice::solved;
 use crate::identify::methods::friction_law::held::without_each;
-use crate::identify::methods::friction_law::rows::{Block, Column, Cut, Sampled, fixed, hat};
+use crate::identify::methods::friction_law::rows::{Column, Cut, PhaseBlock, Sampled, fixed, hat};
 use crate::identify::methods::friction_law::thresholds::KNOT_ROWS;
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::{Cluster, Solution, Term, coupled_tips, solve};
@@ -41,7 +41,7 @@ pub struct CurvePoint {
 /// A hat is one at its knot and zero at its neighbours, so that its coefficient is friction there.
 #[derive(Debug)]
 pub(crate) struct CurveSums {
-    blocks: Vec<Block>,
+    blocks: Vec<PhaseBlock>,
     /// Inertia and couplings, what is no friction by speed, hats forward, hats backward.
     terms: Vec<Term>,
     /// Of inertia and couplings.
@@ -121,7 +121,8 @@ impl CurveSums {
     pub(crate) fn beside_arm(&self, found: &OutputError) -> Option<Vec<CurvePoint>> {
         let known = self.known(&found.arm)?;
         let terms = &self.terms[self.linear..];
-        let blocks: Vec<Block> = self.blocks.iter().map(|b| Self::without(b, &known)).collect();
+        let blocks: Vec<PhaseBlock> =
+            self.blocks.iter().map(|b| Self::without(b, &known)).collect();
         let solution = solved(&blocks, terms)?;
         let by_phases = jackknife(&blocks, terms, &solution)?;
         let totals = totals(&self.blocks)?;
@@ -181,8 +182,8 @@ impl CurveSums {
         Some((squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt().max(1.0))
     }
 
-    fn without(block: &Block, known: &[(usize, f64)]) -> Block {
-        Block { cluster: without_linear(&block.cluster, known), ..*block }
+    fn without(block: &PhaseBlock, known: &[(usize, f64)]) -> PhaseBlock {
+        PhaseBlock { cluster: without_linear(&block.cluster, known), ..*block }
     }
 
     /// The curve of a solution whose last figures are the hats'.
@@ -218,7 +219,7 @@ fn without_linear(sums: &Cluster, known: &[(usize, f64)]) -> Cluster {
 }
 
 /// Sums of all blocks, forward and backward.
-fn totals(blocks: &[Block]) -> Option<[Cluster; 2]> {
+fn totals(blocks: &[PhaseBlock]) -> Option<[Cluster; 2]> {
     let width = blocks.first()?.cluster.products.ncols();
     let mut totals = [1.0, -1.0].map(|sign| Cluster::new(0, sign, width));
     for block in blocks {
@@ -229,7 +230,7 @@ fn totals(blocks: &[Block]) -> Option<[Cluster; 2]> {
 
 /// Variance of every figure by leaving out one group of slip phases after another: residuals within a
 /// group may belong together as they like, and a few phases that carry much count fully.
-fn jackknife(blocks: &[Block], terms: &[Term], full: &Solution) -> Option<Vec<f64>> {
+fn jackknife(blocks: &[PhaseBlock], terms: &[Term], full: &Solution) -> Option<Vec<f64>> {
     let phases = blocks.iter().map(|b| b.phase + 1).max()?;
     let groups = phases.min(MOST_GROUPS);
     let figures = without_each(blocks, terms, groups, |b| b.phase % groups)?;

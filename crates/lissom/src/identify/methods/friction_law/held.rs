@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::identify::methods::friction_law::rows::{Block, KINDS};
+use crate::identify::methods::friction_law::rows::{KINDS, PhaseBlock};
 use crate::identify::methods::regression::{Cluster, Term, solve};
 
 /// Phases are dealt to this many folds.
@@ -17,7 +17,7 @@ pub(super) struct Held {
 }
 
 impl Held {
-    pub(super) fn of(blocks: &[Block], terms: &[Term]) -> Option<Self> {
+    pub(super) fn of(blocks: &[PhaseBlock], terms: &[Term]) -> Option<Self> {
         let each = left_out(blocks, terms, FOLDS, |b| b.phase % FOLDS)?;
         let stretches = left_out(blocks, terms, KINDS, |b| b.kind)?.iter().sum();
         Some(Self { each, stretches })
@@ -39,13 +39,13 @@ impl Held {
 
 /// Squared residual of every block with the figures of the groups that it is not in.
 fn left_out(
-    blocks: &[Block],
+    blocks: &[PhaseBlock],
     terms: &[Term],
     groups: usize,
-    group: impl Fn(&Block) -> usize,
+    group: impl Fn(&PhaseBlock) -> usize,
 ) -> Option<Vec<f64>> {
     let figures = without_each(blocks, terms, groups, &group)?;
-    let cost = |b: &Block| {
+    let cost = |b: &PhaseBlock| {
         let value = figures[group(b)].as_ref();
         value.map_or(0.0, |v| squared(&b.cluster.products, terms, v, b.cluster.sign))
     };
@@ -54,10 +54,10 @@ fn left_out(
 
 /// Figures with one group of blocks after another left out; `None` of groups without blocks.
 pub(super) fn without_each(
-    blocks: &[Block],
+    blocks: &[PhaseBlock],
     terms: &[Term],
     groups: usize,
-    group: impl Fn(&Block) -> usize,
+    group: impl Fn(&PhaseBlock) -> usize,
 ) -> Option<Vec<Option<DVector<f64>>>> {
     let width = blocks.first()?.cluster.products.ncols();
     let empty = || [1.0, -1.0].map(|sign| Cluster::new(0, sign, width));

@@ -1,6 +1,6 @@
 //! The speed or the period of a term that was taken, to where least is left.
 
-use crate::identify::methods::friction_law::choice::{NEAR_REST, Search, solved};
+use crate::identify::methods::friction_law::choice::{LawSearch, NEAR_REST, solved};
 use crate::identify::methods::friction_law::law_term::LawTerm;
 use crate::identify::methods::friction_law::ripple;
 use crate::identify::methods::friction_law::rows::{Column, fixed};
@@ -16,7 +16,7 @@ const RIPPLE_LAST: f64 = 0.01;
 /// Most moves altogether.
 const RIPPLE_MOVES: usize = 16;
 
-impl Search<'_> {
+impl LawSearch<'_> {
     /// Moves the speed of a term near rest.
     pub(super) fn refine_near_rest(&mut self) {
         let Some(found) = self.taken.iter().position(|t| t.term.is_near_rest()) else { return };

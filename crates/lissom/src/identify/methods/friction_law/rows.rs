@@ -36,7 +36,7 @@ pub(super) enum Column {
 }
 
 /// Where a window lies.
-pub(super) struct Place {
+pub(super) struct WindowPlace {
     pub(super) run: usize,
     pub(super) phase: usize,
     pub(super) sign: f64,
@@ -53,7 +53,7 @@ pub(super) struct Cut {
 }
 
 impl Cut {
-    fn kind(&self, place: &Place) -> usize {
+    fn kind(&self, place: &WindowPlace) -> usize {
         let third = self.thirds.iter().filter(|t| place.speed > **t).count();
         (third * 2 + usize::from(place.angle > self.middle)) * 2 + usize::from(place.sign > 0.0)
     }
@@ -61,7 +61,7 @@ impl Cut {
 
 /// Sums of the windows of one slip phase that are of one kind.
 #[derive(Debug)]
-pub(super) struct Block {
+pub(super) struct PhaseBlock {
     pub(super) cluster: Cluster,
     /// Number of the phase.
     pub(super) phase: usize,
@@ -163,7 +163,7 @@ impl<'a> Sampled<'a> {
     }
 
     /// Where every window lies.
-    pub(super) fn places(&self) -> Vec<Place> {
+    pub(super) fn places(&self) -> Vec<WindowPlace> {
         let mut found = Vec::new();
         self.each(|run, phase, sign, k, window| {
             found.push(self.place(run, phase, sign, k + window.len() / 2));
@@ -171,9 +171,9 @@ impl<'a> Sampled<'a> {
         found
     }
 
-    fn place(&self, run: usize, phase: usize, sign: f64, sample: usize) -> Place {
+    fn place(&self, run: usize, phase: usize, sign: f64, sample: usize) -> WindowPlace {
         let speed = self.runs[run].velocity[sample].abs();
-        Place { run, phase, sign, speed, angle: self.campaign.runs[run].motor()[sample] }
+        WindowPlace { run, phase, sign, speed, angle: self.campaign.runs[run].motor()[sample] }
     }
 
     /// Calls `see` with every window's row: what the motor's regression has, then `columns`, then the
@@ -182,7 +182,7 @@ impl<'a> Sampled<'a> {
         &self,
         columns: &[Column],
         knots: &[f64],
-        mut see: impl FnMut(&Place, &[f64]),
+        mut see: impl FnMut(&WindowPlace, &[f64]),
     ) {
         let tips = coupled_tips(self.campaign);
         let functions: Vec<Vec<Vec<f64>>> =
@@ -204,9 +204,9 @@ impl<'a> Sampled<'a> {
     }
 
     /// The same, summed by phase and kind.
-    pub(super) fn blocks(&self, columns: &[Column], knots: &[f64], cut: &Cut) -> Vec<Block> {
+    pub(super) fn blocks(&self, columns: &[Column], knots: &[f64], cut: &Cut) -> Vec<PhaseBlock> {
         let width = fixed(self.campaign) + columns.len() + 1;
-        let mut blocks: Vec<Block> = Vec::new();
+        let mut blocks: Vec<PhaseBlock> = Vec::new();
         let mut first_of_phase = 0;
         self.rows(columns, knots, |place, row| {
             let kind = cut.kind(place);
@@ -217,13 +217,13 @@ impl<'a> Sampled<'a> {
             let at = same.map_or(blocks.len(), |i| first_of_phase + i);
             if at == blocks.len() {
                 let cluster = Cluster::new(place.run, place.sign, width);
-                blocks.push(Block { cluster, phase: place.phase, kind });
+                blocks.push(PhaseBlock { cluster, phase: place.phase, kind });
             }
             blocks[at].cluster.add(row);
         });
         // In columns by speed and angle noise is left: it hardly changes them.
         let own = fixed(self.campaign);
-        for Block { cluster, .. } in &mut blocks {
+        for PhaseBlock { cluster, .. } in &mut blocks {
             let of_row = &self.runs[cluster.run].noise;
             let noise = of_row.view((0, 0), (own, own)) * cluster.rows as f64;
             cluster.noise.view_mut((0, 0), (own, own)).copy_from(&noise);

@@ -2,7 +2,7 @@
 
 use crate::identify::methods::output_error::engine::budget::Budget;
 use crate::identify::methods::output_error::engine::coordinates::Body;
-use crate::identify::methods::output_error::engine::search::{Problem, is_possible};
+use crate::identify::methods::output_error::engine::search::{ReplayProblem, is_possible};
 use crate::identify::methods::output_error::engine::windows::widen;
 use crate::identify::methods::output_error::engine::{data, noise};
 use crate::identify::methods::output_error::thresholds::{LAST_STEP_FALL, LAST_STEPS_MOST};
@@ -25,7 +25,7 @@ pub(crate) fn follow(
     let sampling = Sampling { noise: &noise, blocks: &[], masks: &masks };
     // No limit is needed: each window has few unknowns and few steps.
     let budget = Budget::new(u64::MAX);
-    let problem = Problem {
+    let problem = ReplayProblem {
         campaign,
         parameters: &[],
         sampling,

@@ -7,7 +7,7 @@ use crate::identify::methods::output_error::found::{OutputError, OutputErrorStar
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::schedule::{Attempt, best};
 use crate::identify::methods::output_error::thresholds::{EVALUATIONS_MOST, WINDOW_WIDENING};
-use crate::identify::methods::output_error::undecided::{Known, undecided};
+use crate::identify::methods::output_error::undecided::{KnownParameters, undecided};
 use crate::identify::prepare::prepared::Prepared;
 use crate::replay::SensorNoise;
 
@@ -47,7 +47,7 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
     let undecided = undecided(&fitting, &fit);
     let noise = fit.noise.iter().map(|n| SensorNoise::gaussian(n.deviation())).collect();
     let mut found = fit.covariances(&undecided.sums);
-    let Known { parameters, covariance, open_by_damping } =
+    let KnownParameters { parameters, covariance, open_by_damping } =
         undecided.known(&fit.free, found.larger());
     let n = parameters.len();
     found.white.resize_mut(n, n, 0.0);

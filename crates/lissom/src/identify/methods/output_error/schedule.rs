@@ -11,7 +11,7 @@ use crate::identify::methods::output_error::engine::data::Masks;
 use crate::identify::methods::output_error::engine::windows::widen as widened;
 use crate::identify::methods::output_error::found::OutputErrorStart;
 use crate::identify::methods::output_error::model::describes::{is_left, stands};
-use crate::identify::methods::output_error::model::fit::{Fit, Report};
+use crate::identify::methods::output_error::model::fit::{ArmFit, Report};
 use crate::identify::methods::output_error::model::fitting::{Fitting, some};
 use crate::identify::methods::output_error::model::left_over::left_over;
 use crate::identify::methods::output_error::moves::dampers::{dampers_at_points, drop_dampers};
@@ -26,7 +26,7 @@ use crate::replay::{ModalArm, Oscillator, Parameter};
 
 /// Result of a search from one starting arm.
 pub(super) struct Attempt {
-    pub(super) fit: Fit,
+    pub(super) fit: ArmFit,
     pub(super) report: Report,
     /// Samples that are used if readings that only repeat a step of their sensor are left out.
     pub(super) without_repeats: Option<Vec<Masks>>,
@@ -105,7 +105,12 @@ fn attempt(fitting: &Fitting<'_>, arm: &ModalArm, first_window_s: Option<f64>) -
 }
 
 /// Searches on the first windows, which are short; `None` if no window can be cut.
-fn begin(fitting: &Fitting<'_>, arm: &ModalArm, window_s: f64, report: &mut Report) -> Option<Fit> {
+fn begin(
+    fitting: &Fitting<'_>,
+    arm: &ModalArm,
+    window_s: f64,
+    report: &mut Report,
+) -> Option<ArmFit> {
     let mut fit = fitting.first_fit(arm, window_s)?;
     fitting.search(&mut fit, report);
     make(modes::grow, fitting, &mut fit, report);
@@ -114,10 +119,10 @@ fn begin(fitting: &Fitting<'_>, arm: &ModalArm, window_s: f64, report: &mut Repo
 }
 
 /// A step of the schedule.
-type Move = fn(&Fitting<'_>, &mut Fit, &mut Report);
+type Move = fn(&Fitting<'_>, &mut ArmFit, &mut Report);
 
 /// Makes a step, unless all evaluations allowed are made.
-fn make(step: Move, fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+fn make(step: Move, fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     if !fitting.budget.is_spent() {
         step(fitting, fit, report);
     }
@@ -125,7 +130,7 @@ fn make(step: Move, fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
 
 /// Lengthens the windows to whole runs, as far as the arm describes them and neighbouring motions do not grow apart.
 /// Parameters are added if the residual grows.
-fn widen(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+fn widen(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     let longest = fitting.longest_s();
     let mut factor = fitting.widening;
     while !fit.whole_runs && !fitting.budget.is_spent() {
@@ -159,7 +164,7 @@ fn widen(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
 }
 
 /// Continues to whole runs and the sensors' steps.
-fn go_on(fitting: &Fitting<'_>, mut fit: Fit, mut report: Report) -> Attempt {
+fn go_on(fitting: &Fitting<'_>, mut fit: ArmFit, mut report: Report) -> Attempt {
     make(widen, fitting, &mut fit, &mut report);
     make(modes::grow, fitting, &mut fit, &mut report);
     make(settle, fitting, &mut fit, &mut report);
@@ -169,9 +174,10 @@ fn go_on(fitting: &Fitting<'_>, mut fit: Fit, mut report: Report) -> Attempt {
 }
 
 /// Chooses the kinds of dampers, and between point masses and independent modes.
-fn settle(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
-    let dampers =
-        |fit: &Fit| fit.free.iter().copied().filter(|p| p.is_damper()).collect::<Vec<Parameter>>();
+fn settle(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
+    let dampers = |fit: &ArmFit| {
+        fit.free.iter().copied().filter(|p| p.is_damper()).collect::<Vec<Parameter>>()
+    };
     make(tighten, fitting, fit, report);
     fit.body.allow_dampers_at_points();
     let added = report.added.len();

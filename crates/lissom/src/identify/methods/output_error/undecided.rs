@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::identify::methods::output_error::model::fit::{Extension, Fit};
+use crate::identify::methods::output_error::model::fit::{ArmFit, Extension};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::moves::extend::candidates;
 use crate::identify::methods::output_error::moves::scores::all_scores;
@@ -27,7 +27,7 @@ pub(crate) struct Undecided {
 }
 
 /// Parameters and their covariance.
-pub(crate) struct Known {
+pub(crate) struct KnownParameters {
     /// The free parameters, then dampers of another kind that may be present instead.
     pub(crate) parameters: Vec<Parameter>,
     pub(crate) covariance: DMatrix<f64>,
@@ -37,7 +37,7 @@ pub(crate) struct Known {
 
 impl Undecided {
     /// Adds the undecided terms to the covariance `decided` of the free parameters.
-    pub(crate) fn known(&self, free: &[Parameter], decided: DMatrix<f64>) -> Known {
+    pub(crate) fn known(&self, free: &[Parameter], decided: DMatrix<f64>) -> KnownParameters {
         let mut covariance = decided;
         for moved in &self.moved {
             covariance.ger(1.0, moved, moved, 1.0);
@@ -58,7 +58,7 @@ impl Undecided {
         let longer =
             |i: &usize| (covariance[(*i, *i)] / before[*i]).sqrt() >= OTHER_DAMPING_REPORTED;
         let open_by_damping = (0..free.len()).filter(longer).map(|i| free[i]).collect();
-        Known { parameters, covariance, open_by_damping }
+        KnownParameters { parameters, covariance, open_by_damping }
     }
 }
 
@@ -100,7 +100,7 @@ impl OtherKind {
 }
 
 /// Groups that are not free and whose presence the samples do not decide.
-pub(crate) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Undecided {
+pub(crate) fn undecided(fitting: &Fitting<'_>, fit: &ArmFit) -> Undecided {
     let (sums, promises) = all_scores(fitting, fit, &candidates(fitting, fit));
     let jacobian = fit.body.jacobian(&fit.free);
     let speaking = promises.iter().filter(|p| p.deviations() > SIGN_SHOWN);
@@ -131,7 +131,7 @@ pub(crate) fn undecided(fitting: &Fitting<'_>, fit: &Fit) -> Undecided {
 /// Values of a group's dampers if they replace all others \[1/s\]: those for which the free ones become zero, to
 /// first order. `slopes` has the changes of the free parameters by each of the group. `None` for other groups.
 fn in_place_of_others(
-    fit: &Fit,
+    fit: &ArmFit,
     group: &[Extension],
     slopes: &DMatrix<f64>,
 ) -> Option<DVector<f64>> {

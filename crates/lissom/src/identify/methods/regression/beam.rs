@@ -9,7 +9,7 @@ use crate::eigenvalues::eigenvalues;
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::methods::regression::motor_rows::behind;
 use crate::identify::methods::regression::normal::{Cluster, Rows, Term, solve};
-use crate::identify::methods::regression::row_noise::{Part, products};
+use crate::identify::methods::regression::row_noise::{ChannelPart, products};
 use crate::identify::methods::regression::scan::{Candidate, Scan, scan};
 use crate::identify::methods::regression::thresholds::WINDOW_SYSTEMATIC;
 use crate::identify::methods::regression::window::{WINDOW_STEP, Weights, Window};
@@ -223,8 +223,8 @@ impl BeamEquation<'_> {
         let tips = &self.campaign.channels.tips;
         let (n, own) = (tips.len(), self.tip);
         let deflection = |j: usize| tips[j].quantity == TipQuantity::Deflection;
-        let mut of_motor: Vec<Part<'_>> = Vec::new();
-        let mut of_tips: Vec<Vec<Part<'_>>> = vec![Vec::new(); n];
+        let mut of_motor: Vec<ChannelPart<'_>> = Vec::new();
+        let mut of_tips: Vec<Vec<ChannelPart<'_>>> = vec![Vec::new(); n];
         for (j, of_tip) in of_tips.iter_mut().enumerate() {
             of_tip.push((j, &window.value, -1.0));
             if !deflection(j) {

@@ -11,7 +11,7 @@ use crate::identify::methods::regression::normal::{Cluster, Rows};
 use crate::identify::methods::regression::phases::{
     LEAST_SAMPLES, LEAST_SMOOTH, Phase, needed_smoothing, unreversed_phases,
 };
-use crate::identify::methods::regression::row_noise::{Part, products};
+use crate::identify::methods::regression::row_noise::{ChannelPart, products};
 use crate::identify::methods::regression::thresholds::SURE_SIGN;
 use crate::identify::methods::regression::window::{SMOOTHED_PART, WINDOW_STEP, Window};
 use crate::identify::prepare::run_noise::RunNoise;
@@ -181,7 +181,7 @@ impl MotorEquation<'_> {
     /// What noise adds to a row's products, in expectation.
     pub(crate) fn noise(&self, of_run: &RunNoise) -> DMatrix<f64> {
         let window = self.window;
-        let mut of_motor: Vec<Part<'_>> =
+        let mut of_motor: Vec<ChannelPart<'_>> =
             vec![(INERTIA, &window.second, 1.0), (VISCOUS, &window.first, -1.0)];
         let mut channels = Vec::with_capacity(1 + self.tips.len());
         for (place, &i) in self.tips.iter().enumerate() {
@@ -189,7 +189,7 @@ impl MotorEquation<'_> {
             if self.campaign.channels.tips[i].quantity != TipQuantity::Deflection {
                 of_motor.push((column, &window.value, 1.0));
             }
-            let of_tip: Vec<Part<'_>> = vec![(column, &window.value, -1.0)];
+            let of_tip: Vec<ChannelPart<'_>> = vec![(column, &window.value, -1.0)];
             channels.push((of_run.tips[i], of_tip));
         }
         channels.push((of_run.motor, of_motor));

@@ -146,7 +146,7 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
     let factors = [-1.0, 0.0, 1.0].map(|sign| terms.iter().map(|t| t.factor(sign)).collect());
     let parts = || {
         let with_rows = clusters.iter().filter(|c| c.rows > 0);
-        with_rows.map(|cluster| Part::of(cluster, &columns, &factors))
+        with_rows.map(|cluster| NormalPart::of(cluster, &columns, &factors))
     };
     let rows: usize = clusters.iter().map(|c| c.rows).sum();
     let power: f64 = clusters.iter().map(|c| c.products[(right_column, right_column)]).sum();
@@ -235,13 +235,13 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
 }
 
 /// What a cluster adds to the normal equations of some terms.
-struct Part<'a> {
+struct NormalPart<'a> {
     cluster: &'a Cluster,
     columns: &'a [usize],
     factors: &'a [f64],
 }
 
-impl<'a> Part<'a> {
+impl<'a> NormalPart<'a> {
     /// With the terms' factors backward, without a direction and forward.
     fn of(cluster: &'a Cluster, columns: &'a [usize], factors: &'a [Vec<f64>; 3]) -> Self {
         let [backward, none, forward] = factors;

@@ -5,12 +5,12 @@ use nalgebra::DMatrix;
 use crate::identify::methods::regression::window::dot;
 
 /// A column's weights on the samples of a channel, and their sign.
-pub(super) type Part<'a> = (usize, &'a [f64], f64);
+pub(super) type ChannelPart<'a> = (usize, &'a [f64], f64);
 
 /// Expected products of `columns` columns, each channel given by its noise's deviation and its parts.
 pub(super) fn products<'a>(
     columns: usize,
-    channels: impl IntoIterator<Item = (f64, Vec<Part<'a>>)>,
+    channels: impl IntoIterator<Item = (f64, Vec<ChannelPart<'a>>)>,
 ) -> DMatrix<f64> {
     let mut sum = DMatrix::zeros(columns, columns);
     for (std, parts) in channels {

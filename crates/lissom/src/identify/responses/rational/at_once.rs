@@ -40,7 +40,7 @@ pub(crate) fn fit_at_once(
     let data = Data::new(omega_rad_s, tips)?;
     let poles = start.poles.len();
     let alone = solve(motor, &start.modal_poles())?;
-    let mut problem = Problem {
+    let mut problem = JointProblem {
         tips: &data,
         motor,
         modes: &start.mode_poles,
@@ -54,11 +54,11 @@ pub(crate) fn fit_at_once(
     };
     let minimal = |problem| LevenbergMarquardt::new().with_patience(50).minimize(problem).0;
     problem = minimal(problem);
-    let delayed = Problem { x: problem.x.push(0.0), ..problem.clone() };
+    let delayed = JointProblem { x: problem.x.push(0.0), ..problem.clone() };
     let delayed = minimal(delayed);
     if delayed.information()? + CRITERION_CALLED_FOR < problem.information()? {
         let left = delayed.linear()?.motor.weighted_rms();
-        problem = minimal(Problem { motor_weight: 1.0 / left.max(1.0), ..delayed });
+        problem = minimal(JointProblem { motor_weight: 1.0 / left.max(1.0), ..delayed });
     }
     problem.finished(tips, start)
 }
@@ -66,7 +66,7 @@ pub(crate) fn fit_at_once(
 /// Unknowns: ln ω_k, ζ_k of each pole, then a delay in radians at the motor's highest frequency, if any. What
 /// is linear is solved for.
 #[derive(Clone)]
-struct Problem<'a> {
+struct JointProblem<'a> {
     tips: &'a Data,
     motor: &'a MotorData,
     /// Poles through which the motor is coupled.
@@ -84,7 +84,7 @@ struct Linear {
     left: DVector<f64>,
 }
 
-impl Problem<'_> {
+impl JointProblem<'_> {
     fn poles(&self) -> Vec<Pole> {
         let pole =
             |k: usize| Pole { omega_rad_s: self.x[2 * k].exp(), damping_ratio: self.x[2 * k + 1] };
@@ -199,7 +199,7 @@ impl Problem<'_> {
     }
 }
 
-impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
+impl LeastSquaresProblem<f64, Dyn, Dyn> for JointProblem<'_> {
     type ResidualStorage = Owned<f64, Dyn>;
     type JacobianStorage = Owned<f64, Dyn, Dyn>;
     type ParameterStorage = Owned<f64, Dyn>;

@@ -89,7 +89,7 @@ pub fn fit_beam(omega_rad_s: &[f64], tips: &[TipData]) -> Option<BeamFit> {
         return None;
     }
     let data = Data::new(omega_rad_s, tips)?;
-    let mut best: Option<(f64, Problem)> = None;
+    let mut best: Option<(f64, BeamProblem)> = None;
     let mut poles: Vec<Pole> = Vec::new();
     for count in 1..=MODES_MOST {
         let parameters = count * (2 + tips.len());
@@ -99,7 +99,7 @@ pub fn fit_beam(omega_rad_s: &[f64], tips: &[TipData]) -> Option<BeamFit> {
         let Some(start) = data.best_start(&poles) else { break };
         poles.push(start);
         let residues = data.residues(&poles)?;
-        let problem = Problem { data: &data, x: pack(&poles, &residues) };
+        let problem = BeamProblem { data: &data, x: pack(&poles, &residues) };
         let (solved, _) = LevenbergMarquardt::new().with_patience(200).minimize(problem);
         poles = solved.poles();
         let low = omega_rad_s.iter().copied().fold(f64::INFINITY, f64::min);
@@ -213,12 +213,12 @@ fn pack(poles: &[Pole], residues: &[DVector<f64>]) -> DVector<f64> {
     DVector::from_iterator(poles.len() * (2 + residues.len()), head.chain(tail))
 }
 
-struct Problem<'a> {
+struct BeamProblem<'a> {
     data: &'a Data,
     x: DVector<f64>,
 }
 
-impl Problem<'_> {
+impl BeamProblem<'_> {
     fn modes(&self) -> usize {
         self.x.len() / (2 + self.data.forms.len())
     }
@@ -262,7 +262,7 @@ impl Problem<'_> {
     }
 }
 
-impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
+impl LeastSquaresProblem<f64, Dyn, Dyn> for BeamProblem<'_> {
     type ResidualStorage = Owned<f64, Dyn>;
     type JacobianStorage = Owned<f64, Dyn, Dyn>;
     type ParameterStorage = Owned<f64, Dyn>;
@@ -338,7 +338,7 @@ impl BeamFit {
     }
 }
 
-fn finish(data: &Data, tips: &[TipData], solved: &Problem) -> Option<BeamFit> {
+fn finish(data: &Data, tips: &[TipData], solved: &BeamProblem) -> Option<BeamFit> {
     let jacobian = solved.jacobian()?;
     let residuals = solved.residuals()?;
     let free = residuals.len().saturating_sub(solved.x.len()).max(1) as f64;

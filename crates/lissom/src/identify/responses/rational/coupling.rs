@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
-use crate::identify::responses::rational::motor::{MotorData, Rows, least_squares};
+use crate::identify::responses::rational::motor::{MotorData, ResponseRows, least_squares};
 use crate::identify::responses::rational::shared_poles::SharedPoles;
 use crate::identify::responses::rational::{Pole, information};
 use crate::identify::responses::thresholds::MOTOR_DELAY_CALLED_FOR;
@@ -100,10 +100,10 @@ struct Values {
     delay_s: Option<f64>,
 }
 
-struct Fitted {
+struct FittedCoupling {
     values: Values,
     /// Slopes of the model by the unknowns over deviations, two rows a frequency; a row more of each ζ_w.
-    rows: Rows,
+    rows: ResponseRows,
     /// (AᵀA)⁻¹ of the rows.
     inverse: DMatrix<f64>,
     weighted_rms: f64,
@@ -142,7 +142,7 @@ impl<'a> Motor<'a> {
 
     /// Residuals and slopes over deviations; a ζ_w has a row of its own, in which `spread` deviations of the
     /// responses count as one.
-    fn rows(&self, values: &Values, spread: f64) -> Rows {
+    fn rows(&self, values: &Values, spread: f64) -> ResponseRows {
         let frequencies = self.data.response.len();
         let free: Vec<usize> = self.free().collect();
         let (torques, delays) = (values.torque.len(), usize::from(values.delay_s.is_some()));
@@ -179,7 +179,7 @@ impl<'a> Motor<'a> {
             a[(2 * frequencies + row, torques + row)] = weight;
             b[2 * frequencies + row] = weight * (self.fit.within[k].value - values.within[k]);
         }
-        Rows { a, b, weights }
+        ResponseRows { a, b, weights }
     }
 
     /// The torque per angle by linear least squares, each response with the deviation that it would have if
@@ -190,8 +190,9 @@ impl<'a> Motor<'a> {
             within: self.fit.within.iter().map(|w| w.value).collect(),
             delay_s: None,
         };
-        let mut rows =
-            Rows::of_shapes(self.data, self.poles.len(), 0.0, |k, w| self.shape(&start, k, w))?;
+        let mut rows = ResponseRows::of_shapes(self.data, self.poles.len(), 0.0, |k, w| {
+            self.shape(&start, k, w)
+        })?;
         for (i, (&w, r)) in self.data.omega_rad_s.iter().zip(&self.data.response).enumerate() {
             let Some(before) = before else { break };
             let measured = self.data.torque_per_command / r.value;
@@ -213,7 +214,7 @@ impl<'a> Motor<'a> {
     }
 
     /// The most likely, from the start that comes farthest.
-    fn fitted(&self, with_delay: bool) -> Option<Fitted> {
+    fn fitted(&self, with_delay: bool) -> Option<FittedCoupling> {
         let delay_s = with_delay.then_some(0.0);
         let ends = self.starts().into_iter().filter_map(|start| {
             let (values, rows) = self.refined(Values { delay_s, ..start }, 1.0)?;
@@ -234,7 +235,7 @@ impl<'a> Motor<'a> {
                 let unknowns = values.torque.len() + usize::from(with_delay);
                 let criterion = information(2 * frequencies, unknowns, 2.0 * rows.b.norm_squared());
                 let sound = weighted_rms.is_finite();
-                let fitted = Fitted { values, rows, inverse, weighted_rms, criterion };
+                let fitted = FittedCoupling { values, rows, inverse, weighted_rms, criterion };
                 return sound.then_some(fitted);
             }
             spread = weighted_rms.max(1.0);
@@ -243,7 +244,7 @@ impl<'a> Motor<'a> {
     }
 
     /// Gauss-Newton.
-    fn refined(&self, mut values: Values, spread: f64) -> Option<(Values, Rows)> {
+    fn refined(&self, mut values: Values, spread: f64) -> Option<(Values, ResponseRows)> {
         let mut rows = self.rows(&values, spread);
         for _ in 0..STEPS {
             let (step, _) = least_squares(&rows.a, &rows.b)?;
@@ -280,7 +281,7 @@ impl<'a> Motor<'a> {
     }
 
     /// Slopes of the model by the poles' unknowns, over deviations.
-    fn by_poles(&self, values: &Values, rows: &Rows) -> DMatrix<f64> {
+    fn by_poles(&self, values: &Values, rows: &ResponseRows) -> DMatrix<f64> {
         let unknowns = self.fit.damping.unknowns();
         let count = self.fit.poles.len() * unknowns;
         let mut slopes = DMatrix::zeros(rows.a.nrows(), count);
@@ -304,8 +305,8 @@ impl<'a> Motor<'a> {
         slopes
     }
 
-    fn figures(&self, fitted: &Fitted) -> Option<CouplingFit> {
-        let Fitted { values, rows, inverse, .. } = fitted;
+    fn figures(&self, fitted: &FittedCoupling) -> Option<CouplingFit> {
+        let FittedCoupling { values, rows, inverse, .. } = fitted;
         let stretch = 0.5 * fitted.weighted_rms.max(1.0).powi(2);
         let slopes = self.by_poles(values, rows);
         let moved = -(inverse * rows.a.tr_mul(&slopes));
@@ -337,8 +338,8 @@ impl<'a> Motor<'a> {
     }
 
     /// Of both shapes of friction left in, what the residual has of it beside all unknowns, in deviations.
-    fn friction_left(&self, fitted: &Fitted, slopes: &DMatrix<f64>) -> f64 {
-        let Fitted { values, rows, .. } = fitted;
+    fn friction_left(&self, fitted: &FittedCoupling, slopes: &DMatrix<f64>) -> f64 {
+        let FittedCoupling { values, rows, .. } = fitted;
         let (unknowns, poles) = (rows.a.ncols(), slopes.ncols());
         let mut all = DMatrix::zeros(rows.a.nrows(), unknowns + poles);
         all.columns_mut(0, unknowns).copy_from(&rows.a);

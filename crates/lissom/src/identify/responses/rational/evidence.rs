@@ -4,7 +4,7 @@ use crate::identify::estimate::Estimate;
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::Pole;
 use crate::identify::responses::rational::pole_damping::Damping;
-use crate::identify::responses::rational::shared_poles::{Search, SharedPoles, best_near, fit};
+use crate::identify::responses::rational::shared_poles::{PoleSearch, SharedPoles, best_near, fit};
 use crate::identify::responses::rational::shared_poles_error::SharedPolesError;
 use crate::identify::responses::rational::weighted::Weighted;
 use crate::identify::responses::thresholds::{CRITERION_CALLED_FOR, POLES_IN_VAIN};
@@ -23,7 +23,7 @@ pub fn fit_shared_poles_by_evidence(
     most: usize,
     damping: Damping,
 ) -> Result<SharedPoles, SharedPolesError> {
-    by_evidence(&Weighted::new(omega_rad_s, outputs)?, most, damping, Search::Thorough)
+    by_evidence(&Weighted::new(omega_rad_s, outputs)?, most, damping, PoleSearch::Thorough)
 }
 
 /// The same with [`Damping::Small`], and where the data call for it with a delay of each output, or with terms
@@ -37,7 +37,7 @@ pub(crate) fn fit_shared_poles_with_delays(
     most: usize,
 ) -> Result<SharedPoles, SharedPolesError> {
     let data = Weighted::new(omega_rad_s, outputs)?;
-    let plain = by_evidence(&data, most, Damping::Small, Search::Thorough)?;
+    let plain = by_evidence(&data, most, Damping::Small, PoleSearch::Thorough)?;
     if left_of(&data, &plain) < ROUNDING {
         return Ok(plain);
     }
@@ -45,7 +45,7 @@ pub(crate) fn fit_shared_poles_with_delays(
     let most = plain.poles.len();
     let called_for = |f: &SharedPoles| f.criterion < plain.criterion - CRITERION_CALLED_FOR;
     let fitted = |data: &Weighted, damping: Damping| {
-        by_evidence(data, most, damping, Search::Quick).ok().filter(called_for)
+        by_evidence(data, most, damping, PoleSearch::Quick).ok().filter(called_for)
     };
     let late = fitted(&data.with_delays(), Damping::Small);
     let within = fitted(&data, Damping::Within);
@@ -80,7 +80,7 @@ fn by_evidence(
     data: &Weighted,
     most: usize,
     damping: Damping,
-    search: Search,
+    search: PoleSearch,
 ) -> Result<SharedPoles, SharedPolesError> {
     let mut best = fit(data, 1, damping, search);
     let mut in_vain = 0;

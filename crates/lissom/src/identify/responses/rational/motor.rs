@@ -151,14 +151,14 @@ fn coupling_shape(pole: &Pole, omega: f64) -> Complex64 {
 }
 
 /// The equation in its unknowns J, V and c_k: two rows a frequency, real part first.
-pub(super) struct Rows {
+pub(super) struct ResponseRows {
     pub(super) a: DMatrix<f64>,
     pub(super) b: DVector<f64>,
     /// One over the deviation of the torque per angle, of each frequency.
     pub(super) weights: Vec<f64>,
 }
 
-impl Rows {
+impl ResponseRows {
     /// Responses are trusted to the share `floor` of their size at best. `None` where there are too few.
     pub(super) fn new(data: &MotorData, poles: &[Pole], floor: f64) -> Option<Self> {
         Self::of_shapes(data, poles.len(), floor, |k, w| coupling_shape(&poles[k], w))
@@ -240,7 +240,7 @@ impl Solution {
 }
 
 pub(super) fn solve(data: &MotorData, poles: &[Pole]) -> Option<Solution> {
-    let rows = Rows::new(data, poles, RESPONSE_FLOOR)?;
+    let rows = ResponseRows::new(data, poles, RESPONSE_FLOOR)?;
     let (value, covariance) = rows.solved()?;
     let left = &rows.b - &rows.a * &value;
     Some(Solution { value, covariance, left })

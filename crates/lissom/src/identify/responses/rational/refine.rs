@@ -27,7 +27,7 @@ const STILL: f64 = 1e-9;
 const FARTHEST: f64 = 0.5;
 
 /// Poles with the residues that are best at them.
-pub(super) struct Point {
+pub(super) struct PolePoint {
     pub(super) poles: Vec<Pole>,
     /// Of output i (outer): `ρ_ik = r_ik/ω_k²` of each pole k, then κ_ik of each where the residues have terms in
     /// s, then the delay not yet taken out where one is looked for, in 1/ω of the highest frequency.
@@ -52,7 +52,7 @@ pub(super) fn refined_with_delays(
     data: &mut Weighted,
     mut poles: Vec<Pole>,
     damping: Damping,
-) -> Option<Point> {
+) -> Option<PolePoint> {
     let highest = data.range().1;
     for _ in 0..TURNS {
         let point = refined(data, poles, damping)?;
@@ -78,13 +78,17 @@ pub(super) fn refined_with_delays(
 
 /// Gauss-Newton on the poles, the gains being linear (variable projection), from `poles`. `None` where two
 /// poles have come together.
-pub(super) fn refined(data: &Weighted, mut poles: Vec<Pole>, damping: Damping) -> Option<Point> {
+pub(super) fn refined(
+    data: &Weighted,
+    mut poles: Vec<Pole>,
+    damping: Damping,
+) -> Option<PolePoint> {
     if damping == Damping::None {
         for pole in &mut poles {
             pole.damping_ratio = 0.0;
         }
     }
-    let mut point = Point::new(data, poles, damping)?;
+    let mut point = PolePoint::new(data, poles, damping)?;
     for _ in 0..STEPS {
         let step = point.normal.clone().cholesky()?.solve(&point.right);
         let promised = step.dot(&point.right);
@@ -93,7 +97,7 @@ pub(super) fn refined(data: &Weighted, mut poles: Vec<Pole>, damping: Damping) -
         }
         let mut share = (LARGEST / largest(&step, damping)).min(1.0);
         let halved = (0..HALVINGS).find_map(|_| {
-            let found = Point::new(data, point.moved(&step, share, damping), damping);
+            let found = PolePoint::new(data, point.moved(&step, share, damping), damping);
             share *= 0.5;
             found.filter(|f| f.cost < point.cost)
         });
@@ -105,7 +109,7 @@ pub(super) fn refined(data: &Weighted, mut poles: Vec<Pole>, damping: Damping) -
         return Some(point);
     }
     point.poles.sort_by(|a, b| a.omega_rad_s.total_cmp(&b.omega_rad_s));
-    Point::new(data, point.poles, damping)
+    PolePoint::new(data, point.poles, damping)
 }
 
 /// Largest change of ln ω in a step.
@@ -113,7 +117,7 @@ fn largest(step: &DVector<f64>, damping: Damping) -> f64 {
     step.iter().step_by(damping.unknowns()).map(|s| s.abs()).fold(0.0, f64::max)
 }
 
-impl Point {
+impl PolePoint {
     pub(super) fn new(data: &Weighted, poles: Vec<Pole>, damping: Damping) -> Option<Self> {
         let (count, unknowns) = (poles.len(), poles.len() * damping.unknowns());
         let columns = columns(data, &poles, damping);

@@ -28,7 +28,7 @@ const LEAST_DAMPING: f64 = 1e-5;
 /// IEEE Trans. Power Delivery 14 (1999); relaxed: B. Gustavsen, ibid. 21 (2006); outputs one by one:
 /// D. Deschrijver et al., IEEE Microw. Wireless Compon. Lett. 18 (2008).
 pub(super) fn relocated(data: &Weighted, poles: &[Pole]) -> Option<Vec<Pole>> {
-    let basis = Basis::new(data, poles);
+    let basis = PoleBasis::new(data, poles);
     let unknowns = 2 * poles.len() + 1;
     let each = data.each(2 * unknowns, |output| without_numerator(data, &basis, output))?;
     let mut normal = each.into_iter().reduce(|a, b| a + b)?;
@@ -42,11 +42,11 @@ pub(super) fn relocated(data: &Weighted, poles: &[Pole]) -> Option<Vec<Pole>> {
 }
 
 /// The poles' basis on the frequencies: `ω_k²/D_k` and `s·ω_k/D_k`, real parts above imaginary ones.
-struct Basis {
+struct PoleBasis {
     columns: DMatrix<f64>,
 }
 
-impl Basis {
+impl PoleBasis {
     fn new(data: &Weighted, poles: &[Pole]) -> Self {
         let points = data.omega.len();
         let mut columns = Vec::with_capacity(4 * points * poles.len());
@@ -70,7 +70,7 @@ impl Basis {
 }
 
 /// Normal matrix of σ's coefficients from one output, its own numerator eliminated.
-fn without_numerator(data: &Weighted, basis: &Basis, output: &Output) -> Option<DMatrix<f64>> {
+fn without_numerator(data: &Weighted, basis: &PoleBasis, output: &Output) -> Option<DMatrix<f64>> {
     let (points, own) = (data.omega.len(), basis.columns.ncols());
     let all = 2 * own + 1;
     let mut rows = Vec::with_capacity(2 * points * all);

@@ -6,7 +6,7 @@ use num_complex::Complex64;
 use crate::identify::estimate::Estimate;
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::pole_damping::Damping;
-use crate::identify::responses::rational::refine::{Point, refined, refined_with_delays};
+use crate::identify::responses::rational::refine::{PolePoint, refined, refined_with_delays};
 use crate::identify::responses::rational::relocate::relocated;
 use crate::identify::responses::rational::shared_poles_error::SharedPolesError;
 use crate::identify::responses::rational::weighted::Weighted;
@@ -97,12 +97,12 @@ pub fn fit_shared_poles(
     modes: usize,
     damping: Damping,
 ) -> Result<SharedPoles, SharedPolesError> {
-    fit(&Weighted::new(omega_rad_s, outputs)?, modes, damping, Search::Thorough)
+    fit(&Weighted::new(omega_rad_s, outputs)?, modes, damping, PoleSearch::Thorough)
 }
 
 /// How poles are looked for.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Search {
+pub(super) enum PoleSearch {
     /// All at once and, where much is left, also one after another.
     Thorough,
     /// One after another only where all at once comes to nothing.
@@ -113,7 +113,7 @@ pub(super) fn fit(
     data: &Weighted,
     modes: usize,
     damping: Damping,
-    search: Search,
+    search: PoleSearch,
 ) -> Result<SharedPoles, SharedPolesError> {
     if modes == 0 {
         return Err(SharedPolesError::NoPoles);
@@ -124,14 +124,14 @@ pub(super) fn fit(
     if unknowns >= readings || 2 * modes > data.omega.len() {
         return Err(SharedPolesError::TooFew { unknowns, readings });
     }
-    let found = |at: Option<(Weighted, Point)>| {
+    let found = |at: Option<(Weighted, PolePoint)>| {
         at.and_then(|(data, point)| SharedPoles::of(&data, point, damping))
     };
     // Vector fitting has two unknowns of each pole in every output, and two of each in σ.
     let together = 4 * modes < 2 * data.omega.len();
     let together = together.then(|| found(relocated_and_refined(data, modes, damping))).flatten();
     if let Some(fit) = &together
-        && (fit.weighted_rms < POOR_FIT || search == Search::Quick)
+        && (fit.weighted_rms < POOR_FIT || search == PoleSearch::Quick)
     {
         return together.ok_or(SharedPolesError::NotFound { modes });
     }
@@ -162,7 +162,7 @@ pub(super) fn best_near(
     data: &Weighted,
     poles: Vec<Pole>,
     damping: Damping,
-) -> Option<(Weighted, Point)> {
+) -> Option<(Weighted, PolePoint)> {
     let mut data = data.clone();
     let point = if data.delays() > 0 {
         refined_with_delays(&mut data, poles, damping)?
@@ -177,7 +177,7 @@ fn relocated_and_refined(
     data: &Weighted,
     modes: usize,
     damping: Damping,
-) -> Option<(Weighted, Point)> {
+) -> Option<(Weighted, PolePoint)> {
     let (low, high) = data.range();
     let start = |k: usize| Pole {
         omega_rad_s: low * (high / low).powf((k as f64 + 0.5) / modes as f64),
@@ -188,9 +188,13 @@ fn relocated_and_refined(
 
 /// One pole after another, each from the best of many frequencies: slower, and for data that hold too
 /// little for a relocation, or where one has come to nothing.
-fn one_after_another(data: &Weighted, modes: usize, damping: Damping) -> Option<(Weighted, Point)> {
+fn one_after_another(
+    data: &Weighted,
+    modes: usize,
+    damping: Damping,
+) -> Option<(Weighted, PolePoint)> {
     let trials = trial_frequencies(&data.omega);
-    let mut best: Option<(Weighted, Point)> = None;
+    let mut best: Option<(Weighted, PolePoint)> = None;
     for _ in 0..modes {
         let (data, before) = match best {
             Some((data, point)) => (data, point.poles),
@@ -198,7 +202,7 @@ fn one_after_another(data: &Weighted, modes: usize, damping: Damping) -> Option<
         };
         let with = |omega_rad_s: f64| {
             let more = Pole { omega_rad_s, damping_ratio: START_DAMPING };
-            Point::new(&data, before.iter().copied().chain([more]).collect(), damping)
+            PolePoint::new(&data, before.iter().copied().chain([more]).collect(), damping)
         };
         let found = trials.iter().filter_map(|w| with(*w));
         let start = found.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
@@ -222,7 +226,7 @@ fn settled(data: &Weighted, mut poles: Vec<Pole>) -> Option<Vec<Pole>> {
 }
 
 impl SharedPoles {
-    pub(super) fn of(data: &Weighted, point: Point, damping: Damping) -> Option<Self> {
+    pub(super) fn of(data: &Weighted, point: PolePoint, damping: Damping) -> Option<Self> {
         let (readings, modes) = (data.readings(), point.poles.len());
         let unknowns = unknowns(data, modes, damping);
         let free = readings.checked_sub(unknowns).filter(|free| *free > 0)?;

@@ -29,14 +29,14 @@ const PROMISE_KEPT: f64 = 0.5;
 
 /// A point of the search: parameters, windows, and sums over their residuals.
 #[derive(Debug, Clone)]
-pub(crate) struct Point {
+pub(crate) struct SearchPoint {
     pub(crate) body: Body,
     pub(crate) windows: Vec<Window>,
     /// Sums, with derivatives by the body's coordinates.
     pub(crate) sums: Vec<WindowSums>,
 }
 
-impl Point {
+impl SearchPoint {
     /// [`WINDOW_COST_HALF`] times the median of the windows' costs per sample.
     fn usual(&self) -> f64 {
         let mut each: Vec<f64> = self.sums.iter().map(per_sample).collect();
@@ -94,7 +94,7 @@ pub struct Iteration {
 
 /// The problem that a search solves.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Problem<'a> {
+pub(crate) struct ReplayProblem<'a> {
     pub(crate) campaign: &'a Campaign,
     pub(crate) parameters: &'a [Parameter],
     pub(crate) sampling: Sampling<'a>,
@@ -107,19 +107,23 @@ pub(crate) struct Problem<'a> {
     pub(crate) near_enough: f64,
 }
 
-impl Problem<'_> {
+impl ReplayProblem<'_> {
     /// Replays `windows` through `body`.
-    pub(crate) fn at(&self, body: Body, windows: Vec<Window>) -> Point {
+    pub(crate) fn at(&self, body: Body, windows: Vec<Window>) -> SearchPoint {
         self.budget.count(samples_of(&windows), self.parameters.len());
         let mut sums = sums(&body.arm, self.parameters, self.campaign, &windows, self.sampling);
         if let Some(jacobian) = body.jacobian(self.parameters) {
             sums = sums.iter().map(|s| in_coordinates(s, &jacobian)).collect();
         }
-        Point { body, windows, sums }
+        SearchPoint { body, windows, sums }
     }
 
     /// Lowers the cost from `point` by at most `steps` steps.
-    pub(crate) fn search(&self, mut point: Point, steps: usize) -> (Point, Vec<Iteration>, Stop) {
+    pub(crate) fn search(
+        &self,
+        mut point: SearchPoint,
+        steps: usize,
+    ) -> (SearchPoint, Vec<Iteration>, Stop) {
         let over_steps = self.sampling.noise.iter().any(is_least);
         let (mut damping, easing) = if over_steps {
             (FIRST_DAMPING_OVER_STEPS, EASING_OVER_STEPS)
@@ -177,7 +181,7 @@ impl Problem<'_> {
         (point, iterations, Stop::StepsUsedUp)
     }
 
-    fn moved(&self, point: &Point, step: &Step) -> (Body, Vec<Window>) {
+    fn moved(&self, point: &SearchPoint, step: &Step) -> (Body, Vec<Window>) {
         let mut body = point.body.clone();
         let coordinates = body.coordinates(self.parameters);
         for (coordinate, change) in coordinates.into_iter().zip(step.shared.iter()) {
@@ -205,7 +209,7 @@ impl Problem<'_> {
         (body, windows)
     }
 
-    fn step(&self, point: &Point, damping: f64, usual: f64) -> Option<Step> {
+    fn step(&self, point: &SearchPoint, damping: f64, usual: f64) -> Option<Step> {
         let shared = point.body.coordinates(self.parameters).len();
         let reduced: Vec<Reduced> =
             point.sums.iter().map(|s| Reduced::new(s, shared, damping)).collect();

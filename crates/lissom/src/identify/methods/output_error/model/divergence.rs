@@ -2,7 +2,7 @@
 //! exponentially, and windows can be too long.
 
 use crate::identify::methods::output_error::engine::windows::widen;
-use crate::identify::methods::output_error::model::fit::{Fit, Report};
+use crate::identify::methods::output_error::model::fit::{ArmFit, Report};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::thresholds::{
     NEIGHBOURS_GROW_APART, RESIDUAL_AT_NOISE,
@@ -12,13 +12,13 @@ use crate::replay::{SensorNoise, WindowSums};
 
 impl Fitting<'_> {
     /// Whether neighbouring motions grow apart within a fit's windows, by more than [`NEIGHBOURS_GROW_APART`].
-    pub(crate) fn diverges(&self, fit: &Fit) -> bool {
+    pub(crate) fn diverges(&self, fit: &ArmFit) -> bool {
         self.growth(fit) > NEIGHBOURS_GROW_APART
     }
 
     /// Uses all windows of the fit's present length instead of some, because longer ones give no more information.
     /// The fit stays as it was if its residual is then above the noise.
-    pub(crate) fn take_all(&self, fit: &mut Fit, report: &mut Report) {
+    pub(crate) fn take_all(&self, fit: &mut ArmFit, report: &mut Report) {
         let before = fit.clone();
         fit.windows = widen(self.campaign, &fit.body.arm, &fit.windows, fit.window_s);
         fit.whole_runs = true;
@@ -31,7 +31,7 @@ impl Fitting<'_> {
     /// Growth of a change of a window's first angle: its rms over the window in the sensors of angles, relative to
     /// the change; the largest of all windows. If it is large, the motion depends on the last digits of the first
     /// state.
-    fn growth(&self, fit: &Fit) -> f64 {
+    fn growth(&self, fit: &ArmFit) -> f64 {
         if fit.body.arm.dry_terms.is_empty() {
             return 1.0;
         }

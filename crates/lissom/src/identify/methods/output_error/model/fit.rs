@@ -9,7 +9,7 @@ use crate::replay::{ModalArm, Parameter, SensorNoise, Window, WindowSums};
 
 /// State of a fit.
 #[derive(Debug, Clone)]
-pub(crate) struct Fit {
+pub(crate) struct ArmFit {
     pub(crate) body: Body,
     pub(crate) windows: Vec<Window>,
     /// Parameters that are estimated.
@@ -23,7 +23,7 @@ pub(crate) struct Fit {
     pub(crate) window_s: f64,
 }
 
-impl Fit {
+impl ArmFit {
     /// Number of coordinates that a search changes.
     pub(crate) fn coordinates(&self) -> usize {
         self.body.coordinates(&self.free).len()

@@ -8,9 +8,11 @@ use crate::identify::methods::output_error::engine::coordinates::Body;
 use crate::identify::methods::output_error::engine::covariance::Covariances;
 use crate::identify::methods::output_error::engine::data::Masks;
 use crate::identify::methods::output_error::engine::noise;
-use crate::identify::methods::output_error::engine::search::{Point, Problem, Stop, is_possible};
+use crate::identify::methods::output_error::engine::search::{
+    ReplayProblem, SearchPoint, Stop, is_possible,
+};
 use crate::identify::methods::output_error::engine::windows::cut;
-use crate::identify::methods::output_error::model::fit::{Fit, Report, StageReport};
+use crate::identify::methods::output_error::model::fit::{ArmFit, Report, StageReport};
 use crate::identify::methods::output_error::model::repeats::without_repeats;
 use crate::identify::methods::output_error::thresholds::{
     EXCESS_LEFT, FIRST_WINDOW_PERIODS, FIRST_WINDOW_SAMPLES, LAST_STEP_FALL, LAST_STEPS_MOST,
@@ -47,12 +49,12 @@ impl Fitting<'_> {
         free: &'b [Parameter],
         noise: &'b [SensorNoise],
         whole_runs: bool,
-    ) -> Problem<'b> {
+    ) -> ReplayProblem<'b> {
         let sampling = Sampling { noise, blocks: &[], masks: self.masks };
         let robust = !whole_runs;
         let near_enough = if robust { STEP_SHARE_LEAST } else { 0.0 };
         let promise = STAGE_STEP_FALL;
-        Problem {
+        ReplayProblem {
             campaign: self.campaign,
             parameters: free,
             sampling,
@@ -64,24 +66,24 @@ impl Fitting<'_> {
     }
 
     /// Largest ratio of a channel's residual to its noise as estimated from the samples alone.
-    pub(crate) fn beyond_noise(&self, fit: &Fit) -> f64 {
+    pub(crate) fn beyond_noise(&self, fit: &ArmFit) -> f64 {
         fit.residual.iter().zip(self.noise).map(|(r, n)| r / n.sigma).fold(0.0, f64::max)
     }
 
     /// Replays a fit with derivatives by the parameters `free`, and with sums by blocks.
-    pub(crate) fn point(&self, fit: &Fit, free: &[Parameter]) -> Point {
+    pub(crate) fn point(&self, fit: &ArmFit, free: &[Parameter]) -> SearchPoint {
         let mut problem = self.problem(free, &fit.noise, true);
         problem.sampling.blocks = self.blocks;
         problem.at(fit.body.clone(), fit.windows.clone())
     }
 
     /// Covariances of the free parameters.
-    pub(crate) fn covariances(&self, fit: &Fit) -> Covariances {
+    pub(crate) fn covariances(&self, fit: &ArmFit) -> Covariances {
         fit.covariances(&self.point(fit, &fit.free).sums)
     }
 
     /// Cost of a fit for the noise `noise`.
-    pub(crate) fn cost(&self, fit: &Fit, noise: &[SensorNoise]) -> f64 {
+    pub(crate) fn cost(&self, fit: &ArmFit, noise: &[SensorNoise]) -> f64 {
         let samples: usize = fit.windows.iter().map(Window::len).sum();
         self.budget.count(samples, 0);
         let sampling = Sampling { noise, blocks: &[], masks: self.masks };
@@ -96,7 +98,7 @@ impl Fitting<'_> {
     /// cost, which errors that are not white noise may take. Where the residual is above the noise, more coordinates
     /// must also explain a good part of that excess ([`EXCESS_LEFT`]): any parameter takes some of the error of an arm
     /// that lacks something else.
-    pub(crate) fn is_better(&self, other: &Fit, fit: &Fit) -> bool {
+    pub(crate) fn is_better(&self, other: &ArmFit, fit: &ArmFit) -> bool {
         let (before, after) = (self.cost(fit, &fit.noise), self.cost(other, &fit.noise));
         let more = other.coordinates() as f64 - fit.coordinates() as f64;
         let cheaper =
@@ -107,13 +109,13 @@ impl Fitting<'_> {
     }
 
     /// Squares of the residuals beyond the sensors' noise, relative to that noise, summed over the channels.
-    fn excess(&self, fit: &Fit) -> f64 {
+    fn excess(&self, fit: &ArmFit) -> f64 {
         let each = fit.residual.iter().zip(self.noise);
         each.map(|(r, n)| ((r / n.sigma).powi(2) - 1.0).max(0.0)).sum()
     }
 
     /// A fit before its first step; `None` if no window can be cut or the arm is outside the limits of the search.
-    pub(crate) fn first_fit(&self, arm: &ModalArm, window_s: f64) -> Option<Fit> {
+    pub(crate) fn first_fit(&self, arm: &ModalArm, window_s: f64) -> Option<ArmFit> {
         let longest = self.longest_s();
         let window_s = window_s.min(longest);
         let body = Body::of_masses(self.campaign, arm.clone());
@@ -127,7 +129,7 @@ impl Fitting<'_> {
         free.extend((arm.command_lag_s != 0.0).then_some(Parameter::CommandLag));
         let late = (0..arm.shapes.len()).map(Parameter::TipLag);
         free.extend(late.filter(|lag| lag.of(arm) != 0.0));
-        Some(Fit {
+        Some(ArmFit {
             body,
             windows,
             free,
@@ -139,7 +141,7 @@ impl Fitting<'_> {
     }
 
     /// Returns to windows as short as the first.
-    pub(crate) fn shorten(&self, fit: &mut Fit) {
+    pub(crate) fn shorten(&self, fit: &mut ArmFit) {
         fit.window_s = self.first_window_s(&fit.body.arm).min(self.longest_s());
         fit.whole_runs = fit.window_s >= self.longest_s();
         fit.windows = some(cut(self.campaign, &fit.body.arm, fit.window_s));
@@ -150,7 +152,7 @@ impl Fitting<'_> {
     }
 
     /// Searches from the fit's present state, and estimates its noise from the residual.
-    pub(crate) fn search(&self, fit: &mut Fit, report: &mut Report) {
+    pub(crate) fn search(&self, fit: &mut ArmFit, report: &mut Report) {
         for _ in 0..NOISE_ROUNDS_MOST {
             let (point, stop) = self.steps(fit, report, STAGE_STEPS_MOST, STAGE_STEP_FALL, None);
             // A fit with further friction terms is searched to the end before it is compared.
@@ -173,7 +175,7 @@ impl Fitting<'_> {
     /// Noise of each channel for the next search. On short windows it is the channel's residual. Over whole runs a
     /// channel that the arm does not describe would get a lower weight, and would be described even worse. So the
     /// channels keep the ratios of the noise that their samples show.
-    fn noise_of(&self, fit: &Fit) -> Vec<SensorNoise> {
+    fn noise_of(&self, fit: &ArmFit) -> Vec<SensorNoise> {
         if !fit.whole_runs {
             return fit.residual.iter().map(|r| SensorNoise::gaussian(*r)).collect();
         }
@@ -188,14 +190,14 @@ impl Fitting<'_> {
     /// it is given. Returns where the steps end and why.
     fn steps(
         &self,
-        fit: &mut Fit,
+        fit: &mut ArmFit,
         report: &mut Report,
         most: usize,
         promise: f64,
-        from: Option<Point>,
-    ) -> (Point, Stop) {
+        from: Option<SearchPoint>,
+    ) -> (SearchPoint, Stop) {
         let mut problem =
-            Problem { promise, ..self.problem(&fit.free, &fit.noise, fit.whole_runs) };
+            ReplayProblem { promise, ..self.problem(&fit.free, &fit.noise, fit.whole_runs) };
         if self.beyond_noise(fit) > RESIDUAL_FAR_ABOVE_NOISE {
             problem.near_enough = STEP_SHARE_LEAST;
         }
@@ -218,7 +220,7 @@ impl Fitting<'_> {
 
     /// Makes a short search on a part of the windows. Returns its cost and the body; `None` if the arm is outside the
     /// limits of the search.
-    pub(crate) fn probe(&self, fit: &Fit, steps: usize) -> Option<(f64, Body)> {
+    pub(crate) fn probe(&self, fit: &ArmFit, steps: usize) -> Option<(f64, Body)> {
         if !is_possible(self.campaign, &fit.body.arm) {
             return None;
         }
@@ -242,7 +244,7 @@ impl Fitting<'_> {
     /// Searches with the probability of each sensor's steps in place of Gaussian noise. The fit must be close
     /// already, because the cost is flat within a step. Returns the samples that are used if readings that only
     /// repeat a step are left out.
-    pub(crate) fn count_steps(&self, fit: &mut Fit, report: &mut Report) -> Option<Vec<Masks>> {
+    pub(crate) fn count_steps(&self, fit: &mut ArmFit, report: &mut Report) -> Option<Vec<Masks>> {
         let steps = noise::steps(self.campaign);
         let predicted: Vec<Option<Prediction>> = fit
             .windows
@@ -279,7 +281,7 @@ fn duration_s(run: &Run) -> f64 {
 }
 
 /// Standard deviation of each channel's residual, corrected for the number of unknowns.
-fn residual_deviation(point: &Point, shared: usize) -> Vec<f64> {
+fn residual_deviation(point: &SearchPoint, shared: usize) -> Vec<f64> {
     let channels = point.sums.first().map_or(0, |s| s.squares.len());
     let own = |s: &WindowSums| s.gram.ncols() - 1 - shared;
     let unknowns = point.sums.iter().map(own).sum::<usize>() + shared;

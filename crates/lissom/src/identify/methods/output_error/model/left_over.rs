@@ -6,7 +6,7 @@ use rand_xoshiro::rand_core::SeedableRng;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use crate::identify::methods::output_error::engine::data::Masks;
-use crate::identify::methods::output_error::model::fit::Fit;
+use crate::identify::methods::output_error::model::fit::ArmFit;
 use crate::identify::prepare::channel_noise::reading;
 use crate::identify::thresholds::CLEARLY_PRESENT;
 use crate::record::{Campaign, Run};
@@ -20,7 +20,7 @@ const AVERAGED: [usize; 3] = [4, 16, 64];
 ///
 /// A sensor's steps also make slow errors if the motion is slow. So the means of 4, 16 and 64 residuals are compared
 /// with those that the same sensor would leave of the replayed motion itself, with its noise and without.
-pub(crate) fn left_over(campaign: &Campaign, fit: &Fit, masks: &[Masks]) -> Vec<f64> {
+pub(crate) fn left_over(campaign: &Campaign, fit: &ArmFit, masks: &[Masks]) -> Vec<f64> {
     let of_windows: Vec<Vec<Slow>> = fit
         .windows
         .par_iter()
@@ -62,7 +62,12 @@ impl Slow {
     }
 }
 
-fn of_window(campaign: &Campaign, fit: &Fit, window: &Window, masks: &Masks) -> Option<Vec<Slow>> {
+fn of_window(
+    campaign: &Campaign,
+    fit: &ArmFit,
+    window: &Window,
+    masks: &Masks,
+) -> Option<Vec<Slow>> {
     let predicted = predict(&fit.body.arm, campaign, window)?;
     let run = &campaign.runs[window.run];
     let (first, seed) = (*window.samples.start(), window.run as u64);

@@ -2,7 +2,7 @@
 
 use crate::identify::methods::output_error::engine::data::Masks;
 use crate::identify::methods::output_error::engine::noise::is_least;
-use crate::identify::methods::output_error::model::fit::Fit;
+use crate::identify::methods::output_error::model::fit::ArmFit;
 use crate::record::Campaign;
 use crate::replay::Prediction;
 
@@ -13,7 +13,7 @@ use crate::replay::Prediction;
 /// the angle is not near the edge of the step. So it is counted once.
 pub(crate) fn without_repeats(
     campaign: &Campaign,
-    fit: &Fit,
+    fit: &ArmFit,
     predicted: &[Option<Prediction>],
     masks: &[Masks],
 ) -> Option<Vec<Masks>> {

@@ -1,7 +1,7 @@
 //! Choice between the kinds of damping.
 
 use crate::identify::methods::output_error::engine::covariance::deviation;
-use crate::identify::methods::output_error::model::fit::{Fit, Report};
+use crate::identify::methods::output_error::model::fit::{ArmFit, Report};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::thresholds::SIGN_SHOWN;
 use crate::replay::Parameter;
@@ -10,7 +10,7 @@ use crate::replay::Parameter;
 ///
 /// Single dampers of the two kinds can hardly be distinguished, but all of them together can. The dampers at points
 /// are tried with damping within the beam and without it: it can partly replace the difference between the two kinds.
-pub(crate) fn dampers_at_points(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+pub(crate) fn dampers_at_points(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     let grounded = |p: &Parameter| matches!(p, Parameter::DampingGrounded(_));
     let within = |p: &Parameter| matches!(p, Parameter::DampingWithin(_));
     let modes = fit.body.arm.modes.len();
@@ -27,7 +27,7 @@ pub(crate) fn dampers_at_points(fitting: &Fitting<'_>, fit: &mut Fit, report: &m
     let points = (0..modes).map(Parameter::DampingAtPoint);
     other.free.extend(points.filter(|p| !fit.free.contains(p)));
     let mut alone = other.clone();
-    let mut take = |mut other: Fit| {
+    let mut take = |mut other: ArmFit| {
         fitting.search(&mut other, report);
         if fitting.is_better(&other, fit) {
             *fit = other;
@@ -42,7 +42,7 @@ pub(crate) fn dampers_at_points(fitting: &Fitting<'_>, fit: &mut Fit, report: &m
 
 /// Removes a kind of dampers of which none is significantly above zero, if the fit is better without it. Where the
 /// logs do not distinguish two kinds, a damper of one kind may replace those of the other.
-pub(crate) fn drop_dampers(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+pub(crate) fn drop_dampers(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     let kinds: [fn(&Parameter) -> bool; 3] = [
         |p| matches!(p, Parameter::DampingWithin(_)),
         |p| matches!(p, Parameter::DampingGrounded(_)),

@@ -1,7 +1,7 @@
 //! Parameters beyond the simplest law, added if the residual shows them.
 
 use crate::identify::methods::output_error::engine::covariance::deviation;
-use crate::identify::methods::output_error::model::fit::{Extension, Fit, Report};
+use crate::identify::methods::output_error::model::fit::{ArmFit, Extension, Report};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::moves::dampers::drop_dampers;
 use crate::identify::methods::output_error::moves::law;
@@ -14,7 +14,7 @@ use crate::record::TipQuantity;
 use crate::replay::Parameter;
 
 /// Adds groups of parameters that are significant, each time the one that lowers the cost most.
-pub(crate) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+pub(crate) fn extend(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     for _ in 0..GROUPS_ADDED_MOST {
         let mut found = all_scores(fitting, fit, &candidates(fitting, fit)).1;
         let called_for = |(_, promise): &(usize, &Promise)| {
@@ -41,7 +41,7 @@ pub(crate) fn extend(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) 
 
 /// Adds a term to the friction law, if the residual is above the noise and the term is expected to lower the cost by
 /// more than the share `least`. Returns whether it was added.
-fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: f64) -> bool {
+fn add_to_law(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report, least: f64) -> bool {
     if !fitting.tries_laws || fitting.beyond_noise(fit) < RESIDUAL_ABOVE_NOISE {
         return false;
     }
@@ -62,7 +62,7 @@ fn add_to_law(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report, least: 
 }
 
 /// Removes lags of tips that are not significant: a lag may have been significant only before the arm was found.
-pub(crate) fn drop_tip_lags(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+pub(crate) fn drop_tip_lags(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     let covariance = fitting.covariances(fit).larger();
     let is_nothing = |(i, p): (usize, &Parameter)| {
         let lag = matches!(p, Parameter::TipLag(_));
@@ -83,7 +83,7 @@ pub(crate) fn drop_tip_lags(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut R
 
 /// Groups of parameters that may be added, each as a whole. Lags of tips are among them if the residual is above the
 /// noise.
-pub(crate) fn candidates(fitting: &Fitting<'_>, fit: &Fit) -> Vec<Vec<Parameter>> {
+pub(crate) fn candidates(fitting: &Fitting<'_>, fit: &ArmFit) -> Vec<Vec<Parameter>> {
     let arm = &fit.body.arm;
     let modes = 0..arm.modes.len();
     let mut groups = vec![vec![Parameter::CommandLag], vec![Parameter::ViscousDifference]];

@@ -5,7 +5,7 @@ use std::f64::consts::SQRT_2;
 use crate::drive::Falloff;
 use crate::identify::methods::friction_law::LawTerm;
 use crate::identify::methods::output_error::engine::windows::{fastest_rad_s, travel};
-use crate::identify::methods::output_error::model::fit::{Extension, Fit};
+use crate::identify::methods::output_error::model::fit::{ArmFit, Extension};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::moves::scores::{scores, share};
 use crate::identify::methods::output_error::thresholds::{
@@ -38,7 +38,7 @@ impl LawTrial {
     }
 
     /// Adds the term to the fit, with all of its parameters free.
-    pub(crate) fn put_into(&self, fit: &mut Fit) {
+    pub(crate) fn put_into(&self, fit: &mut ArmFit) {
         fit.body.arm.dry_terms = self.terms.clone();
         fit.free.extend(&self.torques);
         fit.free.extend(&self.shapes);
@@ -51,7 +51,7 @@ impl LawTrial {
 /// than the share `least`.
 pub(crate) fn best(
     fitting: &Fitting<'_>,
-    fit: &Fit,
+    fit: &ArmFit,
     least: f64,
 ) -> Option<(LawTrial, Vec<Extension>)> {
     let promise = |trial: LawTrial| {
@@ -74,7 +74,7 @@ pub(crate) fn best(
 
 /// Waves per angle of the ripple that is expected to lower the cost most, among the periods that the travel can
 /// distinguish.
-fn strongest_ripple(fitting: &Fitting<'_>, fit: &Fit) -> Option<f64> {
+fn strongest_ripple(fitting: &Fitting<'_>, fit: &ArmFit) -> Option<f64> {
     let travel = travel(fitting.campaign);
     if travel <= 0.0 {
         return None;
@@ -97,7 +97,7 @@ fn strongest_ripple(fitting: &Fitting<'_>, fit: &Fit) -> Option<f64> {
 }
 
 /// Terms that slip phases show, and friction near standstill over a few speeds.
-fn trials(fitting: &Fitting<'_>, fit: &Fit) -> Vec<LawTrial> {
+fn trials(fitting: &Fitting<'_>, fit: &ArmFit) -> Vec<LawTrial> {
     let terms = &fit.body.arm.dry_terms;
     let fastest = fastest_rad_s(fitting.campaign);
     let falloff = Falloff::Exponential;

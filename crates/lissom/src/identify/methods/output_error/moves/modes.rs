@@ -2,7 +2,7 @@
 
 use crate::identify::methods::output_error::engine::coordinates::Body;
 use crate::identify::methods::output_error::engine::covariance::deviation;
-use crate::identify::methods::output_error::model::fit::{Fit, Report};
+use crate::identify::methods::output_error::model::fit::{ArmFit, Report};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::thresholds::{
     MODE_FAINT, MODE_RETUNED, MODE_RETUNED_CLOSELY, NEW_MODE_DAMPING, NEW_MODE_FREQUENCIES,
@@ -11,7 +11,7 @@ use crate::identify::methods::output_error::thresholds::{
 use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
 
 /// Adds modes above the others, up to as many as tips, while each makes the fit better.
-pub(crate) fn grow(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
+pub(crate) fn grow(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     let tips = fitting.campaign.channels.tips.len().min(MOST_MODES);
     while !fit.body.arm.modes.is_empty() && fit.body.arm.modes.len() < tips {
         let beyond = with_one_more(fitting, fit, report);
@@ -23,14 +23,14 @@ pub(crate) fn grow(fitting: &Fitting<'_>, fit: &mut Fit, report: &mut Report) {
 }
 
 /// Searches again with the free parameters of the fit's modes.
-fn refitted(fitting: &Fitting<'_>, fit: Fit, report: &mut Report) -> Fit {
+fn refitted(fitting: &Fitting<'_>, fit: ArmFit, report: &mut Report) -> ArmFit {
     let mut fit = refreed(fitting, fit);
     fitting.search(&mut fit, report);
     fit
 }
 
 /// Sets the free parameters to those of the fit's modes. Lags and viscous friction by direction stay free.
-fn refreed(fitting: &Fitting<'_>, mut fit: Fit) -> Fit {
+fn refreed(fitting: &Fitting<'_>, mut fit: ArmFit) -> ArmFit {
     let beside = |p: &Parameter| {
         matches!(p, Parameter::CommandLag | Parameter::ViscousDifference | Parameter::TipLag(_))
     };
@@ -45,9 +45,9 @@ fn refreed(fitting: &Fitting<'_>, mut fit: Fit) -> Fit {
 /// A search that begins at a wrong frequency of the new mode ends in a wrong minimum. So short searches on a part of
 /// the windows begin at each of some frequencies, and with both signs of the turn of point masses. The best
 /// continues.
-fn with_one_more(fitting: &Fitting<'_>, fit: &Fit, report: &mut Report) -> Fit {
+fn with_one_more(fitting: &Fitting<'_>, fit: &ArmFit, report: &mut Report) -> ArmFit {
     let last = highest(&fit.body.arm);
-    let mut best: Option<(f64, Fit)> = None;
+    let mut best: Option<(f64, ArmFit)> = None;
     for times in NEW_MODE_FREQUENCIES {
         let beyond = one_beyond(fit.clone(), last, times);
         let new = beyond.body.arm.modes.len() - 1;
@@ -59,10 +59,10 @@ fn with_one_more(fitting: &Fitting<'_>, fit: &Fit, report: &mut Report) -> Fit {
             None => vec![beyond.body.clone()],
         };
         for body in bodies {
-            let start = refreed(fitting, Fit { body, ..beyond.clone() });
+            let start = refreed(fitting, ArmFit { body, ..beyond.clone() });
             let Some((cost, body)) = fitting.probe(&start, PROBE_STEPS) else { continue };
             if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                best = Some((cost, Fit { body, ..start }));
+                best = Some((cost, ArmFit { body, ..start }));
             }
         }
     }
@@ -76,7 +76,7 @@ fn with_one_more(fitting: &Fitting<'_>, fit: &Fit, report: &mut Report) -> Fit {
 
 /// The highest mode at another frequency, if a short search from there ends at a lower cost than one from here. The
 /// cost is conclusive, because the other parameters are about right.
-fn retuned(fitting: &Fitting<'_>, fit: &Fit) -> Option<Fit> {
+fn retuned(fitting: &Fitting<'_>, fit: &ArmFit) -> Option<ArmFit> {
     let (least, _) = fitting.probe(fit, PROBE_STEPS)?;
     let others = MODE_RETUNED.iter().filter_map(|times| probed(fitting, fit, *times));
     let others = others.filter(|(cost, _)| *cost < least);
@@ -84,7 +84,7 @@ fn retuned(fitting: &Fitting<'_>, fit: &Fit) -> Option<Fit> {
 }
 
 /// Result and cost of a short search from a fit whose highest mode is put at `times` its frequency.
-fn probed(fitting: &Fitting<'_>, fit: &Fit, times: f64) -> Option<(f64, Fit)> {
+fn probed(fitting: &Fitting<'_>, fit: &ArmFit, times: f64) -> Option<(f64, ArmFit)> {
     let mode = highest(&fit.body.arm);
     let mut other = fit.clone();
     other.body.tune(mode, (times - 1.0) * fit.body.arm.modes[mode].omega_rad_s);
@@ -93,12 +93,12 @@ fn probed(fitting: &Fitting<'_>, fit: &Fit, times: f64) -> Option<(f64, Fit)> {
         window.start[2 + 2 * mode..4 + 2 * mode].copy_from_slice(&[angle, speed]);
     }
     let (cost, body) = fitting.probe(&other, PROBE_STEPS)?;
-    Some((cost, Fit { body, ..other }))
+    Some((cost, ArmFit { body, ..other }))
 }
 
 /// Arms from which to search again after a wrong minimum, the likeliest first: results of short searches on short
 /// windows with the highest mode at its own and at other frequencies.
-pub(crate) fn starts_again(fitting: &Fitting<'_>, fit: &Fit) -> Vec<ModalArm> {
+pub(crate) fn starts_again(fitting: &Fitting<'_>, fit: &ArmFit) -> Vec<ModalArm> {
     // A single mode is driven or absent: the residual has another cause.
     if fit.body.arm.modes.len() < 2 {
         return Vec::new();
@@ -106,7 +106,7 @@ pub(crate) fn starts_again(fitting: &Fitting<'_>, fit: &Fit) -> Vec<ModalArm> {
     let mut short = fit.clone();
     short.body = Body::of_masses(fitting.campaign, undamped(fit.body.arm.clone()));
     fitting.shorten(&mut short);
-    let mut tried: Vec<(f64, Fit)> = MODE_RETUNED_CLOSELY
+    let mut tried: Vec<(f64, ArmFit)> = MODE_RETUNED_CLOSELY
         .iter()
         .chain(&MODE_RETUNED)
         .filter_map(|times| probed(fitting, &short, *times))
@@ -131,7 +131,7 @@ pub(crate) fn highest(arm: &ModalArm) -> usize {
     (0..arm.modes.len()).max_by(|a, b| omega(a).total_cmp(&omega(b))).unwrap_or(0)
 }
 
-fn one_beyond(mut fit: Fit, last: usize, times: f64) -> Fit {
+fn one_beyond(mut fit: ArmFit, last: usize, times: f64) -> ArmFit {
     let arm = &mut fit.body.arm;
     let cut = arm.modes[last];
     arm.modes[last].stiffness_nm_per_rad *= 1.0 - NEW_MODE_SHARE;
@@ -154,7 +154,7 @@ fn one_beyond(mut fit: Fit, last: usize, times: f64) -> Fit {
 }
 
 /// Whether the highest of several modes is faint: its stiffness is hardly known.
-pub(crate) fn highest_is_faint(fitting: &Fitting<'_>, fit: &Fit) -> bool {
+pub(crate) fn highest_is_faint(fitting: &Fitting<'_>, fit: &ArmFit) -> bool {
     let arm = &fit.body.arm;
     let stiffness = || known_to(fitting, fit)(Parameter::Stiffness(highest(arm)));
     arm.modes.len() > 1 && stiffness().is_some_and(|share| share > MODE_FAINT)
@@ -163,7 +163,7 @@ pub(crate) fn highest_is_faint(fitting: &Fitting<'_>, fit: &Fit) -> bool {
 /// Relative standard errors of parameters.
 fn known_to<'a>(
     fitting: &Fitting<'_>,
-    fit: &'a Fit,
+    fit: &'a ArmFit,
 ) -> impl Fn(Parameter) -> Option<f64> + use<'a> {
     let covariance = fitting.covariances(fit).larger();
     move |p| {

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::identify::methods::output_error::engine::covariance::{Covariances, deviation};
-use crate::identify::methods::output_error::model::fit::{Extension, Fit};
+use crate::identify::methods::output_error::model::fit::{ArmFit, Extension};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT};
 use crate::information::{inverse, normal_equations};
@@ -13,7 +13,7 @@ use crate::replay::{Parameter, WindowSums};
 /// Expected result of one step of a search in the free parameters and each of some groups.
 pub(crate) fn scores(
     fitting: &Fitting<'_>,
-    fit: &Fit,
+    fit: &ArmFit,
     groups: &[Vec<Parameter>],
 ) -> Vec<Vec<Extension>> {
     all_scores(fitting, fit, groups).1.into_iter().map(|promise| promise.group).collect()
@@ -71,7 +71,7 @@ impl Promise {
 /// Sums by the free coordinates, and the expected result of each group, from one replay.
 pub(crate) fn all_scores(
     fitting: &Fitting<'_>,
-    fit: &Fit,
+    fit: &ArmFit,
     groups: &[Vec<Parameter>],
 ) -> (Vec<WindowSums>, Vec<Promise>) {
     let free = fit.coordinates();
