@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::motion::{Reach, groups, rounded};
+use super::planned_motion::{Reach, groups, rounded};
 use super::{PlannedMotion, Wishes};
 use crate::information::growing_information;
 use crate::plan::thresholds::TRAVEL_LEAST;

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::Wishes;
-use super::motion::{PlannedMotion, rounded};
+use super::planned_motion::{PlannedMotion, rounded};
 use crate::plan::thresholds::{RANGE_USED, STUCK_MOST, TRAVEL_LEAST};
 use crate::rig::{Logged, Rig, RigError, RigFinding, Sensor};
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::arm::{MOST_MODES, ModalArm, Oscillator};
+use super::modal_arm::{MOST_MODES, ModalArm, Oscillator};
 use crate::arm::Arm;
 use crate::beam::BeamDynamics;
 use crate::friction::DryTerms;

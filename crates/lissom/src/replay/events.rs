@@ -1,8 +1,8 @@
 //! The replayed arm from event to event within a piece of a sample, by Taylor series.
 
 use super::friction::{Ends, Held, sign};
-use super::motion::{Mover, ReplayedMotion, Torque, direction};
 use super::rates::Rates;
+use super::replayed_motion::{Mover, ReplayedMotion, Torque, direction};
 use super::series::{Ramp, Terms, reach_s, terms, value};
 use crate::friction::Mode;
 use crate::lti::first_root::{ORDER_MOST, first_used_up};

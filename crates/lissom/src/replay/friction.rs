@@ -1,6 +1,6 @@
 //! Dry friction as the replayed motor feels it, and over a step on which it is linear in time.
 
-use super::arm::ModalArm;
+use super::modal_arm::ModalArm;
 use super::parameter::Parameter;
 use crate::friction::{DryTerms, Place};
 

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::arm::{ModalArm, Oscillator};
+use super::modal_arm::{ModalArm, Oscillator};
 use crate::lti::{StateSpace, TransferFunction, add, multiply};
 
 /// Sums that are zero in exact arithmetic are so to this share of their terms.

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::arm::{ModalArm, Oscillator};
+use super::modal_arm::{ModalArm, Oscillator};
 
 impl ModalArm {
     /// The arm with a point mass more at the point of tip `tip`, whose inertia about the axis is `inertia_kg_m2`:

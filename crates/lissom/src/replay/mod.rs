@@ -4,7 +4,6 @@
 //! Within a phase the arm is linear: whole samples go by matrices, events by Taylor series. Where
 //! the motor comes to rest or reverses, tangents jump (saltation).
 
-mod arm;
 mod arm_modes;
 mod events;
 mod friction;
@@ -13,13 +12,14 @@ mod late_tips;
 mod linear;
 mod loaded;
 mod losses;
-mod motion;
+mod modal_arm;
 mod noise;
 mod parameter;
 mod piece_matrices;
 mod point_masses;
 mod prediction;
 mod rates;
+mod replayed_motion;
 mod series;
 mod sums;
 mod tangents;
@@ -29,9 +29,9 @@ mod window;
 pub use crate::friction::{
     DryTerms, FrictionNumber, NearRest, NearRestNumber, Ripple, RippleNumber,
 };
-pub(crate) use arm::TURN_MOST;
-pub use arm::{MOST_MODES, ModalArm, Oscillator};
 pub use arm_modes::ArmModes;
+pub(crate) use modal_arm::TURN_MOST;
+pub use modal_arm::{MOST_MODES, ModalArm, Oscillator};
 pub use noise::SensorNoise;
 pub use parameter::{Parameter, free_parameters};
 pub use point_masses::{BeamCoordinate, BeamDerivative, PointMasses};

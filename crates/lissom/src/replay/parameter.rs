@@ -1,6 +1,6 @@
 //! Parameters of a replayed arm, each by name.
 
-use super::arm::ModalArm;
+use super::modal_arm::ModalArm;
 use crate::friction::FrictionNumber;
 use crate::record::Channels;
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::arm::ModalArm;
+use super::modal_arm::ModalArm;
 
 /// Weight of a higher mode's stiffness beside the first's and beside all shapes: it is known worse.
 const HIGHER: f64 = 0.1;

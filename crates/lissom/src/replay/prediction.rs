@@ -1,7 +1,7 @@
 //! What an arm's sensors would show under a logged command.
 
-use super::arm::{MOST_MODES, ModalArm};
 use super::late_tips::LateTips;
+use super::modal_arm::{MOST_MODES, ModalArm};
 use super::sums::{Window, replayers, start};
 use crate::record::Campaign;
 

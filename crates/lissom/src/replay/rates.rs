@@ -1,7 +1,7 @@
 //! The arm's equations as matrices, with their derivatives by each parameter.
 
-use super::arm::ModalArm;
 use super::lanes::{LANES, MatrixPack, Pack};
+use super::modal_arm::ModalArm;
 use super::parameter::{Enters, Parameter};
 use crate::number::{Dual, Number};
 
@@ -208,7 +208,7 @@ fn matrices<N: Number, const D: usize>(e: &Entries<N>, stuck: bool) -> ([[N; D];
 fn rate(arm: &ModalArm) -> f64 {
     let squares: f64 = arm.modes.iter().map(|m| m.omega_rad_s * m.omega_rad_s).sum();
     let pinned = arm.coupling_nm_per_rad().abs() / arm.inertia_kg_m2;
-    let dampers = |m: &super::arm::Oscillator| {
+    let dampers = |m: &super::modal_arm::Oscillator| {
         let on_motor = m.stiffness_nm_per_rad * m.within_per_s
             / (m.omega_rad_s * m.omega_rad_s * arm.inertia_kg_m2);
         m.within_per_s.abs() + m.grounded_per_s.abs() + on_motor.abs()

@@ -5,9 +5,9 @@ use std::ops::RangeInclusive;
 use nalgebra::{Const, DMatrix, DMatrixView, Dyn, MatrixView};
 use rayon::prelude::*;
 
-use super::arm::{MOST_MODES, ModalArm};
 use super::late_tips::LateTips;
 use super::losses::Losses;
+use super::modal_arm::{MOST_MODES, ModalArm};
 use super::noise::SensorNoise;
 use super::parameter::Parameter;
 use super::window::Replayer;

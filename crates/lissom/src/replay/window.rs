@@ -2,12 +2,12 @@
 
 use std::ops::RangeInclusive;
 
-use super::arm::ModalArm;
 use super::friction::Friction;
 use super::lanes::LANES;
-use super::motion::{Columns, Mover, ReplayedMotion, Torque, direction};
+use super::modal_arm::ModalArm;
 use super::parameter::{Enters, Parameter};
 use super::rates::Phases;
+use super::replayed_motion::{Columns, Mover, ReplayedMotion, Torque, direction};
 use super::tangents::Tangents;
 use crate::friction::Mode;
 use crate::record::{Channels, Hold, Run, TipQuantity};

@@ -14,8 +14,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 use rayon::prelude::*;
 
-use super::held::arm::{Duration, Modes, Way};
 use super::held::flow::step;
+use super::held::held_arm::{Duration, Modes, Way};
 use super::held::lane::{LANES, Lane, Lanes};
 use super::sampled_loop::{LEAST_RAD, RUN_AWAY};
 use super::{HeldArm, HeldMotion, Motion, Pd, RigError, Sines};

@@ -1,6 +1,6 @@
 //! Responses of points of a beam, and the equivalent arm that they give.
 
-use crate::identify::equivalent::arm::EquivalentArm;
+use crate::identify::equivalent::equivalent_arm::EquivalentArm;
 use crate::identify::equivalent::refusal::PartOutside;
 use crate::identify::equivalent::zeros::ResponseZero;
 use crate::identify::equivalent::{EquivalentBeam, StrainlessForm};

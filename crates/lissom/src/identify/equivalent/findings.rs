@@ -1,7 +1,7 @@
 //! What to know of an equivalent arm.
 
-use crate::identify::equivalent::arm::EquivalentArm;
 use crate::identify::equivalent::data::{Deviations, Equivalent, EquivalentData};
+use crate::identify::equivalent::equivalent_arm::EquivalentArm;
 use crate::identify::equivalent::equivalent_error::EquivalentError;
 use crate::identify::equivalent::thresholds::{
     ERRORS_TOO_LARGE, GAIN_CHANGED, GIVEN_TO_LAST_MODE, MISFIT, MOTOR_LEFT, MOTOR_WORSE,

@@ -2,9 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-mod arm;
 mod data;
 mod deviations;
+mod equivalent_arm;
 pub(crate) mod equivalent_error;
 mod findings;
 mod imaginary;
@@ -16,8 +16,8 @@ mod turned_round;
 mod whole;
 mod zeros;
 
-pub use arm::{EquivalentArm, equivalent_arm};
 pub use data::{Deviations, Equivalent, EquivalentData};
+pub use equivalent_arm::{EquivalentArm, equivalent_arm};
 pub use equivalent_error::EquivalentError;
 pub use refusal::{EquivalentRefusal, PartOutside};
 pub use whole::equivalent;

@@ -2,10 +2,10 @@
 
 use nalgebra::DMatrix;
 
-use crate::identify::equivalent::arm::arm_below;
 use crate::identify::equivalent::data::{
     Deviations, Equivalent, EquivalentData, relative_residual,
 };
+use crate::identify::equivalent::equivalent_arm::arm_below;
 use crate::identify::equivalent::refusal::EquivalentRefusal;
 use crate::identify::equivalent::sound::sound;
 use crate::identify::equivalent::thresholds::{NO_ANGLE, OUTSIDE_DAMPING_MOST, POLE_IN_TORQUE};

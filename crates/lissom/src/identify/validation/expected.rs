@@ -6,7 +6,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng as _;
 
 use crate::identify::prepare::channel_noise::{channel_noise, reading};
-use crate::identify::validation::motion::{FollowedLog, PredictedStretch, logged};
+use crate::identify::validation::motion_fit::{FollowedLog, PredictedStretch, logged};
 use crate::identify::validation::torque::{TorquePrediction, torque};
 use crate::record::{Campaign, Run, TimeBase};
 use crate::replay::{ModalArm, Window};

@@ -3,7 +3,7 @@
 pub(crate) mod cause;
 mod expected;
 mod kernel;
-mod motion;
+mod motion_fit;
 pub(crate) mod moved_mode;
 mod residual;
 mod torque;
@@ -11,7 +11,7 @@ mod validation_findings;
 mod zeros;
 
 pub use cause::{Cause, CauseKind};
-pub use motion::{ChannelFit, Horizon, PredictedStretch};
+pub use motion_fit::{ChannelFit, Horizon, PredictedStretch};
 pub use moved_mode::{MovedBy, MovedMode};
 pub use residual::ChannelResidual;
 pub(super) use torque::torque;
@@ -26,7 +26,7 @@ use crate::identify::validation::thresholds::FITS_PERCENT;
 use crate::record::{Campaign, Run};
 use crate::replay::{MOST_MODES, TURN_MOST};
 use expected::expected;
-use motion::{FollowedLog, followed, lengths_s};
+use motion_fit::{FollowedLog, followed, lengths_s};
 use moved_mode::moved_mode;
 use residual::channel_residual;
 

@@ -5,7 +5,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF as _};
 use crate::identify::methods::output_error::{Masks, masks};
 use crate::identify::prepare::channel_noise::channel_noise;
 use crate::identify::thresholds::NORMAL_95;
-use crate::identify::validation::motion::{PredictedStretch, logged};
+use crate::identify::validation::motion_fit::{PredictedStretch, logged};
 use crate::identify::validation::thresholds::AT_SENSOR_NOISE;
 use crate::record::{Campaign, Run};
 

@@ -1,15 +1,15 @@
 //! The fast engine: arms under torques that are held over samples, in the modes of each phase.
 
-pub(in crate::rig) mod arm;
 mod blocks;
 mod crossing;
 pub(in crate::rig) mod flow;
+pub(in crate::rig) mod held_arm;
+mod held_motion;
 pub(in crate::rig) mod lane;
 mod matrices;
 mod modal;
-mod motion;
 mod search;
 
-pub use arm::HeldArm;
+pub use held_arm::HeldArm;
+pub use held_motion::{HeldMotion, Work};
 pub use matrices::HeldStep;
-pub use motion::{HeldMotion, Work};

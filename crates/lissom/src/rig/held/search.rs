@@ -1,8 +1,8 @@
 //! From event to event within a sample: breaking loose, coming to rest, reversing.
 
-use super::arm::{Duration, Modes};
 use super::flow::step;
-use super::motion::{HeldMotion, rounding};
+use super::held_arm::{Duration, Modes};
+use super::held_motion::{HeldMotion, rounding};
 use crate::friction::Mode;
 
 /// Events within one duration after which the event engine takes the rest.

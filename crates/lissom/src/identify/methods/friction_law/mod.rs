@@ -3,13 +3,13 @@
 //! Both are least squares on windows in slip phases, as in the regression, with windows as short as
 //! the sensor allows: what friction does near rest is lost in long ones.
 
-mod arm;
 pub(crate) mod choice;
 mod curve;
 mod described;
 mod friction_law_findings;
 mod held;
 mod law_estimates;
+mod law_in_arm;
 mod law_term;
 mod refine;
 mod ripple;

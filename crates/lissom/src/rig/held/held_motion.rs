@@ -2,9 +2,9 @@
 
 use std::cell::{OnceCell, RefCell};
 
-use super::arm::{Duration, HeldArm, Modes, Way};
 use super::crossing::Wave;
 use super::flow::step;
+use super::held_arm::{Duration, HeldArm, Modes, Way};
 use crate::drive::Coulomb;
 use crate::rig::hybrid::events::ROUNDING;
 use crate::rig::{Hybrid, Mode, Motion, RigError};
