@@ -1,4 +1,4 @@
-//! What every kind of finding can say of itself.
+//! What every kind of finding has: a code, a severity, affected keys, a message and a hint.
 
 use std::fmt;
 

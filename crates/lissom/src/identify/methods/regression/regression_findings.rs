@@ -14,7 +14,7 @@ use crate::identify::thresholds::{SAME_FREQUENCY, UNEXPLAINED_TORQUE};
 pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding> {
     let mut findings = Vec::new();
     let units = EstimateUnits::new(&evidence.campaign.channels);
-    // The replay explains the runs: what is left of the regression says nothing then.
+    // The output-error method describes the runs: the residual of the regression does not count then.
     let explained = evidence.replay().is_some();
     let Some(r) = &evidence.methods.regression else {
         if chosen.method == Some(Method::LeastSquares) {
