@@ -138,6 +138,8 @@ thresholds! {
         NOISE_SETTLED: f64 = 0.9, "1", Convention;
     }
     "output error: further parameters" {
+        /// Damping ratio from which a mode does not oscillate. An arm without it is then tried.
+        CRITICAL_DAMPING: f64 = 1.0, "1", Derived;
         /// Frequencies at which a mode above all others begins, as multiples of the highest; they
         /// are tried in turn.
         NEW_MODE_FREQUENCIES: [f64; 2] = [2.0, 4.0], "1", Convention;

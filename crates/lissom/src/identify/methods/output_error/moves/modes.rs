@@ -1,12 +1,12 @@
-//! Number of modes: modes are added while they make the fit better.
+//! Number of modes: modes are added while they make the fit better, and overdamped ones are taken out.
 
 use crate::identify::methods::output_error::engine::coordinates::Body;
 use crate::identify::methods::output_error::engine::covariance::deviation;
 use crate::identify::methods::output_error::model::fit::{ArmFit, Report};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::thresholds::{
-    MODE_FAINT, MODE_RETUNED, MODE_RETUNED_CLOSELY, NEW_MODE_DAMPING, NEW_MODE_FREQUENCIES,
-    NEW_MODE_SHARE, NEW_MODE_TURN, PROBE_STEPS, REPETITIONS_MOST,
+    CRITICAL_DAMPING, MODE_FAINT, MODE_RETUNED, MODE_RETUNED_CLOSELY, NEW_MODE_DAMPING,
+    NEW_MODE_FREQUENCIES, NEW_MODE_SHARE, NEW_MODE_TURN, PROBE_STEPS, REPETITIONS_MOST,
 };
 use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
 
@@ -20,6 +20,41 @@ pub(crate) fn grow(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report)
         }
         *fit = beyond;
     }
+}
+
+/// Takes out overdamped modes: they do not oscillate, and no beam has them. A rigid axis that started with a mode has one.
+pub(crate) fn drop_overdamped(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
+    let overdamped = |fit: &ArmFit| {
+        fit.body.arm.damping_ratios().iter().position(|ratio| *ratio >= CRITICAL_DAMPING)
+    };
+    while let Some(mode) = overdamped(fit) {
+        let without = refitted(fitting, without_mode(fit, mode), report);
+        if !fitting.is_better(&without, fit) {
+            break;
+        }
+        *fit = without;
+    }
+}
+
+/// Takes out one mode. Its share in each tip's motion goes to the last mode that remains.
+fn without_mode(fit: &ArmFit, mode: usize) -> ArmFit {
+    let mut fit = fit.clone();
+    fit.body.masses = None;
+    let arm = &mut fit.body.arm;
+    for (j, ratio) in arm.damping_ratios().into_iter().enumerate() {
+        let oscillator = &mut arm.modes[j];
+        oscillator.grounded_per_s = 2.0 * ratio * oscillator.omega_rad_s - oscillator.within_per_s;
+    }
+    arm.at_points_per_s.clear();
+    arm.modes.remove(mode);
+    for row in &mut arm.shapes {
+        let gone = row.remove(mode);
+        row.last_mut().into_iter().for_each(|r| *r += gone);
+    }
+    for window in &mut fit.windows {
+        window.start.drain(2 + 2 * mode..4 + 2 * mode);
+    }
+    fit
 }
 
 /// Searches again with the free parameters of the fit's modes.
