@@ -37,8 +37,8 @@ thresholds! {
         /// lower the cost by more than this.
         GROUP_SHARE_LARGE: f64 = 0.02, "1", Convention;
         /// Largest share of the squared residual beyond the noise that further parameters may leave
-        /// where the residual is above the noise. Without it, terms of friction were added on logs
-        /// with a wrong sample rate.
+        /// where the residual is above the noise. Without it, terms of friction were added on two small
+        /// logs of joints that have none (docs/pruned.md).
         EXCESS_LEFT: f64 = 0.7, "1", Measured;
         /// Most groups of parameters that are added at one length of the windows.
         GROUPS_ADDED_MOST: usize = 3, "groups", Convention;
@@ -81,7 +81,7 @@ thresholds! {
     "output error: search" {
         /// Most evaluations of the whole search. A sample that is replayed, or its derivative by
         /// one parameter, is one evaluation. Of 18 measured campaigns and 44 small logs the largest
-        /// needed 140 million (`evaluations` in result.json).
+        /// needed 60 million (`evaluations` in result.json).
         EVALUATIONS_MOST: u64 = 2_000_000_000, "evaluations", Measured;
         /// Most steps of a search at one length of the windows, where others follow.
         STAGE_STEPS_MOST: usize = 12, "steps", Convention;
