@@ -122,7 +122,7 @@ pub fn identify(
     let any_beam_regression = beam_regression(&prepared);
     let third_harmonic = third_harmonic(&prepared);
 
-    let constant = prepared.torque_per_command();
+    let constant = campaign.channels.command.torque_per_unit();
     let best = coulomb_command(regression.as_ref(), third_harmonic.as_ref(), constant);
     let tables = ResponseTables { prepared: &prepared, coulomb_command: best };
     let shown = tables.without_friction_known();

@@ -50,6 +50,13 @@ pub struct Command {
     pub limit: Option<f64>,
 }
 
+impl Command {
+    /// Torque (or force) of one unit of the command: the torque constant, or 1 where it is not known.
+    pub fn torque_per_unit(&self) -> f64 {
+        self.torque_per_command.unwrap_or(1.0)
+    }
+}
+
 /// What a tip sensor measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TipQuantity {

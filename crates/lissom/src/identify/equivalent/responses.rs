@@ -49,7 +49,7 @@ impl EquivalentData {
         let motor = MotorData {
             omega_rad_s: motor.iter().map(|p| p.0).collect(),
             response: motor.iter().map(|p| p.1).collect(),
-            torque_per_command: channels.command.torque_per_command.unwrap_or(1.0),
+            torque_per_command: channels.command.torque_per_unit(),
         };
         Ok(Self {
             names: angles.iter().map(|&i| channels.tips[i].name.clone()).collect(),

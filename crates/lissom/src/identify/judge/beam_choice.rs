@@ -69,7 +69,7 @@ pub(super) fn findings(evidence: &Evidence<'_>, beam: &BeamEstimates) -> Vec<Fin
     if evidence.replay().is_some_and(|oe| !oe.arm.modes.is_empty()) {
         return found;
     }
-    if beam.modes.is_empty() && tips > 0 && !evidence.has_only_constant_velocities() {
+    if beam.modes.is_empty() && tips > 0 && !evidence.rests_on_constant_velocities() {
         found.push(Finding::new(BeamFinding::ModesNotFound));
     }
     let model = evidence.methods.motor_model.as_ref();

@@ -24,7 +24,7 @@ pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> C
     let (method, solution) = drive_table::choose(evidence);
     let beam = beam_choice::choose(evidence, &solution);
     let mut chosen = Chosen { method, drive: solution.clone(), solution, beam };
-    let alone = evidence.has_only_constant_velocities();
+    let alone = evidence.rests_on_constant_velocities();
     findings.extend(lag_of_response(evidence, &chosen));
     if alone {
         findings.push(constant_velocity::only_constant_velocities(evidence.campaign));

@@ -91,7 +91,8 @@ fn of_response(evidence: &Evidence<'_>, model: &MotorFit) -> DriveEstimates {
     let by_phases = methods.regression.as_ref().filter(|r| r.coulomb.is_some_and(is_positive));
     let corrected_for = by_phases.map(|r| r.estimates().friction).or_else(|| {
         let third = methods.third_harmonic.as_ref()?;
-        let coulomb = third.coulomb_command.scaled(evidence.torque_per_command());
+        let coulomb =
+            third.coulomb_command.scaled(evidence.campaign.channels.command.torque_per_unit());
         Some(Friction { coulomb: Some(coulomb), ..Friction::default() })
     });
     of_model(evidence, model, corrected_for.unwrap_or_default())
@@ -129,7 +130,7 @@ fn by_regression_with_friction(evidence: &Evidence<'_>) -> Option<DriveEstimates
 fn by_least_squares(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
     let fit = evidence.methods.least_squares.as_ref()?;
     // Transitions between constant velocities are short: what they show is not worth more than the velocities.
-    let missing = evidence.methods.regression.is_none() && !evidence.has_only_constant_velocities();
+    let missing = evidence.methods.regression.is_none() && !evidence.rests_on_constant_velocities();
     let needed = missing || is_beaten(evidence);
     let sound = fit.relative_residual < UNEXPLAINED_TORQUE
         && fit.estimates.inertia.is_some_and(is_known)
@@ -159,7 +160,8 @@ fn of_slip_phases(evidence: &Evidence<'_>, method: Method) -> Option<DriveEstima
 
 fn by_third_harmonic(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
     let third = evidence.methods.third_harmonic.as_ref()?;
-    let coulomb = third.coulomb_command.scaled(evidence.torque_per_command());
+    let coulomb =
+        third.coulomb_command.scaled(evidence.campaign.channels.command.torque_per_unit());
     let friction = Friction { coulomb: Some(coulomb), ..Friction::default() };
     Some(match &evidence.methods.third_harmonic_model {
         Some(model) => of_model(evidence, model, friction),

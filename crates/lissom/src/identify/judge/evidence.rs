@@ -56,13 +56,8 @@ impl<'a> Evidence<'a> {
         self.methods.output_error.as_ref().filter(|oe| oe.stands())
     }
 
-    /// Torque per command; one where it is unknown.
-    pub(crate) fn torque_per_command(&self) -> f64 {
-        self.campaign.channels.command.torque_per_command.unwrap_or(1.0)
-    }
-
     /// Whether constant velocities are all there is, and their transitions give no inertia either.
-    pub(crate) fn has_only_constant_velocities(&self) -> bool {
+    pub(crate) fn rests_on_constant_velocities(&self) -> bool {
         let other = |r: &RunAnalysis| r.usable && !r.is_constant_velocity();
         self.methods.regression.is_none()
             && self.methods.constant_velocity.is_some()

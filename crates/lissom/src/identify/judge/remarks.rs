@@ -90,7 +90,7 @@ fn model(evidence: &Evidence<'_>, findings: &mut Vec<Finding>) {
 }
 
 fn methods(evidence: &Evidence<'_>, chosen: &Chosen, findings: &mut Vec<Finding>) {
-    let constant = evidence.torque_per_command();
+    let constant = evidence.campaign.channels.command.torque_per_unit();
     let third =
         evidence.methods.third_harmonic.as_ref().map(|t| t.coulomb_command.scaled(constant));
     let classical = evidence.methods.constant_velocity.as_ref().and_then(|c| c.coulomb);

@@ -243,7 +243,7 @@ impl<'a> Smoothed<'a> {
         let held = channels.command.hold == Hold::Sampled && k > self.half;
         let command =
             if held { 0.5 * (command + self.value(run.command(), k - 1)) } else { command };
-        row.push(command * channels.command.torque_per_command.unwrap_or(1.0));
+        row.push(command * channels.command.torque_per_unit());
         row
     }
 }

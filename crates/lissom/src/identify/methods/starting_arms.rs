@@ -35,7 +35,7 @@ fn arms(
     shown: &[ResponsePoint],
     corrected: impl Fn() -> Vec<ResponsePoint>,
 ) -> Vec<ModalArm> {
-    let constant = usable.channels.command.torque_per_command.unwrap_or(1.0);
+    let constant = usable.channels.command.torque_per_unit();
     if coupled_tips(usable).is_empty() {
         let response = models::motor_model(&corrected(), constant, tips);
         return starts_by_motor(usable, drive, tips, response.as_ref());

@@ -84,11 +84,6 @@ impl<'a> Prepared<'a> {
         !self.runs.iter().any(|r| r.usable && !r.is_constant_velocity())
     }
 
-    /// Torque per command; one if it is unknown.
-    pub(crate) fn torque_per_command(&self) -> f64 {
-        self.campaign.channels.command.torque_per_command.unwrap_or(1.0)
-    }
-
     /// Channels that are constant in some runs, and in how many.
     pub(crate) fn constant_channels(&self) -> Vec<(String, usize)> {
         constant_channels(self.campaign)

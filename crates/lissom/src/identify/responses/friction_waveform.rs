@@ -58,7 +58,7 @@ impl FrictionWaveform<'_> {
 
     /// The arm's response `shift` rad/s beside the fundamental.
     fn own(&self, arm: &ModalArm, shift: f64) -> Complex64 {
-        let constant = self.campaign.channels.command.torque_per_command.unwrap_or(1.0);
+        let constant = self.campaign.channels.command.torque_per_unit();
         constant * arm.motor_response(self.steady.omega_rad_s + shift)
     }
 
@@ -133,7 +133,7 @@ impl Spectrum {
         let channel = &of.campaign.channels.command;
         let len = net.len.min(net.friction.len()).min(run.len() - net.begin);
         let span = net.begin..net.begin + len;
-        let constant = channel.torque_per_command.unwrap_or(1.0);
+        let constant = channel.torque_per_unit();
         let windowed = |x: &[f64], scale: f64| {
             let mean = x.iter().sum::<f64>() / len as f64;
             let rate = std::f64::consts::TAU / len as f64;

@@ -52,7 +52,8 @@ impl LinearModels {
     /// Of the output error's arm where it stands, else of the rational fits. A tip that is dead counts as
     /// one of unknown scale.
     pub(crate) fn of(evidence: &Evidence<'_>) -> Self {
-        let (campaign, constant) = (evidence.used, evidence.torque_per_command());
+        let campaign = evidence.used;
+        let constant = campaign.channels.command.torque_per_unit();
         match evidence.replay() {
             Some(oe) => Self::of_arm(campaign, &oe.arm, oe, constant),
             None => Self::of_fits(campaign, evidence.methods, constant),

@@ -34,7 +34,7 @@ pub(crate) fn figures_model(
         _ => return None,
     };
     let command = &campaign.channels.command;
-    let constant = command.torque_per_command.unwrap_or(1.0);
+    let constant = command.torque_per_unit();
     let through = mode.map(|m| m.1);
     let model = MotorFit::of_figures(inertia, viscous, through, constant, command.back_emf_viscous);
     (inertia.value > 0.0).then(|| (model, mode.map(|m| BeamFit::of_mode(m.0))))
@@ -46,7 +46,7 @@ pub(crate) fn rigid_model(campaign: &Campaign, replay: &OutputError) -> Option<M
         return None;
     }
     let command = &campaign.channels.command;
-    let constant = command.torque_per_command.unwrap_or(1.0);
+    let constant = command.torque_per_unit();
     let back_emf = command.back_emf_viscous;
     let (inertia, viscous) = (replay.inertia()?, replay.friction(back_emf).viscous?);
     Some(MotorFit::of_figures(inertia, viscous, None, constant, back_emf))

@@ -125,7 +125,7 @@ impl Replayed<'_> {
 
     /// Torque per command.
     fn constant(&self) -> f64 {
-        self.campaign.channels.command.torque_per_command.unwrap_or(1.0)
+        self.campaign.channels.command.torque_per_unit()
     }
 
     /// From the command without friction to the motor beyond the arm's.

@@ -43,7 +43,7 @@ impl<'a> ResponseTables<'a> {
 
     /// Rational model of the motor from responses corrected for friction as a square wave of this amplitude.
     pub(crate) fn model_with(&self, coulomb: Estimate, beam: Option<&BeamFit>) -> Option<MotorFit> {
-        let constant = self.prepared.torque_per_command();
+        let constant = self.prepared.campaign().channels.command.torque_per_unit();
         motor_model(&self.with_square_wave(Some(coulomb)), constant, beam)
     }
 
@@ -68,7 +68,7 @@ impl<'a> ResponseTables<'a> {
         let stepped = points.iter().filter(|p| p.run.is_some()).count() >= STEPPED_SINES_LEAST;
         let (motor, beam) = by_regression.filter(|_| !stepped).unzip();
         let known = (rigid.or(motor), beam.flatten().or(tips));
-        let constant = self.prepared.torque_per_command();
+        let constant = self.prepared.campaign().channels.command.torque_per_unit();
         let (motor_model, beam_model) =
             motor_and_beam(self.prepared.campaign(), &points, constant, known);
         let mut findings: Vec<Finding> = contradicted.into_iter().collect();

@@ -154,7 +154,7 @@ pub(super) fn shows_coupling(arm: &ModalArm, campaign: &Campaign) -> bool {
 
 /// The shortest window under which the sensor's noise is small.
 fn chosen_window_s(arm: &ModalArm, campaign: &Campaign) -> Option<f64> {
-    let constant = campaign.channels.command.torque_per_command.unwrap_or(1.0);
+    let constant = campaign.channels.command.torque_per_unit();
     let hold = campaign.channels.command.hold;
     let of_run = |run: &Run| {
         let t = run.sample_time_s();
@@ -279,7 +279,7 @@ impl Predictor<'_> {
         let speed = Speed::new(run, &kernel);
         let [forward, backward] = self.arm.viscous_nm_s_per_rad;
         let (mean, half) = (0.5 * (forward + backward), 0.5 * (forward - backward));
-        let constant = command.torque_per_command.unwrap_or(1.0);
+        let constant = command.torque_per_unit();
         let mut causes = Causes::new(run, &speed.velocity);
         let rows = (0..run.len() - n)
             .map(|k| {

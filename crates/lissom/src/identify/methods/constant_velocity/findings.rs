@@ -12,7 +12,7 @@ use crate::record::Campaign;
 /// is reported, too.
 pub(crate) fn findings(campaign: &Campaign, found: &ConstantVelocity, meant: bool) -> Vec<Finding> {
     let command = CommandScale {
-        torque_per_command: campaign.channels.command.torque_per_command.unwrap_or(1.0),
+        torque_per_command: campaign.channels.command.torque_per_unit(),
         unit: EstimateUnits::new(&campaign.channels).command(),
     };
     let lines =

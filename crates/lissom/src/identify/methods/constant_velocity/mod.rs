@@ -75,7 +75,7 @@ pub(crate) fn where_meant(prepared: &Prepared<'_>) -> (Option<ConstantVelocity>,
 impl ConstantVelocity {
     /// The figures that these points give.
     pub(crate) fn of_points(channels: &Channels, points: Vec<SteadyPoint>) -> Self {
-        let constant = channels.command.torque_per_command.unwrap_or(1.0);
+        let constant = channels.command.torque_per_unit();
         let direction = |sign: f64| {
             let points: Vec<line::SpeedPoint> = points
                 .iter()

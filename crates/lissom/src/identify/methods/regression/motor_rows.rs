@@ -197,15 +197,11 @@ impl MotorEquation<'_> {
         noise * (self.run.sample_time_s() * window.row_scale).powi(2)
     }
 
-    fn torque_per_command(&self) -> f64 {
-        self.campaign.channels.command.torque_per_command.unwrap_or(1.0)
-    }
-
     /// `∫wτ` of what is commanded from the window's first sample on.
     #[inline(always)]
     fn torque(&self, command: &[f64]) -> f64 {
         let window = self.window;
-        self.torque_per_command()
+        self.campaign.channels.command.torque_per_unit()
             * match self.campaign.channels.command.hold {
                 Hold::Sampled => window.held.dot(command),
                 Hold::Measured => window.value.dot(command) * self.run.sample_time_s(),
@@ -216,7 +212,7 @@ impl MotorEquation<'_> {
     #[inline(always)]
     pub(crate) fn later(&self, k: usize) -> f64 {
         let (window, command) = (self.window, &self.run.command()[k..]);
-        self.torque_per_command()
+        self.campaign.channels.command.torque_per_unit()
             * match self.campaign.channels.command.hold {
                 Hold::Sampled => window.rise.dot(command),
                 Hold::Measured => window.first.dot(command) * self.run.sample_time_s(),
