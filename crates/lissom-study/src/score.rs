@@ -346,7 +346,10 @@ mod estimate {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lissom::identify::findings::{JudgedParameter, RegressionFinding, ResponseFinding};
+    use lissom::identify::findings::{
+        EstimateUnits, JudgedParameter, RegressionFinding, ResponseFinding,
+    };
+    use lissom::record::{Axis, CommandQuantity};
 
     fn mode(omega: f64) -> ModeEstimate {
         let of = |value| Estimate { value, std: 0.1 };
@@ -446,6 +449,9 @@ mod tests {
         assert!(!is_law_alarm(&Finding::new(bands)));
         let parameter = JudgedParameter::Inertia;
         assert!(!is_law_alarm(&Finding::new(EstimateFinding::NotSeparable { parameter })));
-        assert!(is_law_alarm(&Finding::new(EstimateFinding::Offset { share: 0.1 })));
+        let (offset, axis) = (Estimate { value: 0.1, std: 0.01 }, Axis::Rotary);
+        let units = EstimateUnits { axis, command: CommandQuantity::Current, torque_known: true };
+        let offset = EstimateFinding::Offset { offset, units, share: 0.1 };
+        assert!(is_law_alarm(&Finding::new(offset)));
     }
 }

@@ -18,6 +18,7 @@ mod eigenvalues;
 mod friction;
 pub mod identify;
 pub mod information;
+pub mod load;
 pub mod lti;
 mod number;
 pub mod plan;

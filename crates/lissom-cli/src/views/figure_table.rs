@@ -1,6 +1,6 @@
 //! The figures of a result.
 
-use lissom::identify::{ConstantVelocity, Estimate, Identified};
+use lissom::identify::{ConstantVelocity, Estimate, Identified, Method};
 use lissom_io::UnitNames;
 use lissom_report::{interval, significant, with_uncertainty};
 
@@ -27,6 +27,36 @@ pub(crate) fn figures(names: UnitNames, id: &Identified, reference: Option<&Refe
         [row.name, value, row.unit, within].into_iter().chain(known).collect()
     }));
     table(&rows);
+}
+
+/// The line of Coulomb and viscous friction, beside figures that are of another law.
+pub(crate) fn line_of_least_squares(names: UnitNames, id: &Identified) {
+    let f = &id.friction;
+    let plain = f.near_rest.is_none() && f.viscous_by_direction.is_none();
+    let plain = plain && id.method != Some(Method::FrictionLaw);
+    let Some(fit) = id.least_squares.as_ref().filter(|_| !plain) else { return };
+    let (friction, [slowest, fastest]) = (&fit.estimates.friction, fit.speed_range);
+    let mut rows = vec![["the line", "value", "unit", "95 % interval"].map(str::to_owned)];
+    let mut add = |name: &str, figure: Option<Estimate>, unit: String| {
+        let Some(e) = figure else { return };
+        let within = interval(e.ci95(), e.value, e.std);
+        rows.push([name.to_owned(), with_uncertainty(e.value, e.std), unit, within]);
+    };
+    add("Coulomb friction", friction.coulomb, names.torque_unit().to_owned());
+    add("offset", friction.offset, names.torque_unit().to_owned());
+    add("viscous friction", friction.viscous, names.viscous_unit());
+    add(names.inertia_name(), fit.estimates.inertia, names.inertia_unit());
+    let gravity = fit.estimates.gravity.map(|g| g.amplitude());
+    add("gravity, m·g·l", gravity, names.torque_unit().to_owned());
+    line("");
+    table(&rows.into_iter().map(Vec::from).collect::<Vec<_>>());
+    line(&format!(
+        "least squares of one straight line over speeds from {} to {} {}/s, {:.2} % of the torque left",
+        significant(slowest, 3),
+        significant(fastest, 3),
+        names.angle(),
+        100.0 * fit.relative_residual
+    ));
 }
 
 /// What steady velocities give, beside the figures taken.
@@ -111,7 +141,14 @@ pub(crate) fn figure_rows(
         add("Coulomb friction", in_command, unit, mean.map(|m| m / constant));
     }
     add("Coulomb friction", f.coulomb, torque(), mean);
-    if f.forward.is_some() {
+    if f.coulomb.is_none() {
+        // One direction alone: its friction with the load that acts on it.
+        for (name, sum) in [("forward", f.forward), ("backward", f.backward)] {
+            if sum.is_some() {
+                add(&format!("  with the load, {name}"), sum, torque(), None);
+            }
+        }
+    } else if f.forward.is_some() {
         add("  forward", f.forward, torque(), reference.map(|r| r.coulomb_nm.0));
         add("  backward", f.backward, torque(), reference.map(|r| r.coulomb_nm.1));
         let offset = reference.map(|r| 0.5 * (r.coulomb_nm.0 - r.coulomb_nm.1));
@@ -133,6 +170,11 @@ pub(crate) fn figure_rows(
     }
     let inertia = reference.map(|r| r.inertia_kg_m2);
     add(names.inertia_name(), id.inertia, names.inertia_unit(), inertia);
+    if let Some(gravity) = &id.gravity {
+        add("gravity, m·g·l", Some(gravity.amplitude()), torque(), None);
+        let degrees = gravity.phase_rad().scaled(1.0_f64.to_degrees());
+        add("  phase φ of m·g·l·sin(θ + φ)", Some(degrees), "deg".to_owned(), None);
+    }
     if !id.beam.coupling_by_tip.is_empty() || id.beam.coupling.is_some() {
         let known = arm.map(|a| a.dynamics().coupling_motor);
         add("coupling to the beam", id.beam.coupling, names.coupling_unit(), known);

@@ -1,7 +1,6 @@
 //! Friction against speed: the curve without a law, and the law found, in a plot and a table.
 
-use lissom::drive::Falloff;
-use lissom::identify::{FrictionLaw, Identified, LawTerm, NORMAL_95, OutputError};
+use lissom::identify::{FrictionLaw, Identified, LawTerm, NORMAL_95, OutputError, ScaleUnit};
 use lissom_io::UnitNames;
 use lissom_report::{Axis, Cells, LinePlot, Role, Table, Trace, significant};
 
@@ -70,26 +69,12 @@ pub(crate) fn table(names: UnitNames, law: &FrictionLaw) -> Table {
     table
 }
 
-/// A term in words.
+/// A term by its name and its scale.
 fn term(names: UnitNames, term: LawTerm) -> String {
-    let angle = names.angle();
-    match term {
-        LawTerm::ViscousByDirection => "viscous by direction".to_owned(),
-        LawTerm::NearRest { speed, falloff } => {
-            let shape = match falloff {
-                Falloff::Exponential => "",
-                Falloff::Gaussian => " by the square",
-            };
-            format!("near rest{shape}, within {} {angle}/s", significant(speed, 4))
-        }
-        LawTerm::AfterTravel { travel } => {
-            format!("after {} {angle} of travel", significant(travel, 4))
-        }
-        LawTerm::Root => "root of speed".to_owned(),
-        LawTerm::Ripple { per_angle } => {
-            let period = std::f64::consts::TAU / per_angle;
-            format!("ripple, period {} {angle}", significant(period, 4))
-        }
-        LawTerm::CommandLag => "lag of the command (s)".to_owned(),
+    let (name, angle) = (term.name(), names.angle());
+    match term.scale() {
+        Some((speed, ScaleUnit::Speed)) => format!("{name}, {} {angle}/s", significant(speed, 4)),
+        Some((over, ScaleUnit::Angle)) => format!("{name}, {} {angle}", significant(over, 4)),
+        None => name.to_owned(),
     }
 }

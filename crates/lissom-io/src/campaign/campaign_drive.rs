@@ -38,6 +38,8 @@ pub(super) fn drive(
         "limit",
         "current_limit",
         "voltage_limit",
+        "gear_ratio",
+        "gear_efficiency",
         "arm",
     ])?;
     command.limit = limit(table, quantity)?;
@@ -48,6 +50,7 @@ pub(super) fn drive(
         Axis::Linear => Dimension::FORCE_PER_CURRENT,
     };
     known.back_emf = table.get("back_emf").map(|v| v.not_negative(back_emf_unit)).transpose()?;
+    let gear = gear(table)?;
     if let Some(value) = table.get("torque_constant") {
         let (constant, per_ampere) = torque_constant(&value, axis, quantity)?;
         known.torque_constant = Some(constant);
@@ -62,9 +65,10 @@ pub(super) fn drive(
         } else {
             constant
         };
-        command.torque_per_command = Some(per_command);
+        let at_joint = per_command * gear.ratio * gear.efficiency;
+        command.torque_per_command = Some(at_joint);
         if quantity == CommandQuantity::Voltage {
-            command.back_emf_viscous = per_command * known.back_emf.unwrap_or(0.0);
+            command.back_emf_viscous = at_joint * gear.ratio * known.back_emf.unwrap_or(0.0);
         }
     }
     if let Some(value) = table.get("arm") {
@@ -73,6 +77,32 @@ pub(super) fn drive(
         known.arm_path = Some(path);
     }
     Ok((command, known))
+}
+
+/// A gear between the motor, whose constants are given, and the joint, whose angle is logged.
+///
+/// Torque at the joint is ratio·efficiency times the motor's, the motor's speed ratio times the joint's.
+struct Gear {
+    ratio: f64,
+    efficiency: f64,
+}
+
+fn gear(table: &Table<'_>) -> Result<Gear, Error> {
+    let given = |key: &str| {
+        let value = table.get(key)?;
+        if table.get("torque_constant").is_none() {
+            return Some(Err(CampaignError::GearAlone { place: value.place() }.into()));
+        }
+        Some(value.positive(Dimension::NUMBER).map_err(Error::from))
+    };
+    let ratio = given("gear_ratio").transpose()?.unwrap_or(1.0);
+    let efficiency = given("gear_efficiency").transpose()?.unwrap_or(1.0);
+    if efficiency > 1.0
+        && let Some(value) = table.get("gear_efficiency")
+    {
+        return Err(value.range(crate::config::Rule::AtMost(1.0)).into());
+    }
+    Ok(Gear { ratio, efficiency })
 }
 
 /// The constant in SI, and whether it is per ampere.

@@ -85,6 +85,24 @@ pub enum CampaignError {
         /// π over its sample time \[rad/s\].
         nyquist_rad_s: f64,
     },
+    /// Gravity on a linear axis.
+    #[error("{place}: gravity on a linear axis is a constant force")]
+    GravityOnLinearAxis {
+        /// Where.
+        place: ConfigPlace,
+    },
+    /// Gravity on an arm with tips.
+    #[error("{place}: gravity is identified for a rigid joint, and this campaign has tips")]
+    GravityWithTips {
+        /// Where.
+        place: ConfigPlace,
+    },
+    /// A gear beside no torque constant.
+    #[error("{place} says nothing without `torque_constant`")]
+    GearAlone {
+        /// Where.
+        place: ConfigPlace,
+    },
     /// A camera on a linear axis.
     #[error("{place}: a camera's x and y give an angle, and the motor is measured in metres")]
     CameraOnLinear {
@@ -123,6 +141,13 @@ impl CampaignError {
             Self::NeedlessRadius { .. } => "remove it",
             Self::AboveNyquist { .. } => {
                 "`omega_rad_s` is in rad/s, and `frequency = \"5 Hz\"` takes a unit; check the unit of the time stamps too"
+            }
+            Self::GravityOnLinearAxis { .. } => {
+                "remove it: the offset of friction, which every result has, is this force"
+            }
+            Self::GravityWithTips { .. } => "remove it, or the tips",
+            Self::GearAlone { .. } => {
+                "give the motor's own torque constant beside it, or remove it: without a constant, estimates are per unit of command"
             }
             Self::CameraOnLinear { .. } => "give one column with a unit of length",
             Self::CameraQuantity { .. } => "remove `quantity`",

@@ -11,7 +11,10 @@
 //! [drive]
 //! torque_constant = "2.184 lbf*in/A"
 //! current_limit = "4.12 A"
+//! gear_ratio = 100                          # of the motor's constants; gear_efficiency = 0.8
 //! arm = "arm.toml"                          # an arm to compare with
+//! [load]
+//! gravity = true                            # a torque g_s·sin θ + g_c·cos θ acts; to be identified
 //! [analysis]
 //! window = "0.3 s"                          # or a list
 //! harmonics = 9
@@ -42,6 +45,7 @@
 mod campaign_drive;
 pub(crate) mod campaign_error;
 mod campaign_file;
+mod campaign_load;
 mod campaign_signals;
 #[cfg(test)]
 mod campaign_tests;

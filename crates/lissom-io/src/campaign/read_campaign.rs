@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::campaign_drive;
 use super::campaign_file::{AnalysisOptions, CampaignFile, ReadOptions};
+use super::campaign_load;
 use super::campaign_signals::signals;
 use super::load_runs::load;
 use super::run_spec::{RunSpec, runs};
@@ -41,11 +42,13 @@ fn read(path: &Path, log: Option<&Path>, options: &ReadOptions) -> Result<Campai
     let source = Source::read(path)?;
     let document = source.parse()?;
     let root = source.root(&document);
-    root.only(&["signals", "drive", "analysis", "runs"])?;
+    root.only(&["signals", "drive", "load", "analysis", "runs"])?;
     let signals = signals(&root.need("signals")?.table()?)?;
     let drive = root.get("drive").map(|v| v.table()).transpose()?;
     let (command, known) =
         campaign_drive::drive(drive.as_ref(), signals.axis, &signals.command, source.folder())?;
+    let load_table = root.get("load").map(|v| v.table()).transpose()?;
+    let gravity = load_table.map_or(Ok(false), |table| campaign_load::gravity(&table, &signals))?;
     let (analysis, skip_s) = match root.get("analysis") {
         Some(value) => analysis(&value.table()?)?,
         None => (AnalysisOptions::default(), None),
@@ -55,6 +58,7 @@ fn read(path: &Path, log: Option<&Path>, options: &ReadOptions) -> Result<Campai
         None => (source.folder(), runs(&root.need("runs")?, skip_s)?),
     };
     let campaign = load(folder, &signals, command, &runs, options)?;
+    let campaign = if gravity { campaign.with_gravity()? } else { campaign };
     Ok(CampaignFile { campaign, known, analysis })
 }
 

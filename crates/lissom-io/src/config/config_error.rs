@@ -42,6 +42,8 @@ pub enum Rule {
     NotZero,
     /// Below a limit.
     Below(f64),
+    /// No greater than a limit.
+    AtMost(f64),
     /// One of two whole numbers.
     OneOf(i64, i64),
     /// A whole number within limits.
@@ -57,6 +59,7 @@ impl fmt::Display for Rule {
             Self::NotNegative => f.write_str("zero or greater"),
             Self::NotZero => f.write_str("other than zero"),
             Self::Below(most) => write!(f, "below {most}"),
+            Self::AtMost(most) => write!(f, "no greater than {most}"),
             Self::OneOf(one, other) => write!(f, "{one} or {other}"),
             Self::Magnitude(least, most) => {
                 write!(f, "of a magnitude from {least:e} to {most:e} in SI")

@@ -204,6 +204,11 @@ impl<'a> Value<'a> {
         self.table().ok()
     }
 
+    /// `true` or `false`.
+    pub(crate) fn truth(&self) -> Result<bool, ConfigError> {
+        self.content.as_bool().ok_or_else(|| self.kind("true or false"))
+    }
+
     /// A number without unit.
     pub(crate) fn number(&self) -> Result<f64, ConfigError> {
         self.in_range(self.as_number().ok_or_else(|| self.kind("a number"))?)

@@ -1,6 +1,7 @@
 //! The arm of a result, in JSON: written from the arm found, and read back to it.
 
 use lissom::identify::{FoundArm, TorqueUsed};
+use lissom::load::GravityLoad;
 use lissom::record::{Channels, Tip};
 use lissom::replay::{ModalArm, Oscillator, Parameter};
 use serde::{Deserialize, Serialize};
@@ -9,8 +10,8 @@ use super::arm_numbers::{Number, Numbers, WrongKey};
 use super::channel_names::{ArmSourceName, TipQuantityName};
 use super::friction_term_entries::ArmTermsEntry;
 use super::unit_keys::{
-    CoulombKey, InertiaKey, OffsetKey, StiffnessKey, ViscousBackwardKey, ViscousForwardKey,
-    WithUnit,
+    CosineKey, CoulombKey, InertiaKey, OffsetKey, SineKey, StiffnessKey, ViscousBackwardKey,
+    ViscousForwardKey, WithUnit,
 };
 use super::unit_names::UnitNames;
 
@@ -38,6 +39,9 @@ pub struct ArmEntry {
     /// Its further friction.
     #[serde(flatten)]
     pub terms: ArmTermsEntry,
+    /// Gravity on its motor; null without.
+    #[serde(default)]
+    pub gravity: Option<ArmGravityEntry>,
     /// The command acts this much later than it is logged.
     pub command_lag_s: f64,
     /// Modes with the motor clamped, as oscillators on the motor.
@@ -51,6 +55,18 @@ pub struct ArmEntry {
     pub torque_error: Option<f64>,
     /// Length of the window that both sides were averaged with.
     pub torque_window_s: Option<f64>,
+}
+
+/// The torque g_s*sin(q) + g_c*cos(q) on the arm's motor, q its angle as logged.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ArmGravityEntry {
+    /// g_s.
+    #[serde(flatten)]
+    pub sine: Number<SineKey>,
+    /// g_c.
+    #[serde(flatten)]
+    pub cosine: Number<CosineKey>,
 }
 
 /// A mode as an oscillator on the motor.
@@ -100,6 +116,10 @@ impl ArmEntry {
             coulomb: WithUnit::new(names, a.coulomb_nm),
             offset: WithUnit::new(names, a.offset_nm),
             terms: ArmTermsEntry::of(names, &a.dry_terms),
+            gravity: found.gravity.map(|g| ArmGravityEntry {
+                sine: WithUnit::new(names, g.sine_nm),
+                cosine: WithUnit::new(names, g.cosine_nm),
+            }),
             command_lag_s: a.command_lag_s,
             modes: a.modes.iter().map(|m| OscillatorEntry::of(names, m)).collect(),
             tips: channels.tips.iter().zip(&a.shapes).enumerate().map(tip).collect(),
@@ -140,8 +160,14 @@ impl ArmEntry {
             tip_lags_s: if lags.iter().all(|lag| *lag == 0.0) { Vec::new() } else { lags },
             modes,
         };
+        let gravity = self.gravity.as_ref().map(|g| {
+            let number = Numbers { names, at: "arm.gravity" };
+            let (sine_nm, cosine_nm) = (number.of(&g.sine)?, number.of(&g.cosine)?);
+            Ok(GravityLoad { sine_nm, cosine_nm })
+        });
         Ok(FoundArm {
             arm,
+            gravity: gravity.transpose()?,
             source: self.from.source(),
             torque_used: self
                 .torque_error

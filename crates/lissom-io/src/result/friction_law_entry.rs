@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::estimate_entry::EstimateEntry;
 use super::estimate_keys::{Estimated, Refusable};
 use super::friction_term_entries::{LawTermEntry, amplitude_key};
+use super::gravity_entry::GravityEntry;
 use super::unit_keys::{
     AtRestKey, CoulombKey, CouplingKey, InertiaKey, LawAmplitudeKey, OffsetKey, ViscousKey,
     WithUnit,
@@ -57,6 +58,8 @@ pub struct ChosenLawEntry {
     /// Coupling.
     #[serde(flatten)]
     pub coupling: Refusable<CouplingKey>,
+    /// Gravity; null unless the campaign asks for it.
+    pub gravity: Option<GravityEntry>,
     /// Its further terms.
     pub terms: Vec<ChosenTermEntry>,
 }
@@ -127,6 +130,7 @@ impl ChosenLawEntry {
             viscous: WithUnit::new(names, EstimateEntry::or_null(fit.viscous)),
             inertia: WithUnit::new(names, EstimateEntry::or_null(fit.inertia)),
             coupling: WithUnit::new(names, EstimateEntry::or_null(fit.total_coupling)),
+            gravity: fit.gravity.as_ref().map(|g| GravityEntry::of(names, g)),
             terms: fit.terms.iter().map(term).collect(),
         }
     }

@@ -12,6 +12,7 @@ use super::estimate_entry::{BeamModeEntry, EstimateEntry, finite};
 use super::estimate_keys::{Estimated, Refusable};
 use super::friction_entry::CoulombEntry;
 use super::friction_law_entry::FrictionLawEntry;
+use super::gravity_entry::GravityEntry;
 use super::linear_model_entries::TransferFunctionEntry;
 use super::output_error_entry::OutputErrorEntry;
 use super::unit_keys::{
@@ -30,7 +31,7 @@ pub struct MethodEntries {
     pub output_error: Option<OutputErrorEntry>,
     /// Regression on slip phases.
     pub regression: Option<RegressionEntry>,
-    /// Ordinary least squares of smoothed samples, the baseline.
+    /// Ordinary least squares of all motion: the line that others publish, and the baseline.
     pub least_squares: Option<LeastSquaresEntry>,
     /// The friction law by evidence.
     pub friction_law: Option<FrictionLawEntry>,
@@ -108,6 +109,8 @@ pub struct RegressionEntry {
     /// Coupling by tip.
     #[serde(flatten)]
     pub coupling_by_tip: WithUnit<CouplingByTipKey, Vec<Option<EstimateEntry>>>,
+    /// Gravity; null unless the campaign asks for it.
+    pub gravity: Option<GravityEntry>,
     /// One viscous constant for each direction; null where one was enough.
     pub viscous_by_direction: Option<ViscousByDirectionEntry>,
     /// Length of the window used.
@@ -149,7 +152,7 @@ pub struct ViscousByDirectionEntry {
     pub relative_residual: f64,
 }
 
-/// Ordinary least squares of smoothed samples, the baseline.
+/// Ordinary least squares of all motion faster than 5 % of the largest speed: the line that others publish, and the baseline.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LeastSquaresEntry {
@@ -165,12 +168,16 @@ pub struct LeastSquaresEntry {
     /// Coupling by tip.
     #[serde(flatten)]
     pub coupling_by_tip: WithUnit<CouplingByTipKey, Vec<Option<EstimateEntry>>>,
-    /// Least and largest speed of the samples used.
+    /// Gravity; null unless the campaign asks for it.
+    pub gravity: Option<GravityEntry>,
+    /// Least and largest speed in the middle of a window.
     #[serde(flatten)]
     pub speed_range: WithUnit<SpeedRangeKey, [f64; 2]>,
-    /// Samples used.
-    pub samples: usize,
-    /// Part of the smoothed torque that is left.
+    /// Length of the windows.
+    pub window_s: f64,
+    /// Windows used.
+    pub rows: usize,
+    /// Part of the windowed torque that is left.
     pub relative_residual: f64,
 }
 
@@ -291,6 +298,7 @@ impl RegressionEntry {
             viscous: WithUnit::new(names, EstimateEntry::or_null(r.viscous)),
             inertia: WithUnit::new(names, EstimateEntry::or_null(r.inertia)),
             coupling_by_tip: WithUnit::new(names, coupling.collect()),
+            gravity: r.gravity.as_ref().map(|g| GravityEntry::of(names, g)),
             viscous_by_direction: r
                 .viscous_by_direction
                 .as_ref()
@@ -329,15 +337,17 @@ impl ViscousByDirectionEntry {
 
 impl LeastSquaresEntry {
     fn of(names: UnitNames, constant: f64, fit: &LeastSquares) -> Self {
-        let DriveEstimates { friction, inertia, coupling_by_tip, .. } = &fit.estimates;
+        let DriveEstimates { friction, inertia, coupling_by_tip, gravity, .. } = &fit.estimates;
         let coupling = coupling_by_tip.iter().map(|e| EstimateEntry::or_null(*e));
         Self {
             coulomb: CoulombEntry::of(names, constant, friction),
             viscous: WithUnit::new(names, EstimateEntry::or_null(friction.viscous)),
             inertia: WithUnit::new(names, EstimateEntry::or_null(*inertia)),
             coupling_by_tip: WithUnit::new(names, coupling.collect()),
+            gravity: gravity.as_ref().map(|g| GravityEntry::of(names, g)),
             speed_range: WithUnit::new(names, fit.speed_range),
-            samples: fit.samples,
+            window_s: fit.window_s,
+            rows: fit.rows,
             relative_residual: fit.relative_residual,
         }
     }

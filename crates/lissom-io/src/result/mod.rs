@@ -17,6 +17,7 @@ mod friction_entry;
 mod friction_law_entry;
 mod friction_term_entries;
 mod geometry_entry;
+mod gravity_entry;
 mod linear_model_entries;
 mod method_entries;
 mod output_error_entry;
@@ -30,7 +31,7 @@ mod unit_keys;
 mod unit_names;
 mod validation_file;
 
-pub use arm_entry::{ArmEntry, ArmTipEntry, OscillatorEntry};
+pub use arm_entry::{ArmEntry, ArmGravityEntry, ArmTipEntry, OscillatorEntry};
 pub use channel_names::{ArmSourceName, AxisName, DirectionName, FalloffName, TipQuantityName};
 pub use constant_velocity_entry::{
     ConstantVelocityEntry, FrictionLineEntry, LineShapeName, SteadyPointEntry,
@@ -53,6 +54,7 @@ pub use friction_term_entries::{
     NearRestEntry, RippleEntry,
 };
 pub use geometry_entry::{ArmQuantityName, ExplanationEntry, GeometryEntry};
+pub use gravity_entry::GravityEntry;
 pub use linear_model_entries::{
     FrequencyResponseEntry, LinearModelEntries, ModelSourceName, SeriesEntry, TipModelEntry,
     TipResponseEntry, TransferFunctionEntry,

@@ -12,6 +12,7 @@ use super::estimate_keys::Refusable;
 use super::finding_entry::FindingEntry;
 use super::friction_entry::FrictionEntry;
 use super::geometry_entry::GeometryEntry;
+use super::gravity_entry::GravityEntry;
 use super::linear_model_entries::{FrequencyResponseEntry, LinearModelEntries};
 use super::method_entries::MethodEntries;
 use super::separability_entry::SeparabilityEntry;
@@ -37,6 +38,8 @@ pub struct ResultFile {
     pub friction: FrictionEntry,
     /// The drive.
     pub drive: DriveEntry,
+    /// Gravity of an unbalanced load; null unless the campaign asks for it and the data tell it.
+    pub gravity: Option<GravityEntry>,
     /// The beam.
     pub beam: BeamEntry,
     /// What the logs separate; null without a covariance.
@@ -149,6 +152,7 @@ impl ResultFile {
             from: id.method.and_then(MethodName::of),
             friction: FrictionEntry::of(names, constant, id),
             drive: DriveEntry { inertia: WithUnit::new(names, inertia) },
+            gravity: id.gravity.as_ref().map(|g| GravityEntry::of(names, g)),
             beam: BeamEntry::of(names, id),
             verdict: separability.map(|s| SeparabilityEntry::of(channels.axis, names, s)),
             arm: id.arm.as_ref().map(|found| ArmEntry::of(channels, names, found)),

@@ -23,6 +23,18 @@ impl DryTerms {
         self.near_rest.is_none() && self.ripples.is_empty()
     }
 
+    /// The least that they brake by, at any speed and angle \[N·m\]; negative where they drive.
+    pub(crate) fn least_braking_nm(&self) -> f64 {
+        let near = self.near_rest.map_or(0.0, |n| n.torque_nm.min(0.0));
+        near - self.ripples.iter().map(|r| r.cosine_nm.hypot(r.sine_nm)).sum::<f64>()
+    }
+
+    /// The scales over which they change.
+    pub(crate) fn scales(&self) -> impl Iterator<Item = TermScale> {
+        let near = self.near_rest.iter().map(|n| TermScale::Speed(n.speed_rad_s));
+        near.chain(self.ripples.iter().map(|r| TermScale::PerAngle(r.per_rad)))
+    }
+
     /// Torque against the motion \[N·m\].
     pub(crate) fn braking_nm(&self, at: Place) -> f64 {
         let near = self.near_rest.map_or(0.0, |n| n.braking_nm(at));
@@ -74,6 +86,15 @@ impl DryTerms {
         let near = self.near_rest.iter().map(|n| n.step_s(at, acceleration, per_torque));
         near.chain(self.ripples.iter().map(|r| r.step_s(turning))).fold(f64::INFINITY, f64::min)
     }
+}
+
+/// What a term changes over.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum TermScale {
+    /// A speed \[rad/s\].
+    Speed(f64),
+    /// Waves over the angle \[rad per rad\].
+    PerAngle(f64),
 }
 
 /// One number of [`DryTerms`] that a search may move.

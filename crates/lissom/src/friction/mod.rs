@@ -19,6 +19,7 @@ pub(crate) use bristles::Bristles;
 pub use coulomb::Coulomb;
 pub use dry_friction::DryFriction;
 pub(crate) use dry_friction::FrictionSeries;
+pub(crate) use dry_terms::TermScale;
 pub use dry_terms::{DryTerms, FrictionNumber};
 pub use error::DriveError;
 pub use falloff::Falloff;

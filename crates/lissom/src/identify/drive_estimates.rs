@@ -2,6 +2,7 @@
 
 use crate::identify::estimate::Estimate;
 use crate::identify::friction_estimates::Friction;
+use crate::identify::gravity_estimate::Gravity;
 
 /// A way to estimate the parameters of the drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,4 +56,6 @@ pub struct DriveEstimates {
     pub coupling: Option<Estimate>,
     /// κ_i of each tip of the campaign; empty where no tip shows an angle.
     pub coupling_by_tip: Vec<Option<Estimate>>,
+    /// Gravity, where the campaign has it.
+    pub gravity: Option<Gravity>,
 }

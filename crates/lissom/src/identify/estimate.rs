@@ -1,9 +1,17 @@
 //! A figure with its uncertainty.
 
+use statrs::distribution::{ContinuousCDF as _, StudentsT};
+
 use crate::identify::thresholds;
 
 /// Half width of a 95 % interval \[standard errors\]: the two-sided 95 % point of the normal distribution.
 pub const NORMAL_95: f64 = thresholds::NORMAL_95;
+
+/// How many times as long an interval of 95 % is where the standard error has only so many degrees of freedom:
+/// Student's t beside the normal distribution.
+pub(crate) fn wider_by_student(freedom: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |t| t.inverse_cdf(0.975) / NORMAL_95)
+}
 
 /// An estimated figure.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,6 +6,7 @@ use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::findings::Finding;
 use crate::identify::found_arm::FoundArm;
 use crate::identify::friction_estimates::Friction;
+use crate::identify::gravity_estimate::Gravity;
 use crate::identify::judge::{Conclusion, Methods};
 use crate::identify::methods::constant_velocity::ConstantVelocity;
 use crate::identify::methods::friction_law::FrictionLaw;
@@ -40,6 +41,8 @@ pub struct Identified {
     pub friction: Friction,
     /// Inertia or mass of that solution.
     pub inertia: Option<Estimate>,
+    /// Gravity of that solution, where the campaign has it and the data tell it.
+    pub gravity: Option<Gravity>,
     /// The beam.
     pub beam: BeamEstimates,
     /// The report's method.
@@ -98,6 +101,7 @@ impl Identified {
             method: chosen.method,
             friction: chosen.drive.friction,
             inertia: chosen.drive.inertia,
+            gravity: chosen.drive.gravity,
             beam: chosen.beam,
             third_harmonic: methods.third_harmonic,
             third_harmonic_model: methods.third_harmonic_model,

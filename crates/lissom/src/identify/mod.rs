@@ -7,6 +7,7 @@ pub mod findings;
 mod found_arm;
 mod friction_estimates;
 mod geometry;
+mod gravity_estimate;
 mod identified;
 pub(crate) mod judge;
 pub(crate) mod methods;
@@ -30,19 +31,22 @@ pub use findings::{Finding, FindingKind, Severity};
 pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
 pub use friction_estimates::{Friction, NearRestEstimate, RippleEstimate};
 pub use geometry::{ArmQuantity, Explanation, GeometryCheck, geometry_check};
+pub use gravity_estimate::Gravity;
 pub use identified::{BeamEstimates, Identified};
 pub use methods::constant_velocity::{
     ConstantVelocity, FrictionLine, LineError, LineShape, constant_velocity,
 };
-pub use methods::friction_law::{CurvePoint, FrictionLaw, LawCandidate, LawFit, LawTerm};
+pub use methods::friction_law::{
+    CurvePoint, FrictionLaw, LawCandidate, LawFit, LawTerm, ScaleUnit,
+};
 pub use methods::least_squares::{LeastSquares, least_squares};
 pub use methods::output_error::{
     ByRun, Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, output_error,
     starts, starts_by_motor, starts_by_responses,
 };
 pub use methods::regression::{
-    BeamRegression, ByDirection, Candidate, MissingKind, MissingTerm, MotorRegression,
-    beam_regression, motor_regression,
+    BeamRegression, ByDirection, Candidate, GravityPartner, MissingKind, MissingTerm,
+    MotorRegression, beam_regression, motor_regression,
 };
 pub use methods::third_harmonic::{PairFigure, ThirdHarmonic, mean_figure, pair_figure};
 pub use options::Options;

@@ -11,6 +11,7 @@ use crate::identify::methods::constant_velocity;
 use crate::identify::methods::friction_law::{LawTerm, friction_law};
 use crate::identify::methods::least_squares::least_squares;
 use crate::identify::methods::output_error::{OutputErrorStart, output_error};
+use crate::identify::methods::regression::thresholds::FEW_PHASES;
 use crate::identify::methods::regression::{
     BeamRegression, MotorRegression, beam_regression, motor_regression,
 };
@@ -127,7 +128,9 @@ pub fn identify(
     let tables = ResponseTables { prepared: &prepared, coulomb_command: best };
     let shown = tables.without_friction_known();
     let tips_model = beam_model(campaign, &shown);
-    let replayable = any_regression.filter(|_| !options.without_output_error);
+    // A replayed arm has no gravity.
+    let replayed = !options.without_output_error && !campaign.gravity;
+    let replayable = any_regression.filter(|_| replayed);
     let output_error = replayable.and_then(|motor| {
         progress(Stage::OutputError);
         let corrected = || tables.with_square_wave(best);
@@ -198,11 +201,12 @@ fn coulomb_command(
     from_regression.filter(|c| c.value > 0.0).or(third_harmonic.map(|t| t.coulomb_command))
 }
 
-/// Whether a regression of nothing but constant velocities gives all parameters of the drive.
+/// Whether a regression of nothing but constant velocities gives all parameters of the drive, from transitions enough.
 fn is_sound_alone(r: &MotorRegression) -> bool {
     let known = |e: Option<Estimate>| e.is_some_and(|e| e.std < CONSTANT_VELOCITY_ALONE * e.value);
-    known(r.inertia)
-        && known(r.coulomb)
+    r.phases >= FEW_PHASES
+        && known(r.inertia)
+        && (known(r.coulomb) || known(r.forward) || known(r.backward))
         && known(r.viscous)
         && r.relative_residual < UNEXPLAINED_TORQUE
 }

@@ -19,6 +19,12 @@ pub enum RecordError {
         /// Tips of the run.
         found: usize,
     },
+    /// Gravity where it cannot act as `g_s·sin θ + g_c·cos θ` on the motor.
+    #[error("{}", gravity_refused(*.linear))]
+    Gravity {
+        /// Whether the axis is linear.
+        linear: bool,
+    },
     /// Two channels of a run differ in length.
     #[error("run {run}: channel {channel} has {found} samples where the motor has {expected}")]
     Length {
@@ -83,4 +89,12 @@ pub enum RecordError {
         /// π over the sample time \[rad/s\].
         nyquist_rad_s: f64,
     },
+}
+
+fn gravity_refused(linear: bool) -> &'static str {
+    if linear {
+        "gravity on a linear axis is a constant force, which every fit has as its offset"
+    } else {
+        "gravity is identified for a rigid joint, and this campaign has tips"
+    }
 }

@@ -18,6 +18,8 @@ pub struct Campaign {
     pub channels: Channels,
     /// The runs, in the order in which they were given. Sample times may differ between runs.
     pub runs: Vec<Run>,
+    /// Whether a load with gravity acts on the motor, `g_s·sin θ + g_c·cos θ`, to be identified.
+    pub gravity: bool,
 }
 
 impl Campaign {
@@ -39,6 +41,18 @@ impl Campaign {
                 });
             }
         }
-        Ok(Self { channels, runs })
+        Ok(Self { channels, runs, gravity: false })
+    }
+
+    /// The same with a load of gravity `g_s·sin θ + g_c·cos θ` on the motor, θ the motor's angle, to be identified.
+    ///
+    /// # Errors
+    /// [`RecordError::Gravity`] on linear axes, and with tips: a beam's angles would need a load each.
+    pub fn with_gravity(mut self) -> Result<Self, RecordError> {
+        if self.channels.axis == Axis::Linear || !self.channels.tips.is_empty() {
+            return Err(RecordError::Gravity { linear: self.channels.axis == Axis::Linear });
+        }
+        self.gravity = true;
+        Ok(self)
     }
 }

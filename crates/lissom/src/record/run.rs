@@ -112,6 +112,13 @@ impl Run {
         self
     }
 
+    /// The run with another command: `of` gives that of each sample from its index and what was logged.
+    #[must_use]
+    pub(crate) fn with_command(&self, of: impl Fn(usize, f64) -> f64) -> Self {
+        let command = self.command.iter().enumerate().map(|(k, u)| of(k, *u)).collect();
+        Self { command, ..self.clone() }
+    }
+
     /// Name, as reports give it.
     pub fn name(&self) -> &str {
         &self.name

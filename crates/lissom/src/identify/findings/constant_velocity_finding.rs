@@ -188,9 +188,8 @@ impl Describe for ConstantVelocityFinding {
 
     fn severity(&self) -> Severity {
         match self {
-            Self::ClassicalFigures => Severity::Info,
-            Self::NoSteadyVelocity
-            | Self::SlowestSpeedsTaken
+            Self::ClassicalFigures | Self::NoSteadyVelocity => Severity::Info,
+            Self::SlowestSpeedsTaken
             | Self::ExtrapolationCurved { .. }
             | Self::SpeedsScatter { .. }
             | Self::TwoSpeeds { .. } => Severity::Warning,

@@ -16,8 +16,6 @@ use crate::identify::findings::units::EstimateUnits;
 pub enum JudgedParameter {
     /// Coulomb friction, the mean of both directions.
     Coulomb,
-    /// Coulomb friction in one direction.
-    CoulombOneDirection,
     /// Viscous friction.
     Viscous,
     /// Inertia or mass.
@@ -30,7 +28,6 @@ impl JudgedParameter {
     fn name(self) -> &'static str {
         match self {
             Self::Coulomb => "Coulomb friction",
-            Self::CoulombOneDirection => "Coulomb friction in one direction",
             Self::Viscous => "viscous friction",
             Self::Inertia => "inertia",
             Self::Coupling => "coupling",
@@ -39,7 +36,7 @@ impl JudgedParameter {
 
     fn unit(self, units: EstimateUnits) -> String {
         match self {
-            Self::Coulomb | Self::CoulombOneDirection => units.torque().to_owned(),
+            Self::Coulomb => units.torque().to_owned(),
             Self::Viscous => units.viscous(),
             Self::Inertia => units.inertia(),
             Self::Coupling => units.stiffness(),
@@ -49,7 +46,6 @@ impl JudgedParameter {
     fn keys(self) -> Vec<&'static str> {
         match self {
             Self::Coulomb => vec![key::COULOMB],
-            Self::CoulombOneDirection => vec![key::COULOMB, key::OFFSET],
             Self::Viscous => vec![key::VISCOUS],
             Self::Inertia => vec![key::INERTIA],
             Self::Coupling => vec![key::COUPLING],
@@ -60,9 +56,6 @@ impl JudgedParameter {
     fn hint(self) -> &'static str {
         match self {
             Self::Coulomb => "add slow runs in both directions",
-            Self::CoulombOneDirection => {
-                "check for a large load or a sensor with an offset; check units, signs and the origin of a camera"
-            }
             Self::Viscous => "add runs at higher speed and larger amplitude",
             Self::Inertia => "add runs with more acceleration: faster sines, larger amplitude",
             Self::Coupling => "add runs near the beam's resonance",
@@ -128,6 +121,15 @@ pub enum EstimateFinding {
         /// Unit of the estimate.
         units: EstimateUnits,
     },
+    /// The motor turns one way only: Coulomb friction and a constant load are one number.
+    FrictionWithLoad {
+        /// Whether it turns forward.
+        forward: bool,
+        /// Both together, against the motion.
+        sum: Estimate,
+        /// Unit of the sum.
+        units: EstimateUnits,
+    },
     /// Another parameter came out negative.
     OthersDoubtful,
     /// Inertia and Coulomb friction come out negative together.
@@ -143,6 +145,10 @@ pub enum EstimateFinding {
     },
     /// Friction differs by direction, or a constant load acts.
     Offset {
+        /// The offset.
+        offset: Estimate,
+        /// Unit of the offset.
+        units: EstimateUnits,
         /// Offset relative to Coulomb friction.
         share: f64,
     },
@@ -219,7 +225,23 @@ impl fmt::Display for EstimateFinding {
                  response is not linear",
                 significant(*standard_errors, 2)
             ),
-            Self::Offset { share } => write!(
+            Self::FrictionWithLoad { forward, sum, units } => write!(
+                f,
+                "the motor turns {} only: Coulomb friction and a constant load cannot be told apart; together they are \
+                 {} {}",
+                if *forward { "forward" } else { "backward" },
+                with_error(*sum),
+                units.torque()
+            ),
+            // Friction brakes both ways: more than that is a load.
+            Self::Offset { offset, units, share } if share.abs() > 1.0 => write!(
+                f,
+                "a constant load acts, of {} {}: more than Coulomb friction. Friction that differs by direction would \
+                 be counted with it",
+                with_error(*offset),
+                units.torque()
+            ),
+            Self::Offset { share, .. } => write!(
                 f,
                 "friction differs by direction, or a constant load acts: the offset is {:.1} % of Coulomb friction",
                 100.0 * share
@@ -254,6 +276,7 @@ impl Describe for EstimateFinding {
             Self::PoorExcitation { .. }
             | Self::NotSeparable { .. }
             | Self::NegativeFigure { .. }
+            | Self::FrictionWithLoad { .. }
             | Self::CommandSign => Severity::Refusal,
             Self::PerUnitOfCommand
             | Self::CommandNotMeasured
@@ -268,6 +291,7 @@ impl Describe for EstimateFinding {
             Self::NotSeparable { parameter }
             | Self::PoorExcitation { parameter, .. }
             | Self::NegativeFigure { parameter, .. } => parameter.keys(),
+            Self::FrictionWithLoad { .. } => vec![key::COULOMB, key::OFFSET],
             Self::OthersDoubtful => vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING],
             Self::CommandSign | Self::PerUnitOfCommand => {
                 vec![key::COULOMB, key::VISCOUS, key::INERTIA]
@@ -290,6 +314,7 @@ impl Describe for EstimateFinding {
             Self::NotSeparable { parameter }
             | Self::PoorExcitation { parameter, .. }
             | Self::NegativeFigure { parameter, .. } => parameter.hint(),
+            Self::FrictionWithLoad { .. } => "add a run that turns the other way",
             Self::OthersDoubtful => {
                 "the equation does not describe these runs: check signs, units and what acts on the axis"
             }

@@ -10,6 +10,7 @@ use crate::identify::findings::number_text::{later, significant, with_error};
 use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
 use crate::identify::findings::units::EstimateUnits;
+use crate::identify::methods::regression::GravityPartner;
 use crate::identify::methods::regression::missing::{MissingKind, MissingTerm};
 
 /// Digits of a coefficient whose standard error is not given.
@@ -25,8 +26,18 @@ pub enum RegressionFinding {
         /// Share of the windowed torque that it does not explain; `None` without enough slip phases.
         residual_share: Option<f64>,
     },
-    /// Too few reversals for the regression: ordinary least squares are used.
-    FewPhases,
+    /// Too few reversals to show how friction scatters from one stroke to the next.
+    FewPhases {
+        /// Slip phases in the fit.
+        phases: usize,
+    },
+    /// Gravity can hardly be told from another term.
+    GravityUnseparated {
+        /// Which.
+        with: GravityPartner,
+        /// Correlation of both.
+        correlation: f64,
+    },
     /// The regression leaves much of the torque.
     UnexplainedTorque {
         /// Share of the windowed torque.
@@ -68,6 +79,10 @@ fn looks_like(term: &MissingTerm, units: EstimateUnits) -> String {
             significant(1e3 * term.value.abs(), DIGITS),
             later(term.value)
         ),
+        MissingKind::Gravity => format!(
+            "the command depends on the angle like gravity, with an amplitude of {size} {}",
+            units.torque()
+        ),
         MissingKind::Position => {
             format!("a torque {grows} with position, by {size} {}", units.stiffness())
         }
@@ -107,9 +122,22 @@ impl fmt::Display for RegressionFinding {
             Self::RegressionRefused { residual_share: None } => f.write_str(
                 "too few slip phases are long enough for a window: the regression gives no estimates",
             ),
-            Self::FewPhases => f.write_str(
-                "the motor reverses too seldom to show how friction scatters from stroke to stroke: the estimates are \
-                 those of ordinary least squares, and their standard errors are rough",
+            Self::FewPhases { phases } => write!(
+                f,
+                "{} cannot show how friction scatters from one stroke to the next: standard errors count the scatter \
+                 within a stroke alone, and may be too small",
+                match phases {
+                    1 => "one stroke".to_owned(),
+                    n => format!("{n} strokes"),
+                }
+            ),
+            Self::GravityUnseparated { with, correlation } => write!(
+                f,
+                "gravity and {} can hardly be told apart in these runs (correlation {correlation:.2})",
+                match with {
+                    GravityPartner::Inertia => "inertia",
+                    GravityPartner::Offset => "a constant load",
+                }
             ),
             Self::UnexplainedTorque { residual_share } => write!(
                 f,
@@ -161,7 +189,8 @@ impl Describe for RegressionFinding {
     fn severity(&self) -> Severity {
         match self {
             Self::RegressionRefused { .. } => Severity::Refusal,
-            Self::FewPhases
+            Self::FewPhases { .. }
+            | Self::GravityUnseparated { .. }
             | Self::UnexplainedTorque { .. }
             | Self::OneSine
             | Self::MissingTerm { .. }
@@ -172,10 +201,16 @@ impl Describe for RegressionFinding {
     fn affects(&self) -> Vec<&'static str> {
         match self {
             Self::RegressionRefused { .. }
-            | Self::FewPhases
+            | Self::FewPhases { .. }
             | Self::UnexplainedTorque { .. }
             | Self::MissingTerm { .. } => {
-                vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING]
+                vec![key::COULOMB, key::OFFSET, key::VISCOUS, key::INERTIA, key::COUPLING]
+            }
+            Self::GravityUnseparated { with: GravityPartner::Inertia, .. } => {
+                vec![key::INERTIA, key::GRAVITY]
+            }
+            Self::GravityUnseparated { with: GravityPartner::Offset, .. } => {
+                vec![key::OFFSET, key::GRAVITY]
             }
             Self::OneSine => {
                 vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES]
@@ -190,7 +225,13 @@ impl Describe for RegressionFinding {
                 "use longer moves in both directions at a measured current; measure the tip of a flexible beam; check \
                  columns, units and signs"
             }
-            Self::FewPhases => "log four strokes or more in each direction",
+            Self::FewPhases { .. } => "log four strokes or more in each direction",
+            Self::GravityUnseparated { with: GravityPartner::Inertia, .. } => {
+                "move over a larger angle, or at other frequencies: inertia grows with the square of the frequency, gravity does not"
+            }
+            Self::GravityUnseparated { with: GravityPartner::Offset, .. } => {
+                "move over a longer arc: over a short one gravity is a constant"
+            }
             Self::UnexplainedTorque { .. } => {
                 "look for a delay, a load, other friction, or a flexible mode without a tip; check units and signs"
             }
@@ -199,6 +240,7 @@ impl Describe for RegressionFinding {
                 MissingKind::Delay => {
                     "shift the channels against each other, or log the current where it is measured"
                 }
+                MissingKind::Gravity => "add [load] gravity = true to the campaign",
                 MissingKind::Position => {
                     "look for gravity, a spring, cogging, or a wrong scale of a tip"
                 }

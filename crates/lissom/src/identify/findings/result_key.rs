@@ -6,6 +6,7 @@ pub(crate) const COULOMB: &str = "friction.coulomb";
 pub(crate) const OFFSET: &str = "friction.offset";
 pub(crate) const VISCOUS: &str = "friction.viscous";
 pub(crate) const INERTIA: &str = "drive.inertia";
+pub(crate) const GRAVITY: &str = "gravity";
 pub(crate) const COUPLING: &str = "beam.coupling";
 pub(crate) const MODES: &str = "beam.modes";
 pub(crate) const THIRD_HARMONIC: &str = "methods.third_harmonic";

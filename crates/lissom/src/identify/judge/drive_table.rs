@@ -110,6 +110,7 @@ fn of_model(evidence: &Evidence<'_>, model: &MotorFit, friction: Friction) -> Dr
         inertia: Some(model.inertia),
         coupling: coupling.filter(|_| !evidence.campaign.channels.tips.is_empty()),
         coupling_by_tip: Vec::new(),
+        gravity: None,
     }
 }
 
@@ -123,7 +124,7 @@ fn by_direction(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
 
 fn by_regression_with_friction(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
     of_slip_phases(evidence, Method::Regression)
-        .filter(|e| e.friction.coulomb.is_some_and(is_known) && !is_beaten(evidence))
+        .filter(|e| has_friction(&e.friction) && !is_beaten(evidence))
 }
 
 /// Where slip phases are too few for the regression, or the regression leaves more than this baseline.
@@ -173,6 +174,15 @@ fn by_constant_velocity(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
     let found = evidence.methods.constant_velocity.as_ref()?;
     let estimates = found.estimates();
     (estimates.friction != Friction::default()).then_some(estimates)
+}
+
+/// Whether Coulomb friction is known, or with a constant load in the one direction that the motor turns.
+fn has_friction(friction: &Friction) -> bool {
+    match (friction.coulomb, friction.forward, friction.backward) {
+        (Some(coulomb), ..) => is_known(coulomb),
+        (None, Some(one), None) | (None, None, Some(one)) => is_known(one),
+        _ => false,
+    }
 }
 
 fn is_positive(e: Estimate) -> bool {

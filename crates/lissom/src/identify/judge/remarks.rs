@@ -2,7 +2,8 @@
 
 use crate::identify::drive_estimates::Method;
 use crate::identify::findings::{
-    BeamFinding, EstimateFinding, Finding, FrictionSign, OtherMethod, ResponseFinding,
+    BeamFinding, EstimateFinding, EstimateUnits, Finding, FrictionSign, OtherMethod,
+    ResponseFinding,
 };
 use crate::identify::judge::beam_choice::complete;
 use crate::identify::judge::evidence::{Chosen, Evidence};
@@ -72,8 +73,9 @@ fn friction(evidence: &Evidence<'_>, chosen: &Chosen, findings: &mut Vec<Finding
         && let Some(c) = chosen.drive.friction.coulomb
         && offset.value.abs() > OFFSET_REPORTED * c.value
     {
+        let units = EstimateUnits::new(&evidence.campaign.channels);
         let share = offset.value / c.value;
-        findings.push(Finding::new(EstimateFinding::Offset { share }));
+        findings.push(Finding::new(EstimateFinding::Offset { offset, units, share }));
     }
 }
 

@@ -11,10 +11,14 @@ pub(super) fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -
     let regression = evidence.methods.regression.is_some();
     let Chosen { drive, beam, .. } = chosen;
     let units = EstimateUnits::new(&evidence.campaign.channels);
+    // Coulomb friction is told in neither direction, or in one.
+    let one_direction = drive.friction.coulomb.is_none();
+    let one_direction_told =
+        one_direction && drive.friction.forward.is_some() != drive.friction.backward.is_some();
     let mut look = |parameter: JudgedParameter, figure: &mut Option<Estimate>| {
         let Some(estimate) = *figure else {
             // Without a regression one refusal of all of it is enough.
-            if regression {
+            if regression && !(one_direction_told && parameter == JudgedParameter::Coulomb) {
                 findings.push(EstimateFinding::NotSeparable { parameter });
             }
             return;
@@ -36,20 +40,20 @@ pub(super) fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -
     if !beam.coupling_by_tip.is_empty() || beam.coupling.is_some() {
         look(JudgedParameter::Coupling, &mut beam.coupling);
     }
-    for figure in [drive.friction.forward, drive.friction.backward] {
-        if let Some(estimate) = figure.filter(Estimate::is_negative) {
-            let parameter = JudgedParameter::CoulombOneDirection;
-            findings.push(EstimateFinding::NegativeFigure { parameter, estimate, units });
-            drive.friction.coulomb = None;
-        }
-    }
     if findings.iter().any(|f| matches!(f, EstimateFinding::NegativeFigure { .. })) {
         findings.push(EstimateFinding::OthersDoubtful);
     }
-    if drive.friction.coulomb.is_none() {
-        drive.friction.forward = None;
-        drive.friction.backward = None;
-        drive.friction.offset = None;
+    let friction = &mut drive.friction;
+    if friction.coulomb.is_none() {
+        friction.offset = None;
+        // One direction alone tells Coulomb friction and a constant load as one number.
+        for one in [&mut friction.forward, &mut friction.backward] {
+            *one = one.filter(|e| one_direction && e.std < UNCERTAIN_ERROR * e.value.abs());
+        }
+        let forward = friction.forward.is_some();
+        if let Some(sum) = friction.forward.xor(friction.backward) {
+            findings.push(EstimateFinding::FrictionWithLoad { forward, sum, units });
+        }
     }
     findings.into_iter().map(Finding::new).collect()
 }

@@ -1,50 +1,53 @@
-//! Ordinary least squares of the motor's equation: the baseline that other methods must beat.
+//! Ordinary least squares of the motor's equation: the line of Coulomb and viscous friction that others publish, and the
+//! baseline that the other methods must beat.
+#![expect(clippy::inline_always, reason = "compiled for wide registers as one: half the time")]
+
+use std::sync::Arc;
 
 use crate::identify::drive_estimates::DriveEstimates;
+use crate::identify::methods::regression::thresholds::{BLOCKS_WANTED, FEW_PHASES};
 use crate::identify::methods::regression::{
-    Cluster, Fitted, Term, coupled_tips, slip_phases, smoothing, solve,
+    Candidate, Cluster, Fitted, MotorColumns, MotorEquation, Phase, Rows, SineAndCosine, Term,
+    WINDOW_STEP, Window, scan, slip_phases, smoothing, solve, velocity,
 };
-use crate::identify::methods::thresholds::{ACCELERATION_NOISE, SLOWEST_SAMPLE};
-use crate::identify::prepare::channel_noise::channel_noise;
+use crate::identify::methods::thresholds::{SLOWEST_SAMPLE, STANDING_SHARE};
 use crate::identify::prepare::prepared::Prepared;
-use crate::record::{Campaign, Hold, Run, TipQuantity};
-
-/// Shortest and longest half width of the smoothing \[samples\].
-///
-/// Convention.
-const HALF_WIDTHS: [usize; 2] = [4, 512];
-/// Column of each term; those of the tips follow.
-const INERTIA: usize = 0;
-const VISCOUS: usize = 1;
-const DRY: usize = 2;
-const TIPS: usize = 3;
+use crate::identify::prepare::run_noise::RunNoise;
+use crate::record::{Campaign, Run};
 
 /// Estimates of the motor's equation by ordinary least squares.
 #[derive(Debug, Clone)]
 pub struct LeastSquares {
-    /// Inertia, Coulomb and viscous friction, offset, and couplings where tips show angles.
+    /// Inertia, Coulomb and viscous friction, offset, couplings where tips show angles, gravity where the campaign has it.
     pub estimates: DriveEstimates,
-    /// Least and largest speed of the samples used \[rad/s or m/s\].
+    /// Least and largest speed in the middle of a window \[rad/s or m/s\].
     pub speed_range: [f64; 2],
-    /// Samples used.
-    pub samples: usize,
-    /// ‖y − X·q‖/‖y‖: part of the smoothed torque that is left.
+    /// Length of the windows \[s\].
+    pub window_s: f64,
+    /// Lengths tried.
+    pub candidates: Vec<Candidate>,
+    /// Windows used.
+    pub rows: usize,
+    /// ‖y − X·q‖/‖y‖: part of the windowed torque that is left.
     pub relative_residual: f64,
     /// Products of all rows, forward and backward.
     products: [Cluster; 2],
-    /// Tips whose coupling is in the equation.
-    tips: Vec<usize>,
+    columns: MotorColumns,
     back_emf_viscous: f64,
 }
 
-/// Fits `τ = J·θ̈ + V·θ̇ + C·sgn θ̇ + O + Σκ_i(θ_m − θ_i)` to smoothed samples, all with the same weight.
+/// Fits `τ = J·θ̈ + V·θ̇ + C·sgn θ̇ + O + Σκ_i(θ_m − θ_i) + g_s·sin θ + g_c·cos θ` to all motion, with the same weight
+/// everywhere.
 ///
-/// Parabolas over neighbouring samples give angle, velocity and acceleration, and the torque is smoothed in the same
-/// way; they are as short as the sensor's noise lets the acceleration be. Used are samples in slip phases faster than
-/// 5 % of the largest speed. Standard errors take slip phases as independent.
+/// The equation is multiplied by smooth windows and integrated by parts, as in the regression; here windows may hold
+/// reversals: Coulomb friction has the sign that the velocity has at each sample. Used are windows in whose middle the
+/// motor is faster than 5 % of its largest speed, and in which it does not stand. Standard errors take slip phases as independent.
+///
+/// Where friction is no straight line over speed, this is the line that others publish: the range of speeds belongs
+/// to it.
 ///
 /// τ is the command times its torque constant \[N·m, N, or the command's unit where the constant is unknown\].
-/// `None` where too few samples slip.
+/// `None` where too little slips.
 ///
 /// ```
 /// # use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
@@ -65,64 +68,53 @@ pub struct LeastSquares {
 /// `[Feliu1989, eqs. (14), (15)]` is the equation.
 pub fn least_squares(prepared: &Prepared<'_>) -> Option<LeastSquares> {
     let campaign = prepared.used();
-    let tips = coupled_tips(campaign);
-    let runs: Vec<Smoothed<'_>> = campaign.runs.iter().map(Smoothed::new).collect();
-    let fastest = runs.iter().map(Smoothed::fastest).fold(0.0, f64::max);
-    let least = SLOWEST_SAMPLE * fastest;
-    let mut clusters = Vec::new();
-    let mut slowest = f64::INFINITY;
-    for (index, smoothed) in runs.iter().enumerate() {
-        for phase in slip_phases(smoothed.run.motor(), smoothed.smooth, smoothed.sample_s) {
-            let mut cluster = Cluster::new(index, phase.sign, TIPS + tips.len() + 1);
-            let mut k = phase.from + smoothed.half;
-            while k + smoothed.half < phase.to {
-                let speed = smoothed.velocity(k) * phase.sign;
-                if speed > least {
-                    cluster.add(&smoothed.row(campaign, &tips, k));
-                    slowest = slowest.min(speed);
-                }
-                k += smoothed.stride();
-            }
-            if cluster.rows > 0 {
-                clusters.push(cluster);
-            }
-        }
-    }
-    let mut terms =
-        vec![Term::Plain(INERTIA), Term::Plain(VISCOUS), Term::Signed(DRY), Term::Plain(DRY)];
-    terms.extend((0..tips.len()).map(|i| Term::Plain(TIPS + i)));
-    let samples: usize = clusters.iter().map(|c| c.rows).sum();
-    if clusters.len() < 2 || samples < 3 * terms.len() {
-        return None;
-    }
-    let solution = solve(&clusters, &terms)?;
-    // One width of smoothing: no change with it is known.
-    let unchanged = vec![0.0; terms.len()];
-    let fitted = Fitted { solution: &solution, change: &unchanged, tips: &tips };
-    let mut products = [1.0, -1.0].map(|sign| Cluster::new(0, sign, TIPS + tips.len() + 1));
-    for cluster in &clusters {
-        products[usize::from(cluster.sign < 0.0)].merge(cluster);
+    let columns = MotorColumns::of(campaign);
+    let runs: Vec<Moving<'_>> = campaign
+        .runs
+        .iter()
+        .zip(prepared.noise())
+        .map(|(run, noise)| Moving::of(run, noise))
+        .collect();
+    let fastest = runs.iter().map(Moving::fastest).fold(0.0, f64::max);
+    let line = Line { campaign, columns: &columns, runs: &runs, fastest };
+    let dry = Term::Plain(columns.count());
+    let terms = columns.terms(dry);
+    let counts: Vec<bool> = (0..terms.len()).map(|i| i < 3).collect();
+    let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
+    let found = scan(sample_s, &[], &counts, |length| solve(&line.clusters(length), &terms))?;
+    let window_s = found.candidates[found.chosen].window_s;
+    let solution = &found.solution;
+    let fitted = Fitted { solution, change: &found.change, columns: &columns, difference: None };
+    let mut products = [1.0, -1.0].map(|sign| Cluster::new(0, sign, columns.count() + 2));
+    for cluster in line.clusters(window_s) {
+        products[usize::from(cluster.sign < 0.0)].merge(&cluster);
     }
     Some(LeastSquares {
         estimates: fitted.estimates(&campaign.channels),
-        speed_range: [slowest, fastest],
-        samples,
+        speed_range: [line.slowest(window_s), fastest],
+        window_s,
+        rows: solution.rows,
         relative_residual: solution.relative_residual,
+        candidates: found.candidates,
         products,
         back_emf_viscous: campaign.channels.command.back_emf_viscous,
-        tips,
+        columns,
     })
 }
 
 impl LeastSquares {
-    /// Part of the smoothed torque that other estimates of the same equation leave in these samples, viscous friction
+    /// Part of the windowed torque that other estimates of the same equation leave in these windows, viscous friction
     /// by direction where they have it. `None` where one of them is missing.
     pub fn left_by(&self, other: &DriveEstimates) -> Option<f64> {
         let friction = &other.friction;
         let (coulomb, offset) = (friction.coulomb?.value, friction.offset?.value);
         let inertia = other.inertia?.value;
         let coupling = |tip: &usize| Some(other.coupling_by_tip.get(*tip).copied()??.value);
-        let couplings = self.tips.iter().map(coupling).collect::<Option<Vec<f64>>>()?;
+        let mut beside = self.columns.tips.iter().map(coupling).collect::<Option<Vec<f64>>>()?;
+        if self.columns.gravity {
+            let gravity = other.gravity?;
+            beside.extend([gravity.sine.value, gravity.cosine.value]);
+        }
         let (mut left, mut power) = (0.0, 0.0);
         for cluster in &self.products {
             let viscous = match friction.viscous_by_direction {
@@ -130,10 +122,9 @@ impl LeastSquares {
                 Some((_, backward)) => backward,
                 None => friction.viscous?,
             };
-            let mut q = vec![inertia, viscous.value + self.back_emf_viscous];
-            q.push(cluster.sign * coulomb + offset);
-            q.extend(&couplings);
-            q.push(-1.0);
+            let mut q = vec![inertia, viscous.value + self.back_emf_viscous, offset];
+            q.extend(&beside);
+            q.extend([coulomb, -1.0]);
             let last = q.len() - 1;
             for (i, a) in q.iter().enumerate() {
                 for (j, b) in q.iter().enumerate() {
@@ -146,112 +137,163 @@ impl LeastSquares {
     }
 }
 
-/// A run with the parabolas that smooth it.
-struct Smoothed<'a> {
+/// A run with its velocity and its direction at every sample.
+struct Moving<'a> {
     run: &'a Run,
-    sample_s: f64,
-    /// Samples over which the velocity is smoothed for its sign.
-    smooth: usize,
-    /// Samples to either side in a parabola.
-    half: usize,
+    noise: &'a RunNoise,
+    phases: Vec<Phase>,
+    /// +1 or −1; 0 where the motor stands.
+    direction: Vec<f64>,
+    speed: Vec<f64>,
+    /// Samples before each at which the motor stands.
+    stood: Vec<u32>,
+    waves: SineAndCosine,
 }
 
-impl<'a> Smoothed<'a> {
-    /// With parabolas as short as the motor sensor's noise allows.
-    fn new(run: &'a Run) -> Self {
-        let smooth = smoothing(run.motor());
-        let [shortest, longest] = HALF_WIDTHS;
-        let half = shortest.max(smooth / 2);
-        let mut found = Self { run, sample_s: run.sample_time_s(), smooth, half };
-        let noise = channel_noise(run.motor()).std;
-        while found.half < longest.min(run.len() / 8) && found.is_noisy(noise) {
-            found.half = found.half * 3 / 2;
+impl<'a> Moving<'a> {
+    fn of(run: &'a Run, noise: &'a RunNoise) -> Self {
+        let (motor, sample_s) = (run.motor(), run.sample_time_s());
+        let smooth = smoothing(motor);
+        let mut phases = slip_phases(motor, smooth, sample_s);
+        // What is shorter than the smoothing has no sure direction.
+        phases.retain(|phase| phase.to - phase.from > smooth);
+        let speed: Vec<f64> = velocity(motor, smooth, sample_s).iter().map(|v| v.abs()).collect();
+        let fastest = speed.iter().copied().fold(0.0, f64::max);
+        let mut direction = vec![0.0; motor.len()];
+        for phase in &phases {
+            direction[phase.from..phase.to].fill(phase.sign);
         }
-        found
-    }
-
-    /// Whether noise of this standard deviation makes more than [`ACCELERATION_NOISE`] of the acceleration's power:
-    /// `720·σ²/(n·(n² − 1)·(n² − 4)·T⁴)` of a parabola through n samples.
-    fn is_noisy(&self, noise: f64) -> bool {
-        let n = (2 * self.half + 1) as f64;
-        let of_noise =
-            720.0 * noise * noise / (n * (n * n - 1.0) * (n * n - 4.0) * self.sample_s.powi(4));
-        let places = (self.half..self.run.len() - self.half).step_by(self.stride());
-        let (mut power, mut count) = (0.0, 0.0);
-        for k in places {
-            power += self.acceleration(k).powi(2);
-            count += 1.0;
+        // A reversal is short; slower for longer than the smoothing is standing.
+        let mut slow_since = None;
+        for k in 0..=motor.len() {
+            let slow = k < motor.len() && speed[k] < STANDING_SHARE * fastest;
+            match (slow, slow_since) {
+                (true, None) => slow_since = Some(k),
+                (false, Some(from)) => {
+                    if k - from > smooth {
+                        direction[from..k].fill(0.0);
+                    }
+                    slow_since = None;
+                }
+                _ => {}
+            }
         }
-        of_noise > ACCELERATION_NOISE * power / f64::max(count, 1.0)
-    }
-
-    /// Samples from one row to the next: parabolas nearer to each other say the same.
-    fn stride(&self) -> usize {
-        (self.half / 2).max(1)
+        let mut count = 0;
+        let mut stood = vec![0];
+        stood.extend(direction.iter().map(|d| {
+            count += u32::from(*d == 0.0);
+            count
+        }));
+        Self { run, noise, phases, direction, speed, stood, waves: SineAndCosine::of(motor) }
     }
 
     fn fastest(&self) -> f64 {
-        let places = (self.half..self.run.len().saturating_sub(self.half)).step_by(self.stride());
-        places.map(|k| self.velocity(k).abs()).fold(0.0, f64::max)
+        let within = self.speed.iter().zip(&self.direction).filter(|(_, d)| **d != 0.0);
+        within.map(|(v, _)| *v).fold(0.0, f64::max)
     }
 
-    /// Σ i²  and Σ i⁴ over the parabola's places i.
-    fn moments(&self) -> (f64, f64, f64) {
-        let h = self.half as f64;
-        let n = 2.0 * h + 1.0;
-        let second = h * (h + 1.0) * n / 3.0;
-        (n, second, second * (3.0 * h * h + 3.0 * h - 1.0) / 5.0)
+    /// Middles of the windows of `n` samples in a phase that are used, `step` apart.
+    fn middles(
+        &self,
+        phase: &Phase,
+        n: usize,
+        least: f64,
+    ) -> impl Iterator<Item = usize> + use<'_> {
+        let step = ((n as f64 * WINDOW_STEP) as usize).max(1);
+        let (before, last) = (n / 2, self.run.len().saturating_sub(n - n / 2));
+        let few = (n / 8) as u32;
+        (phase.from.max(before)..phase.to.min(last)).step_by(step).filter(move |&k| {
+            let from = k - before;
+            self.speed[k] > least && self.stood[from + n + 1] - self.stood[from] <= few
+        })
+    }
+}
+
+/// All runs, for windows of any length.
+struct Line<'a> {
+    campaign: &'a Campaign,
+    columns: &'a MotorColumns,
+    runs: &'a [Moving<'a>],
+    fastest: f64,
+}
+
+impl Line<'_> {
+    fn windows(&self, length_s: f64) -> Vec<Option<Arc<Window>>> {
+        Window::of_runs(&self.campaign.runs, length_s, |_, _| true)
     }
 
-    fn sum(&self, x: &[f64], k: usize, weight: impl Fn(f64) -> f64) -> f64 {
-        let h = self.half as f64;
-        let places = x[k - self.half..=k + self.half].iter().enumerate();
-        places.map(|(i, x)| weight(i as f64 - h) * x).sum()
-    }
-
-    fn velocity(&self, k: usize) -> f64 {
-        let (_, second, _) = self.moments();
-        let x = self.run.motor();
-        self.sum(x, k, |i| i) / (second * self.sample_s)
-    }
-
-    fn acceleration(&self, k: usize) -> f64 {
-        let (n, second, fourth) = self.moments();
-        let curve = self.sum(self.run.motor(), k, |i| n * i * i - second);
-        2.0 * curve / ((n * fourth - second * second) * self.sample_s * self.sample_s)
-    }
-
-    /// The parabola's own value in its middle.
-    fn value(&self, x: &[f64], k: usize) -> f64 {
-        let (n, second, fourth) = self.moments();
-        self.sum(x, k, |i| fourth - i * i * second) / (n * fourth - second * second)
-    }
-
-    /// Acceleration, velocity, one, θ_m − θ_i of the tips, torque.
-    fn row(&self, campaign: &Campaign, tips: &[usize], k: usize) -> Vec<f64> {
-        let (channels, run) = (&campaign.channels, self.run);
-        let mut row = vec![self.acceleration(k), self.velocity(k), 1.0];
-        row.extend(tips.iter().map(|&i| {
-            let tip = self.value(&run.tips()[i], k);
-            match channels.tips[i].quantity {
-                TipQuantity::Deflection => -tip,
-                _ => self.value(run.motor(), k) - tip,
+    /// Sums of every phase, or of parts of it where phases are few.
+    fn clusters(&self, length_s: f64) -> Vec<Cluster> {
+        let least = SLOWEST_SAMPLE * self.fastest;
+        let windows = self.windows(length_s);
+        let moving = || self.runs.iter().zip(&windows).enumerate();
+        let held = |(moving, window): (&Moving<'_>, &Option<Arc<Window>>)| {
+            let n = window.as_ref().map_or(usize::MAX, |w| w.len());
+            moving.phases.iter().filter(|phase| phase.to - phase.from > n).count()
+        };
+        let phases: usize = self.runs.iter().zip(&windows).map(held).sum();
+        let parts = if phases < FEW_PHASES { BLOCKS_WANTED.div_ceil(phases.max(1)) } else { 1 };
+        let mut clusters = Vec::new();
+        for (index, (moving, window)) in moving() {
+            let Some(window) = window else { continue };
+            let n = window.len();
+            let plain = MotorEquation {
+                campaign: self.campaign,
+                run: moving.run,
+                columns: self.columns,
+                gravity: self.columns.gravity.then_some(&moving.waves),
+                window,
+            };
+            let rows = LineRow { plain, direction: &moving.direction };
+            let noise = plain.noise(moving.noise);
+            let right = noise.ncols() - 1;
+            let noise = noise.insert_columns(right, 1, 0.0).insert_rows(right, 1, 0.0);
+            for phase in &moving.phases {
+                let middles: Vec<usize> = moving.middles(phase, n, least).collect();
+                let parts = parts.min(middles.len() / 8).max(1);
+                for part in middles.chunks(middles.len().div_ceil(parts).max(1)) {
+                    let mut cluster = Cluster::new(index, phase.sign, self.columns.count() + 2);
+                    cluster.add_windows(part.iter().map(|k| k - n / 2), &rows, &noise);
+                    clusters.push(cluster);
+                }
             }
-        }));
-        let command = self.value(run.command(), k);
-        // Held from each sample to the next: half of it is the sample before.
-        let held = channels.command.hold == Hold::Sampled && k > self.half;
-        let command =
-            if held { 0.5 * (command + self.value(run.command(), k - 1)) } else { command };
-        row.push(command * channels.command.torque_per_unit());
-        row
+        }
+        clusters
+    }
+
+    /// Least speed in the middle of a window that is used.
+    fn slowest(&self, length_s: f64) -> f64 {
+        let least = SLOWEST_SAMPLE * self.fastest;
+        let windows = self.windows(length_s);
+        let all = self.runs.iter().zip(&windows).flat_map(|(moving, window)| {
+            let n = window.as_ref().map_or(usize::MAX / 4, |w| w.len());
+            let phases = moving.phases.iter();
+            phases.flat_map(move |p| moving.middles(p, n, least).map(|k| moving.speed[k]))
+        });
+        all.fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// A row of [`MotorColumns`] with `∫w·s` before the right side, s the direction at each sample.
+struct LineRow<'a> {
+    plain: MotorEquation<'a>,
+    direction: &'a [f64],
+}
+
+impl Rows for LineRow<'_> {
+    #[inline(always)]
+    fn fill(&self, k: usize, row: &mut Vec<f64>) {
+        let MotorEquation { run, window, .. } = self.plain;
+        self.plain.fill(k, row);
+        let dry = window.value.dot(&self.direction[k..]) * run.sample_time_s() * window.row_scale;
+        row.insert(row.len() - 1, dry);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::{Axis, Channels, Command, CommandQuantity, TimeBase};
+    use crate::record::{Axis, Channels, Command, CommandQuantity, Hold, TimeBase};
 
     const INERTIA_KG_M2: f64 = 0.02;
 

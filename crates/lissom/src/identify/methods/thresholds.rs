@@ -5,9 +5,9 @@ thresholds! {
         /// Samples slower than this share of the largest speed are left out, because friction near
         /// standstill has another law. Published fits of Coulomb and viscous friction use the same.
         SLOWEST_SAMPLE: f64 = 0.05, "1", Convention;
-        /// Share of the acceleration's mean square that the sensor's noise may make; the smoothing
-        /// is chosen for it. The noise lowers the estimated inertia by this share.
-        ACCELERATION_NOISE: f64 = 0.01, "1", Convention;
+        /// The motor stands where it is slower than this share of its largest speed for longer than
+        /// its velocity is smoothed over: friction there is whatever holds.
+        STANDING_SHARE: f64 = 1e-3, "1", Convention;
     }
     "third harmonic" {
         /// Share by which Coulomb friction comes out low, for each unit of the sticking share of

@@ -137,7 +137,7 @@ fn used<'a>(campaign: &'a Campaign, kept: &[usize], dead: &[bool]) -> Cow<'a, Ca
         tip.calibrated &= !dead;
     }
     let runs = kept.iter().map(|&i| campaign.runs[i].clone()).collect();
-    Cow::Owned(Campaign { channels, runs })
+    Cow::Owned(Campaign { channels, runs, gravity: campaign.gravity })
 }
 
 /// Runs that the regressions and the output error may use.

@@ -106,14 +106,7 @@ pub(crate) fn analyse(
     findings: &mut Vec<Finding>,
 ) -> RunAnalysis {
     let run = &campaign.runs[index];
-    // A motor may turn steadily at a constant command: that is no dead channel.
-    let mut steady = if range(run.command()) <= 0.0 && run.command()[0].abs() > 0.0 {
-        steady_points(campaign, index)
-    } else {
-        Vec::new()
-    };
-    let usable = channels(campaign, run, dead, !steady.is_empty(), findings)
-        && !repeats(campaign, index, findings);
+    let usable = channels(campaign, run, dead, findings) && !repeats(campaign, index, findings);
     at_rest(run, findings);
     let saturated_share = saturation(campaign, run, findings);
     time_base(run, findings);
@@ -128,10 +121,6 @@ pub(crate) fn analyse(
         steady: Vec::new(),
     };
     if !usable {
-        if !steady.is_empty() {
-            analysis.kind = RunKind::ConstantVelocity;
-            analysis.steady = steady;
-        }
         return analysis;
     }
     if let Some(found) = sinusoidal(campaign, run, harmonics, findings) {
@@ -144,7 +133,7 @@ pub(crate) fn analyse(
         analysis.kind = RunKind::Sinusoidal(Box::new(found));
         return analysis;
     }
-    steady = steady_points(campaign, index);
+    let steady = steady_points(campaign, index);
     let one_way = turns_one_way(run);
     let least = if one_way { STEADY_ONE_WAY } else { STEADY_BOTH_WAYS };
     if steady_share(run, &steady, rest_share(run.motor())) > least {
@@ -167,15 +156,9 @@ fn turns_one_way(run: &Run) -> bool {
     forward.max(backward) > ONE_WAY * moves && moves > ONE_WAY_MOVES * run.len() as f64
 }
 
-/// Dead and clipped channels; whether motor and command are alive. A constant command of a motor
-/// that `turns` steadily is none of them, though no regression can use it.
-fn channels(
-    campaign: &Campaign,
-    run: &Run,
-    dead: &[bool],
-    turns: bool,
-    findings: &mut Vec<Finding>,
-) -> bool {
+/// Dead and clipped channels; whether motor and command are alive. The constant command of a motor that turns one way,
+/// speeds up, coasts or turns steadily, is alive.
+fn channels(campaign: &Campaign, run: &Run, dead: &[bool], findings: &mut Vec<Finding>) -> bool {
     let alive = |x: &[f64]| range(x) > 0.0;
     let units = EstimateUnits::new(&campaign.channels);
     let mut usable = true;
@@ -188,10 +171,10 @@ fn channels(
         (Channel::Command, run.command(), units.command()),
     ] {
         if !alive(x) {
-            usable = false;
-            if turns && channel == Channel::Command {
+            if channel == Channel::Command && alive(run.motor()) && turns_one_way(run) {
                 continue;
             }
+            usable = false;
             dead_channel(channel, x, unit);
         }
     }

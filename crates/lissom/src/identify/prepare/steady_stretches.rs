@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use crate::identify::methods::constant_velocity::thresholds::{
     COMMAND_CHANGE, CREEP, GROWN_BY, SAME_STRETCH, STEADY_PART, STOPPED_SHARE, STOPPED_SPEED,
-    VELOCITY_KNOWN,
+    VARIES_BY, VARIES_SHARE, VELOCITY_KNOWN,
 };
 use crate::identify::prepare::correlated_average::{Average, VALUES_LEAST, average};
 use crate::identify::thresholds::TRAVEL_OVER_NOISE;
@@ -19,6 +19,9 @@ const BLOCKS_MOST: usize = 2000;
 const BLOCKS_LEAST: usize = 8;
 /// Two to this many sixteenths of a grown stretch are trimmed, one at each end at least: transients.
 const TRIMMED_MOST: usize = 4;
+
+/// Velocities that may swing are looked at over this many times what a sure sign needs: noise is then a few percent.
+const VARIES_BLOCKS: usize = 4;
 
 /// A stretch of a run at one velocity.
 #[derive(Debug, Clone)]
@@ -168,7 +171,8 @@ fn judged(run: &Run, hold: Hold, r: Range<usize>, share: f64) -> Option<SteadySt
     if !(changed <= STEADY_PART * share * speed && velocity.std <= VELOCITY_KNOWN * speed) {
         return None;
     }
-    if stops(&x[r.start..=r.end], velocity.mean * t) {
+    let moved = &x[r.start..=r.end];
+    if stops(moved, velocity.mean * t) || varies(moved, velocity.mean * t) {
         return None;
     }
     let command = average(&acting(&run.command()[r.start..=r.end], hold))?;
@@ -187,13 +191,25 @@ fn acting(command: &[f64], hold: Hold) -> Vec<f64> {
         .collect()
 }
 
-/// Whether a motor that moves by `per_sample` on average stops or turns back in between.
-fn stops(x: &[f64], per_sample: f64) -> bool {
+/// Samples over which a motor that moves by `per_sample` moves by several times its sensor's noise.
+fn sure_block(x: &[f64], per_sample: f64) -> usize {
     // Of white noise the second difference has √6 times the deviation.
     let second: f64 = x.windows(3).map(|w| (w[2] - 2.0 * w[1] + w[0]).powi(2)).sum();
     let noise = (second / 6.0 / x.len() as f64).sqrt();
-    let block = ((TRAVEL_OVER_NOISE * noise / per_sample.abs()).ceil() as usize).max(BLOCK_LEAST);
+    ((TRAVEL_OVER_NOISE * noise / per_sample.abs()).ceil() as usize).max(BLOCK_LEAST)
+}
+
+/// Whether its velocity swings about the mean, though the mean is steady.
+fn varies(x: &[f64], per_sample: f64) -> bool {
+    let block = VARIES_BLOCKS * sure_block(x, per_sample);
     let velocity = block_velocities(x, block, 1.0);
+    let off = |v: &&f64| (**v / per_sample - 1.0).abs() > VARIES_BY;
+    velocity.iter().filter(off).count() as f64 > VARIES_SHARE * velocity.len() as f64
+}
+
+/// Whether a motor that moves by `per_sample` on average stops or turns back in between.
+fn stops(x: &[f64], per_sample: f64) -> bool {
+    let velocity = block_velocities(x, sure_block(x, per_sample), 1.0);
     let slow = velocity.iter().filter(|v| **v / per_sample < STOPPED_SPEED).count();
     slow as f64 > STOPPED_SHARE * velocity.len() as f64
 }

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::output_error::OutputError;
-use crate::identify::methods::regression::{COUPLING, Terms};
+use crate::identify::methods::regression::Terms;
 use crate::identify::separability::thresholds::LOST_SHARE;
 use crate::identify::separability::{FigureKnown, correlation};
 use crate::information::{Figure, inverse, slopes};
@@ -54,7 +54,7 @@ impl Judged {
     pub(super) fn of_regression(terms: &Terms, drive: &DriveEstimates) -> Self {
         let values = &terms.values;
         let n = values.len();
-        let couplings = COUPLING..COUPLING + terms.tips;
+        let couplings = terms.columns.couplings();
         let coupling: f64 = values[couplings.clone()].iter().sum();
         let friction = &drive.friction;
         let coulomb = values[2].abs();

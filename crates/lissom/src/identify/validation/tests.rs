@@ -29,7 +29,7 @@ fn rigid() -> ModalArm {
 
 fn found(arm: ModalArm) -> FoundArm {
     let torque_used = Some(TorqueUsed { relative_error: 0.01, window_s: 0.04 });
-    FoundArm { arm, source: ArmSource::Regression, torque_used }
+    FoundArm { arm, source: ArmSource::Regression, gravity: None, torque_used }
 }
 
 fn channels() -> Channels {

@@ -4,10 +4,10 @@ use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF as _, FisherSnedecor, StudentsT};
 use thiserror::Error;
 
-use crate::identify::estimate::Estimate;
+use crate::identify::estimate::{Estimate, wider_by_student};
 use crate::identify::methods::constant_velocity::thresholds::SAME_SPEED;
 use crate::identify::prepare::correlated_average::FREEDOM;
-use crate::identify::thresholds::{NORMAL_95, REJECTED_CHANCE};
+use crate::identify::thresholds::REJECTED_CHANCE;
 
 /// Deviations below this share of the largest command are rounding.
 const ROUNDING: f64 = 1e-9;
@@ -293,9 +293,7 @@ impl LineFit {
     /// Coefficient `k`; its deviation is such that 1.96 of it make the 95 % interval.
     fn figure(&self, k: usize) -> Estimate {
         let (scale, freedom) = self.scale();
-        let wider =
-            StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |t| t.inverse_cdf(0.975) / NORMAL_95);
-        let std = (self.covariance[(k, k)] * scale).max(0.0).sqrt() * wider;
+        let std = (self.covariance[(k, k)] * scale).max(0.0).sqrt() * wider_by_student(freedom);
         Estimate { value: self.value[k], std }
     }
 }

@@ -27,6 +27,11 @@ thresholds! {
         /// A stretch is not used if the motor stops in more than this share of it; less may be
         /// damaged readings.
         STOPPED_SHARE: f64 = 0.01, "1", Convention;
+        /// A stretch whose mean velocity is steady is not used if its velocity swings by more than
+        /// this share for more than `VARIES_SHARE` of the time: inertia takes torque then.
+        VARIES_BY: f64 = 0.15, "1", Convention;
+        /// Share of the time for which a steady stretch may be off by `VARIES_BY`.
+        VARIES_SHARE: f64 = 0.2, "1", Convention;
         /// Stretches slower than this share of the run's fastest are creep and not used.
         CREEP: f64 = 1e-3, "1", Convention;
         /// A grown stretch that shares this part with a rejected one is not tried again.

@@ -2,22 +2,20 @@
 
 use nalgebra::DVector;
 
-use crate::drive::Falloff;
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::friction_law::described::Described;
 use crate::identify::methods::friction_law::held::Held;
-use crate::identify::methods::friction_law::law_term::LawTerm;
-use crate::identify::methods::friction_law::rows::{Column, Cut, PhaseBlock, Sampled, fixed};
+use crate::identify::methods::friction_law::law_term::{Column, LawTerm};
+use crate::identify::methods::friction_law::rows::{Cut, PhaseBlock, Sampled, fixed};
 use crate::identify::methods::friction_law::thresholds::{
     AFTER_TRAVEL_FALLS_TO, LAG_FALLS_TO, LAG_KNOWN, TERMS_MOST,
 };
 use crate::identify::methods::friction_law::{LawFit, ripple};
-use crate::identify::methods::regression::{Cluster, Solution, Term, coupled_tips, solve};
+use crate::identify::methods::regression::{
+    Cluster, DRY, Fitted, MotorColumns, Solution, Term, solve,
+};
 use crate::identify::thresholds::{PRESENT, RESIDUAL_FALLS_TO, SIGN_SHOWN};
-use crate::record::Run;
-
-/// Speeds over which friction near rest may change, as shares of the fastest.
-pub(super) const NEAR_REST: [f64; 10] = [0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.3, 0.5, 0.8, 1.3];
+use crate::record::{Campaign, Run};
 
 /// A term that was tried, beside others that were in the law already.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,34 +98,29 @@ pub(super) struct LawSearch<'a> {
     candidates: Vec<LawCandidate>,
     /// Whether friction's law by speed is found.
     settled: bool,
+    /// Fastest speed of the windows.
+    pub(super) fastest: f64,
+    /// Of the logs.
+    largest_torque: f64,
 }
 
 impl<'a> LawSearch<'a> {
     fn new(sampled: &'a Sampled<'a>, cut: &Cut, fastest: f64) -> Option<Self> {
         let first = fixed(sampled.campaign);
-        let mut columns = vec![Column::Lag, Column::Root];
-        let mut open = vec![
-            Tried { term: LawTerm::ViscousByDirection, terms: vec![Term::Signed(1)] },
-            Tried { term: LawTerm::CommandLag, terms: vec![Term::Plain(first)] },
-            Tried { term: LawTerm::Root, terms: vec![Term::Signed(first + 1)] },
-        ];
-        // Without stretches after reversals the shape shows.
-        let shapes: &[Falloff] = if sampled.after > 0.0 {
-            &[Falloff::Exponential, Falloff::Gaussian]
-        } else {
-            &[Falloff::Exponential]
-        };
-        for &falloff in shapes {
-            for share in NEAR_REST {
-                let speed = share * fastest;
-                let term = LawTerm::NearRest { speed, falloff };
-                open.push(Tried { term, terms: vec![Term::Signed(first + columns.len())] });
-                columns.push(Column::NearRest(speed, falloff));
-            }
+        let mut columns = Vec::new();
+        let mut open = Vec::new();
+        for term in LawTerm::offered(fastest, sampled.after <= 0.0) {
+            let at = first + columns.len();
+            columns.extend(term.columns());
+            let terms = match term {
+                LawTerm::ViscousByDirection => vec![Term::Signed(1)],
+                LawTerm::CommandLag => vec![Term::Plain(at)],
+                _ => (at..first + columns.len()).map(Term::Signed).collect(),
+            };
+            open.push(Tried { term, terms });
         }
         let blocks = sampled.blocks(&columns, &[], cut);
-        let mut terms = vec![Term::Plain(0), Term::Plain(1), Term::Signed(2), Term::Plain(2)];
-        terms.extend((3..first).map(Term::Plain));
+        let terms = MotorColumns::of(sampled.campaign).terms(Term::Signed(DRY));
         let solution = solved(&blocks, &terms)?;
         let (taken, candidates) = (Vec::new(), Vec::new());
         Some(Self {
@@ -141,6 +134,8 @@ impl<'a> LawSearch<'a> {
             taken,
             candidates,
             settled: false,
+            fastest,
+            largest_torque: largest_torque(sampled.campaign),
         })
     }
 
@@ -212,10 +207,7 @@ impl<'a> LawSearch<'a> {
             }
             _ => (RESIDUAL_FALLS_TO, true),
         };
-        // A line cut in two far beyond the speeds of the logs has any Coulomb friction.
-        let (coulomb, coulomb_std) = Self::coulomb(&solution);
-        let allowed =
-            allowed && (!tried.term.is_near_rest() || coulomb > -SIGN_SHOWN * coulomb_std);
+        let allowed = allowed && (!tried.term.is_near_rest() || self.is_within_data(&solution));
         let taken = paired > PRESENT
             && allowed
             && residual_ratio < least
@@ -236,15 +228,20 @@ impl<'a> LawSearch<'a> {
         Some((held.phases(), candidate))
     }
 
-    /// Coulomb friction in the direction where it is less, with its deviation.
-    fn coulomb(solution: &Solution) -> (f64, f64) {
-        known(solution, &coulomb_weight(solution))
+    /// Whether Coulomb and viscous friction are of the size that the logs contain: of a curve that the speeds driven
+    /// show a part of, one extrapolates to any Coulomb friction and a slope of either sign.
+    fn is_within_data(&self, solution: &Solution) -> bool {
+        let (coulomb, coulomb_std) = known(solution, &coulomb_weight(solution));
+        let (viscous, viscous_std) = (solution.value[1], solution.covariance[(1, 1)].sqrt());
+        coulomb > -SIGN_SHOWN * coulomb_std
+            && solution.value[2] < self.largest_torque
+            && viscous > -SIGN_SHOWN * viscous_std
     }
 
     /// Friction at rest in the direction where it is less, with its deviation.
     fn at_rest(&self, solution: &Solution, tried: LawTerm, first: usize) -> (f64, f64) {
         let mut weight = coulomb_weight(solution);
-        let mut at = 4 + self.tips();
+        let mut at = self.first_added();
         for t in &self.taken {
             weight[at] = f64::from(t.term.is_near_rest());
             at += t.terms.len();
@@ -259,8 +256,9 @@ impl<'a> LawSearch<'a> {
         self.settled && lag.value > 0.0 && lag.std < LAG_KNOWN * sample_s
     }
 
-    fn tips(&self) -> usize {
-        fixed(self.sampled.campaign) - 3
+    /// Place of the first term beyond those of the motor's equation.
+    fn first_added(&self) -> usize {
+        MotorColumns::of(self.sampled.campaign).terms(Term::Signed(DRY)).len()
     }
 
     /// Adds the strongest ripple of what is left to what may be tried, unless one is taken.
@@ -273,27 +271,21 @@ impl<'a> LawSearch<'a> {
             return;
         };
         let at = fixed(self.sampled.campaign) + self.columns.len();
-        self.columns.extend([Column::Cosine(k), Column::Sine(k)]);
+        let term = LawTerm::Ripple { per_angle: k };
+        self.columns.extend(term.columns());
         self.blocks = self.sampled.blocks(&self.columns, &[], &self.cut);
         let terms = vec![Term::Signed(at), Term::Signed(at + 1)];
-        self.open.push(Tried { term: LawTerm::Ripple { per_angle: k }, terms });
+        self.open.push(Tried { term, terms });
     }
 
     fn fit(&self) -> LawFit {
         let s = &self.solution;
-        let figure = |i: usize| (!s.inseparable[i]).then(|| amplitude(s, i, 1));
-        let channels = &self.sampled.campaign.channels;
-        let back_emf = channels.command.back_emf_viscous;
-        let tips = self.tips();
-        let known = coupled_tips(self.sampled.campaign);
-        let mut coupling = vec![None; if tips == 0 { 0 } else { channels.tips.len() }];
-        known.iter().enumerate().for_each(|(i, tip)| coupling[*tip] = figure(4 + i));
-        let separable = (4..4 + tips).all(|i| !s.inseparable[i]);
-        let total = (tips > 0 && separable).then(|| {
-            let block = s.covariance.view((4, 4), (tips, tips));
-            Estimate { value: s.value.rows(4, tips).sum(), std: block.sum().max(0.0).sqrt() }
-        });
-        let mut at = 4 + tips;
+        let columns = MotorColumns::of(self.sampled.campaign);
+        let unchanged = vec![0.0; s.value.len()];
+        let fitted =
+            Fitted { solution: s, change: &unchanged, columns: &columns, difference: None };
+        let found = fitted.estimates(&self.sampled.campaign.channels);
+        let mut at = self.first_added();
         let mut terms = Vec::new();
         for t in &self.taken {
             let found = (at..at + t.terms.len()).map(|i| amplitude(s, i, 1));
@@ -312,12 +304,15 @@ impl<'a> LawSearch<'a> {
         }
         LawFit {
             terms,
-            inertia: figure(0),
-            viscous: figure(1).map(|e| Estimate { value: e.value - back_emf, ..e }),
-            coulomb: figure(2),
-            offset: figure(3),
-            coupling,
-            total_coupling: total,
+            inertia: found.inertia,
+            viscous: found.friction.viscous,
+            coulomb: found.friction.coulomb,
+            offset: found.friction.offset,
+            forward: found.friction.forward,
+            backward: found.friction.backward,
+            coupling: found.coupling_by_tip,
+            total_coupling: found.coupling,
+            gravity: found.gravity,
         }
     }
 
@@ -337,6 +332,13 @@ impl<'a> LawSearch<'a> {
         }
         (columns, terms)
     }
+}
+
+/// Largest torque (or force) of the commands.
+fn largest_torque(campaign: &Campaign) -> f64 {
+    let commands = campaign.runs.iter().flat_map(Run::command);
+    commands.fold(0.0, |most: f64, u| most.max(u.abs()))
+        * campaign.channels.command.torque_per_unit().abs()
 }
 
 /// `∫wτ(t) = ∫w·(equation) − Δ∫ẇτ` for τ that acts Δ later.

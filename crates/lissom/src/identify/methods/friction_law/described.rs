@@ -2,7 +2,8 @@
 
 use nalgebra::DVector;
 
-use crate::identify::methods::friction_law::rows::{Column, Sampled, fixed};
+use crate::identify::methods::friction_law::law_term::Column;
+use crate::identify::methods::friction_law::rows::{Sampled, fixed};
 use crate::identify::methods::regression::Term;
 
 /// A law with its figures.

@@ -14,6 +14,7 @@ impl LawFit {
             inertia: self.inertia,
             coupling: self.total_coupling,
             coupling_by_tip: self.coupling.clone(),
+            gravity: self.gravity,
         }
     }
 }
@@ -27,8 +28,8 @@ fn friction(law: &LawFit) -> Friction {
     let by_direction = |sign: f64| sum(law.viscous, difference, sign);
     Friction {
         coulomb: law.coulomb,
-        forward: sum(law.coulomb, law.offset, 1.0),
-        backward: sum(law.coulomb, law.offset, -1.0),
+        forward: law.forward,
+        backward: law.backward,
         offset: law.offset,
         viscous: law.viscous,
         viscous_by_direction: by_direction(1.0).zip(by_direction(-1.0)),

@@ -1,6 +1,7 @@
 //! A term of a friction law: its name, what it does, and how an arm has it.
 
 use crate::drive::Falloff;
+use crate::identify::methods::friction_law::thresholds::NEAR_REST_MOST;
 use crate::replay::{DryTerms, NearRest, Ripple};
 
 /// The speed of a term near rest is found to this share: neighbours tried last are as far apart.
@@ -35,7 +36,113 @@ pub enum LawTerm {
     CommandLag,
 }
 
+/// Speeds over which friction near rest may change, as shares of the fastest.
+pub(super) const NEAR_REST: [f64; 8] = [0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.3, NEAR_REST_MOST];
+
+/// What a row holds beside inertia, viscous and dry friction and the tips: `∫w·f` of a function of speed
+/// or angle, or what a lag of the command adds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Column {
+    /// `∫ẇ·τ`: of a command that acts later.
+    Lag,
+    /// `e^{−|v|/v_s}` or `e^{−(v/v_s)²}`.
+    NearRest(f64, Falloff),
+    /// `√|v|`.
+    Root,
+    /// `cos kθ`.
+    Cosine(f64),
+    /// `sin kθ`.
+    Sine(f64),
+    /// `θ·(−a·sin kθ + b·cos kθ)`, for (k, a, b): what a·cos kθ + b·sin kθ gains with k.
+    Turned(f64, f64, f64),
+    /// `∫w(θ̇_m − θ̇_i)` of the coupled tip of this number: damping within the beam.
+    Rate(usize),
+    /// A hat over speed: one at the knot of this number, zero at its neighbours.
+    Hat(usize),
+}
+
+impl Column {
+    /// Its function of speed and angle; zero of what is none.
+    pub(super) fn at(self, speed: f64, angle: f64) -> f64 {
+        match self {
+            Self::NearRest(fall, falloff) => falloff.share(speed / fall),
+            Self::Root => speed.sqrt(),
+            Self::Cosine(k) => (k * angle).cos(),
+            Self::Sine(k) => (k * angle).sin(),
+            Self::Turned(k, a, b) => {
+                let (sin, cos) = (k * angle).sin_cos();
+                angle * (b * cos - a * sin)
+            }
+            Self::Lag | Self::Rate(_) | Self::Hat(_) => 0.0,
+        }
+    }
+}
+
+/// What a term's scale is in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ScaleUnit {
+    /// A speed \[rad/s\].
+    Speed,
+    /// An angle \[rad\].
+    Angle,
+}
+
 impl LawTerm {
+    /// The terms that are tried first; ripples are offered when the rest is found. `whole` says whether the travel
+    /// after reversals is used: without it the shape near rest shows.
+    pub(super) fn offered(fastest: f64, whole: bool) -> Vec<Self> {
+        let shapes: &[Falloff] = if whole {
+            &[Falloff::Exponential]
+        } else {
+            &[Falloff::Exponential, Falloff::Gaussian]
+        };
+        let near_rest = shapes.iter().flat_map(|&falloff| {
+            NEAR_REST.map(|share| Self::NearRest { speed: share * fastest, falloff })
+        });
+        [Self::ViscousByDirection, Self::CommandLag, Self::Root]
+            .into_iter()
+            .chain(near_rest)
+            .collect()
+    }
+
+    /// The columns that it needs beside those of the motor's equation.
+    pub(super) fn columns(self) -> Vec<Column> {
+        match self {
+            Self::ViscousByDirection | Self::AfterTravel { .. } => Vec::new(),
+            Self::NearRest { speed, falloff } => vec![Column::NearRest(speed, falloff)],
+            Self::Root => vec![Column::Root],
+            Self::Ripple { per_angle } => vec![Column::Cosine(per_angle), Column::Sine(per_angle)],
+            Self::CommandLag => vec![Column::Lag],
+        }
+    }
+
+    /// Whether an arm with these terms may get it too.
+    pub(crate) fn may_join(self, terms: &DryTerms, ripples_most: usize) -> bool {
+        let near = |k: f64, r: &Ripple| (r.per_rad / k).ln().abs() < std::f64::consts::LN_2 / 2.0;
+        match self {
+            Self::NearRest { speed, .. } => terms.near_rest.is_none() && speed > 0.0,
+            Self::Ripple { per_angle } => {
+                terms.ripples.len() < ripples_most
+                    && !terms.ripples.iter().any(|r| near(per_angle, r))
+            }
+            Self::ViscousByDirection | Self::AfterTravel { .. } | Self::Root | Self::CommandLag => {
+                false
+            }
+        }
+    }
+
+    /// The speed or the angle over which it changes.
+    pub fn scale(self) -> Option<(f64, ScaleUnit)> {
+        match self {
+            Self::NearRest { speed, .. } => Some((speed, ScaleUnit::Speed)),
+            Self::AfterTravel { travel } => Some((travel, ScaleUnit::Angle)),
+            Self::Ripple { per_angle } => {
+                Some((std::f64::consts::TAU / per_angle, ScaleUnit::Angle))
+            }
+            Self::ViscousByDirection | Self::Root | Self::CommandLag => None,
+        }
+    }
+
     /// Its name in results.
     pub fn name(self) -> &'static str {
         match self {
@@ -83,17 +190,18 @@ impl LawTerm {
 
     /// Gives it to an arm's friction, with its amplitudes; does nothing where it is none of these terms.
     pub(crate) fn put_into(self, terms: &mut DryTerms, amplitude: &[f64]) {
-        match (self, amplitude) {
-            (Self::NearRest { speed, falloff }, [torque_nm]) => {
-                let torque_nm = *torque_nm;
+        match self {
+            Self::NearRest { speed, falloff } => {
+                let [torque_nm, ..] = *amplitude else { return };
                 let near = NearRest { torque_nm, offset_nm: 0.0, speed_rad_s: speed, falloff };
                 terms.near_rest = Some(near);
             }
-            (Self::Ripple { per_angle }, [cosine_nm, sine_nm, ..]) => {
-                let (cosine_nm, sine_nm) = (*cosine_nm, *sine_nm);
+            Self::Ripple { per_angle } => {
+                let [cosine_nm, sine_nm, ..] = *amplitude else { return };
                 terms.ripples.push(Ripple { per_rad: per_angle, cosine_nm, sine_nm });
             }
-            _ => {}
+            Self::ViscousByDirection | Self::AfterTravel { .. } | Self::Root | Self::CommandLag => {
+            }
         }
     }
 

@@ -22,10 +22,11 @@ pub use choice::LawCandidate;
 pub use curve::CurvePoint;
 pub(crate) use curve::CurveSums;
 pub(crate) use friction_law_findings::finding;
-pub use law_term::LawTerm;
 pub(crate) use law_term::NEAR_REST_STEP;
+pub use law_term::{LawTerm, ScaleUnit};
 
 use crate::identify::estimate::Estimate;
+use crate::identify::gravity_estimate::Gravity;
 use crate::identify::methods::friction_law::thresholds::{
     AFTER_TRAVEL_LEAVES, FASTEST_QUANTILE, LAG_FALLS_TO, NOTHING_LEFT, TORQUE_OF_NOISE,
     TRAVEL_AFTER_REVERSAL,
@@ -75,10 +76,16 @@ pub struct LawFit {
     pub coulomb: Option<Estimate>,
     /// O.
     pub offset: Option<Estimate>,
+    /// C + O.
+    pub forward: Option<Estimate>,
+    /// C − O.
+    pub backward: Option<Estimate>,
     /// κ_i of each tip of the campaign, `None` where its angle is not known; empty where none is.
     pub coupling: Vec<Option<Estimate>>,
     /// Their sum.
     pub total_coupling: Option<Estimate>,
+    /// Gravity, where the campaign has it.
+    pub gravity: Option<Gravity>,
 }
 
 impl FrictionLaw {

@@ -1,9 +1,10 @@
 //! The speed or the period of a term that was taken, to where least is left.
 
-use crate::identify::methods::friction_law::choice::{LawSearch, NEAR_REST, solved};
-use crate::identify::methods::friction_law::law_term::LawTerm;
+use crate::identify::methods::friction_law::choice::{LawSearch, solved};
+use crate::identify::methods::friction_law::law_term::{Column, LawTerm, NEAR_REST};
 use crate::identify::methods::friction_law::ripple;
-use crate::identify::methods::friction_law::rows::{Column, fixed};
+use crate::identify::methods::friction_law::rows::fixed;
+use crate::identify::methods::friction_law::thresholds::NEAR_REST_MOST;
 use crate::identify::methods::regression::Term;
 
 /// A speed near rest is looked for between its neighbours on the list in so many steps.
@@ -22,9 +23,11 @@ impl LawSearch<'_> {
         let Some(found) = self.taken.iter().position(|t| t.term.is_near_rest()) else { return };
         let LawTerm::NearRest { speed, falloff } = self.taken[found].term else { return };
         let step = (NEAR_REST[1] / NEAR_REST[0]).ln() / f64::from(FINER);
-        let others = (-FINER..=FINER).map(|k| {
-            let speed = speed * (f64::from(k) * step).exp();
-            (LawTerm::NearRest { speed, falloff }, vec![Column::NearRest(speed, falloff)])
+        let speeds = (-FINER..=FINER).map(|k| speed * (f64::from(k) * step).exp());
+        let within = speeds.filter(|speed| *speed <= NEAR_REST_MOST * self.fastest);
+        let others = within.map(|speed| {
+            let term = LawTerm::NearRest { speed, falloff };
+            (term, term.columns())
         });
         self.exchange(found, &others.collect::<Vec<_>>());
     }
@@ -45,8 +48,8 @@ impl LawSearch<'_> {
         for _ in 0..RIPPLE_MOVES {
             let near = (-RIPPLE_STEPS..=RIPPLE_STEPS).map(|i| at + f64::from(i) * step);
             let others = near.filter(|k| *k > step).map(|per_angle| {
-                let columns = vec![Column::Cosine(per_angle), Column::Sine(per_angle)];
-                (LawTerm::Ripple { per_angle }, columns)
+                let term = LawTerm::Ripple { per_angle };
+                (term, term.columns())
             });
             self.exchange(found, &others.collect::<Vec<_>>());
             let LawTerm::Ripple { per_angle } = self.taken[found].term else { return };

@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use crate::identify::methods::friction_law::rows::{Column, Sampled};
+use crate::identify::methods::friction_law::law_term::Column;
+use crate::identify::methods::friction_law::rows::Sampled;
 use crate::identify::methods::regression::Term;
 
 /// Longest period looked at, as a share of the travel, and points per one more period in it.

@@ -2,38 +2,16 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::drive::Falloff;
+use crate::identify::methods::friction_law::law_term::Column;
 use crate::identify::methods::regression::{
-    Cluster, MotorEquation, Phase, Rows, SMOOTHED_PART, WINDOW_STEP, Window, coupled_tips,
-    slip_phases, smoothing,
+    Cluster, MotorColumns, MotorEquation, Phase, Rows, SMOOTHED_PART, SineAndCosine, WINDOW_STEP,
+    Window, slip_phases, smoothing, velocity,
 };
 use crate::identify::prepare::run_noise::RunNoise;
 use crate::record::{Campaign, Run};
 
 /// Rows looked at, about; windows overlap less in longer logs.
 const MOST_ROWS: usize = 40_000;
-
-/// What a row holds beside inertia, viscous and dry friction and the tips: `∫w·f` of a function of speed
-/// or angle, or what a lag of the command adds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Column {
-    /// `∫ẇ·τ`: of a command that acts later.
-    Lag,
-    /// `e^{−|v|/v_s}` or `e^{−(v/v_s)²}`.
-    NearRest(f64, Falloff),
-    /// `√|v|`.
-    Root,
-    /// `cos kθ`.
-    Cosine(f64),
-    /// `sin kθ`.
-    Sine(f64),
-    /// `θ·(−a·sin kθ + b·cos kθ)`, for (k, a, b): what a·cos kθ + b·sin kθ gains with k.
-    Turned(f64, f64, f64),
-    /// `∫w(θ̇_m − θ̇_i)` of the coupled tip of this number: damping within the beam.
-    Rate(usize),
-    /// A hat over speed: one at the knot of this number, zero at its neighbours.
-    Hat(usize),
-}
 
 /// Where a window lies.
 pub(super) struct WindowPlace {
@@ -74,7 +52,7 @@ pub(super) const KINDS: usize = 12;
 
 /// Columns of a row before the first [`Column`].
 pub(super) fn fixed(campaign: &Campaign) -> usize {
-    3 + coupled_tips(campaign).len()
+    MotorColumns::of(campaign).count()
 }
 
 /// The runs with what their windows need.
@@ -96,11 +74,12 @@ struct Slipping {
     window: Option<Window>,
     /// What the sensors' noise adds to a row's products, in expectation.
     noise: DMatrix<f64>,
+    gravity: Option<SineAndCosine>,
 }
 
 impl<'a> Sampled<'a> {
     pub(super) fn new(campaign: &'a Campaign, noise: &[RunNoise], window_s: f64) -> Self {
-        let tips = coupled_tips(campaign);
+        let columns = MotorColumns::of(campaign);
         let of = |(run, noise): (&Run, &RunNoise)| {
             let t = run.sample_time_s();
             let smooth = smooth(run, window_s);
@@ -110,9 +89,13 @@ impl<'a> Sampled<'a> {
             phases.retain(|phase| phase.to - phase.from > n);
             let noise = window.as_ref().map_or_else(
                 || DMatrix::zeros(0, 0),
-                |window| MotorEquation { campaign, run, tips: &tips, window }.noise(noise),
+                |window| {
+                    let columns = &columns;
+                    MotorEquation { campaign, run, columns, gravity: None, window }.noise(noise)
+                },
             );
-            Slipping { velocity: velocity(run.motor(), smooth, t), phases, window, noise }
+            let gravity = columns.gravity.then(|| SineAndCosine::of(run.motor()));
+            Slipping { velocity: velocity(run.motor(), smooth, t), phases, window, noise, gravity }
         };
         let runs = campaign.runs.iter().zip(noise).map(of).collect();
         Self { campaign, window_s, after: 0.0, runs }
@@ -184,13 +167,15 @@ impl<'a> Sampled<'a> {
         knots: &[f64],
         mut see: impl FnMut(&WindowPlace, &[f64]),
     ) {
-        let tips = coupled_tips(self.campaign);
+        let own = MotorColumns::of(self.campaign);
         let functions: Vec<Vec<Vec<f64>>> =
             (0..self.campaign.runs.len()).map(|run| self.functions(run, columns, knots)).collect();
         let mut row = Vec::new();
         self.each(|index, phase, sign, k, window| {
             let run = &self.campaign.runs[index];
-            let equation = MotorEquation { campaign: self.campaign, run, tips: &tips, window };
+            let gravity = self.runs[index].gravity.as_ref();
+            let equation =
+                MotorEquation { campaign: self.campaign, run, columns: &own, gravity, window };
             equation.fill(k, &mut row);
             let right = row.len() - 1;
             let more = columns.iter().zip(&functions[index]).map(|(column, f)| match column {
@@ -235,19 +220,11 @@ impl<'a> Sampled<'a> {
     fn functions(&self, run: usize, columns: &[Column], knots: &[f64]) -> Vec<Vec<f64>> {
         let motor = self.campaign.runs[run].motor();
         let velocity = &self.runs[run].velocity;
-        let of_speed = |f: &dyn Fn(f64) -> f64| velocity.iter().map(|v| f(v.abs())).collect();
-        let of_angle = |f: &dyn Fn(f64) -> f64| motor.iter().map(|x| f(*x)).collect();
+        let samples = || velocity.iter().zip(motor);
         let one = |column: &Column| match *column {
             Column::Lag | Column::Rate(_) => Vec::new(),
-            Column::NearRest(speed, falloff) => of_speed(&|v| falloff.share(v / speed)),
-            Column::Root => of_speed(&f64::sqrt),
-            Column::Cosine(k) => of_angle(&|x| (k * x).cos()),
-            Column::Sine(k) => of_angle(&|x| (k * x).sin()),
-            Column::Turned(k, a, b) => of_angle(&|x| {
-                let (sin, cos) = (k * x).sin_cos();
-                x * (b * cos - a * sin)
-            }),
-            Column::Hat(j) => of_speed(&|v| hat(knots, j, v)),
+            Column::Hat(j) => velocity.iter().map(|v| hat(knots, j, v.abs())).collect(),
+            column => samples().map(|(v, x)| column.at(v.abs(), *x)).collect(),
         };
         columns.iter().map(one).collect()
     }
@@ -257,22 +234,6 @@ impl<'a> Sampled<'a> {
 fn smooth(run: &Run, window_s: f64) -> usize {
     let n = window_s / run.sample_time_s();
     smoothing(run.motor()).min((n * SMOOTHED_PART) as usize).max(4)
-}
-
-/// Velocity at every sample: the angle weighted with the derivative of a window about it.
-fn velocity(motor: &[f64], smooth: usize, sample_time_s: f64) -> Vec<f64> {
-    let window = Window::new(smooth, sample_time_s);
-    let (n, half) = (window.len(), window.len() / 2);
-    // What a ramp of one per second shows.
-    let ramp: f64 = window.first.iter().enumerate().map(|(k, w)| w * k as f64).sum();
-    let scale = 1.0 / (ramp * sample_time_s);
-    let last = motor.len().saturating_sub(n + 1);
-    let at = |k: usize| {
-        let from = k.saturating_sub(half).min(last);
-        let moved = motor[from..].iter().zip(&*window.first).map(|(x, w)| (x - motor[from]) * w);
-        scale * moved.sum::<f64>()
-    };
-    (0..motor.len()).map(at).collect()
 }
 
 fn integral(weight: &[f64], f: &[f64], sample_time_s: f64) -> f64 {
@@ -305,14 +266,6 @@ mod tests {
             assert!((sum - 1.0).abs() < 1e-12, "{speed}: {sum}");
             let line: f64 = (0..4).map(|j| hat(&knots, j, speed) * knots[j]).sum();
             assert!((line - speed).abs() < 1e-12, "{speed}: {line}");
-        }
-    }
-
-    #[test]
-    fn a_ramp_has_its_velocity_everywhere() {
-        let ramp: Vec<f64> = (0..100).map(|k| 2.0 + 0.003 * f64::from(k)).collect();
-        for v in velocity(&ramp, 9, 0.01) {
-            assert!((v - 0.3).abs() < 1e-12, "{v}");
         }
     }
 }

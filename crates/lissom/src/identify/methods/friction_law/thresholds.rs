@@ -16,6 +16,9 @@ thresholds! {
         AFTER_TRAVEL_LEAVES: f64 = 0.75, "1", Convention;
         /// Quantile of the speeds that counts as the fastest: a few outliers do not.
         FASTEST_QUANTILE: f64 = 0.98, "1", Convention;
+        /// Friction near rest falls off over at most this share of the fastest speed: of one that
+        /// falls off more slowly the logs show no end, and Coulomb friction is any.
+        NEAR_REST_MOST: f64 = 0.5, "1", Convention;
         /// As `RESIDUAL_FALLS_TO`, of friction near rest where the travel after reversals is left
         /// out: the two come together, and most of the residual there is noise.
         AFTER_TRAVEL_FALLS_TO: f64 = 0.95, "1", Convention;

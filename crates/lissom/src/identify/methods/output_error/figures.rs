@@ -65,6 +65,7 @@ impl OutputError {
             inertia: self.inertia(),
             coupling: flexible.then(|| self.figure(ModalArm::coupling_nm_per_rad)),
             coupling_by_tip,
+            gravity: None,
         }
     }
 

@@ -3,38 +3,55 @@
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::Estimate;
 use crate::identify::friction_estimates::Friction;
+use crate::identify::gravity_estimate::Gravity;
+use crate::identify::methods::regression::motor_columns::{
+    MotorColumns, PLACE_COULOMB, PLACE_INERTIA, PLACE_OFFSET, PLACE_VISCOUS,
+};
 use crate::identify::methods::regression::normal::Solution;
-use crate::identify::methods::regression::thresholds::WINDOW_SYSTEMATIC;
+use crate::identify::methods::regression::thresholds::{TELLS_SUM, WINDOW_SYSTEMATIC};
 use crate::record::Channels;
-
-/// Places of the terms in the equation; that of half the difference of viscous friction follows the couplings.
-const PLACE_INERTIA: usize = 0;
-pub(super) const PLACE_VISCOUS: usize = 1;
-const PLACE_COULOMB: usize = 2;
-pub(super) const PLACE_OFFSET: usize = 3;
-pub(crate) const COUPLING: usize = 4;
 
 /// A solution of the equation with what its window's length adds to the standard errors.
 pub(crate) struct Fitted<'a> {
     pub(crate) solution: &'a Solution,
     /// Change of each term from the next shorter to the next longer window.
     pub(crate) change: &'a [f64],
-    /// Tips whose couplings are among the terms.
-    pub(crate) tips: &'a [usize],
+    pub(crate) columns: &'a MotorColumns,
+    /// Place of the term of half the difference of viscous friction by direction, where there is one.
+    pub(crate) difference: Option<usize>,
 }
 
 impl Fitted<'_> {
-    /// `Σ w_i·q_i` over pairs of a term and its weight; `None` where the logs do not tell a term of it.
+    /// `Σ w_i·q_i` over pairs of a term and its weight; `None` where the logs do not tell it.
     fn combined(&self, weights: &[(usize, f64)]) -> Option<Estimate> {
-        let Self { solution: s, change, .. } = self;
-        if weights.is_empty() || weights.iter().any(|(i, _)| s.inseparable[*i]) {
+        if weights.is_empty() || !self.is_told(weights) {
             return None;
         }
-        let sum = |of: &dyn Fn(usize) -> f64| weights.iter().map(|(i, w)| w * of(*i)).sum::<f64>();
-        let variance = sum(&|i| sum(&|k| s.covariance[(i, k)]));
-        let systematic = WINDOW_SYSTEMATIC * sum(&|i| change[i]);
-        let std = (variance.max(0.0) + systematic * systematic).sqrt();
-        Some(Estimate { value: sum(&|i| s.value[i]), std })
+        let value = weights.iter().map(|(i, w)| w * self.solution.value[*i]).sum();
+        Some(Estimate { value, std: self.covariance(weights, weights).max(0.0).sqrt() })
+    }
+
+    /// Covariance of two sums of terms.
+    fn covariance(&self, a: &[(usize, f64)], b: &[(usize, f64)]) -> f64 {
+        let Self { solution: s, change, .. } = self;
+        let systematic = |of: &[(usize, f64)]| {
+            WINDOW_SYSTEMATIC * of.iter().map(|(i, w)| w * change[*i]).sum::<f64>()
+        };
+        let pairs = a.iter().flat_map(|(i, v)| b.iter().map(move |(k, w)| (*i, *k, v * w)));
+        let scatter: f64 = pairs.map(|(i, k, weight)| weight * s.covariance[(i, k)]).sum();
+        scatter + systematic(a) * systematic(b)
+    }
+
+    /// Whether no change that the logs do not show moves the sum: each term alone may be lost and their sum not.
+    fn is_told(&self, weights: &[(usize, f64)]) -> bool {
+        let s = self.solution;
+        let lost = weights.iter().any(|(i, _)| s.inseparable[*i]);
+        let moved = |change: &nalgebra::DVector<f64>| {
+            let parts = weights.iter().map(|(i, w)| w * change[*i]);
+            let (sum, all) = parts.fold((0.0, 0.0), |(sum, all), p| (sum + p, all + p.abs()));
+            f64::abs(sum) > TELLS_SUM * all
+        };
+        !lost || !s.lost.iter().any(moved)
     }
 
     /// All estimates; with viscous friction by direction where the solution has a term for it.
@@ -43,12 +60,15 @@ impl Fitted<'_> {
         let without_back_emf = |e: Estimate| Estimate { value: e.value - back_emf, std: e.std };
         let viscous = |weights: &[(usize, f64)]| self.combined(weights).map(without_back_emf);
         let single = |i: usize| self.combined(&[(i, 1.0)]);
-        let (count, difference) = (self.tips.len(), COUPLING + self.tips.len());
-        let by_direction = (self.solution.value.len() > difference)
-            .then(|| [1.0, -1.0].map(|sign| viscous(&[(PLACE_VISCOUS, 1.0), (difference, sign)])));
-        let mut coupling_by_tip = vec![None; if count == 0 { 0 } else { channels.tips.len() }];
-        for (i, &tip) in self.tips.iter().enumerate() {
-            coupling_by_tip[tip] = single(COUPLING + i);
+        let columns = self.columns;
+        let by_direction = self.difference.map(|difference| {
+            [1.0, -1.0].map(|sign| viscous(&[(PLACE_VISCOUS, 1.0), (difference, sign)]))
+        });
+        let couplings = columns.couplings();
+        let mut coupling_by_tip =
+            vec![None; if couplings.is_empty() { 0 } else { channels.tips.len() }];
+        for (place, &tip) in couplings.clone().zip(&columns.tips) {
+            coupling_by_tip[tip] = single(place);
         }
         let coulomb = |sign: f64| self.combined(&[(PLACE_COULOMB, 1.0), (PLACE_OFFSET, sign)]);
         let friction = Friction {
@@ -60,12 +80,19 @@ impl Fitted<'_> {
             viscous_by_direction: by_direction.and_then(|[f, b]| f.zip(b)),
             ..Friction::default()
         };
-        let all: Vec<(usize, f64)> = (COUPLING..difference).map(|i| (i, 1.0)).collect();
+        let all: Vec<(usize, f64)> = couplings.map(|i| (i, 1.0)).collect();
         DriveEstimates {
             friction,
             inertia: single(PLACE_INERTIA),
             coupling: self.combined(&all),
             coupling_by_tip,
+            gravity: columns.gravity_places().and_then(|places| self.gravity(places)),
         }
+    }
+
+    fn gravity(&self, places: [usize; 2]) -> Option<Gravity> {
+        let [sine, cosine] = places.map(|i| self.combined(&[(i, 1.0)]));
+        let [s, c] = places.map(|i| [(i, 1.0)]);
+        Some(Gravity::new(sine?, cosine?, self.covariance(&s, &c)))
     }
 }

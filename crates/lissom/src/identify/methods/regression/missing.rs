@@ -1,8 +1,12 @@
 //! Whether the motor's equation lacks a term: one is added at a time, and the residual decides.
 
+use crate::identify::methods::regression::motor_columns::MotorColumns;
 use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve};
-use crate::identify::methods::regression::thresholds::{MISSING_ONE_SIGN, MISSING_SURE};
+use crate::identify::methods::regression::thresholds::{
+    GRAVITY_TRAVEL_RAD, MISSING_ONE_SIGN, MISSING_SURE,
+};
 use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT, RESIDUAL_FALLS_TO};
+use crate::record::{Axis, Campaign};
 
 /// A residual of less is rounding: nothing is missing.
 const ROUNDING: f64 = 1e-6;
@@ -24,11 +28,13 @@ pub enum MissingKind {
     CoulombDrift,
     /// Viscous friction that does, as of a joint that warms.
     ViscousDrift,
+    /// An unbalanced load: `g_s·sin θ + g_c·cos θ`.
+    Gravity,
 }
 
 impl MissingKind {
     /// In the order of their columns.
-    const ALL: [Self; 7] = [
+    const ALL: [Self; 8] = [
         Self::Delay,
         Self::Position,
         Self::Stribeck,
@@ -36,15 +42,25 @@ impl MissingKind {
         Self::CommandBySign,
         Self::CoulombDrift,
         Self::ViscousDrift,
+        Self::Gravity,
     ];
-    /// How many columns they need.
-    pub(super) const COLUMNS: usize = Self::ALL.len();
+    /// How many columns they need: gravity has two.
+    pub(super) const COLUMNS: usize = Self::ALL.len() + 1;
+
+    /// Its terms, `column` the first that it needs.
+    fn terms(self, column: usize) -> Vec<Term> {
+        match self {
+            Self::Stribeck | Self::CoulombDrift => vec![Term::Signed(column)],
+            Self::Gravity => vec![Term::Plain(column), Term::Plain(column + 1)],
+            _ => vec![Term::Plain(column)],
+        }
+    }
 
     /// Whether its column hardly has noise of the sensors in it, which others of the equation then make up for.
     fn is_exact(self) -> bool {
         match self {
             Self::Delay | Self::Stribeck | Self::BeamDamping | Self::ViscousDrift => false,
-            Self::Position | Self::CommandBySign | Self::CoulombDrift => true,
+            Self::Position | Self::CommandBySign | Self::CoulombDrift | Self::Gravity => true,
         }
     }
 }
@@ -57,7 +73,7 @@ pub struct MissingTerm {
     /// Its coefficient: delay \[s\], stiffness \[N·m/rad\], friction at rest beyond the constant
     /// \[N·m\] (linear axes: N/m, N), time of the beam's damping \[s\]; half of what positive commands give more
     /// than negative ones, relative; change of Coulomb \[N·m or N\] and viscous friction \[N·m·s/rad or N·s/m\] from
-    /// the campaign's beginning to its end, its runs taken one after the other.
+    /// the campaign's beginning to its end, its runs taken one after the other; m·g·l of gravity \[N·m\].
     pub value: f64,
     /// How many deviations from zero.
     pub deviations: f64,
@@ -65,40 +81,48 @@ pub struct MissingTerm {
     pub residual_ratio: f64,
 }
 
-/// The term whose addition explains most, if it is called for. `first` is the column of the first
-/// of the extra columns, in the order of [`MissingKind`]; damping of a beam is tried where `tips` show one.
+/// The term whose addition explains most, if it is called for. The further columns follow those of `columns`, in the
+/// order of [`MissingKind`]; damping of a beam is tried where tips show one, gravity where the axis turns far enough.
 pub(super) fn missing_term(
     clusters: &[Cluster],
     terms: &[Term],
     without: &Solution,
-    first: usize,
-    tips: usize,
+    (columns, campaign): (&MotorColumns, &Campaign),
 ) -> Option<MissingTerm> {
     if without.relative_residual < ROUNDING {
         return None;
     }
+    let first = columns.count();
+    let rotary = campaign.channels.axis == Axis::Rotary;
+    let may_hang = rotary && !columns.gravity && campaign.channels.tips.is_empty() && {
+        travel(campaign) > GRAVITY_TRAVEL_RAD
+    };
     let kinds = MissingKind::ALL.into_iter().enumerate();
     let kinds = kinds.filter(|(i, kind)| match kind {
-        MissingKind::BeamDamping => tips > 0,
+        MissingKind::BeamDamping => !columns.tips.is_empty(),
         MissingKind::CommandBySign => follows_torque(clusters, first + i).abs() < MISSING_ONE_SIGN,
+        MissingKind::Gravity => may_hang,
+        // A spring would be a part of gravity.
+        MissingKind::Position => !columns.gravity,
         _ => true,
     });
     let tried = kinds.filter_map(|(i, kind)| {
-        let mut with = terms.to_vec();
-        with.push(match kind {
-            MissingKind::Stribeck | MissingKind::CoulombDrift => Term::Signed(first + i),
-            _ => Term::Plain(first + i),
-        });
+        let added = kind.terms(first + i);
+        let with: Vec<Term> = terms.iter().chain(&added).copied().collect();
         let solution = solve(clusters, &with)?;
-        let last = with.len() - 1;
-        let std = solution.covariance[(last, last)].max(0.0).sqrt();
-        let value = solution.value[last];
-        let moves = (0..last).any(|k| {
+        let known = terms.len();
+        let amplitude = solution.value.rows(known, added.len()).norm();
+        let along = solution.value.rows(known, added.len()) / amplitude.max(f64::MIN_POSITIVE);
+        let own = solution.covariance.view((known, known), (added.len(), added.len()));
+        let std = along.dot(&(own * &along)).max(0.0).sqrt();
+        let value = if added.len() == 1 { solution.value[known] } else { amplitude };
+        let moves = (0..known).any(|k| {
             let own = without.covariance[(k, k)].max(0.0).sqrt();
             (solution.value[k] - without.value[k]).abs() > PRESENT * own
         });
         let shows = solution.relative_residual < RESIDUAL_FALLS_TO * without.relative_residual;
-        let called_for = !solution.inseparable[last]
+        let told = !solution.inseparable[known..].iter().any(|lost| *lost);
+        let called_for = told
             && value.abs() > CLEARLY_PRESENT * std
             && (shows || kind.is_exact() && moves && value.abs() > MISSING_SURE * std);
         called_for.then(|| MissingTerm {
@@ -114,6 +138,14 @@ pub(super) fn missing_term(
         })
     });
     tried.min_by(|a, b| a.residual_ratio.total_cmp(&b.residual_ratio))
+}
+
+/// How far the motor turns, over all runs.
+fn travel(campaign: &Campaign) -> f64 {
+    let angles = campaign.runs.iter().flat_map(|run| run.motor());
+    let (low, high) =
+        angles.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(*x), h.max(*x)));
+    high - low
 }
 
 /// Correlation of a column with the right side, both about zero.

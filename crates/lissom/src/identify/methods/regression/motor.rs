@@ -5,11 +5,16 @@ use nalgebra::{DMatrix, DVector};
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::Estimate;
 use crate::identify::friction_estimates::Friction;
-use crate::identify::methods::regression::fitted::{COUPLING, Fitted, PLACE_OFFSET, PLACE_VISCOUS};
+use crate::identify::gravity_estimate::Gravity;
+use crate::identify::methods::regression::fitted::Fitted;
 use crate::identify::methods::regression::missing::{MissingTerm, missing_term};
-use crate::identify::methods::regression::motor_rows::{DRY, INERTIA, MotorRows, TIPS, VISCOUS};
+use crate::identify::methods::regression::motor_columns::{
+    DRY, MotorColumns, PLACE_INERTIA, PLACE_OFFSET, PLACE_VISCOUS, VISCOUS,
+};
+use crate::identify::methods::regression::motor_rows::MotorRows;
 use crate::identify::methods::regression::normal::{Solution, Term, solve};
 use crate::identify::methods::regression::scan::{Candidate, RATIO, change, scan};
+use crate::identify::methods::regression::thresholds::{GRAVITY_CORRELATION, GRAVITY_KNOWN};
 use crate::identify::options::Options;
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::thresholds::{CLEARLY_PRESENT, RESIDUAL_FALLS_TO};
@@ -47,11 +52,13 @@ pub struct MotorRegression {
     /// Coupling to each tip of the campaign, κ_i = −h_i of (15) \[N·m/rad\]; `None` where its
     /// angle is not known or it cannot be told from others. Empty where no angle is known.
     pub coupling: Vec<Option<Estimate>>,
+    /// Gravity, where the campaign has it.
+    pub gravity: Option<Gravity>,
     /// Viscous friction by direction, where the data reject one constant.
     pub viscous_by_direction: Option<ByDirection>,
     /// A term that the equation lacks, where the data call for one.
     pub missing: Option<MissingTerm>,
-    /// J, V, CF, offset, κ_i of the tips whose angle is known, as the logs have them.
+    /// J, V, CF, offset, κ_i of the tips whose angle is known, g_s and g_c, as the logs have them.
     pub(crate) terms: Terms,
 }
 
@@ -62,8 +69,47 @@ pub(crate) struct Terms {
     pub(crate) covariance: DMatrix<f64>,
     /// Changes, up to a factor, that the logs do not show.
     pub(crate) lost: Vec<DVector<f64>>,
-    /// Tips whose coupling is among them, from place [`COUPLING`] on.
-    pub(crate) tips: usize,
+    pub(crate) columns: MotorColumns,
+}
+
+/// A term that gravity may be mistaken for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GravityPartner {
+    /// Inertia: in one small sine acceleration and angle are in proportion.
+    Inertia,
+    /// A constant load: over a short arc gravity is one.
+    Offset,
+}
+
+impl Terms {
+    /// The terms that gravity can hardly be told from, with their correlation: about the mean angle it is a slope, which
+    /// inertia may stand for, and a constant. Those known to 5 % of `amplitude` are told.
+    pub(crate) fn pairs_with_gravity(
+        &self,
+        mean_rad: f64,
+        amplitude: f64,
+    ) -> Vec<(GravityPartner, f64)> {
+        let Some([sine, cosine]) = self.columns.gravity_places() else { return Vec::new() };
+        let (sin, cos) = mean_rad.sin_cos();
+        // g_s·sin θ + g_c·cos θ about the mean: slope g_s·cos θ̄ − g_c·sin θ̄, constant g_s·sin θ̄ + g_c·cos θ̄.
+        let parts = [
+            (GravityPartner::Inertia, PLACE_INERTIA, [cos, -sin]),
+            (GravityPartner::Offset, PLACE_OFFSET, [sin, cos]),
+        ];
+        let covariance = &self.covariance;
+        let pair = |(with, place, [by_sine, by_cosine]): (GravityPartner, usize, [f64; 2])| {
+            let variance = by_sine * by_sine * covariance[(sine, sine)]
+                + by_cosine * by_cosine * covariance[(cosine, cosine)]
+                + 2.0 * by_sine * by_cosine * covariance[(sine, cosine)];
+            let shared =
+                by_sine * covariance[(sine, place)] + by_cosine * covariance[(cosine, place)];
+            let correlation = shared / (variance * covariance[(place, place)]).sqrt();
+            let hardly = variance.max(0.0).sqrt() > GRAVITY_KNOWN * amplitude
+                && correlation.abs() > GRAVITY_CORRELATION;
+            hardly.then_some((with, correlation))
+        };
+        parts.into_iter().filter_map(pair).collect()
+    }
 }
 
 /// The same equation with viscous friction by direction: a fit of its own.
@@ -73,11 +119,12 @@ pub struct ByDirection {
     pub estimates: DriveEstimates,
     /// ‖y − X·q‖/‖y‖ of this fit.
     pub relative_residual: f64,
-    /// J, V, CF, offset, κ_i of the tips, and half the difference of viscous friction forward and backward.
+    /// J, V, CF, offset, κ_i of the tips, g_s and g_c, and half the difference of viscous friction forward and backward.
     pub(crate) terms: Terms,
 }
 
-/// Fits `τ = J·θ̈ + V·θ̇ + Σκ_i(θ_m − θ_i) + CF·sgn θ̇ + offset` on the slip phases of all runs.
+/// Fits `τ = J·θ̈ + V·θ̇ + Σκ_i(θ_m − θ_i) + CF·sgn θ̇ + offset + g_s·sin θ + g_c·cos θ` on the slip phases of all runs,
+/// gravity where the campaign has it.
 ///
 /// The equation is multiplied by `w = sin⁴` windows within each phase and integrated by parts:
 /// `∫w·τ = J∫ẅ·θ − V∫ẇ·θ + Σκ_i∫w(θ_m − θ_i) + (±CF + offset)∫w`. A held command enters by its
@@ -116,31 +163,29 @@ pub fn motor_regression(prepared: &Prepared<'_>, options: &Options) -> Option<Mo
 fn on_slip_phases(prepared: &Prepared<'_>, window_s: &[f64]) -> Option<MotorRegression> {
     let campaign = prepared.used();
     let equation = MotorRows::of(campaign, prepared.noise());
-    let tips = &equation.tips;
-    let mut terms =
-        vec![Term::Plain(INERTIA), Term::Plain(VISCOUS), Term::Signed(DRY), Term::Plain(DRY)];
-    terms.extend((0..tips.len()).map(|i| Term::Plain(TIPS + i)));
+    let columns = &equation.columns;
+    let terms = columns.terms(Term::Signed(DRY));
     // The offset is small by nature: it does not take part in the choice of the window.
-    let counts: Vec<bool> = (0..terms.len()).map(|i| i != 3).collect();
+    let counts: Vec<bool> = (0..terms.len()).map(|i| i != PLACE_OFFSET).collect();
     let sample_time = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let found =
         scan(sample_time, window_s, &counts, |length| solve(&equation.clusters(length), &terms))?;
     let chosen = &found.candidates[found.chosen];
     let solution = &found.solution;
     let (channels, window_s_chosen) = (&campaign.channels, chosen.window_s);
-    let one = Fitted { solution, change: &found.change, tips };
-    let DriveEstimates { friction, inertia, coupling: total_coupling, coupling_by_tip } =
+    let one = Fitted { solution, change: &found.change, columns, difference: None };
+    let DriveEstimates { friction, inertia, coupling: total_coupling, coupling_by_tip, gravity } =
         one.estimates(channels);
-    let known: Vec<f64> = (0..tips.len()).map(|i| solution.value[COUPLING + i]).collect();
+    let known: Vec<f64> = columns.couplings().map(|i| solution.value[i]).collect();
     let clusters = equation.clusters_with_more(window_s_chosen, &known);
-    let missing = missing_term(&clusters, &terms, solution, TIPS + tips.len(), tips.len());
+    let missing = missing_term(&clusters, &terms, solution, (columns, campaign));
     let solved = |length: f64, terms: &[Term]| solve(&equation.clusters(length), terms);
     let viscous_by_direction = by_direction(channels, &one, &terms, window_s_chosen, &solved);
     Some(MotorRegression {
         window_s: chosen.window_s,
         window_given: !window_s.is_empty(),
         rows: chosen.rows,
-        phases: chosen.clusters,
+        phases: equation.phases(window_s_chosen),
         relative_residual: solution.relative_residual,
         inertia,
         viscous: friction.viscous,
@@ -150,6 +195,7 @@ fn on_slip_phases(prepared: &Prepared<'_>, window_s: &[f64]) -> Option<MotorRegr
         backward: friction.backward,
         total_coupling,
         coupling: coupling_by_tip,
+        gravity,
         viscous_by_direction,
         missing,
         terms: terms_of(&one),
@@ -173,6 +219,7 @@ impl MotorRegression {
             inertia: self.inertia,
             coupling: self.total_coupling,
             coupling_by_tip: self.coupling.clone(),
+            gravity: self.gravity,
         }
     }
 
@@ -181,7 +228,7 @@ impl MotorRegression {
     pub fn prediction_error(&self, prepared: &Prepared<'_>) -> Option<f64> {
         let equation = MotorRows::of(prepared.used(), prepared.noise());
         let values = &self.terms.values;
-        if self.terms.tips != equation.tips.len() {
+        if self.terms.columns != equation.columns {
             return None;
         }
         let (mut left, mut power) = (0.0, 0.0);
@@ -224,7 +271,12 @@ fn by_direction(
     let [shorter, longer] =
         [window_s / RATIO, window_s * RATIO].map(|length| solved(length, &split));
     let change = change(shorter.as_ref(), &two, longer.as_ref());
-    let fitted = Fitted { solution: &two, change: &change, tips: one.tips };
+    let fitted = Fitted {
+        solution: &two,
+        change: &change,
+        columns: one.columns,
+        difference: Some(difference),
+    };
     Some(ByDirection {
         estimates: fitted.estimates(channels),
         relative_residual: two.relative_residual,
@@ -238,6 +290,6 @@ fn terms_of(fitted: &Fitted<'_>) -> Terms {
         values: s.value.iter().copied().collect(),
         covariance: s.covariance.clone(),
         lost: s.lost.clone(),
-        tips: fitted.tips.len(),
+        columns: fitted.columns.clone(),
     }
 }

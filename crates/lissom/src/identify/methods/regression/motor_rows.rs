@@ -1,50 +1,54 @@
 //! The motor's equation on windows within slip phases.
 
 use std::borrow::Cow;
+use std::ops::Range;
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use crate::identify::methods::regression::missing::MissingKind;
+use crate::identify::methods::regression::motor_columns::{DRY, INERTIA, MotorColumns, VISCOUS};
 use crate::identify::methods::regression::normal::{Cluster, Rows};
 use crate::identify::methods::regression::phases::{
     LEAST_SAMPLES, LEAST_SMOOTH, Phase, needed_smoothing, unreversed_phases,
 };
 use crate::identify::methods::regression::row_noise::{ChannelPart, products};
-use crate::identify::methods::regression::thresholds::SURE_SIGN;
+use crate::identify::methods::regression::thresholds::{BLOCKS_WANTED, FEW_PHASES, SURE_SIGN};
 use crate::identify::methods::regression::window::{SMOOTHED_PART, WINDOW_STEP, Window};
 use crate::identify::prepare::run_noise::RunNoise;
 use crate::record::{Campaign, Hold, Run, TipQuantity};
 
-/// Columns of a row; tips follow after these.
-pub(super) const INERTIA: usize = 0;
-pub(super) const VISCOUS: usize = 1;
-pub(super) const DRY: usize = 2;
-pub(super) const TIPS: usize = 3;
 /// Columns that [`super::missing::missing_term`] tries.
 const EXTRA: usize = MissingKind::COLUMNS;
-
-/// Tips whose angle from the motor's line is known.
-pub(crate) fn coupled_tips(campaign: &Campaign) -> Vec<usize> {
-    let tips = &campaign.channels.tips;
-    (0..tips.len())
-        .filter(|&i| tips[i].calibrated && tips[i].quantity != TipQuantity::Acceleration)
-        .collect()
-}
 
 /// The motor's equation on the windows of all runs.
 pub(super) struct MotorRows<'a> {
     campaign: &'a Campaign,
-    pub(super) tips: Vec<usize>,
+    pub(super) columns: MotorColumns,
     runs: Vec<Slipping<'a>>,
+    /// Parts that each phase is cut into.
+    parts: usize,
 }
 
 impl<'a> MotorRows<'a> {
     pub(super) fn of(campaign: &'a Campaign, noise: &'a [RunNoise]) -> Self {
         let runs = campaign.runs.par_iter().zip(noise).with_max_len(1);
-        let runs = runs.map(|(run, noise)| Slipping::of(run, noise)).collect();
-        Self { campaign, tips: coupled_tips(campaign), runs }
+        let runs: Vec<_> =
+            runs.map(|(run, noise)| Slipping::of(run, noise, campaign.gravity)).collect();
+        let phases = runs.iter().map(Slipping::long_phases).sum::<usize>().max(1);
+        let parts = if phases < FEW_PHASES { BLOCKS_WANTED.div_ceil(phases) } else { 1 };
+        Self { campaign, columns: MotorColumns::of(campaign), runs, parts }
+    }
+
+    /// Slip phases that hold a window of a length.
+    pub(super) fn phases(&self, length_s: f64) -> usize {
+        let of_run = |slipping: &Slipping<'_>| {
+            let n = (length_s / slipping.run.sample_time_s()).round() as usize;
+            let (phases, _) = slipping.phases(n);
+            phases.iter().filter(|phase| phase.to - phase.from > n).count()
+        };
+        self.runs.iter().map(of_run).sum()
     }
 
     /// Sums of every slip phase of every run, for one length of window.
@@ -70,10 +74,16 @@ impl<'a> MotorRows<'a> {
     fn of_run(&self, index: usize, window: &Window, more: Option<&[f64]>) -> Vec<Cluster> {
         let (campaign, slipping) = (self.campaign, &self.runs[index]);
         let (run, n) = (slipping.run, window.len());
-        let columns = TIPS + self.tips.len() + 1 + more.map_or(0, |_| EXTRA);
+        let columns = self.columns.count() + 1 + more.map_or(0, |_| EXTRA);
         let step = ((n as f64 * WINDOW_STEP) as usize).max(1);
         let (phases, smooth) = slipping.phases(n);
-        let plain = MotorEquation { campaign, run, tips: &self.tips, window };
+        let plain = MotorEquation {
+            campaign,
+            run,
+            columns: &self.columns,
+            gravity: slipping.gravity.as_ref(),
+            window,
+        };
         let origin = campaign.runs.first().map_or(0.0, |run| run.motor()[0]);
         let with_more = more.map(|coupling| WithMore {
             plain,
@@ -82,6 +92,7 @@ impl<'a> MotorRows<'a> {
             magnitude: run.command().iter().map(|u| u.abs()).collect(),
             elapsed: Elapsed::of(campaign, index),
             coupling,
+            waves: SineAndCosine::of(run.motor()),
         });
         let mut noise = plain.noise(slipping.noise);
         if more.is_some() {
@@ -89,17 +100,26 @@ impl<'a> MotorRows<'a> {
             let right = noise.ncols() - 1;
             noise = noise.insert_columns(right, EXTRA, 0.0).insert_rows(right, EXTRA, 0.0);
         }
-        let cluster = |phase: &Phase| {
+        let cluster = |(phase, part): (&Phase, Range<usize>)| {
             let mut cluster = Cluster::new(index, phase.sign, columns);
-            let windows = (phase.from..phase.to - n).step_by(step);
+            let windows = part.step_by(step);
             match &with_more {
                 Some(rows) => cluster.add_windows(windows, rows, &noise),
                 None => cluster.add_windows(windows, &plain, &noise),
             }
             cluster
         };
-        phases.iter().filter(|phase| phase.to - phase.from > n).map(cluster).collect()
+        let long = phases.iter().filter(|phase| phase.to - phase.from > n);
+        let parts = |phase| in_parts(phase, n, self.parts).map(move |part| (phase, part));
+        long.flat_map(parts).map(cluster).collect()
     }
+}
+
+/// First samples of the windows of `n` samples in a phase, cut into as many parts as are wanted and hold a window each.
+fn in_parts(phase: &Phase, n: usize, wanted: usize) -> impl Iterator<Item = Range<usize>> {
+    let (from, starts) = (phase.from, phase.to - n - phase.from);
+    let parts = wanted.min(starts / n).max(1);
+    (0..parts).map(move |i| from + starts * i / parts..from + starts * (i + 1) / parts)
 }
 
 /// A run with the slip phases that its own smoothing shows.
@@ -109,14 +129,21 @@ struct Slipping<'a> {
     smooth: usize,
     phases: Vec<Phase>,
     noise: &'a RunNoise,
+    gravity: Option<SineAndCosine>,
 }
 
 impl<'a> Slipping<'a> {
-    fn of(run: &'a Run, noise: &'a RunNoise) -> Self {
+    fn of(run: &'a Run, noise: &'a RunNoise, gravity: bool) -> Self {
         let needed = needed_smoothing(run.motor());
         let smooth = needed.max(LEAST_SAMPLES);
         let phases = unreversed_phases(run.motor(), smooth, run.sample_time_s(), noise.motor);
-        Self { run, needed, smooth, phases, noise }
+        let gravity = gravity.then(|| SineAndCosine::of(run.motor()));
+        Self { run, needed, smooth, phases, noise, gravity }
+    }
+
+    /// Phases long enough that their velocity has a sure sign in windows of their own length.
+    fn long_phases(&self) -> usize {
+        self.phases.iter().filter(|phase| phase.to - phase.from > 2 * self.smooth).count()
     }
 
     /// Phases for windows of `n` samples, and what they are smoothed over; none where the velocity
@@ -147,13 +174,24 @@ impl<'a> Slipping<'a> {
     }
 }
 
-/// `[∫ẅθ, −∫ẇθ, ∫w, ∫w(θ_m − θ_i).., ∫wτ]`, scaled by the noise that it carries.
+/// Sine and cosine of the motor's angle at every sample: what gravity follows.
+#[derive(Debug)]
+pub(crate) struct SineAndCosine([Vec<f64>; 2]);
+
+impl SineAndCosine {
+    pub(crate) fn of(motor: &[f64]) -> Self {
+        Self([motor.iter().map(|x| x.sin()).collect(), motor.iter().map(|x| x.cos()).collect()])
+    }
+}
+
+/// A row of [`MotorColumns`], scaled by the noise that it carries.
 #[derive(Clone, Copy)]
 pub(crate) struct MotorEquation<'a> {
     pub(crate) campaign: &'a Campaign,
     pub(crate) run: &'a Run,
-    /// [`coupled_tips`].
-    pub(crate) tips: &'a [usize],
+    pub(crate) columns: &'a MotorColumns,
+    /// Of this run, where [`MotorColumns::gravity`] says so.
+    pub(crate) gravity: Option<&'a SineAndCosine>,
     pub(crate) window: &'a Window,
 }
 
@@ -167,8 +205,11 @@ impl Rows for MotorEquation<'_> {
         row.push(window.second.dot_from(motor, motor[0]) * t);
         row.push(-window.first.dot_from(motor, motor[0]) * t);
         row.push(window.area);
-        for &i in self.tips {
+        for &i in &self.columns.tips {
             row.push(behind(campaign, run, i, window, k));
+        }
+        if let Some(SineAndCosine(waves)) = self.gravity {
+            row.extend(waves.iter().map(|wave| window.value.dot(&wave[k..]) * t));
         }
         row.push(self.torque(command));
         for value in row {
@@ -183,9 +224,10 @@ impl MotorEquation<'_> {
         let window = self.window;
         let mut of_motor: Vec<ChannelPart<'_>> =
             vec![(INERTIA, &window.second, 1.0), (VISCOUS, &window.first, -1.0)];
-        let mut channels = Vec::with_capacity(1 + self.tips.len());
-        for (place, &i) in self.tips.iter().enumerate() {
-            let column = TIPS + place;
+        let tips = &self.columns.tips;
+        let mut channels = Vec::with_capacity(1 + tips.len());
+        for (place, &i) in tips.iter().enumerate() {
+            let column = MotorColumns::tip(place);
             if self.campaign.channels.tips[i].quantity != TipQuantity::Deflection {
                 of_motor.push((column, &window.value, 1.0));
             }
@@ -193,7 +235,7 @@ impl MotorEquation<'_> {
             channels.push((of_run.tips[i], of_tip));
         }
         channels.push((of_run.motor, of_motor));
-        let noise = products(TIPS + self.tips.len() + 1, channels);
+        let noise = products(self.columns.count() + 1, channels);
         noise * (self.run.sample_time_s() * window.row_scale).powi(2)
     }
 
@@ -224,7 +266,7 @@ impl MotorEquation<'_> {
     /// `∫w(θ̇_m − θ̇_i)` of the coupled tip of number `place`: what damping within the beam adds.
     #[inline(always)]
     pub(crate) fn behind_rate(&self, place: usize, k: usize) -> f64 {
-        let (first, i) = (&self.window.first, self.tips[place]);
+        let (first, i) = (&self.window.first, self.columns.tips[place]);
         let (motor, tip) = (&self.run.motor()[k..], &self.run.tips()[i][k..]);
         self.run.sample_time_s()
             * match self.campaign.channels.tips[i].quantity {
@@ -245,7 +287,7 @@ pub(super) fn behind(campaign: &Campaign, run: &Run, i: usize, window: &Window, 
         }
 }
 
-/// `[∫ẇτ, ∫wθ, ∫w·e^{−|v|/v̄}, Σκ_i∫w(θ̇_m − θ̇_i), ∫w|τ|, e∫w, −e∫ẇθ]` before the right side, e how much of the
+/// `[∫ẇτ, ∫wθ, ∫w·e^{−|v|/v̄}, Σκ_i∫w(θ̇_m − θ̇_i), ∫w|τ|, e∫w, −e∫ẇθ, ∫w·sin θ, ∫w·cos θ]` before the right side, e how much of the
 /// campaign is over.
 struct WithMore<'a> {
     plain: MotorEquation<'a>,
@@ -257,6 +299,7 @@ struct WithMore<'a> {
     elapsed: Elapsed,
     /// κ_i of the coupled tips.
     coupling: &'a [f64],
+    waves: SineAndCosine,
 }
 
 impl Rows for WithMore<'_> {
@@ -280,6 +323,8 @@ impl Rows for WithMore<'_> {
             by_size * scale,
             elapsed * row[DRY],
             elapsed * row[VISCOUS],
+            window.value.dot(&self.waves.0[0][k..]) * t * scale,
+            window.value.dot(&self.waves.0[1][k..]) * t * scale,
         ];
         let right = row.len() - 1;
         row.splice(right..right, more);

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::identify::estimate::wider_by_student;
 use crate::identify::methods::regression::thresholds::{
     INSEPARABLE_WEIGHT, MOTION_LEAST, NOISE_FILLS, SAME_COLUMN,
 };
@@ -271,14 +272,16 @@ impl<'a> NormalPart<'a> {
     }
 }
 
-/// `N⁻¹·(Σ g·gᵀ)·N⁻¹` with g the score of each group, and C/(C − 1) for their number.
+/// `N⁻¹·(Σ g·gᵀ)·N⁻¹` with g the score of each group, C/(C − 1) for their number, and so much more that 1.96 standard
+/// errors are an interval of 95 % by Student's t with C − 1 degrees of freedom.
 fn sandwich(inverse: &DMatrix<f64>, scores: &DMatrix<f64>) -> DMatrix<f64> {
     let mut middle = DMatrix::zeros(scores.nrows(), scores.nrows());
     for g in scores.column_iter() {
         middle.ger(1.0, &g, &g, 1.0);
     }
-    let groups = scores.ncols() as f64;
-    inverse * middle * inverse * (groups / (groups - 1.0).max(1.0))
+    let groups = scores.column_iter().filter(|g| g.norm() > 0.0).count() as f64;
+    let freedom = (groups - 1.0).max(1.0);
+    inverse * middle * inverse * (groups / freedom * wider_by_student(freedom).powi(2))
 }
 
 /// The first covariance, stretched where the second has the larger variance.

@@ -1,6 +1,6 @@
 //! Phases in which the motor slips one way.
 
-use crate::identify::methods::regression::thresholds::SURELY_REVERSED;
+use crate::identify::methods::regression::thresholds::{REST_SPEED, SURELY_REVERSED};
 use crate::identify::methods::regression::window::Window;
 use crate::identify::thresholds::TRAVEL_OVER_NOISE;
 
@@ -57,7 +57,7 @@ fn without_reversals(phase: Phase, found: &[Phase]) -> Vec<Phase> {
     parts
 }
 
-/// Phases of one sign of velocities of more than `least`.
+/// Phases of one sign of velocities of more than `least`, and of more than [`REST_SPEED`].
 fn slips(motor: &[f64], window: &Window, least: f64) -> Vec<Phase> {
     pulp::Arch::new().dispatch(Slips { motor, window, least })
 }
@@ -80,7 +80,7 @@ impl pulp::WithSimd for Slips<'_> {
         let Self { motor, window, least } = self;
         let n = window.len();
         let rising = &window.first[..n.div_ceil(2)];
-        let mut phases: Vec<Phase> = Vec::new();
+        let mut velocity_at = Vec::with_capacity(motor.len());
         let velocities = motor.len().saturating_sub(n);
         for from in (0..velocities).step_by(LANES) {
             let seen = &motor[from..];
@@ -92,10 +92,14 @@ impl pulp::WithSimd for Slips<'_> {
                 padded.resize(n + LANES, 0.0);
                 convolved(rising, n, &padded)
             };
-            for (k, &velocity) in (n / 2 + from..).zip(&found[..lanes]) {
-                if velocity.abs() > least {
-                    extend(&mut phases, k, velocity);
-                }
+            velocity_at.extend_from_slice(&found[..lanes]);
+        }
+        let fastest = velocity_at.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let least = least.max(REST_SPEED * fastest);
+        let mut phases: Vec<Phase> = Vec::new();
+        for (k, &velocity) in (n / 2..).zip(&velocity_at) {
+            if velocity.abs() > least {
+                extend(&mut phases, k, velocity);
             }
         }
         phases

@@ -7,6 +7,7 @@ use crate::identify::judge::{Chosen, Evidence};
 use crate::identify::methods::friction_law::FrictionLaw;
 use crate::identify::methods::regression::missing::{MissingKind, MissingTerm};
 use crate::identify::methods::regression::motor::{ByDirection, MotorRegression};
+use crate::identify::methods::regression::thresholds::FEW_PHASES;
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
 use crate::identify::thresholds::{SAME_FREQUENCY, UNEXPLAINED_TORQUE};
 
@@ -17,10 +18,6 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
     // The output-error method describes the runs: the residual of the regression does not count then.
     let explained = evidence.replay().is_some();
     let Some(r) = &evidence.methods.regression else {
-        if chosen.method == Some(Method::LeastSquares) {
-            findings.push(Finding::new(RegressionFinding::FewPhases));
-            return findings;
-        }
         if explained {
             return findings;
         }
@@ -28,30 +25,62 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
         findings.push(Finding::new(RegressionFinding::RegressionRefused { residual_share }));
         return findings;
     };
-    if r.relative_residual > UNEXPLAINED_TORQUE && !explained {
-        let residual_share = r.relative_residual;
+    if r.phases < FEW_PHASES && !explained {
+        findings.push(Finding::new(RegressionFinding::FewPhases { phases: r.phases }));
+    }
+    let residual_share = left_by_chosen(evidence, chosen).unwrap_or(r.relative_residual);
+    if residual_share > UNEXPLAINED_TORQUE && !explained {
         findings.push(Finding::new(RegressionFinding::UnexplainedTorque { residual_share }));
     }
+    findings.extend(gravity_pairs(evidence, r));
     if !explained && is_one_sine(evidence.runs, r) {
         findings.push(Finding::new(RegressionFinding::OneSine));
     }
-    // A law of friction that was chosen says more than the one term that was tried for it.
+    // A fit that was taken in place of this one says more than the one term that was tried for it.
+    let split = chosen.method == Some(Method::RegressionByDirection);
     let law = evidence.methods.friction_law.as_ref().filter(|law| law.chosen.departs());
     let said = |m: &MissingTerm| match m.kind {
         MissingKind::Delay => law.is_some_and(FrictionLaw::leaves_no_lag),
         MissingKind::Position
+        | MissingKind::Gravity
         | MissingKind::BeamDamping
-        | MissingKind::CommandBySign
         | MissingKind::CoulombDrift
         | MissingKind::ViscousDrift => false,
+        MissingKind::CommandBySign => split || law.is_some(),
         MissingKind::Stribeck => law.is_some(),
     };
     if let Some(term) = r.missing.filter(|m| !explained && !said(m)) {
         findings.push(Finding::new(RegressionFinding::MissingTerm { term, units }));
     }
-    let split = r.viscous_by_direction.as_ref().filter(|_| !explained);
-    findings.extend(split.and_then(|d| differs_by_direction(r, d, units)));
+    let by_direction = r.viscous_by_direction.as_ref().filter(|_| split);
+    findings.extend(by_direction.and_then(|d| differs_by_direction(r, d, units)));
     findings
+}
+
+/// Share of the torque that the fit which was taken leaves, in its own windows.
+fn left_by_chosen(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<f64> {
+    let methods = evidence.methods;
+    let regression = methods.regression.as_ref();
+    Some(match chosen.method? {
+        Method::FrictionLaw => methods.friction_law.as_ref()?.relative_residual[1],
+        Method::RegressionByDirection => {
+            regression?.viscous_by_direction.as_ref()?.relative_residual
+        }
+        Method::LeastSquares => methods.least_squares.as_ref()?.relative_residual,
+        _ => regression?.relative_residual,
+    })
+}
+
+/// What gravity can hardly be told from.
+fn gravity_pairs(evidence: &Evidence<'_>, r: &MotorRegression) -> Vec<Finding> {
+    let Some(gravity) = r.gravity else { return Vec::new() };
+    let angles = evidence.used.runs.iter().flat_map(|run| run.motor());
+    let (sum, count) = angles.fold((0.0, 0.0), |(sum, count), q| (sum + q, count + 1.0));
+    let pairs = r.terms.pairs_with_gravity(sum / count, gravity.amplitude().value);
+    let finding = |(with, correlation)| {
+        Finding::new(RegressionFinding::GravityUnseparated { with, correlation })
+    };
+    pairs.into_iter().map(finding).collect()
 }
 
 /// Viscous friction that differs by direction.

@@ -5,6 +5,9 @@ thresholds! {
         /// A velocity against its slip phase by this many standard deviations is a reversal, and is
         /// cut out: noise alone gives none in many thousands of samples.
         SURELY_REVERSED: f64 = 5.0, "standard deviations", Derived;
+        /// The motor rests where it is slower than this share of its largest velocity: an angle that
+        /// drifts while friction holds does not slip.
+        REST_SPEED: f64 = 1e-5, "1", Convention;
         /// A window is too short if its velocities are smoothed over less than this share of what a
         /// certain sign needs (`TRAVEL_OVER_NOISE`).
         SURE_SIGN: f64 = 0.4, "1", Convention;
@@ -14,6 +17,9 @@ thresholds! {
         /// A parameter is refused as inseparable if it has more than this weight in a direction
         /// that the data do not show.
         INSEPARABLE_WEIGHT: f64 = 0.2, "1", Convention;
+        /// A sum of parameters is told although one of them is not, if a change that the data do not
+        /// show moves it by less than this share of its parts.
+        TELLS_SUM: f64 = 1e-6, "1", Convention;
         /// Noise is taken out of a direction of the regressors up to this share of its square.
         /// Above it too little motion is left, and the standard error counts the direction instead.
         NOISE_FILLS: f64 = 0.6, "1", Convention;
@@ -23,9 +29,23 @@ thresholds! {
         /// A missing term that hardly lowers the residual is reported if its regressor is exact, it
         /// is this many standard errors from zero, and it moves an estimate by `PRESENT`.
         MISSING_SURE: f64 = 10.0, "standard errors", Convention;
+        /// Gravity is tried as a missing term where the motor turns by more than this: over less its
+        /// sine is a line, as that of a spring.
+        GRAVITY_TRAVEL_RAD: f64 = 1.0, "rad", Convention;
+        /// Gravity is told from inertia and a constant load if its part is known to this share of
+        /// m·g·l.
+        GRAVITY_KNOWN: f64 = 0.05, "1", Convention;
+        /// Gravity that is not known so well is reported with the term that it correlates with by
+        /// more than this.
+        GRAVITY_CORRELATION: f64 = 0.9, "1", Convention;
         /// The magnitude of the command is not tried as a missing term if it correlates with the
         /// torque by this much: with torque of one sign it is the torque itself.
         MISSING_ONE_SIGN: f64 = 0.5, "1", Convention;
+        /// With fewer slip phases than this each is cut into blocks, whose scatter is smaller than
+        /// that from phase to phase: a finding says so.
+        FEW_PHASES: usize = 8, "slip phases", Convention;
+        /// Blocks that few slip phases are cut into.
+        BLOCKS_WANTED: usize = 16, "blocks", Convention;
         /// A window length is used only if this many slip phases (or blocks of a beam's equation)
         /// are left: the covariance rests on their scatter.
         CLUSTERS_LEAST: usize = 4, "slip phases or blocks", Convention;

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::friction::TermScale;
 use crate::identify::methods::output_error::engine::budget::Budget;
 use crate::identify::methods::output_error::engine::coordinates::{Body, in_coordinates};
 use crate::identify::methods::output_error::engine::noise::is_least;
@@ -12,9 +13,7 @@ use crate::identify::methods::output_error::thresholds::{
 };
 use crate::information::{Reduced, inverse};
 use crate::record::{Campaign, Run};
-use crate::replay::{
-    ModalArm, Oscillator, Parameter, Ripple, Sampling, Window, WindowSums, costs, sums,
-};
+use crate::replay::{ModalArm, Oscillator, Parameter, Sampling, Window, WindowSums, costs, sums};
 
 /// Damping of the first step, relative to the diagonal; and where sensors' steps are counted, because their edges
 /// reject long steps of the search.
@@ -273,16 +272,14 @@ fn is_braking(campaign: &Campaign, arm: &ModalArm, sample_s: f64) -> bool {
         return true;
     }
     let fastest = fastest_rad_s(campaign);
-    let near = terms.near_rest.map_or(0.0, |n| n.torque_nm.min(0.0));
-    let waves: f64 = terms.ripples.iter().map(|r| r.cosine_nm.hypot(r.sine_nm)).sum();
-    let travel = if terms.ripples.is_empty() { 0.0 } else { travel(campaign) };
-    let turns = |r: &Ripple| {
-        r.per_rad * travel > RIPPLE_PHASE_LEAST
-            && r.per_rad * fastest * sample_s < RIPPLE_PHASE_MOST
+    let travel = travel(campaign);
+    let shown = |scale: TermScale| match scale {
+        TermScale::Speed(speed) => speed > NEAR_REST_SPEED_LEAST * fastest,
+        TermScale::PerAngle(k) => {
+            k * travel > RIPPLE_PHASE_LEAST && k * fastest * sample_s < RIPPLE_PHASE_MOST
+        }
     };
-    terms.near_rest.is_none_or(|n| n.speed_rad_s > NEAR_REST_SPEED_LEAST * fastest)
-        && terms.ripples.iter().all(turns)
-        && arm.coulomb_nm + near > waves
+    terms.scales().all(shown) && arm.coulomb_nm + terms.least_braking_nm() > 0.0
 }
 
 /// Whether an arm is within the limits of the search: friction brakes, and every mode turns by less than

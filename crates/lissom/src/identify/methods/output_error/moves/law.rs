@@ -1,7 +1,5 @@
 //! Terms of friction beyond Coulomb and viscous friction, tried if the residual is above the noise.
 
-use std::f64::consts::SQRT_2;
-
 use crate::drive::Falloff;
 use crate::identify::methods::friction_law::LawTerm;
 use crate::identify::methods::output_error::engine::windows::{fastest_rad_s, travel};
@@ -103,12 +101,7 @@ fn trials(fitting: &Fitting<'_>, fit: &ArmFit) -> Vec<LawTrial> {
     let falloff = Falloff::Exponential;
     let listed =
         NEAR_REST_SPEEDS.map(|share| LawTerm::NearRest { speed: share * fastest, falloff });
-    let known = |k: f64| terms.ripples.iter().any(|r| (r.per_rad / k).ln().abs() < SQRT_2.ln());
-    let open = |term: &LawTerm| match term {
-        LawTerm::NearRest { speed, .. } => terms.near_rest.is_none() && *speed > 0.0,
-        LawTerm::Ripple { per_angle } => terms.ripples.len() < RIPPLES_MOST && !known(*per_angle),
-        _ => false,
-    };
+    let open = |term: &LawTerm| term.may_join(terms, RIPPLES_MOST);
     let seen = fitting.law.iter().map(|term| match *term {
         LawTerm::NearRest { speed, .. } => LawTerm::NearRest { speed, falloff },
         term => term,

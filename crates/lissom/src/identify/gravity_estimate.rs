@@ -1,0 +1,79 @@
+//! A load of gravity as a method estimates it.
+
+use crate::identify::estimate::Estimate;
+use crate::load::GravityLoad;
+
+/// The torque `g_s·sin θ + g_c·cos θ` of an unbalanced load on the motor, θ the motor's angle as logged
+/// \[N·m, or the command's unit where the torque constant is unknown\]: `m·g·l·sin(θ + φ)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gravity {
+    /// g_s.
+    pub sine: Estimate,
+    /// g_c.
+    pub cosine: Estimate,
+    /// Covariance of both.
+    pub covariance: f64,
+}
+
+impl Gravity {
+    /// Of both coefficients and their covariance.
+    pub fn new(sine: Estimate, cosine: Estimate, covariance: f64) -> Self {
+        Self { sine, cosine, covariance }
+    }
+
+    /// m·g·l = √(g_s² + g_c²).
+    pub fn amplitude(&self) -> Estimate {
+        let (s, c) = (self.sine, self.cosine);
+        let value = s.value.hypot(c.value);
+        let square = (s.value * s.std).powi(2)
+            + (c.value * c.std).powi(2)
+            + 2.0 * s.value * c.value * self.covariance;
+        let std = square.max(0.0).sqrt() / value.max(f64::MIN_POSITIVE);
+        Estimate { value, std }
+    }
+
+    /// φ \[rad\], from −π to π: at θ = −φ the load hangs or stands.
+    pub fn phase_rad(&self) -> Estimate {
+        let (s, c) = (self.sine, self.cosine);
+        let square = (c.value * s.std).powi(2) + (s.value * c.std).powi(2)
+            - 2.0 * s.value * c.value * self.covariance;
+        let std =
+            square.max(0.0).sqrt() / (s.value.powi(2) + c.value.powi(2)).max(f64::MIN_POSITIVE);
+        Estimate { value: c.value.atan2(s.value), std }
+    }
+
+    /// The load without its errors.
+    pub fn load(&self) -> GravityLoad {
+        GravityLoad { sine_nm: self.sine.value, cosine_nm: self.cosine.value }
+    }
+
+    /// The same in a unit of which one is `factor` of the present one.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let covariance = self.covariance * factor * factor;
+        Self { sine: self.sine.scaled(factor), cosine: self.cosine.scaled(factor), covariance }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against differences of amplitude and phase by the coefficients.
+    #[test]
+    fn amplitude_and_phase_have_the_errors_of_their_coefficients() {
+        let estimate = |value: f64, std: f64| Estimate { value, std };
+        let load = Gravity::new(estimate(0.3, 0.01), estimate(-0.4, 0.02), 1e-4);
+        let of = |s: f64, c: f64| [s.hypot(c), c.atan2(s)];
+        let h = 1e-6;
+        for (k, found) in [load.amplitude(), load.phase_rad()].into_iter().enumerate() {
+            let by_sine = (of(0.3 + h, -0.4)[k] - of(0.3 - h, -0.4)[k]) / (2.0 * h);
+            let by_cosine = (of(0.3, -0.4 + h)[k] - of(0.3, -0.4 - h)[k]) / (2.0 * h);
+            let variance = (by_sine * 0.01).powi(2)
+                + (by_cosine * 0.02).powi(2)
+                + 2.0 * by_sine * by_cosine * 1e-4;
+            assert!((found.value - of(0.3, -0.4)[k]).abs() < 1e-12);
+            assert!((found.std / variance.sqrt() - 1.0).abs() < 1e-6, "{k}: {}", found.std);
+        }
+    }
+}
