@@ -106,8 +106,8 @@ fn gaps_make_runs_of_their_own() {
     let rows = (0..80).chain(100..110).chain(200..300);
     let file = read_logs(PLAIN, &[("a.csv", &log(rows))]).unwrap();
     let [first, second] = &file.campaign.runs[..] else { panic!("two runs") };
-    assert_eq!((first.name(), first.len(), first.notes().len()), ("a.csv [1/2]", 80, 0));
-    assert_eq!((second.name(), second.len(), second.notes().len()), ("a.csv [2/2]", 100, 3));
+    assert_eq!((first.name(), first.len(), first.notes().len()), ("a.csv [1/2]", 80, 2));
+    assert_eq!((second.name(), second.len(), second.notes().len()), ("a.csv [2/2]", 100, 0));
     assert_eq!(second.motor()[0], signal(200));
     assert_eq!(second.time().start_s, 0.2);
 }
