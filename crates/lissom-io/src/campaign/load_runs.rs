@@ -5,12 +5,16 @@ use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use lissom::record::clock::{self, ClockError, EvenLog, LogRows};
-use lissom::record::{Campaign, Channels, Command, Hold, Note, RecordError, Run};
+use lissom::record::{
+    Axis, Campaign, Channels, Command, Hold, Note, RecordError, Run, TipQuantity,
+};
 
 use super::campaign_error::CampaignError;
 use super::campaign_file::ReadOptions;
-use super::campaign_signals::{Reading, Signals, TimeSource, TipSource};
+use super::campaign_signals::{CommandKind, Reading, Signals, TimeSource, TipSource};
+use super::derived_channels::{goal_difference, integrated};
 use super::run_spec::RunSpec;
+use super::whole_turns;
 use crate::config::MAGNITUDE;
 use crate::io_error::Error;
 use crate::log::{self, ColumnRef, Log, LogColumn, LogError, LogOptions, TimeBack};
@@ -56,7 +60,7 @@ fn load_run(
     };
     let log = log::read_log(&path, time, &columns(signals), &log_options)?;
     let (factor, repeated) = (log.factor, log.repeated);
-    let even = even_parts(log, signals, spec, options, &file)?;
+    let (even, turns) = even_parts(log, signals, spec, options, &file)?;
     let count = even.parts.len();
     let mut runs = Vec::with_capacity(count);
     for (index, part) in even.parts.into_iter().enumerate() {
@@ -64,7 +68,15 @@ fn load_run(
             1 => name.to_owned(),
             _ => format!("{name} [{}/{count}]", index + 1),
         };
-        let mut run = Run::new(piece, part.time, part.command, part.motor, part.tips)
+        let motor = match signals.motor_speed {
+            true => integrated(&part.motor, part.time.sample_time_s),
+            false => part.motor,
+        };
+        let command = match signals.command.kind {
+            CommandKind::Goal => goal_difference(&part.command, &motor, signals.command.hold),
+            _ => part.command,
+        };
+        let mut run = Run::new(piece, part.time, command, motor, part.tips)
             .map_err(|error| of_log(error, &file))?;
         if let Some((omega_rad_s, place)) = &spec.omega_rad_s {
             run = run.with_omega(*omega_rad_s).map_err(|error| match error {
@@ -81,6 +93,12 @@ fn load_run(
             }
             if spec.skip_s > 0.0 {
                 run = run.with_note(Note::HeadSkipped { seconds: spec.skip_s });
+            }
+            if signals.motor_speed {
+                run = run.with_note(Note::SpeedIntegrated);
+            }
+            if turns > 0 {
+                run = run.with_note(Note::TurnsRemoved { count: turns });
             }
             if repeated > 0 {
                 let per_reading = 1.0 + repeated as f64 / run.len() as f64;
@@ -153,7 +171,7 @@ fn even_parts(
     spec: &RunSpec,
     options: &ReadOptions,
     file: &str,
-) -> Result<EvenLog, Error> {
+) -> Result<(EvenLog, usize), Error> {
     let (stamps_s, sample_time_s, stamp_step_s) = match (&signals.time, log.time) {
         (TimeSource::Stamps(_, unit_s), Some(mut stamps)) => {
             stamps.iter_mut().for_each(|stamp| *stamp *= unit_s);
@@ -167,8 +185,9 @@ fn even_parts(
         }
         (TimeSource::Stamps(..), None) => (Vec::new(), None, 0.0),
     };
-    let (command, motor, tips) = channels(log.columns, signals);
+    let (mut command, mut motor, mut tips) = channels(log.columns, signals);
     in_range(&command, &motor, &tips, signals, file)?;
+    let turns = remove_turns(signals, &mut command, &mut motor, &mut tips);
     let hold = signals.command.hold;
     let rows = LogRows { stamps_s, sample_time_s, stamp_step_s, command, hold, motor, tips };
     let even =
@@ -201,7 +220,32 @@ fn even_parts(
         }
         .into());
     }
-    Ok(even)
+    Ok((even, turns))
+}
+
+/// Removes jumps of one turn from all angles, and counts them.
+fn remove_turns(
+    signals: &Signals,
+    command: &mut [f64],
+    motor: &mut [f64],
+    tips: &mut [Vec<f64>],
+) -> usize {
+    if signals.axis == Axis::Linear {
+        return 0;
+    }
+    let mut turns = 0;
+    if signals.command.kind == CommandKind::Goal {
+        turns += whole_turns::remove_turns(command);
+    }
+    if !signals.motor_speed {
+        turns += whole_turns::remove_turns(motor);
+    }
+    for ((tip, _), samples) in signals.tips.iter().zip(tips) {
+        if tip.quantity == TipQuantity::Angle && tip.calibrated {
+            turns += whole_turns::remove_turns(samples);
+        }
+    }
+    turns
 }
 
 /// Command, motor and tips in SI.

@@ -79,6 +79,13 @@ pub enum Note {
         /// Sample time after the last change \[s\].
         last_s: f64,
     },
+    /// The log has the motor's speed: its angle was integrated, from 0.
+    SpeedIntegrated,
+    /// Jumps of one turn, as absolute encoders make them, were removed from the angles.
+    TurnsRemoved {
+        /// Number of jumps.
+        count: usize,
+    },
     /// The log had too many rows: each sample stands for several of them.
     Thinned {
         /// Rows of the log per sample.

@@ -102,6 +102,18 @@ pub enum LogFinding {
         /// Sample time after the last change \[s\].
         last_s: f64,
     },
+    /// The angle was integrated from the speed.
+    SpeedIntegrated,
+    /// Jumps of one turn were removed from the angles.
+    TurnsRemoved {
+        /// Number of jumps.
+        count: usize,
+    },
+    /// The command follows the motor as a position goal does.
+    CommandFollowsMotor {
+        /// Correlation of both.
+        correlation: f64,
+    },
     /// The log had too many rows.
     Thinned {
         /// Rows of the log for each sample.
@@ -135,6 +147,8 @@ impl From<&Note> for LogFinding {
             Note::RateChange { rates, at_s, first_s, last_s } => {
                 Self::RateChange { rates, at_s, first_s, last_s }
             }
+            Note::SpeedIntegrated => Self::SpeedIntegrated,
+            Note::TurnsRemoved { count } => Self::TurnsRemoved { count },
             Note::Thinned { factor } => Self::Thinned { factor },
             Note::HeadSkipped { seconds } => Self::HeadSkipped { length_s: seconds },
         }
@@ -251,6 +265,20 @@ impl fmt::Display for LogFinding {
                 significant(1e3 * first_s, 4),
                 significant(1e3 * last_s, 4)
             ),
+            Self::SpeedIntegrated => f.write_str(
+                "the log has the speed of the motor: the angle is integrated from it, starting at 0",
+            ),
+            Self::TurnsRemoved { count } => write!(
+                f,
+                "{} of one turn {} removed from the angles, as an encoder makes them that starts again after each turn",
+                counted(*count, "jump", "jumps"),
+                if *count == 1 { "is" } else { "are" }
+            ),
+            Self::CommandFollowsMotor { correlation } => write!(
+                f,
+                "the command follows the motor's angle (correlation {correlation:.4}): it looks like the position goal of a \
+                 servo. If it is one, all estimates are wrong"
+            ),
             Self::Thinned { factor } => {
                 write!(f, "the log is thinned: each sample stands for {factor} rows of it")
             }
@@ -268,7 +296,9 @@ impl Describe for LogFinding {
 
     fn severity(&self) -> Severity {
         match self {
-            Self::RepeatedRun { .. } | Self::Jitter { .. } => Severity::Warning,
+            Self::RepeatedRun { .. } | Self::Jitter { .. } | Self::CommandFollowsMotor { .. } => {
+                Severity::Warning
+            }
             Self::Resampled { error_share, .. } if *error_share > RESAMPLING_ERROR => {
                 Severity::Warning
             }
@@ -280,6 +310,8 @@ impl Describe for LogFinding {
             | Self::RepeatedReadings { .. }
             | Self::ClockRestart { .. }
             | Self::RateChange { .. }
+            | Self::SpeedIntegrated
+            | Self::TurnsRemoved { .. }
             | Self::Thinned { .. }
             | Self::HeadSkipped { .. } => Severity::Info,
         }
@@ -289,6 +321,7 @@ impl Describe for LogFinding {
         match self {
             Self::RepeatedRun { .. } => vec![key::RAW_RESPONSE],
             Self::Jitter { .. } => vec![key::INERTIA, key::VISCOUS, key::RAW_RESPONSE],
+            Self::CommandFollowsMotor { .. } => vec![key::INERTIA, key::VISCOUS, key::COULOMB],
             Self::Resampled { error_share, .. } if *error_share > RESAMPLING_ERROR => {
                 vec![key::INERTIA, key::VISCOUS, key::RAW_RESPONSE]
             }
@@ -300,6 +333,8 @@ impl Describe for LogFinding {
             | Self::RepeatedReadings { .. }
             | Self::ClockRestart { .. }
             | Self::RateChange { .. }
+            | Self::SpeedIntegrated
+            | Self::TurnsRemoved { .. }
             | Self::Thinned { .. }
             | Self::HeadSkipped { .. } => Vec::new(),
         }
@@ -321,6 +356,11 @@ impl Describe for LogFinding {
             Self::RowsFilled { .. } => "nothing; with a larger buffer the logger loses no rows",
             Self::RepeatedReadings { .. } => "nothing; log at the rate of the device",
             Self::ClockRestart { .. } => "nothing, if the recording was not interrupted there",
+            Self::SpeedIntegrated => "nothing; a log with the angle too shows slow motion better",
+            Self::TurnsRemoved { .. } => "nothing",
+            Self::CommandFollowsMotor { .. } => {
+                "say `quantity = \"goal\"` of the command if it is a goal; nothing if a spring or gravity holds the motor"
+            }
             Self::RateChange { .. } => "nothing; give separate logs as separate runs",
             Self::Thinned { .. } => "log fewer samples, or cut the log into several runs",
             Self::HeadSkipped { .. } => "",
