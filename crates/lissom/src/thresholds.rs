@@ -5,10 +5,11 @@ use crate::identify::{
     validation,
 };
 use crate::threshold::Threshold;
-use crate::{information, plan, spectrum};
+use crate::{information, plan, record, spectrum};
 
 /// The lists of all methods, in the order of the data flow.
-const GROUPS: [&[Threshold]; 15] = [
+const GROUPS: [&[Threshold]; 16] = [
+    record::clock::thresholds::LIST,
     all_methods::LIST,
     spectrum::thresholds::LIST,
     prepare::thresholds::LIST,

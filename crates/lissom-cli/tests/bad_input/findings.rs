@@ -51,14 +51,13 @@ fn gaps_cut_a_log_into_runs() {
     assert_eq!(
         bench.findings("gap"),
         [
-            "run.csv [2/2]: the log has a gap of 0.5050 s after 6.9950 s: it is cut there, and this run begins after the gap",
-            "run.csv [2/2]: the log has a gap of 0.4050 s after 7.5950 s: it is cut there, and this run begins after the gap"
+            "run.csv [1/2]: the log has 2 gaps, the longest of 0.5050 s after 6.9950 s: it is cut there into separate runs"
         ]
     );
     assert_eq!(
         bench.findings("piece-dropped"),
         [
-            "run.csv [2/2]: the piece from 7.5000 s on, between two gaps, has only 20 samples: it is not used"
+            "run.csv [1/2]: the piece of the log from 7.5000 s on, between two cuts, has only 20 samples: it is not used"
         ]
     );
 }

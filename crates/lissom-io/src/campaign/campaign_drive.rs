@@ -6,33 +6,36 @@ use lissom::record::{Axis, Command, CommandQuantity};
 
 use super::campaign_error::CampaignError;
 use super::campaign_file::DriveConstants;
-use super::campaign_signals::CommandSource;
+use super::campaign_signals::{CommandKind, CommandSource};
 use crate::arm_file::ArmFile;
 use crate::config::{ConfigError, Table, Value};
 use crate::io_error::Error;
 use crate::units::Dimension;
 
-/// The command channel and what is known of the drive.
+/// The command channel and what is known of the drive, and the sign of the command: −1 where the torque constant is
+/// negative.
 pub(super) fn drive(
     table: Option<&Table<'_>>,
     axis: Axis,
     source: &CommandSource,
     folder: &Path,
-) -> Result<(Command, DriveConstants), Error> {
-    let quantity = source.quantity;
+) -> Result<(Command, DriveConstants, f64), Error> {
+    let quantity = source.kind.quantity();
+    let mut sign = 1.0;
     let mut command = Command {
         quantity,
         hold: source.hold,
-        torque_per_command: None,
+        torque_per_command: (source.kind == CommandKind::Effort).then_some(1.0),
         back_emf_viscous: 0.0,
         limit: None,
     };
     let mut known = DriveConstants::default();
     let Some(table) = table else {
-        return Ok((command, known));
+        return Ok((command, known, sign));
     };
     table.only(&[
         "torque_constant",
+        "position_gain",
         "resistance",
         "back_emf",
         "limit",
@@ -42,7 +45,7 @@ pub(super) fn drive(
         "gear_efficiency",
         "arm",
     ])?;
-    command.limit = limit(table, quantity)?;
+    command.limit = limit(table, axis, source.kind)?;
     let resistance = table.get("resistance").map(|v| v.positive(Dimension::RESISTANCE));
     known.resistance_ohm = resistance.transpose()?;
     let back_emf_unit = match axis {
@@ -50,9 +53,24 @@ pub(super) fn drive(
         Axis::Linear => Dimension::FORCE_PER_CURRENT,
     };
     known.back_emf = table.get("back_emf").map(|v| v.not_negative(back_emf_unit)).transpose()?;
+    if let Some(value) = table.get("position_gain") {
+        if source.kind != CommandKind::Goal {
+            return Err(not_for(&value, source.kind, axis).into());
+        }
+        let gain = match axis {
+            Axis::Rotary => Dimension::TORQUE,
+            Axis::Linear => Dimension::STIFFNESS,
+        };
+        command.torque_per_command = Some(value.positive(gain)?);
+    }
     let gear = gear(table)?;
     if let Some(value) = table.get("torque_constant") {
+        if matches!(source.kind, CommandKind::Effort | CommandKind::Goal) {
+            return Err(not_for(&value, source.kind, axis).into());
+        }
         let (constant, per_ampere) = torque_constant(&value, axis, quantity)?;
+        sign = constant.signum();
+        let constant = constant.abs();
         known.torque_constant = Some(constant);
         let per_command = if per_ampere && quantity == CommandQuantity::Voltage {
             let Some(resistance_ohm) = known.resistance_ohm else {
@@ -76,7 +94,7 @@ pub(super) fn drive(
         known.arm = Some(ArmFile::read(&path)?);
         known.arm_path = Some(path);
     }
-    Ok((command, known))
+    Ok((command, known, sign))
 }
 
 /// A gear between the motor, whose constants are given, and the joint, whose angle is logged.
@@ -128,26 +146,34 @@ fn torque_constant(
         CommandQuantity::Voltage => value.quantity_of(&[per_ampere, per_volt])?,
         CommandQuantity::Arbitrary => (1, value.quantity(effort)?),
     };
-    if constant > 0.0 {
-        Ok((constant, index == 0))
-    } else {
-        Err(value.range(crate::config::Rule::Positive).into())
+    if constant == 0.0 || !constant.is_finite() {
+        return Err(value.range(crate::config::Rule::NotZero).into());
     }
+    Ok((constant, index == 0))
 }
 
-fn limit(table: &Table<'_>, quantity: CommandQuantity) -> Result<Option<f64>, Error> {
+fn limit(table: &Table<'_>, axis: Axis, kind: CommandKind) -> Result<Option<f64>, Error> {
     let keys = ["limit", "current_limit", "voltage_limit"];
     let Some((key, value)) = table.one_of(&keys)? else {
         return Ok(None);
     };
-    let (fits, dimension, command) = match quantity {
-        CommandQuantity::Current => (key != 2, Dimension::CURRENT, "a current"),
-        CommandQuantity::Voltage => (key != 1, Dimension::VOLTAGE, "a voltage"),
-        CommandQuantity::Arbitrary => (key == 0, Dimension::NUMBER, "of unknown unit"),
+    let (fits, dimension) = match (kind, axis) {
+        (CommandKind::Current, _) => (key != 2, Dimension::CURRENT),
+        (CommandKind::Voltage, _) => (key != 1, Dimension::VOLTAGE),
+        (CommandKind::Effort, Axis::Rotary) => (key == 0, Dimension::TORQUE),
+        (CommandKind::Effort, Axis::Linear) => (key == 0, Dimension::FORCE),
+        (CommandKind::Goal, Axis::Linear) => (key == 0, Dimension::LENGTH),
+        (CommandKind::Goal, Axis::Rotary) | (CommandKind::Unknown, _) => {
+            (key == 0, Dimension::NUMBER)
+        }
     };
     if !fits {
-        return Err(CampaignError::NotForCommand { place: value.place(), command }.into());
+        return Err(not_for(&value, kind, axis).into());
     }
     let limit: Result<f64, ConfigError> = value.positive(dimension);
     Ok(Some(limit?))
+}
+
+fn not_for(value: &Value<'_>, kind: CommandKind, axis: Axis) -> CampaignError {
+    CampaignError::NotForCommand { place: value.place(), command: kind.name(axis) }
 }

@@ -17,15 +17,49 @@ pub enum CampaignError {
         /// Dimension found.
         found: Dimension,
     },
-    /// A command's unit is neither of current nor of voltage nor `1`.
+    /// The motor's unit is one of speed, and its quantity is not.
+    #[error("{place}: \"{unit}\" is a unit of speed, but the motor's `quantity` is not \"speed\"")]
+    SpeedUnit {
+        /// Where.
+        place: ConfigPlace,
+        /// Unit found.
+        unit: String,
+    },
+    /// The motor's quantity is a speed, and its unit is not.
+    #[error("{place}: \"{unit}\" is not a unit of speed, but the motor's `quantity` is \"speed\"")]
+    NotASpeed {
+        /// Where.
+        place: ConfigPlace,
+        /// Unit found.
+        unit: String,
+    },
+    /// A command's unit is neither of current, voltage or torque nor `1`.
     #[error(
-        "{place}: the command is measured in {found}, which is neither a current nor a voltage"
+        "{place}: the command is measured in {found}, which is neither a current, a voltage nor {effort}"
     )]
     CommandUnit {
         /// Where.
         place: ConfigPlace,
         /// Dimension found.
         found: Dimension,
+        /// A torque, or a force on a linear axis.
+        effort: &'static str,
+    },
+    /// A position goal in another unit than a position.
+    #[error("{place}: a position goal is {position}, and \"{unit}\" is not a unit of {position}")]
+    GoalUnit {
+        /// Where.
+        place: ConfigPlace,
+        /// Unit found.
+        unit: String,
+        /// An angle, or a length on a linear axis.
+        position: &'static str,
+    },
+    /// A position goal without the motor's position.
+    #[error("{place}: a position goal needs the motor's position, but the log has its speed")]
+    GoalWithSpeed {
+        /// Where.
+        place: ConfigPlace,
     },
     /// A torque constant per current for a voltage channel, without the winding's resistance.
     #[error(
@@ -122,10 +156,22 @@ impl CampaignError {
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
             Self::MotorUnit { .. } => {
-                "give \"rad\" or \"deg\" for a rotary axis, \"m\" or \"mm\" for a linear one; counts: unit = \"rad\" with scale = rad per count"
+                "give \"rad\" or \"deg\" for a rotary axis, \"m\" or \"mm\" for a linear one; counts: unit = \"rad\" with scale = rad per count; speeds: \"rpm\" with quantity = \"speed\""
+            }
+            Self::SpeedUnit { .. } => {
+                "add `quantity = \"speed\"`: the angle is then integrated from the speed"
+            }
+            Self::NotASpeed { .. } => {
+                "give \"rad/s\", \"deg/s\" or \"rpm\" for a rotary axis, \"m/s\" for a linear one, or remove `quantity` if the channel is an angle"
             }
             Self::CommandUnit { .. } => {
-                "give \"A\" or \"V\", or \"1\" for a command of unknown unit"
+                "give \"A\", \"V\" or \"N*m\" (\"N\" on a linear axis), or \"1\" for a command of unknown unit"
+            }
+            Self::GoalUnit { .. } => {
+                "give \"rad\" or \"deg\" for a rotary axis, \"m\" or \"mm\" for a linear one; counts: unit = \"rad\" with scale = rad per count"
+            }
+            Self::GoalWithSpeed { .. } => {
+                "give the column of the motor's angle, or the motor current in place of the goal"
             }
             Self::NoResistance { .. } => {
                 "give `resistance` and `back_emf`, or the torque constant per volt, as in \"0.15 N*m/V\""

@@ -15,6 +15,8 @@ pub(super) struct Signals {
     pub(super) axis: Axis,
     pub(super) command: CommandSource,
     pub(super) motor: Reading,
+    /// The motor's channel is its speed.
+    pub(super) motor_speed: bool,
     pub(super) tips: Vec<(Tip, TipSource)>,
 }
 
@@ -27,8 +29,42 @@ pub(super) enum TimeSource {
 
 pub(super) struct CommandSource {
     pub(super) reading: Reading,
-    pub(super) quantity: CommandQuantity,
+    pub(super) kind: CommandKind,
     pub(super) hold: Hold,
+}
+
+/// What a command is. The library knows torques and goals as commands of a unit of their own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum CommandKind {
+    Current,
+    Voltage,
+    /// A torque [N·m], or a force [N] on a linear axis.
+    Effort,
+    /// A position that a servo is to reach.
+    Goal,
+    Unknown,
+}
+
+impl CommandKind {
+    pub(super) fn quantity(self) -> CommandQuantity {
+        match self {
+            Self::Current => CommandQuantity::Current,
+            Self::Voltage => CommandQuantity::Voltage,
+            Self::Effort | Self::Goal | Self::Unknown => CommandQuantity::Arbitrary,
+        }
+    }
+
+    /// In messages.
+    pub(super) fn name(self, axis: Axis) -> &'static str {
+        match (self, axis) {
+            (Self::Current, _) => "a current",
+            (Self::Voltage, _) => "a voltage",
+            (Self::Effort, Axis::Rotary) => "a torque",
+            (Self::Effort, Axis::Linear) => "a force",
+            (Self::Goal, _) => "a position goal",
+            (Self::Unknown, _) => "of unknown unit",
+        }
+    }
 }
 
 /// A column and the way from its numbers to SI: gain·raw + offset.
@@ -42,8 +78,6 @@ pub(super) enum TipSource {
     Column(Reading),
     Camera { x: ColumnRef, y: ColumnRef, origin: [f64; 2], scale: f64 },
 }
-
-const READING: [&str; 4] = ["column", "unit", "scale", "offset"];
 
 pub(super) fn signals(table: &Table<'_>) -> Result<Signals, Error> {
     table.only(&[
@@ -66,8 +100,12 @@ pub(super) fn signals(table: &Table<'_>) -> Result<Signals, Error> {
     let Some((kind, value)) = table.one_of(&kinds)? else {
         return Err(none_of(table, &kinds).into());
     };
-    let command = command(&value.table()?, kind)?;
-    let (axis, motor) = motor(&table.need("motor")?.table()?)?;
+    let command_table = value.table()?;
+    let (axis, motor, motor_speed) = motor(&table.need("motor")?.table()?)?;
+    let command = command(&command_table, kind, axis)?;
+    if motor_speed && command.kind == CommandKind::Goal {
+        return Err(CampaignError::GoalWithSpeed { place: command_table.place() }.into());
+    }
     let tips = match table.get("tips") {
         None => Vec::new(),
         Some(value) => {
@@ -81,7 +119,7 @@ pub(super) fn signals(table: &Table<'_>) -> Result<Signals, Error> {
             items.iter().enumerate().map(tip).collect::<Result<Vec<_>, _>>()?
         }
     };
-    Ok(Signals { time, decimal_comma: decimal == Some(1), axis, command, motor, tips })
+    Ok(Signals { time, decimal_comma: decimal == Some(1), axis, command, motor, motor_speed, tips })
 }
 
 fn none_of(table: &Table<'_>, keys: &[&'static str]) -> ConfigError {
@@ -122,19 +160,40 @@ fn reading(table: &Table<'_>, unit_size: f64) -> Result<Reading, ConfigError> {
     })
 }
 
-fn command(table: &Table<'_>, kind: usize) -> Result<CommandSource, Error> {
-    table.only(&["column", "unit", "scale", "offset", "hold"])?;
+fn command(table: &Table<'_>, key: usize, axis: Axis) -> Result<CommandSource, Error> {
+    let keys = ["column", "unit", "scale", "offset", "hold", "quantity"];
+    table.only(if key == 2 { &keys } else { &keys[..5] })?;
+    let goal =
+        key == 2 && table.get("quantity").map(|v| v.choice(&["goal"])).transpose()?.is_some();
     let unit = table.need("unit")?;
     let (size, found) = unit.any_unit()?;
-    let quantity = match found {
-        Dimension::CURRENT if kind != 1 => CommandQuantity::Current,
-        Dimension::VOLTAGE if kind != 0 => CommandQuantity::Voltage,
-        Dimension::NUMBER if kind == 2 || unit.text()?.trim() == "1" => CommandQuantity::Arbitrary,
-        _ if kind == 2 => {
-            return Err(CampaignError::CommandUnit { place: unit.place(), found }.into());
+    let effort = match axis {
+        Axis::Rotary => Dimension::TORQUE,
+        Axis::Linear => Dimension::FORCE,
+    };
+    let kind = match found {
+        _ if goal => {
+            let unit_text = unit.text()?.trim();
+            let length = axis == Axis::Linear && found == Dimension::LENGTH;
+            let angle = axis == Axis::Rotary && found == Dimension::NUMBER;
+            if !(length || angle && !["1", "%"].contains(&unit_text)) {
+                let (place, unit) = (unit.place(), unit_text.to_owned());
+                return Err(
+                    CampaignError::GoalUnit { place, unit, position: position(axis) }.into()
+                );
+            }
+            CommandKind::Goal
+        }
+        Dimension::CURRENT if key != 1 => CommandKind::Current,
+        Dimension::VOLTAGE if key != 0 => CommandKind::Voltage,
+        Dimension::NUMBER if key == 2 || unit.text()?.trim() == "1" => CommandKind::Unknown,
+        found if key == 2 && found == effort => CommandKind::Effort,
+        _ if key == 2 => {
+            let effort = CommandKind::Effort.name(axis);
+            return Err(CampaignError::CommandUnit { place: unit.place(), found, effort }.into());
         }
         _ => {
-            let expected = if kind == 0 { Dimension::CURRENT } else { Dimension::VOLTAGE };
+            let expected = if key == 0 { Dimension::CURRENT } else { Dimension::VOLTAGE };
             return Err(wrong_unit(&unit, found, expected).into());
         }
     };
@@ -142,21 +201,42 @@ fn command(table: &Table<'_>, kind: usize) -> Result<CommandSource, Error> {
         0 => Hold::Sampled,
         _ => Hold::Measured,
     };
-    Ok(CommandSource { reading: reading(table, size)?, quantity, hold })
+    Ok(CommandSource { reading: reading(table, size)?, kind, hold })
 }
 
-fn motor(table: &Table<'_>) -> Result<(Axis, Reading), Error> {
-    table.only(&READING)?;
+/// What the motor's channel is called.
+fn position(axis: Axis) -> &'static str {
+    match axis {
+        Axis::Rotary => "an angle",
+        Axis::Linear => "a length",
+    }
+}
+
+/// The axis, the motor's reading, and whether it is a speed.
+fn motor(table: &Table<'_>) -> Result<(Axis, Reading, bool), Error> {
+    table.only(&["column", "unit", "scale", "offset", "quantity"])?;
+    let quantity = table.get("quantity").map(|v| v.choice(&["angle", "speed"])).transpose()?;
+    let wanted = quantity == Some(1);
     let unit = table.need("unit")?;
     let (size, found) = unit.any_unit()?;
-    let axis = match found {
-        Dimension::NUMBER => Axis::Rotary,
-        Dimension::LENGTH => Axis::Linear,
+    let (axis, speed) = match found {
+        Dimension::NUMBER => (Axis::Rotary, false),
+        Dimension::LENGTH => (Axis::Linear, false),
+        Dimension::RATE => (Axis::Rotary, true),
+        Dimension::VELOCITY => (Axis::Linear, true),
         _ => {
             return Err(CampaignError::MotorUnit { place: unit.place(), found }.into());
         }
     };
-    Ok((axis, reading(table, size)?))
+    if speed != wanted {
+        let (place, unit) = (unit.place(), unit.text()?.trim().to_owned());
+        return Err(match speed {
+            true => CampaignError::SpeedUnit { place, unit },
+            false => CampaignError::NotASpeed { place, unit },
+        }
+        .into());
+    }
+    Ok((axis, reading(table, size)?, speed))
 }
 
 fn wrong_unit(unit: &Value<'_>, found: Dimension, expected: Dimension) -> ConfigError {

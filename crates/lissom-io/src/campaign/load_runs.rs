@@ -2,18 +2,22 @@
 
 use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
-use std::ops::Range;
 use std::path::Path;
 
-use lissom::record::{Campaign, Channels, Command, Hold, Note, RecordError, Run, TimeBase};
+use lissom::record::clock::{self, ClockError, EvenLog, LogRows};
+use lissom::record::{
+    Axis, Campaign, Channels, Command, Hold, Note, RecordError, Run, TipQuantity,
+};
 
 use super::campaign_error::CampaignError;
 use super::campaign_file::ReadOptions;
-use super::campaign_signals::{Reading, Signals, TimeSource, TipSource};
+use super::campaign_signals::{CommandKind, Reading, Signals, TimeSource, TipSource};
+use super::derived_channels::{goal_difference, integrated};
 use super::run_spec::RunSpec;
+use super::whole_turns;
 use crate::config::MAGNITUDE;
 use crate::io_error::Error;
-use crate::log::{self, ColumnRef, Log, LogColumn, LogError, LogOptions, TimeGrid};
+use crate::log::{self, ColumnRef, Log, LogColumn, LogError, LogOptions, TimeBack};
 
 /// Largest magnitude of a sample in SI.
 const LARGEST: f64 = MAGNITUDE.1;
@@ -55,21 +59,25 @@ fn load_run(
         TimeSource::Steps(_) => None,
     };
     let log = log::read_log(&path, time, &columns(signals), &log_options)?;
-    let pieces = pieces(&log, signals, spec, options, &file)?;
-    let factor = log.factor;
-    let (command, motor, tips) = channels(log.columns, signals);
-    let count = pieces.len();
-    in_range(&command, &motor, &tips, signals, &file)?;
+    let (factor, repeated) = (log.factor, log.repeated);
+    let (even, turns) = even_parts(log, signals, spec, options, &file)?;
+    let count = even.parts.len();
     let mut runs = Vec::with_capacity(count);
-    for (index, (range, base, notes)) in pieces.into_iter().enumerate() {
+    for (index, part) in even.parts.into_iter().enumerate() {
         let piece = match count {
             1 => name.to_owned(),
             _ => format!("{name} [{}/{count}]", index + 1),
         };
-        let cut = |channel: &Vec<f64>| channel[range.clone()].to_vec();
-        let mut run =
-            Run::new(piece, base, cut(&command), cut(&motor), tips.iter().map(cut).collect())
-                .map_err(|error| of_log(error, &file))?;
+        let motor = match signals.motor_speed {
+            true => integrated(&part.motor, part.time.sample_time_s),
+            false => part.motor,
+        };
+        let command = match signals.command.kind {
+            CommandKind::Goal => goal_difference(&part.command, &motor, signals.command.hold),
+            _ => part.command,
+        };
+        let mut run = Run::new(piece, part.time, command, motor, part.tips)
+            .map_err(|error| of_log(error, &file))?;
         if let Some((omega_rad_s, place)) = &spec.omega_rad_s {
             run = run.with_omega(*omega_rad_s).map_err(|error| match error {
                 RecordError::Omega { found_rad_s, nyquist_rad_s, .. } => {
@@ -79,13 +87,25 @@ fn load_run(
                 other => of_log(other, &file),
             })?;
         }
-        if factor > 1 {
-            run = run.with_note(Note::Thinned { factor });
+        if index == 0 {
+            if factor > 1 {
+                run = run.with_note(Note::Thinned { factor });
+            }
+            if spec.skip_s > 0.0 {
+                run = run.with_note(Note::HeadSkipped { seconds: spec.skip_s });
+            }
+            if signals.motor_speed {
+                run = run.with_note(Note::SpeedIntegrated);
+            }
+            if turns > 0 {
+                run = run.with_note(Note::TurnsRemoved { count: turns });
+            }
+            if repeated > 0 {
+                let per_reading = 1.0 + repeated as f64 / run.len() as f64;
+                run = run.with_note(Note::RepeatedReadings { per_reading, removed: repeated });
+            }
         }
-        if spec.skip_s > 0.0 && index == 0 {
-            run = run.with_note(Note::HeadSkipped { seconds: spec.skip_s });
-        }
-        runs.push(notes.into_iter().fold(run, Run::with_note));
+        runs.push(part.notes.into_iter().fold(run, Run::with_note));
     }
     Ok(runs)
 }
@@ -144,59 +164,88 @@ fn columns(signals: &Signals) -> Vec<LogColumn> {
     columns
 }
 
-type Piece = (Range<usize>, TimeBase, Vec<Note>);
-
-/// Samples and time base of each run that the log makes.
-fn pieces(
-    log: &Log,
+/// The log as runs with even samples.
+fn even_parts(
+    log: Log,
     signals: &Signals,
     spec: &RunSpec,
     options: &ReadOptions,
     file: &str,
-) -> Result<Vec<Piece>, Error> {
-    let samples = log.columns.first().map_or(0, Vec::len);
-    let skipped_all = |left: usize, length_s: f64| LogError::AllSkipped {
-        file: file.to_owned(),
-        skip_s: spec.skip_s,
-        length_s,
-        left,
-    };
-    match (&signals.time, &log.time) {
-        (TimeSource::Stamps(_, unit_s), Some(stamps)) => {
-            let stamps_s: Vec<f64> = stamps.iter().map(|stamp| stamp * unit_s).collect();
-            channel_in_range("time", &stamps_s, file)?;
-            let start_s = stamps_s.first().copied().unwrap_or(0.0);
-            let first = stamps_s.partition_point(|stamp| stamp - start_s < spec.skip_s);
-            let kept = &stamps_s[first..];
-            let Some(grid) = TimeGrid::of(kept, log.time_step * unit_s) else {
-                let length_s = stamps_s.last().map_or(0.0, |end| end - start_s);
-                return Err(skipped_all(kept.len(), length_s).into());
-            };
-            let cut = log::cut_at_gaps(kept, grid, options.least_piece);
-            if cut.kept.is_empty() {
-                return Err(LogError::AllPiecesShort {
-                    file: file.to_owned(),
-                    gaps: cut.gaps,
-                    least: options.least_piece,
-                    longest: cut.longest,
-                }
-                .into());
-            }
-            let shifted =
-                |(range, base, notes): Piece| (range.start + first..range.end + first, base, notes);
-            Ok(cut.kept.into_iter().map(shifted).collect())
+) -> Result<(EvenLog, usize), Error> {
+    let (stamps_s, sample_time_s, stamp_step_s) = match (&signals.time, log.time) {
+        (TimeSource::Stamps(_, unit_s), Some(mut stamps)) => {
+            stamps.iter_mut().for_each(|stamp| *stamp *= unit_s);
+            channel_in_range("time", &stamps, file)?;
+            (stamps, None, log.time_step * unit_s)
         }
         (TimeSource::Steps(sample_time_s), _) => {
             let step_s = sample_time_s * log.factor as f64;
-            let first = (0..samples).take_while(|&k| (k as f64) * step_s < spec.skip_s).count();
-            if samples - first < 2 {
-                return Err(skipped_all(samples - first, samples as f64 * step_s).into());
-            }
-            let base = TimeBase::uniform(first as f64 * step_s, step_s);
-            Ok(vec![(first..samples, base, Vec::new())])
+            let samples = log.columns.first().map_or(0, Vec::len);
+            ((0..samples).map(|k| k as f64 * step_s).collect(), Some(step_s), 0.0)
         }
-        (TimeSource::Stamps(..), None) => Ok(Vec::new()),
+        (TimeSource::Stamps(..), None) => (Vec::new(), None, 0.0),
+    };
+    let (mut command, mut motor, mut tips) = channels(log.columns, signals);
+    in_range(&command, &motor, &tips, signals, file)?;
+    let turns = remove_turns(signals, &mut command, &mut motor, &mut tips);
+    let hold = signals.command.hold;
+    let rows = LogRows { stamps_s, sample_time_s, stamp_step_s, command, hold, motor, tips };
+    let even =
+        clock::even_parts(rows, spec.skip_s, options.least_piece).map_err(|error| match error {
+            ClockError::NothingLeft { left, length_s } => {
+                let (file, skip_s) = (file.to_owned(), spec.skip_s);
+                LogError::AllSkipped { file, skip_s, length_s, left }
+            }
+            error => {
+                let back = log.time_back.iter();
+                let row = match error {
+                    ClockError::NotIncreasing { row } => row,
+                    _ => 0,
+                };
+                let column = match &signals.time {
+                    TimeSource::Stamps(column, _) => column.to_string(),
+                    TimeSource::Steps(_) => String::new(),
+                };
+                let none = TimeBack { sample: row, row, before: 0.0, after: 0.0 };
+                let found = back.filter(|back| back.sample <= row).next_back().unwrap_or(&none);
+                LogError::time_back(file, &column, found)
+            }
+        })?;
+    if even.parts.is_empty() {
+        return Err(LogError::AllPiecesShort {
+            file: file.to_owned(),
+            gaps: even.cuts,
+            least: options.least_piece,
+            longest: even.longest,
+        }
+        .into());
     }
+    Ok((even, turns))
+}
+
+/// Removes jumps of one turn from all angles, and counts them.
+fn remove_turns(
+    signals: &Signals,
+    command: &mut [f64],
+    motor: &mut [f64],
+    tips: &mut [Vec<f64>],
+) -> usize {
+    if signals.axis == Axis::Linear {
+        return 0;
+    }
+    let mut turns = 0;
+    if signals.command.kind == CommandKind::Goal {
+        turns += whole_turns::remove_turns(command);
+    }
+    if !signals.motor_speed {
+        turns += whole_turns::remove_turns(motor);
+    }
+    for ((tip, _), samples) in signals.tips.iter().zip(tips) {
+        if tip.quantity == TipQuantity::Angle && tip.calibrated {
+            turns += whole_turns::remove_turns(samples);
+        }
+    }
+    turns
 }
 
 /// Command, motor and tips in SI.

@@ -28,12 +28,15 @@
 //! `scale` is 1 and `offset` 0 when absent.
 //!
 //! **The drive's input** is `current`, `voltage` or `command`; the unit of `command` may be one of
-//! current, of voltage or `"1"`. `unit = "1"` is a command of unknown unit. `hold` is `"sampled"`
+//! current, of voltage, of torque (force on a linear axis) or `"1"`, a command of unknown unit. With `quantity = "goal"`
+//! it is a servo's position goal: the input is then the goal less the angle, and `[drive] position_gain` its torque per
+//! radian. `hold` is `"sampled"`
 //! (a held command) or `"measured"`. For a voltage the torque constant is per volt, or per ampere
 //! with `resistance` and `back_emf`; a `back_emf` beside a constant per volt adds its damping.
 //! `limit` is the command's limit in any case; `current_limit` and `voltage_limit` say which.
 //!
-//! **The axis** is rotary where the motor's unit is an angle, linear where it is a length.
+//! **The axis** is rotary where the motor's unit is an angle, linear where it is a length. With `quantity = "speed"` and a
+//! unit of speed, the angle is integrated from 0. Jumps of one turn of an absolute encoder are removed.
 //!
 //! **Tips** have a `quantity`: `"angle"` (of the radius to the point; when absent), `"deflection"`
 //! (from the motor's line) or `"acceleration"`. A length or acceleration in metres on a rotary
@@ -49,9 +52,11 @@ mod campaign_load;
 mod campaign_signals;
 #[cfg(test)]
 mod campaign_tests;
+mod derived_channels;
 mod load_runs;
 mod read_campaign;
 mod run_spec;
+mod whole_turns;
 
 pub use campaign_error::CampaignError;
 pub use campaign_file::{AnalysisOptions, CampaignFile, DriveConstants, ReadOptions};

@@ -43,10 +43,12 @@ fn read(path: &Path, log: Option<&Path>, options: &ReadOptions) -> Result<Campai
     let document = source.parse()?;
     let root = source.root(&document);
     root.only(&["signals", "drive", "load", "analysis", "runs"])?;
-    let signals = signals(&root.need("signals")?.table()?)?;
+    let mut signals = signals(&root.need("signals")?.table()?)?;
     let drive = root.get("drive").map(|v| v.table()).transpose()?;
-    let (command, known) =
+    let (command, known, sign) =
         campaign_drive::drive(drive.as_ref(), signals.axis, &signals.command, source.folder())?;
+    signals.command.reading.gain *= sign;
+    signals.command.reading.offset *= sign;
     let load_table = root.get("load").map(|v| v.table()).transpose()?;
     let gravity = load_table.map_or(Ok(false), |table| campaign_load::gravity(&table, &signals))?;
     let (analysis, skip_s) = match root.get("analysis") {

@@ -49,7 +49,7 @@ impl Default for LogOptions {
 /// The columns of a log, in its own units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Log {
-    /// Time stamps, strictly increasing; absent where none were asked for.
+    /// Time stamps, increasing but for `time_back`; absent where none were asked for.
     pub time: Option<Vec<f64>>,
     /// The columns asked for, in that order.
     pub columns: Vec<Vec<f64>>,
@@ -57,4 +57,21 @@ pub struct Log {
     pub factor: usize,
     /// Step of the stamps' last decimal; 0 where it is unknown.
     pub time_step: f64,
+    /// Where time goes back: empty with thinned logs, in which it is an error.
+    pub time_back: Vec<TimeBack>,
+    /// Rows that were passed over, since they repeat the stamp and all columns of the row above.
+    pub repeated: usize,
+}
+
+/// A stamp before the one above it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeBack {
+    /// Sample of the later row, from 0.
+    pub sample: usize,
+    /// The later row, as a line of the file from 1.
+    pub row: usize,
+    /// Stamp of the row before.
+    pub before: f64,
+    /// Stamp of the later row.
+    pub after: f64,
 }

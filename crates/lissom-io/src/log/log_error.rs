@@ -4,6 +4,7 @@ use std::io;
 
 use thiserror::Error;
 
+use super::log_columns::TimeBack;
 use crate::excerpt::excerpt;
 
 /// Why a log cannot be used. Rows are lines of the file, counted from 1 as an editor does.
@@ -265,6 +266,13 @@ pub enum LogError {
 }
 
 impl LogError {
+    /// Time that goes back, and is no restart of the clock.
+    pub(crate) fn time_back(file: &str, column: &str, found: &TimeBack) -> Self {
+        let (file, column) = (file.to_owned(), column.to_owned());
+        let TimeBack { row, before, after, .. } = *found;
+        Self::TimeBack { file, row, column, before, after }
+    }
+
     /// What to do about it.
     pub fn hint(&self) -> Option<String> {
         Some(match self {

@@ -2,12 +2,10 @@
 
 use std::path::Path;
 
-use lissom::record::{Hold, Note};
+use lissom::record::Hold;
 use proptest::prelude::*;
 
-use super::{
-    ColumnRef, Log, LogColumn, LogError, LogOptions, TimeGrid, cut_at_gaps, read_log, read_log_from,
-};
+use super::{ColumnRef, Log, LogColumn, LogError, LogOptions, TimeBack, read_log, read_log_from};
 
 fn named(name: &str) -> ColumnRef {
     ColumnRef::Name(name.to_owned())
@@ -194,19 +192,31 @@ fn missing_columns_list_those_there_are() {
 }
 
 #[test]
-fn time_must_increase() {
+fn time_that_stands_still_is_refused_and_time_that_goes_back_is_noted() {
+    let still = Some(
+        "export the stamps with more digits, or give `sample_time` in place of `time` if the sampling is regular",
+    );
     fails(
-        read("t,x\n0,1\n1,1\n0.5,1\n", "t", "x"),
-        "a.csv: row 4, column \"t\": time goes back from 1 to 0.5",
+        read("t,x\n0,1\n1,1\n1,2\n", "t", "x"),
+        "a.csv: row 4, column \"t\": time stands still at 1",
+        still,
+    );
+    let log = read("t,x\n0,1\n\n1,1\n0.5,1\n", "t", "x").unwrap();
+    assert_eq!(log.time_back, [TimeBack { sample: 2, row: 5, before: 1.0, after: 0.5 }]);
+    let text = format!("t,x\n{}", "0,1\n1,1\n".repeat(9));
+    let options = LogOptions { max_rows: 4, ..LogOptions::default() };
+    fails(
+        read_with(text, Some(&named("t")), &[named("x")], &options),
+        "a.csv: row 4, column \"t\": time goes back from 1 to 0",
         Some("cut the log there and give the two parts as two runs"),
     );
-    fails(
-        read("t,x\n0,1\n1,1\n1,1\n", "t", "x"),
-        "a.csv: row 4, column \"t\": time stands still at 1",
-        Some(
-            "export the stamps with more digits, or give `sample_time` in place of `time` if the sampling is regular",
-        ),
-    );
+}
+
+#[test]
+fn repeated_rows_are_passed_over() {
+    let log = read("t,x\n0,1\n0,1\n0,1\n1,1\n1,1\n2,3\n", "t", "x").unwrap();
+    holds(&log, &[0.0, 1.0, 2.0], &[1.0, 1.0, 3.0]);
+    assert_eq!(log.repeated, 3);
 }
 
 #[test]
@@ -261,37 +271,6 @@ fn a_long_log_is_thinned_while_it_is_read() {
 }
 
 #[test]
-fn the_sample_time_survives_rounded_stamps_and_lost_rows() {
-    let stamps = |step: f64, unit: f64, lost: usize| -> Vec<f64> {
-        (0..1000)
-            .filter(|k| lost == 0 || k % lost != lost / 2)
-            .map(|k| (f64::from(u32::try_from(k).unwrap()) * step / unit).round() * unit)
-            .collect()
-    };
-    for (step, unit, lost) in [
-        (0.002, 0.001, 0),
-        (0.002, 0.001, 40),
-        (0.001, 0.001, 40),
-        (0.01 / 3.0, 0.001, 0),
-        (0.01 / 3.0, 0.001, 90),
-        (0.0012, 0.001, 0),
-        (0.002_000_4, 0.0001, 50),
-    ] {
-        let stamps = stamps(step, unit, lost);
-        let grid = TimeGrid::of(&stamps, unit).unwrap();
-        assert!((grid.sample_time_s / step - 1.0).abs() < 1e-3, "{step} {unit} {lost}: {grid:?}");
-        let pieces = cut_at_gaps(&stamps, grid, 1);
-        assert_eq!(pieces.gaps > 0, lost > 0, "{step} {unit} {lost}: {grid:?}");
-    }
-}
-
-#[test]
-fn late_stamps_do_not_blur_the_sample_time() {
-    let stamps: Vec<f64> = (8_257_265..8_258_265).map(|k| f64::from(k) * 0.001).collect();
-    assert_eq!(TimeGrid::of(&stamps, 1e-6).unwrap().sample_time_s, 0.001);
-}
-
-#[test]
 fn comments_are_searched_for_names_from_the_last() {
     let mut text = "# a,b\n".repeat(60);
     text += "# t,x\n# made by hand\n0,1\n0.5,2\n";
@@ -325,38 +304,6 @@ fn a_broken_reader_is_reported_with_its_row() {
     );
 }
 
-#[test]
-fn jitter_is_measured_about_the_sample_time() {
-    let stamps = [0.0, 1.0, 2.0, 3.25, 4.0, 5.0];
-    let grid = TimeGrid::of(&stamps, 0.0).unwrap();
-    assert_eq!(grid.sample_time_s, 1.0);
-    let (_, base, _) = &cut_at_gaps(&stamps, grid, 2).kept[0];
-    assert_eq!(base.jitter_max_s, 0.25);
-    assert_eq!(base.jitter_rms_s, (0.125_f64 / 5.0).sqrt());
-}
-
-#[test]
-fn gaps_cut_and_short_pieces_go() {
-    let stamps = [0.0, 1.0, 2.0, 7.0, 8.0, 20.0, 21.0, 22.0, 30.0];
-    let grid = TimeGrid::of(&stamps, 0.0).unwrap();
-    let pieces = cut_at_gaps(&stamps, grid, 3);
-    assert_eq!((pieces.gaps, pieces.longest, pieces.kept.len()), (3, 3, 2));
-    assert_eq!(pieces.kept[0].0, 0..3);
-    assert_eq!(pieces.kept[0].2, []);
-    assert_eq!(pieces.kept[1].0, 5..8);
-    assert_eq!(pieces.kept[1].1.start_s, 20.0);
-    assert_eq!(
-        pieces.kept[1].2,
-        [
-            Note::GapCut { at_s: 2.0, length_s: 5.0 },
-            Note::PieceDropped { at_s: 7.0, samples: 2 },
-            Note::GapCut { at_s: 8.0, length_s: 12.0 },
-            Note::GapCut { at_s: 22.0, length_s: 8.0 },
-            Note::PieceDropped { at_s: 30.0, samples: 1 },
-        ]
-    );
-}
-
 proptest! {
     #[test]
     fn no_bytes_panic(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
@@ -372,10 +319,8 @@ proptest! {
         let log = read_with(&text, Some(&ColumnRef::Number(1)), &[ColumnRef::Number(2)], &options);
         if let Ok(log) = log {
             let stamps = log.time.unwrap();
-            prop_assert!(stamps.windows(2).all(|pair| pair[0] < pair[1]));
-            if let Some(grid) = TimeGrid::of(&stamps, log.time_step) {
-                let _ = cut_at_gaps(&stamps, grid, 2);
-            }
+            let back = |k: usize| log.time_back.iter().any(|back| back.sample == k);
+            prop_assert!((1..stamps.len()).all(|k| stamps[k - 1] < stamps[k] || back(k)));
         }
         let _ = read_with(&text, Some(&named("t")), &[named("x")], &options);
     }

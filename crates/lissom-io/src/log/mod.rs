@@ -12,6 +12,9 @@
 //! rows than [`LogOptions::max_rows`] is thinned while it is read: a held command by its mean, a
 //! measured channel by leaving samples out, without a filter. Rows are counted for this, not
 //! time: a row lost within a sample shifts the later ones, which shows as jitter.
+//!
+//! A row whose stamp and columns are all those of the row above is a repeated row, and is passed over. Time that goes back is
+//! reported with the log ([`Log::time_back`]); two rows with one stamp and other values are an error.
 
 mod log_columns;
 mod log_error;
@@ -20,10 +23,8 @@ mod log_layout;
 mod log_tests;
 mod read_log;
 mod thinner;
-mod time_grid;
 
-pub use log_columns::{ColumnRef, Log, LogColumn, LogOptions};
+pub use log_columns::{ColumnRef, Log, LogColumn, LogOptions, TimeBack};
 pub use log_error::LogError;
 pub(crate) use log_layout::{Delimiter, comment, is_header, number};
 pub use read_log::{read_log, read_log_from};
-pub use time_grid::{Pieces, TimeGrid, cut_at_gaps};

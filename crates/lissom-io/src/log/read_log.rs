@@ -7,7 +7,7 @@ use std::path::Path;
 
 use lissom::record::Hold;
 
-use super::log_columns::{ColumnRef, Log, LogColumn, LogOptions};
+use super::log_columns::{ColumnRef, Log, LogColumn, LogOptions, TimeBack};
 use super::log_error::LogError;
 use super::log_layout::{self, Delimiter};
 use super::thinner::Thinner;
@@ -18,6 +18,9 @@ const LONGEST_ROW: u64 = 1 << 20;
 const LAST_COMMENTS: usize = 50;
 /// Longest of them in bytes.
 const LONGEST_COMMENT: usize = 1 << 16;
+
+/// Most places at which time may go back.
+const MOST_TIME_BACK: usize = 1 << 16;
 
 /// Reads the columns of a log file, and its time stamps where `time` names them.
 ///
@@ -76,7 +79,9 @@ pub fn read_log_from(
         wanted,
         has_time: time.is_some(),
         values: vec![f64::NAN; refs.len()],
-        last_stamp: None,
+        last: Vec::new(),
+        time_back: Vec::new(),
+        repeated: 0,
         decimals: Some(0),
         thinner: Thinner::new(holds.collect(), options.max_rows),
         count: 0,
@@ -218,7 +223,10 @@ struct Body<'a> {
     wanted: Vec<usize>,
     has_time: bool,
     values: Vec<f64>,
-    last_stamp: Option<f64>,
+    /// Values of the row before.
+    last: Vec<f64>,
+    time_back: Vec<TimeBack>,
+    repeated: usize,
     /// Most decimals of a stamp; none once a stamp had an exponent.
     decimals: Option<usize>,
     thinner: Thinner,
@@ -255,8 +263,9 @@ impl Body<'_> {
             let missing = self.values.iter().position(|value| value.is_nan()).unwrap_or(0);
             return Err(self.missing(row, missing));
         }
-        if self.has_time {
-            self.check_time(row)?;
+        if self.has_time && self.is_repeated(row)? {
+            self.repeated += 1;
+            return Ok(());
         }
         self.count += 1;
         self.thinner.push(&self.values);
@@ -297,25 +306,42 @@ impl Body<'_> {
         self.decimals = self.decimals.zip(decimals).map(|(a, b)| a.max(b));
     }
 
-    fn check_time(&mut self, row: usize) -> Result<(), LogError> {
+    /// Whether the row repeats the one before. Notes where time goes back.
+    fn is_repeated(&mut self, row: usize) -> Result<bool, LogError> {
         let after = self.values[0];
-        if let Some(before) = self.last_stamp
+        if let Some(&before) = self.last.first()
             && after <= before
         {
-            let (file, column) = (self.file.to_owned(), self.labels[0].clone());
-            return Err(if after < before {
-                LogError::TimeBack { file, row, column, before, after }
-            } else {
-                LogError::TimeStill { file, row, column, stamp: after }
-            });
+            if self.values == self.last {
+                return Ok(true);
+            }
+            if after >= before {
+                let (file, column) = (self.file.to_owned(), self.labels[0].clone());
+                return Err(LogError::TimeStill { file, row, column, stamp: after });
+            }
+            self.time_back.push(TimeBack { sample: self.count, row, before, after });
+            if self.time_back.len() >= MOST_TIME_BACK {
+                self.no_time_back()?;
+            }
         }
-        self.last_stamp = Some(after);
-        Ok(())
+        self.last.clone_from(&self.values);
+        Ok(false)
+    }
+
+    fn no_time_back(&self) -> Result<(), LogError> {
+        match self.time_back.first() {
+            None => Ok(()),
+            Some(first) => Err(LogError::time_back(self.file, &self.labels[0], first)),
+        }
     }
 
     fn finish(self, first_row: usize) -> Result<Log, LogError> {
         if self.count < 2 {
             return Err(LogError::OneRow { file: self.file.to_owned(), row: first_row });
+        }
+        if self.thinner.factor() > 1 {
+            // A thinned sample may be of both sides.
+            self.no_time_back()?;
         }
         let (mut columns, factor) = self.thinner.finish();
         let time = self.has_time.then(|| columns.remove(0));
@@ -325,6 +351,13 @@ impl Body<'_> {
             }
             _ => 0.0,
         };
-        Ok(Log { time, columns, factor, time_step })
+        Ok(Log {
+            time,
+            columns,
+            factor,
+            time_step,
+            time_back: self.time_back,
+            repeated: self.repeated,
+        })
     }
 }

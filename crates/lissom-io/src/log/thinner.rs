@@ -72,6 +72,11 @@ impl Thinner {
         self.factor *= 2;
     }
 
+    /// Rows per sample so far.
+    pub(super) fn factor(&self) -> usize {
+        self.factor
+    }
+
     /// The columns, and the rows per sample.
     pub(super) fn finish(self) -> (Vec<Vec<f64>>, usize) {
         (self.columns, self.factor)

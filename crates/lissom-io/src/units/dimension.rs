@@ -32,6 +32,8 @@ impl Dimension {
     pub const STIFFNESS: Self = Self::new(1, 0, -2, 0);
     /// rad/s
     pub const RATE: Self = Self::new(0, 0, -1, 0);
+    /// m/s
+    pub const VELOCITY: Self = Self::new(0, 1, -1, 0);
     /// rad/s²
     pub const ANGULAR_ACCELERATION: Self = Self::new(0, 0, -2, 0);
     /// m/s²
@@ -83,6 +85,7 @@ impl Dimension {
             Self::TIME => ("a time", "3 ms"),
             Self::CURRENT => ("a current", "4.12 A"),
             Self::RATE => ("an angular rate or frequency", "5 Hz"),
+            Self::VELOCITY => ("a speed", "0.2 m/s"),
             Self::ANGULAR_ACCELERATION => ("an angular acceleration", "20 rad/s^2"),
             Self::ACCELERATION => ("an acceleration", "9.81 m/s^2"),
             Self::FORCE => ("a force", "20 N"),

@@ -2,6 +2,7 @@
 //! each channel (quantity, hold, calibration).
 
 mod channel;
+pub mod clock;
 mod error;
 mod note;
 mod run;

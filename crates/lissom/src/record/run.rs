@@ -10,9 +10,10 @@ const LEAST_SAMPLES: usize = 8;
 pub struct TimeBase {
     /// Time of the first sample \[s\].
     pub start_s: f64,
-    /// Sample time: the median step between stamps \[s\].
+    /// Sample time \[s\].
     pub sample_time_s: f64,
-    /// Largest distance of a step between stamps from the sample time \[s\].
+    /// Largest distance of a step between stamps from the sample time \[s\]; 0 where the motion shows when the samples
+    /// were taken.
     pub jitter_max_s: f64,
     /// Root mean square of that distance \[s\].
     pub jitter_rms_s: f64,

@@ -5,9 +5,11 @@ use std::fmt;
 use strum::{IntoStaticStr, VariantNames};
 
 use crate::identify::findings::describe::Describe;
+use crate::identify::findings::number_text::{counted, significant, trimmed};
 use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
 use crate::record::Note;
+use crate::record::clock::thresholds::RESAMPLING_ERROR;
 
 /// Time stamps and samples of a log.
 #[derive(Debug, Clone, PartialEq, IntoStaticStr, VariantNames)]
@@ -26,19 +28,91 @@ pub enum LogFinding {
         /// The largest distance.
         max_share: f64,
     },
-    /// The log was cut at a gap in its time stamps.
+    /// The log was cut at gaps in its time stamps.
     Gap {
-        /// Stamp before the gap \[s\].
+        /// Number of gaps.
+        count: usize,
+        /// Stamp before the longest one \[s\].
         at_s: f64,
-        /// Time without samples \[s\].
+        /// Its time without samples \[s\].
         length_s: f64,
     },
-    /// A piece between two gaps was too short.
+    /// Pieces between two cuts were too short.
     PieceDropped {
-        /// Stamp of its first sample \[s\].
+        /// Number of pieces.
+        count: usize,
+        /// Stamp of the first sample of the first one \[s\].
         at_s: f64,
-        /// Samples it had.
+        /// Samples of all of them.
         samples: usize,
+    },
+    /// Channels were interpolated on an even grid.
+    Resampled {
+        /// Step of the grid \[s\].
+        step_s: f64,
+        /// Error of predicted angles at even times, as a multiple of the error with the clock that is used.
+        agreement: Option<f64>,
+        /// Rms error of the interpolated angle \[rad or m\].
+        error: f64,
+        /// That error over what acceleration moves the angle within a step.
+        error_share: f64,
+        /// Standard deviation of the noise of the angle \[rad or m\].
+        noise: f64,
+    },
+    /// Samples were taken evenly, and stamped unevenly.
+    SampleCount {
+        /// Their sample time \[s\].
+        step_s: f64,
+        /// Distance of the stamps' steps from it (rms), as a share of it.
+        jitter_rms_share: f64,
+        /// Error of predicted angles at the stamps, as a multiple of the error at even times.
+        agreement: f64,
+    },
+    /// Single rows were lost and have been filled in.
+    RowsFilled {
+        /// Number of rows.
+        count: usize,
+        /// Their share of all samples.
+        share: f64,
+    },
+    /// Every reading was in the log several times.
+    RepeatedReadings {
+        /// Mean number of rows with one reading.
+        per_reading: f64,
+        /// Rows that were removed.
+        removed: usize,
+    },
+    /// The clock of the log started again.
+    ClockRestart {
+        /// Restarts across which the motion goes on.
+        joined: usize,
+        /// Restarts at which the log was cut.
+        cut: usize,
+        /// Stamp before the first restart \[s\].
+        at_s: f64,
+    },
+    /// The sample time changes within the log.
+    RateChange {
+        /// Stretches with sample times of their own.
+        rates: usize,
+        /// Stamp of the first change \[s\].
+        at_s: f64,
+        /// Sample time before the first change \[s\].
+        first_s: f64,
+        /// Sample time after the last change \[s\].
+        last_s: f64,
+    },
+    /// The angle was integrated from the speed.
+    SpeedIntegrated,
+    /// Jumps of one turn were removed from the angles.
+    TurnsRemoved {
+        /// Number of jumps.
+        count: usize,
+    },
+    /// The command follows the motor as a position goal does.
+    CommandFollowsMotor {
+        /// Correlation of both.
+        correlation: f64,
     },
     /// The log had too many rows.
     Thinned {
@@ -55,8 +129,26 @@ pub enum LogFinding {
 impl From<&Note> for LogFinding {
     fn from(note: &Note) -> Self {
         match *note {
-            Note::GapCut { at_s, length_s } => Self::Gap { at_s, length_s },
-            Note::PieceDropped { at_s, samples } => Self::PieceDropped { at_s, samples },
+            Note::GapCut { count, at_s, length_s } => Self::Gap { count, at_s, length_s },
+            Note::PieceDropped { count, at_s, samples } => {
+                Self::PieceDropped { count, at_s, samples }
+            }
+            Note::Resampled { step_s, agreement, error, error_share, noise } => {
+                Self::Resampled { step_s, agreement, error, error_share, noise }
+            }
+            Note::SampleCount { step_s, jitter_rms_share, agreement } => {
+                Self::SampleCount { step_s, jitter_rms_share, agreement }
+            }
+            Note::RowsFilled { count, share } => Self::RowsFilled { count, share },
+            Note::RepeatedReadings { per_reading, removed } => {
+                Self::RepeatedReadings { per_reading, removed }
+            }
+            Note::ClockRestart { joined, cut, at_s } => Self::ClockRestart { joined, cut, at_s },
+            Note::RateChange { rates, at_s, first_s, last_s } => {
+                Self::RateChange { rates, at_s, first_s, last_s }
+            }
+            Note::SpeedIntegrated => Self::SpeedIntegrated,
+            Note::TurnsRemoved { count } => Self::TurnsRemoved { count },
             Note::Thinned { factor } => Self::Thinned { factor },
             Note::HeadSkipped { seconds } => Self::HeadSkipped { length_s: seconds },
         }
@@ -76,14 +168,116 @@ impl fmt::Display for LogFinding {
                 100.0 * rms_share,
                 100.0 * max_share
             ),
-            Self::Gap { at_s, length_s } => write!(
+            Self::Gap { count: 1, at_s, length_s } => write!(
                 f,
-                "the log has a gap of {length_s:.4} s after {at_s:.4} s: it is cut there, and this run begins after \
-                 the gap"
+                "the log has a gap of {length_s:.4} s after {at_s:.4} s: it is cut there into separate runs"
             ),
-            Self::PieceDropped { at_s, samples } => write!(
+            Self::Gap { count, at_s, length_s } => write!(
                 f,
-                "the piece from {at_s:.4} s on, between two gaps, has only {samples} samples: it is not used"
+                "the log has {count} gaps, the longest of {length_s:.4} s after {at_s:.4} s: it is cut there into \
+                 separate runs"
+            ),
+            Self::PieceDropped { count: 1, at_s, samples } => write!(
+                f,
+                "the piece of the log from {at_s:.4} s on, between two cuts, has only {samples} samples: it is not used"
+            ),
+            Self::PieceDropped { count, at_s, samples } => write!(
+                f,
+                "{count} pieces of the log between two cuts, the first from {at_s:.4} s on, are too short: their \
+                 {samples} samples are not used"
+            ),
+            Self::Resampled { step_s, agreement, error, error_share, noise } => {
+                match agreement {
+                    Some(ratio) => write!(
+                        f,
+                        "time stamps are uneven, and the motion agrees with them (even times predict angles with {} \
+                         times the error)",
+                        significant(*ratio, 2)
+                    )?,
+                    None => write!(f, "the mean step of the time stamps drifts")?,
+                }
+                write!(
+                    f,
+                    ": the channels are interpolated on an even grid of {} ms. The interpolation error of the angle (rms) \
+                     is {} % of what acceleration moves it within a step",
+                    significant(1e3 * step_s, 4),
+                    significant(100.0 * error_share, 2)
+                )?;
+                if *noise > 0.0 {
+                    write!(f, ", and {} times the sensor's noise", significant(error / noise, 2))?;
+                }
+                Ok(())
+            }
+            Self::SampleCount { step_s, jitter_rms_share, agreement } => write!(
+                f,
+                "time stamps are uneven by {} % of a step (rms), and the motion contradicts them (they predict angles \
+                 with {} times the error of even times): the samples are counted, with a sample time of {} ms",
+                significant(100.0 * jitter_rms_share, 2),
+                significant(*agreement, 2),
+                significant(1e3 * step_s, 6)
+            ),
+            Self::RowsFilled { count, share } => write!(
+                f,
+                "{} missing ({} % of the log): filled in by interpolation",
+                counted(*count, "row is", "rows are"),
+                significant(100.0 * share, 2)
+            ),
+            Self::RepeatedReadings { per_reading, removed } if *per_reading < 1.5 => write!(
+                f,
+                "{} removed, since stamp and values repeat the row before",
+                counted(*removed, "row is", "rows are")
+            ),
+            Self::RepeatedReadings { per_reading, removed } => write!(
+                f,
+                "each reading is in {} rows of the log: the first one is used, and {removed} repeated rows are removed",
+                trimmed(&format!("{per_reading:.2}"))
+            ),
+            Self::ClockRestart { joined, cut, at_s } => {
+                write!(
+                    f,
+                    "the clock of the log starts again {}, first after {at_s:.4} s",
+                    counted(joined + cut, "time", "times")
+                )?;
+                match (joined, cut) {
+                    (_, 0) => write!(f, "; the motion goes on, and so does the clock"),
+                    (0, _) => write!(
+                        f,
+                        "; the motion does not go on: the log is cut there into separate runs"
+                    ),
+                    _ => write!(
+                        f,
+                        "; where the motion goes on, so does the clock, and the log is cut {}",
+                        counted(*cut, "time", "times")
+                    ),
+                }
+            }
+            Self::RateChange { rates: 2, at_s, first_s, last_s } => write!(
+                f,
+                "the sample time changes from {} to {} ms after {at_s:.4} s: the log is cut there into two runs",
+                significant(1e3 * first_s, 4),
+                significant(1e3 * last_s, 4)
+            ),
+            Self::RateChange { rates, at_s, first_s, last_s } => write!(
+                f,
+                "the sample time changes {} times, first after {at_s:.4} s; it is {} ms at first and {} ms at last: \
+                 the log is cut there into {rates} runs",
+                rates - 1,
+                significant(1e3 * first_s, 4),
+                significant(1e3 * last_s, 4)
+            ),
+            Self::SpeedIntegrated => f.write_str(
+                "the log has the speed of the motor: the angle is integrated from it, starting at 0",
+            ),
+            Self::TurnsRemoved { count } => write!(
+                f,
+                "{} of one turn {} removed from the angles, as an encoder makes them that starts again after each turn",
+                counted(*count, "jump", "jumps"),
+                if *count == 1 { "is" } else { "are" }
+            ),
+            Self::CommandFollowsMotor { correlation } => write!(
+                f,
+                "the command follows the motor's angle (correlation {correlation:.4}): it looks like the position goal of a \
+                 servo. If it is one, all estimates are wrong"
             ),
             Self::Thinned { factor } => {
                 write!(f, "the log is thinned: each sample stands for {factor} rows of it")
@@ -102,9 +296,22 @@ impl Describe for LogFinding {
 
     fn severity(&self) -> Severity {
         match self {
-            Self::RepeatedRun { .. } | Self::Jitter { .. } => Severity::Warning,
+            Self::RepeatedRun { .. } | Self::Jitter { .. } | Self::CommandFollowsMotor { .. } => {
+                Severity::Warning
+            }
+            Self::Resampled { error_share, .. } if *error_share > RESAMPLING_ERROR => {
+                Severity::Warning
+            }
             Self::Gap { .. }
             | Self::PieceDropped { .. }
+            | Self::Resampled { .. }
+            | Self::SampleCount { .. }
+            | Self::RowsFilled { .. }
+            | Self::RepeatedReadings { .. }
+            | Self::ClockRestart { .. }
+            | Self::RateChange { .. }
+            | Self::SpeedIntegrated
+            | Self::TurnsRemoved { .. }
             | Self::Thinned { .. }
             | Self::HeadSkipped { .. } => Severity::Info,
         }
@@ -114,8 +321,20 @@ impl Describe for LogFinding {
         match self {
             Self::RepeatedRun { .. } => vec![key::RAW_RESPONSE],
             Self::Jitter { .. } => vec![key::INERTIA, key::VISCOUS, key::RAW_RESPONSE],
+            Self::CommandFollowsMotor { .. } => vec![key::INERTIA, key::VISCOUS, key::COULOMB],
+            Self::Resampled { error_share, .. } if *error_share > RESAMPLING_ERROR => {
+                vec![key::INERTIA, key::VISCOUS, key::RAW_RESPONSE]
+            }
             Self::Gap { .. }
             | Self::PieceDropped { .. }
+            | Self::Resampled { .. }
+            | Self::SampleCount { .. }
+            | Self::RowsFilled { .. }
+            | Self::RepeatedReadings { .. }
+            | Self::ClockRestart { .. }
+            | Self::RateChange { .. }
+            | Self::SpeedIntegrated
+            | Self::TurnsRemoved { .. }
             | Self::Thinned { .. }
             | Self::HeadSkipped { .. } => Vec::new(),
         }
@@ -128,6 +347,21 @@ impl Describe for LogFinding {
             }
             Self::Jitter { .. } => "log with the clock of the controller",
             Self::Gap { .. } | Self::PieceDropped { .. } => "log without interruption",
+            Self::Resampled { error_share, .. } if *error_share > RESAMPLING_ERROR => {
+                "log faster: the motion changes too much between two samples to be interpolated"
+            }
+            Self::Resampled { .. } | Self::SampleCount { .. } => {
+                "nothing, if this is how the log was made; the clock of the controller gives even stamps"
+            }
+            Self::RowsFilled { .. } => "nothing; with a larger buffer the logger loses no rows",
+            Self::RepeatedReadings { .. } => "nothing; log at the rate of the device",
+            Self::ClockRestart { .. } => "nothing, if the recording was not interrupted there",
+            Self::SpeedIntegrated => "nothing; a log with the angle too shows slow motion better",
+            Self::TurnsRemoved { .. } => "nothing",
+            Self::CommandFollowsMotor { .. } => {
+                "say `quantity = \"goal\"` of the command if it is a goal; nothing if a spring or gravity holds the motor"
+            }
+            Self::RateChange { .. } => "nothing; give separate logs as separate runs",
             Self::Thinned { .. } => "log fewer samples, or cut the log into several runs",
             Self::HeadSkipped { .. } => "",
         }

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use crate::identify::findings::{Channel, ChannelFinding, Finding};
 use crate::identify::options::Options;
 use crate::identify::prepare::channel_check::range;
+use crate::identify::prepare::log_check::{command_follows_motor, one_jitter_for_each_log};
 use crate::identify::prepare::run_analysis::{RunAnalysis, analyse};
 use crate::identify::prepare::run_noise::RunNoise;
 use crate::record::{Campaign, Run, Tip};
@@ -38,6 +39,8 @@ impl<'a> Prepared<'a> {
             runs.push(analyse(campaign, index, harmonics, &dead, &mut findings));
         }
         findings.extend(dead_tips(campaign, &dead));
+        findings.extend(command_follows_motor(campaign, &runs));
+        one_jitter_for_each_log(&mut findings);
         let kept = kept(&runs);
         let used = used(campaign, &kept, &dead);
         let noise = used.runs.par_iter().map(RunNoise::of).collect();

@@ -67,6 +67,9 @@ thresholds! {
         REST_RANGE: f64 = 1e-3, "1", Convention;
         /// Share of a run at rest above which it is reported.
         AT_REST_REPORTED: f64 = 0.3, "1", Convention;
+        /// A command looks like a position goal if its correlation with the motor's angle is more
+        /// than this in the runs that are no sines.
+        FOLLOWS_MOTOR: f64 = 0.99, "1", Convention;
         /// Time stamps that are off an even grid by more than this share of the sample time (rms)
         /// are reported.
         JITTER_REPORTED: f64 = 0.05, "1", Convention;

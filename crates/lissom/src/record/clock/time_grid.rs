@@ -1,11 +1,8 @@
 //! The sample time behind the stamps, and the gaps between them.
 
-use std::ops::Range;
+use super::thresholds::GAP_STEPS;
+use crate::record::TimeBase;
 
-use lissom::record::{Note, TimeBase};
-
-/// A step longer than this many sample times is a gap.
-const GAP_STEPS: f64 = 1.5;
 /// Stamps rounded more finely than this part of a step need no thought about rounding.
 const FINE: f64 = 0.02;
 /// Stamps rounded more finely than this part of a step still tell a rounded step from a lost row.
@@ -17,11 +14,11 @@ const MOST_STEPS: f64 = 0.9;
 
 /// The regular grid about which stamps lie.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TimeGrid {
+pub(super) struct TimeGrid {
     /// The sample time \[s\].
-    pub sample_time_s: f64,
+    pub(super) sample_time_s: f64,
     /// A longer step is a gap \[s\].
-    pub gap_s: f64,
+    pub(super) gap_s: f64,
 }
 
 impl TimeGrid {
@@ -31,7 +28,7 @@ impl TimeGrid {
     /// The sample time is the median step. Where rounding of the stamps shows in single steps
     /// (3 ms and 4 ms for a sample time of 3.33 ms) it is the mean of the steps without gaps.
     /// `None` with fewer than two stamps.
-    pub fn of(stamps_s: &[f64], stamp_step_s: f64) -> Option<Self> {
+    pub(super) fn of(stamps_s: &[f64], stamp_step_s: f64) -> Option<Self> {
         let mut steps: Vec<f64> = stamps_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
         if steps.is_empty() {
             return None;
@@ -70,7 +67,7 @@ impl TimeGrid {
     }
 
     /// The time base of stamps without gaps.
-    fn base(&self, stamps_s: &[f64]) -> TimeBase {
+    pub(super) fn base(&self, stamps_s: &[f64]) -> TimeBase {
         let (mut largest, mut squares) = (0.0_f64, 0.0);
         for pair in stamps_s.windows(2) {
             let jitter = (pair[1] - pair[0] - self.sample_time_s).abs();
@@ -95,42 +92,62 @@ fn rounded(sample_time_s: f64, largest_stamp_s: f64) -> f64 {
     format!("{sample_time_s:.digits$e}").parse().unwrap_or(sample_time_s)
 }
 
-/// A log cut at its gaps.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Pieces {
-    /// Samples, time base and notes of each piece that is long enough.
-    pub kept: Vec<(Range<usize>, TimeBase, Vec<Note>)>,
-    /// Number of gaps.
-    pub gaps: usize,
-    /// Samples of the longest piece, kept or not.
-    pub longest: usize,
+/// The middle one of the numbers, the upper of two.
+pub(super) fn median(mut numbers: Vec<f64>) -> Option<f64> {
+    let middle = numbers.len() / 2;
+    if numbers.is_empty() {
+        return None;
+    }
+    Some(*numbers.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
-/// Cuts stamps at their gaps and drops pieces of fewer than `least` samples, unless there is no
-/// gap at all.
-pub fn cut_at_gaps(stamps_s: &[f64], grid: TimeGrid, least: usize) -> Pieces {
-    let gaps: Vec<usize> =
-        (1..stamps_s.len()).filter(|&k| stamps_s[k] - stamps_s[k - 1] > grid.gap_s).collect();
-    let starts = std::iter::once(0).chain(gaps.iter().copied());
-    let ends = gaps.iter().copied().chain(std::iter::once(stamps_s.len()));
-    let mut pieces = Pieces { kept: Vec::new(), gaps: gaps.len(), longest: 0 };
-    let mut notes = Vec::new();
-    for (start, end) in starts.zip(ends) {
-        let samples = end - start;
-        pieces.longest = pieces.longest.max(samples);
-        if start > 0 {
-            let (at_s, after_s) = (stamps_s[start - 1], stamps_s[start]);
-            notes.push(Note::GapCut { at_s, length_s: after_s - at_s });
-        }
-        if samples < least && !gaps.is_empty() {
-            notes.push(Note::PieceDropped { at_s: stamps_s[start], samples });
-        } else {
-            let base = grid.base(&stamps_s[start..end]);
-            pieces.kept.push((start..end, base, std::mem::take(&mut notes)));
+#[cfg(test)]
+mod tests {
+    #![expect(clippy::float_cmp, reason = "these numbers are exact")]
+
+    use super::*;
+
+    #[test]
+    fn the_sample_time_survives_rounded_stamps_and_lost_rows() {
+        let stamps = |step: f64, unit: f64, lost: usize| -> Vec<f64> {
+            (0..1000)
+                .filter(|k| lost == 0 || k % lost != lost / 2)
+                .map(|k| (f64::from(u32::try_from(k).unwrap()) * step / unit).round() * unit)
+                .collect()
+        };
+        for (step, unit, lost) in [
+            (0.002, 0.001, 0),
+            (0.002, 0.001, 40),
+            (0.001, 0.001, 40),
+            (0.01 / 3.0, 0.001, 0),
+            (0.01 / 3.0, 0.001, 90),
+            (0.0012, 0.001, 0),
+            (0.002_000_4, 0.0001, 50),
+        ] {
+            let stamps = stamps(step, unit, lost);
+            let grid = TimeGrid::of(&stamps, unit).unwrap();
+            assert!(
+                (grid.sample_time_s / step - 1.0).abs() < 1e-3,
+                "{step} {unit} {lost}: {grid:?}"
+            );
+            let gaps = stamps.windows(2).any(|pair| pair[1] - pair[0] > grid.gap_s);
+            assert_eq!(gaps, lost > 0, "{step} {unit} {lost}: {grid:?}");
         }
     }
-    if let Some((_, _, last)) = pieces.kept.last_mut() {
-        last.append(&mut notes);
+
+    #[test]
+    fn late_stamps_do_not_blur_the_sample_time() {
+        let stamps: Vec<f64> = (8_257_265..8_258_265).map(|k| f64::from(k) * 0.001).collect();
+        assert_eq!(TimeGrid::of(&stamps, 1e-6).unwrap().sample_time_s, 0.001);
     }
-    pieces
+
+    #[test]
+    fn jitter_is_measured_about_the_sample_time() {
+        let stamps = [0.0, 1.0, 2.0, 3.25, 4.0, 5.0];
+        let grid = TimeGrid::of(&stamps, 0.0).unwrap();
+        assert_eq!(grid.sample_time_s, 1.0);
+        let base = grid.base(&stamps);
+        assert_eq!(base.jitter_max_s, 0.25);
+        assert_eq!(base.jitter_rms_s, (0.125_f64 / 5.0).sqrt());
+    }
 }

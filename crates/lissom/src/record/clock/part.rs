@@ -1,0 +1,85 @@
+//! Parts of a log that become runs.
+
+use std::ops::Range;
+
+use super::resample::Resampler;
+use crate::record::{Hold, Note, TimeBase};
+
+/// The channels of a log, row by row.
+#[derive(Debug, Clone)]
+pub struct LogRows {
+    /// Time stamps \[s\] as they are in the log; where it has none, multiples of `sample_time_s`.
+    pub stamps_s: Vec<f64>,
+    /// The sample time \[s\] of a log without stamps.
+    pub sample_time_s: Option<f64>,
+    /// Step of the stamps' last decimal \[s\]; 0 where it is unknown.
+    pub stamp_step_s: f64,
+    /// The command.
+    pub command: Vec<f64>,
+    /// Held or measured.
+    pub hold: Hold,
+    /// Motor angle \[rad\] or position \[m\].
+    pub motor: Vec<f64>,
+    /// Tip channels.
+    pub tips: Vec<Vec<f64>>,
+}
+
+/// A part of a log with even samples.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EvenPart {
+    /// When the samples were taken.
+    pub time: TimeBase,
+    /// The command.
+    pub command: Vec<f64>,
+    /// Motor angle \[rad\] or position \[m\].
+    pub motor: Vec<f64>,
+    /// Tip channels.
+    pub tips: Vec<Vec<f64>>,
+    /// What was done to the log; all of it with the first part.
+    pub notes: Vec<Note>,
+}
+
+/// Rows of a log, and how they become samples of one run.
+#[derive(Debug, Clone)]
+pub(super) struct Part {
+    pub(super) rows: Range<usize>,
+    pub(super) base: TimeBase,
+    pub(super) sampling: Sampling,
+}
+
+#[derive(Debug, Clone)]
+pub(super) enum Sampling {
+    /// The rows are the samples.
+    AsLogged,
+    /// Rows are lost: positions of the others in samples.
+    LostRows(Vec<f64>),
+    /// Rows are not on the grid: their times in steps of it.
+    Uneven(Vec<f64>),
+}
+
+impl Part {
+    /// The samples, and how many of them are interpolated.
+    pub(super) fn even(&self, log: &LogRows) -> (EvenPart, usize) {
+        let cut = |channel: &Vec<f64>| channel[self.rows.clone()].to_vec();
+        let (time, notes) = (self.base, Vec::new());
+        let (positions, lost) = match &self.sampling {
+            Sampling::AsLogged => {
+                let tips = log.tips.iter().map(cut).collect();
+                let (command, motor) = (cut(&log.command), cut(&log.motor));
+                return (EvenPart { time, command, motor, tips, notes }, 0);
+            }
+            Sampling::LostRows(positions) => (positions, true),
+            Sampling::Uneven(positions) => (positions, false),
+        };
+        let grid = Resampler::new(positions);
+        let measured = |channel: &Vec<f64>| grid.measured(&channel[self.rows.clone()]);
+        let command = &log.command[self.rows.clone()];
+        let command = match (log.hold, lost) {
+            (Hold::Measured, _) => grid.measured(command),
+            (Hold::Sampled, true) => grid.held_with_lost_rows(command),
+            (Hold::Sampled, false) => grid.held(command),
+        };
+        let (motor, tips) = (measured(&log.motor), log.tips.iter().map(measured).collect());
+        (EvenPart { time, command, motor, tips, notes }, grid.interpolated())
+    }
+}
