@@ -1,6 +1,6 @@
 //! A rigid joint with friction under a position loop, and its log.
 
-/// J·q̈ = K·u − V·q̇ − C·sign(q̇) with u from a loop of 10 Hz and damping 0.7, per unit of the current.
+/// J·q̈ = u − V·q̇ − C·sign(q̇) − load(q), per unit of the current; friction may be another function of speed.
 #[derive(Debug, Clone, Copy)]
 pub struct RigidJoint {
     /// Inertia J.
@@ -9,6 +9,10 @@ pub struct RigidJoint {
     pub viscous: f64,
     /// Coulomb friction C.
     pub coulomb: f64,
+    /// Friction over the magnitude of the speed, in place of C + V·|q̇|.
+    pub friction: Option<fn(f64) -> f64>,
+    /// Torque of a load at an angle.
+    pub load: fn(f64) -> f64,
     /// Time between samples of loop and log \[s\].
     pub sample_time_s: f64,
     /// Steps of the simulation per sample.
@@ -32,13 +36,29 @@ pub struct RigidLog {
 
 impl Default for RigidJoint {
     fn default() -> Self {
-        Self { inertia: 0.01, viscous: 0.02, coulomb: 0.15, sample_time_s: 2e-3, steps: 10 }
+        Self {
+            inertia: 0.01,
+            viscous: 0.02,
+            coulomb: 0.15,
+            friction: None,
+            load: |_| 0.0,
+            sample_time_s: 2e-3,
+            steps: 10,
+        }
     }
 }
 
 impl RigidJoint {
-    /// Follows a reference \[rad\] for `samples` samples, from rest at 0.
+    /// Follows a reference \[rad\] for `samples` samples, from rest at 0, in a loop of 10 Hz and damping 0.7.
     pub fn follow(&self, samples: usize, reference: impl Fn(f64) -> f64) -> RigidLog {
+        let omega = std::f64::consts::TAU * 10.0;
+        self.drive(samples, |t, q, w| {
+            self.inertia * (omega * omega * (reference(t) - q) - 1.4 * omega * w)
+        })
+    }
+
+    /// Is driven by a current of time, angle and speed for `samples` samples, from rest at 0.
+    pub fn drive(&self, samples: usize, command: impl Fn(f64, f64, f64) -> f64) -> RigidLog {
         let (mut q, mut w) = (0.0_f64, 0.0_f64);
         let mut log = RigidLog {
             time_s: (0..samples).map(|k| k as f64 * self.sample_time_s).collect(),
@@ -47,17 +67,15 @@ impl RigidJoint {
             angle: Vec::with_capacity(samples),
             speed: Vec::with_capacity(samples),
         };
-        let omega = std::f64::consts::TAU * 10.0;
         let h = self.sample_time_s / self.steps as f64;
         for k in 0..samples {
-            let error = reference(log.time_s[k]) - q;
-            let u = self.inertia * (omega * omega * error - 1.4 * omega * w);
+            let u = command(log.time_s[k], q, w);
             log.measured.push(f64::midpoint(u, log.held.last().copied().unwrap_or(u)));
             log.held.push(u);
             log.angle.push(q);
             log.speed.push(w);
             for _ in 0..self.steps {
-                let next = self.speed_after(w, u, h);
+                let next = self.speed_after(w, u - (self.load)(q), h);
                 q += 0.5 * (w + next) * h;
                 w = next;
             }
@@ -65,12 +83,17 @@ impl RigidJoint {
         log
     }
 
-    fn speed_after(&self, w: f64, u: f64, h: f64) -> f64 {
-        if w == 0.0 && u.abs() <= self.coulomb {
+    /// Friction against the motion.
+    fn braking(&self, speed: f64) -> f64 {
+        self.friction.map_or(self.coulomb + self.viscous * speed, |of| of(speed))
+    }
+
+    fn speed_after(&self, w: f64, torque: f64, h: f64) -> f64 {
+        if w == 0.0 && torque.abs() <= self.braking(0.0) {
             return 0.0;
         }
-        let direction = if w == 0.0 { u.signum() } else { w.signum() };
-        let next = w + (u - direction * self.coulomb - self.viscous * w) / self.inertia * h;
+        let direction = if w == 0.0 { torque.signum() } else { w.signum() };
+        let next = w + (torque - direction * self.braking(w.abs())) / self.inertia * h;
         if next * direction < 0.0 { 0.0 } else { next }
     }
 }

@@ -259,7 +259,7 @@ fn unknown_constant_gives_figures_per_unit_of_command() {
 }
 
 #[test]
-fn one_direction_only_refuses_coulomb_and_offset() {
+fn one_direction_tells_friction_with_the_load_only() {
     let runs: Vec<Run> = stiff_axis(0.2, 0.0)
         .into_iter()
         .flat_map(|r| {
@@ -284,8 +284,9 @@ fn one_direction_only_refuses_coulomb_and_offset() {
     let refused = id
         .findings
         .iter()
-        .any(|f| f.code() == "not-separable" && f.affects().contains(&"friction.coulomb"));
+        .any(|f| f.code() == "friction-with-load" && f.affects().contains(&"friction.coulomb"));
     assert!(refused, "{:?}", id.findings);
+    assert!(id.friction.forward.is_some() && id.friction.backward.is_none());
 }
 
 #[test]

@@ -109,10 +109,9 @@ fn friction_near_rest_is_the_law() {
 }
 
 #[test]
-fn two_strokes_are_least_squares_with_a_warning() {
+fn two_strokes_are_a_regression_with_a_warning() {
     let id = found(two_strokes, 8.0, |v| 0.3 * v.signum() + 0.05 * v);
-    assert!(id.regression.is_none());
-    is_whole(&id, Method::LeastSquares, &id.least_squares.as_ref().unwrap().estimates);
+    is_whole(&id, Method::Regression, &id.regression.as_ref().unwrap().estimates());
     assert!(id.findings.iter().any(|f| f.code() == "few-phases"));
     let (coulomb, viscous) = (id.friction.coulomb.unwrap(), id.friction.viscous.unwrap());
     assert!((coulomb.value / 0.3 - 1.0).abs() < 0.03 && (viscous.value / 0.05 - 1.0).abs() < 0.05);

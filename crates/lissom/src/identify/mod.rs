@@ -45,8 +45,8 @@ pub use methods::output_error::{
     starts, starts_by_motor, starts_by_responses,
 };
 pub use methods::regression::{
-    BeamRegression, ByDirection, Candidate, GravityPartner, MissingKind, MissingTerm,
-    MotorRegression, beam_regression, motor_regression,
+    AngleLag, BeamRegression, ByDirection, Candidate, GravityPartner, LagShape, MissingKind,
+    MissingTerm, MotorRegression, beam_regression, motor_regression,
 };
 pub use methods::third_harmonic::{PairFigure, ThirdHarmonic, mean_figure, pair_figure};
 pub use options::Options;

@@ -116,6 +116,7 @@ pub fn identify(
     let doubted = prepared.has_only_constant_velocities() && constant_velocity.is_some();
     let any_regression =
         motor_regression(&prepared, options).filter(|r| !doubted || is_sound_alone(r));
+    let regression_missing = any_regression.as_ref().and_then(|r| r.missing);
     let regression_residual = any_regression.as_ref().map(|r| r.relative_residual);
     let regression = any_regression.clone().filter(|r| r.relative_residual < REFUSED_TORQUE);
     let law = regression.as_ref().and_then(|r| friction_law(&prepared, r));
@@ -161,6 +162,7 @@ pub fn identify(
         third_harmonic_model,
         regression,
         regression_residual,
+        regression_missing,
         least_squares: least_squares(&prepared),
         friction_law,
         constant_velocity,

@@ -10,8 +10,8 @@ use crate::identify::findings::number_text::{later, significant, with_error};
 use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
 use crate::identify::findings::units::EstimateUnits;
-use crate::identify::methods::regression::GravityPartner;
 use crate::identify::methods::regression::missing::{MissingKind, MissingTerm};
+use crate::identify::methods::regression::{AngleLag, GravityPartner, LagShape};
 
 /// Digits of a coefficient whose standard error is not given.
 const DIGITS: usize = 3;
@@ -51,6 +51,11 @@ pub enum RegressionFinding {
         term: MissingTerm,
         /// Units of the coefficient.
         units: EstimateUnits,
+    },
+    /// The angle lags behind the command.
+    AngleLag {
+        /// By how much, and how.
+        lag: AngleLag,
     },
     /// Viscous friction differs by direction.
     ViscousByDirection {
@@ -158,6 +163,18 @@ impl fmt::Display for RegressionFinding {
                 term.deviations,
                 100.0 * term.residual_ratio
             ),
+            Self::AngleLag { lag } => write!(
+                f,
+                "the angle lags behind the command by {} of {} ms: with it the residual torque drops to {:.0} %. Viscous \
+                 and Coulomb friction contain its effect",
+                match lag.shape {
+                    LagShape::Filter => "a first-order filter",
+                    LagShape::Delay => "a delay",
+                    LagShape::Either => "a filter or delay",
+                },
+                significant(1e3 * lag.time_s, 2),
+                100.0 * lag.residual_ratio
+            ),
             Self::ViscousByDirection {
                 forward,
                 backward,
@@ -194,6 +211,7 @@ impl Describe for RegressionFinding {
             | Self::UnexplainedTorque { .. }
             | Self::OneSine
             | Self::MissingTerm { .. }
+            | Self::AngleLag { .. }
             | Self::ViscousByDirection { .. } => Severity::Warning,
         }
     }
@@ -203,6 +221,7 @@ impl Describe for RegressionFinding {
             Self::RegressionRefused { .. }
             | Self::FewPhases { .. }
             | Self::UnexplainedTorque { .. }
+            | Self::AngleLag { .. }
             | Self::MissingTerm { .. } => {
                 vec![key::COULOMB, key::OFFSET, key::VISCOUS, key::INERTIA, key::COUPLING]
             }
@@ -261,6 +280,9 @@ impl Describe for RegressionFinding {
                     "the joint warms up: warm it up first, or identify the runs separately"
                 }
             },
+            Self::AngleLag { .. } => {
+                "log the angle before the drive filters it, or shift the channels against each other"
+            }
             Self::ViscousByDirection { .. } => {
                 "the scalar estimate is the mean of both; the offset depends on which law is chosen: look for a brush, \
                  a screw or a cable"

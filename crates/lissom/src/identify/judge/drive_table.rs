@@ -240,6 +240,7 @@ mod tests {
 
     fn nothing() -> Methods {
         Methods {
+            regression_missing: None,
             third_harmonic: None,
             third_harmonic_model: None,
             regression: None,

@@ -4,6 +4,7 @@
 
 mod beam;
 mod fitted;
+mod lag;
 pub(crate) mod missing;
 mod motor;
 mod motor_columns;
@@ -19,6 +20,7 @@ mod window;
 
 pub use beam::{BeamRegression, beam_regression};
 pub(crate) use fitted::Fitted;
+pub use lag::{AngleLag, LagShape};
 pub use missing::{MissingKind, MissingTerm};
 pub(crate) use motor::Terms;
 pub use motor::{ByDirection, GravityPartner, MotorRegression, motor_regression};

@@ -7,7 +7,8 @@ use crate::identify::estimate::Estimate;
 use crate::identify::friction_estimates::Friction;
 use crate::identify::gravity_estimate::Gravity;
 use crate::identify::methods::regression::fitted::Fitted;
-use crate::identify::methods::regression::missing::{MissingTerm, missing_term};
+use crate::identify::methods::regression::lag::{AngleLag, angle_lag};
+use crate::identify::methods::regression::missing::{MissingKind, MissingTerm, missing_term};
 use crate::identify::methods::regression::motor_columns::{
     DRY, MotorColumns, PLACE_INERTIA, PLACE_OFFSET, PLACE_VISCOUS, VISCOUS,
 };
@@ -58,6 +59,8 @@ pub struct MotorRegression {
     pub viscous_by_direction: Option<ByDirection>,
     /// A term that the equation lacks, where the data call for one.
     pub missing: Option<MissingTerm>,
+    /// The lag of the angle behind the command, where `missing` is one.
+    pub lag: Option<AngleLag>,
     /// J, V, CF, offset, κ_i of the tips whose angle is known, g_s and g_c, as the logs have them.
     pub(crate) terms: Terms,
 }
@@ -83,7 +86,7 @@ pub enum GravityPartner {
 
 impl Terms {
     /// The terms that gravity can hardly be told from, with their correlation: about the mean angle it is a slope, which
-    /// inertia may stand for, and a constant. Those known to 5 % of `amplitude` are told.
+    /// inertia may stand for, and a constant. Where it is known to [`GRAVITY_KNOWN`] of `amplitude` it is told.
     pub(crate) fn pairs_with_gravity(
         &self,
         mean_rad: f64,
@@ -179,6 +182,9 @@ fn on_slip_phases(prepared: &Prepared<'_>, window_s: &[f64]) -> Option<MotorRegr
     let known: Vec<f64> = columns.couplings().map(|i| solution.value[i]).collect();
     let clusters = equation.clusters_with_more(window_s_chosen, &known);
     let missing = missing_term(&clusters, &terms, solution, (columns, campaign));
+    let lag = missing
+        .filter(|m| m.kind == MissingKind::Delay && m.value > 0.0)
+        .and_then(|m| angle_lag(campaign, prepared.noise(), window_s_chosen, &terms, m.value));
     let solved = |length: f64, terms: &[Term]| solve(&equation.clusters(length), terms);
     let viscous_by_direction = by_direction(channels, &one, &terms, window_s_chosen, &solved);
     Some(MotorRegression {
@@ -198,6 +204,7 @@ fn on_slip_phases(prepared: &Prepared<'_>, window_s: &[f64]) -> Option<MotorRegr
         gravity,
         viscous_by_direction,
         missing,
+        lag,
         terms: terms_of(&one),
         candidates: found.candidates,
     })

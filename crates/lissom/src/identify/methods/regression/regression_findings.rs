@@ -21,6 +21,11 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
         if explained {
             return findings;
         }
+        // A load may be most of the torque.
+        let gravity = |m: &MissingTerm| m.kind == MissingKind::Gravity;
+        let missing = evidence.methods.regression_missing.filter(gravity);
+        let term = |term| Finding::new(RegressionFinding::MissingTerm { term, units });
+        findings.extend(missing.map(term));
         let residual_share = evidence.methods.regression_residual;
         findings.push(Finding::new(RegressionFinding::RegressionRefused { residual_share }));
         return findings;
@@ -50,7 +55,10 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
         MissingKind::Stribeck => law.is_some(),
     };
     if let Some(term) = r.missing.filter(|m| !explained && !said(m)) {
-        findings.push(Finding::new(RegressionFinding::MissingTerm { term, units }));
+        findings.push(Finding::new(match r.lag {
+            Some(lag) => RegressionFinding::AngleLag { lag },
+            None => RegressionFinding::MissingTerm { term, units },
+        }));
     }
     let by_direction = r.viscous_by_direction.as_ref().filter(|_| split);
     findings.extend(by_direction.and_then(|d| differs_by_direction(r, d, units)));

@@ -32,9 +32,14 @@ thresholds! {
         /// Gravity is tried as a missing term where the motor turns by more than this: over less its
         /// sine is a line, as that of a spring.
         GRAVITY_TRAVEL_RAD: f64 = 1.0, "rad", Convention;
+        /// A lag of the angle is a filter or a delay where the one leaves less than this share of what
+        /// the other does.
+        LAG_SHAPE_TOLD: f64 = 0.8, "1", Convention;
+        /// The lag is looked for in the first runs, of about so many samples.
+        LAG_SAMPLES_MOST: usize = 50_000, "samples", Convention;
         /// Gravity is told from inertia and a constant load if its part is known to this share of
         /// m·g·l.
-        GRAVITY_KNOWN: f64 = 0.05, "1", Convention;
+        GRAVITY_KNOWN: f64 = 0.02, "1", Convention;
         /// Gravity that is not known so well is reported with the term that it correlates with by
         /// more than this.
         GRAVITY_CORRELATION: f64 = 0.9, "1", Convention;

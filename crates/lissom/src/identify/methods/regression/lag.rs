@@ -1,0 +1,144 @@
+//! By how much the angle lags behind the command, and whether as a first-order filter or as a delay.
+
+use crate::identify::methods::regression::motor_rows::MotorRows;
+use crate::identify::methods::regression::normal::{Term, solve};
+use crate::identify::methods::regression::thresholds::{LAG_SAMPLES_MOST, LAG_SHAPE_TOLD};
+use crate::identify::prepare::run_noise::RunNoise;
+use crate::record::{Campaign, Hold, Run};
+
+/// Steps of the search, which triples its precision each time.
+const ROUNDS: usize = 5;
+/// Times that are tried in a step.
+const TRIED: usize = 5;
+
+/// What an angle that is logged late looks like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LagShape {
+    /// A first-order filter; the time is its time constant.
+    Filter,
+    /// A delay.
+    Delay,
+    /// The logs do not tell which.
+    Either,
+}
+
+/// A lag of the angle behind the command.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AngleLag {
+    /// Time constant or delay \[s\].
+    pub time_s: f64,
+    /// Which of them.
+    pub shape: LagShape,
+    /// Residual beside that of the equation without a lag, as a ratio.
+    pub residual_ratio: f64,
+}
+
+/// The lag with which the equation leaves least, looked for up to three times the `first` estimate: the command is
+/// filtered or delayed as the angle was. `None` where nothing is gained.
+pub(super) fn angle_lag(
+    campaign: &Campaign,
+    noise: &[RunNoise],
+    window_s: f64,
+    terms: &[Term],
+    first_s: f64,
+) -> Option<AngleLag> {
+    let mut samples = 0;
+    let few = |run: &&Run| {
+        let before = samples;
+        samples += run.len();
+        before < LAG_SAMPLES_MOST
+    };
+    let runs: Vec<&Run> = campaign.runs.iter().take_while(few).collect();
+    let left = |shape: LagShape, time_s: f64| -> f64 {
+        let late = delayed(campaign, &runs, shape, time_s);
+        let clusters = MotorRows::of(&late, noise).clusters(window_s);
+        solve(&clusters, terms).map_or(f64::INFINITY, |s| s.relative_residual)
+    };
+    let without = left(LagShape::Delay, 0.0);
+    let best = |shape: LagShape| least(first_s, |time_s| left(shape, time_s));
+    let (filter, delay) = (best(LagShape::Filter), best(LagShape::Delay));
+    let (shape, found) = if filter.1 < LAG_SHAPE_TOLD * delay.1 {
+        (LagShape::Filter, filter)
+    } else if delay.1 < LAG_SHAPE_TOLD * filter.1 {
+        (LagShape::Delay, delay)
+    } else {
+        (LagShape::Either, if filter.1 < delay.1 { filter } else { delay })
+    };
+    let residual_ratio = found.1 / without;
+    (residual_ratio < 1.0).then_some(AngleLag { time_s: found.0, shape, residual_ratio })
+}
+
+/// The time from zero to three times `first_s` with the least of `left`, and that.
+fn least(first_s: f64, left: impl Fn(f64) -> f64) -> (f64, f64) {
+    let (mut middle, mut half) = (1.5 * first_s, 1.5 * first_s);
+    let mut best = (0.0, f64::INFINITY);
+    for _ in 0..ROUNDS {
+        let step = 2.0 * half / (TRIED - 1) as f64;
+        for i in 0..TRIED {
+            let time_s = (middle - half + i as f64 * step).max(0.0);
+            let found = left(time_s);
+            if found < best.1 {
+                best = (time_s, found);
+            }
+        }
+        (middle, half) = (best.0, step);
+    }
+    best
+}
+
+/// The campaign with its commands filtered or delayed.
+fn delayed(campaign: &Campaign, runs: &[&Run], shape: LagShape, time_s: f64) -> Campaign {
+    let runs = runs.iter().map(|run| {
+        let command = match shape {
+            LagShape::Filter => filtered(run, campaign.channels.command.hold, time_s),
+            LagShape::Delay | LagShape::Either => shifted(run, time_s),
+        };
+        run.with_command(|k, _| command[k])
+    });
+    Campaign {
+        channels: campaign.channels.clone(),
+        runs: runs.collect(),
+        gravity: campaign.gravity,
+    }
+}
+
+/// A first-order low-pass of the command, its mean over each sample where it is held.
+fn filtered(run: &Run, hold: Hold, time_s: f64) -> Vec<f64> {
+    let ratio = run.sample_time_s() / time_s.max(f64::MIN_POSITIVE);
+    let decay = (-ratio).exp();
+    // Mean of e^{−t/T} over a sample.
+    let mean = if ratio > 1e-9 { (1.0 - decay) / ratio } else { 1.0 };
+    let command = run.command();
+    let mut state = command[0];
+    let mut out = Vec::with_capacity(command.len());
+    for k in 0..command.len() {
+        match hold {
+            Hold::Sampled => {
+                out.push(command[k] + (state - command[k]) * mean);
+                state = command[k] + (state - command[k]) * decay;
+            }
+            Hold::Measured => {
+                // Straight from sample to sample.
+                if k > 0 {
+                    let slope = command[k] - command[k - 1];
+                    state = command[k] - slope * mean + (state - command[k - 1]) * decay;
+                }
+                out.push(state);
+            }
+        }
+    }
+    out
+}
+
+/// The command of `time_s` before, straight between samples.
+fn shifted(run: &Run, time_s: f64) -> Vec<f64> {
+    let command = run.command();
+    let at = |k: usize| {
+        let place = (k as f64 - time_s / run.sample_time_s()).max(0.0);
+        let before = place as usize;
+        let share = place - before as f64;
+        let after = (before + 1).min(command.len() - 1);
+        command[before] + share * (command[after] - command[before])
+    };
+    (0..command.len()).map(at).collect()
+}

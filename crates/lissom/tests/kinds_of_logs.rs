@@ -1,0 +1,226 @@
+//! Kinds of logs that users have, each with its truth: what must be given, and what a finding must say.
+
+use lissom::identify::findings::{EstimateFinding, FindingKind, RegressionFinding};
+use lissom::identify::{Estimate, GravityPartner, Identified, MissingKind, Options, identify};
+use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
+use lissom_testmodels::{RigidJoint, RigidLog, two_sines};
+
+const TAU: f64 = std::f64::consts::TAU;
+
+fn channels(hold: Hold) -> Channels {
+    let command = Command {
+        quantity: CommandQuantity::Current,
+        hold,
+        torque_per_command: None,
+        back_emf_viscous: 0.0,
+        limit: None,
+    };
+    Channels { axis: Axis::Rotary, command, tips: vec![] }
+}
+
+fn run(name: &str, joint: &RigidJoint, command: Vec<f64>, angle: Vec<f64>) -> Run {
+    Run::new(name, TimeBase::uniform(0.0, joint.sample_time_s), command, angle, vec![]).unwrap()
+}
+
+fn measured(joint: &RigidJoint, log: RigidLog) -> Campaign {
+    let one = run("log", joint, log.measured, log.angle);
+    Campaign::new(channels(Hold::Measured), vec![one]).unwrap()
+}
+
+fn quick(campaign: &Campaign) -> Identified {
+    let options = Options { without_output_error: true, ..Options::default() };
+    identify(campaign, &options, |_| ()).unwrap()
+}
+
+#[track_caller]
+fn within(name: &str, found: Option<Estimate>, truth: f64, share: f64) {
+    let found = found.unwrap_or_else(|| panic!("{name} is refused")).value;
+    assert!((found / truth - 1.0).abs() < share, "{name}: {found}, in truth {truth}");
+}
+
+fn codes(found: &Identified) -> Vec<&'static str> {
+    found.findings.iter().map(|f| f.code()).collect()
+}
+
+/// Uniform noise of a standard deviation.
+fn noisy(values: &mut [f64], std: f64) {
+    let mut state = 7_u32;
+    for value in values {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        *value += std * 12.0_f64.sqrt() * (f64::from(state >> 8) / f64::from(1 << 24) - 0.5);
+    }
+}
+
+/// A vertical axis: six times Coulomb friction as a constant load.
+#[test]
+fn a_load_larger_than_friction() {
+    let joint = RigidJoint { load: |_| 1.0, ..RigidJoint::default() };
+    let log = joint.follow(10_000, two_sines);
+    let one = run("log", &joint, log.held, log.angle);
+    let found = quick(&Campaign::new(channels(Hold::Sampled), vec![one]).unwrap());
+    within("Coulomb", found.friction.coulomb, 0.15, 0.01);
+    within("viscous", found.friction.viscous, 0.02, 0.01);
+    within("inertia", found.inertia, 0.01, 0.01);
+    within("offset", found.friction.offset, 1.0, 0.01);
+    within("backward", found.friction.backward, -0.85, 0.01);
+    let load = |f: &FindingKind| matches!(f, FindingKind::Estimate(EstimateFinding::Offset { share, .. }) if *share > 1.0);
+    assert!(found.findings.iter().any(|f| load(&f.kind)), "{:?}", codes(&found));
+    assert!(found.arm.is_some());
+}
+
+fn pendulum() -> RigidJoint {
+    RigidJoint { load: |q| 0.6 * (q + 0.4).sin(), ..RigidJoint::default() }
+}
+
+fn wide(time_s: f64) -> f64 {
+    1.2 * (0.2 * TAU * time_s).sin() + 0.6 * (0.55 * TAU * time_s + 0.7).sin()
+}
+
+#[test]
+fn gravity_of_an_unbalanced_load() {
+    let joint = pendulum();
+    let mut log = joint.follow(20_000, wide);
+    noisy(&mut log.measured, 0.02);
+    let found = quick(&measured(&joint, log.clone()).with_gravity().unwrap());
+    within("Coulomb", found.friction.coulomb, 0.15, 0.02);
+    within("viscous", found.friction.viscous, 0.02, 0.05);
+    within("inertia", found.inertia, 0.01, 0.02);
+    let gravity = found.gravity.unwrap();
+    within("gravity", Some(gravity.amplitude()), 0.6, 0.02);
+    within("its phase", Some(gravity.phase_rad()), 0.4, 0.02);
+    // The line has it, too.
+    let line = &found.least_squares.unwrap().estimates;
+    within("gravity of the line", line.gravity.map(|g| g.amplitude()), 0.6, 0.02);
+    // Where it is not asked for, the first finding names it.
+    let without = quick(&measured(&joint, log));
+    let names = |f: &FindingKind| {
+        matches!(f, FindingKind::Regression(RegressionFinding::MissingTerm { term, .. })
+            if term.kind == MissingKind::Gravity && (term.value / 0.6 - 1.0).abs() < 0.2)
+    };
+    let warnings = without.findings.iter().filter(|f| f.hint().contains("gravity = true"));
+    assert!(warnings.clone().any(|f| names(&f.kind)), "{:?}", codes(&without));
+}
+
+/// Over a short arc gravity is a constant load, and in a sine its slope is inertia.
+#[test]
+fn gravity_in_one_small_sine() {
+    let joint = pendulum();
+    let mut log = joint.follow(10_000, |t| 0.15 * (TAU * t).sin());
+    noisy(&mut log.measured, 0.02);
+    let found = quick(&measured(&joint, log).with_gravity().unwrap());
+    let pair = |f: &FindingKind| {
+        let FindingKind::Regression(RegressionFinding::GravityUnseparated { with, .. }) = f else {
+            return None;
+        };
+        Some(*with)
+    };
+    let pairs: Vec<GravityPartner> = found.findings.iter().filter_map(|f| pair(&f.kind)).collect();
+    assert!(pairs.contains(&GravityPartner::Offset), "{pairs:?} {:?}", codes(&found));
+}
+
+/// A voltage with an offset: the motor never turns back, and its speed varies.
+#[test]
+fn one_direction() {
+    let joint = RigidJoint { viscous: 0.05, coulomb: 0.5, inertia: 0.02, ..RigidJoint::default() };
+    let voltage = |t: f64| 4.0 + 2.0 * (0.7 * TAU * t).sin() + (2.3 * TAU * t).sin();
+    let log = joint.drive(10_000, |t, _, _| voltage(t));
+    let one = run("log", &joint, log.held, log.angle);
+    let found = quick(&Campaign::new(channels(Hold::Sampled), vec![one]).unwrap());
+    within("inertia", found.inertia, 0.02, 0.02);
+    within("viscous", found.friction.viscous, 0.05, 0.02);
+    within("friction with the load", found.friction.forward, 0.5, 0.02);
+    assert_eq!((found.friction.coulomb, found.friction.backward), (None, None));
+    assert!(codes(&found).contains(&"friction-with-load"), "{:?}", codes(&found));
+}
+
+#[test]
+fn two_strokes() {
+    let joint = RigidJoint { sample_time_s: 1e-3, ..RigidJoint::default() };
+    let step = |x: f64| {
+        let x = x.clamp(0.0, 1.0);
+        x * x * x * (10.0 - 15.0 * x + 6.0 * x * x)
+    };
+    let out_and_back = |t: f64| 6.0 * (step((t - 0.5) / 4.0) - step((t - 5.0) / 4.0));
+    let mut log = joint.follow(9_500, out_and_back);
+    noisy(&mut log.measured, 0.01);
+    let found = quick(&measured(&joint, log));
+    within("Coulomb", found.friction.coulomb, 0.15, 0.03);
+    within("viscous", found.friction.viscous, 0.02, 0.05);
+    within("inertia", found.inertia, 0.01, 0.03);
+    assert!(codes(&found).contains(&"few-phases"), "{:?}", codes(&found));
+}
+
+/// A slow ramp and a step each way, from rest: four logs, each in one direction.
+#[test]
+fn ramps_and_steps() {
+    let joint = RigidJoint { viscous: 0.05, coulomb: 0.5, inertia: 0.02, ..RigidJoint::default() };
+    let mut runs = Vec::new();
+    for (name, sign) in [("forward", 1.0), ("backward", -1.0)] {
+        let ramp = joint.drive(4_000, |t, _, _| sign * 0.7 * t);
+        runs.push(run(&format!("ramp {name}"), &joint, ramp.held, ramp.angle));
+        let step = joint.drive(1_500, |_, _, _| sign * 5.0);
+        runs.push(run(&format!("step {name}"), &joint, step.held, step.angle));
+    }
+    let found = quick(&Campaign::new(channels(Hold::Sampled), runs).unwrap());
+    within("Coulomb", found.friction.coulomb, 0.5, 0.02);
+    within("viscous", found.friction.viscous, 0.05, 0.02);
+    within("inertia", found.inertia, 0.02, 0.03);
+    assert!(!codes(&found).contains(&"dead-channel"), "{:?}", codes(&found));
+}
+
+/// Friction that grows ever more slowly with speed, as a harmonic drive's does: no law goes beyond the speeds driven.
+#[test]
+fn concave_friction() {
+    let friction = |speed: f64| 1.2 + 3.0 * speed - 0.8 * speed * speed;
+    let joint = RigidJoint { inertia: 0.55, friction: Some(friction), ..RigidJoint::default() };
+    let mut log =
+        joint.follow(30_000, |t| 0.6 * (0.1 * TAU * t).sin() + 0.3 * (0.31 * TAU * t).sin());
+    noisy(&mut log.measured, 0.1);
+    let largest = log.measured.iter().fold(0.0, |m: f64, u| m.max(u.abs()));
+    let fastest = log.speed.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let found = quick(&measured(&joint, log));
+    within("inertia", found.inertia, 0.55, 0.03);
+    let line = found.least_squares.as_ref().unwrap();
+    let [from, to] = line.speed_range;
+    assert!(from > 0.04 * fastest && to < 1.05 * fastest, "{from} to {to} of {fastest}");
+    // The best straight line over these speeds, each as often as it was driven, lies between chord and tangent.
+    let c = line.estimates.friction.coulomb.unwrap().value;
+    assert!((1.2..1.5).contains(&c), "{c}");
+    let law = found.friction_law.as_ref().unwrap();
+    let coulomb = law.chosen.coulomb.unwrap().value;
+    assert!(coulomb < largest, "{coulomb} in a log of {largest}");
+    for share in [0.1, 0.3, 0.6, 0.95] {
+        let speed = share * fastest;
+        let by_law = law.chosen.friction(speed, 1.0).unwrap();
+        assert!((by_law / friction(speed) - 1.0).abs() < 0.05, "{by_law} at {speed}");
+    }
+    for point in law.curve.iter().filter(|p| p.speed > 0.05 * fastest) {
+        let truth = friction(point.speed);
+        assert!((point.friction.value / truth - 1.0).abs() < 0.05, "{point:?}: {truth}");
+    }
+}
+
+/// Between moves friction holds the motor, and its angle drifts by 1e-9 rad/s.
+#[test]
+fn creep_at_rest_is_rest() {
+    let joint = RigidJoint { sample_time_s: 1e-3, ..RigidJoint::default() };
+    let step = |x: f64| {
+        let x = x.clamp(0.0, 1.0);
+        x * x * x * (10.0 - 15.0 * x + 6.0 * x * x)
+    };
+    let places = [0.0, 1.0, -0.6, 0.8, -1.2, 0.4];
+    let moves = |t: f64| {
+        let k = t as usize;
+        let [from, to] = [places[k % 6], places[(k + 1) % 6]];
+        from + (to - from) * step((t - k as f64) / 0.5)
+    };
+    let log = joint.follow(18_000, moves);
+    let drifts = log.angle.iter().zip(&log.time_s).map(|(q, t)| q - 1e-9 * t).collect();
+    let one = run("log", &joint, log.held, drifts);
+    let found = quick(&Campaign::new(channels(Hold::Sampled), vec![one]).unwrap());
+    within("Coulomb", found.friction.coulomb, 0.15, 0.01);
+    within("viscous", found.friction.viscous, 0.02, 0.01);
+    within("inertia", found.inertia, 0.01, 0.01);
+    let warned = found.findings.iter().any(|f| f.severity() > lissom::identify::Severity::Info);
+    assert!(!warned, "{:?}", codes(&found));
+}
