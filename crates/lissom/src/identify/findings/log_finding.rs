@@ -194,11 +194,12 @@ impl fmt::Display for LogFinding {
                          times the error)",
                         significant(*ratio, 2)
                     )?,
-                    None => write!(f, "the mean step of the time stamps drifts")?,
+                    None => write!(f, "time stamps are uneven, and their mean step drifts: the samples are taken to be at the moving average \
+                         of the stamps")?,
                 }
                 write!(
                     f,
-                    ": the channels are interpolated on an even grid of {} ms. The interpolation error of the angle (rms) \
+                    "; the channels are interpolated on an even grid of {} ms. The interpolation error of the angle (rms) \
                      is {} % of what acceleration moves it within a step",
                     significant(1e3 * step_s, 4),
                     significant(100.0 * error_share, 2)

@@ -7,9 +7,9 @@ const MOST_PLACES: usize = 20_000;
 
 /// The error of samples that are interpolated at a grid like that of the samples themselves.
 ///
-/// Samples are left out and predicted from their next four neighbours (distances 1, 1, 2, 2 steps), and from those at 1, 1, 3, 3
-/// steps of every second sample. With noise σ and curvature of fourth order A the mean square errors are
-/// A²/36 + 1.944 σ² and 9 A²/64 + 1.641 σ²; a point halfway between samples has the error 3 A/128.
+/// Samples are left out and predicted from their next four neighbours (1, 1, 2 and 2 steps away), and from those that
+/// are 1, 1, 3 and 3 steps away. With noise σ and a fourth difference A of the motion the mean square errors are
+/// A²/36 + 1.944 σ² and 9 A²/64 + 1.641 σ²; a point halfway between two samples has the error 3 A/128.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct InterpolationError {
     /// Of a point halfway between two samples, rms; without the samples' noise.

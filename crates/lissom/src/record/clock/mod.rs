@@ -1,15 +1,17 @@
 //! When the samples of a log were taken.
 //!
-//! Logs come with many clocks: even ones, and stamps that a computer put on late; rows that are lost, repeated, or taken when
-//! a loop had time; clocks that start again, and sample times that change. [`even_parts`] makes runs with even samples of them.
-//! Steps, in this order:
+//! Logs come with many clocks: even ones, and stamps that a computer put on late; rows that are lost, repeated, or
+//! taken when a loop had time; clocks that start again, and sample times that change. [`even_parts`] makes runs with
+//! even samples of them. Steps, in this order:
 //!
 //! 1. Time goes back: where the motion goes on, the clock is continued; where it does not, the log is cut.
 //! 2. Readings that are repeated, since a device was polled faster than it measured, are removed.
 //! 3. Long stretches with sample times of their own become runs of their own.
-//! 4. Even stamps are used as they are. Single lost rows are filled in by interpolation, and the log is cut at longer gaps.
-//! 5. With uneven stamps, each angle is predicted from its neighbours twice: at the times of the stamps and at even times. The
-//!    clock with the smaller errors is used. If it is that of the stamps, all channels are interpolated at even times.
+//! 4. Even stamps are used as they are. Single lost rows are filled in by interpolation, and the log is cut at longer
+//!    gaps.
+//! 5. With uneven stamps, each angle is predicted from its neighbours twice: at the times of the stamps and at even
+//!    times. The clock with the smaller errors is used. If it is that of the stamps, all channels are interpolated at
+//!    even times.
 //!
 //! Each step takes a time in proportion to the number of rows.
 
@@ -119,7 +121,7 @@ pub fn even_parts(mut log: LogRows, skip_s: f64, least: usize) -> Result<EvenLog
 
 /// Samples of the parts that are long enough.
 fn finish(log: &LogRows, parts: Vec<Part>, mut tally: Tally, least: usize) -> EvenLog {
-    let cuts = parts.len() - 1;
+    let cuts = parts.len().saturating_sub(1);
     let mut found = EvenLog { parts: Vec::new(), cuts, longest: 0 };
     for part in parts {
         if cuts > 0 && part.rows.len() < least {
