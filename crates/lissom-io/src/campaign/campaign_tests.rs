@@ -414,7 +414,7 @@ fn goals_that_are_none() {
     );
     fails(
         &commanded("unit = \"deg\", quantity = \"goal\"", "position_gain = \"1 N/m\""),
-        "campaign.toml, line 7: `drive.position_gain`: \"1 N/m\" is a stiffness [kg*s^-2], where a torque [kg*m^2*s^-2] is expected",
+        "campaign.toml, line 7: `drive.position_gain`: \"1 N/m\" is a quantity in [kg*s^-2], where a torque [kg*m^2*s^-2] is expected",
         Some("write it as in \"0.25 N*m\""),
     );
     fails(
