@@ -1,7 +1,7 @@
 //! One motion on clocks that logs have: inertia and friction are those of the joint on each of them.
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use lissom::identify::{Identified, Options, identify};
+use lissom::identify::{Finding, Identified, Options, identify};
 use lissom::record::clock::{LogRows, even_parts};
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run};
 use lissom_testmodels::{RigidJoint, two_sines};
@@ -50,7 +50,7 @@ fn identified(kept: &[usize], stamps_s: Vec<f64>, hold: Hold, finding: &str) -> 
     let campaign = Campaign::new(channels, runs.collect()).unwrap();
     let options = Options { without_output_error: true, ..Options::default() };
     let found = identify(&campaign, &options, |_| ()).unwrap();
-    let codes: Vec<&str> = found.findings.iter().map(|finding| finding.code()).collect();
+    let codes: Vec<&str> = found.findings.iter().map(Finding::code).collect();
     assert_eq!(codes.iter().filter(|code| **code == finding).count(), 1, "{codes:?}");
     let off = |found: f64, exact: f64| (found / exact - 1.0).abs();
     let inertia = found.inertia.unwrap().value;

@@ -49,9 +49,9 @@ fn mean_bend(y: &[f64]) -> f64 {
 /// Rms error of rows that are filled in where `lost` follow each other, from rows that are left out.
 pub(super) fn fill_error(y: &[f64], lost: usize) -> f64 {
     let stride = y.len() / MOST_PLACES + 1;
-    let half = lost / 2 + 1;
-    let nodes = [half + 1, half].map(|n| n as isize);
-    let nodes = [-nodes[0], -nodes[1], (lost + 1 - half) as isize, (lost + 2 - half) as isize];
+    let before = (lost / 2 + 1).cast_signed();
+    let after = lost.cast_signed() + 1 - before;
+    let nodes = [-before - 1, -before, after, after + 1];
     let time: Vec<f64> = (0..y.len()).map(|k| k as f64).collect();
     let errors = (0..y.len()).step_by(stride).filter_map(|k| left_out(&time, y, k, nodes));
     let (sum, count) =

@@ -102,7 +102,9 @@ pub fn even_parts(mut log: LogRows, skip_s: f64, least: usize) -> Result<EvenLog
         let stamps_s = &log.stamps_s[stretch.clone()];
         let changes = rates::changes(stamps_s);
         let mut starts: Vec<usize> = [0].into_iter().chain(changes).collect();
-        starts.iter_mut().for_each(|start| *start += stretch.start);
+        for start in &mut starts {
+            *start += stretch.start;
+        }
         starts.push(stretch.end);
         let before = parts.len();
         for rates in starts.windows(2) {
@@ -158,7 +160,9 @@ fn skip(log: &mut LogRows, cuts: &mut Vec<usize>, skip_s: f64) -> Result<(), Clo
         for channel in channels.into_iter().chain(&mut log.tips) {
             channel.drain(..first);
         }
-        cuts.iter_mut().for_each(|cut| *cut -= first);
+        for cut in cuts.iter_mut() {
+            *cut -= first;
+        }
         cuts.retain(|cut| *cut > 0);
     }
     Ok(())
@@ -174,5 +178,7 @@ fn remove_repeated(log: &mut LogRows, cuts: &mut [usize], tally: &mut Tally) {
     for channel in channels.into_iter().chain(&mut log.tips) {
         *channel = kept.iter().map(|&row| channel[row]).collect();
     }
-    cuts.iter_mut().for_each(|cut| *cut = kept.partition_point(|row| row < cut));
+    for cut in cuts {
+        *cut = kept.partition_point(|row| row < cut);
+    }
 }
