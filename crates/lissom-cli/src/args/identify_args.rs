@@ -44,5 +44,7 @@ A campaign.toml:
   file = \"run-01.csv\"
 
 Columns go by name or number. hold = \"sampled\" is a commanded value held between samples,
-\"measured\" one that was measured. A command of unknown unit has unit = \"1\": figures are then
-per unit of command. docs/campaign.md explains every key.";
+\"measured\" one that was measured. A command of unknown unit has unit = \"1\": estimates are then
+per unit of command. A torque has unit = \"N*m\". With quantity = \"goal\" the command is the position
+goal of a servo, with quantity = \"speed\" the motor's channel is its speed. docs/campaign.md explains
+every key.";

@@ -81,7 +81,7 @@ fn the_unit_has_the_wrong_dimension() {
         "error: campaign.toml, line 4: `signals.motor.unit`: the motor is measured in a \
          current [A], which is neither an angle nor a length\n\
          hint: give \"rad\" or \"deg\" for a rotary axis, \"m\" or \"mm\" for a linear one; \
-         counts: unit = \"rad\" with scale = rad per count",
+         counts: unit = \"rad\" with scale = rad per count; speeds: \"rpm\" with quantity = \"speed\"",
     );
 }
 
@@ -92,10 +92,10 @@ fn a_quantity_is_no_quantity() {
          with a number\n\
          hint: write a number and a unit, such as \"7 in\"",
     );
-    Bench::replacing("0.25 N*m/A", "-0.25 N*m/A").refuses(
-        "error: campaign.toml, line 8: `drive.torque_constant` is \"-0.25 N*m/A\", but must be \
-         greater than zero\n\
-         hint: check its sign",
+    Bench::replacing("0.25 N*m/A", "0 N*m/A").refuses(
+        "error: campaign.toml, line 8: `drive.torque_constant` is \"0 N*m/A\", but must be \
+         other than zero\n\
+         hint: check the number and its unit",
     );
     Bench::replacing("0.25 N*m/A", "1e308 GN*m/A").refuses(
         "error: campaign.toml, line 8: `drive.torque_constant`: \"1e308 GN*m/A\" is out of \

@@ -230,9 +230,10 @@ fn motor(table: &Table<'_>) -> Result<(Axis, Reading, bool), Error> {
     };
     if speed != wanted {
         let (place, unit) = (unit.place(), unit.text()?.trim().to_owned());
-        return Err(match speed {
-            true => CampaignError::SpeedUnit { place, unit },
-            false => CampaignError::NotASpeed { place, unit },
+        return Err(if speed {
+            CampaignError::SpeedUnit { place, unit }
+        } else {
+            CampaignError::NotASpeed { place, unit }
         }
         .into());
     }

@@ -403,8 +403,8 @@ fn goals_that_are_none() {
         );
     }
     fails(
-        &commanded("unit = \"deg\", quantity = \"goals\"", ""),
-        "campaign.toml, line 4: `signals.command.quantity` is \"goals\", but must be \"goal\"",
+        &commanded("unit = \"deg\", quantity = \"target\"", ""),
+        "campaign.toml, line 4: `signals.command.quantity` is \"target\", but must be \"goal\"",
         Some("write one of these words"),
     );
     fails(
@@ -414,7 +414,7 @@ fn goals_that_are_none() {
     );
     fails(
         &commanded("unit = \"deg\", quantity = \"goal\"", "position_gain = \"1 N/m\""),
-        "campaign.toml, line 7: `drive.position_gain`: \"1 N/m\" is a stiffness [kg*s^-2], where a torque [kg*m^2*s^-2] is expected",
+        "campaign.toml, line 7: `drive.position_gain`: \"1 N/m\" is a quantity in [kg*s^-2], where a torque [kg*m^2*s^-2] is expected",
         Some("write it as in \"0.25 N*m\""),
     );
     fails(
@@ -425,7 +425,7 @@ fn goals_that_are_none() {
     fails(
         &PLAIN.replace("hold =", "quantity = \"goal\", hold ="),
         "campaign.toml, line 4: `signals.current.quantity` is not a key that is known here",
-        Some("the keys are `column`, `unit`, `scale`, `offset`, `hold`"),
+        Some("the keys here are `column`, `unit`, `scale`, `offset`, `hold`"),
     );
     let speed = commanded("unit = \"deg\", quantity = \"goal\"", "")
         .replace("unit = \"rad\"", "unit = \"rpm\", quantity = \"speed\"");

@@ -68,9 +68,10 @@ fn load_run(
             1 => name.to_owned(),
             _ => format!("{name} [{}/{count}]", index + 1),
         };
-        let motor = match signals.motor_speed {
-            true => integrated(&part.motor, part.time.sample_time_s),
-            false => part.motor,
+        let motor = if signals.motor_speed {
+            integrated(&part.motor, part.time.sample_time_s)
+        } else {
+            part.motor
         };
         let command = match signals.command.kind {
             CommandKind::Goal => goal_difference(&part.command, &motor, signals.command.hold),
@@ -174,7 +175,9 @@ fn even_parts(
 ) -> Result<(EvenLog, usize), Error> {
     let (stamps_s, sample_time_s, stamp_step_s) = match (&signals.time, log.time) {
         (TimeSource::Stamps(_, unit_s), Some(mut stamps)) => {
-            stamps.iter_mut().for_each(|stamp| *stamp *= unit_s);
+            for stamp in &mut stamps {
+                *stamp *= unit_s;
+            }
             channel_in_range("time", &stamps, file)?;
             (stamps, None, log.time_step * unit_s)
         }
@@ -197,7 +200,6 @@ fn even_parts(
                 LogError::AllSkipped { file, skip_s, length_s, left }
             }
             error => {
-                let back = log.time_back.iter();
                 let row = match error {
                     ClockError::NotIncreasing { row } => row,
                     _ => 0,
@@ -207,7 +209,7 @@ fn even_parts(
                     TimeSource::Steps(_) => String::new(),
                 };
                 let none = TimeBack { sample: row, row, before: 0.0, after: 0.0 };
-                let found = back.filter(|back| back.sample <= row).next_back().unwrap_or(&none);
+                let found = log.time_back.iter().rfind(|back| back.sample <= row).unwrap_or(&none);
                 LogError::time_back(file, &column, found)
             }
         })?;

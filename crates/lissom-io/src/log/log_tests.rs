@@ -1,5 +1,3 @@
-#![expect(clippy::float_cmp, reason = "these numbers are exact")]
-
 use std::path::Path;
 
 use lissom::record::Hold;

@@ -26,8 +26,8 @@ pub enum Note {
     Resampled {
         /// Step of the grid \[s\].
         step_s: f64,
-        /// The error of angles that their neighbours predict at even times, as a multiple of the error with the clock that is
-        /// used. `None` where the angle does not show the difference.
+        /// The error of angles that their neighbours predict at even times, as a multiple of the error with the clock
+        /// that is used. `None` where the mean step drifts, and samples are at the moving average of the stamps.
         agreement: Option<f64>,
         /// Rms error of the interpolated angle \[rad or m\], without the sensor's noise.
         error: f64,

@@ -186,6 +186,40 @@ impl fmt::Display for LogFinding {
                 "{count} pieces of the log between two cuts, the first from {at_s:.4} s on, are too short: their \
                  {samples} samples are not used"
             ),
+            Self::Resampled { .. }
+            | Self::SampleCount { .. }
+            | Self::RowsFilled { .. }
+            | Self::RepeatedReadings { .. }
+            | Self::ClockRestart { .. }
+            | Self::RateChange { .. } => self.clock_message(f),
+            Self::SpeedIntegrated => f.write_str(
+                "the log has the speed of the motor: the angle is integrated from it, starting at 0",
+            ),
+            Self::TurnsRemoved { count } => write!(
+                f,
+                "{} of one turn {} removed from the angles, as an encoder makes them that starts again after each turn",
+                counted(*count, "jump", "jumps"),
+                if *count == 1 { "is" } else { "are" }
+            ),
+            Self::CommandFollowsMotor { correlation } => write!(
+                f,
+                "the command follows the motor's angle (correlation {correlation:.4}): it looks like the position goal of a \
+                 servo. If it is one, all estimates are wrong"
+            ),
+            Self::Thinned { factor } => {
+                write!(f, "the log is thinned: each sample stands for {factor} rows of it")
+            }
+            Self::HeadSkipped { length_s } => {
+                write!(f, "the first {length_s} s are left out, as the campaign asks")
+            }
+        }
+    }
+}
+
+impl LogFinding {
+    /// What was done about the clock of a log.
+    fn clock_message(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
             Self::Resampled { step_s, agreement, error, error_share, noise } => {
                 match agreement {
                     Some(ratio) => write!(
@@ -194,11 +228,15 @@ impl fmt::Display for LogFinding {
                          times the error)",
                         significant(*ratio, 2)
                     )?,
-                    None => write!(f, "the mean step of the time stamps drifts")?,
+                    None => write!(
+                        f,
+                        "time stamps are uneven, and their mean step drifts: the samples are taken to be at the moving average \
+                         of the stamps"
+                    )?,
                 }
                 write!(
                     f,
-                    ": the channels are interpolated on an even grid of {} ms. The interpolation error of the angle (rms) \
+                    "; the channels are interpolated on an even grid of {} ms. The interpolation error of the angle (rms) \
                      is {} % of what acceleration moves it within a step",
                     significant(1e3 * step_s, 4),
                     significant(100.0 * error_share, 2)
@@ -265,26 +303,7 @@ impl fmt::Display for LogFinding {
                 significant(1e3 * first_s, 4),
                 significant(1e3 * last_s, 4)
             ),
-            Self::SpeedIntegrated => f.write_str(
-                "the log has the speed of the motor: the angle is integrated from it, starting at 0",
-            ),
-            Self::TurnsRemoved { count } => write!(
-                f,
-                "{} of one turn {} removed from the angles, as an encoder makes them that starts again after each turn",
-                counted(*count, "jump", "jumps"),
-                if *count == 1 { "is" } else { "are" }
-            ),
-            Self::CommandFollowsMotor { correlation } => write!(
-                f,
-                "the command follows the motor's angle (correlation {correlation:.4}): it looks like the position goal of a \
-                 servo. If it is one, all estimates are wrong"
-            ),
-            Self::Thinned { factor } => {
-                write!(f, "the log is thinned: each sample stands for {factor} rows of it")
-            }
-            Self::HeadSkipped { length_s } => {
-                write!(f, "the first {length_s} s are left out, as the campaign asks")
-            }
+            _ => Ok(()),
         }
     }
 }

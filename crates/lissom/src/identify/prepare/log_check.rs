@@ -5,8 +5,8 @@ use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
 use crate::identify::prepare::thresholds::FOLLOWS_MOTOR;
 use crate::record::{Campaign, Run};
 
-/// A command that follows the motor's angle as a position goal does. A sine says nothing: with the wrong sign of one channel, inertia
-/// makes it look so.
+/// A command that follows the motor's angle as a position goal does. A sine says nothing: with the wrong sign of one
+/// channel, inertia makes it look so.
 pub(crate) fn command_follows_motor(campaign: &Campaign, runs: &[RunAnalysis]) -> Option<Finding> {
     let mut sums = [0.0; 3];
     let useful =

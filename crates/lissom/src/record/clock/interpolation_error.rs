@@ -7,9 +7,9 @@ const MOST_PLACES: usize = 20_000;
 
 /// The error of samples that are interpolated at a grid like that of the samples themselves.
 ///
-/// Samples are left out and predicted from their next four neighbours (distances 1, 1, 2, 2 steps), and from those at 1, 1, 3, 3
-/// steps of every second sample. With noise σ and curvature of fourth order A the mean square errors are
-/// A²/36 + 1.944 σ² and 9 A²/64 + 1.641 σ²; a point halfway between samples has the error 3 A/128.
+/// Samples are left out and predicted from their next four neighbours (1, 1, 2 and 2 steps away), and from those that
+/// are 1, 1, 3 and 3 steps away. With noise σ and a fourth difference A of the motion the mean square errors are
+/// A²/36 + 1.944 σ² and 9 A²/64 + 1.641 σ²; a point halfway between two samples has the error 3 A/128.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct InterpolationError {
     /// Of a point halfway between two samples, rms; without the samples' noise.
@@ -49,9 +49,9 @@ fn mean_bend(y: &[f64]) -> f64 {
 /// Rms error of rows that are filled in where `lost` follow each other, from rows that are left out.
 pub(super) fn fill_error(y: &[f64], lost: usize) -> f64 {
     let stride = y.len() / MOST_PLACES + 1;
-    let half = lost / 2 + 1;
-    let nodes = [half + 1, half].map(|n| n as isize);
-    let nodes = [-nodes[0], -nodes[1], (lost + 1 - half) as isize, (lost + 2 - half) as isize];
+    let before = (lost / 2 + 1).cast_signed();
+    let after = lost.cast_signed() + 1 - before;
+    let nodes = [-before - 1, -before, after, after + 1];
     let time: Vec<f64> = (0..y.len()).map(|k| k as f64).collect();
     let errors = (0..y.len()).step_by(stride).filter_map(|k| left_out(&time, y, k, nodes));
     let (sum, count) =

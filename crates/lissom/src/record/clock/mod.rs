@@ -1,15 +1,17 @@
 //! When the samples of a log were taken.
 //!
-//! Logs come with many clocks: even ones, and stamps that a computer put on late; rows that are lost, repeated, or taken when
-//! a loop had time; clocks that start again, and sample times that change. [`even_parts`] makes runs with even samples of them.
-//! Steps, in this order:
+//! Logs come with many clocks: even ones, and stamps that a computer put on late; rows that are lost, repeated, or
+//! taken when a loop had time; clocks that start again, and sample times that change. [`even_parts`] makes runs with
+//! even samples of them. Steps, in this order:
 //!
 //! 1. Time goes back: where the motion goes on, the clock is continued; where it does not, the log is cut.
 //! 2. Readings that are repeated, since a device was polled faster than it measured, are removed.
 //! 3. Long stretches with sample times of their own become runs of their own.
-//! 4. Even stamps are used as they are. Single lost rows are filled in by interpolation, and the log is cut at longer gaps.
-//! 5. With uneven stamps, each angle is predicted from its neighbours twice: at the times of the stamps and at even times. The
-//!    clock with the smaller errors is used. If it is that of the stamps, all channels are interpolated at even times.
+//! 4. Even stamps are used as they are. Single lost rows are filled in by interpolation, and the log is cut at longer
+//!    gaps.
+//! 5. With uneven stamps, each angle is predicted from its neighbours twice: at the times of the stamps and at even
+//!    times. The clock with the smaller errors is used. If it is that of the stamps, all channels are interpolated at
+//!    even times.
 //!
 //! Each step takes a time in proportion to the number of rows.
 
@@ -100,7 +102,9 @@ pub fn even_parts(mut log: LogRows, skip_s: f64, least: usize) -> Result<EvenLog
         let stamps_s = &log.stamps_s[stretch.clone()];
         let changes = rates::changes(stamps_s);
         let mut starts: Vec<usize> = [0].into_iter().chain(changes).collect();
-        starts.iter_mut().for_each(|start| *start += stretch.start);
+        for start in &mut starts {
+            *start += stretch.start;
+        }
         starts.push(stretch.end);
         let before = parts.len();
         for rates in starts.windows(2) {
@@ -119,7 +123,7 @@ pub fn even_parts(mut log: LogRows, skip_s: f64, least: usize) -> Result<EvenLog
 
 /// Samples of the parts that are long enough.
 fn finish(log: &LogRows, parts: Vec<Part>, mut tally: Tally, least: usize) -> EvenLog {
-    let cuts = parts.len() - 1;
+    let cuts = parts.len().saturating_sub(1);
     let mut found = EvenLog { parts: Vec::new(), cuts, longest: 0 };
     for part in parts {
         if cuts > 0 && part.rows.len() < least {
@@ -156,7 +160,9 @@ fn skip(log: &mut LogRows, cuts: &mut Vec<usize>, skip_s: f64) -> Result<(), Clo
         for channel in channels.into_iter().chain(&mut log.tips) {
             channel.drain(..first);
         }
-        cuts.iter_mut().for_each(|cut| *cut -= first);
+        for cut in cuts.iter_mut() {
+            *cut -= first;
+        }
         cuts.retain(|cut| *cut > 0);
     }
     Ok(())
@@ -172,5 +178,7 @@ fn remove_repeated(log: &mut LogRows, cuts: &mut [usize], tally: &mut Tally) {
     for channel in channels.into_iter().chain(&mut log.tips) {
         *channel = kept.iter().map(|&row| channel[row]).collect();
     }
-    cuts.iter_mut().for_each(|cut| *cut = kept.partition_point(|row| row < cut));
+    for cut in cuts {
+        *cut = kept.partition_point(|row| row < cut);
+    }
 }

@@ -10,8 +10,8 @@ const LONGEST_STEP: f64 = 3.0;
 /// Two blocks have one rate if their mean steps differ by no more than this factor.
 const SAME_RATE: f64 = 1.15;
 
-/// The first samples of the stretches after the first one. Empty where there is one sample time, and where it changes too
-/// often to cut the log.
+/// The first samples of the stretches after the first one. Empty where there is one sample time, and where it changes
+/// too often to cut the log.
 pub(super) fn changes(stamps_s: &[f64]) -> Vec<usize> {
     let steps: Vec<f64> = stamps_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let blocks: Vec<f64> = steps.chunks_exact(BLOCK).map(mean_step).collect();

@@ -11,8 +11,8 @@ const ONE_COUNT: f64 = 0.95;
 
 /// Rows that hold a reading for the first time, and the mean number of rows of a reading.
 ///
-/// `None` where readings are not repeated: rows change at irregular distances, or next to each other. While the motor rests,
-/// rows are kept at the distance of the readings.
+/// `None` where readings are not repeated: rows change at irregular distances, or next to each other. While the motor
+/// rests, rows are kept at the distance of the readings.
 pub(super) fn first_readings(
     command: &[f64],
     motor: &[f64],

@@ -160,7 +160,9 @@ fn drift(positions: &mut [f64], stamps_s: &[f64], line: Line, step_s: f64) -> bo
         *position += blocks[b] + (at - b as f64) * (blocks[b + 1] - blocks[b]);
     }
     let first = positions[0];
-    positions.iter_mut().for_each(|position| *position -= first);
+    for position in positions.iter_mut() {
+        *position -= first;
+    }
     positions.windows(2).all(|pair| pair[1] > pair[0])
 }
 

@@ -8,10 +8,14 @@ use super::part::{LogRows, Part, Sampling};
 use super::sample_count::{SampleCount, long_gaps};
 use super::tally::{Counted, Resampled, Tally};
 use super::thresholds::{
-    EVEN_STAMPS, FILLED_ERROR, MEAN_STEP_AGREES, MOST_LOST_ROWS, MOST_ODD_GAPS, ON_THE_GRID,
+    EVEN_STAMPS, FILLED_ERROR, MEAN_STEP_AGREES, MEAN_STEP_STEADY, MOST_LOST_ROWS, MOST_ODD_GAPS,
+    ON_THE_GRID,
 };
 use super::time_grid::TimeGrid;
 use crate::record::TimeBase;
+
+/// Steps over which a mean step is taken.
+const BLOCK: usize = 50;
 
 /// The parts of a stretch of increasing stamps, short ones too.
 pub(super) fn parts(log: &LogRows, rows: Range<usize>, tally: &mut Tally) -> Vec<Part> {
@@ -47,11 +51,13 @@ fn even_parts(
     let step = |k: usize| stamps_s[k] - stamps_s[k - 1];
     let (gaps, steps): (Vec<usize>, Vec<usize>) =
         (1..stamps_s.len()).partition(|&k| step(k) > grid.gap_s);
-    let count = steps.len().max(1) as f64;
-    let mean_s = steps.iter().map(|&k| step(k)).sum::<f64>() / count;
-    let squares: f64 = steps.iter().map(|&k| (step(k) - grid.sample_time_s).powi(2)).sum();
-    let jitter = (squares / count).sqrt() / grid.sample_time_s;
-    if jitter > EVEN_STAMPS || (mean_s / grid.sample_time_s - 1.0).abs() > MEAN_STEP_AGREES {
+    let steps_s: Vec<f64> = steps.into_iter().map(step).collect();
+    let jitter = rms_off(&steps_s, grid.sample_time_s);
+    let mean_s = steps_s.iter().sum::<f64>() / steps_s.len().max(1) as f64;
+    if jitter > EVEN_STAMPS
+        || (mean_s / grid.sample_time_s - 1.0).abs() > MEAN_STEP_AGREES
+        || rms_off(&block_means(&steps_s), mean_s) > MEAN_STEP_STEADY
+    {
         return None;
     }
     let lost_rows = |k: usize| (step(k) / grid.sample_time_s).round() - 1.0;
@@ -93,6 +99,16 @@ fn even_parts(
         Part { rows: part, base, sampling: Sampling::LostRows(positions) }
     };
     Some(split(rows, &cuts).map(part).collect())
+}
+
+/// Rms distance of numbers from `mean`, as a share of it.
+fn rms_off(numbers: &[f64], mean: f64) -> f64 {
+    let squares: f64 = numbers.iter().map(|x| (x / mean - 1.0).powi(2)).sum();
+    (squares / numbers.len().max(1) as f64).sqrt()
+}
+
+fn block_means(numbers: &[f64]) -> Vec<f64> {
+    numbers.chunks_exact(BLOCK).map(|block| block.iter().sum::<f64>() / BLOCK as f64).collect()
 }
 
 /// Whether the motion can be interpolated across `length` lost rows, of which there are `rows` in all.
@@ -190,13 +206,13 @@ fn counted(
     agreement: Option<f64>,
     tally: &mut Tally,
 ) -> Part {
+    if count.drifts {
+        return uneven(log, rows, count.start_s, count.step_s, count.positions, None, tally);
+    }
     let (jitter_rms_s, jitter_max_s) = count.jitter_s;
     if let Some(agreement) = agreement {
         let jitter_rms_share = jitter_rms_s / count.step_s;
         tally.count(Counted { step_s: count.step_s, jitter_rms_share, agreement });
-    }
-    if count.drifts {
-        return uneven(log, rows, count.start_s, count.step_s, count.positions, agreement, tally);
     }
     let mut base = TimeBase::uniform(count.start_s, count.step_s);
     if agreement.is_none() {

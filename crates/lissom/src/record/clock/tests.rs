@@ -112,6 +112,25 @@ fn a_counted_log_keeps_its_pause() {
 }
 
 #[test]
+fn a_sample_time_that_drifts_is_followed() {
+    let log = joint();
+    // 2 ms to 2.12 ms and back: rows of a 40 µs simulation.
+    let fine = RigidJoint { sample_time_s: 4e-5, steps: 1, ..RigidJoint::default() }
+        .follow(1_000_000, two_sines);
+    let mut kept = vec![0_usize];
+    while kept.last().unwrap() + 60 < 1_000_000 {
+        let drift = 1.5 * (1.0 + (kept.len() as f64 * 6e-4).sin());
+        kept.push(kept.last().unwrap() + 50 + drift.round() as usize);
+    }
+    let even = even_parts(rows(&fine, &kept, |k| fine.time_s[k]), 0.0, 50).unwrap();
+    let [part] = even.parts.as_slice() else { panic!("{} parts", even.parts.len()) };
+    assert!(matches!(part.notes[..], [Note::Resampled { .. }]), "{:?}", part.notes);
+    let samples = fine.time_s.iter().step_by(50).zip(fine.angle.iter().step_by(50));
+    let coarse = RigidLog { angle: samples.map(|(_, q)| *q).collect(), ..log };
+    assert!(angle_error(part, &coarse, 0.0) < INTERPOLATED, "{}", angle_error(part, &coarse, 0.0));
+}
+
+#[test]
 fn lost_rows_are_filled_in() {
     let log = joint();
     let kept: Vec<usize> =

@@ -11,6 +11,9 @@ thresholds! {
         /// Stamps are even only if their mean step differs from their median step by this share or
         /// less: inertia is in error by twice that.
         MEAN_STEP_AGREES: f64 = 1e-3, "1", Convention;
+        /// Stamps are even only if the mean steps of 50 samples each differ from the mean of all by this
+        /// share or less (rms): a sample time that drifts distorts the motion.
+        MEAN_STEP_STEADY: f64 = 5e-3, "1", Convention;
         /// Rows that are missing from a log are filled in by interpolation if this many or fewer
         /// follow each other. The log is cut at longer gaps.
         MOST_LOST_ROWS: usize = 10, "rows", Convention;
