@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use lissom_io::{ArmFile, BeamKind, PlanFile, read_campaign};
 
 /// Columns of the log that stands in for those that the documents name.
-const COLUMNS: [&str; 8] = ["t", "i", "theta_m", "theta_t", "u", "v", "x", "y"];
+const COLUMNS: [&str; 12] =
+    ["t", "i", "theta_m", "theta_t", "u", "v", "x", "y", "goal", "position", "torque", "n"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
