@@ -204,11 +204,10 @@ impl fmt::Display for RunFinding {
                      theirs; without it the estimates change: {}",
                     changes(moved)
                 )?;
-                // The parameters of the other runs are then those of an arm that does not describe them.
                 if *others_described {
                     return Ok(());
                 }
-                f.write_str(". No arm was found that describes the runs: this may be the wrong one")
+                f.write_str(". The residual is that of the regression in slip phases")
             }
         }
     }

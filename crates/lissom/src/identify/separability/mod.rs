@@ -23,6 +23,7 @@ use crate::identify::found_arm::ArmSource;
 use crate::identify::judge::{Chosen, Evidence, Methods};
 use crate::identify::separability::thresholds::ALL_SHARP;
 use crate::information::Figure;
+use crate::record::Campaign;
 
 /// A figure beside the others. Deviations are shares of its [size](Figure::size).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +51,7 @@ pub struct Separability {
     pub condition: f64,
     /// The principal directions of F, least known first.
     pub directions: Vec<Direction>,
-    /// What each run carries, of an output error on two runs or more.
+    /// What each run carries, of an output error that stands on two runs or more, else of a regression on three or more.
     pub runs: Vec<RunShare>,
     /// The further run that would say most about the figure that leads the first direction; `None` where
     /// all are sharp, without an output error that stands, or where no run tried would help.
@@ -85,15 +86,22 @@ impl Separability {
             return None;
         }
         let (methods, used) = (evidence.methods, evidence.used);
-        let by_replay = methods.output_error.as_ref().map(|oe| (oe, Judged::of_replay(oe, used)));
-        let runs = by_replay
-            .as_ref()
-            .map_or(Vec::new(), |(oe, judged)| runs::shares(judged, &oe.by_run, used));
-        let stands = by_replay.filter(|(oe, _)| oe.stands());
-        let replay = stands.as_ref().map(|(oe, _)| *oe);
-        let (source, judged) = match stands {
-            Some((_, judged)) => (ArmSource::OutputError, judged),
-            None => (ArmSource::Regression, of_regression(methods, chosen)),
+        let replay = methods.output_error.as_ref().filter(|oe| oe.stands());
+        let by_replay = methods.output_error.as_ref().map(|oe| {
+            let judged = Judged::of_replay(oe, used);
+            let runs = runs::shares(&judged, &oe.by_run, used);
+            (judged, runs)
+        });
+        let (source, judged, runs) = match by_replay {
+            Some((judged, runs)) if replay.is_some() => (ArmSource::OutputError, judged, runs),
+            by_replay => {
+                let judged = of_regression(methods, chosen);
+                let runs = by_regression(methods, used);
+                // Tips that the motor's equation does not see are seen by a replay that does not stand, too.
+                let clear = runs.iter().any(RunShare::spoils);
+                let replayed = by_replay.map(|(_, runs)| runs).filter(|_| !clear);
+                (ArmSource::Regression, judged, replayed.unwrap_or(runs))
+            }
         };
         let covariance = &judged.covariance;
         let mut directions = direction::lost(&judged);
@@ -152,6 +160,13 @@ fn of_regression(methods: &Methods, chosen: &Chosen) -> Judged {
         _ => None,
     };
     terms.map_or_else(Judged::none, |terms| Judged::of_regression(terms, &chosen.drive))
+}
+
+/// What each run carries of the regression with one viscous coefficient, whichever fit was taken.
+fn by_regression(methods: &Methods, used: &Campaign) -> Vec<RunShare> {
+    let Some(fit) = methods.regression.as_ref() else { return Vec::new() };
+    let judged = Judged::of_regression(&fit.terms, &fit.estimates());
+    runs::shares_of_regression(&judged, fit, used)
 }
 
 /// With ones on its diagonal.

@@ -1,10 +1,13 @@
 //! What each run carries, and which does not fit the others.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use crate::identify::methods::output_error::ByRun;
+use crate::identify::methods::regression::{MotorRegression, RunLeftOut};
 use crate::identify::separability::judged::Judged;
-use crate::identify::separability::thresholds::{RUN_CARRIES, RUN_MOVES, RUN_RESIDUAL};
+use crate::identify::separability::thresholds::{
+    RUN_CARRIES, RUN_MOVES, RUN_RESIDUAL, RUN_RESIDUAL_REGRESSION,
+};
 use crate::identify::thresholds::PRESENT;
 use crate::information::Figure;
 use crate::record::Campaign;
@@ -17,6 +20,8 @@ pub struct RunShare {
     /// Root mean square of its residual over that of the others, at the figures that these have without
     /// it.
     pub residual: f64,
+    /// From which residual on it stands out.
+    pub least: f64,
     /// What it carries of each figure.
     pub figures: Vec<Carried>,
 }
@@ -37,7 +42,7 @@ pub struct Carried {
 impl RunShare {
     /// Whether its residual is beyond that of the others and figures move by it.
     pub fn spoils(&self) -> bool {
-        self.residual > RUN_RESIDUAL && self.moved().next().is_some()
+        self.residual > self.least && self.moved().next().is_some()
     }
 
     /// Figures that would be others without it.
@@ -59,10 +64,37 @@ pub(super) fn shares(judged: &Judged, by_run: &ByRun, used: &Campaign) -> Vec<Ru
         Some(RunShare {
             run: used.runs[run].name().to_owned(),
             residual: beside.residual,
+            least: RUN_RESIDUAL,
             figures: carried(judged, by_run, (run, beside.noise), &all),
         })
     };
     by_run.runs().filter_map(share).collect()
+}
+
+/// The same of a regression: each run beside the solution of the others.
+pub(super) fn shares_of_regression(
+    judged: &Judged,
+    fit: &MotorRegression,
+    used: &Campaign,
+) -> Vec<RunShare> {
+    let with = DVector::from_column_slice(&fit.terms.values);
+    let share = |left_out: &RunLeftOut| {
+        let change = judged.slopes.tr_mul(&(&left_out.value - &with));
+        let without = judged.slopes.tr_mul(&(&left_out.covariance * &judged.slopes));
+        let of_figure = |(i, figure): (usize, &Figure)| Carried {
+            figure: *figure,
+            growth: (without[(i, i)] / judged.covariance[(i, i)]).sqrt(),
+            change: change[i],
+            deviations: change[i] / without[(i, i)].sqrt(),
+        };
+        RunShare {
+            run: used.runs[left_out.run].name().to_owned(),
+            residual: left_out.residual,
+            least: RUN_RESIDUAL_REGRESSION,
+            figures: judged.figures.iter().enumerate().map(of_figure).collect(),
+        }
+    };
+    fit.left_out.iter().map(share).collect()
 }
 
 fn carried(

@@ -5,6 +5,7 @@
 mod beam;
 mod fitted;
 mod lag;
+mod left_out;
 pub(crate) mod missing;
 mod motor;
 mod motor_columns;
@@ -21,6 +22,7 @@ mod window;
 pub use beam::{BeamRegression, beam_regression};
 pub(crate) use fitted::Fitted;
 pub use lag::{AngleLag, LagShape};
+pub(crate) use left_out::RunLeftOut;
 pub use missing::{MissingKind, MissingTerm};
 pub(crate) use motor::Terms;
 pub use motor::{ByDirection, GravityPartner, MotorRegression, motor_regression};

@@ -8,6 +8,7 @@ use crate::identify::friction_estimates::Friction;
 use crate::identify::gravity_estimate::Gravity;
 use crate::identify::methods::regression::fitted::Fitted;
 use crate::identify::methods::regression::lag::{AngleLag, angle_lag};
+use crate::identify::methods::regression::left_out::{RunLeftOut, runs_left_out};
 use crate::identify::methods::regression::missing::{MissingKind, MissingTerm, missing_term};
 use crate::identify::methods::regression::motor_columns::{
     DRY, MotorColumns, PLACE_INERTIA, PLACE_OFFSET, PLACE_VISCOUS, VISCOUS,
@@ -61,6 +62,8 @@ pub struct MotorRegression {
     pub missing: Option<MissingTerm>,
     /// The lag of the angle behind the command, where `missing` is one.
     pub lag: Option<AngleLag>,
+    /// The same without each run in turn.
+    pub(crate) left_out: Vec<RunLeftOut>,
     /// J, V, CF, offset, κ_i of the tips whose angle is known, g_s and g_c, as the logs have them.
     pub(crate) terms: Terms,
 }
@@ -182,6 +185,7 @@ fn on_slip_phases(prepared: &Prepared<'_>, window_s: &[f64]) -> Option<MotorRegr
     let known: Vec<f64> = columns.couplings().map(|i| solution.value[i]).collect();
     let clusters = equation.clusters_with_more(window_s_chosen, &known);
     let missing = missing_term(&clusters, &terms, solution, (columns, campaign));
+    let left_out = runs_left_out(&clusters, &terms);
     let lag = missing
         .filter(|m| m.kind == MissingKind::Delay && m.value > 0.0)
         .and_then(|m| angle_lag(campaign, prepared.noise(), window_s_chosen, &terms, m.value));
@@ -205,6 +209,7 @@ fn on_slip_phases(prepared: &Prepared<'_>, window_s: &[f64]) -> Option<MotorRegr
         viscous_by_direction,
         missing,
         lag,
+        left_out,
         terms: terms_of(&one),
         candidates: found.candidates,
     })
