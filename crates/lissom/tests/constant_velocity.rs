@@ -330,7 +330,7 @@ fn lines_are_refused_with_a_reason() {
 fn a_campaign_of_constant_velocities_alone_gives_a_clear_result() {
     let id = identify(&both(QUIET, coulomb), &Options::default(), |_| {}).unwrap();
     assert!(id.runs.iter().all(|r| matches!(r.kind, RunKind::ConstantVelocity)));
-    assert_eq!(codes(&id.findings), ["constant-velocity-only", "classical-figures", "offset"]);
+    assert_eq!(codes(&id.findings), ["constant-velocity-only", "offset", "classical-figures"]);
     assert_eq!(id.findings[0].severity(), Severity::Refusal);
     assert!(id.regression.is_none() && id.third_harmonic.is_none() && id.responses.is_empty());
     let classical = id.constant_velocity.unwrap();

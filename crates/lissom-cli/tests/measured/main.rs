@@ -3,15 +3,17 @@
 
 #![expect(clippy::unwrap_used, reason = "tests")]
 
+mod baseline;
 mod common;
 mod cu;
 mod emps;
 mod krauss;
 mod krauss_loop;
 mod quanser;
+mod ur10e;
 
 /// The folders that these tests read.
-const FOLDERS: [&str; 4] = ["emps", "krauss-slfr", "quanser-2dsfl", "cu-flexarm"];
+const FOLDERS: [&str; 5] = ["emps", "krauss-slfr", "quanser-2dsfl", "cu-flexarm", "ur10e"];
 
 #[test]
 fn every_folder_says_where_its_logs_come_from() {

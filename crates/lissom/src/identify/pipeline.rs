@@ -157,13 +157,14 @@ pub fn identify(
     let third_harmonic_model =
         third.and_then(|t| tables.model_with(t.coulomb_command, beam_model.as_ref()));
     let (equivalent, refused) = equivalent_arm(campaign, &points);
+    let window_s = regression.as_ref().map(|r| r.window_s);
     let methods = Methods {
         third_harmonic,
         third_harmonic_model,
         regression,
         regression_residual,
         regression_missing,
-        least_squares: least_squares(&prepared),
+        least_squares: least_squares(&prepared, window_s),
         friction_law,
         constant_velocity,
         beam_regression,

@@ -104,6 +104,19 @@ impl FindingKind {
         self.describe().hint()
     }
 
+    /// Place among findings of the same severity: what acts on the joint comes before what is worth knowing, and that
+    /// before what concerns responses alone.
+    pub(crate) fn rank(&self) -> u8 {
+        match self {
+            Self::Regression(_)
+            | Self::FrictionLaw(_)
+            | Self::Log(_)
+            | Self::Estimate(EstimateFinding::Offset { .. }) => 0,
+            Self::Response(_) | Self::Estimate(EstimateFinding::NoPairs) => 2,
+            _ => 1,
+        }
+    }
+
     /// Whether the readings themselves are wrong, so that other findings may follow from it.
     pub(crate) fn is_about_readings(&self) -> bool {
         match self {

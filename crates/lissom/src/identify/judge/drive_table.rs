@@ -328,7 +328,7 @@ mod tests {
     fn least_squares_stand_in_for_a_regression_that_is_missing() {
         let campaign = campaign(vec![]);
         let methods = Methods {
-            least_squares: least_squares(&Prepared::of(&campaign)),
+            least_squares: least_squares(&Prepared::of(&campaign), None),
             motor_model: Some(model(false)),
             ..nothing()
         };
@@ -342,7 +342,7 @@ mod tests {
         let campaign = campaign(vec![]);
         let methods = Methods {
             regression: motor_regression(&Prepared::of(&campaign), &Options::default()),
-            least_squares: least_squares(&Prepared::of(&campaign)),
+            least_squares: least_squares(&Prepared::of(&campaign), None),
             motor_model: Some(model(false)),
             ..nothing()
         };
@@ -360,7 +360,7 @@ mod tests {
         regression.inertia = regression.inertia.map(|e| e.scaled(3.0));
         let methods = Methods {
             regression: Some(regression),
-            least_squares: least_squares(&Prepared::of(&campaign)),
+            least_squares: least_squares(&Prepared::of(&campaign), None),
             ..nothing()
         };
         assert_eq!(chosen(&campaign, &methods).0, Some(Method::LeastSquares));

@@ -46,6 +46,8 @@ pub struct LeastSquares {
 /// Where friction is no straight line over speed, this is the line that others publish: the range of speeds belongs
 /// to it.
 ///
+/// The windows have the length given (the regression's, so that both compare), else one chosen from the data as there.
+///
 /// τ is the command times its torque constant \[N·m, N, or the command's unit where the constant is unknown\].
 /// `None` where too little slips.
 ///
@@ -60,13 +62,13 @@ pub struct LeastSquares {
 /// # let campaign = Campaign::new(Channels { axis: Axis::Rotary, command, tips: vec![] }, vec![run]).unwrap();
 /// use lissom::identify::{Prepared, least_squares}; // of a sine with J = 0.02, V = 0.05, C = 0.3
 /// let prepared = Prepared::of(&campaign);
-/// let fit = least_squares(&prepared).unwrap();
+/// let fit = least_squares(&prepared, None).unwrap();
 /// assert!((fit.estimates.friction.coulomb.unwrap().value - 0.3).abs() < 1e-3);
 /// ```
 ///
 /// # Source
 /// `[Feliu1989, eqs. (14), (15)]` is the equation.
-pub fn least_squares(prepared: &Prepared<'_>) -> Option<LeastSquares> {
+pub fn least_squares(prepared: &Prepared<'_>, window_s: Option<f64>) -> Option<LeastSquares> {
     let campaign = prepared.used();
     let columns = MotorColumns::of(campaign);
     let runs: Vec<Moving<'_>> = campaign
@@ -81,7 +83,8 @@ pub fn least_squares(prepared: &Prepared<'_>) -> Option<LeastSquares> {
     let terms = columns.terms(dry);
     let counts: Vec<bool> = (0..terms.len()).map(|i| i < 3).collect();
     let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
-    let found = scan(sample_s, &[], &counts, |length| solve(&line.clusters(length), &terms))?;
+    let given = window_s.as_slice();
+    let found = scan(sample_s, given, &counts, |length| solve(&line.clusters(length), &terms))?;
     let window_s = found.candidates[found.chosen].window_s;
     let solution = &found.solution;
     let fitted = Fitted { solution, change: &found.change, columns: &columns, difference: None };
@@ -342,7 +345,7 @@ mod tests {
             [(Hold::Measured, 0.0, 2e-3), (Hold::Sampled, 0.0, 2e-3), (Hold::Measured, 1e-3, 0.03)]
         {
             let campaign = campaign(hold, noise);
-            let found = least_squares(&Prepared::of(&campaign)).unwrap();
+            let found = least_squares(&Prepared::of(&campaign), None).unwrap();
             let (friction, inertia) = (&found.estimates.friction, found.estimates.inertia.unwrap());
             for (name, value, truth) in [
                 ("inertia", inertia.value, INERTIA_KG_M2),
@@ -359,7 +362,7 @@ mod tests {
     #[test]
     fn no_other_estimates_leave_less() {
         let campaign = campaign(Hold::Measured, 1e-3);
-        let found = least_squares(&Prepared::of(&campaign)).unwrap();
+        let found = least_squares(&Prepared::of(&campaign), None).unwrap();
         let own = found.left_by(&found.estimates).unwrap();
         assert!((own - found.relative_residual).abs() < 1e-6, "{own}");
         let mut other = found.estimates.clone();

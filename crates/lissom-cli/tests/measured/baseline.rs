@@ -1,0 +1,85 @@
+//! Lissom against plain least squares, on logs that neither has used: on identical windows the torque left by the
+//! estimates of the result is at most 1.03 times what the line leaves.
+
+use lissom::identify::{
+    ArmSource, DriveEstimates, FoundArm, Options, ValidationOptions, identify, validate,
+};
+use lissom::record::{Campaign, Run, TimeBase};
+use lissom::replay::{DryTerms, ModalArm};
+
+use super::{common, ur10e};
+
+/// Length of the windows \[s\].
+const WINDOW_S: f64 = 0.1;
+const AT_MOST: f64 = 1.03;
+
+/// A rigid arm with these estimates.
+fn rigid(drive: &DriveEstimates, back_emf: f64) -> FoundArm {
+    let friction = &drive.friction;
+    let viscous = friction.viscous.unwrap().value + back_emf;
+    let arm = ModalArm {
+        inertia_kg_m2: drive.inertia.unwrap().value,
+        viscous_nm_s_per_rad: [viscous; 2],
+        coulomb_nm: friction.coulomb.unwrap().value,
+        offset_nm: friction.offset.unwrap().value,
+        dry_terms: DryTerms::default(),
+        modes: vec![],
+        shapes: vec![],
+        at_points_per_s: vec![],
+        command_lag_s: 0.0,
+        tip_lags_s: vec![],
+    };
+    let gravity = drive.gravity.map(|g| g.load());
+    FoundArm { arm, source: ArmSource::Regression, gravity, torque_used: None }
+}
+
+/// Shares of the torque of `unseen` that are left by the result of `used` and by its line.
+fn left(name: &str, used: &Campaign, unseen: &Campaign) -> [f64; 2] {
+    let options = Options { without_output_error: true, ..Options::default() };
+    let found = identify(used, &options, |_| ()).unwrap();
+    let line = rigid(
+        &found.least_squares.as_ref().unwrap().estimates,
+        used.channels.command.back_emf_viscous,
+    );
+    let asked = ValidationOptions { window_s: Some(WINDOW_S), ..ValidationOptions::default() };
+    let of = |arm: &FoundArm| validate(arm, unseen, &asked).unwrap().torque.unwrap().relative_error;
+    let both = [of(found.arm.as_ref().unwrap()), of(&line)];
+    println!(
+        "{name}: {:.2} % by {:?}, {:.2} % by least squares",
+        100.0 * both[0],
+        found.method.unwrap(),
+        100.0 * both[1]
+    );
+    assert!(both[0] < AT_MOST * both[1], "{name}: {both:?}");
+    both
+}
+
+/// The first or the second half of each run.
+fn half(campaign: &Campaign, second: bool) -> Campaign {
+    let part = |run: &Run| {
+        let middle = run.len() / 2;
+        let range = if second { middle..run.len() } else { 0..middle };
+        let base = TimeBase::uniform(0.0, run.sample_time_s());
+        let (command, motor) = (run.command()[range.clone()].to_vec(), run.motor()[range].to_vec());
+        Run::new(run.name(), base, command, motor, vec![]).unwrap()
+    };
+    let runs = campaign.runs.iter().map(part).collect();
+    Campaign { channels: campaign.channels.clone(), runs, gravity: campaign.gravity }
+}
+
+#[test]
+fn emps_second_log() {
+    let Some(data) = common::data("emps") else { return };
+    let read = |file: &str| common::read(include_str!("emps.toml"), &data, file).campaign;
+    left("EMPS", &read("DATA_EMPS.csv"), &read("DATA_EMPS_PULSES.csv"));
+}
+
+#[test]
+fn ur10e_second_halves() {
+    let Some(data) = common::data("ur10e") else { return };
+    for joint in [1, 4] {
+        let read = common::read(&ur10e::campaign(joint), &data, &ur10e::log(joint)).campaign;
+        let read = if joint == 4 { read.with_gravity().unwrap() } else { read };
+        left(&format!("UR10E joint {joint}"), &half(&read, false), &half(&read, true));
+    }
+}
