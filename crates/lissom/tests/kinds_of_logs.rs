@@ -1,5 +1,7 @@
 //! Kinds of logs that users have, each with its truth: what must be given, and what a finding must say.
 
+#![expect(clippy::unwrap_used, reason = "tests")]
+
 use lissom::identify::findings::{EstimateFinding, FindingKind, RegressionFinding};
 use lissom::identify::{Estimate, GravityPartner, Identified, MissingKind, Options, identify};
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
@@ -39,7 +41,7 @@ fn within(name: &str, found: Option<Estimate>, truth: f64, share: f64) {
 }
 
 fn codes(found: &Identified) -> Vec<&'static str> {
-    found.findings.iter().map(|f| f.code()).collect()
+    found.findings.iter().map(lissom::identify::Finding::code).collect()
 }
 
 /// Uniform noise of a standard deviation.

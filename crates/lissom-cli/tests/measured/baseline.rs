@@ -1,6 +1,8 @@
 //! Lissom against plain least squares, on logs that neither has used: on identical windows the torque left by the
 //! estimates of the result is at most 1.03 times what the line leaves.
 
+use std::io::Write as _;
+
 use lissom::identify::{
     ArmSource, DriveEstimates, FoundArm, Options, ValidationOptions, identify, validate,
 };
@@ -33,7 +35,7 @@ fn rigid(drive: &DriveEstimates, back_emf: f64) -> FoundArm {
     FoundArm { arm, source: ArmSource::Regression, gravity, torque_used: None }
 }
 
-/// Shares of the torque of `unseen` that are left by the result of `used` and by its line.
+/// Shares of the torque of `unseen` that are left by the result of `used` and by its line, told past the capture.
 fn left(name: &str, used: &Campaign, unseen: &Campaign) -> [f64; 2] {
     let options = Options { without_output_error: true, ..Options::default() };
     let found = identify(used, &options, |_| ()).unwrap();
@@ -44,12 +46,13 @@ fn left(name: &str, used: &Campaign, unseen: &Campaign) -> [f64; 2] {
     let asked = ValidationOptions { window_s: Some(WINDOW_S), ..ValidationOptions::default() };
     let of = |arm: &FoundArm| validate(arm, unseen, &asked).unwrap().torque.unwrap().relative_error;
     let both = [of(found.arm.as_ref().unwrap()), of(&line)];
-    println!(
-        "{name}: {:.2} % by {:?}, {:.2} % by least squares",
-        100.0 * both[0],
-        found.method.unwrap(),
-        100.0 * both[1]
-    );
+    let by = found.method.unwrap().name();
+    let [ours, line] = both.map(|share| 100.0 * share);
+    std::io::stderr()
+        .write_all(
+            format!("{name}: {ours:.2} % by {by}, {line:.2} % by least squares\n").as_bytes(),
+        )
+        .unwrap();
     assert!(both[0] < AT_MOST * both[1], "{name}: {both:?}");
     both
 }

@@ -65,6 +65,6 @@ fn joint_4_without_gravity_is_told_to_add_it() {
         matches!(kind, FindingKind::Regression(RegressionFinding::MissingTerm { term, .. })
             if term.kind == MissingKind::Gravity)
     };
-    let codes: Vec<_> = found.findings.iter().map(|f| f.code()).collect();
+    let codes: Vec<_> = found.findings.iter().map(lissom::identify::Finding::code).collect();
     assert!(found.findings.iter().any(|f| gravity(&f.kind)), "{codes:?}");
 }

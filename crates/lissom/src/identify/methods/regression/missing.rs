@@ -6,7 +6,7 @@ use crate::identify::methods::regression::thresholds::{
     GRAVITY_TRAVEL_RAD, MISSING_ONE_SIGN, MISSING_SURE,
 };
 use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT, RESIDUAL_FALLS_TO};
-use crate::record::{Axis, Campaign};
+use crate::record::{Axis, Campaign, Run};
 
 /// A residual of less is rounding: nothing is missing.
 const ROUNDING: f64 = 1e-6;
@@ -142,7 +142,7 @@ pub(super) fn missing_term(
 
 /// How far the motor turns, over all runs.
 fn travel(campaign: &Campaign) -> f64 {
-    let angles = campaign.runs.iter().flat_map(|run| run.motor());
+    let angles = campaign.runs.iter().flat_map(Run::motor);
     let (low, high) =
         angles.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(*x), h.max(*x)));
     high - low

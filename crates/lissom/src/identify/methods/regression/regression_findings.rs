@@ -10,6 +10,7 @@ use crate::identify::methods::regression::motor::{ByDirection, MotorRegression};
 use crate::identify::methods::regression::thresholds::FEW_PHASES;
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
 use crate::identify::thresholds::{SAME_FREQUENCY, UNEXPLAINED_TORQUE};
+use crate::record::Run;
 
 /// What speaks against the regression's estimates.
 pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding> {
@@ -82,7 +83,7 @@ fn left_by_chosen(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<f64> {
 /// What gravity can hardly be told from.
 fn gravity_pairs(evidence: &Evidence<'_>, r: &MotorRegression) -> Vec<Finding> {
     let Some(gravity) = r.gravity else { return Vec::new() };
-    let angles = evidence.used.runs.iter().flat_map(|run| run.motor());
+    let angles = evidence.used.runs.iter().flat_map(Run::motor);
     let (sum, count) = angles.fold((0.0, 0.0), |(sum, count), q| (sum + q, count + 1.0));
     let pairs = r.terms.pairs_with_gravity(sum / count, gravity.amplitude().value);
     let finding = |(with, correlation)| {
