@@ -3,13 +3,10 @@
 use crate::identify::methods::regression::motor_columns::MotorColumns;
 use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve};
 use crate::identify::methods::regression::thresholds::{
-    GRAVITY_TRAVEL_RAD, MISSING_ONE_SIGN, MISSING_SURE,
+    GRAVITY_TRAVEL_RAD, MISSING_ONE_SIGN, MISSING_SURE, NOTHING_MISSING,
 };
 use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT, RESIDUAL_FALLS_TO};
 use crate::record::{Axis, Campaign, Run};
-
-/// A residual of less is rounding: nothing is missing.
-const ROUNDING: f64 = 1e-6;
 
 /// What the equation may lack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -89,7 +86,7 @@ pub(super) fn missing_term(
     without: &Solution,
     (columns, campaign): (&MotorColumns, &Campaign),
 ) -> Option<MissingTerm> {
-    if without.relative_residual < ROUNDING {
+    if without.relative_residual < NOTHING_MISSING {
         return None;
     }
     let first = columns.count();

@@ -26,6 +26,8 @@ thresholds! {
         /// Share of a direction's square that is taken as motion at least, so that its standard
         /// error stays finite.
         MOTION_LEAST: f64 = 0.05, "1", Convention;
+        /// An equation that leaves less than this share of the torque lacks no term.
+        NOTHING_MISSING: f64 = 3e-4, "1", Convention;
         /// A missing term that hardly lowers the residual is reported if its regressor is exact, it
         /// is this many standard errors from zero, and it moves an estimate by `PRESENT`.
         MISSING_SURE: f64 = 10.0, "standard errors", Convention;
