@@ -18,7 +18,7 @@ impl Described {
     pub(super) fn left(&self, sampled: &Sampled<'_>) -> Left {
         let mut left = Left::default();
         let noise = [1.0, -1.0].map(|sign| sampled.noise_powers(&self.by_column(sampled, sign)));
-        sampled.rows(&self.columns, &[], |place, row| {
+        for (place, row) in sampled.rows(&self.columns, &[]).iter() {
             let y = row[row.len() - 1];
             let terms = self.terms.iter().zip(&self.value);
             let explained: f64 =
@@ -29,7 +29,7 @@ impl Described {
             left.power += y * y;
             left.by_level += rest * level;
             left.level += level * level;
-        });
+        }
         left
     }
 
