@@ -31,21 +31,29 @@ impl<'a> ColumnValues<'a> {
         let new = self.end.max(samples.start)..samples.end;
         let (velocity, angle) = (&velocity[new.clone()], &angle[new]);
         for (column, values) in self.columns.iter().zip(&mut self.values) {
+            if matches!(column, Column::Lag | Column::Rate(_)) {
+                continue;
+            }
+            let before = values.len();
+            values.resize(before + velocity.len(), 0.0);
+            let values = values[before..].iter_mut().zip(velocity);
             match *column {
-                Column::Lag | Column::Rate(_) => {}
                 Column::Hat(j) => {
-                    values.extend(velocity.iter().map(|v| hat(self.knots, j, v.abs())));
+                    values.for_each(|(value, v)| *value = hat(self.knots, j, v.abs()));
                 }
                 Column::NearRest(fall, Falloff::Exponential) => {
-                    values.extend(velocity.iter().map(|v| exp_of_negative(-v.abs() / fall)));
+                    for (value, v) in values {
+                        *value = exp_of_negative(-v.abs() / fall);
+                    }
                 }
                 Column::NearRest(fall, Falloff::Gaussian) => {
-                    let falls = velocity.iter().map(|v| exp_of_negative(-(v / fall).powi(2)));
-                    values.extend(falls);
+                    for (value, v) in values {
+                        *value = exp_of_negative(-(v / fall) * (v / fall));
+                    }
                 }
                 column => {
-                    let both = velocity.iter().zip(angle);
-                    values.extend(both.map(|(v, x)| column.at(v.abs(), *x)));
+                    let both = values.zip(angle);
+                    both.for_each(|((value, v), x)| *value = column.at(v.abs(), *x));
                 }
             }
         }
