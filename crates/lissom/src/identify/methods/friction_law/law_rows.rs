@@ -1,11 +1,13 @@
 //! The windows' rows by slip phase and kind of stretch, and least squares of them.
+#![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
 
 use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
 use crate::identify::methods::friction_law::law_term::Column;
-use crate::identify::methods::friction_law::rows::{Cut, RowTable, Sampled, fixed};
+use crate::identify::methods::friction_law::rows::{Cut, RowTable, Sampled};
 use crate::identify::methods::regression::{
     Cluster, NormalSums, ScoredEstimates, Scores, Solution, Term, solve_sums,
 };
@@ -52,8 +54,7 @@ impl LawRows {
         let runs = 0..sampled.campaign.runs.len();
         let noise = runs.map(|run| sampled.noise_of_row(run).clone()).collect();
         let mut found = Self { blocks, width: table.width, values, noise, classes: Vec::new() };
-        found.classes = found.sums(FOLDS * KINDS, |b| b.fold() * KINDS + b.kind);
-        debug_assert!(found.noise.iter().all(|n| n.nrows() <= fixed(sampled.campaign)));
+        found.classes = found.class_sums();
         found
     }
 
@@ -65,17 +66,17 @@ impl LawRows {
 
     /// Sums of the blocks of each group.
     pub(super) fn sums(&self, groups: usize, group: impl Fn(&PhaseBlock) -> usize) -> Vec<Cluster> {
-        let mut sums = vec![Cluster::new(0, 0.0, self.width); groups];
-        for block in &self.blocks {
-            let sum = &mut sums[group(block)];
-            sum.sign = block.sign;
-            self.rows(block).for_each(|row| sum.add(row));
-            let of_row = &self.noise[block.run];
-            let own = of_row.nrows();
-            let mut noise = sum.noise.view_mut((0, 0), (own, own));
-            noise.zip_apply(of_row, |sum, of_row| *sum += of_row * block.rows.len() as f64);
-        }
-        sums
+        let blocks = self.blocks.iter().map(|block| (group(block), block)).collect::<Vec<_>>();
+        pulp::Arch::new().dispatch(Sums { rows: self, blocks: &blocks, groups })
+    }
+
+    fn class_sums(&self) -> Vec<Cluster> {
+        let of_fold = |fold: usize| {
+            let blocks = self.blocks.iter().filter(|b| b.fold() == fold);
+            let blocks: Vec<_> = blocks.map(|block| (block.kind, block)).collect();
+            pulp::Arch::new().dispatch(Sums { rows: self, blocks: &blocks, groups: KINDS })
+        };
+        (0..FOLDS).into_par_iter().flat_map_iter(of_fold).collect()
     }
 
     /// Sums by fold and kind: those of fold f and kind k are number `f·KINDS + k`.
@@ -96,10 +97,11 @@ impl LawRows {
         for row in found.values.chunks_exact_mut(self.width) {
             row[right] -= known.iter().map(|(column, value)| row[*column] * value).sum::<f64>();
         }
-        found.classes = found.sums(FOLDS * KINDS, |b| b.fold() * KINDS + b.kind);
+        found.classes = found.class_sums();
         found
     }
 
+    #[inline(always)]
     fn rows(&self, block: &PhaseBlock) -> impl Iterator<Item = &[f64]> {
         let Range { start, end } = block.rows;
         self.values[start * self.width..end * self.width].chunks_exact(self.width)
@@ -134,6 +136,44 @@ impl LawRows {
             of_run += score;
         }
         Scores { by_cluster, by_run }
+    }
+}
+
+/// Sums of some blocks by their groups, compiled for the widest registers that there are.
+struct Sums<'a> {
+    rows: &'a LawRows,
+    /// Group and block.
+    blocks: &'a [(usize, &'a PhaseBlock)],
+    groups: usize,
+}
+
+impl pulp::WithSimd for Sums<'_> {
+    type Output = Vec<Cluster>;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Vec<Cluster> {
+        let Self { rows, blocks, groups } = self;
+        let width = rows.width;
+        let mut sums = vec![Cluster::new(0, 0.0, width); groups];
+        for (group, block) in blocks {
+            let sum = &mut sums[*group];
+            (sum.sign, sum.rows) = (block.sign, sum.rows + block.rows.len());
+            for row in rows.rows(block) {
+                // The lower triangle, column by column.
+                let columns = sum.products.as_mut_slice().chunks_exact_mut(width);
+                for (i, (column, a)) in columns.zip(row).enumerate() {
+                    for (sum, b) in column[i..].iter_mut().zip(&row[i..]) {
+                        *sum += a * b;
+                    }
+                }
+            }
+            let of_row = &rows.noise[block.run];
+            let own = of_row.nrows();
+            let mut noise = sum.noise.view_mut((0, 0), (own, own));
+            noise.zip_apply(of_row, |sum, of_row| *sum += of_row * block.rows.len() as f64);
+        }
+        sums.iter_mut().for_each(|sum| sum.products.fill_upper_triangle_with_lower_triangle());
+        sums
     }
 }
 

@@ -17,6 +17,9 @@ use crate::record::{Campaign, Run};
 /// Rows looked at, about; windows overlap less in longer logs.
 const MOST_ROWS: usize = 40_000;
 
+/// Windows of a run whose rows are found one after the other.
+const PART: usize = 1024;
+
 /// Where a window lies.
 pub(super) struct WindowPlace {
     pub(super) run: usize,
@@ -175,11 +178,12 @@ impl<'a> Sampled<'a> {
     pub(super) fn rows(&self, columns: &[Column], knots: &[f64]) -> RowTable {
         let own = MotorColumns::of(self.campaign);
         let windows = self.windows();
-        let of_run = |windows: &Vec<WindowStart>| {
-            let rows = RowsOfRun { sampled: self, own: &own, windows, columns, knots };
+        let of_part = |windows: &&[WindowStart]| {
+            let rows = PartRows { sampled: self, own: &own, windows, columns, knots };
             pulp::Arch::new().dispatch(rows)
         };
-        let values: Vec<Vec<f64>> = windows.par_iter().with_max_len(1).map(of_run).collect();
+        let parts: Vec<_> = windows.iter().flat_map(|of_run| of_run.chunks(PART)).collect();
+        let values: Vec<Vec<f64>> = parts.par_iter().with_max_len(1).map(of_part).collect();
         RowTable {
             places: windows.iter().flatten().map(|w| self.place(w)).collect(),
             width: own.count() + columns.len() + 1,
@@ -194,8 +198,8 @@ impl<'a> Sampled<'a> {
     }
 }
 
-/// The rows of one run's windows, compiled for the widest registers that there are.
-struct RowsOfRun<'a> {
+/// The rows of windows of one run, compiled for the widest registers that there are.
+struct PartRows<'a> {
     sampled: &'a Sampled<'a>,
     own: &'a MotorColumns,
     windows: &'a [WindowStart],
@@ -203,7 +207,7 @@ struct RowsOfRun<'a> {
     knots: &'a [f64],
 }
 
-impl pulp::WithSimd for RowsOfRun<'_> {
+impl pulp::WithSimd for PartRows<'_> {
     type Output = Vec<f64>;
 
     #[inline(always)]
