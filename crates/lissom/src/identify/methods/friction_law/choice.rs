@@ -88,7 +88,6 @@ pub(super) fn choose(sampled: &Sampled<'_>, cut: &Cut, fastest: f64) -> Option<C
 
 pub(super) struct LawSearch<'a> {
     pub(super) sampled: &'a Sampled<'a>,
-    pub(super) cut: Cut,
     pub(super) columns: Vec<Column>,
     pub(super) rows: LawRows,
     pub(super) terms: Vec<Term>,
@@ -125,7 +124,6 @@ impl<'a> LawSearch<'a> {
         let (taken, candidates) = (Vec::new(), Vec::new());
         Some(Self {
             sampled,
-            cut: *cut,
             columns,
             rows,
             terms,
@@ -274,7 +272,7 @@ impl<'a> LawSearch<'a> {
         let at = fixed(self.sampled.campaign) + self.columns.len();
         let term = LawTerm::Ripple { per_angle: k };
         self.columns.extend(term.columns());
-        self.rows = LawRows::of(self.sampled, &self.columns, &[], &self.cut);
+        self.rows = self.rows.with_columns(self.sampled, &term.columns());
         let terms = vec![Term::Signed(at), Term::Signed(at + 1)];
         self.open.push(Tried { term, terms });
     }

@@ -66,21 +66,27 @@ pub(super) fn without_each(
     sums: &[[Cluster; 2]],
     terms: &[Term],
 ) -> Option<Vec<Option<DVector<f64>>>> {
-    let all = by_direction(sums.iter().flatten());
-    let without = |own: &[Cluster; 2]| {
-        let mut others = all.clone();
-        for (others, own) in others.iter_mut().zip(own) {
-            others.products -= &own.products;
-            others.noise -= &own.noise;
-            others.rows -= own.rows;
-        }
-        Some(solve(&others, terms)?.value)
+    let add = |sum: &mut [Cluster; 2], own: &[Cluster; 2]| {
+        sum.iter_mut().zip(own).for_each(|(sum, own)| sum.merge(own));
     };
-    let one = |own: &[Cluster; 2]| {
+    // Of the groups before each and after it: a difference of sums would lose digits.
+    let mut sum =
+        by_direction(sums.first()?).map(|all| Cluster::new(0, all.sign, all.products.ncols()));
+    let mut after = sum.clone();
+    let mut before = Vec::with_capacity(sums.len());
+    for own in sums {
+        before.push(sum.clone());
+        add(&mut sum, own);
+    }
+    let mut figures = Vec::with_capacity(sums.len());
+    for (own, mut others) in sums.iter().zip(before).rev() {
+        add(&mut others, &after);
+        add(&mut after, own);
         let rows: usize = own.iter().map(|c| c.rows).sum();
-        if rows == 0 { Some(None) } else { without(own).map(Some) }
-    };
-    sums.iter().map(one).collect()
+        figures.push(if rows == 0 { None } else { Some(solve(&others, terms)?.value) });
+    }
+    figures.reverse();
+    Some(figures)
 }
 
 /// ‖y − X·q‖² from the products of rows.

@@ -41,6 +41,8 @@ pub(super) struct LawRows {
     pub(super) blocks: Vec<PhaseBlock>,
     width: usize,
     values: Vec<f64>,
+    /// Where each row is in the sampled windows.
+    order: Vec<usize>,
     /// What the sensors' noise adds to the products of a row of each run, in its first columns.
     noise: Vec<DMatrix<f64>>,
     /// Sums by fold and kind.
@@ -50,10 +52,39 @@ pub(super) struct LawRows {
 impl LawRows {
     pub(super) fn of(sampled: &Sampled<'_>, columns: &[Column], knots: &[f64], cut: &Cut) -> Self {
         let table = sampled.rows(columns, knots);
-        let (blocks, values) = in_blocks(&table, cut);
+        let (blocks, order) = in_blocks(&table, cut);
+        let values = order.iter().flat_map(|i| table.row(*i)).copied().collect();
         let runs = 0..sampled.campaign.runs.len();
         let noise = runs.map(|run| sampled.noise_of_row(run).clone()).collect();
-        let mut found = Self { blocks, width: table.width, values, noise, classes: Vec::new() };
+        let width = table.width;
+        let mut found = Self { blocks, width, values, order, noise, classes: Vec::new() };
+        found.classes = found.class_sums();
+        found
+    }
+
+    /// The same with further columns, before the right side.
+    pub(super) fn with_columns(&self, sampled: &Sampled<'_>, columns: &[Column]) -> Self {
+        let table = sampled.rows(columns, &[]);
+        let (own, first) = (self.width - 1, table.width - 1 - columns.len());
+        let rows = self.values.chunks_exact(self.width).zip(&self.order);
+        let longer = |(row, i): (&[f64], &usize)| [&row[..own], &table.row(*i)[first..]].concat();
+        self.with_values(self.width + columns.len(), rows.flat_map(longer).collect())
+    }
+
+    /// The first `width` columns and the right side, some columns with the values of others: `(place, other)`.
+    pub(super) fn exchanged(&self, width: usize, exchanged: &[(usize, usize)]) -> Self {
+        let shorter = |row: &[f64]| {
+            let mut shorter = [&row[..width], &row[self.width - 1..]].concat();
+            exchanged.iter().for_each(|(place, other)| shorter[*place] = row[*other]);
+            shorter
+        };
+        let values = self.values.chunks_exact(self.width).flat_map(shorter).collect();
+        self.with_values(width + 1, values)
+    }
+
+    fn with_values(&self, width: usize, values: Vec<f64>) -> Self {
+        let (blocks, order, noise) = (self.blocks.clone(), self.order.clone(), self.noise.clone());
+        let mut found = Self { blocks, width, values, order, noise, classes: Vec::new() };
         found.classes = found.class_sums();
         found
     }
@@ -177,12 +208,12 @@ impl pulp::WithSimd for Sums<'_> {
     }
 }
 
-/// The blocks of a table's rows, and the rows in their order.
-fn in_blocks(table: &RowTable, cut: &Cut) -> (Vec<PhaseBlock>, Vec<f64>) {
+/// The blocks of a table's rows, and the numbers of the rows in their order.
+fn in_blocks(table: &RowTable, cut: &Cut) -> (Vec<PhaseBlock>, Vec<usize>) {
     let mut blocks: Vec<PhaseBlock> = Vec::new();
     let mut first_of_phase = 0;
-    let mut placed: Vec<(usize, &[f64])> = Vec::with_capacity(table.places.len());
-    for (place, row) in table.iter() {
+    let mut placed: Vec<(usize, usize)> = Vec::with_capacity(table.places.len());
+    for (i, place) in table.places.iter().enumerate() {
         let kind = cut.kind(place);
         if blocks.last().is_some_and(|b| b.phase != place.phase) {
             first_of_phase = blocks.len();
@@ -194,7 +225,7 @@ fn in_blocks(table: &RowTable, cut: &Cut) -> (Vec<PhaseBlock>, Vec<f64>) {
             blocks.push(PhaseBlock { run, sign, phase, kind, rows: 0..0 });
         }
         blocks[at].rows.end += 1;
-        placed.push((at, row));
+        placed.push((at, i));
     }
     let mut first = 0;
     for block in &mut blocks {
@@ -202,9 +233,7 @@ fn in_blocks(table: &RowTable, cut: &Cut) -> (Vec<PhaseBlock>, Vec<f64>) {
         first = block.rows.end;
     }
     placed.sort_by_key(|(block, _)| *block);
-    let mut values = Vec::with_capacity(placed.len() * table.width);
-    placed.iter().for_each(|(_, row)| values.extend_from_slice(row));
-    (blocks, values)
+    (blocks, placed.into_iter().map(|(_, row)| row).collect())
 }
 
 /// What terms take of each column in a direction.

@@ -3,7 +3,6 @@
 use rayon::prelude::*;
 
 use crate::identify::methods::friction_law::choice::LawSearch;
-use crate::identify::methods::friction_law::law_rows::LawRows;
 use crate::identify::methods::friction_law::law_term::{Column, LawTerm, NEAR_REST};
 use crate::identify::methods::friction_law::ripple;
 use crate::identify::methods::friction_law::rows::fixed;
@@ -74,9 +73,10 @@ impl LawSearch<'_> {
         let LawTerm::Ripple { per_angle } = self.taken[found].term else { return };
         let first = self.terms.len() - self.taken[found].terms.len();
         let amplitude = |i: usize| self.solution.value[first + i];
-        self.columns.push(Column::Turned(per_angle, amplitude(0), amplitude(1)));
+        let column = Column::Turned(per_angle, amplitude(0), amplitude(1));
+        self.columns.push(column);
         let turned = Term::Signed(fixed(self.sampled.campaign) + self.columns.len() - 1);
-        let rows = LawRows::of(self.sampled, &self.columns, &[], &self.cut);
+        let rows = self.rows.with_columns(self.sampled, &[column]);
         let terms: Vec<Term> = self.terms.iter().copied().chain([turned]).collect();
         let solution = rows.solved(&terms).filter(|s| !s.inseparable[first + 2]);
         let Some(solution) = solution else {
@@ -91,9 +91,8 @@ impl LawSearch<'_> {
     fn exchange(&mut self, found: usize, others: &[(LawTerm, Vec<Column>)]) {
         let own = self.taken[found].terms.clone();
         let at = fixed(self.sampled.campaign) + self.columns.len();
-        let mut columns = self.columns.clone();
-        columns.extend(others.iter().flat_map(|o| &o.1));
-        let rows = LawRows::of(self.sampled, &columns, &[], &self.cut);
+        let columns: Vec<Column> = others.iter().flat_map(|o| &o.1).copied().collect();
+        let rows = self.rows.with_columns(self.sampled, &columns);
         let in_place = |i: usize| -> Vec<Term> {
             let other = |j: usize| Term::Signed(at + i * own.len() + j);
             let of = |t: &Term| own.iter().position(|o| o == t).map_or(*t, other);
@@ -104,10 +103,13 @@ impl LawSearch<'_> {
         let best = tried.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1));
         let Some((i, _)) = best else { return };
         // Columns that nothing uses any more would be summed up with all that is tried later.
+        let mut exchanged = Vec::with_capacity(own.len());
         for (j, column) in others[i].1.iter().enumerate() {
-            self.columns[own[j].column() - fixed(self.sampled.campaign)] = *column;
+            let place = own[j].column();
+            self.columns[place - fixed(self.sampled.campaign)] = *column;
+            exchanged.push((place, at + i * own.len() + j));
         }
-        self.rows = LawRows::of(self.sampled, &self.columns, &[], &self.cut);
+        self.rows = rows.exchanged(at, &exchanged);
         if let Some(solution) = self.rows.solved(&self.terms) {
             self.solution = solution;
         }

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use crate::identify::methods::friction_law::law_term::Column;
-use crate::identify::methods::friction_law::rows::Sampled;
+use crate::identify::methods::friction_law::rows::{Sampled, used};
 use crate::identify::methods::regression::Term;
 
 /// Longest period looked at, as a share of the travel, and points per one more period in it.
@@ -26,7 +26,8 @@ pub(super) fn strongest(
 ) -> Option<f64> {
     let mut left: Vec<(f64, f64)> = Vec::new();
     let mut speed = 0.0;
-    for (place, row) in sampled.rows(columns, &[]).iter() {
+    let (columns, terms) = used(sampled.campaign, columns, terms);
+    for (place, row) in sampled.rows(&columns, &[]).iter() {
         let explained: f64 =
             terms.iter().zip(value).map(|(t, v)| t.factor(place.sign) * row[t.column()] * v).sum();
         left.push((place.angle, place.sign * (row[row.len() - 1] - explained)));

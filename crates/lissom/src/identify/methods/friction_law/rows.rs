@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use crate::identify::methods::friction_law::column_values::ColumnValues;
 use crate::identify::methods::friction_law::law_term::Column;
 use crate::identify::methods::regression::{
-    MotorColumns, MotorEquation, Phase, Rows, SMOOTHED_PART, SineAndCosine, WINDOW_STEP, Window,
-    slip_phases, smoothing, velocity,
+    MotorColumns, MotorEquation, Phase, Rows, SMOOTHED_PART, SineAndCosine, Term, WINDOW_STEP,
+    Window, slip_phases, smoothing, velocity,
 };
 use crate::identify::prepare::run_noise::RunNoise;
 use crate::record::{Campaign, Run};
@@ -56,6 +56,10 @@ impl RowTable {
     pub(super) fn iter(&self) -> impl Iterator<Item = (&WindowPlace, &[f64])> {
         self.places.iter().zip(self.values.chunks_exact(self.width))
     }
+
+    pub(super) fn row(&self, index: usize) -> &[f64] {
+        &self.values[index * self.width..(index + 1) * self.width]
+    }
 }
 
 /// A window in a slip phase.
@@ -65,6 +69,25 @@ struct WindowStart {
     phase: usize,
     sign: f64,
     first: usize,
+}
+
+/// The columns that terms use, and the terms with the places of these.
+pub(super) fn used(
+    campaign: &Campaign,
+    columns: &[Column],
+    terms: &[Term],
+) -> (Vec<Column>, Vec<Term>) {
+    let first = fixed(campaign);
+    let mut kept = Vec::new();
+    let moved = terms.iter().map(|term| match term.column().checked_sub(first) {
+        None => *term,
+        Some(index) => {
+            kept.push(columns[index]);
+            term.at(first + kept.len() - 1)
+        }
+    });
+    let moved = moved.collect();
+    (kept, moved)
 }
 
 /// Columns of a row before the first [`Column`].

@@ -106,6 +106,17 @@ impl Term {
             Self::Plain(c) | Self::Signed(c) | Self::Forward(c) | Self::Backward(c) => c,
         }
     }
+
+    /// The same of another column.
+    pub(crate) fn at(self, column: usize) -> Self {
+        match self {
+            Self::Plain(_) => Self::Plain(column),
+            Self::Signed(_) => Self::Signed(column),
+            Self::Forward(_) => Self::Forward(column),
+            Self::Backward(_) => Self::Backward(column),
+        }
+    }
+
     pub(crate) fn factor(self, sign: f64) -> f64 {
         match self {
             Self::Plain(_) => 1.0,
