@@ -8,6 +8,7 @@ use lissom::record::clock::{self, ClockError, EvenLog, LogRows};
 use lissom::record::{
     Axis, Campaign, Channels, Command, Hold, Note, RecordError, Run, TipQuantity,
 };
+use rayon::prelude::*;
 
 use super::campaign_error::CampaignError;
 use super::campaign_file::ReadOptions;
@@ -22,7 +23,7 @@ use crate::log::{self, ColumnRef, Log, LogColumn, LogError, LogOptions, TimeBack
 /// Largest magnitude of a sample in SI.
 const LARGEST: f64 = MAGNITUDE.1;
 
-/// Reads every run.
+/// Reads every run, some at the same time. An error is that of the first run that has one.
 pub(super) fn load(
     folder: &Path,
     signals: &Signals,
@@ -30,13 +31,22 @@ pub(super) fn load(
     specs: &[RunSpec],
     options: &ReadOptions,
 ) -> Result<Campaign, Error> {
-    let mut runs = Vec::with_capacity(specs.len());
+    let mut names = Vec::with_capacity(specs.len());
     let mut named: HashMap<&str, usize> = HashMap::new();
     for spec in specs {
         let times = named.entry(&spec.name).and_modify(|n| *n += 1).or_insert(1);
         // Findings and results tell runs apart by name.
-        let name = if *times == 1 { spec.name.clone() } else { format!("{} ({times})", spec.name) };
-        runs.extend(load_run(folder, signals, spec, &name, options)?);
+        names.push(if *times == 1 {
+            spec.name.clone()
+        } else {
+            format!("{} ({times})", spec.name)
+        });
+    }
+    let load = |(spec, name): (&RunSpec, &String)| load_run(folder, signals, spec, name, options);
+    let loaded: Vec<_> = specs.par_iter().zip(&names).with_max_len(1).map(load).collect();
+    let mut runs = Vec::with_capacity(specs.len());
+    for run in loaded {
+        runs.extend(run?);
     }
     let tips = signals.tips.iter().map(|(tip, _)| tip.clone()).collect();
     let channels = Channels { axis: signals.axis, command, tips };

@@ -52,6 +52,14 @@ impl<'a> Iterator for Cells<'a> {
 
     fn next(&mut self) -> Option<&'a str> {
         let rest = self.rest?;
+        if let Delimiter::Char(c) = self.delimiter {
+            // Most cells have no quote.
+            let end = rest.bytes().position(|b| b == c as u8 || b == b'"');
+            if end.is_none_or(|at| rest.as_bytes()[at] != b'"') {
+                self.rest = end.map(|at| &rest[at + 1..]);
+                return Some(rest[..end.unwrap_or(rest.len())].trim());
+            }
+        }
         let opening = rest.trim_start_matches(' ');
         let from = rest.len() - opening.len();
         // A quoted cell ends at the next quote; text between it and the delimiter is dropped.
@@ -86,8 +94,44 @@ pub(crate) fn number(cell: &str, decimal_comma: bool) -> Option<f64> {
         }
         return cell.replacen(',', ".", 1).parse().ok();
     }
-    cell.parse().ok()
+    plain_decimal(cell.as_bytes()).or_else(|| cell.parse().ok())
 }
+
+/// A number of digits and at most one point, where one division of two exact numbers gives the nearest one.
+fn plain_decimal(cell: &[u8]) -> Option<f64> {
+    /// So many digits are below 2^53.
+    const MOST_DIGITS: usize = 15;
+    let (negative, unsigned) = match cell {
+        [b'-', rest @ ..] => (true, rest),
+        _ => (false, cell),
+    };
+    let (mut whole, mut digits, mut point) = (0_u64, 0, None);
+    for (at, byte) in unsigned.iter().enumerate() {
+        match byte {
+            b'0'..=b'9' => {
+                whole = whole * 10 + u64::from(byte - b'0');
+                digits += usize::from(whole > 0);
+            }
+            b'.' if point.is_none() => point = Some(at),
+            _ => return None,
+        }
+        if digits > MOST_DIGITS {
+            return None;
+        }
+    }
+    let decimals = point.map_or(0, |at| unsigned.len() - at - 1);
+    if unsigned.len() == usize::from(point.is_some()) || decimals >= TENS.len() {
+        return None;
+    }
+    let value = whole as f64 / TENS[decimals];
+    Some(if negative { -value } else { value })
+}
+
+/// Powers of ten that are exact.
+const TENS: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
+    1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
+];
 
 /// Whether most cells of the row are no numbers.
 pub(crate) fn is_header(row: &str, delimiter: Delimiter, decimal_comma: bool) -> bool {
@@ -169,6 +213,37 @@ pub(super) fn find_column(
                     numbers: matches.iter().map(|index| index + 1).collect(),
                 }),
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plain_decimal_is_what_the_library_reads() {
+        for cell in [
+            "0",
+            "-0",
+            "-0.0",
+            "1.",
+            ".5",
+            "-.25",
+            "12.345678901",
+            "0.000000004738",
+            "123456789012345",
+            "00000000000000000000.1",
+            "0.1000000000000000055",
+            "999999999999999",
+            "1234567890123456",
+        ] {
+            let read: f64 = cell.parse().unwrap();
+            let found = number(cell, false).unwrap();
+            assert!(found.total_cmp(&read).is_eq(), "{cell}: {found}");
+        }
+        for cell in ["", ".", "-", "1.2.3", "1,5", "--1", "1 2"] {
+            assert_eq!(plain_decimal(cell.as_bytes()), None, "{cell}");
         }
     }
 }

@@ -3,14 +3,16 @@
 use num_complex::Complex64;
 use rustfft::FftPlanner;
 
-use super::harmonics::least_squares;
+use super::harmonic_fit::HarmonicFit;
 
-/// Halvings of the bracket in the refinement: from one bin to 1e-9 of it.
-const REFINEMENTS: usize = 45;
+/// The refinement ends at this part of a bin: below it the residual's minimum is flat to rounding.
+const REFINED_TO: f64 = 1e-8;
+/// Most steps of the refinement.
+const MOST_STEPS: usize = 60;
 
 /// Frequency of the strongest line of `samples` \[rad/s\].
 ///
-/// The peak of a windowed spectrum, refined by golden section on the least-squares residual of
+/// The peak of a windowed spectrum, refined by Brent's method on the least-squares residual of
 /// the fundamental. `None` for a constant signal or a line below two periods in the record.
 pub fn find_frequency(samples: &[f64], sample_time_s: f64) -> Option<f64> {
     let n = samples.len();
@@ -35,26 +37,65 @@ pub fn find_frequency(samples: &[f64], sample_time_s: f64) -> Option<f64> {
     }
     let bin = std::f64::consts::TAU / (n as f64 * sample_time_s);
     let residual = |omega: f64| {
-        least_squares(samples, omega, sample_time_s, 1).map_or(f64::INFINITY, |h| h.residual_rms)
+        HarmonicFit::new(n, omega * sample_time_s, 1)
+            .map_or(f64::INFINITY, |fit| fit.residual(samples, &fit.solution(samples), None).power)
     };
-    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let (mut low, mut high) = ((peak as f64 - 1.0) * bin, (peak as f64 + 1.0) * bin);
-    let (mut a, mut b) = (high - golden * (high - low), low + golden * (high - low));
-    let (mut ra, mut rb) = (residual(a), residual(b));
-    for _ in 0..REFINEMENTS {
-        if ra < rb {
-            high = b;
-            (b, rb) = (a, ra);
-            a = high - golden * (high - low);
-            ra = residual(a);
+    let (low, high) = ((peak as f64 - 1.0) * bin, (peak as f64 + 1.0) * bin);
+    Some(minimum(residual, low, high, REFINED_TO * bin))
+}
+
+/// Where `f` is least between `low` and `high`, to `tolerance`: Brent's method, parabolas through the last points
+/// within a golden section.
+fn minimum(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64, tolerance: f64) -> f64 {
+    let golden = 0.5 * (3.0 - 5.0_f64.sqrt());
+    let start = low + golden * (high - low);
+    let same = |a: f64, b: f64| a.total_cmp(&b).is_eq();
+    // The least value so far, the second, and the one before.
+    let mut points = [(start, f(start)); 3];
+    let (mut step, mut before) = (0.0_f64, 0.0_f64);
+    for _ in 0..MOST_STEPS {
+        let [(x, fx), (w, fw), (v, fv)] = points;
+        let middle = 0.5 * (low + high);
+        if (x - middle).abs() <= 2.0 * tolerance - 0.5 * (high - low) {
+            break;
+        }
+        let (r, q) = ((x - w) * (fx - fv), (x - v) * (fx - fw));
+        let (p, q) = ((x - v) * q - (x - w) * r, 2.0 * (q - r));
+        let parabola = -p / q;
+        let good = q != 0.0
+            && before.abs() > tolerance
+            && parabola.abs() < 0.5 * before.abs()
+            && x + parabola > low
+            && x + parabola < high;
+        let farther = if x < middle { high - x } else { low - x };
+        before = if good { step } else { farther };
+        step = if good { parabola } else { golden * before };
+        if good && (x + step - low < 2.0 * tolerance || high - x - step < 2.0 * tolerance) {
+            step = tolerance.copysign(middle - x);
+        }
+        let u = x + if step.abs() >= tolerance { step } else { tolerance.copysign(step) };
+        let fu = f(u);
+        if fu <= fx {
+            if u >= x {
+                low = x
+            } else {
+                high = x
+            }
+            points = [(u, fu), points[0], points[1]];
         } else {
-            low = a;
-            (a, ra) = (b, rb);
-            b = low + golden * (high - low);
-            rb = residual(b);
+            if u < x {
+                low = u
+            } else {
+                high = u
+            }
+            if fu <= fw || same(w, x) {
+                points = [points[0], (u, fu), points[1]];
+            } else if fu <= fv || same(v, x) || same(v, w) {
+                points[2] = (u, fu);
+            }
         }
     }
-    Some(0.5 * (low + high))
+    points[0].0
 }
 
 #[cfg(test)]

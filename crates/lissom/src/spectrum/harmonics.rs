@@ -1,7 +1,9 @@
 //! Phasors of harmonics by least squares over whole periods.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use num_complex::Complex64;
+
+use super::harmonic_fit::{HarmonicFit, Residual};
 
 /// One harmonic of one channel: `x(t) = … + Re{X·e^{jkω0·t}}`, t from the window's first sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,48 +86,15 @@ pub fn least_squares(
     count: usize,
 ) -> Option<Harmonics> {
     let (n, columns) = (samples.len(), 2 + 2 * count);
-    if n < columns + 2 {
-        return None;
-    }
-    let basis = HarmonicBasis::new(n, omega_rad_s, sample_time_s, count);
-    let mut normal = DMatrix::<f64>::zeros(columns, columns);
-    let mut right = DVector::zeros(columns);
-    let mut row = vec![0.0; columns];
-    for (k, &x) in samples.iter().enumerate() {
-        basis.row(k, &mut row);
-        for (i, &a) in row.iter().enumerate() {
-            right[i] += a * x;
-            for (j, &b) in row[..=i].iter().enumerate() {
-                normal[(i, j)] += a * b;
-            }
-        }
-    }
-    normal.fill_upper_triangle_with_lower_triangle();
-    let inverse = normal.cholesky()?.inverse();
-    let solution: DVector<f64> = &inverse * right;
-
+    let fit = HarmonicFit::new(n, omega_rad_s * sample_time_s, count)?;
+    let (solution, inverse) = (fit.solution(samples), fit.inverse());
     let mean_signal = samples.iter().sum::<f64>() / n as f64;
+    let signal: f64 = samples.iter().map(|x| (x - mean_signal).powi(2)).sum();
     let period = ((std::f64::consts::TAU / omega_rad_s / sample_time_s).round() as usize).max(1);
-    let mut power = 0.0;
-    let mut signal = 0.0;
-    let mut block = DVector::zeros(columns);
-    let mut middle = DMatrix::<f64>::zeros(columns, columns);
-    let mut blocks = 0;
-    for (k, &x) in samples.iter().enumerate() {
-        basis.row(k, &mut row);
-        let e = x - row.iter().zip(solution.iter()).map(|(a, b)| a * b).sum::<f64>();
-        power += e * e;
-        signal += (x - mean_signal).powi(2);
-        block.iter_mut().zip(&row).for_each(|(b, a)| *b += a * e);
-        if (k + 1) % period == 0 || k + 1 == n {
-            middle.ger(1.0, &block, &block, 1.0);
-            block.fill(0.0);
-            blocks += 1;
-        }
-    }
+    let Residual { power, middle, stretches } = fit.residual(samples, &solution, Some(period));
     let white = power / (n - columns) as f64;
-    let enough = f64::from(blocks) / f64::from((blocks - 1).max(1));
-    let sandwich: DMatrix<f64> = &inverse * middle * &inverse * enough;
+    let enough = stretches as f64 / (stretches - 1).max(1) as f64;
+    let sandwich: DMatrix<f64> = inverse * middle * inverse * enough;
     let phasors = (0..count)
         .map(|h| {
             let (c, s) = (2 + 2 * h, 3 + 2 * h);
@@ -144,32 +113,6 @@ pub fn least_squares(
         residual_rms: (power / n as f64).sqrt(),
         signal_rms: (signal / n as f64).sqrt(),
     })
-}
-
-/// Rows of the regression: 1, a line from −1 to 1, cos kω0t, sin kω0t.
-struct HarmonicBasis {
-    n: usize,
-    phase_step: f64,
-    count: usize,
-}
-
-impl HarmonicBasis {
-    fn new(n: usize, omega: f64, sample_time: f64, count: usize) -> Self {
-        Self { n, phase_step: omega * sample_time, count }
-    }
-
-    fn row(&self, k: usize, out: &mut [f64]) {
-        out[0] = 1.0;
-        out[1] = 2.0 * k as f64 / (self.n - 1) as f64 - 1.0;
-        let (sin, cos) = (self.phase_step * k as f64).sin_cos();
-        let turn = Complex64::new(cos, sin);
-        let mut z = turn;
-        for h in 0..self.count {
-            out[2 + 2 * h] = z.re;
-            out[3 + 2 * h] = z.im;
-            z *= turn;
-        }
-    }
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 mod broadband;
 mod frequency;
+mod harmonic_fit;
 mod harmonics;
 mod steady;
 pub(crate) mod thresholds;

@@ -3,12 +3,14 @@
 use num_complex::Complex64;
 use thiserror::Error;
 
-use super::harmonics::least_squares;
+use super::harmonic_fit::HarmonicFit;
 use crate::record::Run;
 use crate::spectrum::thresholds::{BLOCKS_LEAST, SETTLED_CHANGE, STEADY_SCATTER, STEADY_SHARE};
 
 /// Fewest samples from which a block's phasor is taken.
 const BLOCK_SAMPLES: f64 = 24.0;
+/// Harmonics that are fitted to a block beside each other.
+const BLOCK_HARMONICS: usize = 3;
 
 /// Whole periods of a run in steady state.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,20 +69,25 @@ pub fn steady_state(run: &Run, omega_rad_s: f64) -> Result<Steady, SteadyError> 
         .into_iter()
         .chain(run.tips().iter().map(Vec::as_slice))
         .collect();
-    let tracks: Vec<Vec<Complex64>> = channels
-        .iter()
-        .map(|x| {
-            (0..blocks)
-                .map(|b| {
-                    let (from, to) = (edge(b), edge(b + 1));
-                    let phase = -omega_rad_s * run.sample_time_s() * from as f64;
-                    least_squares(&x[from..to], omega_rad_s, run.sample_time_s(), 3)
-                        .and_then(|h| h.get(1))
-                        .map_or(Complex64::ZERO, |p| p.value * Complex64::from_polar(1.0, phase))
-                })
-                .collect()
+    // Blocks have one of two lengths.
+    let phase_step = omega_rad_s * run.sample_time_s();
+    let mut fits: Vec<(usize, Option<HarmonicFit>)> = Vec::new();
+    for length in (0..blocks).map(|b| edge(b + 1) - edge(b)) {
+        if fits.iter().all(|(known, _)| *known != length) {
+            fits.push((length, HarmonicFit::new(length, phase_step, BLOCK_HARMONICS)));
+        }
+    }
+    let fundamental = |x: &[f64], b: usize| {
+        let (from, to) = (edge(b), edge(b + 1));
+        let fit = fits.iter().find(|(length, _)| *length == to - from);
+        let phase = -phase_step * from as f64;
+        fit.and_then(|(_, fit)| fit.as_ref()).map_or(Complex64::ZERO, |fit| {
+            let first = fit.solution(&x[from..to]);
+            Complex64::new(first[2], -first[3]) * Complex64::from_polar(1.0, phase)
         })
-        .collect();
+    };
+    let tracks: Vec<Vec<Complex64>> =
+        channels.iter().map(|x| (0..blocks).map(|b| fundamental(x, b)).collect()).collect();
     let half = blocks / 2;
     let beyond = tracks.iter().map(|t| first_settled(t, half)).max().unwrap_or(0);
     let settled_by_half = beyond <= half;

@@ -4,6 +4,8 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::methods::regression::thresholds::{BLOCKS_WANTED, FEW_PHASES};
 use crate::identify::methods::regression::{
@@ -71,12 +73,8 @@ pub struct LeastSquares {
 pub fn least_squares(prepared: &Prepared<'_>, window_s: Option<f64>) -> Option<LeastSquares> {
     let campaign = prepared.used();
     let columns = MotorColumns::of(campaign);
-    let runs: Vec<Moving<'_>> = campaign
-        .runs
-        .iter()
-        .zip(prepared.noise())
-        .map(|(run, noise)| Moving::of(run, noise))
-        .collect();
+    let runs = campaign.runs.par_iter().zip(prepared.noise()).with_max_len(1);
+    let runs: Vec<Moving<'_>> = runs.map(|(run, noise)| Moving::of(run, noise)).collect();
     let fastest = runs.iter().map(Moving::fastest).fold(0.0, f64::max);
     let line = Line { campaign, columns: &columns, runs: &runs, fastest };
     let dry = Term::Plain(columns.count());
@@ -229,16 +227,15 @@ impl Line<'_> {
     fn clusters(&self, length_s: f64) -> Vec<Cluster> {
         let least = SLOWEST_SAMPLE * self.fastest;
         let windows = self.windows(length_s);
-        let moving = || self.runs.iter().zip(&windows).enumerate();
         let held = |(moving, window): (&Moving<'_>, &Option<Arc<Window>>)| {
             let n = window.as_ref().map_or(usize::MAX, |w| w.len());
             moving.phases.iter().filter(|phase| phase.to - phase.from > n).count()
         };
         let phases: usize = self.runs.iter().zip(&windows).map(held).sum();
         let parts = if phases < FEW_PHASES { BLOCKS_WANTED.div_ceil(phases.max(1)) } else { 1 };
-        let mut clusters = Vec::new();
-        for (index, (moving, window)) in moving() {
-            let Some(window) = window else { continue };
+        let of_run = |(index, (moving, window)): (usize, (&Moving<'_>, &Option<Arc<Window>>))| {
+            let mut clusters = Vec::new();
+            let Some(window) = window else { return clusters };
             let n = window.len();
             let plain = MotorEquation {
                 campaign: self.campaign,
@@ -260,8 +257,10 @@ impl Line<'_> {
                     clusters.push(cluster);
                 }
             }
-        }
-        clusters
+            clusters
+        };
+        let all = self.runs.par_iter().zip(&windows).with_max_len(1).enumerate();
+        all.flat_map_iter(of_run).collect()
     }
 
     /// Least speed in the middle of a window that is used.

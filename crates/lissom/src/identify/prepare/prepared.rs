@@ -28,15 +28,25 @@ pub struct Prepared<'a> {
 }
 
 impl<'a> Prepared<'a> {
-    /// Checks and analyses every run. `progress` is called with the number of each run before it is analysed.
+    /// Checks and analyses every run, some at the same time. `progress` is called with the number of each run before
+    /// it is analysed.
     pub fn new(campaign: &'a Campaign, options: &Options, mut progress: impl FnMut(usize)) -> Self {
         let mut findings = Vec::new();
         let mut runs = Vec::with_capacity(campaign.runs.len());
         let dead = dead_everywhere(campaign);
-        for index in 0..campaign.runs.len() {
-            progress(index);
-            let harmonics = options.highest_harmonic();
-            runs.push(analyse(campaign, index, harmonics, &dead, &mut findings));
+        let harmonics = options.highest_harmonic();
+        let indices: Vec<usize> = (0..campaign.runs.len()).collect();
+        for together in indices.chunks(4 * rayon::current_num_threads()) {
+            together.iter().for_each(|index| progress(*index));
+            let of_run = |&index: &usize| {
+                let mut found = Vec::new();
+                (analyse(campaign, index, harmonics, &dead, &mut found), found)
+            };
+            let analysed: Vec<_> = together.par_iter().with_max_len(1).map(of_run).collect();
+            for (run, found) in analysed {
+                runs.push(run);
+                findings.extend(found);
+            }
         }
         findings.extend(dead_tips(campaign, &dead));
         findings.extend(command_follows_motor(campaign, &runs));

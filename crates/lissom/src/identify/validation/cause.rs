@@ -1,4 +1,5 @@
 //! What a residual of torque looks like: how much of it each term would take away by itself.
+#![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
 
 use crate::identify::validation::kernel::Kernel;
 use crate::record::Run;
@@ -101,21 +102,25 @@ impl CauseKind {
 pub(super) struct Causes {
     speed: Vec<f64>,
     position: Vec<f64>,
-    /// e^{−|v|/v̄}, v̄ the run's mean speed.
-    slowness: Vec<f64>,
+    /// Direction at every sample; 0 at rest.
+    sign: Vec<f64>,
+    /// The direction times e^{−|v|/v̄}, v̄ the run's mean speed.
+    near_rest: Vec<f64>,
     with_residual: [f64; KINDS.len()],
     squares: [f64; KINDS.len()],
     residual: f64,
 }
 
 impl Causes {
-    /// Of a run whose velocity is known at every sample.
-    pub(super) fn new(run: &Run, velocity: &[f64]) -> Self {
+    /// Of a run whose velocity and direction are known at every sample.
+    pub(super) fn new(run: &Run, velocity: &[f64], sign: Vec<f64>) -> Self {
         let speed: Vec<f64> = velocity.iter().map(|v| v.abs()).collect();
         let mean = speed.iter().sum::<f64>() / speed.len() as f64;
         let middle = run.motor().iter().sum::<f64>() / run.len() as f64;
+        let slowness = speed.iter().map(|v| (-v / mean.max(f64::MIN_POSITIVE)).exp());
         Self {
-            slowness: speed.iter().map(|v| (-v / mean.max(f64::MIN_POSITIVE)).exp()).collect(),
+            near_rest: slowness.zip(&sign).map(|(slow, sign)| sign * slow).collect(),
+            sign,
             speed,
             position: run.motor().iter().map(|x| x - middle).collect(),
             with_residual: [0.0; KINDS.len()],
@@ -125,24 +130,23 @@ impl Causes {
     }
 
     /// Adds a row: its residual, the rate of the logged torque, acceleration, velocity and the torque between motor and beam.
+    #[inline(always)]
     pub(super) fn add(
         &mut self,
         residual: f64,
         kernel: &Kernel,
         k: usize,
         [by_delay, acceleration, velocity, coupling]: [f64; 4],
-        sign: &dyn Fn(usize) -> f64,
     ) {
-        let near_rest = |i: usize| sign(i) * self.slowness[i];
         let terms = [
             by_delay,
             acceleration,
             velocity,
-            kernel.mean(k, |i| self.speed[i]),
-            kernel.mean(k, sign),
+            kernel.mean_of(&self.speed[k..]),
+            kernel.mean_of(&self.sign[k..]),
             1.0,
-            kernel.mean(k, |i| self.position[i]),
-            kernel.mean(k, near_rest),
+            kernel.mean_of(&self.position[k..]),
+            kernel.mean_of(&self.near_rest[k..]),
             coupling,
         ];
         for (i, term) in terms.into_iter().enumerate() {

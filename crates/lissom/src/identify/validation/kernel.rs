@@ -1,6 +1,7 @@
 //! A window slid over a log: what of a signal, its rates and a held command lies under it.
+#![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
 
-use crate::identify::methods::regression::Window;
+use crate::identify::methods::regression::{Weights, Window};
 use crate::record::Hold;
 
 /// The half-power frequency of a sin⁴ window is this over its length.
@@ -12,7 +13,7 @@ pub(super) struct Kernel {
     window: Window,
     sample_time_s: f64,
     /// Weights of the command's samples from `first` on, relative to the window's first sample.
-    command: Vec<f64>,
+    command: Weights,
     first: isize,
     /// 1/∫w.
     scale: f64,
@@ -35,6 +36,7 @@ impl Kernel {
         let command = (0..=undelayed.len())
             .map(|i| ((1.0 - share) * before(i) + share * at(i)) / total)
             .collect();
+        let command = Weights::new(command);
         Self { window, sample_time_s, command, first: -(whole as isize) - 1, scale: 1.0 / total }
     }
 
@@ -70,8 +72,32 @@ impl Kernel {
         sum * self.sample_time_s * self.scale
     }
 
+    /// [`Self::mean`] of samples from the window's first on.
+    #[inline(always)]
+    pub(super) fn mean_of(&self, x: &[f64]) -> f64 {
+        self.window.value.dot(x) * (self.sample_time_s * self.scale)
+    }
+
+    /// [`Self::rate`] of samples from the window's first on.
+    #[inline(always)]
+    pub(super) fn rate_of(&self, x: &[f64]) -> f64 {
+        -self.window.first.dot_from(x, x[0]) * (self.sample_time_s * self.scale)
+    }
+
+    /// [`Self::acceleration`] of samples from the window's first on.
+    #[inline(always)]
+    pub(super) fn acceleration_of(&self, x: &[f64]) -> f64 {
+        self.window.second.dot_from(x, x[0]) * (self.sample_time_s * self.scale)
+    }
+
     /// Mean of the command that acts under the window.
+    #[inline(always)]
     pub(super) fn command(&self, k: usize, command: &[f64]) -> f64 {
+        let begin = k.cast_signed() + self.first;
+        let within = usize::try_from(begin).ok().and_then(|begin| command.get(begin..));
+        if let Some(acting) = within.filter(|acting| acting.len() >= self.command.len()) {
+            return self.command.dot(acting);
+        }
         let last = command.len().cast_signed() - 1;
         let at = |i: usize| {
             let j = k.cast_signed() + self.first + i.cast_signed();

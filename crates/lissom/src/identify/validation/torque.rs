@@ -1,7 +1,8 @@
 //! Inverse dynamics: the torque that an arm's figures give for a logged motion, beside the torque
 //! logged.
+#![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
 
-use std::ops::RangeInclusive;
+use rayon::prelude::*;
 
 use crate::friction::Place;
 use crate::identify::methods::output_error::{Masks, masks};
@@ -116,8 +117,9 @@ pub(in crate::identify) fn torque(
     let window_s = window_s.or_else(|| chosen_window_s(arm, campaign))?;
     let masks = masks(campaign);
     let predictor = Predictor { arm, campaign, zeros, coupling, window_s, masks: &masks };
-    let rows: Vec<RunRows> =
-        (0..campaign.runs.len()).filter_map(|run| predictor.rows(run)).collect();
+    let of_run = |run: usize| pulp::Arch::new().dispatch(OfRun { predictor: &predictor, run });
+    let runs = (0..campaign.runs.len()).into_par_iter().with_max_len(1);
+    let rows: Vec<RunRows> = runs.filter_map(of_run).collect();
     let counted = || rows.iter().flat_map(|r| &r.rows).filter(|row| row.counts);
     let (mut left, mut power, mut number) = ([0.0; 2], [0.0; 2], 0_usize);
     for row in counted() {
@@ -265,8 +267,24 @@ struct Predictor<'a> {
     masks: &'a [Masks],
 }
 
+/// The rows of one run, compiled for the widest registers that there are.
+struct OfRun<'a> {
+    predictor: &'a Predictor<'a>,
+    run: usize,
+}
+
+impl pulp::WithSimd for OfRun<'_> {
+    type Output = Option<RunRows>;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Option<RunRows> {
+        self.predictor.rows(self.run)
+    }
+}
+
 impl Predictor<'_> {
     /// `None` for a run that is shorter than the window.
+    #[inline(always)]
     fn rows(&self, index: usize) -> Option<RunRows> {
         let run = &self.campaign.runs[index];
         let t = run.sample_time_s();
@@ -277,60 +295,72 @@ impl Predictor<'_> {
         let command = &self.campaign.channels.command;
         let kernel = Kernel::new(n, t, command.hold, self.arm.command_lag_s);
         let speed = Speed::new(run, &kernel);
+        let samples = || 0..run.len();
+        let resting: Vec<f64> = samples().map(|i| if speed.moves(i) { 0.0 } else { 1.0 }).collect();
+        let bent: Vec<f64> = samples().map(|i| self.bent(run, &speed, i)).collect();
         let [forward, backward] = self.arm.viscous_nm_s_per_rad;
-        let (mean, half) = (0.5 * (forward + backward), 0.5 * (forward - backward));
+        let mean = 0.5 * (forward + backward);
         let constant = command.torque_per_unit();
-        let mut causes = Causes::new(run, &speed.velocity);
-        let rows = (0..run.len() - n)
-            .map(|k| {
-                let bent = |i: usize| {
-                    let at = Place {
-                        angle: run.motor()[i],
-                        speed: speed.velocity[i].abs(),
-                        sign: speed.sign(i),
-                    };
-                    let dry = self.arm.coulomb_nm + self.arm.dry_terms.braking_nm(at);
-                    at.sign * dry + half * speed.velocity[i].abs()
-                };
-                let velocity = kernel.rate(k, |i| run.motor()[i]);
-                let acceleration = kernel.acceleration(k, |i| run.motor()[i]);
-                let coupling = self.coupling_torque(index, &kernel, k);
-                let predicted = self.arm.inertia_kg_m2 * acceleration
-                    + mean * velocity
-                    + kernel.mean(k, bent)
-                    + self.arm.offset_nm
-                    + coupling;
-                let resting = |i: usize| if speed.moves(i) { 0.0 } else { 1.0 };
-                let row = Row {
-                    time_s: (k as f64 + 0.5 * n as f64) * t,
-                    logged: constant * kernel.command(k, run.command()),
-                    predicted,
-                    velocity,
-                    counts: kernel.mean(k, resting) <= RESTING_SHARE
-                        && self.reads(index, k..=k + n)
-                        && self.logged(run, &kernel, k),
-                };
-                if row.counts {
-                    let by_delay = constant * kernel.rate(k, |i| run.command()[i]);
-                    let sign = |i: usize| speed.sign(i);
-                    causes.add(
-                        row.residual(),
-                        &kernel,
-                        k,
-                        [by_delay, acceleration, velocity, coupling],
-                        &sign,
-                    );
-                }
-                row
-            })
-            .collect();
+        let unread = self.unread(index);
+        let shown = self.shown(index);
+        let sign = samples().map(|i| speed.sign(i)).collect();
+        let mut causes = Causes::new(run, &speed.velocity, sign);
+        let mut rows = Vec::with_capacity(run.len() - n);
+        for k in 0..run.len() - n {
+            let motor = &run.motor()[k..];
+            let (velocity, acceleration) = (kernel.rate_of(motor), kernel.acceleration_of(motor));
+            let coupling = self.coupling_torque(index, &kernel, &shown, k);
+            let predicted = self.arm.inertia_kg_m2 * acceleration
+                + mean * velocity
+                + kernel.mean_of(&bent[k..])
+                + self.arm.offset_nm
+                + coupling;
+            let row = Row {
+                time_s: (k as f64 + 0.5 * n as f64) * t,
+                logged: constant * kernel.command(k, run.command()),
+                predicted,
+                velocity,
+                counts: kernel.mean_of(&resting[k..]) <= RESTING_SHARE
+                    && unread[k + n + 1] == unread[k]
+                    && self.logged(run, &kernel, k),
+            };
+            if row.counts {
+                let by_delay = constant * kernel.rate_of(&run.command()[k..]);
+                let terms = [by_delay, acceleration, velocity, coupling];
+                causes.add(row.residual(), &kernel, k, terms);
+            }
+            rows.push(row);
+        }
         Some(RunRows { run: index, half_power_hz: kernel.half_power_hz(), rows, causes })
     }
 
-    /// Whether all sensors are within their ranges.
-    fn reads(&self, index: usize, mut samples: RangeInclusive<usize>) -> bool {
+    /// Friction beside the mean viscous one at a sample.
+    fn bent(&self, run: &Run, speed: &Speed, sample: usize) -> f64 {
+        let [forward, backward] = self.arm.viscous_nm_s_per_rad;
+        let size = speed.velocity[sample].abs();
+        let at = Place { angle: run.motor()[sample], speed: size, sign: speed.sign(sample) };
+        let dry = self.arm.coulomb_nm + self.arm.dry_terms.braking_nm(at);
+        at.sign * dry + 0.5 * (forward - backward) * size
+    }
+
+    /// Samples before each, and before the end, at which a sensor is out of its range.
+    fn unread(&self, index: usize) -> Vec<usize> {
         let masks = &self.masks[index];
-        samples.all(|i| masks.iter().flatten().all(|mask| mask[i]))
+        let mut count = 0;
+        let counts = (0..self.campaign.runs[index].len()).map(|i| {
+            count += usize::from(!masks.iter().flatten().all(|mask| mask[i]));
+            count
+        });
+        std::iter::once(0).chain(counts).collect()
+    }
+
+    /// Each tip that takes part, undeflected less what it shows.
+    fn shown(&self, index: usize) -> Vec<Vec<f64>> {
+        let of_tip = |(i, tip): (usize, &Vec<f64>)| {
+            let zero = self.zeros.get(index).and_then(|z| z.get(i)).copied().unwrap_or(0.0);
+            if self.coupling.counts(i) { tip.iter().map(|x| zero - x).collect() } else { vec![] }
+        };
+        self.campaign.runs[index].tips().iter().enumerate().map(of_tip).collect()
     }
 
     /// Whether what acts under the window at `k` is in the log: a late command's samples before it, a late
@@ -344,32 +374,31 @@ impl Predictor<'_> {
                 .all(|k| k >= 0 && k.cast_unsigned() + kernel.len() < run.len())
     }
 
-    fn coupling_torque(&self, index: usize, kernel: &Kernel, k: usize) -> f64 {
+    /// From the tips as [`Self::shown`] has them.
+    #[inline(always)]
+    fn coupling_torque(&self, index: usize, kernel: &Kernel, shown: &[Vec<f64>], k: usize) -> f64 {
         let run = &self.campaign.runs[index];
-        let tips = run.tips().iter().enumerate();
         let last = (run.len() - 1 - kernel.len()).cast_signed();
-        tips.map(|(i, tip)| {
-            if !self.coupling.counts(i) {
-                return 0.0;
-            }
+        let mut sum = 0.0;
+        for (i, shown) in shown.iter().enumerate().filter(|(i, _)| self.coupling.counts(*i)) {
             let (per_angle, per_rate) = (self.coupling.per_angle[i], self.coupling.per_rate[i]);
-            let zero = self.zeros.get(index).and_then(|z| z.get(i)).copied().unwrap_or(0.0);
             let deflects = self.campaign.channels.tips[i].quantity == TipQuantity::Deflection;
             // The tip's share of what is bent, when its point was where it shows now.
             let lag_s = self.arm.tip_lags_s.get(i).copied().unwrap_or(0.0);
             let (later, rest_s) = kernel.late(k, lag_s);
-            let later = later.clamp(0, last).cast_unsigned();
-            let shown = |s: usize| zero - tip[s];
-            let (rate, bend) = (kernel.rate(later, shown), kernel.acceleration(later, shown));
-            let mean = kernel.mean(later, shown) + rest_s * (rate + 0.5 * rest_s * bend);
+            let shown = &shown[later.clamp(0, last).cast_unsigned()..];
+            let (rate, bend) = (kernel.rate_of(shown), kernel.acceleration_of(shown));
+            let mean = kernel.mean_of(shown) + rest_s * (rate + 0.5 * rest_s * bend);
             let rate = rate + rest_s * bend;
-            if deflects {
-                return per_angle * mean + per_rate * rate;
-            }
-            let motor = |s: usize| run.motor()[s];
-            per_angle * (kernel.mean(k, motor) + mean) + per_rate * (kernel.rate(k, motor) + rate)
-        })
-        .sum()
+            let (mean, rate) = if deflects {
+                (mean, rate)
+            } else {
+                let motor = &run.motor()[k..];
+                (kernel.mean_of(motor) + mean, kernel.rate_of(motor) + rate)
+            };
+            sum += per_angle * mean + per_rate * rate;
+        }
+        sum
     }
 }
 
@@ -381,10 +410,13 @@ struct Speed {
 }
 
 impl Speed {
+    #[inline(always)]
     fn new(run: &Run, kernel: &Kernel) -> Self {
         let n = kernel.len();
         let at = |i: usize| i.saturating_sub(n / 2).min(run.len() - 1 - n);
-        let velocity = (0..run.len()).map(|i| kernel.rate(at(i), |k| run.motor()[k])).collect();
+        let rates = 0..run.len() - n;
+        let rates: Vec<f64> = rates.map(|k| kernel.rate_of(&run.motor()[k..])).collect();
+        let velocity = (0..run.len()).map(|i| rates[at(i)]).collect();
         let least = MOVING * kernel.rate_noise() * channel_noise(run.motor()).std;
         Self { velocity, least }
     }

@@ -1,19 +1,19 @@
 //! The simplest law of friction that the data do not reject.
 
 use nalgebra::DVector;
+use rayon::prelude::*;
 
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::friction_law::described::Described;
 use crate::identify::methods::friction_law::held::Held;
+use crate::identify::methods::friction_law::law_rows::LawRows;
 use crate::identify::methods::friction_law::law_term::{Column, LawTerm};
-use crate::identify::methods::friction_law::rows::{Cut, PhaseBlock, Sampled, fixed};
+use crate::identify::methods::friction_law::rows::{Cut, Sampled, fixed};
 use crate::identify::methods::friction_law::thresholds::{
     AFTER_TRAVEL_FALLS_TO, LAG_FALLS_TO, LAG_KNOWN, TERMS_MOST,
 };
 use crate::identify::methods::friction_law::{LawFit, ripple};
-use crate::identify::methods::regression::{
-    Cluster, DRY, Fitted, MotorColumns, Solution, Term, solve,
-};
+use crate::identify::methods::regression::{DRY, Fitted, MotorColumns, Solution, Term};
 use crate::identify::thresholds::{PRESENT, RESIDUAL_FALLS_TO, SIGN_SHOWN};
 use crate::record::{Campaign, Run};
 
@@ -88,9 +88,8 @@ pub(super) fn choose(sampled: &Sampled<'_>, cut: &Cut, fastest: f64) -> Option<C
 
 pub(super) struct LawSearch<'a> {
     pub(super) sampled: &'a Sampled<'a>,
-    pub(super) cut: Cut,
     pub(super) columns: Vec<Column>,
-    pub(super) blocks: Vec<PhaseBlock>,
+    pub(super) rows: LawRows,
     pub(super) terms: Vec<Term>,
     pub(super) solution: Solution,
     open: Vec<Tried>,
@@ -119,15 +118,14 @@ impl<'a> LawSearch<'a> {
             };
             open.push(Tried { term, terms });
         }
-        let blocks = sampled.blocks(&columns, &[], cut);
+        let rows = LawRows::of(sampled, &columns, &[], cut);
         let terms = MotorColumns::of(sampled.campaign).terms(Term::Signed(DRY));
-        let solution = solved(&blocks, &terms)?;
+        let solution = rows.solved(&terms)?;
         let (taken, candidates) = (Vec::new(), Vec::new());
         Some(Self {
             sampled,
-            cut: *cut,
             columns,
-            blocks,
+            rows,
             terms,
             solution,
             open,
@@ -141,11 +139,12 @@ impl<'a> LawSearch<'a> {
 
     /// Tries every open term beside those taken and takes the best that is called for.
     fn add_best(&mut self) -> bool {
-        let Some(before) = Held::of(&self.blocks, &self.terms) else { return false };
+        let Some(before) = Held::of(&self.rows, &self.terms) else { return false };
         let mut best: Option<(f64, usize, LawCandidate)> = None;
         let mut shown: Vec<(f64, LawCandidate)> = Vec::new();
-        for (i, tried) in self.open.iter().enumerate() {
-            let Some((cost, candidate)) = self.figures(&before, tried) else { continue };
+        let tried = self.open.par_iter().map(|tried| self.figures(&before, tried));
+        for (i, figures) in tried.collect::<Vec<_>>().into_iter().enumerate() {
+            let Some((cost, candidate)) = figures else { continue };
             if candidate.taken && best.as_ref().is_none_or(|b| cost < b.0) {
                 best = Some((cost, i, candidate));
             }
@@ -178,7 +177,7 @@ impl<'a> LawSearch<'a> {
             |t: &LawTerm| t.name() == taken.term.name() || (by_speed(t) && by_speed(&taken.term));
         self.open.retain(|t| !gone(&t.term));
         self.taken.push(taken);
-        match solved(&self.blocks, &self.terms) {
+        match self.rows.solved(&self.terms) {
             Some(solution) => self.solution = solution,
             None => return false,
         }
@@ -190,11 +189,11 @@ impl<'a> LawSearch<'a> {
         let mut terms = self.terms.clone();
         let first = terms.len();
         terms.extend(&tried.terms);
-        let solution = solved(&self.blocks, &terms)?;
+        let solution = self.rows.solved(&terms)?;
         if solution.inseparable[first] {
             return None;
         }
-        let held = Held::of(&self.blocks, &terms)?;
+        let held = Held::of(&self.rows, &terms)?;
         let residual_ratio = solution.relative_residual / self.solution.relative_residual;
         let paired = before.paired(&held);
         let stretch_ratio = (held.stretches / before.stretches).sqrt();
@@ -273,7 +272,7 @@ impl<'a> LawSearch<'a> {
         let at = fixed(self.sampled.campaign) + self.columns.len();
         let term = LawTerm::Ripple { per_angle: k };
         self.columns.extend(term.columns());
-        self.blocks = self.sampled.blocks(&self.columns, &[], &self.cut);
+        self.rows = self.rows.with_columns(self.sampled, &term.columns());
         let terms = vec![Term::Signed(at), Term::Signed(at + 1)];
         self.open.push(Tried { term, terms });
     }
@@ -357,20 +356,6 @@ fn amplitude(s: &Solution, first: usize, count: usize) -> Estimate {
     let block = s.covariance.view((first, first), (count, count));
     let direction = value / size.max(f64::MIN_POSITIVE);
     Estimate { value: size, std: direction.dot(&(block * &direction)).max(0.0).sqrt() }
-}
-
-/// Least squares with a covariance by phases.
-pub(super) fn solved(blocks: &[PhaseBlock], terms: &[Term]) -> Option<Solution> {
-    let mut clusters: Vec<Cluster> = Vec::new();
-    let mut phase = None;
-    for b in blocks {
-        match clusters.last_mut() {
-            Some(last) if phase == Some(b.phase) => last.merge(&b.cluster),
-            _ => clusters.push(b.cluster.clone()),
-        }
-        phase = Some(b.phase);
-    }
-    solve(&clusters, terms)
 }
 
 /// What of each figure Coulomb friction has in the direction where it is less.

@@ -4,10 +4,10 @@ use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
-use crate::identify::methods::friction_law::choice::solved;
-use crate::identify::methods::friction_law::held::without_each;
+use crate::identify::methods::friction_law::held::{by_direction, without_each};
+use crate::identify::methods::friction_law::law_rows::LawRows;
 use crate::identify::methods::friction_law::law_term::Column;
-use crate::identify::methods::friction_law::rows::{Cut, PhaseBlock, Sampled, fixed, hat};
+use crate::identify::methods::friction_law::rows::{Cut, Sampled, fixed, hat};
 use crate::identify::methods::friction_law::thresholds::KNOT_ROWS;
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::{Cluster, Solution, Term, coupled_tips, solve};
@@ -42,7 +42,7 @@ pub struct CurvePoint {
 /// A hat is one at its knot and zero at its neighbours, so that its coefficient is friction there.
 #[derive(Debug)]
 pub(crate) struct CurveSums {
-    blocks: Vec<PhaseBlock>,
+    rows: LawRows,
     /// Inertia and couplings, what is no friction by speed, hats forward, hats backward.
     terms: Vec<Term>,
     /// Of inertia and couplings.
@@ -80,7 +80,7 @@ impl CurveSums {
         columns.extend((0..knots.len()).map(Column::Hat));
         let rates = first + columns.len();
         columns.extend((0..tips.len()).map(Column::Rate));
-        let blocks = sampled.blocks(&columns, &knots, cut);
+        let rows = LawRows::of(sampled, &columns, &knots, cut);
         let mut all = vec![Term::Plain(0)];
         all.extend((3..first).map(Term::Plain));
         let linear = all.len();
@@ -96,7 +96,7 @@ impl CurveSums {
             (0..knots.len()).map(near).collect()
         });
         Some(Self {
-            blocks,
+            rows,
             terms: all,
             linear,
             rates,
@@ -110,8 +110,8 @@ impl CurveSums {
     /// The curve with inertia and couplings from the same windows, and what it leaves. Its deviations are
     /// by leaving out slip phases, and no less than the regression's own.
     pub(super) fn by_phases(&self) -> Option<(Vec<CurvePoint>, f64)> {
-        let solution = solved(&self.blocks, &self.terms)?;
-        let by_phases = jackknife(&self.blocks, &self.terms, &solution)?;
+        let solution = self.rows.solved(&self.terms)?;
+        let by_phases = jackknife(&self.rows, &self.terms, &solution)?;
         Some((self.points(&solution, &by_phases), solution.relative_residual))
     }
 
@@ -122,11 +122,10 @@ impl CurveSums {
     pub(crate) fn beside_arm(&self, found: &OutputError) -> Option<Vec<CurvePoint>> {
         let known = self.known(&found.arm)?;
         let terms = &self.terms[self.linear..];
-        let blocks: Vec<PhaseBlock> =
-            self.blocks.iter().map(|b| Self::without(b, &known)).collect();
-        let solution = solved(&blocks, terms)?;
-        let by_phases = jackknife(&blocks, terms, &solution)?;
-        let totals = totals(&self.blocks)?;
+        let rows = self.rows.without(&known);
+        let solution = rows.solved(terms)?;
+        let by_phases = jackknife(&rows, terms, &solution)?;
+        let totals = by_direction(self.rows.classes());
         let by_arm = found.variances(&|arm| {
             let known = self.known(arm)?;
             let totals = totals.each_ref().map(|sum| without_linear(sum, &known));
@@ -183,10 +182,6 @@ impl CurveSums {
         Some((squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt().max(1.0))
     }
 
-    fn without(block: &PhaseBlock, known: &[(usize, f64)]) -> PhaseBlock {
-        PhaseBlock { cluster: without_linear(&block.cluster, known), ..*block }
-    }
-
     /// The curve of a solution whose last figures are the hats'.
     fn points(&self, solution: &Solution, variances: &[f64]) -> Vec<CurvePoint> {
         let knots = self.knots.len();
@@ -219,22 +214,14 @@ fn without_linear(sums: &Cluster, known: &[(usize, f64)]) -> Cluster {
     Cluster { products: of(&sums.products), noise: of(&sums.noise), ..sums.clone() }
 }
 
-/// Sums of all blocks, forward and backward.
-fn totals(blocks: &[PhaseBlock]) -> Option<[Cluster; 2]> {
-    let width = blocks.first()?.cluster.products.ncols();
-    let mut totals = [1.0, -1.0].map(|sign| Cluster::new(0, sign, width));
-    for block in blocks {
-        totals[usize::from(block.cluster.sign < 0.0)].merge(&block.cluster);
-    }
-    Some(totals)
-}
-
 /// Variance of every figure by leaving out one group of slip phases after another: residuals within a
 /// group may belong together as they like, and a few phases that carry much count fully.
-fn jackknife(blocks: &[PhaseBlock], terms: &[Term], full: &Solution) -> Option<Vec<f64>> {
-    let phases = blocks.iter().map(|b| b.phase + 1).max()?;
+fn jackknife(rows: &LawRows, terms: &[Term], full: &Solution) -> Option<Vec<f64>> {
+    let phases = rows.blocks.iter().map(|b| b.phase + 1).max()?;
     let groups = phases.min(MOST_GROUPS);
-    let figures = without_each(blocks, terms, groups, |b| b.phase % groups)?;
+    let sums = rows.sums(2 * groups, |b| 2 * (b.phase % groups) + usize::from(b.sign < 0.0));
+    let sums: Vec<[Cluster; 2]> = sums.chunks(2).map(by_direction).collect();
+    let figures = without_each(&sums, terms)?;
     let square = |i: usize| figures.iter().flatten().map(|v| (v[i] - full.value[i]).powi(2)).sum();
     Some((0..terms.len()).map(square).collect())
 }

@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use crate::identify::methods::friction_law::law_term::Column;
-use crate::identify::methods::friction_law::rows::{Sampled, fixed};
+use crate::identify::methods::friction_law::rows::{Sampled, fixed, used};
 use crate::identify::methods::regression::Term;
 
 /// A law with its figures.
@@ -18,18 +18,21 @@ impl Described {
     pub(super) fn left(&self, sampled: &Sampled<'_>) -> Left {
         let mut left = Left::default();
         let noise = [1.0, -1.0].map(|sign| sampled.noise_powers(&self.by_column(sampled, sign)));
-        sampled.rows(&self.columns, &[], |place, row| {
+        let (columns, terms) = used(sampled.campaign, &self.columns, &self.terms);
+        for (place, row) in sampled.rows(&columns, &[]).iter() {
             let y = row[row.len() - 1];
-            let terms = self.terms.iter().zip(&self.value);
-            let explained: f64 =
-                terms.map(|(t, v)| t.factor(place.sign) * row[t.column()] * v).sum();
+            let explained: f64 = terms
+                .iter()
+                .zip(&self.value)
+                .map(|(t, v)| t.factor(place.sign) * row[t.column()] * v)
+                .sum();
             let (rest, level) = (y - explained, place.sign * row[2]);
             left.square += rest * rest;
             left.noise += noise[usize::from(place.sign < 0.0)][place.run];
             left.power += y * y;
             left.by_level += rest * level;
             left.level += level * level;
-        });
+        }
         left
     }
 

@@ -2,11 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::identify::methods::friction_law::rows::{KINDS, PhaseBlock};
+use crate::identify::methods::friction_law::law_rows::{FOLDS, KINDS, LawRows};
 use crate::identify::methods::regression::{Cluster, Term, solve};
-
-/// Phases are dealt to this many folds.
-const FOLDS: usize = 5;
 
 /// Squared residuals on what was left out.
 pub(super) struct Held {
@@ -17,10 +14,26 @@ pub(super) struct Held {
 }
 
 impl Held {
-    pub(super) fn of(blocks: &[PhaseBlock], terms: &[Term]) -> Option<Self> {
-        let each = left_out(blocks, terms, FOLDS, |b| b.phase % FOLDS)?;
-        let stretches = left_out(blocks, terms, KINDS, |b| b.kind)?.iter().sum();
-        Some(Self { each, stretches })
+    pub(super) fn of(rows: &LawRows, terms: &[Term]) -> Option<Self> {
+        let classes = rows.classes();
+        let of_fold = |fold: usize| by_direction(&classes[fold * KINDS..(fold + 1) * KINDS]);
+        let folds = without_each(&(0..FOLDS).map(of_fold).collect::<Vec<_>>(), terms)?;
+        let cost = |value: &Option<DVector<f64>>, of: &dyn Fn(&DVector<f64>) -> f64| {
+            value.as_ref().map_or(0.0, of)
+        };
+        let each = rows
+            .blocks
+            .iter()
+            .map(|block| cost(&folds[block.fold()], &|value| rows.squared(block, terms, value)));
+        let of_kind = |kind: usize| by_direction(classes.iter().skip(kind).step_by(KINDS));
+        let sums: Vec<[Cluster; 2]> = (0..KINDS).map(of_kind).collect();
+        let kinds = without_each(&sums, terms)?;
+        let stretches = kinds.iter().zip(&sums).map(|(value, sums)| {
+            cost(value, &|value| {
+                sums.iter().map(|sum| squared(&sum.products, terms, value, sum.sign)).sum()
+            })
+        });
+        Some(Self { each: each.collect(), stretches: stretches.sum() })
     }
 
     pub(super) fn phases(&self) -> f64 {
@@ -37,54 +50,46 @@ impl Held {
     }
 }
 
-/// Squared residual of every block with the figures of the groups that it is not in.
-fn left_out(
-    blocks: &[PhaseBlock],
-    terms: &[Term],
-    groups: usize,
-    group: impl Fn(&PhaseBlock) -> usize,
-) -> Option<Vec<f64>> {
-    let figures = without_each(blocks, terms, groups, &group)?;
-    let cost = |b: &PhaseBlock| {
-        let value = figures[group(b)].as_ref();
-        value.map_or(0.0, |v| squared(&b.cluster.products, terms, v, b.cluster.sign))
-    };
-    Some(blocks.iter().map(cost).collect())
-}
-
-/// Figures with one group of blocks after another left out; `None` of groups without blocks.
-pub(super) fn without_each(
-    blocks: &[PhaseBlock],
-    terms: &[Term],
-    groups: usize,
-    group: impl Fn(&PhaseBlock) -> usize,
-) -> Option<Vec<Option<DVector<f64>>>> {
-    let width = blocks.first()?.cluster.products.ncols();
-    let empty = || [1.0, -1.0].map(|sign| Cluster::new(0, sign, width));
-    let mut sums: Vec<[Cluster; 2]> = vec![empty(); groups];
-    let mut all = empty();
-    for b in blocks {
-        let side = usize::from(b.cluster.sign < 0.0);
-        sums[group(b)][side].merge(&b.cluster);
-        all[side].merge(&b.cluster);
+/// Sums of clusters, forward and backward.
+pub(super) fn by_direction<'a>(clusters: impl IntoIterator<Item = &'a Cluster>) -> [Cluster; 2] {
+    let mut clusters = clusters.into_iter().peekable();
+    let width = clusters.peek().map_or(0, |c| c.products.ncols());
+    let mut sums = [1.0, -1.0].map(|sign| Cluster::new(0, sign, width));
+    for cluster in clusters {
+        sums[usize::from(cluster.sign < 0.0)].merge(cluster);
     }
-    let without = |own: &[Cluster; 2]| {
-        let mut others = all.clone();
-        for (others, own) in others.iter_mut().zip(own) {
-            others.products -= &own.products;
-            others.noise -= &own.noise;
-            others.rows -= own.rows;
-        }
-        Some(solve(&others, terms)?.value)
-    };
-    let one = |own: &[Cluster; 2]| {
-        let rows: usize = own.iter().map(|c| c.rows).sum();
-        if rows == 0 { Some(None) } else { without(own).map(Some) }
-    };
-    sums.iter().map(one).collect()
+    sums
 }
 
-/// ‖y − X·q‖² from the products of a block.
+/// Figures with one group of rows after another left out, of which `sums` are the sums; `None` of groups without rows.
+pub(super) fn without_each(
+    sums: &[[Cluster; 2]],
+    terms: &[Term],
+) -> Option<Vec<Option<DVector<f64>>>> {
+    let add = |sum: &mut [Cluster; 2], own: &[Cluster; 2]| {
+        sum.iter_mut().zip(own).for_each(|(sum, own)| sum.merge(own));
+    };
+    // Of the groups before each and after it: a difference of sums would lose digits.
+    let mut sum =
+        by_direction(sums.first()?).map(|all| Cluster::new(0, all.sign, all.products.ncols()));
+    let mut after = sum.clone();
+    let mut before = Vec::with_capacity(sums.len());
+    for own in sums {
+        before.push(sum.clone());
+        add(&mut sum, own);
+    }
+    let mut figures = Vec::with_capacity(sums.len());
+    for (own, mut others) in sums.iter().zip(before).rev() {
+        add(&mut others, &after);
+        add(&mut after, own);
+        let rows: usize = own.iter().map(|c| c.rows).sum();
+        figures.push(if rows == 0 { None } else { Some(solve(&others, terms)?.value) });
+    }
+    figures.reverse();
+    Some(figures)
+}
+
+/// ‖y − X·q‖² from the products of rows.
 fn squared(products: &DMatrix<f64>, terms: &[Term], value: &DVector<f64>, sign: f64) -> f64 {
     let right = products.ncols() - 1;
     let mut q = DVector::zeros(products.ncols());

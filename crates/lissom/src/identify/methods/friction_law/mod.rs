@@ -4,12 +4,14 @@
 //! the sensor allows: what friction does near rest is lost in long ones.
 
 pub(crate) mod choice;
+mod column_values;
 mod curve;
 mod described;
 mod friction_law_findings;
 mod held;
 mod law_estimates;
 mod law_in_arm;
+mod law_rows;
 mod law_term;
 mod refine;
 mod ripple;
@@ -240,10 +242,10 @@ fn window_s(campaign: &Campaign, motor: &MotorRegression, inertia: f64, noise: &
     let mut window_s = LEAST_SAMPLES * sample_s;
     while window_s * LONGER < motor.window_s {
         let (mut power, mut rows) = (0.0, 0.0);
-        Sampled::new(campaign, noise, window_s).rows(&[], &[], |_, row| {
+        for (_, row) in Sampled::new(campaign, noise, window_s).rows(&[], &[]).iter() {
             power += row.last().map_or(0.0, |y| y * y);
             rows += 1.0;
-        });
+        }
         if rows > 0.0 && inertia.abs() * sensor < TORQUE_OF_NOISE * (power / rows).sqrt() {
             break;
         }

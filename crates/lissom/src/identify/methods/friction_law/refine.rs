@@ -1,6 +1,8 @@
 //! The speed or the period of a term that was taken, to where least is left.
 
-use crate::identify::methods::friction_law::choice::{LawSearch, solved};
+use rayon::prelude::*;
+
+use crate::identify::methods::friction_law::choice::LawSearch;
 use crate::identify::methods::friction_law::law_term::{Column, LawTerm, NEAR_REST};
 use crate::identify::methods::friction_law::ripple;
 use crate::identify::methods::friction_law::rows::fixed;
@@ -71,16 +73,17 @@ impl LawSearch<'_> {
         let LawTerm::Ripple { per_angle } = self.taken[found].term else { return };
         let first = self.terms.len() - self.taken[found].terms.len();
         let amplitude = |i: usize| self.solution.value[first + i];
-        self.columns.push(Column::Turned(per_angle, amplitude(0), amplitude(1)));
+        let column = Column::Turned(per_angle, amplitude(0), amplitude(1));
+        self.columns.push(column);
         let turned = Term::Signed(fixed(self.sampled.campaign) + self.columns.len() - 1);
-        let blocks = self.sampled.blocks(&self.columns, &[], &self.cut);
+        let rows = self.rows.with_columns(self.sampled, &[column]);
         let terms: Vec<Term> = self.terms.iter().copied().chain([turned]).collect();
-        let solution = solved(&blocks, &terms).filter(|s| !s.inseparable[first + 2]);
+        let solution = rows.solved(&terms).filter(|s| !s.inseparable[first + 2]);
         let Some(solution) = solution else {
             self.columns.pop();
             return;
         };
-        (self.blocks, self.terms, self.solution) = (blocks, terms, solution);
+        (self.rows, self.terms, self.solution) = (rows, terms, solution);
         self.taken[found].terms.push(turned);
     }
 
@@ -88,23 +91,26 @@ impl LawSearch<'_> {
     fn exchange(&mut self, found: usize, others: &[(LawTerm, Vec<Column>)]) {
         let own = self.taken[found].terms.clone();
         let at = fixed(self.sampled.campaign) + self.columns.len();
-        let mut columns = self.columns.clone();
-        columns.extend(others.iter().flat_map(|o| &o.1));
-        let blocks = self.sampled.blocks(&columns, &[], &self.cut);
+        let columns: Vec<Column> = others.iter().flat_map(|o| &o.1).copied().collect();
+        let rows = self.rows.with_columns(self.sampled, &columns);
         let in_place = |i: usize| -> Vec<Term> {
             let other = |j: usize| Term::Signed(at + i * own.len() + j);
             let of = |t: &Term| own.iter().position(|o| o == t).map_or(*t, other);
             self.terms.iter().map(of).collect()
         };
-        let left = |i: usize| Some((i, solved(&blocks, &in_place(i))?.relative_residual));
-        let best = (0..others.len()).filter_map(left).min_by(|a, b| a.1.total_cmp(&b.1));
+        let left = |i: usize| Some((i, rows.solved(&in_place(i))?.relative_residual));
+        let tried: Vec<_> = (0..others.len()).into_par_iter().map(left).collect();
+        let best = tried.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1));
         let Some((i, _)) = best else { return };
         // Columns that nothing uses any more would be summed up with all that is tried later.
+        let mut exchanged = Vec::with_capacity(own.len());
         for (j, column) in others[i].1.iter().enumerate() {
-            self.columns[own[j].column() - fixed(self.sampled.campaign)] = *column;
+            let place = own[j].column();
+            self.columns[place - fixed(self.sampled.campaign)] = *column;
+            exchanged.push((place, at + i * own.len() + j));
         }
-        self.blocks = self.sampled.blocks(&self.columns, &[], &self.cut);
-        if let Some(solution) = solved(&self.blocks, &self.terms) {
+        self.rows = rows.exchanged(at, &exchanged);
+        if let Some(solution) = self.rows.solved(&self.terms) {
             self.solution = solution;
         }
         self.taken[found].term = others[i].0;

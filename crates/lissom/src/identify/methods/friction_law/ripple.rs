@@ -1,9 +1,10 @@
 //! Where friction may change over the angle: the periods that stand out of what a law leaves.
+#![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
 
 use std::f64::consts::TAU;
 
 use crate::identify::methods::friction_law::law_term::Column;
-use crate::identify::methods::friction_law::rows::Sampled;
+use crate::identify::methods::friction_law::rows::{Sampled, used};
 use crate::identify::methods::regression::Term;
 
 /// Longest period looked at, as a share of the travel, and points per one more period in it.
@@ -25,12 +26,13 @@ pub(super) fn strongest(
 ) -> Option<f64> {
     let mut left: Vec<(f64, f64)> = Vec::new();
     let mut speed = 0.0;
-    sampled.rows(columns, &[], |place, row| {
+    let (columns, terms) = used(sampled.campaign, columns, terms);
+    for (place, row) in sampled.rows(&columns, &[]).iter() {
         let explained: f64 =
             terms.iter().zip(value).map(|(t, v)| t.factor(place.sign) * row[t.column()] * v).sum();
         left.push((place.angle, place.sign * (row[row.len() - 1] - explained)));
         speed += place.speed;
-    });
+    }
     speed /= left.len() as f64;
     let travel = travel(left.iter().map(|p| p.0));
     let most = travel / (SHORTEST * speed * sampled.window_s);
@@ -39,19 +41,53 @@ pub(super) fn strongest(
     if !(travel > 0.0 && most.is_finite()) || count == 0 {
         return None;
     }
-    let thinned: Vec<_> = left.iter().step_by((left.len() / ROWS).max(1)).collect();
-    let power = |k: f64| {
-        let (mut cosine, mut sine) = (0.0, 0.0);
-        for (angle, residual) in &thinned {
-            let (s, c) = (k * angle).sin_cos();
-            cosine += residual * c;
-            sine += residual * s;
-        }
-        cosine.hypot(sine)
-    };
+    let thinned: Vec<_> = left.iter().copied().step_by((left.len() / ROWS).max(1)).collect();
     let first = LEAST_PERIODS * PER_PERIOD;
     let frequencies = (0..count.min(MOST)).map(|i| (first + i as f64) * step);
-    frequencies.map(|k| (k, power(k))).max_by(|a, b| a.1.total_cmp(&b.1)).map(|p| p.0)
+    let count = count.min(MOST);
+    let powers =
+        pulp::Arch::new().dispatch(Powers { left: &thinned, first: first * step, step, count });
+    frequencies.zip(powers).max_by(|a, b| a.1.total_cmp(&b.1)).map(|p| p.0)
+}
+
+/// |Σ residual·e^{jkθ}| at `count` frequencies k from `first` on, `step` apart.
+struct Powers<'a> {
+    /// Angles and residuals.
+    left: &'a [(f64, f64)],
+    first: f64,
+    step: f64,
+    count: usize,
+}
+
+/// Rows whose waves turn side by side.
+const LANES: usize = 16;
+
+impl pulp::WithSimd for Powers<'_> {
+    type Output = Vec<f64>;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Vec<f64> {
+        let Self { left, first, step, count } = self;
+        let mut sums = vec![[0.0; 2]; count];
+        for rows in left.chunks(LANES) {
+            let [mut re, mut im, mut cos, mut sin] = [[0.0; LANES]; 4];
+            for (lane, (angle, residual)) in rows.iter().enumerate() {
+                let (s, c) = (first * angle).sin_cos();
+                (re[lane], im[lane]) = (residual * c, residual * s);
+                (sin[lane], cos[lane]) = (step * angle).sin_cos();
+            }
+            for [cosine, sine] in &mut sums {
+                *cosine += re.iter().sum::<f64>();
+                *sine += im.iter().sum::<f64>();
+                for lane in 0..LANES {
+                    let (a, b) = (re[lane], im[lane]);
+                    re[lane] = a * cos[lane] - b * sin[lane];
+                    im[lane] = a * sin[lane] + b * cos[lane];
+                }
+            }
+        }
+        sums.into_iter().map(|[cosine, sine]| cosine.hypot(sine)).collect()
+    }
 }
 
 /// How far apart the frequencies are that [`strongest`] looks at.

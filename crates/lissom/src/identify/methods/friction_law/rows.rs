@@ -1,10 +1,14 @@
 //! Rows of the motor's equation on short windows, with columns of friction by speed and angle.
 
-use nalgebra::{DMatrix, DVector};
+#![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
 
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use crate::identify::methods::friction_law::column_values::ColumnValues;
 use crate::identify::methods::friction_law::law_term::Column;
 use crate::identify::methods::regression::{
-    Cluster, MotorColumns, MotorEquation, Phase, Rows, SMOOTHED_PART, SineAndCosine, WINDOW_STEP,
+    MotorColumns, MotorEquation, Phase, Rows, SMOOTHED_PART, SineAndCosine, Term, WINDOW_STEP,
     Window, slip_phases, smoothing, velocity,
 };
 use crate::identify::prepare::run_noise::RunNoise;
@@ -12,6 +16,9 @@ use crate::record::{Campaign, Run};
 
 /// Rows looked at, about; windows overlap less in longer logs.
 const MOST_ROWS: usize = 40_000;
+
+/// Windows of a run whose rows are found one after the other.
+const PART: usize = 1024;
 
 /// Where a window lies.
 pub(super) struct WindowPlace {
@@ -31,24 +38,57 @@ pub(super) struct Cut {
 }
 
 impl Cut {
-    fn kind(&self, place: &WindowPlace) -> usize {
+    pub(super) fn kind(&self, place: &WindowPlace) -> usize {
         let third = self.thirds.iter().filter(|t| place.speed > **t).count();
         (third * 2 + usize::from(place.angle > self.middle)) * 2 + usize::from(place.sign > 0.0)
     }
 }
 
-/// Sums of the windows of one slip phase that are of one kind.
-#[derive(Debug)]
-pub(super) struct PhaseBlock {
-    pub(super) cluster: Cluster,
-    /// Number of the phase.
-    pub(super) phase: usize,
-    /// Direction × third of the speeds × half of the travel.
-    pub(super) kind: usize,
+/// Rows of windows, one after the other.
+pub(super) struct RowTable {
+    pub(super) places: Vec<WindowPlace>,
+    pub(super) width: usize,
+    values: Vec<f64>,
 }
 
-/// Kinds of stretches.
-pub(super) const KINDS: usize = 12;
+impl RowTable {
+    /// Every window's place and row: what the motor's regression has, then the columns asked for, then the right side.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (&WindowPlace, &[f64])> {
+        self.places.iter().zip(self.values.chunks_exact(self.width))
+    }
+
+    pub(super) fn row(&self, index: usize) -> &[f64] {
+        &self.values[index * self.width..(index + 1) * self.width]
+    }
+}
+
+/// A window in a slip phase.
+#[derive(Clone, Copy)]
+struct WindowStart {
+    run: usize,
+    phase: usize,
+    sign: f64,
+    first: usize,
+}
+
+/// The columns that terms use, and the terms with the places of these.
+pub(super) fn used(
+    campaign: &Campaign,
+    columns: &[Column],
+    terms: &[Term],
+) -> (Vec<Column>, Vec<Term>) {
+    let first = fixed(campaign);
+    let mut kept = Vec::new();
+    let moved = terms.iter().map(|term| match term.column().checked_sub(first) {
+        None => *term,
+        Some(index) => {
+            kept.push(columns[index]);
+            term.at(first + kept.len() - 1)
+        }
+    });
+    let moved = moved.collect();
+    (kept, moved)
+}
 
 /// Columns of a row before the first [`Column`].
 pub(super) fn fixed(campaign: &Campaign) -> usize {
@@ -97,7 +137,7 @@ impl<'a> Sampled<'a> {
             let gravity = columns.gravity.then(|| SineAndCosine::of(run.motor()));
             Slipping { velocity: velocity(run.motor(), smooth, t), phases, window, noise, gravity }
         };
-        let runs = campaign.runs.iter().zip(noise).map(of).collect();
+        let runs = campaign.runs.par_iter().zip(noise).with_max_len(1).map(of).collect();
         Self { campaign, window_s, after: 0.0, runs }
     }
 
@@ -124,109 +164,103 @@ impl<'a> Sampled<'a> {
         found
     }
 
-    /// Calls `see` with every window: run, number of its phase, sign, first sample, window.
-    fn each(&self, mut see: impl FnMut(usize, usize, f64, usize, &Window)) {
+    /// Every window of each run.
+    fn windows(&self) -> Vec<Vec<WindowStart>> {
         let samples: usize = self.campaign.runs.iter().map(Run::len).sum();
-        let mut number = 0;
-        for (index, slipping) in self.runs.iter().enumerate() {
-            let Some(window) = &slipping.window else { continue };
-            let n = window.len();
+        let mut phase = 0;
+        let of_run = |(run, slipping): (usize, &Slipping)| {
+            let mut found = Vec::new();
+            let n = slipping.window.as_ref().map_or(usize::MAX, Window::len);
             let step = ((n as f64 * WINDOW_STEP) as usize).max(samples / MOST_ROWS).max(1);
-            let motor = self.campaign.runs[index].motor();
-            for phase in &slipping.phases {
-                let gone = |k: &usize| (motor[*k] - motor[phase.from]).abs();
-                let mut windows = phase.from..phase.to - n;
-                let Some(from) = windows.find(|k| gone(k) >= self.after) else { continue };
-                for k in (from..phase.to - n).step_by(step) {
-                    see(index, number, phase.sign, k, window);
-                }
-                number += 1;
+            let motor = self.campaign.runs[run].motor();
+            for Phase { from, to, sign } in slipping.phases.iter().filter(|p| p.to - p.from > n) {
+                let gone = |k: &usize| (motor[*k] - motor[*from]).abs();
+                let Some(begin) = (*from..to - n).find(|k| gone(k) >= self.after) else { continue };
+                let starts = (begin..to - n).step_by(step);
+                found.extend(starts.map(|first| WindowStart { run, phase, sign: *sign, first }));
+                phase += 1;
             }
-        }
+            found
+        };
+        self.runs.iter().enumerate().map(of_run).collect()
     }
 
     /// Where every window lies.
     pub(super) fn places(&self) -> Vec<WindowPlace> {
-        let mut found = Vec::new();
-        self.each(|run, phase, sign, k, window| {
-            found.push(self.place(run, phase, sign, k + window.len() / 2));
-        });
-        found
+        self.windows().iter().flatten().map(|w| self.place(w)).collect()
     }
 
-    fn place(&self, run: usize, phase: usize, sign: f64, sample: usize) -> WindowPlace {
+    fn place(&self, start: &WindowStart) -> WindowPlace {
+        let WindowStart { run, phase, sign, first } = *start;
+        let sample = first + self.runs[run].window.as_ref().map_or(0, Window::len) / 2;
         let speed = self.runs[run].velocity[sample].abs();
         WindowPlace { run, phase, sign, speed, angle: self.campaign.runs[run].motor()[sample] }
     }
 
-    /// Calls `see` with every window's row: what the motor's regression has, then `columns`, then the
-    /// right side.
-    pub(super) fn rows(
-        &self,
-        columns: &[Column],
-        knots: &[f64],
-        mut see: impl FnMut(&WindowPlace, &[f64]),
-    ) {
+    /// Every window's row: what the motor's regression has, then `columns`, then the right side.
+    pub(super) fn rows(&self, columns: &[Column], knots: &[f64]) -> RowTable {
         let own = MotorColumns::of(self.campaign);
-        let functions: Vec<Vec<Vec<f64>>> =
-            (0..self.campaign.runs.len()).map(|run| self.functions(run, columns, knots)).collect();
-        let mut row = Vec::new();
-        self.each(|index, phase, sign, k, window| {
-            let run = &self.campaign.runs[index];
-            let gravity = self.runs[index].gravity.as_ref();
-            let equation =
-                MotorEquation { campaign: self.campaign, run, columns: &own, gravity, window };
-            equation.fill(k, &mut row);
-            let right = row.len() - 1;
-            let more = columns.iter().zip(&functions[index]).map(|(column, f)| match column {
-                Column::Lag => equation.later(k),
-                Column::Rate(i) => equation.behind_rate(*i, k),
-                _ => integral(&window.value, &f[k..=k + window.len()], run.sample_time_s()),
-            });
-            row.splice(right..right, more.map(|v| v * window.row_scale));
-            see(&self.place(index, phase, sign, k + window.len() / 2), &row);
-        });
-    }
-
-    /// The same, summed by phase and kind.
-    pub(super) fn blocks(&self, columns: &[Column], knots: &[f64], cut: &Cut) -> Vec<PhaseBlock> {
-        let width = fixed(self.campaign) + columns.len() + 1;
-        let mut blocks: Vec<PhaseBlock> = Vec::new();
-        let mut first_of_phase = 0;
-        self.rows(columns, knots, |place, row| {
-            let kind = cut.kind(place);
-            if blocks.last().is_some_and(|b| b.phase != place.phase) {
-                first_of_phase = blocks.len();
-            }
-            let same = blocks[first_of_phase..].iter().position(|b| b.kind == kind);
-            let at = same.map_or(blocks.len(), |i| first_of_phase + i);
-            if at == blocks.len() {
-                let cluster = Cluster::new(place.run, place.sign, width);
-                blocks.push(PhaseBlock { cluster, phase: place.phase, kind });
-            }
-            blocks[at].cluster.add(row);
-        });
-        // In columns by speed and angle noise is left: it hardly changes them.
-        let own = fixed(self.campaign);
-        for PhaseBlock { cluster, .. } in &mut blocks {
-            let of_row = &self.runs[cluster.run].noise;
-            let noise = of_row.view((0, 0), (own, own)) * cluster.rows as f64;
-            cluster.noise.view_mut((0, 0), (own, own)).copy_from(&noise);
-        }
-        blocks
-    }
-
-    /// Every column's function at every sample of a run; empty for a lag and a tip's rate.
-    fn functions(&self, run: usize, columns: &[Column], knots: &[f64]) -> Vec<Vec<f64>> {
-        let motor = self.campaign.runs[run].motor();
-        let velocity = &self.runs[run].velocity;
-        let samples = || velocity.iter().zip(motor);
-        let one = |column: &Column| match *column {
-            Column::Lag | Column::Rate(_) => Vec::new(),
-            Column::Hat(j) => velocity.iter().map(|v| hat(knots, j, v.abs())).collect(),
-            column => samples().map(|(v, x)| column.at(v.abs(), *x)).collect(),
+        let windows = self.windows();
+        let of_part = |windows: &&[WindowStart]| {
+            let rows = PartRows { sampled: self, own: &own, windows, columns, knots };
+            pulp::Arch::new().dispatch(rows)
         };
-        columns.iter().map(one).collect()
+        let parts: Vec<_> = windows.iter().flat_map(|of_run| of_run.chunks(PART)).collect();
+        let values: Vec<Vec<f64>> = parts.par_iter().with_max_len(1).map(of_part).collect();
+        RowTable {
+            places: windows.iter().flatten().map(|w| self.place(w)).collect(),
+            width: own.count() + columns.len() + 1,
+            values: values.concat(),
+        }
+    }
+
+    /// What the sensors' noise adds to a row's products in a run, in expectation. In columns by speed and angle it is
+    /// left: it hardly changes them.
+    pub(super) fn noise_of_row(&self, run: usize) -> &DMatrix<f64> {
+        &self.runs[run].noise
+    }
+}
+
+/// The rows of windows of one run, compiled for the widest registers that there are.
+struct PartRows<'a> {
+    sampled: &'a Sampled<'a>,
+    own: &'a MotorColumns,
+    windows: &'a [WindowStart],
+    columns: &'a [Column],
+    knots: &'a [f64],
+}
+
+impl pulp::WithSimd for PartRows<'_> {
+    type Output = Vec<f64>;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Vec<f64> {
+        let Self { sampled, own, windows, columns, knots } = self;
+        let Some(first) = windows.first() else { return Vec::new() };
+        let (slipping, run) = (&sampled.runs[first.run], &sampled.campaign.runs[first.run]);
+        let Some(window) = &slipping.window else { return Vec::new() };
+        let gravity = slipping.gravity.as_ref();
+        let equation =
+            MotorEquation { campaign: sampled.campaign, run, columns: own, gravity, window };
+        let mut values = Vec::with_capacity(windows.len() * (own.count() + columns.len() + 1));
+        let mut functions = ColumnValues::new(columns, knots);
+        let mut row = Vec::new();
+        for WindowStart { first, .. } in windows {
+            functions.reach(*first..first + window.len() + 1, &slipping.velocity, run.motor());
+            equation.fill(*first, &mut row);
+            let right = row.pop();
+            values.extend_from_slice(&row);
+            values.extend(columns.iter().enumerate().map(|(i, column)| {
+                window.row_scale
+                    * match column {
+                        Column::Lag => equation.later(*first),
+                        Column::Rate(tip) => equation.behind_rate(*tip, *first),
+                        _ => window.value.dot(functions.from(i, *first)) * run.sample_time_s(),
+                    }
+            }));
+            values.extend(right);
+        }
+        values
     }
 }
 
@@ -234,10 +268,6 @@ impl<'a> Sampled<'a> {
 fn smooth(run: &Run, window_s: f64) -> usize {
     let n = window_s / run.sample_time_s();
     smoothing(run.motor()).min((n * SMOOTHED_PART) as usize).max(4)
-}
-
-fn integral(weight: &[f64], f: &[f64], sample_time_s: f64) -> f64 {
-    weight.iter().zip(f).map(|(w, f)| w * f).sum::<f64>() * sample_time_s
 }
 
 /// One at knot `j`, falling to zero at its neighbours; beyond the first and the last knot the lines go on, so

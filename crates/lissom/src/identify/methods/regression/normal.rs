@@ -106,6 +106,17 @@ impl Term {
             Self::Plain(c) | Self::Signed(c) | Self::Forward(c) | Self::Backward(c) => c,
         }
     }
+
+    /// The same of another column.
+    pub(crate) fn at(self, column: usize) -> Self {
+        match self {
+            Self::Plain(_) => Self::Plain(column),
+            Self::Signed(_) => Self::Signed(column),
+            Self::Forward(_) => Self::Forward(column),
+            Self::Backward(_) => Self::Backward(column),
+        }
+    }
+
     pub(crate) fn factor(self, sign: f64) -> f64 {
         match self {
             Self::Plain(_) => 1.0,
@@ -135,6 +146,57 @@ pub(crate) struct Solution {
     pub(crate) clusters: usize,
 }
 
+/// Normal equations of some terms.
+pub(crate) struct NormalSums {
+    normal: DMatrix<f64>,
+    /// What the sensors' noise adds to these, in expectation.
+    noise: DMatrix<f64>,
+    right: DVector<f64>,
+    /// Σ y².
+    power: f64,
+    rows: usize,
+}
+
+impl NormalSums {
+    /// From the clusters' sums; `None` without rows or a right side of zero.
+    pub(crate) fn of(clusters: &[Cluster], terms: &[Term]) -> Option<Self> {
+        let p = terms.len();
+        let right_column = clusters.first()?.products.ncols() - 1;
+        let rows: usize = clusters.iter().map(|c| c.rows).sum();
+        let power: f64 = clusters.iter().map(|c| c.products[(right_column, right_column)]).sum();
+        if rows == 0 || power <= 0.0 {
+            return None;
+        }
+        let factors = TermFactors::of(terms);
+        let mut normal: DMatrix<f64> = DMatrix::zeros(p, p);
+        let mut noise = normal.clone();
+        let mut right = DVector::zeros(p);
+        for part in factors.parts(clusters) {
+            for j in 0..p {
+                right[j] += part.right(j);
+                for i in 0..p {
+                    normal[(i, j)] += part.normal(i, j);
+                    noise[(i, j)] += part.noise(i, j);
+                }
+            }
+        }
+        Some(Self { normal, noise, right, power, rows })
+    }
+}
+
+/// Estimates whose scores are to be found: `X'(y − X·value) + out·(noise·taken)` of each cluster.
+pub(crate) struct ScoredEstimates {
+    pub(crate) value: DVector<f64>,
+    pub(crate) out: DMatrix<f64>,
+    pub(crate) taken: DVector<f64>,
+}
+
+/// Scores of the clusters, and their sums in each run: a column each.
+pub(crate) struct Scores {
+    pub(crate) by_cluster: DMatrix<f64>,
+    pub(crate) by_run: DMatrix<f64>,
+}
+
 /// Solves for `terms` from the clusters' sums; `None` without rows or a right side of zero.
 ///
 /// The sensors' noise is taken out of the regressors' products, in those directions that it does not
@@ -142,30 +204,35 @@ pub(crate) struct Solution {
 /// covariance.
 pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
     let p = terms.len();
-    let right_column = clusters.first()?.products.ncols() - 1;
-    let columns: Vec<usize> = terms.iter().map(|term| term.column()).collect();
-    let factors = [-1.0, 0.0, 1.0].map(|sign| terms.iter().map(|t| t.factor(sign)).collect());
-    let parts = || {
-        let with_rows = clusters.iter().filter(|c| c.rows > 0);
-        with_rows.map(|cluster| NormalPart::of(cluster, &columns, &factors))
-    };
-    let rows: usize = clusters.iter().map(|c| c.rows).sum();
-    let power: f64 = clusters.iter().map(|c| c.products[(right_column, right_column)]).sum();
-    if rows == 0 || power <= 0.0 {
-        return None;
-    }
-    let mut normal: DMatrix<f64> = DMatrix::zeros(p, p);
-    let mut noise = normal.clone();
-    let mut right = DVector::zeros(p);
-    for part in parts() {
-        for j in 0..p {
-            right[j] += part.right(j);
+    let sums = NormalSums::of(clusters, terms)?;
+    let factors = TermFactors::of(terms);
+    let parts = || factors.parts(clusters);
+    solve_sums(&sums, |ScoredEstimates { value, out, taken }| {
+        let mut by_cluster = DMatrix::zeros(p, parts().count());
+        let runs = parts().map(|part| part.cluster.run).max().unwrap_or(0) + 1;
+        let mut by_run = DMatrix::zeros(p, runs);
+        let mut of_noise = DVector::zeros(p);
+        for (part, mut score) in parts().zip(by_cluster.column_iter_mut()) {
             for i in 0..p {
-                normal[(i, j)] += part.normal(i, j);
-                noise[(i, j)] += part.noise(i, j);
+                let explained: f64 = (0..p).map(|j| part.normal(i, j) * value[j]).sum();
+                score[i] = part.right(i) - explained;
+                of_noise[i] = (0..p).map(|j| part.noise(i, j) * taken[j]).sum();
             }
+            score.gemv(1.0, out, &of_noise, 1.0);
+            let mut of_run = by_run.column_mut(part.cluster.run);
+            of_run += score;
         }
-    }
+        Scores { by_cluster, by_run }
+    })
+}
+
+/// Solves normal equations whose clusters have the `scores` that estimates give them.
+pub(crate) fn solve_sums(
+    sums: &NormalSums,
+    scores: impl FnOnce(&ScoredEstimates) -> Scores,
+) -> Option<Solution> {
+    let NormalSums { normal, noise, right, power, rows } = sums;
+    let p = right.len();
     let scale = DVector::from_fn(p, |i, _| normal[(i, i)].max(f64::MIN_POSITIVE).sqrt());
     let scaled = DMatrix::from_fn(p, p, |i, j| normal[(i, j)] / (scale[i] * scale[j]));
     let eigen = scaled.symmetric_eigen();
@@ -186,30 +253,19 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
     }
     // Directions in which all products are one, and noise has a share of each.
     let white = DMatrix::from_columns(&kept);
-    let shares = (white.transpose() * &noise * &white).symmetric_eigen();
+    let shares = (white.transpose() * noise * &white).symmetric_eigen();
     let directions = &white * &shares.eigenvectors;
     let taken_out = shares.eigenvalues.map(|share| if share < NOISE_FILLS { share } else { 0.0 });
     let stretched = DMatrix::from_diagonal(&taken_out.map(|share| 1.0 / (1.0 - share)));
     let inverse = &directions * stretched * directions.transpose();
-    let value: DVector<f64> = &inverse * &right;
+    let value: DVector<f64> = &inverse * right;
 
     let out = DMatrix::from_diagonal(&taken_out.map(|share| f64::from(share > 0.0)));
-    let out = &normal * &directions * out * directions.transpose();
+    let out = normal * &directions * out * directions.transpose();
     let taken = out.transpose() * &value;
-    let mut scores = DMatrix::zeros(p, parts().count());
-    let runs = parts().map(|part| part.cluster.run).max().unwrap_or(0) + 1;
-    let mut by_run = DMatrix::zeros(p, runs);
-    let mut of_noise = DVector::zeros(p);
-    for (part, mut score) in parts().zip(scores.column_iter_mut()) {
-        for i in 0..p {
-            let explained: f64 = (0..p).map(|j| part.normal(i, j) * value[j]).sum();
-            score[i] = part.right(i) - explained;
-            of_noise[i] = (0..p).map(|j| part.noise(i, j) * taken[j]).sum();
-        }
-        score.gemv(1.0, &out, &of_noise, 1.0);
-        let mut of_run = by_run.column_mut(part.cluster.run);
-        of_run += score;
-    }
+    let estimates = ScoredEstimates { value, out, taken };
+    let Scores { by_cluster: scores, by_run } = scores(&estimates);
+    let value = estimates.value;
     let by_cluster = sandwich(&inverse, &scores);
     let present = by_run.column_iter().filter(|g| g.norm() > 0.0).count();
     // Fewer runs than this say little of their own scatter.
@@ -220,19 +276,39 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
     };
     for (k, &share) in shares.eigenvalues.iter().enumerate().filter(|(_, s)| **s >= NOISE_FILLS) {
         let direction = directions.column(k);
-        let short = direction.dot(&right) * share / (1.0 - share).max(MOTION_LEAST);
+        let short = direction.dot(right) * share / (1.0 - share).max(MOTION_LEAST);
         covariance.ger(short * short, &direction, &direction, 1.0);
     }
-    let left = power - 2.0 * value.dot(&right) + value.dot(&(&normal * &value));
+    let left = power - 2.0 * value.dot(right) + value.dot(&(normal * &value));
     Some(Solution {
         value,
         covariance,
         lost,
         inseparable,
         relative_residual: (left.max(0.0) / power).sqrt(),
-        rows,
+        rows: *rows,
         clusters: scores.ncols(),
     })
+}
+
+/// Columns of some terms, and their factors backward, without a direction and forward.
+struct TermFactors {
+    columns: Vec<usize>,
+    factors: [Vec<f64>; 3],
+}
+
+impl TermFactors {
+    fn of(terms: &[Term]) -> Self {
+        let columns = terms.iter().map(|term| term.column()).collect();
+        let factors = [-1.0, 0.0, 1.0].map(|sign| terms.iter().map(|t| t.factor(sign)).collect());
+        Self { columns, factors }
+    }
+
+    /// What each cluster with rows adds.
+    fn parts<'a>(&'a self, clusters: &'a [Cluster]) -> impl Iterator<Item = NormalPart<'a>> {
+        let with_rows = clusters.iter().filter(|c| c.rows > 0);
+        with_rows.map(|cluster| NormalPart::of(cluster, &self.columns, &self.factors))
+    }
 }
 
 /// What a cluster adds to the normal equations of some terms.
@@ -275,10 +351,7 @@ impl<'a> NormalPart<'a> {
 /// `N⁻¹·(Σ g·gᵀ)·N⁻¹` with g the score of each group, C/(C − 1) for their number, and so much more that 1.96 standard
 /// errors are an interval of 95 % by Student's t with C − 1 degrees of freedom.
 fn sandwich(inverse: &DMatrix<f64>, scores: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut middle = DMatrix::zeros(scores.nrows(), scores.nrows());
-    for g in scores.column_iter() {
-        middle.ger(1.0, &g, &g, 1.0);
-    }
+    let middle = scores * scores.transpose();
     let groups = scores.column_iter().filter(|g| g.norm() > 0.0).count() as f64;
     let freedom = (groups - 1.0).max(1.0);
     inverse * middle * inverse * (groups / freedom * wider_by_student(freedom).powi(2))

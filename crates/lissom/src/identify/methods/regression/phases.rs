@@ -59,25 +59,38 @@ fn without_reversals(phase: Phase, found: &[Phase]) -> Vec<Phase> {
 
 /// Phases of one sign of velocities of more than `least`, and of more than [`REST_SPEED`].
 fn slips(motor: &[f64], window: &Window, least: f64) -> Vec<Phase> {
-    pulp::Arch::new().dispatch(Slips { motor, window, least })
+    let velocity_at = velocities(motor, window);
+    let fastest = velocity_at.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    let least = least.max(REST_SPEED * fastest);
+    let mut phases: Vec<Phase> = Vec::new();
+    for (k, &velocity) in (window.len() / 2..).zip(&velocity_at) {
+        if velocity.abs() > least {
+            extend(&mut phases, k, velocity);
+        }
+    }
+    phases
+}
+
+/// `Σẇ·θ`, up to its unit the velocity, in every window that the samples hold.
+pub(super) fn velocities(motor: &[f64], window: &Window) -> Vec<f64> {
+    pulp::Arch::new().dispatch(Velocities { motor, window })
 }
 
 /// Velocities found side by side.
 const LANES: usize = 16;
 
-/// [`slips`], compiled for the widest registers that there are.
-struct Slips<'a> {
+/// [`velocities`], compiled for the widest registers that there are.
+struct Velocities<'a> {
     motor: &'a [f64],
     window: &'a Window,
-    least: f64,
 }
 
-impl pulp::WithSimd for Slips<'_> {
-    type Output = Vec<Phase>;
+impl pulp::WithSimd for Velocities<'_> {
+    type Output = Vec<f64>;
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> Vec<Phase> {
-        let Self { motor, window, least } = self;
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Vec<f64> {
+        let Self { motor, window } = self;
         let n = window.len();
         let rising = &window.first[..n.div_ceil(2)];
         let mut velocity_at = Vec::with_capacity(motor.len());
@@ -94,15 +107,7 @@ impl pulp::WithSimd for Slips<'_> {
             };
             velocity_at.extend_from_slice(&found[..lanes]);
         }
-        let fastest = velocity_at.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-        let least = least.max(REST_SPEED * fastest);
-        let mut phases: Vec<Phase> = Vec::new();
-        for (k, &velocity) in (n / 2..).zip(&velocity_at) {
-            if velocity.abs() > least {
-                extend(&mut phases, k, velocity);
-            }
-        }
-        phases
+        velocity_at
     }
 }
 

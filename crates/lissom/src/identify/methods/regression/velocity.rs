@@ -1,21 +1,23 @@
 //! The motor's velocity, smoothed.
 
+use crate::identify::methods::regression::phases::velocities;
 use crate::identify::methods::regression::window::Window;
 
 /// Velocity at every sample: the angle weighted with the derivative of a window about it.
 pub(crate) fn velocity(motor: &[f64], smooth: usize, sample_time_s: f64) -> Vec<f64> {
     let window = Window::new(smooth, sample_time_s);
-    let (n, half) = (window.len(), window.len() / 2);
+    let half = window.len() / 2;
     // What a ramp of one per second shows.
     let ramp: f64 = window.first.iter().enumerate().map(|(k, w)| w * k as f64).sum();
     let scale = 1.0 / (ramp * sample_time_s);
-    let last = motor.len().saturating_sub(n + 1);
-    let at = |k: usize| {
-        let from = k.saturating_sub(half).min(last);
-        let moved = motor[from..].iter().zip(&*window.first).map(|(x, w)| (x - motor[from]) * w);
-        scale * moved.sum::<f64>()
-    };
-    (0..motor.len()).map(at).collect()
+    let mut moved = velocities(motor, &window);
+    if moved.is_empty() {
+        // Shorter than the smoothing: one velocity for all of it.
+        let from_first = motor.iter().zip(&*window.first).map(|(x, w)| (x - motor[0]) * w);
+        moved.push(from_first.sum::<f64>());
+    }
+    let last = moved.len() - 1;
+    (0..motor.len()).map(|k| scale * moved[k.saturating_sub(half).min(last)]).collect()
 }
 
 #[cfg(test)]

@@ -109,7 +109,7 @@ impl Deref for Weights {
 }
 
 impl Weights {
-    fn new(mut weights: Vec<f64>) -> Self {
+    pub(crate) fn new(mut weights: Vec<f64>) -> Self {
         let len = weights.len();
         weights.resize(len.next_multiple_of(LANES), 0.0);
         Self { padded: weights, len }

@@ -1,0 +1,264 @@
+//! The windows' rows by slip phase and kind of stretch, and least squares of them.
+#![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
+
+use std::ops::Range;
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use crate::identify::methods::friction_law::law_term::Column;
+use crate::identify::methods::friction_law::rows::{Cut, RowTable, Sampled};
+use crate::identify::methods::regression::{
+    Cluster, NormalSums, ScoredEstimates, Scores, Solution, Term, solve_sums,
+};
+
+/// Kinds of stretches.
+pub(super) const KINDS: usize = 12;
+/// Phases are dealt to this many folds.
+pub(super) const FOLDS: usize = 5;
+
+/// Windows of one slip phase that are of one kind.
+#[derive(Debug, Clone)]
+pub(super) struct PhaseBlock {
+    run: usize,
+    pub(super) sign: f64,
+    /// Number of the phase.
+    pub(super) phase: usize,
+    /// Direction × third of the speeds × half of the travel.
+    pub(super) kind: usize,
+    rows: Range<usize>,
+}
+
+impl PhaseBlock {
+    pub(super) fn fold(&self) -> usize {
+        self.phase % FOLDS
+    }
+}
+
+/// Rows of windows in order of their blocks, and sums of these.
+#[derive(Debug, Clone)]
+pub(super) struct LawRows {
+    pub(super) blocks: Vec<PhaseBlock>,
+    width: usize,
+    values: Vec<f64>,
+    /// Where each row is in the sampled windows.
+    order: Vec<usize>,
+    /// What the sensors' noise adds to the products of a row of each run, in its first columns.
+    noise: Vec<DMatrix<f64>>,
+    /// Sums by fold and kind.
+    classes: Vec<Cluster>,
+}
+
+impl LawRows {
+    pub(super) fn of(sampled: &Sampled<'_>, columns: &[Column], knots: &[f64], cut: &Cut) -> Self {
+        let table = sampled.rows(columns, knots);
+        let (blocks, order) = in_blocks(&table, cut);
+        let values = order.iter().flat_map(|i| table.row(*i)).copied().collect();
+        let runs = 0..sampled.campaign.runs.len();
+        let noise = runs.map(|run| sampled.noise_of_row(run).clone()).collect();
+        let width = table.width;
+        let mut found = Self { blocks, width, values, order, noise, classes: Vec::new() };
+        found.classes = found.class_sums();
+        found
+    }
+
+    /// The same with further columns, before the right side.
+    pub(super) fn with_columns(&self, sampled: &Sampled<'_>, columns: &[Column]) -> Self {
+        let table = sampled.rows(columns, &[]);
+        let (own, first) = (self.width - 1, table.width - 1 - columns.len());
+        let rows = self.values.chunks_exact(self.width).zip(&self.order);
+        let longer = |(row, i): (&[f64], &usize)| [&row[..own], &table.row(*i)[first..]].concat();
+        self.with_values(self.width + columns.len(), rows.flat_map(longer).collect())
+    }
+
+    /// The first `width` columns and the right side, some columns with the values of others: `(place, other)`.
+    pub(super) fn exchanged(&self, width: usize, exchanged: &[(usize, usize)]) -> Self {
+        let shorter = |row: &[f64]| {
+            let mut shorter = [&row[..width], &row[self.width - 1..]].concat();
+            exchanged.iter().for_each(|(place, other)| shorter[*place] = row[*other]);
+            shorter
+        };
+        let values = self.values.chunks_exact(self.width).flat_map(shorter).collect();
+        self.with_values(width + 1, values)
+    }
+
+    fn with_values(&self, width: usize, values: Vec<f64>) -> Self {
+        let (blocks, order, noise) = (self.blocks.clone(), self.order.clone(), self.noise.clone());
+        let mut found = Self { blocks, width, values, order, noise, classes: Vec::new() };
+        found.classes = found.class_sums();
+        found
+    }
+
+    /// Least squares with a covariance by phases.
+    pub(super) fn solved(&self, terms: &[Term]) -> Option<Solution> {
+        let sums = NormalSums::of(&self.classes, terms)?;
+        solve_sums(&sums, |estimates| self.scores(terms, estimates))
+    }
+
+    /// Sums of the blocks of each group.
+    pub(super) fn sums(&self, groups: usize, group: impl Fn(&PhaseBlock) -> usize) -> Vec<Cluster> {
+        let blocks = self.blocks.iter().map(|block| (group(block), block)).collect::<Vec<_>>();
+        pulp::Arch::new().dispatch(Sums { rows: self, blocks: &blocks, groups })
+    }
+
+    fn class_sums(&self) -> Vec<Cluster> {
+        let of_fold = |fold: usize| {
+            let blocks = self.blocks.iter().filter(|b| b.fold() == fold);
+            let blocks: Vec<_> = blocks.map(|block| (block.kind, block)).collect();
+            pulp::Arch::new().dispatch(Sums { rows: self, blocks: &blocks, groups: KINDS })
+        };
+        (0..FOLDS).into_par_iter().flat_map_iter(of_fold).collect()
+    }
+
+    /// Sums by fold and kind: those of fold f and kind k are number `f·KINDS + k`.
+    pub(super) fn classes(&self) -> &[Cluster] {
+        &self.classes
+    }
+
+    /// ‖y − X·q‖² of a block.
+    pub(super) fn squared(&self, block: &PhaseBlock, terms: &[Term], value: &DVector<f64>) -> f64 {
+        let taken = weights(terms, value, block.sign);
+        self.rows(block).map(|row| left(row, &taken).powi(2)).sum()
+    }
+
+    /// The same with some columns, times what is known of them, taken off the right side.
+    pub(super) fn without(&self, known: &[(usize, f64)]) -> Self {
+        let mut found = self.clone();
+        let right = self.width - 1;
+        for row in found.values.chunks_exact_mut(self.width) {
+            row[right] -= known.iter().map(|(column, value)| row[*column] * value).sum::<f64>();
+        }
+        found.classes = found.class_sums();
+        found
+    }
+
+    #[inline(always)]
+    fn rows(&self, block: &PhaseBlock) -> impl Iterator<Item = &[f64]> {
+        let Range { start, end } = block.rows;
+        self.values[start * self.width..end * self.width].chunks_exact(self.width)
+    }
+
+    /// Scores by phase.
+    fn scores(&self, terms: &[Term], estimates: &ScoredEstimates) -> Scores {
+        let p = terms.len();
+        let sides = [-1.0, 1.0].map(|sign| {
+            let factors: Vec<(usize, f64)> =
+                terms.iter().map(|t| (t.column(), t.factor(sign))).collect();
+            let of_noise: Vec<DVector<f64>> =
+                self.noise.iter().map(|noise| of_noise(noise, &factors, estimates)).collect();
+            (weights(terms, &estimates.value, sign), factors, of_noise)
+        });
+        let phases = self.blocks.chunk_by(|a, b| a.phase == b.phase);
+        let mut by_cluster = DMatrix::zeros(p, phases.clone().count());
+        let mut by_run = DMatrix::zeros(p, self.noise.len());
+        for (blocks, mut score) in phases.zip(by_cluster.column_iter_mut()) {
+            let (run, sign) = (blocks[0].run, blocks[0].sign);
+            let (taken, factors, of_noise) = &sides[usize::from(sign > 0.0)];
+            let mut count = 0.0;
+            for row in blocks.iter().flat_map(|block| self.rows(block)) {
+                let left = left(row, taken);
+                for (score, (column, factor)) in score.iter_mut().zip(factors) {
+                    *score += factor * row[*column] * left;
+                }
+                count += 1.0;
+            }
+            score.axpy(count, &of_noise[run], 1.0);
+            let mut of_run = by_run.column_mut(run);
+            of_run += score;
+        }
+        Scores { by_cluster, by_run }
+    }
+}
+
+/// Sums of some blocks by their groups, compiled for the widest registers that there are.
+struct Sums<'a> {
+    rows: &'a LawRows,
+    /// Group and block.
+    blocks: &'a [(usize, &'a PhaseBlock)],
+    groups: usize,
+}
+
+impl pulp::WithSimd for Sums<'_> {
+    type Output = Vec<Cluster>;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Vec<Cluster> {
+        let Self { rows, blocks, groups } = self;
+        let width = rows.width;
+        let mut sums = vec![Cluster::new(0, 0.0, width); groups];
+        for (group, block) in blocks {
+            let sum = &mut sums[*group];
+            (sum.sign, sum.rows) = (block.sign, sum.rows + block.rows.len());
+            for row in rows.rows(block) {
+                // The lower triangle, column by column.
+                let columns = sum.products.as_mut_slice().chunks_exact_mut(width);
+                for (i, (column, a)) in columns.zip(row).enumerate() {
+                    for (sum, b) in column[i..].iter_mut().zip(&row[i..]) {
+                        *sum += a * b;
+                    }
+                }
+            }
+            let of_row = &rows.noise[block.run];
+            let own = of_row.nrows();
+            let mut noise = sum.noise.view_mut((0, 0), (own, own));
+            noise.zip_apply(of_row, |sum, of_row| *sum += of_row * block.rows.len() as f64);
+        }
+        sums.iter_mut().for_each(|sum| sum.products.fill_upper_triangle_with_lower_triangle());
+        sums
+    }
+}
+
+/// The blocks of a table's rows, and the numbers of the rows in their order.
+fn in_blocks(table: &RowTable, cut: &Cut) -> (Vec<PhaseBlock>, Vec<usize>) {
+    let mut blocks: Vec<PhaseBlock> = Vec::new();
+    let mut first_of_phase = 0;
+    let mut placed: Vec<(usize, usize)> = Vec::with_capacity(table.places.len());
+    for (i, place) in table.places.iter().enumerate() {
+        let kind = cut.kind(place);
+        if blocks.last().is_some_and(|b| b.phase != place.phase) {
+            first_of_phase = blocks.len();
+        }
+        let same = blocks[first_of_phase..].iter().position(|b| b.kind == kind);
+        let at = same.map_or(blocks.len(), |i| first_of_phase + i);
+        if at == blocks.len() {
+            let (run, sign, phase) = (place.run, place.sign, place.phase);
+            blocks.push(PhaseBlock { run, sign, phase, kind, rows: 0..0 });
+        }
+        blocks[at].rows.end += 1;
+        placed.push((at, i));
+    }
+    let mut first = 0;
+    for block in &mut blocks {
+        block.rows = first..first + block.rows.end;
+        first = block.rows.end;
+    }
+    placed.sort_by_key(|(block, _)| *block);
+    (blocks, placed.into_iter().map(|(_, row)| row).collect())
+}
+
+/// What terms take of each column in a direction.
+fn weights(terms: &[Term], value: &DVector<f64>, sign: f64) -> Vec<(usize, f64)> {
+    terms.iter().zip(value).map(|(t, v)| (t.column(), t.factor(sign) * v)).collect()
+}
+
+/// What a row leaves of its right side.
+fn left(row: &[f64], taken: &[(usize, f64)]) -> f64 {
+    row[row.len() - 1] - taken.iter().map(|(column, weight)| row[*column] * weight).sum::<f64>()
+}
+
+/// What the noise of a row adds to the score of its phase.
+fn of_noise(
+    noise: &DMatrix<f64>,
+    factors: &[(usize, f64)],
+    estimates: &ScoredEstimates,
+) -> DVector<f64> {
+    let own = |(column, _): &&(usize, f64)| *column < noise.ncols();
+    let with = |(i, factor): (usize, f64)| -> f64 {
+        let of =
+            |((j, other), taken): (&(usize, f64), &f64)| noise[(i, *j)] * other * factor * taken;
+        let columns = factors.iter().zip(estimates.taken.iter());
+        columns.filter(|(column, _)| own(column)).map(of).sum()
+    };
+    let each = factors.iter().map(|of| if own(&of) { with(*of) } else { 0.0 });
+    &estimates.out * DVector::from_iterator(factors.len(), each)
+}
