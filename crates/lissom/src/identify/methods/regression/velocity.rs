@@ -8,14 +8,13 @@ pub(crate) fn velocity(motor: &[f64], smooth: usize, sample_time_s: f64) -> Vec<
     let window = Window::new(smooth, sample_time_s);
     let half = window.len() / 2;
     // What a ramp of one per second shows.
-    let ramp: f64 = window.first.iter().enumerate().map(|(k, w)| w * k as f64).sum();
-    // `velocities` are −Σẇ·x.
-    let scale = -1.0 / (ramp * sample_time_s);
+    let ramp: f64 = window.first.iter().enumerate().map(|(k, w)| -w * k as f64).sum();
+    let scale = 1.0 / (ramp * sample_time_s);
     let mut moved = velocities(motor, &window);
     if moved.is_empty() {
         // Shorter than the smoothing: one velocity for all of it.
-        let from_first = motor.iter().zip(&*window.first).map(|(x, w)| (x - motor[0]) * w);
-        moved.push(-from_first.sum::<f64>());
+        let from_first = motor.iter().zip(&*window.first).map(|(x, w)| (motor[0] - x) * w);
+        moved.push(from_first.sum::<f64>());
     }
     let last = moved.len() - 1;
     (0..motor.len()).map(|k| scale * moved[k.saturating_sub(half).min(last)]).collect()
