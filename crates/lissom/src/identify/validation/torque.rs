@@ -144,7 +144,7 @@ pub(in crate::identify) fn torque(
         expected_error: None,
         rest_share: 1.0 - number as f64 / all as f64,
         stretches: rows.iter().flat_map(|r| r.stretches(logged_nm, window_s)).collect(),
-        runs: rows.into_iter().map(RunRows::told).collect(),
+        runs: rows.into_par_iter().map(RunRows::told).collect(),
         causes,
     })
 }
@@ -170,7 +170,8 @@ fn chosen_window_s(arm: &ModalArm, campaign: &Campaign) -> Option<f64> {
         }
         n as f64 * t
     };
-    campaign.runs.iter().map(of_run).max_by(f64::total_cmp)
+    let needed: Vec<f64> = campaign.runs.par_iter().with_max_len(1).map(of_run).collect();
+    needed.into_iter().max_by(f64::total_cmp)
 }
 
 /// κ_i and κ'_i: torque per deflection of each tip and per its rate.

@@ -27,6 +27,8 @@ pub(crate) use friction_law_findings::finding;
 pub(crate) use law_term::NEAR_REST_STEP;
 pub use law_term::{LawTerm, ScaleUnit};
 
+use rayon::prelude::*;
+
 use crate::identify::estimate::Estimate;
 use crate::identify::gravity_estimate::Gravity;
 use crate::identify::methods::friction_law::thresholds::{
@@ -207,8 +209,7 @@ fn under(sampled: &Sampled<'_>) -> Option<(FrictionLaw, CurveSums, Described)> {
     let places = sampled.places();
     let mut speeds: Vec<f64> = places.iter().map(|p| p.speed).collect();
     let mut angles: Vec<f64> = places.iter().map(|p| p.angle).collect();
-    speeds.sort_by(f64::total_cmp);
-    angles.sort_by(f64::total_cmp);
+    rayon::join(|| speeds.sort_by(f64::total_cmp), || angles.sort_by(f64::total_cmp));
     let quantile = |x: &[f64], q: f64| x.get((q * x.len() as f64) as usize).copied();
     let fastest = quantile(&speeds, FASTEST_QUANTILE).filter(|v| *v > 0.0)?;
     let cut = Cut {
@@ -234,11 +235,9 @@ fn under(sampled: &Sampled<'_>) -> Option<(FrictionLaw, CurveSums, Described)> {
 fn window_s(campaign: &Campaign, motor: &MotorRegression, inertia: f64, noise: &[RunNoise]) -> f64 {
     let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     // White noise σ in the angle makes σ·√T of every scaled row.
-    let sensor = campaign
-        .runs
-        .iter()
-        .map(|run| channel_noise(run.motor()).std * run.sample_time_s().sqrt())
-        .fold(0.0, f64::max);
+    let of_run = |run: &Run| channel_noise(run.motor()).std * run.sample_time_s().sqrt();
+    let sensor: Vec<f64> = campaign.runs.par_iter().with_max_len(1).map(of_run).collect();
+    let sensor = sensor.into_iter().fold(0.0, f64::max);
     let mut window_s = LEAST_SAMPLES * sample_s;
     while window_s * LONGER < motor.window_s {
         let (mut power, mut rows) = (0.0, 0.0);

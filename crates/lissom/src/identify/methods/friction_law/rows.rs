@@ -187,7 +187,11 @@ impl<'a> Sampled<'a> {
 
     /// Where every window lies.
     pub(super) fn places(&self) -> Vec<WindowPlace> {
-        self.windows().iter().flatten().map(|w| self.place(w)).collect()
+        self.places_of(&self.windows())
+    }
+
+    fn places_of(&self, windows: &[Vec<WindowStart>]) -> Vec<WindowPlace> {
+        windows.par_iter().flat_map_iter(|w| w.iter().map(|w| self.place(w))).collect()
     }
 
     fn place(&self, start: &WindowStart) -> WindowPlace {
@@ -208,7 +212,7 @@ impl<'a> Sampled<'a> {
         let parts: Vec<_> = windows.iter().flat_map(|of_run| of_run.chunks(PART)).collect();
         let values: Vec<Vec<f64>> = parts.par_iter().with_max_len(1).map(of_part).collect();
         RowTable {
-            places: windows.iter().flatten().map(|w| self.place(w)).collect(),
+            places: self.places_of(&windows),
             width: own.count() + columns.len() + 1,
             values: values.concat(),
         }

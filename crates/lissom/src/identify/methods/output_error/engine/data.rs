@@ -1,5 +1,7 @@
 //! Which readings are used, and which residuals may be correlated.
 
+use rayon::prelude::*;
+
 use crate::identify::methods::output_error::thresholds::{
     RESIDUAL_BLOCK, RESIDUAL_BLOCKS_LEAST, RESIDUAL_BLOCKS_MOST,
 };
@@ -16,7 +18,7 @@ pub(crate) fn masks(campaign: &Campaign) -> Vec<Masks> {
     let of_run = |run: &Run| {
         std::iter::once(run.motor()).chain(run.tips().iter().map(Vec::as_slice)).map(mask).collect()
     };
-    campaign.runs.iter().map(of_run).collect()
+    campaign.runs.par_iter().with_max_len(1).map(of_run).collect()
 }
 
 fn mask(x: &[f64]) -> Option<Vec<bool>> {
