@@ -77,16 +77,16 @@ fn minimum(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64, tolerance: f64) 
         let fu = f(u);
         if fu <= fx {
             if u >= x {
-                low = x
+                low = x;
             } else {
-                high = x
+                high = x;
             }
             points = [(u, fu), points[0], points[1]];
         } else {
             if u < x {
-                low = u
+                low = u;
             } else {
-                high = u
+                high = u;
             }
             if fu <= fw || same(w, x) {
                 points = [points[0], (u, fu), points[1]];

@@ -36,10 +36,11 @@ impl HarmonicFit {
         }
         let inverse = normal(n, phase_step, count).cholesky()?.inverse();
         let mut waves = vec![[0.0; BLOCK]; 2 * count];
-        for k in 0..BLOCK {
-            for (h, z) in powers(phase_step * k as f64).take(count).enumerate() {
-                waves[2 * h][k] = z.re;
-                waves[2 * h + 1][k] = z.im;
+        let samples: Vec<Vec<_>> =
+            (0..BLOCK).map(|k| powers(phase_step * k as f64).take(count).collect()).collect();
+        for (h, [cosine, sine]) in waves.as_chunks_mut::<2>().0.iter_mut().enumerate() {
+            for ((c, s), z) in cosine.iter_mut().zip(sine).zip(&samples) {
+                (*c, *s) = (z[h].re, z[h].im);
             }
         }
         Some(Self { n, phase_step, waves, inverse })

@@ -37,7 +37,9 @@ impl<'a> Prepared<'a> {
         let harmonics = options.highest_harmonic();
         let indices: Vec<usize> = (0..campaign.runs.len()).collect();
         for together in indices.chunks(4 * rayon::current_num_threads()) {
-            together.iter().for_each(|index| progress(*index));
+            for index in together {
+                progress(*index);
+            }
             let of_run = |&index: &usize| {
                 let mut found = Vec::new();
                 (analyse(campaign, index, harmonics, &dead, &mut found), found)

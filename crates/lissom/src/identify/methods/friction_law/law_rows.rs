@@ -75,7 +75,9 @@ impl LawRows {
     pub(super) fn exchanged(&self, width: usize, exchanged: &[(usize, usize)]) -> Self {
         let shorter = |row: &[f64]| {
             let mut shorter = [&row[..width], &row[self.width - 1..]].concat();
-            exchanged.iter().for_each(|(place, other)| shorter[*place] = row[*other]);
+            for (place, other) in exchanged {
+                shorter[*place] = row[*other];
+            }
             shorter
         };
         let values = self.values.chunks_exact(self.width).flat_map(shorter).collect();
@@ -203,7 +205,9 @@ impl pulp::WithSimd for Sums<'_> {
             let mut noise = sum.noise.view_mut((0, 0), (own, own));
             noise.zip_apply(of_row, |sum, of_row| *sum += of_row * block.rows.len() as f64);
         }
-        sums.iter_mut().for_each(|sum| sum.products.fill_upper_triangle_with_lower_triangle());
+        for sum in &mut sums {
+            sum.products.fill_upper_triangle_with_lower_triangle();
+        }
         sums
     }
 }
