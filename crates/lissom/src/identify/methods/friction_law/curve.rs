@@ -4,10 +4,11 @@ use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
+use crate::identify::methods::friction_law::column_values::hat;
 use crate::identify::methods::friction_law::held::{by_direction, without_each};
 use crate::identify::methods::friction_law::law_rows::LawRows;
 use crate::identify::methods::friction_law::law_term::Column;
-use crate::identify::methods::friction_law::rows::{Cut, Sampled, fixed, hat};
+use crate::identify::methods::friction_law::rows::{Cut, Sampled, fixed};
 use crate::identify::methods::friction_law::thresholds::KNOT_ROWS;
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::{Cluster, Solution, Term, coupled_tips, solve};

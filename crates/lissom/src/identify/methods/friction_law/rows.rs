@@ -273,33 +273,3 @@ fn smooth(run: &Run, window_s: f64) -> usize {
     let n = window_s / run.sample_time_s();
     smoothing(run.motor()).min((n * SMOOTHED_PART) as usize).max(4)
 }
-
-/// One at knot `j`, falling to zero at its neighbours; beyond the first and the last knot the lines go on, so
-/// that friction that grows in proportion to speed is a sum of hats everywhere.
-pub(super) fn hat(knots: &[f64], j: usize, speed: f64) -> f64 {
-    let last = knots.len().saturating_sub(2);
-    let left = knots.partition_point(|knot| *knot <= speed).saturating_sub(1).min(last);
-    let Some(right) = knots.get(left + 1) else { return 1.0 };
-    let share = (speed - knots[left]) / (right - knots[left]);
-    match j {
-        j if j == left => 1.0 - share,
-        j if j == left + 1 => share,
-        _ => 0.0,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn hats_add_up_to_one() {
-        let knots = [0.1, 0.2, 0.5, 1.0];
-        for speed in [0.0, 0.1, 0.15, 0.3, 0.7, 1.0, 3.0] {
-            let sum: f64 = (0..4).map(|j| hat(&knots, j, speed)).sum();
-            assert!((sum - 1.0).abs() < 1e-12, "{speed}: {sum}");
-            let line: f64 = (0..4).map(|j| hat(&knots, j, speed) * knots[j]).sum();
-            assert!((line - speed).abs() < 1e-12, "{speed}: {line}");
-        }
-    }
-}
