@@ -7,7 +7,7 @@ const LIKE_OTHER_STEPS: f64 = 1.5;
 
 /// Removes jumps of one turn from an angle in rad, and counts them.
 ///
-/// A jump is removed if what is left of it is like the other steps, and these are less than a quarter of a turn.
+/// A jump is removed if the step without the turn is like the other steps, and these are less than a quarter of a turn.
 pub(super) fn remove_turns(angle: &mut [f64]) -> usize {
     let steps = angle.windows(2).map(|pair| (pair[1] - pair[0]).abs());
     let largest = steps.filter(|step| *step <= PI).fold(0.0, f64::max);

@@ -207,7 +207,7 @@ impl fmt::Display for RunFinding {
                 if *others_described {
                     return Ok(());
                 }
-                f.write_str(". The residual is that of the regression in slip phases")
+                f.write_str(". No arm was found that describes the runs: this may be the wrong one")
             }
         }
     }

@@ -11,7 +11,7 @@ pub(super) fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -
     let regression = evidence.methods.regression.is_some();
     let Chosen { drive, beam, .. } = chosen;
     let units = EstimateUnits::new(&evidence.campaign.channels);
-    // Coulomb friction is told in neither direction, or in one.
+    // The logs do not separate Coulomb friction: they show it in one direction at most.
     let one_direction = drive.friction.coulomb.is_none();
     let one_direction_told =
         one_direction && drive.friction.forward.is_some() != drive.friction.backward.is_some();

@@ -105,7 +105,7 @@ impl LawTerm {
             .collect()
     }
 
-    /// The columns that it needs beside those of the motor's equation.
+    /// The columns that it needs in addition to those of the motor's equation.
     pub(super) fn columns(self) -> Vec<Column> {
         match self {
             Self::ViscousByDirection | Self::AfterTravel { .. } => Vec::new(),

@@ -29,7 +29,7 @@ pub struct AngleLag {
     pub time_s: f64,
     /// Which of them.
     pub shape: LagShape,
-    /// Residual beside that of the equation without a lag, as a ratio.
+    /// Ratio of the residual with the lag to that without it.
     pub residual_ratio: f64,
 }
 

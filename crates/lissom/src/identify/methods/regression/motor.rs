@@ -89,7 +89,7 @@ pub enum GravityPartner {
 
 impl Terms {
     /// The terms that gravity can hardly be told from, with their correlation: about the mean angle it is a slope, which
-    /// inertia may stand for, and a constant. Where it is known to [`GRAVITY_KNOWN`] of `amplitude` it is told.
+    /// inertia may stand for, and a constant. Gravity that is known to [`GRAVITY_KNOWN`] of `amplitude` gives no pair.
     pub(crate) fn pairs_with_gravity(
         &self,
         mean_rad: f64,
