@@ -6,7 +6,7 @@ use crate::identify::methods::regression::thresholds::{LAG_SAMPLES_MOST, LAG_SHA
 use crate::identify::prepare::run_noise::RunNoise;
 use crate::record::{Campaign, Hold, Run};
 
-/// Steps of the search, which triples its precision each time.
+/// Steps of the search, each over half of the range of the one before.
 const ROUNDS: usize = 5;
 /// Times that are tried in a step.
 const TRIED: usize = 5;
