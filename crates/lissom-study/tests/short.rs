@@ -119,8 +119,7 @@ fn wrong_laws_are_said_and_spare_the_linear_part() {
 }
 
 /// An encoder of 11 bits all but hides the Stribeck friction of campaign 12: a mode goes to a wrong frequency for it; one
-/// of ten bits all but hides the ripple of campaign 16, whose search ends at the noise or far off from starts that differ by
-/// 1e-7. What is wrong comes with a warning.
+/// of ten bits all but hides the ripple of campaign 16: its inertia is 12 % off. What is wrong comes with a warning.
 #[test]
 fn a_law_that_the_noise_hides_is_not_silently_wrong() {
     for (law, index) in [(Law::Stribeck, 12), (Law::Ripple, 16)] {
