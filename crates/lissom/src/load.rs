@@ -3,7 +3,7 @@
 use crate::record::{Campaign, Hold, Run};
 
 /// The torque `g_s·sin θ + g_c·cos θ` that gravity takes of the motor, θ the motor's angle as logged.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct GravityLoad {
     /// g_s \[N·m, or the command's unit where the torque constant is unknown\].
     pub sine_nm: f64,
@@ -38,6 +38,7 @@ impl GravityLoad {
             channels: campaign.channels.clone(),
             runs: campaign.runs.iter().map(less).collect(),
             gravity: false,
+            mgl_nm: None,
         }
     }
 }

@@ -52,6 +52,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         campaign_summary::runs(&id);
         printer::line("");
         figure_table::figures(names, &id, reference);
+        figure_table::speeds_of_law(names, &id);
         figure_table::line_of_least_squares(names, &id);
         figure_table::constant_velocity(names, &id);
         if let Some(found) = &id.equivalent {

@@ -59,6 +59,22 @@ pub(crate) fn line_of_least_squares(names: UnitNames, id: &Identified) {
     ));
 }
 
+/// The speeds that friction's law and its curve are of, where the figures are of such a law.
+pub(crate) fn speeds_of_law(names: UnitNames, id: &Identified) {
+    let Some(law) = id.friction_law.as_ref().filter(|law| law.chosen.departs()) else { return };
+    let unit = format!("{}/s", names.angle());
+    let range = |[slowest, fastest]: [f64; 2]| {
+        format!("{} to {} {unit}", significant(slowest, 3), significant(fastest, 3))
+    };
+    line("");
+    line(&format!("friction's law is of speeds from {}", range(law.speed_range)));
+    let speeds = || law.curve.iter().map(|p| p.speed);
+    if let Some(slowest) = speeds().min_by(f64::total_cmp) {
+        let fastest = speeds().fold(slowest, f64::max);
+        line(&format!("its curve without a law, in the report, {}", range([slowest, fastest])));
+    }
+}
+
 /// What steady velocities give, beside the figures taken.
 pub(crate) fn constant_velocity(names: UnitNames, id: &Identified) {
     let Some(found) = &id.constant_velocity else { return };
@@ -161,8 +177,12 @@ pub(crate) fn figure_rows(
         add("  backward", Some(backward), names.viscous_unit(), None);
     }
     if let Some(near) = f.near_rest {
-        add("friction near rest, more", Some(near.torque), torque(), None);
-        add("  over a speed of", Some(near.speed), format!("{}/s", names.angle()), None);
+        if let Some(at_rest) = near.static_friction() {
+            add("static friction", Some(at_rest), torque(), None);
+        }
+        let more = "  at rest above Coulomb friction by";
+        add(more, Some(near.torque), torque(), None);
+        add("  falls off over a speed of", Some(near.speed), format!("{}/s", names.angle()), None);
     }
     for ripple in &f.ripples {
         add("friction's ripple", Some(ripple.torque), torque(), None);
@@ -174,6 +194,10 @@ pub(crate) fn figure_rows(
         add("gravity, m·g·l", Some(gravity.amplitude()), torque(), None);
         let degrees = gravity.phase_rad().scaled(1.0_f64.to_degrees());
         add("  phase φ of m·g·l·sin(θ + φ)", Some(degrees), "deg".to_owned(), None);
+        if let Some(constant) = id.torque_constant {
+            let unit = format!("N·m/{}", names.command_unit());
+            add("  torque constant by m·g·l", Some(constant), unit, None);
+        }
     }
     if !id.beam.coupling_by_tip.is_empty() || id.beam.coupling.is_some() {
         let known = arm.map(|a| a.dynamics().coupling_motor);

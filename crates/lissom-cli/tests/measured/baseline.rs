@@ -28,11 +28,11 @@ fn rigid(drive: &DriveEstimates, back_emf: f64) -> FoundArm {
         modes: vec![],
         shapes: vec![],
         at_points_per_s: vec![],
+        gravity: drive.gravity.map(|g| g.load()),
         command_lag_s: 0.0,
         tip_lags_s: vec![],
     };
-    let gravity = drive.gravity.map(|g| g.load());
-    FoundArm { arm, source: ArmSource::Regression, gravity, torque_used: None }
+    FoundArm { arm, source: ArmSource::Regression, torque_used: None }
 }
 
 /// Shares of the torque of `unseen` that are left by the result of `used` and by its line, told past the capture.
@@ -67,7 +67,7 @@ fn half(campaign: &Campaign, second: bool) -> Campaign {
         Run::new(run.name(), base, command, motor, vec![]).unwrap()
     };
     let runs = campaign.runs.iter().map(part).collect();
-    Campaign { channels: campaign.channels.clone(), runs, gravity: campaign.gravity }
+    Campaign { channels: campaign.channels.clone(), runs, gravity: campaign.gravity, mgl_nm: None }
 }
 
 #[test]

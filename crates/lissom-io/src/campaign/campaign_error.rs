@@ -125,6 +125,12 @@ pub enum CampaignError {
         /// Where.
         place: ConfigPlace,
     },
+    /// A load's m·g·l where its gravity is not asked for.
+    #[error("{place} says nothing without `gravity = true`")]
+    MglAlone {
+        /// Where.
+        place: ConfigPlace,
+    },
     /// Gravity on an arm with tips.
     #[error("{place}: gravity is identified for a rigid joint, and this campaign has tips")]
     GravityWithTips {
@@ -192,6 +198,7 @@ impl CampaignError {
                 "remove it: the offset of friction, which every result has, is this force"
             }
             Self::GravityWithTips { .. } => "remove it, or the tips",
+            Self::MglAlone { .. } => "add gravity = true, or remove it",
             Self::GearAlone { .. } => {
                 "give the motor's own torque constant beside it, or remove it: without a constant, estimates are per unit of command"
             }

@@ -15,6 +15,7 @@
 //! arm = "arm.toml"                          # an arm to compare with
 //! [load]
 //! gravity = true                            # a torque g_s·sin θ + g_c·cos θ acts; to be identified
+//! mgl = "2.1 N*m"                            # m·g·l where it is known: it gives the torque constant
 //! [analysis]
 //! window = "0.3 s"                          # or a list
 //! harmonics = 9

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::campaign_drive;
 use super::campaign_file::{AnalysisOptions, CampaignFile, ReadOptions};
-use super::campaign_load;
+use super::campaign_load::{self, CampaignLoad};
 use super::campaign_signals::signals;
 use super::load_runs::load;
 use super::run_spec::{RunSpec, runs};
@@ -50,7 +50,8 @@ fn read(path: &Path, log: Option<&Path>, options: &ReadOptions) -> Result<Campai
     signals.command.reading.gain *= sign;
     signals.command.reading.offset *= sign;
     let load_table = root.get("load").map(|v| v.table()).transpose()?;
-    let gravity = load_table.map_or(Ok(false), |table| campaign_load::gravity(&table, &signals))?;
+    let on_motor = load_table.map(|table| campaign_load::load(&table, &signals));
+    let on_motor = on_motor.transpose()?.unwrap_or_default();
     let (analysis, skip_s) = match root.get("analysis") {
         Some(value) => analysis(&value.table()?)?,
         None => (AnalysisOptions::default(), None),
@@ -60,7 +61,11 @@ fn read(path: &Path, log: Option<&Path>, options: &ReadOptions) -> Result<Campai
         None => (source.folder(), runs(&root.need("runs")?, skip_s)?),
     };
     let campaign = load(folder, &signals, command, &runs, options)?;
-    let campaign = if gravity { campaign.with_gravity()? } else { campaign };
+    let campaign = match on_motor {
+        CampaignLoad { mgl_nm: Some(mgl_nm), .. } => campaign.with_known_gravity(mgl_nm)?,
+        CampaignLoad { gravity: true, .. } => campaign.with_gravity()?,
+        CampaignLoad { .. } => campaign,
+    };
     Ok(CampaignFile { campaign, known, analysis })
 }
 

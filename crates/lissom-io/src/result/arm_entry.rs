@@ -116,7 +116,7 @@ impl ArmEntry {
             coulomb: WithUnit::new(names, a.coulomb_nm),
             offset: WithUnit::new(names, a.offset_nm),
             terms: ArmTermsEntry::of(names, &a.dry_terms),
-            gravity: found.gravity.map(|g| ArmGravityEntry {
+            gravity: a.gravity.map(|g| ArmGravityEntry {
                 sine: WithUnit::new(names, g.sine_nm),
                 cosine: WithUnit::new(names, g.cosine_nm),
             }),
@@ -144,6 +144,11 @@ impl ArmEntry {
         let lag = |tip: &ArmTipEntry| Numbers { names, at: "arm.tips[]" }.sane("lag_s", tip.lag_s);
         let lags = self.tips.iter().map(lag).collect::<Result<Vec<_>, _>>()?;
         let window = self.torque_window_s.filter(|window| *window > 0.0);
+        let gravity = self.gravity.as_ref().map(|g| {
+            let number = Numbers { names, at: "arm.gravity" };
+            let (sine_nm, cosine_nm) = (number.of(&g.sine)?, number.of(&g.cosine)?);
+            Ok(GravityLoad { sine_nm, cosine_nm })
+        });
         let arm = ModalArm {
             inertia_kg_m2: number.positive(&self.inertia)?,
             viscous_nm_s_per_rad: [
@@ -155,19 +160,14 @@ impl ArmEntry {
             dry_terms: self.terms.dry_terms(names)?,
             shapes: self.tips.iter().map(|tip| tip.shape.clone()).collect(),
             at_points_per_s: self.damping_at_points_per_s.clone(),
+            gravity: gravity.transpose()?,
             command_lag_s: number.sane("command_lag_s", self.command_lag_s)?,
             // Empty where all tips are in time.
             tip_lags_s: if lags.iter().all(|lag| *lag == 0.0) { Vec::new() } else { lags },
             modes,
         };
-        let gravity = self.gravity.as_ref().map(|g| {
-            let number = Numbers { names, at: "arm.gravity" };
-            let (sine_nm, cosine_nm) = (number.of(&g.sine)?, number.of(&g.cosine)?);
-            Ok(GravityLoad { sine_nm, cosine_nm })
-        });
         Ok(FoundArm {
             arm,
-            gravity: gravity.transpose()?,
             source: self.from.source(),
             torque_used: self
                 .torque_error

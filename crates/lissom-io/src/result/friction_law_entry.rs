@@ -8,8 +8,8 @@ use super::estimate_keys::{Estimated, Refusable};
 use super::friction_term_entries::{LawTermEntry, amplitude_key};
 use super::gravity_entry::GravityEntry;
 use super::unit_keys::{
-    AtRestKey, CoulombKey, CouplingKey, InertiaKey, LawAmplitudeKey, OffsetKey, ViscousKey,
-    WithUnit,
+    AtRestKey, CoulombKey, CouplingKey, InertiaKey, LawAmplitudeKey, OffsetKey, SpeedRangeKey,
+    ViscousKey, WithUnit,
 };
 use super::unit_names::UnitNames;
 
@@ -19,6 +19,9 @@ use super::unit_names::UnitNames;
 pub struct FrictionLawEntry {
     /// Length of the windows.
     pub window_s: f64,
+    /// Slowest and fastest speed of the windows; law and curve are of friction between these.
+    #[serde(flatten)]
+    pub speed_range: WithUnit<SpeedRangeKey, [f64; 2]>,
     /// Part of the windowed torque that is left.
     pub relative_residual: LawResidualEntry,
     /// Estimates under the law chosen.
@@ -107,6 +110,7 @@ impl FrictionLawEntry {
         let [simplest, chosen, curve] = law.relative_residual;
         Self {
             window_s: law.window_s,
+            speed_range: WithUnit::new(names, law.speed_range),
             relative_residual: LawResidualEntry { simplest, chosen, curve },
             chosen: ChosenLawEntry::of(names, constant, &law.chosen),
             candidates: law.candidates.iter().map(|c| LawCandidateEntry::of(names, c)).collect(),
@@ -130,7 +134,7 @@ impl ChosenLawEntry {
             viscous: WithUnit::new(names, EstimateEntry::or_null(fit.viscous)),
             inertia: WithUnit::new(names, EstimateEntry::or_null(fit.inertia)),
             coupling: WithUnit::new(names, EstimateEntry::or_null(fit.total_coupling)),
-            gravity: fit.gravity.as_ref().map(|g| GravityEntry::of(names, g)),
+            gravity: fit.gravity.as_ref().map(|g| GravityEntry::of(names, g, None)),
             terms: fit.terms.iter().map(term).collect(),
         }
     }

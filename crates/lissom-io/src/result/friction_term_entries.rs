@@ -11,7 +11,7 @@ use super::channel_names::FalloffName;
 use super::estimate_entry::EstimateEntry;
 use super::estimate_keys::{Estimated, Refusable};
 use super::unit_keys::{
-    AmplitudeKey, CosineKey, PeriodKey, SineKey, SpeedKey, TravelKey, WithUnit,
+    AmplitudeKey, CosineKey, PeriodKey, SineKey, SpeedKey, StaticKey, TravelKey, WithUnit,
 };
 use super::unit_names::UnitNames;
 
@@ -34,9 +34,12 @@ pub struct FrictionTermsEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NearRestEntry {
-    /// A: friction at rest is Coulomb friction and this.
+    /// A.
     #[serde(flatten)]
     pub amplitude: Refusable<AmplitudeKey>,
+    /// Static friction, Coulomb friction and A together; null unless A is surely above zero.
+    #[serde(flatten)]
+    pub static_friction: Refusable<StaticKey>,
     /// v_s.
     #[serde(flatten)]
     pub speed: Estimated<SpeedKey>,
@@ -128,6 +131,8 @@ pub enum LawTermName {
     AfterTravel,
     /// s*A*sqrt|v|.
     Root,
+    /// s*A*|load of gravity|.
+    WithLoad,
     /// s*(A1*cos(k*x) + A2*sin(k*x)) over the travel x.
     Ripple,
     /// Time by which the command acts later.
@@ -148,6 +153,7 @@ impl NearRestEntry {
     fn of(names: UnitNames, constant: f64, near: NearRestEstimate) -> Self {
         Self {
             amplitude: WithUnit::torque(names, constant, Some(near.torque)),
+            static_friction: WithUnit::torque(names, constant, near.static_friction()),
             speed: WithUnit::new(names, EstimateEntry::of(near.speed)),
             falloff: FalloffName::of(near.falloff),
         }
@@ -243,7 +249,10 @@ impl LawTermEntry {
             LawTerm::AfterTravel { travel } => {
                 entry.travel = WithUnit::new(names, travel);
             }
-            LawTerm::ViscousByDirection | LawTerm::Root | LawTerm::CommandLag => {}
+            LawTerm::ViscousByDirection
+            | LawTerm::Root
+            | LawTerm::WithLoad { .. }
+            | LawTerm::CommandLag => {}
         }
         entry
     }
@@ -256,6 +265,7 @@ impl LawTermName {
             LawTerm::NearRest { .. } => Self::NearRest,
             LawTerm::AfterTravel { .. } => Self::AfterTravel,
             LawTerm::Root => Self::Root,
+            LawTerm::WithLoad { .. } => Self::WithLoad,
             LawTerm::Ripple { .. } => Self::Ripple,
             LawTerm::CommandLag => Self::CommandLag,
         }
@@ -270,6 +280,7 @@ pub(super) fn amplitude_key(names: UnitNames, term: LawTerm) -> String {
             format!("amplitude_{}", names.torque())
         }
         LawTerm::Root => names.root_key("amplitude"),
+        LawTerm::WithLoad { .. } => "amplitude".to_owned(),
         LawTerm::CommandLag => "amplitude_s".to_owned(),
     }
 }

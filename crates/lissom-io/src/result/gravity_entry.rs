@@ -1,10 +1,11 @@
 //! A load of gravity, in JSON.
 
-use lissom::identify::Gravity;
+use lissom::identify::{Estimate, Gravity};
 use serde::{Deserialize, Serialize};
 
 use super::estimate_entry::EstimateEntry;
-use super::unit_keys::{AmplitudeKey, CosineKey, SineKey, WithUnit};
+use super::estimate_keys::Refusable;
+use super::unit_keys::{AmplitudeKey, CosineKey, SineKey, TorqueConstantKey, WithUnit};
 use super::unit_names::UnitNames;
 
 /// The torque g_s*sin(q) + g_c*cos(q) of an unbalanced load, q the motor's angle as logged.
@@ -22,16 +23,20 @@ pub struct GravityEntry {
     pub amplitude: WithUnit<AmplitudeKey, EstimateEntry>,
     /// The torque is m*g*l*sin(q + phase).
     pub phase_rad: EstimateEntry,
+    /// Torque per command by the load's m*g*l; null unless the campaign says what it is.
+    #[serde(flatten)]
+    pub torque_constant: Refusable<TorqueConstantKey>,
 }
 
 impl GravityEntry {
     /// The entry of a load.
-    pub(crate) fn of(names: UnitNames, gravity: &Gravity) -> Self {
+    pub(crate) fn of(names: UnitNames, gravity: &Gravity, constant: Option<Estimate>) -> Self {
         Self {
             sine: WithUnit::new(names, EstimateEntry::of(gravity.sine)),
             cosine: WithUnit::new(names, EstimateEntry::of(gravity.cosine)),
             amplitude: WithUnit::new(names, EstimateEntry::of(gravity.amplitude())),
             phase_rad: EstimateEntry::of(gravity.phase_rad()),
+            torque_constant: WithUnit::new(names, EstimateEntry::or_null(constant)),
         }
     }
 }

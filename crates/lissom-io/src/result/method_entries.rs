@@ -298,7 +298,7 @@ impl RegressionEntry {
             viscous: WithUnit::new(names, EstimateEntry::or_null(r.viscous)),
             inertia: WithUnit::new(names, EstimateEntry::or_null(r.inertia)),
             coupling_by_tip: WithUnit::new(names, coupling.collect()),
-            gravity: r.gravity.as_ref().map(|g| GravityEntry::of(names, g)),
+            gravity: r.gravity.as_ref().map(|g| GravityEntry::of(names, g, None)),
             viscous_by_direction: r
                 .viscous_by_direction
                 .as_ref()
@@ -344,7 +344,7 @@ impl LeastSquaresEntry {
             viscous: WithUnit::new(names, EstimateEntry::or_null(friction.viscous)),
             inertia: WithUnit::new(names, EstimateEntry::or_null(*inertia)),
             coupling_by_tip: WithUnit::new(names, coupling.collect()),
-            gravity: gravity.as_ref().map(|g| GravityEntry::of(names, g)),
+            gravity: gravity.as_ref().map(|g| GravityEntry::of(names, g, None)),
             speed_range: WithUnit::new(names, fit.speed_range),
             window_s: fit.window_s,
             rows: fit.rows,

@@ -152,7 +152,7 @@ impl ResultFile {
             from: id.method.and_then(MethodName::of),
             friction: FrictionEntry::of(names, constant, id),
             drive: DriveEntry { inertia: WithUnit::new(names, inertia) },
-            gravity: id.gravity.as_ref().map(|g| GravityEntry::of(names, g)),
+            gravity: id.gravity.as_ref().map(|g| GravityEntry::of(names, g, id.torque_constant)),
             beam: BeamEntry::of(names, id),
             verdict: separability.map(|s| SeparabilityEntry::of(channels.axis, names, s)),
             arm: id.arm.as_ref().map(|found| ArmEntry::of(channels, names, found)),

@@ -29,6 +29,8 @@ enum Unit {
     Torque,
     /// The command's.
     Command,
+    /// Torque per unit of command.
+    TorqueConstant,
     /// Torque or force per speed.
     Viscous,
     /// Torque or force per angle or position.
@@ -51,6 +53,7 @@ impl Unit {
             Self::Torque if torque == command => vec![format!("{name}_{command}")],
             Self::Torque => vec![format!("{name}_{command}"), format!("{name}_{torque}")],
             Self::Command => vec![format!("{name}_{command}")],
+            Self::TorqueConstant => vec![format!("{name}_nm_per_{command}")],
             Self::Viscous => vec![names.viscous_key(name)],
             Self::Coupling => vec![names.coupling_key(name)],
             Self::Inertia => vec![names.inertia_key()],
@@ -62,6 +65,7 @@ impl Unit {
                 names.root_key(name),
                 format!("{name}_{angle}"),
                 format!("{name}_s"),
+                name.to_owned(),
             ],
         }
     }
@@ -109,6 +113,10 @@ quantities! {
     CouplingByModeKey = "coupling_by_mode" in Coupling;
     /// Amplitude of a term of friction.
     AmplitudeKey = "amplitude" in Torque;
+    /// Friction at rest.
+    StaticKey = "static" in Torque;
+    /// Torque per command.
+    TorqueConstantKey = "torque_constant" in TorqueConstant;
     /// Amplitude of a term of the friction law, in the term's own unit; of a ripple cosine and sine.
     LawAmplitudeKey = "amplitude" in LawTerm;
     /// Amplitude of the motor's angle or position.

@@ -5,7 +5,6 @@ use crate::identify::judge::{Chosen, Evidence, slip_phase_solution};
 use crate::identify::methods::friction_law::FrictionLaw;
 use crate::identify::methods::output_error::{starts, starts_by_motor};
 use crate::identify::validation::{torque, zeros};
-use crate::load::GravityLoad;
 use crate::record::Campaign;
 use crate::replay::ModalArm;
 
@@ -25,8 +24,6 @@ pub struct FoundArm {
     pub arm: ModalArm,
     /// Where they are from.
     pub source: ArmSource,
-    /// Gravity on its motor.
-    pub gravity: Option<GravityLoad>,
     /// The torque of the logs used as it predicts it; `None` where the tips do not give the coupling
     /// torque.
     pub torque_used: Option<TorqueUsed>,
@@ -48,7 +45,7 @@ impl FoundArm {
     pub(super) fn of(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<Self> {
         let used = evidence.used;
         if let Some(oe) = evidence.replay() {
-            return Some(Self::with(oe.arm.clone(), None, ArmSource::OutputError, used));
+            return Some(Self::with(oe.arm.clone(), ArmSource::OutputError, used));
         }
         let supported = &chosen.drive;
         let (Some(_), Some(_)) = (supported.inertia, supported.friction.coulomb) else {
@@ -62,21 +59,13 @@ impl FoundArm {
                 .or_else(|| of_drive(evidence, &slip_phase_solution(regression, None)?.1)),
             _ => of_drive(evidence, drive),
         };
-        let gravity = drive.gravity.map(|g| g.load());
-        Some(Self::with(arm?, gravity, ArmSource::Regression, used))
+        Some(Self::with(arm?, ArmSource::Regression, used))
     }
 
-    fn with(
-        arm: ModalArm,
-        gravity: Option<GravityLoad>,
-        source: ArmSource,
-        used: &Campaign,
-    ) -> Self {
-        let without = gravity.map(|load| load.taken_from(used));
-        let used = without.as_ref().unwrap_or(used);
+    fn with(arm: ModalArm, source: ArmSource, used: &Campaign) -> Self {
         let torque_used = torque(&arm, used, &zeros(&arm, used), None)
             .map(|t| TorqueUsed { relative_error: t.relative_error, window_s: t.window_s });
-        Self { arm, source, gravity, torque_used }
+        Self { arm, source, torque_used }
     }
 }
 

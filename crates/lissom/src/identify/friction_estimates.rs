@@ -4,6 +4,7 @@ use crate::drive::Falloff;
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::friction_law::thresholds::NEGLIGIBLE_TERM;
 use crate::identify::methods::friction_law::{LawTerm, NEAR_REST_STEP};
+use crate::identify::thresholds::SIGN_SHOWN;
 use crate::replay::{DryTerms, FrictionNumber, NearRestNumber};
 
 /// Friction, in torque (or force).
@@ -58,11 +59,12 @@ impl Friction {
         terms: &DryTerms,
         number: impl Fn(FrictionNumber) -> Option<Estimate>,
         any: impl Fn(&dyn Fn(&DryTerms) -> f64) -> Estimate,
+        at_rest: impl Fn() -> Estimate,
     ) -> Self {
         let near_rest = terms.near_rest.and_then(|n| {
             let torque = number(FrictionNumber::NearRest(NearRestNumber::Torque))?;
             let speed = number(FrictionNumber::NearRest(NearRestNumber::Speed))?;
-            Some(NearRestEstimate { torque, speed, falloff: n.falloff })
+            Some(NearRestEstimate { torque, at_rest: at_rest(), speed, falloff: n.falloff })
         });
         let ripple = |i: usize| RippleEstimate {
             torque: any(&|terms| terms.ripples[i].amplitude_nm()),
@@ -72,14 +74,22 @@ impl Friction {
         Self { near_rest, ripples, ..Self::default() }
     }
 
-    /// The same of the terms of a law with their amplitudes.
-    pub(crate) fn of_law_terms(terms: &[(LawTerm, Vec<Estimate>)]) -> Self {
+    /// The same of the terms of a law with their amplitudes; `at_rest` is friction at rest.
+    pub(crate) fn of_law_terms(
+        terms: &[(LawTerm, Vec<Estimate>)],
+        at_rest: Option<Estimate>,
+    ) -> Self {
         let mut found = Self::default();
         for (term, amplitude) in terms {
             match (*term, &amplitude[..]) {
                 (LawTerm::NearRest { speed, falloff }, [torque]) => {
                     let speed = Estimate { value: speed, std: NEAR_REST_STEP * speed };
-                    found.near_rest = Some(NearRestEstimate { torque: *torque, speed, falloff });
+                    found.near_rest = at_rest.map(|at_rest| NearRestEstimate {
+                        torque: *torque,
+                        at_rest,
+                        speed,
+                        falloff,
+                    });
                 }
                 (LawTerm::Ripple { per_angle }, [cosine, sine, rate @ ..]) => {
                     let unknown = Estimate { value: per_angle, std: f64::INFINITY };
@@ -102,7 +112,7 @@ impl Friction {
             LawTerm::ViscousByDirection => self.viscous,
             LawTerm::NearRest { .. } | LawTerm::Ripple { .. } => self.coulomb,
             // Never taken for that little.
-            LawTerm::Root | LawTerm::AfterTravel { .. } => None,
+            LawTerm::Root | LawTerm::AfterTravel { .. } | LawTerm::WithLoad { .. } => None,
             LawTerm::CommandLag => return true,
         };
         let largest = amplitude.iter().take(2).map(|a| a.value.abs()).fold(0.0, f64::max);
@@ -124,12 +134,21 @@ impl Friction {
 /// `s·A·e^{−|v|/v_s}` or `s·A·e^{−(v/v_s)²}`, s the direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearRestEstimate {
-    /// A: friction at rest is C + A.
+    /// A.
     pub torque: Estimate,
+    /// Friction at rest, C + A.
+    pub at_rest: Estimate,
     /// v_s.
     pub speed: Estimate,
     /// Which of the two.
     pub falloff: Falloff,
+}
+
+impl NearRestEstimate {
+    /// Friction at rest where it is surely more than Coulomb friction.
+    pub fn static_friction(&self) -> Option<Estimate> {
+        (self.torque.value > SIGN_SHOWN * self.torque.std).then_some(self.at_rest)
+    }
 }
 
 /// `s·A·cos(k·θ + φ)`, s the direction.

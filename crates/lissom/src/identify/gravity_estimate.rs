@@ -32,6 +32,14 @@ impl Gravity {
         Estimate { value, std }
     }
 
+    /// Torque per command \[N·m per its unit\] by which this load is one of `mgl_nm`, where it was estimated with
+    /// `assumed` of them (1 where the figures are per unit of command): `K = assumed·m·g·l/√(g_s² + g_c²)`.
+    pub fn torque_constant(&self, mgl_nm: f64, assumed: f64) -> Estimate {
+        let amplitude = self.amplitude();
+        let value = assumed * mgl_nm / amplitude.value;
+        Estimate { value, std: value * amplitude.std / amplitude.value }
+    }
+
     /// φ \[rad\], from −π to π: at θ = −φ the load hangs or stands.
     pub fn phase_rad(&self) -> Estimate {
         let (s, c) = (self.sine, self.cosine);

@@ -43,6 +43,8 @@ pub struct Identified {
     pub inertia: Option<Estimate>,
     /// Gravity of that solution, where the campaign has it and the data tell it.
     pub gravity: Option<Gravity>,
+    /// Torque per command by that gravity, where the campaign says what m·g·l is \[N·m per unit of command\].
+    pub torque_constant: Option<Estimate>,
     /// The beam.
     pub beam: BeamEstimates,
     /// The report's method.
@@ -102,6 +104,7 @@ impl Identified {
             friction: chosen.drive.friction,
             inertia: chosen.drive.inertia,
             gravity: chosen.drive.gravity,
+            torque_constant: torque_constant(campaign, chosen.drive.gravity),
             beam: chosen.beam,
             third_harmonic: methods.third_harmonic,
             third_harmonic_model: methods.third_harmonic_model,
@@ -124,4 +127,10 @@ impl Identified {
             findings,
         }
     }
+}
+
+/// Torque per command by which the load that was found is the one that the campaign says.
+pub(super) fn torque_constant(campaign: &Campaign, gravity: Option<Gravity>) -> Option<Estimate> {
+    let assumed = campaign.channels.command.torque_per_unit();
+    Some(gravity?.torque_constant(campaign.mgl_nm?, assumed))
 }

@@ -129,9 +129,7 @@ pub fn identify(
     let tables = ResponseTables { prepared: &prepared, coulomb_command: best };
     let shown = tables.without_friction_known();
     let tips_model = beam_model(campaign, &shown);
-    // A replayed arm has no gravity.
-    let replayed = !options.without_output_error && !campaign.gravity;
-    let replayable = any_regression.filter(|_| replayed);
+    let replayable = any_regression.filter(|_| !options.without_output_error);
     let output_error = replayable.and_then(|motor| {
         progress(Stage::OutputError);
         let corrected = || tables.with_square_wave(best);

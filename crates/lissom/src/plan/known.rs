@@ -48,6 +48,7 @@ impl<'a> KnownRig<'a> {
         let left_out_rad_s = left_out.map(|j| omega[j]).collect();
         let tips = tips(masses, kept.len());
         let arm = ModalArm {
+            gravity: None,
             command_lag_s: rig.instruments.delay.map_or(0.0, |d| d.delay_s()),
             ..modes.cut(&kept, tips.clone())
         };

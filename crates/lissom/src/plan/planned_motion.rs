@@ -245,6 +245,7 @@ mod tests {
             modes: vec![mode(8.0, 0.002), mode(27.0, 0.3), mode(60.0, 0.05)],
             shapes: Vec::new(),
             at_points_per_s: Vec::new(),
+            gravity: None,
             command_lag_s: 0.0,
             tip_lags_s: Vec::new(),
         };

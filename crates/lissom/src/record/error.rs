@@ -77,6 +77,12 @@ pub enum RecordError {
         /// Its stamp \[s\].
         after_s: f64,
     },
+    /// A known m·g·l that is no positive torque.
+    #[error("m·g·l of a load is positive and finite, not {found_nm} N·m")]
+    Mgl {
+        /// The torque given \[N·m\].
+        found_nm: f64,
+    },
     /// The drive frequency is not a positive finite number below the Nyquist frequency.
     #[error(
         "run {run}: a drive frequency of {found_rad_s} rad/s is not between 0 and the Nyquist frequency {nyquist_rad_s} rad/s"

@@ -21,6 +21,8 @@ pub struct Campaign {
     pub runs: Vec<Run>,
     /// Whether a load with gravity acts on the motor, `g_s·sin θ + g_c·cos θ`, to be identified.
     pub gravity: bool,
+    /// Largest torque m·g·l of that load, where it is known \[N·m\]: it gives the torque constant.
+    pub mgl_nm: Option<f64>,
 }
 
 impl Campaign {
@@ -42,7 +44,7 @@ impl Campaign {
                 });
             }
         }
-        Ok(Self { channels, runs, gravity: false })
+        Ok(Self { channels, runs, gravity: false, mgl_nm: None })
     }
 
     /// The same with a load of gravity `g_s·sin θ + g_c·cos θ` on the motor, θ the motor's angle, to be identified.
@@ -55,5 +57,16 @@ impl Campaign {
         }
         self.gravity = true;
         Ok(self)
+    }
+
+    /// The same, that load's largest torque m·g·l being known \[N·m\].
+    ///
+    /// # Errors
+    /// As [`Self::with_gravity`], and [`RecordError::Mgl`] unless it is positive and finite.
+    pub fn with_known_gravity(self, mgl_nm: f64) -> Result<Self, RecordError> {
+        if !(mgl_nm > 0.0 && mgl_nm.is_finite()) {
+            return Err(RecordError::Mgl { found_nm: mgl_nm });
+        }
+        Ok(Self { mgl_nm: Some(mgl_nm), ..self.with_gravity()? })
     }
 }

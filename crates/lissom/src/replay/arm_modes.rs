@@ -130,6 +130,7 @@ impl<'a> ArmModes<'a> {
             modes: Vec::new(),
             shapes: Vec::new(),
             at_points_per_s: Vec::new(),
+            gravity: None,
             command_lag_s: 0.0,
             tip_lags_s: Vec::new(),
         }

@@ -2,7 +2,7 @@
 
 use super::friction::{Ends, Held, sign};
 use super::rates::Rates;
-use super::replayed_motion::{Mover, ReplayedMotion, Torque, direction};
+use super::replayed_motion::{INPUTS, Mover, ReplayedMotion, Torque, direction};
 use super::series::{Ramp, Terms, reach_s, terms, value};
 use crate::friction::Mode;
 use crate::lti::first_root::{ORDER_MOST, first_used_up};
@@ -19,8 +19,8 @@ struct SeriesStretch<const D: usize> {
     series: Terms<D>,
     /// Net torque on the motor.
     net: Ramp,
-    /// What the lag makes of the torque.
-    by_lag: Ramp,
+    /// Derivatives of the torque by what it depends on.
+    by: [Ramp; INPUTS],
     duration_s: f64,
     /// Friction's ends while it slips, with the responses to a torque and to a ramp at the end.
     friction: Option<(Ends, [f64; D], [f64; D])>,
@@ -34,17 +34,14 @@ impl<const D: usize> Mover<D> {
         torque: Torque,
         duration_s: f64,
     ) {
-        let by_lag = Ramp {
-            from: torque.by_lag[0],
-            slope: (torque.by_lag[1] - torque.by_lag[0]) / duration_s,
-        };
+        let by = torque.by.map(|[from, to]| Ramp { from, slope: (to - from) / duration_s });
         let (mut done, mut events) = (0.0, 0);
         let whole = torque.ramp(duration_s);
         while done < duration_s {
             let left_s = duration_s - done;
             let ramp = whole.after(done);
             let most = self.reach_s(motion, ramp.from, left_s, SHORTEST * duration_s);
-            let stretch = self.stretch(motion, ramp, by_lag.after(done), most);
+            let stretch = self.stretch(motion, ramp, by.map(|b| b.after(done)), most);
             let event = if events < MOST_EVENTS {
                 self.event(motion.mode, &stretch.series, ramp, most)
             } else {
@@ -87,13 +84,13 @@ impl<const D: usize> Mover<D> {
         &self,
         motion: &ReplayedMotion<D>,
         torque: Ramp,
-        by_lag: Ramp,
+        by: [Ramp; INPUTS],
         duration_s: f64,
     ) -> SeriesStretch<D> {
         let rates = self.rates(motion.mode);
         let Some(direction) = direction(motion.mode) else {
             let series = terms(rates, &motion.x, torque, duration_s);
-            return SeriesStretch { series, net: torque, by_lag, duration_s, friction: None };
+            return SeriesStretch { series, net: torque, by, duration_s, friction: None };
         };
         let mut net = torque.less(self.friction.torque(&motion.x, direction));
         let mut series = terms(rates, &motion.x, net, duration_s);
@@ -117,7 +114,7 @@ impl<const D: usize> Mover<D> {
             series = terms(rates, &motion.x, net, duration_s);
         }
         let friction = Some((ends, push, ramp));
-        SeriesStretch { series, net, by_lag, duration_s, friction }
+        SeriesStretch { series, net, by, duration_s, friction }
     }
 
     fn rates(&self, mode: Mode) -> &Rates<D> {
@@ -216,7 +213,8 @@ impl<const D: usize> Mover<D> {
         motion: &ReplayedMotion<D>,
         stretch: &SeriesStretch<D>,
     ) -> Vec<(usize, Ramp)> {
-        let mut found: Vec<_> = self.columns.lag.iter().map(|k| (*k, stretch.by_lag)).collect();
+        let inputs = self.columns.inputs.iter().zip(stretch.by);
+        let mut found: Vec<_> = inputs.filter_map(|(k, by)| Some(((*k)?, by))).collect();
         let Some((ends, push, ramp)) = &stretch.friction else { return found };
         // Constant friction asks for nothing at its end.
         let end = (!self.friction.terms.is_empty()).then(|| {
@@ -226,11 +224,12 @@ impl<const D: usize> Mover<D> {
             end
         });
         for (k, own) in &self.columns.friction {
-            let lag = if self.columns.lag == Some(*k) { stretch.by_lag } else { Ramp::NONE };
+            let input = self.columns.inputs.iter().position(|input| *input == Some(*k));
+            let own_ramp = input.map_or(Ramp::NONE, |input| stretch.by[input]);
             let end_of = |from: f64| {
                 let Some(end) = &end else { return [0.0; 2] };
-                let (end, rises) = (end.motor(*k), lag.slope * stretch.duration_s);
-                [0, 1].map(|i| end[i] + (lag.from - from) * push[i] + (rises + from) * ramp[i])
+                let (end, rises) = (end.motor(*k), own_ramp.slope * stretch.duration_s);
+                [0, 1].map(|i| end[i] + (own_ramp.from - from) * push[i] + (rises + from) * ramp[i])
             };
             let start = motion.tangents.motor(*k);
             let [from, to] = self.friction.tangent(ends, *own, &start, end_of);

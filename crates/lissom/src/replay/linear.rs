@@ -179,6 +179,7 @@ mod tests {
             modes: vec![mode(8.0, 2.0, 0.3, 0.2), mode(70.0, 1.0, 4.0, 0.5)],
             shapes: vec![vec![0.6, 0.4], vec![1.3, -0.3]],
             at_points_per_s: vec![0.7, 0.1],
+            gravity: None,
             command_lag_s: 0.0,
             tip_lags_s: Vec::new(),
         }

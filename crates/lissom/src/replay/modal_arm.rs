@@ -5,6 +5,7 @@ use num_complex::Complex64;
 
 use crate::eigenvalues::eigenvalues;
 use crate::friction::DryTerms;
+use crate::load::GravityLoad;
 
 /// Most modes of a replayed arm.
 pub const MOST_MODES: usize = 4;
@@ -40,12 +41,13 @@ impl Oscillator {
 /// An arm as its motor feels it.
 ///
 /// ```text
-/// J·θ̈ = τ − V_±·θ̇ − F_± − Σ k_j·(θ − ψ_j) + (k_j·d_j/ω_j²)·(θ̇ − ψ̇_j)
+/// J·θ̈ = τ − g_s·sin θ_log − g_c·cos θ_log − V_±·θ̇ − F_± − Σ k_j·(θ − ψ_j) + (k_j·d_j/ω_j²)·(θ̇ − ψ̇_j)
 /// ψ̈_j = ω_j²·(θ − ψ_j) + d_j·(θ̇ − ψ̇_j) − a_j·ψ̇_j − Σ_l (r⁻¹·diag(c)·r)_jl·ψ̇_l
 /// θ_i = θ + Σ r_ij·(ψ_j − θ)
 /// ```
 ///
-/// with θ_i read `tip_lags_s` later and c_i the damping of the point of tip i against the fixed frame, of arms with as many tips as
+/// with θ_log the motor's angle as it was logged, from sample to sample on a line, so that gravity is an input beside the
+/// command τ and the equations stay linear; θ_i read `tip_lags_s` later, and c_i the damping of the point of tip i against the fixed frame, of arms with as many tips as
 /// modes.
 ///
 /// Any beam with modes is one, whatever its masses: oscillator j stands for the clamped mode j, and
@@ -72,6 +74,8 @@ pub struct ModalArm {
     pub shapes: Vec<Vec<f64>>,
     /// c_i of each tip's point \[1/s\]; empty where there are not as many tips as modes.
     pub at_points_per_s: Vec<f64>,
+    /// Gravity's torque, in replays only: the linear responses leave it out.
+    pub gravity: Option<GravityLoad>,
     /// The torque acts this much later than it is logged \[s\].
     pub command_lag_s: f64,
     /// Each tip shows what its point did this much before \[s\]; empty where all are in time.

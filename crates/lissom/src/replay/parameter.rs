@@ -29,6 +29,10 @@ pub enum Parameter {
     Offset,
     /// A number of the friction terms beside Coulomb friction and offset.
     Friction(FrictionNumber),
+    /// g_s of gravity.
+    GravitySine,
+    /// g_c of gravity.
+    GravityCosine,
     /// Lag of the command.
     CommandLag,
     /// Lag of a tip's readings behind the motor's.
@@ -44,8 +48,10 @@ pub enum Parameter {
 pub(crate) enum Enters {
     /// The arm's matrices.
     Matrices,
-    /// The torque on the motor.
-    Torque,
+    /// Friction's torque on the motor.
+    Friction,
+    /// A torque on the motor that does not depend on its state.
+    Load,
     /// When the torque acts.
     Lag,
     /// What a tip sees of the state.
@@ -67,7 +73,8 @@ impl Parameter {
             | Self::DampingWithin(_)
             | Self::DampingGrounded(_)
             | Self::DampingAtPoint(_) => Enters::Matrices,
-            Self::Coulomb | Self::Offset | Self::Friction(_) => Enters::Torque,
+            Self::Coulomb | Self::Offset | Self::Friction(_) => Enters::Friction,
+            Self::GravitySine | Self::GravityCosine => Enters::Load,
             Self::CommandLag => Enters::Lag,
             Self::Shape(..) | Self::ShapeShare(..) | Self::TipLag(_) => Enters::Output,
         }
@@ -93,7 +100,7 @@ impl Parameter {
         let first = arm.modes.first().map_or(1.0, |m| m.omega_rad_s);
         match self {
             Self::Viscous => positive(self.of(arm), 0.01 * arm.inertia_kg_m2 * first),
-            Self::Coulomb | Self::Offset => {
+            Self::Coulomb | Self::Offset | Self::GravitySine | Self::GravityCosine => {
                 positive(arm.coulomb_nm, arm.inertia_kg_m2 * first * first)
             }
             Self::Friction(number) if number.is_torque() => Self::Coulomb.size(arm),
@@ -122,6 +129,8 @@ impl Parameter {
             Self::Coulomb => "coulomb".to_owned(),
             Self::Offset => "offset".to_owned(),
             Self::Friction(number) => number.name(),
+            Self::GravitySine => "gravity-sine".to_owned(),
+            Self::GravityCosine => "gravity-cosine".to_owned(),
             Self::CommandLag => "command-lag".to_owned(),
             Self::TipLag(i) => format!("tip-lag-{}", i + 1),
             Self::Shape(i, j) | Self::ShapeShare(i, j) => format!("shape-{}-{}", i + 1, j + 1),
@@ -143,6 +152,8 @@ impl Parameter {
             Self::Coulomb => arm.coulomb_nm,
             Self::Offset => arm.offset_nm,
             Self::Friction(number) => number.of(&arm.dry_terms),
+            Self::GravitySine => arm.gravity.map_or(0.0, |g| g.sine_nm),
+            Self::GravityCosine => arm.gravity.map_or(0.0, |g| g.cosine_nm),
             Self::CommandLag => arm.command_lag_s,
             Self::TipLag(i) => arm.tip_lags_s.get(i).copied().unwrap_or(0.0),
             Self::Shape(i, j) | Self::ShapeShare(i, j) => arm.shapes[i][j],
@@ -167,6 +178,8 @@ impl Parameter {
             Self::Coulomb => arm.coulomb_nm = value,
             Self::Offset => arm.offset_nm = value,
             Self::Friction(number) => number.set(&mut arm.dry_terms, value),
+            Self::GravitySine => arm.gravity.get_or_insert_default().sine_nm = value,
+            Self::GravityCosine => arm.gravity.get_or_insert_default().cosine_nm = value,
             Self::CommandLag => arm.command_lag_s = value,
             Self::TipLag(i) => {
                 arm.tip_lags_s.resize(arm.shapes.len(), 0.0);
@@ -204,5 +217,8 @@ pub fn free_parameters(channels: &Channels, arm: &ModalArm) -> Vec<Parameter> {
         }
     }
     free.extend(arm.dry_terms.numbers().into_iter().map(Parameter::Friction));
+    if arm.gravity.is_some() {
+        free.extend([Parameter::GravitySine, Parameter::GravityCosine]);
+    }
     free
 }

@@ -11,12 +11,19 @@ use crate::friction::Mode;
 /// Halvings of a piece, at most, where friction changes with speed or angle.
 const HALVINGS: usize = 6;
 
+/// Places of the unknowns that the torque depends on whatever the motor does: the command's lag, g_s and g_c.
+pub(super) const BY_LAG: usize = 0;
+pub(super) const BY_SINE: usize = 1;
+pub(super) const BY_COSINE: usize = 2;
+pub(super) const INPUTS: usize = 3;
+
 /// Unknowns whose tangents the torque on the motor moves.
 #[derive(Debug, Clone)]
 pub(super) struct Columns {
     /// Those that friction changes with, and the parameters of its own among them.
     pub(super) friction: Vec<(usize, Option<Parameter>)>,
-    pub(super) lag: Option<usize>,
+    /// Those that the torque itself depends on: [`BY_LAG`] and so on.
+    pub(super) inputs: [Option<usize>; INPUTS],
 }
 
 /// The motor's torque over a piece of a sample, linear in time \[N·m\].
@@ -24,22 +31,22 @@ pub(super) struct Columns {
 pub(super) struct Torque {
     pub(super) from: f64,
     pub(super) to: f64,
-    /// d/dlag of both \[N·m/s\].
-    pub(super) by_lag: [f64; 2],
+    /// Derivatives of both by the command's lag \[N·m/s\], g_s and g_c.
+    pub(super) by: [[f64; 2]; INPUTS],
 }
 
 impl Torque {
     pub(super) fn held(torque: f64) -> Self {
-        Self { from: torque, to: torque, by_lag: [0.0; 2] }
+        Self { from: torque, to: torque, by: [[0.0; 2]; INPUTS] }
     }
     pub(super) fn ramp(self, duration_s: f64) -> Ramp {
         Ramp { from: self.from, slope: (self.to - self.from) / duration_s }
     }
     /// Between two shares of its duration.
     pub(super) fn part(self, from: f64, to: f64) -> Self {
-        let at = |share: f64| self.from + share * (self.to - self.from);
-        let lag = |share: f64| self.by_lag[0] + share * (self.by_lag[1] - self.by_lag[0]);
-        Self { from: at(from), to: at(to), by_lag: [lag(from), lag(to)] }
+        let between = |[a, b]: [f64; 2]| [from, to].map(|share| a + share * (b - a));
+        let [from_nm, to_nm] = between([self.from, self.to]);
+        Self { from: from_nm, to: to_nm, by: self.by.map(between) }
     }
 }
 
@@ -59,8 +66,8 @@ struct Slip {
     /// The torque that friction leaves at the beginning, and its change \[N·m\].
     net: f64,
     change: f64,
-    /// d/dlag of the torque at both ends \[N·m/s\].
-    by_lag: [f64; 2],
+    /// [`Torque::by`].
+    by: [[f64; 2]; INPUTS],
     /// Friction at both ends, where it changes.
     ends: Option<Ends>,
 }
@@ -229,7 +236,7 @@ impl<const D: usize> Mover<D> {
         let change = torque.to - torque.from;
         let mut next = piece.own.apply(&motion.x, torque.from - first, change);
         let mut slip =
-            Slip { direction, net: torque.from - first, change, by_lag: torque.by_lag, ends: None };
+            Slip { direction, net: torque.from - first, change, by: torque.by, ends: None };
         let mut mean = first;
         if !self.friction.terms.is_empty() {
             let ends = self.friction.over(
@@ -278,11 +285,13 @@ impl<const D: usize> Mover<D> {
             return;
         };
         let (push, ramp) = (&piece.own.push, &piece.own.ramp);
-        if let Some(k) = self.columns.lag
-            && slip.by_lag.iter().any(|b| *b != 0.0)
-        {
-            motion.tangents.add(k, slip.by_lag[0], push);
-            motion.tangents.add(k, slip.by_lag[1] - slip.by_lag[0], ramp);
+        for (k, [from, to]) in self.columns.inputs.iter().zip(slip.by) {
+            if let Some(k) = *k
+                && (from != 0.0 || to != 0.0)
+            {
+                motion.tangents.add(k, from, push);
+                motion.tangents.add(k, to - from, ramp);
+            }
         }
         for (k, own) in &self.columns.friction {
             let Some(ends) = &slip.ends else {
@@ -301,7 +310,7 @@ impl<const D: usize> Mover<D> {
 
     /// Under a torque that jumps from `before` to `after` at an instant that the lag moves.
     pub(super) fn jump(&self, motion: &mut ReplayedMotion<D>, before: f64, after: f64) {
-        let Some(k) = self.columns.lag else { return };
+        let Some(k) = self.columns.inputs[BY_LAG] else { return };
         let old = self.motor_acceleration(motion, before);
         self.settle(motion, after);
         let new = self.motor_acceleration(motion, after);

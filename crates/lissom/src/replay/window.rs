@@ -7,9 +7,12 @@ use super::lanes::LANES;
 use super::modal_arm::ModalArm;
 use super::parameter::{Enters, Parameter};
 use super::rates::Phases;
-use super::replayed_motion::{Columns, Mover, ReplayedMotion, Torque, direction};
+use super::replayed_motion::{
+    BY_COSINE, BY_LAG, BY_SINE, Columns, INPUTS, Mover, ReplayedMotion, Torque, direction,
+};
 use super::tangents::Tangents;
 use crate::friction::Mode;
+use crate::load::GravityLoad;
 use crate::record::{Channels, Hold, Run, TipQuantity};
 
 /// Where a part of a sample is no longer one: shares of the sample time below this count as none.
@@ -35,8 +38,10 @@ pub(super) struct Replayer<'a, const D: usize> {
 pub(super) struct Seen<'m, const D: usize> {
     pub(super) sample: usize,
     pub(super) motion: &'m ReplayedMotion<D>,
-    /// Torque that acts just before the sample \[N·m\].
+    /// Torque that acts just before the sample, gravity's taken off \[N·m\].
     pub(super) torque: f64,
+    /// Sine and cosine of the logged angle, where gravity acts.
+    pub(super) waves: Option<[f64; 2]>,
 }
 
 impl<'a, const D: usize> Replayer<'a, D> {
@@ -48,14 +53,18 @@ impl<'a, const D: usize> Replayer<'a, D> {
     ) -> Self {
         let phases = Phases::new(arm, parameters);
         let friction = Friction::new(arm);
-        let rubs = |p: &Parameter| p.enters(arm) == Enters::Torque;
+        let rubs = |p: &Parameter| p.enters(arm) == Enters::Friction;
         let own = |k: usize| (k, parameters.get(k).copied().filter(rubs));
         let mut by = (0..parameters.len() + D).map(own).collect::<Vec<_>>();
         if friction.terms.is_empty() {
             by.retain(|(_, own)| own.is_some());
         }
-        let lag = parameters.iter().position(|p| *p == Parameter::CommandLag);
-        let columns = Columns { friction: by, lag };
+        let place = |parameter| parameters.iter().position(|p| *p == parameter);
+        let mut inputs = [None; INPUTS];
+        inputs[BY_LAG] = place(Parameter::CommandLag);
+        inputs[BY_SINE] = place(Parameter::GravitySine);
+        inputs[BY_COSINE] = place(Parameter::GravityCosine);
+        let columns = Columns { friction: by, inputs };
         let mut mover = Mover { phases, friction, columns, pieces: Vec::new() };
         let samples = arm.command_lag_s / sample_time_s;
         let held = channels.command.hold == Hold::Sampled;
@@ -108,8 +117,9 @@ impl<'a, const D: usize> Replayer<'a, D> {
             ReplayedMotion { x: start, tangents, mode, stuck_s: 0.0, friction_impulse };
         let (first, last) = (*range.start(), *range.end());
         for sample in first..=last {
-            let torque = self.before(run, sample);
-            see(&Seen { sample, motion: &motion, torque });
+            let waves = self.waves(run, sample);
+            let torque = self.before(run, sample) - self.load(waves);
+            see(&Seen { sample, motion: &motion, torque, waves });
             if sample < last {
                 self.sample(run, sample, &mut motion);
             }
@@ -117,7 +127,33 @@ impl<'a, const D: usize> Replayer<'a, D> {
         motion
     }
 
-    /// Torque that acts just before sample `k`.
+    /// Sine and cosine of the logged angle at sample `k`, where gravity acts.
+    fn waves(&self, run: &Run, k: usize) -> Option<[f64; 2]> {
+        self.arm.gravity.map(|_| run.motor()[k].sin_cos().into())
+    }
+
+    /// Gravity's torque.
+    fn load(&self, waves: Option<[f64; 2]>) -> f64 {
+        let torque = |(g, [sin, cos]): (GravityLoad, [f64; 2])| g.sine_nm * sin + g.cosine_nm * cos;
+        self.arm.gravity.zip(waves).map_or(0.0, torque)
+    }
+
+    /// A torque over sample `k`, gravity's taken off.
+    fn less_load(&self, run: &Run, k: usize, torque: Torque) -> Torque {
+        let (Some([sin, cos]), Some([next_sin, next_cos])) =
+            (self.waves(run, k), self.waves(run, k + 1))
+        else {
+            return torque;
+        };
+        let mut less = torque;
+        less.from -= self.load(Some([sin, cos]));
+        less.to -= self.load(Some([next_sin, next_cos]));
+        less.by[BY_SINE] = [-sin, -next_sin];
+        less.by[BY_COSINE] = [-cos, -next_cos];
+        less
+    }
+
+    /// Torque of the command just before sample `k`.
     fn before(&self, run: &Run, k: usize) -> f64 {
         let at = k.cast_signed() - self.lag_samples;
         match self.channels.command.hold {
@@ -145,16 +181,20 @@ impl<'a, const D: usize> Replayer<'a, D> {
             Hold::Measured => {
                 let (from, from_slope) = self.between(run, at);
                 let (to, to_slope) = self.between(run, at + 1);
-                let by_lag = [from_slope, to_slope].map(|s| -s / self.sample_time_s);
-                self.mover.advance(motion, whole, Torque { from, to, by_lag });
+                let mut torque = Torque { to, ..Torque::held(from) };
+                torque.by[BY_LAG] = [from_slope, to_slope].map(|s| -s / self.sample_time_s);
+                self.mover.advance(motion, whole, self.less_load(run, k, torque));
             }
             Hold::Sampled => {
                 let (old, new) = (self.torque(run, at - 1), self.torque(run, at));
+                let [old, new] = [old, new].map(|t| self.less_load(run, k, Torque::held(t)));
+                let share = if self.pieces[0].is_some() { self.lag_share } else { 0.0 };
                 if let Some(before) = self.pieces[0] {
-                    self.mover.advance(motion, before, Torque::held(old));
+                    self.mover.advance(motion, before, old.part(0.0, share));
                 }
-                self.mover.jump(motion, old, new);
-                self.mover.advance(motion, whole, Torque::held(new));
+                let new = new.part(share, 1.0);
+                self.mover.jump(motion, old.part(share, 1.0).from, new.from);
+                self.mover.advance(motion, whole, new);
             }
         }
     }
@@ -327,7 +367,11 @@ impl<'a, const D: usize> Replayer<'a, D> {
             let friction = &self.mover.friction;
             row[index] += left
                 * match enters {
-                    Enters::Torque => -rates.b[1] * friction.by(*p, x, d),
+                    Enters::Friction => -rates.b[1] * friction.by(*p, x, d),
+                    Enters::Load => {
+                        let [sin, cos] = seen.waves.unwrap_or_default();
+                        -rates.b[1] * if *p == Parameter::GravitySine { sin } else { cos }
+                    }
                     Enters::Matrices => {
                         rates.row_by(index, 1, x)
                             + rates.push_by(index, 1)

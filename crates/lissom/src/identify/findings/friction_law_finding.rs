@@ -94,6 +94,10 @@ fn term_in_words(
             let sign = if amplitude < 0.0 { "falls" } else { "grows" };
             format!("it {sign} with the root of speed, by {size} {torque}/√({angle}/s)")
         }
+        LawTerm::WithLoad { .. } => {
+            let sign = if amplitude < 0.0 { "falls" } else { "grows" };
+            format!("it {sign} with the load of gravity, by {size} of it")
+        }
         LawTerm::Ripple { per_angle } => {
             let squares = amplitudes.iter().take(2).map(|e| e.value * e.value);
             format!(

@@ -38,6 +38,15 @@ pub enum RegressionFinding {
         /// Correlation of both.
         correlation: f64,
     },
+    /// The load's known m·g·l and the given torque constant contradict each other.
+    TorqueConstant {
+        /// Torque per command by gravity \[N·m per unit of command\].
+        by_gravity: Estimate,
+        /// The one given.
+        given: f64,
+        /// Unit of the command.
+        units: EstimateUnits,
+    },
     /// The regression leaves much of the torque.
     UnexplainedTorque {
         /// Share of the windowed torque.
@@ -144,6 +153,14 @@ impl fmt::Display for RegressionFinding {
                     GravityPartner::Offset => "a constant load",
                 }
             ),
+            Self::TorqueConstant { by_gravity, given, units } => write!(
+                f,
+                "by the load's known m·g·l the torque constant is {} N·m per {}, and {} is given: all figures in N·m follow \
+                 the given one",
+                with_error(*by_gravity),
+                units.command(),
+                significant(*given, DIGITS)
+            ),
             Self::UnexplainedTorque { residual_share } => write!(
                 f,
                 "{:.0} % of the windowed torque is not explained by the motor's equation: errors of the estimates may be \
@@ -208,6 +225,7 @@ impl Describe for RegressionFinding {
             Self::RegressionRefused { .. } => Severity::Refusal,
             Self::FewPhases { .. }
             | Self::GravityUnseparated { .. }
+            | Self::TorqueConstant { .. }
             | Self::UnexplainedTorque { .. }
             | Self::OneSine
             | Self::MissingTerm { .. }
@@ -220,6 +238,7 @@ impl Describe for RegressionFinding {
         match self {
             Self::RegressionRefused { .. }
             | Self::FewPhases { .. }
+            | Self::TorqueConstant { .. }
             | Self::UnexplainedTorque { .. }
             | Self::AngleLag { .. }
             | Self::MissingTerm { .. } => {
@@ -250,6 +269,9 @@ impl Describe for RegressionFinding {
             }
             Self::GravityUnseparated { with: GravityPartner::Offset, .. } => {
                 "move over a longer arc: over a short one gravity is a constant"
+            }
+            Self::TorqueConstant { .. } => {
+                "check both, and gear_ratio; leave torque_constant out, and the load gives it"
             }
             Self::UnexplainedTorque { .. } => {
                 "look for a delay, a load, other friction, or a flexible mode without a tip; check units and signs"

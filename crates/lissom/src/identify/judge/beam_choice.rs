@@ -109,7 +109,7 @@ mod tests {
         };
         let tip = Tip { name: "tip".into(), quantity: TipQuantity::Angle, calibrated: true };
         let channels = Channels { axis: Axis::Rotary, command, tips: vec![tip] };
-        Campaign { channels, runs: Vec::new(), gravity: false }
+        Campaign { channels, runs: Vec::new(), gravity: false, mgl_nm: None }
     }
 
     fn frequencies(methods: &Methods) -> Vec<f64> {

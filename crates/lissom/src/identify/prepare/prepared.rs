@@ -152,7 +152,7 @@ fn used<'a>(campaign: &'a Campaign, kept: &[usize], dead: &[bool]) -> Cow<'a, Ca
         tip.calibrated &= !dead;
     }
     let runs = kept.iter().map(|&i| campaign.runs[i].clone()).collect();
-    Cow::Owned(Campaign { channels, runs, gravity: campaign.gravity })
+    Cow::Owned(Campaign { channels, runs, gravity: campaign.gravity, mgl_nm: campaign.mgl_nm })
 }
 
 /// Runs that the regressions and the output error may use.

@@ -107,8 +107,6 @@ pub fn validate(
     campaign: &Campaign,
     options: &ValidationOptions,
 ) -> Result<Validation, ValidationError> {
-    let without = found.gravity.map(|load| load.taken_from(campaign));
-    let campaign = without.as_ref().unwrap_or(campaign);
     let arm = &found.arm;
     let tips = campaign.channels.tips.len();
     if arm.shapes.len() != tips {

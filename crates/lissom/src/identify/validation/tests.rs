@@ -22,6 +22,7 @@ fn rigid() -> ModalArm {
         shapes: Vec::new(),
         at_points_per_s: Vec::new(),
         dry_terms: DryTerms::default(),
+        gravity: None,
         command_lag_s: 0.0,
         tip_lags_s: Vec::new(),
     }
@@ -29,7 +30,7 @@ fn rigid() -> ModalArm {
 
 fn found(arm: ModalArm) -> FoundArm {
     let torque_used = Some(TorqueUsed { relative_error: 0.01, window_s: 0.04 });
-    FoundArm { arm, source: ArmSource::Regression, gravity: None, torque_used }
+    FoundArm { arm, source: ArmSource::Regression, torque_used }
 }
 
 fn channels() -> Channels {

@@ -113,6 +113,8 @@ pub(in crate::identify) fn torque(
     zeros: &[Vec<f64>],
     window_s: Option<f64>,
 ) -> Option<TorquePrediction> {
+    let without = arm.gravity.map(|load| load.taken_from(campaign));
+    let campaign = without.as_ref().unwrap_or(campaign);
     let coupling = Coupling::new(arm, campaign)?;
     let window_s = window_s.or_else(|| chosen_window_s(arm, campaign))?;
     let masks = masks(campaign);

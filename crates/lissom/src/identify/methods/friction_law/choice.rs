@@ -108,7 +108,7 @@ impl<'a> LawSearch<'a> {
         let first = fixed(sampled.campaign);
         let mut columns = Vec::new();
         let mut open = Vec::new();
-        for term in LawTerm::offered(fastest, sampled.after <= 0.0) {
+        for term in LawTerm::offered(fastest, sampled.after <= 0.0, sampled.load) {
             let at = first + columns.len();
             columns.extend(term.columns());
             let terms = match term {
@@ -206,9 +206,13 @@ impl<'a> LawSearch<'a> {
             }
             _ => (RESIDUAL_FALLS_TO, true),
         };
-        let allowed = allowed && (!tried.term.is_near_rest() || self.is_within_data(&solution));
+        let part_of_coulomb = tried.term.is_near_rest()
+            || matches!(tried.term, LawTerm::Root | LawTerm::WithLoad { .. });
+        let allowed = allowed && (!part_of_coulomb || self.is_within_data(&solution));
         let taken = paired > PRESENT
             && allowed
+            && amplitude.value.abs() > SIGN_SHOWN * amplitude.std
+            && self.sampled.resolves(tried.term)
             && residual_ratio < least
             && stretch_ratio < 1.0
             && at_rest > -SIGN_SHOWN * at_rest_std;
@@ -247,6 +251,20 @@ impl<'a> LawSearch<'a> {
         }
         weight[first] = f64::from(tried.is_near_rest());
         known(solution, &weight)
+    }
+
+    /// Friction at rest, its mean of both directions, under the terms taken; `None` without one near rest.
+    fn mean_at_rest(&self) -> Option<Estimate> {
+        let mut weight = DVector::zeros(self.solution.value.len());
+        let mut at = self.first_added();
+        for t in &self.taken {
+            weight[at] = f64::from(t.term.is_near_rest());
+            at += t.terms.len();
+        }
+        let any = weight.amax() > 0.0;
+        weight[2] = 1.0;
+        let (value, std) = known(&self.solution, &weight);
+        any.then_some(Estimate { value, std })
     }
 
     fn lag_allowed(&self, lag: &Estimate) -> bool {
@@ -306,6 +324,7 @@ impl<'a> LawSearch<'a> {
             inertia: found.inertia,
             viscous: found.friction.viscous,
             coulomb: found.friction.coulomb,
+            at_rest: self.mean_at_rest(),
             offset: found.friction.offset,
             forward: found.friction.forward,
             backward: found.friction.backward,

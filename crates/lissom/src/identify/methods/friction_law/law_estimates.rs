@@ -33,6 +33,6 @@ fn friction(law: &LawFit) -> Friction {
         offset: law.offset,
         viscous: law.viscous,
         viscous_by_direction: by_direction(1.0).zip(by_direction(-1.0)),
-        ..Friction::of_law_terms(&law.terms)
+        ..Friction::of_law_terms(&law.terms, law.at_rest)
     }
 }

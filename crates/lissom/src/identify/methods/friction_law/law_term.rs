@@ -2,6 +2,7 @@
 
 use crate::drive::Falloff;
 use crate::identify::methods::friction_law::thresholds::NEAR_REST_MOST;
+use crate::load::GravityLoad;
 use crate::replay::{DryTerms, NearRest, Ripple};
 
 /// The speed of a term near rest is found to this share: neighbours tried last are as far apart.
@@ -32,6 +33,11 @@ pub enum LawTerm {
         /// k, radians of ripple per radian of angle (1/m on linear axes).
         per_angle: f64,
     },
+    /// `s·A·|g_s·sin θ + g_c·cos θ|`: friction that grows with the load of gravity, A the coefficient μ of friction.
+    WithLoad {
+        /// The load, as the regression has it.
+        load: GravityLoad,
+    },
     /// The command acts later than it is logged; its amplitude is that time \[s\].
     CommandLag,
 }
@@ -49,6 +55,8 @@ pub(super) enum Column {
     NearRest(f64, Falloff),
     /// `√|v|`.
     Root,
+    /// `|g_s·sin θ + g_c·cos θ|`.
+    Load(GravityLoad),
     /// `cos kθ`.
     Cosine(f64),
     /// `sin kθ`.
@@ -67,6 +75,7 @@ impl Column {
         match self {
             Self::NearRest(fall, falloff) => falloff.share(speed / fall),
             Self::Root => speed.sqrt(),
+            Self::Load(load) => load.torque_nm(angle).abs(),
             Self::Cosine(k) => (k * angle).cos(),
             Self::Sine(k) => (k * angle).sin(),
             Self::Turned(k, a, b) => {
@@ -90,7 +99,8 @@ pub enum ScaleUnit {
 impl LawTerm {
     /// The terms that are tried first; ripples are offered when the rest is found. `whole` says whether the travel
     /// after reversals is used: without it the shape near rest shows.
-    pub(super) fn offered(fastest: f64, whole: bool) -> Vec<Self> {
+    /// The `load` is gravity's, where it acts.
+    pub(super) fn offered(fastest: f64, whole: bool, load: Option<GravityLoad>) -> Vec<Self> {
         let shapes: &[Falloff] = if whole {
             &[Falloff::Exponential]
         } else {
@@ -101,6 +111,7 @@ impl LawTerm {
         });
         [Self::ViscousByDirection, Self::CommandLag, Self::Root]
             .into_iter()
+            .chain(load.map(|load| Self::WithLoad { load }))
             .chain(near_rest)
             .collect()
     }
@@ -111,6 +122,7 @@ impl LawTerm {
             Self::ViscousByDirection | Self::AfterTravel { .. } => Vec::new(),
             Self::NearRest { speed, falloff } => vec![Column::NearRest(speed, falloff)],
             Self::Root => vec![Column::Root],
+            Self::WithLoad { load } => vec![Column::Load(load)],
             Self::Ripple { per_angle } => vec![Column::Cosine(per_angle), Column::Sine(per_angle)],
             Self::CommandLag => vec![Column::Lag],
         }
@@ -125,9 +137,11 @@ impl LawTerm {
                 terms.ripples.len() < ripples_most
                     && !terms.ripples.iter().any(|r| near(per_angle, r))
             }
-            Self::ViscousByDirection | Self::AfterTravel { .. } | Self::Root | Self::CommandLag => {
-                false
-            }
+            Self::ViscousByDirection
+            | Self::AfterTravel { .. }
+            | Self::Root
+            | Self::WithLoad { .. }
+            | Self::CommandLag => false,
         }
     }
 
@@ -139,7 +153,9 @@ impl LawTerm {
             Self::Ripple { per_angle } => {
                 Some((std::f64::consts::TAU / per_angle, ScaleUnit::Angle))
             }
-            Self::ViscousByDirection | Self::Root | Self::CommandLag => None,
+            Self::ViscousByDirection | Self::Root | Self::WithLoad { .. } | Self::CommandLag => {
+                None
+            }
         }
     }
 
@@ -150,6 +166,7 @@ impl LawTerm {
             Self::NearRest { .. } => "near-rest",
             Self::AfterTravel { .. } => "after-travel",
             Self::Root => "root",
+            Self::WithLoad { .. } => "with-load",
             Self::Ripple { .. } => "ripple",
             Self::CommandLag => "command-lag",
         }
@@ -162,19 +179,22 @@ impl LawTerm {
             Self::ViscousByDirection => direction * amplitude * speed,
             Self::NearRest { speed: fall, falloff } => amplitude * falloff.share(speed / fall),
             Self::Root => amplitude * speed.sqrt(),
-            Self::CommandLag | Self::Ripple { .. } | Self::AfterTravel { .. } => 0.0,
+            Self::CommandLag
+            | Self::Ripple { .. }
+            | Self::WithLoad { .. }
+            | Self::AfterTravel { .. } => 0.0,
         }
     }
 
     /// Whether it is a function of speed.
     pub(super) fn is_by_speed(self) -> bool {
-        !matches!(self, Self::CommandLag | Self::Ripple { .. })
+        !matches!(self, Self::CommandLag | Self::Ripple { .. } | Self::WithLoad { .. })
     }
 
     /// Whether an arm can have it. One that has friction near rest has it with an exponential.
     pub(super) fn is_of_arms(self) -> bool {
         match self {
-            Self::Root | Self::AfterTravel { .. } => false,
+            Self::Root | Self::AfterTravel { .. } | Self::WithLoad { .. } => false,
             Self::NearRest { falloff, .. } => falloff == Falloff::Exponential,
             _ => true,
         }
@@ -200,8 +220,11 @@ impl LawTerm {
                 let [cosine_nm, sine_nm, ..] = *amplitude else { return };
                 terms.ripples.push(Ripple { per_rad: per_angle, cosine_nm, sine_nm });
             }
-            Self::ViscousByDirection | Self::AfterTravel { .. } | Self::Root | Self::CommandLag => {
-            }
+            Self::ViscousByDirection
+            | Self::AfterTravel { .. }
+            | Self::Root
+            | Self::WithLoad { .. }
+            | Self::CommandLag => {}
         }
     }
 

@@ -37,7 +37,7 @@ use crate::identify::methods::friction_law::thresholds::{
 };
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::MotorRegression;
-use crate::identify::prepare::channel_noise::channel_noise;
+use crate::identify::prepare::channel_noise::{ChannelNoise, channel_noise};
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_noise::RunNoise;
 use crate::identify::thresholds::{RESIDUAL_FALLS_TO, SIGN_SHOWN};
@@ -55,6 +55,8 @@ const LONGER: f64 = std::f64::consts::SQRT_2;
 pub struct FrictionLaw {
     /// Length of the windows \[s\].
     pub window_s: f64,
+    /// Slowest and fastest speed of the windows: law and curve are of friction between these \[rad/s\].
+    pub speed_range: [f64; 2],
     /// Friction against speed without a law, ascending in speed within a direction.
     pub curve: Vec<CurvePoint>,
     /// Every term that was tried, in the order of trying.
@@ -78,6 +80,8 @@ pub struct LawFit {
     pub viscous: Option<Estimate>,
     /// C.
     pub coulomb: Option<Estimate>,
+    /// Friction at rest C + A, of a law with a term near rest.
+    pub at_rest: Option<Estimate>,
     /// O.
     pub offset: Option<Estimate>,
     /// C + O.
@@ -164,8 +168,12 @@ pub(crate) fn friction_law(
 ) -> Option<(FrictionLaw, CurveSums)> {
     let inertia = motor.inertia?.value;
     let (campaign, noise) = (prepared.used(), prepared.noise());
-    let window_s = window_s(campaign, motor, inertia, noise);
+    let runs = campaign.runs.par_iter().with_max_len(1);
+    let sensors: Vec<ChannelNoise> = runs.map(|run| channel_noise(run.motor())).collect();
+    let window_s = window_s(campaign, motor, inertia, (noise, &sensors));
     let mut sampled = Sampled::new(campaign, noise, window_s);
+    sampled.load = motor.gravity.map(|g| g.load());
+    sampled.step = sensors.iter().map(|sensor| sensor.step).fold(0.0, f64::max);
     let (law, sums, described) = under(&sampled)?;
     if described.left(&sampled).beyond_noise() < NOTHING_LEFT {
         return Some((law, sums));
@@ -222,6 +230,7 @@ fn under(sampled: &Sampled<'_>) -> Option<(FrictionLaw, CurveSums, Described)> {
     let (curve, by_curve) = sums.by_phases()?;
     let law = FrictionLaw {
         window_s,
+        speed_range: [*speeds.first()?, *speeds.last()?],
         curve,
         relative_residual: [choice.simplest, choice.residual, by_curve],
         candidates: choice.candidates,
@@ -232,12 +241,16 @@ fn under(sampled: &Sampled<'_>) -> Option<(FrictionLaw, CurveSums, Described)> {
 
 /// The shortest window in which the motor's sensor makes no more than [`TORQUE_OF_NOISE`] of the torque, and no
 /// longer than the regression's.
-fn window_s(campaign: &Campaign, motor: &MotorRegression, inertia: f64, noise: &[RunNoise]) -> f64 {
+fn window_s(
+    campaign: &Campaign,
+    motor: &MotorRegression,
+    inertia: f64,
+    (noise, sensors): (&[RunNoise], &[ChannelNoise]),
+) -> f64 {
     let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     // White noise σ in the angle makes σ·√T of every scaled row.
-    let of_run = |run: &Run| channel_noise(run.motor()).std * run.sample_time_s().sqrt();
-    let sensor: Vec<f64> = campaign.runs.par_iter().with_max_len(1).map(of_run).collect();
-    let sensor = sensor.into_iter().fold(0.0, f64::max);
+    let of_run = |(run, sensor): (&Run, &ChannelNoise)| sensor.std * run.sample_time_s().sqrt();
+    let sensor = campaign.runs.iter().zip(sensors).map(of_run).fold(0.0, f64::max);
     let mut window_s = LEAST_SAMPLES * sample_s;
     while window_s * LONGER < motor.window_s {
         let (mut power, mut rows) = (0.0, 0.0);

@@ -6,12 +6,13 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::identify::methods::friction_law::column_values::ColumnValues;
-use crate::identify::methods::friction_law::law_term::Column;
+use crate::identify::methods::friction_law::law_term::{Column, LawTerm, ScaleUnit};
 use crate::identify::methods::regression::{
     MotorColumns, MotorEquation, Phase, Rows, SMOOTHED_PART, SineAndCosine, Term, WINDOW_STEP,
     Window, slip_phases, smoothing, velocity,
 };
 use crate::identify::prepare::run_noise::RunNoise;
+use crate::load::GravityLoad;
 use crate::record::{Campaign, Run};
 
 /// Rows looked at, about; windows overlap less in longer logs.
@@ -101,6 +102,10 @@ pub(super) struct Sampled<'a> {
     pub(super) window_s: f64,
     /// Travel since a reversal: windows that begin within it are left out.
     pub(super) after: f64,
+    /// Gravity's load as the regression has it, where it acts.
+    pub(super) load: Option<GravityLoad>,
+    /// Largest step of the motor's sensor; zero where none shows.
+    pub(super) step: f64,
     runs: Vec<Slipping>,
 }
 
@@ -138,7 +143,7 @@ impl<'a> Sampled<'a> {
             Slipping { velocity: velocity(run.motor(), smooth, t), phases, window, noise, gravity }
         };
         let runs = campaign.runs.par_iter().zip(noise).with_max_len(1).map(of).collect();
-        Self { campaign, window_s, after: 0.0, runs }
+        Self { campaign, window_s, after: 0.0, load: None, step: 0.0, runs }
     }
 
     /// What the sensors' noise adds to the square of a row's sum of columns, in each run.
@@ -149,6 +154,17 @@ impl<'a> Sampled<'a> {
             None => 0.0,
         };
         self.runs.iter().map(of).collect()
+    }
+
+    /// Whether the motor's sensor has steps fine enough for a term: an angle over which it changes, or how far the motor
+    /// goes in a window at a speed over which it does, is more than one.
+    pub(super) fn resolves(&self, term: LawTerm) -> bool {
+        let over = match term.scale() {
+            None => return true,
+            Some((angle, ScaleUnit::Angle)) => angle,
+            Some((speed, ScaleUnit::Speed)) => speed * self.window_s,
+        };
+        over > self.step
     }
 
     /// How far the motor goes in each slip phase that holds a window, ascending.

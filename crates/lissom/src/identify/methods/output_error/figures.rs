@@ -3,6 +3,7 @@
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::friction_estimates::Friction;
+use crate::identify::gravity_estimate::Gravity;
 use crate::identify::methods::friction_law::LawTerm;
 use crate::identify::methods::output_error::found::OutputError;
 use crate::identify::methods::output_error::model::describes::{is_left, stands};
@@ -32,7 +33,9 @@ impl OutputError {
     fn terms(&self) -> Friction {
         let number = |number: FrictionNumber| self.estimate(Parameter::Friction(number));
         let any = |of: &dyn Fn(&DryTerms) -> f64| self.figure(|arm| of(&arm.dry_terms));
-        Friction::of_terms(&self.arm.dry_terms, number, any)
+        let near = |arm: &ModalArm| arm.dry_terms.near_rest.map_or(0.0, |n| n.torque_nm);
+        let at_rest = || self.figure(|arm| arm.coulomb_nm + near(arm));
+        Friction::of_terms(&self.arm.dry_terms, number, any, at_rest)
     }
 
     /// Terms of friction beyond Coulomb friction and one viscous coefficient, as terms of a law.
@@ -65,8 +68,18 @@ impl OutputError {
             inertia: self.inertia(),
             coupling: flexible.then(|| self.figure(ModalArm::coupling_nm_per_rad)),
             coupling_by_tip,
-            gravity: None,
+            gravity: self.gravity(),
         }
+    }
+
+    /// Gravity's torque, where the campaign has it.
+    fn gravity(&self) -> Option<Gravity> {
+        let places = [Parameter::GravitySine, Parameter::GravityCosine];
+        let places = places.map(|g| self.parameters.iter().position(|p| *p == g));
+        let [Some(s), Some(c)] = places else { return None };
+        let [sine, cosine] =
+            [self.estimate(Parameter::GravitySine)?, self.estimate(Parameter::GravityCosine)?];
+        Some(Gravity::new(sine, cosine, self.covariance[(s, c)]))
     }
 
     /// Modes with the motor clamped.

@@ -182,6 +182,7 @@ mod tests {
             shapes: vec![vec![1.0 / modes.len() as f64; modes.len()]],
             modes,
             at_points_per_s: vec![],
+            gravity: None,
             command_lag_s: 0.0,
             tip_lags_s: vec![],
         };

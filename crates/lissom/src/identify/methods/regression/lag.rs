@@ -99,6 +99,7 @@ fn delayed(campaign: &Campaign, runs: &[&Run], shape: LagShape, time_s: f64) -> 
         channels: campaign.channels.clone(),
         runs: runs.collect(),
         gravity: campaign.gravity,
+        mgl_nm: campaign.mgl_nm,
     }
 }
 

@@ -3,19 +3,21 @@
 use crate::identify::drive_estimates::Method;
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::{BeamFinding, EstimateUnits, Finding, RegressionFinding};
+use crate::identify::identified::torque_constant;
 use crate::identify::judge::{Chosen, Evidence};
 use crate::identify::methods::friction_law::FrictionLaw;
 use crate::identify::methods::regression::missing::{MissingKind, MissingTerm};
 use crate::identify::methods::regression::motor::{ByDirection, MotorRegression};
-use crate::identify::methods::regression::thresholds::FEW_PHASES;
+use crate::identify::methods::regression::thresholds::{CONSTANT_DOUBTED, FEW_PHASES};
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
-use crate::identify::thresholds::{SAME_FREQUENCY, UNEXPLAINED_TORQUE};
+use crate::identify::thresholds::{CLEARLY_PRESENT, SAME_FREQUENCY, UNEXPLAINED_TORQUE};
 use crate::record::Run;
 
 /// What speaks against the regression's estimates.
 pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding> {
-    let mut findings = Vec::new();
     let units = EstimateUnits::new(&evidence.campaign.channels);
+    let mut findings: Vec<Finding> =
+        contradicted_constant(evidence, chosen, units).into_iter().collect();
     // The output-error method describes the runs: the residual of the regression does not count then.
     let explained = evidence.replay().is_some();
     let Some(r) = &evidence.methods.regression else {
@@ -78,6 +80,21 @@ fn left_by_chosen(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<f64> {
         Method::LeastSquares => methods.least_squares.as_ref()?.relative_residual,
         _ => regression?.relative_residual,
     })
+}
+
+/// A torque constant that the load's known m·g·l contradicts.
+fn contradicted_constant(
+    evidence: &Evidence<'_>,
+    chosen: &Chosen,
+    units: EstimateUnits,
+) -> Option<Finding> {
+    let campaign = evidence.campaign;
+    let given = campaign.channels.command.torque_per_command?;
+    let by_gravity = torque_constant(campaign, chosen.drive.gravity)?;
+    let apart = (by_gravity.value - given).abs();
+    let contradicts = apart > CLEARLY_PRESENT * by_gravity.std && apart > CONSTANT_DOUBTED * given;
+    contradicts
+        .then(|| Finding::new(RegressionFinding::TorqueConstant { by_gravity, given, units }))
 }
 
 /// What gravity can hardly be told from.

@@ -48,6 +48,9 @@ thresholds! {
         /// The magnitude of the command is not tried as a missing term if it correlates with the
         /// torque by this much: with torque of one sign it is the torque itself.
         MISSING_ONE_SIGN: f64 = 0.5, "1", Convention;
+        /// A torque constant is doubted that differs by more than this share from the one that the load's known m·g·l
+        /// gives: data sheets are no better.
+        CONSTANT_DOUBTED: f64 = 0.05, "1", Convention;
         /// With fewer slip phases than this each is cut into blocks, whose scatter is smaller than
         /// that from phase to phase: a finding says so.
         FEW_PHASES: usize = 8, "slip phases", Convention;

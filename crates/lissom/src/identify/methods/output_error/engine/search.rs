@@ -335,6 +335,7 @@ mod tests {
                 ripples: vec![Ripple { per_rad, cosine_nm: 0.01, sine_nm: 0.0 }],
                 ..DryTerms::default()
             },
+            gravity: None,
             command_lag_s: 0.0,
             tip_lags_s: Vec::new(),
         };

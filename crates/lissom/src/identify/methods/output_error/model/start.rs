@@ -205,6 +205,7 @@ fn rigid(campaign: &Campaign, drive: &DriveEstimates) -> Option<ModalArm> {
         shapes: vec![Vec::new(); campaign.channels.tips.len()],
         at_points_per_s: Vec::new(),
         dry_terms: DryTerms::default(),
+        gravity: drive.gravity.map(|g| g.load()),
         command_lag_s: 0.0,
         tip_lags_s: Vec::new(),
     })

@@ -52,7 +52,7 @@ fn add_to_law(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report, leas
     let mut with = fit.clone();
     trial.put_into(&mut with);
     fitting.search(&mut with, report);
-    let better = fitting.is_better(&with, fit);
+    let better = law::is_within_data(fitting, &with) && fitting.is_better(&with, fit);
     if better {
         *fit = with;
         report.law_changed();

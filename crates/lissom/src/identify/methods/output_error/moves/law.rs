@@ -2,6 +2,7 @@
 
 use crate::drive::Falloff;
 use crate::identify::methods::friction_law::LawTerm;
+use crate::identify::methods::friction_law::thresholds::NEAR_REST_MOST;
 use crate::identify::methods::output_error::engine::windows::{fastest_rad_s, travel};
 use crate::identify::methods::output_error::model::fit::{ArmFit, Extension};
 use crate::identify::methods::output_error::model::fitting::Fitting;
@@ -68,6 +69,12 @@ pub(crate) fn best(
         terms.ripples.len() < RIPPLES_MOST && fitting.beyond_noise(fit) > RESIDUAL_FAR_ABOVE_NOISE;
     let found = open.then(|| strongest_ripple(fitting, fit)).flatten()?;
     Some(promise(LawTrial::of(terms, LawTerm::Ripple { per_angle: found })))
+}
+
+/// Whether friction near rest falls off within the speeds that the logs contain, as of the law by slip phases.
+pub(crate) fn is_within_data(fitting: &Fitting<'_>, fit: &ArmFit) -> bool {
+    let most = NEAR_REST_MOST * fastest_rad_s(fitting.campaign);
+    fit.body.arm.dry_terms.near_rest.is_none_or(|near| near.speed_rad_s <= most)
 }
 
 /// Waves per angle of the ripple that is expected to lower the cost most, among the periods that the travel can
