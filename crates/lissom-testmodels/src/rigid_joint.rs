@@ -1,6 +1,6 @@
 //! A rigid joint with friction under a position loop, and its log.
 
-/// J·q̈ = u − V·q̇ − C·sign(q̇) − load(q), per unit of the current; friction may be another function of speed.
+/// J·q̈ = u − V·q̇ − (C + μ·|load(q)|)·sign(q̇) − load(q), per unit of the current; friction may be another function of speed.
 #[derive(Debug, Clone, Copy)]
 pub struct RigidJoint {
     /// Inertia J.
@@ -13,6 +13,8 @@ pub struct RigidJoint {
     pub friction: Option<fn(f64) -> f64>,
     /// Torque of a load at an angle.
     pub load: fn(f64) -> f64,
+    /// Friction that the load adds, per its size.
+    pub per_load: f64,
     /// Time between samples of loop and log \[s\].
     pub sample_time_s: f64,
     /// Steps of the simulation per sample.
@@ -42,6 +44,7 @@ impl Default for RigidJoint {
             coulomb: 0.15,
             friction: None,
             load: |_| 0.0,
+            per_load: 0.0,
             sample_time_s: 2e-3,
             steps: 10,
         }
@@ -75,7 +78,7 @@ impl RigidJoint {
             log.angle.push(q);
             log.speed.push(w);
             for _ in 0..self.steps {
-                let next = self.speed_after(w, u - (self.load)(q), h);
+                let next = self.speed_after(w, u, (self.load)(q), h);
                 q += 0.5 * (w + next) * h;
                 w = next;
             }
@@ -84,16 +87,18 @@ impl RigidJoint {
     }
 
     /// Friction against the motion.
-    fn braking(&self, speed: f64) -> f64 {
-        self.friction.map_or(self.coulomb + self.viscous * speed, |of| of(speed))
+    fn braking(&self, speed: f64, load: f64) -> f64 {
+        let alone = self.friction.map_or(self.coulomb + self.viscous * speed, |of| of(speed));
+        alone + self.per_load * load.abs()
     }
 
-    fn speed_after(&self, w: f64, torque: f64, h: f64) -> f64 {
-        if w == 0.0 && torque.abs() <= self.braking(0.0) {
+    fn speed_after(&self, w: f64, command: f64, load: f64, h: f64) -> f64 {
+        let torque = command - load;
+        if w == 0.0 && torque.abs() <= self.braking(0.0, load) {
             return 0.0;
         }
         let direction = if w == 0.0 { torque.signum() } else { w.signum() };
-        let next = w + (torque - direction * self.braking(w.abs())) / self.inertia * h;
+        let next = w + (torque - direction * self.braking(w.abs(), load)) / self.inertia * h;
         if next * direction < 0.0 { 0.0 } else { next }
     }
 }

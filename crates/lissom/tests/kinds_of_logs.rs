@@ -3,7 +3,9 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use lissom::identify::findings::{EstimateFinding, FindingKind, RegressionFinding};
-use lissom::identify::{Estimate, GravityPartner, Identified, MissingKind, Options, identify};
+use lissom::identify::{
+    Estimate, Finding, GravityPartner, Identified, Method, MissingKind, Options, identify,
+};
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
 use lissom_testmodels::{RigidJoint, RigidLog, two_sines};
 
@@ -41,7 +43,11 @@ fn within(name: &str, found: Option<Estimate>, truth: f64, share: f64) {
 }
 
 fn codes(found: &Identified) -> Vec<&'static str> {
-    found.findings.iter().map(lissom::identify::Finding::code).collect()
+    codes_of(&found.findings)
+}
+
+fn codes_of(findings: &[Finding]) -> Vec<&'static str> {
+    findings.iter().map(Finding::code).collect()
 }
 
 /// Uniform noise of a standard deviation.
@@ -101,6 +107,65 @@ fn gravity_of_an_unbalanced_load() {
     };
     let warnings = without.findings.iter().filter(|f| f.hint().contains("gravity = true"));
     assert!(warnings.clone().any(|f| names(&f.kind)), "{:?}", codes(&without));
+}
+
+/// Replayed with the load as a known input: the estimates are those of the output error, which describes the whole run.
+#[test]
+fn gravity_in_a_replay() {
+    let joint = RigidJoint { steps: 100, ..pendulum() };
+    let mut log = joint.follow(8_000, wide);
+    noisy(&mut log.angle, 5e-4);
+    let one = run("log", &joint, log.held, log.angle);
+    let campaign = Campaign::new(channels(Hold::Sampled), vec![one]).unwrap();
+    let campaign = campaign.with_known_gravity(1.2).unwrap();
+    let found = identify(&campaign, &Options::default(), |_| ()).unwrap();
+    assert_eq!(found.method, Some(Method::OutputError), "{:?}", codes(&found));
+    within("Coulomb", found.friction.coulomb, 0.15, 0.01);
+    within("viscous", found.friction.viscous, 0.02, 0.02);
+    within("inertia", found.inertia, 0.01, 0.01);
+    within("gravity", found.gravity.map(|g| g.amplitude()), 0.6, 0.005);
+    within("its phase", found.gravity.map(|g| g.phase_rad()), 0.4, 0.01);
+    within("torque constant", found.torque_constant, 2.0, 0.005);
+    let load = found.arm.unwrap().arm.gravity.unwrap();
+    assert!((load.torque_nm(1.0) / (0.6 * 1.4_f64.sin()) - 1.0).abs() < 0.005, "{load:?}");
+    let codes = codes_of(&found.findings);
+    assert!(!codes.contains(&"replay-departs"), "{codes:?}");
+}
+
+/// A torque constant that the load's m·g·l contradicts.
+#[test]
+fn gravity_contradicts_a_torque_constant() {
+    let joint = pendulum();
+    let log = joint.follow(10_000, wide);
+    let mut campaign = measured(&joint, log).with_known_gravity(1.2).unwrap();
+    campaign.channels.command.torque_per_command = Some(2.5);
+    let doubts = |found: &Identified| codes(found).contains(&"torque-constant");
+    let found = quick(&campaign);
+    assert!(doubts(&found), "{:?}", codes(&found));
+    within("torque constant", found.torque_constant, 2.0, 0.01);
+    campaign.channels.command.torque_per_command = Some(2.0);
+    assert!(!doubts(&quick(&campaign)));
+    assert!(campaign.with_known_gravity(-1.0).is_err());
+}
+
+/// Bearings or gears whose friction grows with the load that they carry.
+#[test]
+fn friction_that_grows_with_the_load() {
+    for per_load in [0.0, 0.05, 0.2] {
+        let joint = RigidJoint { per_load, ..pendulum() };
+        let mut log = joint.follow(20_000, wide);
+        noisy(&mut log.measured, 0.02);
+        let found = quick(&measured(&joint, log).with_gravity().unwrap());
+        within("Coulomb", found.friction.coulomb, 0.15, 0.02);
+        within("viscous", found.friction.viscous, 0.02, 0.05);
+        within("inertia", found.inertia, 0.01, 0.02);
+        within("gravity", found.gravity.map(|g| g.amplitude()), 0.6, 0.01);
+        if per_load > 0.0 {
+            within("per load", found.friction.with_load, per_load, 0.05);
+        } else {
+            assert_eq!(found.friction.with_load, None);
+        }
+    }
 }
 
 /// Over a short arc gravity is a constant load, and in a sine its slope is inertia.

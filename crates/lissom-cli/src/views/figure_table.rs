@@ -180,9 +180,13 @@ pub(crate) fn figure_rows(
         if let Some(at_rest) = near.static_friction() {
             add("static friction", Some(at_rest), torque(), None);
         }
-        let more = "  at rest above Coulomb friction by";
-        add(more, Some(near.torque), torque(), None);
+        let (way, size) = if near.torque.value < 0.0 { ("below", -1.0) } else { ("above", 1.0) };
+        let name = format!("  at rest {way} Coulomb friction by");
+        add(&name, Some(near.torque.scaled(size)), torque(), None);
         add("  falls off over a speed of", Some(near.speed), format!("{}/s", names.angle()), None);
+    }
+    if f.with_load.is_some() {
+        add("friction per load of gravity, μ", f.with_load, "1".to_owned(), None);
     }
     for ripple in &f.ripples {
         add("friction's ripple", Some(ripple.torque), torque(), None);

@@ -5,6 +5,7 @@ mod arms;
 mod bench;
 mod campaigns;
 mod findings;
+mod loads;
 mod logs;
 mod odd_files;
 mod outputs;

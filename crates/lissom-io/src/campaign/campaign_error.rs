@@ -125,6 +125,12 @@ pub enum CampaignError {
         /// Where.
         place: ConfigPlace,
     },
+    /// A speed beside a motor that is a speed.
+    #[error("{place}: the motor's channel is its speed already")]
+    TwoSpeeds {
+        /// Where.
+        place: ConfigPlace,
+    },
     /// A load's m·g·l where its gravity is not asked for.
     #[error("{place} says nothing without `gravity = true`")]
     MglAlone {
@@ -198,6 +204,7 @@ impl CampaignError {
                 "remove it: the offset of friction, which every result has, is this force"
             }
             Self::GravityWithTips { .. } => "remove it, or the tips",
+            Self::TwoSpeeds { .. } => "remove it, or give the angle as motor",
             Self::MglAlone { .. } => "add gravity = true, or remove it",
             Self::GearAlone { .. } => {
                 "give the motor's own torque constant beside it, or remove it: without a constant, estimates are per unit of command"

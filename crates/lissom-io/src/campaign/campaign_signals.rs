@@ -17,6 +17,8 @@ pub(super) struct Signals {
     pub(super) motor: Reading,
     /// The motor's channel is its speed.
     pub(super) motor_speed: bool,
+    /// The motor's speed beside its angle.
+    pub(super) speed: Option<Reading>,
     pub(super) tips: Vec<(Tip, TipSource)>,
 }
 
@@ -87,6 +89,7 @@ pub(super) fn signals(table: &Table<'_>) -> Result<Signals, Error> {
         "voltage",
         "command",
         "motor",
+        "speed",
         "tips",
         "decimal",
     ])?;
@@ -102,6 +105,7 @@ pub(super) fn signals(table: &Table<'_>) -> Result<Signals, Error> {
     };
     let command_table = value.table()?;
     let (axis, motor, motor_speed) = motor(&table.need("motor")?.table()?)?;
+    let speed = table.get("speed").map(|v| speed(&v, axis, motor_speed)).transpose()?;
     let command = command(&command_table, kind, axis)?;
     if motor_speed && command.kind == CommandKind::Goal {
         return Err(CampaignError::GoalWithSpeed { place: command_table.place() }.into());
@@ -119,7 +123,8 @@ pub(super) fn signals(table: &Table<'_>) -> Result<Signals, Error> {
             items.iter().enumerate().map(tip).collect::<Result<Vec<_>, _>>()?
         }
     };
-    Ok(Signals { time, decimal_comma: decimal == Some(1), axis, command, motor, motor_speed, tips })
+    let decimal_comma = decimal == Some(1);
+    Ok(Signals { time, decimal_comma, axis, command, motor, motor_speed, speed, tips })
 }
 
 fn none_of(table: &Table<'_>, keys: &[&'static str]) -> ConfigError {
@@ -238,6 +243,20 @@ fn motor(table: &Table<'_>) -> Result<(Axis, Reading, bool), Error> {
         .into());
     }
     Ok((axis, reading(table, size)?, speed))
+}
+
+/// The motor's speed beside its angle.
+fn speed(value: &Value<'_>, axis: Axis, motor_speed: bool) -> Result<Reading, Error> {
+    let table = value.table()?;
+    if motor_speed {
+        return Err(CampaignError::TwoSpeeds { place: table.place() }.into());
+    }
+    table.only(&["column", "unit", "scale", "offset"])?;
+    let size = table.need("unit")?.unit(match axis {
+        Axis::Rotary => Dimension::RATE,
+        Axis::Linear => Dimension::VELOCITY,
+    })?;
+    Ok(reading(&table, size)?)
 }
 
 fn wrong_unit(unit: &Value<'_>, found: Dimension, expected: Dimension) -> ConfigError {

@@ -15,6 +15,7 @@ use super::campaign_file::ReadOptions;
 use super::campaign_signals::{CommandKind, Reading, Signals, TimeSource, TipSource};
 use super::derived_channels::{goal_difference, integrated};
 use super::run_spec::RunSpec;
+use super::speed_check::{self, Contradiction};
 use super::whole_turns;
 use crate::config::MAGNITUDE;
 use crate::io_error::Error;
@@ -160,7 +161,7 @@ fn of_log(error: RecordError, file: &str) -> Error {
     }
 }
 
-/// The columns to read: command, motor, then those of the tips in turn.
+/// The columns to read: command, motor, those of the tips in turn, and a speed beside the angle.
 fn columns(signals: &Signals) -> Vec<LogColumn> {
     let measured = |column: &ColumnRef| LogColumn { column: column.clone(), hold: Hold::Measured };
     let command = &signals.command;
@@ -172,6 +173,7 @@ fn columns(signals: &Signals) -> Vec<LogColumn> {
             TipSource::Camera { x, y, .. } => columns.extend([measured(x), measured(y)]),
         }
     }
+    columns.extend(signals.speed.as_ref().map(|speed| measured(&speed.column)));
     columns
 }
 
@@ -198,9 +200,17 @@ fn even_parts(
         }
         (TimeSource::Stamps(..), None) => (Vec::new(), None, 0.0),
     };
-    let (mut command, mut motor, mut tips) = channels(log.columns, signals);
+    let mut columns = log.columns;
+    let speed = signals.speed.as_ref().map(|of| in_si(columns.pop().unwrap_or_default(), of));
+    let (mut command, mut motor, mut tips) = channels(columns, signals);
     in_range(&command, &motor, &tips, signals, file)?;
     let turns = remove_turns(signals, &mut command, &mut motor, &mut tips);
+    if let Some(speed) = speed
+        && let Some(found) = speed_check::contradiction(&stamps_s, &motor, &speed)
+    {
+        let Contradiction { ratio, correlation } = found;
+        return Err(LogError::Speed { file: file.to_owned(), ratio, correlation }.into());
+    }
     let hold = signals.command.hold;
     let rows = LogRows { stamps_s, sample_time_s, stamp_step_s, command, hold, motor, tips };
     let even =

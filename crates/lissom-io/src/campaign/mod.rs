@@ -6,6 +6,7 @@
 //! time    = { column = "t", unit = "s" }    # or sample_time = "1 ms" for logs without stamps
 //! current = { column = "i", unit = "A", hold = "sampled" }
 //! motor   = { column = "theta_m", unit = "rad" }
+//! speed   = { column = "omega_m", unit = "rpm" }   # checked against the angle where it is logged, too
 //! tips    = [{ name = "tip", column = "theta_t", unit = "rad" }]
 //! decimal = ","                             # absent: a point
 //! [drive]
@@ -37,7 +38,7 @@
 //! `limit` is the command's limit in any case; `current_limit` and `voltage_limit` say which.
 //!
 //! **The axis** is rotary where the motor's unit is an angle, linear where it is a length. With `quantity = "speed"` and a
-//! unit of speed, the angle is integrated from 0. Jumps of one turn of an absolute encoder are removed.
+//! unit of speed, the angle is integrated from 0. A `speed` beside an angle is checked against it and not used. Jumps of one turn of an absolute encoder are removed.
 //!
 //! **Tips** have a `quantity`: `"angle"` (of the radius to the point; when absent), `"deflection"`
 //! (from the motor's line) or `"acceleration"`. A length or acceleration in metres on a rotary
@@ -57,6 +58,7 @@ mod derived_channels;
 mod load_runs;
 mod read_campaign;
 mod run_spec;
+mod speed_check;
 mod whole_turns;
 
 pub use campaign_error::CampaignError;

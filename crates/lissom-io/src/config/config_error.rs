@@ -300,6 +300,9 @@ impl ConfigError {
                 Some("write it without unit and quotes".to_owned())
             }
             Self::Kind { expected: "text in quotes", .. } => Some("put it in quotes".to_owned()),
+            Self::Kind { expected: "true or false", .. } => {
+                Some("write it without quotes".to_owned())
+            }
             Self::Kind { expected: "a table", place, .. } => {
                 Some(format!("write it as in {}", table_example(&place.key)))
             }

@@ -1,5 +1,6 @@
 //! What can be wrong with a log.
 
+use std::f64::consts::TAU;
 use std::io;
 
 use thiserror::Error;
@@ -263,6 +264,18 @@ pub enum LogError {
         /// Rows left.
         left: usize,
     },
+    /// A speed that is not the angle's rate.
+    #[error(
+        "{file}: the speed contradicts the motor's angle: it is {ratio:.3} times the angle's rate (correlation {correlation:.2})"
+    )]
+    Speed {
+        /// The file.
+        file: String,
+        /// Speed over the angle's rate, by least squares.
+        ratio: f64,
+        /// Correlation of both.
+        correlation: f64,
+    },
 }
 
 impl LogError {
@@ -334,7 +347,26 @@ impl LogError {
                 "log without interruption; where the stamps are too coarse for the sampling, give `sample_time` in place of `time`".to_owned()
             }
             Self::AllSkipped { .. } => "give a smaller `skip`".to_owned(),
+            Self::Speed { ratio, correlation, .. } => of_speed(*ratio, *correlation).to_owned(),
         })
+    }
+}
+
+/// The way out for a speed that is `ratio` times the angle's rate.
+fn of_speed(ratio: f64, correlation: f64) -> &'static str {
+    let factors = [
+        (-1.0, "its sign is reversed: add scale = -1 to one of both"),
+        (9.549, "its numbers are in rpm: give unit = \"rpm\", or check the angle's unit"),
+        (0.10472, "its numbers are in rad/s: give unit = \"rad/s\", or check the angle's unit"),
+        (57.296, "speed and angle mix deg and rad: check both units"),
+        (0.017_453, "speed and angle mix deg and rad: check both units"),
+        (TAU, "speed and angle mix turns and rad: check both units"),
+        (1.0 / TAU, "speed and angle mix turns and rad: check both units"),
+    ];
+    let near = |(factor, _): &&(f64, &str)| (ratio / factor - 1.0).abs() < 0.05;
+    match factors.iter().find(near) {
+        Some((_, hint)) if correlation.abs() > 0.9 => hint,
+        _ => "check columns, units and signs of both, and whether a gear lies between them",
     }
 }
 

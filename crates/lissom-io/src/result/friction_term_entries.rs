@@ -25,6 +25,9 @@ pub struct FrictionTermsEntry {
     /// What friction has near rest beyond Coulomb friction; absent unless the data call for it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub near_rest: Option<NearRestEntry>,
+    /// mu of s*mu*|load of gravity|, friction that grows with the load; absent unless the data show it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub with_load: Option<EstimateEntry>,
     /// Waves of friction over the travel, s*A*cos(2*pi*x/period + phase); absent unless the data show them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ripples: Vec<RippleEntry>,
@@ -144,6 +147,7 @@ impl FrictionTermsEntry {
     pub(super) fn of(names: UnitNames, constant: f64, f: &Friction) -> Self {
         Self {
             near_rest: f.near_rest.map(|near| NearRestEntry::of(names, constant, near)),
+            with_load: f.with_load.map(EstimateEntry::of),
             ripples: f.ripples.iter().map(|r| RippleEntry::of(names, constant, *r)).collect(),
         }
     }

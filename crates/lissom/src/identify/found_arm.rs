@@ -59,7 +59,9 @@ impl FoundArm {
                 .or_else(|| of_drive(evidence, &slip_phase_solution(regression, None)?.1)),
             _ => of_drive(evidence, drive),
         };
-        Some(Self::with(arm?, ArmSource::Regression, used))
+        let mut arm = arm?;
+        arm.command_lag_s += regression.and_then(|r| r.lag).map_or(0.0, |lag| lag.time_s);
+        Some(Self::with(arm, ArmSource::Regression, used))
     }
 
     fn with(arm: ModalArm, source: ArmSource, used: &Campaign) -> Self {

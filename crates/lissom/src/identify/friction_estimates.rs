@@ -24,6 +24,8 @@ pub struct Friction {
     pub viscous_by_direction: Option<(Estimate, Estimate)>,
     /// What friction has near rest beyond Coulomb's, where the data call for it.
     pub near_rest: Option<NearRestEstimate>,
+    /// μ of `s·μ·|τ_g|`: friction that grows with the load of gravity, where the data show it.
+    pub with_load: Option<Estimate>,
     /// Waves over the travel, where the data show them.
     pub ripples: Vec<RippleEstimate>,
 }
@@ -91,6 +93,7 @@ impl Friction {
                         falloff,
                     });
                 }
+                (LawTerm::WithLoad { .. }, [coefficient]) => found.with_load = Some(*coefficient),
                 (LawTerm::Ripple { per_angle }, [cosine, sine, rate @ ..]) => {
                     let unknown = Estimate { value: per_angle, std: f64::INFINITY };
                     let torque = Estimate {

@@ -11,7 +11,6 @@ use crate::identify::methods::constant_velocity;
 use crate::identify::methods::friction_law::{LawTerm, friction_law};
 use crate::identify::methods::least_squares::least_squares;
 use crate::identify::methods::output_error::{OutputErrorStart, output_error};
-use crate::identify::methods::regression::thresholds::FEW_PHASES;
 use crate::identify::methods::regression::{
     BeamRegression, MotorRegression, beam_regression, motor_regression,
 };
@@ -119,7 +118,11 @@ pub fn identify(
     let regression_missing = any_regression.as_ref().and_then(|r| r.missing);
     let regression_residual = any_regression.as_ref().map(|r| r.relative_residual);
     let regression = any_regression.clone().filter(|r| r.relative_residual < REFUSED_TORQUE);
-    let law = regression.as_ref().and_then(|r| friction_law(&prepared, r));
+    // What is found on slip phases is of commands that are as late as the angle.
+    let lag = regression.as_ref().and_then(|r| r.lag);
+    let late = lag.map(|lag| prepared.using(lag.late(prepared.used())));
+    let in_time = late.as_ref().unwrap_or(&prepared);
+    let law = regression.as_ref().and_then(|r| friction_law(in_time, r));
     progress(Stage::Beam);
     let any_beam_regression = beam_regression(&prepared);
     let third_harmonic = third_harmonic(&prepared);
@@ -162,7 +165,7 @@ pub fn identify(
         regression,
         regression_residual,
         regression_missing,
-        least_squares: least_squares(&prepared, window_s),
+        least_squares: least_squares(in_time, window_s),
         friction_law,
         constant_velocity,
         beam_regression,
@@ -202,11 +205,10 @@ fn coulomb_command(
     from_regression.filter(|c| c.value > 0.0).or(third_harmonic.map(|t| t.coulomb_command))
 }
 
-/// Whether a regression of nothing but constant velocities gives all parameters of the drive, from transitions enough.
+/// Whether a regression of nothing but constant velocities gives all parameters of the drive.
 fn is_sound_alone(r: &MotorRegression) -> bool {
     let known = |e: Option<Estimate>| e.is_some_and(|e| e.std < CONSTANT_VELOCITY_ALONE * e.value);
-    r.phases >= FEW_PHASES
-        && known(r.inertia)
+    known(r.inertia)
         && (known(r.coulomb) || known(r.forward) || known(r.backward))
         && known(r.viscous)
         && r.relative_residual < UNEXPLAINED_TORQUE

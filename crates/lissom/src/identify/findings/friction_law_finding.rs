@@ -151,6 +151,14 @@ impl fmt::Display for FrictionLawFinding {
 }
 
 impl FrictionLawFinding {
+    fn grows_with_load_alone(&self) -> bool {
+        let Self::FrictionLaw { terms, .. } = self;
+        let alone = |(term, _): &(LawTerm, Vec<Estimate>)| {
+            matches!(term, LawTerm::WithLoad { .. } | LawTerm::CommandLag)
+        };
+        terms.iter().all(alone)
+    }
+
     fn grows_after_reversals(&self) -> bool {
         let Self::FrictionLaw { terms, source, .. } = self;
         matches!(source, LawSource::SlipPhases { replayed_without: false, .. })
@@ -191,6 +199,9 @@ impl Describe for FrictionLawFinding {
             LawSource::SlipPhases { .. } if self.grows_after_reversals() => {
                 "Coulomb and viscous friction hold at speed, not near zero speed; inertia and coupling have an error \
                  because bristles lag where friction changes with speed: use longer and faster moves to reduce it"
+            }
+            LawSource::SlipPhases { .. } if self.grows_with_load_alone() => {
+                "Coulomb friction is that without the load of gravity: add μ times its torque"
             }
             LawSource::OutputError { .. } | LawSource::SlipPhases { .. } => {
                 "Coulomb and viscous friction hold at speed, not near zero speed: use the friction curve at the speed of \

@@ -182,8 +182,8 @@ impl fmt::Display for RegressionFinding {
             ),
             Self::AngleLag { lag } => write!(
                 f,
-                "the angle lags behind the command by {} of {} ms: with it the residual torque drops to {:.0} %. Viscous \
-                 and Coulomb friction contain its effect",
+                "the angle lags behind the command by {} of {} ms: with it the residual torque drops to {:.0} %. The \
+                 estimates count it",
                 match lag.shape {
                     LagShape::Filter => "a first-order filter",
                     LagShape::Delay => "a delay",

@@ -79,6 +79,12 @@ impl<'a> Prepared<'a> {
         &self.used
     }
 
+    /// The same for methods that use other logs of these runs.
+    #[must_use]
+    pub(crate) fn using(&self, used: Campaign) -> Self {
+        Self { used: Cow::Owned(used), ..self.clone() }
+    }
+
     /// Which runs of the campaign these are.
     pub fn kept(&self) -> &[usize] {
         &self.kept

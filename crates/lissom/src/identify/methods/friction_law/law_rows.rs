@@ -168,7 +168,7 @@ impl LawRows {
             let mut of_run = by_run.column_mut(run);
             of_run += score;
         }
-        Scores { by_cluster, by_run }
+        Scores { by_cluster, by_run, normals: Vec::new() }
     }
 }
 

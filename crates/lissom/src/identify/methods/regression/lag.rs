@@ -2,7 +2,9 @@
 
 use crate::identify::methods::regression::motor_rows::MotorRows;
 use crate::identify::methods::regression::normal::{Term, solve};
-use crate::identify::methods::regression::thresholds::{LAG_SAMPLES_MOST, LAG_SHAPE_TOLD};
+use crate::identify::methods::regression::thresholds::{
+    LAG_EXPLAINS, LAG_SAMPLES_MOST, LAG_SHAPE_TOLD,
+};
 use crate::identify::prepare::run_noise::RunNoise;
 use crate::record::{Campaign, Hold, Run};
 
@@ -33,8 +35,16 @@ pub struct AngleLag {
     pub residual_ratio: f64,
 }
 
+impl AngleLag {
+    /// The campaign with commands that are as late as the angle.
+    pub(crate) fn late(&self, campaign: &Campaign) -> Campaign {
+        let runs: Vec<&Run> = campaign.runs.iter().collect();
+        delayed(campaign, &runs, self.shape, self.time_s)
+    }
+}
+
 /// The lag with which the equation leaves least, looked for up to three times the `first` estimate: the command is
-/// filtered or delayed as the angle was. `None` where nothing is gained.
+/// filtered or delayed as the angle was. `None` where it does not explain most of what is left.
 pub(super) fn angle_lag(
     campaign: &Campaign,
     noise: &[RunNoise],
@@ -65,7 +75,7 @@ pub(super) fn angle_lag(
         (LagShape::Either, if filter.1 < delay.1 { filter } else { delay })
     };
     let residual_ratio = found.1 / without;
-    (residual_ratio < 1.0).then_some(AngleLag { time_s: found.0, shape, residual_ratio })
+    (residual_ratio < LAG_EXPLAINS).then_some(AngleLag { time_s: found.0, shape, residual_ratio })
 }
 
 /// The time from zero to three times `first_s` with the least of `left`, and that.

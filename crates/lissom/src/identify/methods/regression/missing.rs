@@ -44,6 +44,11 @@ impl MissingKind {
     /// How many columns they need: gravity has two.
     pub(super) const COLUMNS: usize = Self::ALL.len() + 1;
 
+    /// Place of its first column among those that are tried.
+    pub(super) fn column(self) -> usize {
+        Self::ALL.iter().position(|kind| *kind == self).unwrap_or(0)
+    }
+
     /// Its terms, `column` the first that it needs.
     fn terms(self, column: usize) -> Vec<Term> {
         match self {

@@ -1,5 +1,8 @@
 //! The motor's equation on slip phases.
 
+use std::cell::RefCell;
+use std::rc::Rc;
+
 use nalgebra::{DMatrix, DVector};
 
 use crate::identify::drive_estimates::DriveEstimates;
@@ -14,13 +17,19 @@ use crate::identify::methods::regression::motor_columns::{
     DRY, MotorColumns, PLACE_INERTIA, PLACE_OFFSET, PLACE_VISCOUS, VISCOUS,
 };
 use crate::identify::methods::regression::motor_rows::MotorRows;
-use crate::identify::methods::regression::normal::{Solution, Term, solve};
+use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve};
 use crate::identify::methods::regression::scan::{Candidate, RATIO, change, scan};
-use crate::identify::methods::regression::thresholds::{GRAVITY_CORRELATION, GRAVITY_KNOWN};
+use crate::identify::methods::regression::thresholds::{
+    FEW_PHASES, GRAVITY_CORRELATION, GRAVITY_KNOWN, LONGER_WINDOW, WINDOW_SYSTEMATIC,
+};
 use crate::identify::options::Options;
 use crate::identify::prepare::prepared::Prepared;
+use crate::identify::prepare::run_noise::RunNoise;
 use crate::identify::thresholds::{CLEARLY_PRESENT, RESIDUAL_FALLS_TO};
-use crate::record::{Channels, Run};
+use crate::record::{Campaign, Channels, Run};
+
+/// Two lengths of windows are one if they differ by less than this share.
+const SAME_LENGTH: f64 = 1e-9;
 
 /// Figures of the motor's equation, in torque (or force) as the command's constant gives it.
 #[derive(Debug, Clone, PartialEq)]
@@ -121,10 +130,14 @@ impl Terms {
 /// The same equation with viscous friction by direction: a fit of its own.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ByDirection {
+    /// Length of its windows \[s\].
+    pub window_s: f64,
     /// All that this fit gives.
     pub estimates: DriveEstimates,
     /// ‖y − X·q‖/‖y‖ of this fit.
     pub relative_residual: f64,
+    /// The same with one viscous constant, in the same windows.
+    pub relative_residual_of_one: f64,
     /// J, V, CF, offset, κ_i of the tips, g_s and g_c, and half the difference of viscous friction forward and backward.
     pub(crate) terms: Terms,
 }
@@ -163,39 +176,80 @@ pub struct ByDirection {
 /// (DESIGN.md, "How does the regression work?").
 pub fn motor_regression(prepared: &Prepared<'_>, options: &Options) -> Option<MotorRegression> {
     // Many short loops: within the pool none of them has to wake it first.
-    rayon::scope(|_| on_slip_phases(prepared, &options.window_s))
+    rayon::scope(|_| {
+        let (campaign, noise) = (prepared.used(), prepared.noise());
+        let found = on_slip_phases(campaign, noise, &options.window_s, None)?;
+        // With the command as late as the angle the equation holds.
+        let late = found.lag.and_then(|lag| {
+            on_slip_phases(&lag.late(campaign), noise, &options.window_s, Some(lag))
+        });
+        Some(late.unwrap_or(found))
+    })
 }
 
-fn on_slip_phases(prepared: &Prepared<'_>, window_s: &[f64]) -> Option<MotorRegression> {
-    let campaign = prepared.used();
-    let equation = MotorRows::of(campaign, prepared.noise());
+/// The same of a campaign whose commands were made late by a `lag`, if by any.
+fn on_slip_phases(
+    campaign: &Campaign,
+    noise: &[RunNoise],
+    window_s: &[f64],
+    lag: Option<AngleLag>,
+) -> Option<MotorRegression> {
+    let equation = MotorRows::of(campaign, noise);
     let columns = &equation.columns;
     let terms = columns.terms(Term::Signed(DRY));
     // The offset is small by nature: it does not take part in the choice of the window.
     let counts: Vec<bool> = (0..terms.len()).map(|i| i != PLACE_OFFSET).collect();
     let sample_time = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
-    let found =
-        scan(sample_time, window_s, &counts, |length| solve(&equation.clusters(length), &terms))?;
+    let sums = SumsByLength::of(&equation);
+    let found = scan(sample_time, window_s, &counts, |length| sums.solved(length, &terms))?;
     let chosen = &found.candidates[found.chosen];
     let solution = &found.solution;
     let (channels, window_s_chosen) = (&campaign.channels, chosen.window_s);
-    let one = Fitted { solution, change: &found.change, columns, difference: None };
+    let phases = equation.phases(window_s_chosen);
+    let with_more = |length: f64| -> Option<(Vec<Cluster>, Solution)> {
+        let without = sums.solved(length, &terms)?;
+        let known: Vec<f64> = columns.couplings().map(|i| without.value[i]).collect();
+        Some((equation.clusters_with_more(length, &known), without))
+    };
+    let (clusters, _) = with_more(window_s_chosen)?;
+    let mut change = found.change.clone();
+    if lag.is_some() {
+        let by_lag = changes_by_delay(&clusters, &terms, columns);
+        change.iter_mut().zip(by_lag).for_each(|(c, by_lag)| *c = c.signum() * c.hypot(by_lag));
+    }
+    let one = Fitted { solution, change: &change, columns, difference: None };
     let DriveEstimates { friction, inertia, coupling: total_coupling, coupling_by_tip, gravity } =
         one.estimates(channels);
-    let known: Vec<f64> = columns.couplings().map(|i| solution.value[i]).collect();
-    let clusters = equation.clusters_with_more(window_s_chosen, &known);
-    let missing = missing_term(&clusters, &terms, solution, (columns, campaign));
+    let missing_in = |clusters: &[Cluster], without: &Solution, length: f64| {
+        let term = missing_term(clusters, &terms, without, (columns, campaign))?;
+        Some((term, length))
+    };
+    let missing = missing_in(&clusters, solution, window_s_chosen).or_else(|| {
+        // Less of the residual is noise in longer windows.
+        let length = LONGER_WINDOW * window_s_chosen;
+        let many = window_s.is_empty() && equation.phases(length) >= FEW_PHASES;
+        let (clusters, without) = many.then(|| with_more(length)).flatten()?;
+        missing_in(&clusters, &without, length)
+    });
+    // A few strokes are too much alike to tell a lag from other things.
+    let told = |m: &MissingTerm| m.kind != MissingKind::Delay || phases >= FEW_PHASES;
+    let missing = missing.filter(|(m, _)| told(m));
     let left_out = runs_left_out(&clusters, &terms);
-    let lag = missing
-        .filter(|m| m.kind == MissingKind::Delay && m.value > 0.0)
-        .and_then(|m| angle_lag(campaign, prepared.noise(), window_s_chosen, &terms, m.value));
-    let solved = |length: f64, terms: &[Term]| solve(&equation.clusters(length), terms);
-    let viscous_by_direction = by_direction(channels, &one, &terms, window_s_chosen, &solved);
+    let lag = lag.or_else(|| {
+        let (found, length) = missing?;
+        let late = found.kind == MissingKind::Delay && found.value > 0.0;
+        late.then(|| angle_lag(campaign, noise, length, &terms, found.value)).flatten()
+    });
+    let missing = missing.map(|(term, _)| term);
+    let longer = found.candidates.iter().map(|c| c.window_s).filter(|l| *l >= window_s_chosen);
+    let viscous_by_direction = longer
+        .into_iter()
+        .find_map(|length| by_direction(channels, columns, &terms, length, &sums));
     Some(MotorRegression {
         window_s: chosen.window_s,
         window_given: !window_s.is_empty(),
         rows: chosen.rows,
-        phases: equation.phases(window_s_chosen),
+        phases,
         relative_residual: solution.relative_residual,
         inertia,
         viscous: friction.viscous,
@@ -258,42 +312,73 @@ impl MotorRegression {
     }
 }
 
-/// The fit with viscous friction by direction, if the data call for it. `solved` solves the equation with
-/// given terms in windows of a given length.
+/// The fit with viscous friction by direction in windows of a length, if the data call for it there: in the windows that
+/// tell the estimates best noise may be most of the residual, and in longer ones it is less.
 fn by_direction(
     channels: &Channels,
-    one: &Fitted<'_>,
+    columns: &MotorColumns,
     terms: &[Term],
     window_s: f64,
-    solved: &dyn Fn(f64, &[Term]) -> Option<Solution>,
+    sums: &SumsByLength<'_>,
 ) -> Option<ByDirection> {
     let mut split = terms.to_vec();
     split.push(Term::Signed(VISCOUS));
     let difference = terms.len();
-    let two = solved(window_s, &split)?;
+    let one = sums.solved(window_s, terms)?;
+    let two = sums.solved(window_s, &split)?;
     if [PLACE_VISCOUS, PLACE_OFFSET, difference].iter().any(|i| two.inseparable[*i]) {
         return None;
     }
     let deviation = two.covariance[(difference, difference)].max(0.0).sqrt();
     let called_for = two.value[difference].abs() > CLEARLY_PRESENT * deviation
-        && two.relative_residual < RESIDUAL_FALLS_TO * one.solution.relative_residual;
+        && two.relative_residual < RESIDUAL_FALLS_TO * one.relative_residual;
     if !called_for {
         return None;
     }
     let [shorter, longer] =
-        [window_s / RATIO, window_s * RATIO].map(|length| solved(length, &split));
+        [window_s / RATIO, window_s * RATIO].map(|length| sums.solved(length, &split));
     let change = change(shorter.as_ref(), &two, longer.as_ref());
-    let fitted = Fitted {
-        solution: &two,
-        change: &change,
-        columns: one.columns,
-        difference: Some(difference),
-    };
+    let fitted = Fitted { solution: &two, change: &change, columns, difference: Some(difference) };
     Some(ByDirection {
+        window_s,
         estimates: fitted.estimates(channels),
         relative_residual: two.relative_residual,
+        relative_residual_of_one: one.relative_residual,
         terms: terms_of(&fitted),
     })
+}
+
+/// Sums of the equation's rows in windows of the lengths asked for, each found once.
+struct SumsByLength<'a> {
+    equation: &'a MotorRows<'a>,
+    found: RefCell<Vec<(f64, Rc<Vec<Cluster>>)>>,
+}
+
+impl<'a> SumsByLength<'a> {
+    fn of(equation: &'a MotorRows<'a>) -> Self {
+        Self { equation, found: RefCell::default() }
+    }
+
+    fn solved(&self, length_s: f64, terms: &[Term]) -> Option<Solution> {
+        let same = |(length, _): &&(f64, _)| (length / length_s - 1.0).abs() < SAME_LENGTH;
+        let known = self.found.borrow().iter().find(same).map(|(_, sums)| Rc::clone(sums));
+        let sums = known.unwrap_or_else(|| {
+            let sums = Rc::new(self.equation.clusters(length_s));
+            self.found.borrow_mut().push((length_s, Rc::clone(&sums)));
+            sums
+        });
+        solve(&sums, terms)
+    }
+}
+
+/// By how much a standard error of a delay of the command moves each term: the delay is estimated, too.
+fn changes_by_delay(clusters: &[Cluster], terms: &[Term], columns: &MotorColumns) -> Vec<f64> {
+    let delay = Term::Plain(columns.count() + MissingKind::Delay.column());
+    let with: Vec<Term> = terms.iter().copied().chain([delay]).collect();
+    let Some(solution) = solve(clusters, &with) else { return vec![0.0; terms.len()] };
+    let last = terms.len();
+    let std = solution.covariance[(last, last)].max(f64::MIN_POSITIVE).sqrt();
+    (0..last).map(|i| solution.covariance[(i, last)] / std / WINDOW_SYSTEMATIC).collect()
 }
 
 fn terms_of(fitted: &Fitted<'_>) -> Terms {

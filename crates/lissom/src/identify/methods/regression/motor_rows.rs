@@ -115,10 +115,11 @@ impl<'a> MotorRows<'a> {
     }
 }
 
-/// First samples of the windows of `n` samples in a phase, cut into as many parts as are wanted and hold a window each.
+/// First samples of the windows of `n` samples in a phase, cut into as many parts as are wanted and hold two windows each.
 fn in_parts(phase: &Phase, n: usize, wanted: usize) -> impl Iterator<Item = Range<usize>> {
     let (from, starts) = (phase.from, phase.to - n - phase.from);
-    let parts = wanted.min(starts / n).max(1);
+    // Windows of neighbouring blocks overlap: in blocks of two lengths and more that is little.
+    let parts = wanted.min(starts / (2 * n)).max(1);
     (0..parts).map(move |i| from + starts * i / parts..from + starts * (i + 1) / parts)
 }
 

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::identify::estimate::wider_by_student;
 use crate::identify::methods::regression::thresholds::{
-    INSEPARABLE_WEIGHT, MOTION_LEAST, NOISE_FILLS, SAME_COLUMN,
+    INSEPARABLE_WEIGHT, LEFT_OUT_MOST, MOTION_LEAST, NOISE_FILLS, SAME_COLUMN,
 };
 
 /// Products of the columns `[x_1 … x_p, y]`, summed over the rows of one cluster.
@@ -195,6 +195,8 @@ pub(crate) struct ScoredEstimates {
 pub(crate) struct Scores {
     pub(crate) by_cluster: DMatrix<f64>,
     pub(crate) by_run: DMatrix<f64>,
+    /// Normal equations of each cluster where they are few: each is then left out in turn.
+    pub(crate) normals: Vec<DMatrix<f64>>,
 }
 
 /// Solves for `terms` from the clusters' sums; `None` without rows or a right side of zero.
@@ -222,7 +224,10 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
             let mut of_run = by_run.column_mut(part.cluster.run);
             of_run += score;
         }
-        Scores { by_cluster, by_run }
+        let few = parts().count() <= LEFT_OUT_MOST;
+        let of_part = |part: NormalPart<'_>| DMatrix::from_fn(p, p, |i, j| part.normal(i, j));
+        let normals = parts().take_while(|_| few).map(of_part).collect();
+        Scores { by_cluster, by_run, normals }
     })
 }
 
@@ -264,9 +269,13 @@ pub(crate) fn solve_sums(
     let out = normal * &directions * out * directions.transpose();
     let taken = out.transpose() * &value;
     let estimates = ScoredEstimates { value, out, taken };
-    let Scores { by_cluster: scores, by_run } = scores(&estimates);
+    let Scores { by_cluster: scores, by_run, normals } = scores(&estimates);
     let value = estimates.value;
-    let by_cluster = sandwich(&inverse, &scores);
+    let by_cluster = if normals.is_empty() {
+        sandwich(&inverse, &scores)
+    } else {
+        leaving_out(&inverse, &scores, &normals)
+    };
     let present = by_run.column_iter().filter(|g| g.norm() > 0.0).count();
     // Fewer runs than this say little of their own scatter.
     let mut covariance = if present > p + 1 {
@@ -355,6 +364,35 @@ fn sandwich(inverse: &DMatrix<f64>, scores: &DMatrix<f64>) -> DMatrix<f64> {
     let groups = scores.column_iter().filter(|g| g.norm() > 0.0).count() as f64;
     let freedom = (groups - 1.0).max(1.0);
     inverse * middle * inverse * (groups / freedom * wider_by_student(freedom).powi(2))
+}
+
+/// The same by leaving out each group in turn, of few that each carry a good part of the whole:
+/// `(C − 1)/C·Σ d·dᵀ` with `d = (N − N_g)⁻¹·g` the change without a group. A group that other groups cannot replace is
+/// left in.
+///
+/// # Source
+/// Bell and McCaffrey, Bias reduction in standard errors for linear regression with multi-stage samples, Survey Methodology
+/// 28 (2002): the estimator CR3.
+fn leaving_out(
+    inverse: &DMatrix<f64>,
+    scores: &DMatrix<f64>,
+    normals: &[DMatrix<f64>],
+) -> DMatrix<f64> {
+    let p = inverse.nrows();
+    let mut changes = DMatrix::zeros(p, scores.ncols());
+    for ((score, normal), mut change) in
+        scores.column_iter().zip(normals).zip(changes.column_iter_mut())
+    {
+        // (N − N_g)⁻¹ = (1 − N⁻¹·N_g)⁻¹·N⁻¹.
+        let others = DMatrix::identity(p, p) - inverse * normal;
+        let plain = inverse * score;
+        let solved = others.lu().solve(&plain);
+        let stands = |d: &DVector<f64>| d.iter().all(|v| v.is_finite());
+        change.copy_from(&solved.filter(stands).unwrap_or(plain));
+    }
+    let groups = scores.column_iter().filter(|g| g.norm() > 0.0).count() as f64;
+    let freedom = (groups - 1.0).max(1.0);
+    &changes * changes.transpose() * (freedom / groups * wider_by_student(freedom).powi(2))
 }
 
 /// The first covariance, stretched where the second has the larger variance.

@@ -3,12 +3,15 @@
 use crate::identify::drive_estimates::Method;
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::{BeamFinding, EstimateUnits, Finding, RegressionFinding};
+use crate::identify::gravity_estimate::Gravity;
 use crate::identify::identified::torque_constant;
 use crate::identify::judge::{Chosen, Evidence};
 use crate::identify::methods::friction_law::FrictionLaw;
 use crate::identify::methods::regression::missing::{MissingKind, MissingTerm};
 use crate::identify::methods::regression::motor::{ByDirection, MotorRegression};
-use crate::identify::methods::regression::thresholds::{CONSTANT_DOUBTED, FEW_PHASES};
+use crate::identify::methods::regression::thresholds::{
+    CONSTANT_DOUBTED, FEW_PHASES, GRAVITY_KNOWN,
+};
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
 use crate::identify::thresholds::{CLEARLY_PRESENT, SAME_FREQUENCY, UNEXPLAINED_TORQUE};
 use crate::record::Run;
@@ -40,7 +43,7 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
     if residual_share > UNEXPLAINED_TORQUE && !explained {
         findings.push(Finding::new(RegressionFinding::UnexplainedTorque { residual_share }));
     }
-    findings.extend(gravity_pairs(evidence, r));
+    findings.extend(gravity_pairs(evidence, r, chosen));
     if !explained && is_one_sine(evidence.runs, r) {
         findings.push(Finding::new(RegressionFinding::OneSine));
     }
@@ -57,14 +60,14 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
         MissingKind::CommandBySign => split || law.is_some(),
         MissingKind::Stribeck => law.is_some(),
     };
+    if let Some(lag) = r.lag.filter(|_| !explained) {
+        findings.push(Finding::new(RegressionFinding::AngleLag { lag }));
+    }
     if let Some(term) = r.missing.filter(|m| !explained && !said(m)) {
-        findings.push(Finding::new(match r.lag {
-            Some(lag) => RegressionFinding::AngleLag { lag },
-            None => RegressionFinding::MissingTerm { term, units },
-        }));
+        findings.push(Finding::new(RegressionFinding::MissingTerm { term, units }));
     }
     let by_direction = r.viscous_by_direction.as_ref().filter(|_| split);
-    findings.extend(by_direction.and_then(|d| differs_by_direction(r, d, units)));
+    findings.extend(by_direction.and_then(|d| differs_by_direction(d, units)));
     findings
 }
 
@@ -98,8 +101,15 @@ fn contradicted_constant(
 }
 
 /// What gravity can hardly be told from.
-fn gravity_pairs(evidence: &Evidence<'_>, r: &MotorRegression) -> Vec<Finding> {
+fn gravity_pairs(evidence: &Evidence<'_>, r: &MotorRegression, chosen: &Chosen) -> Vec<Finding> {
     let Some(gravity) = r.gravity else { return Vec::new() };
+    let known = |g: Gravity| {
+        let (amplitude, phase) = (g.amplitude(), g.phase_rad());
+        amplitude.std < GRAVITY_KNOWN * amplitude.value && phase.std < GRAVITY_KNOWN
+    };
+    if chosen.drive.gravity.is_some_and(known) {
+        return Vec::new();
+    }
     let angles = evidence.used.runs.iter().flat_map(Run::motor);
     let (sum, count) = angles.fold((0.0, 0.0), |(sum, count), q| (sum + q, count + 1.0));
     let pairs = r.terms.pairs_with_gravity(sum / count, gravity.amplitude().value);
@@ -110,16 +120,12 @@ fn gravity_pairs(evidence: &Evidence<'_>, r: &MotorRegression) -> Vec<Finding> {
 }
 
 /// Viscous friction that differs by direction.
-fn differs_by_direction(
-    r: &MotorRegression,
-    split: &ByDirection,
-    units: EstimateUnits,
-) -> Option<Finding> {
+fn differs_by_direction(split: &ByDirection, units: EstimateUnits) -> Option<Finding> {
     let (forward, backward) = split.estimates.friction.viscous_by_direction?;
     Some(Finding::new(RegressionFinding::ViscousByDirection {
         forward,
         backward,
-        residual_share_of_one: r.relative_residual,
+        residual_share_of_one: split.relative_residual_of_one,
         residual_share_of_two: split.relative_residual,
         offset: split.estimates.friction.offset?,
         units,

@@ -34,6 +34,12 @@ thresholds! {
         /// Gravity is tried as a missing term where the motor turns by more than this: over less its
         /// sine is a line, as that of a spring.
         GRAVITY_TRAVEL_RAD: f64 = 1.0, "rad", Convention;
+        /// Where the chosen windows show no missing term, windows so many times longer are looked at:
+        /// the sensors' noise fills less of their residual.
+        LONGER_WINDOW: f64 = 4.0, "1", Convention;
+        /// An angle lags behind the command if with the lag less than this share of the residual is
+        /// left: the estimates are then those with it.
+        LAG_EXPLAINS: f64 = 0.5, "1", Convention;
         /// A lag of the angle is a filter or a delay where the one leaves less than this share of what
         /// the other does.
         LAG_SHAPE_TOLD: f64 = 0.8, "1", Convention;
@@ -56,6 +62,9 @@ thresholds! {
         FEW_PHASES: usize = 8, "slip phases", Convention;
         /// Blocks that few slip phases are cut into.
         BLOCKS_WANTED: usize = 16, "blocks", Convention;
+        /// With up to so many slip phases, or blocks of them, the covariance is by leaving out each in
+        /// turn; with more their scores alone say the same.
+        LEFT_OUT_MOST: usize = 40, "slip phases or blocks", Convention;
         /// A window length is used only if this many slip phases (or blocks of a beam's equation)
         /// are left: the covariance rests on their scatter.
         CLUSTERS_LEAST: usize = 4, "slip phases or blocks", Convention;
