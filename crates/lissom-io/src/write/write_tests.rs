@@ -128,6 +128,7 @@ fn plan() -> CampaignPlan {
         tips: vec![("tip".to_owned(), "theta_t".to_owned(), TipQuantity::Angle)],
         torque_constant_nm_per_a: Some(0.25),
         current_limit_a: Some(4.12),
+        gravity: false,
         arm: None,
         runs: vec![
             PlannedRun { file: "run-01.csv".to_owned(), omega_rad_s: Some(3.0) },
@@ -162,6 +163,12 @@ omega_rad_s = 3.0
 file = "run-02.csv"
 "#
     );
+}
+
+#[test]
+fn gravity_is_written_into_a_campaign() {
+    let text = campaign_text(&CampaignPlan { gravity: true, ..plan() });
+    assert!(text.contains("\n[load]\ngravity = true\n\n[[runs]]\n"), "{text}");
 }
 
 #[test]
