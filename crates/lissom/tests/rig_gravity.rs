@@ -237,7 +237,7 @@ fn bristles_carry_a_load() {
     assert!(off(1e-6) < 1e-4 && off(1e-8) < 5e-6, "{} {}", off(1e-6), off(1e-8));
     let soft = largest(&exact, &by_law);
     let stiff = largest(&by_bristles(4e5, 1e-9), &by_law);
-    assert!(soft < 2e-3 && stiff < 0.3 * soft, "{soft} {stiff}");
+    assert!(soft < 2e-3 && stiff < 0.5 * soft, "{soft} {stiff}");
 }
 
 /// Without a load a rigid joint moves by matrices, with one by the event engine.
