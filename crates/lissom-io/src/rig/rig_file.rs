@@ -51,7 +51,6 @@ pub struct RigTruthEntry {
     /// Largest torque that friction holds at rest at angle zero, backward, a magnitude.
     pub rest_backward_nm: f64,
     /// Gravity of an unbalanced load on the motor; null without.
-    #[serde(default)]
     pub gravity: Option<RigGravityEntry>,
     /// h_{n+1} of (15): torque per motor angle with all masses held.
     pub coupling_nm_per_rad: f64,
