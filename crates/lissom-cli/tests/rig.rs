@@ -365,11 +365,11 @@ fn a_load_is_identified_with_the_rest() {
         let truth = truth.as_f64().unwrap();
         assert!((value / truth - 1.0).abs() < by, "{value} {truth}");
     };
-    near(&found["drive"]["inertia_kg_m2"], &truth["inertia_kg_m2"], 2e-3);
-    near(&found["friction"]["coulomb_nm"], &truth["forward_nm"], 2e-3);
-    near(&found["friction"]["viscous_nm_s_per_rad"], &truth["viscous_nm_s_per_rad"], 1e-2);
-    near(&found["gravity"]["sine_nm"], &truth["gravity"]["sine_nm"], 2e-3);
-    near(&found["gravity"]["cosine_nm"], &truth["gravity"]["cosine_nm"], 2e-3);
+    near(&found["drive"]["inertia_kg_m2"], &truth["inertia_kg_m2"], 1e-4);
+    near(&found["friction"]["coulomb_nm"], &truth["forward_nm"], 1e-4);
+    near(&found["friction"]["viscous_nm_s_per_rad"], &truth["viscous_nm_s_per_rad"], 1e-4);
+    near(&found["gravity"]["sine_nm"], &truth["gravity"]["sine_nm"], 1e-4);
+    near(&found["gravity"]["cosine_nm"], &truth["gravity"]["cosine_nm"], 1e-4);
 }
 
 #[test]

@@ -77,9 +77,9 @@ impl<'a> KnownRig<'a> {
 
     /// The joint with its load, if it has one.
     pub(super) fn loaded(&self) -> Option<LoadedJoint<'_>> {
+        self.gravity?;
         Some(LoadedJoint {
             arm: &self.arm,
-            load: self.gravity?,
             parameters: &self.parameters,
             torque_per_command: self.channels.command.torque_per_unit(),
             noise: *self.noise.first()?,

@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::PlannedMotion;
-use crate::load::GravityLoad;
 use crate::plan::thresholds::WINDOW_OF_SLIP;
 use crate::record::Run;
 use crate::replay::{ModalArm, Parameter, SensorNoise};
@@ -21,7 +20,6 @@ const ROUGHNESS: f64 = 720.0;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LoadedJoint<'a> {
     pub(super) arm: &'a ModalArm,
-    pub(super) load: GravityLoad,
     /// Unknowns in addition to g_s and g_c, which come last.
     pub(super) parameters: &'a [Parameter],
     /// K \[N·m per unit of the command\].
