@@ -184,3 +184,48 @@ fn a_file_that_is_no_plan_is_not_written_over() {
          hint: put the input before `--json FILE`, or remove the file if it is to go",
     );
 }
+
+/// A rigid joint whose load hangs at −30°.
+const LOADED: &str = r#"
+[beam]
+rigid = true
+[drive]
+inertia = "2e-3 kg*m^2"
+viscous = "0.01 N*m*s/rad"
+torque_constant = "0.2 N*m/A"
+coulomb = "0.06 N*m"
+[load]
+gravity_torque = "0.3 N*m"
+phase = "30 deg"
+[rig]
+sample_time = "2 ms"
+current_limit = "5 A"
+motor_sensor = { counts_per_turn = 16384 }
+controller = { proportional = "8 A/rad", derivative = "0.25 A*s/rad" }
+"#;
+
+#[test]
+fn a_load_is_planned_and_run() {
+    let folder = folder(LOADED);
+    let at = folder.path();
+    let any = ["--runs", "any", "--gravity", "0.3%", "--out", "plan.toml", "--json", "plan.json"];
+    let planned = lissom(at, &[&["plan", "arm.toml", "--tables", "tables"][..], &any].concat());
+    assert!(planned.status.success(), "{}", text(&planned.stderr));
+    assert!(text(&planned.stdout).contains("gravity-by-regression"), "{}", text(&planned.stdout));
+    let plan: Value = serde_json::from_slice(&fs::read(at.join("plan.json")).unwrap()).unwrap();
+    let mut check = SchemaCheck::new(include_str!("../../../docs/planned.schema.json"), "planned");
+    check.look_at(&plan);
+    let gravity = plan["expected"].as_array().unwrap().iter().find(|e| e["figure"] == "gravity");
+    let gravity = gravity.unwrap();
+    assert_eq!((gravity["wanted"].as_f64(), gravity["value"].as_f64()), (Some(0.003), Some(0.3)));
+    assert!(gravity["relative_std"].as_f64().unwrap() < 0.003, "{gravity}");
+    let campaign = fs::read_to_string(at.join("tables/campaign.toml")).unwrap();
+    assert!(campaign.contains("[load]\ngravity = true"), "{campaign}");
+    let made = lissom(at, &["rig", "arm.toml", "--campaign", "plan.toml", "--out", "virtual"]);
+    assert!(made.status.success(), "{}", text(&made.stderr));
+    let found = lissom(at, &["identify", "virtual/campaign.toml", "--json"]);
+    assert!(found.status.success(), "{}", text(&found.stderr));
+    let found: Value = serde_json::from_slice(&found.stdout).unwrap();
+    let amplitude = found["gravity"]["amplitude_nm"].clone();
+    assert!((amplitude["value"].as_f64().unwrap() / 0.3 - 1.0).abs() < 0.003, "{amplitude}");
+}

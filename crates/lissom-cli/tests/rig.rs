@@ -315,3 +315,97 @@ fn the_description_beside_the_logs_is_judged() {
     let page = fs::read_to_string(out.join("report.html")).unwrap();
     assert!(page.contains("The arm as described") && page.contains("Explained best"), "{check}");
 }
+
+/// A rigid joint whose load hangs at −30°.
+const LOADED: &str = r#"
+[beam]
+rigid = true
+[drive]
+inertia = "0.02 kg*m^2"
+viscous = "0.05 N*m*s/rad"
+torque_constant = "0.5 N*m/A"
+coulomb = "0.3 N*m"
+[load]
+gravity_torque = "2 N*m"
+phase = "30 deg"
+[rig]
+sample_time = "2 ms"
+current_limit = "20 A"
+motor_sensor = { counts_per_turn = 65536, noise = "20 urad" }
+controller = { proportional = "40 A/rad", derivative = "2 A*s/rad" }
+"#;
+
+const LOADED_PLAN: &str = r#"
+[[runs]]
+sine = { omega_rad_s = [2, 6], amplitude = "1.2 rad" }
+periods = 8
+[[runs]]
+multisine = { omega_rad_s = 1.5, to = 20, amplitude = "0.8 rad" }
+periods = 4
+"#;
+
+#[test]
+fn a_load_is_identified_with_the_rest() {
+    let bench = Bench::new(LOADED, LOADED_PLAN);
+    let files = bench.done("out", &[]);
+    let campaign = std::str::from_utf8(&files["campaign.toml"]).unwrap();
+    assert!(campaign.contains("[load]\ngravity = true"), "{campaign}");
+    let mut check = SchemaCheck::new(include_str!("../../../docs/rig.schema.json"), "rig.json");
+    let rig: Value = serde_json::from_slice(&files["rig.json"]).unwrap();
+    check.look_at(&rig);
+    check.holds(&["truth.gravity.sine_nm", "truth.gravity.cosine_nm"]);
+    let mut command = Command::cargo_bin("lissom").unwrap();
+    let place = bench.0.path().join("out/campaign.toml");
+    let output = command.args(["identify"]).arg(place).arg("--json").output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let truth = &rig["truth"];
+    let near = |found: &Value, truth: &Value, by: f64| {
+        let value = found["value"].as_f64().unwrap();
+        let truth = truth.as_f64().unwrap();
+        assert!((value / truth - 1.0).abs() < by, "{value} {truth}");
+    };
+    near(&found["drive"]["inertia_kg_m2"], &truth["inertia_kg_m2"], 1e-4);
+    near(&found["friction"]["coulomb_nm"], &truth["forward_nm"], 1e-4);
+    near(&found["friction"]["viscous_nm_s_per_rad"], &truth["viscous_nm_s_per_rad"], 1e-4);
+    near(&found["gravity"]["sine_nm"], &truth["gravity"]["sine_nm"], 1e-4);
+    near(&found["gravity"]["cosine_nm"], &truth["gravity"]["cosine_nm"], 1e-4);
+}
+
+#[test]
+fn a_load_on_bristles_is_simulated_too() {
+    let bristles = LOADED.replace(
+        "[load]",
+        "bristles = { stiffness = \"4e3 N*m/rad\", damping = \"4 N*m*s/rad\", tolerance = 1e-6 }\n[load]",
+    );
+    let files = Bench::new(&bristles, LOADED_PLAN).done("out", &[]);
+    let rig: Value = serde_json::from_slice(&files["rig.json"]).unwrap();
+    assert_eq!(rig["tolerance"], 1e-6);
+    for run in rig["runs"].as_array().unwrap() {
+        assert_eq!(run["findings"].as_array().unwrap().len(), 0, "{run}");
+    }
+}
+
+#[test]
+fn what_a_load_needs_is_said() {
+    let on_beam = ARM.replace("[rig]", "[load]\ngravity_torque = \"2 N*m\"\n[rig]");
+    Bench::new(&on_beam, PLAN).refused(
+        "out",
+        "error: arm.toml: [load] gives gravity to an arm with a beam; it is simulated for a rigid joint\n\
+         hint: remove [load], or write `rigid = true` in place of the keys of [beam]",
+    );
+    let wrong = LOADED.replace("\"2 N*m\"", "\"-2 N*m\"");
+    Bench::new(&wrong, PLAN).refused(
+        "out",
+        "error: arm.toml, line 10: `load.gravity_torque` is \"-2 N*m\", but must be greater than zero\n\
+         hint: check its sign",
+    );
+    let release = "[[runs]]\nrelease = \"0.5 N\"\nrecord = \"3 s\"";
+    let output = Bench::new(LOADED, release).run("out", &[]);
+    assert_eq!(output.status.code(), Some(1));
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        text.contains("on a rigid joint, cannot be simulated") && text.contains("hint: "),
+        "{text}"
+    );
+}

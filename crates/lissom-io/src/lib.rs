@@ -37,8 +37,8 @@ pub mod write;
 
 pub use arm_file::{
     ArmError, ArmFile, BeamKind, BeamSpec, BristlesSpec, ControllerSpec, ConverterSpec, DriveSpec,
-    FrictionSpec, IntegerSpec, RestSpec, RigSpec, RippleSpec, SensorSpec, SensorSteps, SignalSpec,
-    SpanSpec, TipSpec,
+    FrictionSpec, IntegerSpec, LoadSpec, RestSpec, RigSpec, RippleSpec, SensorSpec, SensorSteps,
+    SignalSpec, SpanSpec, TipSpec,
 };
 pub use campaign::{
     AnalysisOptions, CampaignError, CampaignFile, DriveConstants, ReadOptions, read_campaign,

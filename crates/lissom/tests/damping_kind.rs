@@ -89,6 +89,8 @@ fn undamped_span() -> Span {
     let beam = lissom_testmodels::report_arm();
     match beam.beam() {
         lissom::beam::Beam::Lumped(beam) => beam.spans()[0],
-        lissom::beam::Beam::Modal(_) => panic!("the arm of the report has a point mass"),
+        lissom::beam::Beam::Modal(_) | lissom::beam::Beam::Rigid => {
+            panic!("the arm of the report has a point mass")
+        }
     }
 }

@@ -8,7 +8,7 @@ use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
 use lissom::identify::{Estimate, Identified, Options, identify};
 use lissom::information::expected_covariance;
-use lissom::plan::{Expected, Figure, Kinds, Plan, PlannedMotion, Wishes, plan};
+use lissom::plan::{Expected, Figure, Kinds, Plan, PlannedFigure, PlannedMotion, Wishes, plan};
 use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, Tip, TipQuantity,
 };
@@ -134,7 +134,7 @@ fn worth(known: &Rig, truth: &Rig, kinds: Kinds, tips: bool, seeds: u64) -> (Pla
         let campaign = made(truth, &made_plan, seed, tips);
         let id = identify(&campaign, &Options::default(), |_| ()).unwrap();
         for w in &mut worth {
-            let figure = w.expected.figure;
+            let PlannedFigure::Arm(figure) = w.expected.figure else { panic!("no load") };
             let found = found(&id, figure).unwrap_or_else(|| panic!("{} refused", figure.name()));
             let value = target(figure);
             w.error += ((found.value / value - 1.0) / w.expected.std).powi(2) / seeds as f64;
@@ -197,7 +197,10 @@ fn agrees(worth: &[Worth]) {
     assert!((0.6..1.5).contains(&error), "{error}");
     // Damping and viscous friction are stated for the one kind of damping that was found, and expected
     // with both.
-    let apart = |w: &&Worth| !matches!(w.expected.figure, Figure::Damping(_) | Figure::Viscous);
+    let apart = |w: &&Worth| {
+        let figure = w.expected.figure;
+        !matches!(figure, PlannedFigure::Arm(Figure::Damping(_) | Figure::Viscous))
+    };
     for w in worth.iter().filter(apart) {
         assert!((0.8..1.6).contains(&w.stated), "{}: {}", w.expected.figure.name(), w.stated);
     }

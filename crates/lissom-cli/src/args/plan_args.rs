@@ -47,6 +47,9 @@ pub(crate) struct PlanArgs {
     /// Of the modes' damping [5%]: enough to tell which kind it is
     #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     damping: Option<f64>,
+    /// Of the amplitude of gravity [0.5%]
+    #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
+    gravity: Option<f64>,
     /// Longest time of all runs together, with waiting [30 min]
     #[arg(long, value_name = "TIME", value_parser = positive_time, allow_hyphen_values = true)]
     within: Option<f64>,
@@ -87,6 +90,7 @@ impl PlanArgs {
                 coupling: self.coupling.unwrap_or(all.coupling),
                 frequency: self.frequency.unwrap_or(all.frequency),
                 damping: self.damping.unwrap_or(all.damping),
+                gravity: self.gravity.unwrap_or(all.gravity),
             },
             within_s: self.within.unwrap_or(none.within_s),
             travel_rad: self.travel.unwrap_or(none.travel_rad),

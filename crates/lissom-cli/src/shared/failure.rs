@@ -139,6 +139,7 @@ fn plan_hint(error: &PlanError) -> &'static str {
         PlanError::TooFast { .. } => {
             "check the units of [drive] inertia and viscous, and of masses, stiffness and damping in [beam]"
         }
+        PlanError::GravityOnBeam { .. } => "remove the load, or plan for a rigid joint",
         PlanError::Wish { .. } => "give a number greater than zero",
         _ => "check the masses and stiffnesses in [beam]",
     }
@@ -158,6 +159,7 @@ fn rig_hint(error: &RigError) -> &'static str {
             "ask for lower frequencies, or let the controller act faster"
         }
         RigError::SensorCount { .. } => "give one `tip_sensors`, or one for each mass",
+        RigError::Unsupported { .. } => "remove it from the run or from the arm",
         _ => "check the numbers of the run and of [rig]",
     }
 }

@@ -2,6 +2,7 @@
 
 use lissom::arm::Arm;
 use lissom::identify::{GeometryCheck, Identified, geometry_check};
+use lissom::load::GravityLoad;
 use lissom_io::{CampaignFile, DriveSpec};
 
 use crate::shared::failure::Failure;
@@ -17,6 +18,8 @@ pub(crate) struct Reference {
     pub(crate) viscous_nm_s_per_rad: f64,
     /// Inertia \[kg·m²\].
     pub(crate) inertia_kg_m2: f64,
+    /// Gravity of an unbalanced load on the motor.
+    pub(crate) gravity: Option<GravityLoad>,
     /// The whole arm, where the beam is known too.
     pub(crate) arm: Option<Arm>,
 }
@@ -29,6 +32,7 @@ impl Reference {
             coulomb_nm: (arm.coulomb.forward, arm.coulomb.backward),
             viscous_nm_s_per_rad: arm.motor.viscous_nm_s_per_rad,
             inertia_kg_m2: arm.motor.inertia_kg_m2,
+            gravity: None,
             arm: Some(arm.clone()),
         }
     }
@@ -44,7 +48,8 @@ impl Reference {
         } else {
             None
         };
-        Ok(Some(Self::drive(drive, whole)))
+        let gravity = arm.load.map(|load| load.gravity());
+        Ok(Some(Self { gravity, ..Self::drive(drive, whole) }))
     }
 
     fn drive(drive: &DriveSpec, arm: Option<Arm>) -> Self {
@@ -53,6 +58,7 @@ impl Reference {
             coulomb_nm: (drive.coulomb_forward_nm, drive.coulomb_backward_nm),
             viscous_nm_s_per_rad: drive.viscous_nm_s_per_rad,
             inertia_kg_m2: drive.inertia_kg_m2,
+            gravity: None,
             arm,
         }
     }

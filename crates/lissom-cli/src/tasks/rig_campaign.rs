@@ -28,6 +28,7 @@ pub(crate) fn described(
             .collect(),
         torque_constant_nm_per_a: Some(rig.arm.motor.torque_constant_nm_per_a),
         current_limit_a: instruments.amplifier.limit_a(),
+        gravity: rig.scene.gravity.is_some(),
         arm,
         runs,
     }

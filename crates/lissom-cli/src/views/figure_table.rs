@@ -195,9 +195,12 @@ pub(crate) fn figure_rows(
     let inertia = reference.map(|r| r.inertia_kg_m2);
     add(names.inertia_name(), id.inertia, names.inertia_unit(), inertia);
     if let Some(gravity) = &id.gravity {
-        add("gravity, m·g·l", Some(gravity.amplitude()), torque(), None);
+        let known = reference.and_then(|r| r.gravity);
+        let mgl = known.map(|load| load.amplitude_nm());
+        add("gravity, m·g·l", Some(gravity.amplitude()), torque(), mgl);
+        let phase = known.map(|load| load.phase_rad().to_degrees());
         let degrees = gravity.phase_rad().scaled(1.0_f64.to_degrees());
-        add("  phase φ of m·g·l·sin(θ + φ)", Some(degrees), "deg".to_owned(), None);
+        add("  phase φ of m·g·l·sin(θ + φ)", Some(degrees), "deg".to_owned(), phase);
         if let Some(constant) = id.torque_constant {
             let unit = format!("N·m/{}", names.command_unit());
             add("  torque constant by m·g·l", Some(constant), unit, None);

@@ -37,6 +37,18 @@ pub enum ArmError {
         /// The file.
         file: PathBuf,
     },
+    /// A rigid joint, where a beam is needed.
+    #[error("{}: the joint is rigid; here it must have a beam", file.display())]
+    Rigid {
+        /// The file.
+        file: PathBuf,
+    },
+    /// Gravity on an arm with a beam.
+    #[error("{}: [load] gives gravity to an arm with a beam; it is simulated for a rigid joint", file.display())]
+    LoadOnBeam {
+        /// The file.
+        file: PathBuf,
+    },
     /// The beam's numbers.
     #[error("{}: {source}", file.display())]
     Beam {
@@ -77,6 +89,12 @@ impl ArmError {
                 Some("add `mass_per_length`, or `density` and `section`, to [beam]".to_owned())
             }
             Self::Modal { .. } => Some("give `spans` in place of `modes` in [beam]".to_owned()),
+            Self::Rigid { .. } => {
+                Some("give `spans` or `modes` in place of `rigid` in [beam]".to_owned())
+            }
+            Self::LoadOnBeam { .. } => Some(
+                "remove [load], or write `rigid = true` in place of the keys of [beam]".to_owned(),
+            ),
             Self::Beam { source: BeamError::ModesAndPoints { .. }, .. } => {
                 Some("give every mode one gain for each point, and as many modes as points".to_owned())
             }
@@ -85,7 +103,7 @@ impl ArmError {
                     .to_owned(),
             ),
             Self::Beam { source: BeamError::NoTip, .. } => {
-                Some("describe the beam by its spans, or leave the load away".to_owned())
+                Some("describe the beam by its spans, or remove [tip] and the payload".to_owned())
             }
             Self::Beam { source: BeamError::TooManyMasses { .. }, .. } => {
                 Some("use fewer spans".to_owned())

@@ -4,6 +4,7 @@ use lissom::beam::KnownMode;
 
 use super::beam_spec::BeamSpec;
 use super::drive_spec::DriveSpec;
+use super::load_spec::LoadSpec;
 use super::rig_spec::RigSpec;
 use super::tip_spec::TipSpec;
 
@@ -14,8 +15,12 @@ pub struct ArmFile {
     pub beam: Option<BeamSpec>,
     /// The beam, by its modes, in place of that.
     pub modes: Option<Vec<KnownMode>>,
+    /// Whether the joint is rigid: no beam, in place of both.
+    pub rigid: bool,
     /// The motor.
     pub drive: Option<DriveSpec>,
+    /// An unbalanced load on a rigid joint.
+    pub load: Option<LoadSpec>,
     /// The world at the tip.
     pub tip: Option<TipSpec>,
     /// Sampling, limits, sensors and controller.

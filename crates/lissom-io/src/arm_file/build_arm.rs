@@ -16,9 +16,12 @@ impl ArmFile {
     /// # Errors
     /// [`ArmError`] where `[beam]` or `[drive]` is absent or its numbers make no arm.
     pub fn arm(&self, path: &Path) -> Result<Arm, ArmError> {
-        let beam: Beam = match self.beam_kind(path)? {
-            BeamKind::Modal => self.modal_beam(path)?.into(),
-            _ => self.lumped_beam(path)?.into(),
+        let beam: Beam = if self.rigid {
+            Beam::Rigid
+        } else if self.beam_kind(path)? == BeamKind::Modal {
+            self.modal_beam(path)?.into()
+        } else {
+            self.lumped_beam(path)?.into()
         };
         let (motor, coulomb) = self.motor(path)?.ok_or_else(|| absent(path, "drive"))?;
         Arm::new(beam, motor, coulomb)
@@ -40,8 +43,11 @@ impl ArmFile {
     /// How the table `[beam]` describes the beam; `path` names the file in errors.
     ///
     /// # Errors
-    /// [`ArmError::MissingTable`] where it is absent.
+    /// [`ArmError::MissingTable`] where it is absent, [`ArmError::Rigid`] where it says that there is no beam.
     pub fn beam_kind(&self, path: &Path) -> Result<BeamKind, ArmError> {
+        if self.rigid {
+            return Err(ArmError::Rigid { file: path.to_owned() });
+        }
         match (&self.modes, &self.beam) {
             (Some(_), _) => Ok(BeamKind::Modal),
             (None, Some(beam)) => Ok(beam.kind()),

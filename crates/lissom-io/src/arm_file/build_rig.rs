@@ -57,7 +57,7 @@ impl ArmFile {
     /// # Errors
     /// As [`arm`](Self::arm).
     pub fn simulated_arm(&self, path: &Path) -> Result<Arm, ArmError> {
-        if self.beam_kind(path)? != BeamKind::Distributed {
+        if self.rigid || self.beam_kind(path)? != BeamKind::Distributed {
             return self.arm(path);
         }
         let count = self.rig.as_ref().and_then(|rig| rig.masses).unwrap_or(MASSES);
@@ -75,7 +75,12 @@ impl ArmFile {
             Some(drive) => drive.friction.joint(arm.coulomb).map_err(drive_failed)?,
             None => JointFriction::Arm,
         };
-        let Some(tip) = &self.tip else { return Ok(Scene { friction, ..Scene::default() }) };
+        if self.load.is_some() && !self.rigid {
+            return Err(ArmError::LoadOnBeam { file: path.to_owned() });
+        }
+        let gravity = self.load.map(|load| load.gravity());
+        let joint = Scene { friction, gravity, ..Scene::default() };
+        let Some(tip) = &self.tip else { return Ok(joint) };
         if arm.beam().lumped().is_none() {
             return Err(beam_failed(BeamError::NoTip));
         }
@@ -84,7 +89,7 @@ impl ArmFile {
             let beam = arm.beam().clone().with_payload(*payload).map_err(beam_failed)?;
             later.push((*at_s, Arm::new(beam, arm.motor, arm.coulomb).map_err(beam_failed)?));
         }
-        let scene = Scene { friction, tip: world(tip).map_err(rig_failed)?, later };
+        let scene = Scene { tip: world(tip).map_err(rig_failed)?, later, ..joint };
         scene.check().map_err(rig_failed)?;
         Ok(scene)
     }

@@ -46,6 +46,17 @@
 //! modes = [{ frequency = "6.8 Hz", damping_ratio = 0.004, coupling = "0.5 N*m", gains = [1] }]
 //! ```
 //!
+//! A joint that carries a rigid load has no beam. Gravity of an unbalanced load takes the torque
+//! `gravity_torque·sin(θ + phase)` of its motor:
+//!
+//! ```toml
+//! [beam]
+//! rigid = true
+//! [load]
+//! gravity_torque = "2 N*m"                  # m·g·l
+//! phase = "30 deg"                          # the load hangs at θ = −30°; absent: 0
+//! ```
+//!
 //! Every key is in `docs/arm.md`.
 
 pub(crate) mod arm_error;
@@ -55,6 +66,7 @@ mod build_arm;
 mod build_rig;
 mod drive_spec;
 mod friction_spec;
+mod load_spec;
 mod material;
 mod mode_specs;
 mod read_arm_file;
@@ -68,6 +80,7 @@ pub use arm_spec::ArmFile;
 pub use beam_spec::{BeamKind, BeamSpec, SpanSpec};
 pub use drive_spec::DriveSpec;
 pub use friction_spec::{BristlesSpec, FrictionSpec, RestSpec, RippleSpec};
+pub use load_spec::LoadSpec;
 pub use rig_spec::{ControllerSpec, ConverterSpec, IntegerSpec, RigSpec, SensorSpec, SensorSteps};
 pub(crate) use tip_spec::omega;
 pub use tip_spec::{SignalSpec, TipSpec};

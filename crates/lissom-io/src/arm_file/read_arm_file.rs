@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::arm_spec::ArmFile;
-use super::{beam_spec, drive_spec, mode_specs, rig_spec, tip_spec};
-use crate::config::{ConfigError, Source};
+use super::{beam_spec, drive_spec, load_spec, mode_specs, rig_spec, tip_spec};
+use crate::config::{ConfigError, Source, Table};
 use crate::io_error::Error;
 
 impl ArmFile {
@@ -34,18 +34,32 @@ impl ArmFile {
     fn from_source(source: &Source) -> Result<Self, ConfigError> {
         let document = source.parse()?;
         let root = source.root(&document);
-        root.only(&["beam", "drive", "tip", "rig"])?;
+        root.only(&["beam", "drive", "load", "tip", "rig"])?;
         let table = root.get("beam").map(|v| v.table()).transpose()?;
+        let rigid = table.as_ref().map_or(Ok(false), rigid)?;
         let (by_modes, by_spans) = match table {
+            _ if rigid => (None, None),
             Some(table) if table.get("modes").is_some() => (Some(table), None),
             other => (None, other),
         };
         Ok(Self {
             beam: by_spans.map(|t| beam_spec::beam(&t)).transpose()?,
             modes: by_modes.map(|t| mode_specs::modes(&t)).transpose()?,
+            rigid,
             drive: root.get("drive").map(|v| drive_spec::drive(&v.table()?)).transpose()?,
+            load: root.get("load").map(|v| load_spec::load(&v.table()?)).transpose()?,
             tip: root.get("tip").map(|v| tip_spec::tip(&v.table()?)).transpose()?,
             rig: root.get("rig").map(|v| rig_spec::rig(&v.table()?)).transpose()?,
         })
     }
+}
+
+/// Whether `[beam]` says that there is none.
+fn rigid(table: &Table<'_>) -> Result<bool, ConfigError> {
+    let Some(value) = table.get("rigid") else { return Ok(false) };
+    if !value.truth()? {
+        return Err(value.kind("true, or `spans` or `modes` in its place"));
+    }
+    table.only(&["rigid"])?;
+    Ok(true)
 }

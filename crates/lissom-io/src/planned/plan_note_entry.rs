@@ -34,6 +34,8 @@ pub enum PlanNoteName {
     MotionsOfNoUse,
     /// The arm has friction or a load at the tip that a plan does not count.
     SceneLeftOut,
+    /// A load with gravity is identified by regression; expected standard errors may be off by a factor of up to four.
+    GravityByRegression,
     /// A note that has no code of its own.
     Other,
 }
@@ -70,6 +72,7 @@ impl PlanNoteName {
             PlanNote::SinesAlone => Self::SinesAlone,
             PlanNote::Unfit { .. } => Self::MotionsOfNoUse,
             PlanNote::SceneLeftOut => Self::SceneLeftOut,
+            PlanNote::GravityByRegression => Self::GravityByRegression,
             _ => Self::Other,
         }
     }
@@ -77,13 +80,14 @@ impl PlanNoteName {
 
 #[cfg(test)]
 mod tests {
-    use lissom::plan::{Expected, Figure, Unfit};
+    use lissom::plan::{Expected, Figure, PlannedFigure, Unfit};
 
     use super::*;
 
     #[test]
     fn codes_are_those_of_the_library() {
-        let expected = Expected { figure: Figure::Inertia, value: 1.0, std: 0.1, wanted: 0.01 };
+        let figure = PlannedFigure::Arm(Figure::Inertia);
+        let expected = Expected { figure, value: 1.0, std: 0.1, wanted: 0.01 };
         let notes = [
             PlanNote::Unreached { expected, within_s: 60.0, needed_s: 600.0, torque_share: None },
             PlanNote::LeftOut { omega_rad_s: vec![100.0] },
@@ -92,6 +96,7 @@ mod tests {
             PlanNote::SinesAlone,
             PlanNote::Unfit { reason: Unfit::Impossible, motions: 3 },
             PlanNote::SceneLeftOut,
+            PlanNote::GravityByRegression,
         ];
         for note in notes {
             let code = serde_json::to_value(PlanNoteName::of(&note)).unwrap();

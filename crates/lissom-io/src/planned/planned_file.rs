@@ -1,7 +1,8 @@
 //! The runs of a plan and what they are expected to give, as a type: filled from a plan, written and read.
 
-use lissom::plan::{Expected, Figure, Plan, PlannedMotion, PlannedRun, Wishes};
-use lissom::replay::Parameter;
+use lissom::plan::{
+    Expected, Plan, PlannedFigure, PlannedMotion, PlannedRun, PlannedUnknown, Wishes,
+};
 use serde::{Deserialize, Serialize};
 
 use super::plan_note_entry::PlanNoteEntry;
@@ -90,7 +91,7 @@ pub struct ExpectedEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlannedParameterEntry {
-    /// Its name, as in methods.output_error of result.json.
+    /// Its name, as in methods.output_error of result.json; gravity-sine and gravity-cosine are g_s and g_c.
     pub name: String,
     /// Its value, computed from the arm.toml.
     pub value: f64,
@@ -146,7 +147,7 @@ impl PlannedRunEntry {
 }
 
 impl WithoutRunEntry {
-    fn of((figure, relative_std): (Figure, f64)) -> Self {
+    fn of((figure, relative_std): (PlannedFigure, f64)) -> Self {
         Self { figure: figure.name(), relative_std: finite(relative_std) }
     }
 }
@@ -163,7 +164,7 @@ impl ExpectedEntry {
 }
 
 impl PlannedParameterEntry {
-    fn of((parameter, value, std): &(Parameter, f64, f64)) -> Self {
+    fn of((parameter, value, std): &(PlannedUnknown, f64, f64)) -> Self {
         Self { name: parameter.name(), value: *value, std: finite(*std) }
     }
 }

@@ -5,5 +5,5 @@
 mod rig_file;
 mod rig_run_entry;
 
-pub use rig_file::{RigFile, RigTruthEntry};
+pub use rig_file::{RigFile, RigGravityEntry, RigTruthEntry};
 pub use rig_run_entry::{RigFindingEntry, RigFindingName, RigRunEntry};

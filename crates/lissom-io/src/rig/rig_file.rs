@@ -50,10 +50,22 @@ pub struct RigTruthEntry {
     pub rest_forward_nm: f64,
     /// Largest torque that friction holds at rest at angle zero, backward, a magnitude.
     pub rest_backward_nm: f64,
+    /// Gravity of an unbalanced load on the motor; null without.
+    pub gravity: Option<RigGravityEntry>,
     /// h_{n+1} of (15): torque per motor angle with all masses held.
     pub coupling_nm_per_rad: f64,
     /// Natural frequencies of the beam with the motor clamped, ascending.
     pub natural_frequencies_rad_s: Vec<f64>,
+}
+
+/// The torque `sine·sin θ + cosine·cos θ` that gravity takes of the motor, θ the motor's angle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RigGravityEntry {
+    /// g_s: torque per sin θ.
+    pub sine_nm: f64,
+    /// g_c: torque per cos θ.
+    pub cosine_nm: f64,
 }
 
 impl RigFile {
@@ -88,6 +100,10 @@ impl RigTruthEntry {
             backward_nm: sliding.backward,
             rest_forward_nm: rest.forward,
             rest_backward_nm: rest.backward,
+            gravity: rig
+                .scene
+                .gravity
+                .map(|load| RigGravityEntry { sine_nm: load.sine_nm, cosine_nm: load.cosine_nm }),
             coupling_nm_per_rad: arm.dynamics().coupling_motor,
             natural_frequencies_rad_s: arm.beam().frequencies_rad_s(Base::Clamped, usize::MAX),
         }

@@ -25,6 +25,8 @@ pub struct CampaignPlan {
     pub torque_constant_nm_per_a: Option<f64>,
     /// Magnitude at which the current saturates \[A\].
     pub current_limit_a: Option<f64>,
+    /// Whether gravity of an unbalanced load acts on the motor and is to be identified.
+    pub gravity: bool,
     /// An `arm.toml` to compare with, relative to the campaign's folder.
     pub arm: Option<String>,
     /// The runs.
@@ -103,6 +105,9 @@ fn put(text: &mut String, plan: &CampaignPlan) -> std::fmt::Result {
     }
     if let Some(arm) = &plan.arm {
         writeln!(text, "arm = {}", quoted(arm))?;
+    }
+    if plan.gravity {
+        writeln!(text, "\n[load]\ngravity = true")?;
     }
     for run in &plan.runs {
         writeln!(text, "\n[[runs]]\nfile = {}", quoted(&run.file))?;

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use lissom::plan::{Expected, Figure, Plan, PlanNote, PlannedMotion, PlannedRun as Motion};
+use lissom::plan::{
+    Expected, Figure, Plan, PlanNote, PlannedFigure, PlannedMotion, PlannedRun as Motion,
+};
 use lissom::record::{Hold, TipQuantity};
 use proptest::prelude::*;
 
@@ -128,6 +130,7 @@ fn plan() -> CampaignPlan {
         tips: vec![("tip".to_owned(), "theta_t".to_owned(), TipQuantity::Angle)],
         torque_constant_nm_per_a: Some(0.25),
         current_limit_a: Some(4.12),
+        gravity: false,
         arm: None,
         runs: vec![
             PlannedRun { file: "run-01.csv".to_owned(), omega_rad_s: Some(3.0) },
@@ -162,6 +165,12 @@ omega_rad_s = 3.0
 file = "run-02.csv"
 "#
     );
+}
+
+#[test]
+fn gravity_is_written_into_a_campaign() {
+    let text = campaign_text(&CampaignPlan { gravity: true, ..plan() });
+    assert!(text.contains("\n[load]\ngravity = true\n\n[[runs]]\n"), "{text}");
 }
 
 #[test]
@@ -212,7 +221,7 @@ fn a_written_plan_is_read_as_it_was_made() {
         moved_rad: 0.14,
         stuck_share: 0.08,
         paired: false,
-        without: Some((Figure::Inertia, 0.02)),
+        without: Some((PlannedFigure::Arm(Figure::Inertia), 0.02)),
     };
     let turns = |omega_rad_s: f64, periods: f64| periods * std::f64::consts::TAU / omega_rad_s;
     let plan = Plan {
@@ -225,7 +234,7 @@ fn a_written_plan_is_read_as_it_was_made() {
             run(PlannedMotion::Chirp { from_rad_s: 1.31, to_rad_s: 61.3, sweep_s: 20.0 }, 20.0),
         ],
         expected: vec![Expected {
-            figure: Figure::Coulomb,
+            figure: PlannedFigure::Arm(Figure::Coulomb),
             value: 0.03,
             std: 0.001,
             wanted: 0.005,

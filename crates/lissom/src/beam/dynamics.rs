@@ -42,9 +42,25 @@ impl BeamDynamics {
     pub fn len(&self) -> usize {
         self.coupling.len()
     }
-    /// Never true.
+    /// Whether there is no beam.
     pub fn is_empty(&self) -> bool {
         self.coupling.is_empty()
+    }
+
+    /// That of a rigid joint: no coordinates and no torque.
+    pub(super) fn none() -> Self {
+        let (matrix, vector) = (DMatrix::zeros(0, 0), DVector::zeros(0));
+        Self {
+            elastic: matrix,
+            relative: None,
+            absolute: None,
+            coupling: vector.clone(),
+            coupling_motor: 0.0,
+            coupling_rate: None,
+            force: vector.clone(),
+            torque: vector,
+            coupling_torque: 0.0,
+        }
     }
 
     pub(super) fn of(beam: &LumpedBeam) -> Result<Self, BeamError> {

@@ -1,8 +1,9 @@
-//! The beam of an arm: by its spans, or by its modes.
+//! The beam of an arm: by its spans, by its modes, or none.
 
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
+use super::transfer::driven;
 use super::{
     Base, BeamDynamics, BeamError, BeamResponse, LumpedBeam, ModalBeam, Mode, Payload, Roots, Span,
     motor_function, motor_poles,
@@ -19,6 +20,8 @@ pub enum Beam {
     Lumped(LumpedBeam),
     /// By its modes at some points; it has no lengths, and nothing acts on its tip.
     Modal(ModalBeam),
+    /// None: the joint carries a rigid load, whose inertia is counted with the motor's.
+    Rigid,
 }
 
 impl From<LumpedBeam> for Beam {
@@ -38,18 +41,19 @@ impl Beam {
     pub fn lumped(&self) -> Option<&LumpedBeam> {
         match self {
             Self::Lumped(beam) => Some(beam),
-            Self::Modal(_) => None,
+            Self::Modal(_) | Self::Rigid => None,
         }
     }
 
-    /// Number of masses or points.
+    /// Number of masses or points; zero of a rigid joint.
     pub fn len(&self) -> usize {
         match self {
             Self::Lumped(beam) => beam.len(),
             Self::Modal(beam) => beam.len(),
+            Self::Rigid => 0,
         }
     }
-    /// Never true.
+    /// Whether the joint is rigid.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -70,11 +74,11 @@ impl Beam {
     ///
     /// # Errors
     /// [`BeamError::Payload`] where a quantity is negative or not finite, [`BeamError::NoTip`] where the beam is
-    /// known by its modes.
+    /// known by its modes or there is none.
     pub fn with_payload(self, payload: Payload) -> Result<Self, BeamError> {
         match self {
             Self::Lumped(beam) => beam.with_payload(payload).map(Self::Lumped),
-            Self::Modal(_) => Err(BeamError::NoTip),
+            Self::Modal(_) | Self::Rigid => Err(BeamError::NoTip),
         }
     }
 
@@ -83,6 +87,7 @@ impl Beam {
         match self {
             Self::Lumped(beam) => beam.inertia_kg_m2(),
             Self::Modal(beam) => beam.inertia_kg_m2(),
+            Self::Rigid => 0.0,
         }
     }
 
@@ -91,6 +96,7 @@ impl Beam {
         match self {
             Self::Lumped(beam) => beam.frequencies_rad_s(base, count),
             Self::Modal(beam) => beam.frequencies_rad_s(base, count),
+            Self::Rigid => Vec::new(),
         }
     }
 
@@ -104,6 +110,7 @@ impl Beam {
         match self {
             Self::Lumped(beam) => beam.modes(count),
             Self::Modal(beam) => beam.modes(count),
+            Self::Rigid => Vec::new(),
         }
     }
 
@@ -112,6 +119,7 @@ impl Beam {
         match self {
             Self::Lumped(beam) => beam.poles(),
             Self::Modal(beam) => beam.poles(),
+            Self::Rigid => Roots { s: Vec::new(), missing: 0 },
         }
     }
 
@@ -120,6 +128,10 @@ impl Beam {
         match self {
             Self::Lumped(beam) => motor_poles(beam, motor),
             Self::Modal(beam) => beam.motor_poles(motor),
+            Self::Rigid => {
+                let slowing = motor.viscous_nm_s_per_rad / motor.inertia_kg_m2;
+                Roots { s: vec![Complex64::ZERO, Complex64::from(-slowing)], missing: 0 }
+            }
         }
     }
 
@@ -128,6 +140,7 @@ impl Beam {
         match self {
             Self::Lumped(beam) => motor_function(beam, motor),
             Self::Modal(beam) => beam.motor_function(motor),
+            Self::Rigid => driven(self.poles(), self.motor_poles(motor), motor),
         }
     }
 
@@ -136,6 +149,7 @@ impl Beam {
         match self {
             Self::Lumped(beam) => beam.angle_function(index),
             Self::Modal(beam) => beam.angle_function(index),
+            Self::Rigid => None,
         }
     }
 
@@ -144,6 +158,9 @@ impl Beam {
         match self {
             Self::Lumped(beam) => beam.coupling_function(),
             Self::Modal(beam) => beam.coupling_function(),
+            Self::Rigid => {
+                ZeroPoleGain { zeros: Vec::new(), poles: Vec::new(), gain: 0.0, missing: 0 }
+            }
         }
     }
 
@@ -152,6 +169,9 @@ impl Beam {
         match self {
             Self::Lumped(beam) => beam.response(s),
             Self::Modal(beam) => beam.response(s),
+            Self::Rigid => {
+                BeamResponse { angles: Vec::new(), coupling_nm_per_rad: Complex64::ZERO }
+            }
         }
     }
 
@@ -160,6 +180,7 @@ impl Beam {
         match self {
             Self::Lumped(beam) => beam.dynamics(),
             Self::Modal(beam) => Ok(beam.dynamics()),
+            Self::Rigid => Ok(BeamDynamics::none()),
         }
     }
 
@@ -168,6 +189,7 @@ impl Beam {
         match self {
             Self::Lumped(beam) => beam.mass_matrix(),
             Self::Modal(beam) => beam.mass_matrix(),
+            Self::Rigid => DMatrix::zeros(0, 0),
         }
     }
 }

@@ -216,8 +216,8 @@ pub enum BeamError {
         /// Their sum.
         sum: f64,
     },
-    /// Something at the tip of a beam that is known by its modes alone.
-    #[error("a beam known by its modes has no tip that something could act on")]
+    /// Something at the tip of a rigid joint, or of a beam that is known by its modes alone.
+    #[error("a rigid joint or a beam known by its modes has no tip that something could act on")]
     NoTip,
     /// Points that are not on the beam.
     #[error("points must lie on the beam, beyond {base_m} m and up to {tip_m} m from the axis")]

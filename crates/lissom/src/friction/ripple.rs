@@ -1,5 +1,6 @@
 //! Friction that changes over the travel.
 
+use super::phase_series::PhaseSeries;
 use super::place::Place;
 use super::taylor_row::Row;
 
@@ -94,29 +95,16 @@ impl Ripple {
     }
 }
 
-/// Taylor coefficients along a motion, of sine and cosine at a time:
-/// `k·s_k = Σ j·u_j·c_{k−j}`, `k·c_k = −Σ j·u_j·s_{k−j}`.
+/// Taylor coefficients along a motion.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RippleSeries {
-    sine: Row,
-    cosine: Row,
+    phase: PhaseSeries,
 }
 
 impl RippleSeries {
     /// The coefficient of order `k` of the torque against the motion.
     pub(super) fn next(&mut self, law: &Ripple, k: usize, angle: &Row) -> f64 {
-        if k == 0 {
-            (self.sine[0], self.cosine[0]) = (law.per_rad * angle[0]).sin_cos();
-        } else {
-            let (mut sine, mut cosine) = (0.0, 0.0);
-            for (j, turned) in angle[..=k].iter().enumerate() {
-                let rate = j as f64 * law.per_rad * turned;
-                sine += rate * self.cosine[k - j];
-                cosine -= rate * self.sine[k - j];
-            }
-            self.sine[k] = sine / k as f64;
-            self.cosine[k] = cosine / k as f64;
-        }
-        law.cosine_nm * self.cosine[k] + law.sine_nm * self.sine[k]
+        let (sine, cosine) = self.phase.next(law.per_rad, k, angle);
+        law.cosine_nm * cosine + law.sine_nm * sine
     }
 }

@@ -96,6 +96,7 @@ pub fn additions(
     let reach = Reach {
         arm,
         torque_nm: bounds.torque_nm,
+        load_nm: 0.0,
         travel_rad: bounds.travel_rad,
         command_time_s: bounds.sample_time_s,
     };

@@ -2,7 +2,10 @@
 
 use std::ops::Range;
 
-use super::PlanError;
+use super::loaded_information::LoadedJoint;
+use super::{PlanError, PlannedFigure, PlannedUnknown, Precision};
+use crate::information::Figure;
+use crate::load::GravityLoad;
 use crate::plan::thresholds::{MODE_FOLLOWED, MODE_INERTIA_LEAST};
 use crate::record::{Campaign, Channels, Run};
 use crate::replay::{
@@ -19,8 +22,10 @@ pub(super) struct KnownRig<'a> {
     /// As its motor feels it, modes that are too fast turning with the motor.
     pub(super) arm: ModalArm,
     pub(super) channels: Channels,
-    /// What an identification has to find.
+    /// What an identification has to find of the arm.
     pub(super) parameters: Vec<Parameter>,
+    /// Gravity on a rigid joint, two unknowns more.
+    pub(super) gravity: Option<GravityLoad>,
     /// Motor first, then tips.
     pub(super) noise: Vec<SensorNoise>,
     /// Modes that are not followed \[rad/s\].
@@ -61,6 +66,7 @@ impl<'a> KnownRig<'a> {
             parameters: parameters(&channels, &arm),
             noise: sensors.iter().map(noise).collect(),
             ideal_sensor: sensors.contains(&Sensor::IDEAL),
+            gravity: rig.scene.gravity,
             left_out_rad_s,
             tips,
             kept,
@@ -68,6 +74,56 @@ impl<'a> KnownRig<'a> {
             channels,
             arm,
         })
+    }
+
+    /// The joint with its load, if it has one.
+    pub(super) fn loaded(&self) -> Option<LoadedJoint<'_>> {
+        self.gravity?;
+        Some(LoadedJoint {
+            arm: &self.arm,
+            parameters: &self.parameters,
+            torque_per_command: self.channels.command.torque_per_unit(),
+            noise: *self.noise.first()?,
+        })
+    }
+
+    /// Every unknown in the order of the information, its value and what one is of it.
+    pub(super) fn unknowns(&self) -> Vec<(PlannedUnknown, f64, f64)> {
+        let of_arm = |p: &Parameter| (PlannedUnknown::Arm(*p), p.of(&self.arm), p.size(&self.arm));
+        let mut all: Vec<_> = self.parameters.iter().map(of_arm).collect();
+        if let Some(load) = self.gravity {
+            let size = load.amplitude_nm();
+            all.push((PlannedUnknown::GravitySine, load.sine_nm, size));
+            all.push((PlannedUnknown::GravityCosine, load.cosine_nm, size));
+        }
+        all
+    }
+
+    /// Everything whose precision can be asked for.
+    pub(super) fn figures(&self) -> Vec<PlannedFigure> {
+        let of_arm = Figure::of(&self.arm).into_iter().map(PlannedFigure::Arm);
+        of_arm.chain(self.gravity.map(|_| PlannedFigure::Gravity)).collect()
+    }
+
+    /// Its value in SI.
+    pub(super) fn value(&self, figure: PlannedFigure) -> f64 {
+        match figure {
+            PlannedFigure::Arm(figure) => figure.value(&self.arm),
+            PlannedFigure::Gravity => self.gravity.map_or(0.0, |load| load.amplitude_nm()),
+        }
+    }
+
+    /// Its derivative by an unknown.
+    pub(super) fn slope(&self, figure: PlannedFigure, unknown: PlannedUnknown) -> f64 {
+        let share = |of: fn(&GravityLoad) -> f64| {
+            self.gravity.map_or(0.0, |load| of(&load) / load.amplitude_nm())
+        };
+        match (figure, unknown) {
+            (PlannedFigure::Arm(figure), PlannedUnknown::Arm(p)) => figure.slope(&self.arm, p),
+            (PlannedFigure::Gravity, PlannedUnknown::GravitySine) => share(|load| load.sine_nm),
+            (PlannedFigure::Gravity, PlannedUnknown::GravityCosine) => share(|load| load.cosine_nm),
+            _ => 0.0,
+        }
     }
 
     /// A simulated run as the replay takes it: the current that acted, and the true start.
@@ -106,4 +162,14 @@ fn parameters(channels: &Channels, arm: &ModalArm) -> Vec<Parameter> {
         free.push(Parameter::CommandLag);
     }
     free
+}
+
+impl Precision {
+    /// What is wanted of something that a plan may be asked for.
+    pub(super) fn of_planned(&self, figure: PlannedFigure) -> f64 {
+        match figure {
+            PlannedFigure::Arm(figure) => self.of(figure),
+            PlannedFigure::Gravity => self.gravity,
+        }
+    }
 }

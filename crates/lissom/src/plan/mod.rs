@@ -8,7 +8,9 @@
 mod addition;
 mod choose;
 mod known;
+mod loaded_information;
 mod note;
+mod planned_figure;
 mod planned_motion;
 mod planner;
 mod sizing;
@@ -23,12 +25,13 @@ use thiserror::Error;
 pub use crate::information::Figure;
 use crate::information::growing_information;
 use crate::plan::thresholds::{TRANSIENT_MOST_S, TRANSIENT_MOST_SHARE};
-use crate::replay::{Parameter, TURN_MOST};
+use crate::replay::TURN_MOST;
 use crate::rig::{Rig, Scene};
 pub use addition::{Addition, Bounds, additions};
 use choose::choose;
 use known::KnownRig;
 pub use note::PlanNote;
+pub use planned_figure::{PlannedFigure, PlannedUnknown};
 pub use planned_motion::PlannedMotion;
 use planned_motion::{Group, Reach, groups};
 use planner::Planner;
@@ -52,6 +55,12 @@ pub enum PlanError {
     /// The beam has no modes that can be told apart.
     #[error("the beam of {masses} masses has no distinct modes to plan for")]
     Modes {
+        /// Its masses.
+        masses: usize,
+    },
+    /// Gravity on an arm with a beam.
+    #[error("gravity is planned for a rigid joint, and this arm has a beam of {masses} masses")]
+    GravityOnBeam {
         /// Its masses.
         masses: usize,
     },
@@ -126,7 +135,7 @@ pub struct PlannedRun {
     pub paired: bool,
     /// Why it is there: the figure that would be furthest from what is wanted of it without it (without
     /// both of a pair), and its relative deviation then. `None` where all wishes would come true.
-    pub without: Option<(Figure, f64)>,
+    pub without: Option<(PlannedFigure, f64)>,
 }
 
 impl PlannedRun {
@@ -157,7 +166,7 @@ pub fn percent(share: f64) -> String {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expected {
     /// The figure.
-    pub figure: Figure,
+    pub figure: PlannedFigure,
     /// Its value as far as it is known \[SI\].
     pub value: f64,
     /// Standard deviation expected, relative.
@@ -175,7 +184,7 @@ pub struct Plan {
     pub expected: Vec<Expected>,
     /// Every parameter that an identification has to find, its value and standard deviation \[SI\]; an
     /// infinite one where no run shows it.
-    pub parameters: Vec<(Parameter, f64, f64)>,
+    pub parameters: Vec<(PlannedUnknown, f64, f64)>,
     /// Time of all runs, with waiting and the way back to the start \[s\].
     pub time_s: f64,
     /// What a user should know.
@@ -195,7 +204,8 @@ struct Candidate {
 /// The campaign that gives the wanted precision in the least time, by simulations of a rig whose numbers
 /// may be rough. `progress` is called with the motions tried and all of them.
 ///
-/// The joint has Coulomb friction alone and the tip is free, whatever the rig's [`Scene`].
+/// The joint has Coulomb friction alone and the tip is free, whatever the rig's [`Scene`]. Gravity of a rigid joint's
+/// load is counted: motions are simulated with it, and g_s and g_c are two unknowns more.
 ///
 /// # Errors
 /// [`PlanError`].
@@ -205,7 +215,12 @@ pub fn plan(
     progress: impl Fn(usize, usize) + Sync,
 ) -> Result<Plan, PlanError> {
     check(wishes)?;
-    let plain = Rig { scene: Scene::default(), ..rig.clone() };
+    let gravity = rig.scene.gravity;
+    let masses = rig.arm.beam().len();
+    if gravity.is_some() && masses > 0 {
+        return Err(PlanError::GravityOnBeam { masses });
+    }
+    let plain = Rig { scene: Scene { gravity, ..Scene::default() }, ..rig.clone() };
     let (rate_per_s, sample_time_s) = (rig.arm.rate_bound(), rig.instruments.sample_time_s);
     let turn = rate_per_s * sample_time_s;
     if turn > TURN_MOST || turn.is_nan() {
@@ -215,6 +230,7 @@ pub fn plan(
     let reach = Reach {
         arm: &known.arm,
         torque_nm: rig.arm.motor.torque_constant_nm_per_a * rig.instruments.amplifier.most_a(),
+        load_nm: gravity.map_or(0.0, |load| load.amplitude_nm()),
         travel_rad: wishes.travel_rad,
         command_time_s: rig.instruments.control_time_s(),
     };
@@ -250,6 +266,7 @@ fn check(wishes: &Wishes) -> Result<(), PlanError> {
         ("the wanted deviation of the coupling", p.coupling),
         ("the wanted deviation of the frequencies", p.frequency),
         ("the wanted deviation of damping", p.damping),
+        ("the wanted deviation of gravity", p.gravity),
         ("the time of all runs", wishes.within_s),
         ("the travel", wishes.travel_rad),
         ("the bending", wishes.bend_rad),
@@ -290,10 +307,14 @@ fn candidate(
     }
     let (campaign, window) = known.record(rig, &found.logged).ok_or(Unfit::Impossible)?;
     let samples = stretch_s / rig.instruments.log_time_s();
-    let windows = [window];
-    let (arm, free) = (&known.arm, &known.parameters);
-    let mut growing = growing_information(arm, free, &campaign, &windows, &known.noise, samples);
-    let mut information = growing.pop().ok_or(Unfit::Impossible)?;
+    let mut information = if let Some(joint) = known.loaded() {
+        joint.growing(motion, &campaign.runs[0], samples)
+    } else {
+        let (arm, free, windows) = (&known.arm, &known.parameters, [window]);
+        let mut growing =
+            growing_information(arm, free, &campaign, &windows, &known.noise, samples);
+        growing.pop().ok_or(Unfit::Impossible)?
+    };
     // The record's last sample may begin one more.
     information.truncate(motion.stretches());
     Ok(Candidate {

@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::known::KnownRig;
 use super::sizing::Unfit;
-use super::{Candidate, Expected, Figure, percent};
+use super::{Candidate, Expected, Figure, PlannedFigure, percent};
 use crate::rig::{JointFriction, Rig};
 
 /// Something that a user should know of a plan.
@@ -43,6 +43,8 @@ pub enum PlanNote {
     },
     /// Friction that is not Coulomb's, or a world at the tip.
     SceneLeftOut,
+    /// A load with gravity, for which the standard errors of the regression are planned.
+    GravityByRegression,
 }
 
 impl PlanNote {
@@ -56,6 +58,7 @@ impl PlanNote {
             Self::SinesAlone => "sines-alone",
             Self::Unfit { .. } => "motions-of-no-use",
             Self::SceneLeftOut => "scene-left-out",
+            Self::GravityByRegression => "gravity-by-regression",
         }
     }
 
@@ -83,7 +86,7 @@ impl fmt::Display for PlanNote {
                 }
                 let Some(share) = torque_share else { return Ok(()) };
                 let where_at = match expected.figure {
-                    Figure::Viscous => " at the highest speed",
+                    PlannedFigure::Arm(Figure::Viscous) => " at the highest speed",
                     _ => "",
                 };
                 write!(f, "; it is {} of the largest torque{where_at}", percent(*share))
@@ -118,6 +121,11 @@ impl fmt::Display for PlanNote {
                 "planned for Coulomb friction alone and a free tip: rest, ripple, bristles and [tip] \
                  are left out"
             ),
+            Self::GravityByRegression => write!(
+                f,
+                "a load with gravity is identified by regression: the expected standard errors are those of its \
+                 noise and may be off by a factor of up to four"
+            ),
         }
     }
 }
@@ -138,6 +146,9 @@ pub(super) fn of_rig(rig: &Rig, known: &KnownRig<'_>) -> Vec<PlanNote> {
     let scene = &rig.scene;
     if scene.friction != JointFriction::Arm || !scene.tip.is_empty() || !scene.later.is_empty() {
         notes.push(PlanNote::SceneLeftOut);
+    }
+    if known.gravity.is_some() {
+        notes.push(PlanNote::GravityByRegression);
     }
     if known.ideal_sensor {
         notes.push(PlanNote::IdealSensor);

@@ -60,6 +60,14 @@ impl PlannedMotion {
         }
     }
 
+    /// The highest frequency \[rad/s\].
+    pub(super) fn highest_rad_s(&self) -> f64 {
+        match *self {
+            Self::Sine { omega_rad_s } => omega_rad_s,
+            Self::Multisine { to_rad_s, .. } | Self::Chirp { to_rad_s, .. } => to_rad_s,
+        }
+    }
+
     /// Most such multiples.
     pub(super) fn stretches(&self) -> usize {
         match self {
@@ -127,6 +135,8 @@ pub(super) struct Reach<'a> {
     pub(super) arm: &'a ModalArm,
     /// Largest torque \[N·m\].
     pub(super) torque_nm: f64,
+    /// Largest torque of gravity \[N·m\].
+    pub(super) load_nm: f64,
     /// Largest angle from where the motor begins \[rad\].
     pub(super) travel_rad: f64,
     /// Time between two commands \[s\].
@@ -186,7 +196,7 @@ fn band(reach: &Reach<'_>) -> (f64, f64) {
     let arm = reach.arm;
     let carried: f64 =
         arm.modes.iter().map(|m| m.stiffness_nm_per_rad / m.omega_rad_s.powi(2)).sum();
-    let left_nm = reach.torque_nm - arm.coulomb_nm;
+    let left_nm = reach.torque_nm - arm.coulomb_nm - reach.load_nm;
     let corner = (left_nm / ((arm.inertia_kg_m2 + carried) * reach.travel_rad)).sqrt();
     let first = arm.modes.first().map(|m| m.omega_rad_s);
     let last = arm.modes.last().map(|m| m.omega_rad_s);
@@ -249,7 +259,13 @@ mod tests {
             command_lag_s: 0.0,
             tip_lags_s: Vec::new(),
         };
-        let reach = Reach { arm: &arm, torque_nm: 1.8, travel_rad: 1.0, command_time_s: 2e-3 };
+        let reach = Reach {
+            arm: &arm,
+            torque_nm: 1.8,
+            load_nm: 0.0,
+            travel_rad: 1.0,
+            command_time_s: 2e-3,
+        };
         let near =
             |omega: f64| (omega / 8.0 - 1.0).abs() < 0.12 || (omega / 60.0 - 1.0).abs() < 0.2;
         let (low, high) = band(&reach);

@@ -5,11 +5,10 @@ use nalgebra::{DMatrix, DVector};
 use super::choose::{self, Choice, Chosen, Goal};
 use super::known::KnownRig;
 use super::{
-    BETWEEN_S, Candidate, Expected, Figure, Kinds, Plan, PlanError, PlanNote, PlannedMotion,
-    PlannedRun, Unfit, Wishes, note,
+    BETWEEN_S, Candidate, Expected, Figure, Kinds, Plan, PlanError, PlanNote, PlannedFigure,
+    PlannedMotion, PlannedRun, Unfit, Wishes, note,
 };
 use crate::information::covariance;
-use crate::replay::Parameter;
 use crate::rig::Rig;
 
 /// What there is to choose from, and what is to be reached.
@@ -38,18 +37,17 @@ impl<'a> Planner<'a> {
             let reasons = reasons.iter().map(|(why, n)| format!("{n} {why}")).collect();
             return Err(PlanError::NoMotion { tried: found.len(), reasons });
         }
-        let sizes = known.parameters.iter().map(|p| p.size(&known.arm));
-        let scale = DVector::from_iterator(known.parameters.len(), sizes);
+        let unknowns = known.unknowns();
+        let scale = DVector::from_iterator(unknowns.len(), unknowns.iter().map(|u| u.2));
         let choices: Vec<Choice> = sets.iter().map(|set| choice(set, &scale)).collect();
         let shortest_s = choices.iter().map(|c| c.time_s[0]).fold(f64::INFINITY, f64::min);
         if shortest_s > wishes.within_s {
             return Err(PlanError::NoTime { within_s: wishes.within_s, shortest_s });
         }
-        let wanted = Figure::of(&known.arm).into_iter().map(|figure| {
-            let slope = |(p, s): (&Parameter, &f64)| figure.slope(&known.arm, *p) * s;
-            let slopes = known.parameters.iter().zip(&scale).map(slope);
-            let along = DVector::from_iterator(scale.len(), slopes) / figure.value(&known.arm);
-            (along, wishes.precision.of(figure))
+        let wanted = known.figures().into_iter().map(|figure| {
+            let slopes = unknowns.iter().map(|(of, _, size)| known.slope(figure, *of) * size);
+            let along = DVector::from_iterator(scale.len(), slopes) / known.value(figure);
+            (along, wishes.precision.of_planned(figure))
         });
         let goal = Goal {
             wanted: wanted.collect(),
@@ -68,13 +66,13 @@ impl<'a> Planner<'a> {
         let size = self.scale.len();
         let total = choose::information(&self.choices, chosen, size);
         let ratios = self.goal.ratios(&total);
-        let figures = Figure::of(&self.known.arm);
+        let figures = self.known.figures();
         let expected: Vec<Expected> = figures
             .iter()
             .zip(&ratios)
             .map(|(figure, ratio)| {
-                let wanted = self.wishes.precision.of(*figure);
-                let value = figure.value(&self.known.arm);
+                let wanted = self.wishes.precision.of_planned(*figure);
+                let value = self.known.value(*figure);
                 Expected { figure: *figure, value, std: ratio * wanted, wanted }
             })
             .collect();
@@ -99,11 +97,10 @@ impl<'a> Planner<'a> {
         }
         notes.extend(self.unreached(chosen, &expected, time_s));
         let covariance = covariance(&total);
-        let deviation = |(i, p): (usize, &Parameter)| {
-            let std = covariance[(i, i)].sqrt() * self.scale[i];
-            (*p, p.of(&self.known.arm), std)
-        };
-        let parameters = self.known.parameters.iter().enumerate().map(deviation).collect();
+        let unknowns = self.known.unknowns().into_iter().enumerate();
+        let parameters = unknowns
+            .map(|(i, (of, value, size))| (of, value, covariance[(i, i)].sqrt() * size))
+            .collect();
         Plan { runs, expected, parameters, time_s, notes, longest_wait_s }
     }
 
@@ -114,7 +111,7 @@ impl<'a> Planner<'a> {
         total: &DMatrix<f64>,
         part: &DMatrix<f64>,
         expected: &[Expected],
-    ) -> Option<(Figure, f64)> {
+    ) -> Option<(PlannedFigure, f64)> {
         let ratios = self.goal.ratios(&(total - part));
         let then = expected.iter().zip(ratios).filter(|(_, ratio)| *ratio > 1.0);
         let worst = then.max_by(|a, b| a.1.total_cmp(&b.1));
@@ -130,10 +127,12 @@ impl<'a> Planner<'a> {
         let constant = self.rig.arm.motor.torque_constant_nm_per_a;
         let peak_nm = constant * used().map(|c| c.run.peak_current_a).fold(0.0, f64::max);
         let speed = used().map(|c| c.speed_rad_s).fold(0.0, f64::max);
-        let share = |figure: Figure| match figure {
-            Figure::Viscous => Some(figure.value(&self.known.arm) * speed / peak_nm),
-            Figure::Coulomb => Some(figure.value(&self.known.arm) / peak_nm),
-            _ => None,
+        let share = |figure: PlannedFigure| match figure {
+            PlannedFigure::Arm(Figure::Viscous) => Some(self.known.value(figure) * speed / peak_nm),
+            PlannedFigure::Arm(Figure::Coulomb) | PlannedFigure::Gravity => {
+                Some(self.known.value(figure) / peak_nm)
+            }
+            PlannedFigure::Arm(_) => None,
         };
         let missed = expected.iter().filter(|e| e.std > e.wanted);
         missed

@@ -43,6 +43,9 @@ thresholds! {
         TRANSIENT_MOST_S: f64 = 300.0, "s", Convention;
         /// Longest wait for a transient, as a share of the time of all runs.
         TRANSIENT_MOST_SHARE: f64 = 0.25, "1", Convention;
+        /// Window of the torque's equation with gravity, as a share of the shortest slip phase: expected
+        /// standard errors are then about those that the regression states.
+        WINDOW_OF_SLIP: f64 = 0.8, "1", Measured;
         /// A run is added or exchanged only if the plan gets better by this share: less is not
         /// worth a run.
         GAIN_LEAST: f64 = 1e-4, "1", Convention;

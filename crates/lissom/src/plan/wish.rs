@@ -18,6 +18,8 @@ pub struct Precision {
     pub frequency: f64,
     /// Of each mode's damping.
     pub damping: f64,
+    /// Of the amplitude of gravity.
+    pub gravity: f64,
 }
 
 impl Default for Precision {
@@ -30,6 +32,7 @@ impl Default for Precision {
             coupling: 5e-3,
             frequency: 1e-3,
             damping: DAMPING_WISHED,
+            gravity: 5e-3,
         }
     }
 }
@@ -44,6 +47,7 @@ impl Precision {
             coupling: relative,
             frequency: relative,
             damping: DAMPING_WISHED,
+            gravity: relative,
         }
     }
 

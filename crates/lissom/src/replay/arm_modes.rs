@@ -23,11 +23,14 @@ pub struct ArmModes<'a> {
 }
 
 impl<'a> ArmModes<'a> {
-    /// `None` for an arm without distinct modes.
+    /// `None` where the modes of a beam are not distinct; a rigid joint has none.
     pub fn of(arm: &'a Arm) -> Option<Self> {
         let dynamics = arm.dynamics();
         let n = dynamics.len();
-        let (omega_rad_s, shapes) = ModalArm::modes_of(&-&dynamics.elastic)?;
+        let (omega_rad_s, shapes) = match n {
+            0 => (Vec::new(), Vec::new()),
+            _ => ModalArm::modes_of(&-&dynamics.elastic)?,
+        };
         let shapes = DMatrix::from_fn(n, n, |i, j| shapes[i][j]);
         let inverse = shapes.clone().try_inverse()?;
         let stiffness_nm_per_rad = -(shapes.transpose() * &dynamics.coupling);

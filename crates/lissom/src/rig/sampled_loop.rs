@@ -137,6 +137,7 @@ impl Rig {
         seed: u64,
     ) -> Result<Logged, RigError> {
         self.instruments.check(self.arm.beam().len())?;
+        self.scene.check()?;
         experiment.check()?;
         let line = DelayLine::new(self.instruments.delay, self.instruments.sample_time_s)?;
         let held = self.scene.held(&self.arm, &line.durations_s())?;
@@ -194,7 +195,10 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
         let bound_rad = match experiment.drive {
             Drive::Angle(_) => {
                 let asked = reference.amplitude(experiment.record_s).max(LEAST_RAD);
-                RUN_AWAY * asked.max(STEPS * instruments.motor.resolution()).max(deflection)
+                // A load that the loop does not hold hangs half a turn away at most.
+                let hangs = rig.scene.gravity.map_or(0.0, |_| std::f64::consts::PI);
+                let asked = asked.max(STEPS * instruments.motor.resolution()).max(deflection);
+                RUN_AWAY * asked + hangs
             }
             // The drive alone may turn as far as its current takes it.
             Drive::Current(_) => f64::MAX,
@@ -315,8 +319,9 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
                 Ok(Settled { waited_s: samples as f64 * sample, ..at_once })
             }
             Settle::Detected { tolerance, longest_s } => {
-                let still =
-                    self.reference().value(0.0) == 0.0 && self.seen.iter().all(|x| *x == 0.0);
+                let still = self.reference().value(0.0) == 0.0
+                    && self.seen.iter().all(|x| *x == 0.0)
+                    && self.rig.scene.rests_at_zero(&self.rig.arm);
                 // An open drive that is pushed one way never settles.
                 if !periodic && (still || open) {
                     return Ok(at_once);

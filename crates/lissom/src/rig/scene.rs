@@ -1,8 +1,10 @@
-//! What an arm is set in: the joint's friction, the world at the tip, payloads to come.
+//! What an arm is set in: the joint's friction and gravity, the world at the tip, payloads to come.
 
+use super::error::finite;
 use super::{HeldArm, HeldMotion, Hybrid, LuGreMotion, Motion, RigError, TipWorld};
 use crate::arm::Arm;
 use crate::drive::{DryFriction, LuGre};
+use crate::load::GravityLoad;
 
 /// The friction of a joint.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -38,6 +40,8 @@ pub enum JointFriction {
 pub struct Scene {
     /// The joint's friction.
     pub friction: JointFriction,
+    /// Gravity of an unbalanced load on the motor \[N·m\], a function of the motor's true angle; `None`: no load.
+    pub gravity: Option<GravityLoad>,
     /// The world at the tip.
     pub tip: TipWorld,
     /// Arms that take over at times \[s\], counted from the start: another payload.
@@ -48,8 +52,11 @@ impl Scene {
     /// Checks the numbers.
     ///
     /// # Errors
-    /// [`RigError`] as [`TipWorld::check`].
+    /// [`RigError`] as [`TipWorld::check`], and [`RigError::NotFinite`] where gravity is not finite.
     pub fn check(&self) -> Result<(), RigError> {
+        if let Some(load) = self.gravity {
+            finite("gravity of the load in N*m", load.amplitude_nm())?;
+        }
         self.tip.check()
     }
 
@@ -58,6 +65,7 @@ impl Scene {
         match &self.friction {
             JointFriction::Dry(law) if !law.is_constant() => Some(Hybrid::BENT),
             JointFriction::Bristles { tolerance, .. } => Some(*tolerance),
+            _ if self.gravity.is_some() => Some(Hybrid::BENT),
             _ => None,
         }
     }
@@ -72,6 +80,14 @@ impl Scene {
         rest.forward.min(rest.backward)
     }
 
+    /// Whether `arm` stays at rest at angle zero without a torque of the motor.
+    pub(super) fn rests_at_zero(&self, arm: &Arm) -> bool {
+        let load = self.gravity.map_or(0.0, |load| load.torque_nm(0.0));
+        // Bristles give way by some of their travel.
+        let gives_way = matches!(self.friction, JointFriction::Bristles { .. });
+        load == 0.0 || !gives_way && load.abs() < self.holds_nm(arm)
+    }
+
     fn is_alone(&self) -> bool {
         self.tip.is_empty() && self.later.is_empty()
     }
@@ -83,7 +99,7 @@ impl Scene {
         arm: &'a Arm,
         durations_s: &[f64],
     ) -> Result<Option<HeldArm<'a>>, RigError> {
-        if self.friction != JointFriction::Arm || !self.is_alone() {
+        if self.friction != JointFriction::Arm || self.gravity.is_some() || !self.is_alone() {
             return Ok(None);
         }
         let durations_s: Vec<f64> = durations_s.iter().copied().filter(|d| *d > 0.0).collect();
@@ -109,11 +125,19 @@ impl Scene {
                 });
             }
             JointFriction::Bristles { law, tolerance } => {
-                return Ok(Box::new(LuGreMotion::with_state(arm, *law, *tolerance, &state, 0.0)?));
+                let motion = LuGreMotion::with_state(arm, *law, *tolerance, &state, 0.0)?;
+                return Ok(Box::new(match self.gravity {
+                    Some(load) => motion.with_gravity(load),
+                    None => motion,
+                }));
             }
         };
         let later: Vec<(f64, &Arm)> = self.later.iter().map(|(t, arm)| (*t, arm)).collect();
         let hybrid = Hybrid::with_state(arm, state).with_friction(dry);
+        let hybrid = match self.gravity {
+            Some(load) => hybrid.with_gravity(load),
+            None => hybrid,
+        };
         Ok(Box::new(hybrid.with_world(self.tip.clone())?.with_changes(&later)?))
     }
 }

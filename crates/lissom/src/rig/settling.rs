@@ -72,7 +72,7 @@ impl Decays {
             shapes.try_inverse()
         };
         // With a payload that turns, the tip's slope is a coordinate that shapes do not show.
-        let to_modes = if n == k && modes.len() == n { shapes() } else { None };
+        let to_modes = if n > 0 && n == k && modes.len() == n { shapes() } else { None };
         let mut omega_rad_s: Vec<f64> = modes.iter().map(|m| m.natural_frequency_rad_s).collect();
         let mut decay_s: Vec<Option<f64>> = omega_rad_s.iter().map(|w| decay(*w)).collect();
         if to_modes.is_none() {

@@ -51,6 +51,7 @@ pub(crate) fn write_logs(rig: &Rig, out: &Path) -> Result<(), Failure> {
         tips: vec![("tip".to_owned(), "theta_t".to_owned(), TipQuantity::Angle)],
         torque_constant_nm_per_a: Some(rig.arm.motor.torque_constant_nm_per_a),
         current_limit_a: rig.instruments.amplifier.limit_a(),
+        gravity: false,
         arm: None,
         runs,
     };

@@ -191,7 +191,7 @@ fn wrong_keys_are_named_with_the_nearest() {
     fails(
         &ARM.replace("[rig]", "[camera]"),
         "arm.toml, line 11: `camera` is not a key that is known here",
-        Some("the keys here are `beam`, `drive`, `tip`, `rig`"),
+        Some("the keys here are `beam`, `drive`, `load`, `tip`, `rig`"),
     );
     fails(
         &ARM.replace("sample_time", "current_limit").replacen(

@@ -3,5 +3,6 @@
 mod arm_file_tests;
 mod arm_fixture;
 mod beam_spec_tests;
+mod load_spec_tests;
 mod mode_specs_tests;
 mod rig_spec_tests;

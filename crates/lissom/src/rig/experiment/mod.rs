@@ -53,12 +53,16 @@ impl Start {
     /// The state, `[θ_m, θ̇_m, θ_i.., θ̇_i..]`.
     ///
     /// # Errors
-    /// [`RigError::NotFinite`] for the force, [`RigError::Deflection`] where the statics cannot be
+    /// [`RigError::NotFinite`] for the force, [`RigError::Unsupported`] for a rigid joint, [`RigError::Deflection`] where the statics cannot be
     /// solved.
     pub fn state(&self, arm: &Arm) -> Result<Vec<f64>, RigError> {
         let mut state = vec![0.0; arm.state_len()];
         if let Self::Deflected { tip_force_n } = *self {
             finite("tip_force_n", tip_force_n)?;
+            if arm.beam().is_empty() {
+                let what = "a start with the tip pushed aside, on a rigid joint,";
+                return Err(RigError::Unsupported { what });
+            }
             let dynamics = arm.dynamics();
             let push = &dynamics.force * -tip_force_n;
             let deflection = dynamics.elastic.clone().lu().solve(&push);

@@ -48,10 +48,10 @@ pub(in crate::rig) struct Modal {
 }
 
 impl Modal {
-    /// `None` where the arm has too many coordinates or the modes do not give back its equations.
+    /// `None` where the arm has no beam or too many coordinates or the modes do not give back its equations.
     pub(in crate::rig) fn new(arm: &Arm) -> Option<Self> {
         let k = arm.dynamics().len();
-        if k > MOST_COORDINATES {
+        if k == 0 || k > MOST_COORDINATES {
             return None;
         }
         let mass = arm.beam().mass_matrix();

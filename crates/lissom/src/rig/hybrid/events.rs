@@ -191,7 +191,9 @@ impl Hybrid<'_> {
         let k = self.arm.dynamics().len();
         let angle = self.state[2..2 + k].iter().fold(self.state[0].abs(), |m, q| m.max(q.abs()));
         let coupling = 4.0 * f64::EPSILON * self.coupling_size * angle;
-        coupling + ROUNDING * (torque.abs() + most.max(sliding.forward).max(sliding.backward))
+        let load = self.gravity.map_or(0.0, |load| load.amplitude_nm());
+        coupling
+            + ROUNDING * (torque.abs() + load + most.max(sliding.forward).max(sliding.backward))
     }
 
     /// Something at rest that was let go and does not start, as what pushes it is exactly at the

@@ -9,7 +9,8 @@ use crate::lti::first_root::ORDER_MOST;
 use super::{Motion, RigError, Signal, TipWorld};
 use crate::arm::Arm;
 use crate::drive::DryFriction;
-use crate::friction::{FrictionSeries, Mode};
+use crate::friction::{FrictionSeries, Mode, PhaseSeries};
+use crate::load::GravityLoad;
 
 /// Largest (rate bound × step) for which a Taylor series of order [`ORDER_MOST`] is exact to
 /// rounding: 0.5²⁴/24! is 1e-31.
@@ -32,8 +33,8 @@ enum Torque<'s> {
 /// one another by the state matrix, summed until they vanish. The velocity is then a polynomial
 /// whose first root is the event. Nothing is smoothed and no tolerance enters but rounding.
 ///
-/// Friction that bends with speed or position ([`DryFriction`]) makes the series nonlinear: its
-/// terms still follow from one another, and the step is as long as the last of 24 terms are below
+/// Friction that bends with speed or position ([`DryFriction`]) or gravity ([`GravityLoad`]) makes the series
+/// nonlinear: its terms still follow from one another, and the step is as long as the last of 24 terms are below
 /// 1e-15 of the state. [`Motion::tolerance`] says so.
 ///
 /// ```
@@ -58,6 +59,7 @@ enum Torque<'s> {
 pub struct Hybrid<'a> {
     pub(in crate::rig) arm: &'a Arm,
     friction: DryFriction,
+    gravity: Option<GravityLoad>,
     world: Option<TipWorld>,
     /// Arms that come later, and when \[s\]; the next one last.
     changes: Vec<(f64, &'a Arm)>,
@@ -94,6 +96,7 @@ struct Coefficients {
     angle: [f64; ORDER_MOST + 1],
     velocity: [f64; ORDER_MOST + 1],
     friction: FrictionSeries,
+    phase: PhaseSeries,
 }
 
 impl Default for Coefficients {
@@ -108,12 +111,13 @@ impl Default for Coefficients {
             angle: zero,
             velocity: zero,
             friction: FrictionSeries::default(),
+            phase: PhaseSeries::default(),
         }
     }
 }
 
 impl<'a> Hybrid<'a> {
-    /// Relative error of a step where friction bends: the series' last terms are below it.
+    /// Relative error of a step where friction bends or gravity acts: the series' last terms are below it.
     pub(in crate::rig) const BENT: f64 = 1e-15;
 
     /// An arm at rest at angle zero.
@@ -130,6 +134,7 @@ impl<'a> Hybrid<'a> {
         let mut made = Self {
             arm,
             friction: arm.coulomb.into(),
+            gravity: None,
             world: None,
             changes: Vec::new(),
             state,
@@ -153,6 +158,24 @@ impl<'a> Hybrid<'a> {
     #[must_use]
     pub fn with_friction(mut self, friction: DryFriction) -> Self {
         self.friction = friction;
+        self
+    }
+
+    /// The same joint with gravity of an unbalanced load on the motor, a function of the motor's angle.
+    ///
+    /// ```
+    /// # use lissom::{arm::Arm, beam::Beam, drive::{Coulomb, Motor}, load::GravityLoad, rig::Hybrid};
+    /// let motor = Motor::new(0.02, 0.1, 1.0).unwrap(); // kg·m², N·m·s/rad, N·m/A
+    /// let arm = Arm::new(Beam::Rigid, motor, Coulomb::symmetric(0.0).unwrap()).unwrap();
+    /// let load = GravityLoad::of_amplitude(2.0, 0.0); // hangs at θ = 0
+    /// let mut hybrid = Hybrid::with_state(&arm, vec![1.0]).with_gravity(load);
+    /// hybrid.advance(1.0, 10.0); // half of the largest torque holds it at 30°
+    /// assert!((hybrid.state()[0] - 30.0_f64.to_radians()).abs() < 1e-9);
+    /// ```
+    #[must_use]
+    pub fn with_gravity(mut self, load: GravityLoad) -> Self {
+        self.gravity = Some(load);
+        self.step_most_s = STEP_RATE / self.rate_bound();
         self
     }
 
@@ -285,6 +308,16 @@ impl<'a> Hybrid<'a> {
         passed.min(duration_s)
     }
 
+    /// Whether the motion of a slipping motor is nonlinear.
+    fn bends(&self) -> bool {
+        self.gravity.is_some() || !self.friction.is_constant()
+    }
+
+    /// What gravity takes of the motor at its angle \[N·m\].
+    fn gravity_nm(&self) -> f64 {
+        self.gravity.map_or(0.0, |load| load.torque_nm(self.state[0]))
+    }
+
     /// Moves on with the motor held, whatever the torques.
     pub(in crate::rig) fn advance_stuck(&mut self, duration_s: f64) {
         self.mode = Mode::Stick;
@@ -312,7 +345,7 @@ impl Motion for Hybrid<'_> {
         Hybrid::stuck_s(self)
     }
     fn tolerance(&self) -> Option<f64> {
-        (!self.friction.is_constant()).then_some(Self::BENT)
+        self.bends().then_some(Self::BENT)
     }
 }
 

@@ -31,23 +31,25 @@ impl Hybrid<'_> {
         self.world.as_ref().is_some_and(|w| w.coulomb_n > 0.0)
     }
 
-    /// A bound on how fast the state can change, the world at the tip included \[1/s\].
+    /// A bound on how fast the state can change, gravity and the world at the tip included \[1/s\].
     pub(super) fn rate_bound(&self) -> f64 {
-        let Some(world) = &self.world else { return self.arm.rate_bound() };
+        let swing = self.gravity.map_or(0.0, |load| load.amplitude_nm());
+        let own = self.arm.rate_bound() + (swing / self.arm.motor.inertia_kg_m2).sqrt();
+        let Some(world) = &self.world else { return own };
         let share = self.arm.dynamics().force.abs().max() * self.tip_radius_m();
         let walls: f64 = world.walls.iter().map(|w| w.stiffness_n_per_m).sum();
         let signals = world.force.rate_rad_s().max(world.torque.rate_rad_s());
-        self.arm.rate_bound() + (walls * share).sqrt() + world.viscous_n_s_per_m * share + signals
+        own + (walls * share).sqrt() + world.viscous_n_s_per_m * share + signals
     }
 
-    /// The motor's torque now, less what the tip's torque adds to the coupling torque \[N·m\].
+    /// The motor's torque now, less gravity and what the tip's torque adds to the coupling torque \[N·m\].
     pub(super) fn torque_at_joint(&self, torque: Torque<'_>) -> f64 {
         let motor = match torque {
             Torque::Held(torque) => torque,
             Torque::Over(signal) => signal.at(self.time_s),
         };
         let tip = self.world.as_ref().map_or(0.0, |w| w.torque.at(self.time_s));
-        motor - self.arm.dynamics().coupling_torque * tip
+        motor - self.arm.dynamics().coupling_torque * tip - self.gravity_nm()
     }
 
     /// What a rubbing tip does from rest.
@@ -69,7 +71,7 @@ impl Hybrid<'_> {
         let largest = |x: &[f64]| x.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let mut sizes = [f64::MIN_POSITIVE; ORDER_MOST + 1];
         sizes[0] = sizes[0].max(largest(&self.state));
-        let bends = self.mode != Mode::Stick && !self.friction.is_constant();
+        let bends = self.mode != Mode::Stick && self.bends();
         // The largest term so far: a state at rest has no size of its own.
         let (mut reach, mut size) = (1.0, sizes[0]);
         for k in 0..ORDER_MOST {
@@ -118,19 +120,23 @@ impl Hybrid<'_> {
         let (before, after) = self.terms.split_at_mut(k + 1);
         let (term, next) = (&before[k], &mut after[0]);
         let (s, arm) = (&mut self.series, self.arm);
+        (s.angle[k], s.velocity[k]) = (term[0], term[1]);
+        let load = self.gravity.map_or(0.0, |load| {
+            let (sine, cosine) = s.phase.next(1.0, k, &s.angle);
+            load.sine_nm * sine + load.cosine_nm * cosine
+        });
         if self.mode == Mode::Stick {
             arm.derivative_sticking(term, next);
-            s.held[k] = s.torque[k] - arm.coupling_torque(term);
+            s.held[k] = s.torque[k] - arm.coupling_torque(term) - load;
         } else {
             arm.derivative_slipping(term, next);
             let sign = self.mode.sign();
             let friction = if self.friction.is_constant() {
                 if k == 0 { self.friction.sliding().slipping(sign) } else { 0.0 }
             } else {
-                (s.angle[k], s.velocity[k]) = (term[0], term[1]);
                 s.friction.next(&self.friction, k, sign, (&s.angle, &s.velocity))
             };
-            next[1] += (s.torque[k] - friction) / arm.motor.inertia_kg_m2;
+            next[1] += (s.torque[k] - friction - load) / arm.motor.inertia_kg_m2;
         }
         if self.world.is_some() {
             self.add_world(k);

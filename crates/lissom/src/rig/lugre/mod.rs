@@ -8,6 +8,7 @@ use stepper::{Bristling, Stepper};
 use super::{Motion, RigError};
 use crate::arm::Arm;
 use crate::drive::LuGre;
+use crate::load::GravityLoad;
 
 /// Tolerances that a motion can have, finest and coarsest.
 const TOLERANCES: [f64; 2] = [1e-12, 1e-2];
@@ -91,6 +92,14 @@ impl LuGreMotion {
         let step_s = FIRST_STEP * stepper.swing_s();
         let now = Bristling { x, z: deflection_rad };
         Ok(Self { stepper, now, step_s, time_s: 0.0, held_s: 0.0, steps: 0 })
+    }
+
+    /// The same joint with gravity of an unbalanced load on the motor. Gravity is taken for linear in time over a step,
+    /// so that steps are of order 2; the tolerance holds as without it.
+    #[must_use]
+    pub fn with_gravity(mut self, load: GravityLoad) -> Self {
+        self.stepper.gravity = Some(load);
+        self
     }
 
     /// Current state `[θ_m, θ̇_m, θ_i.., θ̇_i..]` \[rad, rad/s\].

@@ -4,11 +4,12 @@ use super::linear_steps::{ArmSteps, HALVINGS, is_velocity};
 use crate::arm::Arm;
 use crate::drive::LuGre;
 use crate::friction::{BristleStep, Bristles, LinearStep, Place};
+use crate::load::GravityLoad;
 
 /// Largest share of a motion by which bristles bend while the joint counts as sliding.
 const HOLDS: f64 = 0.1;
 /// Distance of two halves from the whole step over the error of the halves, 2² − 1: where the motor reverses, the
-/// velocity is taken for linear, order 2. Elsewhere the method is of order 4, and the error a fifth of this estimate.
+/// velocity is taken for linear, and gravity for linear in time throughout, both of order 2. Elsewhere the method is of order 4, and the error a fifth of this estimate.
 const HALVES: f64 = 3.0;
 /// Largest exponent by which bristles forget over a step what they were bent by while they are counted with the arm, as a
 /// spring: stiff bristles then limit no step in which they only hold the joint.
@@ -50,6 +51,7 @@ pub(super) type Stopped = (f64, f64);
 pub(super) struct Stepper {
     pub(super) law: LuGre,
     pub(super) tolerance: f64,
+    pub(super) gravity: Option<GravityLoad>,
     bristles: Bristles,
     /// The arm alone, and held by its bristles as by a spring.
     alone: ArmSteps,
@@ -69,7 +71,7 @@ impl Stepper {
         let scale = [bend, bend * swing];
         let spring = [bristles.stiffness_nm_per_rad, bristles.damping_nm_s_per_rad];
         let (alone, sprung) = (ArmSteps::new(arm, [0.0; 2]), ArmSteps::new(arm, spring));
-        Self { law, tolerance, bristles, alone, sprung, scale }
+        Self { law, tolerance, gravity: None, bristles, alone, sprung, scale }
     }
 
     /// Time in which the motor swings by 1 rad on its bristles \[s\].
@@ -139,6 +141,7 @@ impl Stepper {
         let (motor, len) = (now.x[0], now.x.len());
         let Bristles { stiffness_nm_per_rad: stiffness, damping_nm_s_per_rad: damping } =
             self.bristles;
+        let gravity = self.gravity;
         let mut step = self.sprung.step(halvings)?;
         let level = self.law.level_nm(Place::of_velocity(0.0, now.x[1], 0.0));
         let mut spring = [stiffness, damping];
@@ -150,7 +153,9 @@ impl Stepper {
         let mut from = now.x.clone();
         (0..len).filter(|i| !is_velocity(*i, len)).for_each(|i| from[i] -= motor);
         let mut x = vec![0.0; len];
-        step.apply(&from, torque_nm - spring[0] * now.z, &mut x);
+        let (load, growth) = gravity.map_or((0.0, 0.0), |load| over(&load, now, step.duration_s));
+        step.apply(&from, torque_nm - load - spring[0] * now.z, &mut x);
+        x.iter_mut().zip(&step.ramp).for_each(|(x, ramp)| *x -= growth * ramp);
         let linear = LinearStep {
             duration_s: step.duration_s,
             start: [motor, now.x[1]],
@@ -206,4 +211,11 @@ impl Stepper {
         let small = |i, x: f64| is_velocity(i, len) || x.abs() * f64::EPSILON < self.scale[0];
         now.z.is_finite() && states.all(|(i, x)| x.is_finite() && small(i, *x))
     }
+}
+
+/// What gravity takes of the motor at the beginning of a step, and what it grows by to the angle that the motor's
+/// velocity leads to \[N·m\].
+fn over(load: &GravityLoad, now: &Bristling, duration_s: f64) -> (f64, f64) {
+    let begins = load.torque_nm(now.x[0]);
+    (begins, load.torque_nm(now.x[0] + now.x[1] * duration_s) - begins)
 }
