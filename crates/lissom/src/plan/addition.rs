@@ -96,7 +96,7 @@ pub fn additions(
     let reach = Reach {
         arm,
         torque_nm: bounds.torque_nm,
-        load_nm: 0.0,
+        load_nm: load_nm(arm),
         travel_rad: bounds.travel_rad,
         command_time_s: bounds.sample_time_s,
     };
@@ -104,7 +104,7 @@ pub fn additions(
     if !arm.dry_terms.is_empty() {
         return Vec::new();
     }
-    if !(bounds.travel_rad > 0.0 && bounds.torque_nm > arm.coulomb_nm + arm.offset_nm.abs()) {
+    if !(bounds.travel_rad > 0.0 && bounds.torque_nm > constant_nm(arm)) {
         return Vec::new();
     }
     // A sine's triple serves the third harmonic, and one draw of phases says what another would.
@@ -130,11 +130,23 @@ pub fn additions(
     motions.par_iter().filter_map(addition).collect()
 }
 
+/// Largest torque of gravity.
+fn load_nm(arm: &ModalArm) -> f64 {
+    arm.gravity.map_or(0.0, |load| load.amplitude_nm())
+}
+
+/// Torque that does not grow with the amplitude, at most.
+fn constant_nm(arm: &ModalArm) -> f64 {
+    arm.coulomb_nm + arm.offset_nm.abs() + load_nm(arm)
+}
+
 /// A motor that follows a reference of amplitude one, and what that takes.
 struct FollowedPlan {
     sample_time_s: f64,
     /// θ and θ̇ at the first sample.
     start: [f64; 2],
+    /// θ at each sample, one more than there are torques.
+    angle: Vec<f64>,
     /// Largest |θ|.
     travel: f64,
     /// Torque over each sample that grows with the amplitude.
@@ -157,6 +169,7 @@ impl FollowedPlan {
         let mut followed = Self {
             sample_time_s,
             start,
+            angle: vec![start[0]],
             travel: 0.0,
             linear_nm: Vec::with_capacity(samples),
             direction: Vec::with_capacity(samples),
@@ -181,6 +194,7 @@ impl FollowedPlan {
                     + pull_nm,
             );
             followed.direction.push(direction);
+            followed.angle.push(then[0]);
             followed.travel = followed.travel.max(then[0].abs());
             for (most, shape) in followed.bend.iter_mut().zip(&arm.shapes) {
                 *most = most.max(beam.bend(shape).abs());
@@ -193,13 +207,13 @@ impl FollowedPlan {
     /// The largest amplitude within the bounds.
     fn largest(&self, arm: &ModalArm, bounds: &Bounds) -> f64 {
         let torque = self.linear_nm.iter().fold(0.0, |m: f64, t| m.max(t.abs()));
-        let left_nm = bounds.torque_nm - arm.coulomb_nm - arm.offset_nm.abs();
+        let left_nm = bounds.torque_nm - constant_nm(arm);
         let bends = self.bend.iter().zip(&bounds.bend_rad);
         let bend = bends.map(|(one, most)| most / one).fold(f64::INFINITY, f64::min);
         (left_nm / torque).min(bounds.travel_rad / self.travel).min(bend)
     }
 
-    /// The run as a replay takes it: only its command counts.
+    /// The run as a replay takes it: its command and, under gravity, its angle count.
     fn record(
         &self,
         arm: &ModalArm,
@@ -207,14 +221,18 @@ impl FollowedPlan {
         amplitude: f64,
     ) -> Option<(Campaign, Window)> {
         let constant = channels.command.torque_per_command.unwrap_or(1.0);
-        let torque = |(linear, direction): (&f64, &f64)| {
-            (amplitude * linear + arm.coulomb_nm * direction + arm.offset_nm) / constant
+        let motor: Vec<f64> = self.angle.iter().map(|angle| amplitude * angle).collect();
+        let load = |angle: f64| arm.gravity.map_or(0.0, |load| load.torque_nm(angle));
+        let torque = |((linear, direction), w): ((&f64, &f64), &[f64])| {
+            let load = 0.5 * (load(w[0]) + load(w[1]));
+            (amplitude * linear + arm.coulomb_nm * direction + arm.offset_nm + load) / constant
         };
-        let command: Vec<f64> = self.linear_nm.iter().zip(&self.direction).map(torque).collect();
+        let torques = self.linear_nm.iter().zip(&self.direction).zip(motor.windows(2));
+        let command: Vec<f64> = torques.map(torque).collect();
         let samples = command.len();
         let time = TimeBase::uniform(0.0, self.sample_time_s);
         let tips = vec![vec![0.0; samples]; channels.tips.len()];
-        let run = Run::new("", time, command, vec![0.0; samples], tips).ok()?;
+        let run = Run::new("", time, command, motor[..samples].to_vec(), tips).ok()?;
         let start = std::iter::repeat_n(self.start, 1 + arm.modes.len());
         let window = Window {
             run: 0,

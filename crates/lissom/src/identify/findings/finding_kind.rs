@@ -117,11 +117,14 @@ impl FindingKind {
         }
     }
 
-    /// Whether the readings themselves are wrong, so that other findings may follow from it.
-    pub(crate) fn is_about_readings(&self) -> bool {
+    /// Whether it is a cause that other findings may follow from: wrong readings, a load that the equation lacks, a run
+    /// unlike the others.
+    pub(crate) fn is_cause(&self) -> bool {
         match self {
             Self::Channel(found) => found.is_wrong_reading(),
             Self::Estimate(found) => matches!(found, EstimateFinding::CommandSign),
+            Self::Run(found) => matches!(found, RunFinding::RunStandsOut { .. }),
+            Self::Regression(found) => found.is_cause(),
             _ => false,
         }
     }

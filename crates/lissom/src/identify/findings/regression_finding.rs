@@ -13,6 +13,8 @@ use crate::identify::findings::units::EstimateUnits;
 use crate::identify::methods::regression::missing::{MissingKind, MissingTerm};
 use crate::identify::methods::regression::{AngleLag, GravityPartner, LagShape};
 
+/// A lag within so many samples of half a one looks like a wrong `hold`.
+const HALF_A_SAMPLE: f64 = 0.1;
 /// Digits of a coefficient whose standard error is not given.
 const DIGITS: usize = 3;
 
@@ -81,6 +83,17 @@ pub enum RegressionFinding {
         /// Units of these.
         units: EstimateUnits,
     },
+}
+
+impl RegressionFinding {
+    /// Whether it is a cause that other findings may follow from.
+    pub(crate) fn is_cause(&self) -> bool {
+        match self {
+            Self::MissingTerm { term, .. } => term.kind == MissingKind::Gravity,
+            Self::AngleLag { .. } => true,
+            _ => false,
+        }
+    }
 }
 
 /// What the data look like when a term is missing, with its coefficient.
@@ -182,14 +195,20 @@ impl fmt::Display for RegressionFinding {
             ),
             Self::AngleLag { lag } => write!(
                 f,
-                "the angle lags behind the command by {} of {} ms: with it the residual torque drops to {:.0} %. The \
-                 estimates count it",
+                "the {} by {} of {} ms ({:.2} samples): with it the residual torque drops to {:.0} %. The estimates \
+                 count it",
+                if lag.time_s < 0.0 {
+                    "command is logged late: it lags behind the angle"
+                } else {
+                    "angle lags behind the command"
+                },
                 match lag.shape {
                     LagShape::Filter => "a first-order filter",
                     LagShape::Delay => "a delay",
                     LagShape::Either => "a filter or delay",
                 },
-                significant(1e3 * lag.time_s, 2),
+                significant(1e3 * lag.time_s.abs(), 2),
+                lag.samples.abs(),
                 100.0 * lag.residual_ratio
             ),
             Self::ViscousByDirection {
@@ -302,6 +321,12 @@ impl Describe for RegressionFinding {
                     "the joint warms up: warm it up first, or identify the runs separately"
                 }
             },
+            Self::AngleLag { lag } if (lag.samples.abs() - 0.5).abs() < HALF_A_SAMPLE => {
+                "half a sample is the difference between a held and a measured command: check `hold`"
+            }
+            Self::AngleLag { lag } if lag.time_s < 0.0 => {
+                "log the current before it is filtered, or shift the channels against each other"
+            }
             Self::AngleLag { .. } => {
                 "log the angle before the drive filters it, or shift the channels against each other"
             }

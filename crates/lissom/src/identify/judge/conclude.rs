@@ -41,9 +41,8 @@ pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> C
     findings.extend(remarks::remarks(evidence, &chosen));
     let separability = Separability::of(evidence, &chosen, &findings);
     findings.extend(separability.as_ref().and_then(Separability::finding));
-    // What is wrong with the logs comes before what follows from it.
-    let order =
-        |f: &Finding| (!f.kind.is_about_readings(), std::cmp::Reverse(f.severity()), f.kind.rank());
+    // A cause comes before what follows from it.
+    let order = |f: &Finding| (!f.kind.is_cause(), std::cmp::Reverse(f.severity()), f.kind.rank());
     findings.sort_by_key(order);
     let arm = FoundArm::of(evidence, &chosen);
     Conclusion { chosen, separability, arm, findings }

@@ -14,7 +14,7 @@ use crate::identify::methods::friction_law::thresholds::{
 };
 use crate::identify::methods::friction_law::{LawFit, ripple};
 use crate::identify::methods::regression::{DRY, Fitted, MotorColumns, Solution, Term};
-use crate::identify::thresholds::{PRESENT, RESIDUAL_FALLS_TO, SIGN_SHOWN};
+use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT, RESIDUAL_FALLS_TO, SIGN_SHOWN};
 use crate::record::{Campaign, Run};
 
 /// A term that was tried, beside others that were in the law already.
@@ -211,7 +211,7 @@ impl<'a> LawSearch<'a> {
         let allowed = allowed && (!part_of_coulomb || self.is_within_data(&solution));
         let taken = paired > PRESENT
             && allowed
-            && amplitude.value.abs() > SIGN_SHOWN * amplitude.std
+            && amplitude.value.abs() > CLEARLY_PRESENT * amplitude.std
             && self.sampled.resolves(tried.term)
             && residual_ratio < least
             && stretch_ratio < 1.0

@@ -36,7 +36,7 @@ use crate::identify::methods::friction_law::thresholds::{
     TRAVEL_AFTER_REVERSAL,
 };
 use crate::identify::methods::output_error::OutputError;
-use crate::identify::methods::regression::MotorRegression;
+use crate::identify::methods::regression::{MissingKind, MotorRegression};
 use crate::identify::prepare::channel_noise::{ChannelNoise, channel_noise};
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_noise::RunNoise;
@@ -171,10 +171,24 @@ pub(crate) fn friction_law(
     let runs = campaign.runs.par_iter().with_max_len(1);
     let sensors: Vec<ChannelNoise> = runs.map(|run| channel_noise(run.motor())).collect();
     let window_s = window_s(campaign, motor, inertia, (noise, &sensors));
-    let mut sampled = Sampled::new(campaign, noise, window_s);
-    sampled.load = motor.gravity.map(|g| g.load());
-    sampled.step = sensors.iter().map(|sensor| sensor.step).fold(0.0, f64::max);
-    let (law, sums, described) = under(&sampled)?;
+    let step = sensors.iter().map(|sensor| sensor.step).fold(0.0, f64::max);
+    let load = motor.gravity.map(|g| g.load());
+    let in_windows = |window_s: f64| {
+        let mut sampled = Sampled::new(campaign, noise, window_s);
+        (sampled.load, sampled.step) = (load, step);
+        sampled
+    };
+    let mut sampled = in_windows(window_s);
+    let (mut law, mut sums, mut described) = under(&sampled)?;
+    // Noise may hide in windows so short what the regression's own show.
+    let by_speed = motor.missing.is_some_and(|m| m.kind == MissingKind::Stribeck);
+    if by_speed && !law.chosen.departs() && window_s < motor.window_s {
+        let longer = in_windows(motor.window_s);
+        if let Some(found) = under(&longer).filter(|(law, ..)| law.chosen.departs()) {
+            (law, sums, described) = found;
+            sampled = longer;
+        }
+    }
     if described.left(&sampled).beyond_noise() < NOTHING_LEFT {
         return Some((law, sums));
     }

@@ -24,11 +24,13 @@ pub enum LagShape {
     Either,
 }
 
-/// A lag of the angle behind the command.
+/// A lag of the angle behind the command; less than zero where the command lags behind the angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AngleLag {
     /// Time constant or delay \[s\].
     pub time_s: f64,
+    /// The same in samples.
+    pub samples: f64,
     /// Which of them.
     pub shape: LagShape,
     /// Ratio of the residual with the lag to that without it.
@@ -36,6 +38,13 @@ pub struct AngleLag {
 }
 
 impl AngleLag {
+    /// The same with a longer time.
+    #[must_use]
+    pub(crate) fn longer_by(self, more_s: f64) -> Self {
+        let time_s = self.time_s + more_s;
+        Self { time_s, samples: self.samples * time_s / self.time_s, ..self }
+    }
+
     /// The campaign with commands that are as late as the angle.
     pub(crate) fn late(&self, campaign: &Campaign) -> Campaign {
         let runs: Vec<&Run> = campaign.runs.iter().collect();
@@ -44,7 +53,7 @@ impl AngleLag {
 }
 
 /// The lag with which the equation leaves least, looked for up to three times the `first` estimate: the command is
-/// filtered or delayed as the angle was. `None` where it does not explain most of what is left.
+/// filtered or delayed as the angle was, or taken earlier where it is less than zero. `None` where it does not explain most of what is left.
 pub(super) fn angle_lag(
     campaign: &Campaign,
     noise: &[RunNoise],
@@ -66,26 +75,35 @@ pub(super) fn angle_lag(
     };
     let without = left(LagShape::Delay, 0.0);
     let best = |shape: LagShape| least(first_s, |time_s| left(shape, time_s));
-    let (filter, delay) = (best(LagShape::Filter), best(LagShape::Delay));
+    let delay = best(LagShape::Delay);
+    // A filter does not look ahead.
+    let filter = if first_s > 0.0 { best(LagShape::Filter) } else { (0.0, f64::INFINITY) };
     let (shape, found) = if filter.1 < LAG_SHAPE_TOLD * delay.1 {
         (LagShape::Filter, filter)
-    } else if delay.1 < LAG_SHAPE_TOLD * filter.1 {
+    } else if first_s > 0.0 && delay.1 < LAG_SHAPE_TOLD * filter.1 {
         (LagShape::Delay, delay)
     } else {
         (LagShape::Either, if filter.1 < delay.1 { filter } else { delay })
     };
     let residual_ratio = found.1 / without;
-    (residual_ratio < LAG_EXPLAINS).then_some(AngleLag { time_s: found.0, shape, residual_ratio })
+    let samples = found.0 / runs.first()?.sample_time_s();
+    (residual_ratio < LAG_EXPLAINS).then_some(AngleLag {
+        time_s: found.0,
+        samples,
+        shape,
+        residual_ratio,
+    })
 }
 
 /// The time from zero to three times `first_s` with the least of `left`, and that.
 fn least(first_s: f64, left: impl Fn(f64) -> f64) -> (f64, f64) {
-    let (mut middle, mut half) = (1.5 * first_s, 1.5 * first_s);
+    let (mut middle, mut half) = (1.5 * first_s, 1.5 * first_s.abs());
     let mut best = (0.0, f64::INFINITY);
     for _ in 0..ROUNDS {
         let step = 2.0 * half / (TRIED - 1) as f64;
         for i in 0..TRIED {
-            let time_s = (middle - half + i as f64 * step).max(0.0);
+            let time_s = middle - half + i as f64 * step;
+            let time_s = if first_s > 0.0 { time_s.max(0.0) } else { time_s.min(0.0) };
             let found = left(time_s);
             if found < best.1 {
                 best = (time_s, found);
@@ -145,7 +163,8 @@ fn filtered(run: &Run, hold: Hold, time_s: f64) -> Vec<f64> {
 fn shifted(run: &Run, time_s: f64) -> Vec<f64> {
     let command = run.command();
     let at = |k: usize| {
-        let place = (k as f64 - time_s / run.sample_time_s()).max(0.0);
+        let last = (command.len() - 1) as f64;
+        let place = (k as f64 - time_s / run.sample_time_s()).clamp(0.0, last);
         let before = place as usize;
         let share = place - before as f64;
         let after = (before + 1).min(command.len() - 1);

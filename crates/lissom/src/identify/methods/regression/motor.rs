@@ -28,6 +28,8 @@ use crate::identify::prepare::run_noise::RunNoise;
 use crate::identify::thresholds::{CLEARLY_PRESENT, RESIDUAL_FALLS_TO};
 use crate::record::{Campaign, Channels, Run};
 
+/// A lag is corrected by what is left of it so many times, at most.
+const LAG_ROUNDS: usize = 3;
 /// Two lengths of windows are one if they differ by less than this share.
 const SAME_LENGTH: f64 = 1e-9;
 
@@ -71,6 +73,8 @@ pub struct MotorRegression {
     pub missing: Option<MissingTerm>,
     /// The lag of the angle behind the command, where `missing` is one.
     pub lag: Option<AngleLag>,
+    /// Whether the figures are of commands that were made as late.
+    pub(crate) late: bool,
     /// The same without each run in turn.
     pub(crate) left_out: Vec<RunLeftOut>,
     /// J, V, CF, offset, κ_i of the tips whose angle is known, g_s and g_c, as the logs have them.
@@ -178,12 +182,20 @@ pub fn motor_regression(prepared: &Prepared<'_>, options: &Options) -> Option<Mo
     // Many short loops: within the pool none of them has to wake it first.
     rayon::scope(|_| {
         let (campaign, noise) = (prepared.used(), prepared.noise());
-        let found = on_slip_phases(campaign, noise, &options.window_s, None)?;
-        // With the command as late as the angle the equation holds.
-        let late = found.lag.and_then(|lag| {
-            on_slip_phases(&lag.late(campaign), noise, &options.window_s, Some(lag))
-        });
-        Some(late.unwrap_or(found))
+        let mut found = on_slip_phases(campaign, noise, &options.window_s, None)?;
+        // With the command as late as the angle the equation holds; what is left of the lag shows then.
+        for _ in 0..LAG_ROUNDS {
+            let Some(mut lag) = found.lag else { break };
+            if found.late {
+                let Some(rest) = found.missing.filter(|m| m.kind == MissingKind::Delay) else {
+                    break;
+                };
+                lag = lag.longer_by(rest.value);
+            }
+            let late = on_slip_phases(&lag.late(campaign), noise, &options.window_s, Some(lag));
+            found = late.unwrap_or(found);
+        }
+        Some(found)
     })
 }
 
@@ -235,9 +247,10 @@ fn on_slip_phases(
     let told = |m: &MissingTerm| m.kind != MissingKind::Delay || phases >= FEW_PHASES;
     let missing = missing.filter(|(m, _)| told(m));
     let left_out = runs_left_out(&clusters, &terms);
+    let late = lag.is_some();
     let lag = lag.or_else(|| {
         let (found, length) = missing?;
-        let late = found.kind == MissingKind::Delay && found.value > 0.0;
+        let late = found.kind == MissingKind::Delay;
         late.then(|| angle_lag(campaign, noise, length, &terms, found.value)).flatten()
     });
     let missing = missing.map(|(term, _)| term);
@@ -263,6 +276,7 @@ fn on_slip_phases(
         viscous_by_direction,
         missing,
         lag,
+        late,
         left_out,
         terms: terms_of(&one),
         candidates: found.candidates,

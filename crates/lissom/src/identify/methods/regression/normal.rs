@@ -4,8 +4,11 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::identify::estimate::wider_by_student;
 use crate::identify::methods::regression::thresholds::{
-    INSEPARABLE_WEIGHT, LEFT_OUT_MOST, MOTION_LEAST, NOISE_FILLS, SAME_COLUMN,
+    FEW_CLUSTERS, INSEPARABLE_WEIGHT, MOTION_LEAST, NOISE_FILLS, SAME_COLUMN,
 };
+
+/// A group that carries all but this share of a direction counts as one that carries so much.
+const ALONE: f64 = 0.05;
 
 /// Products of the columns `[x_1 … x_p, y]`, summed over the rows of one cluster.
 #[derive(Debug, Clone)]
@@ -195,7 +198,7 @@ pub(crate) struct ScoredEstimates {
 pub(crate) struct Scores {
     pub(crate) by_cluster: DMatrix<f64>,
     pub(crate) by_run: DMatrix<f64>,
-    /// Normal equations of each cluster where they are few: each is then left out in turn.
+    /// Normal equations of each cluster where they are few, for [`of_few`].
     pub(crate) normals: Vec<DMatrix<f64>>,
 }
 
@@ -224,7 +227,7 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
             let mut of_run = by_run.column_mut(part.cluster.run);
             of_run += score;
         }
-        let few = parts().count() <= LEFT_OUT_MOST;
+        let few = parts().count() <= FEW_CLUSTERS;
         let of_part = |part: NormalPart<'_>| DMatrix::from_fn(p, p, |i, j| part.normal(i, j));
         let normals = parts().take_while(|_| few).map(of_part).collect();
         Scores { by_cluster, by_run, normals }
@@ -262,7 +265,7 @@ pub(crate) fn solve_sums(
     let directions = &white * &shares.eigenvectors;
     let taken_out = shares.eigenvalues.map(|share| if share < NOISE_FILLS { share } else { 0.0 });
     let stretched = DMatrix::from_diagonal(&taken_out.map(|share| 1.0 / (1.0 - share)));
-    let inverse = &directions * stretched * directions.transpose();
+    let inverse = &directions * &stretched * directions.transpose();
     let value: DVector<f64> = &inverse * right;
 
     let out = DMatrix::from_diagonal(&taken_out.map(|share| f64::from(share > 0.0)));
@@ -274,7 +277,8 @@ pub(crate) fn solve_sums(
     let by_cluster = if normals.is_empty() {
         sandwich(&inverse, &scores)
     } else {
-        leaving_out(&inverse, &scores, &normals)
+        let white = &directions * stretched.map(f64::sqrt);
+        of_few(&white, &scores, &normals)
     };
     let present = by_run.column_iter().filter(|g| g.norm() > 0.0).count();
     // Fewer runs than this say little of their own scatter.
@@ -366,33 +370,27 @@ fn sandwich(inverse: &DMatrix<f64>, scores: &DMatrix<f64>) -> DMatrix<f64> {
     inverse * middle * inverse * (groups / freedom * wider_by_student(freedom).powi(2))
 }
 
-/// The same by leaving out each group in turn, of few that each carry a good part of the whole:
-/// `(C − 1)/C·Σ d·dᵀ` with `d = (N − N_g)⁻¹·g` the change without a group. A group that other groups cannot replace is
-/// left in.
+/// The same of few groups, each of which carries a good part of the whole: the estimates follow a group that carries much,
+/// and its score is too small by that. With `W·Wᵀ = N⁻¹` each score is stretched to `W·(1 − Wᵀ·N_g·W)^{−1/2}·Wᵀ·g`, N_g
+/// the normal equations of the group alone.
 ///
 /// # Source
 /// Bell and McCaffrey, Bias reduction in standard errors for linear regression with multi-stage samples, Survey Methodology
-/// 28 (2002): the estimator CR3.
-fn leaving_out(
-    inverse: &DMatrix<f64>,
-    scores: &DMatrix<f64>,
-    normals: &[DMatrix<f64>],
-) -> DMatrix<f64> {
-    let p = inverse.nrows();
-    let mut changes = DMatrix::zeros(p, scores.ncols());
-    for ((score, normal), mut change) in
-        scores.column_iter().zip(normals).zip(changes.column_iter_mut())
+/// 28 (2002): the estimator CR2.
+fn of_few(white: &DMatrix<f64>, scores: &DMatrix<f64>, normals: &[DMatrix<f64>]) -> DMatrix<f64> {
+    let mut moved = DMatrix::zeros(white.nrows(), scores.ncols());
+    for ((score, normal), mut moved) in
+        scores.column_iter().zip(normals).zip(moved.column_iter_mut())
     {
-        // (N − N_g)⁻¹ = (1 − N⁻¹·N_g)⁻¹·N⁻¹.
-        let others = DMatrix::identity(p, p) - inverse * normal;
-        let plain = inverse * score;
-        let solved = others.lu().solve(&plain);
-        let stands = |d: &DVector<f64>| d.iter().all(|v| v.is_finite());
-        change.copy_from(&solved.filter(stands).unwrap_or(plain));
+        let own = (white.transpose() * normal * white).symmetric_eigen();
+        let stretched = own.eigenvalues.map(|share| (1.0 - share).max(ALONE).sqrt().recip());
+        let by =
+            &own.eigenvectors * DMatrix::from_diagonal(&stretched) * own.eigenvectors.transpose();
+        moved.copy_from(&(white * (by * (white.transpose() * score))));
     }
     let groups = scores.column_iter().filter(|g| g.norm() > 0.0).count() as f64;
     let freedom = (groups - 1.0).max(1.0);
-    &changes * changes.transpose() * (freedom / groups * wider_by_student(freedom).powi(2))
+    &moved * moved.transpose() * wider_by_student(freedom).powi(2)
 }
 
 /// The first covariance, stretched where the second has the larger variance.

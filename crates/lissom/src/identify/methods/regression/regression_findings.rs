@@ -51,7 +51,7 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
     let split = chosen.method == Some(Method::RegressionByDirection);
     let law = evidence.methods.friction_law.as_ref().filter(|law| law.chosen.departs());
     let said = |m: &MissingTerm| match m.kind {
-        MissingKind::Delay => law.is_some_and(FrictionLaw::leaves_no_lag),
+        MissingKind::Delay => r.lag.is_some() || law.is_some_and(FrictionLaw::leaves_no_lag),
         MissingKind::Position
         | MissingKind::Gravity
         | MissingKind::BeamDamping

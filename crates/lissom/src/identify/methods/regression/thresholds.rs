@@ -62,9 +62,9 @@ thresholds! {
         FEW_PHASES: usize = 8, "slip phases", Convention;
         /// Blocks that few slip phases are cut into.
         BLOCKS_WANTED: usize = 16, "blocks", Convention;
-        /// With up to so many slip phases, or blocks of them, the covariance is by leaving out each in
-        /// turn; with more their scores alone say the same.
-        LEFT_OUT_MOST: usize = 40, "slip phases or blocks", Convention;
+        /// With up to so many slip phases, or blocks of them, the covariance counts that the estimates
+        /// follow each of them; with more that is little.
+        FEW_CLUSTERS: usize = 40, "slip phases or blocks", Convention;
         /// A window length is used only if this many slip phases (or blocks of a beam's equation)
         /// are left: the covariance rests on their scatter.
         CLUSTERS_LEAST: usize = 4, "slip phases or blocks", Convention;
