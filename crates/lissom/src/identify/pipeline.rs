@@ -11,6 +11,7 @@ use crate::identify::methods::constant_velocity;
 use crate::identify::methods::friction_law::{LawTerm, friction_law};
 use crate::identify::methods::least_squares::least_squares;
 use crate::identify::methods::output_error::{OutputErrorStart, output_error};
+use crate::identify::methods::regression::thresholds::FEW_PHASES;
 use crate::identify::methods::regression::{
     BeamRegression, MotorRegression, beam_regression, motor_regression,
 };
@@ -24,7 +25,8 @@ use crate::identify::responses::models::{beam_model, figures_model, rigid_model}
 use crate::identify::responses::response_point::ResponsePoint;
 use crate::identify::responses::response_step::{ResponseTables, Responses};
 use crate::identify::thresholds::{
-    BEAM_RESIDUAL, CONSTANT_VELOCITY_ALONE, MODE_DAMPING_LEAST, REFUSED_TORQUE, UNEXPLAINED_TORQUE,
+    BEAM_RESIDUAL, CONSTANT_VELOCITY_ALONE, CONSTANT_VELOCITY_FEW, MODE_DAMPING_LEAST,
+    REFUSED_TORQUE, UNEXPLAINED_TORQUE,
 };
 use crate::record::Campaign;
 use crate::replay::ModalArm;
@@ -205,10 +207,12 @@ fn coulomb_command(
     from_regression.filter(|c| c.value > 0.0).or(third_harmonic.map(|t| t.coulomb_command))
 }
 
-/// Whether a regression of nothing but constant velocities gives all parameters of the drive.
+/// Whether a regression of nothing but constant velocities gives all parameters of the drive, from transitions enough.
 fn is_sound_alone(r: &MotorRegression) -> bool {
     let known = |e: Option<Estimate>| e.is_some_and(|e| e.std < CONSTANT_VELOCITY_ALONE * e.value);
-    known(r.inertia)
+    let surely = |e: Estimate| e.std < CONSTANT_VELOCITY_FEW * e.value;
+    (r.phases >= FEW_PHASES || r.inertia.is_some_and(surely))
+        && known(r.inertia)
         && (known(r.coulomb) || known(r.forward) || known(r.backward))
         && known(r.viscous)
         && r.relative_residual < UNEXPLAINED_TORQUE

@@ -43,6 +43,9 @@ thresholds! {
         /// Relative standard error up to which a regression on runs at constant velocities alone is
         /// accepted: such runs hardly show the inertia.
         CONSTANT_VELOCITY_ALONE: f64 = 0.15, "1", Convention;
+        /// The same of inertia where slip phases are few: it is known so well only where the velocity
+        /// changes for a good part of the time.
+        CONSTANT_VELOCITY_FEW: f64 = 0.01, "1", Convention;
         /// Residual of a tip's acceleration, as a share of it, above which the beam's regression is
         /// not used.
         BEAM_RESIDUAL: f64 = 0.1, "1", Convention;

@@ -54,6 +54,11 @@ pub enum RegressionFinding {
         /// Share of the windowed torque.
         residual_share: f64,
     },
+    /// The torque left may accelerate the motor.
+    InertiaShort {
+        /// By what share inertia is too small then.
+        short_by: f64,
+    },
     /// All runs are a sine of one frequency.
     OneSine,
     /// The motor's equation lacks a term.
@@ -180,6 +185,12 @@ impl fmt::Display for RegressionFinding {
                  larger than their standard errors",
                 100.0 * residual_share
             ),
+            Self::InertiaShort { short_by } => write!(
+                f,
+                "inertia is up to {:.0} % too small if friction wanders: what accelerates the motor is then in part the \
+                 torque that is left, and not the command",
+                100.0 * short_by
+            ),
             Self::OneSine => f.write_str(
                 "all runs are a sine of one frequency: only the harmonics due to friction then separate motor and \
                  beam, and systematic errors repeat in every period. Errors of the estimates may be larger than their \
@@ -246,6 +257,7 @@ impl Describe for RegressionFinding {
             | Self::GravityUnseparated { .. }
             | Self::TorqueConstant { .. }
             | Self::UnexplainedTorque { .. }
+            | Self::InertiaShort { .. }
             | Self::OneSine
             | Self::MissingTerm { .. }
             | Self::AngleLag { .. }
@@ -269,6 +281,7 @@ impl Describe for RegressionFinding {
             Self::GravityUnseparated { with: GravityPartner::Offset, .. } => {
                 vec![key::OFFSET, key::GRAVITY]
             }
+            Self::InertiaShort { .. } => vec![key::INERTIA],
             Self::OneSine => {
                 vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES]
             }
@@ -294,6 +307,9 @@ impl Describe for RegressionFinding {
             }
             Self::UnexplainedTorque { .. } => {
                 "look for a delay, a load, other friction, or a flexible mode without a tip; check units and signs"
+            }
+            Self::InertiaShort { .. } => {
+                "accelerate more: faster and larger moves, under control of position or speed"
             }
             Self::OneSine => "use the output-error method, or add a run at another frequency",
             Self::MissingTerm { term, .. } => match term.kind {

@@ -17,7 +17,7 @@ use crate::identify::methods::regression::motor_columns::{
     DRY, MotorColumns, PLACE_INERTIA, PLACE_OFFSET, PLACE_VISCOUS, VISCOUS,
 };
 use crate::identify::methods::regression::motor_rows::MotorRows;
-use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve};
+use crate::identify::methods::regression::normal::{Cluster, Solution, Term, larger, solve};
 use crate::identify::methods::regression::scan::{Candidate, RATIO, change, scan};
 use crate::identify::methods::regression::thresholds::{
     FEW_PHASES, GRAVITY_CORRELATION, GRAVITY_KNOWN, LONGER_WINDOW, WINDOW_SYSTEMATIC,
@@ -73,6 +73,9 @@ pub struct MotorRegression {
     pub missing: Option<MissingTerm>,
     /// The lag of the angle behind the command, where `missing` is one.
     pub lag: Option<AngleLag>,
+    /// By what share inertia is too small if the torque left is not noise but accelerates the motor, as friction that
+    /// wanders does in an open loop; of runs that turn one way each, which no loop of a position drives.
+    pub inertia_short_by: Option<f64>,
     /// Whether the figures are of commands that were made as late.
     pub(crate) late: bool,
     /// The same without each run in turn.
@@ -215,9 +218,18 @@ fn on_slip_phases(
     let sums = SumsByLength::of(&equation);
     let found = scan(sample_time, window_s, &counts, |length| sums.solved(length, &terms))?;
     let chosen = &found.candidates[found.chosen];
-    let solution = &found.solution;
     let (channels, window_s_chosen) = (&campaign.channels, chosen.window_s);
     let phases = equation.phases(window_s_chosen);
+    let mut solution = found.solution;
+    if phases < FEW_PHASES {
+        // Of few strokes the window with the least scatter is in part one whose scatter came out small.
+        for length in [window_s_chosen / RATIO, window_s_chosen * RATIO] {
+            let beside =
+                sums.solved(length, &terms).map(|s| larger(&solution.covariance, &s.covariance));
+            solution.covariance = beside.unwrap_or(solution.covariance);
+        }
+    }
+    let solution = &solution;
     let with_more = |length: f64| -> Option<(Vec<Cluster>, Solution)> {
         let without = sums.solved(length, &terms)?;
         let known: Vec<f64> = columns.couplings().map(|i| without.value[i]).collect();
@@ -254,6 +266,14 @@ fn on_slip_phases(
         late.then(|| angle_lag(campaign, noise, length, &terms, found.value)).flatten()
     });
     let missing = missing.map(|(term, _)| term);
+    // Noise of the command leaves less in longer windows; what wanders does not.
+    let share = |length: f64| {
+        let s = sums.solved(length, &terms)?;
+        Some(s.turned_round[PLACE_INERTIA] / s.value[PLACE_INERTIA].powi(2))
+    };
+    let lengths = found.candidates.iter().map(|c| c.window_s).filter(|l| *l >= window_s_chosen);
+    let short_by = lengths.filter_map(share).fold(f64::INFINITY, f64::min);
+    let inertia_short_by = turn_one_way(&clusters).then_some(short_by);
     let longer = found.candidates.iter().map(|c| c.window_s).filter(|l| *l >= window_s_chosen);
     let viscous_by_direction = longer
         .into_iter()
@@ -277,6 +297,7 @@ fn on_slip_phases(
         missing,
         lag,
         late,
+        inertia_short_by,
         left_out,
         terms: terms_of(&one),
         candidates: found.candidates,
@@ -383,6 +404,11 @@ impl<'a> SumsByLength<'a> {
         });
         solve(&sums, terms)
     }
+}
+
+/// Whether each run turns one way.
+fn turn_one_way(clusters: &[Cluster]) -> bool {
+    clusters.windows(2).all(|pair| pair[0].run != pair[1].run || pair[0].sign == pair[1].sign)
 }
 
 /// By how much a standard error of a delay of the command moves each term: the delay is estimated, too.

@@ -143,6 +143,9 @@ pub(crate) struct Solution {
     pub(crate) inseparable: Vec<bool>,
     /// ‖y − X·q‖/‖y‖.
     pub(crate) relative_residual: f64,
+    /// `‖y − X·q‖²·(N⁻¹)_ii` of each term. Over its square it is by what share the term is larger if what is left moves
+    /// its regressor instead of disturbing the right side: in the regression turned round, of the regressor on y.
+    pub(crate) turned_round: DVector<f64>,
     /// Rows used.
     pub(crate) rows: usize,
     /// Clusters with rows.
@@ -299,6 +302,7 @@ pub(crate) fn solve_sums(
         lost,
         inseparable,
         relative_residual: (left.max(0.0) / power).sqrt(),
+        turned_round: inverse.diagonal() * left.max(0.0),
         rows: *rows,
         clusters: scores.ncols(),
     })
@@ -394,7 +398,7 @@ fn of_few(white: &DMatrix<f64>, scores: &DMatrix<f64>, normals: &[DMatrix<f64>])
 }
 
 /// The first covariance, stretched where the second has the larger variance.
-fn larger(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+pub(crate) fn larger(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     let p = a.nrows();
     let stretch: Vec<f64> = (0..p)
         .map(|i| {

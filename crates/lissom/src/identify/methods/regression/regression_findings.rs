@@ -10,7 +10,7 @@ use crate::identify::methods::friction_law::FrictionLaw;
 use crate::identify::methods::regression::missing::{MissingKind, MissingTerm};
 use crate::identify::methods::regression::motor::{ByDirection, MotorRegression};
 use crate::identify::methods::regression::thresholds::{
-    CONSTANT_DOUBTED, FEW_PHASES, GRAVITY_KNOWN,
+    CONSTANT_DOUBTED, FEW_PHASES, GRAVITY_KNOWN, INERTIA_SHORT,
 };
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
 use crate::identify::thresholds::{CLEARLY_PRESENT, SAME_FREQUENCY, UNEXPLAINED_TORQUE};
@@ -42,6 +42,10 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
     let residual_share = left_by_chosen(evidence, chosen).unwrap_or(r.relative_residual);
     if residual_share > UNEXPLAINED_TORQUE && !explained {
         findings.push(Finding::new(RegressionFinding::UnexplainedTorque { residual_share }));
+    }
+    let given = !explained && chosen.drive.inertia.is_some();
+    if let Some(short_by) = r.inertia_short_by.filter(|share| given && *share > INERTIA_SHORT) {
+        findings.push(Finding::new(RegressionFinding::InertiaShort { short_by }));
     }
     findings.extend(gravity_pairs(evidence, r, chosen));
     if !explained && is_one_sine(evidence.runs, r) {

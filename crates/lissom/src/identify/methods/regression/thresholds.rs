@@ -54,6 +54,9 @@ thresholds! {
         /// The magnitude of the command is not tried as a missing term if it correlates with the
         /// torque by this much: with torque of one sign it is the torque itself.
         MISSING_ONE_SIGN: f64 = 0.5, "1", Convention;
+        /// Inertia is doubted that would be larger by more than this share if the torque left
+        /// accelerated the motor.
+        INERTIA_SHORT: f64 = 0.05, "1", Convention;
         /// A torque constant is doubted that differs by more than this share from the one that the load's known m·g·l
         /// gives: data sheets are no better.
         CONSTANT_DOUBTED: f64 = 0.05, "1", Convention;
