@@ -11,6 +11,8 @@ pub struct RigidJoint {
     pub coulomb: f64,
     /// Friction over the magnitude of the speed, in place of C + V·|q̇|.
     pub friction: Option<fn(f64) -> f64>,
+    /// Coulomb and viscous friction backward, where they are others.
+    pub backward: Option<[f64; 2]>,
     /// Torque of a load at an angle.
     pub load: fn(f64) -> f64,
     /// Friction that the load adds, per its size.
@@ -43,6 +45,7 @@ impl Default for RigidJoint {
             viscous: 0.02,
             coulomb: 0.15,
             friction: None,
+            backward: None,
             load: |_| 0.0,
             per_load: 0.0,
             sample_time_s: 2e-3,
@@ -86,19 +89,24 @@ impl RigidJoint {
         log
     }
 
-    /// Friction against the motion.
-    fn braking(&self, speed: f64, load: f64) -> f64 {
-        let alone = self.friction.map_or(self.coulomb + self.viscous * speed, |of| of(speed));
+    /// Friction against the motion in a direction (+1 or −1).
+    fn braking(&self, speed: f64, load: f64, direction: f64) -> f64 {
+        let alone = match (self.backward, self.friction) {
+            (Some([coulomb, viscous]), _) if direction < 0.0 => coulomb + viscous * speed,
+            (_, Some(of)) => of(speed),
+            _ => self.coulomb + self.viscous * speed,
+        };
         alone + self.per_load * load.abs()
     }
 
     fn speed_after(&self, w: f64, command: f64, load: f64, h: f64) -> f64 {
         let torque = command - load;
-        if w == 0.0 && torque.abs() <= self.braking(0.0, load) {
+        let direction = if w == 0.0 { torque.signum() } else { w.signum() };
+        if w == 0.0 && torque.abs() <= self.braking(0.0, load, direction) {
             return 0.0;
         }
-        let direction = if w == 0.0 { torque.signum() } else { w.signum() };
-        let next = w + (torque - direction * self.braking(w.abs(), load)) / self.inertia * h;
+        let next =
+            w + (torque - direction * self.braking(w.abs(), load, direction)) / self.inertia * h;
         if next * direction < 0.0 { 0.0 } else { next }
     }
 }

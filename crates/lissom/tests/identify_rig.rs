@@ -5,7 +5,7 @@ use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
 use lissom::identify::{
-    Estimate, Identified, MissingKind, Options, Prepared, identify, motor_regression,
+    Estimate, Identified, LagShape, MissingKind, Options, Prepared, identify, motor_regression,
 };
 use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
@@ -171,15 +171,18 @@ fn a_delay_is_noticed_and_measured() {
             Run::new(r.name(), r.time(), command, motor, vec![]).unwrap()
         })
         .collect();
-    let missing = |runs| {
-        motor_regression(&Prepared::of(&campaign(current(0.2), runs)), &Options::default())
-            .unwrap()
-            .missing
+    let regression = |runs| {
+        motor_regression(&Prepared::of(&campaign(current(0.2), runs)), &Options::default()).unwrap()
     };
-    assert_eq!(missing(stiff_axis(0.2, 0.0)), None);
-    let found = missing(late.clone()).unwrap();
-    assert_eq!(found.kind, MissingKind::Delay);
-    assert!((found.value / 0.010 - 1.0).abs() < 0.05, "{found:?}");
+    let in_time = regression(stiff_axis(0.2, 0.0));
+    assert_eq!((in_time.missing, in_time.lag), (None, None));
+    let found = regression(late.clone());
+    let lag = found.lag.unwrap();
+    assert_eq!(lag.shape, LagShape::Delay);
+    assert!((lag.time_s / 0.010 - 1.0).abs() < 0.01 && (lag.samples - 2.0).abs() < 0.02, "{lag:?}");
+    // The regression counts it.
+    within("inertia", found.inertia, 2e-3, 0.01);
+    within("coulomb", found.coulomb, 0.06, 0.01);
 
     // The output error counts it in all figures.
     let id = identified(current(0.2), Axis::Rotary, vec![], late);

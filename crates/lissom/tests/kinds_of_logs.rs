@@ -4,7 +4,7 @@
 
 use lissom::identify::findings::{EstimateFinding, FindingKind, RegressionFinding};
 use lissom::identify::{
-    Estimate, Finding, GravityPartner, Identified, Method, MissingKind, Options, identify,
+    Estimate, Finding, GravityPartner, Identified, Method, MissingKind, Options, Severity, identify,
 };
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
 use lissom_testmodels::{RigidJoint, RigidLog, two_sines};
@@ -290,4 +290,128 @@ fn creep_at_rest_is_rest() {
     within("inertia", found.inertia, 0.01, 0.01);
     let warned = found.findings.iter().any(|f| f.severity() > lissom::identify::Severity::Info);
     assert!(!warned, "{:?}", codes(&found));
+}
+
+/// An angle behind a filter, and a current behind one: both are found and counted.
+#[test]
+fn a_lag_of_either_channel_is_counted() {
+    let low_pass = |of: &[f64], time_s: f64, joint: &RigidJoint| -> Vec<f64> {
+        let share = 1.0 - (-joint.sample_time_s / time_s).exp();
+        let mut state = of[0];
+        let next = |x: &f64| {
+            state += share * (x - state);
+            state
+        };
+        of.iter().map(next).collect()
+    };
+    let joint = RigidJoint { sample_time_s: 1e-3, ..RigidJoint::default() };
+    let log = joint.follow(20_000, two_sines);
+    for late_current in [false, true] {
+        let (mut current, mut angle) = (log.measured.clone(), log.angle.clone());
+        let filtered = if late_current { &mut current } else { &mut angle };
+        *filtered = low_pass(filtered, 5e-3, &joint);
+        noisy(&mut current, 2e-3);
+        let one = run("log", &joint, current, angle);
+        let found = quick(&Campaign::new(channels(Hold::Measured), vec![one]).unwrap());
+        within("Coulomb", found.friction.coulomb, 0.15, 0.01);
+        within("viscous", found.friction.viscous, 0.02, 0.05);
+        within("inertia", found.inertia, 0.01, 0.01);
+        assert_eq!(codes(&found).first(), Some(&"angle-lag"), "late current: {late_current}");
+        let time_s = found.regression.unwrap().lag.unwrap().time_s;
+        let truth = if late_current { -5e-3 } else { 5e-3 };
+        assert!((time_s / truth - 1.0).abs() < 0.15, "{time_s}");
+    }
+}
+
+/// A held command that is said to be measured: half a sample.
+#[test]
+fn half_a_sample_is_the_wrong_hold() {
+    let joint = RigidJoint { sample_time_s: 4e-3, steps: 40, ..RigidJoint::default() };
+    let log = joint.follow(10_000, two_sines);
+    let one = run("log", &joint, log.held, log.angle);
+    let found = quick(&Campaign::new(channels(Hold::Measured), vec![one]).unwrap());
+    let lag = found.findings.iter().find(|f| f.code() == "angle-lag").unwrap();
+    assert!(lag.hint().contains("hold"), "{}", lag.hint());
+    within("viscous", found.friction.viscous, 0.02, 0.01);
+}
+
+/// Friction of another slope each way behind a coarse encoder, whose noise fills short windows.
+#[test]
+fn slopes_that_differ_by_direction() {
+    let joint = RigidJoint {
+        sample_time_s: 1e-3,
+        coulomb: 0.11,
+        viscous: 0.026,
+        backward: Some([0.07, 0.014]),
+        ..RigidJoint::default()
+    };
+    let mut log = joint.follow(20_000, two_sines);
+    let step = TAU / 16_384.0;
+    log.angle.iter_mut().for_each(|q| *q = (*q / step).round() * step);
+    noisy(&mut log.measured, 5e-3);
+    let found = quick(&measured(&joint, log));
+    within("forward", found.friction.forward, 0.11, 0.02);
+    within("backward", found.friction.backward, 0.07, 0.03);
+    let (forward, backward) = found.friction.viscous_by_direction.unwrap();
+    within("viscous forward", Some(forward), 0.026, 0.03);
+    within("viscous backward", Some(backward), 0.014, 0.05);
+}
+
+/// One way all the time, from one speed to the next under control: the changes show inertia.
+#[test]
+fn steps_of_speed_one_way() {
+    let joint = RigidJoint { coulomb: 0.5, inertia: 0.02, viscous: 0.05, ..RigidJoint::default() };
+    let speed = |t: f64| 3.0 + 2.0 * (0.15 * TAU * t).sin().signum();
+    let log = joint.drive(12_000, |t, _, w| 0.5 + 0.05 * w + 0.1 * (speed(t) - w));
+    let one = run("log", &joint, log.held, log.angle);
+    let found = quick(&Campaign::new(channels(Hold::Sampled), vec![one]).unwrap());
+    within("inertia", found.inertia, 0.02, 0.02);
+    within("viscous", found.friction.viscous, 0.05, 0.03);
+    within("friction with the load", found.friction.forward, 0.5, 0.02);
+}
+
+/// A measured current with noise: not replayed, and the estimates of both modes are the regression's.
+#[test]
+fn a_noisy_current_is_not_replayed() {
+    let joint = RigidJoint::default();
+    let mut log = joint.follow(10_000, two_sines);
+    noisy(&mut log.measured, 0.02);
+    let campaign = measured(&joint, log);
+    let found = identify(&campaign, &Options::default(), |_| ()).unwrap();
+    assert!(found.output_error.is_none());
+    assert!(codes(&found).contains(&"command-noise"), "{:?}", codes(&found));
+    let warned = |f: &&Finding| f.severity() > Severity::Info;
+    assert_eq!(found.findings.iter().find(warned), None);
+    assert_eq!(found.inertia, quick(&campaign).inertia);
+}
+
+/// A spindle in an open loop, whose friction wanders: what wanders accelerates it, and inertia comes out small.
+#[test]
+fn wandering_friction_in_an_open_loop() {
+    let joint = RigidJoint { coulomb: 0.04, inertia: 1e-3, viscous: 1e-3, ..RigidJoint::default() };
+    let mut state = 7_u32;
+    let mut wander = 0.0;
+    let drift: Vec<f64> = (0..30_000)
+        .map(|_| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            wander += -2e-3 * wander + 1e-3 * (f64::from(state >> 8) / f64::from(1 << 23) - 1.0);
+            wander
+        })
+        .collect();
+    let held = |t: f64| 0.08 + 0.02 * (0.05 * TAU * t).sin().signum();
+    let at = |t: f64| drift[(t / joint.sample_time_s) as usize];
+    let log = joint.drive(30_000, |t, _, _| held(t) - at(t));
+    let command = log.time_s.iter().map(|t| held(*t)).collect();
+    let one = run("log", &joint, command, log.angle);
+    let found = quick(&Campaign::new(channels(Hold::Sampled), vec![one]).unwrap());
+    let short = |f: &Finding| {
+        matches!(f.kind, FindingKind::Regression(RegressionFinding::InertiaShort { .. }))
+    };
+    assert!(found.findings.iter().any(short), "{:?}", codes(&found));
+    let short_by = found.regression.unwrap().inertia_short_by.unwrap();
+    let inertia = found.inertia.unwrap().value;
+    assert!(
+        inertia < 0.95e-3 && (inertia * (1.0 + short_by) / 1e-3 - 1.0).abs() < 0.2,
+        "{inertia} {short_by}"
+    );
 }

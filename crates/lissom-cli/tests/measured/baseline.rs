@@ -4,7 +4,8 @@
 use std::io::Write as _;
 
 use lissom::identify::{
-    ArmSource, DriveEstimates, FoundArm, Options, ValidationOptions, identify, validate,
+    ArmSource, DriveEstimates, FoundArm, Options, Prepared, ValidationOptions, identify,
+    least_squares, motor_regression, validate,
 };
 use lissom::record::{Campaign, Run, TimeBase};
 use lissom::replay::{DryTerms, ModalArm};
@@ -35,6 +36,13 @@ fn rigid(drive: &DriveEstimates, back_emf: f64) -> FoundArm {
     FoundArm { arm, source: ArmSource::Regression, torque_used: None }
 }
 
+/// Past the capture, so that the table of the evidence can be made of it.
+fn say(name: &str, by: &str, shares: [f64; 2]) {
+    let [ours, line] = shares.map(|share| 100.0 * share);
+    let text = format!("{name}: {ours:.2} % by {by}, {line:.2} % by least squares\n");
+    std::io::stderr().write_all(text.as_bytes()).unwrap();
+}
+
 /// Shares of the torque of `unseen` that are left by the result of `used` and by its line, told past the capture.
 fn left(name: &str, used: &Campaign, unseen: &Campaign) -> [f64; 2] {
     let options = Options { without_output_error: true, ..Options::default() };
@@ -47,12 +55,7 @@ fn left(name: &str, used: &Campaign, unseen: &Campaign) -> [f64; 2] {
     let of = |arm: &FoundArm| validate(arm, unseen, &asked).unwrap().torque.unwrap().relative_error;
     let both = [of(found.arm.as_ref().unwrap()), of(&line)];
     let by = found.method.unwrap().name();
-    let [ours, line] = both.map(|share| 100.0 * share);
-    std::io::stderr()
-        .write_all(
-            format!("{name}: {ours:.2} % by {by}, {line:.2} % by least squares\n").as_bytes(),
-        )
-        .unwrap();
+    say(name, by, both);
     assert!(both[0] < AT_MOST * both[1], "{name}: {both:?}");
     both
 }
@@ -63,8 +66,9 @@ fn half(campaign: &Campaign, second: bool) -> Campaign {
         let middle = run.len() / 2;
         let range = if second { middle..run.len() } else { 0..middle };
         let base = TimeBase::uniform(0.0, run.sample_time_s());
-        let (command, motor) = (run.command()[range.clone()].to_vec(), run.motor()[range].to_vec());
-        Run::new(run.name(), base, command, motor, vec![]).unwrap()
+        let of = |channel: &[f64]| channel[range.clone()].to_vec();
+        let tips = run.tips().iter().map(|tip| of(tip)).collect();
+        Run::new(run.name(), base, of(run.command()), of(run.motor()), tips).unwrap()
     };
     let runs = campaign.runs.iter().map(part).collect();
     Campaign { channels: campaign.channels.clone(), runs, gravity: campaign.gravity, mgl_nm: None }
@@ -85,4 +89,28 @@ fn ur10e_second_halves() {
         let read = if joint == 4 { read.with_gravity().unwrap() } else { read };
         left(&format!("UR10E joint {joint}"), &half(&read, false), &half(&read, true));
     }
+}
+
+/// A short log of square-wave references: each half has few strokes.
+#[test]
+fn cu_rigid_second_half() {
+    let Some(data) = common::data("cu-flexarm") else { return };
+    let read = common::read(include_str!("cu-rigid.toml"), &data, "").campaign;
+    left("CU rigid arm", &half(&read, false), &half(&read, true));
+}
+
+/// A flexible link whose second stage moves, too: no arm, but the motor's equation with the tip's coupling, in the
+/// line's windows of the other half.
+#[test]
+fn quanser_second_half() {
+    let Some(data) = common::data("quanser-2dsfl") else { return };
+    let read = common::read(include_str!("quanser.toml"), &data, "").campaign;
+    let (used, unseen) = (half(&read, false), half(&read, true));
+    let used = Prepared::of(&used);
+    let regression = motor_regression(&used, &Options::default()).unwrap().estimates();
+    let line = least_squares(&used, None).unwrap().estimates;
+    let unseen = least_squares(&Prepared::of(&unseen), None).unwrap();
+    let both = [&regression, &line].map(|estimates| unseen.left_by(estimates).unwrap());
+    say("Quanser", "regression", both);
+    assert!(both[0] < AT_MOST * both[1], "{both:?}");
 }

@@ -10,10 +10,11 @@ use crate::identify::judge::{Evidence, Methods, conclude, slip_phase_solution};
 use crate::identify::methods::constant_velocity;
 use crate::identify::methods::friction_law::{LawTerm, friction_law};
 use crate::identify::methods::least_squares::least_squares;
-use crate::identify::methods::output_error::{OutputErrorStart, output_error};
+use crate::identify::methods::output_error::thresholds::COMMAND_NOISE_MOST;
+use crate::identify::methods::output_error::{OutputErrorStart, command_noise, output_error};
 use crate::identify::methods::regression::thresholds::FEW_PHASES;
 use crate::identify::methods::regression::{
-    BeamRegression, MotorRegression, beam_regression, motor_regression,
+    BeamRegression, LagShape, MotorRegression, beam_regression, motor_regression,
 };
 use crate::identify::methods::starting_arms::starting_arms;
 use crate::identify::methods::third_harmonic::{ThirdHarmonic, third_harmonic};
@@ -134,7 +135,13 @@ pub fn identify(
     let tables = ResponseTables { prepared: &prepared, coulomb_command: best };
     let shown = tables.without_friction_known();
     let tips_model = beam_model(campaign, &shown);
-    let replayable = any_regression.filter(|_| !options.without_output_error);
+    let replayed = any_regression.filter(|_| !options.without_output_error);
+    let command_noise = replayed.as_ref().and_then(|r| command_noise(prepared.used(), r));
+    let command_noise = command_noise.filter(|ratio| *ratio > COMMAND_NOISE_MOST);
+    // A replay knows a delay of the command, but no filter.
+    let filtered = lag.is_some_and(|lag| lag.shape != LagShape::Delay);
+    let rigid = prepared.used().channels.tips.is_empty();
+    let replayable = replayed.filter(|_| command_noise.is_none() && !(filtered && rigid));
     let output_error = replayable.and_then(|motor| {
         progress(Stage::OutputError);
         let corrected = || tables.with_square_wave(best);
@@ -172,6 +179,7 @@ pub fn identify(
         constant_velocity,
         beam_regression,
         output_error,
+        command_noise,
         beam_model,
         motor_model,
     };

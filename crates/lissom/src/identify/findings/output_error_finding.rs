@@ -7,7 +7,9 @@ use strum::{IntoStaticStr, VariantNames};
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::channel_finding::Channel;
 use crate::identify::findings::describe::Describe;
-use crate::identify::findings::number_text::{counted, later, milliseconds, with_error};
+use crate::identify::findings::number_text::{
+    counted, later, milliseconds, significant, with_error,
+};
 use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
 use crate::replay::Parameter;
@@ -34,6 +36,11 @@ pub enum OutputErrorFinding {
         lag_s: Estimate,
         /// What that looks like.
         cause: LagCause,
+    },
+    /// The runs are not replayed, because of the noise of the command.
+    CommandNoise {
+        /// How far it moves the angle beside the noise of the angle's sensor.
+        ratio: f64,
     },
     /// A tip is read at another time than the motor.
     TipLag {
@@ -116,6 +123,11 @@ impl fmt::Display for OutputErrorFinding {
                 "the command acts {} {} than it is logged: all estimates account for it",
                 milliseconds(*lag_s),
                 later(lag_s.value)
+            ),
+            Self::CommandNoise { ratio } => write!(
+                f,
+                "the noise of the measured command moves the angle by {} times its sensor's noise: the runs are not replayed",
+                significant(*ratio, 2)
             ),
             Self::TipLag { tip, lag_s } => write!(
                 f,
@@ -205,6 +217,7 @@ impl Describe for OutputErrorFinding {
             Self::DampingKind { parameters } if !parameters.is_empty() => Severity::Warning,
             Self::DampingKind { .. }
             | Self::CommandLag { .. }
+            | Self::CommandNoise { .. }
             | Self::TipLag { .. }
             | Self::ModesByTheMotor { .. }
             | Self::MotionsPart { .. } => Severity::Info,
@@ -219,6 +232,7 @@ impl Describe for OutputErrorFinding {
 
     fn affects(&self) -> Vec<&'static str> {
         match self {
+            Self::CommandNoise { .. } => vec![],
             Self::CommandLag { .. } => vec![key::INERTIA, key::VISCOUS, key::RAW_RESPONSE],
             Self::TipLag { .. } => vec![key::COUPLING, key::MODES, key::TIP_RESPONSES],
             Self::ModesMissing { .. }
@@ -243,6 +257,9 @@ impl Describe for OutputErrorFinding {
 
     fn hint(&self) -> &'static str {
         match self {
+            Self::CommandNoise { .. } => {
+                "nothing to do: the regression, whose equation has such noise on its right side, gives the estimates"
+            }
             Self::CommandLag { cause: LagCause::LooksHeld, .. } => {
                 "half a sample: the command looks as if it were held from sample to sample, hold = \"sampled\""
             }

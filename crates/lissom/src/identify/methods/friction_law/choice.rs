@@ -233,7 +233,7 @@ impl<'a> LawSearch<'a> {
 
     /// Whether Coulomb and viscous friction are of the size that the logs contain: of a curve that the speeds driven
     /// show a part of, one extrapolates to any Coulomb friction and a slope of either sign.
-    fn is_within_data(&self, solution: &Solution) -> bool {
+    pub(super) fn is_within_data(&self, solution: &Solution) -> bool {
         let (coulomb, coulomb_std) = known(solution, &coulomb_weight(solution));
         let (viscous, viscous_std) = (solution.value[1], solution.covariance[(1, 1)].sqrt());
         coulomb > -SIGN_SHOWN * coulomb_std

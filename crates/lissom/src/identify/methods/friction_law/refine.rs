@@ -98,7 +98,12 @@ impl LawSearch<'_> {
             let of = |t: &Term| own.iter().position(|o| o == t).map_or(*t, other);
             self.terms.iter().map(of).collect()
         };
-        let left = |i: usize| Some((i, rows.solved(&in_place(i))?.relative_residual));
+        let near_rest = self.taken[found].term.is_near_rest();
+        let left = |i: usize| {
+            let solution = rows.solved(&in_place(i))?;
+            let stands = !near_rest || self.is_within_data(&solution);
+            stands.then_some((i, solution.relative_residual))
+        };
         let tried: Vec<_> = (0..others.len()).into_par_iter().map(left).collect();
         let best = tried.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1));
         let Some((i, _)) = best else { return };

@@ -1,6 +1,7 @@
 //! The output-error method: the logged command is replayed through an arm, and the arm's parameters are changed until
 //! the replay shows the logged angles.
 
+mod command_noise;
 mod engine;
 mod figures;
 mod follow;
@@ -13,6 +14,7 @@ mod schedule;
 pub(crate) mod thresholds;
 mod undecided;
 
+pub(crate) use command_noise::command_noise;
 pub use engine::by_run::ByRun;
 pub(crate) use engine::data::{Masks, masks};
 pub use engine::search::{Iteration, Stop};

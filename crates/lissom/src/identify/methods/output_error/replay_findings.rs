@@ -19,7 +19,11 @@ use crate::replay::{ModalArm, Parameter};
 /// Findings of the replay, among them that it does not describe the runs.
 pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
     let campaign = evidence.campaign;
-    let Some(oe) = &evidence.methods.output_error else { return Vec::new() };
+    let Some(oe) = &evidence.methods.output_error else {
+        let noise = evidence.methods.command_noise;
+        let finding = |ratio| Finding::new(OutputErrorFinding::CommandNoise { ratio });
+        return noise.map(finding).into_iter().collect();
+    };
     let mut findings = Vec::new();
     if oe.stands() {
         findings.extend(oe.estimate(Parameter::CommandLag).map(|lag| command_lag(campaign, lag)));

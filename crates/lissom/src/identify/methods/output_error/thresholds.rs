@@ -5,6 +5,9 @@
 
 thresholds! {
     "output error: acceptance" {
+        /// Runs are not replayed where the noise of a measured command moves the angle by this many
+        /// times the noise of its sensor: it would be taken for motion.
+        COMMAND_NOISE_MOST: f64 = 1.0, "1", Convention;
         /// Largest ratio of a channel's residual to its sensor's noise up to which an arm that is
         /// replayed over whole runs is accepted. An arm above it on short windows is given up
         /// there: that changed no accepted estimate of 30 study campaigns and of the measured logs
