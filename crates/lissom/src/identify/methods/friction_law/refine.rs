@@ -85,6 +85,7 @@ impl LawSearch<'_> {
         };
         (self.rows, self.terms, self.solution) = (rows, terms, solution);
         self.taken[found].terms.push(turned);
+        self.forget_figures();
     }
 
     /// Puts the one of `others` with which least is left in the place of a term that was taken.
@@ -98,7 +99,7 @@ impl LawSearch<'_> {
             let of = |t: &Term| own.iter().position(|o| o == t).map_or(*t, other);
             self.terms.iter().map(of).collect()
         };
-        let left = |i: usize| Some((i, rows.solved(&in_place(i))?.relative_residual));
+        let left = |i: usize| Some((i, rows.relative_residual(&in_place(i))?));
         let tried: Vec<_> = (0..others.len()).into_par_iter().map(left).collect();
         let best = tried.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1));
         let Some((i, _)) = best else { return };
@@ -114,5 +115,6 @@ impl LawSearch<'_> {
             self.solution = solution;
         }
         self.taken[found].term = others[i].0;
+        self.forget_figures();
     }
 }
