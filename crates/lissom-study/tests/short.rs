@@ -97,11 +97,13 @@ fn circles_of_vouched_responses_hold() {
     assert!(!points.iter().any(|p| p.silently_wrong()));
 }
 
-/// Another law of friction is reported, and leaves inertia, coupling and frequencies as they are. The ripple of campaign 19
-/// drives motions apart.
+/// Another law of friction is reported, and leaves inertia, coupling and frequencies as they are. The ripple of campaign 16
+/// is all but hidden by an encoder of ten bits, and it drives motions apart as that of 19 does.
 #[test]
 fn wrong_laws_are_said_and_spare_the_linear_part() {
-    for (law, index) in [(Law::Stribeck, 7), (Law::Ripple, 19), (Law::Direction, 18)] {
+    let stribeck = [(Law::Stribeck, 7)];
+    let ripple = [16, 19].map(|index| (Law::Ripple, index));
+    for (law, index) in stribeck.into_iter().chain(ripple).chain([(Law::Direction, 18)]) {
         let campaign = draw_campaign(3, index, law).unwrap();
         let id = identify(&campaign.logs, &Options::default(), |_| {}).unwrap();
         let scored = score(&Truth::of(&campaign), &id);
@@ -118,18 +120,16 @@ fn wrong_laws_are_said_and_spare_the_linear_part() {
     }
 }
 
-/// An encoder of 11 bits all but hides the Stribeck friction of campaign 12: a mode goes to a wrong frequency for it; one
-/// of ten bits all but hides the ripple of campaign 16: its inertia is 12 % off. What is wrong comes with a warning.
+/// An encoder of 11 bits all but hides the Stribeck friction of campaign 12: a mode goes to a wrong frequency for it, and
+/// what is wrong comes with a warning.
 #[test]
 fn a_law_that_the_noise_hides_is_not_silently_wrong() {
-    for (law, index) in [(Law::Stribeck, 12), (Law::Ripple, 16)] {
-        let campaign = draw_campaign(3, index, law).unwrap();
-        let id = identify(&campaign.logs, &Options::default(), |_| {}).unwrap();
-        let scored = score(&Truth::of(&campaign), &id);
-        assert!(!scored.law_alarms().is_empty(), "{law} {index}");
-        let wrong: Vec<_> = scored.figures.iter().filter(|f| f.silently_wrong()).collect();
-        assert!(wrong.is_empty(), "{law} {index}: {wrong:?}");
-    }
+    let campaign = draw_campaign(3, 12, Law::Stribeck).unwrap();
+    let id = identify(&campaign.logs, &Options::default(), |_| {}).unwrap();
+    let scored = score(&Truth::of(&campaign), &id);
+    assert!(!scored.law_alarms().is_empty());
+    let wrong: Vec<_> = scored.figures.iter().filter(|f| f.silently_wrong()).collect();
+    assert!(wrong.is_empty(), "{wrong:?}");
 }
 
 /// Loops without friction and with ideal sensors show the response that points are scored against.

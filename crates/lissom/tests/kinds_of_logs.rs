@@ -410,8 +410,6 @@ fn wandering_friction_in_an_open_loop() {
     assert!(found.findings.iter().any(short), "{:?}", codes(&found));
     let short_by = found.regression.unwrap().inertia_short_by.unwrap();
     let inertia = found.inertia.unwrap().value;
-    assert!(
-        inertia < 0.95e-3 && (inertia * (1.0 + short_by) / 1e-3 - 1.0).abs() < 0.2,
-        "{inertia} {short_by}"
-    );
+    // Friction moves the speed as well, so that the share is a bound.
+    assert!(inertia < 0.8e-3 && inertia * (1.0 + short_by) > 1e-3, "{inertia} {short_by}");
 }

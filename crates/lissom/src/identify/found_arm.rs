@@ -4,7 +4,7 @@ use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::judge::{Chosen, Evidence, slip_phase_solution};
 use crate::identify::methods::friction_law::FrictionLaw;
 use crate::identify::methods::output_error::{starts, starts_by_motor};
-use crate::identify::validation::{torque, zeros};
+use crate::identify::validation::{torque_error, zeros};
 use crate::record::Campaign;
 use crate::replay::ModalArm;
 
@@ -65,8 +65,8 @@ impl FoundArm {
     }
 
     fn with(arm: ModalArm, source: ArmSource, used: &Campaign) -> Self {
-        let torque_used = torque(&arm, used, &zeros(&arm, used), None)
-            .map(|t| TorqueUsed { relative_error: t.relative_error, window_s: t.window_s });
+        let torque_used = torque_error(&arm, used, &zeros(&arm, used))
+            .map(|(window_s, relative_error)| TorqueUsed { relative_error, window_s });
         Self { arm, source, torque_used }
     }
 }

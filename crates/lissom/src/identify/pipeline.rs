@@ -125,10 +125,19 @@ pub fn identify(
     let lag = regression.as_ref().and_then(|r| r.lag);
     let late = lag.map(|lag| prepared.using(lag.late(prepared.used())));
     let in_time = late.as_ref().unwrap_or(&prepared);
-    let law = regression.as_ref().and_then(|r| friction_law(in_time, r));
     progress(Stage::Beam);
-    let any_beam_regression = beam_regression(&prepared);
-    let third_harmonic = third_harmonic(&prepared);
+    let window_s = regression.as_ref().map(|r| r.window_s);
+    // Each loops over the runs on all threads, and leaves some of them idle between its loops.
+    let (law, (beside, line)) = rayon::join(
+        || regression.as_ref().and_then(|r| friction_law(in_time, r)),
+        || {
+            rayon::join(
+                || (beam_regression(&prepared), third_harmonic(&prepared)),
+                || least_squares(in_time, window_s),
+            )
+        },
+    );
+    let (any_beam_regression, third_harmonic) = beside;
 
     let constant = campaign.channels.command.torque_per_unit();
     let best = coulomb_command(regression.as_ref(), third_harmonic.as_ref(), constant);
@@ -167,14 +176,13 @@ pub fn identify(
     let third_harmonic_model =
         third.and_then(|t| tables.model_with(t.coulomb_command, beam_model.as_ref()));
     let (equivalent, refused) = equivalent_arm(campaign, &points);
-    let window_s = regression.as_ref().map(|r| r.window_s);
     let methods = Methods {
         third_harmonic,
         third_harmonic_model,
         regression,
         regression_residual,
         regression_missing,
-        least_squares: least_squares(in_time, window_s),
+        least_squares: line,
         friction_law,
         constant_velocity,
         beam_regression,

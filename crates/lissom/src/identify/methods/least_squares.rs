@@ -10,7 +10,7 @@ use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::methods::regression::thresholds::{BLOCKS_WANTED, FEW_PHASES};
 use crate::identify::methods::regression::{
     Candidate, Cluster, Fitted, MotorColumns, MotorEquation, Phase, Rows, SineAndCosine, Term,
-    WINDOW_STEP, Window, scan, slip_phases, smoothing, solve, velocity,
+    WINDOW_STEP, Window, scan, smoothing, solve, velocity_and_phases,
 };
 use crate::identify::methods::thresholds::{SLOWEST_SAMPLE, STANDING_SHARE};
 use crate::identify::prepare::prepared::Prepared;
@@ -74,7 +74,8 @@ pub fn least_squares(prepared: &Prepared<'_>, window_s: Option<f64>) -> Option<L
     let campaign = prepared.used();
     let columns = MotorColumns::of(campaign);
     let runs = campaign.runs.par_iter().zip(prepared.noise()).with_max_len(1);
-    let runs: Vec<Moving<'_>> = runs.map(|(run, noise)| Moving::of(run, noise)).collect();
+    let runs: Vec<Moving<'_>> =
+        runs.map(|(run, noise)| Moving::of(run, noise, columns.gravity)).collect();
     let fastest = runs.iter().map(Moving::fastest).fold(0.0, f64::max);
     let line = Line { campaign, columns: &columns, runs: &runs, fastest };
     let dry = Term::Plain(columns.count());
@@ -148,17 +149,18 @@ struct Moving<'a> {
     speed: Vec<f64>,
     /// Samples before each at which the motor stands.
     stood: Vec<u32>,
-    waves: SineAndCosine,
+    /// Where the campaign has gravity.
+    waves: Option<SineAndCosine>,
 }
 
 impl<'a> Moving<'a> {
-    fn of(run: &'a Run, noise: &'a RunNoise) -> Self {
+    fn of(run: &'a Run, noise: &'a RunNoise, gravity: bool) -> Self {
         let (motor, sample_s) = (run.motor(), run.sample_time_s());
         let smooth = smoothing(motor);
-        let mut phases = slip_phases(motor, smooth, sample_s);
+        let (velocity, mut phases) = velocity_and_phases(motor, smooth, sample_s);
         // What is shorter than the smoothing has no sure direction.
         phases.retain(|phase| phase.to - phase.from > smooth);
-        let speed: Vec<f64> = velocity(motor, smooth, sample_s).iter().map(|v| v.abs()).collect();
+        let speed: Vec<f64> = velocity.iter().map(|v| v.abs()).collect();
         let fastest = speed.iter().copied().fold(0.0, f64::max);
         let mut direction = vec![0.0; motor.len()];
         for phase in &phases {
@@ -185,7 +187,8 @@ impl<'a> Moving<'a> {
             count += u32::from(*d == 0.0);
             count
         }));
-        Self { run, noise, phases, direction, speed, stood, waves: SineAndCosine::of(motor) }
+        let waves = gravity.then(|| SineAndCosine::of(motor));
+        Self { run, noise, phases, direction, speed, stood, waves }
     }
 
     fn fastest(&self) -> f64 {
@@ -241,7 +244,7 @@ impl Line<'_> {
                 campaign: self.campaign,
                 run: moving.run,
                 columns: self.columns,
-                gravity: self.columns.gravity.then_some(&moving.waves),
+                gravity: moving.waves.as_ref(),
                 window,
             };
             let rows = LineRow { plain, direction: &moving.direction };

@@ -1,5 +1,6 @@
 //! How noisy a channel is: its sensor's step and the noise beyond it, from its samples alone.
 
+use crate::identify::prepare::channel_check::{least_difference, range};
 use crate::identify::prepare::thresholds::{STEP_MULTIPLES, STEP_WHOLE};
 
 /// Differences below this share of the range are rounding, not steps.
@@ -69,19 +70,16 @@ fn apart(x: &[f64]) -> usize {
 
 /// The sensor's step, or 0.
 fn step(x: &[f64]) -> f64 {
-    let (least, most) =
-        x.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
-    let floor = ROUNDING * (most - least);
-    let moves = |every: usize| {
-        x.windows(2).step_by(every).map(|w| (w[1] - w[0]).abs()).filter(|d| *d > floor)
-    };
-    let step = moves(1).fold(f64::INFINITY, f64::min);
+    let floor = ROUNDING * range(x);
+    let step = least_difference(x, floor);
     if !step.is_finite() {
         return 0.0;
     }
     let is_whole = |d: f64| (d / step - (d / step).round()).abs() < STEP_WHOLE;
-    let (whole, all) =
-        moves(apart(x)).fold((0, 0), |(whole, all), d| (whole + i32::from(is_whole(d)), all + 1));
+    let moves = x.windows(2).step_by(apart(x)).map(|w| (w[1] - w[0]).abs());
+    let (whole, all) = moves
+        .filter(|d| *d > floor)
+        .fold((0, 0), |(whole, all), d| (whole + i32::from(is_whole(d)), all + 1));
     if f64::from(whole) >= STEP_MULTIPLES * f64::from(all) { step } else { 0.0 }
 }
 

@@ -65,13 +65,14 @@ pub(crate) fn corrected_by_harmonics(
 /// Fundamental of the velocity's sign, of a motor with these harmonics.
 fn fundamental_of_sign(motor: &Harmonics) -> Complex64 {
     let sample = |k: usize| {
-        let phase = std::f64::consts::TAU * (k as f64 + 0.5) / SAMPLES as f64;
-        let velocity = |(h, p): (usize, &Phasor)| {
-            let h = (h + 1) as f64;
-            (Complex64::I * h * p.value * Complex64::from_polar(1.0, h * phase)).re
-        };
-        let velocity: f64 = motor.phasors.iter().enumerate().map(velocity).sum();
-        velocity.signum() * Complex64::from_polar(1.0, -phase)
+        let turn =
+            Complex64::from_polar(1.0, std::f64::consts::TAU * (k as f64 + 0.5) / SAMPLES as f64);
+        let (mut velocity, mut wave) = (0.0, turn);
+        for (h, p) in (1..).zip(&motor.phasors) {
+            velocity += (Complex64::I * f64::from(h) * p.value * wave).re;
+            wave *= turn;
+        }
+        velocity.signum() * turn.conj()
     };
     (0..SAMPLES).map(sample).sum::<Complex64>() * (2.0 / SAMPLES as f64)
 }

@@ -1,5 +1,7 @@
 //! The campaign's frequency responses: one point a sinusoidal run, bands of all other runs.
 
+use rayon::prelude::*;
+
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::{Finding, ResponseFinding, Severity, result_key as key};
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
@@ -31,7 +33,7 @@ pub(crate) fn response_table(
     findings: &[Finding],
 ) -> Vec<ResponsePoint> {
     let mut points: Vec<ResponsePoint> = runs
-        .iter()
+        .par_iter()
         .enumerate()
         .filter_map(|(index, run)| {
             let of_replay = replayed.sinusoidal.get(index).copied().flatten();

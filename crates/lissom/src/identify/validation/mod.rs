@@ -14,7 +14,8 @@ pub use cause::{Cause, CauseKind};
 pub use motion_fit::{ChannelFit, Horizon, PredictedStretch};
 pub use moved_mode::{MovedBy, MovedMode};
 pub use residual::ChannelResidual;
-pub(super) use torque::torque;
+use torque::torque;
+pub(super) use torque::torque_error;
 pub use torque::{TorquePrediction, TorqueRun, TorqueStretch};
 pub(super) use zeros::zeros;
 

@@ -113,42 +113,20 @@ pub(in crate::identify) fn torque(
     zeros: &[Vec<f64>],
     window_s: Option<f64>,
 ) -> Option<TorquePrediction> {
-    let without = arm.gravity.map(|load| load.taken_from(campaign));
-    let campaign = without.as_ref().unwrap_or(campaign);
-    let coupling = Coupling::new(arm, campaign)?;
-    let window_s = window_s.or_else(|| chosen_window_s(arm, campaign))?;
-    let masks = masks(campaign);
-    let predictor = Predictor { arm, campaign, zeros, coupling, window_s, masks: &masks };
-    let of_run = |run: usize| pulp::Arch::new().dispatch(OfRun { predictor: &predictor, run });
-    let runs = (0..campaign.runs.len()).into_par_iter().with_max_len(1);
-    let rows: Vec<RunRows> = runs.filter_map(of_run).collect();
-    let counted = || rows.iter().flat_map(|r| &r.rows).filter(|row| row.counts);
-    let (mut left, mut power, mut number) = ([0.0; 2], [0.0; 2], 0_usize);
-    for row in counted() {
-        let side = usize::from(row.velocity < 0.0);
-        left[side] += row.residual().powi(2);
-        power[side] += row.logged * row.logged;
-        number += 1;
-    }
-    let all: usize = rows.iter().map(|r| r.rows.len()).sum();
-    let total = power[0] + power[1];
-    if number == 0 || total <= 0.0 {
-        return None;
-    }
-    let causes = Causes::of(&rows.iter().map(|r| &r.causes).collect::<Vec<_>>());
-    let logged_nm = (total / number as f64).sqrt();
-    Some(TorquePrediction {
-        window_s,
-        half_power_hz: rows.first()?.half_power_hz,
-        relative_error: ((left[0] + left[1]) / total).sqrt(),
-        by_direction: [0, 1].map(|i| (power[i] > 0.0).then(|| (left[i] / power[i]).sqrt())),
-        logged_nm,
-        expected_error: None,
-        rest_share: 1.0 - number as f64 / all as f64,
-        stretches: rows.iter().flat_map(|r| r.stretches(logged_nm, window_s)).collect(),
-        runs: rows.into_par_iter().map(RunRows::told).collect(),
-        causes,
-    })
+    Predictor::with(arm, campaign, zeros, window_s, |predictor| predictor.predicted())?
+}
+
+/// Length of the window and [`TorquePrediction::relative_error`] of [`torque`], alone.
+pub(in crate::identify) fn torque_error(
+    arm: &ModalArm,
+    campaign: &Campaign,
+    zeros: &[Vec<f64>],
+) -> Option<(f64, f64)> {
+    Predictor::with(arm, campaign, zeros, None, |predictor| {
+        let sums = predictor.of_runs(|predictor, run| predictor.sums(run));
+        let [left, power] = sums.iter().fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
+        (power > 0.0).then(|| (predictor.window_s, (left / power).sqrt()))
+    })?
 }
 
 /// Whether the tips show the torque between motor and beam.
@@ -270,67 +248,111 @@ struct Predictor<'a> {
     masks: &'a [Masks],
 }
 
-/// The rows of one run, compiled for the widest registers that there are.
-struct OfRun<'a> {
+/// What `of` gives of one run, compiled for the widest registers that there are.
+struct OfRun<'a, F> {
     predictor: &'a Predictor<'a>,
     run: usize,
+    of: F,
 }
 
-impl pulp::WithSimd for OfRun<'_> {
-    type Output = Option<RunRows>;
+impl<T, F: Fn(&Predictor<'_>, usize) -> T> pulp::WithSimd for OfRun<'_, F> {
+    type Output = T;
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> Option<RunRows> {
-        self.predictor.rows(self.run)
+    fn with_simd<S: pulp::Simd>(self, _: S) -> T {
+        (self.of)(self.predictor, self.run)
     }
 }
 
-impl Predictor<'_> {
+impl<'a> Predictor<'a> {
+    /// What `of` gives of the prediction in windows of a length, or of one that is chosen.
+    fn with<T>(
+        arm: &'a ModalArm,
+        campaign: &Campaign,
+        zeros: &'a [Vec<f64>],
+        window_s: Option<f64>,
+        of: impl FnOnce(&Predictor<'_>) -> T,
+    ) -> Option<T> {
+        let without = arm.gravity.map(|load| load.taken_from(campaign));
+        let campaign = without.as_ref().unwrap_or(campaign);
+        let coupling = Coupling::new(arm, campaign)?;
+        let window_s = window_s.or_else(|| chosen_window_s(arm, campaign))?;
+        let masks = masks(campaign);
+        Some(of(&Predictor { arm, campaign, zeros, coupling, window_s, masks: &masks }))
+    }
+
+    /// What `of` gives of every run, some at the same time.
+    fn of_runs<T: Send>(&self, of: impl Fn(&Predictor<'_>, usize) -> Option<T> + Sync) -> Vec<T> {
+        let runs = (0..self.campaign.runs.len()).into_par_iter().with_max_len(1);
+        let of_run = |run: usize| {
+            let of = OfRun { predictor: self, run, of: &of };
+            pulp::Arch::new().dispatch(of)
+        };
+        runs.filter_map(of_run).collect()
+    }
+
+    fn predicted(&self) -> Option<TorquePrediction> {
+        let rows: Vec<RunRows> = self.of_runs(|predictor, run| predictor.rows(run));
+        let counted = || rows.iter().flat_map(|r| &r.rows).filter(|row| row.counts);
+        let (mut left, mut power, mut number) = ([0.0; 2], [0.0; 2], 0_usize);
+        for row in counted() {
+            let side = usize::from(row.velocity < 0.0);
+            left[side] += row.residual().powi(2);
+            power[side] += row.logged * row.logged;
+            number += 1;
+        }
+        let all: usize = rows.iter().map(|r| r.rows.len()).sum();
+        let total = power[0] + power[1];
+        if number == 0 || total <= 0.0 {
+            return None;
+        }
+        let causes = Causes::of(&rows.iter().map(|r| &r.causes).collect::<Vec<_>>());
+        let logged_nm = (total / number as f64).sqrt();
+        Some(TorquePrediction {
+            window_s: self.window_s,
+            half_power_hz: rows.first()?.half_power_hz,
+            relative_error: ((left[0] + left[1]) / total).sqrt(),
+            by_direction: [0, 1].map(|i| (power[i] > 0.0).then(|| (left[i] / power[i]).sqrt())),
+            logged_nm,
+            expected_error: None,
+            rest_share: 1.0 - number as f64 / all as f64,
+            stretches: rows.iter().flat_map(|r| r.stretches(logged_nm, self.window_s)).collect(),
+            runs: rows.into_par_iter().map(RunRows::told).collect(),
+            causes,
+        })
+    }
+
+    /// Squares of the residual and of the logged torque, summed over the rows of a run that count; `None` for a run that is
+    /// shorter than the window.
+    #[inline(always)]
+    fn sums(&self, index: usize) -> Option<[f64; 2]> {
+        let run = WindowedRun::new(self, index)?;
+        let mut sums = [0.0; 2];
+        for k in 0..run.windows() {
+            let (row, ..) = run.row(k);
+            if row.counts {
+                sums[0] += row.residual().powi(2);
+                sums[1] += row.logged * row.logged;
+            }
+        }
+        Some(sums)
+    }
+
     /// `None` for a run that is shorter than the window.
     #[inline(always)]
     fn rows(&self, index: usize) -> Option<RunRows> {
-        let run = &self.campaign.runs[index];
-        let t = run.sample_time_s();
-        let n = ((self.window_s / t).round() as usize).max(LEAST_SAMPLES).min(run.len());
-        if n + 2 > run.len() {
-            return None;
-        }
-        let command = &self.campaign.channels.command;
-        let kernel = Kernel::new(n, t, command.hold, self.arm.command_lag_s);
-        let speed = Speed::new(run, &kernel);
-        let samples = || 0..run.len();
-        let resting: Vec<f64> = samples().map(|i| if speed.moves(i) { 0.0 } else { 1.0 }).collect();
-        let bent: Vec<f64> = samples().map(|i| self.bent(run, &speed, i)).collect();
-        let [forward, backward] = self.arm.viscous_nm_s_per_rad;
-        let mean = 0.5 * (forward + backward);
-        let constant = command.torque_per_unit();
-        let unread = self.unread(index);
-        let shown = self.shown(index);
-        let sign = samples().map(|i| speed.sign(i)).collect();
+        let windowed = WindowedRun::new(self, index)?;
+        let WindowedRun { run, kernel, speed, .. } = &windowed;
+        let constant = self.campaign.channels.command.torque_per_unit();
+        let sign = (0..run.len()).map(|i| speed.sign(i)).collect();
         let mut causes = Causes::new(run, &speed.velocity, sign);
-        let mut rows = Vec::with_capacity(run.len() - n);
-        for k in 0..run.len() - n {
-            let motor = &run.motor()[k..];
-            let (velocity, acceleration) = (kernel.rate_of(motor), kernel.acceleration_of(motor));
-            let coupling = self.coupling_torque(index, &kernel, &shown, k);
-            let predicted = self.arm.inertia_kg_m2 * acceleration
-                + mean * velocity
-                + kernel.mean_of(&bent[k..])
-                + self.arm.offset_nm
-                + coupling;
-            let row = Row {
-                time_s: (k as f64 + 0.5 * n as f64) * t,
-                logged: constant * kernel.command(k, run.command()),
-                predicted,
-                velocity,
-                counts: kernel.mean_of(&resting[k..]) <= RESTING_SHARE
-                    && unread[k + n + 1] == unread[k]
-                    && self.logged(run, &kernel, k),
-            };
+        let mut rows = Vec::with_capacity(windowed.windows());
+        for k in 0..windowed.windows() {
+            let (row, acceleration, coupling) = windowed.row(k);
             if row.counts {
                 let by_delay = constant * kernel.rate_of(&run.command()[k..]);
-                let terms = [by_delay, acceleration, velocity, coupling];
-                causes.add(row.residual(), &kernel, k, terms);
+                let terms = [by_delay, acceleration, row.velocity, coupling];
+                causes.add(row.residual(), kernel, k, terms);
             }
             rows.push(row);
         }
@@ -405,8 +427,78 @@ impl Predictor<'_> {
     }
 }
 
+/// A run with what all of its rows need.
+struct WindowedRun<'a> {
+    predictor: &'a Predictor<'a>,
+    index: usize,
+    run: &'a Run,
+    kernel: Kernel,
+    speed: Speed,
+    /// One at samples at which the motor rests.
+    resting: Vec<f64>,
+    /// Friction beside the mean viscous one at every sample.
+    bent: Vec<f64>,
+    unread: Vec<usize>,
+    shown: Vec<Vec<f64>>,
+}
+
+impl<'a> WindowedRun<'a> {
+    /// `None` for a run that is shorter than the window.
+    #[inline(always)]
+    fn new(predictor: &'a Predictor<'a>, index: usize) -> Option<Self> {
+        let run = &predictor.campaign.runs[index];
+        let t = run.sample_time_s();
+        let n = ((predictor.window_s / t).round() as usize).max(LEAST_SAMPLES).min(run.len());
+        if n + 2 > run.len() {
+            return None;
+        }
+        let hold = predictor.campaign.channels.command.hold;
+        let kernel = Kernel::new(n, t, hold, predictor.arm.command_lag_s);
+        let speed = Speed::new(run, &kernel);
+        let samples = || 0..run.len();
+        let resting = samples().map(|i| if speed.moves(i) { 0.0 } else { 1.0 }).collect();
+        let bent = samples().map(|i| predictor.bent(run, &speed, i)).collect();
+        let (unread, shown) = (predictor.unread(index), predictor.shown(index));
+        Some(Self { predictor, index, run, kernel, speed, resting, bent, unread, shown })
+    }
+
+    fn windows(&self) -> usize {
+        self.run.len() - self.kernel.len()
+    }
+
+    /// The row of the window that begins at sample `k`, with the acceleration and the torque between motor and beam.
+    #[inline(always)]
+    fn row(&self, k: usize) -> (Row, f64, f64) {
+        let Self { predictor, run, kernel, .. } = self;
+        let (arm, n) = (predictor.arm, kernel.len());
+        let [forward, backward] = arm.viscous_nm_s_per_rad;
+        let mean = 0.5 * (forward + backward);
+        let constant = predictor.campaign.channels.command.torque_per_unit();
+        let acceleration = kernel.acceleration_of(&run.motor()[k..]);
+        let velocity = self.speed.rates[k];
+        let coupling = predictor.coupling_torque(self.index, kernel, &self.shown, k);
+        let predicted = arm.inertia_kg_m2 * acceleration
+            + mean * velocity
+            + kernel.mean_of(&self.bent[k..])
+            + arm.offset_nm
+            + coupling;
+        let row = Row {
+            time_s: (k as f64 + 0.5 * n as f64) * run.sample_time_s(),
+            logged: constant * kernel.command(k, run.command()),
+            predicted,
+            velocity,
+            counts: kernel.mean_of(&self.resting[k..]) <= RESTING_SHARE
+                && self.unread[k + n + 1] == self.unread[k]
+                && predictor.logged(run, kernel, k),
+        };
+        (row, acceleration, coupling)
+    }
+}
+
 /// The motor's velocity at every sample, under the window about it.
 struct Speed {
+    /// Under each window in turn.
+    rates: Vec<f64>,
     velocity: Vec<f64>,
     /// Below this it is not told from rest.
     least: f64,
@@ -421,7 +513,7 @@ impl Speed {
         let rates: Vec<f64> = rates.map(|k| kernel.rate_of(&run.motor()[k..])).collect();
         let velocity = (0..run.len()).map(|i| rates[at(i)]).collect();
         let least = MOVING * kernel.rate_noise() * channel_noise(run.motor()).std;
-        Self { velocity, least }
+        Self { rates, velocity, least }
     }
 
     fn moves(&self, i: usize) -> bool {

@@ -23,8 +23,9 @@ pub(in crate::identify) fn zeros(arm: &ModalArm, campaign: &Campaign) -> Vec<Vec
     let tips = campaign.channels.tips.len();
     let n = arm.modes.len();
     let square = n > 0 && arm.shapes.len() == n && tips == n;
-    let shapes = DMatrix::from_fn(n, n, |i, j| if square { arm.shapes[i][j] } else { 0.0 });
-    let Some(in_modes) = shapes.clone().try_inverse() else {
+    let shapes = square.then(|| DMatrix::from_fn(n, n, |i, j| arm.shapes[i][j]));
+    let inverse = |shapes: DMatrix<f64>| Some((shapes.clone().try_inverse()?, shapes));
+    let Some((in_modes, shapes)) = shapes.and_then(inverse) else {
         return vec![vec![0.0; tips]; campaign.runs.len()];
     };
     let masks = masks(campaign);

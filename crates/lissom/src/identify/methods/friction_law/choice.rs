@@ -57,6 +57,17 @@ pub(super) struct Choice {
 pub(super) struct Tried {
     pub(super) term: LawTerm,
     pub(super) terms: Vec<Term>,
+    /// What was found beside the terms that are taken, once it was looked for.
+    figures: Option<Option<Figures>>,
+}
+
+/// A candidate with its cost on phases left out; whether it is taken says all but what is left to the settled law.
+type Figures = (f64, LawCandidate);
+
+impl Tried {
+    fn new(term: LawTerm, terms: Vec<Term>) -> Self {
+        Self { term, terms, figures: None }
+    }
 }
 
 /// Adds one term after another while some are called for.
@@ -108,7 +119,7 @@ impl<'a> LawSearch<'a> {
         let first = fixed(sampled.campaign);
         let mut columns = Vec::new();
         let mut open = Vec::new();
-        for term in LawTerm::offered(fastest, sampled.after <= 0.0, sampled.load) {
+        for term in LawTerm::offered(fastest, sampled.after() <= 0.0, sampled.load) {
             let at = first + columns.len();
             columns.extend(term.columns());
             let terms = match term {
@@ -116,7 +127,7 @@ impl<'a> LawSearch<'a> {
                 LawTerm::CommandLag => vec![Term::Plain(at)],
                 _ => (at..first + columns.len()).map(Term::Signed).collect(),
             };
-            open.push(Tried { term, terms });
+            open.push(Tried::new(term, terms));
         }
         let rows = LawRows::of(sampled, &columns, &[], cut);
         let terms = MotorColumns::of(sampled.campaign).terms(Term::Signed(DRY));
@@ -142,9 +153,12 @@ impl<'a> LawSearch<'a> {
         let Some(before) = Held::of(&self.rows, &self.terms) else { return false };
         let mut best: Option<(f64, usize, LawCandidate)> = None;
         let mut shown: Vec<(f64, LawCandidate)> = Vec::new();
-        let tried = self.open.par_iter().map(|tried| self.figures(&before, tried));
-        for (i, figures) in tried.collect::<Vec<_>>().into_iter().enumerate() {
-            let Some((cost, candidate)) = figures else { continue };
+        let known = |tried: &Tried| tried.figures.unwrap_or_else(|| self.figures(&before, tried));
+        let figures: Vec<_> = self.open.par_iter().map(known).collect();
+        for (i, figures) in figures.into_iter().enumerate() {
+            self.open[i].figures = Some(figures);
+            let Some((cost, mut candidate)) = figures else { continue };
+            candidate.taken &= self.settled || candidate.term != LawTerm::CommandLag;
             if candidate.taken && best.as_ref().is_none_or(|b| cost < b.0) {
                 best = Some((cost, i, candidate));
             }
@@ -171,6 +185,7 @@ impl<'a> LawSearch<'a> {
         let Some((_, i, _)) = best else { return false };
         let taken = self.open.remove(i);
         self.terms.extend(&taken.terms);
+        self.forget_figures();
         // Root and near rest are two shapes of one thing.
         let by_speed = |t: &LawTerm| *t == LawTerm::Root || t.is_near_rest();
         let gone =
@@ -184,8 +199,13 @@ impl<'a> LawSearch<'a> {
         true
     }
 
+    /// To be called where the terms taken change.
+    pub(super) fn forget_figures(&mut self) {
+        self.open.iter_mut().for_each(|tried| tried.figures = None);
+    }
+
     /// Cost on phases left out, and all figures; `taken` says whether it may be.
-    fn figures(&self, before: &Held, tried: &Tried) -> Option<(f64, LawCandidate)> {
+    fn figures(&self, before: &Held, tried: &Tried) -> Option<Figures> {
         let mut terms = self.terms.clone();
         let first = terms.len();
         terms.extend(&tried.terms);
@@ -201,7 +221,7 @@ impl<'a> LawSearch<'a> {
         let (at_rest, at_rest_std) = self.at_rest(&solution, tried.term, first);
         let (least, allowed) = match tried.term {
             LawTerm::CommandLag => (LAG_FALLS_TO, self.lag_allowed(&late(amplitude))),
-            term if term.is_near_rest() && self.sampled.after > 0.0 => {
+            term if term.is_near_rest() && self.sampled.after() > 0.0 => {
                 (AFTER_TRAVEL_FALLS_TO, true)
             }
             _ => (RESIDUAL_FALLS_TO, true),
@@ -270,7 +290,7 @@ impl<'a> LawSearch<'a> {
     fn lag_allowed(&self, lag: &Estimate) -> bool {
         let runs = &self.sampled.campaign.runs;
         let sample_s = runs.iter().map(Run::sample_time_s).fold(f64::INFINITY, f64::min);
-        self.settled && lag.value > 0.0 && lag.std < LAG_KNOWN * sample_s
+        lag.value > 0.0 && lag.std < LAG_KNOWN * sample_s
     }
 
     /// Place of the first term beyond those of the motor's equation.
@@ -283,16 +303,14 @@ impl<'a> LawSearch<'a> {
         if self.taken.iter().any(|t| t.term.is_ripple()) {
             return;
         }
-        let value: Vec<f64> = self.solution.value.iter().copied().collect();
-        let Some(k) = ripple::strongest(self.sampled, &self.columns, &self.terms, &value) else {
-            return;
-        };
+        let left = self.rows.left(&self.terms, &self.solution.value);
+        let Some(k) = ripple::strongest(self.sampled, &left) else { return };
         let at = fixed(self.sampled.campaign) + self.columns.len();
         let term = LawTerm::Ripple { per_angle: k };
         self.columns.extend(term.columns());
         self.rows = self.rows.with_columns(self.sampled, &term.columns());
         let terms = vec![Term::Signed(at), Term::Signed(at + 1)];
-        self.open.push(Tried { term, terms });
+        self.open.push(Tried::new(term, terms));
     }
 
     fn fit(&self) -> LawFit {
@@ -316,8 +334,8 @@ impl<'a> LawSearch<'a> {
             terms.push((term, found));
             at += t.terms.len();
         }
-        if self.sampled.after > 0.0 {
-            terms.push((LawTerm::AfterTravel { travel: self.sampled.after }, Vec::new()));
+        if self.sampled.after() > 0.0 {
+            terms.push((LawTerm::AfterTravel { travel: self.sampled.after() }, Vec::new()));
         }
         LawFit {
             terms,

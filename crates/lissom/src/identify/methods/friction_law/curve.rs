@@ -11,7 +11,7 @@ use crate::identify::methods::friction_law::law_term::Column;
 use crate::identify::methods::friction_law::rows::{Cut, Sampled, fixed};
 use crate::identify::methods::friction_law::thresholds::KNOT_ROWS;
 use crate::identify::methods::output_error::OutputError;
-use crate::identify::methods::regression::{Cluster, Solution, Term, coupled_tips, solve};
+use crate::identify::methods::regression::{Cluster, Solution, Term, coupled_tips, values};
 use crate::replay::ModalArm;
 
 /// Ratio of one knot's speed to that of the next, from the fastest down.
@@ -130,7 +130,7 @@ impl CurveSums {
         let by_arm = found.variances(&|arm| {
             let known = self.known(arm)?;
             let totals = totals.each_ref().map(|sum| without_linear(sum, &known));
-            let figures = solve(&totals, terms)?.value;
+            let figures = values(&totals, terms)?;
             Some(figures.iter().map(|v| Complex64::new(*v, 0.0)).collect())
         })?;
         let variances: Vec<f64> = by_phases.iter().zip(by_arm).map(|(a, b)| a + b).collect();
@@ -218,7 +218,7 @@ fn without_linear(sums: &Cluster, known: &[(usize, f64)]) -> Cluster {
 /// Variance of every figure by leaving out one group of slip phases after another: residuals within a
 /// group may belong together as they like, and a few phases that carry much count fully.
 fn jackknife(rows: &LawRows, terms: &[Term], full: &Solution) -> Option<Vec<f64>> {
-    let phases = rows.blocks.iter().map(|b| b.phase + 1).max()?;
+    let phases = rows.blocks().iter().map(|b| b.phase + 1).max()?;
     let groups = phases.min(MOST_GROUPS);
     let sums = rows.sums(2 * groups, |b| 2 * (b.phase % groups) + usize::from(b.sign < 0.0));
     let sums: Vec<[Cluster; 2]> = sums.chunks(2).map(by_direction).collect();

@@ -20,13 +20,13 @@ impl Described {
         let noise = [1.0, -1.0].map(|sign| sampled.noise_powers(&self.by_column(sampled, sign)));
         let (columns, terms) = used(sampled.campaign, &self.columns, &self.terms);
         for (place, row) in sampled.rows(&columns, &[]).iter() {
-            let y = row[row.len() - 1];
+            let y = row.right();
             let explained: f64 = terms
                 .iter()
                 .zip(&self.value)
-                .map(|(t, v)| t.factor(place.sign) * row[t.column()] * v)
+                .map(|(t, v)| t.factor(place.sign) * row.column(t.column()) * v)
                 .sum();
-            let (rest, level) = (y - explained, place.sign * row[2]);
+            let (rest, level) = (y - explained, place.sign * row.column(2));
             left.square += rest * rest;
             left.noise += noise[usize::from(place.sign < 0.0)][place.run];
             left.power += y * y;

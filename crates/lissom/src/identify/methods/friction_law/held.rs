@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::identify::methods::friction_law::law_rows::{FOLDS, KINDS, LawRows};
-use crate::identify::methods::regression::{Cluster, Term, solve};
+use crate::identify::methods::regression::{Cluster, Term, values};
 
 /// Squared residuals on what was left out.
 pub(super) struct Held {
@@ -22,7 +22,7 @@ impl Held {
             value.as_ref().map_or(0.0, of)
         };
         let each = rows
-            .blocks
+            .blocks()
             .iter()
             .map(|block| cost(&folds[block.fold()], &|value| rows.squared(block, terms, value)));
         let of_kind = |kind: usize| by_direction(classes.iter().skip(kind).step_by(KINDS));
@@ -83,7 +83,7 @@ pub(super) fn without_each(
         add(&mut others, &after);
         add(&mut after, own);
         let rows: usize = own.iter().map(|c| c.rows).sum();
-        figures.push(if rows == 0 { None } else { Some(solve(&others, terms)?.value) });
+        figures.push(if rows == 0 { None } else { Some(values(&others, terms)?) });
     }
     figures.reverse();
     Some(figures)

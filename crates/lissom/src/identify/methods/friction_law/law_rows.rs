@@ -2,12 +2,13 @@
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::identify::methods::friction_law::law_term::Column;
-use crate::identify::methods::friction_law::rows::{Cut, RowTable, Sampled};
+use crate::identify::methods::friction_law::rows::{Cut, Sampled, WindowPlace};
 use crate::identify::methods::regression::{
     Cluster, NormalSums, ScoredEstimates, Scores, Solution, Term, solve_sums,
 };
@@ -16,6 +17,12 @@ use crate::identify::methods::regression::{
 pub(super) const KINDS: usize = 12;
 /// Phases are dealt to this many folds.
 pub(super) const FOLDS: usize = 5;
+
+/// Rows that are copied one after the other.
+const PART: usize = 1024;
+
+/// Phases whose scores are found one after the other.
+const PHASES_TOGETHER: usize = 64;
 
 /// Windows of one slip phase that are of one kind.
 #[derive(Debug, Clone)]
@@ -38,56 +45,80 @@ impl PhaseBlock {
 /// Rows of windows in order of their blocks, and sums of these.
 #[derive(Debug, Clone)]
 pub(super) struct LawRows {
-    pub(super) blocks: Vec<PhaseBlock>,
+    frame: Arc<Frame>,
     width: usize,
     values: Vec<f64>,
+    /// Sums by fold and kind.
+    classes: Vec<Cluster>,
+}
+
+/// What rows of the same windows have in common.
+#[derive(Debug)]
+struct Frame {
+    blocks: Vec<PhaseBlock>,
     /// Where each row is in the sampled windows.
     order: Vec<usize>,
     /// What the sensors' noise adds to the products of a row of each run, in its first columns.
     noise: Vec<DMatrix<f64>>,
-    /// Sums by fold and kind.
-    classes: Vec<Cluster>,
 }
 
 impl LawRows {
     pub(super) fn of(sampled: &Sampled<'_>, columns: &[Column], knots: &[f64], cut: &Cut) -> Self {
         let table = sampled.rows(columns, knots);
-        let (blocks, order) = in_blocks(&table, cut);
-        let values = order.iter().flat_map(|i| table.row(*i)).copied().collect();
+        let (blocks, order) = in_blocks(table.places, cut);
+        let values = filled(order.len(), table.width, |at, row| table.row(order[at]).copy_to(row));
         let runs = 0..sampled.campaign.runs.len();
         let noise = runs.map(|run| sampled.noise_of_row(run).clone()).collect();
-        let width = table.width;
-        let mut found = Self { blocks, width, values, order, noise, classes: Vec::new() };
-        found.classes = found.class_sums();
-        found
+        let frame = Arc::new(Frame { blocks, order, noise });
+        Self::with_values(frame, table.width, values)
     }
 
     /// The same with further columns, before the right side.
     pub(super) fn with_columns(&self, sampled: &Sampled<'_>, columns: &[Column]) -> Self {
-        let table = sampled.rows(columns, &[]);
-        let (own, first) = (self.width - 1, table.width - 1 - columns.len());
-        let rows = self.values.chunks_exact(self.width).zip(&self.order);
-        let longer = |(row, i): (&[f64], &usize)| [&row[..own], &table.row(*i)[first..]].concat();
-        self.with_values(self.width + columns.len(), rows.flat_map(longer).collect())
+        let further = sampled.columns(columns, &[]);
+        let (own, width) = (self.width - 1, self.width + columns.len());
+        let values = filled(self.frame.order.len(), width, |at, longer| {
+            let row = self.row(at);
+            longer[..own].copy_from_slice(&row[..own]);
+            longer[own..width - 1].copy_from_slice(further.row(self.frame.order[at]));
+            longer[width - 1] = row[own];
+        });
+        Self::with_values(Arc::clone(&self.frame), width, values)
     }
 
     /// The first `width` columns and the right side, some columns with the values of others: `(place, other)`.
     pub(super) fn exchanged(&self, width: usize, exchanged: &[(usize, usize)]) -> Self {
-        let shorter = |row: &[f64]| {
-            let mut shorter = [&row[..width], &row[self.width - 1..]].concat();
+        let values = filled(self.frame.order.len(), width + 1, |at, shorter| {
+            let row = self.row(at);
+            shorter[..width].copy_from_slice(&row[..width]);
+            shorter[width] = row[self.width - 1];
             for (place, other) in exchanged {
                 shorter[*place] = row[*other];
             }
-            shorter
-        };
-        let values = self.values.chunks_exact(self.width).flat_map(shorter).collect();
-        self.with_values(width + 1, values)
+        });
+        Self::with_values(Arc::clone(&self.frame), width + 1, values)
     }
 
-    fn with_values(&self, width: usize, values: Vec<f64>) -> Self {
-        let (blocks, order, noise) = (self.blocks.clone(), self.order.clone(), self.noise.clone());
-        let mut found = Self { blocks, width, values, order, noise, classes: Vec::new() };
+    fn with_values(frame: Arc<Frame>, width: usize, values: Vec<f64>) -> Self {
+        let mut found = Self { frame, width, values, classes: Vec::new() };
         found.classes = found.class_sums();
+        found
+    }
+
+    fn row(&self, at: usize) -> &[f64] {
+        &self.values[at * self.width..(at + 1) * self.width]
+    }
+
+    /// What every sampled window, in the order of these, leaves of its right side.
+    pub(super) fn left(&self, terms: &[Term], value: &DVector<f64>) -> Vec<f64> {
+        let mut found = vec![0.0; self.frame.order.len()];
+        for block in self.blocks() {
+            let taken = weights(terms, value, block.sign);
+            let order = &self.frame.order[block.rows.clone()];
+            for (row, window) in self.rows(block).zip(order) {
+                found[*window] = left(row, &taken);
+            }
+        }
         found
     }
 
@@ -97,15 +128,24 @@ impl LawRows {
         solve_sums(&sums, |estimates| self.scores(terms, estimates))
     }
 
+    /// ‖y − X·q‖/‖y‖ of [`Self::solved`].
+    pub(super) fn relative_residual(&self, terms: &[Term]) -> Option<f64> {
+        NormalSums::of(&self.classes, terms)?.relative_residual()
+    }
+
+    pub(super) fn blocks(&self) -> &[PhaseBlock] {
+        &self.frame.blocks
+    }
+
     /// Sums of the blocks of each group.
     pub(super) fn sums(&self, groups: usize, group: impl Fn(&PhaseBlock) -> usize) -> Vec<Cluster> {
-        let blocks = self.blocks.iter().map(|block| (group(block), block)).collect::<Vec<_>>();
+        let blocks = self.blocks().iter().map(|block| (group(block), block)).collect::<Vec<_>>();
         pulp::Arch::new().dispatch(Sums { rows: self, blocks: &blocks, groups })
     }
 
     fn class_sums(&self) -> Vec<Cluster> {
         let of_fold = |fold: usize| {
-            let blocks = self.blocks.iter().filter(|b| b.fold() == fold);
+            let blocks = self.blocks().iter().filter(|b| b.fold() == fold);
             let blocks: Vec<_> = blocks.map(|block| (block.kind, block)).collect();
             pulp::Arch::new().dispatch(Sums { rows: self, blocks: &blocks, groups: KINDS })
         };
@@ -147,13 +187,14 @@ impl LawRows {
             let factors: Vec<(usize, f64)> =
                 terms.iter().map(|t| (t.column(), t.factor(sign))).collect();
             let of_noise: Vec<DVector<f64>> =
-                self.noise.iter().map(|noise| of_noise(noise, &factors, estimates)).collect();
+                self.frame.noise.iter().map(|noise| of_noise(noise, &factors, estimates)).collect();
             (weights(terms, &estimates.value, sign), factors, of_noise)
         });
-        let phases = self.blocks.chunk_by(|a, b| a.phase == b.phase);
-        let mut by_cluster = DMatrix::zeros(p, phases.clone().count());
-        let mut by_run = DMatrix::zeros(p, self.noise.len());
-        for (blocks, mut score) in phases.zip(by_cluster.column_iter_mut()) {
+        let phases: Vec<&[PhaseBlock]> =
+            self.blocks().chunk_by(|a, b| a.phase == b.phase).collect();
+        let mut by_cluster = DMatrix::zeros(p, phases.len());
+        let columns = by_cluster.as_mut_slice().par_chunks_mut(p);
+        let of_phase = |(score, blocks): (&mut [f64], &&[PhaseBlock])| {
             let (run, sign) = (blocks[0].run, blocks[0].sign);
             let (taken, factors, of_noise) = &sides[usize::from(sign > 0.0)];
             let mut count = 0.0;
@@ -164,8 +205,13 @@ impl LawRows {
                 }
                 count += 1.0;
             }
-            score.axpy(count, &of_noise[run], 1.0);
-            let mut of_run = by_run.column_mut(run);
+            let of_noise = of_noise[run].iter();
+            score.iter_mut().zip(of_noise).for_each(|(score, noise)| *score += count * noise);
+        };
+        columns.zip(&phases).with_min_len(PHASES_TOGETHER).for_each(of_phase);
+        let mut by_run = DMatrix::zeros(p, self.frame.noise.len());
+        for (blocks, score) in phases.iter().zip(by_cluster.column_iter()) {
+            let mut of_run = by_run.column_mut(blocks[0].run);
             of_run += score;
         }
         Scores { by_cluster, by_run, normals: Vec::new() }
@@ -200,7 +246,7 @@ impl pulp::WithSimd for Sums<'_> {
                     }
                 }
             }
-            let of_row = &rows.noise[block.run];
+            let of_row = &rows.frame.noise[block.run];
             let own = of_row.nrows();
             let mut noise = sum.noise.view_mut((0, 0), (own, own));
             noise.zip_apply(of_row, |sum, of_row| *sum += of_row * block.rows.len() as f64);
@@ -212,12 +258,23 @@ impl pulp::WithSimd for Sums<'_> {
     }
 }
 
-/// The blocks of a table's rows, and the numbers of the rows in their order.
-fn in_blocks(table: &RowTable, cut: &Cut) -> (Vec<PhaseBlock>, Vec<usize>) {
+/// A table of rows, each filled with `fill`.
+fn filled(rows: usize, width: usize, fill: impl Fn(usize, &mut [f64]) + Sync) -> Vec<f64> {
+    let mut values = vec![0.0; rows * width];
+    let parts = values.par_chunks_mut(PART * width).enumerate();
+    parts.for_each(|(part, values)| {
+        let rows = values.chunks_exact_mut(width).enumerate();
+        rows.for_each(|(i, row)| fill(part * PART + i, row));
+    });
+    values
+}
+
+/// The blocks of windows in these places, and the numbers of the rows in their order.
+fn in_blocks(places: &[WindowPlace], cut: &Cut) -> (Vec<PhaseBlock>, Vec<usize>) {
     let mut blocks: Vec<PhaseBlock> = Vec::new();
     let mut first_of_phase = 0;
-    let mut placed: Vec<(usize, usize)> = Vec::with_capacity(table.places.len());
-    for (i, place) in table.places.iter().enumerate() {
+    let mut placed: Vec<(usize, usize)> = Vec::with_capacity(places.len());
+    for (i, place) in places.iter().enumerate() {
         let kind = cut.kind(place);
         if blocks.last().is_some_and(|b| b.phase != place.phase) {
             first_of_phase = blocks.len();

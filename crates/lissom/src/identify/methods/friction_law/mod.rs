@@ -36,12 +36,12 @@ use crate::identify::methods::friction_law::thresholds::{
     TRAVEL_AFTER_REVERSAL,
 };
 use crate::identify::methods::output_error::OutputError;
-use crate::identify::methods::regression::{MissingKind, MotorRegression};
+use crate::identify::methods::regression::{MissingKind, MotorRegression, smoothing};
 use crate::identify::prepare::channel_noise::{ChannelNoise, channel_noise};
 use crate::identify::prepare::prepared::Prepared;
-use crate::identify::prepare::run_noise::RunNoise;
 use crate::identify::thresholds::{RESIDUAL_FALLS_TO, SIGN_SHOWN};
 use crate::record::{Campaign, Run};
+use choice::Choice;
 use described::Described;
 use rows::{Cut, Sampled};
 
@@ -170,112 +170,133 @@ pub(crate) fn friction_law(
     let (campaign, noise) = (prepared.used(), prepared.noise());
     let runs = campaign.runs.par_iter().with_max_len(1);
     let sensors: Vec<ChannelNoise> = runs.map(|run| channel_noise(run.motor())).collect();
-    let window_s = window_s(campaign, motor, inertia, (noise, &sensors));
+    let runs = campaign.runs.par_iter().with_max_len(1);
+    let smoothings: Vec<usize> = runs.map(|run| smoothing(run.motor())).collect();
+    let windows_of = |window_s: f64| Sampled::new(campaign, noise, &smoothings, window_s);
     let step = sensors.iter().map(|sensor| sensor.step).fold(0.0, f64::max);
     let load = motor.gravity.map(|g| g.load());
-    let in_windows = |window_s: f64| {
-        let mut sampled = Sampled::new(campaign, noise, window_s);
-        (sampled.load, sampled.step) = (load, step);
-        sampled
-    };
-    let mut sampled = in_windows(window_s);
-    let (mut law, mut sums, mut described) = under(&sampled)?;
+    let mut sampled = short_windows(&windows_of, campaign, motor, (inertia, &sensors));
+    (sampled.load, sampled.step) = (load, step);
+    let found = UnderLaw::of(&sampled)?;
+    let (mut law, mut sums) = found.with_curve(&sampled)?;
+    let mut described = found.choice.described;
     // Noise may hide in windows so short what the regression's own show.
     let by_speed = motor.missing.is_some_and(|m| m.kind == MissingKind::Stribeck);
-    if by_speed && !law.chosen.departs() && window_s < motor.window_s {
-        let longer = in_windows(motor.window_s);
-        if let Some(found) = under(&longer).filter(|(law, ..)| law.chosen.departs()) {
-            (law, sums, described) = found;
+    if by_speed && !law.chosen.departs() && sampled.window_s < motor.window_s {
+        let mut longer = windows_of(motor.window_s);
+        (longer.load, longer.step) = (load, step);
+        let found = UnderLaw::of(&longer).filter(|found| found.choice.fit.departs());
+        if let Some((with_curve, found)) = found.and_then(|f| Some((f.with_curve(&longer)?, f))) {
+            (law, sums) = with_curve;
+            described = found.choice.described;
             sampled = longer;
         }
     }
     if described.left(&sampled).beyond_noise() < NOTHING_LEFT {
         return Some((law, sums));
     }
-    Some(after_travel(&mut sampled, &described).unwrap_or((law, sums)))
+    Some(after_travel(&sampled, &described).unwrap_or((law, sums)))
 }
 
 /// The same without what follows reversals, where it describes the rest far better than the law of all
 /// windows does: bristles (presliding), a soft transmission or a sensor's play let friction grow over some
 /// travel, and no function of speed does.
-fn after_travel(sampled: &mut Sampled<'_>, whole: &Described) -> Option<(FrictionLaw, CurveSums)> {
+fn after_travel(sampled: &Sampled<'_>, whole: &Described) -> Option<(FrictionLaw, CurveSums)> {
     let travels = sampled.travels();
     let usual = *travels.get(travels.len() / 2)?;
     let windows = sampled.places().len();
-    let mut tried: Vec<(FrictionLaw, CurveSums)> = Vec::new();
-    let mut worth = false;
-    for share in TRAVEL_AFTER_REVERSAL {
-        sampled.after = share * usual;
-        if sampled.places().len() < windows / 2 {
-            break;
+    let shares = TRAVEL_AFTER_REVERSAL.into_par_iter().with_max_len(1);
+    let tried = shares.map(|share| {
+        let after = sampled.beginning_after(share * usual);
+        if after.places().len() < windows / 2 {
+            return None;
         }
-        let Some((law, sums, described)) = under(sampled) else { continue };
-        let (with, without) = (described.left(sampled), whole.left(sampled));
-        sampled.after = 0.0;
-        let less = -described.left(sampled).more_friction_without(&with);
-        if law.chosen.may_grow_by(less) {
+        let found = UnderLaw::of(&after);
+        let found = found.and_then(|found| {
+            let described = &found.choice.described;
+            let (with, without) = (described.left(&after), whole.left(&after));
+            let less = -described.left(sampled).more_friction_without(&with);
             // On the same windows: without some, little may be left of what was never to be explained.
-            worth |= with.beyond_noise() < AFTER_TRAVEL_LEAVES * without.beyond_noise()
+            let worth = with.beyond_noise() < AFTER_TRAVEL_LEAVES * without.beyond_noise()
                 && with.relative() < RESIDUAL_FALLS_TO * without.relative();
-            tried.push((law, sums));
-        }
+            found.choice.fit.may_grow_by(less).then_some((found, worth))
+        });
+        Some((after, found))
+    });
+    // Of longer travels there are fewer windows yet.
+    let tried = tried.collect::<Vec<_>>().into_iter().map_while(|tried| tried);
+    let tried = tried.filter_map(|(after, found)| Some((after, found?)));
+    let mut tried: Vec<_> = tried.collect();
+    tried.iter().any(|(_, (_, worth))| *worth).then_some(())?;
+    tried.sort_by(|(_, (a, _)), (_, (b, _))| a.choice.residual.total_cmp(&b.choice.residual));
+    tried.iter().find_map(|(after, (found, _))| found.with_curve(after))
+}
+
+/// The law of some windows, before the curve.
+struct UnderLaw {
+    choice: Choice,
+    cut: Cut,
+    /// Of the windows, ascending.
+    speeds: Vec<f64>,
+}
+
+impl UnderLaw {
+    fn of(sampled: &Sampled<'_>) -> Option<Self> {
+        let places = sampled.places();
+        let mut speeds: Vec<f64> = places.iter().map(|p| p.speed).collect();
+        let mut angles: Vec<f64> = places.iter().map(|p| p.angle).collect();
+        rayon::join(
+            || speeds.sort_unstable_by(f64::total_cmp),
+            || angles.sort_unstable_by(f64::total_cmp),
+        );
+        let quantile = |x: &[f64], q: f64| x.get((q * x.len() as f64) as usize).copied();
+        let fastest = quantile(&speeds, FASTEST_QUANTILE).filter(|v| *v > 0.0)?;
+        let cut = Cut {
+            middle: quantile(&angles, 0.5)?,
+            thirds: [quantile(&speeds, 1.0 / 3.0)?, quantile(&speeds, 2.0 / 3.0)?],
+        };
+        let choice = choice::choose(sampled, &cut, fastest)?;
+        Some(Self { choice, cut, speeds })
     }
-    let left = |(law, _): &(FrictionLaw, CurveSums)| law.relative_residual[1];
-    let best = tried.into_iter().min_by(|a, b| left(a).total_cmp(&left(b)));
-    best.filter(|_| worth)
+
+    /// The law with the curve, and the sums that the curve is from.
+    fn with_curve(&self, sampled: &Sampled<'_>) -> Option<(FrictionLaw, CurveSums)> {
+        let Self { choice, cut, speeds } = self;
+        let (columns, terms) = &choice.beside;
+        let sums = CurveSums::new(sampled, cut, speeds, (columns, terms))?;
+        let (curve, by_curve) = sums.by_phases()?;
+        let law = FrictionLaw {
+            window_s: sampled.window_s,
+            speed_range: [*speeds.first()?, *speeds.last()?],
+            curve,
+            relative_residual: [choice.simplest, choice.residual, by_curve],
+            candidates: choice.candidates.clone(),
+            chosen: choice.fit.clone(),
+        };
+        Some((law, sums))
+    }
 }
 
-/// Curve and law of some windows.
-fn under(sampled: &Sampled<'_>) -> Option<(FrictionLaw, CurveSums, Described)> {
-    let window_s = sampled.window_s;
-    let places = sampled.places();
-    let mut speeds: Vec<f64> = places.iter().map(|p| p.speed).collect();
-    let mut angles: Vec<f64> = places.iter().map(|p| p.angle).collect();
-    rayon::join(|| speeds.sort_by(f64::total_cmp), || angles.sort_by(f64::total_cmp));
-    let quantile = |x: &[f64], q: f64| x.get((q * x.len() as f64) as usize).copied();
-    let fastest = quantile(&speeds, FASTEST_QUANTILE).filter(|v| *v > 0.0)?;
-    let cut = Cut {
-        middle: quantile(&angles, 0.5)?,
-        thirds: [quantile(&speeds, 1.0 / 3.0)?, quantile(&speeds, 2.0 / 3.0)?],
-    };
-    let choice = choice::choose(sampled, &cut, fastest)?;
-    let (columns, terms) = &choice.beside;
-    let sums = CurveSums::new(sampled, &cut, &speeds, (columns, terms))?;
-    let (curve, by_curve) = sums.by_phases()?;
-    let law = FrictionLaw {
-        window_s,
-        speed_range: [*speeds.first()?, *speeds.last()?],
-        curve,
-        relative_residual: [choice.simplest, choice.residual, by_curve],
-        candidates: choice.candidates,
-        chosen: choice.fit,
-    };
-    Some((law, sums, choice.described))
-}
-
-/// The shortest window in which the motor's sensor makes no more than [`TORQUE_OF_NOISE`] of the torque, and no
+/// The shortest windows in which the motor's sensor makes no more than [`TORQUE_OF_NOISE`] of the torque, and no
 /// longer than the regression's.
-fn window_s(
+fn short_windows<'a>(
+    windows_of: impl Fn(f64) -> Sampled<'a>,
     campaign: &Campaign,
     motor: &MotorRegression,
-    inertia: f64,
-    (noise, sensors): (&[RunNoise], &[ChannelNoise]),
-) -> f64 {
+    (inertia, sensors): (f64, &[ChannelNoise]),
+) -> Sampled<'a> {
     let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     // White noise σ in the angle makes σ·√T of every scaled row.
     let of_run = |(run, sensor): (&Run, &ChannelNoise)| sensor.std * run.sample_time_s().sqrt();
     let sensor = campaign.runs.iter().zip(sensors).map(of_run).fold(0.0, f64::max);
     let mut window_s = LEAST_SAMPLES * sample_s;
-    while window_s * LONGER < motor.window_s {
-        let (mut power, mut rows) = (0.0, 0.0);
-        for (_, row) in Sampled::new(campaign, noise, window_s).rows(&[], &[]).iter() {
-            power += row.last().map_or(0.0, |y| y * y);
-            rows += 1.0;
-        }
-        if rows > 0.0 && inertia.abs() * sensor < TORQUE_OF_NOISE * (power / rows).sqrt() {
-            break;
+    loop {
+        let sampled = windows_of(window_s);
+        let little = |power: f64| inertia.abs() * sensor < TORQUE_OF_NOISE * power.sqrt();
+        let longest = window_s * LONGER >= motor.window_s;
+        if longest || sampled.power().is_some_and(little) {
+            return sampled;
         }
         window_s *= LONGER;
     }
-    window_s
 }

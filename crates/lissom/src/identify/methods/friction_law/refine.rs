@@ -85,6 +85,7 @@ impl LawSearch<'_> {
         };
         (self.rows, self.terms, self.solution) = (rows, terms, solution);
         self.taken[found].terms.push(turned);
+        self.forget_figures();
     }
 
     /// Puts the one of `others` with which least is left in the place of a term that was taken.
@@ -99,10 +100,13 @@ impl LawSearch<'_> {
             self.terms.iter().map(of).collect()
         };
         let near_rest = self.taken[found].term.is_near_rest();
+        let stands = |terms: &[Term]| {
+            !near_rest || rows.solved(terms).is_some_and(|s| self.is_within_data(&s))
+        };
         let left = |i: usize| {
-            let solution = rows.solved(&in_place(i))?;
-            let stands = !near_rest || self.is_within_data(&solution);
-            stands.then_some((i, solution.relative_residual))
+            let terms = in_place(i);
+            let left = stands(&terms).then(|| rows.relative_residual(&terms)).flatten()?;
+            Some((i, left))
         };
         let tried: Vec<_> = (0..others.len()).into_par_iter().map(left).collect();
         let best = tried.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1));
@@ -119,5 +123,6 @@ impl LawSearch<'_> {
             self.solution = solution;
         }
         self.taken[found].term = others[i].0;
+        self.forget_figures();
     }
 }

@@ -3,9 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::identify::methods::friction_law::law_term::Column;
-use crate::identify::methods::friction_law::rows::{Sampled, used};
-use crate::identify::methods::regression::Term;
+use crate::identify::methods::friction_law::rows::Sampled;
 
 /// Longest period looked at, as a share of the travel, and points per one more period in it.
 const LEAST_PERIODS: f64 = 1.0;
@@ -17,20 +15,12 @@ const MOST: usize = 400;
 const ROWS: usize = 6000;
 
 /// The spatial frequency, in radians per unit of angle, at which friction's residual over the angle is
-/// largest; `None` where the travel is too short.
-pub(super) fn strongest(
-    sampled: &Sampled<'_>,
-    columns: &[Column],
-    terms: &[Term],
-    value: &[f64],
-) -> Option<f64> {
-    let mut left: Vec<(f64, f64)> = Vec::new();
+/// largest, of windows whose rows leave `residual`; `None` where the travel is too short.
+pub(super) fn strongest(sampled: &Sampled<'_>, residual: &[f64]) -> Option<f64> {
+    let mut left: Vec<(f64, f64)> = Vec::with_capacity(residual.len());
     let mut speed = 0.0;
-    let (columns, terms) = used(sampled.campaign, columns, terms);
-    for (place, row) in sampled.rows(&columns, &[]).iter() {
-        let explained: f64 =
-            terms.iter().zip(value).map(|(t, v)| t.factor(place.sign) * row[t.column()] * v).sum();
-        left.push((place.angle, place.sign * (row[row.len() - 1] - explained)));
+    for (place, residual) in sampled.places().iter().zip(residual) {
+        left.push((place.angle, place.sign * residual));
         speed += place.speed;
     }
     speed /= left.len() as f64;

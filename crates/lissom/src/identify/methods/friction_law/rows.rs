@@ -2,6 +2,8 @@
 
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
 
+use std::sync::{Arc, OnceLock};
+
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -9,7 +11,7 @@ use crate::identify::methods::friction_law::column_values::ColumnValues;
 use crate::identify::methods::friction_law::law_term::{Column, LawTerm, ScaleUnit};
 use crate::identify::methods::regression::{
     MotorColumns, MotorEquation, Phase, Rows, SMOOTHED_PART, SineAndCosine, Term, WINDOW_STEP,
-    Window, slip_phases, smoothing, velocity,
+    Window, velocity_and_phases,
 };
 use crate::identify::prepare::run_noise::RunNoise;
 use crate::load::GravityLoad;
@@ -45,31 +47,64 @@ impl Cut {
     }
 }
 
-/// Rows of windows, one after the other.
-pub(super) struct RowTable {
-    pub(super) places: Vec<WindowPlace>,
+/// A window's row: what the motor's regression has, then the columns asked for, then the right side.
+#[derive(Clone, Copy)]
+pub(super) struct LawRow<'a> {
+    /// Of the motor's equation, its right side last.
+    equation: &'a [f64],
+    further: &'a [f64],
+}
+
+impl LawRow<'_> {
+    pub(super) fn column(&self, index: usize) -> f64 {
+        let own = self.equation.len() - 1;
+        if index < own { self.equation[index] } else { self.further[index - own] }
+    }
+
+    pub(super) fn right(&self) -> f64 {
+        self.equation[self.equation.len() - 1]
+    }
+
+    pub(super) fn copy_to(&self, row: &mut [f64]) {
+        let own = self.equation.len() - 1;
+        let last = row.len() - 1;
+        row[..own].copy_from_slice(&self.equation[..own]);
+        row[own..last].copy_from_slice(self.further);
+        row[last] = self.right();
+    }
+}
+
+/// Rows of all windows, one after the other.
+pub(super) struct RowTable<'a> {
+    pub(super) places: &'a [WindowPlace],
     pub(super) width: usize,
+    equation: &'a [f64],
+    further: ColumnTable,
+}
+
+impl RowTable<'_> {
+    /// Every window's place and row.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (&WindowPlace, LawRow<'_>)> {
+        self.places.iter().enumerate().map(|(i, place)| (place, self.row(i)))
+    }
+
+    pub(super) fn row(&self, index: usize) -> LawRow<'_> {
+        let own = self.width - self.further.count;
+        let equation = &self.equation[index * own..(index + 1) * own];
+        LawRow { equation, further: self.further.row(index) }
+    }
+}
+
+/// Some columns of all windows, row by row.
+pub(super) struct ColumnTable {
+    count: usize,
     values: Vec<f64>,
 }
 
-impl RowTable {
-    /// Every window's place and row: what the motor's regression has, then the columns asked for, then the right side.
-    pub(super) fn iter(&self) -> impl Iterator<Item = (&WindowPlace, &[f64])> {
-        self.places.iter().zip(self.values.chunks_exact(self.width))
-    }
-
+impl ColumnTable {
     pub(super) fn row(&self, index: usize) -> &[f64] {
-        &self.values[index * self.width..(index + 1) * self.width]
+        &self.values[index * self.count..(index + 1) * self.count]
     }
-}
-
-/// A window in a slip phase.
-#[derive(Clone, Copy)]
-struct WindowStart {
-    run: usize,
-    phase: usize,
-    sign: f64,
-    first: usize,
 }
 
 /// The columns that terms use, and the terms with the places of these.
@@ -100,13 +135,23 @@ pub(super) fn fixed(campaign: &Campaign) -> usize {
 pub(super) struct Sampled<'a> {
     pub(super) campaign: &'a Campaign,
     pub(super) window_s: f64,
-    /// Travel since a reversal: windows that begin within it are left out.
-    pub(super) after: f64,
     /// Gravity's load as the regression has it, where it acts.
     pub(super) load: Option<GravityLoad>,
     /// Largest step of the motor's sensor; zero where none shows.
     pub(super) step: f64,
-    runs: Vec<Slipping>,
+    runs: Arc<Vec<Slipping>>,
+    windows: Windows,
+    /// Rows of the motor's equation, the right side last, once they were asked for.
+    equation: OnceLock<Vec<f64>>,
+}
+
+/// Every window of each run.
+struct Windows {
+    /// Travel since a reversal: windows that begin within it are left out.
+    after: f64,
+    /// First samples.
+    starts: Vec<Vec<usize>>,
+    places: Vec<WindowPlace>,
 }
 
 /// What the windows of one run have in common.
@@ -123,14 +168,20 @@ struct Slipping {
 }
 
 impl<'a> Sampled<'a> {
-    pub(super) fn new(campaign: &'a Campaign, noise: &[RunNoise], window_s: f64) -> Self {
+    /// `smoothings` are what [`smoothing`] finds in the runs.
+    pub(super) fn new(
+        campaign: &'a Campaign,
+        noise: &[RunNoise],
+        smoothings: &[usize],
+        window_s: f64,
+    ) -> Self {
         let columns = MotorColumns::of(campaign);
-        let of = |(run, noise): (&Run, &RunNoise)| {
+        let of = |((run, noise), smoothing): ((&Run, &RunNoise), &usize)| {
             let t = run.sample_time_s();
-            let smooth = smooth(run, window_s);
             let n = (window_s / t).round() as usize;
             let window = (4..run.len()).contains(&n).then(|| Window::new(n, t));
-            let mut phases = slip_phases(run.motor(), smooth, t);
+            let (velocity, mut phases) =
+                velocity_and_phases(run.motor(), smooth(run, *smoothing, window_s), t);
             phases.retain(|phase| phase.to - phase.from > n);
             let noise = window.as_ref().map_or_else(
                 || DMatrix::zeros(0, 0),
@@ -140,10 +191,29 @@ impl<'a> Sampled<'a> {
                 },
             );
             let gravity = columns.gravity.then(|| SineAndCosine::of(run.motor()));
-            Slipping { velocity: velocity(run.motor(), smooth, t), phases, window, noise, gravity }
+            Slipping { velocity, phases, window, noise, gravity }
         };
-        let runs = campaign.runs.par_iter().zip(noise).with_max_len(1).map(of).collect();
-        Self { campaign, window_s, after: 0.0, load: None, step: 0.0, runs }
+        let runs = campaign.runs.par_iter().zip(noise).zip(smoothings).with_max_len(1);
+        let runs: Vec<Slipping> = runs.map(of).collect();
+        let windows = Windows::of(campaign, &runs, 0.0);
+        let equation = OnceLock::new();
+        let runs = Arc::new(runs);
+        Self { campaign, window_s, load: None, step: 0.0, runs, windows, equation }
+    }
+
+    /// The same without windows that begin within so much travel since a reversal.
+    pub(super) fn beginning_after(&self, travel: f64) -> Self {
+        Self {
+            runs: Arc::clone(&self.runs),
+            windows: Windows::of(self.campaign, &self.runs, travel),
+            equation: OnceLock::new(),
+            ..*self
+        }
+    }
+
+    /// Travel since a reversal within which no window begins.
+    pub(super) fn after(&self) -> f64 {
+        self.windows.after
     }
 
     /// What the sensors' noise adds to the square of a row's sum of columns, in each run.
@@ -175,63 +245,87 @@ impl<'a> Sampled<'a> {
             gone.collect::<Vec<_>>()
         };
         let mut found: Vec<f64> =
-            self.campaign.runs.iter().zip(&self.runs).flat_map(of_run).collect();
+            self.campaign.runs.iter().zip(self.runs.iter()).flat_map(of_run).collect();
         found.sort_by(f64::total_cmp);
         found
     }
 
-    /// Every window of each run.
-    fn windows(&self) -> Vec<Vec<WindowStart>> {
-        let samples: usize = self.campaign.runs.iter().map(Run::len).sum();
-        let mut phase = 0;
-        let of_run = |(run, slipping): (usize, &Slipping)| {
-            let mut found = Vec::new();
-            let n = slipping.window.as_ref().map_or(usize::MAX, Window::len);
-            let step = ((n as f64 * WINDOW_STEP) as usize).max(samples / MOST_ROWS).max(1);
-            let motor = self.campaign.runs[run].motor();
-            for Phase { from, to, sign } in slipping.phases.iter().filter(|p| p.to - p.from > n) {
-                let gone = |k: &usize| (motor[*k] - motor[*from]).abs();
-                let Some(begin) = (*from..to - n).find(|k| gone(k) >= self.after) else { continue };
-                let starts = (begin..to - n).step_by(step);
-                found.extend(starts.map(|first| WindowStart { run, phase, sign: *sign, first }));
-                phase += 1;
-            }
-            found
-        };
-        self.runs.iter().enumerate().map(of_run).collect()
-    }
-
     /// Where every window lies.
-    pub(super) fn places(&self) -> Vec<WindowPlace> {
-        self.places_of(&self.windows())
-    }
-
-    fn places_of(&self, windows: &[Vec<WindowStart>]) -> Vec<WindowPlace> {
-        windows.par_iter().flat_map_iter(|w| w.iter().map(|w| self.place(w))).collect()
-    }
-
-    fn place(&self, start: &WindowStart) -> WindowPlace {
-        let WindowStart { run, phase, sign, first } = *start;
-        let sample = first + self.runs[run].window.as_ref().map_or(0, Window::len) / 2;
-        let speed = self.runs[run].velocity[sample].abs();
-        WindowPlace { run, phase, sign, speed, angle: self.campaign.runs[run].motor()[sample] }
+    pub(super) fn places(&self) -> &[WindowPlace] {
+        &self.windows.places
     }
 
     /// Every window's row: what the motor's regression has, then `columns`, then the right side.
-    pub(super) fn rows(&self, columns: &[Column], knots: &[f64]) -> RowTable {
+    pub(super) fn rows(&self, columns: &[Column], knots: &[f64]) -> RowTable<'_> {
         let own = MotorColumns::of(self.campaign);
-        let windows = self.windows();
-        let of_part = |windows: &&[WindowStart]| {
-            let rows = PartRows { sampled: self, own: &own, windows, columns, knots };
-            pulp::Arch::new().dispatch(rows)
-        };
-        let parts: Vec<_> = windows.iter().flat_map(|of_run| of_run.chunks(PART)).collect();
-        let values: Vec<Vec<f64>> = parts.par_iter().with_max_len(1).map(of_part).collect();
+        let equation = self.equation.get_or_init(|| {
+            self.in_parts(own.count() + 1, |run, firsts, values| {
+                let rows = EquationRows { sampled: self, own: &own, run, firsts, values };
+                pulp::Arch::new().dispatch(rows);
+            })
+        });
         RowTable {
-            places: self.places_of(&windows),
+            places: self.places(),
             width: own.count() + columns.len() + 1,
-            values: values.concat(),
+            equation,
+            further: self.columns(columns, knots),
         }
+    }
+
+    /// Every window's `columns`.
+    pub(super) fn columns(&self, columns: &[Column], knots: &[f64]) -> ColumnTable {
+        let own = MotorColumns::of(self.campaign);
+        let values = self.in_parts(columns.len(), |run, firsts, values| {
+            let rows = ColumnRows { sampled: self, own: &own, run, firsts, columns, knots, values };
+            pulp::Arch::new().dispatch(rows);
+        });
+        ColumnTable { count: columns.len(), values }
+    }
+
+    /// Mean square of the rows' right sides; `None` without rows.
+    pub(super) fn power(&self) -> Option<f64> {
+        let own = MotorColumns::of(self.campaign);
+        let right = self.in_parts(1, |run, firsts, values| {
+            let rows = RightSides { sampled: self, own: &own, run, firsts, values };
+            pulp::Arch::new().dispatch(rows);
+        });
+        let power = right.iter().map(|y| y * y).sum::<f64>();
+        (!right.is_empty()).then(|| power / right.len() as f64)
+    }
+
+    /// A table of `width` values for each window, filled part by part.
+    fn in_parts(
+        &self,
+        width: usize,
+        fill: impl Fn(usize, &[usize], &mut [f64]) + Sync,
+    ) -> Vec<f64> {
+        let mut values = vec![0.0; width * self.windows.places.len()];
+        let mut rest = &mut values[..];
+        let mut parts = Vec::new();
+        for (run, starts) in self.windows.starts.iter().enumerate() {
+            for firsts in starts.chunks(PART) {
+                let (own, others) = std::mem::take(&mut rest).split_at_mut(width * firsts.len());
+                parts.push((run, firsts, own));
+                rest = others;
+            }
+        }
+        let parts = parts.into_par_iter().with_max_len(1);
+        parts.for_each(|(run, firsts, own)| fill(run, firsts, own));
+        values
+    }
+
+    /// The equation of a run; `None` where it holds no window.
+    #[inline(always)]
+    fn equation<'s>(
+        &'s self,
+        own: &'s MotorColumns,
+        run: usize,
+    ) -> Option<(MotorEquation<'s>, &'s Slipping)> {
+        let (slipping, run) = (&self.runs[run], &self.campaign.runs[run]);
+        let (window, gravity) = (slipping.window.as_ref()?, slipping.gravity.as_ref());
+        let equation =
+            MotorEquation { campaign: self.campaign, run, columns: own, gravity, window };
+        Some((equation, slipping))
     }
 
     /// What the sensors' noise adds to a row's products in a run, in expectation. In columns by speed and angle it is
@@ -241,51 +335,127 @@ impl<'a> Sampled<'a> {
     }
 }
 
-/// The rows of windows of one run, compiled for the widest registers that there are.
-struct PartRows<'a> {
-    sampled: &'a Sampled<'a>,
-    own: &'a MotorColumns,
-    windows: &'a [WindowStart],
-    columns: &'a [Column],
-    knots: &'a [f64],
+impl Windows {
+    fn of(campaign: &Campaign, runs: &[Slipping], after: f64) -> Self {
+        let samples: usize = campaign.runs.iter().map(Run::len).sum();
+        let of_run = |(run, slipping): (usize, &Slipping)| {
+            let (mut starts, mut places) = (Vec::new(), Vec::new());
+            let n = slipping.window.as_ref().map_or(usize::MAX, Window::len);
+            let step = ((n as f64 * WINDOW_STEP) as usize).max(samples / MOST_ROWS).max(1);
+            let motor = campaign.runs[run].motor();
+            let mut phase = 0;
+            for Phase { from, to, sign } in slipping.phases.iter().filter(|p| p.to - p.from > n) {
+                let gone = |k: &usize| (motor[*k] - motor[*from]).abs();
+                let Some(begin) = (*from..to - n).find(|k| gone(k) >= after) else { continue };
+                for first in (begin..to - n).step_by(step) {
+                    let middle = first + n / 2;
+                    let (speed, angle) = (slipping.velocity[middle].abs(), motor[middle]);
+                    starts.push(first);
+                    places.push(WindowPlace { run, phase, sign: *sign, speed, angle });
+                }
+                phase += 1;
+            }
+            (starts, places, phase)
+        };
+        let of_runs = runs.par_iter().enumerate().with_max_len(1).map(of_run);
+        let (mut starts, mut places, mut phases) = (Vec::new(), Vec::new(), 0);
+        for (of_run, mut there, count) in of_runs.collect::<Vec<_>>() {
+            there.iter_mut().for_each(|place| place.phase += phases);
+            phases += count;
+            starts.push(of_run);
+            places.extend(there);
+        }
+        Self { after, starts, places }
+    }
 }
 
-impl pulp::WithSimd for PartRows<'_> {
-    type Output = Vec<f64>;
+/// Rows of the motor's equation in windows of one run, compiled for the widest registers that there are.
+struct EquationRows<'a> {
+    sampled: &'a Sampled<'a>,
+    own: &'a MotorColumns,
+    run: usize,
+    firsts: &'a [usize],
+    values: &'a mut [f64],
+}
+
+impl pulp::WithSimd for EquationRows<'_> {
+    type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> Vec<f64> {
-        let Self { sampled, own, windows, columns, knots } = self;
-        let Some(first) = windows.first() else { return Vec::new() };
-        let (slipping, run) = (&sampled.runs[first.run], &sampled.campaign.runs[first.run]);
-        let Some(window) = &slipping.window else { return Vec::new() };
-        let gravity = slipping.gravity.as_ref();
-        let equation =
-            MotorEquation { campaign: sampled.campaign, run, columns: own, gravity, window };
-        let mut values = Vec::with_capacity(windows.len() * (own.count() + columns.len() + 1));
-        let mut functions = ColumnValues::new(columns, knots);
-        let mut row = Vec::new();
-        for WindowStart { first, .. } in windows {
-            functions.reach(*first..first + window.len() + 1, &slipping.velocity, run.motor());
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        let Self { sampled, own, run, firsts, values } = self;
+        let Some((equation, _)) = sampled.equation(own, run) else { return };
+        let mut row = Vec::with_capacity(own.count() + 1);
+        let rows = values.chunks_exact_mut(own.count() + 1);
+        for (first, values) in firsts.iter().zip(rows) {
             equation.fill(*first, &mut row);
-            let right = row.pop();
-            values.extend_from_slice(&row);
-            values.extend(columns.iter().enumerate().map(|(i, column)| {
-                window.row_scale
+            values.copy_from_slice(&row);
+        }
+    }
+}
+
+/// Their right sides alone.
+struct RightSides<'a> {
+    sampled: &'a Sampled<'a>,
+    own: &'a MotorColumns,
+    run: usize,
+    firsts: &'a [usize],
+    values: &'a mut [f64],
+}
+
+impl pulp::WithSimd for RightSides<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        let Self { sampled, own, run, firsts, values } = self;
+        let Some((equation, _)) = sampled.equation(own, run) else { return };
+        for (first, value) in firsts.iter().zip(values) {
+            *value = equation.right(*first);
+        }
+    }
+}
+
+/// Further columns in the same windows.
+struct ColumnRows<'a> {
+    sampled: &'a Sampled<'a>,
+    own: &'a MotorColumns,
+    run: usize,
+    firsts: &'a [usize],
+    columns: &'a [Column],
+    knots: &'a [f64],
+    values: &'a mut [f64],
+}
+
+impl pulp::WithSimd for ColumnRows<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        let Self { sampled, own, run, firsts, columns, knots, values } = self;
+        let Some((equation, slipping)) = sampled.equation(own, run) else { return };
+        if columns.is_empty() {
+            return;
+        }
+        let MotorEquation { run, window, .. } = equation;
+        let mut functions = ColumnValues::new(columns, knots);
+        let rows = values.chunks_exact_mut(columns.len());
+        for (first, values) in firsts.iter().zip(rows) {
+            functions.reach(*first..first + window.len() + 1, &slipping.velocity, run.motor());
+            for (i, (column, value)) in columns.iter().zip(values).enumerate() {
+                *value = window.row_scale
                     * match column {
                         Column::Lag => equation.later(*first),
                         Column::Rate(tip) => equation.behind_rate(*tip, *first),
                         _ => window.value.dot(functions.from(i, *first)) * run.sample_time_s(),
-                    }
-            }));
-            values.extend(right);
+                    };
+            }
         }
-        values
     }
 }
 
-/// Samples over which the velocity is smoothed.
-fn smooth(run: &Run, window_s: f64) -> usize {
+/// Samples over which the velocity is smoothed, of which the run asks for `needed`.
+fn smooth(run: &Run, needed: usize, window_s: f64) -> usize {
     let n = window_s / run.sample_time_s();
-    smoothing(run.motor()).min((n * SMOOTHED_PART) as usize).max(4)
+    needed.min((n * SMOOTHED_PART) as usize).max(4)
 }

@@ -1,7 +1,7 @@
 //! By how much the angle lags behind the command, and whether as a first-order filter or as a delay.
 
 use crate::identify::methods::regression::motor_rows::MotorRows;
-use crate::identify::methods::regression::normal::{Term, solve};
+use crate::identify::methods::regression::normal::{NormalSums, Term};
 use crate::identify::methods::regression::thresholds::{
     LAG_EXPLAINS, LAG_SAMPLES_MOST, LAG_SHAPE_TOLD,
 };
@@ -71,7 +71,8 @@ pub(super) fn angle_lag(
     let left = |shape: LagShape, time_s: f64| -> f64 {
         let late = delayed(campaign, &runs, shape, time_s);
         let clusters = MotorRows::of(&late, noise).clusters(window_s);
-        solve(&clusters, terms).map_or(f64::INFINITY, |s| s.relative_residual)
+        let sums = NormalSums::of(&clusters, terms);
+        sums.and_then(|s| s.relative_residual()).unwrap_or(f64::INFINITY)
     };
     let without = left(LagShape::Delay, 0.0);
     let best = |shape: LagShape| least(first_s, |time_s| left(shape, time_s));

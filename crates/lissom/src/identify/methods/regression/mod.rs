@@ -29,11 +29,11 @@ pub use motor::{ByDirection, GravityPartner, MotorRegression, motor_regression};
 pub(crate) use motor_columns::{DRY, MotorColumns, coupled_tips};
 pub(crate) use motor_rows::{MotorEquation, SineAndCosine};
 pub(crate) use normal::{
-    Cluster, NormalSums, Rows, ScoredEstimates, Scores, Solution, Term, solve, solve_sums,
+    Cluster, NormalSums, Rows, ScoredEstimates, Scores, Solution, Term, solve, solve_sums, values,
 };
-pub(crate) use phases::{Phase, slip_phases, slip_sign, smoothing};
+pub(crate) use phases::{Phase, slip_sign, smoothing};
 pub(crate) use regression_findings::{findings, reversed_tip};
 pub use scan::Candidate;
 pub(crate) use scan::scan;
-pub(crate) use velocity::velocity;
+pub(crate) use velocity::velocity_and_phases;
 pub(crate) use window::{SMOOTHED_PART, WINDOW_STEP, Weights, Window};

@@ -240,6 +240,12 @@ impl MotorEquation<'_> {
         noise * (self.run.sample_time_s() * window.row_scale).powi(2)
     }
 
+    /// The right side of the row of the window that begins at sample `k`.
+    #[inline(always)]
+    pub(crate) fn right(&self, k: usize) -> f64 {
+        self.torque(&self.run.command()[k..]) * self.window.row_scale
+    }
+
     /// `∫wτ` of what is commanded from the window's first sample on.
     #[inline(always)]
     fn torque(&self, command: &[f64]) -> f64 {

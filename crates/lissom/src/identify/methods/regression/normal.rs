@@ -188,6 +188,16 @@ impl NormalSums {
         }
         Some(Self { normal, noise, right, power, rows })
     }
+
+    /// ‖y − X·q‖/‖y‖ of the least-squares solution.
+    pub(crate) fn relative_residual(&self) -> Option<f64> {
+        Some(self.relative_residual_of(&Solved::of(self)?.value))
+    }
+
+    fn relative_residual_of(&self, value: &DVector<f64>) -> f64 {
+        let left = self.power - 2.0 * value.dot(&self.right) + value.dot(&(&self.normal * value));
+        (left.max(0.0) / self.power).sqrt()
+    }
 }
 
 /// Estimates whose scores are to be found: `X'(y − X·value) + out·(noise·taken)` of each cluster.
@@ -237,42 +247,69 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
     })
 }
 
+/// The estimates of [`solve`] alone.
+pub(crate) fn values(clusters: &[Cluster], terms: &[Term]) -> Option<DVector<f64>> {
+    Some(Solved::of(&NormalSums::of(clusters, terms)?)?.value)
+}
+
+/// Normal equations solved, and what the covariance is made of.
+struct Solved {
+    value: DVector<f64>,
+    lost: Vec<DVector<f64>>,
+    inseparable: Vec<bool>,
+    /// Directions in which all products are one, noise has a share of each, and what that stretches each by.
+    directions: DMatrix<f64>,
+    shares: DVector<f64>,
+    stretched: DVector<f64>,
+    inverse: DMatrix<f64>,
+    out: DMatrix<f64>,
+}
+
+impl Solved {
+    fn of(sums: &NormalSums) -> Option<Self> {
+        let NormalSums { normal, noise, right, .. } = sums;
+        let p = right.len();
+        let scale = DVector::from_fn(p, |i, _| normal[(i, i)].max(f64::MIN_POSITIVE).sqrt());
+        let scaled = DMatrix::from_fn(p, p, |i, j| normal[(i, j)] / (scale[i] * scale[j]));
+        let eigen = scaled.symmetric_eigen();
+        let largest = eigen.eigenvalues.max();
+        if !(largest > 0.0 && largest.is_finite()) {
+            return None;
+        }
+        let mut inseparable: Vec<bool> = (0..p).map(|i| normal[(i, i)] <= 0.0).collect();
+        let (mut kept, mut lost) = (Vec::new(), Vec::new());
+        for (k, &lambda) in eigen.eigenvalues.iter().enumerate() {
+            let v = eigen.eigenvectors.column(k);
+            if lambda > SAME_COLUMN * largest {
+                kept.push(v.component_div(&scale) / lambda.sqrt());
+            } else {
+                let seen = (0..p).filter(|&i| v[i].abs() > INSEPARABLE_WEIGHT);
+                seen.for_each(|i| inseparable[i] = true);
+                lost.push(v.component_div(&scale));
+            }
+        }
+        let white = DMatrix::from_columns(&kept);
+        let shares = (white.transpose() * noise * &white).symmetric_eigen();
+        let directions = &white * &shares.eigenvectors;
+        let shares = shares.eigenvalues;
+        let taken_out = shares.map(|share| if share < NOISE_FILLS { share } else { 0.0 });
+        let stretched = taken_out.map(|share| 1.0 / (1.0 - share));
+        let inverse = &directions * &DMatrix::from_diagonal(&stretched) * directions.transpose();
+        let value: DVector<f64> = &inverse * right;
+        let out = DMatrix::from_diagonal(&taken_out.map(|share| f64::from(share > 0.0)));
+        let out = normal * &directions * out * directions.transpose();
+        Some(Self { value, lost, inseparable, directions, shares, stretched, inverse, out })
+    }
+}
+
 /// Solves normal equations whose clusters have the `scores` that estimates give them.
 pub(crate) fn solve_sums(
     sums: &NormalSums,
     scores: impl FnOnce(&ScoredEstimates) -> Scores,
 ) -> Option<Solution> {
-    let NormalSums { normal, noise, right, power, rows } = sums;
-    let p = right.len();
-    let scale = DVector::from_fn(p, |i, _| normal[(i, i)].max(f64::MIN_POSITIVE).sqrt());
-    let scaled = DMatrix::from_fn(p, p, |i, j| normal[(i, j)] / (scale[i] * scale[j]));
-    let eigen = scaled.symmetric_eigen();
-    let largest = eigen.eigenvalues.max();
-    if !(largest > 0.0 && largest.is_finite()) {
-        return None;
-    }
-    let mut inseparable: Vec<bool> = (0..p).map(|i| normal[(i, i)] <= 0.0).collect();
-    let (mut kept, mut lost) = (Vec::new(), Vec::new());
-    for (k, &lambda) in eigen.eigenvalues.iter().enumerate() {
-        let v = eigen.eigenvectors.column(k);
-        if lambda > SAME_COLUMN * largest {
-            kept.push(v.component_div(&scale) / lambda.sqrt());
-        } else {
-            (0..p).filter(|&i| v[i].abs() > INSEPARABLE_WEIGHT).for_each(|i| inseparable[i] = true);
-            lost.push(v.component_div(&scale));
-        }
-    }
-    // Directions in which all products are one, and noise has a share of each.
-    let white = DMatrix::from_columns(&kept);
-    let shares = (white.transpose() * noise * &white).symmetric_eigen();
-    let directions = &white * &shares.eigenvectors;
-    let taken_out = shares.eigenvalues.map(|share| if share < NOISE_FILLS { share } else { 0.0 });
-    let stretched = DMatrix::from_diagonal(&taken_out.map(|share| 1.0 / (1.0 - share)));
-    let inverse = &directions * &stretched * directions.transpose();
-    let value: DVector<f64> = &inverse * right;
-
-    let out = DMatrix::from_diagonal(&taken_out.map(|share| f64::from(share > 0.0)));
-    let out = normal * &directions * out * directions.transpose();
+    let Solved { value, lost, inseparable, directions, shares, stretched, inverse, out } =
+        Solved::of(sums)?;
+    let p = value.len();
     let taken = out.transpose() * &value;
     let estimates = ScoredEstimates { value, out, taken };
     let Scores { by_cluster: scores, by_run, normals } = scores(&estimates);
@@ -280,7 +317,7 @@ pub(crate) fn solve_sums(
     let by_cluster = if normals.is_empty() {
         sandwich(&inverse, &scores)
     } else {
-        let white = &directions * stretched.map(f64::sqrt);
+        let white = &directions * DMatrix::from_diagonal(&stretched).map(f64::sqrt);
         of_few(&white, &scores, &normals)
     };
     let present = by_run.column_iter().filter(|g| g.norm() > 0.0).count();
@@ -290,20 +327,20 @@ pub(crate) fn solve_sums(
     } else {
         by_cluster
     };
-    for (k, &share) in shares.eigenvalues.iter().enumerate().filter(|(_, s)| **s >= NOISE_FILLS) {
+    for (k, &share) in shares.iter().enumerate().filter(|(_, s)| **s >= NOISE_FILLS) {
         let direction = directions.column(k);
-        let short = direction.dot(right) * share / (1.0 - share).max(MOTION_LEAST);
+        let short = direction.dot(&sums.right) * share / (1.0 - share).max(MOTION_LEAST);
         covariance.ger(short * short, &direction, &direction, 1.0);
     }
-    let left = power - 2.0 * value.dot(right) + value.dot(&(normal * &value));
+    let relative_residual = sums.relative_residual_of(&value);
     Some(Solution {
+        relative_residual,
+        turned_round: inverse.diagonal() * (relative_residual.powi(2) * sums.power),
         value,
         covariance,
         lost,
         inseparable,
-        relative_residual: (left.max(0.0) / power).sqrt(),
-        turned_round: inverse.diagonal() * left.max(0.0),
-        rows: *rows,
+        rows: sums.rows,
         clusters: scores.ncols(),
     })
 }

@@ -59,11 +59,15 @@ fn without_reversals(phase: Phase, found: &[Phase]) -> Vec<Phase> {
 
 /// Phases of one sign of velocities of more than `least`, and of more than [`REST_SPEED`].
 fn slips(motor: &[f64], window: &Window, least: f64) -> Vec<Phase> {
-    let velocity_at = velocities(motor, window);
+    phases_of(&velocities(motor, window), window, least)
+}
+
+/// The same from the [`velocities`] in a window.
+pub(super) fn phases_of(velocity_at: &[f64], window: &Window, least: f64) -> Vec<Phase> {
     let fastest = velocity_at.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
     let least = least.max(REST_SPEED * fastest);
     let mut phases: Vec<Phase> = Vec::new();
-    for (k, &velocity) in (window.len() / 2..).zip(&velocity_at) {
+    for (k, &velocity) in (window.len() / 2..).zip(velocity_at) {
         if velocity.abs() > least {
             extend(&mut phases, k, velocity);
         }
