@@ -97,34 +97,50 @@ pub(crate) fn number(cell: &str, decimal_comma: bool) -> Option<f64> {
     plain_decimal(cell.as_bytes()).or_else(|| cell.parse().ok())
 }
 
-/// A number of digits and at most one point, where one division of two exact numbers gives the nearest one.
+/// A cell that is a [`PlainDecimal`] and nothing else.
 fn plain_decimal(cell: &[u8]) -> Option<f64> {
-    /// So many digits are below 2^53.
-    const MOST_DIGITS: usize = 15;
-    let (negative, unsigned) = match cell {
-        [b'-', rest @ ..] => (true, rest),
-        _ => (false, cell),
-    };
-    let (mut whole, mut digits, mut point) = (0_u64, 0, None);
-    for (at, byte) in unsigned.iter().enumerate() {
-        match byte {
-            b'0'..=b'9' => {
-                whole = whole * 10 + u64::from(byte - b'0');
-                digits += usize::from(whole > 0);
+    PlainDecimal::leading(cell).filter(|found| found.length == cell.len()).map(|found| found.value)
+}
+
+/// A number of digits and at most one point, where one division of two exact numbers gives the nearest one.
+pub(super) struct PlainDecimal {
+    pub(super) value: f64,
+    /// Digits after the point.
+    pub(super) decimals: usize,
+    /// Characters that it takes.
+    pub(super) length: usize,
+}
+
+impl PlainDecimal {
+    /// The number with which a text begins.
+    pub(super) fn leading(text: &[u8]) -> Option<Self> {
+        /// So many digits are below 2^53.
+        const MOST_DIGITS: usize = 15;
+        let negative = text.first() == Some(&b'-');
+        let unsigned = &text[usize::from(negative)..];
+        let (mut whole, mut digits, mut point, mut length) = (0_u64, 0, None, 0);
+        for byte in unsigned {
+            match byte {
+                b'0'..=b'9' => {
+                    whole = whole * 10 + u64::from(byte - b'0');
+                    digits += usize::from(whole > 0);
+                }
+                b'.' if point.is_none() => point = Some(length),
+                _ => break,
             }
-            b'.' if point.is_none() => point = Some(at),
-            _ => return None,
+            if digits > MOST_DIGITS {
+                return None;
+            }
+            length += 1;
         }
-        if digits > MOST_DIGITS {
+        let decimals = point.map_or(0, |at| length - at - 1);
+        if length == usize::from(point.is_some()) || decimals >= TENS.len() {
             return None;
         }
+        let value = whole as f64 / TENS[decimals];
+        let value = if negative { -value } else { value };
+        Some(Self { value, decimals, length: length + usize::from(negative) })
     }
-    let decimals = point.map_or(0, |at| unsigned.len() - at - 1);
-    if unsigned.len() == usize::from(point.is_some()) || decimals >= TENS.len() {
-        return None;
-    }
-    let value = whole as f64 / TENS[decimals];
-    Some(if negative { -value } else { value })
 }
 
 /// Powers of ten that are exact.

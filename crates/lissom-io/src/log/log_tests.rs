@@ -57,6 +57,17 @@ fn reads_every_layout() {
     }
 }
 
+/// Rows of plain decimals are read in one pass; blanks, signs and exponents are not plain.
+#[test]
+fn plain_rows_are_read_as_others_are() {
+    let plain = read("t,u,x\n0,9,-1\n0.25,9,2.5\r\n0.5,9,.125\n0.75,9,-0\n", "t", "x").unwrap();
+    let other =
+        read("t,u,x\n0, 9,-1\n0.25,+9,2.5 \n 0.5,9,1.25e-1\n\"0.75\",9,-0\n", "t", "x").unwrap();
+    assert_eq!(plain, other);
+    assert!((plain.time_step - 0.01).abs() < 1e-15);
+    assert_eq!(plain.columns[0], [-1.0, 2.5, 0.125, 0.0]);
+}
+
 #[test]
 fn reads_columns_by_number_with_and_without_header() {
     for text in ["0 9 1\n0.5 9 2\n", "t,u,x\n0,9,1\n0.5,9,2\n"] {

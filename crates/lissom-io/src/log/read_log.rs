@@ -1,5 +1,6 @@
 //! Reading a log row by row.
 
+use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::fs::File;
 use std::io::{BufRead, BufReader, ErrorKind, Read};
@@ -9,7 +10,7 @@ use lissom::record::Hold;
 
 use super::log_columns::{ColumnRef, Log, LogColumn, LogOptions, TimeBack};
 use super::log_error::LogError;
-use super::log_layout::{self, Delimiter};
+use super::log_layout::{self, Delimiter, PlainDecimal};
 use super::thinner::Thinner;
 
 /// Longest row in bytes.
@@ -90,7 +91,11 @@ pub fn read_log_from(
     if let Some(first) = head.first {
         body.take(&first, first_row)?;
     }
-    while let Some((row, line)) = rows.next()? {
+    while let Some(row) = rows.advance()? {
+        if rows.is_whole() && body.take_plain(&rows.bytes, row)? {
+            continue;
+        }
+        let line = rows.line()?;
         if !line.trim().is_empty() && log_layout::comment(&line).is_none() {
             body.take(&line, row)?;
         }
@@ -108,19 +113,34 @@ struct LogRows<'a, R> {
 
 impl<R: BufRead> LogRows<'_, R> {
     /// The next line and its number from 1.
-    fn next(&mut self) -> Result<Option<(usize, std::borrow::Cow<'_, str>)>, LogError> {
+    fn next(&mut self) -> Result<Option<(usize, Cow<'_, str>)>, LogError> {
+        match self.advance()? {
+            None => Ok(None),
+            Some(row) => Ok(Some((row, self.line()?))),
+        }
+    }
+
+    /// Reads the next line, and gives its number from 1.
+    fn advance(&mut self) -> Result<Option<usize>, LogError> {
         self.row += 1;
         let row = self.row;
-        let file = || self.name.to_owned();
         self.bytes.clear();
         let mut limited = (&mut self.reader).take(LONGEST_ROW);
         let length = limited
             .read_until(b'\n', &mut self.bytes)
-            .map_err(|source| LogError::Read { file: file(), row, source })?;
-        if length == 0 {
-            return Ok(None);
-        }
-        let whole = self.bytes.last() == Some(&b'\n') || (length as u64) < LONGEST_ROW;
+            .map_err(|source| LogError::Read { file: self.name.to_owned(), row, source })?;
+        Ok((length > 0).then_some(row))
+    }
+
+    /// Whether all of the line was read.
+    fn is_whole(&self) -> bool {
+        self.bytes.last() == Some(&b'\n') || (self.bytes.len() as u64) < LONGEST_ROW
+    }
+
+    /// The line that was read last.
+    fn line(&self) -> Result<Cow<'_, str>, LogError> {
+        let row = self.row;
+        let file = || self.name.to_owned();
         let bytes = self.bytes.as_slice();
         if row == 1 && (bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF")) {
             return Err(LogError::Utf16 { file: file() });
@@ -129,18 +149,17 @@ impl<R: BufRead> LogRows<'_, R> {
         if bytes.iter().fold(false, |any, byte| any | is_control(*byte)) {
             return Err(LogError::NotText { file: file(), row });
         }
-        if !whole {
+        if !self.is_whole() {
             return Err(LogError::LongRow { file: file(), row, most: LONGEST_ROW });
         }
         let bytes =
             if row == 1 { bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes) } else { bytes };
-        let line = match std::str::from_utf8(bytes) {
+        Ok(match std::str::from_utf8(bytes) {
             Ok(line) => line.trim_end_matches(['\r', '\n']).into(),
             Err(_) => {
                 String::from_utf8_lossy(bytes).trim_end_matches(['\r', '\n']).to_owned().into()
             }
-        };
-        Ok(Some((row, line)))
+        })
     }
 }
 
@@ -264,6 +283,44 @@ impl Body<'_> {
             let missing = self.values.iter().position(|value| value.is_nan()).unwrap_or(0);
             return Err(self.missing(row, missing));
         }
+        self.push(row)
+    }
+
+    /// The same of a row that is nothing but plain decimals, as most are, in one pass; otherwise nothing is taken and
+    /// it is `false`.
+    fn take_plain(&mut self, line: &[u8], row: usize) -> Result<bool, LogError> {
+        let Delimiter::Char(delimiter) = self.delimiter else { return Ok(false) };
+        let line = line.strip_suffix(b"\n").unwrap_or(line);
+        let mut rest = line.strip_suffix(b"\r").unwrap_or(line);
+        let (mut found, mut decimals) = (0, 0);
+        for index in 0..self.columns {
+            let Some(cell) = PlainDecimal::leading(rest) else { return Ok(false) };
+            for k in 0..self.wanted.len() {
+                if self.wanted[k] == index {
+                    self.values[k] = cell.value;
+                    found += 1;
+                    if k == 0 {
+                        decimals = cell.decimals;
+                    }
+                }
+            }
+            match rest[cell.length..].split_first() {
+                Some((byte, others)) if char::from(*byte) == delimiter => rest = others,
+                Some(_) => return Ok(false),
+                None if found < self.wanted.len() => return Ok(false),
+                None => {
+                    if self.has_time {
+                        self.decimals = self.decimals.map(|most| most.max(decimals));
+                    }
+                    return self.push(row).map(|()| true);
+                }
+            }
+        }
+        Ok(false)
+    }
+
+    /// Adds the row whose values were read.
+    fn push(&mut self, row: usize) -> Result<(), LogError> {
         if self.has_time && self.is_repeated(row)? {
             self.repeated += 1;
             return Ok(());

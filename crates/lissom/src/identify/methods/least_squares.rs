@@ -9,8 +9,8 @@ use rayon::prelude::*;
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::methods::regression::thresholds::{BLOCKS_WANTED, FEW_PHASES};
 use crate::identify::methods::regression::{
-    Candidate, Cluster, Fitted, MotorColumns, MotorEquation, Phase, Rows, SineAndCosine, Term,
-    WINDOW_STEP, Window, scan, smoothing, solve, velocity_and_phases,
+    Candidate, Cluster, Fitted, MotorColumns, MotorEquation, Phase, Rows, SMOOTHING_LEAST,
+    SineAndCosine, Term, WINDOW_STEP, Window, scan, solve, velocity_and_phases,
 };
 use crate::identify::methods::thresholds::{SLOWEST_SAMPLE, STANDING_SHARE};
 use crate::identify::prepare::prepared::Prepared;
@@ -156,7 +156,7 @@ struct Moving<'a> {
 impl<'a> Moving<'a> {
     fn of(run: &'a Run, noise: &'a RunNoise, gravity: bool) -> Self {
         let (motor, sample_s) = (run.motor(), run.sample_time_s());
-        let smooth = smoothing(motor);
+        let smooth = noise.needed_smoothing.max(SMOOTHING_LEAST);
         let (velocity, mut phases) = velocity_and_phases(motor, smooth, sample_s);
         // What is shorter than the smoothing has no sure direction.
         phases.retain(|phase| phase.to - phase.from > smooth);

@@ -1,5 +1,6 @@
 //! Noise of the sensors in a run.
 
+use crate::identify::methods::regression::needed_smoothing;
 use crate::identify::prepare::channel_noise::independent_noise;
 use crate::record::Run;
 
@@ -8,11 +9,14 @@ use crate::record::Run;
 pub(crate) struct RunNoise {
     pub(crate) motor: f64,
     pub(crate) tips: Vec<f64>,
+    /// Samples over which the motor's velocity has a sure sign.
+    pub(crate) needed_smoothing: usize,
 }
 
 impl RunNoise {
     pub(crate) fn of(run: &Run) -> Self {
         let tips = run.tips().iter().map(|tip| independent_noise(tip)).collect();
-        Self { motor: independent_noise(run.motor()), tips }
+        let needed_smoothing = needed_smoothing(run.motor());
+        Self { motor: independent_noise(run.motor()), tips, needed_smoothing }
     }
 }

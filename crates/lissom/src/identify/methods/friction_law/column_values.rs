@@ -50,6 +50,7 @@ impl<'a> ColumnValues<'a> {
                         *value = exp_of_negative(-(v / fall) * (v / fall));
                     }
                 }
+                Column::Root => values.for_each(|(value, v)| *value = v.abs().sqrt()),
                 column => {
                     let both = values.zip(angle);
                     both.for_each(|((value, v), x)| *value = column.at(v.abs(), *x));

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::identify::methods::friction_law::law_rows::{FOLDS, KINDS, LawRows};
+use crate::identify::methods::friction_law::law_rows::{FOLDS, KINDS, LawRows, weights};
 use crate::identify::methods::regression::{Cluster, Term, values};
 
 /// Squared residuals on what was left out.
@@ -18,20 +18,21 @@ impl Held {
         let classes = rows.classes();
         let of_fold = |fold: usize| by_direction(&classes[fold * KINDS..(fold + 1) * KINDS]);
         let folds = without_each(&(0..FOLDS).map(of_fold).collect::<Vec<_>>(), terms)?;
-        let cost = |value: &Option<DVector<f64>>, of: &dyn Fn(&DVector<f64>) -> f64| {
-            value.as_ref().map_or(0.0, of)
-        };
-        let each = rows
-            .blocks()
-            .iter()
-            .map(|block| cost(&folds[block.fold()], &|value| rows.squared(block, terms, value)));
+        let taken = folds.iter().map(|value| {
+            let value = value.as_ref()?;
+            Some([-1.0, 1.0].map(|sign| weights(terms, value, sign)))
+        });
+        let taken: Vec<_> = taken.collect();
+        let each = rows.blocks().iter().map(|block| {
+            let taken = taken[block.fold()].as_ref();
+            taken.map_or(0.0, |taken| rows.squared(block, &taken[usize::from(block.sign > 0.0)]))
+        });
         let of_kind = |kind: usize| by_direction(classes.iter().skip(kind).step_by(KINDS));
         let sums: Vec<[Cluster; 2]> = (0..KINDS).map(of_kind).collect();
         let kinds = without_each(&sums, terms)?;
         let stretches = kinds.iter().zip(&sums).map(|(value, sums)| {
-            cost(value, &|value| {
-                sums.iter().map(|sum| squared(&sum.products, terms, value, sum.sign)).sum()
-            })
+            let of = |sum: &Cluster, value| squared(&sum.products, terms, value, sum.sign);
+            value.as_ref().map_or(0.0, |value| sums.iter().map(|sum| of(sum, value)).sum::<f64>())
         });
         Some(Self { each: each.collect(), stretches: stretches.sum() })
     }

@@ -139,15 +139,20 @@ impl LawRows {
 
     /// Sums of the blocks of each group.
     pub(super) fn sums(&self, groups: usize, group: impl Fn(&PhaseBlock) -> usize) -> Vec<Cluster> {
-        let blocks = self.blocks().iter().map(|block| (group(block), block)).collect::<Vec<_>>();
+        let blocks = self.blocks().iter().map(|block| (group(block), block));
+        self.group_sums(groups, blocks.collect())
+    }
+
+    /// Sums of each group of blocks, of which the groups' numbers are given.
+    fn group_sums(&self, groups: usize, mut blocks: Vec<(usize, &PhaseBlock)>) -> Vec<Cluster> {
+        blocks.sort_by_key(|(group, _)| *group);
         pulp::Arch::new().dispatch(Sums { rows: self, blocks: &blocks, groups })
     }
 
     fn class_sums(&self) -> Vec<Cluster> {
         let of_fold = |fold: usize| {
             let blocks = self.blocks().iter().filter(|b| b.fold() == fold);
-            let blocks: Vec<_> = blocks.map(|block| (block.kind, block)).collect();
-            pulp::Arch::new().dispatch(Sums { rows: self, blocks: &blocks, groups: KINDS })
+            self.group_sums(KINDS, blocks.map(|block| (block.kind, block)).collect())
         };
         (0..FOLDS).into_par_iter().flat_map_iter(of_fold).collect()
     }
@@ -157,10 +162,9 @@ impl LawRows {
         &self.classes
     }
 
-    /// ‖y − X·q‖² of a block.
-    pub(super) fn squared(&self, block: &PhaseBlock, terms: &[Term], value: &DVector<f64>) -> f64 {
-        let taken = weights(terms, value, block.sign);
-        self.rows(block).map(|row| left(row, &taken).powi(2)).sum()
+    /// ‖y − X·q‖² of a block, of whose columns X·q takes so much.
+    pub(super) fn squared(&self, block: &PhaseBlock, taken: &[(usize, f64)]) -> f64 {
+        self.rows(block).map(|row| left(row, taken).powi(2)).sum()
     }
 
     /// The same with some columns, times what is known of them, taken off the right side.
@@ -221,7 +225,7 @@ impl LawRows {
 /// Sums of some blocks by their groups, compiled for the widest registers that there are.
 struct Sums<'a> {
     rows: &'a LawRows,
-    /// Group and block.
+    /// Group and block, ascending in the group.
     blocks: &'a [(usize, &'a PhaseBlock)],
     groups: usize,
 }
@@ -234,27 +238,41 @@ impl pulp::WithSimd for Sums<'_> {
         let Self { rows, blocks, groups } = self;
         let width = rows.width;
         let mut sums = vec![Cluster::new(0, 0.0, width); groups];
-        for (group, block) in blocks {
-            let sum = &mut sums[*group];
-            (sum.sign, sum.rows) = (block.sign, sum.rows + block.rows.len());
-            for row in rows.rows(block) {
-                // The lower triangle, column by column.
-                let columns = sum.products.as_mut_slice().chunks_exact_mut(width);
-                for (i, (column, a)) in columns.zip(row).enumerate() {
-                    for (sum, b) in column[i..].iter_mut().zip(&row[i..]) {
-                        *sum += a * b;
-                    }
-                }
+        let none = vec![0.0; width];
+        for of_group in blocks.chunk_by(|(a, _), (b, _)| a == b) {
+            let sum = &mut sums[of_group[0].0];
+            for (_, block) in of_group {
+                (sum.sign, sum.rows) = (block.sign, sum.rows + block.rows.len());
+                let of_row = &rows.frame.noise[block.run];
+                let own = of_row.nrows();
+                let mut noise = sum.noise.view_mut((0, 0), (own, own));
+                noise.zip_apply(of_row, |sum, of_row| *sum += of_row * block.rows.len() as f64);
             }
-            let of_row = &rows.frame.noise[block.run];
-            let own = of_row.nrows();
-            let mut noise = sum.noise.view_mut((0, 0), (own, own));
-            noise.zip_apply(of_row, |sum, of_row| *sum += of_row * block.rows.len() as f64);
+            let products = sum.products.as_mut_slice();
+            let mut rows = of_group.iter().flat_map(|(_, block)| rows.rows(block));
+            while let Some(first) = rows.next() {
+                let [b, c, d] = [rows.next(), rows.next(), rows.next()];
+                let others = [b, c, d].map(|row| row.unwrap_or(&none));
+                add_products(products, first, others);
+            }
         }
         for sum in &mut sums {
             sum.products.fill_upper_triangle_with_lower_triangle();
         }
         sums
+    }
+}
+
+/// Adds the products of four rows at once to the lower triangle of a sum, column by column.
+#[inline(always)]
+fn add_products(products: &mut [f64], a: &[f64], [b, c, d]: [&[f64]; 3]) {
+    for (i, column) in products.chunks_exact_mut(a.len()).enumerate() {
+        let [by_a, by_b, by_c, by_d] = [a[i], b[i], c[i], d[i]];
+        let rows = a[i..].iter().zip(&b[i..]).zip(&c[i..]).zip(&d[i..]);
+        for (sum, (((a, b), c), d)) in column[i..].iter_mut().zip(rows) {
+            // In the order of the rows, as if they were added one by one.
+            *sum = *sum + by_a * a + by_b * b + by_c * c + by_d * d;
+        }
     }
 }
 
@@ -298,7 +316,7 @@ fn in_blocks(places: &[WindowPlace], cut: &Cut) -> (Vec<PhaseBlock>, Vec<usize>)
 }
 
 /// What terms take of each column in a direction.
-fn weights(terms: &[Term], value: &DVector<f64>, sign: f64) -> Vec<(usize, f64)> {
+pub(super) fn weights(terms: &[Term], value: &DVector<f64>, sign: f64) -> Vec<(usize, f64)> {
     terms.iter().zip(value).map(|(t, v)| (t.column(), t.factor(sign) * v)).collect()
 }
 

@@ -36,7 +36,7 @@ use crate::identify::methods::friction_law::thresholds::{
     TRAVEL_AFTER_REVERSAL,
 };
 use crate::identify::methods::output_error::OutputError;
-use crate::identify::methods::regression::{MissingKind, MotorRegression, smoothing};
+use crate::identify::methods::regression::{MissingKind, MotorRegression};
 use crate::identify::prepare::channel_noise::{ChannelNoise, channel_noise};
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::thresholds::{RESIDUAL_FALLS_TO, SIGN_SHOWN};
@@ -170,9 +170,7 @@ pub(crate) fn friction_law(
     let (campaign, noise) = (prepared.used(), prepared.noise());
     let runs = campaign.runs.par_iter().with_max_len(1);
     let sensors: Vec<ChannelNoise> = runs.map(|run| channel_noise(run.motor())).collect();
-    let runs = campaign.runs.par_iter().with_max_len(1);
-    let smoothings: Vec<usize> = runs.map(|run| smoothing(run.motor())).collect();
-    let windows_of = |window_s: f64| Sampled::new(campaign, noise, &smoothings, window_s);
+    let windows_of = |window_s: f64| Sampled::new(campaign, noise, window_s);
     let step = sensors.iter().map(|sensor| sensor.step).fold(0.0, f64::max);
     let load = motor.gravity.map(|g| g.load());
     let mut sampled = short_windows(&windows_of, campaign, motor, (inertia, &sensors));

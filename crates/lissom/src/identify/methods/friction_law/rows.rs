@@ -10,8 +10,8 @@ use rayon::prelude::*;
 use crate::identify::methods::friction_law::column_values::ColumnValues;
 use crate::identify::methods::friction_law::law_term::{Column, LawTerm, ScaleUnit};
 use crate::identify::methods::regression::{
-    MotorColumns, MotorEquation, Phase, Rows, SMOOTHED_PART, SineAndCosine, Term, WINDOW_STEP,
-    Window, velocity_and_phases,
+    MotorColumns, MotorEquation, Phase, Rows, SMOOTHED_PART, SMOOTHING_LEAST, SineAndCosine, Term,
+    WINDOW_STEP, Window, velocity_and_phases,
 };
 use crate::identify::prepare::run_noise::RunNoise;
 use crate::load::GravityLoad;
@@ -168,20 +168,14 @@ struct Slipping {
 }
 
 impl<'a> Sampled<'a> {
-    /// `smoothings` are what [`smoothing`] finds in the runs.
-    pub(super) fn new(
-        campaign: &'a Campaign,
-        noise: &[RunNoise],
-        smoothings: &[usize],
-        window_s: f64,
-    ) -> Self {
+    pub(super) fn new(campaign: &'a Campaign, noise: &[RunNoise], window_s: f64) -> Self {
         let columns = MotorColumns::of(campaign);
-        let of = |((run, noise), smoothing): ((&Run, &RunNoise), &usize)| {
+        let of = |(run, noise): (&Run, &RunNoise)| {
             let t = run.sample_time_s();
             let n = (window_s / t).round() as usize;
             let window = (4..run.len()).contains(&n).then(|| Window::new(n, t));
             let (velocity, mut phases) =
-                velocity_and_phases(run.motor(), smooth(run, *smoothing, window_s), t);
+                velocity_and_phases(run.motor(), smooth(run, noise, window_s), t);
             phases.retain(|phase| phase.to - phase.from > n);
             let noise = window.as_ref().map_or_else(
                 || DMatrix::zeros(0, 0),
@@ -193,7 +187,7 @@ impl<'a> Sampled<'a> {
             let gravity = columns.gravity.then(|| SineAndCosine::of(run.motor()));
             Slipping { velocity, phases, window, noise, gravity }
         };
-        let runs = campaign.runs.par_iter().zip(noise).zip(smoothings).with_max_len(1);
+        let runs = campaign.runs.par_iter().zip(noise).with_max_len(1);
         let runs: Vec<Slipping> = runs.map(of).collect();
         let windows = Windows::of(campaign, &runs, 0.0);
         let equation = OnceLock::new();
@@ -454,8 +448,8 @@ impl pulp::WithSimd for ColumnRows<'_> {
     }
 }
 
-/// Samples over which the velocity is smoothed, of which the run asks for `needed`.
-fn smooth(run: &Run, needed: usize, window_s: f64) -> usize {
+/// Samples over which the velocity is smoothed.
+fn smooth(run: &Run, noise: &RunNoise, window_s: f64) -> usize {
     let n = window_s / run.sample_time_s();
-    needed.min((n * SMOOTHED_PART) as usize).max(4)
+    noise.needed_smoothing.max(SMOOTHING_LEAST).min((n * SMOOTHED_PART) as usize).max(4)
 }

@@ -31,7 +31,7 @@ pub(crate) use motor_rows::{MotorEquation, SineAndCosine};
 pub(crate) use normal::{
     Cluster, NormalSums, Rows, ScoredEstimates, Scores, Solution, Term, solve, solve_sums, values,
 };
-pub(crate) use phases::{Phase, slip_sign, smoothing};
+pub(crate) use phases::{Phase, SMOOTHING_LEAST, needed_smoothing, slip_sign, smoothing};
 pub(crate) use regression_findings::{findings, reversed_tip};
 pub use scan::Candidate;
 pub(crate) use scan::scan;

@@ -11,7 +11,7 @@ use crate::identify::methods::regression::missing::MissingKind;
 use crate::identify::methods::regression::motor_columns::{DRY, INERTIA, MotorColumns, VISCOUS};
 use crate::identify::methods::regression::normal::{Cluster, Rows};
 use crate::identify::methods::regression::phases::{
-    LEAST_SAMPLES, LEAST_SMOOTH, Phase, needed_smoothing, unreversed_phases,
+    LEAST_SMOOTH, Phase, SMOOTHING_LEAST, unreversed_phases,
 };
 use crate::identify::methods::regression::row_noise::{ChannelPart, products};
 use crate::identify::methods::regression::thresholds::{BLOCKS_WANTED, FEW_PHASES, SURE_SIGN};
@@ -135,8 +135,8 @@ struct Slipping<'a> {
 
 impl<'a> Slipping<'a> {
     fn of(run: &'a Run, noise: &'a RunNoise, gravity: bool) -> Self {
-        let needed = needed_smoothing(run.motor());
-        let smooth = needed.max(LEAST_SAMPLES);
+        let needed = noise.needed_smoothing;
+        let smooth = needed.max(SMOOTHING_LEAST);
         let phases = unreversed_phases(run.motor(), smooth, run.sample_time_s(), noise.motor);
         let gravity = gravity.then(|| SineAndCosine::of(run.motor()));
         Self { run, needed, smooth, phases, noise, gravity }

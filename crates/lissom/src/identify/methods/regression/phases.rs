@@ -139,19 +139,19 @@ fn extend(phases: &mut Vec<Phase>, k: usize, velocity: f64) {
     }
 }
 
-/// Fewest samples over which a velocity is smoothed.
-pub(super) const LEAST_SAMPLES: usize = 8;
+/// Fewest samples over which a run's velocity is smoothed by itself.
+pub(crate) const SMOOTHING_LEAST: usize = 8;
 
 /// Samples over which the motor's velocity is smoothed: [`needed_smoothing`], and a few at least.
 pub(crate) fn smoothing(motor: &[f64]) -> usize {
-    needed_smoothing(motor).max(LEAST_SAMPLES)
+    needed_smoothing(motor).max(SMOOTHING_LEAST)
 }
 
 /// Samples over which the motor moves by several times its sensor's steps or noise at its usual speed:
 /// the velocity over them has a sure sign. No more, so that no reversal is smoothed away.
 ///
 /// Noise is taken from second differences, whose expectation for white noise σ is √6·σ.
-pub(super) fn needed_smoothing(motor: &[f64]) -> usize {
+pub(crate) fn needed_smoothing(motor: &[f64]) -> usize {
     let rms = |sum: f64, n: usize| (sum / n.max(1) as f64).sqrt();
     let second = motor.windows(3).map(|w| (w[2] - 2.0 * w[1] + w[0]).powi(2)).sum();
     let noise = rms(second, motor.len() - 2) / 6.0_f64.sqrt();

@@ -23,8 +23,10 @@ pub(crate) fn velocity_and_phases(
         moved.push(from_first.sum::<f64>());
     }
     let last = moved.len() - 1;
-    let at = |k: usize| scale * moved[k.saturating_sub(half).min(last)];
-    ((0..motor.len()).map(at).collect(), phases)
+    let mut velocity = vec![scale * moved[0]; half.min(motor.len())];
+    velocity.extend(moved.iter().take(motor.len() - velocity.len()).map(|moved| scale * moved));
+    velocity.resize(motor.len(), scale * moved[last]);
+    (velocity, phases)
 }
 
 #[cfg(test)]
