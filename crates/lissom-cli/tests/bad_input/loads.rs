@@ -38,7 +38,7 @@ fn gravity_of_the_wrong_kind() {
     refused(
         &linear.replace("0.25 N*m/A", "0.25 N/A"),
         "error: campaign.toml, line 13: `load.gravity`: gravity on a linear axis is a constant force\n\
-         hint: remove it: the constant force of a linear axis is the offset of friction",
+         hint: remove it: the offset of friction, which every result has, is this force",
     );
 }
 
@@ -58,7 +58,8 @@ fn a_load_of_the_wrong_size() {
     );
     refused(
         &with("gravity = true\nmgl = \"-2 N*m\""),
-        "error: campaign.toml, line 14: `load.mgl` is -2 N*m, but must be positive",
+        "error: campaign.toml, line 14: `load.mgl` is \"-2 N*m\", but must be greater than zero\n\
+         hint: check its sign",
     );
     refused(
         &with("mass = \"2 kg\""),
@@ -105,7 +106,7 @@ fn a_speed_that_contradicts_the_angle() {
     let speed = "speed = { column = \"p\", unit = \"rad\" }";
     refused(
         &rigid().replace(motor, &format!("{motor}\n{speed}")),
-        "error: campaign.toml, line 5: `signals.speed.unit`: \"rad\" is a number, where a rate [s^-1] is expected\n\
-         hint: write it as in \"3 rad/s\"",
+        "error: campaign.toml, line 5: `signals.speed.unit`: \"rad\" is a plain number or angle, where an angular rate or frequency [s^-1] is expected\n\
+         hint: write it as in \"5 Hz\"",
     );
 }

@@ -34,7 +34,7 @@ pub enum PlanNoteName {
     MotionsOfNoUse,
     /// The arm has friction or a load at the tip that a plan does not count.
     SceneLeftOut,
-    /// A load with gravity is identified by regression; expected standard errors may be off by a factor of up to four.
+    /// Expected standard errors of a load with gravity are those of the regression, and may be off by a factor of up to four.
     GravityByRegression,
     /// A note that has no code of its own.
     Other,

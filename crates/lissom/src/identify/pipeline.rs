@@ -148,7 +148,7 @@ pub fn identify(
     let command_noise = replayed.as_ref().and_then(|r| command_noise(prepared.used(), r));
     let command_noise = command_noise.filter(|ratio| *ratio > COMMAND_NOISE_MOST);
     // A replay knows a delay of the command, but no filter.
-    let filtered = lag.is_some_and(|lag| lag.shape != LagShape::Delay);
+    let filtered = lag.is_some_and(|lag| lag.shape == LagShape::Filter);
     let rigid = prepared.used().channels.tips.is_empty();
     let replayable = replayed.filter(|_| command_noise.is_none() && !(filtered && rigid));
     let output_error = replayable.and_then(|motor| {

@@ -123,8 +123,8 @@ impl fmt::Display for PlanNote {
             ),
             Self::GravityByRegression => write!(
                 f,
-                "a load with gravity is identified by regression: the expected standard errors are those of its \
-                 noise and may be off by a factor of up to four"
+                "with a load of gravity the expected standard errors are those of the regression, and may be off by a \
+                 factor of up to four; where the output error describes the runs, its own are smaller"
             ),
         }
     }
