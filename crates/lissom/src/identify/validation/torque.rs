@@ -1,6 +1,10 @@
 //! Inverse dynamics: the torque that an arm's figures give for a logged motion, beside the torque
 //! logged.
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
+#![expect(
+    clippy::redundant_closure_for_method_calls,
+    reason = "a path to the method holds for one lifetime of the predictor alone"
+)]
 
 use rayon::prelude::*;
 

@@ -408,7 +408,7 @@ impl<'a> SumsByLength<'a> {
 
 /// Whether each run turns one way.
 fn turn_one_way(clusters: &[Cluster]) -> bool {
-    clusters.windows(2).all(|pair| pair[0].run != pair[1].run || pair[0].sign == pair[1].sign)
+    clusters.windows(2).all(|pair| pair[0].run != pair[1].run || pair[0].sign * pair[1].sign > 0.0)
 }
 
 /// By how much a standard error of a delay of the command moves each term: the delay is estimated, too.
