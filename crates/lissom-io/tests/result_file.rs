@@ -107,6 +107,7 @@ fn with_directions(mut id: Identified) -> Identified {
         law.candidates = terms.map(|term| LawCandidate { term, ..tried }).to_vec();
     }
     let falloff = Falloff::Exponential;
+    id.friction.with_load = Some(figure);
     id.friction.near_rest =
         Some(NearRestEstimate { torque: figure, at_rest: figure, speed: figure, falloff });
     id.friction.ripples = vec![RippleEstimate { torque: figure, per_angle: figure }];

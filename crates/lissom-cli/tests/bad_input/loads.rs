@@ -63,8 +63,8 @@ fn a_load_of_the_wrong_size() {
     );
     refused(
         &with("mass = \"2 kg\""),
-        "error: campaign.toml, line 13: `load` has no key `mass`\n\
-         hint: its keys are gravity, mgl",
+        "error: campaign.toml, line 13: `load.mass` is not a key that is known here\n\
+         hint: the keys here are `gravity`, `mgl`",
     );
 }
 

@@ -127,9 +127,11 @@ pub fn identify(
     let in_time = late.as_ref().unwrap_or(&prepared);
     progress(Stage::Beam);
     let window_s = regression.as_ref().map(|r| r.window_s);
+    // Near reversals a lag of a slightly other shape looks like friction near rest.
+    let without_lag = regression.as_ref().filter(|r| r.lag.is_none());
     // Each loops over the runs on all threads, and leaves some of them idle between its loops.
     let (law, (beside, line)) = rayon::join(
-        || regression.as_ref().and_then(|r| friction_law(in_time, r)),
+        || without_lag.and_then(|r| friction_law(&prepared, r)),
         || {
             rayon::join(
                 || (beam_regression(&prepared), third_harmonic(&prepared)),
