@@ -55,7 +55,9 @@ pub(crate) fn extremes(samples: &[f64]) -> (f64, f64) {
     for chunk in chunks {
         (0..LANES).for_each(|lane| take(lane, chunk[lane]));
     }
-    rest.iter().for_each(|x| take(0, *x));
+    for x in rest {
+        take(0, *x);
+    }
     let low = low.into_iter().fold(f64::INFINITY, f64::min);
     (low, high.into_iter().fold(f64::NEG_INFINITY, f64::max))
 }

@@ -173,7 +173,7 @@ pub(crate) fn friction_law(
     let windows_of = |window_s: f64| Sampled::new(campaign, noise, window_s);
     let step = sensors.iter().map(|sensor| sensor.step).fold(0.0, f64::max);
     let load = motor.gravity.map(|g| g.load());
-    let mut sampled = short_windows(&windows_of, campaign, motor, (inertia, &sensors));
+    let mut sampled = short_windows(windows_of, campaign, motor, (inertia, &sensors));
     (sampled.load, sampled.step) = (load, step);
     let found = UnderLaw::of(&sampled)?;
     let (mut law, mut sums) = found.with_curve(&sampled)?;

@@ -354,7 +354,9 @@ impl Windows {
         let of_runs = runs.par_iter().enumerate().with_max_len(1).map(of_run);
         let (mut starts, mut places, mut phases) = (Vec::new(), Vec::new(), 0);
         for (of_run, mut there, count) in of_runs.collect::<Vec<_>>() {
-            there.iter_mut().for_each(|place| place.phase += phases);
+            for place in &mut there {
+                place.phase += phases;
+            }
             phases += count;
             starts.push(of_run);
             places.extend(there);
