@@ -1,10 +1,8 @@
 //! Inverse dynamics: the torque that an arm's figures give for a logged motion, beside the torque
 //! logged.
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
-#![expect(
-    clippy::redundant_closure_for_method_calls,
-    reason = "a path to the method holds for one lifetime of the predictor alone"
-)]
+
+use std::borrow::Cow;
 
 use rayon::prelude::*;
 
@@ -117,7 +115,7 @@ pub(in crate::identify) fn torque(
     zeros: &[Vec<f64>],
     window_s: Option<f64>,
 ) -> Option<TorquePrediction> {
-    Predictor::with(arm, campaign, zeros, window_s, |predictor| predictor.predicted())?
+    Predictor::new(arm, campaign, zeros, window_s)?.predicted()
 }
 
 /// Length of the window and [`TorquePrediction::relative_error`] of [`torque`], alone.
@@ -126,11 +124,11 @@ pub(in crate::identify) fn torque_error(
     campaign: &Campaign,
     zeros: &[Vec<f64>],
 ) -> Option<(f64, f64)> {
-    Predictor::with(arm, campaign, zeros, None, |predictor| {
-        let sums = predictor.of_runs(|predictor, run| predictor.sums(run));
-        let [left, power] = sums.iter().fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
-        (power > 0.0).then(|| (predictor.window_s, (left / power).sqrt()))
-    })?
+    let predictor = Predictor::new(arm, campaign, zeros, None)?;
+    let sums = |run: usize| pulp::Arch::new().dispatch(SumsOfRun(&predictor, run));
+    let sums = predictor.of_runs(sums);
+    let [left, power] = sums.iter().fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
+    (power > 0.0).then(|| (predictor.window_s, (left / power).sqrt()))
 }
 
 /// Whether the tips show the torque between motor and beam.
@@ -245,58 +243,65 @@ impl RunRows {
 
 struct Predictor<'a> {
     arm: &'a ModalArm,
-    campaign: &'a Campaign,
+    /// Without gravity's torque, which is taken off the command.
+    campaign: Cow<'a, Campaign>,
     zeros: &'a [Vec<f64>],
     coupling: Coupling,
     window_s: f64,
-    masks: &'a [Masks],
+    masks: Vec<Masks>,
 }
 
-/// What `of` gives of one run, compiled for the widest registers that there are.
-struct OfRun<'a, F> {
-    predictor: &'a Predictor<'a>,
-    run: usize,
-    of: F,
-}
+/// The rows of one run, compiled for the widest registers that there are.
+struct RowsOfRun<'a>(&'a Predictor<'a>, usize);
 
-impl<T, F: Fn(&Predictor<'_>, usize) -> T> pulp::WithSimd for OfRun<'_, F> {
-    type Output = T;
+impl pulp::WithSimd for RowsOfRun<'_> {
+    type Output = Option<RunRows>;
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> T {
-        (self.of)(self.predictor, self.run)
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Option<RunRows> {
+        self.0.rows(self.1)
+    }
+}
+
+/// Their sums alone.
+struct SumsOfRun<'a>(&'a Predictor<'a>, usize);
+
+impl pulp::WithSimd for SumsOfRun<'_> {
+    type Output = Option<[f64; 2]>;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Option<[f64; 2]> {
+        self.0.sums(self.1)
     }
 }
 
 impl<'a> Predictor<'a> {
-    /// What `of` gives of the prediction in windows of a length, or of one that is chosen.
-    fn with<T>(
+    /// With windows of a length, or of one that is chosen; `None` where the arm has modes that the tips do not show.
+    fn new(
         arm: &'a ModalArm,
-        campaign: &Campaign,
+        campaign: &'a Campaign,
         zeros: &'a [Vec<f64>],
         window_s: Option<f64>,
-        of: impl FnOnce(&Predictor<'_>) -> T,
-    ) -> Option<T> {
-        let without = arm.gravity.map(|load| load.taken_from(campaign));
-        let campaign = without.as_ref().unwrap_or(campaign);
-        let coupling = Coupling::new(arm, campaign)?;
-        let window_s = window_s.or_else(|| chosen_window_s(arm, campaign))?;
-        let masks = masks(campaign);
-        Some(of(&Predictor { arm, campaign, zeros, coupling, window_s, masks: &masks }))
+    ) -> Option<Self> {
+        let campaign = match arm.gravity {
+            Some(load) => Cow::Owned(load.taken_from(campaign)),
+            None => Cow::Borrowed(campaign),
+        };
+        let coupling = Coupling::new(arm, &campaign)?;
+        let window_s = window_s.or_else(|| chosen_window_s(arm, &campaign))?;
+        let masks = masks(&campaign);
+        Some(Self { arm, campaign, zeros, coupling, window_s, masks })
     }
 
-    /// What `of` gives of every run, some at the same time.
-    fn of_runs<T: Send>(&self, of: impl Fn(&Predictor<'_>, usize) -> Option<T> + Sync) -> Vec<T> {
+    /// What `of` gives of every run that holds a window, some at the same time.
+    fn of_runs<T: Send>(&self, of: impl Fn(usize) -> Option<T> + Sync + Send) -> Vec<T> {
         let runs = (0..self.campaign.runs.len()).into_par_iter().with_max_len(1);
-        let of_run = |run: usize| {
-            let of = OfRun { predictor: self, run, of: &of };
-            pulp::Arch::new().dispatch(of)
-        };
-        runs.filter_map(of_run).collect()
+        runs.filter_map(of).collect()
     }
 
     fn predicted(&self) -> Option<TorquePrediction> {
-        let rows: Vec<RunRows> = self.of_runs(|predictor, run| predictor.rows(run));
+        let rows = |run: usize| pulp::Arch::new().dispatch(RowsOfRun(self, run));
+        let rows: Vec<RunRows> = self.of_runs(rows);
         let counted = || rows.iter().flat_map(|r| &r.rows).filter(|row| row.counts);
         let (mut left, mut power, mut number) = ([0.0; 2], [0.0; 2], 0_usize);
         for row in counted() {

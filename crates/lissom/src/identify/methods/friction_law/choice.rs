@@ -57,13 +57,9 @@ pub(super) struct Choice {
 pub(super) struct Tried {
     pub(super) term: LawTerm,
     pub(super) terms: Vec<Term>,
-    /// What was found beside the terms that are taken, once it was looked for.
-    figures: Option<LookedAt>,
+    /// What was found beside the terms that are taken.
+    figures: Option<Figures>,
 }
-
-/// What a candidate gave, if anything.
-#[derive(Debug, Clone, Copy)]
-struct LookedAt(Option<Figures>);
 
 /// A candidate with its cost on phases left out; whether it is taken says all but what is left to the settled law.
 type Figures = (f64, LawCandidate);
@@ -157,13 +153,10 @@ impl<'a> LawSearch<'a> {
         let Some(before) = Held::of(&self.rows, &self.terms) else { return false };
         let mut best: Option<(f64, usize, LawCandidate)> = None;
         let mut shown: Vec<(f64, LawCandidate)> = Vec::new();
-        let known = |tried: &Tried| match tried.figures {
-            Some(LookedAt(figures)) => figures,
-            None => self.figures(&before, tried),
-        };
+        let known = |tried: &Tried| tried.figures.or_else(|| self.figures(&before, tried));
         let figures: Vec<_> = self.open.par_iter().map(known).collect();
         for (i, figures) in figures.into_iter().enumerate() {
-            self.open[i].figures = Some(LookedAt(figures));
+            self.open[i].figures = figures;
             let Some((cost, mut candidate)) = figures else { continue };
             candidate.taken &= self.settled || candidate.term != LawTerm::CommandLag;
             if candidate.taken && best.as_ref().is_none_or(|b| cost < b.0) {

@@ -86,17 +86,35 @@ impl LawRows {
         Self::with_values(Arc::clone(&self.frame), width, values)
     }
 
-    /// The first `width` columns and the right side, some columns with the values of others: `(place, other)`.
-    pub(super) fn exchanged(&self, width: usize, exchanged: &[(usize, usize)]) -> Self {
-        let values = filled(self.frame.order.len(), width + 1, |at, shorter| {
+    /// The columns `kept` with further ones, before the right side.
+    pub(super) fn narrowed(
+        &self,
+        sampled: &Sampled<'_>,
+        kept: &[usize],
+        columns: &[Column],
+    ) -> Self {
+        let further = sampled.columns(columns, &[]);
+        let width = kept.len() + columns.len() + 1;
+        let values = filled(self.frame.order.len(), width, |at, narrow| {
             let row = self.row(at);
-            shorter[..width].copy_from_slice(&row[..width]);
-            shorter[width] = row[self.width - 1];
+            for (value, column) in narrow.iter_mut().zip(kept) {
+                *value = row[*column];
+            }
+            narrow[kept.len()..width - 1].copy_from_slice(further.row(self.frame.order[at]));
+            narrow[width - 1] = row[self.width - 1];
+        });
+        Self::with_values(Arc::clone(&self.frame), width, values)
+    }
+
+    /// The same with some columns as others of the same windows have them: `(place, other)`.
+    pub(super) fn exchanged(&self, others: &Self, exchanged: &[(usize, usize)]) -> Self {
+        let values = filled(self.frame.order.len(), self.width, |at, row| {
+            row.copy_from_slice(self.row(at));
             for (place, other) in exchanged {
-                shorter[*place] = row[*other];
+                row[*place] = others.row(at)[*other];
             }
         });
-        Self::with_values(Arc::clone(&self.frame), width + 1, values)
+        Self::with_values(Arc::clone(&self.frame), self.width, values)
     }
 
     fn with_values(frame: Arc<Frame>, width: usize, values: Vec<f64>) -> Self {

@@ -91,12 +91,17 @@ impl LawSearch<'_> {
     /// Puts the one of `others` with which least is left in the place of a term that was taken.
     fn exchange(&mut self, found: usize, others: &[(LawTerm, Vec<Column>)]) {
         let own = self.taken[found].terms.clone();
-        let at = fixed(self.sampled.campaign) + self.columns.len();
+        let first = fixed(self.sampled.campaign);
+        // Other columns than those of the terms would be summed up for nothing.
+        let used = self.terms.iter().map(|t| t.column()).filter(|column| *column >= first);
+        let kept: Vec<usize> = (0..first).chain(used).collect();
         let columns: Vec<Column> = others.iter().flat_map(|o| &o.1).copied().collect();
-        let rows = self.rows.with_columns(self.sampled, &columns);
+        let rows = self.rows.narrowed(self.sampled, &kept, &columns);
         let in_place = |i: usize| -> Vec<Term> {
-            let other = |j: usize| Term::Signed(at + i * own.len() + j);
-            let of = |t: &Term| own.iter().position(|o| o == t).map_or(*t, other);
+            let other = |j: usize| Term::Signed(kept.len() + i * own.len() + j);
+            let narrow =
+                |t: &Term| kept.iter().position(|c| *c == t.column()).map_or(*t, |c| t.at(c));
+            let of = |t: &Term| own.iter().position(|o| o == t).map_or_else(|| narrow(t), other);
             self.terms.iter().map(of).collect()
         };
         let near_rest = self.taken[found].term.is_near_rest();
@@ -111,14 +116,13 @@ impl LawSearch<'_> {
         let tried: Vec<_> = (0..others.len()).into_par_iter().map(left).collect();
         let best = tried.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1));
         let Some((i, _)) = best else { return };
-        // Columns that nothing uses any more would be summed up with all that is tried later.
         let mut exchanged = Vec::with_capacity(own.len());
         for (j, column) in others[i].1.iter().enumerate() {
             let place = own[j].column();
-            self.columns[place - fixed(self.sampled.campaign)] = *column;
-            exchanged.push((place, at + i * own.len() + j));
+            self.columns[place - first] = *column;
+            exchanged.push((place, kept.len() + i * own.len() + j));
         }
-        self.rows = rows.exchanged(at, &exchanged);
+        self.rows = self.rows.exchanged(&rows, &exchanged);
         if let Some(solution) = self.rows.solved(&self.terms) {
             self.solution = solution;
         }
