@@ -12,7 +12,7 @@ use super::{CampaignFile, ReadOptions, read_campaign, read_campaign_with};
 use crate::io_error::Error;
 
 /// A campaign of one log `a.csv` with columns t, u, x, y.
-const PLAIN: &str = r#"
+pub(super) const PLAIN: &str = r#"
 [signals]
 time = { column = "t", unit = "s" }
 current = { column = "u", unit = "A", hold = "sampled" }
@@ -23,7 +23,7 @@ torque_constant = "0.25 N*m/A"
 file = "a.csv"
 "#;
 
-fn signal(k: usize) -> f64 {
+pub(super) fn signal(k: usize) -> f64 {
     (k as f64 * 0.1).sin()
 }
 
@@ -46,11 +46,11 @@ fn folder(campaign: &str, logs: &[(&str, &str)]) -> TempDir {
     folder
 }
 
-fn read_logs(campaign: &str, logs: &[(&str, &str)]) -> Result<CampaignFile, Error> {
+pub(super) fn read_logs(campaign: &str, logs: &[(&str, &str)]) -> Result<CampaignFile, Error> {
     read_campaign(&folder(campaign, logs).path().join("campaign.toml"))
 }
 
-fn read(campaign: &str) -> Result<CampaignFile, Error> {
+pub(super) fn read(campaign: &str) -> Result<CampaignFile, Error> {
     read_logs(campaign, &[("a.csv", &log(0..100))])
 }
 
@@ -235,7 +235,7 @@ fn fails_on(campaign: &str, logs: &[(&str, &str)], message: &str, hint: Option<&
 }
 
 #[track_caller]
-fn fails(campaign: &str, message: &str, hint: Option<&str>) {
+pub(super) fn fails(campaign: &str, message: &str, hint: Option<&str>) {
     fails_on(campaign, &[("a.csv", &log(0..100))], message, hint);
 }
 
@@ -324,162 +324,6 @@ fn a_command_is_a_current_a_voltage_or_unknown() {
     let current = PLAIN.replace("current =", "command =");
     let command = read(&current).unwrap().campaign.channels.command;
     assert_eq!(command.quantity, CommandQuantity::Current);
-}
-
-/// The plain campaign with other `command` and `[drive]`.
-fn commanded(keys: &str, drive: &str) -> String {
-    PLAIN
-        .replace(
-            "current = { column = \"u\", unit = \"A\", hold = \"sampled\"",
-            &format!("command = {{ column = \"u\", {keys}, hold = \"sampled\""),
-        )
-        .replace("torque_constant = \"0.25 N*m/A\"", drive)
-}
-
-#[test]
-fn a_command_in_torque_needs_no_constant() {
-    let command = |text: &str| read(text).unwrap().campaign.channels.command;
-    let torque = command(&commanded("unit = \"N*m\"", "limit = \"2 N*m\""));
-    assert_eq!(
-        (torque.quantity, torque.torque_per_command),
-        (CommandQuantity::Arbitrary, Some(1.0))
-    );
-    assert_eq!(torque.limit, Some(2.0));
-    let force = commanded("unit = \"kgf\"", "").replace("unit = \"rad\"", "unit = \"mm\"");
-    assert_eq!(command(&force).torque_per_command, Some(1.0));
-    fails(
-        &commanded("unit = \"N*m\"", "torque_constant = \"1 N*m\""),
-        "campaign.toml, line 7: `drive.torque_constant` says nothing where the command is a torque",
-        Some("remove it, or describe the channel it belongs to"),
-    );
-    fails(
-        &commanded("unit = \"N*m\"", "limit = \"2 A\""),
-        "campaign.toml, line 7: `drive.limit`: \"2 A\" is a current [A], where a torque [kg*m^2*s^-2] is expected",
-        Some("write it as in \"0.25 N*m\""),
-    );
-}
-
-#[test]
-fn a_negative_torque_constant_turns_the_current_round() {
-    let text = PLAIN.replace("\"0.25 N*m/A\"", "\"-0.25 N*m/A\"");
-    let text = text.replace("unit = \"A\"", "unit = \"A\", offset = 1");
-    let file = read(&text).unwrap();
-    assert_eq!(file.campaign.channels.command.torque_per_command, Some(0.25));
-    assert_eq!(file.known.torque_constant, Some(0.25));
-    assert_eq!(file.campaign.runs[0].command()[..4], [-1.0, -2.0, -3.0, -4.0]);
-}
-
-#[test]
-fn a_goal_less_the_angle_is_the_command() {
-    let goal = "unit = \"deg\", quantity = \"goal\"";
-    let file = read(&commanded(goal, "")).unwrap();
-    let command = &file.campaign.channels.command;
-    assert_eq!((command.quantity, command.torque_per_command), (CommandQuantity::Arbitrary, None));
-    let expected = 3.0 * PI / 180.0 - f64::midpoint(signal(7), signal(8));
-    assert!((file.campaign.runs[0].command()[7] - expected).abs() < 1e-15);
-    let measured =
-        commanded(goal, "position_gain = \"12 N*m/rad\"").replace("\"sampled\"", "\"measured\"");
-    let file = read(&measured).unwrap();
-    assert_eq!(file.campaign.channels.command.torque_per_command, Some(12.0));
-    assert!((file.campaign.runs[0].command()[7] - (3.0 * PI / 180.0 - signal(7))).abs() < 1e-15);
-    let linear = commanded("unit = \"mm\", quantity = \"goal\"", "position_gain = \"12 N/mm\"")
-        .replace("unit = \"rad\"", "unit = \"m\"");
-    let gain = read(&linear).unwrap().campaign.channels.command.torque_per_command.unwrap();
-    assert!((gain - 12e3).abs() < 1e-9);
-}
-
-#[test]
-fn goals_that_are_none() {
-    let angles = Some(
-        "give \"rad\" or \"deg\" for a rotary axis, \"m\" or \"mm\" for a linear one; counts: unit = \"rad\" with scale = rad per count",
-    );
-    for unit in ["A", "mm", "1"] {
-        fails(
-            &commanded(&format!("unit = \"{unit}\", quantity = \"goal\""), ""),
-            &format!(
-                "campaign.toml, line 4: `signals.command.unit`: a position goal is an angle, and \"{unit}\" is not a unit of an angle"
-            ),
-            angles,
-        );
-    }
-    fails(
-        &commanded("unit = \"deg\", quantity = \"target\"", ""),
-        "campaign.toml, line 4: `signals.command.quantity` is \"target\", but must be \"goal\"",
-        Some("write one of these words"),
-    );
-    fails(
-        &commanded("unit = \"deg\", quantity = \"goal\"", "position_gain = \"-1 N*m/rad\""),
-        "campaign.toml, line 7: `drive.position_gain` is \"-1 N*m/rad\", but must be greater than zero",
-        Some("check its sign"),
-    );
-    fails(
-        &commanded("unit = \"deg\", quantity = \"goal\"", "position_gain = \"1 N/m\""),
-        "campaign.toml, line 7: `drive.position_gain`: \"1 N/m\" is a quantity in [kg*s^-2], where a torque [kg*m^2*s^-2] is expected",
-        Some("write it as in \"0.25 N*m\""),
-    );
-    fails(
-        &PLAIN.replace("torque_constant = \"0.25 N*m/A\"", "position_gain = 12"),
-        "campaign.toml, line 7: `drive.position_gain` says nothing where the command is a current",
-        Some("remove it, or describe the channel it belongs to"),
-    );
-    fails(
-        &PLAIN.replace("hold =", "quantity = \"goal\", hold ="),
-        "campaign.toml, line 4: `signals.current.quantity` is not a key that is known here",
-        Some("the keys here are `column`, `unit`, `scale`, `offset`, `hold`"),
-    );
-    let speed = commanded("unit = \"deg\", quantity = \"goal\"", "")
-        .replace("unit = \"rad\"", "unit = \"rpm\", quantity = \"speed\"");
-    fails(
-        &speed,
-        "campaign.toml, line 4: `signals.command`: a position goal needs the motor's position, but the log has its speed",
-        Some("give the column of the motor's angle, or the motor current in place of the goal"),
-    );
-}
-
-#[test]
-fn a_speed_is_integrated() {
-    for (unit, axis, size) in [("rpm", Axis::Rotary, PI / 30.0), ("m/s", Axis::Linear, 1.0)] {
-        let text = PLAIN
-            .replace("unit = \"rad\"", &format!("unit = \"{unit}\", quantity = \"speed\""))
-            .replace("torque_constant = \"0.25 N*m/A\"", "");
-        let file = read(&text).unwrap();
-        assert_eq!(file.campaign.channels.axis, axis);
-        let run = &file.campaign.runs[0];
-        assert_eq!(run.motor()[0], 0.0);
-        let sum: f64 = (0..7).map(|k| f64::midpoint(signal(k), signal(k + 1))).sum();
-        assert!((run.motor()[7] - sum * size * 1e-3).abs() < 1e-15);
-        assert_eq!(run.notes(), [Note::SpeedIntegrated]);
-    }
-    fails(
-        &PLAIN.replace("unit = \"rad\"", "unit = \"rpm\""),
-        "campaign.toml, line 5: `signals.motor.unit`: \"rpm\" is a unit of speed, but the motor's `quantity` is not \"speed\"",
-        Some("add `quantity = \"speed\"`: the angle is then integrated from the speed"),
-    );
-    fails(
-        &PLAIN.replace("unit = \"rad\"", "unit = \"rad\", quantity = \"speed\""),
-        "campaign.toml, line 5: `signals.motor.unit`: \"rad\" is not a unit of speed, but the motor's `quantity` is \"speed\"",
-        Some(
-            "give \"rad/s\", \"deg/s\" or \"rpm\" for a rotary axis, \"m/s\" for a linear one, or remove `quantity` if the channel is an angle",
-        ),
-    );
-    fails(
-        &PLAIN.replace("unit = \"rad\"", "unit = \"rad\", quantity = \"velocity\""),
-        "campaign.toml, line 5: `signals.motor.quantity` is \"velocity\", but must be \"angle\" or \"speed\"",
-        Some("write one of these words"),
-    );
-}
-
-#[test]
-fn turns_of_an_absolute_encoder_are_removed() {
-    let mut text = String::from("t,u,x\n");
-    for k in 0..400 {
-        writeln!(text, "{},1,{}", f64::from(k) * 1e-3, f64::from(k * 4 % 360)).unwrap();
-    }
-    let degrees = PLAIN.replace("unit = \"rad\"", "unit = \"deg\"");
-    let file = read_logs(&degrees, &[("a.csv", &text)]).unwrap();
-    let run = &file.campaign.runs[0];
-    assert!((run.motor()[399] - 399.0 * 4.0 * PI / 180.0).abs() < 1e-12);
-    assert_eq!(run.notes(), [Note::TurnsRemoved { count: 4 }]);
 }
 
 #[test]

@@ -47,6 +47,8 @@
 //! columns' own numbers; its angle is continued across ±π and multiplied by `scale` (−1 where y
 //! points down).
 
+#[cfg(test)]
+mod campaign_channel_tests;
 mod campaign_drive;
 pub(crate) mod campaign_error;
 mod campaign_file;

@@ -4,7 +4,8 @@ use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::judge::{Chosen, Evidence, slip_phase_solution};
 use crate::identify::methods::friction_law::FrictionLaw;
 use crate::identify::methods::output_error::{starts, starts_by_motor};
-use crate::identify::validation::{torque_error, zeros};
+use crate::identify::validation::torque::torque_error;
+use crate::identify::validation::zeros::zeros;
 use crate::record::Campaign;
 use crate::replay::ModalArm;
 

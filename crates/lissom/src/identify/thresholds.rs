@@ -22,6 +22,9 @@ thresholds! {
         /// A term pays for its parameter if the residual with it falls to this share or less. A
         /// term that is significant by chance leaves nearly all of the residual.
         RESIDUAL_FALLS_TO: f64 = 0.9, "1", Convention;
+        /// A lag of the command is half a sample if it differs from that by less than this share,
+        /// or by less than its error (`PRESENT`).
+        LAG_HALF_SAMPLE: f64 = 0.05, "1", Convention;
         /// Residual torque, as a share of the torque, above which a model does not describe it
         /// well: estimates are reported as uncertain, and a prediction as poor.
         UNEXPLAINED_TORQUE: f64 = 0.15, "1", Convention;

@@ -315,7 +315,8 @@ fn derivatives_are_exact_with_gravity() {
 }
 
 /// Of its own angle a replay is the pendulum `J·θ̈ = τ − V·θ̇ − F·sign θ̇ − g_s·sin θ − g_c·cos θ`, here by a method of
-/// fourth order in steps of a hundredth of a sample: what is left is that between samples the load is on a line.
+/// fourth order in steps of a hundredth of a sample. The difference is that the replay takes the load between samples for
+/// linear.
 #[test]
 fn replays_a_pendulum() {
     let load = GravityLoad { sine_nm: 0.05, cosine_nm: 0.02 };

@@ -126,7 +126,8 @@ impl fmt::Display for OutputErrorFinding {
             ),
             Self::CommandNoise { ratio } => write!(
                 f,
-                "the noise of the measured command moves the angle by {} times its sensor's noise: the runs are not replayed",
+                "the measured command is too noisy to simulate the motion from it (its noise, integrated, is {} times that of the \
+                 angle's sensor): the estimates do not come from the output-error method",
                 significant(*ratio, 2)
             ),
             Self::TipLag { tip, lag_s } => write!(

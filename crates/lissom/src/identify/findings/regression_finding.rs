@@ -13,8 +13,6 @@ use crate::identify::findings::units::EstimateUnits;
 use crate::identify::methods::regression::missing::{MissingKind, MissingTerm};
 use crate::identify::methods::regression::{AngleLag, GravityPartner, LagShape};
 
-/// A lag within so many samples of half a one looks like a wrong `hold`.
-const HALF_A_SAMPLE: f64 = 0.1;
 /// Digits of a coefficient whose standard error is not given.
 const DIGITS: usize = 3;
 
@@ -187,8 +185,8 @@ impl fmt::Display for RegressionFinding {
             ),
             Self::InertiaShort { short_by } => write!(
                 f,
-                "inertia is up to {:.0} % too small if friction wanders: what accelerates the motor is then in part the \
-                 torque that is left, and not the command",
+                "inertia is up to {:.0} % too small if friction wanders: the residual torque then accelerates the motor, as \
+                 the command does",
                 100.0 * short_by
             ),
             Self::OneSine => f.write_str(
@@ -337,14 +335,14 @@ impl Describe for RegressionFinding {
                     "the joint warms up: warm it up first, or identify the runs separately"
                 }
             },
-            Self::AngleLag { lag } if (lag.samples.abs() - 0.5).abs() < HALF_A_SAMPLE => {
+            Self::AngleLag { lag } if lag.is_half_a_sample() => {
                 "half a sample is the difference between a held and a measured command: check `hold`"
             }
             Self::AngleLag { lag } if lag.time_s < 0.0 => {
-                "log the current before it is filtered, or shift the channels against each other"
+                "log the current before it is filtered; figures near reversals may be off by more than their standard errors"
             }
             Self::AngleLag { .. } => {
-                "log the angle before the drive filters it, or shift the channels against each other"
+                "log the angle before the drive filters it; figures near reversals may be off by more than their standard errors"
             }
             Self::ViscousByDirection { .. } => {
                 "the scalar estimate is the mean of both; the offset depends on which law is chosen: look for a brush, \

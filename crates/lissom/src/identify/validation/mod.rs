@@ -6,18 +6,18 @@ mod kernel;
 mod motion_fit;
 pub(crate) mod moved_mode;
 mod residual;
-mod torque;
+pub(super) mod torque;
+mod torque_rows;
 mod validation_findings;
-mod zeros;
+pub(super) mod zeros;
 
 pub use cause::{Cause, CauseKind};
 pub use motion_fit::{ChannelFit, Horizon, PredictedStretch};
 pub use moved_mode::{MovedBy, MovedMode};
 pub use residual::ChannelResidual;
 use torque::torque;
-pub(super) use torque::torque_error;
 pub use torque::{TorquePrediction, TorqueRun, TorqueStretch};
-pub(super) use zeros::zeros;
+use zeros::zeros;
 
 use thiserror::Error;
 

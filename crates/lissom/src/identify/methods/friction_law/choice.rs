@@ -61,7 +61,7 @@ pub(super) struct Tried {
     figures: Option<Figures>,
 }
 
-/// A candidate with its cost on phases left out; whether it is taken says all but what is left to the settled law.
+/// A candidate with its cost on phases left out. Its `taken` is before the rule that a lag waits for the law by speed.
 type Figures = (f64, LawCandidate);
 
 impl Tried {

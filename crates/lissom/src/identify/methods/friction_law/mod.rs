@@ -170,19 +170,21 @@ pub(crate) fn friction_law(
     let (campaign, noise) = (prepared.used(), prepared.noise());
     let runs = campaign.runs.par_iter().with_max_len(1);
     let sensors: Vec<ChannelNoise> = runs.map(|run| channel_noise(run.motor())).collect();
-    let windows_of = |window_s: f64| Sampled::new(campaign, noise, window_s);
     let step = sensors.iter().map(|sensor| sensor.step).fold(0.0, f64::max);
     let load = motor.gravity.map(|g| g.load());
+    let windows_of = |window_s: f64| {
+        let mut sampled = Sampled::new(campaign, noise, window_s);
+        (sampled.load, sampled.step) = (load, step);
+        sampled
+    };
     let mut sampled = short_windows(windows_of, campaign, motor, (inertia, &sensors));
-    (sampled.load, sampled.step) = (load, step);
     let found = UnderLaw::of(&sampled)?;
     let (mut law, mut sums) = found.with_curve(&sampled)?;
     let mut described = found.choice.described;
-    // Noise may hide in windows so short what the regression's own show.
+    // In windows so short noise may hide a term that the regression's own windows show.
     let by_speed = motor.missing.is_some_and(|m| m.kind == MissingKind::Stribeck);
     if by_speed && !law.chosen.departs() && sampled.window_s < motor.window_s {
-        let mut longer = windows_of(motor.window_s);
-        (longer.load, longer.step) = (load, step);
+        let longer = windows_of(motor.window_s);
         let found = UnderLaw::of(&longer).filter(|found| found.choice.fit.departs());
         if let Some((with_curve, found)) = found.and_then(|f| Some((f.with_curve(&longer)?, f))) {
             (law, sums) = with_curve;

@@ -10,9 +10,9 @@ use crate::identify::methods::output_error::model::describes::is_left;
 use crate::identify::methods::output_error::model::fit::StageReport;
 use crate::identify::methods::output_error::moves::modes::highest;
 use crate::identify::methods::output_error::thresholds::{
-    DAMPER_DRIVES, LAG_COMPARED, LAG_HALF_SAMPLE, MODE_FAINT, RESIDUAL_GROWN,
+    DAMPER_DRIVES, LAG_COMPARED, MODE_FAINT, RESIDUAL_GROWN,
 };
-use crate::identify::thresholds::PRESENT;
+use crate::identify::thresholds::{LAG_HALF_SAMPLE, PRESENT};
 use crate::record::{Campaign, Hold, Run, Tip};
 use crate::replay::{ModalArm, Parameter};
 

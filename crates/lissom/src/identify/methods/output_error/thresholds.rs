@@ -203,9 +203,6 @@ thresholds! {
         /// A damping coefficient that is this far below zero is reported: it gains energy, so the
         /// kind of damping is wrong.
         DAMPER_DRIVES: f64 = 5.0, "standard errors", Convention;
-        /// A lag of the command is half a sample if it differs from that by less than this share,
-        /// or by less than its error (`PRESENT`).
-        LAG_HALF_SAMPLE: f64 = 0.05, "1", Convention;
         /// A lag of the command is compared with half a sample only if its relative standard error
         /// is below this.
         LAG_COMPARED: f64 = 0.1, "1", Convention;

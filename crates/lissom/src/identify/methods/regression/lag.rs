@@ -1,11 +1,14 @@
 //! By how much the angle lags behind the command, and whether as a first-order filter or as a delay.
 
+use crate::identify::methods::regression::missing::MissingTerm;
+use crate::identify::methods::regression::motor_columns::{DRY, MotorColumns};
 use crate::identify::methods::regression::motor_rows::MotorRows;
 use crate::identify::methods::regression::normal::{NormalSums, Term};
 use crate::identify::methods::regression::thresholds::{
     LAG_EXPLAINS, LAG_SAMPLES_MOST, LAG_SHAPE_TOLD,
 };
 use crate::identify::prepare::run_noise::RunNoise;
+use crate::identify::thresholds::LAG_HALF_SAMPLE;
 use crate::record::{Campaign, Hold, Run};
 
 /// Steps of the search, each over half of the range of the one before.
@@ -38,6 +41,11 @@ pub struct AngleLag {
 }
 
 impl AngleLag {
+    /// Whether it is the difference between a held and a measured command.
+    pub(crate) fn is_half_a_sample(&self) -> bool {
+        (self.samples.abs() / 0.5 - 1.0).abs() < LAG_HALF_SAMPLE
+    }
+
     /// The same with a longer time.
     #[must_use]
     pub(crate) fn longer_by(self, more_s: f64) -> Self {
@@ -52,15 +60,16 @@ impl AngleLag {
     }
 }
 
-/// The lag with which the equation leaves least, looked for up to three times the `first` estimate: the command is
-/// filtered or delayed as the angle was, or taken earlier where it is less than zero. `None` where it does not explain most of what is left.
+/// The lag with the smallest residual, up to three times the delay that the equation is `missing`: the command is filtered or
+/// delayed as the angle was, or taken earlier for a negative delay. `None` if the residual does not fall to
+/// [`LAG_EXPLAINS`].
 pub(super) fn angle_lag(
     campaign: &Campaign,
     noise: &[RunNoise],
-    window_s: f64,
-    terms: &[Term],
-    first_s: f64,
+    missing: &MissingTerm,
 ) -> Option<AngleLag> {
+    let terms = MotorColumns::of(campaign).terms(Term::Signed(DRY));
+    let first_s = missing.value;
     let mut samples = 0;
     let few = |run: &&Run| {
         let before = samples;
@@ -70,8 +79,8 @@ pub(super) fn angle_lag(
     let runs: Vec<&Run> = campaign.runs.iter().take_while(few).collect();
     let left = |shape: LagShape, time_s: f64| -> f64 {
         let late = delayed(campaign, &runs, shape, time_s);
-        let clusters = MotorRows::of(&late, noise).clusters(window_s);
-        let sums = NormalSums::of(&clusters, terms);
+        let clusters = MotorRows::of(&late, noise).clusters(missing.window_s);
+        let sums = NormalSums::of(&clusters, &terms);
         sums.and_then(|s| s.relative_residual()).unwrap_or(f64::INFINITY)
     };
     let without = left(LagShape::Delay, 0.0);

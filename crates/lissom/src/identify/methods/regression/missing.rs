@@ -81,15 +81,18 @@ pub struct MissingTerm {
     pub deviations: f64,
     /// Residual beside that of the equation without it, as a ratio.
     pub residual_ratio: f64,
+    /// Length of the windows that show it \[s\].
+    pub window_s: f64,
 }
 
-/// The term whose addition explains most, if it is called for. The further columns follow those of `columns`, in the
+/// The term whose addition explains most in windows of a length, if it is called for. The further columns follow those of `columns`, in the
 /// order of [`MissingKind`]; damping of a beam is tried where tips show one, gravity where the axis turns far enough.
 pub(super) fn missing_term(
     clusters: &[Cluster],
     terms: &[Term],
     without: &Solution,
     (columns, campaign): (&MotorColumns, &Campaign),
+    window_s: f64,
 ) -> Option<MissingTerm> {
     if without.relative_residual < NOTHING_MISSING {
         return None;
@@ -137,6 +140,7 @@ pub(super) fn missing_term(
             },
             deviations: value.abs() / std,
             residual_ratio: solution.relative_residual / without.relative_residual,
+            window_s,
         })
     });
     tried.min_by(|a, b| a.residual_ratio.total_cmp(&b.residual_ratio))

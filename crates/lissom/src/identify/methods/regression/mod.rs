@@ -3,6 +3,7 @@
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one: half the time")]
 
 mod beam;
+mod cluster_covariance;
 mod fitted;
 mod lag;
 mod left_out;

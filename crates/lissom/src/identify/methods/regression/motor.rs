@@ -9,6 +9,7 @@ use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::Estimate;
 use crate::identify::friction_estimates::Friction;
 use crate::identify::gravity_estimate::Gravity;
+use crate::identify::methods::regression::cluster_covariance::larger;
 use crate::identify::methods::regression::fitted::Fitted;
 use crate::identify::methods::regression::lag::{AngleLag, angle_lag};
 use crate::identify::methods::regression::left_out::{RunLeftOut, runs_left_out};
@@ -17,7 +18,7 @@ use crate::identify::methods::regression::motor_columns::{
     DRY, MotorColumns, PLACE_INERTIA, PLACE_OFFSET, PLACE_VISCOUS, VISCOUS,
 };
 use crate::identify::methods::regression::motor_rows::MotorRows;
-use crate::identify::methods::regression::normal::{Cluster, Solution, Term, larger, solve};
+use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve};
 use crate::identify::methods::regression::scan::{Candidate, RATIO, change, scan};
 use crate::identify::methods::regression::thresholds::{
     FEW_PHASES, GRAVITY_CORRELATION, GRAVITY_KNOWN, LONGER_WINDOW, WINDOW_SYSTEMATIC,
@@ -28,7 +29,7 @@ use crate::identify::prepare::run_noise::RunNoise;
 use crate::identify::thresholds::{CLEARLY_PRESENT, RESIDUAL_FALLS_TO};
 use crate::record::{Campaign, Channels, Run};
 
-/// A lag is corrected by what is left of it so many times, at most.
+/// A lag is found in at most this many rounds, each corrected by the delay that the equation lacks in the one before.
 const LAG_ROUNDS: usize = 3;
 /// Two lengths of windows are one if they differ by less than this share.
 const SAME_LENGTH: f64 = 1e-9;
@@ -71,13 +72,11 @@ pub struct MotorRegression {
     pub viscous_by_direction: Option<ByDirection>,
     /// A term that the equation lacks, where the data call for one.
     pub missing: Option<MissingTerm>,
-    /// The lag of the angle behind the command, where `missing` is one.
+    /// The lag of the angle behind the command that the estimates count.
     pub lag: Option<AngleLag>,
-    /// By what share inertia is too small if the torque left is not noise but accelerates the motor, as friction that
-    /// wanders does in an open loop; of runs that turn one way each, which no loop of a position drives.
+    /// By what share inertia is too small if the residual torque is not noise but accelerates the motor, as friction that
+    /// wanders does in an open loop. Given where each run turns one way: no position loop drives these.
     pub inertia_short_by: Option<f64>,
-    /// Whether the figures are of commands that were made as late.
-    pub(crate) late: bool,
     /// The same without each run in turn.
     pub(crate) left_out: Vec<RunLeftOut>,
     /// J, V, CF, offset, κ_i of the tips whose angle is known, g_s and g_c, as the logs have them.
@@ -186,23 +185,22 @@ pub fn motor_regression(prepared: &Prepared<'_>, options: &Options) -> Option<Mo
     rayon::scope(|_| {
         let (campaign, noise) = (prepared.used(), prepared.noise());
         let mut found = on_slip_phases(campaign, noise, &options.window_s, None)?;
-        // With the command as late as the angle the equation holds; what is left of the lag shows then.
+        let delay =
+            |found: &MotorRegression| found.missing.filter(|m| m.kind == MissingKind::Delay);
+        let mut lag = delay(&found).and_then(|missing| angle_lag(campaign, noise, &missing));
+        // With the command as late as the angle the equation holds; a delay that it still lacks corrects the lag.
         for _ in 0..LAG_ROUNDS {
-            let Some(mut lag) = found.lag else { break };
-            if found.late {
-                let Some(rest) = found.missing.filter(|m| m.kind == MissingKind::Delay) else {
-                    break;
-                };
-                lag = lag.longer_by(rest.value);
-            }
-            let late = on_slip_phases(&lag.late(campaign), noise, &options.window_s, Some(lag));
-            found = late.unwrap_or(found);
+            let Some(now) = lag else { break };
+            let late = on_slip_phases(&now.late(campaign), noise, &options.window_s, Some(now));
+            let Some(late) = late else { break };
+            found = late;
+            lag = delay(&found).map(|missing| now.longer_by(missing.value));
         }
         Some(found)
     })
 }
 
-/// The same of a campaign whose commands were made late by a `lag`, if by any.
+/// The same of a campaign whose commands were made late by a `lag`, if by any; the standard errors count the lag's.
 fn on_slip_phases(
     campaign: &Campaign,
     noise: &[RunNoise],
@@ -245,39 +243,29 @@ fn on_slip_phases(
     let DriveEstimates { friction, inertia, coupling: total_coupling, coupling_by_tip, gravity } =
         one.estimates(channels);
     let missing_in = |clusters: &[Cluster], without: &Solution, length: f64| {
-        let term = missing_term(clusters, &terms, without, (columns, campaign))?;
-        Some((term, length))
+        missing_term(clusters, &terms, without, (columns, campaign), length)
     };
     let missing = missing_in(&clusters, solution, window_s_chosen).or_else(|| {
-        // Less of the residual is noise in longer windows.
+        // Noise makes less of the residual in longer windows.
         let length = LONGER_WINDOW * window_s_chosen;
         let many = window_s.is_empty() && equation.phases(length) >= FEW_PHASES;
         let (clusters, without) = many.then(|| with_more(length)).flatten()?;
         missing_in(&clusters, &without, length)
     });
-    // A few strokes are too much alike to tell a lag from other things.
-    let told = |m: &MissingTerm| m.kind != MissingKind::Delay || phases >= FEW_PHASES;
-    let missing = missing.filter(|(m, _)| told(m));
+    // A few strokes are too much alike to separate a lag from other causes.
+    let missing = missing.filter(|m| m.kind != MissingKind::Delay || phases >= FEW_PHASES);
     let left_out = runs_left_out(&clusters, &terms);
-    let late = lag.is_some();
-    let lag = lag.or_else(|| {
-        let (found, length) = missing?;
-        let late = found.kind == MissingKind::Delay;
-        late.then(|| angle_lag(campaign, noise, length, &terms, found.value)).flatten()
-    });
-    let missing = missing.map(|(term, _)| term);
-    // Noise of the command leaves less in longer windows; what wanders does not.
+    let from_chosen =
+        || found.candidates.iter().map(|c| c.window_s).filter(|l| *l >= window_s_chosen);
+    // Noise of the command averages out in longer windows; friction that wanders does not.
     let share = |length: f64| {
         let s = sums.solved(length, &terms)?;
         Some(s.turned_round[PLACE_INERTIA] / s.value[PLACE_INERTIA].powi(2))
     };
-    let lengths = found.candidates.iter().map(|c| c.window_s).filter(|l| *l >= window_s_chosen);
-    let short_by = lengths.filter_map(share).fold(f64::INFINITY, f64::min);
-    let inertia_short_by = turn_one_way(&clusters).then_some(short_by);
-    let longer = found.candidates.iter().map(|c| c.window_s).filter(|l| *l >= window_s_chosen);
-    let viscous_by_direction = longer
-        .into_iter()
-        .find_map(|length| by_direction(channels, columns, &terms, length, &sums));
+    let short_by = || from_chosen().filter_map(share).fold(f64::INFINITY, f64::min);
+    let inertia_short_by = turn_one_way(&clusters).then(short_by);
+    let viscous_by_direction =
+        from_chosen().find_map(|length| by_direction(channels, columns, &terms, length, &sums));
     Some(MotorRegression {
         window_s: chosen.window_s,
         window_given: !window_s.is_empty(),
@@ -296,7 +284,6 @@ fn on_slip_phases(
         viscous_by_direction,
         missing,
         lag,
-        late,
         inertia_short_by,
         left_out,
         terms: terms_of(&one),
