@@ -162,6 +162,10 @@ pub fn identify(
         let tried = law.as_ref().map(|(law, _)| law.tried());
         output_error(&prepared, &start_of(&prepared, options, arms, tried))
     });
+    let lawful = law.as_ref().is_some_and(|(law, _)| law.chosen.departs());
+    let doubted = regression_missing.is_some() && !lawful;
+    let output_error =
+        output_error.map(|oe| if doubted { oe.beside_doubted_regression() } else { oe });
 
     progress(Stage::Responses);
     let replay = output_error.as_ref().filter(|o| o.describes_whole_runs());

@@ -6,7 +6,9 @@ use crate::identify::friction_estimates::Friction;
 use crate::identify::gravity_estimate::Gravity;
 use crate::identify::methods::friction_law::LawTerm;
 use crate::identify::methods::output_error::found::OutputError;
-use crate::identify::methods::output_error::model::describes::{is_left, stands};
+use crate::identify::methods::output_error::model::describes::{
+    accepted_residual, is_left, is_sound,
+};
 use crate::record::{Channels, TipQuantity};
 use crate::replay::{DryTerms, FrictionNumber, ModalArm, Parameter};
 
@@ -108,8 +110,15 @@ impl OutputError {
     }
 
     /// Whether the arm is accepted: its residual is at most a few times the sensors' noise if whole runs are
-    /// replayed, and about that noise if shorter windows are replayed.
+    /// replayed, and about that noise if shorter windows are replayed. Where the regression's equation lacks a term, shorter
+    /// windows are accepted as whole runs are: the regression's estimates would be further off.
     pub fn stands(&self) -> bool {
-        stands(&self.arm, &self.covariance, self.whole_runs, self.beyond_noise)
+        self.beyond_noise < self.accepted_residual && is_sound(&self.arm, &self.covariance)
+    }
+
+    /// The same beside a regression whose equation lacks a term.
+    #[must_use]
+    pub(crate) fn beside_doubted_regression(self) -> Self {
+        Self { accepted_residual: accepted_residual(true), ..self }
     }
 }

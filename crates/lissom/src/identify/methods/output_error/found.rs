@@ -52,6 +52,8 @@ pub struct OutputError {
     pub open_by_damping: Vec<Parameter>,
     /// Largest ratio of a channel's residual in the last stage to its noise as estimated from the samples alone.
     pub beyond_noise: f64,
+    /// Largest such ratio up to which the arm is accepted.
+    pub(crate) accepted_residual: f64,
     /// Share of each channel's squared residual, motor first, that is slower than its sensor's noise.
     pub left_over: Vec<f64>,
 }

@@ -4,6 +4,7 @@
 use crate::identify::methods::output_error::engine::budget::Budget;
 use crate::identify::methods::output_error::engine::{data, noise};
 use crate::identify::methods::output_error::found::{OutputError, OutputErrorStart};
+use crate::identify::methods::output_error::model::describes::accepted_residual;
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::schedule::{Attempt, best};
 use crate::identify::methods::output_error::thresholds::{EVALUATIONS_MOST, WINDOW_WIDENING};
@@ -65,6 +66,7 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
         windows: fit.windows,
         parameters,
         beyond_noise,
+        accepted_residual: accepted_residual(fit.whole_runs),
         left_over: left,
         stages: report.stages,
         extensions: report.added,

@@ -10,7 +10,9 @@
 use crate::identify::methods::output_error::engine::data::Masks;
 use crate::identify::methods::output_error::engine::windows::widen as widened;
 use crate::identify::methods::output_error::found::OutputErrorStart;
-use crate::identify::methods::output_error::model::describes::{is_left, stands};
+use crate::identify::methods::output_error::model::describes::{
+    accepted_residual, is_left, is_sound,
+};
 use crate::identify::methods::output_error::model::fit::{ArmFit, Report};
 use crate::identify::methods::output_error::model::fitting::{Fitting, some};
 use crate::identify::methods::output_error::model::left_over::left_over;
@@ -226,12 +228,8 @@ fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> 
 impl Attempt {
     fn stands(&self, fitting: &Fitting<'_>) -> bool {
         let covariance = fitting.covariances(&self.fit).larger();
-        stands(
-            &self.fit.body.arm,
-            &covariance,
-            self.fit.whole_runs,
-            fitting.beyond_noise(&self.fit),
-        )
+        is_sound(&self.fit.body.arm, &covariance)
+            && fitting.beyond_noise(&self.fit) < accepted_residual(self.fit.whole_runs)
     }
 
     /// Whether another is better over the same samples.

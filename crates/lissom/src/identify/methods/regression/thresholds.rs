@@ -39,7 +39,7 @@ thresholds! {
         LONGER_WINDOW: f64 = 4.0, "1", Convention;
         /// An angle lags behind the command if with the lag less than this share of the residual is
         /// left: the estimates are then those with it.
-        LAG_EXPLAINS: f64 = 0.5, "1", Convention;
+        LAG_EXPLAINS: f64 = 1.0 / 3.0, "1", Convention;
         /// A lag of the angle is a filter or a delay where the one leaves less than this share of what
         /// the other does.
         LAG_SHAPE_TOLD: f64 = 0.8, "1", Convention;

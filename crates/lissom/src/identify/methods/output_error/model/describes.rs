@@ -17,15 +17,14 @@ pub(crate) fn most(shares: &[f64]) -> f64 {
     shares.iter().copied().fold(0.0, f64::max)
 }
 
-/// Whether an arm is accepted: its residual is at most a few times the sensors' noise if whole runs are replayed, and
-/// about that noise if shorter windows are replayed.
-pub(crate) fn stands(
-    arm: &ModalArm,
-    covariance: &DMatrix<f64>,
-    whole_runs: bool,
-    beyond_noise: f64,
-) -> bool {
+/// Largest residual of an accepted arm, in the sensors' noise: a few times that if whole runs are replayed, about that if
+/// shorter windows are.
+pub(crate) fn accepted_residual(whole_runs: bool) -> f64 {
+    if whole_runs { RESIDUAL_FAR_ABOVE_NOISE } else { RESIDUAL_AT_NOISE }
+}
+
+/// Whether an arm is possible, and its standard errors are known.
+pub(crate) fn is_sound(arm: &ModalArm, covariance: &DMatrix<f64>) -> bool {
     let finite = covariance.diagonal().iter().all(|v| v.is_finite() && *v > 0.0);
-    let most = if whole_runs { RESIDUAL_FAR_ABOVE_NOISE } else { RESIDUAL_AT_NOISE };
-    beyond_noise < most && finite && arm.inertia_kg_m2 > 0.0
+    finite && arm.inertia_kg_m2 > 0.0
 }

@@ -98,9 +98,14 @@ impl Report {
         least.iter().zip(residual).any(|(a, b)| *b > RESIDUAL_GROWN * a)
     }
 
-    /// Notes that friction has another law from the last stage on.
+    /// Notes that friction has another law from the last stage on. Over longer windows, where the residual may have grown
+    /// already, later stages are still compared with the first one.
     pub(crate) fn law_changed(&mut self) {
-        self.under_law = self.stages.len().saturating_sub(1);
+        let Some(last) = self.stages.last() else { return };
+        let first = &self.stages[self.under_law].residual;
+        if last.residual.iter().zip(first).all(|(now, before)| now <= before) {
+            self.under_law = self.stages.len() - 1;
+        }
     }
 
     /// State of the report before a stage.
