@@ -46,7 +46,7 @@ pub use methods::output_error::{
 };
 pub use methods::regression::{
     AngleLag, BeamRegression, ByDirection, Candidate, GravityPartner, LagShape, MissingKind,
-    MissingTerm, MotorRegression, beam_regression, motor_regression,
+    MissingTerm, MotorRegression, RunDifference, beam_regression, motor_regression,
 };
 pub use methods::third_harmonic::{PairFigure, ThirdHarmonic, mean_figure, pair_figure};
 pub use options::Options;

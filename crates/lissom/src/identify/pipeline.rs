@@ -14,10 +14,11 @@ use crate::identify::methods::output_error::thresholds::COMMAND_NOISE_MOST;
 use crate::identify::methods::output_error::{OutputErrorStart, command_noise, output_error};
 use crate::identify::methods::regression::thresholds::FEW_PHASES;
 use crate::identify::methods::regression::{
-    BeamRegression, LagShape, MotorRegression, beam_regression, motor_regression,
+    BeamRegression, LagShape, MotorRegression, beam_regression,
 };
 use crate::identify::methods::starting_arms::starting_arms;
 use crate::identify::methods::third_harmonic::{ThirdHarmonic, third_harmonic};
+use crate::identify::methods::unlike_runs::regression_of_like_runs;
 use crate::identify::options::Options;
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_analysis::RunKind;
@@ -116,8 +117,8 @@ pub fn identify(
     progress(Stage::Regression);
     // From constant velocities alone it is accepted if their transitions show the inertia.
     let doubted = prepared.has_only_constant_velocities() && constant_velocity.is_some();
-    let any_regression =
-        motor_regression(&prepared, options).filter(|r| !doubted || is_sound_alone(r));
+    let (prepared, any_regression) = regression_of_like_runs(prepared, options);
+    let any_regression = any_regression.filter(|r| !doubted || is_sound_alone(r));
     let regression_missing = any_regression.as_ref().and_then(|r| r.missing);
     let regression_residual = any_regression.as_ref().map(|r| r.relative_residual);
     let regression = any_regression.clone().filter(|r| r.relative_residual < REFUSED_TORQUE);

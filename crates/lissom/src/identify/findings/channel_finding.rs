@@ -91,7 +91,7 @@ pub enum ChannelFinding {
         /// Bits of the encoder.
         bits: i32,
     },
-    /// A tip that repeats one value while the motor moves.
+    /// A tip that repeats one value while the motor moves, or a motor that does while the command changes.
     FrozenChannel {
         /// Which.
         channel: Channel,
@@ -103,6 +103,8 @@ pub enum ChannelFinding {
         to_s: f64,
         /// Unit of the readings; empty where it is not known.
         unit: &'static str,
+        /// Whether the run is left out.
+        left_out: bool,
     },
     /// The command is limited.
     Saturation {
@@ -185,11 +187,20 @@ impl fmt::Display for ChannelFinding {
                 "{channel} is given in rad and has steps of 360/2^{bits}, as an encoder with {bits} bits in degrees \
                  has. If it is in degrees, estimates are wrong by a factor of 57.3 or its powers"
             ),
-            Self::FrozenChannel { channel, value, from_s, to_s, unit } => write!(
+            Self::FrozenChannel { channel, value, from_s, to_s, unit, left_out } => write!(
                 f,
-                "{channel} is frozen: it reads {} from {from_s:.4} s to {to_s:.4} s after the run's first sample while \
-                 the motor moves. All estimates from this run are affected",
-                reading(*value, unit)
+                "{channel} is frozen: it reads {} from {from_s:.4} s to {to_s:.4} s after the run's first sample while {}. {}",
+                reading(*value, unit),
+                if *channel == Channel::Motor {
+                    "the command changes (or the axis ran against a stop)"
+                } else {
+                    "the motor moves"
+                },
+                if *left_out {
+                    "The run is left out"
+                } else {
+                    "All estimates from this run are affected"
+                }
             ),
             Self::Saturation { share, limit_given } => write!(
                 f,
@@ -220,6 +231,7 @@ impl Describe for ChannelFinding {
             Self::ClippedChannel { .. } => {
                 vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::TIP_RESPONSES]
             }
+            Self::FrozenChannel { left_out: true, .. } => Vec::new(),
             Self::Spike { .. }
             | Self::ReadingJumps { .. }
             | Self::AngleInDegrees { .. }

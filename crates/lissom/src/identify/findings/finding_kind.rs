@@ -123,7 +123,9 @@ impl FindingKind {
         match self {
             Self::Channel(found) => found.is_wrong_reading(),
             Self::Estimate(found) => matches!(found, EstimateFinding::CommandSign),
-            Self::Run(found) => matches!(found, RunFinding::RunStandsOut { .. }),
+            Self::Run(found) => {
+                matches!(found, RunFinding::RunStandsOut { .. } | RunFinding::UnlikeOthers { .. })
+            }
             Self::Regression(found) => found.is_cause(),
             _ => false,
         }

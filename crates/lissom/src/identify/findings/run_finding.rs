@@ -6,15 +6,20 @@ use std::fmt;
 use strum::{IntoStaticStr, VariantNames};
 
 use crate::identify::findings::describe::Describe;
-use crate::identify::findings::number_text::counted;
+use crate::identify::findings::number_text::{counted, significant};
 use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
+use crate::identify::methods::regression::RunDifference;
 use crate::identify::separability::thresholds::LARGE_CHANGE;
 use crate::information::Figure;
 use crate::plan::percent;
 
 /// Parameters named in the message of a run that stands out.
 const NAMED_MOST: usize = 3;
+
+/// A radian in degrees, and within what share a scale is taken for it.
+const DEGREES: f64 = 360.0 / TAU;
+const DEGREES_WITHIN: f64 = 0.1;
 
 /// A parameter that would change if a run were left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -93,6 +98,15 @@ pub enum RunFinding {
         /// Drift over the periods used, relative to the amplitude.
         share: f64,
     },
+    /// The run does not agree with the other runs, and is left out.
+    UnlikeOthers {
+        /// Share of its torque by which the others' parameters differ from its own.
+        misfit: f64,
+        /// What is different in it.
+        difference: RunDifference,
+        /// Unit of the torque.
+        unit: &'static str,
+    },
     /// The run does not agree with the other runs.
     RunStandsOut {
         /// Root mean square of its residual relative to that of the other runs.
@@ -125,6 +139,43 @@ fn changes(moved: &[MovedParameter]) -> String {
         format!("{name} by {sign}{}", percent(m.change_share.abs()))
     };
     largest.iter().take(NAMED_MOST).map(change).collect::<Vec<_>>().join(", ")
+}
+
+/// "It looks as if its command had the opposite sign."
+fn told(difference: RunDifference, unit: &str) -> String {
+    let times = |factor: f64| significant(factor, 3);
+    match difference {
+        RunDifference::Sign => "Its command, or its angle, has the opposite sign".to_owned(),
+        RunDifference::CommandScale { factor } => {
+            format!("The same motion takes {} times its command in the others", times(factor))
+        }
+        RunDifference::AngleScale { factor } if (factor / DEGREES - 1.0).abs() < DEGREES_WITHIN => {
+            "Its angle looks as if it were in radians where the others are in degrees".to_owned()
+        }
+        RunDifference::AngleScale { factor }
+            if (factor.recip() / DEGREES - 1.0).abs() < DEGREES_WITHIN =>
+        {
+            "Its angle looks as if it were in degrees where the others are in radians".to_owned()
+        }
+        RunDifference::AngleScale { factor } => {
+            format!("Its angle looks {} times too large", times(factor.recip()))
+        }
+        RunDifference::Inertia { factor } => {
+            format!("It looks as if it had {} times the inertia", times(factor))
+        }
+        RunDifference::Coulomb { factor } => {
+            format!("It looks as if it had {} times the Coulomb friction", times(factor))
+        }
+        RunDifference::Viscous { factor } => {
+            format!("It looks as if it had {} times the viscous friction", times(factor))
+        }
+        RunDifference::Load { torque } => {
+            format!("It looks as if a constant load of {} {unit} acted", significant(torque, 3))
+        }
+        RunDifference::Other => {
+            "No single change of load, friction, sign or scale explains it".to_owned()
+        }
+    }
 }
 
 impl fmt::Display for RunFinding {
@@ -197,6 +248,12 @@ impl fmt::Display for RunFinding {
                 "the motor drifts by {:.0} % of its amplitude over the periods used",
                 100.0 * share
             ),
+            Self::UnlikeOthers { misfit, difference, unit } => write!(
+                f,
+                "this run is left out: its torque is off by {} from what the parameters of the other runs give. {}",
+                percent(*misfit),
+                told(*difference, unit)
+            ),
             Self::RunStandsOut { residual_ratio, moved, others_described } => {
                 write!(
                     f,
@@ -229,6 +286,7 @@ impl Describe for RunFinding {
             | Self::FewPeriods { .. }
             | Self::NotPeriodic { .. }
             | Self::Drift { .. }
+            | Self::UnlikeOthers { .. }
             | Self::RunStandsOut { .. } => Severity::Warning,
         }
     }
@@ -250,7 +308,7 @@ impl Describe for RunFinding {
                 key::CORRECTED_RESPONSE,
                 key::TIP_RESPONSES,
             ],
-            Self::TransientDropped { .. } => Vec::new(),
+            Self::TransientDropped { .. } | Self::UnlikeOthers { .. } => Vec::new(),
             Self::Drift { .. } => vec![key::OFFSET, key::CORRECTED_RESPONSE],
             Self::RunStandsOut { moved, .. } => {
                 moved.iter().map(|m| key::of(m.parameter)).collect()
@@ -277,6 +335,23 @@ impl Describe for RunFinding {
             Self::Drift { .. } => {
                 "a load or an offset moves the motor away: close the position loop"
             }
+            Self::UnlikeOthers { difference, .. } => match difference {
+                RunDifference::Sign => {
+                    "check the sign of the command and of the angle in this log; scale = -1 on its channel turns it round"
+                }
+                RunDifference::CommandScale { .. } | RunDifference::AngleScale { .. } => {
+                    "check the units and the scale of this log's channels"
+                }
+                RunDifference::Inertia { .. } | RunDifference::Load { .. } => {
+                    "if the load was another one on purpose, identify these runs on their own"
+                }
+                RunDifference::Coulomb { .. } | RunDifference::Viscous { .. } => {
+                    "another temperature, a brake, or a rubbing part: repeat the run, or identify it on its own"
+                }
+                RunDifference::Other => {
+                    "look at the log: a loose part, a wrong channel, or a disturbance; repeat the run"
+                }
+            },
             Self::RunStandsOut { .. } => {
                 "another load or friction in this run, a loose part, or a wrong sensor scale: leave the run out or \
                  repeat it, then identify again"

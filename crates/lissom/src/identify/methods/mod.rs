@@ -8,3 +8,4 @@ pub(crate) mod regression;
 pub(crate) mod starting_arms;
 pub(crate) mod third_harmonic;
 pub(crate) mod thresholds;
+pub(crate) mod unlike_runs;

@@ -1,9 +1,9 @@
 //! Checks of single channels: dead, clipped, jumping, frozen, sticking.
 
 use crate::identify::prepare::thresholds::{
-    CLIPPED_SLOPE, CLIPPED_SLOWED, ENCODER_STEPS, FROZEN_LONGER, FROZEN_SAMPLES, FROZEN_TRAVEL,
-    MOVED_STEPS, REST_RANGE, REST_STEPS, SLOWING_SHOWN, SPIKE_AT_END_LEAST, SPIKE_SHAPE,
-    SPIKE_SIZE,
+    CLIPPED_SLOPE, CLIPPED_SLOWED, ENCODER_STEPS, FROZEN_AT_ONCE, FROZEN_AT_SPEED, FROZEN_LONGER,
+    FROZEN_SAMPLES, FROZEN_TRAVEL, MOVED_STEPS, REST_RANGE, REST_STEPS, SLOWING_SHOWN,
+    SPIKE_AT_END_LEAST, SPIKE_SHAPE, SPIKE_SIZE,
 };
 
 /// Samples over which slopes are taken: a quantised signal has none over one.
@@ -231,6 +231,38 @@ pub(crate) fn frozen(tip: &[f64], motor: &[f64]) -> Option<std::ops::Range<usize
         && travel > FROZEN_TRAVEL * range(motor)
         && travel > MOVED_STEPS * step(motor);
     frozen.then_some(longest)
+}
+
+/// Samples in which a motor's angle stands still at one value, from one sample to the next after it had moved at speed, while
+/// the command changes: a motor that friction stops becomes slow first.
+pub(crate) fn frozen_motor(motor: &[f64], command: &[f64]) -> Option<std::ops::Range<usize>> {
+    let mut from = 0;
+    let mut of_length = |length: usize| {
+        from += length;
+        from - length..from
+    };
+    let same = |a: &f64, b: &f64| a.total_cmp(b).is_eq();
+    let plateaus: Vec<_> = motor.chunk_by(same).map(|c| of_length(c.len())).collect();
+    let longest = plateaus.iter().max_by_key(|p| p.len())?.clone();
+    let moves = deviation(&command[longest.clone()]) > FROZEN_TRAVEL * deviation(command);
+    let quantum = step(motor);
+    let way = |k: usize, over: usize| (motor[k] - motor[k - over]).abs();
+    let at = longest.start;
+    // Over as few samples as show the speed, and over as many before these.
+    let shown = |over: &usize| way(at, *over) > MOVED_STEPS * quantum;
+    let over = (1..=at / 2).find(shown)?;
+    let at_once = way(at, over) > FROZEN_AT_ONCE * way(at - over, over);
+    let steepest = steepest(motor, quantum);
+    let at_speed = way(at, over) > FROZEN_AT_SPEED * steepest * over as f64;
+    let frozen = longest.len() >= FROZEN_SAMPLES.max(10 * over) && moves && at_once && at_speed;
+    frozen.then_some(longest)
+}
+
+/// Standard deviation.
+fn deviation(samples: &[f64]) -> f64 {
+    let mean = samples.iter().sum::<f64>() / samples.len() as f64;
+    let sum: f64 = samples.iter().map(|x| (x - mean).powi(2)).sum();
+    (sum / samples.len() as f64).sqrt()
 }
 
 /// Samples over which a motor rests, at least: within fewer its sensor may show no step.

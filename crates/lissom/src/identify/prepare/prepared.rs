@@ -54,7 +54,7 @@ impl<'a> Prepared<'a> {
         findings.extend(command_follows_motor(campaign, &runs));
         one_jitter_for_each_log(&mut findings);
         let kept = kept(&runs);
-        let used = used(campaign, &kept, &dead);
+        let used = used_runs(campaign, &kept, &dead);
         let noise = used.runs.par_iter().map(RunNoise::of).collect();
         Self { campaign, runs, kept, used, noise, findings }
     }
@@ -77,6 +77,20 @@ impl<'a> Prepared<'a> {
     /// The runs that the methods use.
     pub fn used(&self) -> &Campaign {
         &self.used
+    }
+
+    /// The same without one of the runs used, and with what was found in it.
+    #[must_use]
+    pub(crate) fn without(mut self, used: usize, finding: Finding) -> Self {
+        let campaign = self.campaign;
+        let index = self.kept[used];
+        self.runs[index].usable = false;
+        self.kept.remove(used);
+        self.noise.remove(used);
+        let dead = dead_everywhere(campaign);
+        self.used = used_runs(campaign, &self.kept, &dead);
+        self.findings.push(finding);
+        self
     }
 
     /// The same for methods that use other logs of these runs.
@@ -149,7 +163,7 @@ fn dead_tips(campaign: &Campaign, dead: &[bool]) -> Vec<Finding> {
 }
 
 /// Logs are long: they are copied only where something falls out.
-fn used<'a>(campaign: &'a Campaign, kept: &[usize], dead: &[bool]) -> Cow<'a, Campaign> {
+fn used_runs<'a>(campaign: &'a Campaign, kept: &[usize], dead: &[bool]) -> Cow<'a, Campaign> {
     if kept.len() == campaign.runs.len() && !dead.iter().any(|d| *d) {
         return Cow::Borrowed(campaign);
     }

@@ -3,8 +3,8 @@
 use num_complex::Complex64;
 
 use crate::identify::findings::{
-    Channel, ChannelFinding, ConstantVelocityFinding, EstimateUnits, Finding, LogFinding,
-    RunFinding,
+    Channel, ChannelFinding, ConstantVelocityFinding, EstimateUnits, Finding, FindingKind,
+    LogFinding, RunFinding,
 };
 use crate::identify::methods::constant_velocity::thresholds::{STEADY_BOTH_WAYS, STEADY_ONE_WAY};
 use crate::identify::methods::regression::slip_sign;
@@ -184,7 +184,15 @@ fn channels(campaign: &Campaign, run: &Run, dead: &[bool], findings: &mut Vec<Fi
             dead_channel(Channel::Tip(tip.name.clone()), x, tip_unit(units, tip));
         }
     }
-    findings.extend(sensor_check::findings(campaign, run));
+    let readings = sensor_check::findings(campaign, run);
+    let left_out = |found: &Finding| {
+        matches!(
+            found.kind,
+            FindingKind::Channel(ChannelFinding::FrozenChannel { left_out: true, .. })
+        )
+    };
+    usable &= !readings.iter().any(left_out);
+    findings.extend(readings);
     usable
 }
 

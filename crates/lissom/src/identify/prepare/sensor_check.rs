@@ -1,7 +1,12 @@
 //! What is wrong with the readings of motor and tips, in findings: ends of the range, spikes, jumps, frozen sensors.
 
+use std::ops::Range;
+
 use crate::identify::findings::{Channel, ChannelFinding, EstimateUnits, Finding};
-use crate::identify::prepare::channel_check::{clipped_share, encoder_bits, frozen, jumps, spikes};
+use crate::identify::methods::regression::thresholds::UNLIKE_RUNS_LEAST;
+use crate::identify::prepare::channel_check::{
+    clipped_share, encoder_bits, frozen, frozen_motor, jumps, spikes,
+};
 use crate::identify::prepare::thresholds::{CLIPPED_REPORTED, WHOLE_TURN};
 use crate::record::{Axis, Campaign, Run, Tip, TipQuantity};
 
@@ -10,6 +15,12 @@ pub(crate) fn findings(campaign: &Campaign, run: &Run) -> Vec<Finding> {
     let mut found = Vec::new();
     found.extend(clipped(&Channel::Motor, run.motor()));
     found.extend(alone_or_jumping(&Channel::Motor, run.motor(), units.angle(), run));
+    let still = frozen_motor(run.motor(), run.command());
+    let left_out = campaign.runs.len() >= UNLIKE_RUNS_LEAST;
+    found.extend(still.map(|still| {
+        let (channel, x, unit) = (Channel::Motor, run.motor(), units.angle());
+        stands_still(channel, (x, unit), (run, still), left_out)
+    }));
     let rotary = campaign.channels.axis == Axis::Rotary;
     found.extend(rotary.then(|| in_degrees(&Channel::Motor, run.motor())).flatten());
     for (tip, x) in campaign.channels.tips.iter().zip(run.tips()) {
@@ -21,7 +32,10 @@ pub(crate) fn findings(campaign: &Campaign, run: &Run) -> Vec<Finding> {
         }
         // At a constant velocity a deflection stands still.
         if tip.quantity == TipQuantity::Angle {
-            found.extend(stands_still(&channel, x, unit, run));
+            let still = frozen(x, run.motor());
+            found.extend(
+                still.map(|still| stands_still(channel.clone(), (x, unit), (run, still), left_out)),
+            );
             found.extend((rotary && tip.calibrated).then(|| in_degrees(&channel, x)).flatten());
         }
     }
@@ -63,20 +77,20 @@ fn in_degrees(channel: &Channel, x: &[f64]) -> Option<ChannelFinding> {
 }
 
 fn stands_still(
-    channel: &Channel,
-    x: &[f64],
-    unit: &'static str,
-    run: &Run,
-) -> Option<ChannelFinding> {
-    let still = frozen(x, run.motor())?;
+    channel: Channel,
+    (x, unit): (&[f64], &'static str),
+    (run, still): (&Run, Range<usize>),
+    left_out: bool,
+) -> ChannelFinding {
     let t = run.sample_time_s();
-    Some(ChannelFinding::FrozenChannel {
-        channel: channel.clone(),
+    ChannelFinding::FrozenChannel {
+        channel,
         value: x[still.start],
         from_s: still.start as f64 * t,
         to_s: (still.end - 1) as f64 * t,
         unit,
-    })
+        left_out,
+    }
 }
 
 fn clipped(channel: &Channel, x: &[f64]) -> Option<ChannelFinding> {

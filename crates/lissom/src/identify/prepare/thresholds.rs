@@ -34,11 +34,16 @@ thresholds! {
         WHOLE_TURN: f64 = 0.02, "turns", Convention;
         /// A tip's sensor that shows one value for fewer samples is not reported as frozen.
         FROZEN_SAMPLES: usize = 50, "samples", Convention;
+        /// A motor's sensor is frozen if its angle stands still at once after it had moved at this
+        /// share of the speed just before; one that friction stops becomes slow first…
+        FROZEN_AT_ONCE: f64 = 0.7, "1", Convention;
+        /// …and at this share of its largest speed.
+        FROZEN_AT_SPEED: f64 = 0.04, "1", Convention;
         /// A tip's sensor is frozen only if it shows one value this many times longer than anywhere
         /// else in the run.
         FROZEN_LONGER: f64 = 10.0, "1", Convention;
         /// A tip's sensor is frozen only if the motor moves by this share of its range in the
-        /// meantime.
+        /// meantime, a motor's only if the command changes by this share of its standard deviation.
         FROZEN_TRAVEL: f64 = 0.2, "1", Convention;
         /// A channel has steps if this share of the differences between its readings are whole
         /// multiples of one number; the rest may be damaged.

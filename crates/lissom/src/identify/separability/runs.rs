@@ -3,11 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::identify::methods::output_error::ByRun;
-use crate::identify::methods::regression::{MotorRegression, RunLeftOut};
+use crate::identify::methods::regression::{MotorRegression, RunLeftOut, unlike_others};
 use crate::identify::separability::judged::Judged;
-use crate::identify::separability::thresholds::{
-    RUN_CARRIES, RUN_MOVES, RUN_RESIDUAL, RUN_RESIDUAL_REGRESSION,
-};
+use crate::identify::separability::thresholds::{RUN_CARRIES, RUN_MOVES, RUN_RESIDUAL};
 use crate::identify::thresholds::PRESENT;
 use crate::information::Figure;
 use crate::record::Campaign;
@@ -20,8 +18,8 @@ pub struct RunShare {
     /// Root mean square of its residual over that of the others, at the figures that these have without
     /// it.
     pub residual: f64,
-    /// From which residual on it stands out.
-    pub least: f64,
+    /// Whether the others' figures do not describe it.
+    pub unlike: bool,
     /// What it carries of each figure.
     pub figures: Vec<Carried>,
 }
@@ -42,7 +40,7 @@ pub struct Carried {
 impl RunShare {
     /// Whether its residual is beyond that of the others and figures move by it.
     pub fn spoils(&self) -> bool {
-        self.residual > self.least && self.moved().next().is_some()
+        self.unlike && self.moved().next().is_some()
     }
 
     /// Figures that would be others without it.
@@ -64,7 +62,7 @@ pub(super) fn shares(judged: &Judged, by_run: &ByRun, used: &Campaign) -> Vec<Ru
         Some(RunShare {
             run: used.runs[run].name().to_owned(),
             residual: beside.residual,
-            least: RUN_RESIDUAL,
+            unlike: beside.residual > RUN_RESIDUAL,
             figures: carried(judged, by_run, (run, beside.noise), &all),
         })
     };
@@ -78,6 +76,7 @@ pub(super) fn shares_of_regression(
     used: &Campaign,
 ) -> Vec<RunShare> {
     let with = DVector::from_column_slice(&fit.terms.values);
+    let unlike = unlike_others(&fit.beside_others).map(|found| found.run);
     let share = |left_out: &RunLeftOut| {
         let change = judged.slopes.tr_mul(&(&left_out.value - &with));
         let without = judged.slopes.tr_mul(&(&left_out.covariance * &judged.slopes));
@@ -90,7 +89,7 @@ pub(super) fn shares_of_regression(
         RunShare {
             run: used.runs[left_out.run].name().to_owned(),
             residual: left_out.residual,
-            least: RUN_RESIDUAL_REGRESSION,
+            unlike: unlike == Some(left_out.run),
             figures: judged.figures.iter().enumerate().map(of_figure).collect(),
         }
     };

@@ -13,11 +13,9 @@ thresholds! {
         /// An estimate is lost if it changes by more than this share along a direction that the
         /// logs do not show.
         LOST_SHARE: f64 = 0.01, "1", Convention;
-        /// A run stands out only if its residual is this many times that of the others.
+        /// In the output error a run stands out only if its residual is this many times that of the
+        /// others.
         RUN_RESIDUAL: f64 = 1.5, "1", Convention;
-        /// The same of a regression, whose residual is mostly of what its equation lacks and differs
-        /// from run to run.
-        RUN_RESIDUAL_REGRESSION: f64 = 3.0, "1", Convention;
         /// A run stands out only if an estimate without it changes by this share, besides by
         /// `PRESENT` standard errors.
         RUN_MOVES: f64 = 1e-3, "1", Convention;

@@ -3,6 +3,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::identify::methods::regression::normal::{Cluster, Term, solve};
+use crate::identify::methods::regression::run_difference::{RunDifference, RunSums};
+use crate::identify::methods::regression::thresholds::{
+    UNLIKE_MISFIT, UNLIKE_NEXT, UNLIKE_NEXT_OF_FASTEST, UNLIKE_SPOILS, UNLIKE_USUAL, UNLIKE_WITHIN,
+};
+
+use crate::record::{Campaign, Run};
 
 /// Most runs for which this is done.
 const RUNS_MOST: usize = 64;
@@ -20,26 +26,89 @@ pub(crate) struct RunLeftOut {
     pub(crate) value: DVector<f64>,
     /// Their covariance.
     pub(crate) covariance: DMatrix<f64>,
+    /// Share of the run's torque by which the others' solution, moved as far as its standard errors allow, differs from the
+    /// run's own.
+    pub(crate) misfit: f64,
+    /// Whether no other run is as fast, or none is as slow.
+    pub(crate) fastest_or_slowest: bool,
+    /// What is different in it.
+    pub(crate) difference: RunDifference,
+}
+
+/// The run that is unlike all others: their parameters describe it worst, its misfit is large, and far above the usual one and
+/// the next. Or they leave far more of its torque than of theirs: such a run may spoil the parameters that all others are
+/// compared with.
+pub(crate) fn unlike_others(runs: &[RunLeftOut]) -> Option<&RunLeftOut> {
+    let spoils = worst(runs, |r| r.residual).filter(|(run, _, next)| {
+        (!run.fastest_or_slowest || run.difference.is_gross())
+            && run.residual > UNLIKE_SPOILS * next
+    });
+    let alone = || {
+        worst(runs, |r| r.misfit).filter(|(run, usual, next)| {
+            let beyond = if run.fastest_or_slowest { UNLIKE_NEXT_OF_FASTEST } else { UNLIKE_NEXT };
+            run.misfit > UNLIKE_MISFIT
+                && run.misfit > UNLIKE_USUAL * usual
+                && run.misfit > beyond * next
+        })
+    };
+    spoils.or_else(alone).map(|(run, ..)| run)
+}
+
+/// The run with the largest value, the median of the other values, and the largest of these.
+fn worst(runs: &[RunLeftOut], of: impl Fn(&RunLeftOut) -> f64) -> Option<(&RunLeftOut, f64, f64)> {
+    let worst = runs.iter().max_by(|a, b| of(a).total_cmp(&of(b)))?;
+    let mut others: Vec<f64> = runs.iter().filter(|r| r.run != worst.run).map(&of).collect();
+    others.sort_by(f64::total_cmp);
+    Some((worst, *others.get(others.len() / 2)?, *others.last()?))
 }
 
 /// One for each run of three or more.
-pub(super) fn runs_left_out(clusters: &[Cluster], terms: &[Term]) -> Vec<RunLeftOut> {
+pub(super) fn runs_left_out(
+    clusters: &[Cluster],
+    terms: &[Term],
+    campaign: &Campaign,
+) -> Vec<RunLeftOut> {
     let sums = by_run(clusters);
     let mut runs: Vec<usize> = sums.iter().map(|c| c.run).collect();
     runs.dedup();
     if !(RUNS_LEAST..=RUNS_MOST).contains(&runs.len()) {
         return Vec::new();
     }
+    let speeds: Vec<f64> = campaign.runs.iter().map(rms_speed).collect();
     let without = |&run: &usize| {
         let (own, others): (Vec<Cluster>, Vec<Cluster>) =
             sums.iter().cloned().partition(|c| c.run == run);
         let solution = solve(&others, terms)?;
-        let residual = left(&own, terms, &solution.value) / left(&others, terms, &solution.value);
+        let phases = clusters.iter().filter(|c| c.run == run && c.rows > 0).count();
+        let sums = RunSums::of(&own, terms, phases);
+        let of_others = left(&others, terms, &solution.value);
+        let own_left = sums.share_left(&solution.value);
+        let residual = own_left / of_others;
         let told = residual.is_finite() && !solution.inseparable.iter().any(|lost| *lost);
         let (value, covariance) = (solution.value, solution.covariance);
-        told.then_some(RunLeftOut { run, residual, value, covariance })
+        let wide = &covariance * UNLIKE_WITHIN.powi(2);
+        let misfit = sums.misfit(&value, &wide, of_others).unwrap_or(0.0);
+        let difference = sums.difference(&value, own_left, of_others);
+        let beside = || speeds.iter().enumerate().filter(|(i, _)| *i != run).map(|(_, s)| *s);
+        let fastest_or_slowest =
+            beside().all(|s| s < speeds[run]) || beside().all(|s| s > speeds[run]);
+        told.then_some(RunLeftOut {
+            run,
+            residual,
+            value,
+            covariance,
+            misfit,
+            fastest_or_slowest,
+            difference,
+        })
     };
     runs.iter().filter_map(without).collect()
+}
+
+/// Speed, root mean square.
+fn rms_speed(run: &Run) -> f64 {
+    let sum: f64 = run.motor().windows(2).map(|w| (w[1] - w[0]).powi(2)).sum();
+    (sum / run.len() as f64).sqrt() / run.sample_time_s()
 }
 
 /// Sums by run and direction, ascending in the run.

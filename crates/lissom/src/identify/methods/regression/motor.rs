@@ -79,6 +79,8 @@ pub struct MotorRegression {
     pub inertia_short_by: Option<f64>,
     /// The same without each run in turn.
     pub(crate) left_out: Vec<RunLeftOut>,
+    /// The same in windows of which each run has some.
+    pub(crate) beside_others: Vec<RunLeftOut>,
     /// J, V, CF, offset, κ_i of the tips whose angle is known, g_s and g_c, as the logs have them.
     pub(crate) terms: Terms,
 }
@@ -200,6 +202,24 @@ pub fn motor_regression(prepared: &Prepared<'_>, options: &Options) -> Option<Mo
     })
 }
 
+/// The regression without each run in turn: the given one if all runs have windows of the chosen length, else that in the
+/// longest windows of which the most runs have some.
+fn beside_others(
+    left_out: &[RunLeftOut],
+    equation: &MotorRows<'_>,
+    candidates: &[Candidate],
+    in_windows: impl Fn(f64) -> Option<Vec<RunLeftOut>>,
+) -> Vec<RunLeftOut> {
+    if left_out.is_empty() || left_out.len() == equation.runs() {
+        return left_out.to_vec();
+    }
+    let with_rows: Vec<(f64, usize)> =
+        candidates.iter().map(|c| (c.window_s, equation.runs_with_rows(c.window_s))).collect();
+    let most = with_rows.iter().map(|(_, runs)| *runs).max().unwrap_or(0);
+    let longest = with_rows.iter().filter(|(_, runs)| *runs == most).map(|(length, _)| *length);
+    longest.max_by(f64::total_cmp).and_then(in_windows).unwrap_or_default()
+}
+
 /// The same of a campaign whose commands were made late by a `lag`, if by any; the standard errors count the lag's.
 fn on_slip_phases(
     campaign: &Campaign,
@@ -254,7 +274,11 @@ fn on_slip_phases(
     });
     // A few strokes are too much alike to separate a lag from other causes.
     let missing = missing.filter(|m| m.kind != MissingKind::Delay || phases >= FEW_PHASES);
-    let left_out = runs_left_out(&clusters, &terms);
+    let left_out = runs_left_out(&clusters, &terms, campaign);
+    let beside_others = beside_others(&left_out, &equation, &found.candidates, |length| {
+        let (clusters, _) = with_more(length)?;
+        Some(runs_left_out(&clusters, &terms, campaign))
+    });
     let from_chosen =
         || found.candidates.iter().map(|c| c.window_s).filter(|l| *l >= window_s_chosen);
     // Noise of the command averages out in longer windows; friction that wanders does not.
@@ -286,6 +310,7 @@ fn on_slip_phases(
         lag,
         inertia_short_by,
         left_out,
+        beside_others,
         terms: terms_of(&one),
         candidates: found.candidates,
     })

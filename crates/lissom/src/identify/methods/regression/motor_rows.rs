@@ -43,12 +43,26 @@ impl<'a> MotorRows<'a> {
 
     /// Slip phases that hold a window of a length.
     pub(super) fn phases(&self, length_s: f64) -> usize {
-        let of_run = |slipping: &Slipping<'_>| {
+        self.phases_by_run(length_s).sum()
+    }
+
+    /// Runs that there are.
+    pub(super) fn runs(&self) -> usize {
+        self.runs.len()
+    }
+
+    /// Runs with a slip phase that holds a window of a length.
+    pub(super) fn runs_with_rows(&self, length_s: f64) -> usize {
+        self.phases_by_run(length_s).filter(|phases| *phases > 0).count()
+    }
+
+    fn phases_by_run(&self, length_s: f64) -> impl Iterator<Item = usize> {
+        let of_run = move |slipping: &Slipping<'_>| {
             let n = (length_s / slipping.run.sample_time_s()).round() as usize;
             let (phases, _) = slipping.phases(n);
             phases.iter().filter(|phase| phase.to - phase.from > n).count()
         };
-        self.runs.iter().map(of_run).sum()
+        self.runs.iter().map(of_run)
     }
 
     /// Sums of every slip phase of every run, for one length of window.

@@ -51,6 +51,33 @@ thresholds! {
         /// Gravity that is not known so well is reported with the term that it correlates with by
         /// more than this.
         GRAVITY_CORRELATION: f64 = 0.9, "1", Convention;
+        /// With fewer runs none is left out because it is unlike the others.
+        UNLIKE_RUNS_LEAST: usize = 5, "runs", Convention;
+        /// Most runs that are left out as unlike the others, as a share of all.
+        UNLIKE_RUNS_MOST: f64 = 0.2, "1", Convention;
+        /// A run is unlike the others if by their parameters and by its own its torque differs by more
+        /// than this share; friction wanders by a few per cent from run to run…
+        UNLIKE_MISFIT: f64 = 0.05, "1", Convention;
+        /// …which is so many times what it usually is of a run…
+        UNLIKE_USUAL: f64 = 3.0, "1", Convention;
+        /// …and so many times that of the next.
+        UNLIKE_NEXT: f64 = 1.5, "1", Convention;
+        /// A run is unlike the others, too, if they leave so many times as much of its torque, beside
+        /// what they leave of theirs, as of the next.
+        UNLIKE_SPOILS: f64 = 30.0, "1", Convention;
+        /// As `UNLIKE_NEXT`, of the fastest and of the slowest run: where friction is no straight line they
+        /// differ from the others by its law.
+        UNLIKE_NEXT_OF_FASTEST: f64 = 5.0, "1", Convention;
+        /// Before that the parameters may move towards the run by about so many of their standard
+        /// errors: a run that shows a parameter alone is not unlike the others.
+        UNLIKE_WITHIN: f64 = 3.0, "standard errors", Convention;
+        /// One change describes a run that is unlike the others if it leaves less than this share of
+        /// what they leave of it, or twice what they leave of themselves.
+        DIFFERENCE_EXPLAINS: f64 = 0.35, "1", Convention;
+        /// A scale or an inertia that differs by more than this factor is no effect of friction's law.
+        GROSS_FACTOR: f64 = 1.5, "1", Convention;
+        /// A command is reversed if the scale that describes a run is within this of −1.
+        REVERSED_SCALE: f64 = 0.3, "1", Convention;
         /// The magnitude of the command is not tried as a missing term if it correlates with the
         /// torque by this much: with torque of one sign it is the torque itself.
         MISSING_ONE_SIGN: f64 = 0.5, "1", Convention;
