@@ -15,8 +15,8 @@ use clap::Parser as _;
 
 use crate::args::command_line::{Cli, Command};
 use crate::commands::{
-    demo, equivalent, identify_command, model_command, payload_command, plan, report_figures, rig,
-    thresholds_command, validate_command,
+    compare_command, demo, equivalent, identify_command, model_command, payload_command, plan,
+    report_figures, rig, thresholds_command, validate_command,
 };
 use crate::views::printer;
 
@@ -24,6 +24,7 @@ fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Identify(args) => identify_command::run(&args),
         Command::Validate(args) => validate_command::run(&args),
+        Command::Compare(args) => compare_command::run(&args),
         Command::Equivalent(args) => equivalent::run(&args),
         Command::Payload(args) => payload_command::run(&args),
         Command::Model(args) => model_command::run(&args),

@@ -5,8 +5,8 @@
 //! - [`ArmFile::read`] reads an `arm.toml`: see [`arm_file`]; [`ModelFile`] is what comes of it.
 //! - [`PlanFile::read`] reads a `plan.toml`, the experiments of a virtual campaign: see [`plan`].
 //! - [`read_responses`] reads tables of frequency responses: see [`responses`].
-//! - [`ResultFile`] is what was identified, [`read_arm`] reads the arm in it back, [`ValidationFile`]
-//!   is how well it predicts another log, [`ThresholdsFile`] the list of thresholds: see [`result`].
+//! - [`ResultFile`] is what was identified, [`read_arm`] reads the arm in it back, [`read_result`]
+//!   its parameters, [`ComparedFile`] has those of several results, [`ValidationFile`] is how well it predicts another log, [`ThresholdsFile`] the list of thresholds: see [`result`].
 //! - [`PlannedFile`] is a plan for programs, [`RigFile`] what is known of a virtual campaign, [`DemoFile`] and
 //!   [`FiguresFile`] are estimates compared with known values.
 //! - [`units`] reads quantities such as `"2.184 lbf*in/A"`.
@@ -56,8 +56,9 @@ pub use responses::{
     FrequencyResponses, MeasuredResponse, Positive, ResponseError, read_responses,
 };
 pub use result::{
-    EquivalentFile, PayloadFile, PayloadPrediction, PredictedPayload, ResultError, ResultFile,
-    ThresholdsFile, UnitNames, ValidationFile, channel_name_unit, read_arm,
+    ComparedFile, EquivalentFile, ParameterList, PayloadFile, PayloadPrediction, PredictedPayload,
+    ResultError, ResultFile, ThresholdsFile, UnitNames, ValidationFile, channel_name_unit,
+    read_arm, read_result,
 };
 pub use rig::{RigFile, RigRunEntry};
 #[cfg(feature = "schema")]

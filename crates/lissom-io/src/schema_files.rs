@@ -7,7 +7,9 @@ use serde_json::Value;
 
 use crate::model::ModelFile;
 use crate::planned::PlannedFile;
-use crate::result::{EquivalentFile, PayloadFile, ResultFile, ThresholdsFile, ValidationFile};
+use crate::result::{
+    ComparedFile, EquivalentFile, PayloadFile, ResultFile, ThresholdsFile, ValidationFile,
+};
 use crate::rig::RigFile;
 
 /// File names of the schemas in `docs/`, and their text.
@@ -19,6 +21,7 @@ pub fn schema_files() -> Vec<(&'static str, String)> {
             "equivalent.schema.json",
             text::<EquivalentFile>("What lissom equivalent writes with --json"),
         ),
+        ("compare.schema.json", text::<ComparedFile>("What lissom compare writes with --json")),
         ("payload.schema.json", text::<PayloadFile>("What lissom payload writes with --json")),
         ("planned.schema.json", text::<PlannedFile>("What lissom plan writes with --json")),
         ("rig.schema.json", text::<RigFile>("rig.json of lissom rig")),

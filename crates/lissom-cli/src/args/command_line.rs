@@ -2,6 +2,7 @@
 
 use clap::{Parser, Subcommand};
 
+use super::compare_args::CompareArgs;
 use super::demo_args::DemoArgs;
 use super::equivalent_args::EquivalentArgs;
 use super::figures_args::FiguresArgs;
@@ -35,6 +36,8 @@ pub(crate) enum Command {
     Identify(IdentifyArgs),
     /// Predict a log that was not used, to see how far a result holds
     Validate(ValidateArgs),
+    /// Show the parameters of two or more results side by side, with their differences
+    Compare(CompareArgs),
     /// From logs or frequency responses of points of a beam, the lumped arm that behaves the same
     Equivalent(EquivalentArgs),
     /// From logs with one payload, modes and the tip's response with others

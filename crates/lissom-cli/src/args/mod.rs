@@ -1,6 +1,7 @@
 //! What the user can ask for: the arguments of each subcommand, and nothing else.
 
 pub(crate) mod command_line;
+pub(crate) mod compare_args;
 pub(crate) mod demo_args;
 pub(crate) mod equivalent_args;
 pub(crate) mod figures_args;

@@ -46,7 +46,12 @@ pub(crate) fn roots_of(z: Complex64, digits: usize) -> String {
 
 /// A change in per cent, with its sign.
 pub(crate) fn change(value: f64, from: f64) -> String {
-    let per_cent = 100.0 * (value / from - 1.0);
+    signed_percent(value / from - 1.0)
+}
+
+/// A share in per cent, with its sign.
+pub(crate) fn signed_percent(share: f64) -> String {
+    let per_cent = 100.0 * share;
     if per_cent.abs() < 0.005 { "0 %".to_owned() } else { format!("{per_cent:+.2} %") }
 }
 

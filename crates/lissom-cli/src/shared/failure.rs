@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use lissom::identify::{EquivalentRefusal, IdentifyError, ValidationError};
 use lissom::plan::PlanError;
 use lissom::rig::RigError;
+use lissom_io::ResultError;
 use lissom_report::FigureError;
 use thiserror::Error;
 
@@ -17,6 +18,9 @@ pub(crate) enum Failure {
     Io(#[from] lissom_io::Error),
     #[error(transparent)]
     Write(#[from] lissom_io::WriteError),
+    /// A file that is no result to compare.
+    #[error(transparent)]
+    NoResult(lissom_io::Error),
     #[error("{}: {source}", campaign.display())]
     Identify { campaign: PathBuf, source: IdentifyError },
     #[error("{}: {source}", log.display())]
@@ -63,8 +67,11 @@ impl Failure {
     /// What to do about it.
     pub(crate) fn hint(&self) -> Option<String> {
         match self {
-            Self::Io(error) => error.hint(),
             Self::Write(error) => error.hint(),
+            Self::NoResult(lissom_io::Error::Result(
+                ResultError::Read { .. } | ResultError::Json { .. } | ResultError::NoResult { .. },
+            )) => Some("give files that `lissom identify CAMPAIGN --json FILE` wrote".to_owned()),
+            Self::Io(error) | Self::NoResult(error) => error.hint(),
             Self::NotAnOutput { .. } => Some(
                 "put the input before `--json FILE`, or remove the file if it is to go"
                     .to_owned(),

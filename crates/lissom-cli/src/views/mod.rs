@@ -3,6 +3,7 @@
 pub(crate) mod arm_check;
 pub(crate) mod bode_plots;
 pub(crate) mod campaign_summary;
+pub(crate) mod compare_table;
 pub(crate) mod demo_table;
 pub(crate) mod equivalent_plots;
 pub(crate) mod equivalent_table;

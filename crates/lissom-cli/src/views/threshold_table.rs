@@ -2,7 +2,7 @@
 
 use lissom::{Threshold, ThresholdValue};
 
-use super::printer::line;
+use super::printer::{line, wrapped};
 use crate::shared::digits::trimmed;
 
 /// Significant digits of values.
@@ -38,19 +38,4 @@ fn value(value: ThresholdValue) -> String {
         ThresholdValue::Numbers(values) => values.iter().map(number).collect::<Vec<_>>().join(", "),
         ThresholdValue::Number(x) => number(&x),
     }
-}
-
-/// Lines of at most `width` characters; a longer word has one of its own.
-fn wrapped(text: &str, width: usize) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(last) if last.chars().count() + 1 + word.chars().count() <= width => {
-                last.push(' ');
-                last.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
 }

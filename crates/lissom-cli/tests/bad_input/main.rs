@@ -9,3 +9,4 @@ mod loads;
 mod logs;
 mod odd_files;
 mod outputs;
+mod results;

@@ -26,7 +26,7 @@ impl AxisName {
     }
 
     /// The name as JSON has it.
-    pub(crate) fn text(self) -> &'static str {
+    pub fn text(self) -> &'static str {
         match self {
             Self::Rotary => "rotary",
             Self::Linear => "linear",

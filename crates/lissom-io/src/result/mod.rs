@@ -1,13 +1,14 @@
 //! `result.json`: what identification found, with stable keys that carry their units; and the files that are made
-//! from results: those of `lissom equivalent`, `payload` and `validate`.
+//! from results: those of `lissom compare`, `equivalent`, `payload` and `validate`.
 //!
 //! Each file is a type that is written and read ([`ResultFile`], [`EquivalentFile`], [`PayloadFile`],
-//! [`ValidationFile`]); the schemas in `docs/` are generated from these types. An estimate is `{value, std, ci95}`,
+//! [`ValidationFile`], [`ComparedFile`]); the schemas in `docs/` are generated from these types. An estimate is `{value, std, ci95}`,
 //! or `null` where it is refused; a finding then says why.
 
 mod arm_entry;
 mod arm_numbers;
 mod channel_names;
+mod compared_file;
 mod constant_velocity_entry;
 mod equivalent_file;
 mod estimate_entry;
@@ -23,6 +24,7 @@ mod method_entries;
 mod output_error_entry;
 mod payload_file;
 mod read_arm;
+mod read_result;
 pub(crate) mod result_error;
 mod result_file;
 mod separability_entry;
@@ -32,7 +34,12 @@ mod unit_names;
 mod validation_file;
 
 pub use arm_entry::{ArmEntry, ArmGravityEntry, ArmTipEntry, OscillatorEntry};
-pub use channel_names::{ArmSourceName, AxisName, DirectionName, FalloffName, TipQuantityName};
+pub use channel_names::{
+    ArmSourceName, AxisName, DirectionName, FalloffName, MethodName, TipQuantityName,
+};
+pub use compared_file::{
+    ComparedFile, ComparedParameterEntry, ComparedResultEntry, ParameterDifferenceEntry,
+};
 pub use constant_velocity_entry::{
     ConstantVelocityEntry, FrictionLineEntry, LineShapeName, SteadyPointEntry,
 };
@@ -68,6 +75,7 @@ pub use payload_file::{
     PayloadEntry, PayloadFile, PayloadPrediction, PredictedPayload, ResponseEntry,
 };
 pub use read_arm::read_arm;
+pub use read_result::{ListedParameter, PHASE_KEY, ParameterList, read_result};
 pub use result_error::ResultError;
 pub use result_file::{BeamEntry, DriveEntry, ResultFile, RunEntry, RunKindName, SinusoidEntry};
 pub use separability_entry::{

@@ -187,8 +187,33 @@ impl<Q: Quantity, T> WithUnit<Q, T> {
 
     /// The value and its key in a campaign with these units; of torques that in the unit of torque.
     pub fn get(&self, names: UnitNames) -> Option<&T> {
-        let key = Q::keys(names).pop()?;
-        self.entries.iter().find(|entry| entry.0 == key).map(|entry| &entry.1)
+        self.keyed(names).map(|(_, value)| value)
+    }
+
+    /// The value and its key in a campaign with these units; of torques that in the unit of torque.
+    pub(crate) fn keyed(&self, names: UnitNames) -> Option<(&str, &T)> {
+        self.under_key(&Q::keys(names).pop()?)
+    }
+
+    /// The value of a torque in the unit of the command, and its key.
+    pub(crate) fn of_command(&self, names: UnitNames) -> Option<(&str, &T)> {
+        self.under_key(Q::keys(names).first()?)
+    }
+
+    /// The first of its values, whatever its unit.
+    pub(crate) fn any(&self) -> Option<&T> {
+        self.entries.first().map(|entry| &entry.1)
+    }
+
+    /// Whether its keys are those of a campaign with these units, all of them and no others.
+    pub(crate) fn has_keys_of(&self, names: UnitNames) -> bool {
+        let keys = Q::keys(names);
+        keys.len() == self.entries.len() && keys.iter().all(|key| self.under_key(key).is_some())
+    }
+
+    fn under_key(&self, key: &str) -> Option<(&str, &T)> {
+        let found = self.entries.iter().find(|entry| entry.0 == key);
+        found.map(|(key, value)| (key.as_str(), value))
     }
 
     /// Whether some campaign has the quantity under this key.

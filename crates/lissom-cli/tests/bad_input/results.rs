@@ -1,0 +1,130 @@
+//! Files that cannot be compared.
+
+use crate::bench::Bench;
+
+/// A result with no more than `lissom compare` needs.
+fn result(axis: &str, constant: &str, friction: &str) -> String {
+    format!(
+        r#"{{"lissom": "0.1.0", "axis": "{axis}", "torque_per_command": {constant}, "from": null,
+            "friction": {{{friction}, "curve": []}}, "drive": {{}}, "beam": {{"modes": []}}, "runs": [],
+            "findings": []}}"#
+    )
+}
+
+const AMPERE: &str = r#""coulomb_a": {"value": 1.0, "std": 0.1, "ci95": [0.8, 1.2]}"#;
+
+fn refuses(bench: &Bench, arguments: &[&str], message: &str) {
+    bench.lissom_refuses("compare", arguments, 1, message);
+}
+
+#[test]
+fn a_file_is_no_result() {
+    let bench = Bench::new()
+        .file("a.json", result("rotary", "null", AMPERE))
+        .file("model.json", "{\"lissom\": \"0.1.0\"}")
+        .file("cut.json", "{\"lissom\":")
+        .file("old.json", result("rotary", "null", "\"coulomb_a\": 1"));
+    let hint = "hint: give files that `lissom identify CAMPAIGN --json FILE` wrote";
+    refuses(
+        &bench,
+        &["a.json", "campaign.toml"],
+        &format!("error: campaign.toml: is no JSON: expected value at line 1 column 2\n{hint}"),
+    );
+    refuses(
+        &bench,
+        &["a.json", "cut.json"],
+        &format!(
+            "error: cut.json: is no JSON: EOF while parsing a value at line 1 column 10\n{hint}"
+        ),
+    );
+    refuses(
+        &bench,
+        &["model.json", "a.json"],
+        &format!("error: model.json: is no result of `lissom identify`: it has no `axis`\n{hint}"),
+    );
+    refuses(
+        &bench,
+        &["a.json", "no.json"],
+        &format!("error: no.json: cannot be read: No such file or directory (os error 2)\n{hint}"),
+    );
+    refuses(
+        &bench,
+        &["a.json", "old.json"],
+        "error: old.json: `friction` cannot be read: `coulomb_a`: invalid type: integer `1`, expected \
+         struct EstimateEntry\n\
+         hint: write it anew with `lissom identify CAMPAIGN --json FILE`",
+    );
+}
+
+#[test]
+fn there_is_nothing_to_compare_with() {
+    let a = result("rotary", "null", AMPERE);
+    let bench = Bench::new().file("a.json", &a).file("copy.json", &a);
+    refuses(
+        &bench,
+        &["a.json"],
+        "error: a.json: is the only result given\n\
+         hint: give two or more: lissom compare before.json after.json",
+    );
+    let hint = "hint: give results of different logs: only their errors are independent";
+    refuses(&bench, &["a.json", "./a.json"], &format!("error: ./a.json: is given twice\n{hint}"));
+    refuses(
+        &bench,
+        &["a.json", "copy.json"],
+        &format!("error: copy.json: has the same estimates as a.json\n{hint}"),
+    );
+}
+
+#[test]
+fn results_are_in_different_units() {
+    let torque = r#""coulomb_a": null, "coulomb_nm": null"#;
+    let force = r#""coulomb_a": null, "coulomb_n": null"#;
+    let bench = Bench::new()
+        .file("a.json", result("rotary", "null", AMPERE))
+        .file("v.json", result("rotary", "null", "\"coulomb_v\": null"))
+        .file("nm.json", result("rotary", "0.25", torque))
+        .file("n.json", result("linear", "40.0", force));
+    refuses(
+        &bench,
+        &["a.json", "nm.json"],
+        "error: results in different units cannot be compared: a.json is of a rotary axis in A (no torque \
+         constant), nm.json is of a rotary axis in N·m\n\
+         hint: give `torque_constant` in [drive] of every campaign, or of none, and run `lissom identify` \
+         again",
+    );
+    refuses(
+        &bench,
+        &["a.json", "v.json"],
+        "error: results in different units cannot be compared: a.json is of a rotary axis in A (no torque \
+         constant), v.json is of a rotary axis in V (no torque constant)\n\
+         hint: log the same command in every campaign, or give `torque_constant` in [drive] of each, and run \
+         `lissom identify` again",
+    );
+    refuses(
+        &bench,
+        &["nm.json", "n.json"],
+        "error: results in different units cannot be compared: nm.json is of a rotary axis in N·m, n.json is \
+         of a linear axis in N\n\
+         hint: compare results of the same axis",
+    );
+}
+
+#[test]
+fn a_comparison_would_cost_a_result() {
+    let other = AMPERE.replace("1.0", "1.1");
+    let bench = Bench::new()
+        .file("a.json", result("rotary", "null", AMPERE))
+        .file("b.json", result("rotary", "null", &other))
+        .file("c.json", result("rotary", "null", &AMPERE.replace("1.0", "0.9")));
+    refuses(
+        &bench,
+        &["a.json", "b.json", "--json", "a.json"],
+        "error: a.json: is read, and is not written over\nhint: give each output its own file",
+    );
+    refuses(
+        &bench,
+        &["--json", "c.json", "a.json", "b.json"],
+        "error: c.json: exists and is no earlier output; it is not written over\n\
+         hint: put the input before `--json FILE`, or remove the file if it is to go",
+    );
+}

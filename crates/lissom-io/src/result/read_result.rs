@@ -1,0 +1,309 @@
+//! From a `result.json` to its parameters, one by one.
+
+use std::path::Path;
+
+use serde::Deserialize;
+use serde_json::Value;
+
+use super::channel_names::{AxisName, MethodName};
+use super::estimate_entry::EstimateEntry;
+use super::estimate_keys::Refusable;
+use super::finding_entry::{FindingEntry, SeverityName};
+use super::friction_entry::FrictionEntry;
+use super::friction_law_entry::ChosenTermEntry;
+use super::friction_term_entries::LawTermName;
+use super::gravity_entry::GravityEntry;
+use super::result_error::ResultError;
+use super::result_file::{BeamEntry, DriveEntry};
+use super::unit_keys::{Quantity, WithUnit};
+use super::unit_names::UnitNames;
+use crate::io_error::Error;
+use crate::read_text::read_text;
+
+/// Keys of findings, without the suffix of their unit.
+const COULOMB: &str = "friction.coulomb";
+const OFFSET: &str = "friction.offset";
+const VISCOUS: &str = "friction.viscous";
+const INERTIA: &str = "drive.inertia";
+const GRAVITY: &str = "gravity";
+const COUPLING: &str = "beam.coupling";
+const MODES: &str = "beam.modes";
+
+/// A result as a list of parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ParameterList {
+    /// Its units.
+    pub names: UnitNames,
+    /// The method whose solution friction, inertia and coupling are.
+    pub from: Option<MethodName>,
+    /// Torque constant used, N·m or N per unit of command; `None` where it is unknown.
+    pub torque_per_command: Option<f64>,
+    /// Terms of the friction law beside Coulomb friction and one viscous coefficient.
+    pub friction_terms: Vec<LawTermName>,
+    /// Number of the beam's modes.
+    pub modes: usize,
+    /// The parameters, in the order of the tables.
+    pub parameters: Vec<ListedParameter>,
+}
+
+/// A parameter of a result.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ListedParameter {
+    /// Its key in `result.json`, dotted, with its unit.
+    pub key: String,
+    /// Its name in words.
+    pub name: String,
+    /// Its unit as people write it.
+    pub unit: String,
+    /// The estimate; `None` where it is refused.
+    pub estimate: Option<EstimateEntry>,
+    /// Codes of the warnings that affect it.
+    pub warnings: Vec<String>,
+}
+
+/// What a list of parameters needs of a [`ResultFile`](super::ResultFile): results of other versions can be read as
+/// long as this part is the same.
+#[derive(Debug, Deserialize)]
+struct ParameterPart {
+    axis: AxisName,
+    torque_per_command: Option<f64>,
+    #[serde(default)]
+    from: Option<MethodName>,
+    friction: FrictionEntry,
+    drive: DriveEntry,
+    #[serde(default)]
+    gravity: Option<GravityEntry>,
+    beam: BeamEntry,
+    #[serde(default)]
+    methods: MethodsPart,
+    findings: Vec<FindingEntry>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+struct MethodsPart {
+    #[serde(default)]
+    friction_law: Option<FrictionLawPart>,
+}
+
+#[derive(Debug, Deserialize)]
+struct FrictionLawPart {
+    chosen: ChosenLawPart,
+}
+
+#[derive(Debug, Deserialize)]
+struct ChosenLawPart {
+    terms: Vec<ChosenTermEntry>,
+}
+
+/// Reads the parameters of a result.
+///
+/// # Errors
+/// [`Error::Result`] where the file cannot be read or is no result.
+pub fn read_result(path: &Path) -> Result<ParameterList, Error> {
+    let file = path.display().to_string();
+    let text =
+        read_text(path).map_err(|source| ResultError::Read { file: file.clone(), source })?;
+    Ok(list_of(&file, &text)?)
+}
+
+fn list_of(file: &str, text: &str) -> Result<ParameterList, ResultError> {
+    let file = || file.to_owned();
+    let root: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
+        .map_err(|source| ResultError::Json { file: file(), source })?;
+    for key in
+        ["lissom", "axis", "torque_per_command", "friction", "drive", "beam", "runs", "findings"]
+    {
+        if root.get(key).is_none() {
+            return Err(ResultError::NoResult { file: file(), key });
+        }
+    }
+    let part: ParameterPart = serde_path_to_error::deserialize(&root).map_err(|error| {
+        let key = error.path().to_string();
+        ResultError::Value { file: file(), key, source: error.into_inner() }
+    })?;
+    let names = part.names().ok_or_else(|| ResultError::Key {
+        file: file(),
+        key: "friction.coulomb_…".to_owned(),
+        expected: "there with the units of an axis",
+    })?;
+    Ok(ParameterList {
+        names,
+        from: part.from,
+        torque_per_command: part.torque_per_command,
+        friction_terms: part.friction_terms(),
+        modes: part.beam.modes.len(),
+        parameters: Listing::of(names, &part),
+    })
+}
+
+impl ParameterPart {
+    /// The units, by the keys of Coulomb friction.
+    fn names(&self) -> Option<UnitNames> {
+        let of_axis = |names: &&UnitNames| AxisName::of(names.axis) == self.axis;
+        let all = UnitNames::ALL.iter().filter(of_axis);
+        all.copied().find(|names| self.friction.coulomb.coulomb.has_keys_of(*names))
+    }
+
+    /// Terms of the law that the friction is of.
+    fn friction_terms(&self) -> Vec<LawTermName> {
+        let f = &self.friction;
+        let mut terms = Vec::new();
+        terms.extend(f.viscous_forward.any().map(|_| LawTermName::ViscousByDirection));
+        terms.extend(f.terms.near_rest.as_ref().map(|_| LawTermName::NearRest));
+        terms.extend(f.terms.with_load.as_ref().map(|_| LawTermName::WithLoad));
+        terms.extend(f.terms.ripples.iter().map(|_| LawTermName::Ripple));
+        let law = self.methods.friction_law.as_ref();
+        let law = law.filter(|_| self.from == Some(MethodName::FrictionLaw));
+        let chosen = law.map_or(&[][..], |law| &law.chosen.terms).iter().map(|t| t.term.term);
+        // The other terms have estimates of their own above.
+        terms.extend(chosen.filter(|t| matches!(t, LawTermName::AfterTravel | LawTermName::Root)));
+        terms
+    }
+}
+
+/// Parameters in the making.
+struct Listing<'a> {
+    names: UnitNames,
+    part: &'a ParameterPart,
+    parameters: Vec<ListedParameter>,
+}
+
+impl<'a> Listing<'a> {
+    fn of(names: UnitNames, part: &'a ParameterPart) -> Vec<ListedParameter> {
+        let mut listing = Self { names, part, parameters: Vec::new() };
+        listing.friction();
+        listing.friction_terms();
+        listing.drive_and_beam();
+        listing.parameters
+    }
+
+    /// A parameter that findings with one of the keys `affected` affect.
+    fn add(
+        &mut self,
+        (key, name, unit): (String, &str, &str),
+        estimate: Option<&EstimateEntry>,
+        affected: &[&str],
+    ) {
+        let is_warning = |f: &&FindingEntry| f.severity == SeverityName::Warning;
+        let affects = |f: &&FindingEntry| f.affects.iter().any(|k| affected.contains(&k.as_str()));
+        let mut warnings: Vec<String> = Vec::new();
+        for finding in self.part.findings.iter().filter(is_warning).filter(affects) {
+            if !warnings.contains(&finding.code) {
+                warnings.push(finding.code.clone());
+            }
+        }
+        self.parameters.push(ListedParameter {
+            key,
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            estimate: estimate.cloned(),
+            warnings,
+        });
+    }
+
+    /// A parameter of a table of the result, where the table has its key.
+    fn keyed<Q: Quantity>(
+        &mut self,
+        (table, name, unit): (&str, &str, &str),
+        value: &Refusable<Q>,
+        affected: &[&str],
+    ) {
+        if let Some((key, estimate)) = value.keyed(self.names) {
+            self.add((format!("{table}.{key}"), name, unit), estimate.as_ref(), affected);
+        }
+    }
+
+    /// The same of a value that is never refused.
+    fn estimated<Q: Quantity>(
+        &mut self,
+        (table, name, unit): (&str, &str, &str),
+        value: &WithUnit<Q, EstimateEntry>,
+        affected: &[&str],
+    ) {
+        if let Some((key, estimate)) = value.keyed(self.names) {
+            self.add((format!("{table}.{key}"), name, unit), Some(estimate), affected);
+        }
+    }
+
+    fn friction(&mut self) {
+        let (f, names) = (&self.part.friction, self.names);
+        let (torque, viscous) = (names.torque_unit(), names.viscous_unit());
+        let c = &f.coulomb;
+        if names.torque_known
+            && let Some((key, estimate)) = c.coulomb.of_command(names)
+        {
+            let id = (format!("friction.{key}"), "Coulomb friction", names.command_unit());
+            self.add(id, estimate.as_ref(), &[COULOMB]);
+        }
+        self.keyed(("friction", "Coulomb friction", torque), &c.coulomb, &[COULOMB]);
+        // One direction alone: its friction with the load that acts on it.
+        let alone = c.coulomb.get(names).is_none_or(Option::is_none);
+        let [forward, backward] = if alone {
+            ["friction with the load forward", "friction with the load backward"]
+        } else {
+            ["Coulomb friction forward", "Coulomb friction backward"]
+        };
+        self.keyed(("friction", forward, torque), &c.forward, &[COULOMB, OFFSET]);
+        self.keyed(("friction", backward, torque), &c.backward, &[COULOMB, OFFSET]);
+        self.keyed(("friction", "Coulomb friction offset", torque), &c.offset, &[OFFSET]);
+        self.keyed(("friction", "viscous friction", &viscous), &f.viscous, &[VISCOUS]);
+        let name = "viscous friction forward";
+        self.estimated(("friction", name, &viscous), &f.viscous_forward, &[VISCOUS]);
+        let name = "viscous friction backward";
+        self.estimated(("friction", name, &viscous), &f.viscous_backward, &[VISCOUS]);
+    }
+
+    fn friction_terms(&mut self) {
+        let (terms, names) = (&self.part.friction.terms, self.names);
+        let (torque, angle) = (names.torque_unit(), names.angle());
+        if let Some(near) = &terms.near_rest {
+            let table = "friction.near_rest";
+            self.keyed((table, "static friction", torque), &near.static_friction, &[COULOMB]);
+            self.keyed((table, "friction near rest", torque), &near.amplitude, &[COULOMB]);
+            let unit = format!("{angle}/s");
+            self.estimated((table, "friction near rest speed", &unit), &near.speed, &[COULOMB]);
+        }
+        if let Some(with_load) = &terms.with_load {
+            let id = ("friction.with_load".to_owned(), "friction per load", "1");
+            self.add(id, Some(with_load), &[COULOMB]);
+        }
+        for (k, ripple) in terms.ripples.iter().enumerate() {
+            let table = format!("friction.ripples[{k}]");
+            let name = format!("ripple {}", k + 1);
+            self.keyed((&table, &name, torque), &ripple.amplitude, &[COULOMB]);
+            let name = format!("{name} period");
+            self.estimated((&table, &name, angle), &ripple.period, &[COULOMB]);
+        }
+    }
+
+    fn drive_and_beam(&mut self) {
+        let (part, names) = (self.part, self.names);
+        let (torque, inertia) = (names.torque_unit(), names.inertia_unit());
+        let name = names.inertia_name();
+        self.keyed(("drive", name, &inertia), &part.drive.inertia, &[INERTIA]);
+        if let Some(gravity) = &part.gravity {
+            let name = "gravity m·g·l";
+            self.estimated(("gravity", name, torque), &gravity.amplitude, &[GRAVITY]);
+            let id = (PHASE_KEY.to_owned(), "gravity m·g·l phase", "rad");
+            self.add(id, Some(&gravity.phase_rad), &[GRAVITY]);
+            let unit = format!("N·m/{}", names.command_unit());
+            let name = "torque constant by m·g·l";
+            self.keyed(("gravity", name, &unit), &gravity.torque_constant, &[GRAVITY]);
+        }
+        let coupling = names.coupling_unit();
+        let name = "coupling to the beam";
+        self.keyed(("beam", name, &coupling), &part.beam.coupling, &[COUPLING]);
+        for (k, mode) in part.beam.modes.iter().enumerate() {
+            let key = |name: &str| format!("beam.modes[{k}].{name}");
+            let name = format!("mode {} frequency", k + 1);
+            let id = (key("natural_frequency_rad_s"), name.as_str(), "rad/s");
+            self.add(id, Some(&mode.natural_frequency_rad_s), &[MODES]);
+            let name = format!("mode {} damping ratio", k + 1);
+            let id = (key("damping_ratio"), name.as_str(), "1");
+            self.add(id, Some(&mode.damping_ratio), &[MODES]);
+        }
+    }
+}
+
+/// Key of the load's phase: the one parameter that is an angle with its turns.
+pub const PHASE_KEY: &str = "gravity.phase_rad";
