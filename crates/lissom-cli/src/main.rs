@@ -1,7 +1,8 @@
 //! The command `lissom`: parse, call the library, print.
 //!
 //! Exit codes: 0 done, 1 the input cannot be used, 2 wrong usage, 3 done but the verdict refuses a
-//! figure asked for or a wish of a plan cannot be met.
+//! figure asked for or a wish of a plan cannot be met, 4 stopped by Ctrl-C or a time limit, with the best result so far
+//! (130 after a second Ctrl-C, without one).
 
 mod args;
 mod commands;

@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use lissom::identify::{Identified, Options, identify};
+use lissom::identify::{Effort, Identified, Options, identify};
 use lissom_io::campaign::read_campaign;
 use lissom_testmodels::{RigidJoint, RigidLog, two_sines};
 
@@ -26,7 +26,7 @@ fn identified(signals: &str, text: &str) -> Identified {
     std::fs::write(folder.path().join("campaign.toml"), campaign).unwrap();
     std::fs::write(folder.path().join("log.csv"), text).unwrap();
     let file = read_campaign(&folder.path().join("campaign.toml")).unwrap();
-    let options = Options { without_output_error: true, ..Options::default() };
+    let options = Options { effort: Effort::Quick, ..Options::default() };
     identify(&file.campaign, &options, |_| ()).unwrap()
 }
 

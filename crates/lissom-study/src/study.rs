@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use lissom::identify::{Identified, IdentifyError, Options, identify};
+use lissom::identify::{Effort, Identified, IdentifyError, Options, identify};
 use lissom::record::Run;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -67,7 +67,8 @@ pub struct Scored {
 /// # Errors
 /// [`IdentifyError`] where nothing can be said at all.
 pub fn identified(campaign: &Campaign, quick: bool) -> Result<Identified, IdentifyError> {
-    let options = Options { without_output_error: quick, ..Options::default() };
+    let effort = if quick { Effort::Quick } else { Effort::Normal };
+    let options = Options { effort, ..Options::default() };
     identify(&campaign.logs, &options, |_| {})
 }
 

@@ -17,7 +17,8 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::identify::{
-    Options, OutputErrorStart, Prepared, beam_regression, motor_regression, output_error, starts,
+    Effort, Interrupt, Options, OutputErrorStart, Prepared, beam_regression, motor_regression,
+    output_error, starts,
 };
 use lissom::record::{Campaign, Run};
 use lissom::replay::{
@@ -53,7 +54,8 @@ fn start(campaign: &Campaign, omega_rad_s: &[Option<f64>]) -> OutputErrorStart {
     let beam = beam_regression(&Prepared::of(campaign));
     let arms = starts(campaign, &motor.estimates(), beam.as_ref(), None);
     OutputErrorStart {
-        most_evaluations: None,
+        most_evaluations: Effort::Thorough.most_evaluations(),
+        interrupt: Interrupt::default(),
         arms,
         omega_rad_s: omega_rad_s.to_vec(),
         first_window_s: None,

@@ -1,7 +1,7 @@
 //! One motion on clocks that logs have: inertia and friction are those of the joint on each of them.
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use lissom::identify::{Finding, Identified, Options, identify};
+use lissom::identify::{Effort, Finding, Identified, Options, identify};
 use lissom::record::clock::{LogRows, even_parts};
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run};
 use lissom_testmodels::{RigidJoint, two_sines};
@@ -48,7 +48,7 @@ fn identified(kept: &[usize], stamps_s: Vec<f64>, hold: Hold, finding: &str) -> 
     };
     let channels = Channels { axis: Axis::Rotary, command, tips: vec![] };
     let campaign = Campaign::new(channels, runs.collect()).unwrap();
-    let options = Options { without_output_error: true, ..Options::default() };
+    let options = Options { effort: Effort::Quick, ..Options::default() };
     let found = identify(&campaign, &options, |_| ()).unwrap();
     let codes: Vec<&str> = found.findings.iter().map(Finding::code).collect();
     assert_eq!(codes.iter().filter(|code| **code == finding).count(), 1, "{codes:?}");

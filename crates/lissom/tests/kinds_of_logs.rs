@@ -4,7 +4,8 @@
 
 use lissom::identify::findings::{EstimateFinding, FindingKind, RegressionFinding};
 use lissom::identify::{
-    Estimate, Finding, GravityPartner, Identified, Method, MissingKind, Options, Severity, identify,
+    Effort, Estimate, Finding, GravityPartner, Identified, Method, MissingKind, Options, Severity,
+    identify,
 };
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
 use lissom_testmodels::{RigidJoint, RigidLog, two_sines};
@@ -32,7 +33,7 @@ fn measured(joint: &RigidJoint, log: RigidLog) -> Campaign {
 }
 
 fn quick(campaign: &Campaign) -> Identified {
-    let options = Options { without_output_error: true, ..Options::default() };
+    let options = Options { effort: Effort::Quick, ..Options::default() };
     identify(campaign, &options, |_| ()).unwrap()
 }
 

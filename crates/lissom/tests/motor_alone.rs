@@ -5,7 +5,8 @@ use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
 use lissom::identify::{
-    ArmSource, Estimate, Identified, Options, OutputErrorStart, Prepared, identify, output_error,
+    ArmSource, Effort, Estimate, Identified, Interrupt, Options, OutputErrorStart, Prepared,
+    identify, output_error,
 };
 use lissom::record::{Campaign, Run};
 use lissom::replay::{ModalArm, Oscillator, Parameter};
@@ -103,7 +104,8 @@ fn a_mode_that_is_none_goes() {
         grounded_per_s: 0.0,
     }];
     let start = OutputErrorStart {
-        most_evaluations: None,
+        most_evaluations: Effort::Thorough.most_evaluations(),
+        interrupt: Interrupt::default(),
         arms: vec![arm],
         omega_rad_s: vec![None; campaign.runs.len()],
         first_window_s: None,

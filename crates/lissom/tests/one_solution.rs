@@ -1,7 +1,7 @@
 //! Friction, inertia and coupling of a result are one method's whole solution, never parts of two.
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use lissom::identify::{DriveEstimates, Identified, Method, Options, identify};
+use lissom::identify::{DriveEstimates, Effort, Identified, Method, Options, identify};
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
 
 const SAMPLE_S: f64 = 2e-3;
@@ -49,7 +49,7 @@ fn found(motion: Motion, seconds: f64, friction: fn(f64) -> f64) -> Identified {
     };
     let channels = Channels { axis: Axis::Rotary, command, tips: vec![] };
     let campaign = Campaign::new(channels, vec![run]).unwrap();
-    let options = Options { without_output_error: true, ..Options::default() };
+    let options = Options { effort: Effort::Quick, ..Options::default() };
     identify(&campaign, &options, |_| ()).unwrap()
 }
 

@@ -4,7 +4,7 @@
 use lissom::arm::Arm;
 use lissom::beam::Beam;
 use lissom::drive::{Coulomb, Motor};
-use lissom::identify::{Options, identify};
+use lissom::identify::{Effort, Options, identify};
 use lissom::load::GravityLoad;
 use lissom::plan::{
     Figure, Kinds, Plan, PlanError, PlanNote, PlannedFigure, PlannedUnknown, Wishes, plan,
@@ -69,7 +69,7 @@ fn is_worth_it(mgl: f64, counts: u32, kinds: Kinds) {
         rig.run(&format!("{i}"), &e, 7 + i as u64).unwrap().run
     });
     let campaign = Campaign::new(rig.channels(0..0), runs.collect()).unwrap();
-    let regression = Options { without_output_error: true, ..Options::default() };
+    let regression = Options { effort: Effort::Quick, ..Options::default() };
     let id = identify(&campaign.with_gravity().unwrap(), &regression, |_| ()).unwrap();
     let arm = &rig.arm;
     for (figure, found, truth) in [

@@ -9,7 +9,7 @@
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
-use lissom::identify::{OutputError, OutputErrorStart, Prepared, output_error};
+use lissom::identify::{Effort, Interrupt, OutputError, OutputErrorStart, Prepared, output_error};
 use lissom::record::{Campaign, Run};
 use lissom::replay::ModalArm;
 use lissom::rig::{Experiment, Instruments, Noise, Pd, Quantiser, Rig, Sensor, Settle};
@@ -77,7 +77,8 @@ fn wrong(arm: &ModalArm, ([inertia, viscous, coulomb], [omega, stiffness]): Fact
 
 fn from(campaign: &Campaign, sines_rad_s: &[f64], arm: ModalArm) -> OutputError {
     let start = OutputErrorStart {
-        most_evaluations: None,
+        most_evaluations: Effort::Thorough.most_evaluations(),
+        interrupt: Interrupt::default(),
         arms: vec![arm],
         omega_rad_s: sines_rad_s.iter().map(|omega| Some(*omega)).collect(),
         first_window_s: None,

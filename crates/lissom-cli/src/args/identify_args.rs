@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
+use lissom::identify::Effort;
 
 use super::positive_time::positive_time;
 use super::stdout_name::STDOUT;
@@ -25,9 +26,35 @@ pub(crate) struct IdentifyArgs {
     /// Length of the regression's window, e.g. "0.3 s"; chosen from the data when absent
     #[arg(long, value_name = "TIME", value_parser = positive_time, allow_hyphen_values = true)]
     pub(crate) window: Option<f64>,
-    /// Closed forms only: do not replay the runs through the arm
-    #[arg(long)]
+    /// How far to refine: quick (not at all), normal (some 10 s), thorough
+    #[arg(long, value_name = "EFFORT", default_value = "normal", hide_possible_values = true)]
+    pub(crate) effort: EffortArg,
+    /// The same as --effort quick
+    #[arg(long, conflicts_with = "effort")]
     pub(crate) quick: bool,
+    /// Take the best result after TIME, e.g. "5 s"; it then depends on the machine's speed
+    #[arg(long, value_name = "TIME", value_parser = positive_time, allow_hyphen_values = true)]
+    pub(crate) time_limit: Option<f64>,
+}
+
+/// How far the output-error method refines the estimates.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum EffortArg {
+    Quick,
+    Normal,
+    Thorough,
+}
+
+impl IdentifyArgs {
+    /// The effort asked for.
+    pub(crate) fn effort(&self) -> Effort {
+        match self.effort {
+            EffortArg::Normal if self.quick => Effort::Quick,
+            EffortArg::Quick => Effort::Quick,
+            EffortArg::Normal => Effort::Normal,
+            EffortArg::Thorough => Effort::Thorough,
+        }
+    }
 }
 
 const HELP: &str = "\

@@ -1,18 +1,19 @@
 //! `lissom identify CAMPAIGN`.
 
+use std::io::{IsTerminal as _, stdout};
 use std::path::Path;
 use std::process::ExitCode;
 
-use lissom::identify::{Identified, Severity};
+use lissom::identify::{Effort, Identified, Severity};
 use lissom_io::write::{self, Batch};
 use lissom_io::{ResultFile, UnitNames, read_campaign};
 
 use crate::args::identify_args::IdentifyArgs;
 use crate::args::stdout_name::STDOUT;
-use crate::shared::exit_codes::REFUSED;
+use crate::shared::exit_codes::{INTERRUPTED, REFUSED};
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
-use crate::tasks::identification::identified;
+use crate::tasks::identification::{Asked, first_answer, identified};
 use crate::tasks::known_arm::{Reference, checked};
 use crate::views::{
     arm_check, campaign_summary, equivalent_table, figure_table, finding_list, printer,
@@ -24,10 +25,19 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     let json_file = json.filter(|path| *path != Path::new(STDOUT));
     output_guard::guard(json_file, args.report.as_deref())?;
     let file = read_campaign(&args.campaign)?;
-    let id = identified(&args.campaign, &file, args.window, args.quick)?;
     let names = UnitNames::new(&file.campaign.channels);
     let reference = Reference::of(&file)?;
     let reference = reference.as_ref();
+    let asked =
+        Asked { window_s: args.window, effort: args.effort(), time_limit_s: args.time_limit };
+    let to_terminal = json.is_none_or(|path| path != Path::new(STDOUT)) && stdout().is_terminal();
+    if to_terminal && asked.effort != Effort::Quick {
+        let first = first_answer(&args.campaign, &file, asked)?;
+        printer::line("the first answer, which is refined now:");
+        figure_table::figures(names, &first, reference);
+        printer::line("");
+    }
+    let id = identified(&args.campaign, &file, asked)?;
     let geometry = checked(&id, reference);
     let result = ResultFile::of(&file.campaign.channels, &id, geometry.as_ref());
     let mut batch = Batch::new();
@@ -66,6 +76,9 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
 }
 
 fn code(id: &Identified) -> ExitCode {
+    if id.output_error.as_ref().is_some_and(|found| found.interrupted) {
+        return ExitCode::from(INTERRUPTED);
+    }
     let refused = id.findings.iter().any(|f| f.severity() == Severity::Refusal);
     if refused { ExitCode::from(REFUSED) } else { ExitCode::SUCCESS }
 }

@@ -12,7 +12,7 @@ use crate::args::payload_args::PayloadArgs;
 use crate::args::stdout_name::STDOUT;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
-use crate::tasks::identification::identified;
+use crate::tasks::identification::{Asked, identified};
 use crate::views::plot_file::Picture;
 use crate::views::{finding_list, payload_plot, payload_table, printer};
 
@@ -35,7 +35,7 @@ pub(crate) fn run(args: &PayloadArgs) -> Result<ExitCode, Failure> {
     }
     let file = read_campaign(&args.campaign)?;
     let place = PayloadPlace::of(args, &file.campaign.channels)?;
-    let id = identified(&args.campaign, &file, None, false)?;
+    let id = identified(&args.campaign, &file, Asked::default())?;
     let found = predicted(args, &file.campaign.channels, &place, &id)?;
     let mut batch = Batch::new();
     if let Some(path) = json_file {

@@ -5,5 +5,6 @@ pub(crate) mod command_hint;
 pub(crate) mod digits;
 pub(crate) mod exit_codes;
 pub(crate) mod failure;
+pub(crate) mod interrupted;
 pub(crate) mod output_guard;
 pub(crate) mod progress_bar;

@@ -1,7 +1,10 @@
 //! Progress of longer work, on standard error, where that is a terminal.
 
+use std::thread;
+use std::time::Duration;
+
 use indicatif::{ProgressBar, ProgressStyle};
-use lissom::identify::Stage;
+use lissom::identify::{Interrupt, Options, Stage};
 
 /// A bar of `length` steps.
 pub(crate) fn bar(length: usize, what: &'static str) -> ProgressBar {
@@ -17,20 +20,64 @@ pub(crate) fn bar(length: usize, what: &'static str) -> ProgressBar {
 /// A bar whose time goes on while a step takes long.
 pub(crate) fn stages(length: usize) -> ProgressBar {
     let bar = bar(length, "");
-    bar.enable_steady_tick(std::time::Duration::from_millis(250));
+    bar.enable_steady_tick(Duration::from_millis(250));
     bar
 }
 
-/// Shows the stage that identification has reached.
-pub(crate) fn stage(bar: &ProgressBar, stage: Stage) {
-    bar.inc(1);
-    bar.set_message(match stage {
-        Stage::Run(..) => "periods and harmonics",
-        Stage::Regression => "regression",
-        Stage::Beam => "beam",
-        Stage::OutputError => "replay through the arm",
-        Stage::Responses => "responses and models",
-    });
+/// Progress of an identification: its stages, then the share of the evaluations that the search may make.
+pub(crate) struct Stages {
+    bar: ProgressBar,
+    interrupt: Interrupt,
+    most: u64,
+}
+
+impl Stages {
+    /// A bar of so many stages.
+    pub(crate) fn new(length: usize, options: &Options) -> Self {
+        let bar = stages(length);
+        let (interrupt, most) = (options.interrupt.clone(), options.effort.most_evaluations());
+        Self { bar, interrupt, most }
+    }
+
+    /// Shows the stage that identification has reached.
+    pub(crate) fn stage(&self, stage: Stage) {
+        self.bar.inc(1);
+        self.bar.set_message(match stage {
+            Stage::Run(..) => "periods and harmonics",
+            Stage::Regression => "regression",
+            Stage::Beam => "beam",
+            Stage::OutputError => "replay through the arm",
+            Stage::Responses => "responses and models",
+        });
+        if stage == Stage::OutputError {
+            self.show_evaluations();
+        }
+    }
+
+    /// The bar is then of evaluations: the search may end before they are made, and not after.
+    fn show_evaluations(&self) {
+        let style = ProgressStyle::with_template(
+            "{msg} [{bar:36}] at most {eta} left (Ctrl-C: take the best so far)",
+        );
+        if let Ok(style) = style {
+            self.bar.set_style(style.progress_chars("=> "));
+        }
+        self.bar.reset();
+        self.bar.set_length(self.most);
+        self.bar.set_position(0);
+        let (bar, interrupt) = (self.bar.clone(), self.interrupt.clone());
+        thread::spawn(move || {
+            while !bar.is_finished() {
+                bar.set_position(interrupt.evaluations());
+                thread::sleep(Duration::from_millis(100));
+            }
+        });
+    }
+
+    /// Takes the bar away.
+    pub(crate) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
 }
 
 /// Steps that identification takes for `runs` runs.

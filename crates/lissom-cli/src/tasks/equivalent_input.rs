@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use lissom::identify::{
-    Deviations, EquivalentData, Estimate, Identified, MotorData, Response, without_origin,
+    Deviations, Effort, EquivalentData, Estimate, Identified, MotorData, Response, without_origin,
 };
 use lissom::record::{Axis, CommandQuantity};
 use lissom_io::units::{Dimension, parse_any_unit, parse_quantity};
 use lissom_io::{MeasuredResponse, UnitNames, read_campaign, read_responses};
 
-use super::identification::identified;
+use super::identification::{Asked, identified};
 use crate::args::equivalent_args::EquivalentArgs;
 use crate::shared::failure::Failure;
 
@@ -57,7 +57,10 @@ impl Input {
 
     fn campaign(path: &Path, quick: bool) -> Result<Self, Failure> {
         let file = read_campaign(path)?;
-        let id = identified(path, &file, None, quick)?;
+        let id = {
+            let effort = if quick { Effort::Quick } else { Effort::Normal };
+            identified(path, &file, Asked { effort, ..Asked::default() })?
+        };
         let data =
             EquivalentData::of_campaign(&file.campaign, &id.responses).map_err(|source| {
                 Failure::Equivalent {

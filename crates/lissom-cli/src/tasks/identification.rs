@@ -1,25 +1,55 @@
-//! Identification of a campaign, with a progress bar.
+//! Identification of a campaign: its progress on a terminal, and its end when somebody asks for it.
 
 use std::path::Path;
+use std::time::Duration;
 
-use lissom::identify::{Identified, Options, identify};
+use lissom::identify::{Effort, Identified, Interrupt, Options, identify};
 use lissom_io::CampaignFile;
 
 use crate::shared::failure::Failure;
-use crate::shared::progress_bar;
+use crate::shared::{interrupted, progress_bar};
 
-/// Identifies a campaign that was read, with a progress bar.
+/// What is asked of an identification beside the campaign file.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Asked {
+    /// Length of the regression's window \[s\].
+    pub(crate) window_s: Option<f64>,
+    pub(crate) effort: Effort,
+    /// Time after which the best result so far is taken \[s\].
+    pub(crate) time_limit_s: Option<f64>,
+}
+
+/// Identifies a campaign that was read, with a progress bar. With Ctrl-C, or after the time limit, the result is the best so
+/// far.
 pub(crate) fn identified(
     path: &Path,
     file: &CampaignFile,
-    window: Option<f64>,
-    without_output_error: bool,
+    asked: Asked,
 ) -> Result<Identified, Failure> {
-    let window_s = window.map_or_else(|| file.analysis.window_s.clone(), |w| vec![w]);
-    let harmonics = file.analysis.harmonics;
-    let options = Options { window_s, harmonics, without_output_error, most_evaluations: None };
-    let bar = progress_bar::stages(progress_bar::steps(file.campaign.runs.len()));
-    let id = identify(&file.campaign, &options, |stage| progress_bar::stage(&bar, stage));
-    bar.finish_and_clear();
+    let limit = asked.time_limit_s.map(Duration::from_secs_f64);
+    let interrupt = limit.map_or_else(Interrupt::default, Interrupt::after);
+    interrupted::on_ctrl_c(&interrupt);
+    let options = options(file, asked, interrupt);
+    let steps = progress_bar::steps(file.campaign.runs.len());
+    let progress = progress_bar::Stages::new(steps, &options);
+    let id = identify(&file.campaign, &options, |stage| progress.stage(stage));
+    progress.finish();
     id.map_err(|source| Failure::Identify { campaign: path.to_owned(), source })
+}
+
+/// The answer of the methods that need no search, which is there at once.
+pub(crate) fn first_answer(
+    path: &Path,
+    file: &CampaignFile,
+    asked: Asked,
+) -> Result<Identified, Failure> {
+    let asked = Asked { effort: Effort::Quick, ..asked };
+    let found = identify(&file.campaign, &options(file, asked, Interrupt::default()), |_| ());
+    found.map_err(|source| Failure::Identify { campaign: path.to_owned(), source })
+}
+
+fn options(file: &CampaignFile, asked: Asked, interrupt: Interrupt) -> Options {
+    let window_s = asked.window_s.map_or_else(|| file.analysis.window_s.clone(), |w| vec![w]);
+    let harmonics = file.analysis.harmonics;
+    Options { window_s, harmonics, effort: asked.effort, most_evaluations: None, interrupt }
 }

@@ -4,7 +4,7 @@
 use std::io::Write as _;
 
 use lissom::identify::{
-    ArmSource, DriveEstimates, FoundArm, Options, Prepared, ValidationOptions, identify,
+    ArmSource, DriveEstimates, Effort, FoundArm, Options, Prepared, ValidationOptions, identify,
     least_squares, motor_regression, validate,
 };
 use lissom::record::{Campaign, Run, TimeBase};
@@ -45,7 +45,7 @@ fn say(name: &str, by: &str, shares: [f64; 2]) {
 
 /// Shares of the torque of `unseen` that are left by the result of `used` and by its line, told past the capture.
 fn left(name: &str, used: &Campaign, unseen: &Campaign) -> [f64; 2] {
-    let options = Options { without_output_error: true, ..Options::default() };
+    let options = Options { effort: Effort::Quick, ..Options::default() };
     let found = identify(used, &options, |_| ()).unwrap();
     let line = rigid(
         &found.least_squares.as_ref().unwrap().estimates,

@@ -1,7 +1,7 @@
 //! UR10E, Mamedov: joints of a robot arm with harmonic drives, a clock of 10 and 12 ms, and gravity on joint 4.
 
 use lissom::identify::findings::{FindingKind, RegressionFinding};
-use lissom::identify::{Estimate, Identified, MissingKind, Options, identify};
+use lissom::identify::{Effort, Estimate, Identified, MissingKind, Options, identify};
 
 use super::common;
 
@@ -20,7 +20,7 @@ fn quick(joint: usize, gravity: bool) -> Option<Identified> {
     let data = common::data("ur10e")?;
     let read = common::read(&campaign(joint), &data, &log(joint)).campaign;
     let read = if gravity { read.with_gravity().unwrap() } else { read };
-    let options = Options { without_output_error: true, ..Options::default() };
+    let options = Options { effort: Effort::Quick, ..Options::default() };
     Some(identify(&read, &options, |_| ()).unwrap())
 }
 

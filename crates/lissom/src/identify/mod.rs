@@ -9,6 +9,7 @@ mod friction_estimates;
 mod geometry;
 mod gravity_estimate;
 mod identified;
+mod interrupt;
 pub(crate) mod judge;
 pub(crate) mod methods;
 mod options;
@@ -33,6 +34,7 @@ pub use friction_estimates::{Friction, NearRestEstimate, RippleEstimate};
 pub use geometry::{ArmQuantity, Explanation, GeometryCheck, geometry_check};
 pub use gravity_estimate::Gravity;
 pub use identified::{BeamEstimates, Identified};
+pub use interrupt::Interrupt;
 pub use methods::constant_velocity::{
     ConstantVelocity, FrictionLine, LineError, LineShape, constant_velocity,
 };
@@ -49,7 +51,7 @@ pub use methods::regression::{
     MissingTerm, MotorRegression, RunDifference, beam_regression, motor_regression,
 };
 pub use methods::third_harmonic::{PairFigure, ThirdHarmonic, mean_figure, pair_figure};
-pub use options::Options;
+pub use options::{Effort, Options};
 pub use payload::LoadedArm;
 pub use pipeline::{IdentifyError, Stage, identify};
 pub use prepare::prepared::Prepared;

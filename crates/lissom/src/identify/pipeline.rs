@@ -19,7 +19,7 @@ use crate::identify::methods::regression::{
 use crate::identify::methods::starting_arms::starting_arms;
 use crate::identify::methods::third_harmonic::{ThirdHarmonic, third_harmonic};
 use crate::identify::methods::unlike_runs::regression_of_like_runs;
-use crate::identify::options::Options;
+use crate::identify::options::{Effort, Options};
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_analysis::RunKind;
 use crate::identify::responses::linear_models::LinearModels;
@@ -147,7 +147,7 @@ pub fn identify(
     let tables = ResponseTables { prepared: &prepared, coulomb_command: best };
     let shown = tables.without_friction_known();
     let tips_model = beam_model(campaign, &shown);
-    let replayed = any_regression.filter(|_| !options.without_output_error);
+    let replayed = any_regression.filter(|_| options.effort != Effort::Quick);
     let command_noise = replayed.as_ref().and_then(|r| command_noise(prepared.used(), r));
     let command_noise = command_noise.filter(|ratio| *ratio > COMMAND_NOISE_MOST);
     // A replay knows a delay of the command, but no filter.
@@ -272,7 +272,8 @@ fn start_of(
         arms,
         omega_rad_s: prepared.kept().iter().map(omega).collect(),
         first_window_s: None,
-        most_evaluations: options.most_evaluations,
+        most_evaluations: options.evaluations(),
+        interrupt: options.interrupt.clone(),
         law: terms.unwrap_or_default(),
     }
 }

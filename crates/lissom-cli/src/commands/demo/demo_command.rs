@@ -12,7 +12,7 @@ use crate::args::stdout_name::STDOUT;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::demo_comparison::{compared, comparison};
-use crate::tasks::identification::identified;
+use crate::tasks::identification::{Asked, identified};
 use crate::tasks::known_arm::Reference;
 use crate::views::{demo_table, printer, report_page, result_plots};
 
@@ -30,7 +30,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
 
     let campaign_path = out.join("campaign.toml");
     let file = read_campaign(&campaign_path)?;
-    let id = identified(&campaign_path, &file, None, false)?;
+    let id = identified(&campaign_path, &file, Asked::default())?;
 
     let channels = &file.campaign.channels;
     let names = UnitNames::new(channels);

@@ -11,7 +11,7 @@ use crate::args::stdout_name::STDOUT;
 use crate::commands::rig::virtual_campaign::{self, Inputs};
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
-use crate::tasks::identification::identified;
+use crate::tasks::identification::{Asked, identified};
 use crate::tasks::known_arm::Reference;
 use crate::tasks::printed_coulomb::{compared, rows};
 use crate::views::bode_plots::bode_plots;
@@ -39,7 +39,7 @@ pub(crate) fn run(args: &FiguresArgs) -> Result<ExitCode, Failure> {
 
     let campaign = logs.join("campaign.toml");
     let file = read_campaign(&campaign)?;
-    let id = identified(&campaign, &file, None, false)?;
+    let id = identified(&campaign, &file, Asked::default())?;
     let channels = &file.campaign.channels;
     let names = UnitNames::new(channels);
     let truth = Reference { label: "theory", ..Reference::truth(&made.arm) };

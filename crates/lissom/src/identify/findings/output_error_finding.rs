@@ -107,6 +107,8 @@ pub enum OutputErrorFinding {
         window_s: f64,
         /// Whether its estimates are used; else the regression's are.
         used: bool,
+        /// Whether somebody asked it to end, or a time was over.
+        interrupted: bool,
     },
     /// The runs are described in windows, each from its own initial state.
     MotionsPart {
@@ -192,10 +194,10 @@ impl fmt::Display for OutputErrorFinding {
                     ". The estimates are those of the regression"
                 })
             }
-            Self::BudgetSpent { evaluations, window_s, used } => write!(
+            Self::BudgetSpent { evaluations, window_s, used, interrupted } => write!(
                 f,
-                "the output-error method was not done after {:.1} million evaluations, at windows of {window_s:.2} s. \
-                 The estimates are those {}",
+                "the output-error method {} {:.1} million evaluations, at windows of {window_s:.2} s. The estimates are those {}",
+                if *interrupted { "was stopped after" } else { "was not done after" },
                 *evaluations as f64 / 1e6,
                 if *used { "that it had come to" } else { "of the regression" }
             ),
@@ -293,7 +295,7 @@ impl Describe for OutputErrorFinding {
                 "look for other friction than Coulomb and viscous, a load, backlash, or a mode without a tip"
             }
             Self::BudgetSpent { .. } => {
-                "allow more evaluations, or use fewer and shorter runs: ten strokes a run, three to eight runs"
+                "allow more evaluations (effort thorough) or more time, or use fewer and shorter runs: ten strokes a run, three to eight runs"
             }
             Self::MotionsPart { .. } => {
                 "nothing to do; a prediction from the initial state of a run holds no longer than that"

@@ -1,5 +1,6 @@
 //! The motion of a given arm in runs from which it was not identified.
 
+use crate::identify::interrupt::Interrupt;
 use crate::identify::methods::output_error::engine::budget::Budget;
 use crate::identify::methods::output_error::engine::coordinates::Body;
 use crate::identify::methods::output_error::engine::search::{ReplayProblem, is_possible};
@@ -24,7 +25,7 @@ pub(crate) fn follow(
     let noise: Vec<SensorNoise> = noise::of_samples(campaign).into_iter().map(weighable).collect();
     let sampling = Sampling { noise: &noise, blocks: &[], masks: &masks };
     // No limit is needed: each window has few unknowns and few steps.
-    let budget = Budget::new(u64::MAX);
+    let budget = Budget::new(u64::MAX, Interrupt::default());
     let problem = ReplayProblem {
         campaign,
         parameters: &[],

@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
+use crate::identify::interrupt::Interrupt;
 use crate::identify::methods::friction_law::LawTerm;
 use crate::identify::methods::output_error::engine::by_run::ByRun;
 use crate::identify::methods::output_error::engine::covariance::deviation;
@@ -45,8 +46,10 @@ pub struct OutputError {
     pub whole_runs: bool,
     /// Evaluations made: samples replayed, and derivatives of these by a parameter.
     pub evaluations: u64,
-    /// Whether the limit of evaluations ended the search.
+    /// Whether the search ended before it was done.
     pub budget_spent: bool,
+    /// Whether that was because somebody asked for it, or a time was over, rather than by the limit of evaluations.
+    pub interrupted: bool,
     /// Parameters whose standard errors are at least twice as large because the samples do not distinguish damping
     /// within the beam from damping against the frame. The standard errors include both cases.
     pub open_by_damping: Vec<Parameter>,
@@ -111,8 +114,10 @@ pub struct OutputErrorStart {
     /// Length of the first windows \[s\]; chosen from the arm if `None`. Short windows also lead to the result from a
     /// start that is wrong by a large factor.
     pub first_window_s: Option<f64>,
-    /// Most evaluations; the method's default if `None`.
-    pub most_evaluations: Option<u64>,
+    /// Most evaluations.
+    pub most_evaluations: u64,
+    /// Ends the search with what it has.
+    pub interrupt: Interrupt,
     /// Terms of friction that slip phases show: speeds and periods to try if the residual is above the noise.
     pub law: Vec<LawTerm>,
 }

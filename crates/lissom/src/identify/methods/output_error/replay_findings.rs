@@ -54,6 +54,7 @@ fn budget_spent(oe: &OutputError) -> Option<Finding> {
         evaluations: oe.evaluations,
         window_s: longest(oe)?.window_s,
         used: oe.stands(),
+        interrupted: oe.interrupted,
     }))
 }
 

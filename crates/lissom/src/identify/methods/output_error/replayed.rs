@@ -7,7 +7,7 @@ use crate::identify::methods::output_error::found::{OutputError, OutputErrorStar
 use crate::identify::methods::output_error::model::describes::accepted_residual;
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::schedule::{Attempt, best};
-use crate::identify::methods::output_error::thresholds::{EVALUATIONS_MOST, WINDOW_WIDENING};
+use crate::identify::methods::output_error::thresholds::WINDOW_WIDENING;
 use crate::identify::methods::output_error::undecided::{KnownParameters, undecided};
 use crate::identify::prepare::prepared::Prepared;
 use crate::replay::SensorNoise;
@@ -31,7 +31,7 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
     let blocks = data::blocks(campaign, &start.omega_rad_s);
     let law = &start.law;
     let noise = noise::of_samples(campaign);
-    let budget = Budget::new(start.most_evaluations.unwrap_or(EVALUATIONS_MOST));
+    let budget = Budget::new(start.most_evaluations, start.interrupt.clone());
     let fitting = Fitting {
         campaign,
         masks: &masks,
@@ -74,5 +74,6 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
         whole_runs: fit.whole_runs,
         evaluations: budget.spent(),
         budget_spent: budget.is_spent(),
+        interrupted: budget.is_interrupted(),
     })
 }

@@ -82,10 +82,6 @@ thresholds! {
         WINDOW_WIDENING_SLOW: f64 = 1.6, "1", Convention;
     }
     "output error: search" {
-        /// Most evaluations of the whole search. A sample that is replayed, or its derivative by
-        /// one parameter, is one evaluation. Of 18 measured campaigns and 44 small logs the largest
-        /// needed 60 million (`evaluations` in result.json).
-        EVALUATIONS_MOST: u64 = 2_000_000_000, "evaluations", Measured;
         /// Most steps of a search at one length of the windows, where others follow.
         STAGE_STEPS_MOST: usize = 12, "steps", Convention;
         /// Samples that are replayed, about, where longer windows follow.

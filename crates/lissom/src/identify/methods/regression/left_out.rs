@@ -8,7 +8,7 @@ use crate::identify::methods::regression::thresholds::{
     UNLIKE_MISFIT, UNLIKE_NEXT, UNLIKE_NEXT_OF_FASTEST, UNLIKE_SPOILS, UNLIKE_USUAL, UNLIKE_WITHIN,
 };
 
-use crate::record::{Campaign, Run};
+use crate::record::Run;
 
 /// Most runs for which this is done.
 const RUNS_MOST: usize = 64;
@@ -62,11 +62,11 @@ fn worst(runs: &[RunLeftOut], of: impl Fn(&RunLeftOut) -> f64) -> Option<(&RunLe
     Some((worst, *others.get(others.len() / 2)?, *others.last()?))
 }
 
-/// One for each run of three or more.
+/// One for each run of three or more, of so many rad/s each.
 pub(super) fn runs_left_out(
     clusters: &[Cluster],
     terms: &[Term],
-    campaign: &Campaign,
+    speeds: &[f64],
 ) -> Vec<RunLeftOut> {
     let sums = by_run(clusters);
     let mut runs: Vec<usize> = sums.iter().map(|c| c.run).collect();
@@ -74,7 +74,6 @@ pub(super) fn runs_left_out(
     if !(RUNS_LEAST..=RUNS_MOST).contains(&runs.len()) {
         return Vec::new();
     }
-    let speeds: Vec<f64> = campaign.runs.iter().map(rms_speed).collect();
     let without = |&run: &usize| {
         let (own, others): (Vec<Cluster>, Vec<Cluster>) =
             sums.iter().cloned().partition(|c| c.run == run);
@@ -106,7 +105,7 @@ pub(super) fn runs_left_out(
 }
 
 /// Speed, root mean square.
-fn rms_speed(run: &Run) -> f64 {
+pub(super) fn rms_speed(run: &Run) -> f64 {
     let sum: f64 = run.motor().windows(2).map(|w| (w[1] - w[0]).powi(2)).sum();
     (sum / run.len() as f64).sqrt() / run.sample_time_s()
 }
@@ -145,24 +144,31 @@ fn left(clusters: &[Cluster], terms: &[Term], value: &DVector<f64>) -> f64 {
 mod tests {
     use super::*;
 
-    /// Six runs of y = 2·x + 0.3, one of which has twice the slope.
+    /// Six runs of y = 2·a + 0.5·b ± 0.3 + 0.1 in two directions, one of which has twice the first slope.
     #[test]
     fn the_run_that_differs_is_the_one_the_others_do_not_predict() {
         let mut clusters = Vec::new();
         for run in 0..6_u32 {
             let slope = if run == 4 { 4.0 } else { 2.0 };
-            let mut cluster = Cluster::new(run as usize, 1.0, 3);
-            for k in 0..50 {
-                let x = f64::from(7 * run + k).sin();
-                let noise = 0.01 * f64::from(13 * k + run).cos();
-                cluster.add(&[x, 1.0, slope * x + 0.3 + noise]);
+            for sign in [1.0, -1.0] {
+                let mut cluster = Cluster::new(run as usize, sign, 4);
+                for k in 0..50 {
+                    let (a, b) = (f64::from(7 * run + k).sin(), f64::from(3 * k + run).cos());
+                    let noise = 0.01 * f64::from(13 * k + run).cos();
+                    cluster.add(&[a, b, 1.0, slope * a + 0.5 * b + 0.3 * sign + 0.1 + noise]);
+                }
+                clusters.push(cluster);
             }
-            clusters.push(cluster);
         }
-        let found = runs_left_out(&clusters, &[Term::Plain(0), Term::Plain(1)]);
+        let terms = [Term::Plain(0), Term::Plain(1), Term::Signed(2), Term::Plain(2)];
+        let found = runs_left_out(&clusters, &terms, &[1.0; 6]);
         let worst = found.iter().max_by(|a, b| a.residual.total_cmp(&b.residual)).unwrap();
         assert_eq!((found.len(), worst.run), (6, 4));
         assert!(worst.residual > 20.0 && (worst.value[0] - 2.0).abs() < 0.01, "{worst:?}");
         assert!(found.iter().filter(|r| r.run != 4).all(|r| r.residual < 3.0));
+        let unlike = unlike_others(&found).unwrap();
+        assert_eq!(unlike.run, 4);
+        let RunDifference::Inertia { factor } = unlike.difference else { panic!("{unlike:?}") };
+        assert!((factor - 2.0).abs() < 0.05, "{factor}");
     }
 }

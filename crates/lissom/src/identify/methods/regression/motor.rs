@@ -12,7 +12,7 @@ use crate::identify::gravity_estimate::Gravity;
 use crate::identify::methods::regression::cluster_covariance::larger;
 use crate::identify::methods::regression::fitted::Fitted;
 use crate::identify::methods::regression::lag::{AngleLag, angle_lag};
-use crate::identify::methods::regression::left_out::{RunLeftOut, runs_left_out};
+use crate::identify::methods::regression::left_out::{RunLeftOut, rms_speed, runs_left_out};
 use crate::identify::methods::regression::missing::{MissingKind, MissingTerm, missing_term};
 use crate::identify::methods::regression::motor_columns::{
     DRY, MotorColumns, PLACE_INERTIA, PLACE_OFFSET, PLACE_VISCOUS, VISCOUS,
@@ -274,10 +274,11 @@ fn on_slip_phases(
     });
     // A few strokes are too much alike to separate a lag from other causes.
     let missing = missing.filter(|m| m.kind != MissingKind::Delay || phases >= FEW_PHASES);
-    let left_out = runs_left_out(&clusters, &terms, campaign);
+    let speeds: Vec<f64> = campaign.runs.iter().map(rms_speed).collect();
+    let left_out = runs_left_out(&clusters, &terms, &speeds);
     let beside_others = beside_others(&left_out, &equation, &found.candidates, |length| {
         let (clusters, _) = with_more(length)?;
-        Some(runs_left_out(&clusters, &terms, campaign))
+        Some(runs_left_out(&clusters, &terms, &speeds))
     });
     let from_chosen =
         || found.candidates.iter().map(|c| c.window_s).filter(|l| *l >= window_s_chosen);

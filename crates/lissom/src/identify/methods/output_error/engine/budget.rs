@@ -2,7 +2,9 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Evaluations that a fit has made, and the most that it may make.
+use crate::identify::interrupt::Interrupt;
+
+/// Evaluations that a fit has made, the most that it may make, and whether somebody asks it to end.
 ///
 /// One evaluation is one sample of a log replayed, or the derivative of one by one parameter: a replay of n samples with
 /// derivatives by p parameters is n·(1 + p) of them.
@@ -10,17 +12,19 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub(crate) struct Budget {
     spent: AtomicU64,
     most: u64,
+    interrupt: Interrupt,
 }
 
 impl Budget {
-    pub(crate) fn new(most: u64) -> Self {
-        Self { spent: AtomicU64::new(0), most }
+    pub(crate) fn new(most: u64, interrupt: Interrupt) -> Self {
+        Self { spent: AtomicU64::new(0), most, interrupt }
     }
 
     /// Counts a replay of so many samples with derivatives by so many parameters.
     pub(crate) fn count(&self, samples: usize, parameters: usize) {
         let evaluations = samples as u64 * (1 + parameters as u64);
         self.spent.fetch_add(evaluations, Ordering::Relaxed);
+        self.interrupt.count(evaluations);
     }
 
     /// Evaluations made so far.
@@ -28,8 +32,13 @@ impl Budget {
         self.spent.load(Ordering::Relaxed)
     }
 
-    /// Whether no more may be made.
+    /// Whether the search is to end with what it has.
     pub(crate) fn is_spent(&self) -> bool {
-        self.spent() >= self.most
+        self.spent() >= self.most || self.interrupt.is_asked()
+    }
+
+    /// Whether that is because somebody asks, or a time is over.
+    pub(crate) fn is_interrupted(&self) -> bool {
+        self.spent() < self.most && self.interrupt.is_asked()
     }
 }

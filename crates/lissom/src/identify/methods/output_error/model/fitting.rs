@@ -219,9 +219,9 @@ impl Fitting<'_> {
     }
 
     /// Makes a short search on a part of the windows. Returns its cost and the body; `None` if the arm is outside the
-    /// limits of the search.
+    /// limits of the search, or all evaluations allowed are made.
     pub(crate) fn probe(&self, fit: &ArmFit, steps: usize) -> Option<(f64, Body)> {
-        if !is_possible(self.campaign, &fit.body.arm) {
+        if self.budget.is_spent() || !is_possible(self.campaign, &fit.body.arm) {
             return None;
         }
         let samples: usize = fit.windows.iter().map(Window::len).sum();

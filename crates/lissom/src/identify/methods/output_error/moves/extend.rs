@@ -16,6 +16,9 @@ use crate::replay::Parameter;
 /// Adds groups of parameters that are significant, each time the one that lowers the cost most.
 pub(crate) fn extend(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     for _ in 0..GROUPS_ADDED_MOST {
+        if fitting.budget.is_spent() {
+            return;
+        }
         let mut found = all_scores(fitting, fit, &candidates(fitting, fit)).1;
         let called_for = |(_, promise): &(usize, &Promise)| {
             let stands = |e: &Extension| e.value.abs() > CLEARLY_PRESENT * e.std;

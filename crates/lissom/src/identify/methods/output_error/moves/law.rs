@@ -86,7 +86,8 @@ fn strongest_ripple(fitting: &Fitting<'_>, fit: &ArmFit) -> Option<f64> {
     }
     let half_wave = std::f64::consts::PI / travel;
     let all: Vec<f64> = (2..2 + RIPPLE_PERIODS).map(|waves| waves as f64 * half_wave).collect();
-    let promised = all.chunks(AT_ONCE).flat_map(|some| {
+    let affordable = |_: &&[f64]| !fitting.budget.is_spent();
+    let promised = all.chunks(AT_ONCE).take_while(affordable).flat_map(|some| {
         let mut with = fit.clone();
         let one = |per_angle: &f64| {
             let terms = &mut with.body.arm.dry_terms;

@@ -1,0 +1,25 @@
+//! Ctrl-C: the first ends a search with the best result so far, the second ends the program.
+
+use std::process;
+use std::sync::OnceLock;
+
+use lissom::identify::Interrupt;
+
+use super::exit_codes::KILLED;
+
+static SEARCH: OnceLock<Interrupt> = OnceLock::new();
+
+/// Asks `interrupt` when the user presses Ctrl-C. Where the system allows no handler, Ctrl-C ends the program as usual.
+pub(crate) fn on_ctrl_c(interrupt: &Interrupt) {
+    if SEARCH.set(interrupt.clone()).is_err() {
+        return;
+    }
+    let handler = || {
+        let Some(search) = SEARCH.get() else { return };
+        if search.is_asked() {
+            process::exit(KILLED);
+        }
+        search.ask();
+    };
+    let _no_handler = ctrlc::set_handler(handler);
+}
