@@ -1,7 +1,11 @@
 //! The output-error method with few evaluations: it ends with what it has, reports that, and gives the same result again.
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use lissom::identify::{Identified, Method, Options, identify};
+use std::time::Duration;
+
+use lissom::identify::{
+    Effort, Identified, Interrupt, Method, Options, SearchEnd, Stage, identify,
+};
 use lissom::record::Campaign;
 use lissom::rig::{Experiment, Settle};
 use lissom_testmodels::report_rig;
@@ -34,7 +38,7 @@ fn a_spent_budget_is_reported_and_reproducible() {
     let needed = whole.output_error.as_ref().unwrap().evaluations;
     let few = identified(&campaign, Some(needed / 20));
     let found = few.output_error.as_ref().unwrap();
-    assert!(found.budget_spent && is_reported(&few));
+    assert!(found.end == SearchEnd::Evaluations && is_reported(&few));
     // Each move that was begun is finished, and the covariance is computed.
     assert!(found.evaluations < needed / 4, "{} of {needed}", found.evaluations);
     // Friction, inertia and coupling are given all the same, by the regression.
@@ -43,4 +47,32 @@ fn a_spent_budget_is_reported_and_reproducible() {
     assert_eq!(found.evaluations, again.output_error.as_ref().unwrap().evaluations);
     assert_eq!(few.friction, again.friction);
     assert_eq!(found.arm, again.output_error.as_ref().unwrap().arm);
+}
+
+/// Whoever waits may end the search: the result is the best so far, and says so.
+#[test]
+fn an_interrupt_ends_the_search() {
+    let campaign = campaign();
+    let interrupt = Interrupt::default();
+    let options = Options { interrupt: interrupt.clone(), ..Options::default() };
+    let asks = |stage| {
+        if stage == Stage::OutputError {
+            interrupt.ask();
+        }
+    };
+    let found = identify(&campaign, &options, asks).unwrap();
+    let search = found.output_error.as_ref().unwrap();
+    assert!(search.end == SearchEnd::Interrupted && is_reported(&found));
+    assert!(found.friction.coulomb.is_some() && found.inertia.is_some());
+    let over = Options { interrupt: Interrupt::after(Duration::ZERO), ..Options::default() };
+    let after = identify(&campaign, &over, |_| ()).unwrap();
+    assert_eq!(after.output_error.as_ref().unwrap().end, SearchEnd::Interrupted);
+}
+
+/// Without effort there is no search.
+#[test]
+fn a_quick_effort_makes_no_search() {
+    let options = Options { effort: Effort::Quick, ..Options::default() };
+    let found = identify(&campaign(), &options, |_| ()).unwrap();
+    assert!(found.output_error.is_none() && found.friction.coulomb.is_some());
 }

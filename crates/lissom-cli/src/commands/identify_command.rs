@@ -4,7 +4,7 @@ use std::io::{IsTerminal as _, stdout};
 use std::path::Path;
 use std::process::ExitCode;
 
-use lissom::identify::{Effort, Identified, Severity};
+use lissom::identify::{Effort, Identified, SearchEnd, Severity};
 use lissom_io::write::{self, Batch};
 use lissom_io::{ResultFile, UnitNames, read_campaign};
 
@@ -76,7 +76,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
 }
 
 fn code(id: &Identified) -> ExitCode {
-    if id.output_error.as_ref().is_some_and(|found| found.interrupted) {
+    if id.output_error.as_ref().is_some_and(|found| found.end == SearchEnd::Interrupted) {
         return ExitCode::from(INTERRUPTED);
     }
     let refused = id.findings.iter().any(|f| f.severity() == Severity::Refusal);

@@ -43,8 +43,8 @@ pub use methods::friction_law::{
 };
 pub use methods::least_squares::{LeastSquares, least_squares};
 pub use methods::output_error::{
-    ByRun, Extension, Iteration, OutputError, OutputErrorStart, StageReport, Stop, output_error,
-    starts, starts_by_motor, starts_by_responses,
+    ByRun, Extension, Iteration, OutputError, OutputErrorStart, SearchEnd, StageReport, Stop,
+    output_error, starts, starts_by_motor, starts_by_responses,
 };
 pub use methods::regression::{
     AngleLag, BeamRegression, ByDirection, Candidate, GravityPartner, LagShape, MissingKind,

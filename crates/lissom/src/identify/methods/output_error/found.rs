@@ -15,6 +15,17 @@ use crate::replay::{ModalArm, Parameter, SensorNoise, Window};
 /// Differences for the slopes of estimates are taken over this many standard errors to either side \[1\].
 const SLOPE_STEP: f64 = 0.5;
 
+/// How a search ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SearchEnd {
+    /// It was done.
+    Done,
+    /// All evaluations that it may make were made.
+    Evaluations,
+    /// Somebody asked for it, or a time was over.
+    Interrupted,
+}
+
 /// Result of the output-error method.
 #[derive(Debug, Clone)]
 pub struct OutputError {
@@ -46,10 +57,8 @@ pub struct OutputError {
     pub whole_runs: bool,
     /// Evaluations made: samples replayed, and derivatives of these by a parameter.
     pub evaluations: u64,
-    /// Whether the search ended before it was done.
-    pub budget_spent: bool,
-    /// Whether that was because somebody asked for it, or a time was over, rather than by the limit of evaluations.
-    pub interrupted: bool,
+    /// How the search ended.
+    pub end: SearchEnd,
     /// Parameters whose standard errors are at least twice as large because the samples do not distinguish damping
     /// within the beam from damping against the frame. The standard errors include both cases.
     pub open_by_damping: Vec<Parameter>,

@@ -19,7 +19,7 @@ pub use engine::by_run::ByRun;
 pub(crate) use engine::data::{Masks, masks};
 pub use engine::search::{Iteration, Stop};
 pub(crate) use follow::follow;
-pub use found::{OutputError, OutputErrorStart};
+pub use found::{OutputError, OutputErrorStart, SearchEnd};
 pub use model::fit::{Extension, StageReport};
 pub use model::start::{starts, starts_by_motor, starts_by_responses};
 pub(crate) use replay_findings::{command_lag, findings};

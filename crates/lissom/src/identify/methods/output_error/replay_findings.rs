@@ -5,7 +5,7 @@ use crate::identify::findings::{
     Channel, Finding, LagCause, OutputErrorFinding, result_key as key,
 };
 use crate::identify::judge::Evidence;
-use crate::identify::methods::output_error::found::OutputError;
+use crate::identify::methods::output_error::found::{OutputError, SearchEnd};
 use crate::identify::methods::output_error::model::describes::is_left;
 use crate::identify::methods::output_error::model::fit::StageReport;
 use crate::identify::methods::output_error::moves::modes::highest;
@@ -36,7 +36,7 @@ pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
         let figures = oe.parameters.iter().filter_map(|p| Some((*p, oe.estimate(*p)?)));
         findings.extend(driving_damper(figures));
     }
-    findings.extend(if oe.budget_spent { budget_spent(oe) } else { departs(oe) });
+    findings.extend(if oe.end == SearchEnd::Done { departs(oe) } else { budget_spent(oe) });
     findings.extend(motions_part(oe));
     findings
 }
@@ -54,7 +54,7 @@ fn budget_spent(oe: &OutputError) -> Option<Finding> {
         evaluations: oe.evaluations,
         window_s: longest(oe)?.window_s,
         used: oe.stands(),
-        interrupted: oe.interrupted,
+        interrupted: oe.end == SearchEnd::Interrupted,
     }))
 }
 

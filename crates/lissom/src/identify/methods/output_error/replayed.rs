@@ -3,7 +3,7 @@
 
 use crate::identify::methods::output_error::engine::budget::Budget;
 use crate::identify::methods::output_error::engine::{data, noise};
-use crate::identify::methods::output_error::found::{OutputError, OutputErrorStart};
+use crate::identify::methods::output_error::found::{OutputError, OutputErrorStart, SearchEnd};
 use crate::identify::methods::output_error::model::describes::accepted_residual;
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::schedule::{Attempt, best};
@@ -31,7 +31,8 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
     let blocks = data::blocks(campaign, &start.omega_rad_s);
     let law = &start.law;
     let noise = noise::of_samples(campaign);
-    let budget = Budget::new(start.most_evaluations, start.interrupt.clone());
+    let most = start.most_evaluations;
+    let budget = Budget::new(most, start.interrupt.clone());
     let fitting = Fitting {
         campaign,
         masks: &masks,
@@ -73,7 +74,12 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
         open_by_damping,
         whole_runs: fit.whole_runs,
         evaluations: budget.spent(),
-        budget_spent: budget.is_spent(),
-        interrupted: budget.is_interrupted(),
+        end: if budget.spent() >= most {
+            SearchEnd::Evaluations
+        } else if budget.is_spent() {
+            SearchEnd::Interrupted
+        } else {
+            SearchEnd::Done
+        },
     })
 }

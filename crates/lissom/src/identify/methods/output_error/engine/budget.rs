@@ -36,9 +36,4 @@ impl Budget {
     pub(crate) fn is_spent(&self) -> bool {
         self.spent() >= self.most || self.interrupt.is_asked()
     }
-
-    /// Whether that is because somebody asks, or a time is over.
-    pub(crate) fn is_interrupted(&self) -> bool {
-        self.spent() < self.most && self.interrupt.is_asked()
-    }
 }
