@@ -48,7 +48,7 @@ fn runs(bad: &dyn Fn() -> RigidLog) -> Vec<Run> {
     let run = |index: usize| {
         let log = if index == BAD { bad() } else { log(&joint, index) };
         let time = TimeBase::uniform(0.0, joint.sample_time_s);
-        Run::new(&format!("run {index}"), time, log.measured, log.angle, vec![]).unwrap()
+        Run::new(format!("run {index}"), time, log.measured, log.angle, vec![]).unwrap()
     };
     (0..RUNS).map(run).collect()
 }
