@@ -414,3 +414,17 @@ fn wandering_friction_in_an_open_loop() {
     // Friction moves the speed as well, so that the share is a bound.
     assert!(inertia < 0.8e-3 && inertia * (1.0 + short_by) > 1e-3, "{inertia} {short_by}");
 }
+
+/// The current's sign is wrong in every run: one finding says so, nothing is given, and nothing else is accused.
+#[test]
+fn a_reversed_command() {
+    let joint = pendulum();
+    let mut log = joint.follow(20_000, wide);
+    log.measured.iter_mut().for_each(|i| *i = -*i);
+    let found = quick(&measured(&joint, log).with_gravity().unwrap());
+    assert_eq!(codes(&found)[0], "command-sign");
+    let others = ["negative-figure", "others-doubtful", "missing-term", "unexplained-torque"];
+    assert!(!codes(&found).iter().any(|code| others.contains(code)), "{:?}", codes(&found));
+    assert!(found.friction.coulomb.is_none() && found.inertia.is_none());
+    assert!(found.gravity.is_none());
+}

@@ -29,7 +29,10 @@ pub(crate) fn campaign(campaign: &Campaign) {
     line(&format!(
         "{}, {samples} samples every {sampling}, command {hold}, {}",
         counted(campaign.runs.len(), "run"),
-        counted(campaign.channels.tips.len(), "tip")
+        match campaign.channels.tips.len() {
+            0 => "no tip".to_owned(),
+            tips => counted(tips, "tip"),
+        }
     ));
 }
 
@@ -85,12 +88,12 @@ pub(crate) fn runs(id: &Identified) {
         line(&format!("{} of other motion", counted(general, "run")));
     }
     if let Some(r) = &id.regression {
-        let how = if r.window_given { "given" } else { "chosen where the figures are best known" };
+        let how = if r.window_given { "given" } else { "chosen for the smallest errors" };
         line(&format!(
-            "regression: {} rows in {} slip phases, window {:.4} s ({how}; motion up to {:.3} Hz), \
-             {:.2} % of the torque left",
+            "regression: {} (stretches in one direction), {} rows, windows of {:.4} s ({how}), which pass {:.3} Hz; \
+             residual torque {:.2} %",
+            counted(r.phases, "slip phase"),
             r.rows,
-            r.phases,
             r.window_s,
             FIRST_NULL / r.window_s,
             100.0 * r.relative_residual

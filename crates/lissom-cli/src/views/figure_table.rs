@@ -51,7 +51,7 @@ pub(crate) fn line_of_least_squares(names: UnitNames, id: &Identified) {
     line("");
     table(&rows.into_iter().map(Vec::from).collect::<Vec<_>>());
     line(&format!(
-        "least squares of one straight line over speeds from {} to {} {}/s, {:.2} % of the torque left",
+        "least squares of one straight line over speeds from {} to {} {}/s, residual torque {:.2} %",
         significant(slowest, 3),
         significant(fastest, 3),
         names.angle(),
@@ -161,7 +161,7 @@ pub(crate) fn figure_rows(
         // One direction alone: its friction with the load that acts on it.
         for (name, sum) in [("forward", f.forward), ("backward", f.backward)] {
             if sum.is_some() {
-                add(&format!("  with the load, {name}"), sum, torque(), None);
+                add(&format!("  friction plus load, {name}"), sum, torque(), None);
             }
         }
     } else if f.forward.is_some() {

@@ -11,7 +11,7 @@ const HARMONICS: usize = 9;
 pub enum Effort {
     /// Not at all: the estimates are those of the other methods.
     Quick,
-    /// Up to 10⁸ evaluations: some 10 s on two cores.
+    /// Up to 1.5·10⁸ evaluations: some 10 s on two cores.
     #[default]
     Normal,
     /// Up to 2·10⁹ evaluations.
@@ -23,7 +23,7 @@ impl Effort {
     pub fn most_evaluations(self) -> u64 {
         match self {
             Self::Quick => 0,
-            Self::Normal => 100_000_000,
+            Self::Normal => 150_000_000,
             Self::Thorough => 2_000_000_000,
         }
     }

@@ -25,6 +25,8 @@ pub enum RegressionFinding {
     RegressionRefused {
         /// Share of the windowed torque that it does not explain; `None` without enough slip phases.
         residual_share: Option<f64>,
+        /// Whether another finding says why.
+        explained: bool,
     },
     /// Too few reversals to show how friction scatters from one stroke to the next.
     FewPhases {
@@ -144,12 +146,12 @@ fn looks_like(term: &MissingTerm, units: EstimateUnits) -> String {
 impl fmt::Display for RegressionFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::RegressionRefused { residual_share: Some(share) } => write!(
+            Self::RegressionRefused { residual_share: Some(share), .. } => write!(
                 f,
                 "{:.0} % of the windowed torque is not explained by the motor's equation: the regression gives no estimates",
                 100.0 * share
             ),
-            Self::RegressionRefused { residual_share: None } => f.write_str(
+            Self::RegressionRefused { residual_share: None, .. } => f.write_str(
                 "too few slip phases are long enough for a window: the regression gives no estimates",
             ),
             Self::FewPhases { phases } => write!(
@@ -289,6 +291,7 @@ impl Describe for RegressionFinding {
 
     fn hint(&self) -> &'static str {
         match self {
+            Self::RegressionRefused { explained: true, .. } => "add the missing term first",
             Self::RegressionRefused { .. } => {
                 "use longer moves in both directions at a measured current; measure the tip of a flexible beam; check \
                  columns, units and signs"

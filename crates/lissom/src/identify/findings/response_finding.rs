@@ -56,13 +56,14 @@ impl fmt::Display for ResponseFinding {
             ),
             Self::BandsContradicted { bands, of, limit } => write!(
                 f,
-                "{bands} of {of} bands of the corrected response differ by more than {:.0} % from the model of the \
-                 regression: they are flagged",
+                "in {bands} of {of} frequency bands of runs that are no sines the corrected response differs by more than {:.0} % \
+                 from the regression's model: they are flagged",
                 100.0 * limit
             ),
             Self::BandsUncertain { bands, of, limit } => write!(
                 f,
-                "{bands} of {of} bands of the corrected response have a standard error above {:.0} %: they are flagged",
+                "in {bands} of {of} frequency bands of runs that are no sines the corrected response has a standard error above \
+                 {:.0} %: they are flagged",
                 100.0 * limit
             ),
             Self::ModelMisfit { rms_standard_errors } => write!(

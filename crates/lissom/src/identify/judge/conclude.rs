@@ -1,6 +1,6 @@
 //! From the methods' solutions to the estimates of the result and the findings about them.
 
-use crate::identify::drive_estimates::Method;
+use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::findings::{EstimateFinding, Finding};
 use crate::identify::found_arm::FoundArm;
 use crate::identify::judge::evidence::{Chosen, Evidence};
@@ -19,11 +19,19 @@ pub(crate) struct Conclusion {
 /// Takes whole solutions by the tables, refuses what the data do not support, and says what speaks against the rest.
 /// `findings` are those about the runs.
 pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> Conclusion {
-    findings.extend(reversed_command(evidence));
+    let reversed = reversed_command(evidence);
+    findings.extend(reversed.then(|| Finding::new(EstimateFinding::CommandSign)));
     findings.extend(output_error::findings(evidence));
     let (method, solution) = drive_table::choose(evidence);
-    let beam = beam_choice::choose(evidence, &solution);
-    let mut chosen = Chosen { method, drive: solution.clone(), solution, beam };
+    let mut beam = beam_choice::choose(evidence, &solution);
+    let mut drive = solution.clone();
+    if reversed {
+        // No torque is right, and none needs a refusal of its own.
+        drive = DriveEstimates::default();
+        beam.coupling = None;
+        beam.coupling_by_tip.fill(None);
+    }
+    let mut chosen = Chosen { method, solution, drive, beam };
     let alone = evidence.rests_on_constant_velocities();
     findings.extend(lag_of_response(evidence, &chosen));
     if alone {
@@ -31,7 +39,9 @@ pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> C
     }
     findings.extend(constant_velocity::taken(evidence, &chosen));
     findings.extend(beam_choice::findings(evidence, &chosen.beam));
-    findings.extend(unknown::refuse_the_unknown(evidence, &mut chosen));
+    if !reversed {
+        findings.extend(unknown::refuse_the_unknown(evidence, &mut chosen));
+    }
     findings.extend(remarks::of_friction(evidence, &chosen));
     findings.extend(friction_law::finding(evidence, &chosen));
     if !alone {
@@ -48,11 +58,10 @@ pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> C
     Conclusion { chosen, separability, arm, findings }
 }
 
-/// A command whose sign is reversed against the motor's.
-fn reversed_command(evidence: &Evidence<'_>) -> Option<Finding> {
-    let r = evidence.methods.regression.as_ref()?;
-    let negative = [r.inertia, r.coulomb].iter().all(|e| e.is_some_and(|e| e.is_negative()));
-    negative.then(|| Finding::new(EstimateFinding::CommandSign))
+/// Whether the sign of the command is reversed against the motor's.
+fn reversed_command(evidence: &Evidence<'_>) -> bool {
+    let Some(r) = evidence.methods.regression.as_ref() else { return false };
+    [r.inertia, r.coulomb].iter().all(|e| e.is_some_and(|e| e.is_negative()))
 }
 
 /// A delay that the motor's response shows, where its model is taken.

@@ -35,9 +35,9 @@ thresholds! {
         /// A tip's sensor that shows one value for fewer samples is not reported as frozen.
         FROZEN_SAMPLES: usize = 50, "samples", Convention;
         /// A motor's sensor is frozen if its angle stands still at once after it had moved at this
-        /// share of the speed just before; one that friction stops becomes slow first…
+        /// share of the speed just before; one that friction stops becomes slow first.
         FROZEN_AT_ONCE: f64 = 0.7, "1", Convention;
-        /// …and at this share of its largest speed.
+        /// A motor's sensor is frozen only if it had moved at this share of its largest speed.
         FROZEN_AT_SPEED: f64 = 0.04, "1", Convention;
         /// A tip's sensor is frozen only if it shows one value this many times longer than anywhere
         /// else in the run.

@@ -31,11 +31,9 @@ impl Separability {
         let worst = self.directions.first()?;
         if self.is_sharp() {
             let least = self.figures.iter().max_by(|a, b| a.std.total_cmp(&b.std))?;
-            let if_so =
-                if self.doubted_by.is_empty() { "" } else { ", if the arm is all there is" };
+            let if_so = if self.doubted_by.is_empty() { "" } else { ", if the model is complete" };
             return Some(format!(
-                "Nothing is left to separate{if_so}: every figure is known to 1 % or better, the least {} to \
-                 ± {} (± {} with 95 %).",
+                "Every parameter is known to 1 % or better{if_so}; least well known is {}, to ± {} (± {} with 95 %).",
                 least.figure.name(),
                 percent(least.std),
                 percent(NORMAL_95 * least.std)
@@ -43,7 +41,7 @@ impl Separability {
         }
         if worst.std.is_infinite() {
             return Some(format!(
-                "The logs do not tell these apart: {}; they would be the same.",
+                "The logs cannot separate some of the parameters: with {} they would be the same.",
                 moved(&worst.parts, CHANGE_SHOWN / worst.parts.first()?.weight)
             ));
         }
@@ -55,8 +53,8 @@ impl Separability {
         let codes = self.doubted_by.join(", ");
         (!codes.is_empty() && !self.figures.is_empty()).then(|| {
             format!(
-                "There is more in the runs than the arm has ({codes}): figures may be off by more than their \
-                 deviations, and further runs of the kind do not mend that."
+                "The runs contain more than the model has ({codes}): parameters may be off by more than their standard \
+                 errors, and more runs of the same kind do not change that."
             )
         })
     }
@@ -75,8 +73,8 @@ impl Separability {
         let FigureKnown { std, alone, .. } = *known;
         (!self.is_sharp() && std.is_finite() && std > CORRELATED * alone).then(|| {
             format!(
-                "Were the other figures known, {} would be known to ± {}: what is missing is not \
-                 signal but a motion that tells them apart.",
+                "If the other parameters were known, {} would be known to ± {}: what is missing is not more signal but a \
+                 motion that separates them.",
                 lead.name(),
                 percent(alone)
             )
@@ -89,10 +87,10 @@ fn told(worst: &Direction) -> Option<String> {
     let first = worst.parts.first()?;
     Some(if worst.parts.len() == 1 {
         let std = worst.std * first.weight;
-        format!("The logs tell least about {}: ± {}.", first.figure.name(), percent(std))
+        format!("Least well known is {}: ± {}.", first.figure.name(), percent(std))
     } else {
         format!(
-            "The logs tell least about {} (one deviation): they hardly show such a change.",
+            "Least well known is one combination: {} (one standard error) would hardly change the logs.",
             moved(&worst.parts, worst.std)
         )
     })
@@ -127,9 +125,10 @@ fn carries(run: &RunShare) -> Option<String> {
     let alone = names(&|c| c.growth.is_infinite());
     let mostly = names(&|c| c.growth.is_finite());
     let growth = carried.iter().map(|c| c.growth).filter(|g| g.is_finite()).fold(0.0, f64::max);
-    let alone = alone.map(|names| format!("alone tells {names}"));
-    let mostly = mostly
-        .map(|names| format!("carries {names}: without it deviations grow up to {growth:.1}-fold"));
+    let alone = alone.map(|names| format!("alone gives {names}"));
+    let mostly = mostly.map(|names| {
+        format!("carries {names}: without it standard errors grow up to {growth:.1}-fold")
+    });
     let all: Vec<String> = alone.into_iter().chain(mostly).collect();
     (!all.is_empty()).then(|| format!("Run {} {}.", run.run, all.join(" and ")))
 }

@@ -33,7 +33,9 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
         let term = |term| Finding::new(RegressionFinding::MissingTerm { term, units });
         findings.extend(missing.map(term));
         let residual_share = evidence.methods.regression_residual;
-        findings.push(Finding::new(RegressionFinding::RegressionRefused { residual_share }));
+        let explained = missing.is_some();
+        let refused = RegressionFinding::RegressionRefused { residual_share, explained };
+        findings.push(Finding::new(refused));
         return findings;
     };
     if r.phases < FEW_PHASES && !explained {

@@ -56,11 +56,11 @@ thresholds! {
         /// Most runs that are left out as unlike the others, as a share of all.
         UNLIKE_RUNS_MOST: f64 = 0.2, "1", Convention;
         /// A run is unlike the others if by their parameters and by its own its torque differs by more
-        /// than this share; friction wanders by a few per cent from run to run…
+        /// than this share: friction wanders by a few per cent from run to run.
         UNLIKE_MISFIT: f64 = 0.05, "1", Convention;
-        /// …which is so many times what it usually is of a run…
+        /// A run is unlike the others only if that share is so many times the usual one of a run.
         UNLIKE_USUAL: f64 = 3.0, "1", Convention;
-        /// …and so many times that of the next.
+        /// A run is unlike the others only if that share is so many times the next.
         UNLIKE_NEXT: f64 = 1.5, "1", Convention;
         /// A run is unlike the others, too, if they leave so many times as much of its torque, beside
         /// what they leave of theirs, as of the next.
