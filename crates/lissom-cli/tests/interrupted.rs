@@ -56,6 +56,8 @@ fn efforts() {
     assert!(code == 2 && text.contains("cannot be used with"), "{text}");
     let (code, text) = identify(folder.path(), &["--effort", "high"]);
     assert!(code == 2 && text.contains("thorough"), "{text}");
+    let (code, text) = identify(folder.path(), &["--time-limit", "1e300 s"]);
+    assert_eq!(code, 0, "{text}");
     let (code, text) = identify(folder.path(), &["--time-limit", "-1 s"]);
     assert!(code == 2 && text.contains("--time-limit"), "{text}");
 }

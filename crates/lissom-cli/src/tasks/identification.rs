@@ -26,7 +26,8 @@ pub(crate) fn identified(
     file: &CampaignFile,
     asked: Asked,
 ) -> Result<Identified, Failure> {
-    let limit = asked.time_limit_s.map(Duration::from_secs_f64);
+    // A time that is too long to be counted is no limit.
+    let limit = asked.time_limit_s.and_then(|s| Duration::try_from_secs_f64(s).ok());
     let interrupt = limit.map_or_else(Interrupt::default, Interrupt::after);
     interrupted::on_ctrl_c(&interrupt);
     let options = options(file, asked, interrupt);

@@ -25,6 +25,9 @@ thresholds! {
         /// A lag of the command is half a sample if it differs from that by less than this share,
         /// or by less than its error (`PRESENT`).
         LAG_HALF_SAMPLE: f64 = 0.05, "1", Convention;
+        /// Of fewer runs none is left out because a sensor freezes in it or because it is unlike the
+        /// others.
+        RUNS_LEFT_OUT_OF: usize = 5, "runs", Convention;
         /// Residual torque, as a share of the torque, above which a model does not describe it
         /// well: estimates are reported as uncertain, and a prediction as poor.
         UNEXPLAINED_TORQUE: f64 = 0.15, "1", Convention;

@@ -1,9 +1,8 @@
-//! Checks of single channels: dead, clipped, jumping, frozen, sticking.
+//! Checks of single channels: dead, clipped, jumping, sticking.
 
 use crate::identify::prepare::thresholds::{
-    CLIPPED_SLOPE, CLIPPED_SLOWED, ENCODER_STEPS, FROZEN_AT_ONCE, FROZEN_AT_SPEED, FROZEN_LONGER,
-    FROZEN_SAMPLES, FROZEN_TRAVEL, MOVED_STEPS, REST_RANGE, REST_STEPS, SLOWING_SHOWN,
-    SPIKE_AT_END_LEAST, SPIKE_SHAPE, SPIKE_SIZE,
+    CLIPPED_SLOPE, CLIPPED_SLOWED, ENCODER_STEPS, MOVED_STEPS, REST_RANGE, REST_STEPS,
+    SLOWING_SHOWN, SPIKE_AT_END_LEAST, SPIKE_SHAPE, SPIKE_SIZE,
 };
 
 /// Samples over which slopes are taken: a quantised signal has none over one.
@@ -109,7 +108,7 @@ pub(crate) fn clipped_share(samples: &[f64]) -> f64 {
 }
 
 /// Largest change per sample, over as many samples, four at least, as it takes to come by [`MOVED_STEPS`] steps.
-fn steepest(samples: &[f64], quantum: f64) -> f64 {
+pub(super) fn steepest(samples: &[f64], quantum: f64) -> f64 {
     let mut over = REACH;
     loop {
         let ways = samples.iter().zip(samples.iter().skip(over)).map(|(a, b)| (b - a).abs());
@@ -209,60 +208,6 @@ fn is_on_steps(samples: &[f64], quantum: f64) -> bool {
     };
     let rms = (samples.iter().map(off).sum::<f64>() / samples.len() as f64).sqrt();
     range(samples) > MOVED_STEPS * quantum && rms < ENCODER_STEPS
-}
-
-/// The stretch over which a tip's angle takes one value while the `motor` moves on: far longer than it stands anywhere
-/// else.
-///
-/// The other way round it says nothing: a tip rings on while friction holds the motor.
-pub(crate) fn frozen(tip: &[f64], motor: &[f64]) -> Option<std::ops::Range<usize>> {
-    let mut from = 0;
-    let mut of_length = |length: usize| {
-        from += length;
-        from - length..from
-    };
-    let same = |a: &f64, b: &f64| a.total_cmp(b).is_eq();
-    let plateaus: Vec<_> = tip.chunk_by(same).map(|c| of_length(c.len())).collect();
-    let longest = plateaus.iter().max_by_key(|p| p.len())?.clone();
-    let second = plateaus.iter().filter(|p| **p != longest).map(ExactSizeIterator::len).max()?;
-    let travel = range(&motor[longest.clone()]);
-    let frozen = longest.len() >= FROZEN_SAMPLES
-        && longest.len() as f64 > FROZEN_LONGER * second as f64
-        && travel > FROZEN_TRAVEL * range(motor)
-        && travel > MOVED_STEPS * step(motor);
-    frozen.then_some(longest)
-}
-
-/// Samples in which a motor's angle stands still at one value, from one sample to the next after it had moved at speed, while
-/// the command changes: a motor that friction stops becomes slow first.
-pub(crate) fn frozen_motor(motor: &[f64], command: &[f64]) -> Option<std::ops::Range<usize>> {
-    let mut from = 0;
-    let mut of_length = |length: usize| {
-        from += length;
-        from - length..from
-    };
-    let same = |a: &f64, b: &f64| a.total_cmp(b).is_eq();
-    let plateaus: Vec<_> = motor.chunk_by(same).map(|c| of_length(c.len())).collect();
-    let longest = plateaus.iter().max_by_key(|p| p.len())?.clone();
-    let moves = deviation(&command[longest.clone()]) > FROZEN_TRAVEL * deviation(command);
-    let quantum = step(motor);
-    let way = |k: usize, over: usize| (motor[k] - motor[k - over]).abs();
-    let at = longest.start;
-    // Over as few samples as show the speed, and over as many before these.
-    let shown = |over: &usize| way(at, *over) > MOVED_STEPS * quantum;
-    let over = (1..=at / 2).find(shown)?;
-    let at_once = way(at, over) > FROZEN_AT_ONCE * way(at - over, over);
-    let steepest = steepest(motor, quantum);
-    let at_speed = way(at, over) > FROZEN_AT_SPEED * steepest * over as f64;
-    let frozen = longest.len() >= FROZEN_SAMPLES.max(10 * over) && moves && at_once && at_speed;
-    frozen.then_some(longest)
-}
-
-/// Standard deviation.
-fn deviation(samples: &[f64]) -> f64 {
-    let mean = samples.iter().sum::<f64>() / samples.len() as f64;
-    let sum: f64 = samples.iter().map(|x| (x - mean).powi(2)).sum();
-    (sum / samples.len() as f64).sqrt()
 }
 
 /// Samples over which a motor rests, at least: within fewer its sensor may show no step.
@@ -385,24 +330,6 @@ mod tests {
         }
         assert_eq!(encoder_bits(&sine(2.0), 360.0), None);
         assert_eq!(encoder_bits(&[1.0; 40], 360.0), None);
-    }
-
-    #[test]
-    fn a_sensor_that_freezes_is_told_from_one_that_rests() {
-        let motor = sine(2.0);
-        let mut tip: Vec<f64> = motor.iter().map(|v| (v / 0.003).round() * 0.003).collect();
-        assert_eq!(frozen(&tip, &motor), None);
-        // The whole arm rests.
-        let mut rests = (motor.clone(), tip.clone());
-        rests.0.extend(vec![0.3; 2000]);
-        rests.1.extend(vec![0.3; 2000]);
-        assert_eq!(frozen(&rests.1, &rests.0), None);
-        // It rings on while friction holds the motor.
-        let mut held = motor.clone();
-        held[2000..].fill(motor[2000]);
-        assert_eq!(frozen(&tip, &held), None);
-        tip[1500..2500].fill(0.123);
-        assert_eq!(frozen(&tip, &motor), Some(1500..2500));
     }
 
     #[test]

@@ -3,6 +3,7 @@
 pub(crate) mod channel_check;
 pub(crate) mod channel_noise;
 pub(crate) mod correlated_average;
+pub(crate) mod frozen_sensor;
 pub(crate) mod log_check;
 pub(crate) mod prepared;
 pub(crate) mod repeated_run;

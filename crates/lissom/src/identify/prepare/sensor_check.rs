@@ -3,11 +3,10 @@
 use std::ops::Range;
 
 use crate::identify::findings::{Channel, ChannelFinding, EstimateUnits, Finding};
-use crate::identify::methods::regression::thresholds::UNLIKE_RUNS_LEAST;
-use crate::identify::prepare::channel_check::{
-    clipped_share, encoder_bits, frozen, frozen_motor, jumps, spikes,
-};
+use crate::identify::prepare::channel_check::{clipped_share, encoder_bits, jumps, spikes};
+use crate::identify::prepare::frozen_sensor::{frozen_motor, frozen_tip};
 use crate::identify::prepare::thresholds::{CLIPPED_REPORTED, WHOLE_TURN};
+use crate::identify::thresholds::RUNS_LEFT_OUT_OF;
 use crate::record::{Axis, Campaign, Run, Tip, TipQuantity};
 
 pub(crate) fn findings(campaign: &Campaign, run: &Run) -> Vec<Finding> {
@@ -16,7 +15,7 @@ pub(crate) fn findings(campaign: &Campaign, run: &Run) -> Vec<Finding> {
     found.extend(clipped(&Channel::Motor, run.motor()));
     found.extend(alone_or_jumping(&Channel::Motor, run.motor(), units.angle(), run));
     let still = frozen_motor(run.motor(), run.command());
-    let left_out = campaign.runs.len() >= UNLIKE_RUNS_LEAST;
+    let left_out = campaign.runs.len() >= RUNS_LEFT_OUT_OF;
     found.extend(still.map(|still| {
         let (channel, x, unit) = (Channel::Motor, run.motor(), units.angle());
         stands_still(channel, (x, unit), (run, still), left_out)
@@ -32,7 +31,7 @@ pub(crate) fn findings(campaign: &Campaign, run: &Run) -> Vec<Finding> {
         }
         // At a constant velocity a deflection stands still.
         if tip.quantity == TipQuantity::Angle {
-            let still = frozen(x, run.motor());
+            let still = frozen_tip(x, run.motor());
             found.extend(
                 still.map(|still| stands_still(channel.clone(), (x, unit), (run, still), left_out)),
             );

@@ -51,8 +51,6 @@ thresholds! {
         /// Gravity that is not known so well is reported with the term that it correlates with by
         /// more than this.
         GRAVITY_CORRELATION: f64 = 0.9, "1", Convention;
-        /// With fewer runs none is left out because it is unlike the others.
-        UNLIKE_RUNS_LEAST: usize = 5, "runs", Convention;
         /// Most runs that are left out as unlike the others, as a share of all.
         UNLIKE_RUNS_MOST: f64 = 0.2, "1", Convention;
         /// A run is unlike the others if by their parameters and by its own its torque differs by more
