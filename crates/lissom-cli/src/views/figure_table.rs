@@ -218,7 +218,7 @@ pub(crate) fn figure_rows(
         add(&name, Some(frequency), "rad/s".to_owned(), known);
         let hertz = |v: f64| v / std::f64::consts::TAU;
         add("", Some(frequency.scaled(hertz(1.0))), "Hz".to_owned(), known.map(hertz));
-        add("  damping ratio", Some(mode.damping_ratio), "1".to_owned(), None);
+        add("  damping ratio", mode.given_damping_ratio(), "1".to_owned(), None);
     }
     rows
 }

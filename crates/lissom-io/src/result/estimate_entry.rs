@@ -38,8 +38,8 @@ impl EstimateEntry {
 pub struct BeamModeEntry {
     /// Natural frequency without damping.
     pub natural_frequency_rad_s: EstimateEntry,
-    /// Damping ratio.
-    pub damping_ratio: EstimateEntry,
+    /// Damping ratio; `null` where it would be negative.
+    pub damping_ratio: Option<EstimateEntry>,
 }
 
 impl BeamModeEntry {
@@ -47,7 +47,7 @@ impl BeamModeEntry {
     pub fn of(m: &ModeEstimate) -> Self {
         Self {
             natural_frequency_rad_s: EstimateEntry::of(m.natural_frequency_rad_s),
-            damping_ratio: EstimateEntry::of(m.damping_ratio),
+            damping_ratio: m.given_damping_ratio().map(EstimateEntry::of),
         }
     }
 

@@ -300,7 +300,7 @@ impl<'a> Listing<'a> {
             self.add(id, Some(&mode.natural_frequency_rad_s), &[MODES]);
             let name = format!("mode {} damping ratio", k + 1);
             let id = (key("damping_ratio"), name.as_str(), "1");
-            self.add(id, Some(&mode.damping_ratio), &[MODES]);
+            self.add(id, mode.damping_ratio.as_ref(), &[MODES]);
         }
     }
 }

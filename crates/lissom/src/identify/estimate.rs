@@ -48,3 +48,10 @@ pub struct ModeEstimate {
     /// Damping ratio ζ.
     pub damping_ratio: Estimate,
 }
+
+impl ModeEstimate {
+    /// The damping ratio, where it is one that a beam can have: zero or more.
+    pub fn given_damping_ratio(&self) -> Option<Estimate> {
+        Some(self.damping_ratio).filter(|ratio| ratio.value >= 0.0)
+    }
+}

@@ -3,7 +3,8 @@
 use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::judge::{Chosen, Evidence, slip_phase_solution};
 use crate::identify::methods::friction_law::FrictionLaw;
-use crate::identify::methods::output_error::{starts, starts_by_motor};
+use crate::identify::methods::output_error::{rigid, starts, starts_by_motor};
+use crate::identify::thresholds::REFUSED_TORQUE;
 use crate::identify::validation::torque::torque_error;
 use crate::identify::validation::zeros::zeros;
 use crate::record::Campaign;
@@ -65,6 +66,11 @@ impl FoundArm {
         Some(Self::with(arm, ArmSource::Regression, used))
     }
 
+    /// Whether it predicts the torque of the logs that it is from, where these show it.
+    pub(super) fn holds(&self) -> bool {
+        self.torque_used.is_none_or(|used| used.relative_error < REFUSED_TORQUE)
+    }
+
     fn with(arm: ModalArm, source: ArmSource, used: &Campaign) -> Self {
         let torque_used = torque_error(&arm, used, &zeros(&arm, used))
             .map(|(window_s, relative_error)| TorqueUsed { relative_error, window_s });
@@ -78,6 +84,9 @@ fn of_drive(evidence: &Evidence<'_>, drive: &DriveEstimates) -> Option<ModalArm>
     // Without a tip's angle slip phases give no arm: what starts a replay there is not one yet.
     let arms = if used.channels.tips.is_empty() {
         starts_by_motor(used, drive, None, None)
+    } else if drive.coupling.is_none() {
+        // Of the equation without a beam; a tip is then no part of the arm.
+        rigid(used, drive).into_iter().collect()
     } else {
         starts(used, drive, methods.beam_regression.as_ref(), methods.beam_model.as_ref())
     };

@@ -11,11 +11,14 @@ use crate::identify::methods::constant_velocity;
 use crate::identify::methods::friction_law::{LawTerm, friction_law};
 use crate::identify::methods::least_squares::least_squares;
 use crate::identify::methods::output_error::thresholds::COMMAND_NOISE_MOST;
-use crate::identify::methods::output_error::{OutputErrorStart, command_noise, output_error};
+use crate::identify::methods::output_error::{
+    OutputError, OutputErrorStart, command_noise, output_error,
+};
 use crate::identify::methods::regression::thresholds::FEW_PHASES;
 use crate::identify::methods::regression::{
-    BeamRegression, LagShape, MotorRegression, beam_regression,
+    BeamRegression, LagShape, MissingKind, MotorRegression, beam_regression,
 };
+use crate::identify::methods::rigid_equation::rigid_equation;
 use crate::identify::methods::starting_arms::starting_arms;
 use crate::identify::methods::third_harmonic::{ThirdHarmonic, third_harmonic};
 use crate::identify::methods::unlike_runs::regression_of_like_runs;
@@ -161,12 +164,30 @@ pub fn identify(
         let drive = motor.estimates();
         let arms = starting_arms(prepared.used(), &drive, beam, tips, &shown, corrected);
         let tried = law.as_ref().map(|(law, _)| law.tried());
-        output_error(&prepared, &start_of(&prepared, options, arms, tried))
+        let start = start_of(&prepared, options, arms, tried);
+        let mode = regression_missing.filter(|m| m.kind == MissingKind::Mode);
+        output_error(&prepared, &OutputErrorStart { mode_rad_s: mode.map(|m| m.value), ..start })
     });
     let lawful = law.as_ref().is_some_and(|(law, _)| law.chosen.departs());
     let doubted = regression_missing.is_some() && !lawful;
-    let output_error =
-        output_error.map(|oe| if doubted { oe.beside_doubted_regression() } else { oe });
+    let varies = !lawful && regression.as_ref().is_some_and(|r| r.varies_by().is_some());
+    let output_error = output_error.map(|oe| match (doubted, varies) {
+        (true, _) => oe.beside_doubted_regression(),
+        (_, true) => oe.beside_varying_friction(),
+        _ => oe,
+    });
+    let rigid = regression
+        .as_ref()
+        .filter(|_| !output_error.as_ref().is_some_and(OutputError::stands))
+        .and_then(|r| rigid_equation(&prepared, options, r));
+    let (regression, law, line, without_coupling) = match rigid {
+        None => (regression, law, line, None),
+        Some((rigid, found, finding)) => {
+            let law = friction_law(&rigid, &found).filter(|_| found.lag.is_none());
+            let line = least_squares(&rigid, Some(found.window_s));
+            (Some(found), law, line, Some(finding))
+        }
+    };
 
     progress(Stage::Responses);
     let replay = output_error.as_ref().filter(|o| o.describes_whole_runs());
@@ -201,6 +222,7 @@ pub fn identify(
     let evidence = Evidence::of(&prepared, &methods);
     let findings =
         [prepared.findings().to_vec(), steady_findings, response_findings, refused].concat();
+    let findings = findings.into_iter().chain(without_coupling).collect();
     let conclusion = conclude(&evidence, findings);
     let models = LinearModels::of(&evidence);
     let runs = prepared.into_runs();
@@ -274,6 +296,7 @@ fn start_of(
         first_window_s: None,
         most_evaluations: options.evaluations(),
         interrupt: options.interrupt.clone(),
+        mode_rad_s: None,
         law: terms.unwrap_or_default(),
     }
 }

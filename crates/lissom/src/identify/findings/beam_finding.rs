@@ -4,10 +4,12 @@ use std::fmt;
 
 use strum::{IntoStaticStr, VariantNames};
 
+use crate::identify::estimate::Estimate;
 use crate::identify::findings::describe::Describe;
-use crate::identify::findings::number_text::{counted, significant};
+use crate::identify::findings::number_text::{counted, significant, with_error};
 use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
+use crate::identify::findings::units::EstimateUnits;
 
 /// Modes of the beam and its tips.
 #[derive(Debug, Clone, PartialEq, IntoStaticStr, VariantNames)]
@@ -37,6 +39,22 @@ pub enum BeamFinding {
         /// Tips measured.
         tips: usize,
     },
+    /// The damping ratio of a mode comes out negative.
+    NegativeDamping {
+        /// The mode's number, from one.
+        mode: usize,
+        /// What it would be.
+        ratio: Estimate,
+    },
+    /// The coupling is hardly known, and friction is that of an axis without it.
+    RigidEquation {
+        /// What the coupling would be.
+        coupling: Estimate,
+        /// Its unit.
+        units: EstimateUnits,
+        /// Shares of the torque that the equation leaves with the coupling and without it.
+        residual_shares: [f64; 2],
+    },
     /// The only coupling is negative.
     CouplingSign,
 }
@@ -65,9 +83,24 @@ impl fmt::Display for BeamFinding {
             ),
             Self::MoreModesThanTips { modes, tips } => write!(
                 f,
-                "the responses show {}, and {} measured: the coupling torque is not a sum over these tips alone",
+                "the responses show {}, and {} measured: the coupling torque is not a sum over these tips alone. Inertia is \
+                 then too large, by what the missing modes turn, and the coupling too small",
                 counted(*modes, "mode", "modes"),
                 counted(*tips, "tip is", "tips are")
+            ),
+            Self::NegativeDamping { mode, ratio } => write!(
+                f,
+                "the damping ratio of mode {mode} would be {}: a beam does not gain energy, and it is not given",
+                with_error(*ratio)
+            ),
+            Self::RigidEquation { coupling, units, residual_shares: [with, without] } => write!(
+                f,
+                "the coupling to the beam would be {} {}: friction and inertia are those of the equation without it, which \
+                 leaves {} % of the torque where that with it leaves {} %. Inertia is that of motor and load together",
+                with_error(*coupling),
+                units.stiffness(),
+                significant(100.0 * without, 3),
+                significant(100.0 * with, 3)
             ),
             Self::CouplingSign => f.write_str(
                 "the coupling is negative, as if the beam pushed the motor away: the tip's sign looks reversed",
@@ -87,13 +120,17 @@ impl Describe for BeamFinding {
             Self::TipWithoutAngle { .. }
             | Self::FlexibleWithoutTip { .. }
             | Self::MoreModesThanTips { .. } => Severity::Warning,
-            Self::ModesNotFound | Self::CouplingSign => Severity::Refusal,
+            Self::ModesNotFound
+            | Self::NegativeDamping { .. }
+            | Self::RigidEquation { .. }
+            | Self::CouplingSign => Severity::Refusal,
         }
     }
 
     fn affects(&self) -> Vec<&'static str> {
         match self {
-            Self::ModesNotFound => vec![key::MODES],
+            Self::ModesNotFound | Self::NegativeDamping { .. } => vec![key::MODES],
+            Self::RigidEquation { .. } => vec![key::COUPLING],
             Self::FlexibleWithoutTip { .. } => vec![key::INERTIA, key::VISCOUS, key::COULOMB],
             Self::TipWithoutAngle { inertia_with_beam: false, .. } => vec![key::COUPLING],
             Self::TipWithoutAngle { .. } | Self::MoreModesThanTips { .. } => {
@@ -114,6 +151,10 @@ impl Describe for BeamFinding {
             }
             Self::MoreModesThanTips { .. } => {
                 "measure as many points as there are modes in the band"
+            }
+            Self::NegativeDamping { .. } => "add runs near the mode, where damping shows most",
+            Self::RigidEquation { .. } => {
+                "add runs near the beam's resonance, where the coupling shows; check the tip's sign and scale"
             }
             Self::CouplingSign => "give the tip a negative scale in the campaign",
         }

@@ -159,6 +159,11 @@ pub enum EstimateFinding {
         /// Its Coulomb friction relative to the estimate, less one.
         difference_share: f64,
     },
+    /// The arm of the estimates does not predict the torque of its own logs.
+    ArmNotGiven {
+        /// Share of the torque that it leaves.
+        residual_share: f64,
+    },
     /// No two runs make a pair for the third-harmonic method.
     NoPairs,
 }
@@ -255,6 +260,11 @@ impl fmt::Display for EstimateFinding {
                 },
                 100.0 * difference_share
             ),
+            Self::ArmNotGiven { residual_share } => write!(
+                f,
+                "the arm that these estimates make leaves {:.0} % of the torque of its own logs: it is not given",
+                100.0 * residual_share
+            ),
             Self::NoPairs => f.write_str(
                 "no two runs are at a frequency and at three times that frequency: the third-harmonic method gives \
                  nothing",
@@ -277,6 +287,7 @@ impl Describe for EstimateFinding {
             | Self::NotSeparable { .. }
             | Self::NegativeFigure { .. }
             | Self::FrictionWithLoad { .. }
+            | Self::ArmNotGiven { .. }
             | Self::CommandSign => Severity::Refusal,
             Self::PerUnitOfCommand
             | Self::CommandNotMeasured
@@ -305,6 +316,7 @@ impl Describe for EstimateFinding {
             Self::MethodsDisagree { method: OtherMethod::ConstantVelocity, .. } => {
                 vec![key::COULOMB, key::CONSTANT_VELOCITY]
             }
+            Self::ArmNotGiven { .. } => vec![key::ARM],
             Self::NoPairs => vec![key::THIRD_HARMONIC],
         }
     }
@@ -332,6 +344,9 @@ impl Describe for EstimateFinding {
             }
             Self::MethodsDisagree { method: OtherMethod::ConstantVelocity, .. } => {
                 "check whether friction grows in proportion to speed: if not, the extrapolation to zero speed is wrong"
+            }
+            Self::ArmNotGiven { .. } => {
+                "friction and inertia stand for themselves; for a prediction measure as many points as the beam has modes"
             }
             Self::NoPairs => "for each frequency ω0 add a run at 3ω0",
         }

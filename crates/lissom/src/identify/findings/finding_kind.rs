@@ -117,8 +117,8 @@ impl FindingKind {
         }
     }
 
-    /// Whether it is a cause that other findings may follow from: wrong readings, a load that the equation lacks, a run
-    /// unlike the others.
+    /// Whether it is a cause that other findings may follow from: wrong readings, a run unlike the others, what the
+    /// equation lacks, a lag, a mode without a tip, friction that varies.
     pub(crate) fn is_cause(&self) -> bool {
         match self {
             Self::Channel(found) => found.is_wrong_reading(),
@@ -127,6 +127,8 @@ impl FindingKind {
                 matches!(found, RunFinding::RunStandsOut { .. } | RunFinding::UnlikeOthers { .. })
             }
             Self::Regression(found) => found.is_cause(),
+            Self::OutputError(found) => found.is_cause(),
+            Self::Beam(found) => matches!(found, BeamFinding::MoreModesThanTips { .. }),
             _ => false,
         }
     }

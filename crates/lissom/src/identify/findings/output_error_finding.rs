@@ -37,10 +37,11 @@ pub enum OutputErrorFinding {
         /// What that looks like.
         cause: LagCause,
     },
-    /// The runs are not replayed, because of the noise of the command.
+    /// The motion is not simulated from the command over whole runs, because of the noise of the command.
     CommandNoise {
-        /// How far it moves the angle beside the noise of the angle's sensor.
-        ratio: f64,
+        /// How far it moves the angle beside the noise of the angle's sensor; `None` where the runs were replayed, and
+        /// depart from the log.
+        ratio: Option<f64>,
     },
     /// A tip is read at another time than the motor.
     TipLag {
@@ -60,6 +61,10 @@ pub enum OutputErrorFinding {
     ModesByTheMotor {
         /// Modes found.
         modes: usize,
+        /// The lowest one's frequency with the motor clamped \[rad/s\].
+        lowest_rad_s: f64,
+        /// Inertia before the springs as a share of all.
+        inertia_share: f64,
     },
     /// The highest mode hardly shows.
     FaintMode {
@@ -117,6 +122,13 @@ pub enum OutputErrorFinding {
     },
 }
 
+impl OutputErrorFinding {
+    /// Whether it is a cause that other findings may follow from.
+    pub(crate) fn is_cause(&self) -> bool {
+        matches!(self, Self::CommandLag { .. } | Self::TipLag { .. } | Self::ModesByTheMotor { .. })
+    }
+}
+
 impl fmt::Display for OutputErrorFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -126,7 +138,11 @@ impl fmt::Display for OutputErrorFinding {
                 milliseconds(*lag_s),
                 later(lag_s.value)
             ),
-            Self::CommandNoise { ratio } => write!(
+            Self::CommandNoise { ratio: None } => f.write_str(
+                "the measured command is too noisy to simulate whole runs from it: most of the residual torque is its \
+                 noise. The estimates do not come from whole runs of the output-error method",
+            ),
+            Self::CommandNoise { ratio: Some(ratio) } => write!(
                 f,
                 "the measured command is too noisy to simulate the motion from it (its noise, integrated, is {} times that of the \
                  angle's sensor): the estimates do not come from the output-error method",
@@ -145,10 +161,14 @@ impl fmt::Display for OutputErrorFinding {
                  modes add",
                 counted(*modes, "mode", "modes")
             ),
-            Self::ModesByTheMotor { modes } => write!(
+            Self::ModesByTheMotor { modes, lowest_rad_s, inertia_share } => write!(
                 f,
-                "{} identified from the motor's motion alone: modes that hardly act on the motor are counted as inertia",
-                counted(*modes, "flexible mode is", "flexible modes are")
+                "no tip is measured, and the motor's motion shows {}, {} {:.1} Hz with the motor clamped: inertia is that before \
+                 the spring, {:.0} % of all that turns. Modes that hardly act on the motor are counted with it",
+                counted(*modes, "flexible mode", "flexible modes"),
+                if *modes == 1 { "at" } else { "the lowest at" },
+                lowest_rad_s / std::f64::consts::TAU,
+                100.0 * inertia_share
             ),
             Self::FaintMode { omega_rad_s, stiffness_std_share } => write!(
                 f,

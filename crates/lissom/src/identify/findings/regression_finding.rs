@@ -15,6 +15,8 @@ use crate::identify::methods::regression::{AngleLag, GravityPartner, LagShape};
 
 /// Digits of a coefficient whose standard error is not given.
 const DIGITS: usize = 3;
+/// A change of an estimate is told from this many of its standard errors on.
+const FELT: f64 = 1.0;
 
 /// Regression in slip phases: what the motor's equation does not explain.
 #[derive(Debug, Clone, PartialEq, IntoStaticStr, VariantNames)]
@@ -68,6 +70,11 @@ pub enum RegressionFinding {
         /// Units of the coefficient.
         units: EstimateUnits,
     },
+    /// Friction, or a load, changes from one slip phase to the next.
+    FrictionVaries {
+        /// By how much, the root of its mean square, as a share of Coulomb friction.
+        by: f64,
+    },
     /// The angle lags behind the command.
     AngleLag {
         /// By how much, and how.
@@ -94,8 +101,7 @@ impl RegressionFinding {
     /// Whether it is a cause that other findings may follow from.
     pub(crate) fn is_cause(&self) -> bool {
         match self {
-            Self::MissingTerm { term, .. } => term.kind == MissingKind::Gravity,
-            Self::AngleLag { .. } => true,
+            Self::MissingTerm { .. } | Self::AngleLag { .. } | Self::FrictionVaries { .. } => true,
             _ => false,
         }
     }
@@ -132,6 +138,10 @@ fn looks_like(term: &MissingTerm, units: EstimateUnits) -> String {
             200.0 * term.value.abs(),
             if term.value > 0.0 { "more" } else { "less" }
         ),
+        MissingKind::Mode => format!(
+            "a part of the inertia turned behind a spring, at {size} rad/s ({:.1} Hz) with the motor clamped",
+            term.value / std::f64::consts::TAU
+        ),
         MissingKind::CoulombDrift => format!(
             "Coulomb friction {grows} by {size} {} from the beginning of the campaign to its end",
             units.torque()
@@ -141,6 +151,34 @@ fn looks_like(term: &MissingTerm, units: EstimateUnits) -> String {
             units.viscous()
         ),
     }
+}
+
+/// The estimates that a missing term changes, with their names, result keys and changes.
+fn moved(term: &MissingTerm) -> Vec<(&'static str, &'static str, f64)> {
+    let names = [
+        ("inertia", key::INERTIA),
+        ("viscous friction", key::VISCOUS),
+        ("Coulomb friction", key::COULOMB),
+    ];
+    let felt = names.into_iter().zip(term.moves);
+    let felt = felt.filter(|(_, moved)| moved.standard_errors.abs() > FELT);
+    felt.map(|((name, key), moved)| (name, key, moved.share)).collect()
+}
+
+/// That in words.
+fn moved_by(term: &MissingTerm) -> String {
+    let moved = moved(term);
+    let parts: Vec<String> = moved
+        .iter()
+        .map(|(name, _, share)| {
+            let more = if *share < 0.0 { "lower" } else { "higher" };
+            format!("{name} {} % {more}", significant(100.0 * share.abs(), 2))
+        })
+        .collect();
+    if parts.is_empty() {
+        return "with it no estimate changes by more than its standard error".to_owned();
+    }
+    format!("with it the estimates would be other ones, {}", parts.join(", "))
 }
 
 impl fmt::Display for RegressionFinding {
@@ -199,10 +237,17 @@ impl fmt::Display for RegressionFinding {
             Self::MissingTerm { term, units } => write!(
                 f,
                 "it looks as if {} ({:.0} standard errors; with this term the residual torque drops to {:.1} %). The \
-                 equation has no such term, and errors of the estimates are larger than their standard errors",
+                 equation has no such term: {}",
                 looks_like(term, *units),
                 term.deviations,
-                100.0 * term.residual_ratio
+                100.0 * term.residual_ratio,
+                moved_by(term)
+            ),
+            Self::FrictionVaries { by } => write!(
+                f,
+                "friction, or a load, changes from one slip phase to the next, by {} % of Coulomb friction (rms). The \
+                 estimates are its mean over the logs, and their standard errors count that it changes",
+                significant(100.0 * by, 2)
             ),
             Self::AngleLag { lag } => write!(
                 f,
@@ -253,6 +298,7 @@ impl Describe for RegressionFinding {
     fn severity(&self) -> Severity {
         match self {
             Self::RegressionRefused { .. } => Severity::Refusal,
+            Self::FrictionVaries { .. } => Severity::Info,
             Self::FewPhases { .. }
             | Self::GravityUnseparated { .. }
             | Self::TorqueConstant { .. }
@@ -271,10 +317,19 @@ impl Describe for RegressionFinding {
             | Self::FewPhases { .. }
             | Self::TorqueConstant { .. }
             | Self::UnexplainedTorque { .. }
-            | Self::AngleLag { .. }
-            | Self::MissingTerm { .. } => {
+            | Self::AngleLag { .. } => {
                 vec![key::COULOMB, key::OFFSET, key::VISCOUS, key::INERTIA, key::COUPLING]
             }
+            // A load may be most of the torque: it moves all.
+            Self::MissingTerm { term, .. } if term.kind == MissingKind::Gravity => {
+                vec![key::COULOMB, key::OFFSET, key::VISCOUS, key::INERTIA]
+            }
+            Self::MissingTerm { term, .. } => {
+                let mut keys: Vec<_> = moved(term).into_iter().map(|(_, key, _)| key).collect();
+                keys.extend([key::OFFSET, key::COUPLING]);
+                keys
+            }
+            Self::FrictionVaries { .. } => vec![key::COULOMB, key::VISCOUS],
             Self::GravityUnseparated { with: GravityPartner::Inertia, .. } => {
                 vec![key::INERTIA, key::GRAVITY]
             }
@@ -331,6 +386,9 @@ impl Describe for RegressionFinding {
                     "an amplifier that is stronger one way, or a current sensor with two gains: log the current itself, \
                      and calibrate it in both directions"
                 }
+                MissingKind::Mode => {
+                    "measure the angle behind the flexible part as a tip, or move so slowly that the mode is not excited"
+                }
                 MissingKind::CoulombDrift => {
                     "the joint warms up, wears or was lubricated: warm it up first, or identify the runs separately"
                 }
@@ -338,6 +396,10 @@ impl Describe for RegressionFinding {
                     "the joint warms up: warm it up first, or identify the runs separately"
                 }
             },
+            Self::FrictionVaries { .. } => {
+                "nothing to do for the estimates; a simulation with constant friction departs from the log by that much. \
+                 Warm the joint up, or log for longer, to see whether it settles"
+            }
             Self::AngleLag { lag } if lag.is_half_a_sample() => {
                 "half a sample is the difference between a held and a measured command: check `hold`"
             }

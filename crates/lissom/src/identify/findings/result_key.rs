@@ -17,6 +17,7 @@ pub(crate) const TIP_RESPONSES: &str = "frequency_response.tips";
 pub(crate) const MOTOR_MODEL: &str = "models.motor";
 pub(crate) const TIP_MODELS: &str = "models.tips";
 pub(crate) const STATE_SPACE: &str = "models.state_space";
+pub(crate) const ARM: &str = "arm";
 pub(crate) const EQUIVALENT: &str = "equivalent";
 /// Keys of a validation.
 pub(crate) const TORQUE: &str = "torque";

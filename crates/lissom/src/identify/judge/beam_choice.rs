@@ -8,7 +8,8 @@ use crate::identify::judge::evidence::Evidence;
 use crate::identify::judge::thresholds::MODEL_MISFIT;
 use crate::identify::judge::thresholds::TIPS_COMPLETE;
 use crate::identify::methods::output_error::OutputError;
-use crate::identify::methods::regression::BeamRegression;
+use crate::identify::methods::regression::{BeamRegression, MissingKind, MotorRegression};
+use crate::identify::prepare::run_analysis::RunKind;
 
 /// Whether the beam's equations on the measured tips explain their motion.
 pub(super) fn complete(r: &BeamRegression) -> bool {
@@ -26,7 +27,7 @@ struct ModesRow {
 /// | method | offers modes where |
 /// | --- | --- |
 /// | output error | its arm describes the runs and has modes |
-/// | regression of the beam | the tips' responses show no more modes than there are tips, or the tips explain all motion |
+/// | regression of the beam | the tips' responses show no more modes than there are tips, or are bands of other motions than sines, or the tips explain all motion |
 /// | tips' responses | else |
 const MODES: [ModesRow; 3] = [
     ModesRow { modes: by_output_error },
@@ -53,8 +54,11 @@ fn by_beam_regression(evidence: &Evidence<'_>) -> Option<Vec<ModeEstimate>> {
     let methods = evidence.methods;
     let tips = evidence.campaign.channels.tips.len();
     let shown = methods.beam_model.as_ref().map_or(0, |b| b.modes.len());
-    // As many equations as tips: where these explain all motion there are no further modes.
-    let found = methods.beam_regression.as_ref().filter(|r| shown <= tips || complete(r));
+    // As many equations as tips: where these explain all motion there are no further modes. Bands of other motions than
+    // sines may be of what hardly moved.
+    let by_sines = evidence.runs.iter().any(|r| matches!(r.kind, RunKind::Sinusoidal(_)));
+    let told = |r: &&BeamRegression| shown <= tips || complete(r) || !by_sines;
+    let found = methods.beam_regression.as_ref().filter(told);
     found.map(|r| r.modes.clone())
 }
 
@@ -64,7 +68,8 @@ fn by_tip_responses(evidence: &Evidence<'_>) -> Option<Vec<ModeEstimate>> {
 
 /// What is missing of the beam.
 pub(super) fn findings(evidence: &Evidence<'_>, beam: &BeamEstimates) -> Vec<Finding> {
-    let mut found = Vec::new();
+    let mut found: Vec<Finding> =
+        beam.modes.iter().enumerate().filter_map(negative_damping).collect();
     let tips = evidence.campaign.channels.tips.len();
     if evidence.replay().is_some_and(|oe| !oe.arm.modes.is_empty()) {
         return found;
@@ -73,7 +78,10 @@ pub(super) fn findings(evidence: &Evidence<'_>, beam: &BeamEstimates) -> Vec<Fin
         found.push(Finding::new(BeamFinding::ModesNotFound));
     }
     let model = evidence.methods.motor_model.as_ref();
+    // Noise and friction that varies bend the response, too: slip phases tell.
+    let rigid = |r: &MotorRegression| r.missing.is_none_or(|m| m.kind != MissingKind::Mode);
     if tips == 0
+        && !evidence.methods.regression.as_ref().is_some_and(rigid)
         && let Some(model) = model.filter(|m| m.weighted_rms < MODEL_MISFIT)
         && let Some(pole) = model.poles.first()
     {
@@ -81,6 +89,13 @@ pub(super) fn findings(evidence: &Evidence<'_>, beam: &BeamEstimates) -> Vec<Fin
         found.push(Finding::new(BeamFinding::FlexibleWithoutTip { omega_rad_s }));
     }
     found
+}
+
+/// A mode that would gain energy.
+fn negative_damping((i, mode): (usize, &ModeEstimate)) -> Option<Finding> {
+    let negative = mode.given_damping_ratio().is_none();
+    let ratio = mode.damping_ratio;
+    negative.then(|| Finding::new(BeamFinding::NegativeDamping { mode: i + 1, ratio }))
 }
 
 #[cfg(test)]
@@ -91,7 +106,7 @@ mod tests {
     use crate::identify::prepare::prepared::Prepared;
     use crate::identify::responses::rational::BeamFit;
     use crate::record::{
-        Axis, Campaign, Channels, Command, CommandQuantity, Hold, Tip, TipQuantity,
+        Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
     };
 
     fn mode(omega_rad_s: f64) -> ModeEstimate {
@@ -99,7 +114,8 @@ mod tests {
         ModeEstimate { natural_frequency_rad_s: about(omega_rad_s), damping_ratio: about(0.01) }
     }
 
-    fn campaign() -> Campaign {
+    /// A sine in steady state, or its beginning alone: a motion of another shape.
+    fn campaign(is_sine: bool) -> Campaign {
         let command = Command {
             quantity: CommandQuantity::Current,
             hold: Hold::Measured,
@@ -109,11 +125,20 @@ mod tests {
         };
         let tip = Tip { name: "tip".into(), quantity: TipQuantity::Angle, calibrated: true };
         let channels = Channels { axis: Axis::Rotary, command, tips: vec![tip] };
-        Campaign { channels, runs: Vec::new(), gravity: false, mgl_nm: None }
+        let wave = |size: f64| -> Vec<f64> {
+            let at = |k: i32| {
+                (0.02 * f64::from(k)).sin() * if is_sine { 1.0 } else { 1e-3 * f64::from(k) }
+            };
+            (0..4000).map(|k| size * at(k)).collect()
+        };
+        let time = TimeBase::uniform(0.0, 5e-3);
+        let run = Run::new("run", time, wave(1.0), wave(-0.5), vec![wave(-0.6)]).unwrap();
+        let run = if is_sine { run.with_omega(4.0).unwrap() } else { run };
+        Campaign::new(channels, vec![run]).unwrap()
     }
 
-    fn frequencies(methods: &Methods) -> Vec<f64> {
-        let campaign = campaign();
+    fn frequencies(methods: &Methods, of_sines: bool) -> Vec<f64> {
+        let campaign = campaign(of_sines);
         let prepared = Prepared::of(&campaign);
         let beam = choose(&Evidence::of(&prepared, methods), &DriveEstimates::default());
         beam.modes.iter().map(|m| m.natural_frequency_rad_s.value).collect()
@@ -129,27 +154,43 @@ mod tests {
         }
     }
 
-    /// One tip: a second mode in its responses takes precedence unless the regression explains all motion.
+    /// One tip: a second mode in its responses to sines takes precedence unless the regression explains all motion.
     #[test]
     fn modes_are_of_the_first_row_that_offers_some() {
-        assert!(frequencies(&Methods::default()).is_empty());
+        assert!(frequencies(&Methods::default(), true).is_empty());
         let shown = |omegas: &[f64]| {
             let mut fit = BeamFit::of_mode(mode(omegas[0]));
             fit.modes = omegas.iter().map(|w| mode(*w)).collect();
             Some(fit)
         };
         let of_responses = Methods { beam_model: shown(&[5.0, 40.0]), ..Methods::default() };
-        assert_eq!(frequencies(&of_responses), [5.0, 40.0]);
+        assert_eq!(frequencies(&of_responses, true), [5.0, 40.0]);
         let beam_regression = Some(regression(2.0 * TIPS_COMPLETE));
         let both = Methods { beam_regression, ..of_responses };
-        assert_eq!(frequencies(&both), [5.0, 40.0]);
+        assert_eq!(frequencies(&both, true), [5.0, 40.0]);
+        // Bands of a motion that is no sine may be of what hardly moved.
+        assert_eq!(frequencies(&both, false), [6.0]);
         let complete = Methods { beam_regression: Some(regression(0.5 * TIPS_COMPLETE)), ..both };
-        assert_eq!(frequencies(&complete), [6.0]);
+        assert_eq!(frequencies(&complete, true), [6.0]);
         let one = Methods {
             beam_model: shown(&[5.0]),
             beam_regression: Some(regression(2.0 * TIPS_COMPLETE)),
             ..Methods::default()
         };
-        assert_eq!(frequencies(&one), [6.0]);
+        assert_eq!(frequencies(&one, true), [6.0]);
+    }
+
+    #[test]
+    fn a_negative_damping_ratio_is_refused() {
+        let mut of_mode = mode(5.0);
+        of_mode.damping_ratio = Estimate { value: -0.001, std: 0.003 };
+        let methods = Methods { beam_model: Some(BeamFit::of_mode(of_mode)), ..Methods::default() };
+        let campaign = campaign(true);
+        let prepared = Prepared::of(&campaign);
+        let evidence = Evidence::of(&prepared, &methods);
+        let beam = choose(&evidence, &DriveEstimates::default());
+        assert!(beam.modes[0].given_damping_ratio().is_none());
+        let found = findings(&evidence, &beam);
+        assert!(found.iter().any(|f| f.code() == "negative-damping"), "{found:?}");
     }
 }

@@ -50,11 +50,19 @@ pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> C
     }
     findings.extend(remarks::remarks(evidence, &chosen));
     let separability = Separability::of(evidence, &chosen, &findings);
-    findings.extend(separability.as_ref().and_then(Separability::finding));
+    // Friction that varies makes runs differ.
+    let varies = evidence.methods.regression.as_ref().is_some_and(|r| r.varies_by().is_some());
+    findings.extend(separability.as_ref().filter(|_| !varies).and_then(Separability::finding));
+    let arm = FoundArm::of(evidence, &chosen);
+    let left = arm.as_ref().filter(|arm| !arm.holds()).and_then(|arm| arm.torque_used);
+    findings.extend(left.map(|left| {
+        let residual_share = left.relative_error;
+        Finding::new(EstimateFinding::ArmNotGiven { residual_share })
+    }));
+    let arm = arm.filter(FoundArm::holds);
     // A cause comes before what follows from it.
     let order = |f: &Finding| (!f.kind.is_cause(), std::cmp::Reverse(f.severity()), f.kind.rank());
     findings.sort_by_key(order);
-    let arm = FoundArm::of(evidence, &chosen);
     Conclusion { chosen, separability, arm, findings }
 }
 

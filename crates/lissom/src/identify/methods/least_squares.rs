@@ -248,7 +248,7 @@ impl Line<'_> {
                 window,
             };
             let rows = LineRow { plain, direction: &moving.direction };
-            let noise = plain.noise(moving.noise);
+            let noise = plain.noise(moving.noise, None);
             let right = noise.ncols() - 1;
             let noise = noise.insert_columns(right, 1, 0.0).insert_rows(right, 1, 0.0);
             for phase in &moving.phases {

@@ -8,6 +8,8 @@ use crate::record::Run;
 #[derive(Debug, Clone)]
 pub(crate) struct RunNoise {
     pub(crate) motor: f64,
+    /// That of the command, in its unit.
+    pub(crate) command: f64,
     pub(crate) tips: Vec<f64>,
     /// Samples over which the motor's velocity has a sure sign.
     pub(crate) needed_smoothing: usize,
@@ -17,6 +19,7 @@ impl RunNoise {
     pub(crate) fn of(run: &Run) -> Self {
         let tips = run.tips().iter().map(|tip| independent_noise(tip)).collect();
         let needed_smoothing = needed_smoothing(run.motor());
-        Self { motor: independent_noise(run.motor()), tips, needed_smoothing }
+        let (motor, command) = (independent_noise(run.motor()), independent_noise(run.command()));
+        Self { motor, command, tips, needed_smoothing }
     }
 }

@@ -17,7 +17,8 @@ pub use runs::{Carried, RunShare};
 
 use crate::identify::drive_estimates::Method;
 use crate::identify::findings::{
-    EstimateFinding, Finding, FindingKind, MovedParameter, OutputErrorFinding, RunFinding,
+    EstimateFinding, Finding, FindingKind, MovedParameter, OutputErrorFinding, RegressionFinding,
+    RunFinding,
 };
 use crate::identify::found_arm::ArmSource;
 use crate::identify::judge::{Chosen, Evidence, Methods};
@@ -69,6 +70,8 @@ fn doubts(finding: &Finding) -> bool {
                 | OutputErrorFinding::MoreThanNoise { .. }
                 | OutputErrorFinding::ModesMissing { .. }
                 | OutputErrorFinding::DamperDrives { .. }
+        ) | FindingKind::Regression(
+            RegressionFinding::MissingTerm { .. } | RegressionFinding::UnexplainedTorque { .. }
         ) | FindingKind::Estimate(EstimateFinding::OthersDoubtful)
     )
 }

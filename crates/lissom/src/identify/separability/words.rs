@@ -16,10 +16,11 @@ impl Separability {
     pub fn words(&self, axis: Axis) -> Vec<String> {
         let stands_out = self.finding();
         let line = |f: &Finding| format!("Run {}: {f}.", f.run.as_deref().unwrap_or_default());
-        let mut lines: Vec<String> = stands_out.iter().map(line).collect();
+        // What is doubted comes before how well it is known.
+        let mut lines: Vec<String> = self.doubted().into_iter().collect();
+        lines.extend(stands_out.iter().map(line));
         lines.extend(self.least_known());
         lines.extend(self.suffering());
-        lines.extend(self.doubted());
         if stands_out.is_none() {
             lines.extend(self.runs.iter().filter_map(carries));
         }

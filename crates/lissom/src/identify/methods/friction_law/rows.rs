@@ -181,7 +181,8 @@ impl<'a> Sampled<'a> {
                 || DMatrix::zeros(0, 0),
                 |window| {
                     let columns = &columns;
-                    MotorEquation { campaign, run, columns, gravity: None, window }.noise(noise)
+                    MotorEquation { campaign, run, columns, gravity: None, window }
+                        .noise(noise, None)
                 },
             );
             let gravity = columns.gravity.then(|| SineAndCosine::of(run.motor()));

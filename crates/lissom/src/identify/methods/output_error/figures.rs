@@ -116,6 +116,13 @@ impl OutputError {
         self.beyond_noise < self.accepted_residual && is_sound(&self.arm, &self.covariance)
     }
 
+    /// The same beside a regression that shows friction that varies: over short windows this is taken for inertia and
+    /// viscous friction, and standard errors do not count it.
+    #[must_use]
+    pub(crate) fn beside_varying_friction(self) -> Self {
+        if self.whole_runs { self } else { Self { accepted_residual: 0.0, ..self } }
+    }
+
     /// The same beside a regression whose equation lacks a term.
     #[must_use]
     pub(crate) fn beside_doubted_regression(self) -> Self {

@@ -21,7 +21,7 @@ pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
     let campaign = evidence.campaign;
     let Some(oe) = &evidence.methods.output_error else {
         let noise = evidence.methods.command_noise;
-        let finding = |ratio| Finding::new(OutputErrorFinding::CommandNoise { ratio });
+        let finding = |ratio| Finding::new(OutputErrorFinding::CommandNoise { ratio: Some(ratio) });
         return noise.map(finding).into_iter().collect();
     };
     let mut findings = Vec::new();
@@ -36,7 +36,11 @@ pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
         let figures = oe.parameters.iter().filter_map(|p| Some((*p, oe.estimate(*p)?)));
         findings.extend(driving_damper(figures));
     }
-    findings.extend(if oe.end == SearchEnd::Done { departs(oe) } else { budget_spent(oe) });
+    findings.extend(if oe.end == SearchEnd::Done {
+        departs(evidence, oe)
+    } else {
+        budget_spent(oe)
+    });
     findings.extend(motions_part(oe));
     findings
 }
@@ -59,9 +63,18 @@ fn budget_spent(oe: &OutputError) -> Option<Finding> {
 }
 
 /// The arm does not describe whole runs.
-fn departs(oe: &OutputError) -> Option<Finding> {
+fn departs(evidence: &Evidence<'_>, oe: &OutputError) -> Option<Finding> {
     if oe.describes_whole_runs() {
         return None;
+    }
+    if let Some(r) = evidence.methods.regression.as_ref().filter(|r| r.missing.is_none()) {
+        // Noise of the command moves the arm; of friction that varies the regression's finding tells.
+        if evidence.campaign.channels.command.hold == Hold::Measured && r.left.is_noise() {
+            return Some(Finding::new(OutputErrorFinding::CommandNoise { ratio: None }));
+        }
+        if r.varies_by().is_some() && !oe.stands() && !lawful(evidence) {
+            return None;
+        }
     }
     let (first, last) = (oe.stages.first()?, longest(oe)?);
     let grown = first.residual.iter().zip(&last.residual).map(|(a, b)| b / a).fold(0.0, f64::max);
@@ -71,6 +84,11 @@ fn departs(oe: &OutputError) -> Option<Finding> {
         noise_ratio: oe.beyond_noise,
         used: oe.stands(),
     }))
+}
+
+/// Whether friction has terms beyond Coulomb and viscous friction.
+fn lawful(evidence: &Evidence<'_>) -> bool {
+    evidence.methods.friction_law.as_ref().is_some_and(|law| law.chosen.departs())
 }
 
 /// Whole runs are described, but the residual is larger than the sensors' noise explains.
@@ -112,9 +130,18 @@ fn longest(oe: &OutputError) -> Option<&StageReport> {
 
 /// Modes that only the motor shows.
 fn modes_by_the_motor(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
-    let modes = oe.arm.modes.len();
-    (modes > 0 && campaign.channels.tips.is_empty())
-        .then(|| Finding::new(OutputErrorFinding::ModesByTheMotor { modes }))
+    let arm = &oe.arm;
+    let modes = arm.modes.len();
+    let behind: f64 =
+        arm.modes.iter().map(|m| m.stiffness_nm_per_rad / m.omega_rad_s.powi(2)).sum();
+    let lowest = arm.modes.iter().map(|m| m.omega_rad_s).fold(f64::INFINITY, f64::min);
+    (modes > 0 && campaign.channels.tips.is_empty()).then(|| {
+        Finding::new(OutputErrorFinding::ModesByTheMotor {
+            modes,
+            lowest_rad_s: lowest,
+            inertia_share: arm.inertia_kg_m2 / (arm.inertia_kg_m2 + behind),
+        })
+    })
 }
 
 /// There are fewer modes than tips: no run shows the missing mode, and its inertia is counted with the motor's.

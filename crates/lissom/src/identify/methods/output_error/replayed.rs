@@ -41,6 +41,7 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
         noise: &noise,
         budget: &budget,
         widening: WINDOW_WIDENING,
+        mode_rad_s: start.mode_rad_s,
         tries_laws: true,
     };
     let Attempt { fit, mut report, without_repeats, left } = best(&fitting, start)?;

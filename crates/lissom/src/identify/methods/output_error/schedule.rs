@@ -115,9 +115,23 @@ fn begin(
 ) -> Option<ArmFit> {
     let mut fit = fitting.first_fit(arm, window_s)?;
     fitting.search(&mut fit, report);
-    make(modes::grow, fitting, &mut fit, report);
-    make(extend, fitting, &mut fit, report);
+    make(complete, fitting, &mut fit, report);
     Some(fit)
+}
+
+/// Adds what the residual shows: modes and then further parameters; to a rigid axis, whose modes no tip shows, further
+/// parameters first, since a lag is simpler than a mode.
+fn complete(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
+    if fit.body.arm.modes.is_empty() {
+        make(extend, fitting, fit, report);
+        make(modes::grow, fitting, fit, report);
+        if fit.body.arm.modes.is_empty() {
+            return;
+        }
+    } else {
+        make(modes::grow, fitting, fit, report);
+    }
+    make(extend, fitting, fit, report);
 }
 
 /// A step of the schedule.
@@ -143,8 +157,7 @@ fn widen(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
         fit.windows = if fit.whole_runs { windows } else { some(windows) };
         fitting.search(fit, report);
         if report.grown(&fit.residual) {
-            make(modes::grow, fitting, fit, report);
-            make(extend, fitting, fit, report);
+            make(complete, fitting, fit, report);
             make(relax, fitting, fit, report);
         }
         let diverges = fitting.diverges(fit);

@@ -147,6 +147,19 @@ thresholds! {
         /// Damping ratio with which a mode above all others begins. Its frequency is hardly known
         /// then, so it must not ring for long.
         NEW_MODE_DAMPING: f64 = 0.1, "1", Convention;
+        /// Shares of a rigid axis' inertia that its first mode takes at first; they are tried in turn.
+        FIRST_MODE_SHARES: [f64; 2] = [0.3, 0.7], "1", Convention;
+        /// Most searches for the first mode of a rigid axis, each of `STAGE_STEPS_MOST`.
+        FIRST_MODE_SEARCHES: usize = 4, "searches", Convention;
+        /// Ratio of the frequencies at which the first mode of a rigid axis begins.
+        FIRST_MODE_STEP: f64 = 1.6, "1", Convention;
+        /// How often a first mode of a rigid axis is tried, over windows of other lengths.
+        FIRST_MODE_TRIES: usize = 2, "1", Convention;
+        /// Largest angle by which the first mode of a rigid axis turns in a sample at first.
+        FIRST_MODE_TURN_MOST: f64 = 1.5, "rad", Convention;
+        /// Largest share of the squared residual beyond the noise that the first mode of a rigid axis
+        /// may leave: friction that wanders leaves more.
+        FIRST_MODE_EXCESS_LEFT: f64 = 0.3, "1", Convention;
         /// Angle by which point masses at the tips turn the new mode and the highest into each
         /// other, at first; both signs are tried.
         NEW_MODE_TURN: f64 = 0.4, "rad", Convention;

@@ -1,9 +1,12 @@
 //! Whether the motor's equation lacks a term: one is added at a time, and the residual decides.
 
-use crate::identify::methods::regression::motor_columns::MotorColumns;
+use crate::identify::methods::regression::left_torque::LeftTorque;
+use crate::identify::methods::regression::motor_columns::{
+    MotorColumns, PLACE_COULOMB, PLACE_INERTIA, PLACE_VISCOUS,
+};
 use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve};
 use crate::identify::methods::regression::thresholds::{
-    GRAVITY_TRAVEL_RAD, MISSING_ONE_SIGN, MISSING_SURE, NOTHING_MISSING,
+    GRAVITY_TRAVEL_RAD, MISSING_ONE_SIGN, MISSING_SURE, MODE_BEATS, NOISE_ALONE, NOTHING_MISSING,
 };
 use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT, RESIDUAL_FALLS_TO};
 use crate::record::{Axis, Campaign, Run};
@@ -27,11 +30,14 @@ pub enum MissingKind {
     ViscousDrift,
     /// An unbalanced load: `g_s·sin θ + g_c·cos θ`.
     Gravity,
+    /// A flexible mode that no tip shows: a part of the inertia J turns behind a spring. With J₁ before it and the mode's
+    /// frequency ω with the motor clamped, `τ + τ̈/ω² = J·θ̈ + (J₁/ω²)·θ⁗` and friction.
+    Mode,
 }
 
 impl MissingKind {
     /// In the order of their columns.
-    const ALL: [Self; 8] = [
+    const ALL: [Self; 9] = [
         Self::Delay,
         Self::Position,
         Self::Stribeck,
@@ -40,20 +46,22 @@ impl MissingKind {
         Self::CoulombDrift,
         Self::ViscousDrift,
         Self::Gravity,
+        Self::Mode,
     ];
-    /// How many columns they need: gravity has two.
-    pub(super) const COLUMNS: usize = Self::ALL.len() + 1;
+    /// How many columns they need: gravity and a mode have two.
+    pub(super) const COLUMNS: usize = Self::ALL.len() + 2;
 
     /// Place of its first column among those that are tried.
     pub(super) fn column(self) -> usize {
-        Self::ALL.iter().position(|kind| *kind == self).unwrap_or(0)
+        let before = Self::ALL.iter().take_while(|kind| **kind != self);
+        before.map(|kind| kind.terms(0).len()).sum()
     }
 
     /// Its terms, `column` the first that it needs.
     fn terms(self, column: usize) -> Vec<Term> {
         match self {
             Self::Stribeck | Self::CoulombDrift => vec![Term::Signed(column)],
-            Self::Gravity => vec![Term::Plain(column), Term::Plain(column + 1)],
+            Self::Gravity | Self::Mode => vec![Term::Plain(column), Term::Plain(column + 1)],
             _ => vec![Term::Plain(column)],
         }
     }
@@ -61,7 +69,9 @@ impl MissingKind {
     /// Whether its column hardly has noise of the sensors in it, which others of the equation then make up for.
     fn is_exact(self) -> bool {
         match self {
-            Self::Delay | Self::Stribeck | Self::BeamDamping | Self::ViscousDrift => false,
+            Self::Delay | Self::Stribeck | Self::BeamDamping | Self::ViscousDrift | Self::Mode => {
+                false
+            }
             Self::Position | Self::CommandBySign | Self::CoulombDrift | Self::Gravity => true,
         }
     }
@@ -75,14 +85,35 @@ pub struct MissingTerm {
     /// Its coefficient: delay \[s\], stiffness \[N·m/rad\], friction at rest beyond the constant
     /// \[N·m\] (linear axes: N/m, N), time of the beam's damping \[s\]; half of what positive commands give more
     /// than negative ones, relative; change of Coulomb \[N·m or N\] and viscous friction \[N·m·s/rad or N·s/m\] from
-    /// the campaign's beginning to its end, its runs taken one after the other; m·g·l of gravity \[N·m\].
+    /// the campaign's beginning to its end, its runs taken one after the other; m·g·l of gravity \[N·m\]; frequency of a mode
+    /// with the motor clamped \[rad/s\].
     pub value: f64,
+    /// By how much it changes the estimates of inertia, viscous and Coulomb friction, as shares of those without it, and
+    /// as shares of their standard errors.
+    pub moves: [Moved; 3],
     /// How many deviations from zero.
     pub deviations: f64,
     /// Residual beside that of the equation without it, as a ratio.
     pub residual_ratio: f64,
     /// Length of the windows that show it \[s\].
     pub window_s: f64,
+}
+
+impl MissingTerm {
+    /// Whether it is more than a part of the noise that the equation leaves: one whose column is not exact takes some of
+    /// that.
+    pub(super) fn is_beyond(&self, left: &LeftTorque) -> bool {
+        left.by_noise < NOISE_ALONE || self.kind.is_exact() || self.kind == MissingKind::Delay
+    }
+}
+
+/// By how much an estimate changes when a term is added.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Moved {
+    /// As a share of the estimate without it.
+    pub share: f64,
+    /// In standard errors of the estimate without it.
+    pub standard_errors: f64,
 }
 
 /// The term whose addition explains most in windows of a length, if it is called for. The further columns follow those of `columns`, in the
@@ -102,31 +133,42 @@ pub(super) fn missing_term(
     let may_hang = rotary && !columns.gravity && campaign.channels.tips.is_empty() && {
         travel(campaign) > GRAVITY_TRAVEL_RAD
     };
-    let kinds = MissingKind::ALL.into_iter().enumerate();
-    let kinds = kinds.filter(|(i, kind)| match kind {
+    let kinds = MissingKind::ALL.into_iter().map(|kind| (first + kind.column(), kind));
+    let kinds = kinds.filter(|(column, kind)| match kind {
         MissingKind::BeamDamping => !columns.tips.is_empty(),
-        MissingKind::CommandBySign => follows_torque(clusters, first + i).abs() < MISSING_ONE_SIGN,
+        MissingKind::CommandBySign => follows_torque(clusters, *column).abs() < MISSING_ONE_SIGN,
+        // With tips the modes are theirs.
+        MissingKind::Mode => columns.tips.is_empty(),
         MissingKind::Gravity => may_hang,
         // A spring would be a part of gravity.
         MissingKind::Position => !columns.gravity,
         _ => true,
     });
-    let tried = kinds.filter_map(|(i, kind)| {
-        let added = kind.terms(first + i);
+    let tried = kinds.filter_map(|(column, kind)| {
+        let added = kind.terms(column);
         let with: Vec<Term> = terms.iter().chain(&added).copied().collect();
         let solution = solve(clusters, &with)?;
         let known = terms.len();
-        let amplitude = solution.value.rows(known, added.len()).norm();
-        let along = solution.value.rows(known, added.len()) / amplitude.max(f64::MIN_POSITIVE);
         let own = solution.covariance.view((known, known), (added.len(), added.len()));
-        let std = along.dot(&(own * &along)).max(0.0).sqrt();
-        let value = if added.len() == 1 { solution.value[known] } else { amplitude };
+        let amplitudes = solution.value.rows(known, added.len());
+        let value = if added.len() == 1 { solution.value[known] } else { amplitudes.norm() };
+        let std = if kind == MissingKind::Mode {
+            // In standard errors of the coefficient of τ̈, which the noise of the angle does not enter.
+            value * own[(1, 1)].max(0.0).sqrt() / amplitudes[1].abs()
+        } else {
+            let along = amplitudes / value.abs().max(f64::MIN_POSITIVE);
+            along.dot(&(own * &along)).max(0.0).sqrt()
+        };
         let moves = (0..known).any(|k| {
             let own = without.covariance[(k, k)].max(0.0).sqrt();
             (solution.value[k] - without.value[k]).abs() > PRESENT * own
         });
         let shows = solution.relative_residual < RESIDUAL_FALLS_TO * without.relative_residual;
         let told = !solution.inseparable[known..].iter().any(|lost| *lost);
+        let mode_rad_s = mode_frequency(&solution.value.as_slice()[known..]);
+        if kind == MissingKind::Mode && mode_rad_s.is_none() {
+            return None;
+        }
         let called_for = told
             && value.abs() > CLEARLY_PRESENT * std
             && (shows || kind.is_exact() && moves && value.abs() > MISSING_SURE * std);
@@ -136,14 +178,31 @@ pub(super) fn missing_term(
                 // ∫wτ(t) = ∫w·(equation) − Δ∫ẇτ for τ that acts Δ later…
                 // …and ∫wτ = ∫w·(equation) − ε∫w|τ| where (1 + ε·sgn τ)·τ acts.
                 MissingKind::Delay | MissingKind::CommandBySign => -value,
+                MissingKind::Mode => mode_rad_s.unwrap_or(value),
                 _ => value,
             },
+            moves: [PLACE_INERTIA, PLACE_VISCOUS, PLACE_COULOMB].map(|i| {
+                let change = solution.value[i] - without.value[i];
+                let std = without.covariance[(i, i)].max(0.0).sqrt();
+                Moved { share: change / without.value[i], standard_errors: change / std }
+            }),
             deviations: value.abs() / std,
             residual_ratio: solution.relative_residual / without.relative_residual,
             window_s,
         })
     });
-    tried.min_by(|a, b| a.residual_ratio.total_cmp(&b.residual_ratio))
+    let (modes, others): (Vec<_>, Vec<_>) = tried.partition(|term| term.kind == MissingKind::Mode);
+    let other = others.into_iter().min_by(|a, b| a.residual_ratio.total_cmp(&b.residual_ratio));
+    // With its two columns a mode takes a part of any other cause.
+    let most = other.map_or(1.0, |other| MODE_BEATS * other.residual_ratio);
+    modes.into_iter().find(|mode| mode.residual_ratio < most).or(other)
+}
+
+/// The frequency of a mode with the motor clamped \[rad/s\], from its coefficients `J₁/ω²` and `−1/ω²`; `None` if these are
+/// no mode's.
+fn mode_frequency(coefficients: &[f64]) -> Option<f64> {
+    let [before, of_torque] = coefficients else { return None };
+    (*before > 0.0 && *of_torque < 0.0).then(|| (-1.0 / of_torque).sqrt())
 }
 
 /// How far the motor turns, over all runs.

@@ -13,6 +13,7 @@ use crate::identify::methods::regression::cluster_covariance::larger;
 use crate::identify::methods::regression::fitted::Fitted;
 use crate::identify::methods::regression::lag::{AngleLag, angle_lag};
 use crate::identify::methods::regression::left_out::{RunLeftOut, rms_speed, runs_left_out};
+use crate::identify::methods::regression::left_torque::LeftTorque;
 use crate::identify::methods::regression::missing::{MissingKind, MissingTerm, missing_term};
 use crate::identify::methods::regression::motor_columns::{
     DRY, MotorColumns, PLACE_INERTIA, PLACE_OFFSET, PLACE_VISCOUS, VISCOUS,
@@ -72,6 +73,8 @@ pub struct MotorRegression {
     pub viscous_by_direction: Option<ByDirection>,
     /// A term that the equation lacks, where the data call for one.
     pub missing: Option<MissingTerm>,
+    /// What the equation leaves of the torque.
+    pub left: LeftTorque,
     /// The lag of the angle behind the command that the estimates count.
     pub lag: Option<AngleLag>,
     /// By what share inertia is too small if the residual torque is not noise but accelerates the motor, as friction that
@@ -272,6 +275,14 @@ fn on_slip_phases(
         let (clusters, without) = many.then(|| with_more(length)).flatten()?;
         missing_in(&clusters, &without, length)
     });
+    let left = LeftTorque::of(&clusters, &terms, solution);
+    if std::env::var("LDBG").is_ok() {
+        eprintln!(
+            "LEFT {left:?} residual {} window {} {missing:?}",
+            solution.relative_residual, chosen.window_s
+        );
+    }
+    let missing = missing.filter(|m| m.is_beyond(&left));
     // A few strokes are too much alike to separate a lag from other causes.
     let missing = missing.filter(|m| m.kind != MissingKind::Delay || phases >= FEW_PHASES);
     let speeds: Vec<f64> = campaign.runs.iter().map(rms_speed).collect();
@@ -308,6 +319,7 @@ fn on_slip_phases(
         gravity,
         viscous_by_direction,
         missing,
+        left,
         lag,
         inertia_short_by,
         left_out,
@@ -318,6 +330,13 @@ fn on_slip_phases(
 }
 
 impl MotorRegression {
+    /// By how much friction changes from one slip phase to the next, as a share of Coulomb friction, where nothing else
+    /// explains what the equation leaves.
+    pub(crate) fn varies_by(&self) -> Option<f64> {
+        let otherwise = self.missing.is_some() || self.lag.is_some();
+        (!otherwise && self.left.is_between_phases()).then_some(self.left.varies_by)
+    }
+
     /// The estimates with one viscous coefficient.
     pub fn estimates(&self) -> DriveEstimates {
         let friction = Friction {

@@ -15,7 +15,9 @@ use crate::identify::methods::regression::phases::{
 };
 use crate::identify::methods::regression::row_noise::{ChannelPart, products};
 use crate::identify::methods::regression::thresholds::{BLOCKS_WANTED, FEW_PHASES, SURE_SIGN};
-use crate::identify::methods::regression::window::{SMOOTHED_PART, WINDOW_STEP, Window};
+use crate::identify::methods::regression::window::{
+    ModeWeights, SMOOTHED_PART, WINDOW_STEP, Window,
+};
 use crate::identify::prepare::run_noise::RunNoise;
 use crate::record::{Campaign, Hold, Run, TipQuantity};
 
@@ -99,6 +101,7 @@ impl<'a> MotorRows<'a> {
             window,
         };
         let origin = campaign.runs.first().map_or(0.0, |run| run.motor()[0]);
+        let of_mode = ModeWeights::of(window, run.sample_time_s());
         let with_more = more.map(|coupling| WithMore {
             plain,
             origin,
@@ -107,18 +110,17 @@ impl<'a> MotorRows<'a> {
             elapsed: Elapsed::of(campaign, index),
             coupling,
             waves: SineAndCosine::of(run.motor()),
+            of_mode: &of_mode,
         });
-        let mut noise = plain.noise(slipping.noise);
-        if more.is_some() {
-            // That of the further columns is left in: they are only tried.
-            let right = noise.ncols() - 1;
-            noise = noise.insert_columns(right, EXTRA, 0.0).insert_rows(right, EXTRA, 0.0);
-        }
+        let noise = plain.noise(slipping.noise, more.is_some().then_some(&of_mode));
         let cluster = |(phase, part): (&Phase, Range<usize>)| {
             let mut cluster = Cluster::new(index, phase.sign, columns);
             let windows = part.step_by(step);
             match &with_more {
-                Some(rows) => cluster.add_windows(windows, rows, &noise),
+                Some(rows) => {
+                    cluster.add_windows(windows, rows, &noise);
+                    cluster.take_out_noise_of_right(mode_columns(&self.columns)[1]);
+                }
                 None => cluster.add_windows(windows, &plain, &noise),
             }
             cluster
@@ -127,6 +129,12 @@ impl<'a> MotorRows<'a> {
         let parts = |phase| in_parts(phase, n, self.parts).map(move |part| (phase, part));
         long.flat_map(parts).map(cluster).collect()
     }
+}
+
+/// Columns of a mode that no tip shows, among those of [`super::missing::missing_term`].
+fn mode_columns(columns: &MotorColumns) -> [usize; 2] {
+    let first = columns.count() + MissingKind::Mode.column();
+    [first, first + 1]
 }
 
 /// First samples of the windows of `n` samples in a phase, cut into as many parts as are wanted and hold two windows each.
@@ -234,13 +242,15 @@ impl Rows for MotorEquation<'_> {
 }
 
 impl MotorEquation<'_> {
-    /// What noise adds to a row's products, in expectation.
-    pub(crate) fn noise(&self, of_run: &RunNoise) -> DMatrix<f64> {
+    /// What noise adds to a row's products, in expectation. Of the columns of [`super::missing::missing_term`], which
+    /// come before the right side where `of_mode` is given, that of the two of a mode is counted, and that of the
+    /// right side with them.
+    pub(crate) fn noise(&self, of_run: &RunNoise, of_mode: Option<&ModeWeights>) -> DMatrix<f64> {
         let window = self.window;
         let mut of_motor: Vec<ChannelPart<'_>> =
             vec![(INERTIA, &window.second, 1.0), (VISCOUS, &window.first, -1.0)];
         let tips = &self.columns.tips;
-        let mut channels = Vec::with_capacity(1 + tips.len());
+        let mut channels = Vec::with_capacity(2 + tips.len());
         for (place, &i) in tips.iter().enumerate() {
             let column = MotorColumns::tip(place);
             if self.campaign.channels.tips[i].quantity != TipQuantity::Deflection {
@@ -249,8 +259,21 @@ impl MotorEquation<'_> {
             let of_tip: Vec<ChannelPart<'_>> = vec![(column, &window.value, -1.0)];
             channels.push((of_run.tips[i], of_tip));
         }
+        let mut count = self.columns.count() + 1;
+        if let Some(weights) = of_mode {
+            count += EXTRA;
+            let [of_angle, of_torque] = mode_columns(self.columns);
+            of_motor.push((of_angle, &weights.fourth, 1.0));
+            let command = &self.campaign.channels.command;
+            if command.hold == Hold::Measured {
+                let std = of_run.command * command.torque_per_unit();
+                let of_command: Vec<ChannelPart<'_>> =
+                    vec![(of_torque, &window.second, 1.0), (count - 1, &window.value, 1.0)];
+                channels.push((std, of_command));
+            }
+        }
         channels.push((of_run.motor, of_motor));
-        let noise = products(self.columns.count() + 1, channels);
+        let noise = products(count, channels);
         noise * (self.run.sample_time_s() * window.row_scale).powi(2)
     }
 
@@ -268,6 +291,16 @@ impl MotorEquation<'_> {
             * match self.campaign.channels.command.hold {
                 Hold::Sampled => window.held.dot(command),
                 Hold::Measured => window.value.dot(command) * self.run.sample_time_s(),
+            }
+    }
+
+    /// `∫ẅτ`, by the weights of a mode.
+    #[inline(always)]
+    fn torque_by(&self, weights: &ModeWeights, command: &[f64]) -> f64 {
+        self.campaign.channels.command.torque_per_unit()
+            * match self.campaign.channels.command.hold {
+                Hold::Sampled => weights.held.dot(command),
+                Hold::Measured => self.window.second.dot(command) * self.run.sample_time_s(),
             }
     }
 
@@ -308,8 +341,8 @@ pub(super) fn behind(campaign: &Campaign, run: &Run, i: usize, window: &Window, 
         }
 }
 
-/// `[∫ẇτ, ∫wθ, ∫w·e^{−|v|/v̄}, Σκ_i∫w(θ̇_m − θ̇_i), ∫w|τ|, e∫w, −e∫ẇθ, ∫w·sin θ, ∫w·cos θ]` before the right side, e how much of the
-/// campaign is over.
+/// `[∫ẇτ, ∫wθ, ∫w·e^{−|v|/v̄}, Σκ_i∫w(θ̇_m − θ̇_i), ∫w|τ|, e∫w, −e∫ẇθ, ∫w·sin θ, ∫w·cos θ, ∫w⁗θ, ∫ẅτ]` before the right side, e
+/// how much of the campaign is over.
 struct WithMore<'a> {
     plain: MotorEquation<'a>,
     /// Where positions are counted from.
@@ -321,6 +354,7 @@ struct WithMore<'a> {
     /// κ_i of the coupled tips.
     coupling: &'a [f64],
     waves: SineAndCosine,
+    of_mode: &'a ModeWeights,
 }
 
 impl Rows for WithMore<'_> {
@@ -346,6 +380,8 @@ impl Rows for WithMore<'_> {
             elapsed * row[VISCOUS],
             window.value.dot(&self.waves.0[0][k..]) * t * scale,
             window.value.dot(&self.waves.0[1][k..]) * t * scale,
+            self.of_mode.fourth.dot_from(&run.motor()[k..], run.motor()[k]) * t * scale,
+            self.plain.torque_by(&self.of_mode, &run.command()[k..]) * scale,
         ];
         let right = row.len() - 1;
         row.splice(right..right, more);

@@ -68,6 +68,13 @@ impl Cluster {
         self.noise.zip_apply(noise, |sum, of_row| *sum += of_row * added);
     }
 
+    /// Takes out of the products of a column with the right side what noise that both have adds.
+    pub(crate) fn take_out_noise_of_right(&mut self, column: usize) {
+        let right = self.products.ncols() - 1;
+        self.products[(column, right)] -= self.noise[(column, right)];
+        self.products[(right, column)] -= self.noise[(right, column)];
+    }
+
     /// Adds the rows of another of the same columns.
     pub(crate) fn merge(&mut self, other: &Self) {
         self.products += &other.products;

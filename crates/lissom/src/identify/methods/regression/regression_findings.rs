@@ -61,6 +61,7 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
         MissingKind::Position
         | MissingKind::Gravity
         | MissingKind::BeamDamping
+        | MissingKind::Mode
         | MissingKind::CoulombDrift
         | MissingKind::ViscousDrift => false,
         MissingKind::CommandBySign => split || law.is_some(),
@@ -71,6 +72,9 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
     }
     if let Some(term) = r.missing.filter(|m| !explained && !said(m)) {
         findings.push(Finding::new(RegressionFinding::MissingTerm { term, units }));
+    }
+    if let Some(by) = r.varies_by().filter(|_| !explained && law.is_none()) {
+        findings.push(Finding::new(RegressionFinding::FrictionVaries { by }));
     }
     let by_direction = r.viscous_by_direction.as_ref().filter(|_| split);
     findings.extend(by_direction.and_then(|d| differs_by_direction(d, units)));

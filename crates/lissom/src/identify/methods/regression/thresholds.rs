@@ -27,7 +27,7 @@ thresholds! {
         /// error stays finite.
         MOTION_LEAST: f64 = 0.05, "1", Convention;
         /// An equation that leaves less than this share of the torque lacks no term.
-        NOTHING_MISSING: f64 = 3e-4, "1", Convention;
+        NOTHING_MISSING: f64 = 5e-5, "1", Convention;
         /// A missing term that hardly lowers the residual is reported if its regressor is exact, it
         /// is this many standard errors from zero, and it moves an estimate by `PRESENT`.
         MISSING_SURE: f64 = 10.0, "standard errors", Convention;
@@ -43,6 +43,18 @@ thresholds! {
         /// A lag of the angle is a filter or a delay where the one leaves less than this share of what
         /// the other does.
         LAG_SHAPE_TOLD: f64 = 0.8, "1", Convention;
+        /// What the equation leaves is noise of the sensors if these explain more than this share of its
+        /// square.
+        LEFT_BY_NOISE: f64 = 0.5, "1", Convention;
+        /// Above this share of noise the equation lacks no term whose column may take a part of it.
+        NOISE_ALONE: f64 = 0.8, "1", Convention;
+        /// Friction, or a load, changes from one slip phase to the next if more than this share of what
+        /// the equation leaves, beyond noise, is a constant for each.
+        LEFT_BETWEEN_PHASES: f64 = 0.15, "1", Convention;
+        /// The same only if the squares of these constants are so many times those that noise makes.
+        BETWEEN_OVER_NOISE: f64 = 5.0, "1", Convention;
+        /// The same only if their root mean square is this share of Coulomb friction.
+        VARIATION_REPORTED: f64 = 0.005, "1", Convention;
         /// The lag is looked for in the first runs, of about so many samples.
         LAG_SAMPLES_MOST: usize = 50_000, "samples", Convention;
         /// Gravity is told from inertia and a constant load if its part is known to this share of
@@ -79,6 +91,14 @@ thresholds! {
         /// The magnitude of the command is not tried as a missing term if it correlates with the
         /// torque by this much: with torque of one sign it is the torque itself.
         MISSING_ONE_SIGN: f64 = 0.5, "1", Convention;
+        /// A mode that no tip shows is reported in place of another missing term if it leaves less than
+        /// this share of what that leaves.
+        MODE_BEATS: f64 = 0.8, "1", Convention;
+        /// Coupling to the tips is hardly known if its relative standard error is above this.
+        COUPLING_HARDLY_KNOWN: f64 = 0.5, "1", Convention;
+        /// The equation without the coupling is taken then if it leaves less than this many times as much of
+        /// the torque.
+        RIGID_LEAVES: f64 = 1.15, "1", Convention;
         /// Inertia is doubted that would be larger by more than this share if the torque left
         /// accelerated the motor.
         INERTIA_SHORT: f64 = 0.05, "1", Convention;

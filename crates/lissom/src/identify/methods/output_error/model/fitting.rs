@@ -39,6 +39,8 @@ pub(crate) struct Fitting<'a> {
     pub(crate) budget: &'a Budget,
     /// Factor by which each stage's windows are longer than the ones before.
     pub(crate) widening: f64,
+    /// Frequency of a mode that slip phases show, with the motor clamped \[rad/s\].
+    pub(crate) mode_rad_s: Option<f64>,
     /// Whether other friction laws than that of the start are tried.
     pub(crate) tries_laws: bool,
 }
@@ -109,7 +111,7 @@ impl Fitting<'_> {
     }
 
     /// Squares of the residuals beyond the sensors' noise, relative to that noise, summed over the channels.
-    fn excess(&self, fit: &ArmFit) -> f64 {
+    pub(crate) fn excess(&self, fit: &ArmFit) -> f64 {
         let each = fit.residual.iter().zip(self.noise);
         each.map(|(r, n)| ((r / n.sigma).powi(2) - 1.0).max(0.0)).sum()
     }

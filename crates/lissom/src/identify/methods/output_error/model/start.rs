@@ -186,7 +186,7 @@ fn shown((mut omega, mut ratios, mut shapes): Modes) -> Modes {
 }
 
 /// A rigid axis with the inertia and friction of some estimates.
-fn rigid(campaign: &Campaign, drive: &DriveEstimates) -> Option<ModalArm> {
+pub(crate) fn rigid(campaign: &Campaign, drive: &DriveEstimates) -> Option<ModalArm> {
     let inertia = drive.inertia?.value;
     let back_emf = campaign.channels.command.back_emf_viscous;
     let friction = &drive.friction;

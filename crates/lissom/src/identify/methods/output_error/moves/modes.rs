@@ -5,13 +5,22 @@ use crate::identify::methods::output_error::engine::covariance::deviation;
 use crate::identify::methods::output_error::model::fit::{ArmFit, Report};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::thresholds::{
-    CRITICAL_DAMPING, MODE_FAINT, MODE_RETUNED, MODE_RETUNED_CLOSELY, NEW_MODE_DAMPING,
-    NEW_MODE_FREQUENCIES, NEW_MODE_SHARE, NEW_MODE_TURN, PROBE_STEPS, REPETITIONS_MOST,
+    CRITICAL_DAMPING, FIRST_MODE_EXCESS_LEFT, FIRST_MODE_SEARCHES, FIRST_MODE_SHARES,
+    FIRST_MODE_STEP, FIRST_MODE_TRIES, FIRST_MODE_TURN_MOST, MODE_FAINT, MODE_RETUNED,
+    MODE_RETUNED_CLOSELY, NEW_MODE_DAMPING, NEW_MODE_FREQUENCIES, NEW_MODE_SHARE, NEW_MODE_TURN,
+    PROBE_STEPS, REPETITIONS_MOST, RESIDUAL_ABOVE_NOISE,
 };
-use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
+use crate::identify::thresholds::RESIDUAL_FALLS_TO;
+use crate::record::Run;
+use crate::replay::{DryTerms, MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
 
-/// Adds modes above the others, up to as many as tips, while each makes the fit better.
+/// Adds modes above the others, up to as many as tips, while each makes the fit better. To a rigid axis without tips a
+/// first mode is added if it explains what the sensors' noise does not.
 pub(crate) fn grow(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
+    if fit.body.arm.modes.is_empty() && fitting.campaign.channels.tips.is_empty() {
+        add_the_first(fitting, fit, report);
+        return;
+    }
     let tips = fitting.campaign.channels.tips.len().min(MOST_MODES);
     while !fit.body.arm.modes.is_empty() && fit.body.arm.modes.len() < tips {
         let beyond = with_one_more(fitting, fit, report);
@@ -20,6 +29,71 @@ pub(crate) fn grow(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report)
         }
         *fit = beyond;
     }
+}
+
+/// Adds a mode to a rigid axis: a part of its inertia then turns behind a spring. Short searches begin at the frequency
+/// that slip phases show, else at some from one period in a window to the fastest that samples show, and with two shares
+/// of the inertia. The best of them continues.
+fn add_the_first(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
+    let tried = report.first_modes_refused >= FIRST_MODE_TRIES;
+    if tried || fitting.beyond_noise(fit) <= RESIDUAL_ABOVE_NOISE {
+        return;
+    }
+    let sample_s = fitting.campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
+    let fastest = FIRST_MODE_TURN_MOST / sample_s;
+    let slowest = std::f64::consts::TAU / fit.window_s;
+    let next = |w: &f64| fitting.mode_rad_s.is_none().then_some(FIRST_MODE_STEP * w);
+    let first = fitting.mode_rad_s.unwrap_or(slowest);
+    let frequencies = std::iter::successors(Some(first), next).take_while(|w| *w < fastest);
+    let starts =
+        frequencies.flat_map(|w| FIRST_MODE_SHARES.map(|share| with_first(fitting, fit, w, share)));
+    let probed = starts.filter_map(|start| {
+        let (cost, body) = fitting.probe(&start, PROBE_STEPS)?;
+        Some((cost, ArmFit { body, ..start }))
+    });
+    let Some((_, start)) = probed.min_by(|a, b| a.0.total_cmp(&b.0)) else { return };
+    let mut with = start;
+    // Each search ends after a few steps, which such a start needs more of.
+    for _ in 0..FIRST_MODE_SEARCHES {
+        let before = with.residual.clone();
+        fitting.search(&mut with, report);
+        let ended = |(now, before): (&f64, &f64)| *now > RESIDUAL_FALLS_TO * before;
+        if !before.is_empty() && with.residual.iter().zip(&before).all(ended) {
+            break;
+        }
+    }
+    let oscillates = with.body.arm.damping_ratios().iter().all(|ratio| *ratio < CRITICAL_DAMPING);
+    let explains = fitting.excess(&with) < FIRST_MODE_EXCESS_LEFT * fitting.excess(fit);
+    if oscillates && explains && fitting.is_better(&with, fit) {
+        *fit = with;
+    } else {
+        report.first_modes_refused += 1;
+    }
+}
+
+/// A rigid axis with a part of its inertia behind a spring. Without the mode, a lag and further friction may have been
+/// taken for it: they are tried again later.
+fn with_first(fitting: &Fitting<'_>, fit: &ArmFit, omega_rad_s: f64, share: f64) -> ArmFit {
+    let mut fit = fit.clone();
+    fit.residual.clear();
+    let arm = &mut fit.body.arm;
+    arm.command_lag_s = 0.0;
+    arm.dry_terms = DryTerms::default();
+    arm.viscous_nm_s_per_rad = [Parameter::Viscous.of(arm); 2];
+    let behind = share * arm.inertia_kg_m2;
+    arm.inertia_kg_m2 -= behind;
+    arm.modes.push(Oscillator {
+        omega_rad_s,
+        stiffness_nm_per_rad: behind * omega_rad_s * omega_rad_s,
+        within_per_s: 2.0 * NEW_MODE_DAMPING * omega_rad_s,
+        grounded_per_s: 0.0,
+    });
+    for window in &mut fit.windows {
+        let still = [window.start[0], window.start[1]];
+        window.start.extend(still);
+    }
+    fit.free = free_parameters(&fitting.campaign.channels, &fit.body.arm);
+    fit
 }
 
 /// Takes out overdamped modes: they do not oscillate, and no beam has them. A rigid axis that started with a mode has one.
