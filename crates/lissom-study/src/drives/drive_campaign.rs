@@ -1,7 +1,7 @@
 //! A drawn drive, its loop and its logs.
 
 use lissom::arm::Arm;
-use lissom::beam::{Beam, BeamError, LumpedBeam, Span};
+use lissom::beam::{Beam, BeamError, Damping, LumpedBeam, Span};
 use lissom::drive::{Coulomb, DriveError, DryFriction, Falloff, Motor};
 use lissom::load::GravityLoad;
 use lissom::record::clock::{ClockError, LogRows, even_parts};
@@ -39,6 +39,8 @@ const FILTERS: [f64; 4] = [0.0, 0.1, 0.25, 0.5];
 const STEPS_LEAST: f64 = 500.0;
 /// Share of a run in which the joint may stick.
 const STUCK_MOST: f64 = 0.6;
+/// Moves of all runs together, at least, unless they are meant to be few.
+const MOVES_LEAST: usize = 16;
 /// Part of a log with fewer rows is left out, as a reader of files does.
 const LEAST_ROWS: usize = 50;
 
@@ -144,6 +146,8 @@ enum Unfit {
     NoLoop,
     #[error("the travel is less than {STEPS_LEAST} steps of the encoder")]
     Coarse,
+    #[error("fewer than {MOVES_LEAST} moves")]
+    FewMoves,
     #[error("the joint sticks")]
     Sticks,
     #[error(transparent)]
@@ -165,6 +169,10 @@ fn drawn(
 ) -> Result<DriveCampaign, Unfit> {
     let row_s = 0.25e-3 * f64::from(draw.whole(2, 16));
     let planned = motions(draw, effects.few_strokes, row_s);
+    let moves: usize = planned.iter().map(PlannedMotion::moves).sum();
+    if !effects.few_strokes && moves < MOVES_LEAST {
+        return Err(Unfit::FewMoves);
+    }
     let made = Made::draw(draw, &effects, &planned, row_s)?;
     let (mut raw, mut truth, mut stuck_share, mut runs) = (vec![], vec![], vec![], vec![]);
     let channels = channels(&made.rig, &effects);
@@ -369,10 +377,13 @@ fn arm(
         length_m,
         flexural_rigidity_n_m2: omega * omega * mass_kg * length_m.powi(3) / 3.0,
         mass_kg,
-        damping_n_s_per_m: 2.0 * mode.damping_ratio * omega * mass_kg,
+        damping_n_s_per_m: 0.0,
     };
+    // Damped within itself: dampers against the frame would be viscous friction of the joint.
+    let damping = Damping::Modal { ratios: vec![mode.damping_ratio] };
+    let beam = LumpedBeam::new(&[span])?.with_damping(damping)?;
     let motor = Motor::new(of_motor, viscous, constant)?;
-    Ok((Arm::new(LumpedBeam::new(&[span])?, motor, coulomb)?, Some(omega)))
+    Ok((Arm::new(beam, motor, coulomb)?, Some(omega)))
 }
 
 fn instruments(

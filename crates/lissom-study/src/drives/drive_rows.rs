@@ -1,6 +1,6 @@
 //! A row for each drive, for other programs.
 
-use super::drive_score::{DriveParameter, ParameterScore};
+use super::drive_score::{DriveParameter, FoundCode, ParameterScore};
 use super::drive_study::{DriveOutcome, DriveStudyPlan};
 use super::effects::{Input, Lag};
 
@@ -57,10 +57,15 @@ fn row(plan: &DriveStudyPlan, outcome: &DriveOutcome) -> String {
     let (effects, numbers) = (&outcome.effects, &outcome.numbers);
     let cell = |value: Option<f64>| value.map_or_else(String::new, |v| format!("{v:.6e}"));
     let score = outcome.score.as_ref().ok();
-    let first = score.and_then(|s| s.first()).map_or("", |f| f.code);
+    let first = score.and_then(|s| s.first()).map_or_else(String::new, FoundCode::label);
     let codes: Vec<String> = score.map_or_else(
         || vec!["failed".to_owned()],
-        |s| s.findings.iter().map(|f| format!("{}:{:?}", f.code, f.severity)).collect(),
+        |s| {
+            s.findings
+                .iter()
+                .map(|f| format!("{}:{:?}", f.label().replace(' ', ""), f.severity))
+                .collect()
+        },
     );
     let input = match effects.input {
         Input::Held => "held",
@@ -104,7 +109,7 @@ fn row(plan: &DriveStudyPlan, outcome: &DriveOutcome) -> String {
         format!("{:.3}", outcome.simulation.as_secs_f64()),
         format!("{:.3}", outcome.identification.as_secs_f64()),
         score.and_then(|s| s.method).unwrap_or("none").to_owned(),
-        first.to_owned(),
+        first,
         codes.join(" "),
     ];
     for parameter in DriveParameter::ALL {

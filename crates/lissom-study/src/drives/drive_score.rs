@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use lissom::identify::findings::Severity;
+use lissom::identify::findings::{FindingKind, FrictionLawFinding, RegressionFinding, Severity};
 use lissom::identify::{Estimate, Identified};
 
 use super::drive_campaign::DriveCampaign;
@@ -13,6 +13,8 @@ use super::torque_bound::TorqueBound;
 pub(crate) const WRONG: f64 = 5.0;
 /// Loads below this share of Coulomb friction are not scored: nobody would look for them.
 const LOAD_LEAST: f64 = 0.05;
+/// The finding that friction has a law with further terms.
+pub(crate) const FRICTION_LAW: &str = "friction-law";
 
 /// A parameter of a drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,6 +90,22 @@ impl ParameterScore {
         self.estimate.is_some() && self.warned_by.is_empty()
     }
 
+    /// The same, `friction-law` left aside: it says that friction has a law with further terms.
+    pub fn vouched_but_for_law(&self) -> bool {
+        self.estimate.is_some() && self.warned_by.iter().all(|code| *code == FRICTION_LAW)
+    }
+
+    /// Its standard error over the bound.
+    pub fn over_bound(&self) -> Option<f64> {
+        Some(self.estimate?.std / self.bound?)
+    }
+
+    /// More than five standard errors off.
+    pub fn is_wrong(&self) -> bool {
+        // An error that is NaN is as wrong as a large one.
+        self.deviations().is_some_and(|d| d.is_nan() || d.abs() > WRONG)
+    }
+
     /// Signed error in standard errors.
     pub fn deviations(&self) -> Option<f64> {
         self.estimate.map(|e| (e.value - self.truth) / e.std)
@@ -116,8 +134,7 @@ impl ParameterScore {
 
     /// More than five standard errors off, without a warning.
     pub fn silently_wrong(&self) -> bool {
-        // An error that is NaN is as wrong as a large one.
-        self.vouched() && self.deviations().is_some_and(|d| d.is_nan() || d.abs() > WRONG)
+        self.vouched() && self.is_wrong()
     }
 }
 
@@ -128,11 +145,21 @@ pub struct FoundCode {
     pub code: &'static str,
     /// Its severity.
     pub severity: Severity,
-    /// What tells two findings of one code apart: the message's first words.
+    /// What tells two findings of one code apart: the term that is missing, the law's terms; empty for others.
+    pub detail: String,
+    /// What it says.
     pub message: String,
 }
 
 impl FoundCode {
+    /// Code and detail.
+    pub fn label(&self) -> String {
+        if self.detail.is_empty() {
+            return self.code.to_owned();
+        }
+        format!("{} ({})", self.code, self.detail)
+    }
+
     /// Whether it is a warning or a refusal.
     pub fn warns(&self) -> bool {
         self.severity >= Severity::Warning
@@ -167,6 +194,9 @@ impl DriveScore {
 /// Friction is that of the result's table, but where its law changes near rest. Coulomb friction is then the law's value
 /// far from rest, beyond the speeds driven for concave friction, and no parameter of a line; the result itself gives the
 /// line of the motion beside it (`methods.least_squares`), and that is compared with the true line.
+///
+/// Inertia is that of all that turns. Where the result has a mode that it found in the motor's motion
+/// (`modes-by-the-motor`), its inertia is the motor's own, and is compared with that.
 pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
     let bound = TorqueBound::of(campaign);
     let (law, fell) = (FrictionLine::of(campaign), FrictionLine::as_it_fell(campaign));
@@ -195,6 +225,8 @@ pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
     let viscous = of_friction(friction.viscous, line.and_then(|l| l.viscous));
     let numbers = &campaign.numbers;
     let fixed = |value: f64| [value, value];
+    let of_motor = campaign.effects.unseen_mode.filter(|_| !id.beam.modes.is_empty());
+    let inertia = numbers.inertia_kg_m2 / (1.0 + of_motor.map_or(0.0, |m| m.inertia_ratio));
     let mut parameters = vec![
         one(DriveParameter::Coulomb, [law.coulomb_nm, fell.coulomb_nm], coulomb),
         one(
@@ -202,7 +234,7 @@ pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
             [law.viscous_nm_s_per_rad, fell.viscous_nm_s_per_rad],
             viscous,
         ),
-        one(DriveParameter::Inertia, fixed(numbers.inertia_kg_m2), id.inertia),
+        one(DriveParameter::Inertia, fixed(inertia), id.inertia),
     ];
     if campaign.declares_gravity() {
         let amplitude = id.gravity.map(|g| g.amplitude());
@@ -214,11 +246,31 @@ pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
     let found = |f: &lissom::identify::findings::Finding| FoundCode {
         code: f.code(),
         severity: f.severity(),
+        detail: detail(&f.kind),
         message: f.message(),
     };
     DriveScore {
         parameters,
         findings: id.findings.iter().map(found).collect(),
         method: id.method.map(|m| m.name()),
+    }
+}
+
+/// What tells findings of one code apart.
+fn detail(kind: &FindingKind) -> String {
+    // The name of a variant, without its numbers.
+    let name = |text: String| text.split([' ', '{', '(']).next().unwrap_or_default().to_owned();
+    match kind {
+        FindingKind::Regression(RegressionFinding::MissingTerm { term, .. }) => {
+            name(format!("{:?}", term.kind))
+        }
+        FindingKind::Regression(RegressionFinding::AngleLag { lag }) => {
+            name(format!("{:?}", lag.shape))
+        }
+        FindingKind::FrictionLaw(FrictionLawFinding::FrictionLaw { terms, .. }) => {
+            let names: Vec<String> = terms.iter().map(|(t, _)| name(format!("{t:?}"))).collect();
+            names.join(" + ")
+        }
+        _ => String::new(),
     }
 }

@@ -17,8 +17,8 @@ const PACE_HZ: (f64, f64) = (0.1, 1.5);
 const TRAVEL_RAD: (f64, f64) = (0.3, 8.0);
 /// Speed of a long stroke \[rad/s\].
 const STROKE_RAD_S: (f64, f64) = (1.0, 30.0);
-/// Points of a reference, in rows.
-const ROWS_PER_POINT: f64 = 4.0;
+/// A move is faster than this share of the peak speed.
+const MOVES: f64 = 0.1;
 /// Share of the accelerations and speeds beyond which is not planned for.
 const BEYOND: f64 = 0.01;
 
@@ -61,14 +61,13 @@ pub(crate) fn motions(draw: &mut Draw, few_strokes: bool, row_s: f64) -> Vec<Pla
     let one = |_| {
         let length_s = draw.uniform(RUN_S.0, RUN_S.1).min(most_s);
         let size = scale * draw.uniform(0.5, 1.0);
-        let step_s = ROWS_PER_POINT * row_s;
-        let points = (length_s / step_s).floor() as usize + 1;
+        let points = (length_s / row_s).floor() as usize + 1;
         let angle_rad = match kind {
-            MotionKind::Multisine => multisine(draw, points, step_s, size, pace_hz),
-            MotionKind::PointToPoint => point_to_point(draw, points, step_s, size, pace_hz),
-            MotionKind::Strokes => strokes(draw, points, step_s, size),
+            MotionKind::Multisine => multisine(draw, points, row_s, size, pace_hz),
+            MotionKind::PointToPoint => point_to_point(draw, points, row_s, size, pace_hz),
+            MotionKind::Strokes => strokes(draw, points, row_s, size),
         };
-        PlannedMotion { kind, step_s, angle_rad }
+        PlannedMotion { kind, step_s: row_s, angle_rad }
     };
     (0..runs).map(one).collect()
 }
@@ -95,6 +94,14 @@ impl PlannedMotion {
         let speeds: Vec<f64> = speeds.iter().map(|v| v.abs()).collect();
         let peak = |values: &[f64]| crate::statistics::quantile(values, 1.0 - BEYOND);
         [&speeds, &accelerations].map(|values| peak(values).unwrap_or(0.0))
+    }
+
+    /// Stretches in which it moves one way.
+    pub(crate) fn moves(&self) -> usize {
+        let least = MOVES * self.peaks()[0];
+        let way = |v: &f64| if v.abs() > least { v.signum() } else { 0.0 };
+        let ways: Vec<f64> = self.speeds().iter().map(way).collect();
+        1 + ways.windows(2).filter(|w| w[0] != w[1] && w[1] != 0.0).count()
     }
 
     /// From the lowest to the highest angle \[rad\].

@@ -18,7 +18,7 @@ const NOISE_LEAST: f64 = 1e-6;
 /// the row in its direction. A scalar Kalman filter whitens all columns, run by run.
 ///
 /// Noise and steps of the angle are left out: in the smooth windows of a regression they make less error than the noise of a
-/// measured current or a wander of a percent. Where there is neither, the bound is too small to say anything.
+/// measured current or a wander of a percent.
 /// The law has no terms beyond the line; with an unseen mode θ̈ is the motor's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TorqueBound {
@@ -26,8 +26,11 @@ pub struct TorqueBound {
 }
 
 impl TorqueBound {
-    /// The bound of a campaign; `None` where its motion leaves a direction open.
+    /// The bound of a campaign; `None` where its motion leaves a direction open, or the torque has no noise.
     pub fn of(campaign: &DriveCampaign) -> Option<Self> {
+        if noise_share(campaign) == 0.0 && campaign.effects.wander.is_none() {
+            return None;
+        }
         let gravity = campaign.declares_gravity();
         let size = if gravity { 6 } else { 4 };
         let mut information = DMatrix::zeros(size, size);
@@ -62,6 +65,13 @@ impl TorqueBound {
     }
 }
 
+fn noise_share(campaign: &DriveCampaign) -> f64 {
+    match campaign.effects.input {
+        Input::Measured { noise_share, .. } => noise_share,
+        Input::Held => 0.0,
+    }
+}
+
 fn add_run(
     campaign: &DriveCampaign,
     rows: &[TrueRow],
@@ -70,11 +80,7 @@ fn add_run(
 ) {
     let numbers = &campaign.numbers;
     let step_s = numbers.row_s;
-    let noise_share = match campaign.effects.input {
-        Input::Measured { noise_share, .. } => noise_share,
-        Input::Held => 0.0,
-    };
-    let noise = (noise_share.max(NOISE_LEAST) * numbers.peak_nm).powi(2);
+    let noise = (noise_share(campaign).max(NOISE_LEAST) * numbers.peak_nm).powi(2);
     let (keep, drawn) = campaign.effects.wander.map_or((0.0, 0.0), |w| {
         let keep = (-step_s / w.correlation_time_s).exp();
         (keep, w.relative_std.powi(2) * (1.0 - keep * keep))
