@@ -105,6 +105,8 @@ pub struct DriveCampaign {
     pub(crate) raw: Vec<(Vec<f64>, Run)>,
     /// The dry friction as it does not wander.
     pub(crate) dry: DryFriction,
+    /// The same without ripple.
+    pub(crate) dry_without_ripple: DryFriction,
     /// What is true at each row, run by run.
     pub(crate) truth: Vec<Vec<TrueRow>>,
     /// Share of each run in which the joint stuck.
@@ -168,7 +170,10 @@ fn drawn(
     effects: Effects,
 ) -> Result<DriveCampaign, Unfit> {
     let row_s = 0.25e-3 * f64::from(draw.whole(2, 16));
-    let planned = motions(draw, effects.few_strokes, row_s);
+    // Points of the reference at every sample of the controller: slower ones would make a ripple of the current that
+    // keeps step with the rows.
+    let step_s = row_s / samples_per_row(&effects) as f64;
+    let planned = motions(draw, effects.few_strokes, row_s, step_s);
     let moves: usize = planned.iter().map(PlannedMotion::moves).sum();
     if !effects.few_strokes && moves < MOVES_LEAST {
         return Err(Unfit::FewMoves);
@@ -204,7 +209,7 @@ fn drawn(
     let logs = Campaign::new(channels, runs)?;
     let declared = effects.gravity.is_some_and(|g| g.declared);
     let logs = if declared { logs.with_gravity()? } else { logs };
-    let Made { numbers, dry, .. } = made;
+    let Made { numbers, dry, dry_without_ripple, .. } = made;
     let motion = planned[0].kind;
     let rejected = Vec::new();
     Ok(DriveCampaign {
@@ -217,6 +222,7 @@ fn drawn(
         logs,
         raw,
         dry,
+        dry_without_ripple,
         truth,
         stuck_share,
         rejected,
@@ -277,6 +283,7 @@ struct Made {
     rig: Rig,
     numbers: DriveNumbers,
     dry: DryFriction,
+    dry_without_ripple: DryFriction,
 }
 
 impl Made {
@@ -305,6 +312,8 @@ impl Made {
         let gravity_nm = effects.gravity.map_or(0.0, |g| g.share * peak_nm);
         let coulomb = Coulomb::symmetric(coulomb_nm)?;
         let dry = friction(effects, coulomb, speed)?;
+        let plain = Effects { ripple: None, ..*effects };
+        let dry_without_ripple = friction(&plain, coulomb, speed)?;
         let (arm, mode_rad_s) =
             arm(effects, (inertia, viscous, constant), coulomb, (acceleration, speed))?;
 
@@ -337,7 +346,7 @@ impl Made {
             loop_rad_s,
             mode_rad_s,
         };
-        Ok(Self { rig, numbers, dry })
+        Ok(Self { rig, numbers, dry, dry_without_ripple })
     }
 }
 
@@ -386,16 +395,20 @@ fn arm(
     Ok((Arm::new(beam, motor, coulomb)?, Some(omega)))
 }
 
+fn samples_per_row(effects: &Effects) -> usize {
+    match effects.input {
+        Input::Held => 1,
+        Input::Measured { samples_per_row, .. } => samples_per_row,
+    }
+}
+
 fn instruments(
     effects: &Effects,
     encoder: Quantiser,
     row_s: f64,
     peak_a: f64,
 ) -> Result<Instruments, RigError> {
-    let per_row = match effects.input {
-        Input::Held => 1,
-        Input::Measured { samples_per_row, .. } => samples_per_row,
-    };
+    let per_row = samples_per_row(effects);
     let mut instruments = Instruments::ideal(row_s / per_row as f64)?;
     instruments.motor = Sensor::from(encoder);
     instruments.log_every = per_row;

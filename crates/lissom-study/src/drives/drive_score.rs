@@ -195,12 +195,20 @@ impl DriveScore {
 /// far from rest, beyond the speeds driven for concave friction, and no parameter of a line; the result itself gives the
 /// line of the motion beside it (`methods.least_squares`), and that is compared with the true line.
 ///
+/// Where the law has ripple and nothing near rest, the table's Coulomb and viscous friction are those beside the ripple, and are
+/// compared with the line of the friction without it.
+///
 /// Inertia is that of all that turns. Where the result has a mode that it found in the motor's motion
 /// (`modes-by-the-motor`), its inertia is the motor's own, and is compared with that.
 pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
     let bound = TorqueBound::of(campaign);
-    let (law, fell) = (FrictionLine::of(campaign), FrictionLine::as_it_fell(campaign));
     let from_line = id.friction.near_rest.is_some();
+    let law = if id.friction.ripples.is_empty() || from_line {
+        FrictionLine::of(campaign)
+    } else {
+        FrictionLine::without_ripple(campaign)
+    };
+    let fell = FrictionLine::as_it_fell(campaign);
     let line = id.least_squares.as_ref().map(|l| &l.estimates.friction);
     let of_friction = |given: Option<Estimate>, of_line: Option<Estimate>| {
         if from_line { given.and(of_line) } else { given }

@@ -1,5 +1,7 @@
 //! The line of Coulomb and viscous friction that a campaign has.
 
+use lissom::drive::DryFriction;
+
 use super::drive_campaign::{DriveCampaign, TrueRow};
 
 /// Samples slower than this share of the largest speed are not in motion: that of
@@ -23,22 +25,31 @@ impl FrictionLine {
     /// The line of the law, without its wander: the value about which repeated campaigns scatter. Intervals and
     /// the bound count wander as noise, so that this is what they are about.
     pub fn of(campaign: &DriveCampaign) -> Self {
-        Self::fitted(campaign, |_| 1.0)
+        Self::fitted(campaign, &campaign.dry, |_| 1.0)
+    }
+
+    /// The line of the law without its ripple: that of a result which has the ripple as a term of its own.
+    pub fn without_ripple(campaign: &DriveCampaign) -> Self {
+        Self::fitted(campaign, &campaign.dry_without_ripple, |_| 1.0)
     }
 
     /// The line with the wander as it fell in these runs.
     pub fn as_it_fell(campaign: &DriveCampaign) -> Self {
-        Self::fitted(campaign, |row| row.factor)
+        Self::fitted(campaign, &campaign.dry, |row| row.factor)
     }
 
-    fn fitted(campaign: &DriveCampaign, factor: impl Fn(&TrueRow) -> f64) -> Self {
+    fn fitted(
+        campaign: &DriveCampaign,
+        law: &DryFriction,
+        factor: impl Fn(&TrueRow) -> f64,
+    ) -> Self {
         let rows = || campaign.truth.iter().flatten();
         let fastest = rows().map(|row| row.speed_rad_s.abs()).fold(0.0, f64::max);
         let viscous = campaign.numbers.viscous_nm_s_per_rad;
         // Sums of 1, |v|, v², F and F·|v|: both columns have the direction's sign.
         let mut sums = [0.0; 5];
         for row in rows().filter(|row| row.speed_rad_s.abs() > SLOWEST * fastest) {
-            let (speed, dry) = (row.speed_rad_s.abs(), dry_braking_nm(campaign, row));
+            let (speed, dry) = (row.speed_rad_s.abs(), braking_nm(law, row));
             let braking = factor(row) * dry + viscous * speed;
             let terms = [1.0, speed, speed * speed, braking, braking * speed];
             for (sum, term) in sums.iter_mut().zip(terms) {
@@ -55,7 +66,7 @@ impl FrictionLine {
 }
 
 /// Dry friction against the motion at a row, without wander \[N·m\].
-pub(super) fn dry_braking_nm(campaign: &DriveCampaign, row: &TrueRow) -> f64 {
-    let dry = campaign.dry.at(row.speed_rad_s, row.angle_rad);
+pub(super) fn braking_nm(law: &DryFriction, row: &TrueRow) -> f64 {
+    let dry = law.at(row.speed_rad_s, row.angle_rad);
     if row.speed_rad_s > 0.0 { dry.forward } else { dry.backward }
 }

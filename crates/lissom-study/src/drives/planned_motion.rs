@@ -43,8 +43,13 @@ pub(crate) struct PlannedMotion {
     pub(crate) angle_rad: Vec<f64>,
 }
 
-/// The references of a campaign's runs for rows every `row_s`.
-pub(crate) fn motions(draw: &mut Draw, few_strokes: bool, row_s: f64) -> Vec<PlannedMotion> {
+/// The references of a campaign's runs for rows every `row_s`, with points every `step_s`.
+pub(crate) fn motions(
+    draw: &mut Draw,
+    few_strokes: bool,
+    row_s: f64,
+    step_s: f64,
+) -> Vec<PlannedMotion> {
     let kind = match (few_strokes, draw.chance(0.5)) {
         (true, _) => MotionKind::Strokes,
         (false, true) => MotionKind::Multisine,
@@ -61,13 +66,13 @@ pub(crate) fn motions(draw: &mut Draw, few_strokes: bool, row_s: f64) -> Vec<Pla
     let one = |_| {
         let length_s = draw.uniform(RUN_S.0, RUN_S.1).min(most_s);
         let size = scale * draw.uniform(0.5, 1.0);
-        let points = (length_s / row_s).floor() as usize + 1;
+        let points = (length_s / step_s).floor() as usize + 1;
         let angle_rad = match kind {
-            MotionKind::Multisine => multisine(draw, points, row_s, size, pace_hz),
-            MotionKind::PointToPoint => point_to_point(draw, points, row_s, size, pace_hz),
-            MotionKind::Strokes => strokes(draw, points, row_s, size),
+            MotionKind::Multisine => multisine(draw, points, step_s, size, pace_hz),
+            MotionKind::PointToPoint => point_to_point(draw, points, step_s, size, pace_hz),
+            MotionKind::Strokes => strokes(draw, points, step_s, size),
         };
-        PlannedMotion { kind, step_s: row_s, angle_rad }
+        PlannedMotion { kind, step_s, angle_rad }
     };
     (0..runs).map(one).collect()
 }
@@ -194,7 +199,7 @@ mod tests {
     fn references_begin_at_zero_and_go_on_smoothly() {
         for index in 0..40 {
             let mut draw = Draw::of(11, index);
-            for motion in motions(&mut draw, index % 4 == 0, 1e-3) {
+            for motion in motions(&mut draw, index % 4 == 0, 1e-3, 0.5e-3) {
                 let [speed, acceleration] = motion.peaks();
                 assert!(motion.angle_rad[0] == 0.0 && speed > 0.0 && acceleration > 0.0);
                 let most = motion.speeds().iter().fold(0.0_f64, |m, v| m.max(v.abs()));

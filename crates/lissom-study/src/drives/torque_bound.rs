@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use super::drive_campaign::{DriveCampaign, TrueRow};
 use super::drive_score::DriveParameter;
 use super::effects::Input;
-use super::friction_line::dry_braking_nm;
+use super::friction_line::braking_nm;
 
 /// Noise of the torque over the planned peak torque where there is none, so that sums stay finite.
 const NOISE_LEAST: f64 = 1e-6;
@@ -101,7 +101,7 @@ fn add_run(
         let (sine, cosine) = row.angle_rad.sin_cos();
         let all = [acceleration, speed, speed.signum(), 1.0, sine, cosine];
         let columns = DVector::from_row_slice(&all[..if gravity { 6 } else { 4 }]);
-        let by_wander = speed.signum() * dry_braking_nm(campaign, &row);
+        let by_wander = speed.signum() * braking_nm(&campaign.dry, &row);
         let of_row = by_wander * by_wander * variance + noise;
         let left = columns - &wander * by_wander;
         let gain = variance * by_wander / of_row;
