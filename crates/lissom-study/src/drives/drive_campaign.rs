@@ -412,12 +412,11 @@ fn instruments(
     let mut instruments = Instruments::ideal(row_s / per_row as f64)?;
     instruments.motor = Sensor::from(encoder);
     instruments.log_every = per_row;
-    if let Input::Measured { noise_share, at_instant, .. } = effects.input {
+    if let Input::Measured { noise_share, .. } = effects.input {
         let noise = (noise_share > 0.0).then(|| Noise::new(noise_share * peak_a)).transpose()?;
-        let reading = match (effects.lag, at_instant) {
-            (Some(Lag::MeanBefore), _) => CurrentReading::MeanBefore,
-            (_, true) => CurrentReading::AtInstant,
-            (_, false) => CurrentReading::Centred,
+        let reading = match effects.lag {
+            Some(Lag::MeanBefore) => CurrentReading::MeanBefore,
+            _ => CurrentReading::Centred,
         };
         let sensor = Sensor { noise, quantiser: None };
         instruments.current = Some(CurrentSensor { sensor, reading });

@@ -8,7 +8,7 @@ use lissom_io::write::{
 use serde_json::json;
 
 use super::drive_campaign::DriveCampaign;
-use super::friction_line::FrictionLine;
+use super::friction_line::{FrictionLine, LineOf};
 use super::torque_bound::TorqueBound;
 use crate::drives::DriveParameter;
 
@@ -45,8 +45,8 @@ pub fn write_logs(campaign: &DriveCampaign, folder: &Path) -> Result<(), LogsErr
         runs,
     };
     write_campaign(&own.join("campaign.toml"), &plan)?;
-    let line = FrictionLine::of(campaign);
-    let fell = FrictionLine::as_it_fell(campaign);
+    let line = FrictionLine::of(campaign, LineOf::LAW);
+    let fell = FrictionLine::of(campaign, LineOf { wander: true, ..LineOf::LAW });
     let bound = TorqueBound::of(campaign);
     let bounds: serde_json::Map<String, serde_json::Value> = DriveParameter::ALL
         .into_iter()

@@ -69,7 +69,6 @@ fn row(plan: &DriveStudyPlan, outcome: &DriveOutcome) -> String {
     );
     let input = match effects.input {
         Input::Held => "held",
-        Input::Measured { at_instant: true, .. } => "measured at the instant",
         Input::Measured { samples_per_row: 1, .. } => "measured",
         Input::Measured { .. } => "measured of a fast loop",
     };

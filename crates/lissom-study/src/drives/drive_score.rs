@@ -3,10 +3,10 @@
 use std::fmt;
 
 use lissom::identify::findings::{FindingKind, FrictionLawFinding, RegressionFinding, Severity};
-use lissom::identify::{Estimate, Identified};
+use lissom::identify::{Estimate, Identified, LawTerm, Method};
 
 use super::drive_campaign::DriveCampaign;
-use super::friction_line::FrictionLine;
+use super::friction_line::{FrictionLine, LineOf};
 use super::torque_bound::TorqueBound;
 
 /// Standard errors beyond which a parameter is wrong.
@@ -191,24 +191,21 @@ impl DriveScore {
 
 /// Compares a result with the truth of its campaign.
 ///
-/// Friction is that of the result's table, but where its law changes near rest. Coulomb friction is then the law's value
-/// far from rest, beyond the speeds driven for concave friction, and no parameter of a line; the result itself gives the
+/// Friction is that of the result's table, but where its law has a term that changes with speed. Coulomb friction is then the law's
+/// value far from rest (or, with the root of speed, at rest),
 /// line of the motion beside it (`methods.least_squares`), and that is compared with the true line.
 ///
-/// Where the law has ripple and nothing near rest, the table's Coulomb and viscous friction are those beside the ripple, and are
+/// Where the law has ripple and no such term, the table's Coulomb and viscous friction are those beside the ripple, and are
 /// compared with the line of the friction without it.
 ///
 /// Inertia is that of all that turns. Where the result has a mode that it found in the motor's motion
 /// (`modes-by-the-motor`), its inertia is the motor's own, and is compared with that.
 pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
     let bound = TorqueBound::of(campaign);
-    let from_line = id.friction.near_rest.is_some();
-    let law = if id.friction.ripples.is_empty() || from_line {
-        FrictionLine::of(campaign)
-    } else {
-        FrictionLine::without_ripple(campaign)
-    };
-    let fell = FrictionLine::as_it_fell(campaign);
+    let from_line = changes_with_speed(id);
+    let ripple = id.friction.ripples.is_empty() || from_line;
+    let [law, fell] =
+        [false, true].map(|wander| FrictionLine::of(campaign, LineOf { ripple, wander }));
     let line = id.least_squares.as_ref().map(|l| &l.estimates.friction);
     let of_friction = |given: Option<Estimate>, of_line: Option<Estimate>| {
         if from_line { given.and(of_line) } else { given }
@@ -262,6 +259,15 @@ pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
         findings: id.findings.iter().map(found).collect(),
         method: id.method.map(|m| m.name()),
     }
+}
+
+/// Whether the result's friction is no straight line over speed.
+fn changes_with_speed(id: &Identified) -> bool {
+    let root = id
+        .friction_law
+        .as_ref()
+        .is_some_and(|law| law.chosen.terms.iter().any(|(term, _)| matches!(term, LawTerm::Root)));
+    id.friction.near_rest.is_some() || root && id.method == Some(Method::FrictionLaw)
 }
 
 /// What tells findings of one code apart.

@@ -79,8 +79,6 @@ pub enum Input {
         noise_share: f64,
         /// Samples of the controller per row.
         samples_per_row: usize,
-        /// Whether a row is the current at its instant; else the mean about it.
-        at_instant: bool,
     },
 }
 
@@ -210,7 +208,6 @@ impl Effects {
         let input = Input::Measured {
             noise_share: draw.decade(0.003, 0.05),
             samples_per_row: if fast { SAMPLES_PER_ROW } else { 1 },
-            at_instant: fast && draw.chance(0.3),
         };
         let mut all = Self::none(input);
         all.wander = draw.chance(0.85).then(|| wander(draw, (0.01, 0.04)));
@@ -242,11 +239,8 @@ impl Effects {
     }
 
     fn of_cause(draw: &mut Draw, cause: Cause) -> Self {
-        let measured = |noise_share, samples_per_row| Input::Measured {
-            noise_share,
-            samples_per_row,
-            at_instant: false,
-        };
+        let measured =
+            |noise_share, samples_per_row| Input::Measured { noise_share, samples_per_row };
         let per_row = if draw.chance(0.5) { SAMPLES_PER_ROW } else { 1 };
         let plain = if draw.chance(0.5) { Input::Held } else { measured(0.0, per_row) };
         let mut all = Self::none(plain);

@@ -21,28 +21,25 @@ pub struct FrictionLine {
     pub viscous_nm_s_per_rad: f64,
 }
 
-impl FrictionLine {
-    /// The line of the law, without its wander: the value about which repeated campaigns scatter. Intervals and
+/// What of the friction a line is fitted to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LineOf {
+    /// With gear ripple as it falls. Without it is the line of a result that has the ripple as a term of its own.
+    pub ripple: bool,
+    /// With the wander as it fell in these runs. Without it is the value about which repeated campaigns scatter: intervals and
     /// the bound count wander as noise, so that this is what they are about.
-    pub fn of(campaign: &DriveCampaign) -> Self {
-        Self::fitted(campaign, &campaign.dry, |_| 1.0)
-    }
+    pub wander: bool,
+}
 
-    /// The line of the law without its ripple: that of a result which has the ripple as a term of its own.
-    pub fn without_ripple(campaign: &DriveCampaign) -> Self {
-        Self::fitted(campaign, &campaign.dry_without_ripple, |_| 1.0)
-    }
+impl LineOf {
+    /// What a result without terms beyond the line should give.
+    pub const LAW: Self = Self { ripple: true, wander: false };
+}
 
-    /// The line with the wander as it fell in these runs.
-    pub fn as_it_fell(campaign: &DriveCampaign) -> Self {
-        Self::fitted(campaign, &campaign.dry, |row| row.factor)
-    }
-
-    fn fitted(
-        campaign: &DriveCampaign,
-        law: &DryFriction,
-        factor: impl Fn(&TrueRow) -> f64,
-    ) -> Self {
+impl FrictionLine {
+    /// The line of a campaign.
+    pub fn of(campaign: &DriveCampaign, of: LineOf) -> Self {
+        let law = if of.ripple { &campaign.dry } else { &campaign.dry_without_ripple };
         let rows = || campaign.truth.iter().flatten();
         let fastest = rows().map(|row| row.speed_rad_s.abs()).fold(0.0, f64::max);
         let viscous = campaign.numbers.viscous_nm_s_per_rad;
@@ -50,7 +47,8 @@ impl FrictionLine {
         let mut sums = [0.0; 5];
         for row in rows().filter(|row| row.speed_rad_s.abs() > SLOWEST * fastest) {
             let (speed, dry) = (row.speed_rad_s.abs(), braking_nm(law, row));
-            let braking = factor(row) * dry + viscous * speed;
+            let factor = if of.wander { row.factor } else { 1.0 };
+            let braking = factor * dry + viscous * speed;
             let terms = [1.0, speed, speed * speed, braking, braking * speed];
             for (sum, term) in sums.iter_mut().zip(terms) {
                 *sum += term;

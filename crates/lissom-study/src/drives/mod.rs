@@ -26,6 +26,6 @@ pub use drive_study::{DriveOutcome, DriveStudyPlan, drive_study};
 pub use effects::{
     Cause, DriveStudy, Effects, GearRipple, Gravity, Input, Lag, NearRest, UnseenMode, Wander,
 };
-pub use friction_line::FrictionLine;
+pub use friction_line::{FrictionLine, LineOf};
 pub use planned_motion::MotionKind;
 pub use torque_bound::TorqueBound;
