@@ -15,7 +15,7 @@ pub fn drive_rows(plan: &DriveStudyPlan, outcomes: &[Option<DriveOutcome>]) -> S
     let mut header = HEAD.to_owned();
     for parameter in DriveParameter::ALL {
         for column in ["_true", "_as_fell", "", "_std", "_bound", "_warned_by", "_from_line"] {
-            header += &format!(",{parameter}{column}");
+            header.extend([",", &parameter.to_string(), column]);
         }
     }
     let mut lines = vec![header];

@@ -2,8 +2,10 @@
 
 use std::fmt;
 
-use lissom::identify::findings::{FindingKind, FrictionLawFinding, RegressionFinding, Severity};
-use lissom::identify::{Estimate, Identified, LawTerm, Method};
+use lissom::identify::findings::{
+    Finding, FindingKind, FrictionLawFinding, RegressionFinding, Severity,
+};
+use lissom::identify::{Estimate, Identified, Method};
 
 use super::drive_campaign::DriveCampaign;
 use super::friction_line::{FrictionLine, LineOf};
@@ -191,18 +193,18 @@ impl DriveScore {
 
 /// Compares a result with the truth of its campaign.
 ///
-/// Friction is that of the result's table, but where its law has a term that changes with speed. Coulomb friction is then the law's
-/// value far from rest (or, with the root of speed, at rest),
-/// line of the motion beside it (`methods.least_squares`), and that is compared with the true line.
-///
-/// Where the law has ripple and no such term, the table's Coulomb and viscous friction are those beside the ripple, and are
-/// compared with the line of the friction without it.
+/// Friction is that of the result's table, unless its law has terms beyond Coulomb and one viscous constant. The table's Coulomb
+/// friction is then that of the law: far from rest and beyond the speeds driven for concave friction, at rest with
+/// the root of speed, beside the ripple where the line averages it. It is no parameter of a line. The result itself
+/// gives the line of its logs for this case (`methods.least_squares`; the command prints it under the table), and that is compared with
+/// the true line. Where the output-error method has ripple as a term, the line is not given: the table is compared with
+/// the line of the friction without ripple.
 ///
 /// Inertia is that of all that turns. Where the result has a mode that it found in the motor's motion
 /// (`modes-by-the-motor`), its inertia is the motor's own, and is compared with that.
 pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
     let bound = TorqueBound::of(campaign);
-    let from_line = changes_with_speed(id);
+    let from_line = gives_the_line(id);
     let ripple = id.friction.ripples.is_empty() || from_line;
     let [law, fell] =
         [false, true].map(|wander| FrictionLine::of(campaign, LineOf { ripple, wander }));
@@ -211,7 +213,7 @@ pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
         if from_line { given.and(of_line) } else { given }
     };
     let one = |parameter: DriveParameter, [truth, truth_as_fell]: [f64; 2], estimate| {
-        let names = |f: &&lissom::identify::findings::Finding| {
+        let names = |f: &&Finding| {
             f.severity() >= Severity::Warning && f.affects().contains(&parameter.key())
         };
         ParameterScore {
@@ -219,7 +221,7 @@ pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
             truth,
             truth_as_fell,
             estimate,
-            warned_by: id.findings.iter().filter(names).map(|f| f.code()).collect(),
+            warned_by: id.findings.iter().filter(names).map(Finding::code).collect(),
             bound: bound.as_ref().and_then(|b| b.std(parameter)),
             from_line: from_line
                 && matches!(parameter, DriveParameter::Coulomb | DriveParameter::Viscous),
@@ -248,7 +250,7 @@ pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
     if numbers.load_nm.abs() >= LOAD_LEAST * numbers.coulomb_nm {
         parameters.push(one(DriveParameter::Load, fixed(numbers.load_nm), friction.offset));
     }
-    let found = |f: &lissom::identify::findings::Finding| FoundCode {
+    let found = |f: &Finding| FoundCode {
         code: f.code(),
         severity: f.severity(),
         detail: detail(&f.kind),
@@ -257,17 +259,15 @@ pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
     DriveScore {
         parameters,
         findings: id.findings.iter().map(found).collect(),
-        method: id.method.map(|m| m.name()),
+        method: id.method.map(Method::name),
     }
 }
 
-/// Whether the result's friction is no straight line over speed.
-fn changes_with_speed(id: &Identified) -> bool {
-    let root = id
-        .friction_law
-        .as_ref()
-        .is_some_and(|law| law.chosen.terms.iter().any(|(term, _)| matches!(term, LawTerm::Root)));
-    id.friction.near_rest.is_some() || root && id.method == Some(Method::FrictionLaw)
+/// Whether the command prints the line of least squares under the table.
+fn gives_the_line(id: &Identified) -> bool {
+    let f = &id.friction;
+    let departs = f.near_rest.is_some() || f.viscous_by_direction.is_some();
+    departs || id.method == Some(Method::FrictionLaw)
 }
 
 /// What tells findings of one code apart.

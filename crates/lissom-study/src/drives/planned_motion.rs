@@ -104,9 +104,9 @@ impl PlannedMotion {
     /// Stretches in which it moves one way.
     pub(crate) fn moves(&self) -> usize {
         let least = MOVES * self.peaks()[0];
-        let way = |v: &f64| if v.abs() > least { v.signum() } else { 0.0 };
-        let ways: Vec<f64> = self.speeds().iter().map(way).collect();
-        1 + ways.windows(2).filter(|w| w[0] != w[1] && w[1] != 0.0).count()
+        let way = |v: &f64| (v.abs() > least).then_some(*v > 0.0);
+        let ways: Vec<Option<bool>> = self.speeds().iter().map(way).collect();
+        1 + ways.windows(2).filter(|w| w[0] != w[1] && w[1].is_some()).count()
     }
 
     /// From the lowest to the highest angle \[rad\].

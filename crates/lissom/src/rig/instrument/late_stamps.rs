@@ -30,7 +30,7 @@ impl LateStamps {
     }
 
     /// Refuses stamps that could pass the next row's.
-    pub(super) fn check(&self, log_time_s: f64) -> Result<(), RigError> {
+    pub(super) fn check(self, log_time_s: f64) -> Result<(), RigError> {
         if self.most_s < log_time_s {
             Ok(())
         } else {
