@@ -19,9 +19,8 @@ use super::error::positive;
 /// # Ok::<(), lissom::rig::RigError>(())
 /// ```
 ///
-/// # Source
-/// Repeated measurements of joint friction differ by a few percent within minutes (`[Armstrong1994]`); the process is the
-/// simplest with a standard deviation and a time.
+/// It is the simplest process with a standard deviation and a time; friction of real joints differs by a few percent from stroke
+/// to stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionWander {
     relative_std: f64,
