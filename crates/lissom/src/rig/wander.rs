@@ -19,6 +19,8 @@ use super::error::positive;
 /// # Ok::<(), lissom::rig::RigError>(())
 /// ```
 ///
+/// Where a run waits for its transient to go ([`Settle::Detected`](super::Settle)), it never goes below what the wander moves: wait a fixed time.
+///
 /// It is the simplest process with a standard deviation and a time; friction of real joints differs by a few percent from stroke
 /// to stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
