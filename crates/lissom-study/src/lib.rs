@@ -12,6 +12,7 @@ mod bound;
 mod campaign;
 mod csv;
 mod draw;
+mod drives;
 mod external;
 mod figure;
 mod kept;
@@ -31,6 +32,12 @@ mod truth;
 pub use bound::Bound;
 pub use campaign::{Campaign, Definition, PlannedRun, RunFacts, draw_campaign};
 pub use csv::rows;
+pub use drives::{
+    Cause, DriveCampaign, DriveNumbers, DriveOutcome, DriveParameter, DriveScore, DriveStudy,
+    DriveStudyPlan, Effects, FoundCode, FrictionLine, GearRipple, Gravity, Input, Lag, LineOf,
+    LogsError, MotionKind, NearRest, ParameterScore, TorqueBound, UnseenMode, Wander,
+    describe_drive, drive_report, drive_rows, drive_study, score_drive, write_logs,
+};
 pub use external::{ExternalError, export, simulated};
 pub use figure::Figure;
 pub use kept::{Kept, KeptError};

@@ -8,8 +8,9 @@ use std::process::ExitCode;
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use lissom_study::{
-    Kept, Law, Scored, Study, describe, draw_campaign, export, external_report, independent,
-    report, rows, simulated, study,
+    DriveCampaign, DriveStudy, DriveStudyPlan, Kept, Law, Scored, Study, describe, describe_drive,
+    draw_campaign, drive_report, drive_rows, drive_study, export, external_report, independent,
+    report, rows, simulated, study, write_logs,
 };
 
 /// Accuracy of identification over random arms and campaigns.
@@ -36,6 +37,12 @@ struct Args {
     /// Identify the logs that another simulator left in this folder.
     #[arg(long)]
     external: Option<PathBuf>,
+    /// Drives with what real logs have, in place of arms: `real`, most effects at once, or `causes`, one at a time.
+    #[arg(long, conflicts_with_all = ["law", "export", "external", "resume"])]
+    drives: Option<DriveStudy>,
+    /// Write the logs of the drives to this folder, each as a campaign with its truth, and do no more.
+    #[arg(long, requires = "drives")]
+    logs: Option<PathBuf>,
     /// Go on with a study that was stopped: take the campaigns that it left in the folder.
     #[arg(long, conflicts_with_all = ["only", "export", "external"])]
     resume: bool,
@@ -76,6 +83,9 @@ fn main() -> ExitCode {
 }
 
 fn run(args: &Args) -> Result<(), Failure> {
+    if let Some(study) = args.drives {
+        return drives(args, study);
+    }
     if let Some(index) = args.only {
         let law = match args.law {
             Laws::One(law) => law,
@@ -113,6 +123,36 @@ fn run(args: &Args) -> Result<(), Failure> {
         studies.push((plan, outcome));
     }
     written(args, name, &report(&studies), &rows(&studies))
+}
+
+/// The study of drives.
+fn drives(args: &Args, study: DriveStudy) -> Result<(), Failure> {
+    let plan =
+        DriveStudyPlan { study, campaigns: args.campaigns, seed: args.seed, quick: args.quick };
+    if let Some(folder) = &args.logs {
+        let indices = args.only.map_or(0..plan.campaigns, |index| index..index + 1);
+        let bar = bar_of(indices.len(), study.to_string());
+        for index in indices {
+            if let Some(campaign) = DriveCampaign::draw(study, plan.seed, index) {
+                write_logs(&campaign, folder)?;
+            }
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        return Ok(());
+    }
+    if let Some(index) = args.only {
+        let campaign = DriveCampaign::draw(study, plan.seed, index);
+        let campaign = campaign.ok_or("every draw was given up")?;
+        print!("{}", describe_drive(&campaign, args.quick));
+        return Ok(());
+    }
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(args.jobs).build()?;
+    let bar = bar_of(plan.campaigns, study.to_string());
+    let outcomes = threads.install(|| drive_study(&plan, || bar.inc(1)));
+    bar.finish_and_clear();
+    let name = format!("drives-{study}");
+    written(args, &name, &drive_report(&plan, &outcomes), &drive_rows(&plan, &outcomes))
 }
 
 fn written(args: &Args, name: &str, text: &str, rows: &str) -> Result<(), Failure> {
@@ -164,11 +204,15 @@ fn plans(args: &Args) -> Vec<Study> {
 }
 
 fn bar(plan: &Study) -> ProgressBar {
-    let bar = ProgressBar::new(plan.campaigns as u64);
+    bar_of(plan.campaigns, plan.law.to_string())
+}
+
+fn bar_of(campaigns: usize, message: String) -> ProgressBar {
+    let bar = ProgressBar::new(campaigns as u64);
     let template = "{msg:22} [{bar:36}] {pos}/{len} {elapsed}, {eta} left";
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style.progress_chars("=> "));
     }
-    bar.set_message(plan.law.to_string());
+    bar.set_message(message);
     bar
 }

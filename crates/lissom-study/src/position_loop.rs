@@ -102,7 +102,7 @@ pub(crate) fn random_loop(draw: &mut Draw, arm: &Arm, task: &Task) -> Option<Gai
 }
 
 /// Whether the sampled loop without friction is stable, also with gains [`GAIN_MARGIN`] times larger.
-fn is_stable(arm: &Arm, gains: &Gains, sample_time_s: f64) -> bool {
+pub(crate) fn is_stable(arm: &Arm, gains: &Gains, sample_time_s: f64) -> bool {
     let (step, input) = held(arm, sample_time_s);
     [1.0, GAIN_MARGIN].iter().all(|margin| {
         let gains = Gains {

@@ -1,7 +1,7 @@
 //! Cells and tables.
 
 /// A table with its header.
-pub(super) fn table(header: &[&str], rows: &[Vec<String>]) -> String {
+pub(crate) fn table(header: &[&str], rows: &[Vec<String>]) -> String {
     let line = |cells: Vec<&str>| format!("| {} |", cells.join(" | "));
     let mut lines = vec![line(header.to_vec()), line(vec!["---"; header.len()])];
     lines.extend(rows.iter().map(|row| line(row.iter().map(String::as_str).collect())));

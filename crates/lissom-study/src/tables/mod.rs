@@ -13,6 +13,7 @@ mod responses;
 mod worst;
 
 pub use external::report as external_report;
+pub(crate) use markdown::table;
 
 use crate::law::Law;
 use crate::score::Score;

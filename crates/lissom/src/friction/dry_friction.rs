@@ -134,6 +134,22 @@ impl DryFriction {
         Ok(self)
     }
 
+    /// The same with all of its dry friction times `factor`, which is not negative; viscous friction stays.
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        let mut scaled = self.clone();
+        scaled.sliding.forward *= factor;
+        scaled.sliding.backward *= factor;
+        if let Some(near) = &mut scaled.terms.near_rest {
+            near.torque_nm *= factor;
+            near.offset_nm *= factor;
+        }
+        for ripple in &mut scaled.terms.ripples {
+            ripple.cosine_nm *= factor;
+            ripple.sine_nm *= factor;
+        }
+        scaled
+    }
+
     /// The friction at speed, ripple and viscous friction left out.
     pub fn sliding(&self) -> Coulomb {
         self.sliding

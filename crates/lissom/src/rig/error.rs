@@ -46,6 +46,24 @@ pub enum RigError {
         /// Masses of the beam.
         masses: usize,
     },
+    /// Time stamps that may be later than the next row's.
+    #[error(
+        "time stamps late by up to {most_s} s, and rows every {log_time_s} s: stamps must increase"
+    )]
+    LateStamps {
+        /// The largest lateness \[s\].
+        most_s: f64,
+        /// Time between two rows \[s\].
+        log_time_s: f64,
+    },
+    /// Friction that wanders too far.
+    #[error("friction wanders by a standard deviation of {found}; {most} at most is possible")]
+    Wander {
+        /// The relative standard deviation found \[1\].
+        found: f64,
+        /// The largest \[1\].
+        most: f64,
+    },
     /// A gain that the integers of the control computer do not hold.
     #[error("{quantity} is {found} in integers; they hold {most} at most")]
     Gain {

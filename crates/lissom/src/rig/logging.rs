@@ -55,6 +55,11 @@ impl Log {
         }
     }
 
+    /// Puts the readings of a sensor of the current in place of the commands.
+    pub(super) fn measured(&mut self, current_a: Vec<f64>) {
+        self.current = current_a;
+    }
+
     /// What the counts say; `moved_rad` is the lowest and highest true angle of the motor.
     pub(super) fn findings(
         &self,
@@ -99,7 +104,7 @@ impl Log {
             }
         }
         let (control_every, log_every) = (instruments.control_every, instruments.log_every);
-        if !control_every.is_multiple_of(log_every) {
+        if instruments.current.is_none() && !control_every.is_multiple_of(log_every) {
             findings.push(RigFinding::CurrentBetweenSamples { control_every, log_every });
         }
         findings

@@ -19,6 +19,7 @@ mod settling;
 mod signal;
 mod sine;
 mod tip_world;
+mod wander;
 
 pub use crate::friction::Mode;
 pub use batch::{Batch, NoisyRun};
@@ -31,12 +32,16 @@ pub use experiment::{
 pub use finding::{RigFinding, SensorPlace};
 pub use held::{HeldArm, HeldMotion, HeldStep, Work};
 pub use hybrid::Hybrid;
-pub use instrument::{Amplifier, Delay, Instruments, Noise, Quantiser, Sensor};
+pub use instrument::{
+    Amplifier, CurrentReading, CurrentSensor, Delay, Instruments, LateStamps, Noise, Quantiser,
+    Sensor,
+};
 pub use lugre::LuGreMotion;
 pub use motion::Motion;
-pub use sampled_loop::{Logged, Rig};
+pub use sampled_loop::{Logged, Rig, RowTruth};
 pub use scene::{JointFriction, Scene};
 pub use settled::Settled;
 pub use signal::{Harmonic, Signal};
 pub use sine::Sines;
 pub use tip_world::{TipWorld, Wall};
+pub use wander::FrictionWander;

@@ -13,6 +13,15 @@ pub trait Motion {
     /// [`RigError`] where the motion cannot be followed.
     fn advance(&mut self, torque_nm: f64, duration_s: f64) -> Result<(), RigError>;
 
+    /// Multiplies the dry friction of the joint, as it was given, by `factor` from now on.
+    ///
+    /// # Errors
+    /// [`RigError::Unsupported`] where the engine's friction is fixed, [`RigError::Negative`].
+    fn scale_friction(&mut self, factor: f64) -> Result<(), RigError> {
+        let _ = factor;
+        Err(RigError::Unsupported { what: "friction that changes during a motion of this engine" })
+    }
+
     /// Total time that the joint has spent sticking \[s\].
     fn stuck_s(&self) -> f64;
 

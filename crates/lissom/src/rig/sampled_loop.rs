@@ -2,14 +2,17 @@
 
 use std::ops::Range;
 
+use rand_xoshiro::Xoshiro256PlusPlus;
+
 use super::controller::{ControlLaw, Controller, Sensed};
 use super::error::positive;
 use super::experiment::{Drive, Experiment, Reference, Settle};
 use super::finding::RigFinding;
-use super::instrument::{DelayLine, Instruments, Streams};
+use super::instrument::{CurrentTrace, DelayLine, Instruments, Streams};
 use super::logging::Log;
 use super::settled::Settled;
 use super::settling::Settling;
+use super::wander::WanderPath;
 use super::{HeldArm, Motion, RigError, Scene};
 use crate::arm::Arm;
 use crate::record::{Axis, Channels, Command, CommandQuantity, Hold, Run, Tip, TipQuantity};
@@ -32,6 +35,9 @@ const SAMPLES_MOST: f64 = 1e8;
 /// Most numbers of a log: 1.6 GB.
 const NUMBERS_MOST: f64 = 2e8;
 
+/// Streams of random numbers beside those of the angles' sensors.
+const EXTRA_STREAMS: usize = 3;
+
 /// Fewest rows of a log.
 const ROWS_LEAST: f64 = 8.0;
 
@@ -51,12 +57,15 @@ pub struct Rig {
 /// A simulated run, and what is known of it.
 #[derive(Debug, Clone)]
 pub struct Logged {
-    /// The log: commanded current, the angles of motor and masses as their sensors give them.
+    /// The log: commanded current, or the current as its sensor reads it, and the angles of motor and masses as
+    /// their sensors give them.
     ///
-    /// Row k of the current acts from the instant of row k of the angles on, or as much later as
-    /// the delay says. Its time begins when the log does on the clock of the reference, so that a
+    /// Row k of a commanded current acts from the instant of row k of the angles on, or as much later as
+    /// the delay says. The log's time begins when the log does on the clock of the reference, so that a
     /// periodic one keeps its phase.
     pub run: Run,
+    /// The log's time stamps \[s\], where they are late: the rows of [`run`](Self::run) were taken evenly.
+    pub stamps_s: Option<Vec<f64>>,
     /// How the transient went.
     pub settled: Settled,
     /// The true state at the log's first row, `[θ_m, θ̇_m, q_1.., q̇_1..]` of [`Arm`].
@@ -67,16 +76,26 @@ pub struct Logged {
     pub findings: Vec<RigFinding>,
 }
 
+/// What is true at a row of a log.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RowTruth<'s> {
+    /// State `[θ_m, θ̇_m, θ_1.., θ̇_1..]` of [`Arm`] \[rad, rad/s\].
+    pub state: &'s [f64],
+    /// What multiplies the dry friction from this instant on, to the next sample \[1\].
+    pub friction_factor: f64,
+}
+
 impl Rig {
     /// An arm with a free tip and Coulomb friction of its own.
     pub fn new(arm: Arm, instruments: Instruments, controller: ControlLaw) -> Self {
         Self { arm, scene: Scene::default(), instruments, controller }
     }
 
-    /// What its logs hold, of the masses `tips` alone: the commanded current and angles.
+    /// What its logs hold, of the masses `tips` alone: the current, commanded or measured, and angles.
     pub fn channels(&self, tips: Range<usize>) -> Channels {
         let instruments = &self.instruments;
-        let held = instruments.control_every.is_multiple_of(instruments.log_every);
+        let held = instruments.current.is_none()
+            && instruments.control_every.is_multiple_of(instruments.log_every);
         let tip = |mass: usize| Tip {
             name: format!("theta_{}", mass + 1),
             quantity: TipQuantity::Angle,
@@ -136,6 +155,21 @@ impl Rig {
         experiment: &Experiment,
         seed: u64,
     ) -> Result<Logged, RigError> {
+        self.run_watched(controller, name, experiment, seed, &mut |_| {})
+    }
+
+    /// The same; `watch` is shown what is true at each row of the log.
+    ///
+    /// # Errors
+    /// As [`run_with`](Self::run_with).
+    pub fn run_watched<C: Controller + ?Sized>(
+        &self,
+        controller: &mut C,
+        name: &str,
+        experiment: &Experiment,
+        seed: u64,
+        watch: &mut dyn FnMut(RowTruth<'_>),
+    ) -> Result<Logged, RigError> {
         self.instruments.check(self.arm.beam().len())?;
         self.scene.check()?;
         experiment.check()?;
@@ -143,7 +177,7 @@ impl Rig {
         let held = self.scene.held(&self.arm, &line.durations_s())?;
         let mut bench = Bench::new(self, held.as_ref(), line, controller, experiment, seed)?;
         let settled = bench.settle()?;
-        bench.record(name, settled)
+        bench.record(name, settled, watch)
     }
 }
 
@@ -154,7 +188,12 @@ struct Bench<'r, C: ?Sized> {
     controller: &'r mut C,
     motion: Box<dyn Motion + 'r>,
     line: DelayLine,
+    /// Streams of random numbers: motor, masses, current, time stamps, friction.
     streams: Streams,
+    wander: Option<WanderPath>,
+    /// What multiplies the friction now.
+    friction_factor: f64,
+    trace: Option<CurrentTrace>,
     /// Samples passed since the start.
     passed: usize,
     bound_rad: f64,
@@ -211,7 +250,10 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
             seen: state.clone(),
             motion: rig.scene.motion(&rig.arm, held, state)?,
             line,
-            streams: Streams::new(seed, 1 + masses),
+            streams: Streams::new(seed, 1 + masses + EXTRA_STREAMS),
+            wander: rig.scene.wander.map(|wander| wander.path(instruments.sample_time_s)),
+            friction_factor: 1.0,
+            trace: instruments.current.map(|_| CurrentTrace::new(instruments.log_every)),
             passed: 0,
             bound_rad,
             deflection_rad: deflection,
@@ -227,8 +269,24 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
         self.experiment.drive.reference()
     }
 
+    /// The stream behind those of the angles' sensors: 0 of the current, 1 of time stamps, 2 of friction.
+    fn extra_stream(&mut self, place: usize) -> Option<&mut Xoshiro256PlusPlus> {
+        self.streams.at(self.read_rad.len() + place)
+    }
+
+    /// The friction of the sample that begins now.
+    fn wander(&mut self) -> Result<(), RigError> {
+        let place = self.read_rad.len() + 2;
+        if let (Some(wander), Some(stream)) = (&mut self.wander, self.streams.at(place)) {
+            self.friction_factor = wander.next(stream);
+            self.motion.scale_friction(self.friction_factor)?;
+        }
+        Ok(())
+    }
+
     /// One instant: sensors, then the controller where it is its turn.
     fn sense(&mut self, clock_s: f64, reference: f64) -> Result<(), RigError> {
+        self.wander()?;
         let instruments = &self.rig.instruments;
         let state = self.motion.state();
         let angle = state[0];
@@ -279,9 +337,11 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
     /// for.
     fn move_on(&mut self, look_s: Option<f64>) -> Result<(), RigError> {
         let constant = self.rig.arm.motor.torque_constant_nm_per_a;
-        let (mut from, mut noted) = (0.0, look_s.is_none());
+        let (mut from, mut noted, mut charge) = (0.0, look_s.is_none(), 0.0);
         for (command, duration) in self.line.push(self.command_a) {
-            let torque = constant * self.rig.instruments.amplifier.current_a(command);
+            let current = self.rig.instruments.amplifier.current_a(command);
+            charge += current * duration;
+            let torque = constant * current - self.rig.scene.load_nm;
             let look = look_s.map(|at| at - from).filter(|at| (0.0..duration).contains(at));
             let mut rest = duration;
             if let Some(first) = look {
@@ -300,6 +360,9 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
         if !noted {
             // Rounding of both parts of a sample put it behind them.
             note(&mut self.seen, self.motion.state(), self.rig.arm.beam().len());
+        }
+        if let Some(trace) = &mut self.trace {
+            trace.push(charge / from);
         }
         self.passed += 1;
         Ok(())
@@ -389,7 +452,12 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
     }
 
     /// Logs the record.
-    fn record(mut self, name: &str, mut settled: Settled) -> Result<Logged, RigError> {
+    fn record(
+        mut self,
+        name: &str,
+        mut settled: Settled,
+        watch: &mut dyn FnMut(RowTruth<'_>),
+    ) -> Result<Logged, RigError> {
         let instruments = &self.rig.instruments;
         let (sample, every) = (instruments.sample_time_s, instruments.log_every);
         let periodic = self.reference().period_s().is_some();
@@ -414,6 +482,9 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
         let start = self.motion.state().to_vec();
         self.range_rad = (f64::INFINITY, f64::NEG_INFINITY);
         let mut log = Log::new(rows, self.read_rad.len());
+        if let Some(trace) = &mut self.trace {
+            trace.record();
+        }
         for k in 0..rows * every {
             let time = clock(self.passed);
             let reference = self.reference().value(time);
@@ -421,6 +492,8 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
             log.note(reference, self.command_a, self.limited, &self.cut_off);
             if k.is_multiple_of(every) {
                 log.row(self.command_a, &self.read_rad);
+                let (state, friction_factor) = (self.motion.state(), self.friction_factor);
+                watch(RowTruth { state, friction_factor });
             }
             self.move_on(None)?;
         }
@@ -432,16 +505,38 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
             settled,
             self.range_rad,
         );
+        if let Some(measured) = self.measured_a(rows) {
+            log.measured(measured);
+        }
+        let stamps_s = self.stamps_s(rows, clock(first));
         let run = log.run(name, clock(first), instruments.log_time_s())?;
         let run = match self.reference() {
             Reference::Sine(sine) => run.with_omega(sine.omega_rad_s())?,
             _ => run,
         };
-        Ok(Logged { run, settled, start, stuck_share, findings })
+        Ok(Logged { run, stamps_s, settled, start, stuck_share, findings })
+    }
+
+    /// What the sensor of the current reads at each row \[A\].
+    fn measured_a(&mut self, rows: usize) -> Option<Vec<f64>> {
+        let (chain, trace) = (self.rig.instruments.current?, self.trace.take()?);
+        let read = |row| {
+            let current = trace.row_a(row, chain.reading);
+            chain.sensor.read(current, self.extra_stream(0)).0
+        };
+        Some((0..rows).map(read).collect())
+    }
+
+    /// Time stamps that are late \[s\].
+    fn stamps_s(&mut self, rows: usize, start_s: f64) -> Option<Vec<f64>> {
+        let stamps = self.rig.instruments.stamps?;
+        let step_s = self.rig.instruments.log_time_s();
+        let stream = self.extra_stream(1)?;
+        let stamp = |row| start_s + row as f64 * step_s + stamps.draw_s(stream);
+        Some((0..rows).map(stamp).collect())
     }
 }
 
-/// A number of samples that can be simulated.
 /// Notes a state in the layout that `seen` has: another payload may have a coordinate more, or less.
 fn note(seen: &mut [f64], state: &[f64], masses: usize) {
     if seen.len() == state.len() {
@@ -454,6 +549,7 @@ fn note(seen: &mut [f64], state: &[f64], masses: usize) {
     seen[2 + mine..2 + mine + masses].copy_from_slice(&state[2 + theirs..2 + theirs + masses]);
 }
 
+/// A number of samples that can be simulated.
 fn counted(quantity: &'static str, samples: f64) -> Result<usize, RigError> {
     if samples <= SAMPLES_MOST {
         Ok(samples.round() as usize)

@@ -1,7 +1,7 @@
 //! What an arm is set in: the joint's friction and gravity, the world at the tip, payloads to come.
 
 use super::error::finite;
-use super::{HeldArm, HeldMotion, Hybrid, LuGreMotion, Motion, RigError, TipWorld};
+use super::{FrictionWander, HeldArm, HeldMotion, Hybrid, LuGreMotion, Motion, RigError, TipWorld};
 use crate::arm::Arm;
 use crate::drive::{DryFriction, LuGre};
 use crate::load::GravityLoad;
@@ -40,6 +40,10 @@ pub enum JointFriction {
 pub struct Scene {
     /// The joint's friction.
     pub friction: JointFriction,
+    /// How that friction wanders; `None`: it does not. Friction by bristles cannot.
+    pub wander: Option<FrictionWander>,
+    /// Constant torque that a load takes of the motor \[N·m\]: a weight on a hoist, a preload.
+    pub load_nm: f64,
     /// Gravity of an unbalanced load on the motor \[N·m\], a function of the motor's true angle; `None`: no load.
     pub gravity: Option<GravityLoad>,
     /// The world at the tip.
@@ -52,10 +56,15 @@ impl Scene {
     /// Checks the numbers.
     ///
     /// # Errors
-    /// [`RigError`] as [`TipWorld::check`], and [`RigError::NotFinite`] where gravity is not finite.
+    /// [`RigError`] as [`TipWorld::check`], [`RigError::NotFinite`] where gravity or the constant load is not finite,
+    /// [`RigError::Unsupported`] for bristles whose friction wanders.
     pub fn check(&self) -> Result<(), RigError> {
         if let Some(load) = self.gravity {
             finite("gravity of the load in N*m", load.amplitude_nm())?;
+        }
+        finite("constant load in N*m", self.load_nm)?;
+        if self.wander.is_some() && matches!(self.friction, JointFriction::Bristles { .. }) {
+            return Err(RigError::Unsupported { what: "bristles whose friction wanders" });
         }
         self.tip.check()
     }
@@ -67,6 +76,15 @@ impl Scene {
             JointFriction::Bristles { tolerance, .. } => Some(*tolerance),
             _ if self.gravity.is_some() => Some(Hybrid::BENT),
             _ => None,
+        }
+    }
+
+    /// The joint's dry friction as it does not wander; `None` with bristles.
+    pub fn dry_friction(&self, arm: &Arm) -> Option<DryFriction> {
+        match &self.friction {
+            JointFriction::Arm => Some(arm.coulomb.into()),
+            JointFriction::Dry(law) => Some(law.clone()),
+            JointFriction::Bristles { .. } => None,
         }
     }
 
@@ -82,7 +100,7 @@ impl Scene {
 
     /// Whether `arm` stays at rest at angle zero without a torque of the motor.
     pub(super) fn rests_at_zero(&self, arm: &Arm) -> bool {
-        let load = self.gravity.map_or(0.0, |load| load.torque_nm(0.0));
+        let load = self.load_nm + self.gravity.map_or(0.0, |load| load.torque_nm(0.0));
         // Bristles give way by some of their travel.
         let gives_way = matches!(self.friction, JointFriction::Bristles { .. });
         load == 0.0 || !gives_way && load.abs() < self.holds_nm(arm)
@@ -99,7 +117,8 @@ impl Scene {
         arm: &'a Arm,
         durations_s: &[f64],
     ) -> Result<Option<HeldArm<'a>>, RigError> {
-        if self.friction != JointFriction::Arm || self.gravity.is_some() || !self.is_alone() {
+        let fixed = self.friction == JointFriction::Arm && self.wander.is_none();
+        if !fixed || self.gravity.is_some() || !self.is_alone() {
             return Ok(None);
         }
         let durations_s: Vec<f64> = durations_s.iter().copied().filter(|d| *d > 0.0).collect();

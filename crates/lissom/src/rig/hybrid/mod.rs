@@ -6,6 +6,7 @@ mod slip;
 
 use crate::lti::first_root::ORDER_MOST;
 
+use super::error::not_negative;
 use super::{Motion, RigError, Signal, TipWorld};
 use crate::arm::Arm;
 use crate::drive::DryFriction;
@@ -59,6 +60,8 @@ enum Torque<'s> {
 pub struct Hybrid<'a> {
     pub(in crate::rig) arm: &'a Arm,
     friction: DryFriction,
+    /// Friction as it was given, where it has been scaled.
+    unscaled: Option<Box<DryFriction>>,
     gravity: Option<GravityLoad>,
     world: Option<TipWorld>,
     /// Arms that come later, and when \[s\]; the next one last.
@@ -134,6 +137,7 @@ impl<'a> Hybrid<'a> {
         let mut made = Self {
             arm,
             friction: arm.coulomb.into(),
+            unscaled: None,
             gravity: None,
             world: None,
             changes: Vec::new(),
@@ -158,6 +162,7 @@ impl<'a> Hybrid<'a> {
     #[must_use]
     pub fn with_friction(mut self, friction: DryFriction) -> Self {
         self.friction = friction;
+        self.unscaled = None;
         self
     }
 
@@ -340,6 +345,12 @@ impl Motion for Hybrid<'_> {
         } else {
             Err(RigError::Lost { time_s: self.time_s })
         }
+    }
+    fn scale_friction(&mut self, factor: f64) -> Result<(), RigError> {
+        not_negative("factor of the friction", factor)?;
+        let unscaled = self.unscaled.get_or_insert_with(|| Box::new(self.friction.clone()));
+        self.friction = unscaled.scaled(factor);
+        Ok(())
     }
     fn stuck_s(&self) -> f64 {
         Hybrid::stuck_s(self)

@@ -1,7 +1,9 @@
 //! The instrument chain of 6.1: sensors, their noise, converters, amplifier, delay.
 
 mod amplifier;
+mod current_sensor;
 mod delay;
+mod late_stamps;
 mod noise;
 mod quantiser;
 mod sensor;
@@ -9,8 +11,11 @@ mod sensor;
 mod tests;
 
 pub use amplifier::Amplifier;
+pub(super) use current_sensor::CurrentTrace;
+pub use current_sensor::{CurrentReading, CurrentSensor};
 pub use delay::Delay;
 pub(super) use delay::DelayLine;
+pub use late_stamps::LateStamps;
 pub use noise::Noise;
 pub(super) use noise::Streams;
 pub use quantiser::Quantiser;
@@ -22,7 +27,7 @@ use super::error::positive;
 /// Everything between the controller and the arm.
 ///
 /// At each sample: sensors → controller → D/A converter and limit → log → delay → dead band →
-/// motor.
+/// motor. With a sensor of the current the log has its readings in place of the command.
 ///
 /// ```
 /// # use lissom::rig::{Amplifier, Instruments, Quantiser, Sensor};
@@ -45,6 +50,10 @@ pub struct Instruments {
     pub tips: Vec<Sensor>,
     /// D/A converter, limit and dead band.
     pub amplifier: Amplifier,
+    /// Sensor of the motor's current, which the log then has; `None`: the log has the command.
+    pub current: Option<CurrentSensor>,
+    /// Time stamps of the log that are late; `None`: they are even.
+    pub stamps: Option<LateStamps>,
     /// Time from the instant of the sensors to the current's acting; `None`: at once.
     pub delay: Option<Delay>,
     /// The controller acts at one sample in so many, 1 at least.
@@ -64,6 +73,8 @@ impl Instruments {
             motor: Sensor::IDEAL,
             tips: Vec::new(),
             amplifier: Amplifier::ideal(),
+            current: None,
+            stamps: None,
             delay: None,
             control_every: 1,
             log_every: 1,
@@ -94,6 +105,9 @@ impl Instruments {
         positive("sample_time_s", self.sample_time_s)?;
         positive("control_every", self.control_every as f64)?;
         positive("log_every", self.log_every as f64)?;
+        if let Some(stamps) = self.stamps {
+            stamps.check(self.log_time_s())?;
+        }
         if self.tips.len() > 1 && self.tips.len() != masses {
             return Err(RigError::SensorCount { found: self.tips.len(), masses });
         }

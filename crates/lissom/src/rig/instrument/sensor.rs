@@ -4,7 +4,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Noise, Quantiser};
 
-/// A sensor of an angle.
+/// A sensor of an angle, or of a current (A in place of rad).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sensor {
     /// Noise before rounding \[rad\]; `None`: none.

@@ -1,0 +1,290 @@
+//! A drive's result against truth.
+
+use std::fmt;
+
+use lissom::identify::findings::{
+    Finding, FindingKind, FrictionLawFinding, RegressionFinding, Severity,
+};
+use lissom::identify::{Estimate, Identified, Method};
+
+use super::drive_campaign::DriveCampaign;
+use super::friction_line::{FrictionLine, LineOf};
+use super::torque_bound::TorqueBound;
+
+/// Standard errors beyond which a parameter is wrong.
+pub(crate) const WRONG: f64 = 5.0;
+/// Loads below this share of Coulomb friction are not scored: nobody would look for them.
+const LOAD_LEAST: f64 = 0.05;
+/// The finding that friction has a law with further terms.
+pub(crate) const FRICTION_LAW: &str = "friction-law";
+
+/// A parameter of a drive.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DriveParameter {
+    /// Coulomb friction of the line.
+    Coulomb,
+    /// Viscous friction of the line.
+    Viscous,
+    /// All that turns.
+    Inertia,
+    /// Largest torque of gravity.
+    Gravity,
+    /// Constant load.
+    Load,
+}
+
+impl DriveParameter {
+    /// All of them.
+    pub const ALL: [Self; 5] =
+        [Self::Coulomb, Self::Viscous, Self::Inertia, Self::Gravity, Self::Load];
+
+    /// How findings name it.
+    pub(crate) fn key(self) -> &'static str {
+        match self {
+            Self::Coulomb => "friction.coulomb",
+            Self::Viscous => "friction.viscous",
+            Self::Inertia => "drive.inertia",
+            Self::Gravity => "gravity",
+            Self::Load => "friction.offset",
+        }
+    }
+}
+
+impl fmt::Display for DriveParameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Coulomb => "coulomb",
+            Self::Viscous => "viscous",
+            Self::Inertia => "inertia",
+            Self::Gravity => "gravity",
+            Self::Load => "load",
+        })
+    }
+}
+
+/// One parameter of one campaign.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ParameterScore {
+    /// Which.
+    pub parameter: DriveParameter,
+    /// Its truth.
+    pub truth: f64,
+    /// The same with the wander as it fell in the runs.
+    pub truth_as_fell: f64,
+    /// What was given; `None`: refused.
+    pub estimate: Option<Estimate>,
+    /// Codes of the warnings and refusals that name it.
+    pub warned_by: Vec<&'static str>,
+    /// The least standard deviation that it can have; `None` where the motion leaves it open.
+    pub bound: Option<f64>,
+    /// Whether it was taken from the line of least squares and not from the result's table.
+    pub from_line: bool,
+}
+
+impl ParameterScore {
+    /// The bound over the truth \[1\].
+    pub fn bound_share(&self) -> Option<f64> {
+        self.bound.map(|bound| bound / self.truth.abs())
+    }
+
+    /// Given without a warning.
+    pub fn vouched(&self) -> bool {
+        self.estimate.is_some() && self.warned_by.is_empty()
+    }
+
+    /// The same, `friction-law` left aside: it says that friction has a law with further terms.
+    pub fn vouched_but_for_law(&self) -> bool {
+        self.estimate.is_some() && self.warned_by.iter().all(|code| *code == FRICTION_LAW)
+    }
+
+    /// Its standard error over the bound.
+    pub fn over_bound(&self) -> Option<f64> {
+        Some(self.estimate?.std / self.bound?)
+    }
+
+    /// More than five standard errors off.
+    pub fn is_wrong(&self) -> bool {
+        // An error that is NaN is as wrong as a large one.
+        self.deviations().is_some_and(|d| d.is_nan() || d.abs() > WRONG)
+    }
+
+    /// Signed error in standard errors.
+    pub fn deviations(&self) -> Option<f64> {
+        self.estimate.map(|e| (e.value - self.truth) / e.std)
+    }
+
+    /// Signed relative error.
+    pub fn error(&self) -> Option<f64> {
+        self.estimate.map(|e| (e.value - self.truth) / self.truth.abs())
+    }
+
+    /// Whether the 95 % interval has the truth.
+    pub fn covers(&self) -> Option<bool> {
+        self.estimate.map(|e| {
+            let [low, high] = e.ci95();
+            (low..=high).contains(&self.truth)
+        })
+    }
+
+    /// Whether the 95 % interval has the truth with the wander as it fell.
+    pub fn covers_as_fell(&self) -> Option<bool> {
+        self.estimate.map(|e| {
+            let [low, high] = e.ci95();
+            (low..=high).contains(&self.truth_as_fell)
+        })
+    }
+
+    /// More than five standard errors off, without a warning.
+    pub fn silently_wrong(&self) -> bool {
+        self.vouched() && self.is_wrong()
+    }
+}
+
+/// A finding, as far as it counts here.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FoundCode {
+    /// Its code.
+    pub code: &'static str,
+    /// Its severity.
+    pub severity: Severity,
+    /// What tells two findings of one code apart: the term that is missing, the law's terms; empty for others.
+    pub detail: String,
+    /// What it says.
+    pub message: String,
+}
+
+impl FoundCode {
+    /// Code and detail.
+    pub fn label(&self) -> String {
+        if self.detail.is_empty() {
+            return self.code.to_owned();
+        }
+        format!("{} ({})", self.code, self.detail)
+    }
+
+    /// Whether it is a warning or a refusal.
+    pub fn warns(&self) -> bool {
+        self.severity >= Severity::Warning
+    }
+}
+
+/// All scores of one campaign.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DriveScore {
+    /// The parameters that the campaign has.
+    pub parameters: Vec<ParameterScore>,
+    /// All findings, in the result's order.
+    pub findings: Vec<FoundCode>,
+    /// The method whose table the result has.
+    pub method: Option<&'static str>,
+}
+
+impl DriveScore {
+    /// The finding that a user reads first: the first warning or refusal, else the first of all.
+    pub fn first(&self) -> Option<&FoundCode> {
+        self.findings.iter().find(|f| f.warns()).or(self.findings.first())
+    }
+
+    /// Whether there is a warning or a refusal.
+    pub fn warns(&self) -> bool {
+        self.findings.iter().any(FoundCode::warns)
+    }
+}
+
+/// Compares a result with the truth of its campaign.
+///
+/// Friction is that of the result's table, unless its law has terms beyond Coulomb and one viscous constant. The table's Coulomb
+/// friction is then that of the law: far from rest and beyond the speeds driven for concave friction, at rest with
+/// the root of speed, beside the ripple where the line averages it. It is no parameter of a line. The result itself
+/// gives the line of its logs for this case (`methods.least_squares`; the command prints it under the table), and that is compared with
+/// the true line. Where the output-error method has ripple as a term, the line is not given: the table is compared with
+/// the line of the friction without ripple.
+///
+/// Inertia is that of all that turns. Where the result has a mode that it found in the motor's motion
+/// (`modes-by-the-motor`), its inertia is the motor's own, and is compared with that.
+pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
+    let bound = TorqueBound::of(campaign);
+    let from_line = gives_the_line(id);
+    let ripple = id.friction.ripples.is_empty() || from_line;
+    let [law, fell] =
+        [false, true].map(|wander| FrictionLine::of(campaign, LineOf { ripple, wander }));
+    let line = id.least_squares.as_ref().map(|l| &l.estimates.friction);
+    let of_friction = |given: Option<Estimate>, of_line: Option<Estimate>| {
+        if from_line { given.and(of_line) } else { given }
+    };
+    let one = |parameter: DriveParameter, [truth, truth_as_fell]: [f64; 2], estimate| {
+        let names = |f: &&Finding| {
+            f.severity() >= Severity::Warning && f.affects().contains(&parameter.key())
+        };
+        ParameterScore {
+            parameter,
+            truth,
+            truth_as_fell,
+            estimate,
+            warned_by: id.findings.iter().filter(names).map(Finding::code).collect(),
+            bound: bound.as_ref().and_then(|b| b.std(parameter)),
+            from_line: from_line
+                && matches!(parameter, DriveParameter::Coulomb | DriveParameter::Viscous),
+        }
+    };
+    let friction = &id.friction;
+    let coulomb = of_friction(friction.coulomb, line.and_then(|l| l.coulomb));
+    let viscous = of_friction(friction.viscous, line.and_then(|l| l.viscous));
+    let numbers = &campaign.numbers;
+    let fixed = |value: f64| [value, value];
+    let of_motor = campaign.effects.unseen_mode.filter(|_| !id.beam.modes.is_empty());
+    let inertia = numbers.inertia_kg_m2 / (1.0 + of_motor.map_or(0.0, |m| m.inertia_ratio));
+    let mut parameters = vec![
+        one(DriveParameter::Coulomb, [law.coulomb_nm, fell.coulomb_nm], coulomb),
+        one(
+            DriveParameter::Viscous,
+            [law.viscous_nm_s_per_rad, fell.viscous_nm_s_per_rad],
+            viscous,
+        ),
+        one(DriveParameter::Inertia, fixed(inertia), id.inertia),
+    ];
+    if campaign.declares_gravity() {
+        let amplitude = id.gravity.map(|g| g.amplitude());
+        parameters.push(one(DriveParameter::Gravity, fixed(numbers.gravity_nm), amplitude));
+    }
+    if numbers.load_nm.abs() >= LOAD_LEAST * numbers.coulomb_nm {
+        parameters.push(one(DriveParameter::Load, fixed(numbers.load_nm), friction.offset));
+    }
+    let found = |f: &Finding| FoundCode {
+        code: f.code(),
+        severity: f.severity(),
+        detail: detail(&f.kind),
+        message: f.message(),
+    };
+    DriveScore {
+        parameters,
+        findings: id.findings.iter().map(found).collect(),
+        method: id.method.map(Method::name),
+    }
+}
+
+/// Whether the command prints the line of least squares under the table.
+fn gives_the_line(id: &Identified) -> bool {
+    let f = &id.friction;
+    let departs = f.near_rest.is_some() || f.viscous_by_direction.is_some();
+    departs || id.method == Some(Method::FrictionLaw)
+}
+
+/// What tells findings of one code apart.
+fn detail(kind: &FindingKind) -> String {
+    // The name of a variant, without its numbers.
+    let name = |text: String| text.split([' ', '{', '(']).next().unwrap_or_default().to_owned();
+    match kind {
+        FindingKind::Regression(RegressionFinding::MissingTerm { term, .. }) => {
+            name(format!("{:?}", term.kind))
+        }
+        FindingKind::Regression(RegressionFinding::AngleLag { lag }) => {
+            name(format!("{:?}", lag.shape))
+        }
+        FindingKind::FrictionLaw(FrictionLawFinding::FrictionLaw { terms, .. }) => {
+            let names: Vec<String> = terms.iter().map(|(t, _)| name(format!("{t:?}"))).collect();
+            names.join(" + ")
+        }
+        _ => String::new(),
+    }
+}

@@ -1,0 +1,102 @@
+//! Many drives, side by side.
+
+use std::time::{Duration, Instant};
+
+use lissom::identify::{Effort, Identified, IdentifyError, Options, identify};
+use rayon::prelude::*;
+
+use super::drive_campaign::{DriveCampaign, DriveNumbers};
+use super::drive_score::{DriveScore, score_drive};
+use super::effects::{Cause, DriveStudy, Effects};
+use super::planned_motion::MotionKind;
+
+/// What a study of drives is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DriveStudyPlan {
+    /// What is drawn.
+    pub study: DriveStudy,
+    /// Campaigns, from index 0 on.
+    pub campaigns: usize,
+    /// Seed of all draws.
+    pub seed: u64,
+    /// Leaves the output-error method out.
+    pub quick: bool,
+}
+
+/// A campaign that has been identified; its logs are gone.
+#[derive(Debug, Clone)]
+pub struct DriveOutcome {
+    /// Its place in the study.
+    pub index: usize,
+    /// Its cause, in a study of causes.
+    pub cause: Option<Cause>,
+    /// What it has beyond the simplest equation.
+    pub effects: Effects,
+    /// What the drive is.
+    pub numbers: DriveNumbers,
+    /// What kind of motion its runs are.
+    pub motion: MotionKind,
+    /// Runs.
+    pub runs: usize,
+    /// Rows of all runs.
+    pub rows: usize,
+    /// The largest share of a run in which the joint stuck.
+    pub stuck_share: f64,
+    /// Draws given up before it.
+    pub rejected: Vec<String>,
+    /// Parameters against truth, or why nothing was identified at all.
+    pub score: Result<DriveScore, String>,
+    /// Time of the simulation, draws given up included.
+    pub simulation: Duration,
+    /// Time of the identification.
+    pub identification: Duration,
+}
+
+/// Identifies a drive's campaign as a user would.
+///
+/// # Errors
+/// [`IdentifyError`] where nothing can be said at all.
+pub(super) fn identified_drive(
+    campaign: &DriveCampaign,
+    quick: bool,
+) -> Result<Identified, IdentifyError> {
+    let effort = if quick { Effort::Quick } else { Effort::Normal };
+    identify(&campaign.logs, &Options { effort, ..Options::default() }, |_| {})
+}
+
+/// Runs the study on rayon's current threads; `done` is called after each campaign. `None`: all draws were given up.
+pub fn drive_study(plan: &DriveStudyPlan, done: impl Fn() + Sync) -> Vec<Option<DriveOutcome>> {
+    let one = |index| {
+        let start = Instant::now();
+        let campaign = DriveCampaign::draw(plan.study, plan.seed, index);
+        let outcome = campaign.map(|c| DriveOutcome::of(&c, start.elapsed(), plan.quick));
+        done();
+        (index, outcome)
+    };
+    let mut all: Vec<_> = (0..plan.campaigns).into_par_iter().with_max_len(1).map(one).collect();
+    all.sort_by_key(|(index, _)| *index);
+    all.into_iter().map(|(_, outcome)| outcome).collect()
+}
+
+impl DriveOutcome {
+    /// Identifies a campaign whose simulation took so long.
+    pub fn of(campaign: &DriveCampaign, simulation: Duration, quick: bool) -> Self {
+        let start = Instant::now();
+        let found = identified_drive(campaign, quick);
+        let identification = start.elapsed();
+        Self {
+            index: campaign.index,
+            cause: campaign.cause(),
+            effects: campaign.effects,
+            numbers: campaign.numbers,
+            motion: campaign.motion,
+            runs: campaign.raw.len(),
+            rows: campaign.raw.iter().map(|(_, run)| run.len()).sum(),
+            stuck_share: campaign.stuck_share.iter().copied().fold(0.0, f64::max),
+            rejected: campaign.rejected.clone(),
+            score: found.map(|id| score_drive(campaign, &id)).map_err(|error| error.to_string()),
+            simulation,
+            identification,
+        }
+    }
+}
