@@ -1,5 +1,5 @@
 """MuJoCo's own identification, `mujoco.sysid`, and lissom on the same logs: `python sysid.py compare FOLDER LISSOM`, where LISSOM is
-the command; called by `cargo xtask external`. `python sysid.py tune FOLDER [CASE]` tries every setting in TRIED.
+the command; called by `cargo xtask external`. `python sysid.py tune FOLDER` tries every setting in TRIED.
 
 The logs are those of rigid.py. Both leave a table in FOLDER and on the standard output. `compare` ends with 1 where lissom breaks a
 bound; mujoco.sysid has none.
@@ -288,15 +288,19 @@ def compare(folder, program):
     return 1 if broken else 0
 
 
-def tune(folder, only=None):
-    table = Table(folder / "sysid-tried.md", ["settings", "case", "processor time", "residual, encoder steps", *LABELS.values()])
+def tune(folder):
+    """A row for every setting: errors [%], rms residual [steps of the encoder] and processor time [s] of each case."""
+    cases = rigid.cases()
+    table = Table(folder / "sysid-tried.md", ["settings", *(case.title for case in cases), "residuals", "processor time"])
     for settings in TRIED:
-        for k, case in enumerate(c for c in rigid.cases() if only in (None, c.name)):
-            # Processor time: other work on the machine does not lengthen it.
+        shown, left, times = [], [], []
+        for case in cases:
             start = time.process_time()
-            found, left = identify(case, settings)
-            time_s = time.process_time() - start
-            table.row([settings.name if k == 0 else "", case.title, seconds(time_s), f"{left:.2g}", *cells(errors(case, found))])
+            found, residual = identify(case, settings)
+            times.append(seconds(time.process_time() - start).removesuffix(" s"))
+            shown.append(", ".join(percent(error).removesuffix(" %") for error in errors(case, found).values()))
+            left.append(f"{float(f'{residual:.2g}'):g}")
+        table.row([settings.name, *shown, ", ".join(left), ", ".join(times) + " s"])
     return 0
 
 
@@ -305,7 +309,7 @@ def main(what, folder, *rest):
     folder.mkdir(parents=True, exist_ok=True)
     # Compiles the simulator, and reads MuJoCo in.
     rigid.cases()
-    return compare(folder, *rest) if what == "compare" else tune(folder, *rest)
+    return compare(folder, *rest) if what == "compare" else tune(folder)
 
 
 if __name__ == "__main__":
