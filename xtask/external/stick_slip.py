@@ -22,8 +22,17 @@ BISECTIONS = 60
 
 
 @njit(cache=True)
+def gravity(angle, arm):
+    """Torque of an unbalanced load against the motor, of the motor's angle."""
+    if arm[3, 0] == 0.0 and arm[3, 1] == 0.0:
+        return 0.0
+    return arm[3, 0] * np.sin(angle) + arm[3, 1] * np.cos(angle)
+
+
+@njit(cache=True)
 def rates(x, torque, way, turn, arm, out):
-    """dx/dt. arm: inertias and viscous dampings of motor and masses; turn: stiffness in their angles."""
+    """dx/dt. arm: rows of inertias and viscous dampings of motor and masses, of the motor's friction forward and
+    backward, and of the coefficients of sine and cosine in gravity's torque; turn: stiffness in their angles."""
     n = x.size // 2
     for i in range(n):
         pull = 0.0
@@ -36,7 +45,7 @@ def rates(x, torque, way, turn, arm, out):
         out[n] = 0.0
     else:
         friction = arm[2, 0] if way > 0 else -arm[2, 1]
-        out[n] += (torque - friction) / arm[0, 0]
+        out[n] += (torque - friction - gravity(x[0], arm)) / arm[0, 0]
 
 
 @njit(cache=True)
@@ -80,8 +89,9 @@ def watched(x, torque, way, turn, arm):
         change += turn[0, j] * x[n + j]
     if way != 0:
         friction = arm[2, 0] if way > 0 else -arm[2, 1]
-        return way * x[n], way * (torque - friction - pull - arm[1, 0] * x[n]) / arm[0, 0]
-    net = torque - pull
+        net = torque - gravity(x[0], arm) - friction - pull
+        return way * x[n], way * (net - arm[1, 0] * x[n]) / arm[0, 0]
+    net = torque - gravity(x[0], arm) - pull
     if arm[2, 0] - net < net + arm[2, 1]:
         return arm[2, 0] - net, change
     return net + arm[2, 1], -change
@@ -108,9 +118,10 @@ def from_rest(x, torque, turn, arm):
     pull = 0.0
     for j in range(x.size // 2):
         pull += turn[0, j] * x[j]
-    if torque - pull > arm[2, 0]:
+    net = torque - gravity(x[0], arm) - pull
+    if net > arm[2, 0]:
         return 1
-    if torque - pull < -arm[2, 1]:
+    if net < -arm[2, 1]:
         return -1
     return 0
 

@@ -52,8 +52,8 @@ class Arm:
         self.sample_time_s = given["sample_time_s"]
 
     def table(self):
-        """Rows: inertias, viscous dampings, friction forward and backward."""
-        rows = np.zeros((3, 1 + self.masses))
+        """Rows: inertias, viscous dampings, friction forward and backward, gravity (none)."""
+        rows = np.zeros((4, 1 + self.masses))
         rows[0] = [self.inertia_kg_m2, *self.inertia]
         rows[1] = [self.viscous_nm_s_per_rad, *self.drag]
         rows[2, :2] = self.forward_nm, self.backward_nm

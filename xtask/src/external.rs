@@ -1,8 +1,9 @@
 //! The rig's experiments by other people's simulators: `xtask/external/compare.py` in a virtual
-//! environment of its own under `target`, with the versions that `requirements.txt` pins.
+//! environment of its own under `target`, with the versions that `requirements.txt` pins. Then MuJoCo's own
+//! identification on the same logs as lissom (`sysid.py`).
 
 use std::{
-    fs,
+    env, fs,
     path::{Path, PathBuf},
     process::Command,
 };
@@ -53,8 +54,8 @@ fn folder(root: &Path, name: &str) -> Result<PathBuf, Failure> {
     Ok(folder)
 }
 
-/// Lets lissom write its experiments, compares the others' motions, and identifies a campaign that
-/// MuJoCo made.
+/// Lets lissom write its experiments, compares the others' motions, identifies a campaign that
+/// MuJoCo made, and lets MuJoCo's own identification and lissom identify the same logs.
 pub(crate) fn compare(root: &Path) -> Result<(), Failure> {
     let python = Python::new(root)?;
     let folder = folder(root, "external")?;
@@ -75,7 +76,18 @@ pub(crate) fn compare(root: &Path) -> Result<(), Failure> {
         command.arg(own.join("campaign.toml")).arg("--json").arg(own.join("result.json"));
         run("its identification", &mut command)?;
     }
-    run("its figures", &mut campaign("judge"))
+    run("its figures", &mut campaign("judge"))?;
+    let build = ["build", "--release", "--package", "lissom-cli"];
+    run("the command", &mut cargo(root, &build))?;
+    let mut identify = python.script("sysid.py");
+    identify.arg("compare").arg(&folder).arg(command_path(root));
+    run("MuJoCo's own identification compared with lissom", &mut identify)
+}
+
+/// Where cargo leaves the command's release build.
+fn command_path(root: &Path) -> PathBuf {
+    let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
+    root.join(target).join("release").join(format!("lissom{}", env::consts::EXE_SUFFIX))
 }
 
 /// Random campaigns by a simulator in Python, identified and scored by the study.

@@ -65,7 +65,7 @@ const RECIPES: &[Recipe] = &[
     },
     Recipe {
         name: "external",
-        about: "the rig beside MuJoCo and scipy, and a campaign by MuJoCo; in a Python of its own; minutes",
+        about: "the rig, and identification, compared with MuJoCo and scipy; in a Python of its own; minutes",
         takes: Takes::Flags(&[]),
         run: external,
     },

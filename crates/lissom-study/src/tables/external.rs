@@ -23,6 +23,8 @@ pub fn report(study: &Study, found: &Independent) -> String {
         errors(&all, |f| f.estimate.is_some()),
         limit::section(&found.outcome),
         worst::section(&found.outcome),
+        // Written by hand, with the tables of `cargo xtask external`.
+        include_str!("mujoco_sysid.md").trim_end().to_owned(),
     ]
     .join("\n\n")
         + "\n"
