@@ -331,7 +331,9 @@ fn half_a_sample_is_the_wrong_hold() {
     let log = joint.follow(10_000, two_sines);
     let one = run("log", &joint, log.held, log.angle);
     let found = quick(&Campaign::new(channels(Hold::Measured), vec![one]).unwrap());
-    let lag = found.findings.iter().find(|f| f.code() == "angle-lag").unwrap();
+    let lag = found.findings.iter().find(|f| f.code() == "angle-lag");
+    let lag =
+        lag.unwrap_or_else(|| panic!("{:?} {:?}", codes(&found), found.findings[0].message()));
     assert!(lag.hint().contains("hold"), "{}", lag.hint());
     within("viscous", found.friction.viscous, 0.02, 0.01);
 }

@@ -172,12 +172,8 @@ impl Describe for FrictionLawFinding {
     }
 
     fn severity(&self) -> Severity {
-        let Self::FrictionLaw { source, .. } = self;
-        match source {
-            LawSource::OutputError { negligible: true, .. }
-            | LawSource::SlipPhases { replayed_without: true, .. } => Severity::Info,
-            LawSource::OutputError { .. } | LawSource::SlipPhases { .. } => Severity::Warning,
-        }
+        // The estimates are those of the law. Bristles are none: what they do to inertia is not in it.
+        if self.grows_after_reversals() { Severity::Warning } else { Severity::Info }
     }
 
     fn affects(&self) -> Vec<&'static str> {

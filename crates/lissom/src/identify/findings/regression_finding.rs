@@ -34,6 +34,9 @@ pub enum RegressionFinding {
     FewPhases {
         /// Slip phases in the fit.
         phases: usize,
+        /// The variation that the standard errors count, as a share of Coulomb friction; `None` where the estimates are
+        /// of a method that counts none.
+        counted: Option<f64>,
     },
     /// Gravity can hardly be told from another term.
     GravityUnseparated {
@@ -192,15 +195,19 @@ impl fmt::Display for RegressionFinding {
             Self::RegressionRefused { residual_share: None, .. } => f.write_str(
                 "too few slip phases are long enough for a window: the regression gives no estimates",
             ),
-            Self::FewPhases { phases } => write!(
-                f,
-                "{} cannot show how friction scatters from one stroke to the next: standard errors count the scatter \
-                 within a stroke alone, and may be too small",
-                match phases {
+            Self::FewPhases { phases, counted } => {
+                let strokes = match phases {
                     1 => "one stroke".to_owned(),
                     n => format!("{n} strokes"),
+                };
+                write!(f, "{strokes} cannot show how friction scatters from one stroke to the next: ")?;
+                match counted {
+                    Some(share) => {
+                        write!(f, "standard errors count {:.0} % of Coulomb friction for it, as is usual", 100.0 * share)
+                    }
+                    None => f.write_str("standard errors count the scatter within a stroke alone, and may be too small"),
                 }
-            ),
+            }
             Self::GravityUnseparated { with, correlation } => write!(
                 f,
                 "gravity and {} can hardly be told apart in these runs (correlation {correlation:.2})",
@@ -298,7 +305,9 @@ impl Describe for RegressionFinding {
     fn severity(&self) -> Severity {
         match self {
             Self::RegressionRefused { .. } => Severity::Refusal,
-            Self::FrictionVaries { .. } => Severity::Info,
+            Self::FrictionVaries { .. } | Self::FewPhases { counted: Some(_), .. } => {
+                Severity::Info
+            }
             Self::FewPhases { .. }
             | Self::GravityUnseparated { .. }
             | Self::TorqueConstant { .. }

@@ -117,6 +117,9 @@ thresholds! {
         /// Largest angle by which a mode may turn in a sample, about half as much again as the
         /// Nyquist frequency allows. A faster mode is in no log.
         MODE_TURN_MOST: f64 = 4.5, "rad", Convention;
+        /// Largest rate at which an arm's state may change, times the sample time: a light motor before a
+        /// heavy damped load has one far above its frequencies, and a replay takes as many more steps.
+        RATE_MOST: f64 = 30.0, "1", Convention;
         /// Largest phase by which a ripple may pass in a sample at the fastest speed. At slower
         /// speeds it can still be seen.
         RIPPLE_PHASE_MOST: f64 = 16.0, "rad", Convention;

@@ -16,13 +16,14 @@ use crate::identify::methods::regression::left_out::{RunLeftOut, rms_speed, runs
 use crate::identify::methods::regression::left_torque::LeftTorque;
 use crate::identify::methods::regression::missing::{MissingKind, MissingTerm, missing_term};
 use crate::identify::methods::regression::motor_columns::{
-    DRY, MotorColumns, PLACE_INERTIA, PLACE_OFFSET, PLACE_VISCOUS, VISCOUS,
+    DRY, MotorColumns, PLACE_COULOMB, PLACE_INERTIA, PLACE_OFFSET, PLACE_VISCOUS, VISCOUS,
 };
 use crate::identify::methods::regression::motor_rows::MotorRows;
 use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve};
 use crate::identify::methods::regression::scan::{Candidate, RATIO, change, scan};
 use crate::identify::methods::regression::thresholds::{
-    FEW_PHASES, GRAVITY_CORRELATION, GRAVITY_KNOWN, LONGER_WINDOW, WINDOW_SYSTEMATIC,
+    FEW_PHASES, GRAVITY_CORRELATION, GRAVITY_KNOWN, LONGER_WINDOW, USUAL_VARIATION,
+    WINDOW_SYSTEMATIC,
 };
 use crate::identify::options::Options;
 use crate::identify::prepare::prepared::Prepared;
@@ -241,6 +242,12 @@ fn on_slip_phases(
     let chosen = &found.candidates[found.chosen];
     let (channels, window_s_chosen) = (&campaign.channels, chosen.window_s);
     let phases = equation.phases(window_s_chosen);
+    let with_more = |length: f64| -> Option<(Vec<Cluster>, Solution)> {
+        let without = sums.solved(length, &terms)?;
+        let known: Vec<f64> = columns.couplings().map(|i| without.value[i]).collect();
+        Some((equation.clusters_with_more(length, &known), without))
+    };
+    let (clusters, _) = with_more(window_s_chosen)?;
     let mut solution = found.solution;
     if phases < FEW_PHASES {
         // Of few strokes the window with the least scatter is in part one whose scatter came out small.
@@ -249,14 +256,9 @@ fn on_slip_phases(
                 sums.solved(length, &terms).map(|s| larger(&solution.covariance, &s.covariance));
             solution.covariance = beside.unwrap_or(solution.covariance);
         }
+        solution.covariance += of_usual_variation(&clusters, &terms, &solution);
     }
     let solution = &solution;
-    let with_more = |length: f64| -> Option<(Vec<Cluster>, Solution)> {
-        let without = sums.solved(length, &terms)?;
-        let known: Vec<f64> = columns.couplings().map(|i| without.value[i]).collect();
-        Some((equation.clusters_with_more(length, &known), without))
-    };
-    let (clusters, _) = with_more(window_s_chosen)?;
     let mut change = found.change.clone();
     if lag.is_some() {
         let by_lag = changes_by_delay(&clusters, &terms, columns);
@@ -276,12 +278,6 @@ fn on_slip_phases(
         missing_in(&clusters, &without, length)
     });
     let left = LeftTorque::of(&clusters, &terms, solution);
-    if std::env::var("LDBG").is_ok() {
-        eprintln!(
-            "LEFT {left:?} residual {} window {} {missing:?}",
-            solution.relative_residual, chosen.window_s
-        );
-    }
     let missing = missing.filter(|m| m.is_beyond(&left));
     // A few strokes are too much alike to separate a lag from other causes.
     let missing = missing.filter(|m| m.kind != MissingKind::Delay || phases >= FEW_PHASES);
@@ -327,6 +323,38 @@ fn on_slip_phases(
         terms: terms_of(&one),
         candidates: found.candidates,
     })
+}
+
+/// What friction that varies from one slip phase to the next as much as usual adds to the covariance: few phases do not show
+/// it.
+fn of_usual_variation(clusters: &[Cluster], terms: &[Term], solution: &Solution) -> DMatrix<f64> {
+    let p = terms.len();
+    let mut sum: DMatrix<f64> = DMatrix::zeros(p, p);
+    let mut normal: DMatrix<f64> = DMatrix::zeros(p, p);
+    let mut of_phase = DVector::zeros(p);
+    let mut before: Option<(usize, f64)> = None;
+    for cluster in clusters {
+        // Neighbours of one direction are parts of one phase.
+        if before.is_some_and(|b| b != (cluster.run, cluster.sign)) {
+            sum += &of_phase * of_phase.transpose();
+            of_phase.fill(0.0);
+        }
+        before = Some((cluster.run, cluster.sign));
+        for (i, term) in terms.iter().enumerate() {
+            let factor = term.factor(cluster.sign);
+            of_phase[i] += factor * cluster.products[(term.column(), DRY)];
+            for (j, other) in terms.iter().enumerate() {
+                let products = cluster.products[(term.column(), other.column())];
+                normal[(i, j)] += factor * other.factor(cluster.sign) * products;
+            }
+        }
+    }
+    sum += &of_phase * of_phase.transpose();
+    let variation = USUAL_VARIATION * solution.value[PLACE_COULOMB];
+    match normal.try_inverse() {
+        Some(inverse) => &inverse * sum * &inverse * variation.powi(2),
+        None => DMatrix::zeros(p, p),
+    }
 }
 
 impl MotorRegression {

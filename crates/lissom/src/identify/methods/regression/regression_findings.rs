@@ -10,7 +10,7 @@ use crate::identify::methods::friction_law::FrictionLaw;
 use crate::identify::methods::regression::missing::{MissingKind, MissingTerm};
 use crate::identify::methods::regression::motor::{ByDirection, MotorRegression};
 use crate::identify::methods::regression::thresholds::{
-    CONSTANT_DOUBTED, FEW_PHASES, GRAVITY_KNOWN, INERTIA_SHORT,
+    CONSTANT_DOUBTED, FEW_PHASES, GRAVITY_KNOWN, INERTIA_SHORT, USUAL_VARIATION,
 };
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
 use crate::identify::thresholds::{CLEARLY_PRESENT, SAME_FREQUENCY, UNEXPLAINED_TORQUE};
@@ -39,7 +39,8 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
         return findings;
     };
     if r.phases < FEW_PHASES && !explained {
-        findings.push(Finding::new(RegressionFinding::FewPhases { phases: r.phases }));
+        let counted = (chosen.method == Some(Method::Regression)).then_some(USUAL_VARIATION);
+        findings.push(Finding::new(RegressionFinding::FewPhases { phases: r.phases, counted }));
     }
     let residual_share = left_by_chosen(evidence, chosen).unwrap_or(r.relative_residual);
     if residual_share > UNEXPLAINED_TORQUE && !explained {

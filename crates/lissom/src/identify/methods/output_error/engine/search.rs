@@ -8,7 +8,7 @@ use crate::identify::methods::output_error::engine::coordinates::{Body, in_coord
 use crate::identify::methods::output_error::engine::noise::is_least;
 use crate::identify::methods::output_error::engine::windows::{fastest_rad_s, travel};
 use crate::identify::methods::output_error::thresholds::{
-    MODE_TURN_MOST, NEAR_REST_SPEED_LEAST, RIPPLE_PHASE_LEAST, RIPPLE_PHASE_MOST,
+    MODE_TURN_MOST, NEAR_REST_SPEED_LEAST, RATE_MOST, RIPPLE_PHASE_LEAST, RIPPLE_PHASE_MOST,
     STEP_DAMPING_MOST, STEP_LOGARITHM_MOST, STEP_VELOCITY_MOST, TIP_LAG_MOST, WINDOW_COST_HALF,
 };
 use crate::information::{Reduced, inverse};
@@ -283,7 +283,8 @@ fn is_braking(campaign: &Campaign, arm: &ModalArm, sample_s: f64) -> bool {
 }
 
 /// Whether an arm is within the limits of the search: friction brakes, and every mode turns by less than
-/// [`MODE_TURN_MOST`] in a sample. Faster modes are in no log, and need ever shorter steps of the replay.
+/// [`MODE_TURN_MOST`] in a sample. Faster modes are in no log, and they and rates above [`RATE_MOST`] need ever shorter
+/// steps of the replay.
 pub(crate) fn is_possible(campaign: &Campaign, arm: &ModalArm) -> bool {
     let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let turn = |m: &Oscillator| m.omega_rad_s * sample_s;
@@ -293,6 +294,7 @@ pub(crate) fn is_possible(campaign: &Campaign, arm: &ModalArm) -> bool {
         && arm.at_points_per_s.iter().all(|c| (c * sample_s).abs() < MODE_TURN_MOST)
         && arm.tip_lags_s.iter().all(|lag| lag.abs() < TIP_LAG_MOST * sample_s)
         && rigid < MODE_TURN_MOST * MODE_TURN_MOST
+        && arm.rate_bound() * sample_s < RATE_MOST
         && is_braking(campaign, arm, sample_s)
 }
 
