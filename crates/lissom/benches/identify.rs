@@ -55,6 +55,7 @@ fn start(campaign: &Campaign, omega_rad_s: &[Option<f64>]) -> OutputErrorStart {
     let arms = starts(campaign, &motor.estimates(), beam.as_ref(), None);
     OutputErrorStart {
         mode_rad_s: None,
+        friction_varies: false,
         most_evaluations: Effort::Thorough.most_evaluations(),
         interrupt: Interrupt::default(),
         arms,

@@ -430,3 +430,30 @@ fn a_reversed_command() {
     assert!(found.friction.coulomb.is_none() && found.inertia.is_none());
     assert!(found.gravity.is_none());
 }
+
+/// Friction that wanders by a few percent from stroke to stroke: its mean is given, and nothing warns of it.
+#[test]
+fn friction_that_varies_is_named() {
+    let joint = RigidJoint { sample_time_s: 2e-3, ..RigidJoint::default() };
+    let log = joint.follow(20_000, two_sines);
+    let share = 0.05;
+    let varied = |(k, (current, speed)): (usize, (&f64, &f64))| {
+        let wave = (0.37 * 2e-3 * k as f64).sin() + (1.03 * 2e-3 * k as f64).sin();
+        current + share * wave * joint.coulomb * speed.signum()
+    };
+    let current: Vec<f64> = log.measured.iter().zip(&log.speed).enumerate().map(varied).collect();
+    let one = run("log", &joint, current, log.angle);
+    let campaign = Campaign::new(channels(Hold::Measured), vec![one]).unwrap();
+    for effort in [Effort::Quick, Effort::Normal] {
+        let options = Options { effort, ..Options::default() };
+        let found = identify(&campaign, &options, |_| ()).unwrap();
+        assert_eq!(codes(&found).first(), Some(&"friction-varies"), "{:?}", codes(&found));
+        let warnings = found.findings.iter().filter(|f| f.severity() != Severity::Info);
+        assert_eq!(warnings.count(), 0, "{:?}", found.findings);
+        // Two waves of that size each.
+        let by = found.regression.as_ref().unwrap().left.varies_by;
+        assert!((by / share - 1.0).abs() < 0.2, "{by}");
+        within("Coulomb", found.friction.coulomb, 0.15, 0.02);
+        within("inertia", found.inertia, 0.01, 0.01);
+    }
+}

@@ -50,8 +50,8 @@ pub struct ModeEstimate {
 }
 
 impl ModeEstimate {
-    /// The damping ratio, where it is one that a beam can have: zero or more.
+    /// The damping ratio, where it is one that a beam can have: not surely below zero.
     pub fn given_damping_ratio(&self) -> Option<Estimate> {
-        Some(self.damping_ratio).filter(|ratio| ratio.value >= 0.0)
+        Some(self.damping_ratio).filter(|ratio| !ratio.is_negative())
     }
 }

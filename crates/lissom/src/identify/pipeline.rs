@@ -166,7 +166,9 @@ pub fn identify(
         let tried = law.as_ref().map(|(law, _)| law.tried());
         let start = start_of(&prepared, options, arms, tried);
         let mode = regression_missing.filter(|m| m.kind == MissingKind::Mode);
-        output_error(&prepared, &OutputErrorStart { mode_rad_s: mode.map(|m| m.value), ..start })
+        let mode_rad_s = mode.map(|m| m.value);
+        let friction_varies = motor.varies_by().is_some();
+        output_error(&prepared, &OutputErrorStart { mode_rad_s, friction_varies, ..start })
     });
     let lawful = law.as_ref().is_some_and(|(law, _)| law.chosen.departs());
     let doubted = regression_missing.is_some() && !lawful;
@@ -297,6 +299,7 @@ fn start_of(
         most_evaluations: options.evaluations(),
         interrupt: options.interrupt.clone(),
         mode_rad_s: None,
+        friction_varies: false,
         law: terms.unwrap_or_default(),
     }
 }

@@ -183,7 +183,7 @@ mod tests {
     #[test]
     fn a_negative_damping_ratio_is_refused() {
         let mut of_mode = mode(5.0);
-        of_mode.damping_ratio = Estimate { value: -0.001, std: 0.003 };
+        of_mode.damping_ratio = Estimate { value: -0.01, std: 0.003 };
         let methods = Methods { beam_model: Some(BeamFit::of_mode(of_mode)), ..Methods::default() };
         let campaign = campaign(true);
         let prepared = Prepared::of(&campaign);

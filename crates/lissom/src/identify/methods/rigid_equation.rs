@@ -8,13 +8,14 @@ use crate::identify::options::Options;
 use crate::identify::prepare::prepared::Prepared;
 
 /// The prepared runs with tips that give no angle, the regression of these, and a finding that says so. `None` where the
-/// coupling is known, or the equation without it leaves more of the torque.
+/// coupling is known or surely negative, or the equation without it leaves more of the torque.
 pub(crate) fn rigid_equation<'a>(
     prepared: &Prepared<'a>,
     options: &Options,
     regression: &MotorRegression,
 ) -> Option<(Prepared<'a>, MotorRegression, Finding)> {
-    let coupling = regression.total_coupling?;
+    // One that is surely negative is of a tip whose sign is reversed.
+    let coupling = regression.total_coupling.filter(|c| !c.is_negative())?;
     let known = |e: Estimate| e.value > 0.0 && e.std < COUPLING_HARDLY_KNOWN * e.value;
     if known(coupling) {
         return None;

@@ -12,6 +12,7 @@ use crate::identify::methods::output_error::moves::modes::highest;
 use crate::identify::methods::output_error::thresholds::{
     DAMPER_DRIVES, LAG_COMPARED, MODE_FAINT, RESIDUAL_GROWN,
 };
+use crate::identify::methods::regression::MotorRegression;
 use crate::identify::thresholds::{LAG_HALF_SAMPLE, PRESENT};
 use crate::record::{Campaign, Hold, Run, Tip};
 use crate::replay::{ModalArm, Parameter};
@@ -20,8 +21,9 @@ use crate::replay::{ModalArm, Parameter};
 pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
     let campaign = evidence.campaign;
     let Some(oe) = &evidence.methods.output_error else {
-        let noise = evidence.methods.command_noise;
-        let finding = |ratio| Finding::new(OutputErrorFinding::CommandNoise { ratio: Some(ratio) });
+        let noise = evidence.methods.command_noise.map(Some);
+        let noise = noise.or_else(|| command_is_noise(evidence).then_some(None));
+        let finding = |ratio| Finding::new(OutputErrorFinding::CommandNoise { ratio });
         return noise.map(finding).into_iter().collect();
     };
     let mut findings = Vec::new();
@@ -67,11 +69,11 @@ fn departs(evidence: &Evidence<'_>, oe: &OutputError) -> Option<Finding> {
     if oe.describes_whole_runs() {
         return None;
     }
+    // Noise of the command moves the arm; of friction that varies the regression's finding tells.
+    if command_is_noise(evidence) {
+        return Some(Finding::new(OutputErrorFinding::CommandNoise { ratio: None }));
+    }
     if let Some(r) = evidence.methods.regression.as_ref().filter(|r| r.missing.is_none()) {
-        // Noise of the command moves the arm; of friction that varies the regression's finding tells.
-        if evidence.campaign.channels.command.hold == Hold::Measured && r.left.is_noise() {
-            return Some(Finding::new(OutputErrorFinding::CommandNoise { ratio: None }));
-        }
         if r.varies_by().is_some() && !oe.stands() && !lawful(evidence) {
             return None;
         }
@@ -84,6 +86,13 @@ fn departs(evidence: &Evidence<'_>, oe: &OutputError) -> Option<Finding> {
         noise_ratio: oe.beyond_noise,
         used: oe.stands(),
     }))
+}
+
+/// Whether the equation lacks no term, and leaves little more than the noise of a measured command.
+fn command_is_noise(evidence: &Evidence<'_>) -> bool {
+    let alone = |r: &MotorRegression| r.missing.is_none() && r.lag.is_none() && r.left.is_noise();
+    evidence.campaign.channels.command.hold == Hold::Measured
+        && evidence.methods.regression.as_ref().is_some_and(alone)
 }
 
 /// Whether friction has terms beyond Coulomb and viscous friction.

@@ -42,6 +42,7 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
         budget: &budget,
         widening: WINDOW_WIDENING,
         mode_rad_s: start.mode_rad_s,
+        tries_first_mode: !start.friction_varies,
         tries_laws: true,
     };
     let Attempt { fit, mut report, without_repeats, left } = best(&fitting, start)?;

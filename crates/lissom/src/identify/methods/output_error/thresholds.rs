@@ -152,6 +152,9 @@ thresholds! {
         NEW_MODE_DAMPING: f64 = 0.1, "1", Convention;
         /// Shares of a rigid axis' inertia that its first mode takes at first; they are tried in turn.
         FIRST_MODE_SHARES: [f64; 2] = [0.3, 0.7], "1", Convention;
+        /// Smallest inertia behind the spring of the first mode of a rigid axis, as a share of that before
+        /// it: less takes a part of any error of the arm.
+        FIRST_MODE_INERTIA_LEAST: f64 = 0.02, "1", Convention;
         /// Most searches for the first mode of a rigid axis, each of `STAGE_STEPS_MOST`.
         FIRST_MODE_SEARCHES: usize = 4, "searches", Convention;
         /// Ratio of the frequencies at which the first mode of a rigid axis begins.

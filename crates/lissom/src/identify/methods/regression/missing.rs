@@ -6,7 +6,8 @@ use crate::identify::methods::regression::motor_columns::{
 };
 use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve};
 use crate::identify::methods::regression::thresholds::{
-    GRAVITY_TRAVEL_RAD, MISSING_ONE_SIGN, MISSING_SURE, MODE_BEATS, NOISE_ALONE, NOTHING_MISSING,
+    GRAVITY_TRAVEL_RAD, LAG_EXPLAINS, MISSING_ONE_SIGN, MISSING_SURE, MODE_BEATS, NOISE_ALONE,
+    NOTHING_MISSING,
 };
 use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT, RESIDUAL_FALLS_TO};
 use crate::record::{Axis, Campaign, Run};
@@ -193,8 +194,12 @@ pub(super) fn missing_term(
     });
     let (modes, others): (Vec<_>, Vec<_>) = tried.partition(|term| term.kind == MissingKind::Mode);
     let other = others.into_iter().min_by(|a, b| a.residual_ratio.total_cmp(&b.residual_ratio));
-    // With its two columns a mode takes a part of any other cause.
-    let most = other.map_or(1.0, |other| MODE_BEATS * other.residual_ratio);
+    // With its two columns a mode takes a part of any other cause, and one that explains most by itself is simpler.
+    let beaten = |other: MissingTerm| match other.residual_ratio < LAG_EXPLAINS {
+        true => 0.0,
+        false => MODE_BEATS * other.residual_ratio,
+    };
+    let most = other.map_or(1.0, beaten);
     modes.into_iter().find(|mode| mode.residual_ratio < most).or(other)
 }
 

@@ -109,8 +109,8 @@ thresholds! {
         /// that from phase to phase: a finding says so.
         FEW_PHASES: usize = 8, "slip phases", Convention;
         /// Variation of friction from one slip phase to the next, as a share of Coulomb friction, that
-        /// standard errors count where slip phases are too few to show it: harmonic drives and screws of
-        /// the measured logs vary by 2 to 6 % (docs/measured.md).
+        /// standard errors count where slip phases are too few to show it: friction of joints wanders by
+        /// a few percent.
         USUAL_VARIATION: f64 = 0.03, "1", Convention;
         /// Blocks that few slip phases are cut into.
         BLOCKS_WANTED: usize = 16, "blocks", Convention;

@@ -5,12 +5,12 @@ use crate::identify::methods::output_error::engine::covariance::deviation;
 use crate::identify::methods::output_error::model::fit::{ArmFit, Report};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::thresholds::{
-    CRITICAL_DAMPING, FIRST_MODE_EXCESS_LEFT, FIRST_MODE_SEARCHES, FIRST_MODE_SHARES,
-    FIRST_MODE_STEP, FIRST_MODE_TRIES, FIRST_MODE_TURN_MOST, MODE_FAINT, MODE_RETUNED,
-    MODE_RETUNED_CLOSELY, NEW_MODE_DAMPING, NEW_MODE_FREQUENCIES, NEW_MODE_SHARE, NEW_MODE_TURN,
-    PROBE_STEPS, REPETITIONS_MOST, RESIDUAL_ABOVE_NOISE,
+    CRITICAL_DAMPING, FIRST_MODE_EXCESS_LEFT, FIRST_MODE_INERTIA_LEAST, FIRST_MODE_SEARCHES,
+    FIRST_MODE_SHARES, FIRST_MODE_STEP, FIRST_MODE_TRIES, FIRST_MODE_TURN_MOST, MODE_FAINT,
+    MODE_RETUNED, MODE_RETUNED_CLOSELY, NEW_MODE_DAMPING, NEW_MODE_FREQUENCIES, NEW_MODE_SHARE,
+    NEW_MODE_TURN, PROBE_STEPS, REPETITIONS_MOST, RESIDUAL_ABOVE_NOISE,
 };
-use crate::identify::thresholds::RESIDUAL_FALLS_TO;
+use crate::identify::thresholds::{MODE_DAMPING_LEAST, RESIDUAL_FALLS_TO};
 use crate::record::Run;
 use crate::replay::{DryTerms, MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
 
@@ -36,7 +36,7 @@ pub(crate) fn grow(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report)
 /// of the inertia. The best of them continues.
 fn add_the_first(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     let tried = report.first_modes_refused >= FIRST_MODE_TRIES;
-    if tried || fitting.beyond_noise(fit) <= RESIDUAL_ABOVE_NOISE {
+    if tried || !fitting.tries_first_mode || fitting.beyond_noise(fit) <= RESIDUAL_ABOVE_NOISE {
         return;
     }
     let sample_s = fitting.campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
@@ -62,13 +62,25 @@ fn add_the_first(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
             break;
         }
     }
-    let oscillates = with.body.arm.damping_ratios().iter().all(|ratio| *ratio < CRITICAL_DAMPING);
+    let possible = is_a_mode(&with.body.arm, slowest);
     let explains = fitting.excess(&with) < FIRST_MODE_EXCESS_LEFT * fitting.excess(fit);
-    if oscillates && explains && fitting.is_better(&with, fit) {
+    if possible && explains && fitting.is_better(&with, fit) {
         *fit = with;
     } else {
         report.first_modes_refused += 1;
     }
+}
+
+/// Whether a good part of the inertia turns behind the spring, no slower than `slowest_rad_s`, and oscillates without gaining
+/// energy.
+fn is_a_mode(arm: &ModalArm, slowest_rad_s: f64) -> bool {
+    let ratios = arm.damping_ratios();
+    arm.modes.iter().zip(ratios).all(|(mode, ratio)| {
+        let behind = mode.stiffness_nm_per_rad / mode.omega_rad_s.powi(2);
+        behind > FIRST_MODE_INERTIA_LEAST * arm.inertia_kg_m2
+            && mode.omega_rad_s > 0.5 * slowest_rad_s
+            && (MODE_DAMPING_LEAST..CRITICAL_DAMPING).contains(&ratio)
+    })
 }
 
 /// A rigid axis with a part of its inertia behind a spring. Without the mode, a lag and further friction may have been
