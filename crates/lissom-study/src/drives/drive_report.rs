@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::drive_score::{DriveParameter, DriveScore, FoundCode, ParameterScore};
+use super::drive_parameter::DriveParameter;
+use super::drive_score::{DriveScore, FoundCode, ParameterScore};
 use super::drive_study::{DriveOutcome, DriveStudyPlan};
 use super::effects::{Cause, DriveStudy, Effects, Input};
 use crate::statistics::{Share, median};

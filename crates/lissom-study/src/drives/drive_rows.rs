@@ -1,6 +1,7 @@
 //! A row for each drive, for other programs.
 
-use super::drive_score::{DriveParameter, FoundCode, ParameterScore};
+use super::drive_parameter::DriveParameter;
+use super::drive_score::{FoundCode, ParameterScore};
 use super::drive_study::{DriveOutcome, DriveStudyPlan};
 use super::effects::{Input, Lag};
 

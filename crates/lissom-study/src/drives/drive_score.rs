@@ -1,13 +1,12 @@
 //! A drive's result against truth.
 
-use std::fmt;
-
 use lissom::identify::findings::{
     Finding, FindingKind, FrictionLawFinding, RegressionFinding, Severity,
 };
 use lissom::identify::{Estimate, Identified, Method};
 
 use super::drive_campaign::DriveCampaign;
+use super::drive_parameter::DriveParameter;
 use super::friction_line::{FrictionLine, LineOf};
 use super::torque_bound::TorqueBound;
 
@@ -17,50 +16,6 @@ pub(crate) const WRONG: f64 = 5.0;
 const LOAD_LEAST: f64 = 0.05;
 /// The finding that friction has a law with further terms.
 pub(crate) const FRICTION_LAW: &str = "friction-law";
-
-/// A parameter of a drive.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum DriveParameter {
-    /// Coulomb friction of the line.
-    Coulomb,
-    /// Viscous friction of the line.
-    Viscous,
-    /// All that turns.
-    Inertia,
-    /// Largest torque of gravity.
-    Gravity,
-    /// Constant load.
-    Load,
-}
-
-impl DriveParameter {
-    /// All of them.
-    pub const ALL: [Self; 5] =
-        [Self::Coulomb, Self::Viscous, Self::Inertia, Self::Gravity, Self::Load];
-
-    /// How findings name it.
-    pub(crate) fn key(self) -> &'static str {
-        match self {
-            Self::Coulomb => "friction.coulomb",
-            Self::Viscous => "friction.viscous",
-            Self::Inertia => "drive.inertia",
-            Self::Gravity => "gravity",
-            Self::Load => "friction.offset",
-        }
-    }
-}
-
-impl fmt::Display for DriveParameter {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Coulomb => "coulomb",
-            Self::Viscous => "viscous",
-            Self::Inertia => "inertia",
-            Self::Gravity => "gravity",
-            Self::Load => "load",
-        })
-    }
-}
 
 /// One parameter of one campaign.
 #[derive(Debug, Clone, PartialEq)]

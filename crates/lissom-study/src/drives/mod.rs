@@ -7,6 +7,7 @@
 mod drive_campaign;
 mod drive_description;
 mod drive_logs;
+mod drive_parameter;
 mod drive_report;
 mod drive_rows;
 mod drive_score;
@@ -19,9 +20,10 @@ mod torque_bound;
 pub use drive_campaign::{DriveCampaign, DriveNumbers};
 pub use drive_description::describe_drive;
 pub use drive_logs::{LogsError, write_logs};
+pub use drive_parameter::DriveParameter;
 pub use drive_report::drive_report;
 pub use drive_rows::drive_rows;
-pub use drive_score::{DriveParameter, DriveScore, FoundCode, ParameterScore, score_drive};
+pub use drive_score::{DriveScore, FoundCode, ParameterScore, score_drive};
 pub use drive_study::{DriveOutcome, DriveStudyPlan, drive_study};
 pub use effects::{
     Cause, DriveStudy, Effects, GearRipple, Gravity, Input, Lag, NearRest, UnseenMode, Wander,

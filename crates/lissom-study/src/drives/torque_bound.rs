@@ -4,7 +4,7 @@ use lissom::information::{Inverse, inverted};
 use nalgebra::{DMatrix, DVector};
 
 use super::drive_campaign::{DriveCampaign, TrueRow};
-use super::drive_score::DriveParameter;
+use super::drive_parameter::DriveParameter;
 use super::effects::Input;
 use super::friction_line::braking_nm;
 

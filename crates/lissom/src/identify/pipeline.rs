@@ -164,31 +164,18 @@ pub fn identify(
         let drive = motor.estimates();
         let arms = starting_arms(prepared.used(), &drive, beam, tips, &shown, corrected);
         let tried = law.as_ref().map(|(law, _)| law.tried());
-        let start = start_of(&prepared, options, arms, tried);
-        let mode = regression_missing.filter(|m| m.kind == MissingKind::Mode);
-        let mode_rad_s = mode.map(|m| m.value);
-        let friction_varies = motor.varies_by().is_some();
-        output_error(&prepared, &OutputErrorStart { mode_rad_s, friction_varies, ..start })
+        output_error(&prepared, &start_of(&prepared, options, arms, (&motor, tried)))
     });
     let lawful = law.as_ref().is_some_and(|(law, _)| law.chosen.departs());
     let doubted = regression_missing.is_some() && !lawful;
     let varies = !lawful && regression.as_ref().is_some_and(|r| r.varies_by().is_some());
-    let output_error = output_error.map(|oe| match (doubted, varies) {
-        (true, _) => oe.beside_doubted_regression(),
-        (_, true) => oe.beside_varying_friction(),
-        _ => oe,
-    });
-    let rigid = regression
-        .as_ref()
-        .filter(|_| !output_error.as_ref().is_some_and(OutputError::stands))
-        .and_then(|r| rigid_equation(&prepared, options, r));
-    let (regression, law, line, without_coupling) = match rigid {
-        None => (regression, law, line, None),
-        Some((rigid, found, finding)) => {
-            let law = friction_law(&rigid, &found).filter(|_| found.lag.is_none());
-            let line = least_squares(&rigid, Some(found.window_s));
-            (Some(found), law, line, Some(finding))
-        }
+    let output_error = output_error.map(|oe| oe.beside_regression(doubted, varies));
+    let stands = output_error.as_ref().is_some_and(OutputError::stands);
+    let rigid = regression.as_ref().filter(|_| !stands);
+    let rigid = rigid.and_then(|r| rigid_equation(&prepared, options, r));
+    let (without_coupling, regression, law, line) = match rigid {
+        None => (None, regression, law, line),
+        Some(rigid) => (Some(rigid.finding), Some(rigid.regression), rigid.law, rigid.line),
     };
 
     progress(Stage::Responses);
@@ -286,7 +273,7 @@ fn start_of(
     prepared: &Prepared<'_>,
     options: &Options,
     arms: Vec<ModalArm>,
-    terms: Option<Vec<LawTerm>>,
+    (motor, terms): (&MotorRegression, Option<Vec<LawTerm>>),
 ) -> OutputErrorStart {
     let omega = |&i: &usize| match &prepared.runs()[i].kind {
         RunKind::Sinusoidal(s) => Some(s.omega_rad_s),
@@ -298,8 +285,8 @@ fn start_of(
         first_window_s: None,
         most_evaluations: options.evaluations(),
         interrupt: options.interrupt.clone(),
-        mode_rad_s: None,
-        friction_varies: false,
+        mode_rad_s: motor.missing.filter(|m| m.kind == MissingKind::Mode).map(|m| m.value),
+        friction_varies: motor.varies_by().is_some(),
         law: terms.unwrap_or_default(),
     }
 }

@@ -130,9 +130,10 @@ impl Describe for BeamFinding {
     fn affects(&self) -> Vec<&'static str> {
         match self {
             Self::ModesNotFound | Self::NegativeDamping { .. } => vec![key::MODES],
-            Self::RigidEquation { .. } => vec![key::COUPLING],
             Self::FlexibleWithoutTip { .. } => vec![key::INERTIA, key::VISCOUS, key::COULOMB],
-            Self::TipWithoutAngle { inertia_with_beam: false, .. } => vec![key::COUPLING],
+            Self::RigidEquation { .. } | Self::TipWithoutAngle { inertia_with_beam: false, .. } => {
+                vec![key::COUPLING]
+            }
             Self::TipWithoutAngle { .. } | Self::MoreModesThanTips { .. } => {
                 vec![key::COUPLING, key::INERTIA]
             }

@@ -6,7 +6,7 @@ use strum::{IntoStaticStr, VariantNames};
 
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::describe::Describe;
-use crate::identify::findings::number_text::{later, significant, with_error};
+use crate::identify::findings::number_text::{counted, later, significant, with_error};
 use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
 use crate::identify::findings::units::EstimateUnits;
@@ -103,10 +103,10 @@ pub enum RegressionFinding {
 impl RegressionFinding {
     /// Whether it is a cause that other findings may follow from.
     pub(crate) fn is_cause(&self) -> bool {
-        match self {
-            Self::MissingTerm { .. } | Self::AngleLag { .. } | Self::FrictionVaries { .. } => true,
-            _ => false,
-        }
+        matches!(
+            self,
+            Self::MissingTerm { .. } | Self::AngleLag { .. } | Self::FrictionVaries { .. }
+        )
     }
 }
 
@@ -184,6 +184,27 @@ fn moved_by(term: &MissingTerm) -> String {
     format!("with it the estimates would be other ones, {}", parts.join(", "))
 }
 
+/// A lag in words.
+fn lags(f: &mut fmt::Formatter<'_>, lag: &AngleLag) -> fmt::Result {
+    write!(
+        f,
+        "the {} by {} of {} ms ({:.2} samples): with it the residual torque drops to {:.0} %. The estimates count it",
+        if lag.time_s < 0.0 {
+            "command is logged late: it lags behind the angle"
+        } else {
+            "angle lags behind the command"
+        },
+        match lag.shape {
+            LagShape::Filter => "a first-order filter",
+            LagShape::Delay => "a delay",
+            LagShape::Either => "a filter or delay",
+        },
+        significant(1e3 * lag.time_s.abs(), 2),
+        lag.samples.abs(),
+        100.0 * lag.residual_ratio
+    )
+}
+
 impl fmt::Display for RegressionFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -195,19 +216,18 @@ impl fmt::Display for RegressionFinding {
             Self::RegressionRefused { residual_share: None, .. } => f.write_str(
                 "too few slip phases are long enough for a window: the regression gives no estimates",
             ),
-            Self::FewPhases { phases, counted } => {
-                let strokes = match phases {
-                    1 => "one stroke".to_owned(),
-                    n => format!("{n} strokes"),
-                };
-                write!(f, "{strokes} cannot show how friction scatters from one stroke to the next: ")?;
-                match counted {
-                    Some(share) => {
-                        write!(f, "standard errors count {:.0} % of Coulomb friction for it, as is usual", 100.0 * share)
+            Self::FewPhases { phases, counted: variation } => write!(
+                f,
+                "{} cannot show how friction scatters from one stroke to the next: {}",
+                counted(*phases, "stroke", "strokes"),
+                variation.map_or_else(
+                    || "standard errors count the scatter within a stroke alone, and may be too small".to_owned(),
+                    |share| {
+                        let percent = 100.0 * share;
+                        format!("standard errors count {percent:.0} % of Coulomb friction for it, as is usual")
                     }
-                    None => f.write_str("standard errors count the scatter within a stroke alone, and may be too small"),
-                }
-            }
+                )
+            ),
             Self::GravityUnseparated { with, correlation } => write!(
                 f,
                 "gravity and {} can hardly be told apart in these runs (correlation {correlation:.2})",
@@ -256,24 +276,7 @@ impl fmt::Display for RegressionFinding {
                  estimates are its mean over the logs, and their standard errors count that it changes",
                 significant(100.0 * by, 2)
             ),
-            Self::AngleLag { lag } => write!(
-                f,
-                "the {} by {} of {} ms ({:.2} samples): with it the residual torque drops to {:.0} %. The estimates \
-                 count it",
-                if lag.time_s < 0.0 {
-                    "command is logged late: it lags behind the angle"
-                } else {
-                    "angle lags behind the command"
-                },
-                match lag.shape {
-                    LagShape::Filter => "a first-order filter",
-                    LagShape::Delay => "a delay",
-                    LagShape::Either => "a filter or delay",
-                },
-                significant(1e3 * lag.time_s.abs(), 2),
-                lag.samples.abs(),
-                100.0 * lag.residual_ratio
-            ),
+            Self::AngleLag { lag } => lags(f, lag),
             Self::ViscousByDirection {
                 forward,
                 backward,

@@ -1,23 +1,33 @@
 //! The motor's equation without a beam, where the coupling to the tips is hardly known and spoils the other estimates.
 
-use crate::identify::estimate::Estimate;
 use crate::identify::findings::{BeamFinding, EstimateUnits, Finding};
+use crate::identify::methods::friction_law::{CurveSums, FrictionLaw, friction_law};
+use crate::identify::methods::least_squares::{LeastSquares, least_squares};
 use crate::identify::methods::regression::thresholds::{COUPLING_HARDLY_KNOWN, RIGID_LEAVES};
 use crate::identify::methods::regression::{MotorRegression, motor_regression};
 use crate::identify::options::Options;
 use crate::identify::prepare::prepared::Prepared;
 
-/// The prepared runs with tips that give no angle, the regression of these, and a finding that says so. `None` where the
-/// coupling is known or surely negative, or the equation without it leaves more of the torque.
-pub(crate) fn rigid_equation<'a>(
-    prepared: &Prepared<'a>,
+/// What slip phases give without a beam.
+pub(crate) struct RigidEquation {
+    pub(crate) regression: MotorRegression,
+    pub(crate) law: Option<(FrictionLaw, CurveSums)>,
+    pub(crate) line: Option<LeastSquares>,
+    /// Why it is taken.
+    pub(crate) finding: Finding,
+}
+
+/// The equation without the coupling. `None` where the coupling is known or surely negative, or the equation without it leaves
+/// more of the torque.
+pub(crate) fn rigid_equation(
+    prepared: &Prepared<'_>,
     options: &Options,
     regression: &MotorRegression,
-) -> Option<(Prepared<'a>, MotorRegression, Finding)> {
+) -> Option<RigidEquation> {
     // One that is surely negative is of a tip whose sign is reversed.
     let coupling = regression.total_coupling.filter(|c| !c.is_negative())?;
-    let known = |e: Estimate| e.value > 0.0 && e.std < COUPLING_HARDLY_KNOWN * e.value;
-    if known(coupling) {
+    let known = coupling.value > 0.0 && coupling.std < COUPLING_HARDLY_KNOWN * coupling.value;
+    if known {
         return None;
     }
     let mut used = prepared.used().clone();
@@ -25,8 +35,16 @@ pub(crate) fn rigid_equation<'a>(
     let rigid = prepared.using(used);
     let found = motor_regression(&rigid, options)?;
     let residual_shares = [regression.relative_residual, found.relative_residual];
-    let holds = residual_shares[1] < RIGID_LEAVES * residual_shares[0];
+    if residual_shares[1] >= RIGID_LEAVES * residual_shares[0] {
+        return None;
+    }
     let units = EstimateUnits::new(&prepared.campaign().channels);
     let finding = BeamFinding::RigidEquation { coupling, units, residual_shares };
-    holds.then(|| (rigid, found, Finding::new(finding)))
+    let law = if found.lag.is_none() { friction_law(&rigid, &found) } else { None };
+    Some(RigidEquation {
+        law,
+        line: least_squares(&rigid, Some(found.window_s)),
+        regression: found,
+        finding: Finding::new(finding),
+    })
 }

@@ -116,16 +116,15 @@ impl OutputError {
         self.beyond_noise < self.accepted_residual && is_sound(&self.arm, &self.covariance)
     }
 
-    /// The same beside a regression that shows friction that varies: over short windows this is taken for inertia and
-    /// viscous friction, and standard errors do not count it.
+    /// The same beside the regression: over short windows more is accepted where its equation lacks a term, and nothing where
+    /// it shows friction that varies, which would be taken for inertia and viscous friction and which standard errors do not count.
     #[must_use]
-    pub(crate) fn beside_varying_friction(self) -> Self {
-        if self.whole_runs { self } else { Self { accepted_residual: 0.0, ..self } }
-    }
-
-    /// The same beside a regression whose equation lacks a term.
-    #[must_use]
-    pub(crate) fn beside_doubted_regression(self) -> Self {
-        Self { accepted_residual: accepted_residual(true), ..self }
+    pub(crate) fn beside_regression(self, lacks_term: bool, varies: bool) -> Self {
+        let accepted_residual = match (lacks_term, varies && !self.whole_runs) {
+            (true, _) => accepted_residual(true),
+            (_, true) => 0.0,
+            _ => self.accepted_residual,
+        };
+        Self { accepted_residual, ..self }
     }
 }

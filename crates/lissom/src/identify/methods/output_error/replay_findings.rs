@@ -73,10 +73,9 @@ fn departs(evidence: &Evidence<'_>, oe: &OutputError) -> Option<Finding> {
     if command_is_noise(evidence) {
         return Some(Finding::new(OutputErrorFinding::CommandNoise { ratio: None }));
     }
-    if let Some(r) = evidence.methods.regression.as_ref().filter(|r| r.missing.is_none()) {
-        if r.varies_by().is_some() && !oe.stands() && !lawful(evidence) {
-            return None;
-        }
+    let varies = evidence.methods.regression.as_ref().is_some_and(|r| r.varies_by().is_some());
+    if varies && !oe.stands() && !lawful(evidence) {
+        return None;
     }
     let (first, last) = (oe.stages.first()?, longest(oe)?);
     let grown = first.residual.iter().zip(&last.residual).map(|(a, b)| b / a).fold(0.0, f64::max);

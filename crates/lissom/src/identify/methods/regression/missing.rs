@@ -195,9 +195,8 @@ pub(super) fn missing_term(
     let (modes, others): (Vec<_>, Vec<_>) = tried.partition(|term| term.kind == MissingKind::Mode);
     let other = others.into_iter().min_by(|a, b| a.residual_ratio.total_cmp(&b.residual_ratio));
     // With its two columns a mode takes a part of any other cause, and one that explains most by itself is simpler.
-    let beaten = |other: MissingTerm| match other.residual_ratio < LAG_EXPLAINS {
-        true => 0.0,
-        false => MODE_BEATS * other.residual_ratio,
+    let beaten = |other: MissingTerm| {
+        if other.residual_ratio < LAG_EXPLAINS { 0.0 } else { MODE_BEATS * other.residual_ratio }
     };
     let most = other.map_or(1.0, beaten);
     modes.into_iter().find(|mode| mode.residual_ratio < most).or(other)

@@ -381,7 +381,7 @@ impl Rows for WithMore<'_> {
             window.value.dot(&self.waves.0[0][k..]) * t * scale,
             window.value.dot(&self.waves.0[1][k..]) * t * scale,
             self.of_mode.fourth.dot_from(&run.motor()[k..], run.motor()[k]) * t * scale,
-            self.plain.torque_by(&self.of_mode, &run.command()[k..]) * scale,
+            self.plain.torque_by(self.of_mode, &run.command()[k..]) * scale,
         ];
         let right = row.len() - 1;
         row.splice(right..right, more);
