@@ -1,8 +1,8 @@
 //! Figures against truth.
 
 use lissom::identify::findings::{
-    BeamFinding, ChannelFinding, EstimateFinding, Finding, FindingKind, OutputErrorFinding,
-    Severity,
+    BeamFinding, ChannelFinding, EstimateFinding, Finding, FindingKind, FrictionLawFinding,
+    LawSource, OutputErrorFinding, Severity,
 };
 use lissom::identify::{Estimate, Identified, ModeEstimate, RunKind, corrected};
 use num_complex::Complex64;
@@ -224,7 +224,17 @@ impl FindingScore {
 
 /// Whether a finding says that the equation of motion does not hold.
 fn is_law_alarm(finding: &Finding) -> bool {
-    if matches!(finding.kind, FindingKind::Estimate(EstimateFinding::Offset { .. })) {
+    let says = match &finding.kind {
+        FindingKind::Estimate(EstimateFinding::Offset { .. }) => true,
+        // It warns of nothing where the estimates are those of the law.
+        FindingKind::FrictionLaw(FrictionLawFinding::FrictionLaw { source, .. }) => !matches!(
+            source,
+            LawSource::OutputError { negligible: true, .. }
+                | LawSource::SlipPhases { replayed_without: true, .. }
+        ),
+        _ => false,
+    };
+    if says {
         return true;
     }
     let warns = finding.severity() >= Severity::Warning;
