@@ -205,7 +205,7 @@ fn time_stamps_are_late_and_increase() {
         stamps.iter().enumerate().map(|(k, s)| s - k as f64 * SAMPLE_S).collect();
     let mean = lateness.iter().sum::<f64>() / lateness.len() as f64;
     assert!(lateness.iter().all(|l| (-1e-12..=0.9 * SAMPLE_S).contains(l)));
-    // A mean of 10 000 uniform numbers is known to 0.6 % of itself.
+    // The standard error of a mean of 10 000 uniform numbers is 0.6 % of it.
     assert!((mean / (0.45 * SAMPLE_S) - 1.0).abs() < 0.025, "{mean}");
     late.instruments.stamps = Some(LateStamps::new(SAMPLE_S).unwrap());
     assert!(matches!(late.run("", &sine(), 5), Err(RigError::LateStamps { .. })));

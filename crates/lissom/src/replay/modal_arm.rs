@@ -27,6 +27,11 @@ pub struct Oscillator {
 }
 
 impl Oscillator {
+    /// Inertia k/ω² that turns behind its spring \[kg·m²\].
+    pub fn inertia_kg_m2(&self) -> f64 {
+        self.stiffness_nm_per_rad / (self.omega_rad_s * self.omega_rad_s)
+    }
+
     /// `d·s + ω²`: what the motor's angle does to it.
     fn driven(&self, s: Complex64) -> Complex64 {
         s * self.within_per_s + self.omega_rad_s * self.omega_rad_s

@@ -35,7 +35,7 @@ const SAMPLES_MOST: f64 = 1e8;
 /// Most numbers of a log: 1.6 GB.
 const NUMBERS_MOST: f64 = 2e8;
 
-/// Streams of random numbers beside those of the angles' sensors.
+/// Streams of random numbers in addition to those of the angles' sensors.
 const EXTRA_STREAMS: usize = 3;
 
 /// Fewest rows of a log.

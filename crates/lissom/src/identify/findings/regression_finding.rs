@@ -15,7 +15,7 @@ use crate::identify::methods::regression::{AngleLag, GravityPartner, LagShape};
 
 /// Digits of a coefficient whose standard error is not given.
 const DIGITS: usize = 3;
-/// A change of an estimate is told from this many of its standard errors on.
+/// Smallest change of an estimate that is reported, in its standard errors.
 const FELT: f64 = 1.0;
 
 /// Regression in slip phases: what the motor's equation does not explain.

@@ -15,7 +15,7 @@ use crate::identify::methods::output_error::thresholds::{
 use crate::identify::methods::regression::MotorRegression;
 use crate::identify::thresholds::{LAG_HALF_SAMPLE, PRESENT};
 use crate::record::{Campaign, Hold, Run, Tip};
-use crate::replay::{ModalArm, Parameter};
+use crate::replay::{ModalArm, Oscillator, Parameter};
 
 /// Findings of the replay, among them that it does not describe the runs.
 pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
@@ -140,8 +140,7 @@ fn longest(oe: &OutputError) -> Option<&StageReport> {
 fn modes_by_the_motor(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
     let arm = &oe.arm;
     let modes = arm.modes.len();
-    let behind: f64 =
-        arm.modes.iter().map(|m| m.stiffness_nm_per_rad / m.omega_rad_s.powi(2)).sum();
+    let behind: f64 = arm.modes.iter().map(Oscillator::inertia_kg_m2).sum();
     let lowest = arm.modes.iter().map(|m| m.omega_rad_s).fold(f64::INFINITY, f64::min);
     (modes > 0 && campaign.channels.tips.is_empty()).then(|| {
         Finding::new(OutputErrorFinding::ModesByTheMotor {
@@ -203,7 +202,7 @@ fn tip_lags(campaign: &Campaign, oe: &OutputError) -> Vec<Finding> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::replay::{DryTerms, Oscillator};
+    use crate::replay::DryTerms;
 
     #[test]
     fn a_highest_mode_that_hardly_shows_is_said() {

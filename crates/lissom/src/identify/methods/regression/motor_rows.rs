@@ -101,8 +101,9 @@ impl<'a> MotorRows<'a> {
             window,
         };
         let origin = campaign.runs.first().map_or(0.0, |run| run.motor()[0]);
-        let of_mode = ModeWeights::of(window, run.sample_time_s());
-        let with_more = more.map(|coupling| WithMore {
+        // Of no use to the many lengths that are only scanned.
+        let of_mode = more.map(|_| ModeWeights::of(window, run.sample_time_s()));
+        let with_more = more.zip(of_mode.as_ref()).map(|(coupling, of_mode)| WithMore {
             plain,
             origin,
             slowness: slowness(run, smooth),
@@ -110,9 +111,9 @@ impl<'a> MotorRows<'a> {
             elapsed: Elapsed::of(campaign, index),
             coupling,
             waves: SineAndCosine::of(run.motor()),
-            of_mode: &of_mode,
+            of_mode,
         });
-        let noise = plain.noise(slipping.noise, more.is_some().then_some(&of_mode));
+        let noise = plain.noise(slipping.noise, of_mode.as_ref());
         let cluster = |(phase, part): (&Phase, Range<usize>)| {
             let mut cluster = Cluster::new(index, phase.sign, columns);
             let windows = part.step_by(step);

@@ -76,8 +76,7 @@ fn add_the_first(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
 fn is_a_mode(arm: &ModalArm, slowest_rad_s: f64) -> bool {
     let ratios = arm.damping_ratios();
     arm.modes.iter().zip(ratios).all(|(mode, ratio)| {
-        let behind = mode.stiffness_nm_per_rad / mode.omega_rad_s.powi(2);
-        behind > FIRST_MODE_INERTIA_LEAST * arm.inertia_kg_m2
+        mode.inertia_kg_m2() > FIRST_MODE_INERTIA_LEAST * arm.inertia_kg_m2
             && mode.omega_rad_s > 0.5 * slowest_rad_s
             && (MODE_DAMPING_LEAST..CRITICAL_DAMPING).contains(&ratio)
     })
@@ -100,12 +99,17 @@ fn with_first(fitting: &Fitting<'_>, fit: &ArmFit, omega_rad_s: f64, share: f64)
         within_per_s: 2.0 * NEW_MODE_DAMPING * omega_rad_s,
         grounded_per_s: 0.0,
     });
-    for window in &mut fit.windows {
-        let still = [window.start[0], window.start[1]];
-        window.start.extend(still);
-    }
+    begin_undeflected(&mut fit);
     fit.free = free_parameters(&fitting.campaign.channels, &fit.body.arm);
     fit
+}
+
+/// Adds a mode to the initial state of every window: it moves with the motor.
+fn begin_undeflected(fit: &mut ArmFit) {
+    for window in &mut fit.windows {
+        let with_motor = [window.start[0], window.start[1]];
+        window.start.extend(with_motor);
+    }
 }
 
 /// Takes out overdamped modes: they do not oscillate, and no beam has them. A rigid axis that started with a mode has one.
@@ -267,10 +271,7 @@ fn one_beyond(mut fit: ArmFit, last: usize, times: f64) -> ArmFit {
         row.push(NEW_MODE_SHARE * row[last]);
         row[last] *= 1.0 - NEW_MODE_SHARE;
     }
-    for window in &mut fit.windows {
-        let still = [window.start[0], window.start[1]];
-        window.start.extend(still);
-    }
+    begin_undeflected(&mut fit);
     fit
 }
 
