@@ -1,8 +1,8 @@
 //! What each method found, in JSON.
 
 use lissom::identify::{
-    BeamRegression, ByDirection, Candidate, DriveEstimates, Estimate, Friction, Identified,
-    LeastSquares, MotorFit, MotorRegression, ThirdHarmonic,
+    BeamRegression, ByDirection, Candidate, DriveEstimates, Estimate, Friction, HiddenMode,
+    Identified, LeastSquares, MotorFit, MotorRegression, ThirdHarmonic,
 };
 use lissom::record::Channels;
 use serde::{Deserialize, Serialize};
@@ -113,6 +113,8 @@ pub struct RegressionEntry {
     pub gravity: Option<GravityEntry>,
     /// One viscous constant for each direction; null where one was enough.
     pub viscous_by_direction: Option<ViscousByDirectionEntry>,
+    /// A mode that no tip shows and that the estimates count; null where there is none.
+    pub hidden_mode: Option<HiddenModeEntry>,
     /// Length of the window used.
     pub window_s: f64,
     /// Whether it was given rather than chosen.
@@ -127,6 +129,34 @@ pub struct RegressionEntry {
     pub candidates: Vec<WindowEntry>,
     /// The beam's own equation on windows.
     pub beam: Option<BeamRegressionEntry>,
+}
+
+/// A part of the inertia behind a spring, from the motor's motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct HiddenModeEntry {
+    /// Frequency with the motor clamped.
+    pub natural_frequency_rad_s: EstimateEntry,
+    /// Damping ratio with the motor clamped.
+    pub damping_ratio: EstimateEntry,
+    /// Inertia before the spring as a share of all that turns.
+    pub inertia_share: EstimateEntry,
+    /// Residual beside that of the equation without it.
+    pub residual_ratio: f64,
+    /// Length of the windows that show it best.
+    pub window_s: f64,
+}
+
+impl HiddenModeEntry {
+    fn of(mode: HiddenMode) -> Self {
+        Self {
+            natural_frequency_rad_s: EstimateEntry::of(mode.omega_rad_s),
+            damping_ratio: EstimateEntry::of(mode.damping_ratio),
+            inertia_share: EstimateEntry::of(mode.inertia_share),
+            residual_ratio: mode.residual_ratio,
+            window_s: mode.window_s,
+        }
+    }
 }
 
 /// The same equation with one viscous coefficient for each direction: a fit of its own.
@@ -303,6 +333,7 @@ impl RegressionEntry {
                 .viscous_by_direction
                 .as_ref()
                 .map(|d| ViscousByDirectionEntry::of(names, constant, d)),
+            hidden_mode: r.mode.map(HiddenModeEntry::of),
             window_s: r.window_s,
             window_given: r.window_given,
             rows: r.rows,

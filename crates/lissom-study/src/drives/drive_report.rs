@@ -278,7 +278,7 @@ fn causes(all: &[Scored<'_>]) -> Vec<String> {
             table(&header, &rows)
         ),
         format!(
-            "## The first finding\n\nThe first warning or refusal, else the first of all.\n\n{confusion}"
+            "## The first finding\n\nThat at the top of the list: causes come before what follows from them.\n\n{confusion}"
         ),
         format!("## Warnings and refusals\n\nCampaigns that have them at all.\n\n{any}"),
         format!("## Information\n\nCampaigns that have them at all.\n\n{infos}"),

@@ -135,9 +135,9 @@ pub struct DriveScore {
 }
 
 impl DriveScore {
-    /// The finding that a user reads first: the first warning or refusal, else the first of all.
+    /// The finding that a user reads first: causes come before what follows from them.
     pub fn first(&self) -> Option<&FoundCode> {
-        self.findings.iter().find(|f| f.warns()).or(self.findings.first())
+        self.findings.first()
     }
 
     /// Whether there is a warning or a refusal.

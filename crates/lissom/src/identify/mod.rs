@@ -47,8 +47,8 @@ pub use methods::output_error::{
     output_error, starts, starts_by_motor, starts_by_responses,
 };
 pub use methods::regression::{
-    AngleLag, BeamRegression, ByDirection, Candidate, GravityPartner, LagShape, LeftTorque,
-    MissingKind, MissingTerm, MotorRegression, Moved, RunDifference, beam_regression,
+    AngleLag, BeamRegression, ByDirection, Candidate, GravityPartner, HiddenMode, LagShape,
+    LeftTorque, MissingKind, MissingTerm, MotorRegression, Moved, RunDifference, beam_regression,
     motor_regression,
 };
 pub use methods::third_harmonic::{PairFigure, ThirdHarmonic, mean_figure, pair_figure};

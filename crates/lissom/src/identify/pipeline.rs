@@ -16,7 +16,7 @@ use crate::identify::methods::output_error::{
 };
 use crate::identify::methods::regression::thresholds::FEW_PHASES;
 use crate::identify::methods::regression::{
-    BeamRegression, LagShape, MissingKind, MotorRegression, beam_regression,
+    BeamRegression, LagShape, MotorRegression, beam_regression,
 };
 use crate::identify::methods::rigid_equation::rigid_equation;
 use crate::identify::methods::starting_arms::starting_arms;
@@ -285,7 +285,7 @@ fn start_of(
         first_window_s: None,
         most_evaluations: options.evaluations(),
         interrupt: options.interrupt.clone(),
-        mode_rad_s: motor.missing.filter(|m| m.kind == MissingKind::Mode).map(|m| m.value),
+        mode_rad_s: motor.mode.map(|m| m.omega_rad_s.value),
         friction_varies: motor.varies_by().is_some(),
         law: terms.unwrap_or_default(),
     }

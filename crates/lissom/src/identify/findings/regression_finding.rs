@@ -12,6 +12,7 @@ use crate::identify::findings::severity::Severity;
 use crate::identify::findings::units::EstimateUnits;
 use crate::identify::methods::regression::missing::{MissingKind, MissingTerm};
 use crate::identify::methods::regression::{AngleLag, GravityPartner, LagShape};
+use crate::identify::methods::regression::{HiddenMode, Moved};
 
 /// Digits of a coefficient whose standard error is not given.
 const DIGITS: usize = 3;
@@ -73,6 +74,11 @@ pub enum RegressionFinding {
         /// Units of the coefficient.
         units: EstimateUnits,
     },
+    /// The motor's motion shows a flexible mode, which the estimates count.
+    HiddenMode {
+        /// Which.
+        mode: HiddenMode,
+    },
     /// Friction, or a load, changes from one slip phase to the next.
     FrictionVaries {
         /// By how much, the root of its mean square, as a share of Coulomb friction.
@@ -105,7 +111,10 @@ impl RegressionFinding {
     pub(crate) fn is_cause(&self) -> bool {
         matches!(
             self,
-            Self::MissingTerm { .. } | Self::AngleLag { .. } | Self::FrictionVaries { .. }
+            Self::MissingTerm { .. }
+                | Self::HiddenMode { .. }
+                | Self::AngleLag { .. }
+                | Self::FrictionVaries { .. }
         )
     }
 }
@@ -141,10 +150,6 @@ fn looks_like(term: &MissingTerm, units: EstimateUnits) -> String {
             200.0 * term.value.abs(),
             if term.value > 0.0 { "more" } else { "less" }
         ),
-        MissingKind::Mode => format!(
-            "a part of the inertia turned behind a spring, at {size} rad/s ({:.1} Hz) with the motor clamped",
-            term.value / std::f64::consts::TAU
-        ),
         MissingKind::CoulombDrift => format!(
             "Coulomb friction {grows} by {size} {} from the beginning of the campaign to its end",
             units.torque()
@@ -156,32 +161,43 @@ fn looks_like(term: &MissingTerm, units: EstimateUnits) -> String {
     }
 }
 
-/// The estimates that a missing term changes, with their names, result keys and changes.
-fn moved(term: &MissingTerm) -> Vec<(&'static str, &'static str, f64)> {
+/// The estimates that a term changes by more than their standard errors, with their names, result keys and changes.
+fn moved(moves: &[Moved; 3]) -> Vec<(&'static str, &'static str, f64)> {
     let names = [
         ("inertia", key::INERTIA),
         ("viscous friction", key::VISCOUS),
         ("Coulomb friction", key::COULOMB),
     ];
-    let felt = names.into_iter().zip(term.moves);
+    let felt = names.into_iter().zip(moves);
     let felt = felt.filter(|(_, moved)| moved.standard_errors.abs() > FELT);
     felt.map(|((name, key), moved)| (name, key, moved.share)).collect()
 }
 
-/// That in words.
+/// Changes as shares of estimates, in words; `None` where there are none.
+fn changed(shares: impl Iterator<Item = (&'static str, f64)>) -> Option<String> {
+    let parts = shares.map(|(name, share)| {
+        let more = if share < 0.0 { "lower" } else { "higher" };
+        format!("{name} {} % {more}", significant(100.0 * share.abs(), 2))
+    });
+    Some(parts.collect::<Vec<_>>().join(", ")).filter(|text| !text.is_empty())
+}
+
+/// What a missing term changes, in words.
 fn moved_by(term: &MissingTerm) -> String {
-    let moved = moved(term);
-    let parts: Vec<String> = moved
-        .iter()
-        .map(|(name, _, share)| {
-            let more = if *share < 0.0 { "lower" } else { "higher" };
-            format!("{name} {} % {more}", significant(100.0 * share.abs(), 2))
-        })
-        .collect();
-    if parts.is_empty() {
-        return "with it no estimate changes by more than its standard error".to_owned();
+    let moved = moved(&term.moves).into_iter();
+    match changed(moved.map(|(name, _, share)| (name, share))) {
+        None => "with it no estimate changes by more than its standard error".to_owned(),
+        Some(changes) => format!("with it the estimates would be other ones, {changes}"),
     }
-    format!("with it the estimates would be other ones, {}", parts.join(", "))
+}
+
+/// What the estimates would be without a mode, in words.
+fn without_mode(mode: &HiddenMode) -> String {
+    let moved = moved(&mode.moves).into_iter();
+    match changed(moved.map(|(name, _, share)| (name, 1.0 / (1.0 + share) - 1.0))) {
+        None => "Without it no estimate changes by more than its standard error".to_owned(),
+        Some(changes) => format!("Without it the estimates would be other ones, {changes}"),
+    }
 }
 
 /// A lag in words.
@@ -270,6 +286,16 @@ impl fmt::Display for RegressionFinding {
                 100.0 * term.residual_ratio,
                 moved_by(term)
             ),
+            Self::HiddenMode { mode } => write!(
+                f,
+                "no tip is measured, and the motor's motion shows a flexible mode, at {} Hz with the motor clamped, with a \
+                 damping ratio of {}; {} % of the inertia turn before its spring. The estimates count it: inertia is \
+                 that of all that turns. {}",
+                significant(mode.omega_rad_s.value / std::f64::consts::TAU, DIGITS),
+                significant(mode.damping_ratio.value, 2),
+                significant(100.0 * mode.inertia_share.value, 2),
+                without_mode(mode)
+            ),
             Self::FrictionVaries { by } => write!(
                 f,
                 "friction, or a load, changes from one slip phase to the next, by {} % of Coulomb friction (rms). The \
@@ -308,9 +334,9 @@ impl Describe for RegressionFinding {
     fn severity(&self) -> Severity {
         match self {
             Self::RegressionRefused { .. } => Severity::Refusal,
-            Self::FrictionVaries { .. } | Self::FewPhases { counted: Some(_), .. } => {
-                Severity::Info
-            }
+            Self::HiddenMode { .. }
+            | Self::FrictionVaries { .. }
+            | Self::FewPhases { counted: Some(_), .. } => Severity::Info,
             Self::FewPhases { .. }
             | Self::GravityUnseparated { .. }
             | Self::TorqueConstant { .. }
@@ -337,11 +363,15 @@ impl Describe for RegressionFinding {
                 vec![key::COULOMB, key::OFFSET, key::VISCOUS, key::INERTIA]
             }
             Self::MissingTerm { term, .. } => {
-                let mut keys: Vec<_> = moved(term).into_iter().map(|(_, key, _)| key).collect();
+                let mut keys: Vec<_> =
+                    moved(&term.moves).into_iter().map(|(_, key, _)| key).collect();
                 keys.extend([key::OFFSET, key::COUPLING]);
                 keys
             }
             Self::FrictionVaries { .. } => vec![key::COULOMB, key::VISCOUS],
+            Self::HiddenMode { mode } => {
+                moved(&mode.moves).into_iter().map(|(_, key, _)| key).collect()
+            }
             Self::GravityUnseparated { with: GravityPartner::Inertia, .. } => {
                 vec![key::INERTIA, key::GRAVITY]
             }
@@ -398,9 +428,6 @@ impl Describe for RegressionFinding {
                     "an amplifier that is stronger one way, or a current sensor with two gains: log the current itself, \
                      and calibrate it in both directions"
                 }
-                MissingKind::Mode => {
-                    "measure the angle behind the flexible part as a tip, or move so slowly that the mode is not excited"
-                }
                 MissingKind::CoulombDrift => {
                     "the joint warms up, wears or was lubricated: warm it up first, or identify the runs separately"
                 }
@@ -408,6 +435,9 @@ impl Describe for RegressionFinding {
                     "the joint warms up: warm it up first, or identify the runs separately"
                 }
             },
+            Self::HiddenMode { .. } => {
+                "measure the angle behind the flexible part as a tip to see how it moves"
+            }
             Self::FrictionVaries { .. } => {
                 "nothing to do for the estimates; a simulation with constant friction departs from the log by that much. \
                  Warm the joint up, or log for longer, to see whether it settles"

@@ -8,7 +8,7 @@ use crate::identify::judge::evidence::Evidence;
 use crate::identify::judge::thresholds::MODEL_MISFIT;
 use crate::identify::judge::thresholds::TIPS_COMPLETE;
 use crate::identify::methods::output_error::OutputError;
-use crate::identify::methods::regression::{BeamRegression, MissingKind, MotorRegression};
+use crate::identify::methods::regression::{BeamRegression, MotorRegression};
 use crate::identify::prepare::run_analysis::RunKind;
 
 /// Whether the beam's equations on the measured tips explain their motion.
@@ -79,7 +79,7 @@ pub(super) fn findings(evidence: &Evidence<'_>, beam: &BeamEstimates) -> Vec<Fin
     }
     let model = evidence.methods.motor_model.as_ref();
     // Noise and friction that varies bend the response, too: slip phases tell.
-    let rigid = |r: &MotorRegression| r.missing.is_none_or(|m| m.kind != MissingKind::Mode);
+    let rigid = |r: &MotorRegression| r.mode.is_none();
     if tips == 0
         && !evidence.methods.regression.as_ref().is_some_and(rigid)
         && let Some(model) = model.filter(|m| m.weighted_rms < MODEL_MISFIT)

@@ -50,9 +50,10 @@ pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> C
     }
     findings.extend(remarks::remarks(evidence, &chosen));
     let separability = Separability::of(evidence, &chosen, &findings);
-    // Friction that varies makes runs differ.
-    let varies = evidence.methods.regression.as_ref().is_some_and(|r| r.varies_by().is_some());
-    findings.extend(separability.as_ref().filter(|_| !varies).and_then(Separability::finding));
+    // Friction that varies makes runs differ, as does a mode that the arm of the replay has not.
+    let differ = |r: &regression::MotorRegression| r.varies_by().is_some() || r.mode.is_some();
+    let differ = evidence.methods.regression.as_ref().is_some_and(differ);
+    findings.extend(separability.as_ref().filter(|_| !differ).and_then(Separability::finding));
     let arm = FoundArm::of(evidence, &chosen);
     let left = arm.as_ref().filter(|arm| !arm.holds()).and_then(|arm| arm.torque_used);
     findings.extend(left.map(|left| {

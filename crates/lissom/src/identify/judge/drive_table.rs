@@ -144,8 +144,10 @@ pub(super) fn is_beaten(evidence: &Evidence<'_>) -> bool {
     let Methods { regression, friction_law, least_squares, .. } = evidence.methods;
     let phases = slip_phase_solution(regression.as_ref(), friction_law.as_ref());
     let (Some((method, estimates)), Some(baseline)) = (phases, least_squares) else { return false };
-    // A law has terms that this equation has not.
-    let left = (method != Method::FrictionLaw).then(|| baseline.left_by(&estimates)).flatten();
+    // A law, and a mode, have terms that this equation has not.
+    let same =
+        method != Method::FrictionLaw && regression.as_ref().is_none_or(|r| r.mode.is_none());
+    let left = same.then(|| baseline.left_by(&estimates)).flatten();
     left.is_some_and(|left| left > BEATEN_FACTOR * baseline.relative_residual + BEATEN_SHARE)
 }
 

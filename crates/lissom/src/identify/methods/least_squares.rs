@@ -9,8 +9,8 @@ use rayon::prelude::*;
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::methods::regression::thresholds::{BLOCKS_WANTED, FEW_PHASES};
 use crate::identify::methods::regression::{
-    Candidate, Cluster, Fitted, MotorColumns, MotorEquation, Phase, Rows, SMOOTHING_LEAST,
-    SineAndCosine, Term, WINDOW_STEP, Window, scan, solve, velocity_and_phases,
+    Candidate, Cluster, Fitted, ModeTerms, MotorColumns, MotorEquation, Phase, Rows,
+    SMOOTHING_LEAST, SineAndCosine, Term, WINDOW_STEP, Window, scan, solve, velocity_and_phases,
 };
 use crate::identify::methods::thresholds::{SLOWEST_SAMPLE, STANDING_SHARE};
 use crate::identify::prepare::prepared::Prepared;
@@ -246,11 +246,10 @@ impl Line<'_> {
                 columns: self.columns,
                 gravity: moving.waves.as_ref(),
                 window,
+                mode: ModeTerms::None,
             };
             let rows = LineRow { plain, direction: &moving.direction };
-            let noise = plain.noise(moving.noise, None);
-            let right = noise.ncols() - 1;
-            let noise = noise.insert_columns(right, 1, 0.0).insert_rows(right, 1, 0.0);
+            let noise = plain.noise(moving.noise, 1);
             for phase in &moving.phases {
                 let middles: Vec<usize> = moving.middles(phase, n, least).collect();
                 let parts = parts.min(middles.len() / 8).max(1);

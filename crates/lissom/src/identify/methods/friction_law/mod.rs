@@ -172,8 +172,9 @@ pub(crate) fn friction_law(
     let sensors: Vec<ChannelNoise> = runs.map(|run| channel_noise(run.motor())).collect();
     let step = sensors.iter().map(|sensor| sensor.step).fold(0.0, f64::max);
     let load = motor.gravity.map(|g| g.load());
+    let mode = motor.mode.map(|m| m.shape());
     let windows_of = |window_s: f64| {
-        let mut sampled = Sampled::new(campaign, noise, window_s);
+        let mut sampled = Sampled::new(campaign, noise, window_s, mode);
         (sampled.load, sampled.step) = (load, step);
         sampled
     };

@@ -10,8 +10,8 @@ use rayon::prelude::*;
 use crate::identify::methods::friction_law::column_values::ColumnValues;
 use crate::identify::methods::friction_law::law_term::{Column, LawTerm, ScaleUnit};
 use crate::identify::methods::regression::{
-    MotorColumns, MotorEquation, Phase, Rows, SMOOTHED_PART, SMOOTHING_LEAST, SineAndCosine, Term,
-    WINDOW_STEP, Window, velocity_and_phases,
+    ModeShape, ModeTerms, ModeWindow, MotorColumns, MotorEquation, Phase, Rows, SMOOTHED_PART,
+    SMOOTHING_LEAST, SineAndCosine, Term, WINDOW_STEP, Window, velocity_and_phases,
 };
 use crate::identify::prepare::run_noise::RunNoise;
 use crate::load::GravityLoad;
@@ -162,13 +162,21 @@ struct Slipping {
     phases: Vec<Phase>,
     /// `None` where the run is shorter than a window.
     window: Option<Window>,
+    /// Weights of a mode that no tip shows.
+    mode: Option<ModeWindow>,
     /// What the sensors' noise adds to a row's products, in expectation.
     noise: DMatrix<f64>,
     gravity: Option<SineAndCosine>,
 }
 
 impl<'a> Sampled<'a> {
-    pub(super) fn new(campaign: &'a Campaign, noise: &[RunNoise], window_s: f64) -> Self {
+    /// Windows of a length; a `mode` that no tip shows is counted.
+    pub(super) fn new(
+        campaign: &'a Campaign,
+        noise: &[RunNoise],
+        window_s: f64,
+        mode: Option<ModeShape>,
+    ) -> Self {
         let columns = MotorColumns::of(campaign);
         let of = |(run, noise): (&Run, &RunNoise)| {
             let t = run.sample_time_s();
@@ -177,16 +185,19 @@ impl<'a> Sampled<'a> {
             let (velocity, mut phases) =
                 velocity_and_phases(run.motor(), smooth(run, noise, window_s), t);
             phases.retain(|phase| phase.to - phase.from > n);
+            let counted = window.as_ref().zip(mode);
+            let mode = counted.map(|(window, shape)| ModeWindow::of(window, shape, t));
             let noise = window.as_ref().map_or_else(
                 || DMatrix::zeros(0, 0),
                 |window| {
                     let columns = &columns;
-                    MotorEquation { campaign, run, columns, gravity: None, window }
-                        .noise(noise, None)
+                    let mode = ModeTerms::of(mode.as_ref(), None);
+                    MotorEquation { campaign, run, columns, gravity: None, window, mode }
+                        .noise(noise, 0)
                 },
             );
             let gravity = columns.gravity.then(|| SineAndCosine::of(run.motor()));
-            Slipping { velocity, phases, window, noise, gravity }
+            Slipping { velocity, phases, window, mode, noise, gravity }
         };
         let runs = campaign.runs.par_iter().zip(noise).with_max_len(1);
         let runs: Vec<Slipping> = runs.map(of).collect();
@@ -318,8 +329,14 @@ impl<'a> Sampled<'a> {
     ) -> Option<(MotorEquation<'s>, &'s Slipping)> {
         let (slipping, run) = (&self.runs[run], &self.campaign.runs[run]);
         let (window, gravity) = (slipping.window.as_ref()?, slipping.gravity.as_ref());
-        let equation =
-            MotorEquation { campaign: self.campaign, run, columns: own, gravity, window };
+        let equation = MotorEquation {
+            campaign: self.campaign,
+            run,
+            columns: own,
+            gravity,
+            window,
+            mode: ModeTerms::of(slipping.mode.as_ref(), None),
+        };
         Some((equation, slipping))
     }
 
@@ -444,7 +461,10 @@ impl pulp::WithSimd for ColumnRows<'_> {
                     * match column {
                         Column::Lag => equation.later(*first),
                         Column::Rate(tip) => equation.behind_rate(*tip, *first),
-                        _ => window.value.dot(functions.from(i, *first)) * run.sample_time_s(),
+                        _ => {
+                            equation.of_torque().0.dot(functions.from(i, *first))
+                                * run.sample_time_s()
+                        }
                     };
             }
         }

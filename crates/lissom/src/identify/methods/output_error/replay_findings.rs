@@ -73,8 +73,10 @@ fn departs(evidence: &Evidence<'_>, oe: &OutputError) -> Option<Finding> {
     if command_is_noise(evidence) {
         return Some(Finding::new(OutputErrorFinding::CommandNoise { ratio: None }));
     }
-    let varies = evidence.methods.regression.as_ref().is_some_and(|r| r.varies_by().is_some());
-    if varies && !oe.stands() && !lawful(evidence) {
+    let regression = evidence.methods.regression.as_ref();
+    let varies = regression.is_some_and(|r| r.varies_by().is_some()) && !lawful(evidence);
+    let flexible = regression.is_some_and(|r| r.mode.is_some()) && oe.arm.modes.is_empty();
+    if (varies || flexible) && !oe.stands() {
         return None;
     }
     let (first, last) = (oe.stages.first()?, longest(oe)?);

@@ -6,7 +6,7 @@ use crate::identify::methods::regression::motor_columns::{
 };
 use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve};
 use crate::identify::methods::regression::thresholds::{
-    GRAVITY_TRAVEL_RAD, LAG_EXPLAINS, MISSING_ONE_SIGN, MISSING_SURE, MODE_BEATS, NOISE_ALONE,
+    GRAVITY_TRAVEL_RAD, LAG_EXPLAINS, MISSING_MOVES, MISSING_ONE_SIGN, MISSING_SURE, NOISE_ALONE,
     NOTHING_MISSING,
 };
 use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT, RESIDUAL_FALLS_TO};
@@ -31,14 +31,11 @@ pub enum MissingKind {
     ViscousDrift,
     /// An unbalanced load: `g_s·sin θ + g_c·cos θ`.
     Gravity,
-    /// A flexible mode that no tip shows: a part of the inertia J turns behind a spring. With J₁ before it and the mode's
-    /// frequency ω with the motor clamped, `τ + τ̈/ω² = J·θ̈ + (J₁/ω²)·θ⁗` and friction.
-    Mode,
 }
 
 impl MissingKind {
     /// In the order of their columns.
-    const ALL: [Self; 9] = [
+    const ALL: [Self; 8] = [
         Self::Delay,
         Self::Position,
         Self::Stribeck,
@@ -47,10 +44,9 @@ impl MissingKind {
         Self::CoulombDrift,
         Self::ViscousDrift,
         Self::Gravity,
-        Self::Mode,
     ];
-    /// How many columns they need: gravity and a mode have two.
-    pub(super) const COLUMNS: usize = Self::ALL.len() + 2;
+    /// How many columns they need: gravity has two.
+    pub(super) const COLUMNS: usize = Self::ALL.len() + 1;
 
     /// Place of its first column among those that are tried.
     pub(super) fn column(self) -> usize {
@@ -62,17 +58,21 @@ impl MissingKind {
     fn terms(self, column: usize) -> Vec<Term> {
         match self {
             Self::Stribeck | Self::CoulombDrift => vec![Term::Signed(column)],
-            Self::Gravity | Self::Mode => vec![Term::Plain(column), Term::Plain(column + 1)],
+            Self::Gravity => vec![Term::Plain(column), Term::Plain(column + 1)],
             _ => vec![Term::Plain(column)],
         }
+    }
+
+    /// The terms of each, their columns after those of `columns`.
+    pub(super) fn candidates(columns: &MotorColumns) -> impl Iterator<Item = Vec<Term>> {
+        let first = columns.count();
+        Self::ALL.into_iter().map(move |kind| kind.terms(first + kind.column()))
     }
 
     /// Whether its column hardly has noise of the sensors in it, which others of the equation then make up for.
     fn is_exact(self) -> bool {
         match self {
-            Self::Delay | Self::Stribeck | Self::BeamDamping | Self::ViscousDrift | Self::Mode => {
-                false
-            }
+            Self::Delay | Self::Stribeck | Self::BeamDamping | Self::ViscousDrift => false,
             Self::Position | Self::CommandBySign | Self::CoulombDrift | Self::Gravity => true,
         }
     }
@@ -86,8 +86,7 @@ pub struct MissingTerm {
     /// Its coefficient: delay \[s\], stiffness \[N·m/rad\], friction at rest beyond the constant
     /// \[N·m\] (linear axes: N/m, N), time of the beam's damping \[s\]; half of what positive commands give more
     /// than negative ones, relative; change of Coulomb \[N·m or N\] and viscous friction \[N·m·s/rad or N·s/m\] from
-    /// the campaign's beginning to its end, its runs taken one after the other; m·g·l of gravity \[N·m\]; frequency of a mode
-    /// with the motor clamped \[rad/s\].
+    /// the campaign's beginning to its end, its runs taken one after the other; m·g·l of gravity \[N·m\].
     pub value: f64,
     /// By how much it changes the estimates of inertia, viscous and Coulomb friction, as shares of those without it, and
     /// as shares of their standard errors.
@@ -117,6 +116,17 @@ pub struct Moved {
     pub standard_errors: f64,
 }
 
+impl Moved {
+    /// Of inertia, viscous and Coulomb friction, from a solution to one with further terms.
+    pub(super) fn between(without: &Solution, with: &Solution) -> [Self; 3] {
+        [PLACE_INERTIA, PLACE_VISCOUS, PLACE_COULOMB].map(|i| {
+            let change = with.value[i] - without.value[i];
+            let std = without.covariance[(i, i)].max(0.0).sqrt();
+            Self { share: change / without.value[i], standard_errors: change / std }
+        })
+    }
+}
+
 /// The term whose addition explains most in windows of a length, if it is called for. The further columns follow those of `columns`, in the
 /// order of [`MissingKind`]; damping of a beam is tried where tips show one, gravity where the axis turns far enough.
 pub(super) fn missing_term(
@@ -126,9 +136,6 @@ pub(super) fn missing_term(
     (columns, campaign): (&MotorColumns, &Campaign),
     window_s: f64,
 ) -> Option<MissingTerm> {
-    if without.relative_residual < NOTHING_MISSING {
-        return None;
-    }
     let first = columns.count();
     let rotary = campaign.channels.axis == Axis::Rotary;
     let may_hang = rotary && !columns.gravity && campaign.channels.tips.is_empty() && {
@@ -138,8 +145,6 @@ pub(super) fn missing_term(
     let kinds = kinds.filter(|(column, kind)| match kind {
         MissingKind::BeamDamping => !columns.tips.is_empty(),
         MissingKind::CommandBySign => follows_torque(clusters, *column).abs() < MISSING_ONE_SIGN,
-        // With tips the modes are theirs.
-        MissingKind::Mode => columns.tips.is_empty(),
         MissingKind::Gravity => may_hang,
         // A spring would be a part of gravity.
         MissingKind::Position => !columns.gravity,
@@ -153,60 +158,37 @@ pub(super) fn missing_term(
         let own = solution.covariance.view((known, known), (added.len(), added.len()));
         let amplitudes = solution.value.rows(known, added.len());
         let value = if added.len() == 1 { solution.value[known] } else { amplitudes.norm() };
-        let std = if kind == MissingKind::Mode {
-            // In standard errors of the coefficient of τ̈, which the noise of the angle does not enter.
-            value * own[(1, 1)].max(0.0).sqrt() / amplitudes[1].abs()
-        } else {
-            let along = amplitudes / value.abs().max(f64::MIN_POSITIVE);
-            along.dot(&(own * &along)).max(0.0).sqrt()
-        };
-        let moves = (0..known).any(|k| {
+        let along = amplitudes / value.abs().max(f64::MIN_POSITIVE);
+        let std = along.dot(&(own * &along)).max(0.0).sqrt();
+        let felt = (0..known).any(|k| {
             let own = without.covariance[(k, k)].max(0.0).sqrt();
             (solution.value[k] - without.value[k]).abs() > PRESENT * own
         });
-        let shows = solution.relative_residual < RESIDUAL_FALLS_TO * without.relative_residual;
+        let residual_ratio = solution.relative_residual / without.relative_residual;
+        let shows = residual_ratio < RESIDUAL_FALLS_TO;
         let told = !solution.inseparable[known..].iter().any(|lost| *lost);
-        let mode_rad_s = mode_frequency(&solution.value.as_slice()[known..]);
-        if kind == MissingKind::Mode && mode_rad_s.is_none() {
-            return None;
-        }
         let called_for = told
             && value.abs() > CLEARLY_PRESENT * std
-            && (shows || kind.is_exact() && moves && value.abs() > MISSING_SURE * std);
-        called_for.then(|| MissingTerm {
+            && (shows || kind.is_exact() && felt && value.abs() > MISSING_SURE * std);
+        let moves = Moved::between(without, &solution);
+        let matters = without.relative_residual > NOTHING_MISSING
+            || residual_ratio < LAG_EXPLAINS
+                && moves.iter().any(|moved| moved.share.abs() > MISSING_MOVES);
+        (called_for && matters).then(|| MissingTerm {
             kind,
             value: match kind {
                 // ∫wτ(t) = ∫w·(equation) − Δ∫ẇτ for τ that acts Δ later…
                 // …and ∫wτ = ∫w·(equation) − ε∫w|τ| where (1 + ε·sgn τ)·τ acts.
                 MissingKind::Delay | MissingKind::CommandBySign => -value,
-                MissingKind::Mode => mode_rad_s.unwrap_or(value),
                 _ => value,
             },
-            moves: [PLACE_INERTIA, PLACE_VISCOUS, PLACE_COULOMB].map(|i| {
-                let change = solution.value[i] - without.value[i];
-                let std = without.covariance[(i, i)].max(0.0).sqrt();
-                Moved { share: change / without.value[i], standard_errors: change / std }
-            }),
+            moves,
             deviations: value.abs() / std,
-            residual_ratio: solution.relative_residual / without.relative_residual,
+            residual_ratio,
             window_s,
         })
     });
-    let (modes, others): (Vec<_>, Vec<_>) = tried.partition(|term| term.kind == MissingKind::Mode);
-    let other = others.into_iter().min_by(|a, b| a.residual_ratio.total_cmp(&b.residual_ratio));
-    // With its two columns a mode takes a part of any other cause, and one that explains most by itself is simpler.
-    let beaten = |other: MissingTerm| {
-        if other.residual_ratio < LAG_EXPLAINS { 0.0 } else { MODE_BEATS * other.residual_ratio }
-    };
-    let most = other.map_or(1.0, beaten);
-    modes.into_iter().find(|mode| mode.residual_ratio < most).or(other)
-}
-
-/// The frequency of a mode with the motor clamped \[rad/s\], from its coefficients `J₁/ω²` and `−1/ω²`; `None` if these are
-/// no mode's.
-fn mode_frequency(coefficients: &[f64]) -> Option<f64> {
-    let [before, of_torque] = coefficients else { return None };
-    (*before > 0.0 && *of_torque < 0.0).then(|| (-1.0 / of_torque).sqrt())
+    tried.min_by(|a, b| a.residual_ratio.total_cmp(&b.residual_ratio))
 }
 
 /// How far the motor turns, over all runs.

@@ -5,10 +5,12 @@
 mod beam;
 mod cluster_covariance;
 mod fitted;
+mod hidden_mode;
 mod lag;
 mod left_out;
 mod left_torque;
 pub(crate) mod missing;
+mod mode_window;
 mod motor;
 mod motor_columns;
 mod motor_rows;
@@ -18,20 +20,23 @@ mod regression_findings;
 mod row_noise;
 mod run_difference;
 mod scan;
+mod sums_by_length;
 pub(crate) mod thresholds;
 mod velocity;
 mod window;
 
 pub use beam::{BeamRegression, beam_regression};
 pub(crate) use fitted::Fitted;
+pub use hidden_mode::HiddenMode;
 pub use lag::{AngleLag, LagShape};
 pub(crate) use left_out::{RunLeftOut, unlike_others};
 pub use left_torque::LeftTorque;
 pub use missing::{MissingKind, MissingTerm, Moved};
+pub(crate) use mode_window::{ModeShape, ModeWindow};
 pub(crate) use motor::Terms;
 pub use motor::{ByDirection, GravityPartner, MotorRegression, motor_regression};
 pub(crate) use motor_columns::{DRY, MotorColumns, coupled_tips};
-pub(crate) use motor_rows::{MotorEquation, SineAndCosine};
+pub(crate) use motor_rows::{ModeTerms, MotorEquation, SineAndCosine};
 pub(crate) use normal::{
     Cluster, NormalSums, Rows, ScoredEstimates, Scores, Solution, Term, solve, solve_sums, values,
 };

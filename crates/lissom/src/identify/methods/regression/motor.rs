@@ -1,8 +1,5 @@
 //! The motor's equation on slip phases.
 
-use std::cell::RefCell;
-use std::rc::Rc;
-
 use nalgebra::{DMatrix, DVector};
 
 use crate::identify::drive_estimates::DriveEstimates;
@@ -11,16 +8,20 @@ use crate::identify::friction_estimates::Friction;
 use crate::identify::gravity_estimate::Gravity;
 use crate::identify::methods::regression::cluster_covariance::larger;
 use crate::identify::methods::regression::fitted::Fitted;
+use crate::identify::methods::regression::hidden_mode::{HiddenMode, shown_mode};
 use crate::identify::methods::regression::lag::{AngleLag, angle_lag};
 use crate::identify::methods::regression::left_out::{RunLeftOut, rms_speed, runs_left_out};
 use crate::identify::methods::regression::left_torque::LeftTorque;
-use crate::identify::methods::regression::missing::{MissingKind, MissingTerm, missing_term};
+use crate::identify::methods::regression::missing::{
+    MissingKind, MissingTerm, Moved, missing_term,
+};
 use crate::identify::methods::regression::motor_columns::{
     DRY, MotorColumns, PLACE_COULOMB, PLACE_INERTIA, PLACE_OFFSET, PLACE_VISCOUS, VISCOUS,
 };
 use crate::identify::methods::regression::motor_rows::MotorRows;
 use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve};
-use crate::identify::methods::regression::scan::{Candidate, RATIO, change, scan};
+use crate::identify::methods::regression::scan::{Candidate, RATIO, change};
+use crate::identify::methods::regression::sums_by_length::SumsByLength;
 use crate::identify::methods::regression::thresholds::{
     FEW_PHASES, GRAVITY_CORRELATION, GRAVITY_KNOWN, LONGER_WINDOW, USUAL_VARIATION,
     WINDOW_SYSTEMATIC,
@@ -33,8 +34,6 @@ use crate::record::{Campaign, Channels, Run};
 
 /// A lag is found in at most this many rounds, each corrected by the delay that the equation lacks in the one before.
 const LAG_ROUNDS: usize = 3;
-/// Two lengths of windows are one if they differ by less than this share.
-const SAME_LENGTH: f64 = 1e-9;
 
 /// Figures of the motor's equation, in torque (or force) as the command's constant gives it.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,6 +73,8 @@ pub struct MotorRegression {
     pub viscous_by_direction: Option<ByDirection>,
     /// A term that the equation lacks, where the data call for one.
     pub missing: Option<MissingTerm>,
+    /// A mode that no tip shows and that the estimates count.
+    pub mode: Option<HiddenMode>,
     /// What the equation leaves of the torque.
     pub left: LeftTorque,
     /// The lag of the angle behind the command that the estimates count.
@@ -231,14 +232,23 @@ fn on_slip_phases(
     window_s: &[f64],
     lag: Option<AngleLag>,
 ) -> Option<MotorRegression> {
-    let equation = MotorRows::of(campaign, noise);
+    let rigid = MotorRows::of(campaign, noise);
+    let sums = SumsByLength::of(&rigid);
+    let sample_time = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
+    let found = sums.scan(sample_time, window_s)?;
+    let shown = shown_mode(&sums, &found);
+    let flexible = shown.as_ref().map(|mode| rigid.with_mode(mode.shape));
+    let with_mode = flexible.as_ref().zip(shown.as_ref()).and_then(|(rows, mode)| {
+        let sums = SumsByLength::of_mode(rows, mode.shapes_beside());
+        let found = sums.scan(sample_time, window_s)?;
+        Some((sums, found))
+    });
+    let shown = shown.filter(|_| with_mode.is_some());
+    let rigid_solution = found.solution.clone();
+    let (sums, found) = with_mode.unwrap_or((sums, found));
+    let equation = sums.equation;
     let columns = &equation.columns;
     let terms = columns.terms(Term::Signed(DRY));
-    // The offset is small by nature: it does not take part in the choice of the window.
-    let counts: Vec<bool> = (0..terms.len()).map(|i| i != PLACE_OFFSET).collect();
-    let sample_time = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
-    let sums = SumsByLength::of(&equation);
-    let found = scan(sample_time, window_s, &counts, |length| sums.solved(length, &terms))?;
     let chosen = &found.candidates[found.chosen];
     let (channels, window_s_chosen) = (&campaign.channels, chosen.window_s);
     let phases = equation.phases(window_s_chosen);
@@ -283,7 +293,7 @@ fn on_slip_phases(
     let missing = missing.filter(|m| m.kind != MissingKind::Delay || phases >= FEW_PHASES);
     let speeds: Vec<f64> = campaign.runs.iter().map(rms_speed).collect();
     let left_out = runs_left_out(&clusters, &terms, &speeds);
-    let beside_others = beside_others(&left_out, &equation, &found.candidates, |length| {
+    let beside_others = beside_others(&left_out, equation, &found.candidates, |length| {
         let (clusters, _) = with_more(length)?;
         Some(runs_left_out(&clusters, &terms, &speeds))
     });
@@ -315,6 +325,7 @@ fn on_slip_phases(
         gravity,
         viscous_by_direction,
         missing,
+        mode: shown.map(|mode| mode.report(Moved::between(&rigid_solution, solution))),
         left,
         lag,
         inertia_short_by,
@@ -393,6 +404,10 @@ impl MotorRegression {
             return None;
         }
         let (mut left, mut power) = (0.0, 0.0);
+        let equation = match self.mode {
+            Some(mode) => equation.with_mode(mode.shape()),
+            None => equation,
+        };
         for c in equation.clusters(self.window_s) {
             let last = c.products.ncols() - 1;
             let mut q = vec![values[0], values[1]];
@@ -441,29 +456,6 @@ fn by_direction(
         relative_residual_of_one: one.relative_residual,
         terms: terms_of(&fitted),
     })
-}
-
-/// Sums of the equation's rows in windows of the lengths asked for, each found once.
-struct SumsByLength<'a> {
-    equation: &'a MotorRows<'a>,
-    found: RefCell<Vec<(f64, Rc<Vec<Cluster>>)>>,
-}
-
-impl<'a> SumsByLength<'a> {
-    fn of(equation: &'a MotorRows<'a>) -> Self {
-        Self { equation, found: RefCell::default() }
-    }
-
-    fn solved(&self, length_s: f64, terms: &[Term]) -> Option<Solution> {
-        let same = |(length, _): &&(f64, _)| (length / length_s - 1.0).abs() < SAME_LENGTH;
-        let known = self.found.borrow().iter().find(same).map(|(_, sums)| Rc::clone(sums));
-        let sums = known.unwrap_or_else(|| {
-            let sums = Rc::new(self.equation.clusters(length_s));
-            self.found.borrow_mut().push((length_s, Rc::clone(&sums)));
-            sums
-        });
-        solve(&sums, terms)
-    }
 }
 
 /// Whether each run turns one way.

@@ -8,6 +8,7 @@ use nalgebra::DMatrix;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use crate::identify::methods::regression::missing::MissingKind;
+use crate::identify::methods::regression::mode_window::{Derivatives, ModeShape, ModeWindow};
 use crate::identify::methods::regression::motor_columns::{DRY, INERTIA, MotorColumns, VISCOUS};
 use crate::identify::methods::regression::normal::{Cluster, Rows};
 use crate::identify::methods::regression::phases::{
@@ -15,9 +16,7 @@ use crate::identify::methods::regression::phases::{
 };
 use crate::identify::methods::regression::row_noise::{ChannelPart, products};
 use crate::identify::methods::regression::thresholds::{BLOCKS_WANTED, FEW_PHASES, SURE_SIGN};
-use crate::identify::methods::regression::window::{
-    ModeWeights, SMOOTHED_PART, WINDOW_STEP, Window,
-};
+use crate::identify::methods::regression::window::{SMOOTHED_PART, WINDOW_STEP, Weights, Window};
 use crate::identify::prepare::run_noise::RunNoise;
 use crate::record::{Campaign, Hold, Run, TipQuantity};
 
@@ -28,7 +27,9 @@ const EXTRA: usize = MissingKind::COLUMNS;
 pub(super) struct MotorRows<'a> {
     campaign: &'a Campaign,
     pub(super) columns: MotorColumns,
-    runs: Vec<Slipping<'a>>,
+    runs: Arc<Vec<Slipping<'a>>>,
+    /// A mode that no tip shows, which the equation counts.
+    mode: Option<ModeShape>,
     /// Parts that each phase is cut into.
     parts: usize,
 }
@@ -40,7 +41,20 @@ impl<'a> MotorRows<'a> {
             runs.map(|(run, noise)| Slipping::of(run, noise, campaign.gravity)).collect();
         let phases = runs.iter().map(Slipping::long_phases).sum::<usize>().max(1);
         let parts = if phases < FEW_PHASES { BLOCKS_WANTED.div_ceil(phases) } else { 1 };
-        Self { campaign, columns: MotorColumns::of(campaign), runs, parts }
+        let columns = MotorColumns::of(campaign);
+        Self { campaign, columns, runs: Arc::new(runs), mode: None, parts }
+    }
+
+    /// The same with the columns of a mode that no tip shows.
+    pub(super) fn with_mode_columns(&self) -> Self {
+        let columns = MotorColumns { mode: true, ..self.columns.clone() };
+        Self { columns, runs: Arc::clone(&self.runs), ..*self }
+    }
+
+    /// The same, counting a mode that no tip shows.
+    pub(super) fn with_mode(&self, mode: ModeShape) -> Self {
+        let (columns, runs) = (self.columns.clone(), Arc::clone(&self.runs));
+        Self { columns, runs, mode: Some(mode), ..*self }
     }
 
     /// Slip phases that hold a window of a length.
@@ -93,17 +107,19 @@ impl<'a> MotorRows<'a> {
         let columns = self.columns.count() + 1 + more.map_or(0, |_| EXTRA);
         let step = ((n as f64 * WINDOW_STEP) as usize).max(1);
         let (phases, smooth) = slipping.phases(n);
+        let t = run.sample_time_s();
+        let derivatives = self.columns.mode.then(|| Derivatives::of(window, t));
+        let known = self.mode.map(|shape| ModeWindow::of(window, shape, t));
         let plain = MotorEquation {
             campaign,
             run,
             columns: &self.columns,
             gravity: slipping.gravity.as_ref(),
             window,
+            mode: ModeTerms::of(known.as_ref(), derivatives.as_ref()),
         };
         let origin = campaign.runs.first().map_or(0.0, |run| run.motor()[0]);
-        // Of no use to the many lengths that are only scanned.
-        let of_mode = more.map(|_| ModeWeights::of(window, run.sample_time_s()));
-        let with_more = more.zip(of_mode.as_ref()).map(|(coupling, of_mode)| WithMore {
+        let with_more = more.map(|coupling| WithMore {
             plain,
             origin,
             slowness: slowness(run, smooth),
@@ -111,18 +127,17 @@ impl<'a> MotorRows<'a> {
             elapsed: Elapsed::of(campaign, index),
             coupling,
             waves: SineAndCosine::of(run.motor()),
-            of_mode,
         });
-        let noise = plain.noise(slipping.noise, of_mode.as_ref());
+        let noise = plain.noise(slipping.noise, more.map_or(0, |_| EXTRA));
         let cluster = |(phase, part): (&Phase, Range<usize>)| {
             let mut cluster = Cluster::new(index, phase.sign, columns);
             let windows = part.step_by(step);
             match &with_more {
-                Some(rows) => {
-                    cluster.add_windows(windows, rows, &noise);
-                    cluster.take_out_noise_of_right(mode_columns(&self.columns)[1]);
-                }
+                Some(rows) => cluster.add_windows(windows, rows, &noise),
                 None => cluster.add_windows(windows, &plain, &noise),
+            }
+            if let Some(mode) = self.columns.of_mode() {
+                cluster.take_out_noise_of_right(mode.torque_twice);
             }
             cluster
         };
@@ -130,12 +145,6 @@ impl<'a> MotorRows<'a> {
         let parts = |phase| in_parts(phase, n, self.parts).map(move |part| (phase, part));
         long.flat_map(parts).map(cluster).collect()
     }
-}
-
-/// Columns of a mode that no tip shows, among those of [`super::missing::missing_term`].
-fn mode_columns(columns: &MotorColumns) -> [usize; 2] {
-    let first = columns.count() + MissingKind::Mode.column();
-    [first, first + 1]
 }
 
 /// First samples of the windows of `n` samples in a phase, cut into as many parts as are wanted and hold two windows each.
@@ -217,6 +226,26 @@ pub(crate) struct MotorEquation<'a> {
     /// Of this run, where [`MotorColumns::gravity`] says so.
     pub(crate) gravity: Option<&'a SineAndCosine>,
     pub(crate) window: &'a Window,
+    /// A mode that no tip shows.
+    pub(crate) mode: ModeTerms<'a>,
+}
+
+/// What the equation has of a mode that no tip shows.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum ModeTerms<'a> {
+    /// Nothing.
+    None,
+    /// Columns of their own, as [`MotorColumns::mode`] says.
+    Sought(&'a Derivatives),
+    /// The weights of a known one.
+    Known(&'a ModeWindow),
+}
+
+impl<'a> ModeTerms<'a> {
+    pub(crate) fn of(known: Option<&'a ModeWindow>, sought: Option<&'a Derivatives>) -> Self {
+        let sought = || sought.map_or(Self::None, Self::Sought);
+        known.map_or_else(sought, Self::Known)
+    }
 }
 
 impl Rows for MotorEquation<'_> {
@@ -226,14 +255,21 @@ impl Rows for MotorEquation<'_> {
         let (t, motor, command) = (run.sample_time_s(), &run.motor()[k..], &run.command()[k..]);
         row.clear();
         // From the window's first: ẇ and ẅ integrate constants to zero only up to rounding.
-        row.push(window.second.dot_from(motor, motor[0]) * t);
-        row.push(-window.first.dot_from(motor, motor[0]) * t);
+        let [inertia, viscous] = self.of_angle();
+        row.push(inertia.dot_from(motor, motor[0]) * t);
+        row.push(-viscous.dot_from(motor, motor[0]) * t);
         row.push(window.area);
         for &i in &self.columns.tips {
             row.push(behind(campaign, run, i, window, k));
         }
         if let Some(SineAndCosine(waves)) = self.gravity {
             row.extend(waves.iter().map(|wave| window.value.dot(&wave[k..]) * t));
+        }
+        if let ModeTerms::Sought(mode) = self.mode {
+            row.push(mode.fourth.dot_from(motor, motor[0]) * t);
+            row.push(self.torque_by(&window.second, &mode.held, command));
+            row.push(self.torque_by(&window.first, &window.rise, command));
+            row.push(-mode.third.dot_from(motor, motor[0]) * t);
         }
         row.push(self.torque(command));
         for value in row {
@@ -243,13 +279,12 @@ impl Rows for MotorEquation<'_> {
 }
 
 impl MotorEquation<'_> {
-    /// What noise adds to a row's products, in expectation. Of the columns of [`super::missing::missing_term`], which
-    /// come before the right side where `of_mode` is given, that of the two of a mode is counted, and that of the
-    /// right side with them.
-    pub(crate) fn noise(&self, of_run: &RunNoise, of_mode: Option<&ModeWeights>) -> DMatrix<f64> {
+    /// What noise adds to a row's products, in expectation; none in the `further` columns before the right side.
+    pub(crate) fn noise(&self, of_run: &RunNoise, further: usize) -> DMatrix<f64> {
         let window = self.window;
+        let [inertia, viscous] = self.of_angle();
         let mut of_motor: Vec<ChannelPart<'_>> =
-            vec![(INERTIA, &window.second, 1.0), (VISCOUS, &window.first, -1.0)];
+            vec![(INERTIA, inertia, 1.0), (VISCOUS, viscous, -1.0)];
         let tips = &self.columns.tips;
         let mut channels = Vec::with_capacity(2 + tips.len());
         for (place, &i) in tips.iter().enumerate() {
@@ -260,18 +295,17 @@ impl MotorEquation<'_> {
             let of_tip: Vec<ChannelPart<'_>> = vec![(column, &window.value, -1.0)];
             channels.push((of_run.tips[i], of_tip));
         }
-        let mut count = self.columns.count() + 1;
-        if let Some(weights) = of_mode {
-            count += EXTRA;
-            let [of_angle, of_torque] = mode_columns(self.columns);
-            of_motor.push((of_angle, &weights.fourth, 1.0));
-            let command = &self.campaign.channels.command;
-            if command.hold == Hold::Measured {
-                let std = of_run.command * command.torque_per_unit();
-                let of_command: Vec<ChannelPart<'_>> =
-                    vec![(of_torque, &window.second, 1.0), (count - 1, &window.value, 1.0)];
-                channels.push((std, of_command));
-            }
+        let count = self.columns.count() + further + 1;
+        let command = &self.campaign.channels.command;
+        let mut of_command: Vec<ChannelPart<'_>> = vec![(count - 1, self.of_torque().0, 1.0)];
+        if let (Some(place), ModeTerms::Sought(weights)) = (self.columns.of_mode(), self.mode) {
+            of_motor.push((place.fourth, &weights.fourth, 1.0));
+            of_motor.push((place.third, &weights.third, -1.0));
+            of_command.push((place.torque_twice, &window.second, 1.0));
+            of_command.push((place.torque_once, &window.first, 1.0));
+        }
+        if command.hold == Hold::Measured {
+            channels.push((of_run.command * command.torque_per_unit(), of_command));
         }
         channels.push((of_run.motor, of_motor));
         let noise = products(count, channels);
@@ -287,33 +321,42 @@ impl MotorEquation<'_> {
     /// `∫wτ` of what is commanded from the window's first sample on.
     #[inline(always)]
     fn torque(&self, command: &[f64]) -> f64 {
-        let window = self.window;
-        self.campaign.channels.command.torque_per_unit()
-            * match self.campaign.channels.command.hold {
-                Hold::Sampled => window.held.dot(command),
-                Hold::Measured => window.value.dot(command) * self.run.sample_time_s(),
-            }
+        let (at, held) = self.of_torque();
+        self.torque_by(at, held, command)
     }
 
-    /// `∫ẅτ`, by the weights of a mode.
+    /// Weights of the angle, for inertia and viscous friction.
     #[inline(always)]
-    fn torque_by(&self, weights: &ModeWeights, command: &[f64]) -> f64 {
+    fn of_angle(&self) -> [&Weights; 2] {
+        match self.mode {
+            ModeTerms::Known(mode) => [&mode.inertia, &mode.viscous],
+            _ => [&self.window.second, &self.window.first],
+        }
+    }
+
+    /// Weights of a torque, at samples and held over their intervals.
+    #[inline(always)]
+    pub(crate) fn of_torque(&self) -> (&Weights, &Weights) {
+        match self.mode {
+            ModeTerms::Known(mode) => (&mode.torque, &mode.held),
+            _ => (&self.window.value, &self.window.held),
+        }
+    }
+
+    /// The integral of a torque by weights `at` samples, and those over its intervals for a `held` command.
+    #[inline(always)]
+    fn torque_by(&self, at: &Weights, held: &Weights, command: &[f64]) -> f64 {
         self.campaign.channels.command.torque_per_unit()
             * match self.campaign.channels.command.hold {
-                Hold::Sampled => weights.held.dot(command),
-                Hold::Measured => self.window.second.dot(command) * self.run.sample_time_s(),
+                Hold::Sampled => held.dot(command),
+                Hold::Measured => at.dot(command) * self.run.sample_time_s(),
             }
     }
 
     /// `∫ẇτ`: what a torque that acts later leaves, by its delay.
     #[inline(always)]
     pub(crate) fn later(&self, k: usize) -> f64 {
-        let (window, command) = (self.window, &self.run.command()[k..]);
-        self.campaign.channels.command.torque_per_unit()
-            * match self.campaign.channels.command.hold {
-                Hold::Sampled => window.rise.dot(command),
-                Hold::Measured => window.first.dot(command) * self.run.sample_time_s(),
-            }
+        self.torque_by(&self.window.first, &self.window.rise, &self.run.command()[k..])
     }
 }
 
@@ -342,8 +385,8 @@ pub(super) fn behind(campaign: &Campaign, run: &Run, i: usize, window: &Window, 
         }
 }
 
-/// `[∫ẇτ, ∫wθ, ∫w·e^{−|v|/v̄}, Σκ_i∫w(θ̇_m − θ̇_i), ∫w|τ|, e∫w, −e∫ẇθ, ∫w·sin θ, ∫w·cos θ, ∫w⁗θ, ∫ẅτ]` before the right side, e
-/// how much of the campaign is over.
+/// `[∫ẇτ, ∫wθ, ∫w·e^{−|v|/v̄}, Σκ_i∫w(θ̇_m − θ̇_i), ∫w|τ|, e∫w, −e∫ẇθ, ∫w·sin θ, ∫w·cos θ]` before the right side, e how
+/// much of the campaign is over.
 struct WithMore<'a> {
     plain: MotorEquation<'a>,
     /// Where positions are counted from.
@@ -355,7 +398,6 @@ struct WithMore<'a> {
     /// κ_i of the coupled tips.
     coupling: &'a [f64],
     waves: SineAndCosine,
-    of_mode: &'a ModeWeights,
 }
 
 impl Rows for WithMore<'_> {
@@ -381,8 +423,6 @@ impl Rows for WithMore<'_> {
             elapsed * row[VISCOUS],
             window.value.dot(&self.waves.0[0][k..]) * t * scale,
             window.value.dot(&self.waves.0[1][k..]) * t * scale,
-            self.of_mode.fourth.dot_from(&run.motor()[k..], run.motor()[k]) * t * scale,
-            self.plain.torque_by(self.of_mode, &run.command()[k..]) * scale,
         ];
         let right = row.len() - 1;
         row.splice(right..right, more);

@@ -62,7 +62,6 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
         MissingKind::Position
         | MissingKind::Gravity
         | MissingKind::BeamDamping
-        | MissingKind::Mode
         | MissingKind::CoulombDrift
         | MissingKind::ViscousDrift => false,
         MissingKind::CommandBySign => split || law.is_some(),
@@ -70,6 +69,9 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
     };
     if let Some(lag) = r.lag.filter(|_| !explained) {
         findings.push(Finding::new(RegressionFinding::AngleLag { lag }));
+    }
+    if let Some(mode) = r.mode.filter(|_| !explained) {
+        findings.push(Finding::new(RegressionFinding::HiddenMode { mode }));
     }
     if let Some(term) = r.missing.filter(|m| !explained && !said(m)) {
         findings.push(Finding::new(RegressionFinding::MissingTerm { term, units }));

@@ -26,8 +26,11 @@ thresholds! {
         /// Share of a direction's square that is taken as motion at least, so that its standard
         /// error stays finite.
         MOTION_LEAST: f64 = 0.05, "1", Convention;
-        /// An equation that leaves less than this share of the torque lacks no term.
+        /// An equation that leaves less than this share of the torque lacks no term, unless one that explains
+        /// most of it moves an estimate by `MISSING_MOVES`.
         NOTHING_MISSING: f64 = 5e-5, "1", Convention;
+        /// Share of an estimate by which a term moves it that matters however little of the torque is left.
+        MISSING_MOVES: f64 = 1e-3, "1", Convention;
         /// A missing term that hardly lowers the residual is reported if its regressor is exact, it
         /// is this many standard errors from zero, and it moves an estimate by `PRESENT`.
         MISSING_SURE: f64 = 10.0, "standard errors", Convention;
@@ -91,9 +94,19 @@ thresholds! {
         /// The magnitude of the command is not tried as a missing term if it correlates with the
         /// torque by this much: with torque of one sign it is the torque itself.
         MISSING_ONE_SIGN: f64 = 0.5, "1", Convention;
-        /// A mode that no tip shows is reported in place of another missing term if it leaves less than
-        /// this share of what that leaves.
-        MODE_BEATS: f64 = 0.8, "1", Convention;
+        /// A mode that no tip shows is counted if with it less than this share of the residual is left.
+        HIDDEN_MODE_LEAVES: f64 = 0.7, "1", Convention;
+        /// The same only if that is less than this share of what any single further term leaves.
+        HIDDEN_MODE_BEATS: f64 = 0.8, "1", Convention;
+        /// The same only if its frequency is so many standard errors from zero.
+        HIDDEN_MODE_SURE: f64 = 20.0, "standard errors", Convention;
+        /// The same only if windows of a neighbour length show it, too, at a frequency that differs by less
+        /// than this share.
+        HIDDEN_MODE_MOVES: f64 = 0.1, "1", Convention;
+        /// Less of the inertia than this share is not before its spring, nor behind it.
+        HIDDEN_MODE_SHARE: f64 = 0.02, "1", Convention;
+        /// More damped than this, as a ratio, it is no mode.
+        HIDDEN_MODE_DAMPED: f64 = 0.3, "1", Convention;
         /// Coupling to the tips is hardly known if its relative standard error is above this.
         COUPLING_HARDLY_KNOWN: f64 = 0.5, "1", Convention;
         /// The equation without the coupling is taken then if it leaves less than this many times as much of

@@ -93,29 +93,6 @@ impl Window {
     }
 }
 
-/// Further derivatives of a window: what a mode that no tip shows adds to the motor's equation.
-#[derive(Debug)]
-pub(crate) struct ModeWeights {
-    /// w⁗ at samples 0..=n \[1/s⁴\].
-    pub(crate) fourth: Weights,
-    /// ∫ẅ over each sample interval \[1/s\], length n.
-    pub(crate) held: Weights,
-}
-
-impl ModeWeights {
-    pub(crate) fn of(window: &Window, sample_time_s: f64) -> Self {
-        let n = window.len();
-        let rate = PI / (n as f64 * sample_time_s);
-        // sin⁴y = 3/8 − cos(2y)/2 + cos(4y)/8.
-        let fourth = (0..=n).map(|k| {
-            let y = PI * k as f64 / n as f64;
-            rate.powi(4) * (32.0 * (4.0 * y).cos() - 8.0 * (2.0 * y).cos())
-        });
-        let held = window.first.windows(2).map(|x| x[1] - x[0]);
-        Self { fourth: Weights::new(fourth.collect()), held: Weights::new(held.collect()) }
-    }
-}
-
 /// Numbers to weigh samples with, and zeros after them: sums go by whole groups of lanes.
 #[derive(Debug, Clone)]
 pub(crate) struct Weights {

@@ -1,0 +1,257 @@
+//! A flexible mode that no tip shows, from the motor's equation.
+
+use nalgebra::{DVector, Matrix3, Vector3};
+
+use crate::identify::estimate::Estimate;
+use crate::identify::methods::regression::left_torque::LeftTorque;
+use crate::identify::methods::regression::missing::{MissingKind, Moved};
+use crate::identify::methods::regression::mode_window::ModeShape;
+use crate::identify::methods::regression::motor_columns::{
+    DRY, ModeColumns, MotorColumns, PLACE_INERTIA, PLACE_VISCOUS, VISCOUS,
+};
+use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve};
+use crate::identify::methods::regression::scan::{Candidate, Scan};
+use crate::identify::methods::regression::sums_by_length::SumsByLength;
+use crate::identify::methods::regression::thresholds::{
+    FEW_PHASES, HIDDEN_MODE_BEATS, HIDDEN_MODE_DAMPED, HIDDEN_MODE_LEAVES, HIDDEN_MODE_MOVES,
+    HIDDEN_MODE_SHARE, HIDDEN_MODE_SURE, NOISE_ALONE, NOTHING_MISSING,
+};
+use crate::identify::thresholds::PRESENT;
+
+/// Share of inertia before the spring where the motion does not tell it: as likely as any.
+const USUAL_SHARE: Estimate = Estimate { value: 0.5, std: 0.29 };
+/// Damping ratio where the motion does not tell it.
+const USUAL_DAMPING_RATIO: Estimate = Estimate { value: 0.02, std: 0.02 };
+
+/// A part of the inertia that turns behind a spring, as the motor's motion alone shows it.
+///
+/// With the inertias J₁ of the motor and J₂ behind a spring k with damper d, J = J₁ + J₂, ω² = k/J₂ and c = d/k,
+///
+/// `τ + c·τ̇ + τ̈/ω² = (J + c·V)·θ̈ + V·θ̇ + (c·J + V/ω²)·θ⃛ + (J₁/ω²)·θ⁗` and dry friction,
+///
+/// which is constant in a slip phase. All terms are linear in the unknowns, and windows of the regression take their
+/// derivatives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HiddenMode {
+    /// Frequency ω with the motor clamped \[rad/s\].
+    pub omega_rad_s: Estimate,
+    /// Damping ratio c·ω/2.
+    pub damping_ratio: Estimate,
+    /// Inertia before the spring as a share of all, J₁/J.
+    pub inertia_share: Estimate,
+    /// By how much it changes inertia, viscous and Coulomb friction.
+    pub moves: [Moved; 3],
+    /// Residual beside that of the equation without it, in the windows of this length, as a ratio.
+    pub residual_ratio: f64,
+    /// Length of the windows that show it best \[s\].
+    pub window_s: f64,
+}
+
+impl HiddenMode {
+    pub(crate) fn shape(&self) -> ModeShape {
+        ModeShape {
+            omega_rad_s: self.omega_rad_s.value,
+            damping_s: 2.0 * self.damping_ratio.value / self.omega_rad_s.value,
+            inertia_share: self.inertia_share.value,
+        }
+    }
+}
+
+/// A mode in windows of one length.
+#[derive(Debug, Clone)]
+pub(super) struct ShownMode {
+    pub(super) window_s: f64,
+    pub(super) shape: ModeShape,
+    /// Of frequency, damping and share.
+    covariance: Matrix3<f64>,
+    pub(super) residual_ratio: f64,
+}
+
+/// What the terms of a mode say: ω, c and J₁/J; `None` if they are no mode's.
+fn shape_of(value: &DVector<f64>, places: ModeColumns) -> Option<ModeShape> {
+    let omega_squared = -1.0 / value[places.torque_twice];
+    let (with_damping, viscous) = (value[PLACE_INERTIA], value[PLACE_VISCOUS]);
+    let damped = value[places.third] - viscous / omega_squared;
+    // c·(J − c·V) = damped, in which c·V is small.
+    let damping_s = damped / (with_damping - damped / with_damping * viscous);
+    let inertia = with_damping - damping_s * viscous;
+    (omega_squared > 0.0 && inertia > 0.0).then(|| ModeShape {
+        omega_rad_s: omega_squared.sqrt(),
+        damping_s,
+        inertia_share: value[places.fourth] * omega_squared / inertia,
+    })
+}
+
+fn vector(shape: ModeShape) -> Vector3<f64> {
+    Vector3::new(shape.omega_rad_s, shape.damping_s, shape.inertia_share)
+}
+
+impl ShownMode {
+    /// The mode of `with`, sums with the columns of one, if its frequency is surely one and it explains a good part of what the
+    /// solution `without` them leaves.
+    pub(super) fn of(
+        with: &[Cluster],
+        columns: &MotorColumns,
+        without: &Solution,
+        window_s: f64,
+    ) -> Option<Self> {
+        let places = columns.mode_places()?;
+        let solution = solve(with, &columns.terms(Term::Signed(DRY)))?;
+        let residual_ratio = solution.relative_residual / without.relative_residual;
+        if solution.inseparable.iter().any(|lost| *lost) || residual_ratio > HIDDEN_MODE_LEAVES {
+            return None;
+        }
+        let shape = shape_of(&solution.value, places)?;
+        let covariance = covariance(&solution, places, shape);
+        let found = Self { window_s, shape, covariance, residual_ratio };
+        (found.frequency_std() < shape.omega_rad_s / HIDDEN_MODE_SURE).then_some(found)
+    }
+
+    fn frequency_std(&self) -> f64 {
+        self.covariance[(0, 0)].max(0.0).sqrt()
+    }
+
+    /// Standard error of the frequency, relative.
+    pub(super) fn uncertainty(&self) -> f64 {
+        self.frequency_std() / self.shape.omega_rad_s
+    }
+
+    /// The same with what it changes to a `neighbour` length added to its covariance; `None` if its frequency is another
+    /// one there.
+    pub(super) fn beside(&self, neighbour: &Self) -> Option<Self> {
+        let change = vector(self.shape) - vector(neighbour.shape);
+        let same = change[0].abs() < HIDDEN_MODE_MOVES * self.shape.omega_rad_s;
+        let half = 0.5 * change;
+        let covariance = self.covariance + half * half.transpose();
+        same.then(|| Self { covariance, ..self.clone() })
+    }
+
+    /// The same with what is usual in place of a damping or a share of inertia that no mode has.
+    pub(super) fn possible(mut self) -> Self {
+        let ModeShape { omega_rad_s, damping_s, inertia_share } = self.shape;
+        let std = self.covariance.diagonal().map(|v| v.max(0.0).sqrt());
+        let [share_told, damping_told] = [
+            (HIDDEN_MODE_SHARE..1.0 - HIDDEN_MODE_SHARE).contains(&inertia_share)
+                && std[2] < USUAL_SHARE.std,
+            damping_s > -PRESENT * std[1] && 0.5 * damping_s * omega_rad_s < HIDDEN_MODE_DAMPED,
+        ];
+        if !share_told {
+            self.shape.inertia_share = USUAL_SHARE.value;
+            self.take_usual(2, USUAL_SHARE.std);
+        }
+        if !damping_told {
+            let to_seconds = 2.0 / omega_rad_s;
+            self.shape.damping_s = USUAL_DAMPING_RATIO.value * to_seconds;
+            self.take_usual(1, USUAL_DAMPING_RATIO.std * to_seconds);
+        }
+        self
+    }
+
+    /// A standard deviation that depends on nothing else.
+    fn take_usual(&mut self, place: usize, std: f64) {
+        self.covariance.row_mut(place).fill(0.0);
+        self.covariance.column_mut(place).fill(0.0);
+        self.covariance[(place, place)] = std * std;
+    }
+
+    /// Shapes a standard error away, in three directions that are independent of each other.
+    pub(super) fn shapes_beside(&self) -> Vec<ModeShape> {
+        let eigen = self.covariance.symmetric_eigen();
+        let directions = eigen.eigenvectors.column_iter().zip(eigen.eigenvalues.iter());
+        let moved = directions.map(|(direction, variance)| {
+            let at = vector(self.shape) + direction * variance.max(0.0).sqrt();
+            ModeShape { omega_rad_s: at[0], damping_s: at[1], inertia_share: at[2] }
+        });
+        moved.collect()
+    }
+
+    /// With what it changes in the estimates, from those without it.
+    pub(super) fn report(&self, moves: [Moved; 3]) -> HiddenMode {
+        let ModeShape { omega_rad_s, damping_s, inertia_share } = self.shape;
+        let of = |value: f64, slopes: Vector3<f64>| {
+            let variance = slopes.dot(&(self.covariance * slopes));
+            Estimate { value, std: variance.max(0.0).sqrt() }
+        };
+        let ratio = Vector3::new(0.5 * damping_s, 0.5 * omega_rad_s, 0.0);
+        HiddenMode {
+            omega_rad_s: of(omega_rad_s, Vector3::x()),
+            damping_ratio: of(0.5 * damping_s * omega_rad_s, ratio),
+            inertia_share: of(inertia_share, Vector3::z()),
+            moves,
+            residual_ratio: self.residual_ratio,
+            window_s: self.window_s,
+        }
+    }
+}
+
+/// Covariance of a shape, to the first order.
+fn covariance(solution: &Solution, places: ModeColumns, shape: ModeShape) -> Matrix3<f64> {
+    let moved = [PLACE_INERTIA, PLACE_VISCOUS, places.fourth, places.torque_twice, places.third];
+    let slope = |place: usize| -> Vector3<f64> {
+        let step = 0.5 * solution.covariance[(place, place)].max(0.0).sqrt();
+        let mut value = solution.value.clone();
+        value[place] += step;
+        match shape_of(&value, places).filter(|_| step > 0.0) {
+            Some(other) => (vector(other) - vector(shape)) / step,
+            None => Vector3::zeros(),
+        }
+    };
+    let slopes = moved.map(slope);
+    let mut sum = Matrix3::zeros();
+    for (a, of_a) in moved.iter().zip(&slopes) {
+        for (b, of_b) in moved.iter().zip(&slopes) {
+            sum += of_a * of_b.transpose() * solution.covariance[(*a, *b)];
+        }
+    }
+    sum
+}
+
+/// A mode that no tip shows, from the lengths of windows that were scanned without one: beside motion of the mode's
+/// frequency what they leave is not noise. Of all windows that show it, those are taken that tell most of it.
+pub(super) fn shown_mode(without: &SumsByLength<'_>, scanned: &Scan) -> Option<ShownMode> {
+    let rigid = without.equation;
+    // With tips the modes are theirs; a few strokes are too much alike.
+    let length = scanned.candidates[scanned.chosen].window_s;
+    if !rigid.columns.tips.is_empty() || rigid.phases(length) < FEW_PHASES {
+        return None;
+    }
+    let sought = rigid.with_mode_columns();
+    let terms = rigid.columns.terms(Term::Signed(DRY));
+    let shown = |candidate: &Candidate| {
+        let length = candidate.window_s;
+        let solution = without.solved(length, &terms)?;
+        let left = LeftTorque::of(&without.clusters(length), &terms, &solution);
+        let looks_rigid =
+            solution.relative_residual < NOTHING_MISSING || left.by_noise > NOISE_ALONE;
+        if looks_rigid {
+            return None;
+        }
+        ShownMode::of(&sought.clusters(length), &sought.columns, &solution, length)
+    };
+    let by_length: Vec<Option<ShownMode>> = scanned.candidates.iter().map(shown).collect();
+    let beside = |(k, mode): (usize, &Option<ShownMode>)| {
+        let mode = mode.as_ref()?;
+        let neighbours = [k.checked_sub(1), Some(k + 1)].into_iter().flatten();
+        let neighbours = neighbours.filter_map(|k| by_length.get(k)?.as_ref());
+        let beside = neighbours.filter_map(|neighbour| mode.beside(neighbour));
+        beside.min_by(|a, b| a.uncertainty().total_cmp(&b.uncertainty()))
+    };
+    let modes = by_length.iter().enumerate().filter_map(beside);
+    let best = modes.min_by(|a, b| a.uncertainty().total_cmp(&b.uncertainty()))?;
+    let beaten = explained_by_one_term(without, best.window_s)?;
+    (best.residual_ratio < HIDDEN_MODE_BEATS * beaten).then(|| best.possible())
+}
+
+/// The least residual that a single further term leaves in windows of a length, over that without it.
+fn explained_by_one_term(without: &SumsByLength<'_>, length_s: f64) -> Option<f64> {
+    let columns = &without.equation.columns;
+    let terms = columns.terms(Term::Signed(DRY));
+    let residual = without.solved(length_s, &terms)?.relative_residual;
+    let clusters = without.equation.clusters_with_more(length_s, &[]);
+    let one = MissingKind::candidates(columns).chain([vec![Term::Signed(VISCOUS)]]);
+    let left = one.filter_map(|added| {
+        let with: Vec<Term> = terms.iter().chain(&added).copied().collect();
+        Some(solve(&clusters, &with)?.relative_residual)
+    });
+    Some(left.fold(residual, f64::min) / residual)
+}

@@ -1,0 +1,62 @@
+//! Solutions of the motor's equation in windows of many lengths.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use crate::identify::methods::regression::mode_window::ModeShape;
+use crate::identify::methods::regression::motor_columns::{DRY, PLACE_OFFSET};
+use crate::identify::methods::regression::motor_rows::MotorRows;
+use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve, values};
+use crate::identify::methods::regression::scan::{Scan, scan};
+
+/// Two lengths of windows are one if they differ by less than this share.
+const SAME_LENGTH: f64 = 1e-9;
+
+/// Sums of the equation's rows in windows of the lengths asked for, each found once.
+pub(super) struct SumsByLength<'a> {
+    pub(super) equation: &'a MotorRows<'a>,
+    /// The same equation with modes a standard error from the one that it counts, in independent directions.
+    beside: Vec<MotorRows<'a>>,
+    found: RefCell<Vec<(f64, Rc<Vec<Cluster>>)>>,
+}
+
+impl<'a> SumsByLength<'a> {
+    pub(super) fn of(equation: &'a MotorRows<'a>) -> Self {
+        Self { equation, beside: Vec::new(), found: RefCell::default() }
+    }
+
+    /// With what the uncertainty of the mode that the equation counts adds to the covariance: `shapes` are a standard error
+    /// from it, in independent directions.
+    pub(super) fn of_mode(equation: &'a MotorRows<'a>, shapes: Vec<ModeShape>) -> Self {
+        let beside = shapes.into_iter().map(|shape| equation.with_mode(shape));
+        Self { beside: beside.collect(), ..Self::of(equation) }
+    }
+
+    pub(super) fn clusters(&self, length_s: f64) -> Rc<Vec<Cluster>> {
+        let same = |(length, _): &&(f64, _)| (length / length_s - 1.0).abs() < SAME_LENGTH;
+        let known = self.found.borrow().iter().find(same).map(|(_, sums)| Rc::clone(sums));
+        known.unwrap_or_else(|| {
+            let sums = Rc::new(self.equation.clusters(length_s));
+            self.found.borrow_mut().push((length_s, Rc::clone(&sums)));
+            sums
+        })
+    }
+
+    pub(super) fn solved(&self, length_s: f64, terms: &[Term]) -> Option<Solution> {
+        let mut solution = solve(&self.clusters(length_s), terms)?;
+        for other in &self.beside {
+            let moved = values(&other.clusters(length_s), terms)? - &solution.value;
+            solution.covariance += &moved * moved.transpose();
+        }
+        Some(solution)
+    }
+
+    /// Windows of the given lengths, or of the length about which the parameters are best known.
+    pub(super) fn scan(&self, sample_time_s: f64, window_s: &[f64]) -> Option<Scan> {
+        let columns = &self.equation.columns;
+        let terms = columns.terms(Term::Signed(DRY));
+        // The offset is small by nature: it does not take part in the choice of the window.
+        let counts: Vec<bool> = (0..terms.len()).map(|i| i != PLACE_OFFSET).collect();
+        scan(sample_time_s, window_s, &counts, |length| self.solved(length, &terms))
+    }
+}
