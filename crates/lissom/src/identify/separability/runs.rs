@@ -75,6 +75,10 @@ pub(super) fn shares_of_regression(
     fit: &MotorRegression,
     used: &Campaign,
 ) -> Vec<RunShare> {
+    // Without each run in turn the equation has no mode.
+    if fit.mode.is_some() {
+        return Vec::new();
+    }
     let with = DVector::from_column_slice(&fit.terms.values);
     let unlike = unlike_others(&fit.beside_others).map(|found| found.run);
     let share = |left_out: &RunLeftOut| {

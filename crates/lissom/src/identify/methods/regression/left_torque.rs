@@ -14,8 +14,10 @@ const ROWS_ALIKE: f64 = 4.0;
 /// What the motor's equation leaves of the squared torque, in its windows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeftTorque {
-    /// Share that noise of the sensors, a measured command among them, adds in expectation.
+    /// Share that noise of the sensors, a measured command among them, adds in expectation, at most 1.
     pub by_noise: f64,
+    /// The same by noise of the command alone, which may be more than 1 where a control loop makes a part of it.
+    pub by_command: f64,
     /// Share of the rest that is a constant for each slip phase.
     pub between_phases: f64,
     /// The square of these constants beside what noise adds to it.
@@ -29,10 +31,12 @@ impl LeftTorque {
     pub(super) fn of(clusters: &[Cluster], terms: &[Term], solution: &Solution) -> Self {
         let (mut all, mut by_noise, mut between, mut noise_between, mut time) =
             (0.0, 0.0, 0.0, 0.0, 0.0);
+        let mut by_command = 0.0;
         for cluster in clusters.iter().filter(|c| c.rows > 0) {
             let left = Left::of(cluster, terms, &solution.value);
             all += left.square;
             by_noise += left.noise;
+            by_command += left.noise_of_command;
             between += left.with_dry * left.with_dry / left.dry.max(f64::MIN_POSITIVE);
             noise_between += left.noise * (ROWS_ALIKE / cluster.rows as f64).min(1.0);
             time += left.dry;
@@ -42,6 +46,7 @@ impl LeftTorque {
         let beyond = (all - by_noise).max(0.01 * all);
         Self {
             by_noise: (by_noise / all).min(1.0),
+            by_command: by_command / all,
             between_phases: (between / beyond).min(1.0),
             between_over_noise: between / noise_between.max(f64::MIN_POSITIVE),
             varies_by: (between / time.max(f64::MIN_POSITIVE)).sqrt() / coulomb,
@@ -65,6 +70,7 @@ impl LeftTorque {
 struct Left {
     square: f64,
     noise: f64,
+    noise_of_command: f64,
     with_dry: f64,
     dry: f64,
 }
@@ -82,6 +88,7 @@ impl Left {
         Self {
             square: square(&cluster.products).max(0.0),
             noise: square(&cluster.noise).max(0.0),
+            noise_of_command: cluster.noise[(right, right)],
             with_dry: cluster.products.row(DRY).transpose().dot(&by_column),
             dry: cluster.products[(DRY, DRY)],
         }

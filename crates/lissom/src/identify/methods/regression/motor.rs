@@ -20,7 +20,7 @@ use crate::identify::methods::regression::motor_columns::{
 };
 use crate::identify::methods::regression::motor_rows::MotorRows;
 use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve};
-use crate::identify::methods::regression::scan::{Candidate, RATIO, change};
+use crate::identify::methods::regression::scan::{Candidate, RATIO, Scan, change};
 use crate::identify::methods::regression::sums_by_length::SumsByLength;
 use crate::identify::methods::regression::thresholds::{
     FEW_PHASES, GRAVITY_CORRELATION, GRAVITY_KNOWN, LONGER_WINDOW, USUAL_VARIATION,
@@ -207,22 +207,27 @@ pub fn motor_regression(prepared: &Prepared<'_>, options: &Options) -> Option<Mo
     })
 }
 
-/// The regression without each run in turn: the given one if all runs have windows of the chosen length, else that in the
-/// longest windows of which the most runs have some.
-fn beside_others(
-    left_out: &[RunLeftOut],
-    equation: &MotorRows<'_>,
-    candidates: &[Candidate],
-    in_windows: impl Fn(f64) -> Option<Vec<RunLeftOut>>,
-) -> Vec<RunLeftOut> {
+/// The regression without each run in turn, in windows of the chosen length and, where not all runs have some of these, in the
+/// longest windows of which the most runs have some. They are of the equation without a mode, which a run unlike the others
+/// may be taken for.
+fn without_each_run(sums: &SumsByLength<'_>, scanned: &Scan) -> [Vec<RunLeftOut>; 2] {
+    let equation = sums.equation;
+    let terms = equation.columns.terms(Term::Signed(DRY));
+    let speeds: Vec<f64> = equation.campaign.runs.iter().map(rms_speed).collect();
+    let in_windows = |length: f64| runs_left_out(&sums.clusters(length), &terms, &speeds);
+    let left_out = in_windows(scanned.candidates[scanned.chosen].window_s);
     if left_out.is_empty() || left_out.len() == equation.runs() {
-        return left_out.to_vec();
+        return [left_out.clone(), left_out];
     }
-    let with_rows: Vec<(f64, usize)> =
-        candidates.iter().map(|c| (c.window_s, equation.runs_with_rows(c.window_s))).collect();
+    let with_rows: Vec<(f64, usize)> = scanned
+        .candidates
+        .iter()
+        .map(|c| (c.window_s, equation.runs_with_rows(c.window_s)))
+        .collect();
     let most = with_rows.iter().map(|(_, runs)| *runs).max().unwrap_or(0);
     let longest = with_rows.iter().filter(|(_, runs)| *runs == most).map(|(length, _)| *length);
-    longest.max_by(f64::total_cmp).and_then(in_windows).unwrap_or_default()
+    let beside_others = longest.max_by(f64::total_cmp).map(in_windows).unwrap_or_default();
+    [left_out, beside_others]
 }
 
 /// The same of a campaign whose commands were made late by a `lag`, if by any; the standard errors count the lag's.
@@ -232,10 +237,14 @@ fn on_slip_phases(
     window_s: &[f64],
     lag: Option<AngleLag>,
 ) -> Option<MotorRegression> {
-    let rigid = MotorRows::of(campaign, noise);
-    let sums = SumsByLength::of(&rigid);
+    let as_logged = MotorRows::of(campaign, noise);
+    let sums = SumsByLength::of(&as_logged);
     let sample_time = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let found = sums.scan(sample_time, window_s)?;
+    let part = sums.room_for_command_noise(&found);
+    let rigid = as_logged.with_command_noise(part);
+    let sums = sums.with_command_noise(&rigid, part);
+    let [left_out, beside_others] = without_each_run(&sums, &found);
     let shown = shown_mode(&sums, &found);
     let flexible = shown.as_ref().map(|mode| rigid.with_mode(mode.shape));
     let with_mode = flexible.as_ref().zip(shown.as_ref()).and_then(|(rows, mode)| {
@@ -291,12 +300,6 @@ fn on_slip_phases(
     let missing = missing.filter(|m| m.is_beyond(&left));
     // A few strokes are too much alike to separate a lag from other causes.
     let missing = missing.filter(|m| m.kind != MissingKind::Delay || phases >= FEW_PHASES);
-    let speeds: Vec<f64> = campaign.runs.iter().map(rms_speed).collect();
-    let left_out = runs_left_out(&clusters, &terms, &speeds);
-    let beside_others = beside_others(&left_out, equation, &found.candidates, |length| {
-        let (clusters, _) = with_more(length)?;
-        Some(runs_left_out(&clusters, &terms, &speeds))
-    });
     let from_chosen =
         || found.candidates.iter().map(|c| c.window_s).filter(|l| *l >= window_s_chosen);
     // Noise of the command averages out in longer windows; friction that wanders does not.

@@ -25,11 +25,13 @@ const EXTRA: usize = MissingKind::COLUMNS;
 
 /// The motor's equation on the windows of all runs.
 pub(super) struct MotorRows<'a> {
-    campaign: &'a Campaign,
+    pub(super) campaign: &'a Campaign,
     pub(super) columns: MotorColumns,
     runs: Arc<Vec<Slipping<'a>>>,
     /// A mode that no tip shows, which the equation counts.
     mode: Option<ModeShape>,
+    /// Part of the command's noise, as its samples have it, that is the sensor's.
+    command_noise: f64,
     /// Parts that each phase is cut into.
     parts: usize,
 }
@@ -42,7 +44,14 @@ impl<'a> MotorRows<'a> {
         let phases = runs.iter().map(Slipping::long_phases).sum::<usize>().max(1);
         let parts = if phases < FEW_PHASES { BLOCKS_WANTED.div_ceil(phases) } else { 1 };
         let columns = MotorColumns::of(campaign);
-        Self { campaign, columns, runs: Arc::new(runs), mode: None, parts }
+        Self { campaign, columns, runs: Arc::new(runs), mode: None, command_noise: 1.0, parts }
+    }
+
+    /// The same with a part of the command's noise: a control loop makes torque of its own noise, which does act on the
+    /// motor.
+    pub(super) fn with_command_noise(&self, part: f64) -> Self {
+        let (columns, runs) = (self.columns.clone(), Arc::clone(&self.runs));
+        Self { columns, runs, command_noise: part, ..*self }
     }
 
     /// The same with the columns of a mode that no tip shows.
@@ -128,7 +137,11 @@ impl<'a> MotorRows<'a> {
             coupling,
             waves: SineAndCosine::of(run.motor()),
         });
-        let noise = plain.noise(slipping.noise, more.map_or(0, |_| EXTRA));
+        let of_run = &RunNoise {
+            command: self.command_noise * slipping.noise.command,
+            ..slipping.noise.clone()
+        };
+        let noise = plain.noise(of_run, more.map_or(0, |_| EXTRA));
         let cluster = |(phase, part): (&Phase, Range<usize>)| {
             let mut cluster = Cluster::new(index, phase.sign, columns);
             let windows = part.step_by(step);

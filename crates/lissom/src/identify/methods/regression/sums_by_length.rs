@@ -3,14 +3,17 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use crate::identify::methods::regression::left_torque::LeftTorque;
 use crate::identify::methods::regression::mode_window::ModeShape;
 use crate::identify::methods::regression::motor_columns::{DRY, PLACE_OFFSET};
 use crate::identify::methods::regression::motor_rows::MotorRows;
 use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve, values};
-use crate::identify::methods::regression::scan::{Scan, scan};
+use crate::identify::methods::regression::scan::{Candidate, Scan, scan};
 
 /// Two lengths of windows are one if they differ by less than this share.
 const SAME_LENGTH: f64 = 1e-9;
+/// With fewer rows for each term the residual may be small by chance.
+const ROWS_PER_TERM: usize = 20;
 
 /// Sums of the equation's rows in windows of the lengths asked for, each found once.
 pub(super) struct SumsByLength<'a> {
@@ -30,6 +33,34 @@ impl<'a> SumsByLength<'a> {
     pub(super) fn of_mode(equation: &'a MotorRows<'a>, shapes: Vec<ModeShape>) -> Self {
         let beside = shapes.into_iter().map(|shape| equation.with_mode(shape));
         Self { beside: beside.collect(), ..Self::of(equation) }
+    }
+
+    /// The part of the command's noise, as its samples have it, that the residuals of the lengths that were scanned have room
+    /// for.
+    pub(super) fn room_for_command_noise(&self, scanned: &Scan) -> f64 {
+        let terms = self.equation.columns.terms(Term::Signed(DRY));
+        let by_command = |candidate: &Candidate| {
+            let length = candidate.window_s;
+            let solution = self.solved(length, &terms)?;
+            let many = solution.rows > ROWS_PER_TERM * terms.len();
+            many.then(|| LeftTorque::of(&self.clusters(length), &terms, &solution).by_command)
+        };
+        let most = scanned.candidates.iter().filter_map(by_command).fold(1.0, f64::max);
+        most.sqrt().recip()
+    }
+
+    /// These sums with less noise of the command, as `equation` has it.
+    pub(super) fn with_command_noise(&self, equation: &'a MotorRows<'a>, part: f64) -> Self {
+        let found = self.found.borrow();
+        let less = found.iter().map(|(length, clusters)| {
+            let mut clusters = Vec::clone(clusters);
+            for cluster in &mut clusters {
+                let right = cluster.noise.ncols() - 1;
+                cluster.noise[(right, right)] *= part * part;
+            }
+            (*length, Rc::new(clusters))
+        });
+        Self { equation, beside: Vec::new(), found: RefCell::new(less.collect()) }
     }
 
     pub(super) fn clusters(&self, length_s: f64) -> Rc<Vec<Cluster>> {
