@@ -77,7 +77,6 @@ fn wrong(arm: &ModalArm, ([inertia, viscous, coulomb], [omega, stiffness]): Fact
 
 fn from(campaign: &Campaign, sines_rad_s: &[f64], arm: ModalArm) -> OutputError {
     let start = OutputErrorStart {
-        mode_rad_s: None,
         friction_varies: false,
         most_evaluations: Effort::Thorough.most_evaluations(),
         interrupt: Interrupt::default(),

@@ -4,6 +4,7 @@ use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::judge::{Chosen, Evidence, slip_phase_solution};
 use crate::identify::methods::friction_law::FrictionLaw;
 use crate::identify::methods::output_error::{rigid, starts, starts_by_motor};
+use crate::identify::methods::starting_arms::flexible;
 use crate::identify::thresholds::REFUSED_TORQUE;
 use crate::identify::validation::torque::torque_error;
 use crate::identify::validation::zeros::zeros;
@@ -83,7 +84,11 @@ fn of_drive(evidence: &Evidence<'_>, drive: &DriveEstimates) -> Option<ModalArm>
     let (used, methods) = (evidence.used, evidence.methods);
     // Without a tip's angle slip phases give no arm: what starts a replay there is not one yet.
     let arms = if used.channels.tips.is_empty() {
-        starts_by_motor(used, drive, None, None)
+        let mode = methods.regression.as_ref().and_then(|r| r.mode);
+        match mode {
+            Some(mode) => flexible(used, drive, mode).into_iter().collect(),
+            None => starts_by_motor(used, drive, None, None),
+        }
     } else if drive.coupling.is_none() {
         // Of the equation without a beam; a tip is then no part of the arm.
         rigid(used, drive).into_iter().collect()

@@ -161,8 +161,7 @@ pub fn identify(
         progress(Stage::OutputError);
         let corrected = || tables.with_square_wave(best);
         let (beam, tips) = (any_beam_regression.as_ref(), tips_model.as_ref());
-        let drive = motor.estimates();
-        let arms = starting_arms(prepared.used(), &drive, beam, tips, &shown, corrected);
+        let arms = starting_arms(prepared.used(), &motor, beam, tips, &shown, corrected);
         let tried = law.as_ref().map(|(law, _)| law.tried());
         output_error(&prepared, &start_of(&prepared, options, arms, (&motor, tried)))
     });
@@ -285,7 +284,6 @@ fn start_of(
         first_window_s: None,
         most_evaluations: options.evaluations(),
         interrupt: options.interrupt.clone(),
-        mode_rad_s: motor.mode.map(|m| m.omega_rad_s.value),
         friction_varies: motor.varies_by().is_some(),
         law: terms.unwrap_or_default(),
     }

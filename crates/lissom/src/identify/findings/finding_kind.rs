@@ -111,6 +111,7 @@ impl FindingKind {
             Self::Regression(_)
             | Self::FrictionLaw(_)
             | Self::Log(_)
+            | Self::OutputError(OutputErrorFinding::ModesByTheMotor { .. })
             | Self::Estimate(EstimateFinding::Offset { .. }) => 0,
             Self::Response(_) | Self::Estimate(EstimateFinding::NoPairs) => 2,
             _ => 1,

@@ -1,8 +1,12 @@
 //! The arms that a campaign's output error starts from.
 
 use crate::identify::drive_estimates::DriveEstimates;
-use crate::identify::methods::output_error::{starts, starts_by_motor, starts_by_responses};
-use crate::identify::methods::regression::{BeamRegression, coupled_tips};
+use crate::identify::methods::output_error::{
+    starts, starts_by_motor, starts_by_responses, with_hidden_mode,
+};
+use crate::identify::methods::regression::{
+    BeamRegression, HiddenMode, MotorRegression, coupled_tips,
+};
 use crate::identify::responses::models;
 use crate::identify::responses::rational::BeamFit;
 use crate::identify::responses::response_point::ResponsePoint;
@@ -10,21 +14,33 @@ use crate::record::Campaign;
 use crate::replay::ModalArm;
 
 /// Those of the regressions and of the rational model `tips` first, then those of responses alone: the tips'
-/// in `shown`, and the motor's without friction, which `corrected` makes.
+/// in `shown`, and the motor's without friction, which `corrected` makes; then the mode that slip phases show without a tip.
 pub(crate) fn starting_arms(
     usable: &Campaign,
-    drive: &DriveEstimates,
+    motor: &MotorRegression,
     beam: Option<&BeamRegression>,
     tips: Option<&BeamFit>,
     shown: &[ResponsePoint],
     corrected: impl Fn() -> Vec<ResponsePoint>,
 ) -> Vec<ModalArm> {
-    let mut arms = arms(usable, drive, beam, tips, shown, corrected);
+    let drive = motor.estimates();
+    let mut arms = arms(usable, &drive, beam, tips, shown, corrected);
+    arms.extend(motor.mode.and_then(|mode| flexible(usable, &drive, mode)));
     // With less viscous friction than none a replay runs away.
     for arm in &mut arms {
         arm.viscous_nm_s_per_rad.iter_mut().for_each(|v| *v = v.max(0.0));
     }
     arms
+}
+
+/// An axis without tips with a mode.
+pub(crate) fn flexible(
+    campaign: &Campaign,
+    drive: &DriveEstimates,
+    mode: HiddenMode,
+) -> Option<ModalArm> {
+    let rigid = starts_by_motor(campaign, drive, None, None).into_iter().next()?;
+    Some(with_hidden_mode(rigid, mode.shape()))
 }
 
 fn arms(

@@ -127,8 +127,6 @@ pub struct OutputErrorStart {
     pub most_evaluations: u64,
     /// Ends the search with what it has.
     pub interrupt: Interrupt,
-    /// Frequency of a mode that slip phases show and no tip does, with the motor clamped \[rad/s\].
-    pub mode_rad_s: Option<f64>,
     /// Whether slip phases show friction that varies from one to the next, and nothing else.
     pub friction_varies: bool,
     /// Terms of friction that slip phases show: speeds and periods to try if the residual is above the noise.

@@ -22,6 +22,7 @@ pub(crate) use follow::follow;
 pub use found::{OutputError, OutputErrorStart, SearchEnd};
 pub use model::fit::{Extension, StageReport};
 pub(crate) use model::start::rigid;
+pub(crate) use model::start::with_hidden_mode;
 pub use model::start::{starts, starts_by_motor, starts_by_responses};
 pub(crate) use replay_findings::{command_lag, findings};
 pub use replayed::output_error;

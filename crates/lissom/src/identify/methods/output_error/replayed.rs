@@ -41,7 +41,6 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
         noise: &noise,
         budget: &budget,
         widening: WINDOW_WIDENING,
-        mode_rad_s: start.mode_rad_s,
         tries_first_mode: !start.friction_varies,
         tries_laws: true,
     };

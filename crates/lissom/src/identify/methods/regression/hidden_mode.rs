@@ -13,10 +13,9 @@ use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solv
 use crate::identify::methods::regression::scan::{Candidate, Scan};
 use crate::identify::methods::regression::sums_by_length::SumsByLength;
 use crate::identify::methods::regression::thresholds::{
-    FEW_PHASES, HIDDEN_MODE_BEATS, HIDDEN_MODE_DAMPED, HIDDEN_MODE_LEAVES, HIDDEN_MODE_MOVES,
-    HIDDEN_MODE_SHARE, HIDDEN_MODE_SURE, NOISE_ALONE, NOTHING_MISSING,
+    FEW_PHASES, HIDDEN_MODE_BEATS, HIDDEN_MODE_DAMPED, HIDDEN_MODE_GAINS, HIDDEN_MODE_LEAVES,
+    HIDDEN_MODE_MOVES, HIDDEN_MODE_SHARE, HIDDEN_MODE_SURE, NOISE_ALONE, NOTHING_MISSING,
 };
-use crate::identify::thresholds::PRESENT;
 
 /// Share of inertia before the spring where the motion does not tell it: as likely as any.
 const USUAL_SHARE: Estimate = Estimate { value: 0.5, std: 0.29 };
@@ -126,25 +125,30 @@ impl ShownMode {
         same.then(|| Self { covariance, ..self.clone() })
     }
 
-    /// The same with what is usual in place of a damping or a share of inertia that no mode has.
-    pub(super) fn possible(mut self) -> Self {
+    /// The same with what is usual in place of a damping or a share of inertia that is not told, or that no mode has;
+    /// `None` if it gains energy.
+    pub(super) fn possible(mut self) -> Option<Self> {
         let ModeShape { omega_rad_s, damping_s, inertia_share } = self.shape;
         let std = self.covariance.diagonal().map(|v| v.max(0.0).sqrt());
+        let to_ratio = 0.5 * omega_rad_s;
+        let damping_ratio = damping_s * to_ratio;
+        if damping_ratio < -HIDDEN_MODE_GAINS {
+            return None;
+        }
         let [share_told, damping_told] = [
             (HIDDEN_MODE_SHARE..1.0 - HIDDEN_MODE_SHARE).contains(&inertia_share)
                 && std[2] < USUAL_SHARE.std,
-            damping_s > -PRESENT * std[1] && 0.5 * damping_s * omega_rad_s < HIDDEN_MODE_DAMPED,
+            damping_ratio < HIDDEN_MODE_DAMPED && std[1] * to_ratio < HIDDEN_MODE_DAMPED,
         ];
         if !share_told {
             self.shape.inertia_share = USUAL_SHARE.value;
             self.take_usual(2, USUAL_SHARE.std);
         }
         if !damping_told {
-            let to_seconds = 2.0 / omega_rad_s;
-            self.shape.damping_s = USUAL_DAMPING_RATIO.value * to_seconds;
-            self.take_usual(1, USUAL_DAMPING_RATIO.std * to_seconds);
+            self.shape.damping_s = USUAL_DAMPING_RATIO.value / to_ratio;
+            self.take_usual(1, USUAL_DAMPING_RATIO.std / to_ratio);
         }
-        self
+        Some(self)
     }
 
     /// A standard deviation that depends on nothing else.
@@ -239,7 +243,7 @@ pub(super) fn shown_mode(without: &SumsByLength<'_>, scanned: &Scan) -> Option<S
     let modes = by_length.iter().enumerate().filter_map(beside);
     let best = modes.min_by(|a, b| a.uncertainty().total_cmp(&b.uncertainty()))?;
     let beaten = explained_by_one_term(without, best.window_s)?;
-    (best.residual_ratio < HIDDEN_MODE_BEATS * beaten).then(|| best.possible())
+    if best.residual_ratio < HIDDEN_MODE_BEATS * beaten { best.possible() } else { None }
 }
 
 /// The least residual that a single further term leaves in windows of a length, over that without it.

@@ -105,7 +105,9 @@ thresholds! {
         HIDDEN_MODE_MOVES: f64 = 0.1, "1", Convention;
         /// Less of the inertia than this share is not before its spring, nor behind it.
         HIDDEN_MODE_SHARE: f64 = 0.02, "1", Convention;
-        /// More damped than this, as a ratio, it is no mode.
+        /// A damping ratio below minus this is no mode's: it would gain energy.
+        HIDDEN_MODE_GAINS: f64 = 0.1, "1", Convention;
+        /// A damping ratio above this, or one that is not known to this, is not taken as the mode's.
         HIDDEN_MODE_DAMPED: f64 = 0.3, "1", Convention;
         /// Coupling to the tips is hardly known if its relative standard error is above this.
         COUPLING_HARDLY_KNOWN: f64 = 0.5, "1", Convention;

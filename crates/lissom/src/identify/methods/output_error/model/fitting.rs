@@ -39,8 +39,6 @@ pub(crate) struct Fitting<'a> {
     pub(crate) budget: &'a Budget,
     /// Factor by which each stage's windows are longer than the ones before.
     pub(crate) widening: f64,
-    /// Frequency of a mode that slip phases show, with the motor clamped \[rad/s\].
-    pub(crate) mode_rad_s: Option<f64>,
     /// Whether a first mode of a rigid axis is tried: friction that varies would be taken for one.
     pub(crate) tries_first_mode: bool,
     /// Whether other friction laws than that of the start are tried.

@@ -5,7 +5,7 @@ use crate::identify::estimate::Estimate;
 use crate::identify::methods::output_error::thresholds::{
     START_POLE_OUTSIDE, START_SHAPE_LEAST, START_STIFFNESS_LEAST,
 };
-use crate::identify::methods::regression::BeamRegression;
+use crate::identify::methods::regression::{BeamRegression, ModeShape};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{
     BeamFit, Damping, MotorData, MotorFit, Pole, fit_motor, fit_shared_poles,
@@ -183,6 +183,21 @@ fn shown((mut omega, mut ratios, mut shapes): Modes) -> Modes {
         }
     }
     (omega, ratios, shapes)
+}
+
+/// A rigid axis with a part of its inertia behind a spring.
+pub(crate) fn with_hidden_mode(mut rigid: ModalArm, mode: ModeShape) -> ModalArm {
+    let ModeShape { omega_rad_s, damping_s, inertia_share } = mode;
+    let stiffness = (1.0 - inertia_share) * rigid.inertia_kg_m2 * omega_rad_s * omega_rad_s;
+    rigid.inertia_kg_m2 *= inertia_share;
+    rigid.modes.push(Oscillator {
+        omega_rad_s,
+        stiffness_nm_per_rad: stiffness,
+        // c·k is the damper between the inertias, over the one behind.
+        within_per_s: damping_s.max(0.0) * omega_rad_s * omega_rad_s,
+        grounded_per_s: 0.0,
+    });
+    rigid
 }
 
 /// A rigid axis with the inertia and friction of some estimates.

@@ -31,9 +31,8 @@ pub(crate) fn grow(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report)
     }
 }
 
-/// Adds a mode to a rigid axis: a part of its inertia then turns behind a spring. Short searches begin at the frequency
-/// that slip phases show, else at some from one period in a window to the fastest that samples show, and with two shares
-/// of the inertia. The best of them continues.
+/// Adds a mode to a rigid axis: a part of its inertia then turns behind a spring. Short searches begin at
+/// frequencies from one period in a window to the fastest that samples show, and with two shares of the inertia. The best of them continues.
 fn add_the_first(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     let tried = report.first_modes_refused >= FIRST_MODE_TRIES;
     if tried || !fitting.tries_first_mode || fitting.beyond_noise(fit) <= RESIDUAL_ABOVE_NOISE {
@@ -42,9 +41,8 @@ fn add_the_first(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     let sample_s = fitting.campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let fastest = FIRST_MODE_TURN_MOST / sample_s;
     let slowest = std::f64::consts::TAU / fit.window_s;
-    let next = |w: &f64| fitting.mode_rad_s.is_none().then_some(FIRST_MODE_STEP * w);
-    let first = fitting.mode_rad_s.unwrap_or(slowest);
-    let frequencies = std::iter::successors(Some(first), next).take_while(|w| *w < fastest);
+    let next = |w: &f64| Some(FIRST_MODE_STEP * w);
+    let frequencies = std::iter::successors(Some(slowest), next).take_while(|w| *w < fastest);
     let starts =
         frequencies.flat_map(|w| FIRST_MODE_SHARES.map(|share| with_first(fitting, fit, w, share)));
     let probed = starts.filter_map(|start| {
