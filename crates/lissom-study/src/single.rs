@@ -1,6 +1,7 @@
 //! Everything about one campaign, for who looks for a mistake.
 
 use std::fmt::Write;
+use std::time::Instant;
 
 use lissom::identify::{Candidate, FrictionLaw, OutputError, starts};
 use lissom::replay::ModalArm;
@@ -14,7 +15,10 @@ use crate::truth::Truth;
 /// Identifies and describes a campaign of `seed`.
 pub fn describe(campaign: &Campaign, seed: u64, quick: bool) -> String {
     let mut lines = conditions(campaign, seed);
-    match identified(campaign, quick) {
+    let start = Instant::now();
+    let found = identified(campaign, quick);
+    lines.push(format!("identified in {:.3} s", start.elapsed().as_secs_f64()));
+    match found {
         Err(error) => lines.push(format!("nothing identified: {error}")),
         Ok(id) => {
             let bound = Bound::of(campaign);
