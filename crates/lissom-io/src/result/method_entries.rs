@@ -113,7 +113,7 @@ pub struct RegressionEntry {
     pub gravity: Option<GravityEntry>,
     /// One viscous constant for each direction; null where one was enough.
     pub viscous_by_direction: Option<ViscousByDirectionEntry>,
-    /// A mode that no tip shows and that the estimates count; null where there is none.
+    /// A flexible mode that no tip measures and that the estimates account for; null if there is none.
     pub hidden_mode: Option<HiddenModeEntry>,
     /// Length of the window used.
     pub window_s: f64,
@@ -141,9 +141,9 @@ pub struct HiddenModeEntry {
     pub damping_ratio: EstimateEntry,
     /// Inertia before the spring as a share of all that turns.
     pub inertia_share: EstimateEntry,
-    /// Residual beside that of the equation without it.
+    /// Residual relative to that of the equation without the mode.
     pub residual_ratio: f64,
-    /// Length of the windows that show it best.
+    /// Length of the windows in which its frequency is known best.
     pub window_s: f64,
 }
 

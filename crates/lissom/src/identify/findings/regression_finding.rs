@@ -74,7 +74,7 @@ pub enum RegressionFinding {
         /// Units of the coefficient.
         units: EstimateUnits,
     },
-    /// The motor's motion shows a flexible mode, which the estimates count.
+    /// The motor's motion shows a flexible mode, which the estimates account for.
     HiddenMode {
         /// Which.
         mode: HiddenMode,
@@ -195,8 +195,8 @@ fn moved_by(term: &MissingTerm) -> String {
 fn without_mode(mode: &HiddenMode) -> String {
     let moved = moved(&mode.moves).into_iter();
     match changed(moved.map(|(name, _, share)| (name, 1.0 / (1.0 + share) - 1.0))) {
-        None => "Without it no estimate changes by more than its standard error".to_owned(),
-        Some(changes) => format!("Without it the estimates would be other ones, {changes}"),
+        None => "Without the mode no estimate changes by more than its standard error".to_owned(),
+        Some(changes) => format!("Without the mode the estimates would differ: {changes}"),
     }
 }
 
@@ -289,8 +289,8 @@ impl fmt::Display for RegressionFinding {
             Self::HiddenMode { mode } => write!(
                 f,
                 "no tip is measured, and the motor's motion shows a flexible mode, at {} Hz with the motor clamped, with a \
-                 damping ratio of {}; {} % of the inertia turn before its spring. The estimates count it: inertia is \
-                 that of all that turns. {}",
+                 damping ratio of {}; {} % of the inertia is before its spring. The estimates account for the \
+                 mode: inertia is that of all that turns. {}",
                 significant(mode.omega_rad_s.value / std::f64::consts::TAU, DIGITS),
                 significant(mode.damping_ratio.value, 2),
                 significant(100.0 * mode.inertia_share.value, 2),

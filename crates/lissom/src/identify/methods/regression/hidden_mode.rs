@@ -17,9 +17,9 @@ use crate::identify::methods::regression::thresholds::{
     HIDDEN_MODE_MOVES, HIDDEN_MODE_SHARE, HIDDEN_MODE_SURE, NOISE_ALONE, NOTHING_MISSING,
 };
 
-/// Share of inertia before the spring where the motion does not tell it: as likely as any.
+/// Share of inertia before the spring if the logs do not identify it: mean and standard deviation of a uniform distribution.
 const USUAL_SHARE: Estimate = Estimate { value: 0.5, std: 0.29 };
-/// Damping ratio where the motion does not tell it.
+/// Damping ratio if the logs do not identify it.
 const USUAL_DAMPING_RATIO: Estimate = Estimate { value: 0.02, std: 0.02 };
 
 /// A part of the inertia that turns behind a spring, as the motor's motion alone shows it.
@@ -38,11 +38,11 @@ pub struct HiddenMode {
     pub damping_ratio: Estimate,
     /// Inertia before the spring as a share of all, J₁/J.
     pub inertia_share: Estimate,
-    /// By how much it changes inertia, viscous and Coulomb friction.
+    /// Changes of inertia, viscous and Coulomb friction due to the mode.
     pub moves: [Moved; 3],
-    /// Residual beside that of the equation without it, in the windows of this length, as a ratio.
+    /// Residual relative to that of the equation without the mode, in windows of the length `window_s`.
     pub residual_ratio: f64,
-    /// Length of the windows that show it best \[s\].
+    /// Length of the windows in which its frequency is known best \[s\].
     pub window_s: f64,
 }
 
@@ -66,7 +66,7 @@ pub(super) struct ShownMode {
     pub(super) residual_ratio: f64,
 }
 
-/// What the terms of a mode say: ω, c and J₁/J; `None` if they are no mode's.
+/// Computes ω, c and J₁/J from the terms; `None` if no mode has such terms.
 fn shape_of(value: &DVector<f64>, places: ModeColumns) -> Option<ModeShape> {
     let omega_squared = -1.0 / value[places.torque_twice];
     let (with_damping, viscous) = (value[PLACE_INERTIA], value[PLACE_VISCOUS]);
@@ -86,8 +86,8 @@ fn vector(shape: ModeShape) -> Vector3<f64> {
 }
 
 impl ShownMode {
-    /// The mode of `with`, sums with the columns of one, if its frequency is surely one and it explains a good part of what the
-    /// solution `without` them leaves.
+    /// Solves the sums `with` the columns of a mode. `None` if its frequency is not certain, or if it explains too little of the
+    /// residual of the solution `without` these columns.
     pub(super) fn of(
         with: &[Cluster],
         columns: &MotorColumns,
@@ -115,8 +115,8 @@ impl ShownMode {
         self.frequency_std() / self.shape.omega_rad_s
     }
 
-    /// The same with what it changes to a `neighbour` length added to its covariance; `None` if its frequency is another
-    /// one there.
+    /// Adds half of the difference to the mode at a `neighbour` window length to the covariance; `None` if the frequencies of
+    /// the two differ.
     pub(super) fn beside(&self, neighbour: &Self) -> Option<Self> {
         let change = vector(self.shape) - vector(neighbour.shape);
         let same = change[0].abs() < HIDDEN_MODE_MOVES * self.shape.omega_rad_s;
@@ -125,8 +125,8 @@ impl ShownMode {
         same.then(|| Self { covariance, ..self.clone() })
     }
 
-    /// The same with what is usual in place of a damping or a share of inertia that is not told, or that no mode has;
-    /// `None` if it gains energy.
+    /// Replaces a damping or a share of inertia that is not identified, or not possible, by usual values; `None` if the damping
+    /// is clearly negative.
     pub(super) fn possible(mut self) -> Option<Self> {
         let ModeShape { omega_rad_s, damping_s, inertia_share } = self.shape;
         let std = self.covariance.diagonal().map(|v| v.max(0.0).sqrt());
@@ -151,14 +151,14 @@ impl ShownMode {
         Some(self)
     }
 
-    /// A standard deviation that depends on nothing else.
+    /// Sets a standard deviation without correlation to the others.
     fn take_usual(&mut self, place: usize, std: f64) {
         self.covariance.row_mut(place).fill(0.0);
         self.covariance.column_mut(place).fill(0.0);
         self.covariance[(place, place)] = std * std;
     }
 
-    /// Shapes a standard error away, in three directions that are independent of each other.
+    /// Returns three modes, each one standard error away along a principal axis of the covariance.
     pub(super) fn shapes_beside(&self) -> Vec<ModeShape> {
         let eigen = self.covariance.symmetric_eigen();
         let directions = eigen.eigenvectors.column_iter().zip(eigen.eigenvalues.iter());
@@ -169,7 +169,7 @@ impl ShownMode {
         moved.collect()
     }
 
-    /// With what it changes in the estimates, from those without it.
+    /// The public description, with the changes of the estimates.
     pub(super) fn report(&self, moves: [Moved; 3]) -> HiddenMode {
         let ModeShape { omega_rad_s, damping_s, inertia_share } = self.shape;
         let of = |value: f64, slopes: Vector3<f64>| {
@@ -210,8 +210,8 @@ fn covariance(solution: &Solution, places: ModeColumns, shape: ModeShape) -> Mat
     sum
 }
 
-/// A mode that no tip shows, from the lengths of windows that were scanned without one: beside motion of the mode's
-/// frequency what they leave is not noise. Of all windows that show it, those are taken that tell most of it.
+/// Searches for a mode that no tip measures, in the window lengths that were scanned without one, where their residual is not
+/// noise. Returns the mode at the length where its frequency has the smallest relative standard error.
 pub(super) fn shown_mode(without: &SumsByLength<'_>, scanned: &Scan) -> Option<ShownMode> {
     let rigid = without.equation;
     // With tips the modes are theirs; a few strokes are too much alike.
@@ -246,7 +246,7 @@ pub(super) fn shown_mode(without: &SumsByLength<'_>, scanned: &Scan) -> Option<S
     if best.residual_ratio < HIDDEN_MODE_BEATS * beaten { best.possible() } else { None }
 }
 
-/// The least residual that a single further term leaves in windows of a length, over that without it.
+/// Returns the smallest residual with one further term, relative to the residual without it, in windows of one length.
 fn explained_by_one_term(without: &SumsByLength<'_>, length_s: f64) -> Option<f64> {
     let columns = &without.equation.columns;
     let terms = columns.terms(Term::Signed(DRY));

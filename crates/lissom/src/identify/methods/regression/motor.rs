@@ -73,7 +73,7 @@ pub struct MotorRegression {
     pub viscous_by_direction: Option<ByDirection>,
     /// A term that the equation lacks, where the data call for one.
     pub missing: Option<MissingTerm>,
-    /// A mode that no tip shows and that the estimates count.
+    /// A flexible mode that no tip measures and that the estimates account for.
     pub mode: Option<HiddenMode>,
     /// What the equation leaves of the torque.
     pub left: LeftTorque,
@@ -207,9 +207,9 @@ pub fn motor_regression(prepared: &Prepared<'_>, options: &Options) -> Option<Mo
     })
 }
 
-/// The regression without each run in turn, in windows of the chosen length and, where not all runs have some of these, in the
-/// longest windows of which the most runs have some. They are of the equation without a mode, which a run unlike the others
-/// may be taken for.
+/// Repeats the regression without each run in turn: in windows of the chosen length, and, if some runs have none of these, in the
+/// longest windows that the most runs have. The equation is the one without a mode, because a run that differs from the others can
+/// look like a mode.
 fn without_each_run(sums: &SumsByLength<'_>, scanned: &Scan) -> [Vec<RunLeftOut>; 2] {
     let equation = sums.equation;
     let terms = equation.columns.terms(Term::Signed(DRY));
@@ -241,9 +241,9 @@ fn on_slip_phases(
     let sums = SumsByLength::of(&as_logged);
     let sample_time = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let found = sums.scan(sample_time, window_s)?;
-    let part = sums.room_for_command_noise(&found);
-    let rigid = as_logged.with_command_noise(part);
-    let sums = sums.with_command_noise(&rigid, part);
+    let factor = sums.command_noise_factor(&found);
+    let rigid = as_logged.with_command_noise(factor);
+    let sums = sums.with_command_noise(&rigid, factor);
     let [left_out, beside_others] = without_each_run(&sums, &found);
     let shown = shown_mode(&sums, &found);
     let flexible = shown.as_ref().map(|mode| rigid.with_mode(mode.shape));

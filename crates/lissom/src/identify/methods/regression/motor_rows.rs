@@ -30,7 +30,7 @@ pub(super) struct MotorRows<'a> {
     runs: Arc<Vec<Slipping<'a>>>,
     /// A mode that no tip shows, which the equation counts.
     mode: Option<ModeShape>,
-    /// Part of the command's noise, as its samples have it, that is the sensor's.
+    /// Factor on the noise that the command's samples show.
     command_noise: f64,
     /// Parts that each phase is cut into.
     parts: usize,
@@ -47,11 +47,11 @@ impl<'a> MotorRows<'a> {
         Self { campaign, columns, runs: Arc::new(runs), mode: None, command_noise: 1.0, parts }
     }
 
-    /// The same with a part of the command's noise: a control loop makes torque of its own noise, which does act on the
-    /// motor.
-    pub(super) fn with_command_noise(&self, part: f64) -> Self {
+    /// Multiplies the noise of the command by a factor: part of what looks like noise of the sensor can be torque that the
+    /// control loop makes from noise of the encoder, and that torque does act on the motor.
+    pub(super) fn with_command_noise(&self, factor: f64) -> Self {
         let (columns, runs) = (self.columns.clone(), Arc::clone(&self.runs));
-        Self { columns, runs, command_noise: part, ..*self }
+        Self { columns, runs, command_noise: factor, ..*self }
     }
 
     /// The same with the columns of a mode that no tip shows.

@@ -9,6 +9,7 @@ use crate::identify::methods::regression::motor_columns::{DRY, PLACE_OFFSET};
 use crate::identify::methods::regression::motor_rows::MotorRows;
 use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve, values};
 use crate::identify::methods::regression::scan::{Candidate, Scan, scan};
+use crate::record::Hold;
 
 /// Two lengths of windows are one if they differ by less than this share.
 const SAME_LENGTH: f64 = 1e-9;
@@ -28,16 +29,19 @@ impl<'a> SumsByLength<'a> {
         Self { equation, beside: Vec::new(), found: RefCell::default() }
     }
 
-    /// With what the uncertainty of the mode that the equation counts adds to the covariance: `shapes` are a standard error
-    /// from it, in independent directions.
+    /// Adds the uncertainty of the mode to the covariance of each solution: `shapes` are modes one standard error away, along
+    /// independent directions.
     pub(super) fn of_mode(equation: &'a MotorRows<'a>, shapes: Vec<ModeShape>) -> Self {
         let beside = shapes.into_iter().map(|shape| equation.with_mode(shape));
         Self { beside: beside.collect(), ..Self::of(equation) }
     }
 
-    /// The part of the command's noise, as its samples have it, that the residuals of the lengths that were scanned have room
-    /// for.
-    pub(super) fn room_for_command_noise(&self, scanned: &Scan) -> f64 {
+    /// Returns by which factor the noise that the command's samples show must be reduced, so that it explains no more than the
+    /// residual at each scanned window length.
+    pub(super) fn command_noise_factor(&self, scanned: &Scan) -> f64 {
+        if self.equation.campaign.channels.command.hold == Hold::Sampled {
+            return 1.0;
+        }
         let terms = self.equation.columns.terms(Term::Signed(DRY));
         let by_command = |candidate: &Candidate| {
             let length = candidate.window_s;
@@ -49,14 +53,17 @@ impl<'a> SumsByLength<'a> {
         most.sqrt().recip()
     }
 
-    /// These sums with less noise of the command, as `equation` has it.
-    pub(super) fn with_command_noise(&self, equation: &'a MotorRows<'a>, part: f64) -> Self {
+    /// These sums with the command noise of `equation`, smaller by `factor`.
+    pub(super) fn with_command_noise(&self, equation: &'a MotorRows<'a>, factor: f64) -> Self {
         let found = self.found.borrow();
         let less = found.iter().map(|(length, clusters)| {
+            if factor >= 1.0 {
+                return (*length, Rc::clone(clusters));
+            }
             let mut clusters = Vec::clone(clusters);
             for cluster in &mut clusters {
                 let right = cluster.noise.ncols() - 1;
-                cluster.noise[(right, right)] *= part * part;
+                cluster.noise[(right, right)] *= factor * factor;
             }
             (*length, Rc::new(clusters))
         });
