@@ -9,6 +9,15 @@ use crate::replay::WindowSums;
 /// Smallest share of the information on a direction that is outside of one block: a floor against rounding.
 const LEAST_REST: f64 = 1e-9;
 
+/// Root of the sum of P's squared eigenvalues, an upper bound of each, from which on the series takes too long.
+const LARGE_SHARE: f64 = 0.8;
+
+/// The most terms of the series: 0.8^100 is 2e-10.
+const SERIES_TERMS: u32 = 100;
+
+/// The series ends with a term below this share of its sum.
+const SERIES_LEFT: f64 = 1e-9;
+
 /// Two covariances of the same parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Covariances {
@@ -32,6 +41,7 @@ impl Covariances {
         let reduced: Vec<Reduced> = sums.iter().map(|s| Reduced::new(s, shared, 0.0)).collect();
         let zero = DMatrix::zeros(shared, shared);
         let normal = reduced.iter().fold(zero.clone(), |sum, r| sum + &r.normal);
+        let inverse_normal = inverse(&normal);
         let (mut slopes, mut curvatures) = (0.0, 0.0);
         let (mut rows, mut unknowns) = (0, shared);
         for sums in sums {
@@ -41,9 +51,8 @@ impl Covariances {
             unknowns += sums.gram.ncols() - 1 - shared;
         }
         let by_blocks = |(sums, own): (&WindowSums, &Reduced)| {
-            let others = &normal - &own.normal;
             let mut blocks = zero.clone();
-            for change in moved_by_blocks(sums, &others, shared) {
+            for change in moved_by_blocks(sums, own, &normal, &inverse_normal) {
                 blocks.ger(1.0, &change, &change, 1.0);
             }
             blocks
@@ -52,7 +61,7 @@ impl Covariances {
             sums.par_iter().with_max_len(1).zip(&reduced).map(by_blocks).collect();
         let free = rows.saturating_sub(unknowns).max(1) as f64;
         Self {
-            white: inverse(&normal) * ((slopes / curvatures).max(1.0) * rows as f64 / free),
+            white: &inverse_normal * ((slopes / curvatures).max(1.0) * rows as f64 / free),
             blocks: of_windows.into_iter().fold(zero, |sum, b| sum + b),
         }
     }
@@ -80,30 +89,105 @@ pub(crate) fn deviation(covariance: &DMatrix<f64>, i: usize) -> f64 {
     covariance[(i, i)].max(0.0).sqrt()
 }
 
-/// Change of the shared parameters by the residuals of each block of a window. `others` is the normal matrix of all
-/// other windows.
+/// Change of the shared parameters by the residuals of each block of a window, whose own unknowns are eliminated in
+/// `own`; `normal` is the normal matrix of all windows.
 ///
 /// It is `L⁻ᵀ·(I − P)^(−1/2)·L⁻¹·g_b`, with the whole normal matrix `M = L·Lᵀ`, the block's slope g_b and its share
 /// `P = L⁻¹·M_b·L⁻ᵀ` in M by directions. If one block has nearly all of the information on a direction, its residual
 /// along that direction is nearly zero: for white residuals the slope has the variance `P·(I − P)`. With the root the
 /// sum over blocks is then the white covariance (HC2 of \[MacKinnon1985\]). The factor `(I − P)⁻¹`, which leaves each
 /// block out, would give the standard error that the direction has without its block.
-fn moved_by_blocks<'a>(
-    sums: &'a WindowSums,
-    others: &'a DMatrix<f64>,
-    shared: usize,
-) -> impl Iterator<Item = DVector<f64>> + 'a {
+///
+/// For small shares the root is a series; eigenvalues for each of thousands of blocks take much longer.
+fn moved_by_blocks(
+    sums: &WindowSums,
+    own: &Reduced,
+    normal: &DMatrix<f64>,
+    inverse_normal: &DMatrix<f64>,
+) -> Vec<DVector<f64>> {
+    let shared = normal.nrows();
+    if let [_] = sums.blocks.as_slice() {
+        // A block that is the whole window has all of the information on the window's own unknowns, and its slope
+        // along them is zero.
+        return vec![moved(normal, inverse_normal, &own.normal, &own.right)];
+    }
     let size = sums.gram.ncols() - 1;
     let mut all = sums.gram.view((0, 0), (size, size)).into_owned();
     let mut corner = all.view_mut((0, 0), (shared, shared));
-    corner += others;
-    let root = inverse_root(&all);
-    sums.blocks.iter().map(move |block| {
-        let share = root.transpose() * block.view((0, 0), (size, size)) * &root;
-        let score = root.transpose() * block.column(size).rows(0, size);
-        let eigen = share.symmetric_eigen();
-        let rest = eigen.eigenvalues.map(|p| 1.0 / (1.0 - p).max(LEAST_REST).sqrt());
-        let along = (eigen.eigenvectors.transpose() * score).component_mul(&rest);
-        (&root * (eigen.eigenvectors * along)).rows(0, shared).into_owned()
-    })
+    corner += normal - &own.normal;
+    let inverse_all = inverse(&all);
+    let of_block = |block: &DMatrix<f64>| {
+        let score = block.column(size).rows(0, size).into_owned();
+        let normal = block.view((0, 0), (size, size)).into_owned();
+        let change = moved(&all, &inverse_all, &normal, &score);
+        change.rows(0, shared).into_owned()
+    };
+    sums.blocks.iter().map(of_block).collect()
+}
+
+/// The change by a block with this normal matrix and slope, of all with the normal matrix `all`.
+fn moved(
+    all: &DMatrix<f64>,
+    inverse: &DMatrix<f64>,
+    block: &DMatrix<f64>,
+    score: &DVector<f64>,
+) -> DVector<f64> {
+    // Its eigenvalues are those of P.
+    let share = inverse * block;
+    if share.dot(&share.transpose()) < LARGE_SHARE * LARGE_SHARE {
+        by_series(&share, inverse * score)
+    } else {
+        by_eigenvalues(&inverse_root(all), block, score)
+    }
+}
+
+/// `L⁻ᵀ·(I − P)^(−1/2)·L⁻¹·g`, from the eigenvalues of `P = L⁻¹·block·L⁻ᵀ`; `root` is L⁻ᵀ.
+fn by_eigenvalues(root: &DMatrix<f64>, block: &DMatrix<f64>, score: &DVector<f64>) -> DVector<f64> {
+    let share = root.transpose() * block * root;
+    let eigen = share.symmetric_eigen();
+    let rest = eigen.eigenvalues.map(|p| 1.0 / (1.0 - p).max(LEAST_REST).sqrt());
+    let along = (eigen.eigenvectors.transpose() * (root.transpose() * score)).component_mul(&rest);
+    root * (eigen.eigenvectors * along)
+}
+
+/// The same by the binomial series `Σ c_k·share^k·change`, with c_k = c_(k−1)·(2k − 1)/(2k), `share = M⁻¹·block` and
+/// `change = M⁻¹·g`.
+fn by_series(share: &DMatrix<f64>, change: DVector<f64>) -> DVector<f64> {
+    let mut sum = change.clone();
+    let mut term = change;
+    for k in 1..=SERIES_TERMS {
+        term = share * term * (1.0 - 0.5 / f64::from(k));
+        sum += &term;
+        if term.norm() < SERIES_LEFT * sum.norm() {
+            break;
+        }
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    #![expect(clippy::unwrap_used, reason = "tests")]
+
+    use super::*;
+
+    /// A block with a quarter of the information, spread over three of four directions.
+    #[test]
+    fn the_series_is_the_root() {
+        let rows =
+            DMatrix::from_fn(3, 4, |i, j| 0.3 * f64::from((1 + 5 * i + 3 * j) as u32 % 7) - 0.8);
+        let block = rows.transpose() * &rows;
+        let all =
+            &block * 6.0 + DMatrix::from_diagonal(&DVector::from_vec(vec![8.0, 5.0, 9.0, 6.0]));
+        let root = inverse_root(&all);
+        let inverse = &root * root.transpose();
+        let score = DVector::from_vec(vec![0.3, -1.0, 0.4, 2.0]);
+        let (share, plain) = (&inverse * &block, &inverse * &score);
+        let size = share.dot(&share.transpose()).sqrt();
+        assert!((0.1..LARGE_SHARE).contains(&size), "{size}");
+        let [series, exact] =
+            [by_series(&share, plain.clone()), by_eigenvalues(&root, &block, &score)];
+        assert!((&series - &exact).norm() < 1e-6 * exact.norm());
+        assert!((plain - &exact).norm() > 1e-3 * exact.norm(), "the root changes nothing");
+    }
 }
