@@ -112,6 +112,7 @@ fn with_directions(mut id: Identified) -> Identified {
         Some(NearRestEstimate { torque: figure, at_rest: figure, speed: figure, falloff });
     id.friction.ripples = vec![RippleEstimate { torque: figure, per_angle: figure }];
     if let Some(found) = &mut id.arm {
+        found.coupling_alone_nm_per_rad = vec![figure.value];
         found.arm.dry_terms = DryTerms {
             near_rest: Some(NearRest {
                 torque_nm: 0.1,

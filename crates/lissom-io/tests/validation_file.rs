@@ -85,9 +85,29 @@ fn an_arm_that_was_written_is_read_back_and_predicts() {
     wrong.arm.coulomb_nm *= 1.5;
     let validation = validate(&wrong, &other, &ValidationOptions::default()).unwrap();
     assert!(!validation.findings.is_empty());
+    wrong.coupling_alone_nm_per_rad = vec![1.25];
     let file = ValidationFile::of(&other, &wrong, &validation);
     check.look_at(&serde_json::to_value(&file).unwrap());
     check.holds(&["torque.residual_terms[].term", "torque.stretches[].start_s", "findings[].code"]);
+}
+
+/// Where no mode is known, the arm has the coupling of its tips.
+#[test]
+fn coupling_without_modes_is_read_back() {
+    let (mut result, _) = result();
+    result["arm"]["modes"] = json!([]);
+    result["arm"]["tips"][0]["shape"] = json!([]);
+    result["arm"]["damping_at_points_per_s"] = json!([]);
+    result["arm"]["coupling_by_tip_nm_per_rad"] = json!([1.25]);
+    let placed = place(&result.to_string());
+    let read = read_arm(&placed.path, &channels(Some(CONSTANT))).unwrap();
+    assert_eq!(read.coupling_alone_nm_per_rad, [1.25]);
+    assert!(!read.moves());
+    for wrong in [json!([1.25, 2.0]), json!([1e300])] {
+        result["arm"]["coupling_by_tip_nm_per_rad"] = wrong;
+        let error = refused(&result, &channels(Some(CONSTANT)));
+        assert!(error.to_string().contains("arm.coupling_by_tip_nm_per_rad"), "{error}");
+    }
 }
 
 fn refused(result: &Value, channels: &Channels) -> ResultError {

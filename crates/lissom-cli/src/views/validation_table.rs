@@ -27,6 +27,9 @@ pub(crate) fn validation(
         ArmSource::Regression => "regression",
     };
     let modes = match found.arm.modes.len() {
+        0 if !found.moves() => {
+            "coupling of the tips known and no mode: torque alone is predicted".to_owned()
+        }
         0 => "rigid".to_owned(),
         1 => "1 mode".to_owned(),
         n => format!("{n} modes"),

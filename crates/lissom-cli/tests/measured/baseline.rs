@@ -33,7 +33,12 @@ fn rigid(drive: &DriveEstimates, back_emf: f64) -> FoundArm {
         command_lag_s: 0.0,
         tip_lags_s: vec![],
     };
-    FoundArm { arm, source: ArmSource::Regression, torque_used: None }
+    FoundArm {
+        arm,
+        coupling_alone_nm_per_rad: Vec::new(),
+        source: ArmSource::Regression,
+        torque_used: None,
+    }
 }
 
 /// Past the capture, so that the table of the evidence can be made of it.

@@ -10,8 +10,8 @@ use super::arm_numbers::{Number, Numbers, WrongKey};
 use super::channel_names::{ArmSourceName, TipQuantityName};
 use super::friction_term_entries::ArmTermsEntry;
 use super::unit_keys::{
-    CosineKey, CoulombKey, InertiaKey, OffsetKey, SineKey, StiffnessKey, ViscousBackwardKey,
-    ViscousForwardKey, WithUnit,
+    CosineKey, CoulombKey, CouplingByTipKey, InertiaKey, OffsetKey, SineKey, StiffnessKey,
+    ViscousBackwardKey, ViscousForwardKey, WithUnit,
 };
 use super::unit_names::UnitNames;
 
@@ -46,6 +46,10 @@ pub struct ArmEntry {
     pub command_lag_s: f64,
     /// Modes with the motor clamped, as oscillators on the motor.
     pub modes: Vec<OscillatorEntry>,
+    /// Torque on the motor per deflection of each tip, where the logs show it and no mode: the arm has no modes then and
+    /// predicts torque alone. Absent otherwise.
+    #[serde(flatten)]
+    pub coupling_by_tip: WithUnit<CouplingByTipKey, Vec<f64>>,
     /// The tips.
     pub tips: Vec<ArmTipEntry>,
     /// Damping of each tip's point against the fixed frame; empty unless there are as many tips as modes.
@@ -122,6 +126,10 @@ impl ArmEntry {
             }),
             command_lag_s: a.command_lag_s,
             modes: a.modes.iter().map(|m| OscillatorEntry::of(names, m)).collect(),
+            coupling_by_tip: WithUnit::where_some(
+                names,
+                Some(found.coupling_alone_nm_per_rad.clone()).filter(|c| !c.is_empty()),
+            ),
             tips: channels.tips.iter().zip(&a.shapes).enumerate().map(tip).collect(),
             damping_at_points_per_s: a.at_points_per_s.clone(),
             torque_error: found.torque_used.map(|t| t.relative_error),
@@ -140,6 +148,14 @@ impl ArmEntry {
         }
         if self.tips.iter().any(|tip| tip.shape.len() != modes.len()) {
             return Err(number.wrong("tips[].shape", "one number for each mode"));
+        }
+        let coupling = self.coupling_by_tip.get(names).cloned().unwrap_or_default();
+        if !coupling.is_empty() && (coupling.len() != self.tips.len() || !modes.is_empty()) {
+            let expected = "one number for each tip, in an arm without modes";
+            return Err(number.wrong(&number.key::<CouplingByTipKey>(), expected));
+        }
+        for value in &coupling {
+            number.sane(&number.key::<CouplingByTipKey>(), *value)?;
         }
         let lag = |tip: &ArmTipEntry| Numbers { names, at: "arm.tips[]" }.sane("lag_s", tip.lag_s);
         let lags = self.tips.iter().map(lag).collect::<Result<Vec<_>, _>>()?;
@@ -168,6 +184,7 @@ impl ArmEntry {
         };
         Ok(FoundArm {
             arm,
+            coupling_alone_nm_per_rad: coupling,
             source: self.from.source(),
             torque_used: self
                 .torque_error

@@ -25,6 +25,9 @@ pub enum ArmSource {
 pub struct FoundArm {
     /// Its numbers, the back-EMF's damping in the viscous ones.
     pub arm: ModalArm,
+    /// Coupling of each tip, torque on the motor per deflection \[N·m/rad\], where the logs show it and no mode: the arm has
+    /// no modes then, and predicts torque alone. Empty otherwise.
+    pub coupling_alone_nm_per_rad: Vec<f64>,
     /// Where they are from.
     pub source: ArmSource,
     /// The torque of the logs used as it predicts it; `None` where the tips do not give the coupling
@@ -48,7 +51,7 @@ impl FoundArm {
     pub(super) fn of(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<Self> {
         let used = evidence.used;
         if let Some(oe) = evidence.replay() {
-            return Some(Self::with(oe.arm.clone(), ArmSource::OutputError, used));
+            return Some(Self::with(oe.arm.clone(), Vec::new(), ArmSource::OutputError, used));
         }
         let supported = &chosen.drive;
         let (Some(_), Some(_)) = (supported.inertia, supported.friction.coulomb) else {
@@ -62,9 +65,10 @@ impl FoundArm {
                 .or_else(|| of_drive(evidence, &slip_phase_solution(regression, None)?.1)),
             _ => of_drive(evidence, drive),
         };
-        let mut arm = arm?;
+        let (mut arm, coupling_alone) =
+            arm.map(|arm| (arm, Vec::new())).or_else(|| without_modes(used, drive))?;
         arm.command_lag_s += regression.and_then(|r| r.lag).map_or(0.0, |lag| lag.time_s);
-        Some(Self::with(arm, ArmSource::Regression, used))
+        Some(Self::with(arm, coupling_alone, ArmSource::Regression, used))
     }
 
     /// Whether it predicts the torque of the logs that it is from, where these show it.
@@ -72,11 +76,28 @@ impl FoundArm {
         self.torque_used.is_none_or(|used| used.relative_error < REFUSED_TORQUE)
     }
 
-    fn with(arm: ModalArm, source: ArmSource, used: &Campaign) -> Self {
-        let torque_used = torque_error(&arm, used, &zeros(&arm, used))
-            .map(|(window_s, relative_error)| TorqueUsed { relative_error, window_s });
-        Self { arm, source, torque_used }
+    /// Whether it predicts motion, not only torque.
+    pub fn moves(&self) -> bool {
+        self.coupling_alone_nm_per_rad.is_empty()
     }
+
+    fn with(arm: ModalArm, coupling_alone: Vec<f64>, source: ArmSource, used: &Campaign) -> Self {
+        let mut found =
+            Self { arm, coupling_alone_nm_per_rad: coupling_alone, source, torque_used: None };
+        found.torque_used = torque_error(&found, used, &zeros(&found, used))
+            .map(|(window_s, relative_error)| TorqueUsed { relative_error, window_s });
+        found
+    }
+}
+
+/// The drive and the coupling of each tip, where no mode is known.
+fn without_modes(used: &Campaign, drive: &DriveEstimates) -> Option<(ModalArm, Vec<f64>)> {
+    let by_tip = drive.coupling_by_tip.iter().map(|c| c.map(|e| e.value));
+    let coupling: Vec<f64> = by_tip.collect::<Option<_>>()?;
+    if coupling.is_empty() || coupling.len() != used.channels.tips.len() {
+        return None;
+    }
+    Some((rigid(used, drive)?, coupling))
 }
 
 /// An arm with the drive's estimates and the beam's own modes.

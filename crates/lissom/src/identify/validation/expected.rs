@@ -5,11 +5,12 @@ use rand_distr::{Distribution as _, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng as _;
 
+use crate::identify::found_arm::FoundArm;
 use crate::identify::prepare::channel_noise::{channel_noise, reading};
 use crate::identify::validation::motion_fit::{FollowedLog, PredictedStretch, logged};
 use crate::identify::validation::torque::{TorquePrediction, torque};
 use crate::record::{Campaign, Run, TimeBase};
-use crate::replay::{ModalArm, Window};
+use crate::replay::Window;
 
 /// Seed of the noise that is added.
 const SEED: u64 = 1;
@@ -19,7 +20,7 @@ const SEED: u64 = 1;
 ///
 /// `None` where no stretch followed holds a window.
 pub(super) fn expected(
-    arm: &ModalArm,
+    found: &FoundArm,
     campaign: &Campaign,
     followed: &FollowedLog,
     window_s: f64,
@@ -57,5 +58,5 @@ pub(super) fn expected(
         }
     }
     let own = Campaign::new(campaign.channels.clone(), runs).ok()?;
-    torque(arm, &own, &zeros, Some(window_s))
+    torque(found, &own, &zeros, Some(window_s))
 }

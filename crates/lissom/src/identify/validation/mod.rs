@@ -126,10 +126,10 @@ pub fn validate(
     let all = predicted(found, campaign, None);
     // The window of the logs used, so that both figures compare.
     let window_s = options.window_s.or(found.torque_used.map(|used| used.window_s));
-    let mut torque = torque(arm, campaign, &zeros(arm, campaign), window_s);
+    let mut torque = torque(found, campaign, &zeros(found, campaign), window_s);
     // What the arm's own motion leaves is beside the log's only where it stays with it.
     if let (Some(torque), Some(followed)) = (&mut torque, fitting(&all).map(|i| &all[i])) {
-        torque.compare(expected(arm, campaign, followed, torque.window_s));
+        torque.compare(expected(found, campaign, followed, torque.window_s));
     }
     let mut predicted = match options.horizon_s {
         Some(_) => predicted(found, campaign, options.horizon_s),
@@ -167,8 +167,11 @@ fn fitting(predicted: &[FollowedLog]) -> Option<usize> {
     predicted.iter().position(fits)
 }
 
-/// The motion over ever shorter times, or over the one asked for.
+/// The motion over ever shorter times, or over the one asked for; none of an arm whose modes are not known.
 fn predicted(found: &FoundArm, campaign: &Campaign, horizon_s: Option<f64>) -> Vec<FollowedLog> {
+    if !found.moves() {
+        return Vec::new();
+    }
     let mut predicted: Vec<FollowedLog> = Vec::new();
     for length_s in lengths_s(campaign, horizon_s).into_iter().rev() {
         let shorter = predicted.last().map_or(&[][..], |f| &f.windows);

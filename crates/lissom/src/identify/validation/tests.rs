@@ -30,7 +30,12 @@ fn rigid() -> ModalArm {
 
 fn found(arm: ModalArm) -> FoundArm {
     let torque_used = Some(TorqueUsed { relative_error: 0.01, window_s: 0.04 });
-    FoundArm { arm, source: ArmSource::Regression, torque_used }
+    FoundArm {
+        arm,
+        coupling_alone_nm_per_rad: Vec::new(),
+        source: ArmSource::Regression,
+        torque_used,
+    }
 }
 
 fn channels() -> Channels {
@@ -236,6 +241,27 @@ fn torque_does_not_depend_on_the_load_behind_the_tip() {
         let other = left(Some(horizon_s)).torque.unwrap().relative_error;
         assert!((other / error - 1.0).abs() < 1e-9, "{horizon_s}: {other} {error}");
     }
+}
+
+/// Inertia, friction and coupling are known, the mode is not: the torque is predicted as by the whole arm, motion is not.
+#[test]
+fn coupling_alone_predicts_torque() {
+    let mut truth = flexible();
+    // Coupling by the rate of deflection is no part of what is known.
+    truth.modes[0].within_per_s = 0.0;
+    let log = log_of(&truth);
+    let whole = found(truth.clone());
+    let coupling = truth.coupling_by_tip().unwrap();
+    let arm = ModalArm { modes: Vec::new(), shapes: vec![Vec::new()], ..truth };
+    let alone = FoundArm { coupling_alone_nm_per_rad: coupling, ..found(arm.clone()) };
+    let [whole, alone, rigid] = [whole, alone, found(arm)]
+        .map(|found| validate(&found, &log, &ValidationOptions::default()).unwrap());
+    let error = |v: &Validation| v.torque.as_ref().unwrap().relative_error;
+    let errors = (error(&alone), error(&whole));
+    assert!((errors.0 / errors.1 - 1.0).abs() < 0.02, "{errors:?}");
+    assert!(error(&rigid) > 3.0 * error(&alone), "{}", error(&rigid));
+    assert!(alone.horizons.is_empty() && alone.residuals.is_empty());
+    assert!(alone.findings.is_empty(), "{:?}", alone.findings);
 }
 
 #[test]

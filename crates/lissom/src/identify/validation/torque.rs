@@ -3,13 +3,13 @@
 
 use rayon::prelude::*;
 
+use crate::identify::found_arm::FoundArm;
 use crate::identify::validation::cause::{Cause, Causes};
 use crate::identify::validation::thresholds::STRETCH_LEAST;
 use crate::identify::validation::torque_rows::{
     Coupling, Predictor, Row, RowsOfRun, RunRows, SumsOfRun,
 };
 use crate::record::Campaign;
-use crate::replay::ModalArm;
 
 /// The torque of a log as the figures give it.
 #[derive(Debug, Clone, PartialEq)]
@@ -97,21 +97,21 @@ pub struct TorqueStretch {
 ///
 /// `None` where the arm has modes that the tips do not show, or no row counts.
 pub(in crate::identify) fn torque(
-    arm: &ModalArm,
+    found: &FoundArm,
     campaign: &Campaign,
     zeros: &[Vec<f64>],
     window_s: Option<f64>,
 ) -> Option<TorquePrediction> {
-    predicted(&Predictor::new(arm, campaign, zeros, window_s)?)
+    predicted(&Predictor::new(found, campaign, zeros, window_s)?)
 }
 
 /// Length of the window and [`TorquePrediction::relative_error`] of [`torque`], alone.
 pub(in crate::identify) fn torque_error(
-    arm: &ModalArm,
+    found: &FoundArm,
     campaign: &Campaign,
     zeros: &[Vec<f64>],
 ) -> Option<(f64, f64)> {
-    let predictor = Predictor::new(arm, campaign, zeros, None)?;
+    let predictor = Predictor::new(found, campaign, zeros, None)?;
     let sums = |run: usize| pulp::Arch::new().dispatch(SumsOfRun(&predictor, run));
     let sums = predictor.of_runs(sums);
     let [left, power] = sums.iter().fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
@@ -119,8 +119,8 @@ pub(in crate::identify) fn torque_error(
 }
 
 /// Whether the tips show the torque between motor and beam.
-pub(super) fn shows_coupling(arm: &ModalArm, campaign: &Campaign) -> bool {
-    Coupling::new(arm, campaign).is_some()
+pub(super) fn shows_coupling(found: &FoundArm, campaign: &Campaign) -> bool {
+    Coupling::new(found, campaign).is_some()
 }
 
 impl RunRows {

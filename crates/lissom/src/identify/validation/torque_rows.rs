@@ -6,6 +6,7 @@ use std::borrow::Cow;
 use rayon::prelude::*;
 
 use crate::friction::Place;
+use crate::identify::found_arm::FoundArm;
 use crate::identify::methods::output_error::{Masks, masks};
 use crate::identify::prepare::channel_noise::channel_noise;
 use crate::identify::validation::cause::Causes;
@@ -49,14 +50,18 @@ pub(super) struct Coupling {
 
 impl Coupling {
     /// `None` where the arm has modes and the tips do not show them all.
-    pub(super) fn new(arm: &ModalArm, campaign: &Campaign) -> Option<Self> {
+    pub(super) fn new(found: &FoundArm, campaign: &Campaign) -> Option<Self> {
+        let (arm, alone) = (&found.arm, &found.coupling_alone_nm_per_rad);
         let none = vec![0.0; campaign.channels.tips.len()];
-        if arm.modes.is_empty() {
+        if arm.modes.is_empty() && alone.is_empty() {
             return Some(Self { per_angle: none.clone(), per_rate: none });
         }
         let known = campaign.channels.tips.iter();
         if !known.into_iter().all(|t| t.calibrated && t.quantity != TipQuantity::Acceleration) {
             return None;
+        }
+        if !alone.is_empty() {
+            return Some(Self { per_angle: alone.clone(), per_rate: none });
         }
         Some(Self { per_angle: arm.coupling_by_tip()?, per_rate: arm.coupling_rate_by_tip()? })
     }
@@ -128,16 +133,17 @@ impl pulp::WithSimd for SumsOfRun<'_> {
 impl<'a> Predictor<'a> {
     /// With windows of a length, or of one that is chosen; `None` where the arm has modes that the tips do not show.
     pub(super) fn new(
-        arm: &'a ModalArm,
+        found: &'a FoundArm,
         campaign: &'a Campaign,
         zeros: &'a [Vec<f64>],
         window_s: Option<f64>,
     ) -> Option<Self> {
+        let arm = &found.arm;
         let campaign = match arm.gravity {
             Some(load) => Cow::Owned(load.taken_from(campaign)),
             None => Cow::Borrowed(campaign),
         };
-        let coupling = Coupling::new(arm, &campaign)?;
+        let coupling = Coupling::new(found, &campaign)?;
         let window_s = window_s.or_else(|| chosen_window_s(arm, &campaign))?;
         let masks = masks(&campaign);
         Some(Self { arm, campaign, zeros, coupling, window_s, masks })

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::identify::found_arm::FoundArm;
 use crate::identify::methods::output_error::{Masks, masks};
 use crate::identify::validation::kernel::Kernel;
 use crate::record::{Campaign, Hold, Run, TipQuantity};
@@ -18,9 +19,20 @@ use crate::replay::ModalArm;
 /// ```
 ///
 /// where all rates are those of the window and nearly nothing: an arm whose beam is another one hardly moves
-/// z_i, unlike that of a replay, which takes up what the arm misses. Zeros where the tips do not show the modes.
-pub(in crate::identify) fn zeros(arm: &ModalArm, campaign: &Campaign) -> Vec<Vec<f64>> {
+/// z_i, unlike that of a replay, which takes up what the arm misses; where no mode is known, the rates are left out. Zeros where
+/// the tips do not show the modes.
+pub(in crate::identify) fn zeros(found: &FoundArm, campaign: &Campaign) -> Vec<Vec<f64>> {
+    let arm = &found.arm;
     let tips = campaign.channels.tips.len();
+    let masks = masks(campaign);
+    let runs = || campaign.runs.iter().zip(&masks);
+    if !found.moves() {
+        let straight = |(run, masks): (&Run, &Masks)| {
+            let deflection = Deflection::of(arm, campaign, run, &longest_read(masks, run.len()));
+            deflection.map_or_else(|| vec![0.0; tips], |d| d.mean.iter().copied().collect())
+        };
+        return runs().map(straight).collect();
+    }
     let n = arm.modes.len();
     let square = n > 0 && arm.shapes.len() == n && tips == n;
     let shapes = square.then(|| DMatrix::from_fn(n, n, |i, j| arm.shapes[i][j]));
@@ -28,12 +40,40 @@ pub(in crate::identify) fn zeros(arm: &ModalArm, campaign: &Campaign) -> Vec<Vec
     let Some((in_modes, shapes)) = shapes.and_then(inverse) else {
         return vec![vec![0.0; tips]; campaign.runs.len()];
     };
-    let masks = masks(campaign);
     let of_run = |(run, masks): (&Run, &Masks)| {
         of_run(arm, campaign, run, &longest_read(masks, run.len()), &shapes, &in_modes)
             .unwrap_or_else(|| vec![0.0; tips])
     };
-    campaign.runs.iter().zip(&masks).map(of_run).collect()
+    runs().map(of_run).collect()
+}
+
+/// `y_i − θ` of each tip in time with the motor, under one window over a run.
+struct Deflection {
+    kernel: Kernel,
+    mean: DVector<f64>,
+    rate: DVector<f64>,
+    acceleration: DVector<f64>,
+}
+
+impl Deflection {
+    fn of(arm: &ModalArm, campaign: &Campaign, run: &Run, read: &Range<usize>) -> Option<Self> {
+        let n = run.tips().len();
+        let intervals = read.len().checked_sub(2).filter(|i| *i >= n)?;
+        let kernel = Kernel::new(intervals, run.sample_time_s(), Hold::Measured, 0.0);
+        let begin = read.start;
+        let motor = |k: usize| run.motor()[k];
+        let [mut mean, mut rate, mut acceleration] = [(); 3].map(|()| DVector::zeros(n));
+        for (i, tip) in run.tips().iter().enumerate() {
+            let deflects = campaign.channels.tips[i].quantity == TipQuantity::Deflection;
+            let lag_s = arm.tip_lags_s.get(i).copied().unwrap_or(0.0);
+            let bent = |k: usize| tip[k] - if deflects { 0.0 } else { motor(k) };
+            let late = |k: usize| tip[k] + if deflects { motor(k) } else { 0.0 };
+            rate[i] = kernel.rate(begin, bent);
+            acceleration[i] = kernel.acceleration(begin, bent);
+            mean[i] = kernel.mean(begin, bent) + lag_s * kernel.rate(begin, late);
+        }
+        Some(Self { kernel, mean, rate, acceleration })
+    }
 }
 
 fn of_run(
@@ -45,25 +85,11 @@ fn of_run(
     in_modes: &DMatrix<f64>,
 ) -> Option<Vec<f64>> {
     let n = shapes.nrows();
-    let intervals = read.len().checked_sub(2).filter(|i| *i >= n)?;
-    let kernel = Kernel::new(intervals, run.sample_time_s(), Hold::Measured, 0.0);
-    let begin = read.start;
-    let motor = |k: usize| run.motor()[k];
+    let Deflection { kernel, mean, rate, acceleration } = Deflection::of(arm, campaign, run, read)?;
+    let (begin, motor) = (read.start, |k: usize| run.motor()[k]);
     let turns = kernel.rate(begin, motor);
-    // y_i − θ in time with the motor, its mean and rates.
-    let mut mean = DVector::zeros(n);
-    let (mut rate, mut bend) = (DVector::zeros(n), DVector::zeros(n));
-    for (i, tip) in run.tips().iter().enumerate() {
-        let deflects = campaign.channels.tips[i].quantity == TipQuantity::Deflection;
-        let lag_s = arm.tip_lags_s.get(i).copied().unwrap_or(0.0);
-        let bent = |k: usize| tip[k] - if deflects { 0.0 } else { motor(k) };
-        let late = |k: usize| tip[k] + if deflects { motor(k) } else { 0.0 };
-        rate[i] = kernel.rate(begin, bent);
-        bend[i] = kernel.acceleration(begin, bent);
-        mean[i] = kernel.mean(begin, bent) + lag_s * kernel.rate(begin, late);
-    }
     // Of ψ_j: with those of the motor.
-    let (behind, accelerates) = (in_modes * rate, in_modes * bend);
+    let (behind, accelerates) = (in_modes * rate, in_modes * acceleration);
     let own = behind.add_scalar(turns);
     let with_motor = kernel.acceleration(begin, motor);
     let points = arm.points_in_modes().map(|p| p * &own);

@@ -167,8 +167,6 @@ fn by_series(share: &DMatrix<f64>, change: DVector<f64>) -> DVector<f64> {
 
 #[cfg(test)]
 mod tests {
-    #![expect(clippy::unwrap_used, reason = "tests")]
-
     use super::*;
 
     /// A block with a quarter of the information, spread over three of four directions.
