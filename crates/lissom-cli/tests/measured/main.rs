@@ -10,6 +10,7 @@ mod emps;
 mod krauss;
 mod krauss_loop;
 mod quanser;
+mod sets;
 mod ur10e;
 
 /// The folders that these tests read.
