@@ -75,9 +75,10 @@ fn joints_of_a_robot() {
 #[test]
 fn teaching_arms() {
     let Some(data) = common::data("cu-flexarm") else { return };
-    for (name, text) in
-        [("CU rigid arm", include_str!("cu-rigid.toml")), ("CU flexible arms", include_str!("cu.toml"))]
-    {
+    for (name, text) in [
+        ("CU rigid arm", include_str!("cu-rigid.toml")),
+        ("CU flexible arms", include_str!("cu.toml")),
+    ] {
         admitted(name, &common::read(text, &data, "").campaign);
     }
 }

@@ -106,6 +106,13 @@ pub enum ChannelFinding {
         /// Whether the run is left out.
         left_out: bool,
     },
+    /// A tip reads something else than the motor where the beam is straight.
+    TipZero {
+        /// Which.
+        channel: Channel,
+        /// Its reading relative to the motor's, the largest of all runs \[rad or m\].
+        value: f64,
+    },
     /// The command is limited.
     Saturation {
         /// Share of the run.
@@ -123,9 +130,10 @@ impl ChannelFinding {
             | Self::ReadingJumps { .. }
             | Self::AngleInDegrees { .. }
             | Self::FrozenChannel { .. } => true,
-            Self::DeadChannel { .. } | Self::ClippedChannel { .. } | Self::Saturation { .. } => {
-                false
-            }
+            Self::DeadChannel { .. }
+            | Self::ClippedChannel { .. }
+            | Self::TipZero { .. }
+            | Self::Saturation { .. } => false,
         }
     }
 }
@@ -202,6 +210,12 @@ impl fmt::Display for ChannelFinding {
                     "All estimates from this run are affected"
                 }
             ),
+            Self::TipZero { channel, value } => write!(
+                f,
+                "{channel} reads {} relative to the motor where the beam is straight, by its mean over the motion: that is taken off, \
+                 in each run its own",
+                reading(*value, "")
+            ),
             Self::Saturation { share, limit_given } => write!(
                 f,
                 "the command {} for {:.1} % of the run: its harmonics are not those of friction alone",
@@ -218,7 +232,10 @@ impl Describe for ChannelFinding {
     }
 
     fn severity(&self) -> Severity {
-        Severity::Warning
+        match self {
+            Self::TipZero { .. } => Severity::Info,
+            _ => Severity::Warning,
+        }
     }
 
     fn affects(&self) -> Vec<&'static str> {
@@ -231,7 +248,7 @@ impl Describe for ChannelFinding {
             Self::ClippedChannel { .. } => {
                 vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::TIP_RESPONSES]
             }
-            Self::FrozenChannel { left_out: true, .. } => Vec::new(),
+            Self::FrozenChannel { left_out: true, .. } | Self::TipZero { .. } => Vec::new(),
             Self::Spike { .. }
             | Self::ReadingJumps { .. }
             | Self::AngleInDegrees { .. }
@@ -276,6 +293,9 @@ impl Describe for ChannelFinding {
             Self::FrozenChannel { .. } => {
                 "a lost connection, or a logger that repeats its last value: leave that part of the log out (skip, or \
                  cut the log)"
+            }
+            Self::TipZero { .. } => {
+                "nothing; if a load bends the beam one way all the time, its torque is now part of the offset"
             }
             Self::Saturation { .. } => {
                 "use a smaller amplitude, or a frequency farther from the resonance"

@@ -14,3 +14,4 @@ pub(crate) mod sensor_check;
 pub(crate) mod steady_points;
 pub(crate) mod steady_stretches;
 pub(crate) mod thresholds;
+pub(crate) mod tip_zero;

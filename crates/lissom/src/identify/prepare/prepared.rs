@@ -10,6 +10,7 @@ use crate::identify::prepare::channel_check::range;
 use crate::identify::prepare::log_check::{command_follows_motor, one_jitter_for_each_log};
 use crate::identify::prepare::run_analysis::{RunAnalysis, analyse};
 use crate::identify::prepare::run_noise::RunNoise;
+use crate::identify::prepare::tip_zero::without_tip_zeros;
 use crate::record::{Campaign, Run, Tip};
 
 /// A campaign prepared once for all methods.
@@ -54,7 +55,11 @@ impl<'a> Prepared<'a> {
         findings.extend(command_follows_motor(campaign, &runs));
         one_jitter_for_each_log(&mut findings);
         let kept = kept(&runs);
-        let used = used_runs(campaign, &kept, &dead);
+        let mut used = used_runs(campaign, &kept, &dead);
+        if let Some((straight, found)) = without_tip_zeros(&used) {
+            used = Cow::Owned(straight);
+            findings.extend(found);
+        }
         let noise = used.runs.par_iter().map(RunNoise::of).collect();
         Self { campaign, runs, kept, used, noise, findings }
     }
@@ -82,13 +87,11 @@ impl<'a> Prepared<'a> {
     /// The same without one of the runs used, and with what was found in it.
     #[must_use]
     pub(crate) fn without(mut self, used: usize, finding: Finding) -> Self {
-        let campaign = self.campaign;
         let index = self.kept[used];
         self.runs[index].usable = false;
         self.kept.remove(used);
         self.noise.remove(used);
-        let dead = dead_everywhere(campaign);
-        self.used = used_runs(campaign, &self.kept, &dead);
+        self.used.to_mut().runs.remove(used);
         self.findings.push(finding);
         self
     }

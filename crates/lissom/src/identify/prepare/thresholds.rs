@@ -86,6 +86,11 @@ thresholds! {
         DRIFT_REPORTED: f64 = 0.1, "1", Convention;
         /// A drift of fewer steps of the sensor is not reported.
         DRIFT_STEPS: f64 = 3.0, "steps", Convention;
+        /// The zero of a tip is taken off its readings if it is this many standard errors from nothing:
+        /// 19 windows of a run show it, and their errors are no normal ones.
+        TIP_ZERO_SHOWN: f64 = 6.0, "standard errors", Convention;
+        /// The zero of a tip is reported if it is more than this share of the beam's deflection (rms).
+        TIP_ZERO_REPORTED: f64 = 1.0, "1", Convention;
         /// A command is at its limit from this share of it on: logs are rounded.
         AT_LIMIT: f64 = 0.999, "1", Convention;
         /// Share of a run with the command at its limit above which it is reported.

@@ -35,7 +35,7 @@ pub struct BeamRegression {
     pub stiffness: DMatrix<f64>,
 }
 
-/// Fits `θ̈_i = Σ_j â_ij(θ_j − θ_m) − d_i·θ̇_i + const` for each tip over all runs, sticking or not,
+/// Fits `θ̈_i = Σ_j â_ij(θ_j − θ_m) − d_i·θ̇_i − e_i·(θ̇_i − θ̇_m) + const` for each tip, damped against the fixed frame and within the beam, over all runs, sticking or not,
 /// and takes the modes from Â.
 ///
 /// As many modes as tips: `None` where a tip is no calibrated angle or deflection, where windows
@@ -72,9 +72,9 @@ pub fn beam_regression(prepared: &Prepared<'_>) -> Option<BeamRegression> {
 
 fn on_windows(campaign: &Campaign, noise: &[RunNoise]) -> Option<BeamRegression> {
     let n = campaign.channels.tips.len();
-    // Columns: ∫w(θ_m − θ_j) for each j, ∫ẇθ_i, ∫w, then the right side ∫ẅθ_i.
-    let terms: Vec<Term> = (0..n + 2).map(Term::Plain).collect();
-    let counts: Vec<bool> = (0..n + 2).map(|i| i < n).collect();
+    // Columns: ∫w(θ_m − θ_j) for each j, ∫ẇθ_i, ∫ẇ(θ_i − θ_m), ∫w, then the right side ∫ẅθ_i.
+    let terms: Vec<Term> = (0..n + 3).map(Term::Plain).collect();
+    let counts: Vec<bool> = (0..n + 3).map(|i| i < n).collect();
     let sample_time = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let scans: Vec<Scan> = (0..n)
         .map(|i| {
@@ -84,7 +84,9 @@ fn on_windows(campaign: &Campaign, noise: &[RunNoise]) -> Option<BeamRegression>
         })
         .collect::<Option<_>>()?;
     let stiffness = DMatrix::from_fn(n, n, |i, j| scans[i].solution.value[j]);
-    let damping: Vec<f64> = scans.iter().map(|s| s.solution.value[n]).collect();
+    // With the motor clamped both kinds of damping are one.
+    let damping: Vec<f64> =
+        scans.iter().map(|s| s.solution.value[n] + s.solution.value[n + 1]).collect();
     let modes = modes(&stiffness, &damping)?;
     let std = deviations(&scans, &stiffness, &damping, &modes)?;
     let chosen = |s: &Scan| s.candidates[s.chosen].clone();
@@ -153,6 +155,7 @@ fn deviations(
                 )
             })
             .collect::<Option<_>>()?;
+        let gradients: Vec<_> = gradients.iter().chain(gradients.last()).collect();
         let covariance = &scan.solution.covariance;
         for (mode, total) in variance.iter_mut().enumerate() {
             let mut systematic = (0.0, 0.0);
@@ -173,7 +176,7 @@ fn deviations(
 
 /// Sums of blocks of windows over every run, for tip `i`.
 fn clusters(campaign: &Campaign, noise: &[RunNoise], i: usize, length_s: f64) -> Vec<Cluster> {
-    let columns = campaign.channels.tips.len() + 3;
+    let columns = campaign.channels.tips.len() + 4;
     let windows = Window::of_runs(&campaign.runs, length_s, |_, _| true);
     let of_run = |(index, window): (usize, &Option<Arc<Window>>)| {
         let (Some(window), run) = (window, &campaign.runs[index]) else { return Vec::new() };
@@ -191,7 +194,7 @@ fn clusters(campaign: &Campaign, noise: &[RunNoise], i: usize, length_s: f64) ->
     windows.par_iter().enumerate().flat_map_iter(of_run).collect()
 }
 
-/// `[∫w(θ_m − θ_j).., ∫ẇθ_i, ∫w, ∫ẅθ_i]`, scaled by the noise that it carries.
+/// `[∫w(θ_m − θ_j).., ∫ẇθ_i, ∫ẇ(θ_i − θ_m), ∫w, ∫ẅθ_i]`, scaled by the noise that it carries.
 struct BeamEquation<'a> {
     campaign: &'a Campaign,
     run: &'a Run,
@@ -208,6 +211,7 @@ impl Rows for BeamEquation<'_> {
             row.push(behind(campaign, run, j, window, k));
         }
         row.push(self.own(&window.first, k));
+        row.push(self.bent(&window.first, k));
         row.push(window.area);
         row.push(self.own(&window.second, k));
         for value in row {
@@ -231,15 +235,30 @@ impl BeamEquation<'_> {
                 of_motor.push((j, &window.value, 1.0));
             }
         }
-        for (column, weight) in [(n, &window.first), (n + 2, &window.second)] {
+        of_tips[own].push((n + 1, &window.first, 1.0));
+        if !deflection(own) {
+            of_motor.push((n + 1, &window.first, -1.0));
+        }
+        for (column, weight) in [(n, &window.first), (n + 3, &window.second)] {
             of_tips[own].push((column, weight, 1.0));
             if deflection(own) {
                 of_motor.push((column, weight, 1.0));
             }
         }
         let of_tips = of_run.tips.iter().copied().zip(of_tips);
-        let noise = products(n + 3, of_tips.chain([(of_run.motor, of_motor)]));
+        let noise = products(n + 4, of_tips.chain([(of_run.motor, of_motor)]));
         noise * (self.run.sample_time_s() * window.row_scale).powi(2)
+    }
+
+    /// ∫weight·(θ_i − θ_m).
+    #[inline(always)]
+    fn bent(&self, weight: &Weights, k: usize) -> f64 {
+        let (motor, tip) = (&self.run.motor()[k..], &self.run.tips()[self.tip][k..]);
+        self.run.sample_time_s()
+            * match self.campaign.channels.tips[self.tip].quantity {
+                TipQuantity::Deflection => weight.dot(tip),
+                _ => weight.dot_difference(tip, motor),
+            }
     }
 
     /// ∫weight·θ_i, the angle from the motor's first: keeps ∫ẅ·const at rounding of small numbers.
