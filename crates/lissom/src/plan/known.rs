@@ -6,7 +6,7 @@ use super::loaded_information::LoadedJoint;
 use super::{PlanError, PlannedFigure, PlannedUnknown, Precision};
 use crate::information::Figure;
 use crate::load::GravityLoad;
-use crate::plan::thresholds::{MODE_FOLLOWED, MODE_INERTIA_LEAST};
+use crate::plan::thresholds::MODE_FOLLOWED;
 use crate::record::{Campaign, Channels, Run};
 use crate::replay::{
     ArmModes, MOST_MODES, ModalArm, Parameter, SensorNoise, Window, free_parameters,
@@ -44,10 +44,7 @@ impl<'a> KnownRig<'a> {
         let masses = rig.arm.beam().len();
         let modes = ArmModes::of(&rig.arm).ok_or(PlanError::Modes { masses })?;
         let omega = modes.omega_rad_s();
-        let followed = |j: &usize| {
-            omega[*j] * rig.instruments.log_time_s() <= MODE_FOLLOWED
-                && modes.inertia_kg_m2(*j) > MODE_INERTIA_LEAST * rig.arm.motor.inertia_kg_m2
-        };
+        let followed = |j: &usize| omega[*j] * rig.instruments.log_time_s() <= MODE_FOLLOWED;
         let kept: Vec<usize> = (0..omega.len()).filter(followed).take(MOST_MODES).collect();
         let left_out = (0..omega.len()).filter(|j| !kept.contains(j));
         let left_out_rad_s = left_out.map(|j| omega[j]).collect();

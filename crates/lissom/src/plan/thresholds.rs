@@ -18,9 +18,6 @@ thresholds! {
         /// Modes that turn by more than this in a sample are not followed: at most six samples a
         /// period would show them.
         MODE_FOLLOWED: f64 = 1.0, "rad", Convention;
-        /// Modes that carry less than this share of the motor's inertia are not followed: the motor
-        /// does not feel them.
-        MODE_INERTIA_LEAST: f64 = 1e-3, "1", Convention;
         /// Sines keep away from modes with a damping ratio below this.
         LIGHTLY_DAMPED: f64 = 0.1, "1", Convention;
         /// Share of a mode's frequency by which sines and their third harmonics keep away from it:

@@ -4,7 +4,7 @@ use crate::identify::equivalent::data::{Deviations, Equivalent, EquivalentData};
 use crate::identify::equivalent::equivalent_arm::EquivalentArm;
 use crate::identify::equivalent::equivalent_error::EquivalentError;
 use crate::identify::equivalent::thresholds::{
-    ERRORS_TOO_LARGE, GAIN_CHANGED, GIVEN_TO_LAST_MODE, MISFIT, MOTOR_LEFT, MOTOR_WORSE,
+    ERRORS_TOO_LARGE, GIVEN_TO_LAST_MODE, MISFIT, MOTOR_LEFT, MOTOR_WORSE,
 };
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::{EquivalentFinding, EquivalentMotorFinding, Finding, FindingKind};
@@ -112,7 +112,7 @@ pub(super) fn findings(
     let (missing_gain, change_share) = (given, changed(whole));
     if whole.strainless.is_none() && given > 0.0 {
         findings.push(EquivalentFinding::EquivalentNoAngle { missing_gain }.into());
-    } else if given > GIVEN_TO_LAST_MODE || change_share > GAIN_CHANGED {
+    } else if given > GIVEN_TO_LAST_MODE {
         findings.push(EquivalentFinding::EquivalentCompleted { missing_gain, change_share }.into());
     }
     findings.into_iter().map(Finding::new).collect()

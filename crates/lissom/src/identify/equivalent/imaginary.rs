@@ -5,7 +5,7 @@ use num_complex::Complex64;
 use crate::identify::equivalent::data::{Deviations, EquivalentData};
 use crate::identify::equivalent::refusal::{EquivalentRefusal, PartOutside};
 use crate::identify::equivalent::thresholds::{
-    IMAGINARY_PRESENT, IMAGINARY_UNLIKE, NOT_OF_AN_ARM, PHASE_LEAST, PHASE_SIGN_CERTAIN,
+    IMAGINARY_PRESENT, IMAGINARY_UNLIKE, NOT_OF_AN_ARM, PHASE_SIGN_CERTAIN,
 };
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{Damping, SharedPoles, Spurious, fit_shared_poles};
@@ -84,15 +84,14 @@ fn share(left: &[Left]) -> f64 {
     shares.get(shares.len() / 2).copied().unwrap_or(0.0)
 }
 
-/// Whether what is left is a turn by the same angle everywhere, φ = ΣIm(d·H*)/σ² : Σ|H|²/σ².
+/// Whether what is left is a turn by the same angle everywhere, φ ∝ ΣIm(d·H*)/σ².
 fn turned(left: &[Left]) -> bool {
-    let (mut across, mut size, mut spread) = (0.0, 0.0, 0.0);
+    let (mut across, mut spread) = (0.0, 0.0);
     for l in left {
         let weight = l.std.powi(-2);
         let turn = (l.by * l.value.conj()).im;
         across += weight * turn;
         spread += (weight * turn).powi(2);
-        size += weight * l.value.norm_sqr();
     }
-    across.abs() > PHASE_SIGN_CERTAIN * spread.sqrt() && across.abs() > PHASE_LEAST * size
+    across.abs() > PHASE_SIGN_CERTAIN * spread.sqrt()
 }

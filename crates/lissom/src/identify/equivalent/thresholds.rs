@@ -12,8 +12,6 @@ thresholds! {
         /// Gain given to the last mode, so that a point turns with the motor, above which it is
         /// reported.
         GIVEN_TO_LAST_MODE: f64 = 0.02, "1", Convention;
-        /// Change of the last mode's own gain by what it is given above which it is reported.
-        GAIN_CHANGED: f64 = 0.05, "1", Convention;
         /// Without standard errors, the motor's response is misfitted if its relative residual is
         /// this many times that of the points, and above `MOTOR_LEFT`.
         MOTOR_WORSE: f64 = 3.0, "1", Convention;
@@ -29,8 +27,6 @@ thresholds! {
         /// standard errors from zero. It decides whether responses are conjugated, so it is more
         /// than `CLEARLY_PRESENT`.
         PHASE_SIGN_CERTAIN: f64 = 5.0, "standard errors", Convention;
-        /// A smaller constant phase is not reported.
-        PHASE_LEAST: f64 = 1e-3, "rad", Convention;
         /// Without standard errors, imaginary residuals are not noise if they are this many times
         /// as large as the real ones.
         IMAGINARY_UNLIKE: f64 = 2.0, "1", Convention;

@@ -21,7 +21,8 @@ pub(crate) fn frozen_tip(tip: &[f64], motor: &[f64]) -> Option<Range<usize>> {
 }
 
 /// Samples in which a motor's angle stands still at one value, from one sample to the next after it had moved at speed, while
-/// the command changes: a motor that friction stops becomes slow first.
+/// the command changes: a motor that friction stops becomes slow first. A sensor that comes back shows another angle at
+/// once, and a motor that slips again begins where it stood.
 pub(crate) fn frozen_motor(motor: &[f64], command: &[f64]) -> Option<Range<usize>> {
     let (longest, _) = longest_plateau(motor)?;
     let at = longest.start;
@@ -30,7 +31,10 @@ pub(crate) fn frozen_motor(motor: &[f64], command: &[f64]) -> Option<Range<usize
     // Over as few samples as show the speed, and over as many before these.
     let shown = |over: &usize| way(at, *over) > MOVED_STEPS * quantum;
     let over = (1..=at / 2).find(shown)?;
-    let frozen = longest.len() >= 10 * over
+    let comes_back = longest.end == motor.len()
+        || (motor[longest.end] - motor[at]).abs() > MOVED_STEPS * quantum;
+    let frozen = comes_back
+        && longest.len() >= 10 * over
         && way(at, over) > FROZEN_AT_ONCE * way(at - over, over)
         && way(at, over) > FROZEN_AT_SPEED * steepest(motor, quantum) * over as f64
         && deviation(&command[longest.clone()]) > FROZEN_TRAVEL * deviation(command);
@@ -99,6 +103,13 @@ mod tests {
         let mut frozen = motor.clone();
         frozen[from..].fill(motor[from]);
         assert_eq!(frozen_motor(&frozen, &command), Some(from..motor.len()));
+        // It comes back, or the motor had stopped at once and begins where it stood.
+        frozen[from + 900..].copy_from_slice(&motor[from + 900..]);
+        assert_eq!(frozen_motor(&frozen, &command), Some(from..from + 900));
+        for (k, angle) in frozen[from + 900..].iter_mut().enumerate() {
+            *angle = motor[from] + 1e-4 * k as f64;
+        }
+        assert_eq!(frozen_motor(&frozen, &command), None);
         // Slower and slower over 400 samples.
         let mut stopped = motor.clone();
         let speed = motor[from] - motor[from - 1];

@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 use std::ops::Range;
 
 use crate::identify::methods::constant_velocity::thresholds::{
-    COMMAND_CHANGE, CREEP, GROWN_BY, SAME_STRETCH, STEADY_PART, STOPPED_SHARE, STOPPED_SPEED,
-    VARIES_BY, VARIES_SHARE, VELOCITY_KNOWN,
+    COMMAND_CHANGE, GROWN_BY, SAME_STRETCH, STEADY_PART, STOPPED_SHARE, STOPPED_SPEED, VARIES_BY,
+    VARIES_SHARE, VELOCITY_KNOWN,
 };
 use crate::identify::prepare::correlated_average::{Average, VALUES_LEAST, average};
 use crate::identify::thresholds::TRAVEL_OVER_NOISE;
@@ -66,8 +66,6 @@ pub(crate) fn stretches(run: &Run, hold: Hold) -> Vec<SteadyStretch> {
             None => rejected.push(candidate.intervals),
         }
     }
-    let fastest = found.iter().map(|f| f.velocity.mean.abs()).fold(0.0, f64::max);
-    found.retain(|f| f.velocity.mean.abs() > CREEP * fastest);
     found.sort_by_key(|f| f.intervals.start);
     found
 }

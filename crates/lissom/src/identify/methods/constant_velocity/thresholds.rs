@@ -32,8 +32,6 @@ thresholds! {
         VARIES_BY: f64 = 0.15, "1", Convention;
         /// Share of the time for which a steady stretch may be off by `VARIES_BY`.
         VARIES_SHARE: f64 = 0.2, "1", Convention;
-        /// Stretches slower than this share of the run's fastest are creep and not used.
-        CREEP: f64 = 1e-3, "1", Convention;
         /// A grown stretch that shares this part with a rejected one is not tried again.
         SAME_STRETCH: f64 = 0.9, "1", Convention;
     }

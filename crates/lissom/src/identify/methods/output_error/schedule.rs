@@ -19,7 +19,7 @@ use crate::identify::methods::output_error::model::left_over::left_over;
 use crate::identify::methods::output_error::moves::dampers::{dampers_at_points, drop_dampers};
 use crate::identify::methods::output_error::moves::extend::{drop_tip_lags, extend};
 use crate::identify::methods::output_error::moves::modes;
-use crate::identify::methods::output_error::moves::rigid_points::{relax, tighten};
+use crate::identify::methods::output_error::moves::rigid_points::tighten;
 use crate::identify::methods::output_error::thresholds::{
     PROBE_STEPS, RESIDUAL_AT_NOISE, RESIDUAL_FAR_ABOVE_NOISE, START_COST_FAR, STARTS_ALIKE,
     WINDOW_WIDENING, WINDOW_WIDENING_SLOW,
@@ -144,7 +144,7 @@ fn make(step: Move, fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report
     }
 }
 
-/// Lengthens the windows to whole runs, as far as the arm describes them and neighbouring motions do not grow apart.
+/// Lengthens the windows to whole runs, as far as the arm describes them.
 /// Parameters are added if the residual grows.
 fn widen(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     let longest = fitting.longest_s();
@@ -158,18 +158,12 @@ fn widen(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
         fitting.search(fit, report);
         if report.grown(&fit.residual) {
             make(complete, fitting, fit, report);
-            make(relax, fitting, fit, report);
         }
-        let diverges = fitting.diverges(fit);
-        if report.grown(&fit.residual) || diverges {
+        if report.grown(&fit.residual) {
             *fit = before;
             report.back_to(&mark);
             let at_noise = fitting.beyond_noise(fit) <= RESIDUAL_AT_NOISE;
             if factor < WINDOW_WIDENING || !at_noise {
-                let lawful = !fit.body.arm.dry_terms.is_empty();
-                if diverges && at_noise && lawful {
-                    fitting.take_all(fit, report);
-                }
                 return;
             }
             // The arm describes the shorter windows to the noise: this search ended in a wrong minimum.
@@ -212,7 +206,6 @@ fn settle(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
         make(widen, fitting, fit, report);
     }
     make(drop_tip_lags, fitting, fit, report);
-    make(relax, fitting, fit, report);
 }
 
 /// Repeats the search with slower widening, if it may have ended in a wrong minimum: the residual is above the noise,

@@ -15,6 +15,7 @@ use crate::identify::methods::regression::thresholds::WINDOW_SYSTEMATIC;
 use crate::identify::methods::regression::window::{WINDOW_STEP, Weights, Window};
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_noise::RunNoise;
+use crate::identify::thresholds::CLEARLY_PRESENT;
 use crate::record::{Campaign, Run, TipQuantity};
 
 /// Windows in a block that the covariance takes as one.
@@ -73,20 +74,25 @@ pub fn beam_regression(prepared: &Prepared<'_>) -> Option<BeamRegression> {
 fn on_windows(campaign: &Campaign, noise: &[RunNoise]) -> Option<BeamRegression> {
     let n = campaign.channels.tips.len();
     // Columns: ∫w(θ_m − θ_j) for each j, ∫ẇθ_i, ∫ẇ(θ_i − θ_m), ∫w, then the right side ∫ẅθ_i.
-    let terms: Vec<Term> = (0..n + 3).map(Term::Plain).collect();
-    let counts: Vec<bool> = (0..n + 3).map(|i| i < n).collect();
+    let grounded: Vec<Term> = (0..n + 1).chain([n + 2]).map(Term::Plain).collect();
+    let both: Vec<Term> = (0..n + 3).map(Term::Plain).collect();
     let sample_time = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let scans: Vec<Scan> = (0..n)
         .map(|i| {
-            scan(sample_time, &[], &counts, |length| {
-                solve(&clusters(campaign, noise, i, length), &terms)
-            })
+            let scanned = |terms: &[Term]| {
+                let counts: Vec<bool> = (0..terms.len()).map(|k| k < n).collect();
+                scan(sample_time, &[], &counts, |length| {
+                    solve(&clusters(campaign, noise, i, length), terms)
+                })
+            };
+            // Damping within the beam is a term of its own only where the motion shows it.
+            scanned(&both).filter(|s| within(s, n).is_some()).or_else(|| scanned(&grounded))
         })
         .collect::<Option<_>>()?;
     let stiffness = DMatrix::from_fn(n, n, |i, j| scans[i].solution.value[j]);
     // With the motor clamped both kinds of damping are one.
     let damping: Vec<f64> =
-        scans.iter().map(|s| s.solution.value[n] + s.solution.value[n + 1]).collect();
+        scans.iter().map(|s| s.solution.value[n] + within(s, n).unwrap_or_default()).collect();
     let modes = modes(&stiffness, &damping)?;
     let std = deviations(&scans, &stiffness, &damping, &modes)?;
     let chosen = |s: &Scan| s.candidates[s.chosen].clone();
@@ -104,6 +110,16 @@ fn on_windows(campaign: &Campaign, noise: &[RunNoise]) -> Option<BeamRegression>
         candidates: scans.into_iter().map(|s| s.candidates).collect(),
         stiffness,
     })
+}
+
+/// Coefficient of the damping within the beam of `n` tips, where it is clearly present.
+fn within(scan: &Scan, n: usize) -> Option<f64> {
+    let (solution, at) = (&scan.solution, n + 1);
+    if solution.value.len() < n + 3 || solution.inseparable[at] {
+        return None;
+    }
+    let value = solution.value[at];
+    (value.abs() > CLEARLY_PRESENT * solution.covariance[(at, at)].max(0.0).sqrt()).then_some(value)
 }
 
 /// Natural frequency and damping ratio of each mode of `θ̈ = −K·δ − D·θ̇`, ascending.
@@ -155,7 +171,8 @@ fn deviations(
                 )
             })
             .collect::<Option<_>>()?;
-        let gradients: Vec<_> = gradients.iter().chain(gradients.last()).collect();
+        let again = gradients.last().filter(|_| within(scan, n).is_some());
+        let gradients: Vec<_> = gradients.iter().chain(again).collect();
         let covariance = &scan.solution.covariance;
         for (mode, total) in variance.iter_mut().enumerate() {
             let mut systematic = (0.0, 0.0);

@@ -167,9 +167,10 @@ pub(super) fn missing_term(
         let residual_ratio = solution.relative_residual / without.relative_residual;
         let shows = residual_ratio < RESIDUAL_FALLS_TO;
         let told = !solution.inseparable[known..].iter().any(|lost| *lost);
+        let by_itself = kind.is_exact() || kind == MissingKind::Delay;
         let called_for = told
             && value.abs() > CLEARLY_PRESENT * std
-            && (shows || kind.is_exact() && felt && value.abs() > MISSING_SURE * std);
+            && (shows || by_itself && felt && value.abs() > MISSING_SURE * std);
         let moves = Moved::between(without, &solution);
         let matters = without.relative_residual > NOTHING_MISSING
             || residual_ratio < LAG_EXPLAINS

@@ -31,7 +31,7 @@ thresholds! {
         NOTHING_MISSING: f64 = 5e-5, "1", Convention;
         /// Share of an estimate by which a term moves it that matters however little of the torque is left.
         MISSING_MOVES: f64 = 1e-3, "1", Convention;
-        /// A missing term that hardly lowers the residual is reported if its regressor is exact, it
+        /// A missing term that hardly lowers the residual is reported if its regressor is exact, or it is a delay, it
         /// is this many standard errors from zero, and it moves an estimate by `PRESENT`.
         MISSING_SURE: f64 = 10.0, "standard errors", Convention;
         /// Gravity is tried as a missing term where the motor turns by more than this: over less its

@@ -11,6 +11,7 @@ use crate::identify::responses::rational::beam::{BeamFit, Data, TipData, functio
 use crate::identify::responses::rational::motor::{MotorData, MotorFit, Solution, finish, solve};
 use crate::identify::responses::rational::{Pole, information};
 use crate::identify::responses::thresholds::CRITERION_CALLED_FOR;
+use crate::information::{Inverse, inverted};
 
 /// Share of an unknown's size over which slopes are taken to either side.
 const STEP: f64 = 1e-6;
@@ -157,7 +158,11 @@ impl JointProblem<'_> {
         let free = linear.left.len().saturating_sub(self.unknowns()).max(1) as f64;
         let spread = (linear.left.norm_squared() / free).sqrt().max(1.0);
         let jacobian = self.slopes(|l| l.left.clone())?;
-        let covariance = jacobian.tr_mul(&jacobian).pseudo_inverse(1e-14).ok()? * (spread * spread);
+        let Inverse { matrix, lost } = inverted(&jacobian.tr_mul(&jacobian));
+        if lost.iter().any(|lost| *lost) {
+            return None;
+        }
+        let covariance = matrix * (spread * spread);
         let std = |k: usize| covariance[(k, k)].max(0.0).sqrt();
         let through =
             |slopes: DMatrix<f64>| (&slopes * &covariance * slopes.transpose()).diagonal();

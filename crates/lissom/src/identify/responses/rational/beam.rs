@@ -15,6 +15,7 @@ use crate::identify::responses::thresholds::{
     RESPONSE_FLOOR,
 };
 use crate::identify::thresholds::{CLEARLY_PRESENT, SIGN_SHOWN};
+use crate::information::covariance;
 use crate::lti::{TransferFunction, add, multiply};
 
 /// Damping ratio with which a new mode starts.
@@ -245,9 +246,7 @@ impl BeamProblem<'_> {
         let Some((jacobian, residuals)) = self.jacobian().zip(self.residuals()) else {
             return false;
         };
-        let Ok(covariance) = (jacobian.transpose() * &jacobian).pseudo_inverse(1e-14) else {
-            return false;
-        };
+        let covariance = covariance(&jacobian.tr_mul(&jacobian));
         let free = residuals.len().saturating_sub(self.x.len()).max(1) as f64;
         let spread = (residuals.norm_squared() / free).sqrt();
         (0..self.modes()).all(|k| {
@@ -345,7 +344,7 @@ fn finish(data: &Data, tips: &[TipData], solved: &BeamProblem) -> Option<BeamFit
     let weighted_rms = (residuals.norm_squared() / free).sqrt();
     // Weights may be wrong by a factor: the residual sets it, but never below what they claim.
     let spread = weighted_rms.max(1.0);
-    let covariance = (jacobian.transpose() * &jacobian).pseudo_inverse(1e-14).ok()?;
+    let covariance = covariance(&jacobian.tr_mul(&jacobian));
     let std = |i: usize| spread * covariance[(i, i)].max(0.0).sqrt();
     let found = solved.poles();
     let mut order: Vec<usize> = (0..found.len()).collect();
@@ -357,7 +356,7 @@ fn finish(data: &Data, tips: &[TipData], solved: &BeamProblem) -> Option<BeamFit
         .filter(|&i| {
             let (zeta, at) = (poles[i].damping_ratio, poles[i].omega_rad_s);
             let damped = zeta < MODE_DAMPING_MOST && zeta > -SIGN_SHOWN * std(2 * order[i] + 1);
-            damped && (low..=high).contains(&at)
+            damped && std(2 * order[i]).is_finite() && (low..=high).contains(&at)
         })
         .collect();
     let modes = mode_poles
