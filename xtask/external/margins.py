@@ -224,6 +224,7 @@ def instrument(root, copy):
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(root / name, target)
     library = copy / "crates/lissom/src"
+    (copy / "tests").mkdir(exist_ok=True)
     thresholds = {}
     for path in sorted(library.rglob("*.rs")):
         if "thresholds! {" in path.read_text() and path.name != "threshold.rs":
@@ -382,7 +383,8 @@ def table(copy, out):
             s, tests, t = seen[name], tested[name], known["thresholds"][name]
             total = sum(s.bins)
             unit = "" if t["unit"] == "1" else f" {t['unit']}"
-            share = f"{100 * (s.bins[2] + s.bins[3]) / total:.2g} %" if total else ""
+            near = 100 * (s.bins[2] + s.bins[3]) / max(total, 1)
+            share = (f"{near:.0f} %" if near >= 10 else f"{near:.2g} %") if total else ""
             lines.append(f"| `{name}` ({t['method']}) | {t['value']}{unit} | {len(s.logs)} | {len(s.near)} | {share} | "
                          f"{ratio(s.below)} | {ratio(s.above)} | {ratio(tests.below)} | {ratio(tests.above)} |")
         lines.append("")

@@ -84,6 +84,28 @@ pub(crate) fn compare(root: &Path) -> Result<(), Failure> {
     run("MuJoCo's own identification compared with lissom", &mut identify)
 }
 
+/// How near the comparisons with thresholds come to them: a copy of the sources that records it, 30 simulated campaigns of
+/// a seed, the campaigns of the given files, and the tests. Leaves the table in `target/margins/table.md`.
+pub(crate) fn margins(root: &Path, seed: &str, campaigns: &[String]) -> Result<(), Failure> {
+    let python = Python::new(root)?;
+    let folder = folder(root, "margins")?;
+    let (copy, build) = (folder.join("source"), folder.join("build"));
+    let script = |what: &str| {
+        let mut command = python.script("margins.py");
+        command.arg(what);
+        command
+    };
+    run("a copy that records", script("instrument").arg(root).arg(&copy))?;
+    let mut programs =
+        cargo(&copy, &["build", "--release", "-p", "lissom-cli", "-p", "lissom-study"]);
+    run("its programs", programs.arg("--target-dir").arg(&build))?;
+    run("campaigns", script("run").arg(&copy).arg(&build).arg(seed).args(campaigns))?;
+    let mut tests = cargo(&copy, &["test", "--no-fail-fast", "-p", "lissom", "-p", "lissom-cli"]);
+    tests.arg("--target-dir").arg(&build).env("LISSOM_MARGINS", copy.join("tests"));
+    run("tests", &mut tests)?;
+    run("the table", script("table").arg(&copy).arg(folder.join("table.md")))
+}
+
 /// Where cargo leaves the command's release build.
 fn command_path(root: &Path) -> PathBuf {
     let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);

@@ -76,6 +76,12 @@ const RECIPES: &[Recipe] = &[
         run: truth,
     },
     Recipe {
+        name: "margins",
+        about: "how near comparisons come to their thresholds; in that Python; half an hour",
+        takes: Takes::Arguments("a seed, then campaign files"),
+        run: margins,
+    },
+    Recipe {
         name: "study",
         about: "accuracy over random arms and campaigns; minutes",
         takes: Takes::Arguments("`cargo xtask study --help` has the rest"),
@@ -172,6 +178,15 @@ fn external(context: &Context) -> Result<(), Failure> {
 /// The study with logs that lissom's rig did not make.
 fn truth(context: &Context) -> Result<(), Failure> {
     external::truth(&context.root, context.flags.first().map_or("100", String::as_str))
+}
+
+/// How near comparisons come to their thresholds.
+fn margins(context: &Context) -> Result<(), Failure> {
+    let (seed, campaigns) = match context.flags.as_slice() {
+        [] => ("1", &[][..]),
+        [seed, campaigns @ ..] => (seed.as_str(), campaigns),
+    };
+    external::margins(&context.root, seed, campaigns)
 }
 
 /// The accuracy study.
