@@ -144,7 +144,7 @@ fn make(step: Move, fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report
     }
 }
 
-/// Lengthens the windows to whole runs, as far as the arm describes them.
+/// Lengthens the windows to whole runs, as far as the arm describes them and neighbouring motions do not grow apart.
 /// Parameters are added if the residual grows.
 fn widen(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     let longest = fitting.longest_s();
@@ -159,11 +159,16 @@ fn widen(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
         if report.grown(&fit.residual) {
             make(complete, fitting, fit, report);
         }
-        if report.grown(&fit.residual) {
+        let diverges = fitting.diverges(fit);
+        if report.grown(&fit.residual) || diverges {
             *fit = before;
             report.back_to(&mark);
             let at_noise = fitting.beyond_noise(fit) <= RESIDUAL_AT_NOISE;
             if factor < WINDOW_WIDENING || !at_noise {
+                let lawful = !fit.body.arm.dry_terms.is_empty();
+                if diverges && at_noise && lawful {
+                    fitting.take_all(fit, report);
+                }
                 return;
             }
             // The arm describes the shorter windows to the noise: this search ended in a wrong minimum.

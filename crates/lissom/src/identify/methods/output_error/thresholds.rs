@@ -27,6 +27,10 @@ thresholds! {
         /// Windows are not lengthened further once a residual is larger than on the first windows
         /// by this factor. Errors of the arm add up over a window, and noise does not.
         RESIDUAL_GROWN: f64 = 1.5, "1", Convention;
+        /// Windows are too long if neighbouring motions grow apart by more than this factor. Sums
+        /// of squares lose the square of it in digits, and errors of the replay's steps grow with
+        /// it.
+        NEIGHBOURS_GROW_APART: f64 = 100.0, "1", Convention;
         /// A parameter must lower the cost by this share at least. Errors that are not white noise
         /// may take less. It is small, because damping against the frame that is left out moves
         /// viscous friction by many standard errors.

@@ -289,3 +289,52 @@ impl BeamEquation<'_> {
             }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![expect(clippy::unwrap_used, reason = "tests")]
+
+    use num_complex::Complex64;
+
+    use super::*;
+    use crate::record::{Axis, Channels, Command, CommandQuantity, Hold, TimeBase, Tip};
+
+    /// Three sines of the motor and a tip with θ_t/θ_m = (e·s + 36)/(s² + (d + e)·s + 36), with steps of its encoder.
+    fn campaign(grounded: f64, within: f64) -> Campaign {
+        let t = 0.002;
+        let wave = |gain: &dyn Fn(f64) -> Complex64| -> Vec<f64> {
+            (0..15_000)
+                .map(|k| {
+                    let of_sine = |w: f64| (gain(w) * Complex64::cis(w * t * f64::from(k))).im;
+                    ([2.1, 5.3, 7.9].map(of_sine).iter().sum::<f64>() / 2e-5).round() * 2e-5
+                })
+                .collect()
+        };
+        let response = |w: f64| {
+            let s = Complex64::new(0.0, w);
+            (within * s + 36.0) / (s * s + (grounded + within) * s + 36.0)
+        };
+        let (motor, tip) = (wave(&|_| Complex64::from(1.0)), wave(&response));
+        let command = Command {
+            quantity: CommandQuantity::Current,
+            hold: Hold::Measured,
+            torque_per_command: Some(1.0),
+            back_emf_viscous: 0.0,
+            limit: None,
+        };
+        let name = "tip".to_owned();
+        let tips = vec![Tip { name, quantity: TipQuantity::Angle, calibrated: true }];
+        let run = Run::new("sines", TimeBase::uniform(0.0, t), motor.clone(), motor, vec![tip]);
+        Campaign::new(Channels { axis: Axis::Rotary, command, tips }, vec![run.unwrap()]).unwrap()
+    }
+
+    #[test]
+    fn damping_of_either_kind_is_found() {
+        for (grounded, within) in [(0.24, 0.0), (0.0, 0.24), (0.12, 0.12)] {
+            let campaign = campaign(grounded, within);
+            let found = beam_regression(&Prepared::of(&campaign)).unwrap();
+            let damping = found.modes[0].damping_ratio;
+            assert!((damping.value / 0.02 - 1.0).abs() < 0.02, "{grounded} {within}: {damping:?}");
+        }
+    }
+}
