@@ -74,7 +74,7 @@ pub fn beam_regression(prepared: &Prepared<'_>) -> Option<BeamRegression> {
 fn on_windows(campaign: &Campaign, noise: &[RunNoise]) -> Option<BeamRegression> {
     let n = campaign.channels.tips.len();
     // Columns: ∫w(θ_m − θ_j) for each j, ∫ẇθ_i, ∫ẇ(θ_i − θ_m), ∫w, then the right side ∫ẅθ_i.
-    let grounded: Vec<Term> = (0..n + 1).chain([n + 2]).map(Term::Plain).collect();
+    let grounded: Vec<Term> = (0..=n).chain([n + 2]).map(Term::Plain).collect();
     let both: Vec<Term> = (0..n + 3).map(Term::Plain).collect();
     let sample_time = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let scans: Vec<Scan> = (0..n)
@@ -292,8 +292,6 @@ impl BeamEquation<'_> {
 
 #[cfg(test)]
 mod tests {
-    #![expect(clippy::unwrap_used, reason = "tests")]
-
     use num_complex::Complex64;
 
     use super::*;
