@@ -7,6 +7,7 @@ use crate::identify::methods::output_error::{rigid, starts, starts_by_motor};
 use crate::identify::methods::starting_arms::flexible;
 use crate::identify::thresholds::REFUSED_TORQUE;
 use crate::identify::validation::torque::torque_error;
+use crate::identify::validation::torque_arm::TorqueArm;
 use crate::identify::validation::zeros::zeros;
 use crate::record::Campaign;
 use crate::replay::ModalArm;
@@ -78,13 +79,20 @@ impl FoundArm {
 
     /// Whether it predicts motion, not only torque.
     pub fn moves(&self) -> bool {
-        self.coupling_alone_nm_per_rad.is_empty()
+        self.for_torque().moves()
+    }
+
+    /// What of it predicts torque.
+    pub(super) fn for_torque(&self) -> TorqueArm<'_> {
+        let coupling_alone_nm_per_rad = &self.coupling_alone_nm_per_rad;
+        TorqueArm { arm: &self.arm, coupling_alone_nm_per_rad }
     }
 
     fn with(arm: ModalArm, coupling_alone: Vec<f64>, source: ArmSource, used: &Campaign) -> Self {
         let mut found =
             Self { arm, coupling_alone_nm_per_rad: coupling_alone, source, torque_used: None };
-        found.torque_used = torque_error(&found, used, &zeros(&found, used))
+        let arm = found.for_torque();
+        found.torque_used = torque_error(arm, used, &zeros(arm, used))
             .map(|(window_s, relative_error)| TorqueUsed { relative_error, window_s });
         found
     }

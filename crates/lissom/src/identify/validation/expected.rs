@@ -5,10 +5,10 @@ use rand_distr::{Distribution as _, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng as _;
 
-use crate::identify::found_arm::FoundArm;
 use crate::identify::prepare::channel_noise::{channel_noise, reading};
 use crate::identify::validation::motion_fit::{FollowedLog, PredictedStretch, logged};
 use crate::identify::validation::torque::{TorquePrediction, torque};
+use crate::identify::validation::torque_arm::TorqueArm;
 use crate::record::{Campaign, Run, TimeBase};
 use crate::replay::Window;
 
@@ -20,7 +20,7 @@ const SEED: u64 = 1;
 ///
 /// `None` where no stretch followed holds a window.
 pub(super) fn expected(
-    found: &FoundArm,
+    found: TorqueArm<'_>,
     campaign: &Campaign,
     followed: &FollowedLog,
     window_s: f64,

@@ -7,6 +7,7 @@ mod motion_fit;
 pub(crate) mod moved_mode;
 mod residual;
 pub(super) mod torque;
+pub(super) mod torque_arm;
 mod torque_rows;
 mod validation_findings;
 pub(super) mod zeros;
@@ -126,10 +127,11 @@ pub fn validate(
     let all = predicted(found, campaign, None);
     // The window of the logs used, so that both figures compare.
     let window_s = options.window_s.or(found.torque_used.map(|used| used.window_s));
-    let mut torque = torque(found, campaign, &zeros(found, campaign), window_s);
+    let mut torque =
+        torque(found.for_torque(), campaign, &zeros(found.for_torque(), campaign), window_s);
     // What the arm's own motion leaves is beside the log's only where it stays with it.
     if let (Some(torque), Some(followed)) = (&mut torque, fitting(&all).map(|i| &all[i])) {
-        torque.compare(expected(found, campaign, followed, torque.window_s));
+        torque.compare(expected(found.for_torque(), campaign, followed, torque.window_s));
     }
     let mut predicted = match options.horizon_s {
         Some(_) => predicted(found, campaign, options.horizon_s),

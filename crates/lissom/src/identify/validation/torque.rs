@@ -3,9 +3,9 @@
 
 use rayon::prelude::*;
 
-use crate::identify::found_arm::FoundArm;
 use crate::identify::validation::cause::{Cause, Causes};
 use crate::identify::validation::thresholds::STRETCH_LEAST;
+use crate::identify::validation::torque_arm::TorqueArm;
 use crate::identify::validation::torque_rows::{
     Coupling, Predictor, Row, RowsOfRun, RunRows, SumsOfRun,
 };
@@ -97,7 +97,7 @@ pub struct TorqueStretch {
 ///
 /// `None` where the arm has modes that the tips do not show, or no row counts.
 pub(in crate::identify) fn torque(
-    found: &FoundArm,
+    found: TorqueArm<'_>,
     campaign: &Campaign,
     zeros: &[Vec<f64>],
     window_s: Option<f64>,
@@ -107,7 +107,7 @@ pub(in crate::identify) fn torque(
 
 /// Length of the window and [`TorquePrediction::relative_error`] of [`torque`], alone.
 pub(in crate::identify) fn torque_error(
-    found: &FoundArm,
+    found: TorqueArm<'_>,
     campaign: &Campaign,
     zeros: &[Vec<f64>],
 ) -> Option<(f64, f64)> {
@@ -119,7 +119,7 @@ pub(in crate::identify) fn torque_error(
 }
 
 /// Whether the tips show the torque between motor and beam.
-pub(super) fn shows_coupling(found: &FoundArm, campaign: &Campaign) -> bool {
+pub(super) fn shows_coupling(found: TorqueArm<'_>, campaign: &Campaign) -> bool {
     Coupling::new(found, campaign).is_some()
 }
 

@@ -6,12 +6,12 @@ use std::borrow::Cow;
 use rayon::prelude::*;
 
 use crate::friction::Place;
-use crate::identify::found_arm::FoundArm;
 use crate::identify::methods::output_error::{Masks, masks};
 use crate::identify::prepare::channel_noise::channel_noise;
 use crate::identify::validation::cause::Causes;
 use crate::identify::validation::kernel::Kernel;
 use crate::identify::validation::thresholds::{MOVING, NOISE_OF_TORQUE, RESTING_SHARE};
+use crate::identify::validation::torque_arm::TorqueArm;
 use crate::record::{Campaign, Run, TipQuantity};
 use crate::replay::ModalArm;
 
@@ -50,8 +50,8 @@ pub(super) struct Coupling {
 
 impl Coupling {
     /// `None` where the arm has modes and the tips do not show them all.
-    pub(super) fn new(found: &FoundArm, campaign: &Campaign) -> Option<Self> {
-        let (arm, alone) = (&found.arm, &found.coupling_alone_nm_per_rad);
+    pub(super) fn new(found: TorqueArm<'_>, campaign: &Campaign) -> Option<Self> {
+        let (arm, alone) = (found.arm, found.coupling_alone_nm_per_rad);
         let none = vec![0.0; campaign.channels.tips.len()];
         if arm.modes.is_empty() && alone.is_empty() {
             return Some(Self { per_angle: none.clone(), per_rate: none });
@@ -61,7 +61,7 @@ impl Coupling {
             return None;
         }
         if !alone.is_empty() {
-            return Some(Self { per_angle: alone.clone(), per_rate: none });
+            return Some(Self { per_angle: alone.to_vec(), per_rate: none });
         }
         Some(Self { per_angle: arm.coupling_by_tip()?, per_rate: arm.coupling_rate_by_tip()? })
     }
@@ -133,12 +133,12 @@ impl pulp::WithSimd for SumsOfRun<'_> {
 impl<'a> Predictor<'a> {
     /// With windows of a length, or of one that is chosen; `None` where the arm has modes that the tips do not show.
     pub(super) fn new(
-        found: &'a FoundArm,
+        found: TorqueArm<'a>,
         campaign: &'a Campaign,
         zeros: &'a [Vec<f64>],
         window_s: Option<f64>,
     ) -> Option<Self> {
-        let arm = &found.arm;
+        let arm = found.arm;
         let campaign = match arm.gravity {
             Some(load) => Cow::Owned(load.taken_from(campaign)),
             None => Cow::Borrowed(campaign),

@@ -30,7 +30,7 @@ pub(super) fn findings(
 }
 
 fn not_predicted(found: &FoundArm, campaign: &Campaign) -> Finding {
-    let coupling_known = shows_coupling(found, campaign);
+    let coupling_known = shows_coupling(found.for_torque(), campaign);
     Finding::new(ValidationFinding::TorqueNotPredicted { coupling_known })
 }
 

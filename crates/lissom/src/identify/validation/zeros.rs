@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::identify::found_arm::FoundArm;
 use crate::identify::methods::output_error::{Masks, masks};
 use crate::identify::validation::kernel::Kernel;
+use crate::identify::validation::torque_arm::TorqueArm;
 use crate::record::{Campaign, Hold, Run, TipQuantity};
 use crate::replay::ModalArm;
 
@@ -21,8 +21,8 @@ use crate::replay::ModalArm;
 /// where all rates are those of the window and nearly nothing: an arm whose beam is another one hardly moves
 /// z_i, unlike that of a replay, which takes up what the arm misses; where no mode is known, the rates are left out. Zeros where
 /// the tips do not show the modes.
-pub(in crate::identify) fn zeros(found: &FoundArm, campaign: &Campaign) -> Vec<Vec<f64>> {
-    let arm = &found.arm;
+pub(in crate::identify) fn zeros(found: TorqueArm<'_>, campaign: &Campaign) -> Vec<Vec<f64>> {
+    let arm = found.arm;
     let tips = campaign.channels.tips.len();
     let masks = masks(campaign);
     let runs = || campaign.runs.iter().zip(&masks);
