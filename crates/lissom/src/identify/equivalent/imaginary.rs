@@ -84,7 +84,8 @@ fn share(left: &[Left]) -> f64 {
     shares.get(shares.len() / 2).copied().unwrap_or(0.0)
 }
 
-/// Whether what is left is a turn by the same angle everywhere, φ ∝ ΣIm(d·H*)/σ².
+/// Whether the residuals d of the responses H are a constant phase shift: whether `ΣIm(d·H*)/σ²` differs from zero by many of its
+/// standard errors.
 fn turned(left: &[Left]) -> bool {
     let (mut across, mut spread) = (0.0, 0.0);
     for l in left {
