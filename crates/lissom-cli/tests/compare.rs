@@ -96,7 +96,10 @@ fn only_the_parameter_that_changed_differs_clearly() {
     identify(at, "again.json", COULOMB, 5);
 
     let text = lissom(at, &["compare", "before.json", "after.json", "again.json", "--json"]);
-    let mut check = SchemaCheck::new(include_str!("../../../docs/compare.schema.json"), "compare");
+    let mut check = SchemaCheck::new(
+        include_str!("../../../docs/src/reference/schemas/compare.schema.json"),
+        "compare",
+    );
     check.look_at(&serde_json::from_str(&text).unwrap());
     check.holds(&["parameters[].differences[].standard_errors", "results[].torque_per_command"]);
     let found: ComparedFile = serde_json::from_str(&text).unwrap();

@@ -276,7 +276,10 @@ fn a_million_masses_take_no_matrix() {
 
 #[test]
 fn a_model_and_its_schema_name_the_same_keys() {
-    let mut check = SchemaCheck::new(include_str!("../../../docs/model.schema.json"), "model");
+    let mut check = SchemaCheck::new(
+        include_str!("../../../docs/src/reference/schemas/model.schema.json"),
+        "model",
+    );
     let all = ["--omega", "1:10:3", "--payload", "2x", "--properties"];
     check.look_at(&json(&format!("{TWO_MASSES}{DRIVE}"), &all));
     let payload = "hub_radius = 0.1\npayload = { mass = 0.1, inertia = 1e-3, offset = -0.05 }\n";

@@ -67,7 +67,10 @@ fn another_payload_is_that_of_the_arm_built_with_it() {
         (value / truth - 1.0).abs() < 1e-3 && (value - truth).abs() < 5.0 * std,
         "{found} {truth}"
     );
-    let mut check = SchemaCheck::new(include_str!("../../../docs/payload.schema.json"), "payload");
+    let mut check = SchemaCheck::new(
+        include_str!("../../../docs/src/reference/schemas/payload.schema.json"),
+        "payload",
+    );
     check.look_at(&json);
     check.holds(&["payloads[].modes[].damping_ratio.ci95", "payloads[].tip[].std"]);
     assert!(fs::read_to_string(at.join("tip.svg")).unwrap().starts_with("<svg"));

@@ -109,7 +109,10 @@ fn a_plan_is_run_as_it_was_foreseen() {
 fn the_json_and_its_schema_name_the_same_keys() {
     let folder = folder(ARM);
     let any = ["--runs", "any", "--json"];
-    let mut check = SchemaCheck::new(include_str!("../../../docs/planned.schema.json"), "planned");
+    let mut check = SchemaCheck::new(
+        include_str!("../../../docs/src/reference/schemas/planned.schema.json"),
+        "planned",
+    );
     let output = lissom(folder.path(), &[&["plan", "arm.toml"][..], &any].concat());
     assert!(output.status.success(), "{}", text(&output.stderr));
     check.look_at(&serde_json::from_slice(&output.stdout).unwrap());
@@ -213,7 +216,10 @@ fn a_load_is_planned_and_run() {
     assert!(planned.status.success(), "{}", text(&planned.stderr));
     assert!(text(&planned.stdout).contains("gravity-by-regression"), "{}", text(&planned.stdout));
     let plan: Value = serde_json::from_slice(&fs::read(at.join("plan.json")).unwrap()).unwrap();
-    let mut check = SchemaCheck::new(include_str!("../../../docs/planned.schema.json"), "planned");
+    let mut check = SchemaCheck::new(
+        include_str!("../../../docs/src/reference/schemas/planned.schema.json"),
+        "planned",
+    );
     check.look_at(&plan);
     let gravity = plan["expected"].as_array().unwrap().iter().find(|e| e["figure"] == "gravity");
     let gravity = gravity.unwrap();

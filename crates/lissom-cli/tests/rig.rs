@@ -112,7 +112,10 @@ fn the_same_bytes_on_any_number_of_threads_and_after_any_interruption() {
 fn the_logs_are_read_back_and_tell_the_truth() {
     let bench = Bench::new(ARM, PLAN);
     let files = bench.done("out", &[]);
-    let mut check = SchemaCheck::new(include_str!("../../../docs/rig.schema.json"), "rig.json");
+    let mut check = SchemaCheck::new(
+        include_str!("../../../docs/src/reference/schemas/rig.schema.json"),
+        "rig.json",
+    );
     let rig: Value = serde_json::from_slice(&files["rig.json"]).unwrap();
     check.look_at(&rig);
     check.holds(&["truth", "runs[].findings[].message"]);
@@ -261,7 +264,7 @@ fn a_heavy_beam_is_lumped_and_identified() {
     assert_ne!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stderr));
 }
 
-/// The report's printed 0.161, 0.152 and 0.132 A, and that docs/report-figures.md says what comes out.
+/// The report's printed 0.161, 0.152 and 0.132 A, and that docs/src/evidence/report-figures.md says what comes out.
 #[test]
 fn figure_8_is_explained() {
     let folder = tempfile::tempdir().unwrap();
@@ -272,7 +275,10 @@ fn figure_8_is_explained() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let printed = String::from_utf8(output.stdout).unwrap();
     let table = printed.split("\n\n").next().unwrap();
-    assert!(include_str!("../../../docs/report-figures.md").contains(table), "{table}");
+    assert!(
+        include_str!("../../../docs/src/evidence/report-figures.md").contains(table),
+        "{table}"
+    );
     for name in ["figure-6", "figure-7", "figure-8"] {
         for ending in ["svg", "png"] {
             assert!(folder.path().join(format!("{name}.{ending}")).exists());
@@ -350,7 +356,10 @@ fn a_load_is_identified_with_the_rest() {
     let files = bench.done("out", &[]);
     let campaign = std::str::from_utf8(&files["campaign.toml"]).unwrap();
     assert!(campaign.contains("[load]\ngravity = true"), "{campaign}");
-    let mut check = SchemaCheck::new(include_str!("../../../docs/rig.schema.json"), "rig.json");
+    let mut check = SchemaCheck::new(
+        include_str!("../../../docs/src/reference/schemas/rig.schema.json"),
+        "rig.json",
+    );
     let rig: Value = serde_json::from_slice(&files["rig.json"]).unwrap();
     check.look_at(&rig);
     check.holds(&["truth.gravity.sine_nm", "truth.gravity.cosine_nm"]);

@@ -17,8 +17,10 @@ fn printed(arguments: &[&str]) -> String {
 #[test]
 fn every_threshold_has_a_unit_a_reason_and_a_name_of_its_own() {
     let text = printed(&["thresholds", "--json"]);
-    let mut check =
-        SchemaCheck::new(include_str!("../../../docs/thresholds.schema.json"), "thresholds");
+    let mut check = SchemaCheck::new(
+        include_str!("../../../docs/src/reference/schemas/thresholds.schema.json"),
+        "thresholds",
+    );
     check.look_at(&serde_json::from_str(&text).unwrap());
     check.holds(&["thresholds[].reason"]);
     let list: ThresholdsFile = serde_json::from_str(&text).unwrap();

@@ -87,8 +87,10 @@ fn a_log_not_used_is_predicted_and_a_wrong_figure_shows() {
 
     let validation: Value =
         serde_json::from_slice(&fs::read(at.join("validation.json")).unwrap()).unwrap();
-    let mut check =
-        SchemaCheck::new(include_str!("../../../docs/validate.schema.json"), "validate");
+    let mut check = SchemaCheck::new(
+        include_str!("../../../docs/src/reference/schemas/validate.schema.json"),
+        "validate",
+    );
     check.look_at(&validation);
     let warned = validation["findings"].as_array().unwrap().iter().any(|f| f["severity"] != "info");
     assert!(!warned, "{:?}", codes(&validation));

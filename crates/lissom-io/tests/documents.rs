@@ -70,7 +70,12 @@ fn read_as_plan(block: &str) {
 #[test]
 fn the_documents_describe_files_that_can_be_read() {
     let (mut campaigns, mut arms, mut plans) = (0, 0, 0);
-    for document in ["README.md", "docs/campaign.md", "docs/arm.md", "docs/plan.md"] {
+    for document in [
+        "README.md",
+        "docs/src/reference/campaign.md",
+        "docs/src/reference/arm.md",
+        "docs/src/reference/plan.md",
+    ] {
         for block in blocks(document) {
             if block.contains("[signals]") {
                 read_as_campaign(&block);

@@ -1,4 +1,4 @@
-//! `docs/equivalent.schema.json` names every key that an equivalent arm has, and an arm has every key that it
+//! `docs/src/reference/schemas/equivalent.schema.json` names every key that an equivalent arm has, and an arm has every key that it
 //! names.
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -50,8 +50,10 @@ fn data(points: usize, high: f64, motor: bool, deviations: Deviations) -> Equiva
 #[test]
 fn an_equivalent_arm_and_its_schema_name_the_same_keys() {
     let third = beam(&[0.15, 0.3, 0.45]).natural_frequencies_rad_s[2];
-    let mut check =
-        SchemaCheck::new(include_str!("../../../docs/equivalent.schema.json"), "equivalent");
+    let mut check = SchemaCheck::new(
+        include_str!("../../../docs/src/reference/schemas/equivalent.schema.json"),
+        "equivalent",
+    );
     let campaigns = [
         data(2, 0.8 * third, true, Deviations::Measured),
         data(3, 2.0 * third, true, Deviations::Floored),

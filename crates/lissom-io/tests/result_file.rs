@@ -1,4 +1,4 @@
-//! `docs/result.schema.json` names every key that a result has, and a result has every key that it
+//! `docs/src/reference/schemas/result.schema.json` names every key that a result has, and a result has every key that it
 //! names.
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -167,7 +167,10 @@ fn by_direction() -> Option<ByDirection> {
 
 #[test]
 fn a_result_and_its_schema_name_the_same_keys() {
-    let mut check = SchemaCheck::new(include_str!("../../../docs/result.schema.json"), "result");
+    let mut check = SchemaCheck::new(
+        include_str!("../../../docs/src/reference/schemas/result.schema.json"),
+        "result",
+    );
     for result in results() {
         let json = serde_json::to_value(&result).unwrap();
         check.look_at(&json);

@@ -75,7 +75,10 @@ fn an_arm_that_was_written_is_read_back_and_predicts() {
     for fit in &whole.channels {
         assert!(fit.fit_percent > 99.0, "{fit:?}");
     }
-    let mut check = SchemaCheck::new(include_str!("../../../docs/validate.schema.json"), "it");
+    let mut check = SchemaCheck::new(
+        include_str!("../../../docs/src/reference/schemas/validate.schema.json"),
+        "it",
+    );
     let file = ValidationFile::of(&other, &read, &validation);
     let json = serde_json::to_value(&file).unwrap();
     check.look_at(&json);

@@ -1,4 +1,4 @@
-//! `docs/findings.md` explains every finding there is, and no other.
+//! `docs/src/reference/findings.md` explains every finding there is, and no other.
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::collections::BTreeSet;
@@ -8,7 +8,7 @@ use lissom::identify::FindingKind;
 
 /// The first cell of every row whose first cell is code.
 fn explained() -> BTreeSet<String> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/findings.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/reference/findings.md");
     let text = std::fs::read_to_string(path).unwrap();
     let code = |line: &str| Some(line.strip_prefix("| `")?.split('`').next()?.to_owned());
     text.lines().filter_map(code).collect()
@@ -20,9 +20,12 @@ fn every_finding_is_explained() {
     assert_eq!(codes.len(), FindingKind::codes().count(), "a code is used twice");
     let document = explained();
     let missing: Vec<_> = codes.difference(&document).collect();
-    assert!(missing.is_empty(), "docs/findings.md lacks {missing:?}");
+    assert!(missing.is_empty(), "docs/src/reference/findings.md lacks {missing:?}");
     let stale: Vec<_> = document.difference(&codes).collect();
-    assert!(stale.is_empty(), "docs/findings.md explains {stale:?}, which is no code");
+    assert!(
+        stale.is_empty(),
+        "docs/src/reference/findings.md explains {stale:?}, which is no code"
+    );
 }
 
 /// Lines of a file or of the files in a folder that are not comments.

@@ -1,4 +1,4 @@
-//! `docs/lumped-and-distributed.md`: orders of convergence, and what a tip's load does to zeros.
+//! `docs/src/theory/lumped-and-distributed.md`: orders of convergence, and what a tip's load does to zeros.
 
 #![expect(clippy::unwrap_used, reason = "tests")]
 

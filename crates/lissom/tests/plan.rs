@@ -345,7 +345,7 @@ fn the_bound_is_the_white_covariance_of_the_output_error() {
     }
 }
 
-/// Prints the tables of `docs/planning.md`.
+/// Prints the tables of `docs/src/how-to/planning.md`.
 #[test]
 #[ignore = "prints tables"]
 fn tables() {

@@ -1,4 +1,4 @@
-//! Every printed figure of Section 6 that follows from dimensions; `docs/report-figures.md` lists
+//! Every printed figure of Section 6 that follows from dimensions; `docs/src/evidence/report-figures.md` lists
 //! where the report's own rounding or units slip.
 
 #![expect(clippy::unwrap_used, reason = "tests")]

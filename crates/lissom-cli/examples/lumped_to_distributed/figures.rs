@@ -1,4 +1,4 @@
-//! The figures of `docs/lumped-and-distributed.md`.
+//! The figures of `docs/src/theory/lumped-and-distributed.md`.
 
 use std::error::Error;
 

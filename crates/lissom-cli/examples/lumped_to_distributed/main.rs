@@ -1,5 +1,5 @@
 //! Lumped arms against the distributed beam they tend to, the open question of
-//! `[Feliu1989, Section 7]`: prints the tables of `docs/lumped-and-distributed.md` and draws its
+//! `[Feliu1989, Section 7]`: prints the tables of `docs/src/theory/lumped-and-distributed.md` and draws its
 //! figures, as SVG and PNG, into the folder named on the command line.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for a terminal")]

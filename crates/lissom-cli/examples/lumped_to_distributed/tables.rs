@@ -1,4 +1,4 @@
-//! The tables of `docs/lumped-and-distributed.md`, in markdown.
+//! The tables of `docs/src/theory/lumped-and-distributed.md`, in markdown.
 
 use std::error::Error;
 use std::fmt::Write as _;

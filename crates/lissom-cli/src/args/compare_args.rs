@@ -28,4 +28,4 @@ Each value has its standard error. A difference is given in percent of the first
 errors of the difference (s.e.), the root of the sum of both squared standard errors: the results must be
 of different logs. A difference of more than 3 standard errors is called clear. Parameters that a warning
 of a result affects are marked: their standard errors may be too small.
-docs/compare.md explains the table. Exit code 0, whether the results differ or not.";
+docs/src/how-to/compare.md explains the table. Exit code 0, whether the results differ or not.";

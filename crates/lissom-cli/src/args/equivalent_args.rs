@@ -66,4 +66,4 @@ A table has a header and one row a frequency; names say what a column is:
 
 Where a file has one response, re and im will do: the file's name is the point's. With as many points as
 modes the arm is complete; with the motor's response it has its torque, inertia and viscous friction too.
-docs/equivalent.md explains every figure.";
+docs/src/how-to/equivalent.md explains every figure.";

@@ -73,5 +73,5 @@ A campaign.toml:
 Columns go by name or number. hold = \"sampled\" is a commanded value held between samples,
 \"measured\" one that was measured. A command of unknown unit has unit = \"1\": estimates are then
 per unit of command. A torque has unit = \"N*m\". With quantity = \"goal\" the command is the position
-goal of a servo, with quantity = \"speed\" the motor's channel is its speed. docs/campaign.md explains
+goal of a servo, with quantity = \"speed\" the motor's channel is its speed. docs/src/reference/campaign.md explains
 every key.";

@@ -52,12 +52,12 @@ An arm.toml:
   torque_constant = \"2.184 lbf*in/A\"
 
 A beam with its mass along it has `density` or `mass_per_length` in [beam], and needs no point
-masses. docs/arm.md explains every key, with hub, payload and damping.
+masses. docs/src/reference/arm.md explains every key, with hub, payload and damping.
 
   lissom model arm.toml                        what it is, frequencies, zeros, matrices
   lissom model arm.toml --omega 0.1:100:200    the tip's response
   lissom model arm.toml --payload 0.5x,2x,5x   what another load does
-  lissom model arm.toml --json model.json      everything for programs (docs/model.schema.json)
+  lissom model arm.toml --json model.json      everything for programs (docs/src/reference/schemas/model.schema.json)
 
 Zeros come in classes: a, a pair on the imaginary axis; b, a real pair; c, a quadruple. With b or
 c the tip's response is non-minimum phase: its inverse is unstable.";

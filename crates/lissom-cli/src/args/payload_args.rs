@@ -59,4 +59,4 @@ The payload is a point mass: its weight is on the beam's line, and it does not t
 measured its zeros stay where they are, whatever it carries; its poles move. Modes with the motor held, and the
 tip's response to the motor's angle, come with 95 % intervals. What no run has shown is in none of them: modes
 above those found bend under a heavy load, too.
-docs/payload.md shows how far that goes.";
+docs/src/how-to/payload.md shows how far that goes.";

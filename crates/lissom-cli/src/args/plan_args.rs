@@ -144,5 +144,5 @@ const HELP: &str = "\
   lissom identify virtual/campaign.toml
 
 A deviation is a standard deviation, relative to the figure. Where the time does not allow a wish, a
-warning says what it does allow, and the exit code is 3. docs/planning.md explains how a plan is made
+warning says what it does allow, and the exit code is 3. docs/src/how-to/planning.md explains how a plan is made
 and what it was measured to be worth.";

@@ -42,4 +42,4 @@ A plan.toml:
   record = \"5 s\"
 
 Also square, chirp, table (from a file) and release. Lists stand for each with each.
-docs/plan.md explains every key, docs/arm.md the arm, its instruments and the world at its tip.";
+docs/src/reference/plan.md explains every key, docs/src/reference/arm.md the arm, its instruments and the world at its tip.";

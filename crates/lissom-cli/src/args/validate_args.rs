@@ -45,4 +45,4 @@ Two predictions and their residuals:
   left     residuals as large as the sensor's own noise and white: nothing is missing. Beyond
            that, the terms that the residual looks like say what is: a delay, friction, inertia.
 
-docs/validate.md explains every figure. Exit code 3: the torque is not predicted.";
+docs/src/how-to/validate.md explains every figure. Exit code 3: the torque is not predicted.";

@@ -91,7 +91,7 @@ fn predicts_the_force_of_the_other_log() {
 }
 
 /// The page that shows these figures.
-const PAGE: &str = include_str!("../../../../docs/measured.md");
+const PAGE: &str = include_str!("../../../../docs/src/evidence/measured.md");
 
 /// The published figures as an arm, in place of those found.
 fn published(found: &serde_json::Value) -> serde_json::Value {
@@ -128,7 +128,7 @@ fn the_other_logs_force_is_predicted_better_than_by_the_published_figures() {
         assert!(own < 0.9 * theirs, "{window}: {own} by lissom, {theirs} by the published figures");
         assert!(own < 0.05, "{window}: {own}");
         let row = format!("| {window} | {:.2} % | {:.2} % |", 100.0 * own, 100.0 * theirs);
-        assert!(PAGE.contains(&row), "docs/measured.md has another row than {row}");
+        assert!(PAGE.contains(&row), "docs/src/evidence/measured.md has another row than {row}");
     }
 }
 

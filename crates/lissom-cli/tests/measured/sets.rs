@@ -1,5 +1,5 @@
 //! Every set of measured logs: what lissom gives of it and what plain least squares gives, as the table of
-//! `docs/measured.md`, and that what is not explained is admitted.
+//! `docs/src/evidence/measured.md`, and that what is not explained is admitted.
 
 use std::io::Write as _;
 

@@ -57,7 +57,7 @@
 //! phase = "30 deg"                          # the load hangs at θ = −30°; absent: 0
 //! ```
 //!
-//! Every key is in `docs/arm.md`.
+//! Every key is in `docs/src/reference/arm.md`.
 
 pub(crate) mod arm_error;
 mod arm_spec;

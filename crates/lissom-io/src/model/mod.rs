@@ -1,6 +1,6 @@
 //! `model.json`: a beam, and the arm that it makes with its drive, as numbers for programs.
 //!
-//! Its schema is `docs/model.schema.json`, generated from [`ModelFile`]. A key is `null` where the model has no such thing or is
+//! Its schema is `docs/src/reference/schemas/model.schema.json`, generated from [`ModelFile`]. A key is `null` where the model has no such thing or is
 //! too large for it; a sentence in `notes` then says why.
 
 mod beam_model;

@@ -13,7 +13,7 @@
 //! record = "60 s"
 //! ```
 //!
-//! Every key is in `docs/plan.md`.
+//! Every key is in `docs/src/reference/plan.md`.
 
 pub(crate) mod plan_error;
 mod plan_experiment;

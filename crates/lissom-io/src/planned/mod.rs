@@ -1,6 +1,6 @@
 //! A plan for programs: what `lissom plan` writes with `--json`.
 //!
-//! Its schema is `docs/planned.schema.json`, generated from [`PlannedFile`]. The `plan.toml` of the same runs is written
+//! Its schema is `docs/src/reference/schemas/planned.schema.json`, generated from [`PlannedFile`]. The `plan.toml` of the same runs is written
 //! by [`plan_text`](crate::write::plan_text) and read by [`PlanFile`](crate::PlanFile).
 
 mod plan_note_entry;

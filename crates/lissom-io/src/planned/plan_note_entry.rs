@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlanNoteEntry {
-    /// What the note is about; docs/planning.md has them all.
+    /// What the note is about; docs/src/how-to/planning.md has them all.
     pub code: PlanNoteName,
     /// How much it matters.
     pub severity: NoteSeverityName,

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FindingEntry {
-    /// Stable name; docs/findings.md has them all.
+    /// Stable name; docs/src/reference/findings.md has them all.
     pub code: String,
     /// How much it matters.
     pub severity: SeverityName,

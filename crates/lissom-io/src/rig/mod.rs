@@ -1,6 +1,6 @@
 //! `rig.json`: what is known of a virtual campaign in addition to its logs.
 //!
-//! Its schema is `docs/rig.schema.json`, generated from [`RigFile`].
+//! Its schema is `docs/src/reference/schemas/rig.schema.json`, generated from [`RigFile`].
 
 mod rig_file;
 mod rig_run_entry;

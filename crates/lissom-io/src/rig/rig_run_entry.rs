@@ -36,7 +36,7 @@ pub struct RigRunEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RigFindingEntry {
-    /// What the finding is about; docs/plan.md has them all.
+    /// What the finding is about; docs/src/reference/plan.md has them all.
     pub code: RigFindingName,
     /// The same in words, with numbers.
     pub message: String,

@@ -283,7 +283,7 @@ impl DistributedBeam {
     }
 
     /// Those of the tip, where nothing resists it in turning: all real, s² > 0, and counted by the
-    /// changes of sign along the beam (`docs/lumped-and-distributed.md`).
+    /// changes of sign along the beam (`docs/src/theory/lumped-and-distributed.md`).
     fn tip_zeros_below(&self, omega_rad_s: f64) -> Zeros {
         let at = |s: f64| tip_numerator(&self.elements, s);
         let wanted = at(omega_rad_s).1;
@@ -297,7 +297,7 @@ impl DistributedBeam {
     ///
     /// The half at the clamp does not bend the beam and is left out. With a hub of radius r it turns
     /// with the motor: `μ·l·r²/2`, l the first span's length, is to be added to the motor's inertia.
-    /// Everything then tends to this beam with order 2 (`docs/lumped-and-distributed.md`).
+    /// Everything then tends to this beam with order 2 (`docs/src/theory/lumped-and-distributed.md`).
     ///
     /// # Errors
     /// [`BeamError`] where the masses make no beam.

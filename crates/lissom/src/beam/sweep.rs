@@ -5,7 +5,7 @@
 //! apart into nine numbers, 19 multiplications and 24 additions a span. Frequencies run in blocks
 //! that fill the processor's vectors without any instruction being asked for. This is the one place
 //! where the plain recursion is written a second time: it is 20 times as fast as one
-//! [`response`](LumpedBeam::response) after another, and no less exact (`docs/benchmarks.md`).
+//! [`response`](LumpedBeam::response) after another, and no less exact (`docs/src/evidence/benchmarks.md`).
 //!
 //! # Source
 //! The compound form of the recursion, `[Ng1985]`.
@@ -227,7 +227,7 @@ impl LumpedBeam {
     /// found for many frequencies at once and are real. Errors are below 1e-9 of the larger of
     /// their size and one at 1000 spans, up to ten times the twentieth natural frequency and down
     /// to 1e-6 from a pole, relatively (`tests/tip_sweep.rs`; figures up to 100 000 spans in
-    /// `docs/benchmarks.md`). Exactly on an undamped pole the value may be infinite.
+    /// `docs/src/evidence/benchmarks.md`). Exactly on an undamped pole the value may be infinite.
     ///
     /// # Source
     /// `[Feliu1989, eq. (16)]`

@@ -4,7 +4,7 @@ thresholds! {
     "plan" {
         /// Relative error wished for the damping where nothing else is given. If damping of one
         /// kind is taken for the other, viscous friction is wrong; identification told them apart
-        /// at 4 % and not at 14 % (docs/planning.md).
+        /// at 4 % and not at 14 % (docs/src/how-to/planning.md).
         DAMPING_WISHED: f64 = 0.05, "1", Measured;
         /// Share of a run in which the joint may stick: the third-harmonic method and the frequency
         /// response need it to slip.

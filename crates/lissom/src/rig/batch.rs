@@ -109,7 +109,7 @@ impl Batch<'_> {
     /// seeds, the number of threads and the machine's vectors.
     ///
     /// # Source
-    /// `[Feliu1989, eq. (27)]` with the phase of `docs/errata.md`.
+    /// `[Feliu1989, eq. (27)]` with the phase of `docs/src/reference/errata.md`.
     ///
     /// # Errors
     /// [`RigError::NotPositive`] for times, frequencies and gains that are not,

@@ -55,7 +55,7 @@ impl Harmonics {
 ///
 /// # Source
 /// Fourier transform of a held sample. `[Feliu1989, Section 5.2]` takes the commanded current as
-/// the motor's: see the hold in `docs/errata.md`.
+/// the motor's: see the hold in `docs/src/reference/errata.md`.
 pub fn hold_factor(omega_rad_s: f64, sample_time_s: f64) -> Complex64 {
     let half = 0.5 * omega_rad_s * sample_time_s;
     let gain = if half == 0.0 { 1.0 } else { half.sin() / half };

@@ -47,7 +47,7 @@ pub(crate) fn write(folder: &Path, rig: &Rig, made: &Plan) -> Result<(), Failure
 fn campaign(rig: &Rig, made: &Plan) -> CampaignPlan {
     let title = format!(
         "For the logs of a plan: log-01.csv is what the drive logs while the column `log` of {} is 1, and so on.\n\
-         Columns, units and hold are a virtual drive's: write those of yours (docs/campaign.md).",
+         Columns, units and hold are a virtual drive's: write those of yours (docs/src/reference/campaign.md).",
         table_name(0)
     );
     let run = |(index, run): (usize, &lissom::plan::PlannedRun)| PlannedRun {

@@ -1,7 +1,7 @@
 //! Findings: what the data do not allow, and what to know before an estimate is used.
 //!
 //! Each kind of finding is a variant that carries its numbers. Its code, severity, affected result keys, message and
-//! hint follow from the variant, and all texts are in this module. Codes are stable; `docs/findings.md` explains
+//! hint follow from the variant, and all texts are in this module. Codes are stable; `docs/src/reference/findings.md` explains
 //! each of them.
 
 mod beam_finding;

@@ -11,7 +11,7 @@ thresholds! {
         /// Largest ratio of a channel's residual to its sensor's noise up to which an arm that is
         /// replayed over whole runs is accepted. An arm above it on short windows is given up
         /// there: that changed no accepted estimate of 30 study campaigns and of the measured logs
-        /// (docs/pruned.md). Above it, ripples of all periods are tried, and a search ends by
+        /// (docs/src/evidence/pruned.md). Above it, ripples of all periods are tried, and a search ends by
         /// `STEP_SHARE_LEAST`.
         RESIDUAL_FAR_ABOVE_NOISE: f64 = 3.0, "1", Convention;
         /// A residual below this many times the sensor's noise is at the noise. An arm that is
@@ -41,7 +41,7 @@ thresholds! {
         GROUP_SHARE_LARGE: f64 = 0.02, "1", Convention;
         /// Largest share of the squared residual beyond the noise that further parameters may leave
         /// where the residual is above the noise. Without it, terms of friction were added on two small
-        /// logs of joints that have none (docs/pruned.md).
+        /// logs of joints that have none (docs/src/evidence/pruned.md).
         EXCESS_LEFT: f64 = 0.7, "1", Measured;
         /// Most groups of parameters that are added at one length of the windows.
         GROUPS_ADDED_MOST: usize = 3, "groups", Convention;
