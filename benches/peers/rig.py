@@ -3,7 +3,7 @@
 `python benches/peers/rig.py` prints three tables. Times are the least of some
 calls. Every way closes the same loop: 20 000 samples of
 3 ms on 0.5 rad and 3 rad/s, an arm that sticks. Errors are of the motor's angle against figures of
-50 digits (`crates/lissom/tests/rig_reference.rs`). `--no-scipy` leaves the slow one out.
+50 digits (`crates/lissom-core/tests/rig_reference.rs`). `--no-scipy` leaves the slow one out.
 """
 
 import argparse
@@ -289,7 +289,7 @@ def least(f, count=5, most_s=0.5):
 def lissom():
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "rig.json"
-        command = ["cargo", "bench", "--quiet", "-p", "lissom", "--bench", "rig_peers", "--", str(file)]
+        command = ["cargo", "bench", "--quiet", "-p", "lissom-core", "--bench", "rig_peers", "--", str(file)]
         subprocess.run(command, check=True, cwd=Path(__file__).resolve().parents[2])
         return json.loads(file.read_text())
 

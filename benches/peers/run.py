@@ -39,7 +39,7 @@ def lissom(cases):
         for key, beam in cases.items():
             for kind, rows in (("beam", np.column_stack(beam.parts)), ("omega", beam.omega)):
                 np.savetxt(f"{folder}/{key}.{kind}.csv", rows, fmt="%.17g", delimiter=",")
-        command = ["cargo", "bench", "--quiet", "-p", "lissom", "--bench", "peers", "--", folder]
+        command = ["cargo", "bench", "--quiet", "-p", "lissom-core", "--bench", "peers", "--", folder]
         subprocess.run(command, cwd=ROOT, check=True)
         return {key: json.loads(Path(folder, f"{key}.lissom.json").read_text()) for key in cases}
 

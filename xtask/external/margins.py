@@ -223,7 +223,7 @@ def instrument(root, copy):
         target = copy / name
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(root / name, target)
-    library = copy / "crates/lissom/src"
+    library = copy / "crates/lissom-core/src"
     (copy / "tests").mkdir(exist_ok=True)
     thresholds = {}
     for path in sorted(library.rglob("*.rs")):

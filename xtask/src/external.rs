@@ -59,7 +59,7 @@ fn folder(root: &Path, name: &str) -> Result<PathBuf, Failure> {
 pub(crate) fn compare(root: &Path) -> Result<(), Failure> {
     let python = Python::new(root)?;
     let folder = folder(root, "external")?;
-    let example = ["run", "--release", "--package", "lissom", "--example", "external", "--"];
+    let example = ["run", "--release", "--package", "lissom-core", "--example", "external", "--"];
     run("lissom's experiments", cargo(root, &example).arg(&folder))?;
     let mut compare = python.script("compare.py");
     run("MuJoCo and scipy beside lissom", compare.arg(&folder))?;
@@ -100,7 +100,8 @@ pub(crate) fn margins(root: &Path, seed: &str, campaigns: &[String]) -> Result<(
         cargo(&copy, &["build", "--release", "-p", "lissom-cli", "-p", "lissom-study"]);
     run("its programs", programs.arg("--target-dir").arg(&build))?;
     run("campaigns", script("run").arg(&copy).arg(&build).arg(seed).args(campaigns))?;
-    let mut tests = cargo(&copy, &["test", "--no-fail-fast", "-p", "lissom", "-p", "lissom-cli"]);
+    let mut tests =
+        cargo(&copy, &["test", "--no-fail-fast", "-p", "lissom-core", "-p", "lissom-cli"]);
     tests.arg("--target-dir").arg(&build).env("LISSOM_MARGINS", copy.join("tests"));
     run("tests", &mut tests)?;
     run("the table", script("table").arg(&copy).arg(folder.join("table.md")))

@@ -60,9 +60,9 @@ fn figures_are_within_their_bars() {
     let rows = demo().output["comparison"].as_array().unwrap();
     // The command's own idea of the truth is the arm's.
     let truth = [
-        arm.coulomb.forward / arm.motor.torque_constant_nm_per_a,
-        arm.motor.viscous_nm_s_per_rad,
-        arm.motor.inertia_kg_m2,
+        arm.coulomb.forward() / arm.motor.torque_constant_nm_per_a(),
+        arm.motor.viscous_nm_s_per_rad(),
+        arm.motor.inertia_kg_m2(),
         arm.dynamics().coupling_motor,
         arm.beam().natural_frequencies_rad_s()[0],
     ];
@@ -92,9 +92,9 @@ fn regression_intervals_are_not_wishful() {
     let arm = report_arm();
     let result = &demo().output["result"];
     let figures = [
-        (&result["friction"]["coulomb_nm"], arm.coulomb.forward),
-        (&result["friction"]["viscous_nm_s_per_rad"], arm.motor.viscous_nm_s_per_rad),
-        (&result["drive"]["inertia_kg_m2"], arm.motor.inertia_kg_m2),
+        (&result["friction"]["coulomb_nm"], arm.coulomb.forward()),
+        (&result["friction"]["viscous_nm_s_per_rad"], arm.motor.viscous_nm_s_per_rad()),
+        (&result["drive"]["inertia_kg_m2"], arm.motor.inertia_kg_m2()),
         (&result["beam"]["coupling_nm_per_rad"], arm.dynamics().coupling_motor),
     ];
     for (figure, truth) in figures {

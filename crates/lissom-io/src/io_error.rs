@@ -1,6 +1,6 @@
 //! The crate's error.
 
-use lissom::record::RecordError;
+use lissom_core::record::RecordError;
 use thiserror::Error;
 
 use crate::arm_file::arm_error::ArmError;

@@ -1,7 +1,7 @@
 //! Reads measured logs and campaign descriptions; writes logs, models and results.
 //!
 //! - [`read_campaign`] reads a `campaign.toml` and its logs into a
-//!   [`Campaign`](lissom::record::Campaign): see [`campaign`] for the file, [`log`] for the logs.
+//!   [`Campaign`](lissom_core::record::Campaign): see [`campaign`] for the file, [`log`] for the logs.
 //! - [`ArmFile::read`] reads an `arm.toml`: see [`arm_file`]; [`ModelFile`] is what comes of it.
 //! - [`PlanFile::read`] reads a `plan.toml`, the experiments of a virtual campaign: see [`plan`].
 //! - [`read_responses`] reads tables of frequency responses: see [`responses`].

@@ -9,7 +9,7 @@ fn the_schemas_in_the_documents_are_generated_from_the_types() {
         let committed = std::fs::read_to_string(docs.join(name)).unwrap_or_default();
         assert!(
             committed == generated,
-            "docs/{name} is not what the types say: run `cargo xtask schemas`"
+            "docs/src/reference/schemas/{name} is not what the types say: run `cargo xtask schemas`"
         );
     }
 }

@@ -1,6 +1,7 @@
 //! Random arms about the sizes of real rigs.
 
-use lissom::beam::{BeamError, Damping, LumpedBeam, Roots, Span};
+use lissom::Error;
+use lissom::beam::{Damping, LumpedBeam, Roots, Span};
 use lissom::drive::Motor;
 use num_complex::Complex64;
 
@@ -26,7 +27,7 @@ pub(crate) fn random_arm(
     masses: usize,
     damping_ratio: f64,
     beam_damping: bool,
-) -> Result<(LumpedBeam, Motor), BeamError> {
+) -> Result<(LumpedBeam, Motor), Error> {
     let first = draw.decade(FIRST_RAD_S.0, FIRST_RAD_S.1);
     let mut spans = random_spans(draw, masses);
     let found = LumpedBeam::new(&spans)?.natural_frequencies_rad_s()[0];
@@ -37,12 +38,7 @@ pub(crate) fn random_arm(
     let inertia = beam_inertia / draw.decade(INERTIA_RATIO.0, INERTIA_RATIO.1);
     let viscous = inertia * draw.decade(RUN_DOWN_PER_S.0, RUN_DOWN_PER_S.1);
     let constant = draw.decade(TORQUE_CONSTANT.0, TORQUE_CONSTANT.1);
-    // Positive by construction; the bounds above are.
-    let motor = Motor {
-        inertia_kg_m2: inertia,
-        viscous_nm_s_per_rad: viscous,
-        torque_constant_nm_per_a: constant,
-    };
+    let motor = Motor::new(inertia, viscous, constant)?;
     if beam_damping {
         let beam = LumpedBeam::new(&spans)?;
         return Ok((beam.with_damping(Damping::Modal { ratios: vec![damping_ratio] })?, motor));
@@ -104,7 +100,7 @@ mod tests {
             assert!((FIRST_RAD_S.0 * 0.99..FIRST_RAD_S.1 * 1.01).contains(&first), "{first}");
             // Dampers that differ couple the modes a little.
             assert!((ratio / 0.03 - 1.0).abs() < 0.01, "{ratio}");
-            let inertia = beam.inertia_kg_m2() / motor.inertia_kg_m2;
+            let inertia = beam.inertia_kg_m2() / motor.inertia_kg_m2();
             assert!((INERTIA_RATIO.0..INERTIA_RATIO.1).contains(&inertia), "{inertia}");
         }
     }

@@ -55,12 +55,12 @@ impl Bench {
         }
         let step_rad = stratum.motor_step_rad();
         let rated_rad = draw.decade(RATED_RAD.0, RATED_RAD.1).max(RATED_STEPS * step_rad);
-        let turned = motor.inertia_kg_m2 + beam.inertia_kg_m2();
+        let turned = motor.inertia_kg_m2() + beam.inertia_kg_m2();
         let linear_nm = turned * (RATED * first).powi(2) * rated_rad;
         let peak_nm = linear_nm / (1.0 - stratum.coulomb_share);
         let coulomb_nm = stratum.coulomb_share * peak_nm;
         let speed = RATED * first * rated_rad;
-        let figures = (coulomb_nm, motor.viscous_nm_s_per_rad, motor.inertia_kg_m2);
+        let figures = (coulomb_nm, motor.viscous_nm_s_per_rad(), motor.inertia_kg_m2());
         let (coulomb, friction) = joint(law, draw, figures, speed)?;
         let arm = Arm::new(beam, motor, coulomb)?;
         let most_rad = draw.uniform(MOST_RAD.0, MOST_RAD.1);
@@ -84,13 +84,13 @@ impl Bench {
 
     /// Torque per angle of the arm without Coulomb friction \[N·m/rad\].
     pub(crate) fn impedance(&self, omega: f64) -> Complex64 {
-        let constant = self.rig.arm.motor.torque_constant_nm_per_a;
+        let constant = self.rig.arm.motor.torque_constant_nm_per_a();
         constant / self.rig.arm.motor_response(omega)
     }
 
     /// Torque per angle of the loop \[N·m/rad\].
     fn stiffness(&self, omega: f64) -> Complex64 {
-        self.rig.arm.motor.torque_constant_nm_per_a * self.gains.response(omega)
+        self.rig.arm.motor.torque_constant_nm_per_a() * self.gains.response(omega)
     }
 
     /// Torque per reference without Coulomb friction \[N·m/rad\].
@@ -135,7 +135,7 @@ fn rig(
     let mut instruments = Instruments::ideal(stratum.sample_time_s)?;
     instruments.motor = sensor(stratum.motor_bits)?;
     instruments.tips = vec![sensor(stratum.tip_bits)?];
-    let limit_a = HEADROOM * peak_nm / arm.motor.torque_constant_nm_per_a;
+    let limit_a = HEADROOM * peak_nm / arm.motor.torque_constant_nm_per_a();
     instruments.amplifier = Amplifier::ideal().with_limit(limit_a)?;
     let mut rig = Rig::new(arm, instruments, gains.pd()?.into());
     rig.scene = Scene { friction, ..Scene::default() };

@@ -78,7 +78,7 @@ impl Campaign {
     pub fn coulomb_share(&self) -> f64 {
         let motor = &self.definition.rig.arm.motor;
         let peak_a = self.facts.iter().map(|f| f.peak_a).fold(0.0, f64::max);
-        sliding(&self.definition.rig) / (motor.torque_constant_nm_per_a * peak_a)
+        sliding(&self.definition.rig) / (motor.torque_constant_nm_per_a() * peak_a)
     }
 
     /// The largest share of a run in which the joint stuck.
@@ -89,7 +89,7 @@ impl Campaign {
 
 /// Friction at speed, mean of both directions \[N·m\].
 pub(crate) fn sliding(rig: &Rig) -> f64 {
-    0.5 * (rig.arm.coulomb.forward + rig.arm.coulomb.backward)
+    0.5 * (rig.arm.coulomb.forward() + rig.arm.coulomb.backward())
 }
 
 /// Campaign `index` of the study with `seed`; `None` where all of 2500 draws were rejected.
@@ -132,7 +132,7 @@ fn drawn(draw: &mut Draw, stratum: Stratum, law: Law, index: usize) -> Result<Ca
     if logs.len() < runs_least(stratum.kind) {
         return Err(Rejected::FewRuns(commonest(&dropped)));
     }
-    let channels = bench.rig.channels(0..bench.rig.arm.beam().len());
+    let channels = bench.rig.channels(0..bench.rig.arm.beam().len())?;
     let logs = lissom::record::Campaign::new(channels, logs)
         .map_err(|error| Rejected::Impossible(error.to_string()))?;
     let definition = Definition { rig: bench.rig, runs };

@@ -39,7 +39,7 @@ impl Gains {
     /// What a loop of frequency ω_c and damping ζ_c on the motor's inertia needs.
     fn of(arm: &Arm, omega_c: f64, zeta_c: f64, filter_s: f64) -> Self {
         let stiffness =
-            arm.motor.inertia_kg_m2 * omega_c * omega_c / arm.motor.torque_constant_nm_per_a;
+            arm.motor.inertia_kg_m2() * omega_c * omega_c / arm.motor.torque_constant_nm_per_a();
         Self { proportional: stiffness, derivative: 2.0 * zeta_c * stiffness / omega_c, filter_s }
     }
 
@@ -82,7 +82,7 @@ pub(crate) fn random_loop(draw: &mut Draw, arm: &Arm, task: &Task) -> Option<Gai
     let zeta_c = draw.uniform(0.6, 1.0);
     let filtered = draw.chance(0.5);
     let stiff = task.coulomb_nm / (draw.decade(DEAD.0, DEAD.1) * task.most_rad);
-    let slowest = (stiff / arm.motor.inertia_kg_m2).sqrt().max(SLOWEST * task.first_rad_s);
+    let slowest = (stiff / arm.motor.inertia_kg_m2()).sqrt().max(SLOWEST * task.first_rad_s);
     let meant = (task.first_rad_s * draw.decade(4.0, 10.0)).max(slowest);
     let mut omega_c = meant.min(FASTEST / task.sample_time_s);
     while omega_c >= slowest {
@@ -90,7 +90,7 @@ pub(crate) fn random_loop(draw: &mut Draw, arm: &Arm, task: &Task) -> Option<Gai
         for filter_s in FILTERS.map(|f| f / omega_c) {
             let gains = Gains::of(arm, omega_c, zeta_c, filter_s);
             let jump_a = gains.jump_a(task.jump_rad, task.sample_time_s);
-            let quiet = arm.motor.torque_constant_nm_per_a * jump_a < CHATTER * task.peak_nm;
+            let quiet = arm.motor.torque_constant_nm_per_a() * jump_a < CHATTER * task.peak_nm;
             let suits = quiet && (filter_s > 0.0 || !filtered);
             if suits && is_stable(arm, &gains, task.sample_time_s) {
                 return Some(gains);

@@ -90,3 +90,9 @@ impl From<RigError> for Rejected {
         Self::Impossible(error.to_string())
     }
 }
+
+impl From<lissom::Error> for Rejected {
+    fn from(error: lissom::Error) -> Self {
+        Self::Impossible(error.to_string())
+    }
+}

@@ -31,9 +31,9 @@ impl Truth {
         let arm = &rig.arm;
         Self {
             coulomb_nm: crate::campaign::sliding(rig),
-            coulomb_by_direction_nm: [arm.coulomb.forward, arm.coulomb.backward],
-            viscous_nm_s_per_rad: arm.motor.viscous_nm_s_per_rad,
-            inertia_kg_m2: arm.motor.inertia_kg_m2,
+            coulomb_by_direction_nm: [arm.coulomb.forward(), arm.coulomb.backward()],
+            viscous_nm_s_per_rad: arm.motor.viscous_nm_s_per_rad(),
+            inertia_kg_m2: arm.motor.inertia_kg_m2(),
             coupling_nm_per_rad: arm.dynamics().coupling_motor,
             modes: clamped_modes(arm.beam().poles()),
             arm: arm.clone(),

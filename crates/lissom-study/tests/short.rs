@@ -224,7 +224,7 @@ fn another_law_is_another_truth_of_the_same_stratum() {
     assert!(coulomb.definition.rig.scene.tolerance().is_none());
     assert!(stribeck.definition.rig.scene.tolerance().is_some());
     let direction = of(Law::Direction).definition.rig.arm.coulomb;
-    assert!(direction.forward > direction.backward);
+    assert!(direction.forward() > direction.backward());
 }
 
 #[test]

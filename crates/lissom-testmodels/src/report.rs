@@ -28,7 +28,7 @@ pub fn report_arm() -> Arm {
     let torque = POUND_FORCE_N * INCH_M;
     let motor = Motor::new(0.005_529 * torque, 0.012_16 * torque, 2.184 * torque);
     let motor = motor.expect("valid motor");
-    let coulomb = Coulomb::symmetric(0.132 * motor.torque_constant_nm_per_a);
+    let coulomb = Coulomb::symmetric(0.132 * motor.torque_constant_nm_per_a());
     let beam = LumpedBeam::new(&[span]).expect("valid beam");
     Arm::new(beam, motor, coulomb.expect("valid")).expect("one mass")
 }

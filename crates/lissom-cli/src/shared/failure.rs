@@ -166,6 +166,9 @@ fn rig_hint(error: &RigError) -> &'static str {
             "ask for lower frequencies, or let the controller act faster"
         }
         RigError::SensorCount { .. } => "give one `tip_sensors`, or one for each mass",
+        RigError::TooStiff { .. } => {
+            "check the units of inertia, viscous, masses, stiffness and damping, or sample faster"
+        }
         RigError::Unsupported { .. } => "remove it from the run or from the arm",
         _ => "check the numbers of the run and of [rig]",
     }

@@ -21,13 +21,13 @@ pub(crate) fn comparison(arm: &Arm, id: &Identified) -> Vec<DemoRow> {
     let fit = id.third_harmonic_model.as_ref();
     let r = id.regression.as_ref();
     let oe = id.output_error.as_ref();
-    let k = arm.motor.torque_constant_nm_per_a;
+    let k = arm.motor.torque_constant_nm_per_a();
     let frequency = |m: &lissom::identify::ModeEstimate| m.natural_frequency_rad_s;
     vec![
         DemoRow {
             name: "Coulomb friction",
             unit: "A",
-            truth: arm.coulomb.forward / k,
+            truth: arm.coulomb.forward() / k,
             third: third.map(|t| t.coulomb_command),
             regression: r.and_then(|r| r.coulomb).map(|e| e.scaled(1.0 / k)),
             output_error: oe
@@ -37,7 +37,7 @@ pub(crate) fn comparison(arm: &Arm, id: &Identified) -> Vec<DemoRow> {
         DemoRow {
             name: "viscous friction",
             unit: "N·m·s/rad",
-            truth: arm.motor.viscous_nm_s_per_rad,
+            truth: arm.motor.viscous_nm_s_per_rad(),
             third: fit.map(|f| f.viscous),
             regression: r.and_then(|r| r.viscous),
             output_error: oe.and_then(|o| o.estimate(Parameter::Viscous)),
@@ -45,7 +45,7 @@ pub(crate) fn comparison(arm: &Arm, id: &Identified) -> Vec<DemoRow> {
         DemoRow {
             name: "inertia",
             unit: "kg·m²",
-            truth: arm.motor.inertia_kg_m2,
+            truth: arm.motor.inertia_kg_m2(),
             third: fit.map(|f| f.inertia),
             regression: r.and_then(|r| r.inertia),
             output_error: oe.and_then(OutputError::inertia),

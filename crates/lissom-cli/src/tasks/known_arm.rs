@@ -29,9 +29,9 @@ impl Reference {
     pub(crate) fn truth(arm: &Arm) -> Self {
         Self {
             label: "truth",
-            coulomb_nm: (arm.coulomb.forward, arm.coulomb.backward),
-            viscous_nm_s_per_rad: arm.motor.viscous_nm_s_per_rad,
-            inertia_kg_m2: arm.motor.inertia_kg_m2,
+            coulomb_nm: (arm.coulomb.forward(), arm.coulomb.backward()),
+            viscous_nm_s_per_rad: arm.motor.viscous_nm_s_per_rad(),
+            inertia_kg_m2: arm.motor.inertia_kg_m2(),
             gravity: None,
             arm: Some(arm.clone()),
         }

@@ -54,7 +54,7 @@ impl Task<'_> {
         self.step("natural frequencies");
         let count = self.frequency_count();
         let natural_frequencies_rad_s = beam.frequencies_rad_s(Base::Clamped, count);
-        let rotor = |(motor, _): &(Motor, Coulomb)| Base::Rotor(motor.inertia_kg_m2);
+        let rotor = |(motor, _): &(Motor, Coulomb)| Base::Rotor(motor.inertia_kg_m2());
         let coupled = self.drive.as_ref().map(|drive| beam.frequencies_rad_s(rotor(drive), count));
         let mut model = Model {
             kind: beam.kind(),
@@ -412,5 +412,5 @@ fn lost(arm: &Arm, space: &StateSpace) -> Option<(f64, f64)> {
 
 /// θ_m/i at s.
 pub(crate) fn motor_response(motor: &Motor, s: Complex64, coupling: Complex64) -> Complex64 {
-    motor.torque_constant_nm_per_a / (motor.impedance(s) + coupling)
+    motor.torque_constant_nm_per_a() / (motor.impedance(s) + coupling)
 }

@@ -24,7 +24,7 @@ pub(crate) struct CoulombRow {
 }
 
 pub(crate) fn rows(rig: &Rig, id: &Identified) -> Vec<CoulombRow> {
-    let constant = rig.arm.motor.torque_constant_nm_per_a;
+    let constant = rig.arm.motor.torque_constant_nm_per_a();
     let classical = id.constant_velocity.as_ref();
     let side = |line: Option<Estimate>| line.map(|e| e.scaled(1.0 / constant));
     let [forward, backward, spectral] = PRINTED_A;
@@ -52,7 +52,7 @@ pub(crate) fn rows(rig: &Rig, id: &Identified) -> Vec<CoulombRow> {
         CoulombRow {
             name: "truth at rest",
             printed_a: None,
-            here: Some(Estimate { value: law(rig).at(0.0, 0.0).forward / constant, std: 0.0 }),
+            here: Some(Estimate { value: law(rig).at(0.0, 0.0).forward() / constant, std: 0.0 }),
         },
     ]
 }

@@ -26,7 +26,7 @@ pub(crate) fn described(
         tips: (0..masses)
             .map(|mass| (format!("theta_{}", mass + 1), tip_column(mass), TipQuantity::Angle))
             .collect(),
-        torque_constant_nm_per_a: Some(rig.arm.motor.torque_constant_nm_per_a),
+        torque_constant_nm_per_a: Some(rig.arm.motor.torque_constant_nm_per_a()),
         current_limit_a: instruments.amplifier.limit_a(),
         gravity: rig.scene.gravity.is_some(),
         arm,

@@ -1,6 +1,6 @@
 //! The findings of a result.
 
-use lissom::identify::{Finding, Severity};
+use lissom::identify::Finding;
 
 use super::printer::line;
 use crate::shared::command_hint::command_hint;
@@ -23,11 +23,7 @@ pub(crate) fn findings(findings: &[Finding]) {
         }
         told.push(kind(finding));
         let same: Vec<&Finding> = findings.iter().filter(|f| kind(f) == kind(finding)).collect();
-        let severity = match finding.severity() {
-            Severity::Info => "info",
-            Severity::Warning => "warning",
-            Severity::Refusal => "refusal",
-        };
+        let severity = finding.severity().name();
         for f in same.iter().take(SHOWN) {
             let run = f.run.as_ref().map_or(String::new(), |r| format!(" {r}:"));
             line(&format!("  {severity} [{}]{run} {f}", f.code()));

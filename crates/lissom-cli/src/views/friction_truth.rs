@@ -16,14 +16,14 @@ pub(crate) fn with_truth(mut plot: LinePlot, rig: &Rig, id: &Identified) -> Line
     // Turning steadily, the masses' dampers against the fixed frame take their part.
     let dampers = beam.spans().iter().zip(beam.position_m());
     let drag: f64 = dampers.map(|(s, at)| s.damping_n_s_per_m * at * at).sum();
-    let viscous = motor.viscous_nm_s_per_rad + drag;
+    let viscous = motor.viscous_nm_s_per_rad() + drag;
     let speeds: Vec<f64> =
         (0..=POINTS).map(|k| FASTEST_RAD_S * f64::from(k) / f64::from(POINTS)).collect();
     for (label, forward) in [("truth", true), ("", false)] {
         let current = |v: &f64| {
             let dry = law.at(*v, 0.0);
-            let dry = if forward { dry.forward } else { dry.backward };
-            (dry + viscous * v) / motor.torque_constant_nm_per_a
+            let dry = if forward { dry.forward() } else { dry.backward() };
+            (dry + viscous * v) / motor.torque_constant_nm_per_a()
         };
         let currents = speeds.iter().map(current).collect();
         plot.traces.push(Trace::line(label, Role::Truth, speeds.clone(), currents));

@@ -98,10 +98,11 @@ fn of(found: &ModalArm) -> Arm {
     };
     let beam = ModalBeam::new([[1.0, 0.0], [0.0, 1.0]].into_iter().enumerate().map(mode).collect());
     let motor = Motor::new(found.inertia_kg_m2, found.viscous_nm_s_per_rad[0], 1.0).unwrap();
-    let coulomb = Coulomb {
-        forward: found.coulomb_nm + found.offset_nm,
-        backward: found.coulomb_nm - found.offset_nm,
-    };
+    let coulomb = Coulomb::by_direction(
+        found.coulomb_nm + found.offset_nm,
+        found.coulomb_nm - found.offset_nm,
+    )
+    .unwrap();
     Arm::new(beam.unwrap(), motor, coulomb).unwrap()
 }
 

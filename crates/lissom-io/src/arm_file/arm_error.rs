@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use lissom::beam::BeamError;
-use lissom::drive::DriveError;
-use lissom::rig::RigError;
+use lissom_core::beam::BeamError;
+use lissom_core::drive::DriveError;
+use lissom_core::rig::RigError;
 use thiserror::Error;
 
 /// Why an `arm.toml` makes no arm or rig.

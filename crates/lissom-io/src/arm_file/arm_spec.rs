@@ -1,6 +1,6 @@
 //! What an `arm.toml` says.
 
-use lissom::beam::KnownMode;
+use lissom_core::beam::KnownMode;
 
 use super::beam_spec::BeamSpec;
 use super::drive_spec::DriveSpec;

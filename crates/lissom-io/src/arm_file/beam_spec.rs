@@ -1,6 +1,6 @@
 //! The table `[beam]`.
 
-use lissom::beam::{Damping, Payload};
+use lissom_core::beam::{Damping, Payload};
 
 use super::material::{MATERIAL_KEYS, Material};
 use crate::config::{ConfigError, ConfigPlace, Rule, Table, Value};

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use lissom::arm::Arm;
-use lissom::beam::{Beam, DistributedBeam, LumpedBeam, ModalBeam, Piece, Span};
-use lissom::drive::{Coulomb, Motor};
+use lissom_core::arm::Arm;
+use lissom_core::beam::{Beam, DistributedBeam, LumpedBeam, ModalBeam, Piece, Span};
+use lissom_core::drive::{Coulomb, Motor};
 
 use super::arm_error::{ArmError, absent};
 use super::arm_spec::ArmFile;

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use lissom::arm::Arm;
-use lissom::beam::BeamError;
-use lissom::rig::{
+use lissom_core::arm::Arm;
+use lissom_core::beam::BeamError;
+use lissom_core::rig::{
     Amplifier, ControlLaw, Delay, Harmonic, Instruments, IntegerPd, JointFriction, Noise, Pd, Pid,
     Quantiser, Rig, RigError, Scene, Sensor, Signal, TipWorld,
 };

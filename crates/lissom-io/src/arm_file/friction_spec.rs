@@ -1,7 +1,7 @@
 //! What the table `[drive]` says of friction beyond constants, and the joint made of it.
 
-use lissom::drive::{Coulomb, DriveError, DryFriction, Falloff, LuGre};
-use lissom::rig::JointFriction;
+use lissom_core::drive::{Coulomb, DriveError, DryFriction, Falloff, LuGre};
+use lissom_core::rig::JointFriction;
 
 use crate::config::{ConfigError, Rule, Table, Value};
 use crate::units::Dimension;

@@ -1,6 +1,6 @@
 //! The table `[load]`: gravity of an unbalanced load on a rigid joint.
 
-use lissom::load::GravityLoad;
+use lissom_core::load::GravityLoad;
 
 use crate::config::{ConfigError, Table};
 use crate::units::Dimension;

@@ -1,6 +1,6 @@
 //! The table `[beam]` of a beam that is known by its modes.
 
-use lissom::beam::KnownMode;
+use lissom_core::beam::KnownMode;
 
 use super::tip_spec::omega;
 use crate::config::{ConfigError, Table, Value};

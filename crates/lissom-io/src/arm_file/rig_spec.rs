@@ -1,6 +1,6 @@
 //! The table `[rig]`: sampling, sensors, amplifier, controller.
 
-use lissom::rig::Word;
+use lissom_core::rig::Word;
 
 use crate::config::{ConfigError, Rule, Table, Value};
 use crate::units::Dimension;

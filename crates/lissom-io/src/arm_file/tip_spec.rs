@@ -1,7 +1,7 @@
 //! The table `[tip]`: what acts on the arm's tip, and payloads to come.
 
-use lissom::beam::Payload;
-use lissom::rig::Wall;
+use lissom_core::beam::Payload;
+use lissom_core::rig::Wall;
 
 use super::beam_spec::payload;
 use crate::config::{ConfigError, Table, Value};

@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 use std::fmt::Write as _;
 
-use lissom::record::{Axis, CommandQuantity, Note};
+use lissom_core::record::{Axis, CommandQuantity, Note};
 
 use super::campaign_tests::{PLAIN, fails, read, read_logs, signal};
 

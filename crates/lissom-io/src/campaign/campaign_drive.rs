@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lissom::record::{Axis, Command, CommandQuantity};
+use lissom_core::record::{Axis, Command, CommandQuantity};
 
 use super::campaign_error::CampaignError;
 use super::campaign_file::DriveConstants;

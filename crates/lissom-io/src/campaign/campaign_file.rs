@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use lissom::record::Campaign;
+use lissom_core::record::Campaign;
 
 use crate::arm_file::ArmFile;
 
@@ -15,6 +15,12 @@ pub struct CampaignFile {
     pub known: DriveConstants,
     /// How it wants to be analysed.
     pub analysis: AnalysisOptions,
+}
+
+impl AsRef<Campaign> for CampaignFile {
+    fn as_ref(&self) -> &Campaign {
+        &self.campaign
+    }
 }
 
 /// Constants of the table `[drive]`, in SI.

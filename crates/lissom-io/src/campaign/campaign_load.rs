@@ -1,6 +1,6 @@
 //! The table `[load]`: what acts on the motor beside friction.
 
-use lissom::record::Axis;
+use lissom_core::record::Axis;
 
 use super::campaign_error::CampaignError;
 use super::campaign_signals::Signals;

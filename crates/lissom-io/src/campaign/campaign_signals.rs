@@ -1,6 +1,6 @@
 //! The table `[signals]`.
 
-use lissom::record::{Axis, CommandQuantity, Hold, Tip, TipQuantity};
+use lissom_core::record::{Axis, CommandQuantity, Hold, Tip, TipQuantity};
 
 use super::campaign_error::CampaignError;
 use crate::config::{ConfigError, Rule, Table, Value};

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 use std::path::Path;
 
-use lissom::record::{Axis, CommandQuantity, Hold, Note, TipQuantity};
+use lissom_core::record::{Axis, CommandQuantity, Hold, Note, TipQuantity};
 use proptest::prelude::*;
 use tempfile::TempDir;
 

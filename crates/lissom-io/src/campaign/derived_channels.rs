@@ -1,6 +1,6 @@
 //! Channels that follow from others: an angle from a speed, a difference from a goal.
 
-use lissom::record::Hold;
+use lissom_core::record::Hold;
 
 /// The angle from 0 on, by the trapezoidal rule.
 pub(super) fn integrated(speed: &[f64], sample_time_s: f64) -> Vec<f64> {

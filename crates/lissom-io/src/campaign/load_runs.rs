@@ -4,8 +4,8 @@ use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
-use lissom::record::clock::{self, ClockError, EvenLog, LogRows};
-use lissom::record::{
+use lissom_core::record::clock::{self, ClockError, EvenLog, LogRows};
+use lissom_core::record::{
     Axis, Campaign, Channels, Command, Hold, Note, RecordError, Run, TipQuantity,
 };
 use rayon::prelude::*;

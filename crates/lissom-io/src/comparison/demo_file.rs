@@ -1,6 +1,6 @@
 //! The demo's estimates compared with the values of its virtual arm.
 
-use lissom::identify::Estimate;
+use lissom_core::identify::Estimate;
 use serde::{Deserialize, Serialize};
 
 use crate::result::ResultFile;

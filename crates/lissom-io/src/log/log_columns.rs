@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use lissom::record::Hold;
+use lissom_core::record::Hold;
 
 /// A column of a log.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use lissom::record::Hold;
+use lissom_core::record::Hold;
 use proptest::prelude::*;
 
 use super::{ColumnRef, Log, LogColumn, LogError, LogOptions, TimeBack, read_log, read_log_from};

@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, ErrorKind, Read};
 use std::path::Path;
 
-use lissom::record::Hold;
+use lissom_core::record::Hold;
 
 use super::log_columns::{ColumnRef, Log, LogColumn, LogOptions, TimeBack};
 use super::log_error::LogError;

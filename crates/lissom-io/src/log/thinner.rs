@@ -1,6 +1,6 @@
 //! Rows in bounded memory.
 
-use lissom::record::Hold;
+use lissom_core::record::Hold;
 
 /// Columns that halve themselves in place when they are full.
 ///

@@ -1,7 +1,7 @@
 //! What `lissom model` finds out about a beam.
 
-use lissom::beam::{BeamMatrices, Mode, Payload, Property, TruncatedBeam, Zeros};
-use lissom::lti::{StateSpace, ZeroPoleGain};
+use lissom_core::beam::{BeamMatrices, Mode, Payload, Property, TruncatedBeam, Zeros};
+use lissom_core::lti::{StateSpace, ZeroPoleGain};
 
 use super::model_responses::Responses;
 use crate::arm_file::BeamKind;

@@ -1,6 +1,6 @@
 //! `model.json` as a type: filled from a model, written and read.
 
-use lissom::beam::{Mode, Payload, Property, RootClass, TruncatedBeam, Zeros, class};
+use lissom_core::beam::{Mode, Payload, Property, RootClass, TruncatedBeam, Zeros, class};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,7 @@
 //! Matrices and state spaces in JSON.
 
-use lissom::Matrix;
-use lissom::lti::StateSpace;
+use lissom_core::Matrix;
+use lissom_core::lti::StateSpace;
 use serde::{Deserialize, Serialize};
 
 /// A state space with the names of its states, inputs and outputs; matrices are lists of rows.

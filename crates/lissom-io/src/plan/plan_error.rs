@@ -1,6 +1,6 @@
 //! What can be wrong with a plan beside its keys.
 
-use lissom::rig::RigError;
+use lissom_core::rig::RigError;
 use thiserror::Error;
 
 use crate::config::ConfigPlace;

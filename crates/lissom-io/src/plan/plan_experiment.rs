@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use lissom::record::Hold;
-use lissom::rig::{
+use lissom_core::record::Hold;
+use lissom_core::rig::{
     Drive, Experiment, Multisine, Reference, RigError, Settle, Start, Sweep, Table as Rows,
     TableHold,
 };

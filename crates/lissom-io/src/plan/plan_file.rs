@@ -1,6 +1,6 @@
 //! What a `plan.toml` says.
 
-use lissom::rig::Experiment;
+use lissom_core::rig::Experiment;
 
 /// A virtual campaign.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! The key `settle`.
 
-use lissom::rig::Settle;
+use lissom_core::rig::Settle;
 
 use crate::config::{ConfigError, Table, Value};
 use crate::units::Dimension;

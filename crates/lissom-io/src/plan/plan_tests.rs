@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lissom::rig::{Drive, Reference, Settle, Start};
+use lissom_core::rig::{Drive, Reference, Settle, Start};
 
 use super::PlanFile;
 

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::path::Path;
 
-use lissom::rig::Settle;
+use lissom_core::rig::Settle;
 
 use super::plan_error::PlanError;
 use super::plan_experiment::{Planned, RUNS_MOST, read};

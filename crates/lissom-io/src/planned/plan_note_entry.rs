@@ -1,6 +1,6 @@
 //! Notes of a plan in JSON.
 
-use lissom::plan::PlanNote;
+use lissom_core::plan::PlanNote;
 use serde::{Deserialize, Serialize};
 
 /// A note of a plan: what its user should know.
@@ -80,7 +80,7 @@ impl PlanNoteName {
 
 #[cfg(test)]
 mod tests {
-    use lissom::plan::{Expected, Figure, PlannedFigure, Unfit};
+    use lissom_core::plan::{Expected, Figure, PlannedFigure, Unfit};
 
     use super::*;
 

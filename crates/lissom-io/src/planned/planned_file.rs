@@ -1,6 +1,6 @@
 //! The runs of a plan and what they are expected to give, as a type: filled from a plan, written and read.
 
-use lissom::plan::{
+use lissom_core::plan::{
     Expected, Plan, PlannedFigure, PlannedMotion, PlannedRun, PlannedUnknown, Wishes,
 };
 use serde::{Deserialize, Serialize};

@@ -1,9 +1,9 @@
 //! The arm of a result, in JSON: written from the arm found, and read back to it.
 
-use lissom::identify::{FoundArm, TorqueUsed};
-use lissom::load::GravityLoad;
-use lissom::record::{Channels, Tip};
-use lissom::replay::{ModalArm, Oscillator, Parameter};
+use lissom_core::identify::{FoundArm, TorqueUsed};
+use lissom_core::load::GravityLoad;
+use lissom_core::record::{Channels, Tip};
+use lissom_core::replay::{ModalArm, Oscillator, Parameter};
 use serde::{Deserialize, Serialize};
 
 use super::arm_numbers::{Number, Numbers, WrongKey};

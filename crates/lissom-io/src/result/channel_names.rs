@@ -1,8 +1,8 @@
 //! Axis, direction and quantities by their names in JSON.
 
-use lissom::drive::Falloff;
-use lissom::identify::{ArmSource, Method};
-use lissom::record::{Axis, TipQuantity};
+use lissom_core::drive::Falloff;
+use lissom_core::identify::{ArmSource, Method};
+use lissom_core::record::{Axis, TipQuantity};
 use serde::{Deserialize, Serialize};
 
 /// Kind of axis.

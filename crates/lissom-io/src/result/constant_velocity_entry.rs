@@ -1,6 +1,6 @@
 //! Steady velocities extrapolated to rest, in JSON.
 
-use lissom::identify::{ConstantVelocity, FrictionLine, LineShape, RunAnalysis, SteadyPoint};
+use lissom_core::identify::{ConstantVelocity, FrictionLine, LineShape, RunAnalysis, SteadyPoint};
 use serde::{Deserialize, Serialize};
 
 use super::channel_names::DirectionName;

@@ -1,7 +1,7 @@
 //! The equivalent arm in JSON, in `result.json` and by itself.
 
-use lissom::Matrix;
-use lissom::identify::{
+use lissom_core::Matrix;
+use lissom_core::identify::{
     Deviations, Equivalent, EquivalentArm, Estimate, ResponseZero, Spurious, StrainlessForm,
 };
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,6 @@
 //! Estimates in JSON.
 
-use lissom::identify::{Estimate, ModeEstimate};
+use lissom_core::identify::{Estimate, ModeEstimate};
 use serde::{Deserialize, Serialize};
 
 /// An estimate with its standard error and its 95 % interval; null where a finding refuses it.

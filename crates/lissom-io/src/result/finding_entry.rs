@@ -1,6 +1,6 @@
 //! Findings in JSON.
 
-use lissom::identify::{Finding, Severity};
+use lissom_core::identify::{Finding, Severity};
 use serde::{Deserialize, Serialize};
 
 /// A finding: what the data do not allow, or what to know about an estimate.

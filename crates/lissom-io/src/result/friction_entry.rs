@@ -1,6 +1,6 @@
 //! Friction as it was identified, in JSON.
 
-use lissom::identify::{CurvePoint, Friction, Identified};
+use lissom_core::identify::{CurvePoint, Friction, Identified};
 use serde::{Deserialize, Serialize};
 
 use super::channel_names::DirectionName;

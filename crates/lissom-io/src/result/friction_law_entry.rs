@@ -1,6 +1,6 @@
 //! The choice of the friction law, in JSON.
 
-use lissom::identify::{Estimate, FrictionLaw, LawCandidate, LawFit, LawTerm};
+use lissom_core::identify::{Estimate, FrictionLaw, LawCandidate, LawFit, LawTerm};
 use serde::{Deserialize, Serialize};
 
 use super::estimate_entry::EstimateEntry;

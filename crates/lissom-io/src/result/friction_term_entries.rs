@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use lissom::identify::{Friction, LawTerm, NearRestEstimate, RippleEstimate};
-use lissom::replay::{DryTerms, NearRest, Ripple};
+use lissom_core::identify::{Friction, LawTerm, NearRestEstimate, RippleEstimate};
+use lissom_core::replay::{DryTerms, NearRest, Ripple};
 use serde::{Deserialize, Serialize};
 
 use super::arm_numbers::{Number, Numbers, WrongKey};

@@ -1,6 +1,6 @@
 //! An arm as described compared with the one that logs show, in JSON.
 
-use lissom::identify::{ArmQuantity, Explanation, GeometryCheck};
+use lissom_core::identify::{ArmQuantity, Explanation, GeometryCheck};
 use serde::{Deserialize, Serialize};
 
 use super::estimate_entry::EstimateEntry;

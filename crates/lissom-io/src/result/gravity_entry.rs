@@ -1,6 +1,6 @@
 //! A load of gravity, in JSON.
 
-use lissom::identify::{Estimate, Gravity};
+use lissom_core::identify::{Estimate, Gravity};
 use serde::{Deserialize, Serialize};
 
 use super::estimate_entry::EstimateEntry;

@@ -1,8 +1,10 @@
 //! Frequency responses and linear models, in JSON.
 
-use lissom::identify::{Identified, LinearModels, ModelSource, Response, ResponsePoint, TipModel};
-use lissom::lti::TransferFunction;
-use lissom::record::{Channels, Tip};
+use lissom_core::identify::{
+    Identified, LinearModels, ModelSource, Response, ResponsePoint, TipModel,
+};
+use lissom_core::lti::TransferFunction;
+use lissom_core::record::{Channels, Tip};
 use serde::{Deserialize, Serialize};
 
 use super::channel_names::TipQuantityName;

@@ -1,10 +1,10 @@
 //! What each method found, in JSON.
 
-use lissom::identify::{
+use lissom_core::identify::{
     BeamRegression, ByDirection, Candidate, DriveEstimates, Estimate, Friction, HiddenMode,
     Identified, LeastSquares, MotorFit, MotorRegression, ThirdHarmonic,
 };
-use lissom::record::Channels;
+use lissom_core::record::Channels;
 use serde::{Deserialize, Serialize};
 
 use super::constant_velocity_entry::ConstantVelocityEntry;

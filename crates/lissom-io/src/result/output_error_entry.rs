@@ -1,8 +1,8 @@
 //! What the output-error method found, in JSON.
 
-use lissom::identify::{Extension, OutputError, StageReport, Stop};
-use lissom::record::Channels;
-use lissom::replay::Parameter;
+use lissom_core::identify::{Extension, OutputError, StageReport, Stop};
+use lissom_core::record::Channels;
+use lissom_core::replay::Parameter;
 use serde::{Deserialize, Serialize};
 
 use super::estimate_entry::{BeamModeEntry, EstimateEntry};

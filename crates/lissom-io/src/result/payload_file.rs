@@ -1,6 +1,6 @@
 //! Another payload's prediction in JSON.
 
-use lissom::identify::{Finding, LoadedArm, Response};
+use lissom_core::identify::{Finding, LoadedArm, Response};
 use serde::{Deserialize, Serialize};
 
 use super::estimate_entry::BeamModeEntry;

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use lissom::identify::FoundArm;
-use lissom::record::Channels;
+use lissom_core::identify::FoundArm;
+use lissom_core::record::Channels;
 use serde::Deserialize;
 use serde_json::Value;
 

@@ -14,7 +14,7 @@ use super::friction_law_entry::ChosenTermEntry;
 use super::friction_term_entries::LawTermName;
 use super::gravity_entry::GravityEntry;
 use super::result_error::ResultError;
-use super::result_file::{BeamEntry, DriveEntry};
+use super::result_file::{BeamEntry, DriveEntry, ResultFile};
 use super::unit_keys::{Quantity, WithUnit};
 use super::unit_names::UnitNames;
 use crate::io_error::Error;
@@ -121,22 +121,49 @@ fn list_of(file: &str, text: &str) -> Result<ParameterList, ResultError> {
         let key = error.path().to_string();
         ResultError::Value { file: file(), key, source: error.into_inner() }
     })?;
-    let names = part.names().ok_or_else(|| ResultError::Key {
+    part.list().ok_or_else(|| ResultError::Key {
         file: file(),
         key: "friction.coulomb_…".to_owned(),
         expected: "there with the units of an axis",
-    })?;
-    Ok(ParameterList {
-        names,
-        from: part.from,
-        torque_per_command: part.torque_per_command,
-        friction_terms: part.friction_terms(),
-        modes: part.beam.modes.len(),
-        parameters: Listing::of(names, &part),
     })
 }
 
+impl ParameterList {
+    /// The parameters of a result, one by one; `None` where its keys have the units of no axis, which no result has
+    /// that [`ResultFile::of`] made.
+    pub fn of(result: &ResultFile) -> Option<Self> {
+        let law = result.methods.friction_law.as_ref();
+        let law = law.map(|law| FrictionLawPart {
+            chosen: ChosenLawPart { terms: law.chosen.terms.clone() },
+        });
+        let part = ParameterPart {
+            axis: result.axis,
+            torque_per_command: result.torque_per_command,
+            from: result.from,
+            friction: result.friction.clone(),
+            drive: result.drive.clone(),
+            gravity: result.gravity.clone(),
+            beam: result.beam.clone(),
+            methods: MethodsPart { friction_law: law },
+            findings: result.findings.clone(),
+        };
+        part.list()
+    }
+}
+
 impl ParameterPart {
+    fn list(&self) -> Option<ParameterList> {
+        let names = self.names()?;
+        Some(ParameterList {
+            names,
+            from: self.from,
+            torque_per_command: self.torque_per_command,
+            friction_terms: self.friction_terms(),
+            modes: self.beam.modes.len(),
+            parameters: Listing::of(names, self),
+        })
+    }
+
     /// The units, by the keys of Coulomb friction.
     fn names(&self) -> Option<UnitNames> {
         let of_axis = |names: &&UnitNames| AxisName::of(names.axis) == self.axis;

@@ -1,7 +1,7 @@
 //! `result.json` as a type: filled from what was identified, written and read.
 
-use lissom::identify::{GeometryCheck, Identified, RunAnalysis, RunKind};
-use lissom::record::Channels;
+use lissom_core::identify::{GeometryCheck, Identified, RunAnalysis, RunKind};
+use lissom_core::record::Channels;
 use serde::{Deserialize, Serialize};
 
 use super::arm_entry::ArmEntry;

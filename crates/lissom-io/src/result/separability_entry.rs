@@ -1,8 +1,8 @@
 //! What the logs separate, in JSON.
 
-use lissom::identify::{Direction, RunShare, RunToAdd, Separability};
-use lissom::plan::PlannedMotion;
-use lissom::record::Axis;
+use lissom_core::identify::{Direction, RunShare, RunToAdd, Separability};
+use lissom_core::plan::PlannedMotion;
+use lissom_core::record::Axis;
 use serde::{Deserialize, Serialize};
 
 use super::channel_names::ArmSourceName;

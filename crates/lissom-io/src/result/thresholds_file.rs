@@ -1,6 +1,6 @@
 //! The list of thresholds in JSON.
 
-use lissom::{Basis, Threshold, ThresholdValue};
+use lissom_core::{Basis, Threshold, ThresholdValue};
 use serde::{Deserialize, Serialize};
 
 /// Every number that decides what is accepted, refused, warned of or chosen.
@@ -49,7 +49,7 @@ impl ThresholdsFile {
     pub fn all() -> Self {
         Self {
             lissom: env!("CARGO_PKG_VERSION").to_owned(),
-            thresholds: lissom::thresholds().map(ThresholdEntry::of).collect(),
+            thresholds: lissom_core::thresholds().map(ThresholdEntry::of).collect(),
         }
     }
 }

@@ -6,7 +6,7 @@
 use std::fmt;
 use std::marker::PhantomData;
 
-use lissom::identify::Estimate;
+use lissom_core::identify::Estimate;
 use serde::de::{Error as _, IgnoredAny, MapAccess, Visitor};
 use serde::ser::SerializeMap as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};

@@ -1,6 +1,6 @@
 //! Names of figures with their units.
 
-use lissom::record::{Axis, Channels, CommandQuantity};
+use lissom_core::record::{Axis, Channels, CommandQuantity};
 
 /// Suffixes of a campaign's result keys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,10 +1,10 @@
 //! How well a result predicts a log that it is not from, in JSON.
 
-use lissom::identify::{
+use lissom_core::identify::{
     Cause, CauseKind, ChannelResidual, FoundArm, Horizon, MovedBy, MovedMode, TorquePrediction,
     TorqueStretch, Validation,
 };
-use lissom::record::{Axis, Campaign, Channels, TipQuantity};
+use lissom_core::record::{Axis, Campaign, Channels, TipQuantity};
 use serde::{Deserialize, Serialize};
 
 use super::arm_entry::ArmEntry;

@@ -1,7 +1,7 @@
 //! `rig.json` as a type: filled from a virtual arm and its runs, written and read.
 
-use lissom::beam::Base;
-use lissom::rig::{JointFriction, Rig};
+use lissom_core::beam::Base;
+use lissom_core::rig::{JointFriction, Rig};
 use serde::{Deserialize, Serialize};
 
 use super::rig_run_entry::RigRunEntry;
@@ -93,13 +93,13 @@ impl RigTruthEntry {
             _ => (arm.coulomb, arm.coulomb),
         };
         Self {
-            inertia_kg_m2: motor.inertia_kg_m2,
-            viscous_nm_s_per_rad: motor.viscous_nm_s_per_rad,
-            torque_constant_nm_per_a: motor.torque_constant_nm_per_a,
-            forward_nm: sliding.forward,
-            backward_nm: sliding.backward,
-            rest_forward_nm: rest.forward,
-            rest_backward_nm: rest.backward,
+            inertia_kg_m2: motor.inertia_kg_m2(),
+            viscous_nm_s_per_rad: motor.viscous_nm_s_per_rad(),
+            torque_constant_nm_per_a: motor.torque_constant_nm_per_a(),
+            forward_nm: sliding.forward(),
+            backward_nm: sliding.backward(),
+            rest_forward_nm: rest.forward(),
+            rest_backward_nm: rest.backward(),
             gravity: rig
                 .scene
                 .gravity

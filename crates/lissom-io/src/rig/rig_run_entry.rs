@@ -1,6 +1,6 @@
 //! A run of a virtual campaign in JSON.
 
-use lissom::rig::{Logged, RigFinding};
+use lissom_core::rig::{Logged, RigFinding};
 use serde::{Deserialize, Serialize};
 
 use crate::plan::PlanRun;

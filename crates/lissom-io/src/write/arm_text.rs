@@ -2,8 +2,8 @@
 
 use std::fmt::{self, Write as _};
 
-use lissom::beam::ModalBeam;
-use lissom::drive::{Coulomb, Motor};
+use lissom_core::beam::ModalBeam;
+use lissom_core::drive::{Coulomb, Motor};
 
 /// What a written arm begins with.
 pub const ARM_HEAD: &str = "# Written by `lissom equivalent`";
@@ -48,13 +48,15 @@ fn put(text: &mut String, arm: &WrittenArm<'_>) -> fmt::Result {
         )?;
     }
     writeln!(text, "]\n\n[drive]")?;
-    writeln!(text, "inertia = \"{:?} kg*m^2\"", arm.motor.inertia_kg_m2)?;
-    writeln!(text, "viscous = \"{:?} N*m*s/rad\"", arm.motor.viscous_nm_s_per_rad)?;
-    writeln!(text, "torque_constant = \"{:?} N*m/A\"", arm.motor.torque_constant_nm_per_a)?;
+    writeln!(text, "inertia = \"{:?} kg*m^2\"", arm.motor.inertia_kg_m2())?;
+    writeln!(text, "viscous = \"{:?} N*m*s/rad\"", arm.motor.viscous_nm_s_per_rad())?;
+    writeln!(text, "torque_constant = \"{:?} N*m/A\"", arm.motor.torque_constant_nm_per_a())?;
     match arm.coulomb {
-        Some(Coulomb { forward, backward }) => writeln!(
+        Some(coulomb) => writeln!(
             text,
-            "coulomb = {{ forward = \"{forward:?} N*m\", backward = \"{backward:?} N*m\" }}"
+            "coulomb = {{ forward = \"{:?} N*m\", backward = \"{:?} N*m\" }}",
+            coulomb.forward(),
+            coulomb.backward()
         ),
         None => writeln!(text, "# coulomb = \"0.03 N*m\"  # responses do not tell it"),
     }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use lissom::record::{Hold, TipQuantity};
+use lissom_core::record::{Hold, TipQuantity};
 
 use super::write_error::WriteError;
 use super::write_whole::write_text;

@@ -3,7 +3,7 @@
 use std::fmt::{self, Write as _};
 use std::path::Path;
 
-use lissom::plan::{Plan, PlannedMotion, PlannedRun, percent};
+use lissom_core::plan::{Plan, PlannedMotion, PlannedRun, percent};
 
 use super::write_error::WriteError;
 use super::write_whole::write_text;

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use lissom::plan::{
+use lissom_core::plan::{
     Expected, Figure, Plan, PlanNote, PlannedFigure, PlannedMotion, PlannedRun as Motion,
 };
-use lissom::record::{Hold, TipQuantity};
+use lissom_core::record::{Hold, TipQuantity};
 use proptest::prelude::*;
 
 use super::{

@@ -180,7 +180,7 @@ fn drawn(
     }
     let made = Made::draw(draw, &effects, &planned, row_s)?;
     let (mut raw, mut truth, mut stuck_share, mut runs) = (vec![], vec![], vec![], vec![]);
-    let channels = channels(&made.rig, &effects);
+    let channels = channels(&made.rig, &effects)?;
     for (k, motion) in planned.iter().enumerate() {
         let name = format!("run {}", k + 1);
         let mut rows = Vec::new();
@@ -230,14 +230,14 @@ fn drawn(
 }
 
 /// What the campaign file says of the channels: a wrong hold is the user's mistake.
-fn channels(rig: &Rig, effects: &Effects) -> lissom::record::Channels {
-    let mut channels = rig.channels(0..0);
+fn channels(rig: &Rig, effects: &Effects) -> Result<lissom::record::Channels, RigError> {
+    let mut channels = rig.channels(0..0)?;
     match effects.lag {
         Some(Lag::MeasuredAsHeld) => channels.command.hold = Hold::Sampled,
         Some(Lag::HeldAsMeasured) => channels.command.hold = Hold::Measured,
         _ => {}
     }
-    channels
+    Ok(channels)
 }
 
 /// A log's time stamps and its run without the mass that no channel shows.
@@ -318,7 +318,7 @@ impl Made {
             arm(effects, (inertia, viscous, constant), coulomb, (acceleration, speed))?;
 
         let instruments = instruments(effects, encoder, row_s, peak_nm / constant)?;
-        let held_nm = coulomb_nm.max(dry.at(0.0, 0.0).forward) + load_nm.abs() + gravity_nm;
+        let held_nm = coulomb_nm.max(dry.at(0.0, 0.0).forward()) + load_nm.abs() + gravity_nm;
         let needs = Needs {
             inertia,
             motion_rad_s: acceleration / speed,
@@ -357,7 +357,7 @@ fn friction(
 ) -> Result<DryFriction, DriveError> {
     let mut dry = DryFriction::from(coulomb);
     if let Some(near) = effects.near_rest {
-        let rest = Coulomb::symmetric(near.rest_share * coulomb.forward)?;
+        let rest = Coulomb::symmetric(near.rest_share * coulomb.forward())?;
         dry = dry.with_rest(rest, near.speed_share * speed_rad_s, Falloff::Exponential)?;
     }
     if let Some(ripple) = effects.ripple {
@@ -467,7 +467,7 @@ impl Needs {
         let most = FASTEST / (self.sample_s + self.delay_s);
         let slowest = self.least_rad_s.max(LOOP_RATIO.0 * self.motion_rad_s);
         let mut omega = (ratio * self.motion_rad_s).max(self.least_rad_s).min(most);
-        let constant = arm.motor.torque_constant_nm_per_a;
+        let constant = arm.motor.torque_constant_nm_per_a();
         while omega >= slowest {
             for filter_s in FILTERS.map(|f| f / omega) {
                 let proportional = self.inertia * omega * omega / constant;

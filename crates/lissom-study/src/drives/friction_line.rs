@@ -66,5 +66,5 @@ impl FrictionLine {
 /// Dry friction against the motion at a row, without wander \[N·m\].
 pub(super) fn braking_nm(law: &DryFriction, row: &TrueRow) -> f64 {
     let dry = law.at(row.speed_rad_s, row.angle_rad);
-    if row.speed_rad_s > 0.0 { dry.forward } else { dry.backward }
+    if row.speed_rad_s > 0.0 { dry.forward() } else { dry.backward() }
 }

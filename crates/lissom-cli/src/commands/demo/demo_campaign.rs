@@ -49,7 +49,7 @@ pub(crate) fn write_logs(rig: &Rig, out: &Path) -> Result<(), Failure> {
         command: PlannedCommand { column: "i".to_owned(), hold: Hold::Sampled },
         motor_column: "theta_m".to_owned(),
         tips: vec![("tip".to_owned(), "theta_t".to_owned(), TipQuantity::Angle)],
-        torque_constant_nm_per_a: Some(rig.arm.motor.torque_constant_nm_per_a),
+        torque_constant_nm_per_a: Some(rig.arm.motor.torque_constant_nm_per_a()),
         current_limit_a: rig.instruments.amplifier.limit_a(),
         gravity: false,
         arm: None,

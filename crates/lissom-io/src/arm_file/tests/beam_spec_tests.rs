@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
-use lissom::beam::{Damping, Payload};
+use lissom_core::beam::{Damping, Payload};
 
 use super::arm_fixture::{fails, near, read};
 use crate::arm_file::{ArmError, BeamKind, BeamSpec};

@@ -5,8 +5,8 @@ use std::path::Path;
 use super::arm_fixture::{fails, read};
 use crate::arm_file::{ArmError, BeamKind};
 use crate::write::{WrittenArm, arm_text};
-use lissom::beam::{Beam, BeamError};
-use lissom::drive::{Coulomb, Motor};
+use lissom_core::beam::{Beam, BeamError};
+use lissom_core::drive::{Coulomb, Motor};
 
 const DRIVE: &str = "[drive]\ninertia = 1e-3\ntorque_constant = 0.3\ncoulomb = 0.03\n";
 

@@ -1,7 +1,7 @@
 //! Rigs: instruments, controllers, friction laws, the world at the tip.
 #![expect(clippy::float_cmp, reason = "these numbers are exact")]
 
-use lissom::rig::{ControlLaw, JointFriction, Word};
+use lissom_core::rig::{ControlLaw, JointFriction, Word};
 
 use super::arm_fixture::{ARM, read};
 use crate::arm_file::{ArmFile, SignalSpec};
@@ -13,7 +13,7 @@ fn refused(text: &str, message: &str) {
     assert!(error.hint().is_some(), "{message}");
 }
 
-fn rig(text: &str) -> lissom::rig::Rig {
+fn rig(text: &str) -> lissom_core::rig::Rig {
     ArmFile::from_text("arm.toml".as_ref(), text).unwrap().rig("arm.toml".as_ref()).unwrap()
 }
 
@@ -79,13 +79,13 @@ fn reads_friction_laws_and_the_world_at_the_tip() {
     );
     let sides = rig(&with_sides);
     let JointFriction::Dry(apart) = sides.scene.friction else { panic!() };
-    assert!((sides.arm.motor.viscous_nm_s_per_rad - 0.0025).abs() < 1e-15);
-    let more = |v: f64| apart.at(v, 0.0).forward - law.at(v, 0.0).forward;
+    assert!((sides.arm.motor.viscous_nm_s_per_rad() - 0.0025).abs() < 1e-15);
+    let more = |v: f64| apart.at(v, 0.0).forward() - law.at(v, 0.0).forward();
     assert!(more(0.0).abs() < 1e-15 && (more(2.0) - 0.001).abs() < 1e-15, "{}", more(2.0));
-    let constant = made.arm.motor.torque_constant_nm_per_a;
-    let mean = 0.5 * (law.sliding().forward + law.sliding().backward);
+    let constant = made.arm.motor.torque_constant_nm_per_a();
+    let mean = 0.5 * (law.sliding().forward() + law.sliding().backward());
     let held = 0.2 * constant + 0.2 * mean * (30.0_f64.to_radians()).cos();
-    assert!((law.at(0.0, 0.0).forward - held).abs() < 1e-15);
+    assert!((law.at(0.0, 0.0).forward() - held).abs() < 1e-15);
     let tip = &made.scene.tip;
     assert!((tip.force.at(0.25) - 0.12).abs() < 1e-15);
     assert!((tip.torque.at(0.5) - 1e-3).abs() < 1e-15);

@@ -1,0 +1,135 @@
+//! An arm made of parts that are given by name.
+
+use thiserror::Error;
+
+use super::coupled_arm::Arm;
+use crate::beam::{Beam, BeamError, Damping, LumpedBeam, Payload, Span};
+use crate::drive::{Coulomb, DriveError, Motor, MotorBuilder};
+
+/// Why parts make no arm.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ArmBuildError {
+    /// Numbers that make no beam.
+    #[error(transparent)]
+    Beam(#[from] BeamError),
+    /// Numbers that make no motor or no friction.
+    #[error(transparent)]
+    Drive(#[from] DriveError),
+}
+
+impl Arm {
+    /// An arm whose parts are given one by one.
+    ///
+    /// ```
+    /// use lissom::arm::Arm;
+    /// use lissom::beam::Span;
+    /// use lissom::drive::Motor;
+    /// let arm = Arm::builder()
+    ///     .span(Span::new(0.25, 0.02).mass_kg(0.05)) // m, N·m²
+    ///     .motor(Motor::builder().inertia_kg_m2(2e-3).torque_constant_nm_per_a(0.2))
+    ///     .coulomb_nm(0.02)
+    ///     .build()?;
+    /// let first = arm.beam().natural_frequencies_rad_s()[0];
+    /// assert!((first - (3.0_f64 * 0.02 / (0.05 * 0.25_f64.powi(3))).sqrt()).abs() < 1e-9);
+    /// # Ok::<(), lissom::Error>(())
+    /// ```
+    pub fn builder() -> ArmBuilder {
+        ArmBuilder {
+            beam: None,
+            spans: Vec::new(),
+            hub_radius_m: 0.0,
+            payload: Payload::default(),
+            damping: Damping::None,
+            motor: Motor::builder().build(),
+            coulomb: Ok(Coulomb::NONE),
+        }
+    }
+}
+
+/// An [`Arm`] in the making: see [`Arm::builder`]. Numbers are checked by [`build`](Self::build).
+#[derive(Debug, Clone)]
+pub struct ArmBuilder {
+    beam: Option<Beam>,
+    spans: Vec<Span>,
+    hub_radius_m: f64,
+    payload: Payload,
+    damping: Damping,
+    motor: Result<Motor, DriveError>,
+    coulomb: Result<Coulomb, DriveError>,
+}
+
+impl ArmBuilder {
+    /// Adds a span and the mass at its outer end, from base to tip. Without spans the joint is rigid.
+    #[must_use]
+    pub fn span(mut self, span: Span) -> Self {
+        self.spans.push(span);
+        self
+    }
+
+    /// Distance of the beam's base from the motor's axis \[m\].
+    #[must_use]
+    pub fn hub_radius_m(mut self, hub_radius_m: f64) -> Self {
+        self.hub_radius_m = hub_radius_m;
+        self
+    }
+
+    /// A rigid body at the tip.
+    #[must_use]
+    pub fn payload(mut self, payload: Payload) -> Self {
+        self.payload = payload;
+        self
+    }
+
+    /// Damping in addition to that of each mass.
+    #[must_use]
+    pub fn damping(mut self, damping: Damping) -> Self {
+        self.damping = damping;
+        self
+    }
+
+    /// A whole beam in place of spans, hub, payload and damping.
+    #[must_use]
+    pub fn beam(mut self, beam: impl Into<Beam>) -> Self {
+        self.beam = Some(beam.into());
+        self
+    }
+
+    /// The motor; its inertia must be given.
+    #[must_use]
+    pub fn motor(mut self, motor: impl Into<MotorBuilder>) -> Self {
+        self.motor = motor.into().build();
+        self
+    }
+
+    /// Coulomb friction, the same in both directions \[N·m\]; 0 where it is not given.
+    #[must_use]
+    pub fn coulomb_nm(mut self, coulomb_nm: f64) -> Self {
+        self.coulomb = Coulomb::symmetric(coulomb_nm);
+        self
+    }
+
+    /// Coulomb friction of each direction \[N·m\].
+    #[must_use]
+    pub fn coulomb_by_direction_nm(mut self, forward_nm: f64, backward_nm: f64) -> Self {
+        self.coulomb = Coulomb::by_direction(forward_nm, backward_nm);
+        self
+    }
+
+    /// The arm.
+    ///
+    /// # Errors
+    /// [`ArmBuildError`] for numbers that make no beam, no motor or no friction.
+    pub fn build(self) -> Result<Arm, ArmBuildError> {
+        let beam = match self.beam {
+            Some(beam) => beam,
+            None if self.spans.is_empty() => Beam::Rigid,
+            None => LumpedBeam::new(&self.spans)?
+                .with_hub_radius(self.hub_radius_m)?
+                .with_payload(self.payload)?
+                .with_damping(self.damping)?
+                .into(),
+        };
+        Ok(Arm::new(beam, self.motor?, self.coulomb?)?)
+    }
+}

@@ -1,0 +1,252 @@
+//! A joint's dry friction in the rig: Coulomb friction by direction, and the terms that all parts of the library share.
+
+use super::coulomb::Coulomb;
+use super::dry_terms::{DryTerms, TermSeries};
+use super::error::DriveError;
+use super::falloff::Falloff;
+use super::near_rest::NearRest;
+use super::place::Place;
+use super::ripple::Ripple;
+use super::taylor_row::Row;
+
+/// A joint's dry friction, with true sticking.
+///
+/// While the joint turns forward it takes
+/// `F = F_c + (F_s − F_c)·g(v/v_s) + r·C·cos(N·θ_m + φ) + D·|v|`, with `g` = 1 at rest and 0 at speed, and C the mean
+/// Coulomb friction of both directions; backward likewise with the values of that direction, and −D. At rest the
+/// joint holds any torque up to `F_s + r·C·cos(N·θ_m + φ)`. Viscous friction is the
+/// [`Motor`](crate::drive::Motor)'s, V + D forward and V − D backward.
+///
+/// `F_s > F_c` is the Stribeck effect. `F_s < F_c` is viscous friction that grows less than
+/// linearly: a line through fast points then meets rest above the true friction.
+///
+/// ```
+/// use lissom::drive::{Coulomb, DryFriction, Falloff};
+/// let sliding = Coulomb::symmetric(0.03)?; // N·m
+/// let joint = DryFriction::from(sliding)
+///     .with_rest(Coulomb::symmetric(0.05)?, 0.1, Falloff::Exponential)?; // v_s = 0.1 rad/s
+/// assert_eq!(joint.at(0.0, 0.0).forward(), 0.05);
+/// assert!((joint.at(10.0, 0.0).forward() - 0.03).abs() < 1e-12);
+/// # Ok::<(), lissom::drive::DriveError>(())
+/// ```
+///
+/// # Source
+/// `[Feliu1989, Section 5]` for the constant; `[Armstrong1994]` for the rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DryFriction {
+    sliding: Coulomb,
+    terms: DryTerms,
+    viscous_apart_nm_s_per_rad: f64,
+}
+
+impl From<Coulomb> for DryFriction {
+    fn from(sliding: Coulomb) -> Self {
+        Self { sliding, terms: DryTerms::default(), viscous_apart_nm_s_per_rad: 0.0 }
+    }
+}
+
+impl DryFriction {
+    /// The same with another friction `rest` at rest (F_s), which falls off, or grows, to that at
+    /// speed over `velocity_rad_s` (v_s).
+    ///
+    /// # Errors
+    /// [`DriveError`] unless v_s > 0 and finite, and friction at rest is more than its ripple.
+    pub fn with_rest(
+        mut self,
+        rest: Coulomb,
+        velocity_rad_s: f64,
+        falloff: Falloff,
+    ) -> Result<Self, DriveError> {
+        if !(velocity_rad_s > 0.0 && velocity_rad_s.is_finite()) {
+            let quantity = "velocity of the Stribeck law";
+            return Err(DriveError::NotPositive { quantity, found: velocity_rad_s });
+        }
+        let (forward, backward) =
+            (rest.forward() - self.sliding.forward(), rest.backward() - self.sliding.backward());
+        self.terms.near_rest = Some(NearRest {
+            torque_nm: 0.5 * (forward + backward),
+            offset_nm: 0.5 * (forward - backward),
+            speed_rad_s: velocity_rad_s,
+            falloff,
+        });
+        self.braking()
+    }
+
+    /// The same with friction that changes over the turn by the share `share` (r) of the mean Coulomb friction,
+    /// `per_turn` (N) times a turn, from the phase `phase_rad` (φ) at angle zero.
+    ///
+    /// # Errors
+    /// [`DriveError`] unless 0 ≤ r < 1, N > 0, φ is finite, and friction in both directions is more than its ripple.
+    pub fn with_ripple(
+        mut self,
+        share: f64,
+        per_turn: f64,
+        phase_rad: f64,
+    ) -> Result<Self, DriveError> {
+        if !(0.0..1.0).contains(&share) {
+            let quantity = "share of the friction's ripple (below 1)";
+            return Err(DriveError::Negative { quantity, found: share });
+        }
+        if !(per_turn > 0.0 && per_turn.is_finite()) {
+            let quantity = "periods of the ripple in a turn";
+            return Err(DriveError::NotPositive { quantity, found: per_turn });
+        }
+        if !phase_rad.is_finite() {
+            return Err(DriveError::NotFinite {
+                quantity: "phase of the ripple",
+                found: phase_rad,
+            });
+        }
+        let amplitude = 0.5 * share * (self.sliding.forward() + self.sliding.backward());
+        let (sine, cosine) = phase_rad.sin_cos();
+        self.terms.ripples = vec![Ripple {
+            per_rad: per_turn,
+            cosine_nm: amplitude * cosine,
+            sine_nm: -amplitude * sine,
+        }];
+        self.braking()
+    }
+
+    /// The same with `apart_nm_s_per_rad` (D) more viscous friction forward, and as much less backward.
+    ///
+    /// # Errors
+    /// [`DriveError`] unless D is finite.
+    pub fn with_viscous_apart(self, apart_nm_s_per_rad: f64) -> Result<Self, DriveError> {
+        if !apart_nm_s_per_rad.is_finite() {
+            let quantity = "difference of viscous friction by direction";
+            return Err(DriveError::NotFinite { quantity, found: apart_nm_s_per_rad });
+        }
+        Ok(Self { viscous_apart_nm_s_per_rad: apart_nm_s_per_rad, ..self })
+    }
+
+    /// Refuses friction that would push somewhere.
+    fn braking(self) -> Result<Self, DriveError> {
+        let waves: f64 = self.terms.ripples.iter().map(Ripple::amplitude_nm).sum();
+        let (forward, backward) = (self.sliding.forward(), self.sliding.backward());
+        let (near, apart) = self.terms.near_rest.map_or((0.0, 0.0), |n| (n.torque_nm, n.offset_nm));
+        let rest = [forward + near + apart, backward + near - apart];
+        let least = rest.into_iter().fold(forward.min(backward), f64::min);
+        // A sum of the same numbers in another order is off by its rounding.
+        if least - waves < -f64::EPSILON * (forward + backward) {
+            let quantity = "friction in one direction, its ripple taken off";
+            return Err(DriveError::Negative { quantity, found: least - waves });
+        }
+        Ok(self)
+    }
+
+    /// The same with all of its dry friction times `factor`, which is not negative; viscous friction stays.
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        let mut scaled = self.clone();
+        scaled.sliding = self.sliding.scaled(factor);
+        if let Some(near) = &mut scaled.terms.near_rest {
+            near.torque_nm *= factor;
+            near.offset_nm *= factor;
+        }
+        for ripple in &mut scaled.terms.ripples {
+            ripple.cosine_nm *= factor;
+            ripple.sine_nm *= factor;
+        }
+        scaled
+    }
+
+    /// The friction at speed, ripple and viscous friction left out.
+    pub fn sliding(&self) -> Coulomb {
+        self.sliding
+    }
+
+    /// Whether there is none.
+    pub fn is_zero(&self) -> bool {
+        let rest = self.at(0.0, 0.0);
+        let (forward, backward) = (rest.forward(), rest.backward());
+        let none = self.sliding.forward() == 0.0 && self.sliding.backward() == 0.0;
+        none && forward == 0.0 && backward == 0.0 && self.viscous_apart_nm_s_per_rad == 0.0
+    }
+
+    /// Whether it is constant in slip, so that the motion between events is linear.
+    pub fn is_constant(&self) -> bool {
+        self.terms.is_empty() && self.viscous_apart_nm_s_per_rad == 0.0
+    }
+
+    /// Friction in both directions at the speed `velocity_rad_s` and the angle `angle_rad`; at rest
+    /// what the joint holds.
+    pub fn at(&self, velocity_rad_s: f64, angle_rad: f64) -> Coulomb {
+        let speed = velocity_rad_s.abs();
+        let terms = |sign| self.terms.braking_nm(Place { angle: angle_rad, speed, sign });
+        let apart = self.viscous_apart_nm_s_per_rad * speed;
+        Coulomb::of_limits(
+            self.sliding.forward() + terms(1.0) + apart,
+            self.sliding.backward() + terms(-1.0) - apart,
+        )
+    }
+}
+
+/// Taylor coefficients of a friction torque along a motion, one after the other.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct FrictionSeries {
+    terms: TermSeries,
+}
+
+impl FrictionSeries {
+    /// The signed coefficient of order `k` while slipping in the direction of `sign`, from those of
+    /// angle and velocity up to that order.
+    pub(crate) fn next(
+        &mut self,
+        law: &DryFriction,
+        k: usize,
+        sign: f64,
+        (angle, velocity): (&Row, &Row),
+    ) -> f64 {
+        let sliding = if sign > 0.0 { law.sliding.forward() } else { law.sliding.backward() };
+        let constant = if k == 0 { sliding } else { 0.0 };
+        let terms = self.terms.next(&law.terms, k, sign, (angle, velocity));
+        sign * (constant + terms + law.viscous_apart_nm_s_per_rad * velocity[k])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::taylor_row::COEFFICIENTS;
+    use super::*;
+
+    /// Friction along θ = 0.3 + 0.5·t − 0.2·t², summed and asked for directly.
+    #[test]
+    fn series_add_up_to_the_law() {
+        for falloff in [Falloff::Exponential, Falloff::Gaussian] {
+            let law = DryFriction::from(Coulomb::by_direction(0.03, 0.02).unwrap())
+                .with_rest(Coulomb::by_direction(0.05, 0.015).unwrap(), 0.7, falloff)
+                .and_then(|law| law.with_ripple(0.3, 7.0, 0.4))
+                .and_then(|law| law.with_viscous_apart(4e-3))
+                .unwrap();
+            for sign in [1.0, -1.0] {
+                let mut angle = [0.0; COEFFICIENTS];
+                angle[..3].copy_from_slice(&[0.3, sign * 0.5, sign * -0.2]);
+                let mut velocity = [0.0; COEFFICIENTS];
+                velocity[..2].copy_from_slice(&[sign * 0.5, sign * -0.4]);
+                let mut series = FrictionSeries::default();
+                let (t, mut power, mut sum) = (0.1_f64, 1.0, 0.0);
+                for k in 0..COEFFICIENTS {
+                    sum += power * series.next(&law, k, sign, (&angle, &velocity));
+                    power *= t;
+                }
+                let v = sign * (0.5 - 0.4 * t);
+                let exact = law.at(v, 0.3 + sign * (0.5 * t - 0.2 * t * t)).slipping(sign);
+                assert!((sum - exact).abs() < 1e-15, "{sum} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn senseless_numbers_are_refused() {
+        let law = DryFriction::from(Coulomb::symmetric(0.03).unwrap());
+        let rest = Coulomb::symmetric(0.05).unwrap();
+        assert!(law.clone().with_rest(rest, 0.0, Falloff::Gaussian).is_err());
+        assert!(law.clone().with_rest(rest, f64::NAN, Falloff::Gaussian).is_err());
+        assert!(law.clone().with_ripple(1.0, 6.0, 0.0).is_err());
+        assert!(law.clone().with_ripple(0.1, 0.0, 0.0).is_err());
+        assert!(law.clone().with_ripple(0.1, 6.0, f64::INFINITY).is_err());
+        assert!(law.clone().with_viscous_apart(f64::NAN).is_err());
+        let least = Coulomb::symmetric(0.01).unwrap();
+        let rippled = law.with_ripple(0.5, 6.0, 0.0).unwrap();
+        assert!(rippled.with_rest(least, 1.0, Falloff::Gaussian).is_err());
+    }
+}

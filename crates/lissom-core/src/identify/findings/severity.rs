@@ -1,0 +1,23 @@
+//! How much a finding matters.
+
+/// How much a finding matters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// Worth knowing.
+    Info,
+    /// The affected estimates are less certain than their standard errors say.
+    Warning,
+    /// The affected estimates are not given.
+    Refusal,
+}
+
+impl Severity {
+    /// Its name in texts.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Info => "info",
+            Self::Warning => "warning",
+            Self::Refusal => "refusal",
+        }
+    }
+}

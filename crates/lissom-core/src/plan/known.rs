@@ -1,0 +1,172 @@
+//! A rig as a replay sees it: what is known beforehand of an arm, its channels and their noise.
+
+use std::ops::Range;
+
+use super::loaded_information::LoadedJoint;
+use super::{PlanError, PlannedFigure, PlannedUnknown, Precision};
+use crate::information::Figure;
+use crate::load::GravityLoad;
+use crate::plan::thresholds::MODE_FOLLOWED;
+use crate::record::{Campaign, Channels, Run};
+use crate::replay::{
+    ArmModes, MOST_MODES, ModalArm, Parameter, SensorNoise, Window, free_parameters,
+};
+use crate::rig::{Logged, Rig, Sensor};
+
+/// Deviation of a sensor that has neither steps nor noise \[rad\].
+const IDEAL_RAD: f64 = 1e-6;
+
+/// An arm that is roughly known, with what its sensors add.
+#[derive(Debug, Clone)]
+pub(super) struct KnownRig<'a> {
+    /// As its motor feels it, modes that are too fast turning with the motor.
+    pub(super) arm: ModalArm,
+    pub(super) channels: Channels,
+    /// What an identification has to find of the arm.
+    pub(super) parameters: Vec<Parameter>,
+    /// Gravity on a rigid joint, two unknowns more.
+    pub(super) gravity: Option<GravityLoad>,
+    /// Motor first, then tips.
+    pub(super) noise: Vec<SensorNoise>,
+    /// Modes that are not followed \[rad/s\].
+    pub(super) left_out_rad_s: Vec<f64>,
+    /// Whether some sensor has neither steps nor noise.
+    pub(super) ideal_sensor: bool,
+    /// Masses whose sensors count.
+    tips: Range<usize>,
+    modes: ArmModes<'a>,
+    /// Modes that are followed.
+    kept: Vec<usize>,
+}
+
+impl<'a> KnownRig<'a> {
+    pub(super) fn of(rig: &'a Rig) -> Result<Self, PlanError> {
+        let masses = rig.arm.beam().len();
+        let modes = ArmModes::of(&rig.arm).ok_or(PlanError::Modes { masses })?;
+        let omega = modes.omega_rad_s();
+        let followed = |j: &usize| omega[*j] * rig.instruments.log_time_s() <= MODE_FOLLOWED;
+        let kept: Vec<usize> = (0..omega.len()).filter(followed).take(MOST_MODES).collect();
+        let left_out = (0..omega.len()).filter(|j| !kept.contains(j));
+        let left_out_rad_s = left_out.map(|j| omega[j]).collect();
+        let tips = tips(masses, kept.len());
+        let arm = ModalArm {
+            gravity: None,
+            command_lag_s: rig.instruments.delay.map_or(0.0, |d| d.delay_s()),
+            ..modes.cut(&kept, tips.clone())
+        };
+        let channels = rig.channels_of(tips.clone());
+        let sensors: Vec<Sensor> = std::iter::once(rig.instruments.motor)
+            .chain(tips.clone().map(|i| rig.instruments.tip(i)))
+            .collect();
+        let noise = |s: &Sensor| SensorNoise::gaussian(s.deviation().max(IDEAL_RAD));
+        Ok(Self {
+            parameters: parameters(&channels, &arm),
+            noise: sensors.iter().map(noise).collect(),
+            ideal_sensor: sensors.contains(&Sensor::IDEAL),
+            gravity: rig.scene.gravity,
+            left_out_rad_s,
+            tips,
+            kept,
+            modes,
+            channels,
+            arm,
+        })
+    }
+
+    /// The joint with its load, if it has one.
+    pub(super) fn loaded(&self) -> Option<LoadedJoint<'_>> {
+        self.gravity?;
+        Some(LoadedJoint {
+            arm: &self.arm,
+            parameters: &self.parameters,
+            torque_per_command: self.channels.command.torque_per_unit(),
+            noise: *self.noise.first()?,
+        })
+    }
+
+    /// Every unknown in the order of the information, its value and what one is of it.
+    pub(super) fn unknowns(&self) -> Vec<(PlannedUnknown, f64, f64)> {
+        let of_arm = |p: &Parameter| (PlannedUnknown::Arm(*p), p.of(&self.arm), p.size(&self.arm));
+        let mut all: Vec<_> = self.parameters.iter().map(of_arm).collect();
+        if let Some(load) = self.gravity {
+            let size = load.amplitude_nm();
+            all.push((PlannedUnknown::GravitySine, load.sine_nm, size));
+            all.push((PlannedUnknown::GravityCosine, load.cosine_nm, size));
+        }
+        all
+    }
+
+    /// Everything whose precision can be asked for.
+    pub(super) fn figures(&self) -> Vec<PlannedFigure> {
+        let of_arm = Figure::of(&self.arm).into_iter().map(PlannedFigure::Arm);
+        of_arm.chain(self.gravity.map(|_| PlannedFigure::Gravity)).collect()
+    }
+
+    /// Its value in SI.
+    pub(super) fn value(&self, figure: PlannedFigure) -> f64 {
+        match figure {
+            PlannedFigure::Arm(figure) => figure.value(&self.arm),
+            PlannedFigure::Gravity => self.gravity.map_or(0.0, |load| load.amplitude_nm()),
+        }
+    }
+
+    /// Its derivative by an unknown.
+    pub(super) fn slope(&self, figure: PlannedFigure, unknown: PlannedUnknown) -> f64 {
+        let share = |of: fn(&GravityLoad) -> f64| {
+            self.gravity.map_or(0.0, |load| of(&load) / load.amplitude_nm())
+        };
+        match (figure, unknown) {
+            (PlannedFigure::Arm(figure), PlannedUnknown::Arm(p)) => figure.slope(&self.arm, p),
+            (PlannedFigure::Gravity, PlannedUnknown::GravitySine) => share(|load| load.sine_nm),
+            (PlannedFigure::Gravity, PlannedUnknown::GravityCosine) => share(|load| load.cosine_nm),
+            _ => 0.0,
+        }
+    }
+
+    /// A simulated run as the replay takes it: the current that acted, and the true start.
+    pub(super) fn record(&self, rig: &Rig, logged: &Logged) -> Option<(Campaign, Window)> {
+        let run = &logged.run;
+        // What the amplifier's dead zone swallows does not act.
+        let acted = run.command().iter().map(|u| rig.instruments.amplifier.current_a(*u)).collect();
+        let tips = run.tips()[self.tips.clone()].to_vec();
+        let run = Run::new(run.name(), run.time(), acted, run.motor().to_vec(), tips).ok()?;
+        let window = Window {
+            run: 0,
+            samples: 0..=run.len() - 1,
+            start: self.modes.state(&self.kept, &logged.start),
+            zeros: vec![0.0; self.channels.tips.len()],
+        };
+        Some((Campaign::new(self.channels.clone(), vec![run]).ok()?, window))
+    }
+}
+
+/// All masses' sensors; of more masses than modes that are followed the tip's alone, as the others of a
+/// lumped beam are in no laboratory.
+fn tips(masses: usize, modes: usize) -> Range<usize> {
+    match modes {
+        0 => 0..0,
+        _ if masses > MOST_MODES => masses - 1..masses,
+        _ => 0..masses,
+    }
+}
+
+/// What the output error frees of such an arm, with what it adds where the residual calls for it.
+fn parameters(channels: &Channels, arm: &ModalArm) -> Vec<Parameter> {
+    let mut free = free_parameters(channels, arm);
+    let grounded = arm.modes.iter().enumerate().filter(|(_, m)| m.grounded_per_s > 0.0);
+    free.extend(grounded.map(|(j, _)| Parameter::DampingGrounded(j)));
+    if arm.command_lag_s > 0.0 {
+        free.push(Parameter::CommandLag);
+    }
+    free
+}
+
+impl Precision {
+    /// What is wanted of something that a plan may be asked for.
+    pub(super) fn of_planned(&self, figure: PlannedFigure) -> f64 {
+        match figure {
+            PlannedFigure::Arm(figure) => self.of(figure),
+            PlannedFigure::Gravity => self.gravity,
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! From motions that fit to a plan: what there is to choose from, and what the choice gives.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::choose::{self, Choice, Chosen, Goal};
+use super::known::KnownRig;
+use super::{
+    BETWEEN_S, Candidate, Expected, Figure, Kinds, Plan, PlanError, PlanNote, PlannedFigure,
+    PlannedMotion, PlannedRun, Unfit, Wishes, note,
+};
+use crate::information::covariance;
+use crate::rig::Rig;
+
+/// What there is to choose from, and what is to be reached.
+pub(super) struct Planner<'a> {
+    known: &'a KnownRig<'a>,
+    rig: &'a Rig,
+    wishes: &'a Wishes,
+    /// Motions made together.
+    sets: Vec<&'a Vec<Candidate>>,
+    pub(super) choices: Vec<Choice>,
+    pub(super) goal: Goal,
+    /// What one is of each parameter, in which information is counted.
+    scale: DVector<f64>,
+}
+
+impl<'a> Planner<'a> {
+    pub(super) fn new(
+        known: &'a KnownRig<'a>,
+        rig: &'a Rig,
+        wishes: &'a Wishes,
+        found: &'a [Result<Vec<Candidate>, Unfit>],
+    ) -> Result<Self, PlanError> {
+        let sets: Vec<&Vec<Candidate>> = found.iter().flatten().collect();
+        if sets.is_empty() {
+            let reasons = note::reasons(found);
+            let reasons = reasons.iter().map(|(why, n)| format!("{n} {why}")).collect();
+            return Err(PlanError::NoMotion { tried: found.len(), reasons });
+        }
+        let unknowns = known.unknowns();
+        let scale = DVector::from_iterator(unknowns.len(), unknowns.iter().map(|u| u.2));
+        let choices: Vec<Choice> = sets.iter().map(|set| choice(set, &scale)).collect();
+        let shortest_s = choices.iter().map(|c| c.time_s[0]).fold(f64::INFINITY, f64::min);
+        if shortest_s > wishes.within_s {
+            return Err(PlanError::NoTime { within_s: wishes.within_s, shortest_s });
+        }
+        let wanted = known.figures().into_iter().map(|figure| {
+            let slopes = unknowns.iter().map(|(of, _, size)| known.slope(figure, *of) * size);
+            let along = DVector::from_iterator(scale.len(), slopes) / known.value(figure);
+            (along, wishes.precision.of_planned(figure))
+        });
+        let goal = Goal {
+            wanted: wanted.collect(),
+            within_s: wishes.within_s,
+            pair: wishes.kinds != Kinds::Any,
+        };
+        Ok(Self { known, rig, wishes, sets, choices, goal, scale })
+    }
+
+    pub(super) fn plan(
+        &self,
+        chosen: &Chosen,
+        mut notes: Vec<PlanNote>,
+        longest_wait_s: f64,
+    ) -> Plan {
+        let size = self.scale.len();
+        let total = choose::information(&self.choices, chosen, size);
+        let ratios = self.goal.ratios(&total);
+        let figures = self.known.figures();
+        let expected: Vec<Expected> = figures
+            .iter()
+            .zip(&ratios)
+            .map(|(figure, ratio)| {
+                let wanted = self.wishes.precision.of_planned(*figure);
+                let value = self.known.value(*figure);
+                Expected { figure: *figure, value, std: ratio * wanted, wanted }
+            })
+            .collect();
+        let mut runs: Vec<PlannedRun> = Vec::new();
+        for (i, k) in chosen.iter().enumerate().filter(|(_, k)| **k > 0) {
+            let without = self.without(&total, &self.choices[i].information[k - 1], &expected);
+            runs.extend(self.sets[i].iter().map(|c| PlannedRun {
+                record_s: c.run.motion.stretch_s() * *k as f64,
+                without,
+                paired: self.choices[i].pair,
+                ..c.run.clone()
+            }));
+        }
+        runs.sort_by(|a, b| order(&a.motion).total_cmp(&order(&b.motion)));
+        let time_s = choose::time_s(&self.choices, chosen);
+        if self.goal.pair && !self.choices.iter().zip(chosen).any(|(c, k)| c.pair && *k > 0) {
+            notes.push(PlanNote::NoPair);
+        }
+        let damped = self.known.arm.damping_ratios().iter().any(|ratio| *ratio > 0.0);
+        if damped && runs.iter().all(|r| matches!(r.motion, PlannedMotion::Sine { .. })) {
+            notes.push(PlanNote::SinesAlone);
+        }
+        notes.extend(self.unreached(chosen, &expected, time_s));
+        let covariance = covariance(&total);
+        let unknowns = self.known.unknowns().into_iter().enumerate();
+        let parameters = unknowns
+            .map(|(i, (of, value, size))| (of, value, covariance[(i, i)].sqrt() * size))
+            .collect();
+        Plan { runs, expected, parameters, time_s, notes, longest_wait_s }
+    }
+
+    /// The figure that is furthest from what is wanted of it without a part of the information; `None`
+    /// where all wishes would come true.
+    fn without(
+        &self,
+        total: &DMatrix<f64>,
+        part: &DMatrix<f64>,
+        expected: &[Expected],
+    ) -> Option<(PlannedFigure, f64)> {
+        let ratios = self.goal.ratios(&(total - part));
+        let then = expected.iter().zip(ratios).filter(|(_, ratio)| *ratio > 1.0);
+        let worst = then.max_by(|a, b| a.1.total_cmp(&b.1));
+        worst.map(|(e, ratio)| (e.figure, ratio * e.wanted))
+    }
+
+    /// Wishes that the time does not allow, with what stands in the way.
+    fn unreached(&self, chosen: &Chosen, expected: &[Expected], time_s: f64) -> Vec<PlanNote> {
+        let used = || {
+            let sets = self.sets.iter().zip(chosen).filter(|(_, k)| **k > 0);
+            sets.flat_map(|(set, _)| set.iter())
+        };
+        let constant = self.rig.arm.motor.torque_constant_nm_per_a();
+        let peak_nm = constant * used().map(|c| c.run.peak_current_a).fold(0.0, f64::max);
+        let speed = used().map(|c| c.speed_rad_s).fold(0.0, f64::max);
+        let share = |figure: PlannedFigure| match figure {
+            PlannedFigure::Arm(Figure::Viscous) => Some(self.known.value(figure) * speed / peak_nm),
+            PlannedFigure::Arm(Figure::Coulomb) | PlannedFigure::Gravity => {
+                Some(self.known.value(figure) / peak_nm)
+            }
+            PlannedFigure::Arm(_) => None,
+        };
+        let missed = expected.iter().filter(|e| e.std > e.wanted);
+        missed
+            .map(|e| PlanNote::Unreached {
+                expected: *e,
+                within_s: self.wishes.within_s,
+                // Deviations fall with the root of the time.
+                needed_s: time_s * (e.std / e.wanted).powi(2),
+                torque_share: share(e.figure),
+            })
+            .collect()
+    }
+}
+
+/// Information and times of motions that are made together.
+fn choice(set: &[Candidate], scale: &DVector<f64>) -> Choice {
+    let stretches = set.iter().map(|c| c.information.len()).min().unwrap_or(0);
+    let size = scale.len();
+    let scaled =
+        |m: &DMatrix<f64>| DMatrix::from_fn(size, size, |i, j| m[(i, j)] * scale[i] * scale[j]);
+    let all = |k: usize| {
+        let parts = set.iter().map(|c| scaled(&c.information[k]));
+        parts.fold(DMatrix::zeros(size, size), |sum, part| sum + part)
+    };
+    let time = |k: usize| {
+        let one =
+            |c: &Candidate| BETWEEN_S + c.run.waited_s + c.run.motion.stretch_s() * (k + 1) as f64;
+        set.iter().map(one).sum()
+    };
+    Choice {
+        information: (0..stretches).map(all).collect(),
+        time_s: (0..stretches).map(time).collect(),
+        pair: set.len() > 1,
+    }
+}
+
+/// Sines first, then all else, by their lowest frequency.
+fn order(motion: &PlannedMotion) -> f64 {
+    match *motion {
+        PlannedMotion::Sine { omega_rad_s } => omega_rad_s,
+        PlannedMotion::Multisine { omega_rad_s, .. } => 1e6 * omega_rad_s,
+        PlannedMotion::Chirp { from_rad_s, .. } => 1e12 * from_rad_s,
+    }
+}

@@ -1,0 +1,53 @@
+//! The virtual laboratory, Sections 5.1 and 6.1: a sampled loop around an arm that sticks and
+//! slips.
+
+mod batch;
+mod controller;
+mod error;
+mod experiment;
+mod finding;
+mod held;
+mod hybrid;
+mod instrument;
+mod logged;
+mod logging;
+mod lugre;
+mod motion;
+mod rig_builder;
+mod sampled_loop;
+mod scene;
+mod settled;
+mod settling;
+mod signal;
+mod sine;
+mod tip_world;
+mod virtual_campaign;
+mod wander;
+
+pub use crate::friction::Mode;
+pub use batch::{Batch, NoisyRun};
+pub use controller::{ControlLaw, Controller, IntegerPd, Pd, Pid, Proportional, Sensed, Word};
+pub use error::RigError;
+pub use experiment::{
+    Chirp, Drive, Experiment, Multisine, Reference, Settle, Sine, Square, Start, Sweep, Table,
+    TableHold,
+};
+pub use finding::{RigFinding, SensorPlace};
+pub use held::{HeldArm, HeldMotion, HeldStep, Work};
+pub use hybrid::Hybrid;
+pub use instrument::{
+    Amplifier, CurrentReading, CurrentSensor, Delay, Instruments, LateStamps, Noise, Quantiser,
+    Sensor,
+};
+pub use logged::{Logged, RowTruth};
+pub use lugre::LuGreMotion;
+pub use motion::Motion;
+pub use rig_builder::RigBuilder;
+pub use sampled_loop::Rig;
+pub use scene::{JointFriction, Scene};
+pub use settled::Settled;
+pub use signal::{Harmonic, Signal};
+pub use sine::Sines;
+pub use tip_world::{TipWorld, Wall};
+pub use virtual_campaign::{PlannedExperiment, VirtualCampaign};
+pub use wander::FrictionWander;

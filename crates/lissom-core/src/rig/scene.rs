@@ -1,0 +1,162 @@
+//! What an arm is set in: the joint's friction and gravity, the world at the tip, payloads to come.
+
+use super::error::finite;
+use super::{FrictionWander, HeldArm, HeldMotion, Hybrid, LuGreMotion, Motion, RigError, TipWorld};
+use crate::arm::Arm;
+use crate::drive::{DryFriction, LuGre};
+use crate::load::GravityLoad;
+
+/// The friction of a joint.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub enum JointFriction {
+    /// Coulomb friction as the arm has it. Exact.
+    #[default]
+    Arm,
+    /// Dry friction by another law: exact where it is constant in slip, else to 1e-15 a step.
+    Dry(DryFriction),
+    /// Bristles, in place of the arm's Coulomb friction, solved to a relative tolerance a step.
+    Bristles {
+        /// The law.
+        law: LuGre,
+        /// The tolerance of a step, 1e-12 to 1e-2.
+        tolerance: f64,
+    },
+}
+
+/// What of a rig's physics is not in its [`Arm`]. The default is nothing: Coulomb friction as the
+/// arm has it, a free tip.
+///
+/// ```
+/// use lissom::rig::{Scene, TipWorld};
+/// let air_table = TipWorld { viscous_n_s_per_m: 0.003, ..TipWorld::default() };
+/// let scene = Scene { tip: air_table, ..Scene::default() };
+/// assert!(scene.check().is_ok());
+/// ```
+///
+/// # Source
+/// `[Feliu1989, Sections 2.2, 6.1, 6.2.1]`
+#[derive(Debug, Clone, Default)]
+pub struct Scene {
+    /// The joint's friction.
+    pub friction: JointFriction,
+    /// How that friction wanders; `None`: it does not. Friction by bristles cannot.
+    pub wander: Option<FrictionWander>,
+    /// Constant torque that a load takes of the motor \[N·m\]: a weight on a hoist, a preload.
+    pub load_nm: f64,
+    /// Gravity of an unbalanced load on the motor \[N·m\], a function of the motor's true angle; `None`: no load.
+    pub gravity: Option<GravityLoad>,
+    /// The world at the tip.
+    pub tip: TipWorld,
+    /// Arms that take over at times \[s\], counted from the start: another payload.
+    pub later: Vec<(f64, Arm)>,
+}
+
+impl Scene {
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// [`RigError`] as [`TipWorld::check`], [`RigError::NotFinite`] where gravity or the constant load is not finite,
+    /// [`RigError::Unsupported`] for bristles whose friction wanders.
+    pub fn check(&self) -> Result<(), RigError> {
+        if let Some(load) = self.gravity {
+            finite("gravity of the load in N*m", load.amplitude_nm())?;
+        }
+        finite("constant load in N*m", self.load_nm)?;
+        if self.wander.is_some() && matches!(self.friction, JointFriction::Bristles { .. }) {
+            return Err(RigError::Unsupported { what: "bristles whose friction wanders" });
+        }
+        self.tip.check()
+    }
+
+    /// Relative tolerance of a step of the motion; `None` where it is exact to rounding.
+    pub fn tolerance(&self) -> Option<f64> {
+        match &self.friction {
+            JointFriction::Dry(law) if !law.is_constant() => Some(Hybrid::BENT),
+            JointFriction::Bristles { tolerance, .. } => Some(*tolerance),
+            _ if self.gravity.is_some() => Some(Hybrid::BENT),
+            _ => None,
+        }
+    }
+
+    /// The joint's dry friction as it does not wander; `None` with bristles.
+    pub fn dry_friction(&self, arm: &Arm) -> Option<DryFriction> {
+        match &self.friction {
+            JointFriction::Arm => Some(arm.coulomb.into()),
+            JointFriction::Dry(law) => Some(law.clone()),
+            JointFriction::Bristles { .. } => None,
+        }
+    }
+
+    /// What friction holds at rest, the lesser of both directions \[N·m\].
+    pub(super) fn holds_nm(&self, arm: &Arm) -> f64 {
+        let rest = match &self.friction {
+            JointFriction::Arm => arm.coulomb,
+            JointFriction::Dry(law) => law.at(0.0, 0.0),
+            JointFriction::Bristles { law, .. } => law.at_rest(),
+        };
+        rest.forward().min(rest.backward())
+    }
+
+    /// Whether `arm` stays at rest at angle zero without a torque of the motor.
+    pub(super) fn rests_at_zero(&self, arm: &Arm) -> bool {
+        let load = self.load_nm + self.gravity.map_or(0.0, |load| load.torque_nm(0.0));
+        // Bristles give way by some of their travel.
+        let gives_way = matches!(self.friction, JointFriction::Bristles { .. });
+        load == 0.0 || !gives_way && load.abs() < self.holds_nm(arm)
+    }
+
+    fn is_alone(&self) -> bool {
+        self.tip.is_empty() && self.later.is_empty()
+    }
+
+    /// `arm` made ready for `durations_s`, those that come at every sample, where nothing but its own
+    /// friction acts on it.
+    pub(super) fn held<'a>(
+        &self,
+        arm: &'a Arm,
+        durations_s: &[f64],
+    ) -> Result<Option<HeldArm<'a>>, RigError> {
+        let fixed = self.friction == JointFriction::Arm && self.wander.is_none();
+        if !fixed || self.gravity.is_some() || !self.is_alone() {
+            return Ok(None);
+        }
+        let durations_s: Vec<f64> = durations_s.iter().copied().filter(|d| *d > 0.0).collect();
+        HeldArm::new(arm, &durations_s).map(Some)
+    }
+
+    /// What moves `arm` from `state` on; `held` is [`Self::held`] of it.
+    pub(super) fn motion<'a>(
+        &'a self,
+        arm: &'a Arm,
+        held: Option<&'a HeldArm<'a>>,
+        state: Vec<f64>,
+    ) -> Result<Box<dyn Motion + 'a>, RigError> {
+        if let Some(held) = held {
+            return Ok(Box::new(HeldMotion::with_state(held, &state)?));
+        }
+        let dry = match &self.friction {
+            JointFriction::Arm => arm.coulomb.into(),
+            JointFriction::Dry(law) => law.clone(),
+            JointFriction::Bristles { .. } if !self.is_alone() => {
+                return Err(RigError::Unsupported {
+                    what: "bristles beside a world at the tip or changing payloads",
+                });
+            }
+            JointFriction::Bristles { law, tolerance } => {
+                let motion = LuGreMotion::with_state(arm, *law, *tolerance, &state, 0.0)?;
+                return Ok(Box::new(match self.gravity {
+                    Some(load) => motion.with_gravity(load),
+                    None => motion,
+                }));
+            }
+        };
+        let later: Vec<(f64, &Arm)> = self.later.iter().map(|(t, arm)| (*t, arm)).collect();
+        let hybrid = Hybrid::with_state(arm, state).with_friction(dry);
+        let hybrid = match self.gravity {
+            Some(load) => hybrid.with_gravity(load),
+            None => hybrid,
+        };
+        Ok(Box::new(hybrid.with_world(self.tip.clone())?.with_changes(&later)?))
+    }
+}

@@ -1,0 +1,106 @@
+//! Several experiments on one rig.
+
+use rayon::prelude::*;
+
+use super::{Controller, Experiment, Logged, Rig, RigError};
+use crate::record::Campaign;
+
+/// The first run's seed; each further run has the next number.
+const FIRST_SEED: u64 = 1;
+
+/// Logs of several experiments on one rig, and what is known of each.
+#[derive(Debug, Clone)]
+pub struct VirtualCampaign {
+    /// The logs with their channels, as a user would have them.
+    pub campaign: Campaign,
+    /// Each run with what is known of it, in the same order.
+    pub logged: Vec<Logged>,
+}
+
+impl AsRef<Campaign> for VirtualCampaign {
+    fn as_ref(&self) -> &Campaign {
+        &self.campaign
+    }
+}
+
+/// What [`Rig::campaign`] takes: experiments, or what makes them.
+pub trait PlannedExperiment {
+    /// The experiment.
+    ///
+    /// # Errors
+    /// What makes it impossible.
+    fn experiment(self) -> Result<Experiment, RigError>;
+}
+
+impl PlannedExperiment for Experiment {
+    fn experiment(self) -> Result<Experiment, RigError> {
+        Ok(self)
+    }
+}
+
+impl PlannedExperiment for Result<Experiment, RigError> {
+    fn experiment(self) -> Result<Experiment, RigError> {
+        self
+    }
+}
+
+impl Rig {
+    /// Carries out experiments with the rig's own controller, on all cores.
+    ///
+    /// Runs are called `run 1`, `run 2`, ...; the noise of each has a seed of its own, so that the same experiments give
+    /// the same bits.
+    ///
+    /// ```
+    /// use lissom::prelude::*;
+    /// # let arm = Arm::builder().motor(Motor::builder().inertia_kg_m2(2e-3)).coulomb_nm(0.02).build()?;
+    /// # let rig = Rig::builder(arm).sample_time_s(3e-3).controller(Pd::new(8.0, 0.25)?).build()?;
+    /// let logs = rig.campaign([1.0, 3.0].map(|w| Experiment::sine(w, 0.5, 20.0)))?; // rad/s, rad, s
+    /// assert_eq!(logs.campaign.runs.len(), 2);
+    /// # Ok::<(), lissom::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`run`](Self::run), the first in the order of the experiments; [`RigError::Record`] without an experiment.
+    pub fn campaign<E: PlannedExperiment>(
+        &self,
+        experiments: impl IntoIterator<Item = E>,
+    ) -> Result<VirtualCampaign, RigError> {
+        let runs: Vec<(String, u64, Experiment)> = numbered(experiments)?;
+        let logged: Vec<_> =
+            runs.par_iter().map(|(name, seed, e)| self.run(name, e, *seed)).collect();
+        self.collected(logged.into_iter().collect::<Result<_, _>>()?)
+    }
+
+    /// Carries out experiments with a controller of the user's, one after another.
+    ///
+    /// # Errors
+    /// As [`campaign`](Self::campaign) and [`run_with`](Self::run_with).
+    pub fn campaign_with<C: Controller + ?Sized, E: PlannedExperiment>(
+        &self,
+        controller: &mut C,
+        experiments: impl IntoIterator<Item = E>,
+    ) -> Result<VirtualCampaign, RigError> {
+        let runs: Vec<(String, u64, Experiment)> = numbered(experiments)?;
+        let one =
+            |(name, seed, e): &(String, u64, Experiment)| self.run_with(controller, name, e, *seed);
+        let logged = runs.iter().map(one).collect::<Result<_, _>>()?;
+        self.collected(logged)
+    }
+
+    fn collected(&self, logged: Vec<Logged>) -> Result<VirtualCampaign, RigError> {
+        let channels = self.channels(0..self.arm.beam().len())?;
+        let runs = logged.iter().map(|one| one.run.clone()).collect();
+        let mut campaign = Campaign::new(channels, runs)?;
+        if self.scene.gravity.is_some() {
+            campaign = campaign.with_gravity()?;
+        }
+        Ok(VirtualCampaign { campaign, logged })
+    }
+}
+
+fn numbered<E: PlannedExperiment>(
+    experiments: impl IntoIterator<Item = E>,
+) -> Result<Vec<(String, u64, Experiment)>, RigError> {
+    let one = |(number, e): (u64, E)| Ok((format!("run {number}"), number, e.experiment()?));
+    (FIRST_SEED..).zip(experiments).map(one).collect()
+}

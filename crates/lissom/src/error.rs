@@ -1,0 +1,62 @@
+//! The one error of a program that uses lissom.
+
+use thiserror::Error;
+
+/// Any error of lissom: of models, rigs, records and identification, or of a file.
+///
+/// ```
+/// use lissom::prelude::*;
+/// fn inertia_of(log: &std::path::Path) -> Result<Option<Estimate>, lissom::Error> {
+///     let logs = read_campaign(log)?;
+///     Ok(Identify::new(&logs).run()?.inertia())
+/// }
+/// let error = inertia_of("no/campaign.toml".as_ref()).unwrap_err();
+/// assert!(error.to_string().starts_with("no/campaign.toml"));
+/// assert!(error.hint().is_some());
+/// ```
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Numbers, experiments or records that cannot be.
+    #[error(transparent)]
+    Core(lissom_core::Error),
+    /// A file that cannot be read or written.
+    #[error(transparent)]
+    File(#[from] lissom_io::Error),
+}
+
+impl Error {
+    /// What to do about it, where there is something to say.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::Core(_) => None,
+            Self::File(error) => error.hint(),
+        }
+    }
+}
+
+macro_rules! from_core {
+    ($($source:ty),+ $(,)?) => {$(
+        impl From<$source> for Error {
+            fn from(error: $source) -> Self {
+                Self::Core(error.into())
+            }
+        }
+    )+};
+}
+
+from_core!(
+    lissom_core::Error,
+    lissom_core::arm::ArmBuildError,
+    lissom_core::beam::BeamError,
+    lissom_core::drive::DriveError,
+    lissom_core::identify::EquivalentError,
+    lissom_core::identify::IdentifyError,
+    lissom_core::identify::SharedPolesError,
+    lissom_core::identify::ValidationError,
+    lissom_core::plan::PlanError,
+    lissom_core::record::RecordError,
+    lissom_core::record::clock::ClockError,
+    lissom_core::rig::RigError,
+    lissom_core::spectrum::SteadyError,
+);
