@@ -4,8 +4,8 @@ use std::error::Error;
 use std::path::PathBuf;
 
 use lissom_report::{
-    Axis, Band, BodePlot, Figure, Finding, FrequencyAxis, KeyFigure, LinePlot, Page, Role, Series,
-    Severity, Style, Trace, TraceStyle,
+    Axis, Band, BodePlot, Figure, Finding, FrequencyAxis, KeyFigure, LinePlot, Page, Region, Role,
+    Series, Severity, StackedPlot, Style, Trace, TraceStyle,
 };
 use num_complex::Complex64;
 
@@ -85,6 +85,20 @@ fn residual() -> LinePlot {
         .trace(columns)
 }
 
+fn stacked() -> StackedPlot {
+    let time: Vec<f64> = (0..600).map(|k| 0.01 * f64::from(k)).collect();
+    let angle = time.iter().map(|t| 0.4 * (2.0 * t).sin()).collect();
+    let velocity = time.iter().map(|t| 0.8 * (2.0 * t).cos()).collect();
+    let panel = |label: &str, axis: &str, role: Role, y: Vec<f64>| {
+        LinePlot::new("", Axis::linear("Time (s)"), Axis::linear(axis))
+            .trace(Trace::line(label, role, time.clone(), y))
+            .region(Region::new("backward", Role::Other(1), (0.785, 2.356)))
+    };
+    StackedPlot::new("Angle and velocity")
+        .plot(panel("angle", "Angle (rad)", Role::Corrected, angle))
+        .plot(panel("velocity", "Velocity (rad/s)", Role::Raw, velocity))
+}
+
 fn key_figures() -> Vec<KeyFigure> {
     let figure = |name: &str, value: f64, std: f64, unit: &str| KeyFigure {
         name: name.into(),
@@ -135,11 +149,17 @@ fn main() -> Result<(), Box<dyn Error>> {
         .figure(&friction(), "Each pair of harmonics gives one estimate.")
         .figure(&run(), "The first seconds of a run.")
         .figure(&residual(), "What the model leaves.")
+        .figure(&stacked(), "Two quantities over one axis.")
         .details("Raw result", "{\n  \"coulomb_a\": 0.13197\n}")
         .footer("Made by lissom.");
     std::fs::write(folder.join("page.html"), page.to_html())?;
-    let figures: [(&str, &dyn Figure); 4] =
-        [("bode", &bode()), ("friction", &friction()), ("run", &run()), ("residual", &residual())];
+    let figures: [(&str, &dyn Figure); 5] = [
+        ("bode", &bode()),
+        ("friction", &friction()),
+        ("run", &run()),
+        ("residual", &residual()),
+        ("stacked", &stacked()),
+    ];
     for (name, figure) in figures {
         std::fs::write(folder.join(name).with_extension("png"), figure.to_png(2.0)?)?;
         std::fs::write(folder.join(name).with_extension("svg"), figure.to_svg()?)?;

@@ -2,7 +2,7 @@
 
 use crate::canvas::{Anchor, Canvas, Rect, Stroke, TextStyle};
 use crate::font::Weight;
-use crate::palette::{DASHES, FAINT_INK, FLAGGED, Marker, Role, WHITE};
+use crate::palette::{DASHES, FAINT_INK, FLAGGED, Marker, Role, SHADE, WHITE};
 use crate::panel::{LABEL_SIZE, LINE_WIDTH};
 use crate::text_fit::{shorten, width, wrap};
 
@@ -25,11 +25,12 @@ pub(crate) enum Sample {
     PointsWithBars(Role),
     Column(Role),
     Band(Role),
+    Region(Role),
     Flagged,
 }
 
 /// A line of the legend.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Entry {
     pub(crate) sample: Sample,
     pub(crate) label: String,
@@ -106,12 +107,13 @@ impl Sample {
             }
             Self::Column(role) => canvas.rect(box_of(12.0), role.colour(), 0.75),
             Self::Band(role) => {
-                canvas.rect(box_of(14.0), role.colour(), 0.16);
+                canvas.rect(box_of(14.0), role.colour(), SHADE);
                 canvas.lines(
                     [[(x + 4.0, y), (x + SAMPLE - 4.0, y)]],
                     Stroke { colour: role.colour(), width: 1.5, dash: None },
                 );
             }
+            Self::Region(role) => canvas.rect(box_of(14.0), role.colour(), SHADE),
             Self::Flagged => canvas.markers(
                 Marker::Circle,
                 [(middle, y)],

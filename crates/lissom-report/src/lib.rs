@@ -3,10 +3,11 @@
 //! The crate takes plain plotting structures and knows nothing of how their numbers came about:
 //!
 //! - [`BodePlot`]: magnitude and phase over a shared logarithmic frequency axis;
-//! - [`LinePlot`]: one pair of linear or logarithmic axes with points, lines, steps, columns and bands;
+//! - [`LinePlot`]: one pair of linear or logarithmic axes with points, lines, steps, columns, bands and regions;
+//! - [`StackedPlot`]: line plots one above the other over one horizontal axis;
 //! - [`Page`]: headings, tables, figures and findings as one HTML file that needs nothing from outside.
 //!
-//! Both figures are [`Figure`]s and draw themselves as SVG and as PNG. The PNG is set in the DejaVu Sans that is compiled in,
+//! All figures are [`Figure`]s and draw themselves as SVG and as PNG. The PNG is set in the DejaVu Sans that is compiled in,
 //! so a picture looks the same on every machine, whether it has fonts or not.
 //!
 //! ```
@@ -40,6 +41,7 @@ mod panel;
 mod phase;
 mod png_writer;
 mod scale;
+mod stacked_plot;
 mod svg_writer;
 mod text_fit;
 mod text_outline;
@@ -56,4 +58,5 @@ pub use page::Page;
 pub use page_parts::{Cells, Finding, KeyFigure, Severity, Table};
 pub use palette::Role;
 pub use scale::Scale;
-pub use trace::{Axis, Band, Trace, TraceStyle};
+pub use stacked_plot::StackedPlot;
+pub use trace::{Axis, Band, Region, Trace, TraceStyle};

@@ -7,26 +7,28 @@ use crate::figure_trait::{Figure, Sealed};
 use crate::font::Weight;
 use crate::legend::{Entry, Sample, header, skipped_note};
 use crate::marks::{Mark, with_bars};
-use crate::palette::{DASHES, FAINT_INK, INK, Role, WHITE};
+use crate::palette::{DASHES, FAINT_INK, INK, Role, SHADE, WHITE};
 use crate::panel::{LINE_WIDTH, Panel, TICK_SIZE, X_AXIS_HEIGHT};
 use crate::png_writer::png;
 use crate::scale::{Scale, extent};
 use crate::svg_writer::svg;
 use crate::text_fit::width;
-use crate::trace::{Axis, Band, Trace, TraceStyle};
+use crate::trace::{Axis, Band, Region, Trace, TraceStyle};
 
 const SHEET_WIDTH: f64 = 760.0;
 const RIGHT_MARGIN: f64 = 24.0;
 const HEIGHT: f64 = 300.0;
+/// Between frames that stand one above the other.
+const FRAME_GAP: f64 = 16.0;
 /// The part of the distance between neighbours that a column fills.
 const COLUMN_FILL: f64 = 0.7;
 /// The widest column.
 const MAX_COLUMN: f64 = 44.0;
 
-/// Traces and bands over one pair of axes.
+/// Traces, bands and regions over one pair of axes.
 ///
 /// Points that are not finite, or not positive on a logarithmic axis, are left out, and a note below the figure counts them;
-/// lines stop there. A band that cannot be drawn is left out of figure and legend.
+/// lines stop there. A band or region that cannot be drawn is left out of figure and legend.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LinePlot {
     /// The title.
@@ -41,6 +43,8 @@ pub struct LinePlot {
     pub traces: Vec<Trace>,
     /// The bands, below the traces.
     pub bands: Vec<Band>,
+    /// The regions, below the bands. They do not widen the horizontal axis.
+    pub regions: Vec<Region>,
 }
 
 impl LinePlot {
@@ -70,6 +74,20 @@ impl LinePlot {
         self
     }
 
+    /// Adds a region.
+    #[must_use]
+    pub fn region(mut self, region: Region) -> Self {
+        self.regions.push(region);
+        self
+    }
+
+    fn drawable_regions(&self) -> impl Iterator<Item = &Region> {
+        self.regions
+            .iter()
+            .filter(|r| self.x.scale.admits(r.from) && self.x.scale.admits(r.to))
+            .filter(|r| r.from < r.to)
+    }
+
     fn drawable_bands(&self) -> impl Iterator<Item = &Band> {
         let ordered = |b: &&Band| b.low <= b.middle && b.middle <= b.high;
         self.bands
@@ -87,7 +105,10 @@ impl LinePlot {
         let bands = self
             .drawable_bands()
             .map(|b| Entry { sample: Sample::Band(b.role), label: b.label.clone() });
-        let mut entries: Vec<Entry> = traces.chain(bands).collect();
+        let regions = self
+            .drawable_regions()
+            .map(|r| Entry { sample: Sample::Region(r.role), label: r.label.clone() });
+        let mut entries: Vec<Entry> = traces.chain(bands).chain(regions).collect();
         if self.traces.iter().filter_map(|t| t.flagged.as_ref()).flatten().any(|f| *f) {
             entries.push(Entry { sample: Sample::Flagged, label: "flagged".to_owned() });
         }
@@ -138,6 +159,12 @@ impl LinePlot {
     }
 
     fn draw_data(&self, canvas: &mut Canvas, panel: &Panel, marks: &[Vec<Mark>]) {
+        for region in self.drawable_regions() {
+            let [left, right] = [region.from, region.to].map(|x| panel.at(x, panel.y.low).0);
+            let frame = panel.frame;
+            let shade = Rect { left, top: frame.top, width: right - left, height: frame.height };
+            canvas.rect(shade, region.role.colour(), SHADE);
+        }
         for band in self.drawable_bands() {
             let ((_, top), (_, bottom), (_, y)) = (
                 panel.at(panel.x.low, band.high),
@@ -152,7 +179,7 @@ impl LinePlot {
                     height: bottom - top,
                 },
                 band.role.colour(),
-                0.16,
+                SHADE,
             );
             canvas.lines(
                 [[(panel.frame.left, y), (panel.frame.right(), y)]],
@@ -189,53 +216,87 @@ impl LinePlot {
         }
     }
 
-    fn drawing(&self) -> Result<Drawing, FigureError> {
+    /// The drawable points of every trace, and the count of the others.
+    fn marks(&self) -> Result<(Vec<Vec<Mark>>, usize), FigureError> {
         let (mut marks, mut skipped) = (Vec::new(), 0);
         for trace in &self.traces {
             let (drawable, left_out) = trace.marks([self.x.scale, self.y.scale])?;
             skipped += left_out;
             marks.push(drawable);
         }
-        let [x_range, y_range] = self.ranges(&marks, skipped)?;
-        let y = match self.y.scale {
-            Scale::Linear => Ruler::linear(y_range, Steps::Decimal, 6.0, self.y.range.is_none()),
-            Scale::Log => Ruler::log(
-                if self.y.range.is_none() { Scale::Log.padded(y_range, 0.0) } else { y_range },
-                HEIGHT,
-            ),
-        };
-        let widest =
-            y.ticks.iter().map(|t| width(&t.label, TICK_SIZE, Weight::Regular)).fold(0.0, f64::max);
-        let left = 30.0 + widest + 14.0;
-        let wide = SHEET_WIDTH - RIGHT_MARGIN - left;
-        let x = match self.x.scale {
-            Scale::Linear => Ruler::linear(x_range, Steps::Decimal, 8.0, false),
-            Scale::Log => Ruler::log(x_range, wide),
-        };
-        let mut canvas = Canvas::default();
-        let top = header(
-            &mut canvas,
-            (left, SHEET_WIDTH - RIGHT_MARGIN),
-            &self.title,
-            self.subtitle.as_deref(),
-            &self.entries(),
-        );
-        // The power of ten stands above the frame.
-        let top = top + if y.factor.is_some() { 18.0 } else { 0.0 };
-        let panel = Panel { frame: Rect { left, top, width: wide, height: HEIGHT }, x, y };
-        panel.grid(&mut canvas);
-        canvas.clipped(panel.frame, |canvas| self.draw_data(canvas, &panel, &marks));
-        panel.frame(&mut canvas);
-        panel.y_labels(&mut canvas, &self.y.label, 22.0);
-        panel.x_labels(&mut canvas, &self.x.label);
-        let mut bottom = panel.frame.bottom() + X_AXIS_HEIGHT;
-        if let Some(note) = skipped_note(skipped) {
-            let style = TextStyle { colour: FAINT_INK, ..TextStyle::new(12.0, Anchor::End) };
-            canvas.text((SHEET_WIDTH - RIGHT_MARGIN, bottom + 8.0), &note, style);
-            bottom += 18.0;
-        }
-        Ok(canvas.finish(SHEET_WIDTH, bottom, &self.title))
+        Ok((marks, skipped))
     }
+
+    /// The vertical axis over its range, `height` pixels long.
+    fn y_ruler(&self, range: (f64, f64), height: f64) -> Ruler {
+        let fixed = self.y.range.is_some();
+        match self.y.scale {
+            Scale::Linear => Ruler::linear(range, Steps::Decimal, 6.0, !fixed),
+            Scale::Log => {
+                Ruler::log(if fixed { range } else { Scale::Log.padded(range, 0.0) }, height)
+            }
+        }
+    }
+
+    fn drawing(&self) -> Result<Drawing, FigureError> {
+        sheet(&self.title, self.subtitle.as_deref(), &[self], HEIGHT)
+    }
+}
+
+/// Plots one above the other in frames of `height`, the axis labelled below the last one, the legend of all on top. The
+/// horizontal axis covers the ranges of all.
+pub(crate) fn sheet(
+    title: &str,
+    subtitle: Option<&str>,
+    plots: &[&LinePlot],
+    height: f64,
+) -> Result<Drawing, FigureError> {
+    let marks = plots.iter().map(|plot| plot.marks()).collect::<Result<Vec<_>, _>>()?;
+    let skipped = marks.iter().map(|(_, skipped)| skipped).sum();
+    let (mut x_ends, mut rulers, mut entries) = (Vec::new(), Vec::new(), Vec::new());
+    for (plot, (marks, skipped)) in plots.iter().zip(&marks) {
+        let [x_range, y_range] = plot.ranges(marks, *skipped)?;
+        x_ends.extend([x_range.0, x_range.1]);
+        rulers.push(plot.y_ruler(y_range, height));
+        for entry in plot.entries() {
+            if !entries.contains(&entry) {
+                entries.push(entry);
+            }
+        }
+    }
+    let nothing = || FigureError::NothingToDraw { title: title.to_owned(), skipped };
+    let (Some(last), Some(x_range)) = (plots.last(), extent(x_ends)) else { return Err(nothing()) };
+    let labels = rulers.iter().flat_map(|y| &y.ticks);
+    let widest = labels.map(|t| width(&t.label, TICK_SIZE, Weight::Regular)).fold(0.0, f64::max);
+    let left = 30.0 + widest + 14.0;
+    let right = SHEET_WIDTH - RIGHT_MARGIN;
+    let x = match last.x.scale {
+        Scale::Linear => Ruler::linear(x_range, Steps::Decimal, 8.0, false),
+        Scale::Log => Ruler::log(x_range, right - left),
+    };
+    let mut canvas = Canvas::default();
+    let mut top = header(&mut canvas, (left, right), title, subtitle, &entries);
+    for ((k, (plot, (marks, _))), y) in plots.iter().zip(&marks).enumerate().zip(rulers) {
+        // The power of ten stands above the frame.
+        top += if y.factor.is_some() { 18.0 } else { 0.0 };
+        let frame = Rect { left, top, width: right - left, height };
+        let panel = Panel { frame, x: x.clone(), y };
+        panel.grid(&mut canvas);
+        canvas.clipped(frame, |canvas| plot.draw_data(canvas, &panel, marks));
+        panel.frame(&mut canvas);
+        panel.y_labels(&mut canvas, &plot.y.label, 22.0);
+        if k + 1 == plots.len() {
+            panel.x_labels(&mut canvas, &plot.x.label);
+        }
+        top += height + FRAME_GAP;
+    }
+    let mut bottom = top - FRAME_GAP + X_AXIS_HEIGHT;
+    if let Some(note) = skipped_note(skipped) {
+        let style = TextStyle { colour: FAINT_INK, ..TextStyle::new(12.0, Anchor::End) };
+        canvas.text((right, bottom + 8.0), &note, style);
+        bottom += 18.0;
+    }
+    Ok(canvas.finish(SHEET_WIDTH, bottom, title))
 }
 
 impl Sealed for LinePlot {}

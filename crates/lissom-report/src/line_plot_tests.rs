@@ -49,6 +49,23 @@ fn labels_bands_and_flags_are_there() {
 }
 
 #[test]
+fn regions_are_as_high_as_the_frame() {
+    let shades = |region: Region| {
+        let figure = plot(Trace::line("", Role::Raw, vec![0.0, 10.0], vec![0.0, 1.0]));
+        let svg = figure.region(region).to_svg().unwrap();
+        let document = Document::parse(&svg).unwrap();
+        let shade = |n: &roxmltree::Node<'_, '_>| n.attribute("fill-opacity") == Some("0.16");
+        let heights = document.descendants().filter(shade).filter_map(|n| n.attribute("height"));
+        heights.map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(shades(Region::new("", Role::Truth, (2.0, 4.0))), ["300.00"]);
+    // Without a length or a place there is none, in the figure or in the legend.
+    for ends in [(4.0, 2.0), (f64::NAN, 4.0)] {
+        assert!(shades(Region::new("broken", Role::Truth, ends)).is_empty());
+    }
+}
+
+#[test]
 fn small_numbers_say_their_power() {
     let found =
         texts(&plot(Trace::line("", Role::Raw, vec![0.0, 1.0], vec![0.0, 4e-7])).to_svg().unwrap());

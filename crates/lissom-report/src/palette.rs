@@ -81,6 +81,8 @@ pub(crate) const WHITE: Colour = Colour::rgb(0xff, 0xff, 0xff);
 pub(crate) const FLAGGED: Colour = Colour::rgb(0x8a, 0x8a, 0x8a);
 /// Lines beyond what was measured, whatever their role.
 pub(crate) const DASHES: &[u8] = &[6, 4];
+/// The opacity of bands and regions: grid and data show through.
+pub(crate) const SHADE: f64 = 0.16;
 /// Frames and text.
 pub(crate) const INK: Colour = Colour::rgb(0x1a, 0x1a, 0x1a);
 /// Text of less weight.

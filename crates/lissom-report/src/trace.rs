@@ -1,4 +1,4 @@
-//! Axes, traces and bands of a [`LinePlot`](crate::LinePlot).
+//! Axes, traces, bands and regions of a [`LinePlot`](crate::LinePlot).
 
 use crate::figure_error::FigureError;
 use crate::legend::Sample;
@@ -185,5 +185,25 @@ impl Band {
     /// A band from `low` to `high` with its line at `middle`.
     pub fn new(label: impl Into<String>, role: Role, middle: f64, (low, high): (f64, f64)) -> Self {
         Self { label: label.into(), role, middle, low, high }
+    }
+}
+
+/// A shaded interval of the horizontal axis, as high as the frame: a part of a time trace that is spoken of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    /// The label in the legend; empty keeps the region out of it.
+    pub label: String,
+    /// What it stands for, hence its colour.
+    pub role: Role,
+    /// The left end.
+    pub from: f64,
+    /// The right end.
+    pub to: f64,
+}
+
+impl Region {
+    /// A region from `from` to `to`.
+    pub fn new(label: impl Into<String>, role: Role, (from, to): (f64, f64)) -> Self {
+        Self { label: label.into(), role, from, to }
     }
 }
