@@ -19,14 +19,14 @@ const SEED: u64 = 300;
 /// Torque over speed in both directions, and their lines extrapolated to rest.
 pub(crate) fn figure() -> Drawn {
     let mut rig = noisy_rig(NOISE_RAD)?;
-    let coulomb = rig.arm.coulomb.forward;
+    let coulomb = rig.arm.coulomb.forward();
     rig.arm.coulomb = Coulomb::by_direction(1.1 * coulomb, 0.9 * coulomb)?;
     let ramp = |v: f64| Experiment::new(Drive::Angle(Reference::ramp(v)?), RECORD_S);
     let velocities = SPEEDS_RAD_S.into_iter().chain(SPEEDS_RAD_S.map(|v| -v));
     let experiments = velocities.map(ramp).collect::<Result<Vec<_>, _>>()?;
     let campaign = campaign(&rig, &experiments, SEED)?;
     let found = constant_velocity(&Prepared::of(&campaign));
-    let constant = rig.arm.motor.torque_constant_nm_per_a;
+    let constant = rig.arm.motor.torque_constant_nm_per_a();
     let mut plot = LinePlot::new(
         "Torque at constant velocities, extrapolated to rest",
         Axis::linear("speed (rad/s)").range(0.0, 25.0),
@@ -34,8 +34,8 @@ pub(crate) fn figure() -> Drawn {
     )
     .subtitle(format!(
         "True Coulomb friction: {} N·m forward, {} N·m backward",
-        significant(rig.arm.coulomb.forward, 3),
-        significant(rig.arm.coulomb.backward, 3)
+        significant(rig.arm.coulomb.forward(), 3),
+        significant(rig.arm.coulomb.backward(), 3)
     ));
     let directions = [
         ("forward", 1.0, Role::Corrected, found.forward),

@@ -87,7 +87,7 @@ fn data(
             output.push(with_std(angle));
         }
         let torque = motor.impedance(s) + seen.coupling_nm_per_rad;
-        response.push(with_std(motor.torque_constant_nm_per_a / torque));
+        response.push(with_std(motor.torque_constant_nm_per_a() / torque));
     }
     Ok(EquivalentData {
         names: POINTS_M.map(|x| format!("{x} m")).to_vec(),
@@ -96,7 +96,7 @@ fn data(
         motor: Some(MotorData {
             omega_rad_s: omega.to_vec(),
             response,
-            torque_per_command: motor.torque_constant_nm_per_a,
+            torque_per_command: motor.torque_constant_nm_per_a(),
         }),
         deviations: Deviations::Measured,
     })

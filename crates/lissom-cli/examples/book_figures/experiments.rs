@@ -30,7 +30,7 @@ pub(crate) fn campaign(
         Ok(rig.run(&format!("run {seed}"), experiment, seed)?.run)
     };
     let runs = (seed..).zip(experiments).map(run).collect::<Result<_, RigError>>()?;
-    Ok(Campaign::new(rig.channels(0..1), runs)?)
+    Ok(Campaign::new(rig.channels(0..1)?, runs)?)
 }
 
 /// True motor angles and velocities at the rows of a log.

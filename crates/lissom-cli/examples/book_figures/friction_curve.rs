@@ -28,7 +28,7 @@ const LINE: usize = 300;
 pub(crate) fn figure() -> Drawn {
     let mut rig = noisy_rig(NOISE_RAD)?;
     let sliding = rig.arm.coulomb;
-    let rest = Coulomb::symmetric(REST_RATIO * sliding.forward)?;
+    let rest = Coulomb::symmetric(REST_RATIO * sliding.forward())?;
     let law = DryFriction::from(sliding).with_rest(rest, FALLOFF_RAD_S, Falloff::Exponential)?;
     rig.scene.friction = JointFriction::Dry(law.clone());
     rig.scene.wander = Some(FrictionWander::new(WANDER.0, WANDER.1)?);
@@ -39,9 +39,9 @@ pub(crate) fn figure() -> Drawn {
     let found = identify(&campaign, &options, |_| ())?.friction_law.ok_or("no friction law")?;
     let points: Vec<_> = found.curve.iter().filter(|p| p.direction > 0.0).collect();
     let [slowest, fastest] = found.speed_range;
-    let viscous = rig.arm.motor.viscous_nm_s_per_rad;
+    let viscous = rig.arm.motor.viscous_nm_s_per_rad();
     let all = even(0.0, fastest, LINE);
-    let truth = all.iter().map(|v| law.at(*v, 0.0).forward + viscous * v).collect();
+    let truth = all.iter().map(|v| law.at(*v, 0.0).forward() + viscous * v).collect();
     let speeds = even(slowest, fastest, LINE);
     let chosen: Option<Vec<f64>> = speeds.iter().map(|v| found.chosen.friction(*v, 1.0)).collect();
     let plot = LinePlot::new(

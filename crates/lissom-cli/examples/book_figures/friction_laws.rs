@@ -16,7 +16,7 @@ const LINE: usize = 200;
 pub(crate) fn figure() -> Drawn {
     let arm = demo_rig()?.arm;
     let sliding = arm.coulomb;
-    let rest = Coulomb::symmetric(1.6 * sliding.forward)?;
+    let rest = Coulomb::symmetric(1.6 * sliding.forward())?;
     let laws: [(&str, Role, DryFriction); 3] = [
         ("Coulomb and viscous", Role::Corrected, sliding.into()),
         (
@@ -40,12 +40,12 @@ pub(crate) fn figure() -> Drawn {
 }
 
 fn by_direction(coulomb: Coulomb) -> Result<DryFriction, DriveError> {
-    Ok(Coulomb::by_direction(0.7 * coulomb.forward, 1.3 * coulomb.backward)?.into())
+    Ok(Coulomb::by_direction(0.7 * coulomb.forward(), 1.3 * coulomb.backward())?.into())
 }
 
 /// Torque against the motion, with its jump at rest.
 fn curve(arm: &Arm, law: &DryFriction) -> (Vec<f64>, Vec<f64>) {
-    let viscous = arm.motor.viscous_nm_s_per_rad;
+    let viscous = arm.motor.viscous_nm_s_per_rad();
     let half = |from: f64, to: f64, sign: f64| {
         let torque = move |v: f64| law.at(v, 0.0).slipping(sign) + viscous * v;
         even(from, to, LINE).into_iter().map(move |v| (v, torque(v)))

@@ -21,7 +21,7 @@ const SEEDS: std::ops::Range<u64> = 1000..1040;
 pub(crate) fn figure() -> Drawn {
     let rig = noisy_rig(NOISE_RAD)?;
     let experiment = settled_sine(OMEGA_RAD_S, AMPLITUDE_RAD, RECORD_S)?;
-    let truth = rig.arm.coulomb.forward;
+    let truth = rig.arm.coulomb.forward();
     let (mut inside, mut outside) = (Vec::new(), Vec::new());
     for (number, seed) in (1..).zip(SEEDS) {
         let campaign = campaign(&rig, std::slice::from_ref(&experiment), seed)?;

@@ -25,7 +25,7 @@ const LINE: usize = 200;
 /// Confidence ellipses of inertia and coupling, as deviations from the truth.
 pub(crate) fn figure() -> Drawn {
     let rig = noisy_rig(NOISE_RAD)?;
-    let truth = [rig.arm.motor.inertia_kg_m2, rig.arm.dynamics().coupling_motor];
+    let truth = [rig.arm.motor.inertia_kg_m2(), rig.arm.dynamics().coupling_motor];
     let mode = rig.arm.beam().natural_frequencies_rad_s()[0];
     let mut plot = LinePlot::new(
         "Inertia and coupling: regions of 95 % confidence",
