@@ -3,7 +3,7 @@
 use std::fmt::{self, Write as _};
 
 use lissom_io::ParameterList;
-use lissom_report::{interval, with_uncertainty};
+use lissom_text::{interval, with_uncertainty};
 
 /// Between two columns.
 const GAP: usize = 2;

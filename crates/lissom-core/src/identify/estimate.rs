@@ -1,5 +1,7 @@
 //! A figure with its uncertainty.
 
+use std::fmt;
+
 use statrs::distribution::{ContinuousCDF as _, StudentsT};
 
 use crate::identify::thresholds;
@@ -20,6 +22,13 @@ pub struct Estimate {
     pub value: f64,
     /// Its standard deviation, in the same unit.
     pub std: f64,
+}
+
+/// Value and standard error in two digits of the error: `0.13201(12)` is 0.13201 ± 0.00012.
+impl fmt::Display for Estimate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(&lissom_text::with_uncertainty(self.value, self.std))
+    }
 }
 
 impl Estimate {

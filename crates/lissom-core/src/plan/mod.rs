@@ -10,6 +10,7 @@ mod choose;
 mod known;
 mod loaded_information;
 mod note;
+mod plan_text;
 mod planned_figure;
 mod planned_motion;
 mod planner;

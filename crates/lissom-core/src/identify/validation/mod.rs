@@ -10,6 +10,7 @@ pub(super) mod torque;
 pub(super) mod torque_arm;
 mod torque_rows;
 mod validation_findings;
+mod validation_text;
 pub(super) mod zeros;
 
 pub use cause::{Cause, CauseKind};
