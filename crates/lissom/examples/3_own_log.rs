@@ -1,16 +1,13 @@
 //! Your own log: arrays of time, current and angle become a campaign; a second log is predicted with the result.
 //!
-//! `cargo run --release -p lissom --example 3_own_log`. With files, `read_campaign("campaign.toml".as_ref())?` takes the
-//! place of `campaign_of`.
+//! `cargo run --release -p lissom --example 3_own_log`. For files use `read_campaign("campaign.toml".as_ref())?`.
 #![expect(clippy::print_stdout, reason = "an example shows what it finds")]
-
-use std::f64::consts::TAU;
 
 use lissom::identify::Severity;
 use lissom::prelude::*;
 
 const SAMPLE_TIME_S: f64 = 1e-3;
-const TORQUE_CONSTANT_NM_PER_A: f64 = 0.12;
+const NM_PER_A: f64 = 0.12;
 
 /// What a drive logged: current and angle. Here both are computed, of a sweep from 1 to 13 rad/s.
 fn log(amplitude_rad: f64) -> (Vec<f64>, Vec<f64>) {
@@ -24,7 +21,7 @@ fn log(amplitude_rad: f64) -> (Vec<f64>, Vec<f64>) {
         let angle = amplitude_rad * phase.sin();
         // A current sensor with steps of 5 mA, an encoder with 65536 counts a turn.
         let steps = |value: f64, step: f64| (value / step).round() * step;
-        (steps(torque / TORQUE_CONSTANT_NM_PER_A, 5e-3), steps(angle, TAU / 65_536.0))
+        (steps(torque / NM_PER_A, 5e-3), steps(angle, std::f64::consts::TAU / 65_536.0))
     };
     (0..12_000).map(sample).unzip()
 }
@@ -37,7 +34,7 @@ fn campaign_of(
     let command = Command {
         quantity: CommandQuantity::Current,
         hold: Hold::Measured, // `Sampled` for a commanded current that is held between samples
-        torque_per_command: Some(TORQUE_CONSTANT_NM_PER_A),
+        torque_per_command: Some(NM_PER_A),
         back_emf_viscous: 0.0,
         limit: None,
     };

@@ -12,7 +12,7 @@ thresholds! {
     "third harmonic" {
         /// Share by which Coulomb friction comes out low, for each unit of the sticking share of
         /// the cycle. With 4 % and 8 % it was 2.3 % and 4.9 % low on the simulated arm of the 1989
-        /// report (DESIGN.md).
+        /// report (docs/src/decisions/09-third-harmonic.md).
         STICKING_BIAS: f64 = 0.6, "1", Measured;
         /// Sticking shares of the cycle below this cannot be measured with a sensor of 12 bits; the
         /// standard error counts this share at least.

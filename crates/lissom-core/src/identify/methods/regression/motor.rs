@@ -186,7 +186,7 @@ pub struct ByDirection {
 ///
 /// # Source
 /// `[Feliu1989, eqs. (14), (15)]` is the equation; the way of fitting it is this project's own
-/// (DESIGN.md, "How does the regression work?").
+/// (docs/src/theory/regression.md).
 pub fn motor_regression(prepared: &Prepared<'_>, options: &Options) -> Option<MotorRegression> {
     // Many short loops: within the pool none of them has to wake it first.
     rayon::scope(|_| {
