@@ -59,6 +59,9 @@ pub(crate) enum Failure {
     /// A folder that holds something else.
     #[error("{}: holds {what}; nothing is written over", folder.display())]
     OtherCampaign { folder: PathBuf, what: String },
+    /// A manual page.
+    #[error("{}: {source}", path.display())]
+    Page { path: PathBuf, source: std::io::Error },
     #[error("the plot could not be drawn: {0}")]
     Figure(#[from] FigureError),
 }

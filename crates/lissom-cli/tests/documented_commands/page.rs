@@ -44,8 +44,7 @@ impl<'t> Page<'t> {
             let kind = fence.trim_start_matches('`');
             let first = at + 1;
             let closes = |line: &&str| line.trim() == ticks;
-            let length =
-                lines[first..].iter().position(|l| closes(l)).unwrap_or(lines.len() - first);
+            let length = lines[first..].iter().position(closes).unwrap_or(lines.len() - first);
             let block = first..first + length;
             at = block.end + 1;
             if let Some(file) = file.take() {

@@ -110,7 +110,7 @@ impl Rig {
         for arm in std::iter::once(&self.arm).chain(self.scene.later.iter().map(|(_, arm)| arm)) {
             let rate_per_s = arm.rate_bound();
             let steps = rate_per_s * sample_time_s;
-            if !(steps <= STEPS_MOST) {
+            if steps > STEPS_MOST || steps.is_nan() {
                 let most = STEPS_MOST;
                 return Err(RigError::TooStiff { rate_per_s, steps, sample_time_s, most });
             }
