@@ -1,4 +1,4 @@
-//! The one error of this crate: what each part can refuse.
+//! The error type of this crate: one variant for each module.
 
 use thiserror::Error;
 
@@ -12,42 +12,44 @@ use crate::record::clock::ClockError;
 use crate::rig::RigError;
 use crate::spectrum::SteadyError;
 
-/// Any error of this crate. Functions return the error of their own part, which says all that can go wrong there;
-/// each becomes this one by `?`.
+/// Any error of this crate.
+///
+/// Each function returns the error type of its own module, which lists what can fail there. The operator `?` converts
+/// it to this type.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Numbers that make no beam.
+    /// A beam cannot be built from these numbers.
     #[error(transparent)]
     Beam(#[from] BeamError),
-    /// Numbers that make no motor or no friction.
+    /// A motor or a friction law cannot be built from these numbers.
     #[error(transparent)]
     Drive(#[from] DriveError),
-    /// A rig or an experiment that cannot be.
+    /// A rig cannot be built, or an experiment cannot be run on it.
     #[error(transparent)]
     Rig(#[from] RigError),
-    /// Channels that make no run or no campaign.
+    /// Channels do not make a run or a campaign.
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// Time stamps that make no clock.
+    /// Time stamps are not usable.
     #[error(transparent)]
     Clock(#[from] ClockError),
-    /// A record that is not periodic.
+    /// A record is not periodic.
     #[error(transparent)]
     Steady(#[from] SteadyError),
-    /// A campaign that cannot be identified at all.
+    /// A campaign cannot be identified at all.
     #[error(transparent)]
     Identify(#[from] IdentifyError),
-    /// A result that cannot be compared with logs.
+    /// A result cannot be compared with the given logs.
     #[error(transparent)]
     Validation(#[from] ValidationError),
-    /// Responses that make no equivalent arm.
+    /// No equivalent arm can be computed from the responses.
     #[error(transparent)]
     Equivalent(#[from] EquivalentError),
-    /// Responses without poles in common.
+    /// No common poles can be fitted to the responses.
     #[error(transparent)]
     SharedPoles(#[from] SharedPolesError),
-    /// Runs that cannot be planned.
+    /// No plan can be made for this arm.
     #[error(transparent)]
     Plan(#[from] PlanError),
 }

@@ -1,31 +1,31 @@
-//! Why numbers are refused.
+//! Why numbers of a motor or a friction law are rejected.
 
 use thiserror::Error;
 
-/// Why numbers cannot make a motor or a law of friction.
+/// A number cannot belong to a motor or a friction law.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum DriveError {
-    /// A quantity that must be positive is not.
+    /// A quantity that must be positive is not positive, or not finite.
     #[error("{quantity} = {found} is not positive and finite")]
     NotPositive {
-        /// Which quantity.
+        /// Name of the quantity.
         quantity: &'static str,
         /// The number found.
         found: f64,
     },
-    /// A quantity of either sign is no number, or infinite.
+    /// A quantity that may have either sign is not finite.
     #[error("{quantity} = {found} is not finite")]
     NotFinite {
-        /// Which quantity.
+        /// Name of the quantity.
         quantity: &'static str,
         /// The number found.
         found: f64,
     },
-    /// A quantity that must not be negative is.
+    /// A quantity that must not be negative is negative, or not finite.
     #[error("{quantity} = {found} is negative or not finite")]
     Negative {
-        /// Which quantity.
+        /// Name of the quantity.
         quantity: &'static str,
         /// The number found.
         found: f64,
