@@ -1,13 +1,13 @@
-//! What an experiment shows that its log alone does not say.
+//! Findings about a simulated run, which its log alone does not show.
 
 use std::fmt;
 
-/// Where a sensor is.
+/// Place of a sensor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SensorPlace {
-    /// On the motor.
+    /// At the motor.
     Motor,
-    /// At a mass of the beam, from 0 at the base.
+    /// At a mass of the beam, counted from 0 at the base.
     Tip(usize),
 }
 
@@ -20,50 +20,49 @@ impl fmt::Display for SensorPlace {
     }
 }
 
-/// Something about a simulated run that its user should know.
+/// A finding about a simulated run.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum RigFinding {
-    /// The log began before the transient had gone.
+    /// The log began before the transient had decayed.
     NotSettled {
-        /// What is left of it at most \[rad\]; infinite where nothing bounds it.
+        /// Bound on the remaining transient \[rad\]; infinite if there is no bound.
         left_rad: f64,
-        /// What was asked for \[rad\].
+        /// Tolerance that was requested \[rad\].
         tolerance_rad: f64,
-        /// How long the rig waited \[s\].
+        /// Time that the rig waited \[s\].
         waited_s: f64,
     },
     /// The amplifier or its converter limited the current.
     CurrentLimited {
-        /// Part of the record in which it did \[1\].
+        /// Share of the record in which it did \[1\].
         share: f64,
-        /// The largest current that it gives \[A\].
+        /// Largest current of the amplifier \[A\].
         limit_a: f64,
-        /// The motor's range over the reference's; `None` where the reference has none.
+        /// Travel of the motor over the travel of the reference \[1\]; `None` without a reference for the angle.
         reached: Option<f64>,
     },
     /// The motor stood still throughout the record.
     NeverMoved {
-        /// Largest torque of the motor \[N·m\].
+        /// Largest torque of the motor in the record \[N·m\].
         torque_nm: f64,
-        /// The smaller of both directions' Coulomb friction \[N·m\].
+        /// Coulomb friction of the direction that has less \[N·m\].
         coulomb_nm: f64,
     },
-    /// A sensor was taken beyond its range and read the range's end.
+    /// A sensor was beyond its range and read the end of the range.
     SensorRange {
-        /// Which sensor.
+        /// The sensor.
         sensor: SensorPlace,
-        /// Part of the record in which it was \[1\].
+        /// Share of the record in which this happened \[1\].
         share: f64,
-        /// Lowest and highest angle that it reads \[rad\].
+        /// Lowest and highest angle that the sensor reads \[rad\].
         range_rad: (f64, f64),
     },
-    /// The controller acts between two samples of the log: the logged current was not held from one
-    /// to the next.
+    /// The controller acts between two rows of the log, so the logged current was not constant from row to row.
     CurrentBetweenSamples {
-        /// Samples from one action of the controller to the next.
+        /// Number of samples from one action of the controller to the next.
         control_every: usize,
-        /// Samples from one row of the log to the next.
+        /// Number of samples from one row of the log to the next.
         log_every: usize,
     },
 }
