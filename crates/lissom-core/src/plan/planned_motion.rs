@@ -1,4 +1,4 @@
-//! The motions that a plan chooses from.
+//! The motions that a plan can choose.
 
 use std::f64::consts::{PI, TAU};
 
@@ -18,36 +18,36 @@ const SWEEPS_S: [f64; 3] = [10.0, 20.0, 40.0];
 /// The band where neither beam nor current says one \[rad/s\].
 const BAND_RAD_S: (f64, f64) = (1.0, 30.0);
 
-/// What the motor is asked to do, but for its size.
+/// Reference of the motor in a planned run, without its amplitude.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PlannedMotion {
-    /// A sine of this frequency \[rad/s\].
+    /// A sine.
     Sine {
-        /// ω0.
+        /// Frequency ω0 \[rad/s\].
         omega_rad_s: f64,
     },
-    /// Odd multiples of a frequency up to another \[rad/s\].
+    /// Odd multiples of a frequency, with random phases.
     Multisine {
-        /// The lowest line.
+        /// Frequency of the lowest line \[rad/s\].
         omega_rad_s: f64,
-        /// No line is higher.
+        /// No line is higher than this frequency \[rad/s\].
         to_rad_s: f64,
         /// Seed of the phases.
         phases: u64,
     },
-    /// A logarithmic sweep from one frequency to another \[rad/s\].
+    /// A logarithmic sweep.
     Chirp {
-        /// At its start.
+        /// First frequency \[rad/s\].
         from_rad_s: f64,
-        /// At its end.
+        /// Last frequency \[rad/s\].
         to_rad_s: f64,
-        /// How long it takes \[s\].
+        /// Duration \[s\].
         sweep_s: f64,
     },
 }
 
 impl PlannedMotion {
-    /// Records come in multiples of this \[s\].
+    /// The length of a record is a multiple of this time \[s\].
     pub fn stretch_s(&self) -> f64 {
         let whole = |omega_rad_s: f64, periods: f64| {
             let period_s = TAU / omega_rad_s;
@@ -76,7 +76,7 @@ impl PlannedMotion {
         }
     }
 
-    /// Periods of a record; `None` for a sweep.
+    /// Number of periods in a record; `None` for a sweep.
     pub fn periods(&self, record_s: f64) -> Option<usize> {
         match *self {
             Self::Sine { omega_rad_s } | Self::Multisine { omega_rad_s, .. } => {
@@ -86,10 +86,10 @@ impl PlannedMotion {
         }
     }
 
-    /// The motion as a signal.
+    /// The motion as a reference with the given amplitude.
     ///
     /// # Errors
-    /// [`RigError`] where the numbers make none.
+    /// [`RigError`] if the numbers do not make a signal.
     pub fn reference(&self, amplitude_rad: f64) -> Result<Reference, RigError> {
         match *self {
             Self::Sine { omega_rad_s } => Reference::sine(omega_rad_s, amplitude_rad),
@@ -104,11 +104,11 @@ impl PlannedMotion {
         }
     }
 
-    /// The experiment: sines wait for their transient to go, at most `longest_s`; all else begins at
-    /// once.
+    /// The experiment. A sine waits until its transient has decayed, at most `longest_s`;
+    /// all other motions begin at once.
     ///
     /// # Errors
-    /// [`RigError`] where the numbers make none.
+    /// [`RigError`] if the numbers do not make a signal or an experiment.
     pub fn experiment(
         &self,
         amplitude_rad: f64,
