@@ -1,4 +1,5 @@
-//! What the recipe for torque leaves of an arm that is right: its sensors' steps and noise, and what a
+//! Residual torque that a correct arm would have: it comes from the steps and noise of its sensors,
+//! and from averaging in windows.
 //! window hides.
 
 use rand_distr::{Distribution as _, StandardNormal};
