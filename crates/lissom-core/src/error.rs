@@ -1,4 +1,4 @@
-//! The error type of this crate: one variant for each module.
+//! The one error of this crate: what each part can refuse.
 
 use thiserror::Error;
 
@@ -12,44 +12,42 @@ use crate::record::clock::ClockError;
 use crate::rig::RigError;
 use crate::spectrum::SteadyError;
 
-/// Any error of this crate.
-///
-/// Each function returns the error type of its own module, which lists what can fail there. The operator `?` converts
-/// it to this type.
+/// Any error of this crate. Functions return the error of their own part, which says all that can go wrong there;
+/// each becomes this one by `?`.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A beam cannot be built from these numbers.
+    /// Numbers that make no beam.
     #[error(transparent)]
     Beam(#[from] BeamError),
-    /// A motor or a friction law cannot be built from these numbers.
+    /// Numbers that make no motor or no friction.
     #[error(transparent)]
     Drive(#[from] DriveError),
-    /// A rig cannot be built, or an experiment cannot be run on it.
+    /// A rig or an experiment that cannot be.
     #[error(transparent)]
     Rig(#[from] RigError),
-    /// Channels do not make a run or a campaign.
+    /// Channels that make no run or no campaign.
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// Time stamps are not usable.
+    /// Time stamps that make no clock.
     #[error(transparent)]
     Clock(#[from] ClockError),
-    /// A record is not periodic.
+    /// A record that is not periodic.
     #[error(transparent)]
     Steady(#[from] SteadyError),
-    /// A campaign cannot be identified at all.
+    /// A campaign that cannot be identified at all.
     #[error(transparent)]
     Identify(#[from] IdentifyError),
-    /// A result cannot be compared with the given logs.
+    /// A result that cannot be compared with logs.
     #[error(transparent)]
     Validation(#[from] ValidationError),
-    /// No equivalent arm can be computed from the responses.
+    /// Responses that make no equivalent arm.
     #[error(transparent)]
     Equivalent(#[from] EquivalentError),
-    /// No common poles can be fitted to the responses.
+    /// Responses without poles in common.
     #[error(transparent)]
     SharedPoles(#[from] SharedPolesError),
-    /// No plan can be made for this arm.
+    /// Runs that cannot be planned.
     #[error(transparent)]
     Plan(#[from] PlanError),
 }

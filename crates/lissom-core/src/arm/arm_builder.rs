@@ -6,14 +6,14 @@ use super::coupled_arm::Arm;
 use crate::beam::{Beam, BeamError, Damping, LumpedBeam, Payload, Span};
 use crate::drive::{Coulomb, DriveError, Motor, MotorBuilder};
 
-/// An arm cannot be built from these parts.
+/// Why parts make no arm.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ArmBuildError {
-    /// The numbers do not make a beam.
+    /// Numbers that make no beam.
     #[error(transparent)]
     Beam(#[from] BeamError),
-    /// The numbers do not make a motor or a friction law.
+    /// Numbers that make no motor or no friction.
     #[error(transparent)]
     Drive(#[from] DriveError),
 }
@@ -120,7 +120,7 @@ impl ArmBuilder {
     /// Builds the arm.
     ///
     /// # Errors
-    /// [`ArmBuildError`] if the numbers do not make a beam, a motor or a friction law.
+    /// [`ArmBuildError`] for numbers that make no beam, no motor or no friction.
     pub fn build(self) -> Result<Arm, ArmBuildError> {
         let beam = match self.beam {
             Some(beam) => beam,

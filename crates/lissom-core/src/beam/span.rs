@@ -137,19 +137,19 @@ impl Damping {
     }
 }
 
-/// A beam cannot be built, or a method cannot be applied to it.
+/// What makes numbers no beam.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BeamError {
-    /// There are no spans.
+    /// A beam without spans.
     #[error("the beam has no spans")]
     NoSpans,
-    /// More masses than dense matrices are built for.
+    /// More degrees of freedom than dense matrices are meant for.
     #[error("{found} masses; matrices are made for at most {most}")]
     TooManyMasses {
-        /// Number of masses given.
+        /// Masses given.
         found: usize,
-        /// Largest number supported.
+        /// Masses supported.
         most: usize,
     },
     /// A dimension is not positive and finite.
@@ -157,22 +157,22 @@ pub enum BeamError {
     NotPositive {
         /// Number of the span, from 1 at the base.
         span: usize,
-        /// Name of the quantity, with its unit.
+        /// Which quantity, with its unit.
         quantity: &'static str,
         /// The number found.
         found: f64,
     },
-    /// A quantity of a span must not be negative, but is negative or not finite.
+    /// A quantity of a span that may be zero is negative or not finite.
     #[error("span {span}: {quantity} = {found} is negative or not finite")]
     Negative {
         /// Number of the span, from 1 at the base.
         span: usize,
-        /// Name of the quantity, with its unit.
+        /// Which quantity, with its unit.
         quantity: &'static str,
         /// The number found.
         found: f64,
     },
-    /// The hub radius is negative or not finite.
+    /// The hub's radius is negative or not finite.
     #[error("hub_radius_m = {found} is negative or not finite")]
     HubRadius {
         /// The number found.
@@ -181,7 +181,7 @@ pub enum BeamError {
     /// A quantity of the payload is negative or not finite.
     #[error("payload: {quantity} = {found} is negative or not finite")]
     Payload {
-        /// Name of the quantity, with its unit.
+        /// Which quantity, with its unit.
         quantity: &'static str,
         /// The number found.
         found: f64,
@@ -189,78 +189,78 @@ pub enum BeamError {
     /// A quantity of the damping model is negative or not finite.
     #[error("damping: {quantity} = {found} is negative or not finite")]
     DampingModel {
-        /// Name of the quantity, with its unit.
+        /// Which quantity, with its unit.
         quantity: &'static str,
         /// The number found.
         found: f64,
     },
-    /// Modal damping without any ratio.
+    /// Modal damping without a ratio.
     #[error("modal damping needs at least one ratio")]
     NoRatios,
-    /// Modal damping was given for a distributed beam.
+    /// Modal damping of a distributed beam.
     #[error("a distributed beam takes proportional damping, not a ratio for each mode")]
     ModalDistributed,
-    /// The modes look alike at the chosen points.
+    /// Modes that cannot be told apart at the points chosen.
     #[error(
         "at these points the modes cannot be told apart (reciprocal condition {condition:.1e})"
     )]
     PointsTooClose {
-        /// Ratio of the smallest to the largest singular value of the matrix of the modes' shares at the points.
+        /// Smallest over largest singular value of the modes' shares at the points.
         condition: f64,
     },
-    /// A modal beam without modes.
+    /// A beam by its modes without one.
     #[error("the beam has no modes")]
     NoModes,
-    /// A modal beam needs as many points as modes.
+    /// A beam by its modes needs as many points as modes.
     #[error(
         "gains of mode {mode}: {points}, where {modes} are needed, one for each of as many points as modes"
     )]
     ModesAndPoints {
-        /// Number of the mode, counted from 1.
+        /// Number of the mode, from 1.
         mode: usize,
-        /// Number of gains of this mode.
+        /// Its gains.
         points: usize,
-        /// Number of modes given.
+        /// Modes given.
         modes: usize,
     },
-    /// A number of a mode is not possible.
+    /// A number of a mode that it cannot have.
     #[error("mode {mode}: {quantity} = {found} is out of range")]
     KnownMode {
-        /// Number of the mode, counted from 1.
+        /// Number of the mode, from 1.
         mode: usize,
-        /// Name of the quantity, with its unit.
+        /// Which quantity, with its unit.
         quantity: &'static str,
         /// The number found.
         found: f64,
     },
-    /// The gains of a point do not add up to one, so that turning as one body would bend the beam.
+    /// Gains that strain a beam that turns as one body.
     #[error(
         "the gains of point {point} add up to {sum}, not to one: turning as one body would bend the beam"
     )]
     GainsSum {
-        /// Number of the point, counted from 1.
+        /// Number of the point, from 1.
         point: usize,
-        /// Sum of its gains.
+        /// Their sum.
         sum: f64,
     },
-    /// A payload, force or torque at the tip of a rigid joint or of a modal beam.
+    /// Something at the tip of a rigid joint, or of a beam that is known by its modes alone.
     #[error("a rigid joint or a beam known by its modes has no tip that something could act on")]
     NoTip,
-    /// A point is not on the beam, or does not exist.
+    /// Points that are not on the beam.
     #[error("points must lie on the beam, beyond {base_m} m and up to {tip_m} m from the axis")]
     Points {
-        /// Distance of the beam's base from the axis \[m\].
+        /// Where the beam begins \[m\].
         base_m: f64,
-        /// Distance of the beam's tip from the axis \[m\].
+        /// Where it ends \[m\].
         tip_m: f64,
     },
-    /// Damping ratios by mode and dampers at masses were given together.
+    /// Ratios by mode and dampers at masses at once.
     #[error("damping ratios by mode stand beside dampers at masses: no mode keeps its ratio then")]
     ModalWithDampers,
-    /// Dimensions differ so much that numbers leave the range of a double.
+    /// Dimensions so far apart that numbers leave the range of a double.
     #[error("the dimensions are so far apart that {quantity} leaves the range of a double")]
     OutOfRange {
-        /// The quantity that left the range.
+        /// What left it.
         quantity: &'static str,
     },
 }

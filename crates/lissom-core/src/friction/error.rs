@@ -1,31 +1,31 @@
-//! Why numbers of a motor or a friction law are rejected.
+//! Why numbers are refused.
 
 use thiserror::Error;
 
-/// A number cannot belong to a motor or a friction law.
+/// Why numbers cannot make a motor or a law of friction.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum DriveError {
-    /// A quantity that must be positive is not positive, or not finite.
+    /// A quantity that must be positive is not.
     #[error("{quantity} = {found} is not positive and finite")]
     NotPositive {
-        /// Name of the quantity.
+        /// Which quantity.
         quantity: &'static str,
         /// The number found.
         found: f64,
     },
-    /// A quantity that may have either sign is not finite.
+    /// A quantity of either sign is no number, or infinite.
     #[error("{quantity} = {found} is not finite")]
     NotFinite {
-        /// Name of the quantity.
+        /// Which quantity.
         quantity: &'static str,
         /// The number found.
         found: f64,
     },
-    /// A quantity that must not be negative is negative, or not finite.
+    /// A quantity that must not be negative is.
     #[error("{quantity} = {found} is negative or not finite")]
     Negative {
-        /// Name of the quantity.
+        /// Which quantity.
         quantity: &'static str,
         /// The number found.
         found: f64,

@@ -36,19 +36,19 @@ use crate::identify::thresholds::{
 use crate::record::Campaign;
 use crate::replay::ModalArm;
 
-/// A campaign cannot be identified at all.
+/// Why a campaign cannot be identified at all.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum IdentifyError {
-    /// In every run, at least one channel is constant.
+    /// In every run some channel stands still.
     #[error("every run has a constant channel: {}", counted(constant, *runs))]
     NothingMoves {
         /// Number of runs.
         runs: usize,
-        /// Channels that are constant in some runs, with the number of these runs.
+        /// Channels that are constant somewhere, and in how many runs.
         constant: Vec<(String, usize)>,
     },
-    /// The requested window length is not positive and finite.
+    /// The window asked for is not a positive finite length.
     #[error("a window of {found_s} s is not positive and finite")]
     Window {
         /// The length given \[s\].

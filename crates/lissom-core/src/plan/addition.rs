@@ -1,5 +1,4 @@
-//! What one more run would add to the information about an identified arm; the motor is
-//! assumed to follow its reference.
+//! What one more run would say of an arm that logs have shown: motions as the motor would follow them.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -17,12 +16,12 @@ const STEP_RAD: f64 = 0.25;
 /// Step of differences for a reference's speed, as a share of the sample time.
 const DIFFERENCE: f64 = 1e-3;
 
-/// Limits of a further run.
+/// How far a further run may go.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bounds {
     /// Largest torque \[N·m\].
     pub torque_nm: f64,
-    /// Largest angle of the motor from its start \[rad\].
+    /// Largest angle of the motor from where it begins \[rad\].
     pub travel_rad: f64,
     /// Largest deflection of each tip from the motor's line \[rad\].
     pub bend_rad: Vec<f64>,
@@ -30,24 +29,23 @@ pub struct Bounds {
     pub sample_time_s: f64,
 }
 
-/// A run that may be added, with the information that it gives.
+/// A run that may be added, and what it would say.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Addition {
-    /// Reference of the motor, without its amplitude.
+    /// What the motor is asked to do.
     pub motion: PlannedMotion,
     /// Amplitude of the reference \[rad\].
     pub amplitude_rad: f64,
-    /// Length of the log \[s\].
+    /// Time logged \[s\].
     pub record_s: f64,
-    /// Fisher information about the parameters, without the unknowns of the run itself (its initial
-    /// state and the zeros of the tips).
+    /// Information on the parameters, the window's own unknowns eliminated.
     pub information: DMatrix<f64>,
 }
 
 impl Bounds {
-    /// Limits that the runs of a campaign kept to. Torque: the largest command, or the limit of the current minus the
-    /// reserve of [`Wishes`], whichever is larger. Travel: the largest travel of the motor. Bending: that of
-    /// [`Wishes`], or the largest bending of each tip, whichever is larger. `None` without runs.
+    /// Those that a campaign kept to: the largest travel of its motor, its current's limit less the
+    /// reserve of [`Wishes`] or the largest command that it used, and [`Wishes`]' bending or what its
+    /// tips bent. `None` of no runs.
     pub fn of(campaign: &Campaign) -> Option<Self> {
         let channels = &campaign.channels;
         let wishes = Wishes::default();
@@ -83,11 +81,11 @@ fn half_range(values: impl Iterator<Item = f64>) -> f64 {
     if high > low { 0.5 * (high - low) } else { 0.0 }
 }
 
-/// All motions that a plan would try, each as large as the bounds allow, with the information that the replay computes
-/// for it. Empty if friction has terms besides Coulomb and viscous friction.
+/// Every motion that a plan would try, each as large as the bounds allow, with the information that the
+/// replay gives of it; none where friction has terms beside Coulomb's and the viscous one.
 ///
-/// The motor is assumed to follow its reference, because the controller is not known. The replay receives the torque
-/// that this motion takes, averaged over each sample.
+/// The motor is taken to follow its reference: nothing is known of the controller. The torque that this
+/// takes, averaged over each sample, is what the replay is given.
 pub fn additions(
     arm: &ModalArm,
     parameters: &[Parameter],

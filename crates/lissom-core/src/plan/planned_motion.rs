@@ -1,4 +1,4 @@
-//! The motions that a plan can choose.
+//! The motions that a plan chooses from.
 
 use std::f64::consts::{PI, TAU};
 
@@ -18,36 +18,36 @@ const SWEEPS_S: [f64; 3] = [10.0, 20.0, 40.0];
 /// The band where neither beam nor current says one \[rad/s\].
 const BAND_RAD_S: (f64, f64) = (1.0, 30.0);
 
-/// Reference of the motor in a planned run, without its amplitude.
+/// What the motor is asked to do, but for its size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PlannedMotion {
-    /// A sine.
+    /// A sine of this frequency \[rad/s\].
     Sine {
-        /// Frequency ω0 \[rad/s\].
+        /// ω0.
         omega_rad_s: f64,
     },
-    /// Odd multiples of a frequency, with random phases.
+    /// Odd multiples of a frequency up to another \[rad/s\].
     Multisine {
-        /// Frequency of the lowest line \[rad/s\].
+        /// The lowest line.
         omega_rad_s: f64,
-        /// No line is higher than this frequency \[rad/s\].
+        /// No line is higher.
         to_rad_s: f64,
         /// Seed of the phases.
         phases: u64,
     },
-    /// A logarithmic sweep.
+    /// A logarithmic sweep from one frequency to another \[rad/s\].
     Chirp {
-        /// First frequency \[rad/s\].
+        /// At its start.
         from_rad_s: f64,
-        /// Last frequency \[rad/s\].
+        /// At its end.
         to_rad_s: f64,
-        /// Duration \[s\].
+        /// How long it takes \[s\].
         sweep_s: f64,
     },
 }
 
 impl PlannedMotion {
-    /// The length of a record is a multiple of this time \[s\].
+    /// Records come in multiples of this \[s\].
     pub fn stretch_s(&self) -> f64 {
         let whole = |omega_rad_s: f64, periods: f64| {
             let period_s = TAU / omega_rad_s;
@@ -76,7 +76,7 @@ impl PlannedMotion {
         }
     }
 
-    /// Number of periods in a record; `None` for a sweep.
+    /// Periods of a record; `None` for a sweep.
     pub fn periods(&self, record_s: f64) -> Option<usize> {
         match *self {
             Self::Sine { omega_rad_s } | Self::Multisine { omega_rad_s, .. } => {
@@ -86,10 +86,10 @@ impl PlannedMotion {
         }
     }
 
-    /// The motion as a reference with the given amplitude.
+    /// The motion as a signal.
     ///
     /// # Errors
-    /// [`RigError`] if the numbers do not make a signal.
+    /// [`RigError`] where the numbers make none.
     pub fn reference(&self, amplitude_rad: f64) -> Result<Reference, RigError> {
         match *self {
             Self::Sine { omega_rad_s } => Reference::sine(omega_rad_s, amplitude_rad),
@@ -104,11 +104,11 @@ impl PlannedMotion {
         }
     }
 
-    /// The experiment. A sine waits until its transient has decayed, at most `longest_s`;
-    /// all other motions begin at once.
+    /// The experiment: sines wait for their transient to go, at most `longest_s`; all else begins at
+    /// once.
     ///
     /// # Errors
-    /// [`RigError`] if the numbers do not make a signal or an experiment.
+    /// [`RigError`] where the numbers make none.
     pub fn experiment(
         &self,
         amplitude_rad: f64,

@@ -1,4 +1,4 @@
-//! Makes a plan from the useful motions: what there is to choose from, and the precision that the choice gives.
+//! From motions that fit to a plan: what there is to choose from, and what the choice gives.
 
 use nalgebra::{DMatrix, DVector};
 

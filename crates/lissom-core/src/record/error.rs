@@ -2,30 +2,30 @@
 
 use thiserror::Error;
 
-/// Signals cannot make a run or a campaign.
+/// Why signals cannot make a record.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RecordError {
-    /// The campaign has no runs.
+    /// A campaign without runs.
     #[error("the campaign has no runs")]
     NoRuns,
-    /// A run has a different number of tips than its campaign.
+    /// A run has another number of tips than its campaign.
     #[error("run {run}: {found} tip channels where the campaign has {expected}")]
     TipCount {
         /// Name of the run.
         run: String,
-        /// Number of tips of the campaign.
+        /// Tips of the campaign.
         expected: usize,
-        /// Number of tips of the run.
+        /// Tips of the run.
         found: usize,
     },
-    /// Gravity cannot act as `g_s·sin θ + g_c·cos θ` on the motor of this campaign.
+    /// Gravity where it cannot act as `g_s·sin θ + g_c·cos θ` on the motor.
     #[error("{}", gravity_refused(*.linear))]
     Gravity {
-        /// True for a linear axis; false if the campaign has tips.
+        /// Whether the axis is linear.
         linear: bool,
     },
-    /// The channels of a run differ in length.
+    /// Two channels of a run differ in length.
     #[error("run {run}: channel {channel} has {found} samples where the motor has {expected}")]
     Length {
         /// Name of the run.
@@ -37,7 +37,7 @@ pub enum RecordError {
         /// Samples of this channel.
         found: usize,
     },
-    /// A run has too few samples.
+    /// Fewer samples than anything can be said from.
     #[error("run {run}: {found} samples; at least {least} are needed")]
     TooShort {
         /// Name of the run.
@@ -77,13 +77,13 @@ pub enum RecordError {
         /// Its stamp \[s\].
         after_s: f64,
     },
-    /// A known m·g·l is not positive and finite.
+    /// A known m·g·l that is no positive torque.
     #[error("m·g·l of a load is positive and finite, not {found_nm} N·m")]
     Mgl {
         /// The torque given \[N·m\].
         found_nm: f64,
     },
-    /// The drive frequency is not between 0 and the Nyquist frequency.
+    /// The drive frequency is not a positive finite number below the Nyquist frequency.
     #[error(
         "run {run}: a drive frequency of {found_rad_s} rad/s is not between 0 and the Nyquist frequency {nyquist_rad_s} rad/s"
     )]

@@ -1,13 +1,13 @@
-//! Findings about a simulated run, which its log alone does not show.
+//! What an experiment shows that its log alone does not say.
 
 use std::fmt;
 
-/// Place of a sensor.
+/// Where a sensor is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SensorPlace {
     /// At the motor.
     Motor,
-    /// At a mass of the beam, counted from 0 at the base.
+    /// At a mass of the beam, from 0 at the base.
     Tip(usize),
 }
 
@@ -20,26 +20,26 @@ impl fmt::Display for SensorPlace {
     }
 }
 
-/// A finding about a simulated run.
+/// Something about a simulated run that its user should know.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum RigFinding {
-    /// The log began before the transient had decayed.
+    /// The log began before the transient had gone.
     NotSettled {
-        /// Bound on the remaining transient \[rad\]; infinite if there is no bound.
+        /// What is left of it at most \[rad\]; infinite where nothing bounds it.
         left_rad: f64,
-        /// Tolerance that was requested \[rad\].
+        /// What was asked for \[rad\].
         tolerance_rad: f64,
-        /// Time that the rig waited \[s\].
+        /// How long the rig waited \[s\].
         waited_s: f64,
     },
     /// The amplifier or its converter limited the current.
     CurrentLimited {
-        /// Share of the record in which it did \[1\].
+        /// Part of the record in which it did \[1\].
         share: f64,
-        /// Largest current of the amplifier \[A\].
+        /// The largest current that it gives \[A\].
         limit_a: f64,
-        /// Travel of the motor over the travel of the reference \[1\]; `None` without a reference for the angle.
+        /// The motor's range over the reference's; `None` where the reference has none.
         reached: Option<f64>,
     },
     /// The motor stood still throughout the record.
@@ -49,20 +49,21 @@ pub enum RigFinding {
         /// Coulomb friction of the direction that has less \[N·m\].
         coulomb_nm: f64,
     },
-    /// A sensor was beyond its range and read the end of the range.
+    /// A sensor was taken beyond its range and read the range's end.
     SensorRange {
-        /// The sensor.
+        /// Which sensor.
         sensor: SensorPlace,
-        /// Share of the record in which this happened \[1\].
+        /// Part of the record in which it was \[1\].
         share: f64,
-        /// Lowest and highest angle that the sensor reads \[rad\].
+        /// Lowest and highest angle that it reads \[rad\].
         range_rad: (f64, f64),
     },
-    /// The controller acts between two rows of the log, so the logged current was not constant from row to row.
+    /// The controller acts between two samples of the log: the logged current was not held from one
+    /// to the next.
     CurrentBetweenSamples {
-        /// Number of samples from one action of the controller to the next.
+        /// Samples from one action of the controller to the next.
         control_every: usize,
-        /// Number of samples from one row of the log to the next.
+        /// Samples from one row of the log to the next.
         log_every: usize,
     },
 }

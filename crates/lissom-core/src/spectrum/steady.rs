@@ -32,16 +32,16 @@ pub struct Steady {
     pub settled: bool,
 }
 
-/// A run has no steady part.
+/// Why a run has no steady part.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SteadyError {
-    /// The run has too few periods to compare.
+    /// Too few periods to compare.
     #[error("{found} whole blocks of periods; at least {least} are needed")]
     TooFewPeriods {
-        /// Number of whole blocks of periods found.
+        /// Whole blocks found.
         found: usize,
-        /// Number of blocks needed.
+        /// Blocks needed.
         least: usize,
     },
 }

@@ -50,20 +50,20 @@ pub struct EvenLog {
     pub longest: usize,
 }
 
-/// The time stamps of a log cannot be used.
+/// Why a log has no clock.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ClockError {
-    /// A stamp does not increase, and it is not a restart of the clock.
+    /// A stamp that does not increase, and no restart of the clock.
     #[error("time does not increase at row {row}")]
     NotIncreasing {
-        /// Index of the row, from 0.
+        /// The row, from 0.
         row: usize,
     },
     /// Fewer than two rows are left.
     #[error("{left} rows are left of {length_s} s")]
     NothingLeft {
-        /// Number of rows left.
+        /// Rows left.
         left: usize,
         /// Length of the log \[s\].
         length_s: f64,

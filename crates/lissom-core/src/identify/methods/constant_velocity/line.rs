@@ -76,25 +76,25 @@ impl FrictionLine {
     }
 }
 
-/// Reason why there is no line.
+/// Why there is no line.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LineError {
-    /// No part of the runs has a constant velocity in this direction.
+    /// No stretch at a constant velocity in this direction.
     #[error("no stretch at a constant velocity")]
     NoPoints,
-    /// There is only one speed.
+    /// One speed.
     #[error("{found} speed; at least two are needed")]
     TooFewSpeeds {
-        /// Number of speeds found.
+        /// Speeds found.
         found: usize,
     },
-    /// The speeds are too close together or too uncertain for an extrapolation.
+    /// The speeds are too close together, or too uncertain, for what an extrapolation asks.
     #[error("the figure extrapolated to rest, {coulomb:.4e}, is uncertain by {std:.1e}")]
     TooClose {
-        /// Coulomb friction that the line would give \[N·m or N\].
+        /// Coulomb friction \[N·m or N\].
         coulomb: f64,
-        /// Its standard error.
+        /// Its standard deviation.
         std: f64,
     },
 }
