@@ -4,7 +4,7 @@ use crate::record::{Campaign, Hold, Run};
 
 /// The torque of gravity on the motor, `g_s·sin θ + g_c·cos θ`, with the motor's angle θ as logged.
 ///
-/// It stands on the side of friction, so the motor has to supply it:
+/// It is on the same side of the equation as friction, so the motor has to supply it:
 /// `J·θ̈ + V·θ̇ + friction + g_s·sin θ + g_c·cos θ = K·i`. A mass m at the distance l from the axis gives
 /// `m·g·l·sin(θ + φ)` and hangs at rest at θ = −φ.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -4,7 +4,7 @@
 //! While the joint slips or sticks, the arm is linear: whole samples are computed with matrices, events with Taylor
 //! series. Where the motor stops or reverses, the derivatives jump (saltation).
 //!
-//! [`predict`] simulates one window, [`sums`] compares windows with their logs, and [`ModalArm`]
+//! [`predict`] simulates one window, [`sums`](fn@sums) compares windows with their logs, and [`ModalArm`]
 //! is the model that is simulated.
 
 mod arm_modes;

@@ -152,8 +152,8 @@ impl ModalArm {
         self.by_tip(|mode| mode.stiffness_nm_per_rad)
     }
 
-    /// Torque of damping within the beam by tip, κ'_i \[N·m·s/rad\], `C_t = Σκ_i(θ_m − θ_i) + κ'_i(θ̇_m − θ̇_i)`: κ'·r
-    /// = k·d/ω². `None` unless there are as many tips as modes.
+    /// Torque of damping within the beam by tip, κ'_i \[N·m·s/rad\]: `C_t = Σκ_i(θ_m − θ_i) + κ'_i(θ̇_m − θ̇_i)`, where
+    /// `κ'·r = k·d/ω²`. `None` unless there are as many tips as modes.
     pub fn coupling_rate_by_tip(&self) -> Option<Vec<f64>> {
         self.by_tip(|mode| {
             mode.stiffness_nm_per_rad * mode.within_per_s / (mode.omega_rad_s * mode.omega_rad_s)

@@ -95,7 +95,8 @@ impl Parameter {
         matches!(self, Self::DampingWithin(_) | Self::DampingGrounded(_) | Self::DampingAtPoint(_))
     }
 
-    /// Typical size for an arm, in the parameter's own unit: its value if it is positive, otherwise one derived from others.
+    /// Typical size for an arm, in the parameter's own unit: its value if it is positive, otherwise
+    /// a size that follows from other parameters.
     pub fn size(self, arm: &ModalArm) -> f64 {
         let positive = |value: f64, or: f64| if value > 0.0 { value } else { or };
         let first = arm.modes.first().map_or(1.0, |m| m.omega_rad_s);

@@ -11,8 +11,8 @@ const LEAST_SHARE: f64 = 0.05;
 
 /// A beam whose mass is concentrated at its tips, in terms of inertias, frequencies and an orthogonal matrix.
 ///
-/// With I_i = m_i·l_i² at tip i, the kinetic energy ½ΣI_i·θ̇_i² equals ½Σμ_j·ψ̇_j², μ_j = k_j/ω_j², for any motion θ_i
-/// = Σ_j r_ij·ψ_j (Σ_j r_ij = 1). Hence `rᵀ·diag(I)·r = diag(μ)`, and with an orthogonal matrix Q
+/// With I_i = m_i·l_i² at tip i, the kinetic energy `½ΣI_i·θ̇_i²` equals `½Σμ_j·ψ̇_j²`, μ_j = k_j/ω_j², for any motion
+/// `θ_i = Σ_j r_ij·ψ_j` (Σ_j r_ij = 1). Hence `rᵀ·diag(I)·r = diag(μ)`, and with an orthogonal matrix Q
 ///
 /// ```text
 /// s_j = Σ_i Q_ij·√I_i    r_ij = Q_ij·s_j/√I_i    k_j = ω_j²·s_j²

@@ -63,8 +63,8 @@ pub struct ThirdHarmonic {
 /// let c = 0.132 * 4.0 / std::f64::consts::PI; // fundamental of a square wave of ±0.132 A
 /// let low = RunPhasors { omega_rad_s: 2.0, command_1: p(1.0, 0.0), command_3: p(c / 3.0, quarter + 0.9), motor_1: p(0.5, 0.3), motor_3: zero };
 /// let triple = RunPhasors { omega_rad_s: 6.0, command_1: p(c, quarter), command_3: zero, motor_1: p(0.5, 0.0), motor_3: zero };
-/// let figure = pair_figure(0, 1, &low, &triple).unwrap();
-/// assert!((figure.coulomb_command.value - 0.132).abs() < 1e-12);
+/// let pair = pair_figure(0, 1, &low, &triple).unwrap();
+/// assert!((pair.coulomb_command.value - 0.132).abs() < 1e-12);
 /// ```
 ///
 /// # Source
