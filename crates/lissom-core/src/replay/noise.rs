@@ -14,7 +14,6 @@ const LEAST_CURVATURE: f64 = 0.05;
 /// normal distribution Φ. P is log-concave, so the cost `−ln P` is convex. Unlike a squared error, it accounts for the
 /// fact that all values within a step give the same reading: constant readings, and steps that repeat each period,
 /// count with the information that they contain.
-/// come back alike each period, are counted for what they say.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorNoise {
     /// Standard deviation σ of the noise, in the unit of the channel.

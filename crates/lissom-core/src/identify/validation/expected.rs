@@ -1,6 +1,5 @@
 //! Residual torque that a correct arm would have: it comes from the steps and noise of its sensors,
 //! and from averaging in windows.
-//! window hides.
 
 use rand_distr::{Distribution as _, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
