@@ -9,8 +9,8 @@ use crate::identify::thresholds;
 /// Half width of a 95 % interval \[standard errors\]: the two-sided 95 % point of the normal distribution.
 pub const NORMAL_95: f64 = thresholds::NORMAL_95;
 
-/// How many times as long an interval of 95 % is where the standard error has only so many degrees of freedom:
-/// Student's t beside the normal distribution.
+/// Ratio of the length of a 95 % interval with Student's t distribution, for so many degrees of freedom of the standard
+/// error, to the length with the normal distribution.
 pub(crate) fn wider_by_student(freedom: f64) -> f64 {
     StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |t| t.inverse_cdf(0.975) / NORMAL_95)
 }
