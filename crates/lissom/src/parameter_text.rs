@@ -1,4 +1,4 @@
-//! Parameters as a table of text.
+//! Parameters as a text table.
 
 use std::fmt::{self, Write as _};
 

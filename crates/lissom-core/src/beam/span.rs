@@ -1,8 +1,8 @@
-//! What a lumped beam is made of, and what makes it impossible.
+//! The parts of a lumped beam, and the error of all beams.
 
 use thiserror::Error;
 
-/// One span and the mass at its outer end.
+/// One span of a beam and the mass at its outer end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span {
     /// Length \[m\].
@@ -16,7 +16,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// A span without mass at its outer end: length \[m\], flexural rigidity EI \[N·m²\].
+    /// A span of the given length \[m\] and flexural rigidity EI \[N·m²\], without mass at its outer end.
     ///
     /// [`LumpedBeam::new`](super::LumpedBeam::new) checks the numbers of all spans.
     ///
@@ -30,33 +30,32 @@ impl Span {
         Self { length_m, flexural_rigidity_n_m2, mass_kg: 0.0, damping_n_s_per_m: 0.0 }
     }
 
-    /// The same with a mass at the outer end \[kg\].
+    /// Returns this span with a mass at its outer end \[kg\].
     #[must_use]
     pub fn mass_kg(self, mass_kg: f64) -> Self {
         Self { mass_kg, ..self }
     }
 
-    /// The same with viscous damping of that mass against the fixed frame \[N·s/m\].
+    /// Returns this span with viscous damping of its mass against the fixed frame \[N·s/m\].
     #[must_use]
     pub fn damping_n_s_per_m(self, damping_n_s_per_m: f64) -> Self {
         Self { damping_n_s_per_m, ..self }
     }
 }
 
-/// A rigid body at the tip, beyond the last mass.
+/// A rigid body at the tip, in addition to the last mass.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Payload {
     /// Mass \[kg\].
     pub mass_kg: f64,
-    /// Rotary inertia about its own centre of mass \[kg·m²\].
+    /// Rotary inertia about its own centre of mass \[kg·m²\], not negative.
     pub inertia_kg_m2: f64,
-    /// Distance of its centre of mass beyond the tip, along the beam; negative towards the motor
-    /// \[m\].
+    /// Distance of its centre of mass beyond the tip, along the beam \[m\]; negative towards the motor.
     pub offset_m: f64,
 }
 
 impl Payload {
-    /// Whether the tip's slope needs a torque: it then is a degree of freedom.
+    /// Whether the payload resists turning, so that the slope of the tip is a degree of freedom.
     pub fn turns(&self) -> bool {
         self.inertia_kg_m2 > 0.0 || (self.mass_kg > 0.0 && self.offset_m != 0.0)
     }
@@ -75,28 +74,28 @@ impl Payload {
     }
 }
 
-/// Damping beside that of each mass.
+/// Damping in addition to that of each mass.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub enum Damping {
-    /// None.
+    /// No further damping.
     #[default]
     None,
-    /// Proportional to mass and stiffness (Rayleigh).
+    /// Proportional to mass and stiffness (Rayleigh damping).
     ///
-    /// `α·m_i·(velocity in the fixed frame)` at each mass and `β` times the rate of every elastic
-    /// force: turning the arm as one body strains nothing and is not damped by β. Proportional to
-    /// the mass of the payload likewise.
+    /// Each mass, and the payload, has a damping force of `α·m_i` times its velocity in the fixed frame.
+    /// Each elastic force has a damping force of `β` times its rate. An arm that turns as one body is not
+    /// bent, so β does not damp that motion.
     Proportional {
         /// α \[1/s\].
         mass_per_s: f64,
         /// β \[s\].
         stiffness_s: f64,
     },
-    /// A damping ratio for each mode of the beam with the motor clamped, on its deflection from
-    /// the motor's line. The last one given holds for all further modes.
+    /// A damping ratio for each mode of the beam with the motor clamped. It acts on the deflection from the motor's
+    /// line. The last ratio holds for all further modes.
     Modal {
-        /// ζ_k \[1\], at least one.
+        /// ζ_k \[1\], at least one, not negative.
         ratios: Vec<f64>,
     },
 }
@@ -121,7 +120,7 @@ impl Damping {
         Ok(())
     }
 
-    /// ζ of mode `index`, from 0; `None` where damping is not modal.
+    /// ζ of mode `index`, counted from 0; `None` unless damping is modal.
     pub fn ratio(&self, index: usize) -> Option<f64> {
         match self {
             Self::Modal { ratios } => ratios.get(index).or(ratios.last()).copied(),
@@ -129,7 +128,7 @@ impl Damping {
         }
     }
 
-    /// α and β, zero where damping is not proportional.
+    /// α \[1/s\] and β \[s\]; zero unless damping is proportional.
     pub fn proportional(&self) -> (f64, f64) {
         match self {
             Self::Proportional { mass_per_s, stiffness_s } => (*mass_per_s, *stiffness_s),

@@ -1,4 +1,4 @@
-//! What can be wrong with a record.
+//! Why signals cannot make a run or a campaign.
 
 use thiserror::Error;
 

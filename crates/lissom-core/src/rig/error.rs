@@ -1,4 +1,4 @@
-//! What can be wrong with a rig or an experiment on it.
+//! Why a rig cannot be built, or an experiment cannot be run.
 
 use thiserror::Error;
 

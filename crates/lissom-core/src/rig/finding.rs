@@ -5,7 +5,7 @@ use std::fmt;
 /// Where a sensor is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SensorPlace {
-    /// On the motor.
+    /// At the motor.
     Motor,
     /// At a mass of the beam, from 0 at the base.
     Tip(usize),
@@ -44,9 +44,9 @@ pub enum RigFinding {
     },
     /// The motor stood still throughout the record.
     NeverMoved {
-        /// Largest torque of the motor \[N·m\].
+        /// Largest torque of the motor in the record \[N·m\].
         torque_nm: f64,
-        /// The smaller of both directions' Coulomb friction \[N·m\].
+        /// Coulomb friction of the direction that has less \[N·m\].
         coulomb_nm: f64,
     },
     /// A sensor was taken beyond its range and read the range's end.

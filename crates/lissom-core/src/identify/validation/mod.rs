@@ -1,4 +1,4 @@
-//! How well an identified arm predicts logs that it was not found from.
+//! Validation: how well an identified arm predicts logs from which it was not identified.
 
 pub(crate) mod cause;
 mod expected;
@@ -33,12 +33,13 @@ use motion_fit::{FollowedLog, followed, lengths_s};
 use moved_mode::moved_mode;
 use residual::channel_residual;
 
-/// What a user may ask for.
+/// Options of a validation.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ValidationOptions {
-    /// Length of the window that torque is averaged with \[s\]; that of the logs used when `None`.
+    /// Length of the window over which torques are averaged \[s\]; if `None`, that of the
+    /// logs the arm was identified from.
     pub window_s: Option<f64>,
-    /// Time to predict motion over from one initial state \[s\]; several when `None`.
+    /// Time over which motion is predicted from one initial state \[s\]; if `None`, several times are tried.
     pub horizon_s: Option<f64>,
 }
 
@@ -81,30 +82,30 @@ pub enum ValidationError {
     NothingMoves,
 }
 
-/// How well a log was predicted.
+/// Result of a validation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Validation {
-    /// Its torque; `None` where the tips do not give the coupling torque or nothing moves.
+    /// Prediction of torque; `None` if the tips do not determine the coupling torque, or if nothing moves.
     pub torque: Option<TorquePrediction>,
-    /// Its motion, over ever shorter times.
+    /// Predictions of motion over successively shorter times.
     pub horizons: Vec<Horizon>,
-    /// Which of these the residuals are of.
+    /// Index of the prediction in `horizons` to which the residuals belong.
     pub chosen: usize,
-    /// The stretches predicted over that time.
+    /// The predicted parts of runs of that prediction.
     pub stretches: Vec<PredictedStretch>,
-    /// What is left of each channel over that time, motor first, then tips.
+    /// Residual of each channel of that prediction, motor first, then tips.
     pub residuals: Vec<ChannelResidual>,
-    /// A mode that stands elsewhere in this log, where a tip's residual is beyond its sensor's noise and that explains half
-    /// of its square or more.
+    /// A mode with another frequency in this log. It is given if the residual of a tip is above the noise of its
+    /// sensor, and the other frequency removes at least half of the squared residual.
     pub moved_mode: Option<MovedMode>,
-    /// What speaks against the figures.
+    /// Findings against the estimates.
     pub findings: Vec<Finding>,
 }
 
-/// Predicts torque and motion of a campaign that `found` was not found from.
+/// Predicts torque and motion of a campaign from which `found` was not identified, and compares them with the logs.
 ///
 /// # Errors
-/// [`ValidationError`] where the arm does not belong to the campaign's channels or nothing moves.
+/// [`ValidationError`] if the arm does not fit the campaign's channels, if it cannot be simulated, or if nothing moves.
 pub fn validate(
     found: &FoundArm,
     campaign: &Campaign,
