@@ -1,7 +1,7 @@
-//! What the output-error method accepts, tries and reports, and how far it searches.
+//! Output-error method: acceptance, search, further parameters and findings.
 //!
-//! The schedule of the damping in Levenberg-Marquardt, floors against rounding and the steps of differences are no
-//! thresholds, and stay beside their use.
+//! The schedule of the damping in Levenberg-Marquardt, bounds against rounding and the steps of finite differences are not
+//! thresholds; they are next to the code that uses them.
 
 thresholds! {
     "output error: acceptance" {
