@@ -71,7 +71,10 @@ fn a_long_log_is_thinned() {
     let identified = identify(&file.campaign, &Options::default(), |_| {}).unwrap();
     let thinned: Vec<_> = identified.findings.iter().filter(|f| f.code() == "thinned").collect();
     let [finding] = &thinned[..] else { panic!("{thinned:?}") };
-    assert_eq!(finding.message(), "the log has too many rows and is thinned: one sample for every 4 rows");
+    assert_eq!(
+        finding.message(),
+        "the log has too many rows and is thinned: one sample for every 4 rows"
+    );
     assert_eq!(finding.run.as_deref(), Some("run.csv"));
 }
 

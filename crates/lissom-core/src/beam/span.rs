@@ -202,9 +202,7 @@ pub enum BeamError {
     #[error("a distributed beam takes proportional damping, not a ratio for each mode")]
     ModalDistributed,
     /// The modes cannot be separated at the chosen points.
-    #[error(
-        "the modes cannot be separated at these points (reciprocal condition {condition:.1e})"
-    )]
+    #[error("the modes cannot be separated at these points (reciprocal condition {condition:.1e})")]
     PointsTooClose {
         /// Smallest over largest singular value of the modes' shares at the points.
         condition: f64,
@@ -256,7 +254,9 @@ pub enum BeamError {
         tip_m: f64,
     },
     /// Damping ratios by mode and dampers at masses are both given.
-    #[error("damping ratios by mode and dampers at masses are both given: no mode would keep its ratio")]
+    #[error(
+        "damping ratios by mode and dampers at masses are both given: no mode would keep its ratio"
+    )]
     ModalWithDampers,
     /// The dimensions are so far apart that a number leaves the range of a double.
     #[error("the dimensions are so far apart that {quantity} leaves the range of a double")]

@@ -53,13 +53,17 @@ const WORK_MOST: f64 = 2e6;
 #[non_exhaustive]
 pub enum PlanError {
     /// The modes of the beam cannot be separated.
-    #[error("the modes of the beam of {masses} masses cannot be separated, so there is nothing to plan for")]
+    #[error(
+        "the modes of the beam of {masses} masses cannot be separated, so there is nothing to plan for"
+    )]
     Modes {
         /// Masses of the beam.
         masses: usize,
     },
     /// Gravity acts on an arm with a beam.
-    #[error("gravity can be planned for a rigid joint only, but this arm has a beam of {masses} masses")]
+    #[error(
+        "gravity can be planned for a rigid joint only, but this arm has a beam of {masses} masses"
+    )]
     GravityOnBeam {
         /// Masses of the beam.
         masses: usize,
@@ -148,7 +152,11 @@ impl PlannedRun {
                 format!("without {it}, {} cannot be identified", figure.name())
             }
             Some((figure, std)) => {
-                format!("without {it}, the standard error of {} would be {}", figure.name(), percent(std))
+                format!(
+                    "without {it}, the standard error of {} would be {}",
+                    figure.name(),
+                    percent(std)
+                )
             }
         }
     }

@@ -74,7 +74,10 @@ impl fmt::Display for PlanNote {
             Self::Unreached { expected, within_s, needed_s, torque_share } => {
                 let name = expected.figure.name();
                 if expected.std >= 1.0 {
-                    write!(f, "{name} cannot be identified within {within_s} s by any motion tried")?;
+                    write!(
+                        f,
+                        "{name} cannot be identified within {within_s} s by any motion tried"
+                    )?;
                 } else {
                     write!(
                         f,

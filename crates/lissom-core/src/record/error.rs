@@ -66,7 +66,9 @@ pub enum RecordError {
         found_s: f64,
     },
     /// Time stamps do not increase.
-    #[error("run {run}: time does not increase at sample {sample}: {after_s} s follows {before_s} s")]
+    #[error(
+        "run {run}: time does not increase at sample {sample}: {after_s} s follows {before_s} s"
+    )]
     TimeOrder {
         /// Name of the run.
         run: String,

@@ -82,7 +82,9 @@ pub enum RigError {
         log_time_s: f64,
     },
     /// Friction wanders too much.
-    #[error("friction wanders with a standard deviation of {found}, but at most {most} is possible")]
+    #[error(
+        "friction wanders with a standard deviation of {found}, but at most {most} is possible"
+    )]
     Wander {
         /// The relative standard deviation found \[1\].
         found: f64,
@@ -207,7 +209,9 @@ pub enum RigError {
     #[error("the multisine has no lines")]
     NoLines,
     /// An odd multisine cannot have this line.
-    #[error("line {found} of the multisine is not possible: lines must be odd, increase, and be at most {most}")]
+    #[error(
+        "line {found} of the multisine is not possible: lines must be odd, increase, and be at most {most}"
+    )]
     Line {
         /// The line.
         found: u32,

@@ -215,7 +215,11 @@ fn fit_words(error: &SharedPolesError, names: &[String]) -> String {
 fn uneven_words(part: &PartOutside) -> String {
     let errors = part.deviations.map_or(String::new(), |n| format!(" ({n:.1} standard errors)"));
     let late = part.delay_s.map_or(String::new(), |late| {
-        format!(", like a response that comes {:.3} ms {}", 1e3 * late.value.abs(), side(late.value))
+        format!(
+            ", like a response that comes {:.3} ms {}",
+            1e3 * late.value.abs(),
+            side(late.value)
+        )
     });
     format!(
         "{} has an imaginary part that no damping explains, {:.0} % of its magnitude{errors}{late}: the response of an \

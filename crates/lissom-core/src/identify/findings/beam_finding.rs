@@ -154,7 +154,9 @@ impl Describe for BeamFinding {
             Self::MoreModesThanTips { .. } => {
                 "measure as many points as there are modes in the band"
             }
-            Self::NegativeDamping { .. } => "add runs near the frequency of the mode, where damping acts most",
+            Self::NegativeDamping { .. } => {
+                "add runs near the frequency of the mode, where damping acts most"
+            }
             Self::RigidEquation { .. } => {
                 "add runs near the beam's resonance, where the coupling acts most; check the sign and scale of the tip"
             }

@@ -290,7 +290,9 @@ impl Describe for ChannelFinding {
                 "the cause is lost counts, a sensor that wraps around, or missing samples: subtract the jump from the \
                  samples after it, or leave that part of the log out (skip)"
             }
-            Self::AngleInDegrees { .. } => "if the readings are in degrees, set unit = \"deg\" for this channel in the campaign",
+            Self::AngleInDegrees { .. } => {
+                "if the readings are in degrees, set unit = \"deg\" for this channel in the campaign"
+            }
             Self::FrozenChannel { .. } => {
                 "the cause is a lost connection, or a logger that repeats its last value: leave that part of the log out \
                  (skip, or cut the log)"

@@ -75,7 +75,10 @@ fn term_in_words(
     let size = significant(amplitude.abs(), DIGITS);
     Some(match term {
         LawTerm::ViscousByDirection => {
-            format!("viscous friction differs by direction, by ±{size} {} from its mean", units.viscous())
+            format!(
+                "viscous friction differs by direction, by ±{size} {} from its mean",
+                units.viscous()
+            )
         }
         LawTerm::AfterTravel { travel } => format!(
             "it grows over some travel after a reversal (presliding; the first {} {angle} of each slip phase are not \

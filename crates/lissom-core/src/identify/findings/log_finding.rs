@@ -373,16 +373,24 @@ impl Describe for LogFinding {
             Self::Resampled { .. } | Self::SampleCount { .. } => {
                 "nothing to do, if the log was made in this way; the clock of the controller gives even stamps"
             }
-            Self::RowsFilled { .. } => "nothing to do; with a larger buffer the logger loses no rows",
+            Self::RowsFilled { .. } => {
+                "nothing to do; with a larger buffer the logger loses no rows"
+            }
             Self::RepeatedReadings { .. } => "nothing to do; you can log at the rate of the device",
-            Self::ClockRestart { .. } => "nothing to do, if the recording was not interrupted there",
-            Self::SpeedIntegrated => "nothing to do; a log that also has the angle shows slow motion better",
+            Self::ClockRestart { .. } => {
+                "nothing to do, if the recording was not interrupted there"
+            }
+            Self::SpeedIntegrated => {
+                "nothing to do; a log that also has the angle shows slow motion better"
+            }
             Self::TurnsRemoved { .. } => "nothing to do",
             Self::CommandFollowsMotor { .. } => {
                 "if the command is a position goal, give it `quantity = \"goal\"`; nothing to do if a spring or gravity holds \
                  the motor"
             }
-            Self::RateChange { .. } => "nothing to do; you can also give separate logs as separate runs",
+            Self::RateChange { .. } => {
+                "nothing to do; you can also give separate logs as separate runs"
+            }
             Self::Thinned { .. } => "log fewer samples, or cut the log into several runs",
             Self::HeadSkipped { .. } => "",
         }

@@ -311,7 +311,9 @@ impl Describe for OutputErrorFinding {
                 "add a run at another frequency, best a sweep, or log from the start of the motion: one steady sine does \
                  not separate the two"
             }
-            Self::DamperDrives { .. } => "add runs near the frequencies of the modes, where damping acts most",
+            Self::DamperDrives { .. } => {
+                "add runs near the frequencies of the modes, where damping acts most"
+            }
             Self::ReplayDeparts { .. } => {
                 "look for friction other than Coulomb and viscous friction, a load, backlash, or a mode without a tip"
             }

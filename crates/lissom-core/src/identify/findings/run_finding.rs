@@ -329,7 +329,9 @@ impl Describe for RunFinding {
             }
             Self::Sticking { .. } => "use a larger amplitude or a higher frequency",
             Self::TooFewPeriods { .. } => "log at least six periods in steady state",
-            Self::NotSinusoidal { .. } => "check the frequency that the campaign gives for this run",
+            Self::NotSinusoidal { .. } => {
+                "check the frequency that the campaign gives for this run"
+            }
             Self::FewPeriods { .. } => "log ten periods or more",
             Self::NotPeriodic { .. } => {
                 "wait longer before logging; a lightly damped mode needs several times 1/(ζω)"

@@ -91,7 +91,9 @@ pub enum LineError {
         found: usize,
     },
     /// The speeds are too close together, or too uncertain, for an extrapolation.
-    #[error("the friction extrapolated to zero speed, {coulomb:.4e}, has a standard error of {std:.1e}")]
+    #[error(
+        "the friction extrapolated to zero speed, {coulomb:.4e}, has a standard error of {std:.1e}"
+    )]
     TooClose {
         /// Coulomb friction \[N·m or N\].
         coulomb: f64,

@@ -43,7 +43,9 @@ pub enum SharedPolesError {
         index: usize,
     },
     /// There are more unknowns than data.
-    #[error("there are too few frequencies for so many poles: {readings} readings for {unknowns} unknowns")]
+    #[error(
+        "there are too few frequencies for so many poles: {readings} readings for {unknowns} unknowns"
+    )]
     TooFew {
         /// Number of unknowns.
         unknowns: usize,
