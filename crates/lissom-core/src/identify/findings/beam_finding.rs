@@ -83,8 +83,8 @@ impl fmt::Display for BeamFinding {
             ),
             Self::MoreModesThanTips { modes, tips } => write!(
                 f,
-                "the responses show {}, but only {} measured: these tips do not give the whole coupling torque. The inertia is \
-                 too large by that of the missing modes, and the coupling is too small",
+                "the responses show {}, but only {} measured: the tips do not give the whole coupling torque. The inertia \
+                 includes that of the missing modes and is too large, and the coupling is too small",
                 counted(*modes, "mode", "modes"),
                 counted(*tips, "tip is", "tips are")
             ),

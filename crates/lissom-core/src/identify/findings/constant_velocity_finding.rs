@@ -119,7 +119,7 @@ impl fmt::Display for ConstantVelocityFinding {
             ),
             Self::ConstantVelocityOnly { flexible } => write!(
                 f,
-                "the motor turns at constant velocities in every run, which show friction only: {} not given",
+                "the motor turns at constant velocities in all runs. These show only friction: {} not given",
                 if *flexible { "inertia, modes and coupling are" } else { "inertia is" }
             ),
             Self::ClassicalFigures => f.write_str(
