@@ -200,7 +200,7 @@ impl Describe for FrictionLawFinding {
                  because presliding delays friction when the speed changes: use longer and faster moves to reduce it"
             }
             LawSource::SlipPhases { .. } if self.grows_with_load_alone() => {
-                "the Coulomb friction given is that without load: add the share given here of the torque of gravity"
+                "the estimate of Coulomb friction is that without load: add the factor in the message times the torque of gravity"
             }
             LawSource::OutputError { .. } | LawSource::SlipPhases { .. } => {
                 "Coulomb and viscous friction are valid at speed, not near standstill: use the friction curve at the speed \
