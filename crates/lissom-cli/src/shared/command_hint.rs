@@ -1,4 +1,4 @@
-//! What options of this command, or other commands, do about a finding. The library names none of them.
+//! Options and commands that help with a finding. The library does not name them, so this crate adds them.
 
 use lissom::identify::findings::{
     EquivalentFinding, EquivalentMotorFinding, FindingKind, OutputErrorFinding, RegressionFinding,
@@ -6,7 +6,7 @@ use lissom::identify::findings::{
 };
 use lissom::identify::{EquivalentRefusal, MissingKind, MovedBy};
 
-/// Which option or command helps, beside the finding's own hint.
+/// The option or command that helps, in addition to the hint of the finding.
 pub(crate) fn command_hint(kind: &FindingKind) -> Option<&'static str> {
     match kind {
         FindingKind::Regression(RegressionFinding::OneSine) => Some(WITHOUT_QUICK),
@@ -14,7 +14,7 @@ pub(crate) fn command_hint(kind: &FindingKind) -> Option<&'static str> {
             (term.kind == MissingKind::BeamDamping).then_some(WITHOUT_QUICK)
         }
         FindingKind::OutputError(OutputErrorFinding::MoreThanNoise { .. }) => {
-            Some("`lissom validate RESULT CAMPAIGN` shows the residual")
+            Some("`lissom validate RESULT CAMPAIGN` shows the residual of each channel")
         }
         FindingKind::OutputError(OutputErrorFinding::FaintMode { .. }) => {
             Some("`lissom model ARM` gives the frequencies of a beam of known dimensions")
@@ -22,14 +22,14 @@ pub(crate) fn command_hint(kind: &FindingKind) -> Option<&'static str> {
         FindingKind::Equivalent(found) => equivalent(found),
         FindingKind::EquivalentMotor(EquivalentMotorFinding::EquivalentMotorFriction {
             ..
-        }) => Some("`lissom identify CAMPAIGN` removes friction and gives the arm from logs"),
+        }) => Some("`lissom identify CAMPAIGN` removes friction and identifies the arm from logs"),
         FindingKind::Validation(
             ValidationFinding::TorqueNotPredicted { coupling_known: true }
             | ValidationFinding::TorqueHidden { .. },
         ) => Some("--window TIME sets the window"),
         FindingKind::Validation(ValidationFinding::ModeMoved { moved }) => (moved.by
             == MovedBy::Load)
-            .then_some("`lissom payload CAMPAIGN` predicts the arm with another payload"),
+            .then_some("`lissom payload CAMPAIGN` predicts the modes with another payload"),
         _ => None,
     }
 }
@@ -41,20 +41,21 @@ fn equivalent(found: &EquivalentFinding) -> Option<&'static str> {
             Some("--modes N keeps the N lowest modes")
         }
         EquivalentFinding::EquivalentTermsInS { .. } => {
-            Some("`lissom identify CAMPAIGN` gives the arm from logs")
+            Some("`lissom identify CAMPAIGN` identifies the arm from logs")
         }
         _ => None,
     }
 }
 
-/// Which option or command helps where there is no equivalent arm.
+/// The option or command that helps if there is no equivalent arm.
 pub(crate) fn refusal_hint(refusal: &EquivalentRefusal) -> Option<&'static str> {
     match refusal {
         EquivalentRefusal::FewerPoints { .. } => {
             Some("`lissom equivalent` with --modes N keeps the N lowest modes")
         }
         EquivalentRefusal::Beam { .. } => Some(
-            "`lissom equivalent` with --arm ARM --at NAME=LENGTH finds a place on a beam of known dimensions",
+            "`lissom equivalent` with --arm ARM --at NAME=LENGTH finds a better place for a point, on a beam of known \
+             dimensions",
         ),
         EquivalentRefusal::NoAngle => {
             Some("`lissom identify CAMPAIGN` gives modes and torques from such signals")

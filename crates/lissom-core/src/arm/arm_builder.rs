@@ -6,14 +6,14 @@ use super::coupled_arm::Arm;
 use crate::beam::{Beam, BeamError, Damping, LumpedBeam, Payload, Span};
 use crate::drive::{Coulomb, DriveError, Motor, MotorBuilder};
 
-/// Why parts make no arm.
+/// Error of [`ArmBuilder::build`].
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ArmBuildError {
-    /// Numbers that make no beam.
+    /// Invalid parameters of the beam.
     #[error(transparent)]
     Beam(#[from] BeamError),
-    /// Numbers that make no motor or no friction.
+    /// Invalid parameters of the motor or of friction.
     #[error(transparent)]
     Drive(#[from] DriveError),
 }
@@ -120,7 +120,7 @@ impl ArmBuilder {
     /// Builds the arm.
     ///
     /// # Errors
-    /// [`ArmBuildError`] for numbers that make no beam, no motor or no friction.
+    /// [`ArmBuildError`] for invalid parameters of the beam, the motor or friction.
     pub fn build(self) -> Result<Arm, ArmBuildError> {
         let beam = match self.beam {
             Some(beam) => beam,

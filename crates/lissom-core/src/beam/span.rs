@@ -144,8 +144,8 @@ pub enum BeamError {
     /// A beam without spans.
     #[error("the beam has no spans")]
     NoSpans,
-    /// More degrees of freedom than dense matrices are meant for.
-    #[error("{found} masses; matrices are made for at most {most}")]
+    /// The beam has too many masses for dense matrices.
+    #[error("the beam has {found} masses, but matrices are possible for at most {most}")]
     TooManyMasses {
         /// Masses given.
         found: usize,
@@ -153,7 +153,7 @@ pub enum BeamError {
         most: usize,
     },
     /// A dimension is not positive and finite.
-    #[error("span {span}: {quantity} = {found} is not positive and finite")]
+    #[error("span {span}: {quantity} is {found}, but must be positive and finite")]
     NotPositive {
         /// Number of the span, from 1 at the base.
         span: usize,
@@ -163,7 +163,7 @@ pub enum BeamError {
         found: f64,
     },
     /// A quantity of a span that may be zero is negative or not finite.
-    #[error("span {span}: {quantity} = {found} is negative or not finite")]
+    #[error("span {span}: {quantity} is {found}, but must be finite and not negative")]
     Negative {
         /// Number of the span, from 1 at the base.
         span: usize,
@@ -173,13 +173,13 @@ pub enum BeamError {
         found: f64,
     },
     /// The hub's radius is negative or not finite.
-    #[error("hub_radius_m = {found} is negative or not finite")]
+    #[error("hub_radius_m is {found}, but must be finite and not negative")]
     HubRadius {
         /// The number found.
         found: f64,
     },
     /// A quantity of the payload is negative or not finite.
-    #[error("payload: {quantity} = {found} is negative or not finite")]
+    #[error("payload: {quantity} is {found}, but must be finite and not negative")]
     Payload {
         /// Which quantity, with its unit.
         quantity: &'static str,
@@ -187,7 +187,7 @@ pub enum BeamError {
         found: f64,
     },
     /// A quantity of the damping model is negative or not finite.
-    #[error("damping: {quantity} = {found} is negative or not finite")]
+    #[error("damping: {quantity} is {found}, but must be finite and not negative")]
     DampingModel {
         /// Which quantity, with its unit.
         quantity: &'static str,
@@ -197,23 +197,21 @@ pub enum BeamError {
     /// Modal damping without a ratio.
     #[error("modal damping needs at least one ratio")]
     NoRatios,
-    /// Modal damping of a distributed beam.
+    /// Modal damping is not possible for a distributed beam.
     #[error("a distributed beam takes proportional damping, not a ratio for each mode")]
     ModalDistributed,
-    /// Modes that cannot be told apart at the points chosen.
-    #[error(
-        "at these points the modes cannot be told apart (reciprocal condition {condition:.1e})"
-    )]
+    /// The modes cannot be separated at the chosen points.
+    #[error("the modes cannot be separated at these points (reciprocal condition {condition:.1e})")]
     PointsTooClose {
         /// Smallest over largest singular value of the modes' shares at the points.
         condition: f64,
     },
-    /// A beam by its modes without one.
+    /// A beam that is given by its modes has none.
     #[error("the beam has no modes")]
     NoModes,
-    /// A beam by its modes needs as many points as modes.
+    /// A beam that is given by its modes has another number of points than modes.
     #[error(
-        "gains of mode {mode}: {points}, where {modes} are needed, one for each of as many points as modes"
+        "mode {mode} has {points} gains, but {modes} are needed: one for each point, and as many points as modes"
     )]
     ModesAndPoints {
         /// Number of the mode, from 1.
@@ -223,7 +221,7 @@ pub enum BeamError {
         /// Modes given.
         modes: usize,
     },
-    /// A number of a mode that it cannot have.
+    /// A quantity of a mode is out of range.
     #[error("mode {mode}: {quantity} = {found} is out of range")]
     KnownMode {
         /// Number of the mode, from 1.
@@ -233,9 +231,9 @@ pub enum BeamError {
         /// The number found.
         found: f64,
     },
-    /// Gains that strain a beam that turns as one body.
+    /// The gains of a point do not add up to one.
     #[error(
-        "the gains of point {point} add up to {sum}, not to one: turning as one body would bend the beam"
+        "the gains of point {point} add up to {sum}, but must add up to one: otherwise the beam would bend when it turns as one body"
     )]
     GainsSum {
         /// Number of the point, from 1.
@@ -243,24 +241,26 @@ pub enum BeamError {
         /// Their sum.
         sum: f64,
     },
-    /// Something at the tip of a rigid joint, or of a beam that is known by its modes alone.
-    #[error("a rigid joint or a beam known by its modes has no tip that something could act on")]
+    /// A rigid joint, or a beam that is given by its modes, has no tip.
+    #[error("a rigid joint or a beam given by its modes has no tip on which something could act")]
     NoTip,
-    /// Points that are not on the beam.
+    /// A point is not on the beam.
     #[error("points must lie on the beam, beyond {base_m} m and up to {tip_m} m from the axis")]
     Points {
-        /// Where the beam begins \[m\].
+        /// Distance of the base from the axis \[m\].
         base_m: f64,
-        /// Where it ends \[m\].
+        /// Distance of the tip from the axis \[m\].
         tip_m: f64,
     },
-    /// Ratios by mode and dampers at masses at once.
-    #[error("damping ratios by mode stand beside dampers at masses: no mode keeps its ratio then")]
+    /// Damping ratios by mode and dampers at masses are both given.
+    #[error(
+        "damping ratios by mode and dampers at masses are both given: no mode would keep its ratio"
+    )]
     ModalWithDampers,
-    /// Dimensions so far apart that numbers leave the range of a double.
+    /// The dimensions are so far apart that a number leaves the range of a double.
     #[error("the dimensions are so far apart that {quantity} leaves the range of a double")]
     OutOfRange {
-        /// What left it.
+        /// The quantity.
         quantity: &'static str,
     },
 }

@@ -36,11 +36,11 @@ use crate::identify::thresholds::{
 use crate::record::Campaign;
 use crate::replay::ModalArm;
 
-/// Why a campaign cannot be identified at all.
+/// Error of [`identify`]: the campaign cannot be identified at all.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum IdentifyError {
-    /// In every run some channel stands still.
+    /// Every run has a constant channel.
     #[error("every run has a constant channel: {}", counted(constant, *runs))]
     NothingMoves {
         /// Number of runs.
@@ -48,8 +48,8 @@ pub enum IdentifyError {
         /// Channels that are constant somewhere, and in how many runs.
         constant: Vec<(String, usize)>,
     },
-    /// The window asked for is not a positive finite length.
-    #[error("a window of {found_s} s is not positive and finite")]
+    /// The length of the window is not positive and finite.
+    #[error("the length of the window is {found_s} s, but must be positive and finite")]
     Window {
         /// The length given \[s\].
         found_s: f64,

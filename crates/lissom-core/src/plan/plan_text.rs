@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::{Plan, PlannedMotion, percent};
 
-/// A line for each run with the reason for it, the precision expected, and the notes.
+/// One line for each run with its reason, then the expected precision and the notes.
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{} runs in {:.0} s", self.runs.len(), self.time_s)?;
@@ -21,10 +21,10 @@ impl fmt::Display for Plan {
             let (amplitude, record) = (run.amplitude_rad, run.record_s);
             writeln!(f, "  {motion}, {amplitude} rad, {record:.1} s: {}", run.in_words())?;
         }
-        write!(f, "standard errors expected:")?;
+        write!(f, "expected standard errors:")?;
         for e in &self.expected {
             let got = if e.std < 1.0 { percent(e.std) } else { "not found".to_owned() };
-            write!(f, "\n  {}: {got}, {} wanted", e.figure.name(), percent(e.wanted))?;
+            write!(f, "\n  {}: {got}, {} requested", e.figure.name(), percent(e.wanted))?;
         }
         for note in &self.notes {
             let kind = if note.is_warning() { "warning" } else { "note" };

@@ -32,12 +32,12 @@ pub struct Steady {
     pub settled: bool,
 }
 
-/// Why a run has no steady part.
+/// Error of [`steady_state`].
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SteadyError {
-    /// Too few periods to compare.
-    #[error("{found} whole blocks of periods; at least {least} are needed")]
+    /// There are too few periods to compare.
+    #[error("the run has {found} whole blocks of periods, but at least {least} are needed")]
     TooFewPeriods {
         /// Whole blocks found.
         found: usize,

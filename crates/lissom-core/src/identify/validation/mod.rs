@@ -47,21 +47,21 @@ pub struct ValidationOptions {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ValidationError {
-    /// The arm is one of other sensors.
-    #[error("the result has {expected} tips, and the log {found}")]
+    /// The result and the log have different numbers of tips.
+    #[error("the result has {expected} tips, but the log has {found}")]
     Tips {
         /// Tips of the result.
         expected: usize,
         /// Tips of the log.
         found: usize,
     },
-    /// More modes than can be replayed.
-    #[error("the result has {found} modes; at most {MOST_MODES} can be followed")]
+    /// The result has more modes than can be simulated.
+    #[error("the result has {found} modes, but at most {MOST_MODES} can be simulated")]
     Modes {
         /// Modes of the result.
         found: usize,
     },
-    /// Numbers of another scale than the log's.
+    /// The arm changes far faster than the sample time of the log.
     #[error(
         "the result's arm changes its state at up to {rate_per_s:.1e} 1/s, thousands of times within a \
          sample of {sample_time_s} s"
@@ -72,13 +72,13 @@ pub enum ValidationError {
         /// Time between two samples \[s\].
         sample_time_s: f64,
     },
-    /// Numbers under which nothing moves as logged.
+    /// The simulated motion grows without bounds.
     #[error(
         "the motion of the result's arm grows without bounds: it cannot be compared with the log"
     )]
     RunsAway,
     /// Neither torque nor motion could be predicted.
-    #[error("the motor never moves for long enough to predict anything")]
+    #[error("the motor never moves long enough for a prediction")]
     NothingMoves,
 }
 

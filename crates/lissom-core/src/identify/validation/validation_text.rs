@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::Validation;
 
-/// How well torque and motion are predicted, and the findings.
+/// The quality of the predicted torque and motion, and the findings.
 impl fmt::Display for Validation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.torque {
@@ -12,7 +12,7 @@ impl fmt::Display for Validation {
             Some(torque) => {
                 write!(f, "torque: residual {:.2} %", 100.0 * torque.relative_error)?;
                 if let Some(expected) = torque.expected_error {
-                    write!(f, ", {:.2} % expected of a right arm", 100.0 * expected)?;
+                    write!(f, ", {:.2} % expected if the arm is right", 100.0 * expected)?;
                 }
             }
         }

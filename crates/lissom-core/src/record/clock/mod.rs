@@ -50,20 +50,20 @@ pub struct EvenLog {
     pub longest: usize,
 }
 
-/// Why a log has no clock.
+/// Error of [`even_parts`].
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ClockError {
-    /// A stamp that does not increase, and no restart of the clock.
+    /// A time stamp does not increase, and it is not a restart of the clock.
     #[error("time does not increase at row {row}")]
     NotIncreasing {
         /// The row, from 0.
         row: usize,
     },
-    /// Fewer than two rows are left.
-    #[error("{left} rows are left of {length_s} s")]
+    /// Fewer than two rows remain.
+    #[error("only {left} rows remain of a log of {length_s} s")]
     NothingLeft {
-        /// Rows left.
+        /// Remaining rows.
         left: usize,
         /// Length of the log \[s\].
         length_s: f64,

@@ -76,25 +76,27 @@ impl FrictionLine {
     }
 }
 
-/// Why there is no line.
+/// Reason why one direction gives no friction line.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LineError {
     /// No stretch at a constant velocity in this direction.
     #[error("no stretch at a constant velocity")]
     NoPoints,
-    /// One speed.
-    #[error("{found} speed; at least two are needed")]
+    /// There are too few speeds.
+    #[error("there is only {found} speed, but at least two are needed")]
     TooFewSpeeds {
         /// Speeds found.
         found: usize,
     },
-    /// The speeds are too close together, or too uncertain, for what an extrapolation asks.
-    #[error("the figure extrapolated to rest, {coulomb:.4e}, is uncertain by {std:.1e}")]
+    /// The speeds are too close together, or too uncertain, for an extrapolation.
+    #[error(
+        "the friction extrapolated to zero speed, {coulomb:.4e}, has a standard error of {std:.1e}"
+    )]
     TooClose {
         /// Coulomb friction \[N·m or N\].
         coulomb: f64,
-        /// Its standard deviation.
+        /// Its standard error.
         std: f64,
     },
 }
