@@ -1,4 +1,4 @@
-//! What options of this command, or other commands, do about a finding. The library names none of them.
+//! Options and commands that help with a finding. The library's own hints name none of them.
 
 use lissom::identify::findings::{
     EquivalentFinding, EquivalentMotorFinding, FindingKind, OutputErrorFinding, RegressionFinding,
@@ -6,7 +6,7 @@ use lissom::identify::findings::{
 };
 use lissom::identify::{EquivalentRefusal, MissingKind, MovedBy};
 
-/// Which option or command helps, beside the finding's own hint.
+/// The option or command that helps with a finding, in addition to the finding's own hint.
 pub(crate) fn command_hint(kind: &FindingKind) -> Option<&'static str> {
     match kind {
         FindingKind::Regression(RegressionFinding::OneSine) => Some(WITHOUT_QUICK),
@@ -26,7 +26,7 @@ pub(crate) fn command_hint(kind: &FindingKind) -> Option<&'static str> {
         FindingKind::Validation(
             ValidationFinding::TorqueNotPredicted { coupling_known: true }
             | ValidationFinding::TorqueHidden { .. },
-        ) => Some("--window TIME sets the window"),
+        ) => Some("--window TIME sets the length of the window"),
         FindingKind::Validation(ValidationFinding::ModeMoved { moved }) => (moved.by
             == MovedBy::Load)
             .then_some("`lissom payload CAMPAIGN` predicts the arm with another payload"),
@@ -47,17 +47,17 @@ fn equivalent(found: &EquivalentFinding) -> Option<&'static str> {
     }
 }
 
-/// Which option or command helps where there is no equivalent arm.
+/// The option or command that helps when no equivalent arm is found.
 pub(crate) fn refusal_hint(refusal: &EquivalentRefusal) -> Option<&'static str> {
     match refusal {
         EquivalentRefusal::FewerPoints { .. } => {
             Some("`lissom equivalent` with --modes N keeps the N lowest modes")
         }
         EquivalentRefusal::Beam { .. } => Some(
-            "`lissom equivalent` with --arm ARM --at NAME=LENGTH finds a place on a beam of known dimensions",
+            "`lissom equivalent` with --arm ARM --at NAME=LENGTH finds a better place on a beam of known dimensions",
         ),
         EquivalentRefusal::NoAngle => {
-            Some("`lissom identify CAMPAIGN` gives modes and torques from such signals")
+            Some("`lissom identify CAMPAIGN` finds modes and torques from such signals")
         }
         _ => None,
     }
