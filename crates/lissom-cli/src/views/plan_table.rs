@@ -15,7 +15,7 @@ pub(crate) fn report(arm: &Path, plan: &Plan, out: &Path) {
         printer::line(&format!("  {}: {}", kind(run), run.in_words()));
     }
     printer::line(&format!(
-        "\n{} in {:.0} s, including {BETWEEN_S} s between runs",
+        "\n{} in {:.0} s, including {BETWEEN_S} s before each run",
         printer::counted(plan.runs.len(), "run"),
         plan.time_s
     ));

@@ -14,7 +14,7 @@ use crate::result::{MotionKindName, finite};
 pub struct PlannedFile {
     /// Version of lissom that wrote the file.
     pub lissom: String,
-    /// Time of all runs, including waiting and 5 s between runs.
+    /// Time of all runs, including waiting and 5 s before each run.
     pub time_s: f64,
     /// Allowed time of all runs.
     pub within_s: f64,
