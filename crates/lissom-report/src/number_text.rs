@@ -33,12 +33,12 @@ pub(crate) fn exponent(value: f64) -> i32 {
     if log.is_finite() { log as i32 } else { 0 }
 }
 
-/// `value` in four significant digits, in scientific form where it is very large or small.
+/// `value` in four significant digits, in scientific form if it is very large or small.
 pub(crate) fn plain(value: f64) -> String {
     significant(value, 4)
 }
 
-/// `value` in so many significant digits, in scientific form where it is very large or small.
+/// `value` in `digits` significant digits, in scientific form if it is very large or small.
 pub fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return "—".to_owned();
@@ -60,9 +60,9 @@ fn mantissa(value: f64, e: i32) -> f64 {
     value / 10f64.powi(e / 2) / 10f64.powi(e - e / 2)
 }
 
-/// A value and its standard deviation, the deviation in two significant digits and the value to the same place.
+/// A value and its standard error: the error with two significant digits, the value rounded to the same place.
 ///
-/// Non-finite values become a dash; a deviation that is not finite and positive is left out.
+/// A value that is not finite becomes a dash; a standard error that is not finite and positive is not written.
 ///
 /// ```
 /// use lissom_report::with_uncertainty;
@@ -92,12 +92,12 @@ struct Layout {
 }
 
 impl Layout {
-    /// The layout a value and its deviation call for, if there is a deviation.
+    /// The layout for a value and its standard error, if there is one.
     fn of(value: f64, std: f64) -> Option<Self> {
         if !value.is_finite() || !std.is_finite() || std <= 0.0 {
             return None;
         }
-        // The place of the second digit of the deviation after rounding: 0.00996 is written 0.010.
+        // The place of the second digit of the standard error after rounding: 0.00996 is written 0.010.
         let place = exponent(std * 1.005_000_001) - 1;
         let e = exponent(value).max(exponent(std));
         let plain = (-3..6).contains(&e) && place < 1;
