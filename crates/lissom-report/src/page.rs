@@ -31,7 +31,7 @@ impl Page {
         self
     }
 
-    /// A paragraph in larger type with the main results.
+    /// A paragraph in slightly larger type, for the main results.
     #[must_use]
     pub fn summary(self, text: &str) -> Self {
         self.put(&format!("<p class=\"summary\">{}</p>", escape(text)))
