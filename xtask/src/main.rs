@@ -4,9 +4,12 @@
 //! prints a title and a time.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for a terminal")]
 
+mod book;
 mod deny;
+mod examples;
 mod external;
 mod measured;
+mod release;
 mod step;
 
 use std::{
@@ -53,9 +56,39 @@ const RECIPES: &[Recipe] = &[
     },
     Recipe {
         name: "ci",
-        about: "fmt, clippy, rustdoc, cargo deny, tests of features, then `test`",
+        about: "run fmt, clippy, rustdoc, cargo deny, book, examples, msrv, package, then `test`",
         takes: Takes::Flags(&[(SKIP_TESTS, "leave `test` out, for example if it has just run")]),
         run: ci,
+    },
+    Recipe {
+        name: "book",
+        about: "docs/book from docs/src, and every link checked",
+        takes: Takes::Flags(&[]),
+        run: book,
+    },
+    Recipe {
+        name: "examples",
+        about: "the library's examples, each run",
+        takes: Takes::Flags(&[]),
+        run: examples,
+    },
+    Recipe {
+        name: "msrv",
+        about: "the workspace checked with the oldest Rust that it supports",
+        takes: Takes::Flags(&[]),
+        run: msrv,
+    },
+    Recipe {
+        name: "package",
+        about: "the crates as they would be published",
+        takes: Takes::Flags(&[]),
+        run: package,
+    },
+    Recipe {
+        name: "static",
+        about: "a static Linux binary in target/release-static, its size and licences",
+        takes: Takes::Flags(&[]),
+        run: static_binary,
     },
     Recipe {
         name: "schemas",
@@ -156,6 +189,52 @@ fn schemas(context: &Context) -> Result<(), Failure> {
     run("schemas", command.args(["--example", "schemas"]))
 }
 
+/// The book and its links.
+fn book(context: &Context) -> Result<(), Failure> {
+    book::build(&context.root)
+}
+
+/// The library's examples.
+fn examples(context: &Context) -> Result<(), Failure> {
+    examples::run_all(&context.root)
+}
+
+/// `cargo check` by the Rust of `rust-version` in Cargo.toml, which rustup gets where it is missing.
+fn msrv(context: &Context) -> Result<(), Failure> {
+    let version = env!("CARGO_PKG_RUST_VERSION");
+    let install = ["toolchain", "install", version, "--profile", "minimal", "--no-self-update"];
+    run("rustup", std::process::Command::new("rustup").args(install))?;
+    let check = [
+        "run",
+        version,
+        "cargo",
+        "check",
+        "--workspace",
+        "--locked",
+        "--target-dir",
+        "target/msrv",
+    ];
+    let mut command = std::process::Command::new("rustup");
+    run(
+        "oldest Rust",
+        command
+            .args(check)
+            .current_dir(&context.root)
+            .env_remove("RUSTUP_TOOLCHAIN")
+            .env_remove("CARGO"),
+    )
+}
+
+/// The crates, packaged.
+fn package(context: &Context) -> Result<(), Failure> {
+    release::package(&context.root)
+}
+
+/// The static binary.
+fn static_binary(context: &Context) -> Result<(), Failure> {
+    release::static_binary(&context.root)
+}
+
 /// All checks that a change must pass, the fast ones first.
 fn ci(context: &Context) -> Result<(), Failure> {
     let root = &context.root;
@@ -167,6 +246,10 @@ fn ci(context: &Context) -> Result<(), Failure> {
     rustdoc.args(everything);
     run("rustdoc", rustdoc.env("RUSTDOCFLAGS", "--deny warnings"))?;
     deny::check(root)?;
+    book(context)?;
+    examples(context)?;
+    msrv(context)?;
+    package(context)?;
     if context.flags.iter().any(|flag| flag == SKIP_TESTS) { Ok(()) } else { test(context) }
 }
 

@@ -16,6 +16,12 @@ pub(crate) enum Failure {
     Start { command: String, source: io::Error },
     /// A tool is missing; `install` gets it.
     Missing { tool: &'static str, install: &'static str },
+    /// A tool could not be installed, or does not work.
+    Install { tool: &'static str, said: String },
+    /// Links of documents that lead nowhere.
+    Links { broken: Vec<String> },
+    /// An example that is too long.
+    Long { path: String, lines: usize, most: usize },
     /// A file or folder of the recipe could not be used.
     File { path: String, source: io::Error },
 }
@@ -29,6 +35,13 @@ impl fmt::Display for Failure {
             Self::Start { command, source } => write!(f, "cannot start `{command}`: {source}"),
             Self::Missing { tool, install } => {
                 write!(f, "{tool} is not installed\n  hint: {install}")
+            }
+            Self::Install { tool, said } => write!(f, "{tool} does not work: {}", said.trim()),
+            Self::Links { broken } => {
+                write!(f, "links that lead nowhere:\n  {}", broken.join("\n  "))
+            }
+            Self::Long { path, lines, most } => {
+                write!(f, "{path} has {lines} lines; examples have {most} at most")
             }
             Self::File { path, source } => write!(f, "cannot use {path}: {source}"),
         }

@@ -16,8 +16,9 @@ use clap::Parser as _;
 
 use crate::args::command_line::{Cli, Command};
 use crate::commands::{
-    compare_command, demo, equivalent, identify_command, model_command, payload_command, plan,
-    report_figures, rig, thresholds_command, validate_command,
+    compare_command, completions_command, demo, equivalent, identify_command, man_command,
+    model_command, payload_command, plan, report_figures, rig, thresholds_command,
+    validate_command,
 };
 use crate::views::printer;
 
@@ -33,6 +34,8 @@ fn main() -> ExitCode {
         Command::Rig(args) => rig::run(&args),
         Command::Thresholds(args) => thresholds_command::run(&args),
         Command::Figures(args) => report_figures::run(&args),
+        Command::Completions(args) => Ok(completions_command::run(&args)),
+        Command::Man(args) => man_command::run(&args),
         Command::Demo(args) => demo::run(&args),
     };
     match outcome {

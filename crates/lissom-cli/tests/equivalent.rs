@@ -139,7 +139,7 @@ fn refusals_say_why() {
     write("close.csv", &table(&ruler(&[0.2, 0.449_99, 0.45]), 3, 0.01));
     let said = refused(at, &["close.csv"]);
     assert!(
-        said.contains("p2 and p3 move too much alike") && said.contains("is not told apart"),
+        said.contains("p2 and p3 move almost alike") && said.contains("cannot be separated"),
         "{said}"
     );
     write(

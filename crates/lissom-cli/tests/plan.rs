@@ -156,7 +156,7 @@ fn what_cannot_be_planned_is_one_error() {
     let weak = folder(&ARM.replace("4.12 A", "0.1 A"));
     let output = lissom(weak.path(), &["plan", "arm.toml"]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(text(&output.stderr).contains("motions is of use"), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("motions can be used"), "{}", text(&output.stderr));
     refused(
         folder(ARM).path(),
         &["plan", "arm.toml", "--within", "1 s"],

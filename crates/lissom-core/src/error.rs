@@ -1,4 +1,4 @@
-//! The one error of this crate: what each part can refuse.
+//! The error type of the whole crate.
 
 use thiserror::Error;
 
@@ -12,24 +12,24 @@ use crate::record::clock::ClockError;
 use crate::rig::RigError;
 use crate::spectrum::SteadyError;
 
-/// Any error of this crate. Functions return the error of their own part, which says all that can go wrong there;
-/// each becomes this one by `?`.
+/// Any error of this crate. Functions return the error of their own module; the operator `?` converts each of them to this
+/// one.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Numbers that make no beam.
+    /// Invalid parameters of a beam.
     #[error(transparent)]
     Beam(#[from] BeamError),
-    /// Numbers that make no motor or no friction.
+    /// Invalid parameters of a motor or of friction.
     #[error(transparent)]
     Drive(#[from] DriveError),
-    /// A rig or an experiment that cannot be.
+    /// A rig or an experiment that is not possible.
     #[error(transparent)]
     Rig(#[from] RigError),
-    /// Channels that make no run or no campaign.
+    /// Channels that do not make a valid run or campaign.
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// Time stamps that make no clock.
+    /// Time stamps from which no clock can be derived.
     #[error(transparent)]
     Clock(#[from] ClockError),
     /// A record that is not periodic.
@@ -41,10 +41,10 @@ pub enum Error {
     /// A result that cannot be compared with logs.
     #[error(transparent)]
     Validation(#[from] ValidationError),
-    /// Responses that make no equivalent arm.
+    /// Responses that do not give an equivalent arm.
     #[error(transparent)]
     Equivalent(#[from] EquivalentError),
-    /// Responses without poles in common.
+    /// Responses to which shared poles cannot be fitted.
     #[error(transparent)]
     SharedPoles(#[from] SharedPolesError),
     /// Runs that cannot be planned.

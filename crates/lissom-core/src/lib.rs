@@ -1,12 +1,21 @@
-//! Flexible arms and drives whose joint has friction: models, exact simulation, identification.
+//! Models, exact simulation and identification of flexible arms and motor drives whose joint has friction.
 //!
-//! The way of the data, one direction only:
-//! [`beam`] and [`drive`] make an [`arm`]; the [`rig`] runs virtual experiments on it; a
-//! [`record`] holds logs, simulated or measured; [`spectrum`] turns them into phasors and
-//! responses; [`identify`] turns those into friction, parameters and a verdict. [`plan`] says which
-//! experiments are worth making.
+//! This crate is the numerical core of `lissom`: no files, no printing, no command line. Programs depend on the crate
+//! `lissom`, which joins this crate with the file formats of `lissom-io`.
 //!
-//! SI units and rad/s throughout; no files, no printing.
+//! Data flow in one direction:
+//!
+//! 1. [`beam`] and [`drive`] describe the parts of an [`arm`].
+//! 2. The [`rig`] simulates experiments with that arm: a controller, sensors, and a joint that sticks and slips.
+//! 3. A [`record`] holds logs, simulated or measured.
+//! 4. [`spectrum`] computes phasors and frequency responses from them.
+//! 5. [`identify`] estimates friction, inertia, coupling and modes, each with a standard error, and reports findings:
+//!    what the logs do not determine and what is wrong with them.
+//! 6. [`replay`] simulates an arm under a logged command, [`information`] computes how precisely logs determine each
+//!    parameter, and [`plan`] chooses the experiments that are worth making.
+//!
+//! Units are SI and rad/s. Equation numbers such as (14) are those of the 1989 report, `[Feliu1989]`; the sources are
+//! listed in `docs/src/reference/references.md`, the symbols in `docs/src/reference/notation.md`.
 
 #[macro_use]
 mod threshold;
@@ -33,5 +42,5 @@ pub use error::Error;
 pub use threshold::{Basis, Threshold, ThresholdValue};
 pub use thresholds::thresholds;
 
-/// Dense matrix of the public interface.
+/// Dense real matrix, as public functions take and return it.
 pub type Matrix = nalgebra::DMatrix<f64>;

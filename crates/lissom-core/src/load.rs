@@ -1,21 +1,22 @@
-//! Loads on the motor beside friction: gravity of an unbalanced mass.
+//! Loads on the motor in addition to friction: gravity of an unbalanced mass.
 
 use crate::record::{Campaign, Hold, Run};
 
-/// The torque `g_s·sin θ + g_c·cos θ` that gravity takes of the motor, θ the motor's angle as logged.
+/// The torque of gravity on the motor, `g_s·sin θ + g_c·cos θ`, with the motor's angle θ as logged.
 ///
-/// The motor has to give it in addition: `J·θ̈ + V·θ̇ + friction + g_s·sin θ + g_c·cos θ = K·i`. A mass m at
-/// the distance l from the axis has `m·g·l·sin(θ + φ)`, and hangs at rest at θ = −φ.
+/// It is on the same side of the equation as friction, so the motor has to supply it:
+/// `J·θ̈ + V·θ̇ + friction + g_s·sin θ + g_c·cos θ = K·i`. A mass m at the distance l from the axis gives
+/// `m·g·l·sin(θ + φ)` and hangs at rest at θ = −φ.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct GravityLoad {
-    /// g_s \[N·m, or the command's unit where the torque constant is unknown\].
+    /// g_s \[N·m; unit of the command where the torque constant is unknown\].
     pub sine_nm: f64,
-    /// g_c, in the same unit.
+    /// g_c, in the unit of g_s.
     pub cosine_nm: f64,
 }
 
 impl GravityLoad {
-    /// `mgl·sin(θ + φ)`: the largest torque \[N·m\] and the phase φ \[rad\].
+    /// Builds the load from its largest torque m·g·l \[N·m\] and its phase φ \[rad\]: `m·g·l·sin(θ + φ)`.
     ///
     /// ```
     /// use lissom::load::GravityLoad;
@@ -27,25 +28,26 @@ impl GravityLoad {
         Self { sine_nm: mgl_nm * cos, cosine_nm: mgl_nm * sin }
     }
 
-    /// The largest torque, `√(g_s² + g_c²)`.
+    /// Largest torque m·g·l = `√(g_s² + g_c²)`, in the unit of g_s.
     pub fn amplitude_nm(&self) -> f64 {
         self.sine_nm.hypot(self.cosine_nm)
     }
 
-    /// φ \[rad\], from −π to π: the load hangs at θ = −φ.
+    /// Phase φ \[rad\], from −π to π: the load hangs at θ = −φ.
     pub fn phase_rad(&self) -> f64 {
         self.cosine_nm.atan2(self.sine_nm)
     }
 
-    /// The torque at an angle.
+    /// Torque at an angle of the motor, in the unit of g_s; positive if the motor has to push forward.
     pub fn torque_nm(&self, angle_rad: f64) -> f64 {
         let (sin, cos) = angle_rad.sin_cos();
         self.sine_nm * sin + self.cosine_nm * cos
     }
 
-    /// The campaign whose commands are less by this load at the logged angles: what is left moves an arm without it.
+    /// Returns the campaign with the torque of this load at the logged angles subtracted from the commands: the
+    /// remaining command moves an arm without the load.
     ///
-    /// Of a held command the mean torque over each sample is taken.
+    /// For a sampled (held) command, the mean of the load at both ends of the sample is subtracted.
     #[must_use]
     pub fn taken_from(&self, campaign: &Campaign) -> Campaign {
         let command = &campaign.channels.command;

@@ -1,23 +1,24 @@
 //! A threshold, and the macro that declares a method's thresholds in one place.
 //!
 //! A threshold is a number that decides an outcome that the user sees: what is accepted, refused, warned of, chosen or
-//! left out, and how far a search of the estimates goes. Three kinds of numbers are no thresholds, and stay beside their
-//! use: limits of the input (guards), tolerances, step counts and seeds of a numerical algorithm, and floors against
-//! rounding. The root finders, event searches and series of `beam`, `lti`, `rig` and `replay` have only such numbers.
+//! left out, and how far a search for the estimates goes. Three kinds of numbers are not thresholds and are declared
+//! where they are used: limits of the input (guards); tolerances, step counts and seeds of numerical algorithms; and
+//! small numbers that guard against rounding. The root finders, event searches and series of `beam`, `lti`, `rig` and
+//! `replay` have only numbers of these kinds.
 
-/// Where a threshold's value comes from.
+/// Origin of a threshold's value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Basis {
-    /// It follows from theory or from another number; the reason says how.
+    /// Follows from theory or from another number; the reason says how.
     Derived,
-    /// It was chosen from measured logs or from simulated campaigns; the reason says which.
+    /// Chosen from measured logs or from simulated campaigns; the reason says which.
     Measured,
     /// A usual level, such as 5 % or three standard errors, or a round number.
     Convention,
 }
 
 impl Basis {
-    /// Its name in tables and files.
+    /// Name in tables and files: `"derived"`, `"measured"` or `"convention"`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Derived => "derived",
@@ -34,7 +35,7 @@ pub enum ThresholdValue {
     Number(f64),
     /// A count.
     Count(u64),
-    /// Real numbers that are tried or applied in turn.
+    /// Real numbers that are tried or applied one after the other.
     Numbers(&'static [f64]),
 }
 
@@ -42,7 +43,7 @@ pub enum ThresholdValue {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Threshold {
-    /// The method or step that it belongs to.
+    /// Method or step to which the threshold belongs.
     pub method: &'static str,
     /// Name of the constant in the source.
     pub name: &'static str,
@@ -50,9 +51,9 @@ pub struct Threshold {
     pub value: ThresholdValue,
     /// Unit; "1" for shares and ratios.
     pub unit: &'static str,
-    /// Where the value comes from.
+    /// Origin of the value.
     pub basis: Basis,
-    /// What it is, and why it has this value.
+    /// What the threshold decides, and why it has this value.
     pub reason: &'static str,
 }
 

@@ -27,10 +27,10 @@ const GROUPS: [&[Threshold]; 16] = [
     plan::thresholds::LIST,
 ];
 
-/// All thresholds of the library: every number that decides what is accepted, refused, warned of or chosen.
+/// All thresholds of the library: every number that decides what is accepted, refused, reported or chosen.
 ///
 /// Each has a unit, a reason, and a [`Basis`](crate::Basis) that says where its value comes from. Limits of the input, and
-/// tolerances of algorithms, are no thresholds and are not in the list.
+/// tolerances of algorithms, are not thresholds and are not in the list.
 ///
 /// ```
 /// let refused = lissom::thresholds().find(|t| t.name == "REFUSED_TORQUE").unwrap();

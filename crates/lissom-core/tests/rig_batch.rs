@@ -94,7 +94,7 @@ fn friction_is_found_where_little_sticks() {
     for run in runs {
         let share = run.stuck_s / 83.0;
         let true_a = arm.coulomb.forward() / arm.motor.torque_constant_nm_per_a();
-        // The bias is some 0.6 of the share of time stuck (DESIGN.md); 0.3 % for noise and hold.
+        // The bias is some 0.6 of the share of time stuck (docs/src/decisions/09-third-harmonic.md); 0.3 % for noise and hold.
         let bias = (run.coulomb_a / true_a - 1.0).abs();
         assert!(share < 0.02 && bias < 1.5 * share + 0.003, "{bias} {share}");
     }

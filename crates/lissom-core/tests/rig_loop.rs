@@ -293,7 +293,7 @@ fn a_limit_below_what_the_reference_needs_is_said() {
         - motor.iter().fold(f64::MAX, |m, v| m.min(*v));
     // The reference's own extremes lie within 25·1.5 mrad of a sample: 7e-4 of its range.
     assert!((reached - range).abs() < 7e-4 && reached < 0.5, "{reached}");
-    assert!(found.to_string().contains("of the amplitude asked for"), "{found}");
+    assert!(found.to_string().contains("of the requested amplitude"), "{found}");
 }
 
 #[test]

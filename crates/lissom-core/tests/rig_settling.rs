@@ -104,7 +104,10 @@ fn what_does_not_settle_in_time_is_said() {
     // The log begins within a period of the last look: at worst the bound holds all the same.
     let error = apart(&found, &later(&rig, samples, &experiment, &found, 300));
     assert!(error <= left_rad && error > 0.1 * left_rad, "{error:.2e} of {left_rad:.2e}");
-    assert!(finding.to_string().starts_with("not settled after 30.0 s"), "{finding}");
+    assert!(
+        finding.to_string().starts_with("the transient had not decayed after 30.0 s"),
+        "{finding}"
+    );
     // Too short to look twice: nothing bounds it.
     let none = Settle::Detected { tolerance: 1e-4, longest_s: 1.0 };
     let found = rig.run("none", &one_period(OMEGA).settling(none), 0).unwrap();

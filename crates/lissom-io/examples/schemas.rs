@@ -1,12 +1,16 @@
-//! Writes the JSON Schemas of the files into `docs/`: `cargo xtask schemas`.
+//! Writes the JSON Schemas of the files, and the pages of the book made of them: `cargo xtask schemas`.
 
 use std::io;
 use std::path::Path;
 
 fn main() -> io::Result<()> {
-    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/reference/schemas");
+    let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/reference");
+    std::fs::create_dir_all(reference.join("keys"))?;
     for (name, text) in lissom_io::schema_files() {
-        std::fs::write(docs.join(name), text)?;
+        std::fs::write(reference.join("schemas").join(name), text)?;
+    }
+    for (name, text) in lissom_io::schema_pages() {
+        std::fs::write(reference.join(name), text)?;
     }
     Ok(())
 }

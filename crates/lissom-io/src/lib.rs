@@ -32,6 +32,8 @@ pub mod result;
 pub mod rig;
 #[cfg(feature = "schema")]
 mod schema_files;
+#[cfg(feature = "schema")]
+mod schema_pages;
 pub mod units;
 pub mod write;
 
@@ -63,5 +65,7 @@ pub use result::{
 pub use rig::{RigFile, RigRunEntry};
 #[cfg(feature = "schema")]
 pub use schema_files::schema_files;
+#[cfg(feature = "schema")]
+pub use schema_pages::schema_pages;
 pub use units::UnitError;
 pub use write::WriteError;

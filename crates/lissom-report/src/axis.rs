@@ -1,7 +1,7 @@
 //! Positions and labels of the ticks of an axis.
 
-use crate::number_text::{exponent, fixed, power_of_ten};
 use crate::scale::Scale;
+use lissom_text::{exponent, fixed, power_of_ten};
 
 /// Which distances between ticks read well.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

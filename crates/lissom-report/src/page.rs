@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use crate::Figure;
 use crate::html::escape;
-use crate::number_text::{interval, with_uncertainty};
 use crate::page_parts::{Cells, Finding, KeyFigure, Table};
+use lissom_text::{interval, with_uncertainty};
 
 const STYLE: &str = include_str!("page.css");
 

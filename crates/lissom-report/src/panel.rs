@@ -4,9 +4,9 @@ use crate::axis::Ruler;
 use crate::canvas::{Anchor, Canvas, Rect, Stroke, TextStyle};
 use crate::font::Weight;
 use crate::marks::{Mark, thinned};
-use crate::number_text::power_of_ten;
 use crate::palette::{FLAGGED, GRID, INK, MINOR_GRID, Role, WHITE};
 use crate::text_fit::{shorten, width};
+use lissom_text::power_of_ten;
 
 /// The size of tick labels.
 pub(crate) const TICK_SIZE: f64 = 14.0;

@@ -1,8 +1,8 @@
-//! The one error of a program that uses lissom.
+//! The error type of a program that uses lissom.
 
 use thiserror::Error;
 
-/// Any error of lissom: of models, rigs, records and identification, or of a file.
+/// Any error of lissom: of the numerical core, or of a file.
 ///
 /// ```
 /// use lissom::prelude::*;
@@ -17,16 +17,16 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Numbers, experiments or records that cannot be.
+    /// The numerical core reports an error: parameters, an experiment, runs or options are not valid.
     #[error(transparent)]
     Core(lissom_core::Error),
-    /// A file that cannot be read or written.
+    /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] lissom_io::Error),
 }
 
 impl Error {
-    /// What to do about it, where there is something to say.
+    /// What to do about the error, if there is a hint.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::Core(_) => None,

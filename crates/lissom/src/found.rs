@@ -1,4 +1,4 @@
-//! A result of identification, to print, to keep and to use.
+//! The result of an identification, to print, to save and to use.
 
 use std::fmt;
 
@@ -12,7 +12,7 @@ use serde::{Serialize, Serializer};
 
 use crate::parameter_text;
 
-/// What [`Identify::run`](crate::Identify::run) found.
+/// Result of [`Identify::run`](crate::Identify::run).
 ///
 /// `Display` gives a table with 95 % intervals and the findings; serialised it is `result.json`
 /// ([`ResultFile`]), as the command writes it.
@@ -27,51 +27,54 @@ impl Found {
         Self { channels: campaign.channels.clone(), identified }
     }
 
-    /// Coulomb friction, the mean of both directions \[N·m; N of a linear axis; unit of the command where the torque
-    /// constant is not known\]; `None` where a finding refuses it.
+    /// Coulomb friction, mean of both directions
+    /// \[N·m; N on a linear axis; unit of the command if the torque constant is unknown\]. `None` if it is refused,
+    /// with a finding that gives the reason.
     pub fn coulomb(&self) -> Option<Estimate> {
         self.identified.friction.coulomb
     }
 
-    /// Viscous friction \[N·m·s/rad, or as [`coulomb`](Self::coulomb)\].
+    /// Viscous friction \[N·m·s/rad; N·s/m on a linear axis; per unit of command if the torque constant is unknown\].
     pub fn viscous(&self) -> Option<Estimate> {
         self.identified.friction.viscous
     }
 
-    /// Inertia of the motor's side \[kg·m²; kg of a linear axis\].
+    /// Inertia of the motor's side \[kg·m²; kg on a linear axis\].
     pub fn inertia(&self) -> Option<Estimate> {
         self.identified.inertia
     }
 
-    /// Torque per angle between motor and beam \[N·m/rad\].
+    /// Coupling: torque between motor and beam per angle between them \[N·m/rad\].
     pub fn coupling(&self) -> Option<Estimate> {
         self.identified.beam.coupling
     }
 
-    /// Modes of the beam with the motor clamped, ascending.
+    /// Modes of the beam with the motor clamped, ascending in frequency.
     pub fn modes(&self) -> &[ModeEstimate] {
         &self.identified.beam.modes
     }
 
-    /// What the data do not allow, and what to know about the estimates.
+    /// Findings: what the logs do not determine, what is wrong with them, and what to know about the estimates.
     pub fn findings(&self) -> &[Finding] {
         &self.identified.findings
     }
 
-    /// Everything: the results of each method, responses, linear models.
+    /// The complete result: estimates of each method, responses, linear models.
     pub fn identified(&self) -> &Identified {
         &self.identified
     }
 
-    /// The arm to predict other logs with; `None` where the estimates make no whole arm.
+    /// The identified arm, which predicts other logs; `None` if the estimates do not make a complete arm.
     pub fn arm(&self) -> Option<&FoundArm> {
         self.identified.arm.as_ref()
     }
 
-    /// Predicts a campaign that this result is not from; `None` where the estimates make no whole arm.
+    /// Compares the result with a campaign from which it was not identified. `None` if the
+    /// estimates do not make a complete arm.
     ///
     /// # Errors
-    /// [`ValidationError`] where the arm does not belong to the campaign's channels or nothing moves.
+    /// [`ValidationError`] if the arm does not fit the campaign's channels, if it cannot be
+    /// simulated, or if nothing moves.
     pub fn validate(
         &self,
         other: &impl AsRef<Campaign>,
@@ -80,7 +83,7 @@ impl Found {
         self.arm().map(|arm| validate(arm, other.as_ref(), &options)).transpose()
     }
 
-    /// What the command writes as `result.json`.
+    /// The content of `result.json`.
     pub fn file(&self) -> ResultFile {
         ResultFile::of(&self.channels, &self.identified, None)
     }

@@ -1,4 +1,4 @@
-//! Identification with its options by name.
+//! Builder of an identification: its options are set one by one, by name.
 
 use std::time::Duration;
 
@@ -7,7 +7,7 @@ use lissom_core::record::Campaign;
 
 use crate::found::Found;
 
-/// An identification in the making: what to identify, and how.
+/// Builder of an identification: the campaign, and the options of [`identify`](fn@crate::identify::identify).
 ///
 /// ```
 /// use lissom::prelude::*;
@@ -26,7 +26,7 @@ pub struct Identify<'c> {
 }
 
 impl<'c> Identify<'c> {
-    /// Of a [`Campaign`], of a campaign read from files, or of a virtual one.
+    /// Starts the identification of a [`Campaign`], of a campaign that was read from files, or of a simulated one.
     pub fn new(campaign: &'c impl AsRef<Campaign>) -> Self {
         Self {
             campaign: campaign.as_ref(),
@@ -35,45 +35,46 @@ impl<'c> Identify<'c> {
         }
     }
 
-    /// How far the output-error method goes. [`Effort::Quick`] leaves it out: a fraction of a second.
+    /// Sets the effort of the output-error method. [`Effort::Quick`] leaves that method out
+    /// and takes a fraction of a second.
     pub fn effort(mut self, effort: Effort) -> Self {
         self.options.effort = effort;
         self
     }
 
-    /// Length of the regression's window \[s\], in place of one that is chosen from the data.
+    /// Sets the length of the regression's window \[s\]; otherwise a length is chosen from the data.
     pub fn window_s(mut self, window_s: f64) -> Self {
         self.options.window_s = vec![window_s];
         self
     }
 
-    /// All options at once, in place of those given before.
+    /// Sets all options at once, in place of those set before.
     pub fn options(mut self, options: Options) -> Self {
         self.options = options;
         self
     }
 
-    /// Takes the best result after this time; it then depends on how fast the machine is.
+    /// Limits the time: the search then ends with its best result so far, which depends on the speed of the machine.
     pub fn time_limit(self, limit: Duration) -> Self {
         self.interrupt(Interrupt::after(limit))
     }
 
-    /// Takes the best result when another thread asks for it.
+    /// Ends the search with its best result so far when another thread requests it.
     pub fn interrupt(mut self, interrupt: Interrupt) -> Self {
         self.options.interrupt = interrupt;
         self
     }
 
-    /// Calls `progress` at the beginning of each stage.
+    /// Sets a function that is called at the beginning of each stage.
     pub fn progress(mut self, progress: impl FnMut(Stage) + 'c) -> Self {
         self.progress = Box::new(progress);
         self
     }
 
-    /// Identifies. Whatever the data do not support is refused with a finding, which is no error.
+    /// Identifies the campaign. What the data do not support is refused with a finding; this is not an error.
     ///
     /// # Errors
-    /// [`IdentifyError`] where no run moves, or an option is no valid number.
+    /// [`IdentifyError`] if no run moves, or if an option is not valid.
     pub fn run(self) -> Result<Found, IdentifyError> {
         let Self { campaign, options, progress } = self;
         let identified = identify(campaign, &options, progress)?;

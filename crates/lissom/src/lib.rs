@@ -1,6 +1,6 @@
-//! Flexible arms and motor drives whose joint has friction: models, exact simulation, identification.
+//! Models, exact simulation and identification of flexible arms and motor drives whose joint has friction.
 //!
-//! An arm, a virtual rig around it, four experiments, and what can be found from their logs alone:
+//! A first program: an arm, a virtual rig, four experiments, and the identification of the arm from their logs.
 //!
 //! ```
 //! use lissom::prelude::*;
@@ -31,20 +31,22 @@
 //! # }
 //! ```
 //!
-//! [`prelude`] has what most programs need. Your own logs are read by [`io::read_campaign`], described by a
-//! `campaign.toml` as the command `lissom` takes it; or make a [`record::Campaign`] of arrays.
+//! [`prelude`] contains what most programs need. Your own logs are read by [`io::read_campaign`], from a
+//! `campaign.toml` as the command `lissom` uses it. If your data are already in memory, build a
+//! [`record::Campaign`] from arrays.
 //!
-//! | you have | begin with | and get |
+//! | you have | start with | and get |
 //! |---|---|---|
 //! | dimensions of an arm | [`arm::Arm::builder`], [`beam`] | frequencies, modes, zeros, matrices, transfer functions |
-//! | an idea for an experiment | [`rig::Rig::builder`] | logs of a joint that sticks and slips, as a real one gives them |
+//! | an idea for an experiment | [`rig::Rig::builder`] | logs of a joint that sticks and slips like a real one |
 //! | logs | [`io::read_campaign`], [`Identify`] | friction, inertia, coupling, modes, each with a standard error, and findings |
-//! | rough numbers and little time | [`plan`] | the runs that give a wanted precision |
-//! | a result and another log | [`Found::validate`] | how well the result predicts it |
+//! | approximate parameters and little time | [`plan`] | the runs that give a wanted precision |
+//! | a result and another log | [`Found::validate`] | how well the result predicts that log |
 //!
-//! Units are SI and rad/s; names of public numbers carry them (`inertia_kg_m2`). Angles are positive in one direction
-//! of the motor, torques in the same. Functions return the error of their own module; all become [`Error`] by `?`.
-//! Nothing is printed, and no file is touched outside [`io`].
+//! Units are SI and rad/s, and names of public numbers contain their units (`inertia_kg_m2`). Angles of motor and
+//! tips are positive in the same direction, and a positive command drives that way. Each function returns the
+//! error of its own module; the operator `?` converts all of them to [`Error`]. Nothing is printed, and only
+//! [`io`] reads and writes files.
 
 #[doc(inline)]
 pub use lissom_core::{

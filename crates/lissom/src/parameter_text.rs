@@ -1,9 +1,9 @@
-//! Parameters as a table of text.
+//! Parameters as a text table.
 
 use std::fmt::{self, Write as _};
 
 use lissom_io::ParameterList;
-use lissom_report::{interval, with_uncertainty};
+use lissom_text::{interval, with_uncertainty};
 
 /// Between two columns.
 const GAP: usize = 2;

@@ -1,4 +1,4 @@
-//! What most programs need: `use lissom::prelude::*;`.
+//! The types that most programs need: `use lissom::prelude::*;`.
 
 pub use crate::arm::Arm;
 pub use crate::beam::{Damping, DistributedBeam, LumpedBeam, Payload, Piece, Span};

@@ -3,10 +3,12 @@
 use clap::{Parser, Subcommand};
 
 use super::compare_args::CompareArgs;
+use super::completions_args::CompletionsArgs;
 use super::demo_args::DemoArgs;
 use super::equivalent_args::EquivalentArgs;
 use super::figures_args::FiguresArgs;
 use super::identify_args::IdentifyArgs;
+use super::man_args::ManArgs;
 use super::model_args::ModelArgs;
 use super::payload_args::PayloadArgs;
 use super::plan_args::PlanArgs;
@@ -16,7 +18,7 @@ use super::validate_args::ValidateArgs;
 
 /// Model and identify drives with friction, with a rigid load or a flexible arm.
 #[derive(Debug, Parser)]
-#[command(name = "lissom", version, max_term_width = 100, after_help = AFTER_HELP)]
+#[command(name = "lissom", version = env!("LISSOM_VERSION"), max_term_width = 100, after_help = AFTER_HELP)]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -52,6 +54,10 @@ pub(crate) enum Command {
     Figures(FiguresArgs),
     /// List every number that decides which estimates are given and which findings are reported
     Thresholds(ThresholdsArgs),
+    /// Print the completions of a shell
+    Completions(CompletionsArgs),
+    /// Write the manual pages
+    Man(ManArgs),
     /// Simulate the experiment of the 1989 report and identify the arm from its logs
     Demo(DemoArgs),
 }

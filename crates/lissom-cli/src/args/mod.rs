@@ -2,10 +2,12 @@
 
 pub(crate) mod command_line;
 pub(crate) mod compare_args;
+pub(crate) mod completions_args;
 pub(crate) mod demo_args;
 pub(crate) mod equivalent_args;
 pub(crate) mod figures_args;
 pub(crate) mod identify_args;
+pub(crate) mod man_args;
 pub(crate) mod model_args;
 pub(crate) mod payload_args;
 pub(crate) mod plan_args;

@@ -1,9 +1,11 @@
 //! One module for each subcommand: it reads the inputs, calls the library, and passes the result to the views.
 
 pub(crate) mod compare_command;
+pub(crate) mod completions_command;
 pub(crate) mod demo;
 pub(crate) mod equivalent;
 pub(crate) mod identify_command;
+pub(crate) mod man_command;
 pub(crate) mod model_command;
 pub(crate) mod payload_command;
 pub(crate) mod plan;

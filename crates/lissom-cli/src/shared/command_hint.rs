@@ -14,7 +14,7 @@ pub(crate) fn command_hint(kind: &FindingKind) -> Option<&'static str> {
             (term.kind == MissingKind::BeamDamping).then_some(WITHOUT_QUICK)
         }
         FindingKind::OutputError(OutputErrorFinding::MoreThanNoise { .. }) => {
-            Some("`lissom validate RESULT CAMPAIGN` shows the residual")
+            Some("`lissom validate RESULT CAMPAIGN` shows the residual of each channel")
         }
         FindingKind::OutputError(OutputErrorFinding::FaintMode { .. }) => {
             Some("`lissom model ARM` gives the frequencies of a beam of known dimensions")
@@ -22,14 +22,14 @@ pub(crate) fn command_hint(kind: &FindingKind) -> Option<&'static str> {
         FindingKind::Equivalent(found) => equivalent(found),
         FindingKind::EquivalentMotor(EquivalentMotorFinding::EquivalentMotorFriction {
             ..
-        }) => Some("`lissom identify CAMPAIGN` removes friction and gives the arm from logs"),
+        }) => Some("`lissom identify CAMPAIGN` removes friction and identifies the arm from logs"),
         FindingKind::Validation(
             ValidationFinding::TorqueNotPredicted { coupling_known: true }
             | ValidationFinding::TorqueHidden { .. },
         ) => Some("--window TIME sets the length of the window"),
         FindingKind::Validation(ValidationFinding::ModeMoved { moved }) => (moved.by
             == MovedBy::Load)
-            .then_some("`lissom payload CAMPAIGN` predicts the arm with another payload"),
+            .then_some("`lissom payload CAMPAIGN` predicts the modes with another payload"),
         _ => None,
     }
 }
@@ -41,7 +41,7 @@ fn equivalent(found: &EquivalentFinding) -> Option<&'static str> {
             Some("--modes N keeps the N lowest modes")
         }
         EquivalentFinding::EquivalentTermsInS { .. } => {
-            Some("`lissom identify CAMPAIGN` gives the arm from logs")
+            Some("`lissom identify CAMPAIGN` identifies the arm from logs")
         }
         _ => None,
     }
@@ -54,7 +54,8 @@ pub(crate) fn refusal_hint(refusal: &EquivalentRefusal) -> Option<&'static str> 
             Some("`lissom equivalent` with --modes N keeps the N lowest modes")
         }
         EquivalentRefusal::Beam { .. } => Some(
-            "`lissom equivalent` with --arm ARM --at NAME=LENGTH finds a better place on a beam of known dimensions",
+            "`lissom equivalent` with --arm ARM --at NAME=LENGTH finds a better place for a point, on a beam of known \
+             dimensions",
         ),
         EquivalentRefusal::NoAngle => {
             Some("`lissom identify CAMPAIGN` finds modes and torques from such signals")

@@ -155,8 +155,8 @@ fn ratios_stand_beside_dampers() {
     refuses(
         "flexural_rigidity = 2\ndamping = { ratio = 0.01 }\n\
          spans = [{ length = 1, mass = 1, damping = 0.1 }]",
-        "error: arm.toml: damping ratios by mode stand beside dampers at masses: no mode keeps its \
-         ratio then\n\
+        "error: arm.toml: damping ratios by mode and dampers at masses are both given: no mode would \
+         keep its ratio\n\
          hint: leave out the `damping` of the spans, or write damping = { mass_proportional = \
          \"...\", stiffness_proportional = \"...\" } instead of ratios",
     );

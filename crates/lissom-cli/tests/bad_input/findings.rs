@@ -71,7 +71,10 @@ fn a_long_log_is_thinned() {
     let identified = identify(&file.campaign, &Options::default(), |_| {}).unwrap();
     let thinned: Vec<_> = identified.findings.iter().filter(|f| f.code() == "thinned").collect();
     let [finding] = &thinned[..] else { panic!("{thinned:?}") };
-    assert_eq!(finding.message(), "the log is thinned: each sample stands for 4 rows of it");
+    assert_eq!(
+        finding.message(),
+        "the log has too many rows and is thinned: one sample for every 4 rows"
+    );
     assert_eq!(finding.run.as_deref(), Some("run.csv"));
 }
 
@@ -89,11 +92,10 @@ fn late_stamps_are_counted() {
     let off = |k: usize| ((k * 7919 % 11) as f64 / 5.0 - 1.0) * 1e-3;
     let found = changed(|k, row| row[0] += off(k)).findings("sample-count");
     let [found] = found.as_slice() else { panic!("{found:?}") };
-    let start = "run.csv: time stamps are uneven by 13 % of a step (rms), and the motion contradicts them (they predict angles \
-                 with";
+    let start = "run.csv: time stamps are uneven by 13 % of a step (rms), and the motion contradicts them (with the stamps the \
+                 prediction error of the angle is";
     assert!(found.starts_with(start), "{found}");
-    let end =
-        "times the error of even times): the samples are counted, with a sample time of 5.00000 ms";
+    let end = "times that with even times): the samples are taken as evenly spaced, with a sample time of 5.00000 ms";
     assert!(found.ends_with(end), "{found}");
 }
 
@@ -116,14 +118,15 @@ fn saturation_is_seen_with_and_without_a_known_limit() {
     assert_eq!(
         bench.findings("saturation"),
         [
-            "run.csv: the command stays at its largest value for 50.2 % of the run: its harmonics are not those of friction \
-          alone"
+            "run.csv: the command stays at its largest value for 50.2 % of the run: the limit adds harmonics, which the \
+          third-harmonic method and the corrected response take for friction"
         ]
     );
     assert_eq!(
         bench.file("campaign.toml", campaign).findings("saturation"),
         [
-            "run.csv: the command is at its limit for 50.2 % of the run: its harmonics are not those of friction alone"
+            "run.csv: the command is at its limit for 50.2 % of the run: the limit adds harmonics, which the \
+          third-harmonic method and the corrected response take for friction"
         ]
     );
 }
@@ -139,7 +142,7 @@ fn periods_are_counted() {
         slow.findings("too-few-periods"),
         [
             "run.csv: at the given 0.5000 rad/s the log has 1 of the 3 blocks of whole periods that a steady state needs. \
-          The run is used as a motion of any shape"
+          The run is used as a general motion, not as a sine"
         ]
     );
 }
@@ -150,8 +153,8 @@ fn another_frequency_than_the_stated_one_is_seen() {
         Bench::adding("omega_rad_s = 5\n").findings("not-sinusoidal"),
         [
             "run.csv: the motion is not a sinusoid of the given 5.0000 rad/s: 100 % of the motor's power is not explained, \
-          and harmonics have 76 % of the fundamental; the motor itself moves at 4.0000 rad/s (0.6366 Hz). The run is \
-          used as a motion of any shape"
+          and the harmonics are 76 % of the fundamental; the motor itself moves at 4.0000 rad/s (0.6366 Hz). The run is \
+          used as a general motion, not as a sine"
         ]
     );
 }
@@ -184,8 +187,8 @@ fn a_clipped_motor_is_seen() {
     assert_eq!(
         changed(|_, row| row[2] = row[2].clamp(-0.8, 0.8)).findings("clipped-channel"),
         [
-            "run.csv: the motor channel stays at its largest or smallest value for 41.2 % of the run: the motion beyond it is \
-          not in the log"
+            "run.csv: the motor channel stays at its largest or smallest value for 41.2 % of the run: the log does not \
+          contain the motion beyond it, and estimates from this run are affected"
         ]
     );
 }
@@ -210,7 +213,10 @@ fn drift_is_measured() {
     };
     assert_eq!(
         changed(drifting).findings("drift"),
-        ["run.csv: the motor drifts by 38 % of its amplitude over the periods used"]
+        [
+            "run.csv: the motor drifts by 38 % of its amplitude over the periods used: the offset and the corrected response \
+          are affected"
+        ]
     );
 }
 
@@ -219,7 +225,8 @@ fn a_third_harmonic_above_nyquist_is_seen() {
     assert_eq!(
         Bench::log(csv(&motion(4.0, 0.3, 300.0))).findings("harmonic-above-nyquist"),
         [
-            "run.csv: the third harmonic (12.0 rad/s) is not below 0.9 of the Nyquist frequency (10.5 rad/s)"
+            "run.csv: the third harmonic (12.0 rad/s) is not below 0.9 of the Nyquist frequency (10.5 rad/s): it is not \
+          measured"
         ]
     );
 }
@@ -229,8 +236,8 @@ fn sticking_is_measured() {
     assert_eq!(
         Bench::log(csv(&sticking())).findings("sticking"),
         [
-            "run.csv: the motor sticks for about 9 % of the cycle: friction is not the square wave that the third-harmonic \
-          method assumes"
+            "run.csv: the joint sticks for about 9 % of the cycle: friction is not the square wave that the third-harmonic \
+          method assumes, and the estimate of this method is too low"
         ]
     );
 }
@@ -244,7 +251,7 @@ fn a_motor_that_comes_to_rest_is_no_sinusoid() {
     });
     assert_eq!(
         bench.findings("mostly-at-rest"),
-        ["run.csv: the motor stands still for 48 % of the run"]
+        ["run.csv: the motor stands still for 48 % of the run: this part gives little information"]
     );
     let result = bench.result();
     assert!(!result.to_string().contains("NaN"), "{:#}", result["findings"]);

@@ -1,4 +1,4 @@
-//! An arm made of parts that are given by name.
+//! Builder of an arm: its parts are set one by one, by name.
 
 use thiserror::Error;
 
@@ -6,20 +6,20 @@ use super::coupled_arm::Arm;
 use crate::beam::{Beam, BeamError, Damping, LumpedBeam, Payload, Span};
 use crate::drive::{Coulomb, DriveError, Motor, MotorBuilder};
 
-/// Why parts make no arm.
+/// Error of [`ArmBuilder::build`].
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ArmBuildError {
-    /// Numbers that make no beam.
+    /// Invalid parameters of the beam.
     #[error(transparent)]
     Beam(#[from] BeamError),
-    /// Numbers that make no motor or no friction.
+    /// Invalid parameters of the motor or of friction.
     #[error(transparent)]
     Drive(#[from] DriveError),
 }
 
 impl Arm {
-    /// An arm whose parts are given one by one.
+    /// Starts a builder, which sets the parts of an arm one by one.
     ///
     /// ```
     /// use lissom::arm::Arm;
@@ -47,7 +47,7 @@ impl Arm {
     }
 }
 
-/// An [`Arm`] in the making: see [`Arm::builder`]. Numbers are checked by [`build`](Self::build).
+/// Builder of an [`Arm`]: see [`Arm::builder`]. The numbers are checked by [`build`](Self::build).
 #[derive(Debug, Clone)]
 pub struct ArmBuilder {
     beam: Option<Beam>,
@@ -60,66 +60,67 @@ pub struct ArmBuilder {
 }
 
 impl ArmBuilder {
-    /// Adds a span and the mass at its outer end, from base to tip. Without spans the joint is rigid.
+    /// Adds a span with the mass at its outer end. Spans are added from base to tip. Without spans the joint drives no
+    /// beam (a rigid axis).
     #[must_use]
     pub fn span(mut self, span: Span) -> Self {
         self.spans.push(span);
         self
     }
 
-    /// Distance of the beam's base from the motor's axis \[m\].
+    /// Sets the distance of the beam's base from the motor's axis \[m\], not negative; 0 by default.
     #[must_use]
     pub fn hub_radius_m(mut self, hub_radius_m: f64) -> Self {
         self.hub_radius_m = hub_radius_m;
         self
     }
 
-    /// A rigid body at the tip.
+    /// Sets the rigid body at the tip, in addition to the last mass; none by default.
     #[must_use]
     pub fn payload(mut self, payload: Payload) -> Self {
         self.payload = payload;
         self
     }
 
-    /// Damping in addition to that of each mass.
+    /// Sets damping in addition to that of each mass; none by default.
     #[must_use]
     pub fn damping(mut self, damping: Damping) -> Self {
         self.damping = damping;
         self
     }
 
-    /// A whole beam in place of spans, hub, payload and damping.
+    /// Sets a complete beam. Spans, hub radius, payload and damping of this builder are then ignored.
     #[must_use]
     pub fn beam(mut self, beam: impl Into<Beam>) -> Self {
         self.beam = Some(beam.into());
         self
     }
 
-    /// The motor; its inertia must be given.
+    /// Sets the motor. It is required, and its inertia must be set.
     #[must_use]
     pub fn motor(mut self, motor: impl Into<MotorBuilder>) -> Self {
         self.motor = motor.into().build();
         self
     }
 
-    /// Coulomb friction, the same in both directions \[N·m\]; 0 where it is not given.
+    /// Sets Coulomb friction, the same in both directions \[N·m\], not negative; 0 by default.
     #[must_use]
     pub fn coulomb_nm(mut self, coulomb_nm: f64) -> Self {
         self.coulomb = Coulomb::symmetric(coulomb_nm);
         self
     }
 
-    /// Coulomb friction of each direction \[N·m\].
+    /// Sets Coulomb friction for each direction \[N·m\], both not negative.
     #[must_use]
     pub fn coulomb_by_direction_nm(mut self, forward_nm: f64, backward_nm: f64) -> Self {
         self.coulomb = Coulomb::by_direction(forward_nm, backward_nm);
         self
     }
 
-    /// The arm.
+    /// Builds the arm.
     ///
     /// # Errors
-    /// [`ArmBuildError`] for numbers that make no beam, no motor or no friction.
+    /// [`ArmBuildError`] for invalid parameters of the beam, the motor or friction.
     pub fn build(self) -> Result<Arm, ArmBuildError> {
         let beam = match self.beam {
             Some(beam) => beam,

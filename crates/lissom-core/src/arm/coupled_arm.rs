@@ -1,4 +1,4 @@
-//! The coupled arm: beam and drive joined by the coupling torque (15).
+//! A beam and a motor, joined by the coupling torque (15).
 
 use nalgebra::DMatrix;
 use num_complex::Complex64;
@@ -7,10 +7,11 @@ use crate::beam::{Beam, BeamDynamics, BeamError, Roots, angle_per_current};
 use crate::drive::{Coulomb, Motor};
 use crate::lti::{StateSpace, ZeroPoleGain};
 
-/// A single-link flexible arm with a friction joint.
+/// A single-link flexible arm whose joint has Coulomb friction.
 ///
-/// State `x = [θ_m, θ̇_m, q_1..q_k, q̇_1..q̇_k]`: q are the angles θ_1 … θ_n of the masses or points and,
-/// where the payload needs a torque to turn, the tip's slope.
+/// The state is `x = [θ_m, θ̇_m, q_1 … q_k, q̇_1 … q̇_k]`, in rad and rad/s. q are the angles θ_1 … θ_n of the masses
+/// or points, from base to tip. If the payload resists turning ([`Payload::turns`](crate::beam::Payload::turns)),
+/// q_{n+1} is the slope of the beam at its tip and k = n + 1; otherwise k = n.
 ///
 /// # Source
 /// `[Feliu1989, eqs. (13)-(15)]`
@@ -18,18 +19,19 @@ use crate::lti::{StateSpace, ZeroPoleGain};
 pub struct Arm {
     /// Linear part of the motor.
     pub motor: Motor,
-    /// Its Coulomb friction.
+    /// Coulomb friction of the joint.
     pub coulomb: Coulomb,
     beam: Beam,
     dynamics: BeamDynamics,
 }
 
 impl Arm {
-    /// Joins a beam to a drive through the coupling torque (15).
+    /// Joins a beam to a motor with friction, by the coupling torque (15).
     ///
     /// # Errors
-    /// [`BeamError::TooManyMasses`] where the beam is longer than matrices are made for: its own
-    /// methods need none. [`BeamError::OutOfRange`] where a matrix leaves the range of a double.
+    /// [`BeamError::TooManyMasses`] if the beam has more masses than matrices are built for (the methods
+    /// of [`Beam`] itself need no matrices). [`BeamError::OutOfRange`] if an element of a matrix is too
+    /// large or too small for a double.
     pub fn new(beam: impl Into<Beam>, motor: Motor, coulomb: Coulomb) -> Result<Self, BeamError> {
         let beam = beam.into();
         let dynamics = beam.dynamics()?;
@@ -46,12 +48,14 @@ impl Arm {
         &self.dynamics
     }
 
-    /// Number of states, 2 + 2k.
+    /// Number of states, 2 + 2k: see [`Arm`].
     pub fn state_len(&self) -> usize {
         2 + 2 * self.dynamics.len()
     }
 
-    /// Coupling torque C_t of (15) in state `x`, without tip loads \[N·m\].
+    /// Coupling torque C_t of (15) in state `x` \[N·m\], without forces or torques on the tip:
+    /// `C_t = Σ h_i·(θ_i − θ_m)`, plus the torque of damping within the beam. Positive if the beam holds the motor back
+    /// from turning forward.
     pub fn coupling_torque(&self, x: &[f64]) -> f64 {
         let k = self.dynamics.len();
         // Differences from the motor's line: (15) with ΣH + h_m = 0, free of cancellation.
@@ -137,7 +141,7 @@ impl Arm {
         stiffness.sqrt() + self.motor.viscous_nm_s_per_rad() / inertia + damping
     }
 
-    /// Responses θ_i/θ_m at `omega_rad_s`, motor to each mass.
+    /// Frequency responses θ_i/θ_m at `omega_rad_s`, from the motor to each mass \[rad/rad\].
     ///
     /// On an undamped pole they are very large.
     ///
@@ -147,8 +151,7 @@ impl Arm {
         self.beam.response(Complex64::new(0.0, omega_rad_s)).angles
     }
 
-    /// Response θ_m/i of the linear part at `omega_rad_s` \[rad/A\]: what is left when Coulomb
-    /// friction is taken away.
+    /// Frequency response θ_m/i at `omega_rad_s` \[rad/A\] of the linear part, without Coulomb friction.
     ///
     /// `G(jω) = K/(J·s² + V·s + C_t/θ_m)` with `s = jω`.
     ///
@@ -166,14 +169,14 @@ impl Arm {
     /// ```
     ///
     /// # Source
-    /// `[Feliu1989, eqs. (13)-(16)]`; the G(ω) that (26) and (30) speak of.
+    /// `[Feliu1989, eqs. (13)-(16)]`; it is the G(ω) of (26) and (30).
     pub fn motor_response(&self, omega_rad_s: f64) -> Complex64 {
         let s = Complex64::new(0.0, omega_rad_s);
         let coupling = self.beam.response(s).coupling_nm_per_rad;
         self.motor.torque_constant_nm_per_a() / (self.motor.impedance(s) + coupling)
     }
 
-    /// Poles of θ_m/i \[1/s\]: of the whole arm without Coulomb friction.
+    /// Poles of θ_m/i \[1/s\]: those of the whole arm without Coulomb friction.
     ///
     /// # Source
     /// `[Feliu1989, eqs. (13)-(15)]`
@@ -181,7 +184,8 @@ impl Arm {
         self.beam.motor_poles(&self.motor)
     }
 
-    /// θ_m/i \[rad/A\], Coulomb friction left out: its zeros are the beam's poles.
+    /// Transfer function θ_m/i \[rad/A\] without Coulomb friction. Its zeros are the poles of
+    /// the beam with the motor clamped.
     ///
     /// # Source
     /// `[Feliu1989, eqs. (13)-(15)]`; the form of (35).
@@ -189,16 +193,17 @@ impl Arm {
         self.beam.motor_function(&self.motor)
     }
 
-    /// θ_i/i \[rad/A\] of mass `mass`, from 0 at the base; `None` where there is no such mass.
+    /// Transfer function θ_i/i \[rad/A\] of mass `mass`, counted from 0 at the base, without Coulomb friction; `None`
+    /// if there is no such mass.
     pub fn angle_function(&self, mass: usize) -> Option<ZeroPoleGain> {
         let angle = self.beam.angle_function(mass)?;
         Some(angle_per_current(&angle, &self.motor_function(), &self.motor))
     }
 
-    /// The coupled arm (13)-(15) as one state space, Coulomb friction left out.
+    /// State space model of the whole arm (13)-(15) without Coulomb friction.
     ///
-    /// Inputs: current \[A\], tip force F_n \[N\], tip torque T_n \[N·m\]. Outputs: motor angle, angle
-    /// of each mass \[rad\], coupling torque \[N·m\]. States as in [`Arm`].
+    /// Inputs: current \[A\], tip force F_n \[N\], tip torque T_n \[N·m\]. Outputs: angle of the motor \[rad\], angle
+    /// of each mass \[rad\], coupling torque \[N·m\]. The states are those of [`Arm`].
     ///
     /// # Source
     /// `[Feliu1989, eqs. (13)-(15)]`

@@ -1,4 +1,4 @@
-//! The coupled arm: beam and drive joined by the coupling torque (15).
+//! The arm: a beam and a drive, joined by the coupling torque (15).
 
 mod arm_builder;
 mod coupled_arm;

@@ -1,4 +1,4 @@
-//! Where along a beam a point tells its modes apart best.
+//! Where on a beam a sensor point separates the modes best.
 
 use nalgebra::DMatrix;
 
@@ -7,26 +7,27 @@ use super::{BeamError, DistributedBeam};
 /// Places looked at along the beam.
 const PLACES: usize = 400;
 
-/// A place for a point, among others that stay.
+/// The best place for one sensor point while the others stay.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BestPoint {
     /// Distance from the axis \[m\].
     pub position_m: f64,
-    /// Least singular value of the shares with the point there…
+    /// Least singular value of the matrix of shares r_ik with the point there \[1\].
     pub least: f64,
-    /// …and with the point where it is.
+    /// The same with the point at its present place \[1\].
     pub least_now: f64,
 }
 
 impl DistributedBeam {
-    /// Where the point `moved` (from 0) of `points_m` would tell as many modes as there are points apart best,
-    /// the other points staying where they are: the place at which the least singular value of their shares
-    /// r_ik is largest, of 400 along the beam.
+    /// Finds the best place for the point `moved` (counted from 0) of `points_m` while the other points stay: the place
+    /// at which the least singular value of the matrix of shares r_ik ([`Mode::share`](super::Mode::share)) is largest.
+    /// As many modes as points are counted, and 400 places along the beam are tried.
     ///
-    /// Section 4 inverts these shares: an error of the responses grows by one over that value.
+    /// The method of Section 4 of the 1989 report inverts this matrix, so errors of measured responses grow in
+    /// proportion to the reciprocal of its least singular value.
     ///
     /// # Errors
-    /// [`BeamError::Points`] where a point is not on the beam, or there is no point `moved`.
+    /// [`BeamError::Points`] if a point is not on the beam, or there is no point `moved`.
     ///
     /// # Source
     /// The condition after step 6 in `[Feliu1989, Section 4]`: "very close points cannot be used".

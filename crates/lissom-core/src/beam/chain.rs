@@ -1,17 +1,17 @@
 //! A beam as a chain of pieces and masses, and the 2×2 recursions that run along it.
 //!
-//! From the base, the outer end of what has been passed answers a force F and a torque T on it with
-//! `u = C·(F, T) + d·θ_m`, u = (deflection, slope) in the fixed frame. From the tip, the inner end
-//! of what has been passed asks for `(F, T) = Y·u`. Each piece changes C, d and Y in a fixed number
-//! of operations, whatever the frequency. Where the two meet, everything at that point follows.
+//! From the base: under a force F and a torque T, the outer end of the part that has been passed moves by
+//! `u = C·(F, T) + d·θ_m`, u = (deflection, slope) in the fixed frame. From the tip: to move by u, the inner end of the
+//! part that has been passed needs `(F, T) = Y·u`. Each piece changes C, d and Y in a fixed number of operations at any
+//! frequency. At the point where the two sides meet, all motions and torques follow.
 //!
-//! With z = s², a mass m is a stiffness m·z. The pivots `1 + m·z·C₁₁` are those of the LDLᵀ
-//! factorisation of `I + z·M^½·F·M^½` (F: flexibility): by Sylvester's law the number of negative
-//! ones at z = −ω² is the number of natural frequencies below ω. None can be missed.
+//! With z = s², a mass m is a stiffness m·z. The pivots `1 + m·z·C₁₁` are those of the LDLᵀ factorisation of
+//! `I + z·M^½·F·M^½` (F: flexibility). By Sylvester's law the number of negative pivots at z = −ω² is the number of
+//! natural frequencies below ω. None can be missed.
 //!
 //! # Source
-//! The count is that of `[WittrickWilliams1971]`; flexibility in place of stiffness keeps the
-//! figures exact to rounding where many short spans make the stiffness ill-conditioned.
+//! The count is that of `[WittrickWilliams1971]`. Flexibility in place of stiffness keeps the results exact to rounding
+//! where many short spans make the stiffness matrix ill-conditioned.
 
 use super::element::{At, Element};
 use super::piece::{Piece, Sym, bend, heavy, kept_from_zero, parts, piece};

@@ -1,4 +1,4 @@
-//! Poles and zeros in the s plane, damping included.
+//! Poles and zeros in the s plane, with damping.
 
 use num_complex::Complex64;
 
@@ -13,12 +13,12 @@ use super::{Base, LumpedBeam, Mode};
 use crate::drive::Motor;
 use crate::number::{Dual, Number, Scaled};
 
-/// Roots in the s plane.
+/// Poles or zeros in the s plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Roots {
-    /// The roots \[1/s\]; conjugates stand together.
+    /// The roots \[1/s\]; conjugate roots follow each other.
     pub s: Vec<Complex64>,
-    /// How many have not been found, or not to ten digits: zero but for pathological beams.
+    /// Number of roots that were not found, or not to ten digits; zero except for extreme beams.
     pub missing: usize,
 }
 
@@ -28,7 +28,7 @@ type Jet = Dual<Complex64>;
 const ASIDE: Complex64 = Complex64::new(-1e-3, 7e-4);
 
 impl LumpedBeam {
-    /// Poles of θ_i/θ_m \[1/s\]: the beam's own, motor clamped, damping included.
+    /// Poles of θ_i/θ_m \[1/s\]: those of the beam with the motor clamped, with damping.
     ///
     /// # Source
     /// `[Feliu1989, eq. (16)]`, with damping added.
@@ -38,10 +38,10 @@ impl LumpedBeam {
         self.in_s(&squares, 0, |s| self.characteristic(s).0)
     }
 
-    /// Zeros of θ_i/θ_m at mass `mass`, from 0 at the base \[1/s\], damping included. `None` where
-    /// there is no such mass.
+    /// Zeros of θ_i/θ_m \[1/s\] at mass `mass`, counted from 0 at the base, with damping.
+    /// `None` if there is no such mass.
     ///
-    /// Damping proportional to the stiffness adds one at −1/β: it passes motion on at once.
+    /// Damping in proportion to the stiffness adds a zero at −1/β, because it transmits motion without delay.
     pub fn zeros_s(&self, mass: usize) -> Option<Roots> {
         let undamped = self.zeros(mass)?;
         let joint = self.joints().nth(mass)?;
@@ -184,8 +184,8 @@ pub(crate) fn sorted(mut s: Vec<Complex64>) -> Vec<Complex64> {
     s
 }
 
-/// Poles of θ_m/i \[1/s\] of a beam on a motor, Coulomb friction left out: the roots of
-/// `J·s² + V·s + C_t/θ_m`. One is s = 0.
+/// Poles of θ_m/i \[1/s\] of a beam on a motor without Coulomb friction: the roots of `J·s² + V·s + C_t/θ_m`. One of
+/// them is s = 0.
 ///
 /// # Source
 /// `[Feliu1989, eqs. (14), (15)]`

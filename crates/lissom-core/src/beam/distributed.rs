@@ -1,4 +1,4 @@
-//! Distributed beam: Euler-Bernoulli pieces with mass along them, exactly.
+//! The distributed beam: Euler-Bernoulli pieces with mass along them, solved exactly.
 
 use num_complex::Complex64;
 
@@ -16,7 +16,7 @@ use super::zeros::{log_slope, real_zeros, tip_numerator};
 use super::{Base, BeamError, Damping, LumpedBeam, Mode, Payload, Span, Zeros};
 use crate::number::{Dual, Number, Scaled};
 
-/// A piece of beam with constant rigidity and mass per length, and what sits at its outer end.
+/// A piece of beam with constant rigidity and mass per length, and the mass and damper at its outer end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
     /// Length \[m\].
@@ -27,19 +27,19 @@ pub struct Piece {
     pub mass_per_length_kg_per_m: f64,
     /// Point mass at the outer end \[kg\].
     pub end_mass_kg: f64,
-    /// Viscous damping of that point against the fixed frame \[N·s/m\].
+    /// Viscous damping of the outer end against the fixed frame \[N·s/m\].
     pub end_damping_n_s_per_m: f64,
 }
 
 /// An Euler-Bernoulli beam with mass along it, clamped to the motor.
 ///
-/// `EI·∂⁴y/∂x⁴ + μ·∂²ŷ/∂t² = 0` on each piece, y the deflection from the motor's line and
-/// ŷ = y + x·θ_m. Solved exactly at any s: each piece is cut into parts short against the bending
-/// wave, whose clamped-free functions are power series in `λ⁴ = −s²·μ·l⁴/EI`. Frequencies and
-/// zeros are counted, so that none is missed.
+/// On each piece `EI·∂⁴y/∂x⁴ + μ·∂²ŷ/∂t² = 0`, with the deflection y from the motor's line \[m\], ŷ = y + x·θ_m and the
+/// mass per length μ \[kg/m\]. The equation is solved exactly at any s: each piece is cut into parts that are short
+/// compared with the bending wave, and their clamped-free functions are power series in `λ⁴ = −s²·μ·l⁴/EI`. Frequencies
+/// and zeros are counted, so that none is missed.
 ///
 /// # Source
-/// Section 4 of `[Feliu1989]` speaks of this beam; `[WittrickWilliams1971]` for the count.
+/// `[Feliu1989, Section 4]` for the beam; `[WittrickWilliams1971]` for the count.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DistributedBeam {
     pieces: Vec<Piece>,
@@ -51,7 +51,7 @@ pub struct DistributedBeam {
 }
 
 impl DistributedBeam {
-    /// A beam from pieces, base to tip.
+    /// Builds a beam from its pieces, from base to tip.
     ///
     /// ```
     /// use lissom::beam::{Base, DistributedBeam, Piece};
@@ -64,33 +64,33 @@ impl DistributedBeam {
     /// ```
     ///
     /// # Errors
-    /// [`BeamError`]: no pieces, a dimension that is not positive and finite, a point mass or
-    /// damping that is negative.
+    /// [`BeamError`] without pieces; if a dimension is not positive and finite; if a point mass or damping is negative;
+    /// if dimensions differ so much that numbers leave the range of a double.
     pub fn new(pieces: &[Piece]) -> Result<Self, BeamError> {
         Self::build(pieces.to_vec(), 0.0, Payload::default(), Damping::None)
     }
 
-    /// The same beam beginning at distance `hub_radius_m` from the motor's axis.
+    /// Returns this beam with its base at the distance `hub_radius_m` from the motor's axis.
     ///
     /// # Errors
-    /// [`BeamError::HubRadius`] where it is negative or not finite.
+    /// [`BeamError::HubRadius`] if it is negative or not finite.
     pub fn with_hub_radius(self, hub_radius_m: f64) -> Result<Self, BeamError> {
         Self::build(self.pieces, hub_radius_m, self.payload, self.damping)
     }
 
-    /// The same beam with a payload at its tip.
+    /// Returns this beam with a payload at its tip.
     ///
     /// # Errors
-    /// [`BeamError::Payload`] where a quantity is negative or not finite.
+    /// [`BeamError::Payload`] if its mass or inertia is negative, or one of its quantities is not finite.
     pub fn with_payload(self, payload: Payload) -> Result<Self, BeamError> {
         Self::build(self.pieces, self.hub_radius_m, payload, self.damping)
     }
 
-    /// The same beam with proportional damping.
+    /// Returns this beam with proportional damping.
     ///
     /// # Errors
-    /// [`BeamError::ModalDistributed`] for ratios by mode: a distributed beam has no last mode;
-    /// give them to its truncated model.
+    /// [`BeamError::ModalDistributed`] for damping ratios by mode, because a distributed beam has no last mode: set
+    /// them on its truncated model. [`BeamError::DampingModel`] if a quantity is negative or not finite.
     pub fn with_damping(self, damping: Damping) -> Result<Self, BeamError> {
         Self::build(self.pieces, self.hub_radius_m, self.payload, damping)
     }
@@ -126,7 +126,7 @@ impl DistributedBeam {
         }
     }
 
-    /// Pieces, base to tip.
+    /// Pieces, from base to tip.
     pub fn pieces(&self) -> &[Piece] {
         &self.pieces
     }
@@ -134,11 +134,11 @@ impl DistributedBeam {
     pub fn hub_radius_m(&self) -> f64 {
         self.hub_radius_m
     }
-    /// What the tip carries.
+    /// Payload at the tip.
     pub fn payload(&self) -> &Payload {
         &self.payload
     }
-    /// Damping of the whole beam.
+    /// Damping in addition to that at the ends of the pieces.
     pub fn damping(&self) -> &Damping {
         &self.damping
     }
@@ -151,7 +151,7 @@ impl DistributedBeam {
         self.position_m[self.pieces.len() - 1]
     }
 
-    /// The beam's inertia about the motor's axis as one body \[kg·m²\].
+    /// Inertia of the beam about the motor's axis when it turns as one rigid body \[kg·m²\].
     pub fn inertia_kg_m2(&self) -> f64 {
         let mut start = self.hub_radius_m;
         let mut sum = 0.0;
@@ -166,8 +166,7 @@ impl DistributedBeam {
         sum + self.payload.mass_kg * tip * tip + self.payload.inertia_kg_m2
     }
 
-    /// The lowest `count` natural frequencies, ascending \[rad/s\], damping left out; found by
-    /// counting.
+    /// The lowest `count` natural frequencies, ascending \[rad/s\], without damping; found by counting.
     ///
     /// # Source
     /// `[WittrickWilliams1971]`
@@ -175,13 +174,13 @@ impl DistributedBeam {
         lowest(&self.elements, base, count)
     }
 
-    /// How many natural frequencies lie below `omega_rad_s`.
+    /// Number of natural frequencies below `omega_rad_s`.
     pub fn frequencies_below(&self, base: Base, omega_rad_s: f64) -> usize {
         below(&self.elements, base, omega_rad_s)
     }
 
-    /// Radians of bending waves along the beam at `omega_rad_s`, Σ l·(μ·ω²/EI)^¼: what a response
-    /// there costs grows with them, and so with √ω.
+    /// Phase of bending waves along the beam at `omega_rad_s` \[rad\], Σ l·(μ·ω²/EI)^¼. The cost of computing a
+    /// response grows in proportion to it, and so with √ω.
     pub fn wave_radians(&self, omega_rad_s: f64) -> f64 {
         let each = |p: &Piece| {
             let ratio = p.mass_per_length_kg_per_m / p.flexural_rigidity_n_m2;
@@ -190,14 +189,15 @@ impl DistributedBeam {
         omega_rad_s.sqrt() * self.pieces.iter().map(each).sum::<f64>()
     }
 
-    /// θ/θ_m at each piece's outer end and C_t/θ_m, at `s` \[1/s\].
+    /// Computes θ/θ_m at the outer end of each piece, and C_t/θ_m \[N·m/rad\], at the complex frequency `s` \[1/s\].
     pub fn response(&self, s: Complex64) -> BeamResponse {
         self.response_at(s, &self.position_m)
     }
 
-    /// θ/θ_m at `points`, distances from the axis in ascending order \[m\], and C_t/θ_m.
+    /// Computes θ/θ_m at `points`, distances from the axis in ascending order \[m\], and C_t/θ_m \[N·m/rad\], at the
+    /// complex frequency `s` \[1/s\].
     ///
-    /// Points outside the beam are taken to its nearer end.
+    /// A point outside the beam is moved to the nearer end.
     ///
     /// # Source
     /// `[Feliu1989, Section 4]`; exact, not truncated.
@@ -232,21 +232,21 @@ impl DistributedBeam {
         elements(&self.pieces, self.hub_radius_m, &self.payload, points)
     }
 
-    /// The lowest `count` modes with the motor clamped, at `points` (distances from the axis,
-    /// ascending) \[m\].
+    /// The lowest `count` modes with the motor clamped, their shapes at `points` (distances from the axis in ascending
+    /// order, \[m\]).
     pub fn modes(&self, count: usize, points: &[f64]) -> Vec<Mode> {
         let (elements, joints) = self.split(points);
         let frequencies = self.frequencies_rad_s(Base::Clamped, count);
         frequencies.into_iter().map(|omega| mode(&elements, &joints, points, omega)).collect()
     }
 
-    /// The zeros of θ/θ_m at distance `point_m` from the axis with |s| below `omega_rad_s`, damping
-    /// left out; all of them, complex ones too.
+    /// The zeros of θ/θ_m at the distance `point_m` from the axis with |s| below `omega_rad_s`, without damping; all of
+    /// them, also complex ones.
     ///
-    /// Their number is that of the argument principle on the circle; real ones are then found as
-    /// changes of sign, the rest by Newton's method. Where a zero lies on the circle itself it is
-    /// made a little wider. `None` where their number cannot be had: the beam's parts differ by so
-    /// many orders that the function is lost in rounding.
+    /// The argument principle on the circle |s| = ω gives their number. Real zeros are then found as changes of
+    /// sign, the others by Newton's method. If a zero lies on the circle itself, the circle is made a little
+    /// wider. `None` if the number cannot be determined: the parts of the beam differ by so many orders of
+    /// magnitude that rounding hides the function.
     ///
     /// # Source
     /// `[Feliu1989, Section 3, properties 1 and 4]`
@@ -292,15 +292,15 @@ impl DistributedBeam {
         Zeros { z: found.into_iter().map(|s| (s * s).into()).collect(), missing }
     }
 
-    /// The lumped beam of `count` masses or a few more: each piece is cut into equal spans, half of
-    /// a span's mass goes to each of its ends.
+    /// Converts to a lumped beam of `count` masses or a few more: each piece is cut into equal spans, and half of a
+    /// span's mass goes to each of its ends.
     ///
-    /// The half at the clamp does not bend the beam and is left out. With a hub of radius r it turns
-    /// with the motor: `μ·l·r²/2`, l the first span's length, is to be added to the motor's inertia.
-    /// Everything then tends to this beam with order 2 (`docs/src/theory/lumped-and-distributed.md`).
+    /// The half at the clamp does not bend the beam and is left out. With a hub of radius r it turns with the motor:
+    /// add `μ·l·r²/2` to the motor's inertia, l the length of the first span. The lumped beam converges to this beam
+    /// with order 2 (`docs/src/theory/lumped-and-distributed.md`).
     ///
     /// # Errors
-    /// [`BeamError`] where the masses make no beam.
+    /// [`BeamError`] if the masses do not make a beam.
     pub fn lumped(&self, count: usize) -> Result<LumpedBeam, BeamError> {
         let total: f64 = self.pieces.iter().map(|p| p.length_m).sum();
         let mut spans: Vec<Span> = Vec::new();

@@ -5,15 +5,15 @@ use super::counted::counted_roots;
 use super::element::{At, Element};
 use crate::number::{Number, Scaled};
 
-/// What the base of the beam does.
+/// Boundary condition at the base of the beam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Base {
-    /// Held: the poles of θ_i/θ_m.
+    /// Clamped: natural frequencies are the poles of θ_i/θ_m.
     Clamped,
-    /// Free to turn, without inertia: the zeros of C_t/θ_m other than s = 0.
+    /// Free to turn, without inertia: natural frequencies are the zeros of C_t/θ_m other than s = 0.
     Pinned,
-    /// Turning with a rotor of this inertia \[kg·m²\]: the poles of θ_m/i without viscous friction,
-    /// other than s = 0.
+    /// Turns with a rotor of this inertia \[kg·m²\]: natural frequencies are the poles of θ_m/i without viscous
+    /// friction, other than s = 0.
     Rotor(f64),
 }
 

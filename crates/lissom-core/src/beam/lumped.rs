@@ -6,18 +6,18 @@ use super::span::{BeamError, Damping, Payload, Span, check};
 
 /// A massless beam clamped to the motor with point masses along it.
 ///
-/// In angles θ_i of the radius to mass i, equation (13) without tip loads:
-/// `m_i·θ̈_i = Σ_j EI·a_ij·θ_j + EI·b_i·θ_m − c_i·θ̇_i`, and (15) `C_t = Σ h_i·θ_i + h_m·θ_m`.
-/// [`matrices`](Self::matrices) gives these; frequencies, zeros, modes and responses come from a
-/// recursion along the beam, whose cost grows with n and which keeps the figures exact to
-/// rounding, for any number of masses.
+/// In the angles θ_i of the radius to mass i, equation (13) without force and torque on the tip is
+/// `m_i·θ̈_i = Σ_j EI·a_ij·θ_j + EI·b_i·θ_m − c_i·θ̇_i`, and (15) is `C_t = Σ h_i·θ_i + h_m·θ_m`.
+/// [`matrices`](Self::matrices) gives the coefficients. Frequencies, zeros, modes and responses are computed by a
+/// recursion along the beam. Its cost grows in proportion to the number of masses n, and its results are exact to
+/// rounding for any n.
 ///
 /// # Source
 /// `[Feliu1989, eqs. (1)-(13), (15)]`
 ///
 /// # Differences from the source
-/// EI may differ between spans; each mass may be damped; the beam may begin at the rim of a hub
-/// and carry a payload with rotary inertia beyond its tip.
+/// EI may differ between spans. Each mass may be damped. The beam may begin at the rim of a hub, and may have a payload
+/// with rotary inertia beyond its tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LumpedBeam {
     spans: Vec<Span>,
@@ -29,7 +29,7 @@ pub struct LumpedBeam {
 }
 
 impl LumpedBeam {
-    /// A beam from spans, base to tip.
+    /// Builds a beam from its spans, from base to tip.
     ///
     /// ```
     /// use lissom::beam::{LumpedBeam, Span};
@@ -41,34 +41,33 @@ impl LumpedBeam {
     /// ```
     ///
     /// # Errors
-    /// [`BeamError`]: no spans, a dimension that is not positive and finite, damping that is
-    /// negative, dimensions whose products leave the range of a double.
+    /// [`BeamError`] without spans; if a dimension is not positive and finite; if damping is negative; if dimensions
+    /// differ so much that numbers leave the range of a double.
     pub fn new(spans: &[Span]) -> Result<Self, BeamError> {
         Self::build(spans.to_vec(), 0.0, Payload::default(), Damping::None)
     }
 
-    /// The same beam beginning at distance `hub_radius_m` from the motor's axis: all L_i grow by
-    /// it.
+    /// Returns this beam with its base at the distance `hub_radius_m` from the motor's axis: all L_i grow by it.
     ///
     /// # Errors
-    /// [`BeamError::HubRadius`] where it is negative or not finite.
+    /// [`BeamError::HubRadius`] if it is negative or not finite.
     pub fn with_hub_radius(self, hub_radius_m: f64) -> Result<Self, BeamError> {
         Self::build(self.spans, hub_radius_m, self.payload, self.damping)
     }
 
-    /// The same beam with a payload at its tip, beside the last mass.
+    /// Returns this beam with a payload at its tip, in addition to the last mass.
     ///
     /// # Errors
-    /// [`BeamError::Payload`] where a quantity is negative or not finite.
+    /// [`BeamError::Payload`] if its mass or inertia is negative, or one of its quantities is not finite.
     pub fn with_payload(self, payload: Payload) -> Result<Self, BeamError> {
         Self::build(self.spans, self.hub_radius_m, payload, self.damping)
     }
 
-    /// The same beam with this damping beside that of its masses.
+    /// Returns this beam with the given damping, in addition to that of its masses.
     ///
     /// # Errors
-    /// [`BeamError`] where a quantity is negative or not finite, a list of ratios is empty, or ratios
-    /// would stand beside dampers at masses.
+    /// [`BeamError`] if a quantity is negative or not finite, if a list of ratios is empty, or if ratios by mode are
+    /// combined with dampers at masses.
     pub fn with_damping(self, damping: Damping) -> Result<Self, BeamError> {
         Self::build(self.spans, self.hub_radius_m, self.payload, damping)
     }
@@ -114,7 +113,7 @@ impl LumpedBeam {
     pub fn is_empty(&self) -> bool {
         self.spans.is_empty()
     }
-    /// Spans, base to tip.
+    /// Spans, from base to tip.
     pub fn spans(&self) -> &[Span] {
         &self.spans
     }
@@ -122,11 +121,11 @@ impl LumpedBeam {
     pub fn hub_radius_m(&self) -> f64 {
         self.hub_radius_m
     }
-    /// What the tip carries beside the last mass.
+    /// Payload at the tip, in addition to the last mass.
     pub fn payload(&self) -> &Payload {
         &self.payload
     }
-    /// Damping beside that of each mass.
+    /// Damping in addition to that of each mass.
     pub fn damping(&self) -> &Damping {
         &self.damping
     }
@@ -135,8 +134,8 @@ impl LumpedBeam {
         &self.position_m
     }
 
-    /// The beam's inertia about the motor's axis as one body, `Σ m_i·L_i²` and the payload's
-    /// \[kg·m²\].
+    /// Inertia about the motor's axis when the beam turns as one rigid body, `Σ m_i·L_i²` plus
+    /// that of the payload \[kg·m²\].
     pub fn inertia_kg_m2(&self) -> f64 {
         let masses = self.spans.iter().zip(&self.position_m).map(|(s, l)| s.mass_kg * l * l);
         let tip = self.position_m[self.len() - 1] + self.payload.offset_m;
@@ -146,8 +145,8 @@ impl LumpedBeam {
     /// The matrices of (10), (13) and (15).
     ///
     /// # Errors
-    /// [`BeamError::TooManyMasses`] beyond [`MOST_MASSES`](super::MOST_MASSES),
-    /// [`BeamError::OutOfRange`] where an entry is beyond a double.
+    /// [`BeamError::TooManyMasses`] above [`MOST_MASSES`](super::MOST_MASSES), [`BeamError::OutOfRange`] if an element
+    /// leaves the range of a double.
     pub fn matrices(&self) -> Result<BeamMatrices, BeamError> {
         BeamMatrices::of(self)
     }
@@ -207,11 +206,10 @@ pub(super) fn attach(elements: &mut Vec<Element>, payload: &Payload) {
 
 /// Lowest first; see [`Base`](super::Base).
 impl LumpedBeam {
-    /// The lowest `count` natural frequencies, ascending \[rad/s\], damping left out; fewer where
-    /// the beam has fewer.
+    /// The lowest `count` natural frequencies, ascending \[rad/s\], without damping; fewer if the beam has fewer.
     ///
-    /// Found by counting, so that none is missed, and exact to rounding: a few 1e-15, relatively,
-    /// at 200 masses (`tests/beam_reference.rs`).
+    /// They are found by counting, so that none is missed, and are exact to rounding: a few 1e-15, relatively, at 200
+    /// masses (`tests/beam_reference.rs`).
     ///
     /// # Source
     /// `[WittrickWilliams1971]`; the poles of `[Feliu1989, eq. (16)]`.
@@ -219,12 +217,12 @@ impl LumpedBeam {
         super::frequencies::lowest(&self.elements, base, count)
     }
 
-    /// How many natural frequencies lie below `omega_rad_s`.
+    /// Number of natural frequencies below `omega_rad_s`.
     pub fn frequencies_below(&self, base: super::Base, omega_rad_s: f64) -> usize {
         super::frequencies::below(&self.elements, base, omega_rad_s)
     }
 
-    /// All natural frequencies with the motor clamped, ascending \[rad/s\], damping left out.
+    /// All natural frequencies with the motor clamped, ascending \[rad/s\], without damping.
     pub fn natural_frequencies_rad_s(&self) -> Vec<f64> {
         self.frequencies_rad_s(super::Base::Clamped, usize::MAX)
     }

@@ -5,41 +5,41 @@ use nalgebra::{DMatrix, DVector};
 use super::three_moment::ThreeMoment;
 use super::{BeamError, LumpedBeam};
 
-/// Most masses that matrices are made for; everything else about a beam needs none.
+/// Largest number of masses for which matrices are built; the other methods of a beam need no matrices.
 pub const MOST_MASSES: usize = 2000;
 
-/// The beam in the report's form, tip loads F_n and T_n included:
+/// The matrices of a lumped beam as in the 1989 report, with the force F_n and the torque T_n on the tip:
 ///
 /// `m_i·θ̈_i = Σ_j EI·a_ij·θ_j + EI·b_i·θ_m + p_i·T_n + q_i·F_n` (13),
 /// `C_t = Σ h_i·θ_i + h_{n+1}·θ_m + h_{n+2}·T_n` (15),
 /// `(u_13 … u_n3) = U·(y(L_1) … y(L_n), T_n)` (10).
 ///
-/// None holds a mass: the separation property. F_n acts at the last mass, as T_n does; a payload's
-/// inertia is not in here but acts through them.
+/// No matrix contains a mass: this is the separation property. F_n and T_n act at the last mass. The inertia of a
+/// payload is not contained; it acts through F_n and T_n.
 ///
 /// # Source
 /// `[Feliu1989, eqs. (10), (13), (15)]`
 ///
 /// # Differences from the source
-/// EI may differ between spans and the beam may begin at a hub radius; EI is inside `ei_a`,
-/// `ei_b`, `h`. Each entry is a sum of terms of one sign, exact to a few roundings.
+/// EI may differ between spans, and the beam may begin at a hub radius; EI is contained in `ei_a`, `ei_b` and `h`. Each
+/// element is a sum of terms of one sign, exact to a few roundings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamMatrices {
     /// `EI·A`, n × n \[N/m\].
     pub ei_a: DMatrix<f64>,
-    /// `EI·B`, n \[N/m\]; `A·1 + B = 0`.
+    /// `EI·B`, n elements \[N/m\]; `A·1 + B = 0`.
     pub ei_b: DVector<f64>,
-    /// `P`, n \[1/m²\]: angular acceleration times mass, per tip torque.
+    /// `P`, n elements \[1/m²\]: mass times angular acceleration, per tip torque.
     pub p: DVector<f64>,
-    /// `Q`, n \[1/m\]: the same per tip force; `(0 … 0, 1/L_n)`.
+    /// `Q`, n elements \[1/m\]: mass times angular acceleration, per tip force; `(0 … 0, 1/L_n)`.
     pub q: DVector<f64>,
-    /// `U`, n × (n+1) \[1/m³; last column 1/(N·m²)\].
+    /// `U`, n × (n+1) \[1/m³; last column 1/(N·m²)\]: coefficients u_i3 of (1) per deflection and per tip torque.
     pub u: DMatrix<f64>,
-    /// `H = (h_1 … h_n)` \[N·m/rad\].
+    /// `H = (h_1 … h_n)` \[N·m/rad\]: coupling torque per angle of each mass.
     pub h: DVector<f64>,
-    /// `h_{n+1}` \[N·m/rad\]; `ΣH + h_{n+1} = 0`.
+    /// `h_{n+1}` \[N·m/rad\]: coupling torque per angle of the motor; `ΣH + h_{n+1} = 0`.
     pub h_motor: f64,
-    /// `h_{n+2}` \[1\].
+    /// `h_{n+2}` \[1\]: coupling torque per tip torque.
     pub h_torque: f64,
 }
 

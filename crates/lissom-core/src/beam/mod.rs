@@ -1,9 +1,12 @@
-//! The beam, Sections 2-4 of the report.
+//! Models of the beam (Sections 2 to 4 of the 1989 report).
 //!
-//! A [`LumpedBeam`] is massless between point masses (Sections 2 and 3). Whatever does not need a
-//! matrix runs along the beam once, by the recursion of `chain`. A [`DistributedBeam`] has its mass along
-//! it (Section 4); a [`TruncatedBeam`] keeps the first of its modes, in the form (17)-(18). A [`ModalBeam`] is known
-//! by its modes alone. The [`Beam`] of an arm is lumped or modal.
+//! - [`LumpedBeam`]: point masses on massless spans (Sections 2 and 3). Methods that need no matrix run along the beam
+//!   once, by a recursion.
+//! - [`DistributedBeam`]: mass along the beam (Section 4). [`TruncatedBeam`] keeps its first
+//!   modes, in the form (17)-(18).
+//! - [`ModalBeam`]: known only by its modes at some points, for example from measured responses.
+//!
+//! The [`Beam`] of an arm is lumped, modal, or absent (a rigid axis).
 
 mod best_point;
 mod bracket;

@@ -1,4 +1,4 @@
-//! A beam known by its modes at some points: what its measured responses tell of it.
+//! A beam that is known by its modes at some points, for example from measured responses.
 
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
@@ -21,25 +21,27 @@ const SUM: f64 = 1e-6;
 
 type Jet = Dual<Complex64>;
 
-/// A mode with the motor clamped, as points and motor show it.
+/// A mode with the motor clamped, as it appears at the points and at the motor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KnownMode {
-    /// ω_k \[rad/s\].
+    /// ω_k, natural frequency \[rad/s\].
     pub omega_rad_s: f64,
-    /// ζ_k, damping against the fixed frame \[1\].
+    /// ζ_k, damping ratio \[1\]; damping acts against the fixed frame.
     pub damping_ratio: f64,
-    /// c_k \[N·m/rad\].
+    /// c_k, coupling torque through this mode per angle \[N·m/rad\].
     pub coupling_nm_per_rad: f64,
-    /// ρ_ik at each point \[1\].
+    /// ρ_ik, gain at rest of this mode at each point \[1\].
     pub gains: Vec<f64>,
 }
 
-/// A beam without dimensions, known by as many modes as points:
+/// A beam without dimensions, known by its modes at as many points as there are modes:
 ///
 /// `η̈_k = ω_k²·(θ_m − η_k) − 2ζ_kω_k·η̇_k`, `θ_i = Σ_k ρ_ik·η_k`, `C_t = Σ_k c_k·(θ_m − η_k)`.
 ///
-/// Each point's gains add up to one, so that turning as one body strains nothing. In the points' angles
-/// that is (17)-(18), `Â = −R·Ω²·R⁻¹`, `Ĥ = −cᵀ·R⁻¹`. The beam's inertia about the axis is `Σ c_k/ω_k²`.
+/// η_k is the coordinate of mode k \[rad\], θ_i the angle of point i; the other symbols are explained at [`KnownMode`].
+/// The gains of each point add up to one, so that the beam is not bent when it turns as one body. In the angles of the
+/// points this is (17)-(18) with `Â = −R·Ω²·R⁻¹` and `Ĥ = −cᵀ·R⁻¹`, R the matrix of gains and Ω² = diag(ω_k²). The
+/// inertia of the beam about the axis is `Σ c_k/ω_k²`.
 ///
 /// # Source
 /// `[Feliu1989, eqs. (17), (18), Section 4]`
@@ -53,12 +55,14 @@ pub struct ModalBeam {
 }
 
 impl ModalBeam {
-    /// Of modes, sorted by frequency here.
+    /// Builds a beam from its modes, in any order; they are sorted by frequency.
     ///
     /// # Errors
-    /// [`BeamError::NoModes`]; [`BeamError::ModesAndPoints`] where a mode has not one gain for each of as many
-    /// points as modes; [`BeamError::KnownMode`] where a frequency or coupling is not positive, a ratio is
-    /// negative or a number is none; [`BeamError::GainsSum`]; [`BeamError::PointsTooClose`].
+    /// [`BeamError::NoModes`] without modes. [`BeamError::ModesAndPoints`] if a mode has more or fewer gains than there
+    /// are modes. [`BeamError::KnownMode`] if a frequency or a coupling is not positive, a damping ratio is negative,
+    /// or a number is not finite. [`BeamError::GainsSum`] if the gains of a point do not add up to one.
+    /// [`BeamError::PointsTooClose`] if the modes look alike at the points. [`BeamError::OutOfRange`] if the stiffness
+    /// leaves the range of a double.
     ///
     /// ```
     /// use lissom::beam::{KnownMode, ModalBeam};
@@ -112,29 +116,29 @@ impl ModalBeam {
         if sound { Ok(beam) } else { Err(BeamError::OutOfRange { quantity: "the stiffness" }) }
     }
 
-    /// Its modes, by frequency.
+    /// The modes, ascending in frequency.
     pub fn known_modes(&self) -> &[KnownMode] {
         &self.modes
     }
-    /// Number of points, and of modes.
+    /// Number of points, which is the number of modes.
     pub fn len(&self) -> usize {
         self.modes.len()
     }
-    /// Never true.
+    /// Never true: there is at least one mode.
     pub fn is_empty(&self) -> bool {
         self.modes.is_empty()
     }
-    /// Whether nothing damps it.
+    /// Whether there is no damping.
     pub fn is_undamped(&self) -> bool {
         self.modes.iter().all(|m| m.damping_ratio == 0.0)
     }
 
-    /// Its inertia about the motor's axis as one body, `Σ c_k/ω_k²` \[kg·m²\].
+    /// Inertia about the motor's axis when the beam turns as one rigid body, `Σ c_k/ω_k²` \[kg·m²\].
     pub fn inertia_kg_m2(&self) -> f64 {
         self.modes.iter().map(KnownMode::inertia_kg_m2).sum()
     }
 
-    /// Its modes as those of a beam with dimensions: shapes are in angles.
+    /// The lowest `count` modes in the form of a beam with dimensions; shapes are angles instead of deflections.
     pub fn modes(&self, count: usize) -> Vec<Mode> {
         let mode = |m: &KnownMode| {
             let most = m.gains.iter().fold(0.0, |a: f64, g| if g.abs() > a.abs() { *g } else { a });
@@ -148,7 +152,7 @@ impl ModalBeam {
         self.modes.iter().take(count).map(mode).collect()
     }
 
-    /// The lowest `count` natural frequencies, ascending \[rad/s\], damping left out.
+    /// The lowest `count` natural frequencies, ascending \[rad/s\], without damping.
     pub fn frequencies_rad_s(&self, base: Base, count: usize) -> Vec<f64> {
         let n = self.len();
         let coupling = |k: usize| self.modes[k].coupling_nm_per_rad;
@@ -181,7 +185,7 @@ impl ModalBeam {
         squares.iter().skip(1).take(count).map(|z| z.max(0.0).sqrt()).collect()
     }
 
-    /// Poles of θ_i/θ_m \[1/s\], damping included.
+    /// Poles of θ_i/θ_m \[1/s\], with damping.
     pub fn poles(&self) -> Roots {
         let pair = |m: &KnownMode| {
             let square = Complex64::from(m.omega_rad_s * m.omega_rad_s);
@@ -190,20 +194,20 @@ impl ModalBeam {
         Roots { s: self.modes.iter().flat_map(pair).collect(), missing: 0 }
     }
 
-    /// Poles of θ_m/i \[1/s\] on a motor, Coulomb friction left out: the roots of
-    /// `J·s² + V·s + C_t/θ_m`. One is s = 0.
+    /// Poles of θ_m/i \[1/s\] on a motor without Coulomb friction: the roots of
+    /// `J·s² + V·s + C_t/θ_m`. One of them is s = 0.
     pub fn motor_poles(&self, motor: &Motor) -> Roots {
         let (j, v) = (motor.inertia_kg_m2(), motor.viscous_nm_s_per_rad());
         let coupled = self.frequencies_rad_s(Base::Rotor(j), usize::MAX);
         self.with_motor(&coupled, j, v)
     }
 
-    /// θ_m/i \[rad/A\], Coulomb friction left out.
+    /// Transfer function θ_m/i \[rad/A\] without Coulomb friction.
     pub fn motor_function(&self, motor: &Motor) -> ZeroPoleGain {
         driven(self.poles(), self.motor_poles(motor), motor)
     }
 
-    /// C_t/θ_m \[N·m/rad\].
+    /// Transfer function C_t/θ_m \[N·m/rad\].
     pub fn coupling_function(&self) -> ZeroPoleGain {
         let pinned = self.frequencies_rad_s(Base::Pinned, usize::MAX);
         let (zeros, poles) = (self.with_motor(&pinned, 0.0, 0.0), self.poles());
@@ -237,7 +241,7 @@ impl ModalBeam {
         Roots { s: sorted(s), missing }
     }
 
-    /// θ_i/θ_m of point `point`, from 0; `None` where there is no such point.
+    /// Transfer function θ_i/θ_m \[1\] of point `point`, counted from 0; `None` if there is no such point.
     pub fn angle_function(&self, point: usize) -> Option<ZeroPoleGain> {
         let (residues, squares) = self.residues(point)?;
         let from = starts(&zero_squares(&residues, &squares));
@@ -253,7 +257,7 @@ impl ModalBeam {
         Some(ZeroPoleGain { zeros, poles, gain, missing })
     }
 
-    /// Zeros of θ_i/θ_m in s², damping left out; `None` where there is no such point.
+    /// Zeros of θ_i/θ_m of point `point`, as s², without damping; `None` if there is no such point.
     pub fn zeros(&self, point: usize) -> Option<Zeros> {
         let (residues, squares) = self.residues(point)?;
         Some(Zeros { z: zero_squares(&residues, &squares), missing: 0 })
@@ -279,7 +283,7 @@ impl ModalBeam {
         self.modes.iter().map(|m| m.inertia_kg_m2() * m.rate_per_s()).sum()
     }
 
-    /// θ_i/θ_m of every point and C_t/θ_m at `s` \[1/s\].
+    /// Computes θ_i/θ_m of every point, and C_t/θ_m \[N·m/rad\], at the complex frequency `s` \[1/s\].
     pub fn response(&self, s: Complex64) -> BeamResponse {
         let follows: Vec<Complex64> =
             self.modes.iter().map(|m| m.omega_rad_s * m.omega_rad_s / m.at(s)).collect();

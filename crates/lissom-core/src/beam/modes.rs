@@ -1,4 +1,4 @@
-//! Modes with the motor clamped: shapes, and what each contributes.
+//! Modes with the motor clamped: their shapes and their contributions.
 
 use super::chain::{BaseSide, TipSide};
 use super::element::{At, Element};
@@ -8,17 +8,18 @@ use crate::number::Dual;
 
 /// A mode of the beam with the motor clamped.
 ///
-/// With these, `θ_i/θ_m = Σ_k r_ik·ω_k²/(s² + ω_k²)` and
-/// `C_t/θ_m = Σ_k Γ_k²·ω_k²·s²/(s² + ω_k²) + (I − Σ_k Γ_k²)·s²`, I the inertia about the axis.
+/// The responses are sums over the modes, `θ_i/θ_m = Σ_k r_ik·ω_k²/(s² + ω_k²)` and
+/// `C_t/θ_m = Σ_k Γ_k²·ω_k²·s²/(s² + ω_k²) + (I − Σ_k Γ_k²)·s²`, with the inertia I of the
+/// beam about the axis \[kg·m²\].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
-    /// ω_k \[rad/s\], undamped.
+    /// ω_k, undamped natural frequency \[rad/s\].
     pub natural_frequency_rad_s: f64,
-    /// Deflection from the motor's line at each point, the largest being 1 \[1\].
+    /// Mode shape: deflection from the motor's line at each point, scaled so that the largest is 1 \[1\].
     pub shape: Vec<f64>,
-    /// r_ik, the mode's share in θ_i/θ_m at each point \[1\]; they sum to one over all modes.
+    /// r_ik, share of the mode in θ_i/θ_m at each point \[1\]; the shares of all modes add up to one.
     pub share: Vec<f64>,
-    /// Γ_k², the mode's part of the inertia about the axis \[kg·m²\].
+    /// Γ_k², part of the inertia about the axis that belongs to the mode \[kg·m²\].
     pub inertia_kg_m2: f64,
 }
 
@@ -120,10 +121,10 @@ pub(crate) fn mode(elements: &[Element], joints: &[usize], position: &[f64], ome
 }
 
 impl LumpedBeam {
-    /// The lowest `count` modes with the motor clamped, damping left out.
+    /// The lowest `count` modes with the motor clamped, without damping.
     ///
     /// # Source
-    /// `[Feliu1989, eq. (16)]` in partial fractions.
+    /// `[Feliu1989, eq. (16)]` as partial fractions.
     pub fn modes(&self, count: usize) -> Vec<Mode> {
         let joints: Vec<usize> = self.joints().collect();
         let frequencies = self.frequencies_rad_s(Base::Clamped, count);

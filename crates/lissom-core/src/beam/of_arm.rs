@@ -1,4 +1,4 @@
-//! The beam of an arm: by its spans, by its modes, or none.
+//! The beam of an arm: given by its spans, given by its modes, or absent.
 
 use nalgebra::DMatrix;
 use num_complex::Complex64;
@@ -14,13 +14,15 @@ use crate::lti::ZeroPoleGain;
 const NO_PAYLOAD: &Payload = &Payload { mass_kg: 0.0, inertia_kg_m2: 0.0, offset_m: 0.0 };
 
 /// The beam of an arm.
+///
+/// Transfer functions, poles and responses below are those of the linear arm: Coulomb friction is left out.
 #[derive(Debug, Clone)]
 pub enum Beam {
-    /// By its spans and point masses.
+    /// Given by its spans and point masses.
     Lumped(LumpedBeam),
-    /// By its modes at some points; it has no lengths, and nothing acts on its tip.
+    /// Given by its modes at some points. It has no lengths, so no payload, force or torque can be put on its tip.
     Modal(ModalBeam),
-    /// None: the joint carries a rigid load, whose inertia is counted with the motor's.
+    /// No beam: the joint drives a rigid load, whose inertia is part of the motor's.
     Rigid,
 }
 
@@ -37,7 +39,7 @@ impl From<ModalBeam> for Beam {
 }
 
 impl Beam {
-    /// With its spans, if it is known by them.
+    /// The lumped beam, if this is one.
     pub fn lumped(&self) -> Option<&LumpedBeam> {
         match self {
             Self::Lumped(beam) => Some(beam),
@@ -45,7 +47,7 @@ impl Beam {
         }
     }
 
-    /// Number of masses or points; zero of a rigid joint.
+    /// Number of masses or points; zero for a rigid joint.
     pub fn len(&self) -> usize {
         match self {
             Self::Lumped(beam) => beam.len(),
@@ -53,28 +55,28 @@ impl Beam {
             Self::Rigid => 0,
         }
     }
-    /// Whether the joint is rigid.
+    /// Whether there is no beam (a rigid joint).
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
-    /// Spans, base to tip; none of a beam known by its modes.
+    /// Spans, from base to tip; empty unless the beam is lumped.
     pub fn spans(&self) -> &[Span] {
         self.lumped().map_or(&[], LumpedBeam::spans)
     }
-    /// Distance of each mass from the motor's axis \[m\]; none of a beam known by its modes.
+    /// Distance of each mass from the motor's axis \[m\]; empty unless the beam is lumped.
     pub fn position_m(&self) -> &[f64] {
         self.lumped().map_or(&[], LumpedBeam::position_m)
     }
-    /// What the tip carries beside the last mass; nothing that is known of a beam known by its modes.
+    /// Payload at the tip, in addition to the last mass; zero unless the beam is lumped.
     pub fn payload(&self) -> &Payload {
         self.lumped().map_or(NO_PAYLOAD, LumpedBeam::payload)
     }
 
-    /// The same beam with a payload at its tip, beside the last mass.
+    /// Returns this beam with a payload at its tip, in addition to the last mass.
     ///
     /// # Errors
-    /// [`BeamError::Payload`] where a quantity is negative or not finite, [`BeamError::NoTip`] where the beam is
-    /// known by its modes or there is none.
+    /// [`BeamError::Payload`] if its mass or inertia is negative, or one of its quantities is not finite;
+    /// [`BeamError::NoTip`] if the beam is modal or absent.
     pub fn with_payload(self, payload: Payload) -> Result<Self, BeamError> {
         match self {
             Self::Lumped(beam) => beam.with_payload(payload).map(Self::Lumped),
@@ -82,7 +84,7 @@ impl Beam {
         }
     }
 
-    /// Its inertia about the motor's axis as one body \[kg·m²\].
+    /// Inertia about the motor's axis when the beam turns as one rigid body \[kg·m²\].
     pub fn inertia_kg_m2(&self) -> f64 {
         match self {
             Self::Lumped(beam) => beam.inertia_kg_m2(),
@@ -91,7 +93,7 @@ impl Beam {
         }
     }
 
-    /// The lowest `count` natural frequencies, ascending \[rad/s\], damping left out.
+    /// The lowest `count` natural frequencies, ascending \[rad/s\], without damping.
     pub fn frequencies_rad_s(&self, base: Base, count: usize) -> Vec<f64> {
         match self {
             Self::Lumped(beam) => beam.frequencies_rad_s(base, count),
@@ -100,7 +102,7 @@ impl Beam {
         }
     }
 
-    /// All natural frequencies with the motor clamped, ascending \[rad/s\], damping left out.
+    /// All natural frequencies with the motor clamped, ascending \[rad/s\], without damping.
     pub fn natural_frequencies_rad_s(&self) -> Vec<f64> {
         self.frequencies_rad_s(Base::Clamped, usize::MAX)
     }
@@ -114,7 +116,7 @@ impl Beam {
         }
     }
 
-    /// Poles of θ_i/θ_m \[1/s\], damping included.
+    /// Poles of θ_i/θ_m \[1/s\], with damping.
     pub fn poles(&self) -> Roots {
         match self {
             Self::Lumped(beam) => beam.poles(),
@@ -123,7 +125,7 @@ impl Beam {
         }
     }
 
-    /// Poles of θ_m/i \[1/s\] on a motor, Coulomb friction left out.
+    /// Poles of θ_m/i \[1/s\] on a motor, without Coulomb friction.
     pub fn motor_poles(&self, motor: &Motor) -> Roots {
         match self {
             Self::Lumped(beam) => motor_poles(beam, motor),
@@ -135,7 +137,7 @@ impl Beam {
         }
     }
 
-    /// θ_m/i \[rad/A\] on a motor, Coulomb friction left out.
+    /// Transfer function θ_m/i \[rad/A\] on a motor, without Coulomb friction.
     pub fn motor_function(&self, motor: &Motor) -> ZeroPoleGain {
         match self {
             Self::Lumped(beam) => motor_function(beam, motor),
@@ -144,7 +146,7 @@ impl Beam {
         }
     }
 
-    /// θ_i/θ_m of mass or point `index`, from 0; `None` where there is none.
+    /// Transfer function θ_i/θ_m \[1\] of mass or point `index`, counted from 0; `None` if there is none.
     pub fn angle_function(&self, index: usize) -> Option<ZeroPoleGain> {
         match self {
             Self::Lumped(beam) => beam.angle_function(index),
@@ -153,7 +155,7 @@ impl Beam {
         }
     }
 
-    /// C_t/θ_m \[N·m/rad\].
+    /// Transfer function C_t/θ_m \[N·m/rad\].
     pub fn coupling_function(&self) -> ZeroPoleGain {
         match self {
             Self::Lumped(beam) => beam.coupling_function(),
@@ -164,7 +166,7 @@ impl Beam {
         }
     }
 
-    /// θ_i/θ_m of every mass or point and C_t/θ_m at `s` \[1/s\].
+    /// Computes θ_i/θ_m of every mass or point, and C_t/θ_m \[N·m/rad\], at the complex frequency `s` \[1/s\].
     pub fn response(&self, s: Complex64) -> BeamResponse {
         match self {
             Self::Lumped(beam) => beam.response(s),

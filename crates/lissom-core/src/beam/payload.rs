@@ -1,20 +1,19 @@
-//! What another payload does: poles move, zeros stand.
+//! Effect of another payload: the poles move, the zeros of the tip stay.
 
 use super::{BeamError, LumpedBeam, Payload, Zeros};
 
 impl LumpedBeam {
-    /// What counts as the arm's load: the payload's mass where there is one, else the last mass
-    /// \[kg\].
+    /// Mass of the load at the tip \[kg\]: the payload's mass if there is a payload, otherwise the last mass.
     pub fn tip_load_kg(&self) -> f64 {
         let payload = self.payload();
         if payload.mass_kg > 0.0 { payload.mass_kg } else { self.spans()[self.len() - 1].mass_kg }
     }
 
-    /// The same beam with its load `factor` times as heavy: the payload with its rotary inertia
-    /// where there is one, else the last mass.
+    /// Returns this beam with `factor` times the load: the mass and inertia of the payload if there is one, otherwise
+    /// the last mass.
     ///
     /// # Errors
-    /// [`BeamError`] where `factor` makes no mass of it.
+    /// [`BeamError`] if the new mass is not possible, for example negative.
     pub fn with_load_times(&self, factor: f64) -> Result<Self, BeamError> {
         let payload = *self.payload();
         if payload.mass_kg > 0.0 || payload.inertia_kg_m2 > 0.0 {
@@ -35,8 +34,8 @@ impl LumpedBeam {
     }
 }
 
-/// Largest relative distance of a zero in `other` from its counterpart in `zeros`; infinite where
-/// their numbers differ.
+/// Largest relative distance \[1\] between the zeros of two beams, each zero of `zeros` compared with the nearest of
+/// `other`; infinite if they differ in number or if some were not found.
 pub fn zero_shift(zeros: &Zeros, other: &Zeros) -> f64 {
     if zeros.z.len() != other.z.len() || zeros.missing + other.missing > 0 {
         return f64::INFINITY;

@@ -1,24 +1,24 @@
-//! The properties of Section 3 as checks that run on a beam.
+//! The properties of Section 3 of the 1989 report, as checks that run on a beam.
 
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use super::{BeamError, Damping, LumpedBeam, RootClass, Zeros};
 
-/// One property, measured.
+/// The result of checking one property.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Property {
     /// Short name.
     pub name: &'static str,
-    /// What is claimed, in words.
+    /// The statement that is checked.
     pub statement: &'static str,
-    /// What was measured; see the note.
+    /// The measured value; the note says how it was measured.
     pub measured: f64,
-    /// What it may be at most (at least, for a degree).
+    /// Largest value at which the property holds (smallest value, for a degree).
     pub bound: f64,
-    /// Whether it holds.
+    /// Whether the property holds.
     pub holds: bool,
-    /// How it was measured, and why it does not hold where it does not.
+    /// How it was measured; if it does not hold, the reason.
     pub note: String,
 }
 
@@ -45,7 +45,7 @@ impl Property {
     }
 }
 
-/// Most masses for which the checks run: some of them solve dense systems.
+/// Largest number of masses for which the checks run: some of them solve dense systems.
 pub const MOST_CHECKED: usize = 200;
 
 /// Figures that are exact but for rounding.
@@ -53,18 +53,18 @@ const ROUNDING: f64 = 1e-12;
 /// Against dense solvers, whose error grows with the spread of frequencies.
 const DENSE: f64 = 1e-6;
 
-/// The properties of Section 3 for this beam, damping left out.
+/// Checks the properties of Section 3 of the 1989 report on this beam, without damping.
 ///
-/// Each is measured on a way other than the one that would make it true by construction: dense
-/// eigenvalues against counting, equation (13) against the recursion, the response of the beam with
-/// another payload against the zeros of this one.
+/// Each property is measured by a computation in which it is not built in: dense eigenvalues are compared
+/// with counted frequencies, equation (13) with the recursion, and the zeros of this beam with those of
+/// the beam with another payload.
 ///
 /// # Source
 /// `[Feliu1989, Section 3]`
 ///
 /// # Errors
-/// [`BeamError::TooManyMasses`] beyond [`MOST_CHECKED`]; [`BeamError::OutOfRange`] where a matrix
-/// leaves the range of a double.
+/// [`BeamError::TooManyMasses`] above [`MOST_CHECKED`]; [`BeamError::OutOfRange`] if an element of a matrix leaves the
+/// range of a double.
 pub fn properties(beam: &LumpedBeam) -> Result<Vec<Property>, BeamError> {
     if beam.len() > MOST_CHECKED {
         return Err(BeamError::TooManyMasses { found: beam.len(), most: MOST_CHECKED });

@@ -1,4 +1,4 @@
-//! Responses from the motor's angle, at any s, in a number of operations that grows with n.
+//! Responses to the motor's angle at any s; their cost grows in proportion to the number of masses.
 
 use num_complex::Complex64;
 
@@ -8,12 +8,12 @@ use super::element::{At, Element};
 use super::span::Damping;
 use crate::number::Number;
 
-/// What a turn of the motor does to the beam at one s.
+/// Response of the beam to the motor's angle at one complex frequency s.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamResponse {
-    /// θ_i/θ_m at each mass \[1\].
+    /// θ_i/θ_m of each mass or point \[1\].
     pub angles: Vec<Complex64>,
-    /// C_t/θ_m, the torque that the motor gives to the beam \[N·m/rad\].
+    /// C_t/θ_m \[N·m/rad\], with the torque C_t that the motor exerts on the beam.
     pub coupling_nm_per_rad: Complex64,
 }
 
@@ -53,15 +53,16 @@ pub(crate) fn at_damped<N: Number>(s: N, damping: &Damping) -> (At<N>, N) {
 }
 
 impl LumpedBeam {
-    /// Whether nothing damps it.
+    /// Whether there is no damping.
     pub fn is_undamped(&self) -> bool {
         *self.damping() == Damping::None && self.spans().iter().all(|s| s.damping_n_s_per_m == 0.0)
     }
 
-    /// θ_i/θ_m of every mass and C_t/θ_m at `s` \[1/s\]; `s = jω` for a frequency response.
+    /// Computes θ_i/θ_m of every mass, and C_t/θ_m \[N·m/rad\], at the complex frequency `s` \[1/s\]; `s = jω` gives
+    /// the frequency response.
     ///
-    /// Without damping the values grow without bound towards a pole; exactly on one they are of
-    /// the size of the reciprocal rounding error.
+    /// Without damping the values grow without bound towards a pole; exactly on a pole they are about the reciprocal of
+    /// the rounding error.
     ///
     /// ```
     /// # use lissom::beam::{LumpedBeam, Span};

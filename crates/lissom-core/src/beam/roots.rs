@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-/// Class of the roots that a factor (s² − z) gives, Section 3.
+/// Class of the roots of a factor (s² − z), Section 3 of the 1989 report.
 ///
 /// # Source
 /// `[Feliu1989, Section 3, property 1]`
@@ -12,12 +12,12 @@ pub enum RootClass {
     Imaginary,
     /// b: z ≥ 0, two real roots of opposite sign; non-minimum phase.
     Real,
-    /// c: z not real, four roots symmetric about both axes with z's conjugate; non-minimum phase.
+    /// c: z not real; z and its conjugate give four roots symmetric about both axes; non-minimum phase.
     Quadruple,
 }
 
 impl RootClass {
-    /// The report's letter.
+    /// The letter in the 1989 report: a, b or c.
     pub fn letter(self) -> char {
         match self {
             Self::Imaginary => 'a',
@@ -30,7 +30,7 @@ impl RootClass {
 /// A pair whose imaginary part is below this, relatively, is real but for rounding.
 const REAL: f64 = 1e-9;
 
-/// The class of z = s².
+/// Class of the roots with s² = z.
 pub fn class(z: Complex64) -> RootClass {
     if z.im.abs() > REAL * z.norm() {
         RootClass::Quadruple

@@ -1,10 +1,10 @@
-//! The deflected shape between the masses.
+//! Deflected shape of the beam between the masses.
 
 use super::three_moment::ThreeMoment;
 use super::{BeamError, LumpedBeam};
 
-/// Deflection from the motor's line: a cubic on each span,
-/// `y_i(x) = u_{i,0} + u_{i,1}·ξ + u_{i,2}·ξ² + u_{i,3}·ξ³`, ξ = x − L_{i−1}.
+/// Deflected shape of a lumped beam: the deflection from the motor's line \[m\] is a cubic on each span,
+/// `y_i(x) = u_{i,0} + u_{i,1}·ξ + u_{i,2}·ξ² + u_{i,3}·ξ³`, with ξ = x − L_{i−1} \[m\].
 ///
 /// # Source
 /// `[Feliu1989, eq. (1)]`
@@ -17,13 +17,13 @@ pub struct DeflectedShape {
 }
 
 impl DeflectedShape {
-    /// Deflection at distance `x_m` from the axis \[m\]; zero within the hub, the last cubic beyond
-    /// the tip.
+    /// Deflection at the distance `x_m` from the axis \[m\]; zero within the hub; beyond the
+    /// tip the last cubic is continued.
     pub fn deflection_m(&self, x_m: f64) -> f64 {
         self.at(x_m, |[a, b, c, d], xi| a + xi * (b + xi * (c + xi * d)))
     }
 
-    /// Slope against the motor's line at distance `x_m` from the axis \[1\].
+    /// Slope relative to the motor's line at the distance `x_m` from the axis \[1\].
     pub fn slope(&self, x_m: f64) -> f64 {
         self.at(x_m, |[_, b, c, d], xi| b + xi * (2.0 * c + xi * 3.0 * d))
     }
@@ -38,13 +38,13 @@ impl DeflectedShape {
 }
 
 impl LumpedBeam {
-    /// The shape under forces at the masses \[N\] and a torque at the tip \[N·m\], the motor held.
+    /// The shape under forces at the masses \[N\] and a torque at the tip \[N·m\], with the motor held.
     ///
-    /// Forces act on the masses, the torque on the tip; both lift it where positive. Missing forces
-    /// are zero. For the shape in motion take the masses' inertia and damping forces as forces.
+    /// A positive force or torque bends the beam towards positive deflections. Missing forces count as zero. For the
+    /// shape in motion, use the inertia and damping forces of the masses as forces.
     ///
     /// # Source
-    /// `[Feliu1989, eqs. (1), (6)-(8)]` with the signs of (7) and (8).
+    /// `[Feliu1989, eqs. (1), (6)-(8)]`, with the signs of (7) and (8).
     pub fn shape_under(&self, forces_n: &[f64], tip_torque_nm: f64) -> DeflectedShape {
         let n = self.len();
         // From the tip inwards: force and torque that what lies beyond puts on span i's outer end.
@@ -68,14 +68,14 @@ impl LumpedBeam {
         DeflectedShape { ends_m: self.ends(), coefficients }
     }
 
-    /// The shape with these deflections of the masses from the motor's line \[m\] and this torque at
-    /// the tip \[N·m\]: a mode's, for one.
+    /// The shape with given deflections of the masses from the motor's line \[m\], for example those of a mode, and a
+    /// torque at the tip \[N·m\].
     ///
     /// # Source
     /// `[Feliu1989, eqs. (1)-(5), (10)]`
     ///
     /// # Errors
-    /// [`BeamError::TooManyMasses`] beyond [`MOST_MASSES`](super::MOST_MASSES).
+    /// [`BeamError::TooManyMasses`] above [`MOST_MASSES`](super::MOST_MASSES).
     pub fn shape_through(
         &self,
         deflections_m: &[f64],

@@ -1,8 +1,8 @@
-//! What a lumped beam is made of, and what makes it impossible.
+//! The parts of a lumped beam, and the error of all beams.
 
 use thiserror::Error;
 
-/// One span and the mass at its outer end.
+/// One span of a beam and the mass at its outer end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span {
     /// Length \[m\].
@@ -16,7 +16,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// A span without mass at its outer end: length \[m\], flexural rigidity EI \[N·m²\].
+    /// A span of the given length \[m\] and flexural rigidity EI \[N·m²\], without mass at its outer end.
     ///
     /// [`LumpedBeam::new`](super::LumpedBeam::new) checks the numbers of all spans.
     ///
@@ -30,33 +30,32 @@ impl Span {
         Self { length_m, flexural_rigidity_n_m2, mass_kg: 0.0, damping_n_s_per_m: 0.0 }
     }
 
-    /// The same with a mass at the outer end \[kg\].
+    /// Returns this span with a mass at its outer end \[kg\].
     #[must_use]
     pub fn mass_kg(self, mass_kg: f64) -> Self {
         Self { mass_kg, ..self }
     }
 
-    /// The same with viscous damping of that mass against the fixed frame \[N·s/m\].
+    /// Returns this span with viscous damping of its mass against the fixed frame \[N·s/m\].
     #[must_use]
     pub fn damping_n_s_per_m(self, damping_n_s_per_m: f64) -> Self {
         Self { damping_n_s_per_m, ..self }
     }
 }
 
-/// A rigid body at the tip, beyond the last mass.
+/// A rigid body at the tip, in addition to the last mass.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Payload {
     /// Mass \[kg\].
     pub mass_kg: f64,
-    /// Rotary inertia about its own centre of mass \[kg·m²\].
+    /// Rotary inertia about its own centre of mass \[kg·m²\], not negative.
     pub inertia_kg_m2: f64,
-    /// Distance of its centre of mass beyond the tip, along the beam; negative towards the motor
-    /// \[m\].
+    /// Distance of its centre of mass beyond the tip, along the beam \[m\]; negative towards the motor.
     pub offset_m: f64,
 }
 
 impl Payload {
-    /// Whether the tip's slope needs a torque: it then is a degree of freedom.
+    /// Whether the payload resists turning, so that the slope of the tip is a degree of freedom.
     pub fn turns(&self) -> bool {
         self.inertia_kg_m2 > 0.0 || (self.mass_kg > 0.0 && self.offset_m != 0.0)
     }
@@ -75,28 +74,28 @@ impl Payload {
     }
 }
 
-/// Damping beside that of each mass.
+/// Damping in addition to that of each mass.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub enum Damping {
-    /// None.
+    /// No further damping.
     #[default]
     None,
-    /// Proportional to mass and stiffness (Rayleigh).
+    /// Proportional to mass and stiffness (Rayleigh damping).
     ///
-    /// `α·m_i·(velocity in the fixed frame)` at each mass and `β` times the rate of every elastic
-    /// force: turning the arm as one body strains nothing and is not damped by β. Proportional to
-    /// the mass of the payload likewise.
+    /// Each mass, and the payload, has a damping force of `α·m_i` times its velocity in the fixed frame.
+    /// Each elastic force has a damping force of `β` times its rate. An arm that turns as one body is not
+    /// bent, so β does not damp that motion.
     Proportional {
         /// α \[1/s\].
         mass_per_s: f64,
         /// β \[s\].
         stiffness_s: f64,
     },
-    /// A damping ratio for each mode of the beam with the motor clamped, on its deflection from
-    /// the motor's line. The last one given holds for all further modes.
+    /// A damping ratio for each mode of the beam with the motor clamped. It acts on the deflection from the motor's
+    /// line. The last ratio holds for all further modes.
     Modal {
-        /// ζ_k \[1\], at least one.
+        /// ζ_k \[1\], at least one, not negative.
         ratios: Vec<f64>,
     },
 }
@@ -121,7 +120,7 @@ impl Damping {
         Ok(())
     }
 
-    /// ζ of mode `index`, from 0; `None` where damping is not modal.
+    /// ζ of mode `index`, counted from 0; `None` unless damping is modal.
     pub fn ratio(&self, index: usize) -> Option<f64> {
         match self {
             Self::Modal { ratios } => ratios.get(index).or(ratios.last()).copied(),
@@ -129,7 +128,7 @@ impl Damping {
         }
     }
 
-    /// α and β, zero where damping is not proportional.
+    /// α \[1/s\] and β \[s\]; zero unless damping is proportional.
     pub fn proportional(&self) -> (f64, f64) {
         match self {
             Self::Proportional { mass_per_s, stiffness_s } => (*mass_per_s, *stiffness_s),
@@ -145,8 +144,8 @@ pub enum BeamError {
     /// A beam without spans.
     #[error("the beam has no spans")]
     NoSpans,
-    /// More degrees of freedom than dense matrices are meant for.
-    #[error("{found} masses; matrices are made for at most {most}")]
+    /// The beam has too many masses for dense matrices.
+    #[error("the beam has {found} masses, but matrices are possible for at most {most}")]
     TooManyMasses {
         /// Masses given.
         found: usize,
@@ -154,7 +153,7 @@ pub enum BeamError {
         most: usize,
     },
     /// A dimension is not positive and finite.
-    #[error("span {span}: {quantity} = {found} is not positive and finite")]
+    #[error("span {span}: {quantity} is {found}, but must be positive and finite")]
     NotPositive {
         /// Number of the span, from 1 at the base.
         span: usize,
@@ -164,7 +163,7 @@ pub enum BeamError {
         found: f64,
     },
     /// A quantity of a span that may be zero is negative or not finite.
-    #[error("span {span}: {quantity} = {found} is negative or not finite")]
+    #[error("span {span}: {quantity} is {found}, but must be finite and not negative")]
     Negative {
         /// Number of the span, from 1 at the base.
         span: usize,
@@ -174,13 +173,13 @@ pub enum BeamError {
         found: f64,
     },
     /// The hub's radius is negative or not finite.
-    #[error("hub_radius_m = {found} is negative or not finite")]
+    #[error("hub_radius_m is {found}, but must be finite and not negative")]
     HubRadius {
         /// The number found.
         found: f64,
     },
     /// A quantity of the payload is negative or not finite.
-    #[error("payload: {quantity} = {found} is negative or not finite")]
+    #[error("payload: {quantity} is {found}, but must be finite and not negative")]
     Payload {
         /// Which quantity, with its unit.
         quantity: &'static str,
@@ -188,7 +187,7 @@ pub enum BeamError {
         found: f64,
     },
     /// A quantity of the damping model is negative or not finite.
-    #[error("damping: {quantity} = {found} is negative or not finite")]
+    #[error("damping: {quantity} is {found}, but must be finite and not negative")]
     DampingModel {
         /// Which quantity, with its unit.
         quantity: &'static str,
@@ -198,23 +197,21 @@ pub enum BeamError {
     /// Modal damping without a ratio.
     #[error("modal damping needs at least one ratio")]
     NoRatios,
-    /// Modal damping of a distributed beam.
+    /// Modal damping is not possible for a distributed beam.
     #[error("a distributed beam takes proportional damping, not a ratio for each mode")]
     ModalDistributed,
-    /// Modes that cannot be told apart at the points chosen.
-    #[error(
-        "at these points the modes cannot be told apart (reciprocal condition {condition:.1e})"
-    )]
+    /// The modes cannot be separated at the chosen points.
+    #[error("the modes cannot be separated at these points (reciprocal condition {condition:.1e})")]
     PointsTooClose {
         /// Smallest over largest singular value of the modes' shares at the points.
         condition: f64,
     },
-    /// A beam by its modes without one.
+    /// A beam that is given by its modes has none.
     #[error("the beam has no modes")]
     NoModes,
-    /// A beam by its modes needs as many points as modes.
+    /// A beam that is given by its modes has another number of points than modes.
     #[error(
-        "gains of mode {mode}: {points}, where {modes} are needed, one for each of as many points as modes"
+        "mode {mode} has {points} gains, but {modes} are needed: one for each point, and as many points as modes"
     )]
     ModesAndPoints {
         /// Number of the mode, from 1.
@@ -224,7 +221,7 @@ pub enum BeamError {
         /// Modes given.
         modes: usize,
     },
-    /// A number of a mode that it cannot have.
+    /// A quantity of a mode is out of range.
     #[error("mode {mode}: {quantity} = {found} is out of range")]
     KnownMode {
         /// Number of the mode, from 1.
@@ -234,9 +231,9 @@ pub enum BeamError {
         /// The number found.
         found: f64,
     },
-    /// Gains that strain a beam that turns as one body.
+    /// The gains of a point do not add up to one.
     #[error(
-        "the gains of point {point} add up to {sum}, not to one: turning as one body would bend the beam"
+        "the gains of point {point} add up to {sum}, but must add up to one: otherwise the beam would bend when it turns as one body"
     )]
     GainsSum {
         /// Number of the point, from 1.
@@ -244,24 +241,26 @@ pub enum BeamError {
         /// Their sum.
         sum: f64,
     },
-    /// Something at the tip of a rigid joint, or of a beam that is known by its modes alone.
-    #[error("a rigid joint or a beam known by its modes has no tip that something could act on")]
+    /// A rigid joint, or a beam that is given by its modes, has no tip.
+    #[error("a rigid joint or a beam given by its modes has no tip on which something could act")]
     NoTip,
-    /// Points that are not on the beam.
+    /// A point is not on the beam.
     #[error("points must lie on the beam, beyond {base_m} m and up to {tip_m} m from the axis")]
     Points {
-        /// Where the beam begins \[m\].
+        /// Distance of the base from the axis \[m\].
         base_m: f64,
-        /// Where it ends \[m\].
+        /// Distance of the tip from the axis \[m\].
         tip_m: f64,
     },
-    /// Ratios by mode and dampers at masses at once.
-    #[error("damping ratios by mode stand beside dampers at masses: no mode keeps its ratio then")]
+    /// Damping ratios by mode and dampers at masses are both given.
+    #[error(
+        "damping ratios by mode and dampers at masses are both given: no mode would keep its ratio"
+    )]
     ModalWithDampers,
-    /// Dimensions so far apart that numbers leave the range of a double.
+    /// The dimensions are so far apart that a number leaves the range of a double.
     #[error("the dimensions are so far apart that {quantity} leaves the range of a double")]
     OutOfRange {
-        /// What left it.
+        /// The quantity.
         quantity: &'static str,
     },
 }

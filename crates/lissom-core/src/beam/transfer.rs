@@ -1,4 +1,4 @@
-//! The transfer functions of (16), (15) and (14) by zeros, poles and gain.
+//! The transfer functions of (16), (15) and (14) in zero-pole-gain form.
 
 use num_complex::Complex64;
 
@@ -8,7 +8,7 @@ use crate::drive::Motor;
 use crate::lti::ZeroPoleGain;
 
 impl LumpedBeam {
-    /// θ_i/θ_m of mass `mass`, from 0 at the base. `None` where there is no such mass.
+    /// Transfer function θ_i/θ_m \[1\] of mass `mass`, counted from 0 at the base. `None` if there is no such mass.
     ///
     /// At s = 0 it is one.
     ///
@@ -22,10 +22,10 @@ impl LumpedBeam {
         Some(ZeroPoleGain { zeros: zeros.s, poles: poles.s, gain, missing })
     }
 
-    /// C_t/θ_m \[N·m/rad\]; at low frequencies I·s², I the inertia about the axis.
+    /// Transfer function C_t/θ_m \[N·m/rad\]; at low frequencies it is I·s², with the inertia I about the axis.
     ///
     /// # Source
-    /// `[Feliu1989, eq. (15)]` with (13).
+    /// `[Feliu1989, eq. (15)]` combined with (13).
     pub fn coupling_function(&self) -> ZeroPoleGain {
         let pinned = self.frequencies_rad_s(Base::Pinned, usize::MAX);
         let squares: Vec<Complex64> = pinned.iter().map(|w| Complex64::from(-w * w)).collect();
@@ -80,7 +80,8 @@ pub(super) fn ratio(poles: &[Complex64], zeros: &[Complex64]) -> f64 {
     value.re
 }
 
-/// θ_m/i \[rad/A\] of a beam on a motor, Coulomb friction left out; its zeros are the beam's poles.
+/// Transfer function θ_m/i \[rad/A\] of a beam on a motor, without Coulomb friction. Its
+/// zeros are the poles of the beam.
 ///
 /// # Source
 /// `[Feliu1989, eqs. (13)-(15)]`; the form of (35).
@@ -98,8 +99,8 @@ pub(super) fn driven(zeros: Roots, poles: Roots, motor: &Motor) -> ZeroPoleGain 
     }
 }
 
-/// θ_i/i \[rad/A\] from θ_i/θ_m and θ_m/i of the same arm: the zeros of θ_m/i are the poles of
-/// θ_i/θ_m and cancel.
+/// Transfer function θ_i/i \[rad/A\], computed from θ_i/θ_m and θ_m/i of the same arm: the zeros of θ_m/i are the poles
+/// of θ_i/θ_m and cancel.
 pub fn angle_per_current(
     angle: &ZeroPoleGain,
     from_current: &ZeroPoleGain,

@@ -7,41 +7,40 @@ use super::modal_form::{ModalForm, completed};
 use super::response::BeamResponse;
 use super::{BeamError, DistributedBeam, Mode};
 
-/// `Θ̈ = Â·Θ + B̂·θ_m` (17), `C_t = Ĥ·Θ + ĥ·θ_m` (18): the first N_v modes seen at N_v points.
+/// A truncated model of a distributed beam, its first N_v modes at N_v points: `Θ̈ = Â·Θ + B̂·θ_m` (17),
+/// `C_t = Ĥ·Θ + ĥ·θ_m` (18).
 ///
-/// With r_ik the share of mode k in θ_i/θ_m, the exact response is `Σ_k r_ik·ω_k²/(s² + ω_k²)` over
-/// all modes, the shares adding up to one. Cutting the sum off leaves a gain at zero frequency of
-/// less or more than one: 14 % too much for the tip of a uniform cantilever with one mode. Here the
-/// shares of all modes left out are given to the last one kept. The gain at zero frequency is then
-/// one exactly, poles and residues of the other modes stay exact, and the relative degree stays two,
-/// which adding the missing part as a constant would lose. Then Â·1 + B̂ = 0: turning the arm as
-/// one body strains nothing.
+/// With the share r_ik of mode k in θ_i/θ_m, the exact response is `Σ_k r_ik·ω_k²/(s² + ω_k²)` over all modes, and the
+/// shares of a point add up to one. If the sum is cut off, the gain at zero frequency is no longer one: it is 14 % too
+/// large for the tip of a uniform cantilever with one mode. Therefore the last mode that is kept receives the shares of
+/// all modes that are left out. The gain at zero frequency is then exactly one, poles and residues of the other modes
+/// stay exact, and the relative degree stays two (a constant for the missing part would change it). Also Â·1 + B̂ = 0:
+/// an arm that turns as one body is not bent.
 ///
-/// The torque keeps the exact residues of the modes kept. What the modes left out carry of the
-/// inertia follows the motor as one body: [`residual_inertia_kg_m2`](Self::residual_inertia_kg_m2)
-/// is to be added to the motor's J, and the torque is then exact at low frequencies.
+/// The torque keeps the exact residues of the modes that are kept. The part of the inertia that belongs to the other
+/// modes follows the motor as a rigid body: add [`residual_inertia_kg_m2`](Self::residual_inertia_kg_m2) to the motor's
+/// J, and the torque is exact at low frequencies.
 ///
 /// # Source
 /// `[Feliu1989, eqs. (17), (18), Section 4]`
 ///
 /// # Differences from the source
-/// The report truncates without saying how; the static correction and the residual inertia are
-/// added.
+/// The 1989 report does not say how it truncates. The static correction and the residual inertia are added here.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TruncatedBeam {
-    /// Points measured, distances from the axis \[m\].
+    /// Points, as distances from the axis \[m\], ascending.
     pub points_m: Vec<f64>,
-    /// ω_k, the poles kept \[rad/s\].
+    /// ω_k of the modes that are kept \[rad/s\].
     pub natural_frequencies_rad_s: Vec<f64>,
     /// Â, N_v × N_v \[1/s²\].
     pub a: DMatrix<f64>,
-    /// B̂ \[1/s²\].
+    /// B̂, N_v elements \[1/s²\].
     pub b: DVector<f64>,
-    /// Ĥ \[N·m/rad\].
+    /// Ĥ, N_v elements \[N·m/rad\].
     pub h: DVector<f64>,
     /// ĥ_{n+1} \[N·m/rad\]; ΣĤ + ĥ = 0.
     pub h_motor: f64,
-    /// Inertia about the axis that the modes kept do not carry \[kg·m²\].
+    /// Inertia about the axis that does not belong to the modes that are kept \[kg·m²\].
     pub residual_inertia_kg_m2: f64,
     /// Shares r_ik with the correction in the last column, points × modes \[1\].
     shares: DMatrix<f64>,
@@ -80,7 +79,8 @@ impl TruncatedBeam {
         })
     }
 
-    /// θ_i/θ_m of every point and C_t/θ_m, at `s` \[1/s\]; the torque without the residual inertia.
+    /// Computes θ_i/θ_m of every point, and C_t/θ_m \[N·m/rad\], at the complex frequency `s` \[1/s\]; the torque does
+    /// not contain the residual inertia.
     pub fn response(&self, s: Complex64) -> BeamResponse {
         let n = self.inertias.len();
         let square = |k: usize| self.natural_frequencies_rad_s[k].powi(2);
@@ -93,12 +93,12 @@ impl TruncatedBeam {
 }
 
 impl DistributedBeam {
-    /// The first `points_m.len()` modes seen at as many points, distances from the axis in
-    /// ascending order \[m\].
+    /// Truncates to the first `points_m.len()` modes, at as many points: distances from the
+    /// axis in ascending order \[m\].
     ///
     /// # Errors
-    /// [`BeamError::PointsTooClose`] where the modes look alike at these points: the report's
-    /// condition that the numerators be independent.
+    /// [`BeamError::PointsTooClose`] if the modes look alike at these points; the 1989 report requires that the
+    /// numerators be independent.
     pub fn truncated(&self, points_m: &[f64]) -> Result<TruncatedBeam, BeamError> {
         let modes = self.modes(points_m.len(), points_m);
         if modes.is_empty() {

@@ -1,4 +1,4 @@
-//! Zeros of θ_i/θ_m.
+//! Zeros of the responses θ_i/θ_m.
 
 use num_complex::Complex64;
 
@@ -12,22 +12,22 @@ use super::roots::further;
 use super::{LumpedBeam, RootClass, class};
 use crate::number::{Dual, Number, Scaled};
 
-/// The finite zeros of one response, as z = s², by growing |z|.
+/// The finite zeros of one response, as z = s², ascending in |z|.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Zeros {
-    /// z = s² \[1/s²\], undamped: real, or in conjugate pairs.
+    /// z = s² \[1/s²\] without damping: real, or in conjugate pairs.
     pub z: Vec<Complex64>,
-    /// How many more there are that the search has not found: zero but for pathological beams.
+    /// Number of zeros that the search did not find; zero except for extreme beams.
     pub missing: usize,
 }
 
 impl Zeros {
-    /// Class of each, in the same order.
+    /// Class of each zero, in the same order.
     pub fn classes(&self) -> Vec<RootClass> {
         self.z.iter().map(|z| class(*z)).collect()
     }
 
-    /// Whether all lie on the imaginary axis: class a alone.
+    /// Whether all zeros are on the imaginary axis (class a).
     pub fn minimum_phase(&self) -> bool {
         self.missing == 0 && self.z.iter().all(|z| class(*z) == RootClass::Imaginary)
     }
@@ -232,16 +232,16 @@ fn counted(elements: &[Element], joint: usize, inner: usize, outer: usize) -> Op
 }
 
 impl LumpedBeam {
-    /// The lowest `count` zeros of the tip's response, as real s > 0, ascending \[1/s\]: −s is a zero
-    /// as well. All zeros are of this kind (class b) where nothing at the tip resists turning.
+    /// The lowest `count` zeros of the tip's response as real s > 0, ascending \[1/s\]; −s is a zero as well. If no
+    /// payload resists turning, all zeros of the tip are of this kind (class b).
     ///
-    /// Found by counting, at a cost that grows linearly with the number of masses. `None` with a
-    /// payload that turns: see [`zeros`](Self::zeros).
+    /// They are found by counting, at a cost that grows in proportion to the number of masses. `None` if the payload
+    /// resists turning: use [`zeros`](Self::zeros).
     ///
     /// # Source
-    /// That they are real and that the sign changes along the beam count them: the oscillation
-    /// theory of y⁗ = −z·m·y with one condition at one end and three at the other `[Elias1997]`.
-    /// For all of them together it is no assumption: n − 1 changes of sign are n − 1 zeros.
+    /// That they are real, and that the changes of sign along the beam count them, is the oscillation theory of y⁗ =
+    /// −z·m·y with one condition at one end and three at the other `[Elias1997]`. If all of them are found, no theory
+    /// is needed: n − 1 changes of sign are n − 1 zeros.
     pub fn tip_zeros_per_s(&self, count: usize) -> Option<Vec<f64>> {
         if self.payload().turns() {
             return None;
@@ -250,17 +250,17 @@ impl LumpedBeam {
         Some(counted_roots(at, count.min(self.len() - 1), below_first(self.elements())))
     }
 
-    /// The zeros of θ_i/θ_m at mass `mass` (from 0 at the base), damping left out: as many as the
-    /// beam has degrees of freedom, less one.
+    /// The zeros of θ_i/θ_m at mass `mass`, counted from 0 at the base, without damping: one less than the degrees of
+    /// freedom of the beam.
     ///
-    /// With point masses they are counted: changes of sign along the beam give i of class b and
-    /// n − 1 − i of class a at mass i, from 0, and n − 1 zeros found are all there are. Where a payload
-    /// resists turning, real zeros are found as changes of sign of the numerator on a grid and
-    /// complex ones by Newton's method with those found divided out; the degree says when all are
-    /// there. That search is made for 200 masses or fewer: with more it takes minutes and leaves
-    /// some out. The mass at this point does not enter: zeros' invariance.
+    /// With point masses they are counted: for mass i, counted from 0, the changes of sign along the beam give i zeros
+    /// of class b and n − 1 − i of class a, and n − 1 zeros are all there are. With a payload that resists turning,
+    /// real zeros are found as changes of sign of the numerator on a grid, and complex ones by Newton's method, where
+    /// zeros already found are divided out; the degree of the numerator says when all are found. That search is made
+    /// for at most 200 masses: with more it takes minutes and misses some. The mass at the point itself has no effect
+    /// (invariance of zeros).
     ///
-    /// `None` where there is no such mass.
+    /// `None` if there is no such mass.
     ///
     /// # Source
     /// `[Feliu1989, Section 3, properties 1, 2 and 4]`

@@ -1,4 +1,4 @@
-//! The drive, Section 2.2: motor (14) and its friction.
+//! The drive: motor (14) and its friction (Section 2.2 of the 1989 report).
 
 mod motor;
 

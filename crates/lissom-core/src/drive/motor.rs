@@ -1,10 +1,13 @@
-//! The linear part of the motor (14).
+//! The linear part of the motor's equation (14).
 
 use num_complex::Complex64;
 
 use crate::friction::DriveError;
 
-/// `K·i = J·θ̈_m + V·θ̇_m + C_t + CF`.
+/// A motor: the linear part of `K·i = J·θ̈_m + V·θ̇_m + C_t + CF`.
+///
+/// i is the current \[A\], θ_m the motor's angle \[rad\], C_t the coupling torque and CF the friction torque \[N·m\]. A
+/// positive current drives in the direction of positive angles.
 ///
 /// ```
 /// use lissom::drive::Motor;
@@ -28,7 +31,7 @@ pub struct Motor {
 }
 
 impl Motor {
-    /// Checks the numbers.
+    /// Builds a motor from J \[kg·m²\], V \[N·m·s/rad\] and K \[N·m/A\].
     ///
     /// # Errors
     /// [`DriveError`] unless J, K > 0 and V ≥ 0, all finite.
@@ -55,7 +58,7 @@ impl Motor {
         Ok(Self { inertia_kg_m2, viscous_nm_s_per_rad, torque_constant_nm_per_a })
     }
 
-    /// A motor whose quantities are given by name.
+    /// Starts a builder, which sets the quantities of a motor by name.
     pub fn builder() -> MotorBuilder {
         MotorBuilder {
             inertia_kg_m2: 0.0,
@@ -64,12 +67,12 @@ impl Motor {
         }
     }
 
-    /// Polar inertia J \[kg·m²\], positive.
+    /// Inertia J of the motor's side \[kg·m²\], positive.
     pub fn inertia_kg_m2(&self) -> f64 {
         self.inertia_kg_m2
     }
 
-    /// Dynamic (viscous) friction V \[N·m·s/rad\], not negative.
+    /// Viscous friction V \[N·m·s/rad\], not negative.
     pub fn viscous_nm_s_per_rad(&self) -> f64 {
         self.viscous_nm_s_per_rad
     }
@@ -79,13 +82,13 @@ impl Motor {
         self.torque_constant_nm_per_a
     }
 
-    /// Torque per angle of the motor alone, `J·s² + V·s` \[N·m/rad\].
+    /// Torque per angle of the motor alone, `J·s² + V·s` \[N·m/rad\], at the complex frequency s \[1/s\].
     pub fn impedance(&self, s: Complex64) -> Complex64 {
         s * (s * self.inertia_kg_m2 + self.viscous_nm_s_per_rad)
     }
 }
 
-/// A [`Motor`] in the making: see [`Motor::builder`].
+/// Builder of a [`Motor`]: see [`Motor::builder`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotorBuilder {
     inertia_kg_m2: f64,
@@ -101,28 +104,28 @@ impl From<Motor> for MotorBuilder {
 }
 
 impl MotorBuilder {
-    /// Polar inertia J \[kg·m²\]; it must be given.
+    /// Sets the inertia J of the motor's side \[kg·m²\]. It is required.
     #[must_use]
     pub fn inertia_kg_m2(mut self, inertia_kg_m2: f64) -> Self {
         self.inertia_kg_m2 = inertia_kg_m2;
         self
     }
 
-    /// Dynamic (viscous) friction V \[N·m·s/rad\]; 0 where it is not given.
+    /// Sets viscous friction V \[N·m·s/rad\]; 0 by default.
     #[must_use]
     pub fn viscous_nm_s_per_rad(mut self, viscous_nm_s_per_rad: f64) -> Self {
         self.viscous_nm_s_per_rad = viscous_nm_s_per_rad;
         self
     }
 
-    /// Torque constant K \[N·m/A\]; 1 where it is not given: currents are then torques in N·m.
+    /// Sets the torque constant K \[N·m/A\]; 1 by default, so that currents are torques in N·m.
     #[must_use]
     pub fn torque_constant_nm_per_a(mut self, torque_constant_nm_per_a: f64) -> Self {
         self.torque_constant_nm_per_a = torque_constant_nm_per_a;
         self
     }
 
-    /// The motor.
+    /// Builds the motor.
     ///
     /// # Errors
     /// As [`Motor::new`].

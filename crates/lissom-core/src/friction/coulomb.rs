@@ -2,14 +2,14 @@
 
 use super::error::DriveError;
 
-/// Dry friction with true sticking.
+/// Coulomb friction with true sticking.
 ///
-/// Torque against the motion: `forward` while θ̇_m > 0, `−backward` while θ̇_m < 0; at rest the
-/// joint holds any drive torque between `−backward` and `forward`.
+/// The torque against the motion is `forward` while θ̇_m > 0 and `−backward` while θ̇_m < 0. At rest the joint holds
+/// any drive torque between `−backward` and `forward`.
 ///
 /// # Source
-/// `[Feliu1989, Section 5]`. The source has one constant; two are the general piecewise-constant
-/// law, equal to one constant and a constant load.
+/// `[Feliu1989, Section 5]`, which has one constant. Two constants are the same as one constant, their mean, and a
+/// constant load, half their difference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coulomb {
     forward: f64,
@@ -20,18 +20,18 @@ impl Coulomb {
     /// No friction.
     pub const NONE: Self = Self { forward: 0.0, backward: 0.0 };
 
-    /// One constant for both directions.
+    /// The same Coulomb friction in both directions, `torque` \[N·m, or N on a linear axis\].
     ///
     /// # Errors
-    /// [`DriveError`] where it is negative or not finite.
+    /// [`DriveError`] if it is negative or not finite.
     pub fn symmetric(torque: f64) -> Result<Self, DriveError> {
         Self::by_direction(torque, torque)
     }
 
-    /// A constant for each direction.
+    /// Coulomb friction for each direction \[N·m or N\], both as magnitudes.
     ///
     /// # Errors
-    /// [`DriveError`] where one is negative or not finite.
+    /// [`DriveError`] if one is negative or not finite.
     pub fn by_direction(forward: f64, backward: f64) -> Result<Self, DriveError> {
         for (quantity, found) in [("forward Coulomb", forward), ("backward Coulomb", backward)] {
             if !(found >= 0.0 && found.is_finite()) {
@@ -41,12 +41,12 @@ impl Coulomb {
         Ok(Self { forward, backward })
     }
 
-    /// While moving forward \[N·m or N\], not negative.
+    /// Friction while the motor moves forward \[N·m or N\], not negative.
     pub fn forward(&self) -> f64 {
         self.forward
     }
 
-    /// While moving backward \[N·m or N\], not negative.
+    /// Friction while the motor moves backward \[N·m or N\], as a magnitude, not negative.
     pub fn backward(&self) -> f64 {
         self.backward
     }
@@ -61,7 +61,8 @@ impl Coulomb {
         Self { forward, backward }
     }
 
-    /// Signed friction torque while slipping in the direction of `sign`.
+    /// Friction torque of a joint that slips in the direction of `sign`: `forward` if it is positive, `−backward` if it
+    /// is negative \[N·m or N\].
     pub fn slipping(&self, sign: f64) -> f64 {
         if sign > 0.0 { self.forward } else { -self.backward }
     }

@@ -1,4 +1,5 @@
-//! A joint's dry friction in the rig: Coulomb friction by direction, and the terms that all parts of the library share.
+//! Dry friction of a joint in the rig: Coulomb friction by direction, friction near rest, ripple, and viscous friction
+//! that differs by direction.
 
 use super::coulomb::Coulomb;
 use super::dry_terms::{DryTerms, TermSeries};
@@ -9,16 +10,21 @@ use super::place::Place;
 use super::ripple::Ripple;
 use super::taylor_row::Row;
 
-/// A joint's dry friction, with true sticking.
+/// Dry friction of a joint, with true sticking.
 ///
-/// While the joint turns forward it takes
-/// `F = F_c + (F_s − F_c)·g(v/v_s) + r·C·cos(N·θ_m + φ) + D·|v|`, with `g` = 1 at rest and 0 at speed, and C the mean
-/// Coulomb friction of both directions; backward likewise with the values of that direction, and −D. At rest the
-/// joint holds any torque up to `F_s + r·C·cos(N·θ_m + φ)`. Viscous friction is the
-/// [`Motor`](crate::drive::Motor)'s, V + D forward and V − D backward.
+/// While the joint turns forward, friction is
+/// `F = F_c + (F_s − F_c)·g(v/v_s) + r·C·cos(N·θ_m + φ) + D·|v|`. F_c is Coulomb friction and F_s friction at rest
+/// \[N·m\]; v is the velocity of the motor and v_s the speed over which friction changes \[rad/s\]; g is 1 at rest and
+/// 0 at high speed ([`Falloff`]). r is the share of the ripple \[1\], C the mean Coulomb friction of both directions, N
+/// the number of waves per turn and φ a phase \[rad\]. D is half the difference of viscous friction by direction
+/// \[N·m·s/rad\].
 ///
-/// `F_s > F_c` is the Stribeck effect. `F_s < F_c` is viscous friction that grows less than
-/// linearly: a line through fast points then meets rest above the true friction.
+/// While the joint turns backward, the same law holds with F_c and F_s of that direction and −D. At rest the joint
+/// holds any torque up to `F_s + r·C·cos(N·θ_m + φ)`. The mean viscous friction V belongs to the
+/// [`Motor`](crate::drive::Motor): the total is V + D forward and V − D backward.
+///
+/// `F_s > F_c` is the Stribeck effect. With `F_s < F_c`, friction grows less than in proportion to speed: a straight
+/// line through measurements at high speed, extrapolated to rest, then gives too much Coulomb friction.
 ///
 /// ```
 /// use lissom::drive::{Coulomb, DryFriction, Falloff};
@@ -46,11 +52,12 @@ impl From<Coulomb> for DryFriction {
 }
 
 impl DryFriction {
-    /// The same with another friction `rest` at rest (F_s), which falls off, or grows, to that at
-    /// speed over `velocity_rad_s` (v_s).
+    /// Returns this law with friction `rest` at rest (F_s), which passes into Coulomb friction over the speed
+    /// `velocity_rad_s` (v_s).
     ///
     /// # Errors
-    /// [`DriveError`] unless v_s > 0 and finite, and friction at rest is more than its ripple.
+    /// [`DriveError`] unless v_s is positive and finite, and friction in both directions stays
+    /// positive or zero with its ripple.
     pub fn with_rest(
         mut self,
         rest: Coulomb,
@@ -72,11 +79,12 @@ impl DryFriction {
         self.braking()
     }
 
-    /// The same with friction that changes over the turn by the share `share` (r) of the mean Coulomb friction,
-    /// `per_turn` (N) times a turn, from the phase `phase_rad` (φ) at angle zero.
+    /// Returns this law with a ripple over the angle: amplitude `share` (r) times the mean Coulomb friction, `per_turn`
+    /// (N) waves per turn, phase `phase_rad` (φ) at angle zero.
     ///
     /// # Errors
-    /// [`DriveError`] unless 0 ≤ r < 1, N > 0, φ is finite, and friction in both directions is more than its ripple.
+    /// [`DriveError`] unless 0 ≤ r < 1, N > 0, φ is finite, and friction in both directions stays
+    /// positive or zero with its ripple.
     pub fn with_ripple(
         mut self,
         share: f64,
@@ -107,7 +115,7 @@ impl DryFriction {
         self.braking()
     }
 
-    /// The same with `apart_nm_s_per_rad` (D) more viscous friction forward, and as much less backward.
+    /// Returns this law with `apart_nm_s_per_rad` (D) more viscous friction forward, and D less backward.
     ///
     /// # Errors
     /// [`DriveError`] unless D is finite.
@@ -149,12 +157,12 @@ impl DryFriction {
         scaled
     }
 
-    /// The friction at speed, ripple and viscous friction left out.
+    /// Coulomb friction F_c: friction at high speed, without ripple and viscous friction.
     pub fn sliding(&self) -> Coulomb {
         self.sliding
     }
 
-    /// Whether there is none.
+    /// Whether there is no friction at all.
     pub fn is_zero(&self) -> bool {
         let rest = self.at(0.0, 0.0);
         let (forward, backward) = (rest.forward(), rest.backward());
@@ -162,13 +170,13 @@ impl DryFriction {
         none && forward == 0.0 && backward == 0.0 && self.viscous_apart_nm_s_per_rad == 0.0
     }
 
-    /// Whether it is constant in slip, so that the motion between events is linear.
+    /// Whether friction is constant while the joint slips, so that the motion between events is linear.
     pub fn is_constant(&self) -> bool {
         self.terms.is_empty() && self.viscous_apart_nm_s_per_rad == 0.0
     }
 
-    /// Friction in both directions at the speed `velocity_rad_s` and the angle `angle_rad`; at rest
-    /// what the joint holds.
+    /// Friction in both directions at the velocity `velocity_rad_s` and the angle `angle_rad`; at velocity zero, the
+    /// limits of the torque that the joint holds.
     pub fn at(&self, velocity_rad_s: f64, angle_rad: f64) -> Coulomb {
         let speed = velocity_rad_s.abs();
         let terms = |sign| self.terms.braking_nm(Place { angle: angle_rad, speed, sign });

@@ -1,24 +1,24 @@
-//! What dry friction has beyond one Coulomb constant: a change near rest, ripple over the travel.
+//! Terms of dry friction besides Coulomb friction: a change near rest, and ripple over the travel.
 
 use super::near_rest::{NearRest, NearRestNumber, NearRestSeries};
 use super::place::Place;
 use super::ripple::{Ripple, RippleNumber, RippleSeries};
 use super::taylor_row::Row;
 
-/// Dry friction's terms beside Coulomb friction and offset: the torque of a sliding joint is
-/// `s·(A·e^{−|θ̇|/v_s} + Σ_i B_i·cos k_iθ + C_i·sin k_iθ)`, s the direction of motion.
+/// Terms of dry friction besides Coulomb friction and offset. The torque of a sliding joint is
+/// `s·(A·e^{−|θ̇|/v_s} + Σ_i B_i·cos k_iθ + C_i·sin k_iθ)`, with the direction of motion s = ±1.
 ///
-/// The rig, the replay and the identification share them.
+/// The symbols are explained at [`NearRest`] and [`Ripple`]. Rig, replay and identification share these terms.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DryTerms {
-    /// Change near rest.
+    /// Change of friction near rest, if there is any.
     pub near_rest: Option<NearRest>,
-    /// Waves over the angle.
+    /// Ripples: waves of friction over the angle.
     pub ripples: Vec<Ripple>,
 }
 
 impl DryTerms {
-    /// Whether there is none.
+    /// Whether there are no terms.
     pub fn is_empty(&self) -> bool {
         self.near_rest.is_none() && self.ripples.is_empty()
     }
@@ -97,23 +97,23 @@ pub(crate) enum TermScale {
     PerAngle(f64),
 }
 
-/// One number of [`DryTerms`] that a search may move.
+/// A parameter of [`DryTerms`] that a search may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FrictionNumber {
-    /// Of the change near rest.
+    /// Parameter of the change near rest.
     NearRest(NearRestNumber),
-    /// Of a ripple, counted from zero.
+    /// Parameter of a ripple; ripples are counted from zero.
     Ripple(usize, RippleNumber),
 }
 
 impl FrictionNumber {
-    /// Whether it is positive by nature and spans decades, so that a search moves its logarithm.
+    /// Whether the parameter is positive and may span decades, so that a search changes its logarithm.
     pub fn is_scale(self) -> bool {
         self == Self::NearRest(NearRestNumber::Speed)
     }
 
-    /// Whether it is a torque, which is compared with Coulomb friction: the term has no effect where all of its torques
-    /// are zero.
+    /// Whether the parameter is a torque, comparable with Coulomb friction. A term whose
+    /// torques are all zero has no effect.
     pub fn is_torque(self) -> bool {
         match self {
             Self::NearRest(number) => number == NearRestNumber::Torque,
@@ -121,7 +121,7 @@ impl FrictionNumber {
         }
     }
 
-    /// Its name in results, ripples counted from one.
+    /// Name in results; ripples are counted from one.
     pub fn name(self) -> String {
         match self {
             Self::NearRest(number) => number.name().to_owned(),
@@ -129,7 +129,7 @@ impl FrictionNumber {
         }
     }
 
-    /// Its value; zero where its term is not there.
+    /// Value of the parameter; zero if its term is absent.
     pub fn of(self, terms: &DryTerms) -> f64 {
         match self {
             Self::NearRest(number) => terms.near_rest.map_or(0.0, |n| number.of(&n)),
@@ -137,7 +137,7 @@ impl FrictionNumber {
         }
     }
 
-    /// Sets it; nothing happens where its term is not there.
+    /// Sets the value; does nothing if its term is absent.
     pub fn set(self, terms: &mut DryTerms, value: f64) {
         let place = match self {
             Self::NearRest(number) => terms.near_rest.as_mut().map(|n| number.in_term(n)),

@@ -1,33 +1,33 @@
-//! Why numbers are refused.
+//! Error of a motor or a friction law with invalid parameters.
 
 use thiserror::Error;
 
-/// Why numbers cannot make a motor or a law of friction.
+/// Error of a motor or a friction law with invalid parameters.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum DriveError {
     /// A quantity that must be positive is not.
-    #[error("{quantity} = {found} is not positive and finite")]
+    #[error("{quantity} is {found}, but must be positive and finite")]
     NotPositive {
-        /// Which quantity.
+        /// Name of the quantity.
         quantity: &'static str,
-        /// The number found.
+        /// Its value.
         found: f64,
     },
-    /// A quantity of either sign is no number, or infinite.
-    #[error("{quantity} = {found} is not finite")]
+    /// A quantity is not finite.
+    #[error("{quantity} is {found}, but must be finite")]
     NotFinite {
-        /// Which quantity.
+        /// Name of the quantity.
         quantity: &'static str,
-        /// The number found.
+        /// Its value.
         found: f64,
     },
     /// A quantity that must not be negative is.
-    #[error("{quantity} = {found} is negative or not finite")]
+    #[error("{quantity} is {found}, but must be finite and not negative")]
     Negative {
-        /// Which quantity.
+        /// Name of the quantity.
         quantity: &'static str,
-        /// The number found.
+        /// Its value.
         found: f64,
     },
 }

@@ -1,6 +1,6 @@
-//! How friction near rest falls, or grows, to that at speed.
+//! How friction passes from its value at rest to that at speed.
 
-/// How the friction at rest passes into that at speed.
+/// How friction passes from its value at rest to its value at high speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Falloff {
     /// `e^{−|v|/v_s}`.
@@ -10,7 +10,7 @@ pub enum Falloff {
 }
 
 impl Falloff {
-    /// Its name in files.
+    /// Name in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Exponential => "exponential",
@@ -18,7 +18,7 @@ impl Falloff {
         }
     }
 
-    /// What of the difference is left at `speed_ratio` = |v|/v_s.
+    /// Share of the difference that remains at `speed_ratio` = |v|/v_s: 1 at rest, 0 at high speed.
     pub fn share(self, speed_ratio: f64) -> f64 {
         match self {
             Self::Exponential => (-speed_ratio).exp(),

@@ -4,18 +4,18 @@ use super::coulomb::Coulomb;
 use super::error::DriveError;
 use super::place::Place;
 
-/// The LuGre law: the joint rests on bristles whose mean deflection z is a state.
+/// The LuGre law: the joint rests on elastic bristles, whose mean deflection z \[rad\] is a state.
 ///
 /// ```text
 /// ż = v − σ0·|v|/g(v)·z,   F = σ0·z + σ1·ż,   g(v) = Fc + (Fs − Fc)·e^{−(v/vs)²}
 /// ```
 ///
-/// F \[N·m\] acts against the motion and is positive while the joint moves forward; v = θ̇_m
-/// \[rad/s\]. Fc and Fs are `coulomb` and `at_rest`, forward for v > 0 and backward for v < 0. In
-/// steady motion `F = g(v)·sgn(v)`. Viscous friction, the source's σ2·v, is the motor's own V.
+/// F \[N·m\] acts against the motion and is positive while the joint moves forward; v = θ̇_m \[rad/s\]. Fc (`coulomb`)
+/// is friction at high speed and Fs (`at_rest`) friction at rest, forward for v > 0 and backward for v < 0; vs
+/// \[rad/s\] is the Stribeck speed. In steady motion `F = g(v)·sgn(v)`. Viscous friction, the source's σ2·v, is the
+/// motor's own V.
 ///
-/// There is no sticking: a joint under a torque below Fs creeps and swings on its bristles by
-/// some Fs/σ0 (presliding).
+/// There is no sticking: a joint under a torque below Fs creeps and swings on its bristles by about Fs/σ0 (presliding).
 ///
 /// ```
 /// # use lissom::drive::{Coulomb, LuGre};
@@ -30,7 +30,7 @@ use super::place::Place;
 /// `[deWit1995, eqs. (2)-(5)]`
 ///
 /// # Differences from the source
-/// Fc and Fs may differ by direction; since |v| stands before 1/g, ż stays continuous at v = 0.
+/// Fc and Fs may differ by direction. ż stays continuous at v = 0 nevertheless, because 1/g is multiplied by |v|.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LuGre {
     stiffness_nm_per_rad: f64,
@@ -41,7 +41,7 @@ pub struct LuGre {
 }
 
 impl LuGre {
-    /// Checks the numbers: σ0 \[N·m/rad\], σ1 \[N·m·s/rad\], Fc, Fs \[N·m\], vs \[rad/s\].
+    /// Builds the law from σ0 \[N·m/rad\], σ1 \[N·m·s/rad\], Fc, Fs \[N·m\] and vs \[rad/s\].
     ///
     /// # Errors
     /// [`DriveError`] unless σ0, vs and Fc > 0, σ1 ≥ 0 and Fs ≥ Fc in both directions, all finite.
@@ -76,12 +76,12 @@ impl LuGre {
         Ok(Self { stiffness_nm_per_rad, damping_nm_s_per_rad, coulomb, at_rest, stribeck_rad_s })
     }
 
-    /// Fc \[N·m\].
+    /// Friction at high speed, Fc \[N·m\].
     pub fn coulomb(&self) -> Coulomb {
         self.coulomb
     }
 
-    /// Fs \[N·m\].
+    /// Friction at rest, Fs \[N·m\].
     pub fn at_rest(&self) -> Coulomb {
         self.at_rest
     }
@@ -96,7 +96,7 @@ impl LuGre {
         self.damping_nm_s_per_rad
     }
 
-    /// Largest deflection that the bristles keep, max Fs/σ0 \[rad\].
+    /// Largest deflection at which the bristles can stay, max Fs/σ0 \[rad\].
     pub fn deflection_most_rad(&self) -> f64 {
         self.at_rest.forward().max(self.at_rest.backward()) / self.stiffness_nm_per_rad
     }
@@ -125,12 +125,12 @@ impl LuGre {
         if v == 0.0 { 0.0 } else { self.level(v).copysign(v) }
     }
 
-    /// ż \[rad/s\] at the velocity v \[rad/s\] and the deflection z \[rad\].
+    /// Rate of the deflection, ż \[rad/s\], at the velocity v \[rad/s\] and the deflection z \[rad\].
     pub fn bristle_rate(&self, v: f64, z: f64) -> f64 {
         v - self.stiffness_nm_per_rad * v.abs() / self.level(v) * z
     }
 
-    /// Friction F \[N·m\] at the velocity v \[rad/s\] and the deflection z \[rad\].
+    /// Friction torque F \[N·m\] at the velocity v \[rad/s\] and the deflection z \[rad\].
     pub fn torque_nm(&self, v: f64, z: f64) -> f64 {
         self.stiffness_nm_per_rad * z + self.damping_nm_s_per_rad * self.bristle_rate(v, z)
     }

@@ -1,4 +1,4 @@
-//! Laws of dry friction and how they act over a step: used by the rig and by the replay.
+//! Laws of dry friction, and how they act over a step in time; used by rig, replay and identification.
 
 mod bristle_step;
 mod bristles;

@@ -1,4 +1,4 @@
-//! Whether a joint sticks or which way it slips.
+//! Whether a joint sticks, or in which direction it slips.
 
 /// State of a joint, or of a tip that rubs on a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

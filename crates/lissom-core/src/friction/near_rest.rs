@@ -15,28 +15,29 @@ const CONTINUED: f64 = -0.5;
 /// Speeds at which nothing of it is left, over v_s: of an exponential, and of a Gaussian.
 const GONE: [f64; 2] = [9.0, 3.0];
 
-/// `s·(A + s·a)·e^{−|θ̇|/v_s}` or `s·(A + s·a)·e^{−(θ̇/v_s)²}`, s the direction of motion.
+/// Change of friction near rest: the torque against the motion is `s·(A + s·a)·e^{−|θ̇|/v_s}` or
+/// `s·(A + s·a)·e^{−(θ̇/v_s)²}`, with the direction of motion s = ±1.
 ///
 /// # Source
-/// `[Armstrong1994]`: with A > 0 the Stribeck effect, with A < 0 friction that grows less than in proportion.
+/// `[Armstrong1994]`. A > 0 is the Stribeck effect; with A < 0 friction grows less than in proportion to speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearRest {
-    /// A \[N·m\]: friction at rest is C + A, mean of both directions.
+    /// A \[N·m\]: friction at rest minus Coulomb friction, mean of both directions.
     pub torque_nm: f64,
-    /// a \[N·m\]: half of what it is more forward than backward.
+    /// a \[N·m\]: half the difference of that change, forward minus backward.
     pub offset_nm: f64,
-    /// v_s \[rad/s\].
+    /// v_s \[rad/s\]: speed over which friction changes.
     pub speed_rad_s: f64,
-    /// Which of the two.
+    /// Exponential or Gaussian.
     pub falloff: Falloff,
 }
 
-/// A number of [`NearRest`] that a search may move.
+/// A parameter of [`NearRest`] that a search may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NearRestNumber {
-    /// A.
+    /// A, the torque.
     Torque,
-    /// v_s.
+    /// v_s, the speed.
     Speed,
 }
 

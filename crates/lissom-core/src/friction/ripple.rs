@@ -1,4 +1,4 @@
-//! Friction that changes over the travel.
+//! Friction that changes periodically over the travel.
 
 use super::phase_series::PhaseSeries;
 use super::place::Place;
@@ -7,25 +7,26 @@ use super::taylor_row::Row;
 /// Largest phase that may pass over a step with friction linear in time \[rad\].
 const PHASE_PER_STEP: f64 = 0.4;
 
-/// `s·(B·cos kθ + C·sin kθ)`, s the direction of motion.
+/// Ripple: friction that changes periodically over the travel, `s·(B·cos kθ + C·sin kθ)`, with
+/// the direction of motion s = ±1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ripple {
-    /// k: waves per turn, or radians per metre.
+    /// k \[1/rad, or rad/m on a linear axis\]: waves per turn on a rotary axis.
     pub per_rad: f64,
-    /// B \[N·m\].
+    /// B \[N·m\], the cosine part.
     pub cosine_nm: f64,
-    /// C \[N·m\].
+    /// C \[N·m\], the sine part.
     pub sine_nm: f64,
 }
 
-/// A number of [`Ripple`] that a search may move.
+/// A parameter of [`Ripple`] that a search may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RippleNumber {
-    /// B.
+    /// B, the cosine part.
     Cosine,
-    /// C.
+    /// C, the sine part.
     Sine,
-    /// k.
+    /// k, waves per turn.
     Rate,
 }
 

@@ -1,4 +1,4 @@
-//! Room for the Taylor coefficients of one quantity along a motion.
+//! Storage for the Taylor coefficients of one quantity along a motion.
 
 /// Most Taylor coefficients of a friction torque.
 pub(crate) const COEFFICIENTS: usize = 25;

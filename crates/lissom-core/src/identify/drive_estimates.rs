@@ -1,16 +1,17 @@
-//! Friction, inertia and coupling as one method estimates them.
+//! Estimates of friction, inertia and coupling from one method.
 
 use crate::identify::estimate::Estimate;
 use crate::identify::friction_estimates::Friction;
 use crate::identify::gravity_estimate::Gravity;
 
-/// A way to estimate the parameters of the drive.
+/// A method that estimates the parameters of the drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Method {
-    /// Replay of the logged command through an arm whose parameters are moved.
+    /// Output-error method: simulates the arm under the logged command and changes its parameters until the simulated
+    /// motion is the logged one.
     OutputError,
-    /// Regression in slip phases under the simplest friction law that the data do not reject.
+    /// Regression in slip phases with the simplest friction law that the data do not reject.
     FrictionLaw,
     /// Regression in slip phases with viscous friction by direction.
     RegressionByDirection,
@@ -18,16 +19,16 @@ pub enum Method {
     Regression,
     /// Ordinary least squares of smoothed samples.
     LeastSquares,
-    /// Rational model of the frequency response, after correction for Coulomb friction.
+    /// Rational model of the frequency response, which is corrected for Coulomb friction.
     FrequencyResponse,
     /// Third harmonic of the command, with the rational model of the response that it corrects.
     ThirdHarmonic,
-    /// Command at constant velocities, extrapolated to standstill.
+    /// Command at constant velocities, extrapolated to zero speed.
     ConstantVelocity,
 }
 
 impl Method {
-    /// The name that result files use.
+    /// Name in result files.
     pub fn name(self) -> &'static str {
         match self {
             Self::OutputError => "output_error",
@@ -44,18 +45,18 @@ impl Method {
 
 /// Friction, inertia and coupling from one fit.
 ///
-/// All of them belong together: they describe the logs only as a whole, and the standard errors are
-/// those of that fit. What the method does not give is `None`.
+/// These estimates belong together: they describe the logs only as a whole, and their standard errors are those of that
+/// fit. A parameter that the method does not estimate is `None`.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct DriveEstimates {
     /// Friction \[N·m or N\].
     pub friction: Friction,
-    /// Inertia \[kg·m²\] or mass \[kg\].
+    /// Inertia \[kg·m²\], or mass \[kg\] on a linear axis.
     pub inertia: Option<Estimate>,
-    /// Torque per angle between motor and beam, Σκ_i \[N·m/rad\].
+    /// Coupling between motor and beam, Σκ_i \[N·m/rad\].
     pub coupling: Option<Estimate>,
-    /// κ_i of each tip of the campaign; empty where no tip shows an angle.
+    /// κ_i of each tip of the campaign \[N·m/rad\]; empty if no tip measures an angle.
     pub coupling_by_tip: Vec<Option<Estimate>>,
-    /// Gravity, where the campaign has it.
+    /// Gravity, if the campaign has it.
     pub gravity: Option<Gravity>,
 }

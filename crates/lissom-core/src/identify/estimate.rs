@@ -1,4 +1,6 @@
-//! A figure with its uncertainty.
+//! An estimate with its standard error.
+
+use std::fmt;
 
 use statrs::distribution::{ContinuousCDF as _, StudentsT};
 
@@ -7,19 +9,26 @@ use crate::identify::thresholds;
 /// Half width of a 95 % interval \[standard errors\]: the two-sided 95 % point of the normal distribution.
 pub const NORMAL_95: f64 = thresholds::NORMAL_95;
 
-/// How many times as long an interval of 95 % is where the standard error has only so many degrees of freedom:
-/// Student's t beside the normal distribution.
+/// Ratio of the length of a 95 % interval with Student's t distribution, for so many degrees of freedom of the standard
+/// error, to the length with the normal distribution.
 pub(crate) fn wider_by_student(freedom: f64) -> f64 {
     StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |t| t.inverse_cdf(0.975) / NORMAL_95)
 }
 
-/// An estimated figure.
+/// An estimate of a parameter, with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
-    /// The figure, in the unit its name says.
+    /// Value, in the unit that the name of the field or function states.
     pub value: f64,
-    /// Its standard deviation, in the same unit.
+    /// Standard error of the value, in the same unit.
     pub std: f64,
+}
+
+/// Value and standard error in two digits of the error: `0.13201(12)` is 0.13201 ± 0.00012.
+impl fmt::Display for Estimate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(&lissom_text::with_uncertainty(self.value, self.std))
+    }
 }
 
 impl Estimate {
@@ -33,7 +42,7 @@ impl Estimate {
         self.value < -thresholds::SIGN_SHOWN * self.std
     }
 
-    /// The figure in a unit of which one is `factor` of the present one.
+    /// Converts to another unit: value and standard error are multiplied by `factor`.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         Self { value: self.value * factor, std: self.std * factor.abs() }
@@ -45,12 +54,12 @@ impl Estimate {
 pub struct ModeEstimate {
     /// Undamped natural frequency \[rad/s\].
     pub natural_frequency_rad_s: Estimate,
-    /// Damping ratio ζ.
+    /// Damping ratio ζ \[1\].
     pub damping_ratio: Estimate,
 }
 
 impl ModeEstimate {
-    /// The damping ratio, where it is one that a beam can have: not surely below zero.
+    /// Damping ratio, if it is physically possible; `None` if it is significantly below zero.
     pub fn given_damping_ratio(&self) -> Option<Estimate> {
         Some(self.damping_ratio).filter(|ratio| !ratio.is_negative())
     }

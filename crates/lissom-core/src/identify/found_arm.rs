@@ -1,4 +1,4 @@
-//! The arm that stands for a result: what predicts other logs.
+//! The arm of a result, which predicts other logs.
 
 use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::judge::{Chosen, Evidence, slip_phase_solution};
@@ -12,36 +12,35 @@ use crate::identify::validation::zeros::zeros;
 use crate::record::Campaign;
 use crate::replay::ModalArm;
 
-/// Which method an arm is from.
+/// The method that an arm comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ArmSource {
-    /// The output error, whose arm describes the runs.
+    /// The output-error method, whose arm describes the runs.
     OutputError,
-    /// The regressions on slip phases.
+    /// The regression in slip phases.
     Regression,
 }
 
 /// The arm of a result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FoundArm {
-    /// Its numbers, the back-EMF's damping in the viscous ones.
+    /// Model of the arm. Its viscous friction includes the damping by back-EMF.
     pub arm: ModalArm,
-    /// Coupling of each tip, torque on the motor per deflection \[N·m/rad\], where the logs show it and no mode: the arm has
-    /// no modes then, and predicts torque alone. Empty otherwise.
+    /// Coupling of each tip, torque on the motor per deflection \[N·m/rad\], if the logs show coupling but no modes.
+    /// The arm then has no modes and predicts only torque. Otherwise empty.
     pub coupling_alone_nm_per_rad: Vec<f64>,
-    /// Where they are from.
+    /// The method that the arm comes from.
     pub source: ArmSource,
-    /// The torque of the logs used as it predicts it; `None` where the tips do not give the coupling
-    /// torque.
+    /// Prediction of the torque of the logs that were used; `None` if the tips do not determine the coupling torque.
     pub torque_used: Option<TorqueUsed>,
 }
 
-/// How the torque of the logs used is predicted.
+/// How well the torque of the logs that were used is predicted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TorqueUsed {
-    /// ‖logged − predicted‖/‖logged‖.
+    /// Relative error ‖logged − predicted‖/‖logged‖ \[1\].
     pub relative_error: f64,
-    /// Length of the window that both sides were averaged with \[s\].
+    /// Length of the window over which both torques are averaged \[s\].
     pub window_s: f64,
 }
 
@@ -77,7 +76,7 @@ impl FoundArm {
         self.torque_used.is_none_or(|used| used.relative_error < REFUSED_TORQUE)
     }
 
-    /// Whether it predicts motion, not only torque.
+    /// Whether the arm predicts motion as well as torque.
     pub fn moves(&self) -> bool {
         self.for_torque().moves()
     }

@@ -1,4 +1,4 @@
-//! Friction as a method estimates it.
+//! Estimates of friction.
 
 use crate::drive::Falloff;
 use crate::identify::estimate::Estimate;
@@ -7,34 +7,34 @@ use crate::identify::methods::friction_law::{LawTerm, NEAR_REST_STEP};
 use crate::identify::thresholds::SIGN_SHOWN;
 use crate::replay::{DryTerms, FrictionNumber, NearRestNumber};
 
-/// Friction, in torque (or force).
+/// Friction, as torque \[N·m\] or force \[N\]; in the unit of the command if the torque constant is unknown.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Friction {
     /// Coulomb friction, mean of both directions.
     pub coulomb: Option<Estimate>,
-    /// While moving forward.
+    /// Coulomb friction while moving forward, a magnitude.
     pub forward: Option<Estimate>,
-    /// While moving backward.
+    /// Coulomb friction while moving backward, a magnitude.
     pub backward: Option<Estimate>,
-    /// (forward − backward)/2.
+    /// Offset, (forward − backward)/2.
     pub offset: Option<Estimate>,
-    /// Viscous friction.
+    /// Viscous friction \[N·m·s/rad\], without the damping by back-EMF.
     pub viscous: Option<Estimate>,
-    /// Viscous friction forward and backward, where the data reject one constant.
+    /// Viscous friction forward and backward, if the data reject one constant for both.
     pub viscous_by_direction: Option<(Estimate, Estimate)>,
-    /// What friction has near rest beyond Coulomb's, where the data call for it.
+    /// Change of friction near rest, if the data require it.
     pub near_rest: Option<NearRestEstimate>,
-    /// μ of `s·μ·|τ_g|`: friction that grows with the load of gravity, where the data show it.
+    /// Coefficient μ of friction that grows with the torque τ_g of gravity, `s·μ·|τ_g|` \[1\], if the data show it.
     pub with_load: Option<Estimate>,
-    /// Waves over the travel, where the data show them.
+    /// Ripples of friction over the travel, if the data show them.
     pub ripples: Vec<RippleEstimate>,
 }
 
 impl Friction {
-    /// Friction against the motion at a speed in a direction (+1 or −1) \[N·m\], waves over the travel left out: positive
-    /// where it brakes. `None` where a figure of it is refused.
+    /// Friction against the motion at a speed in a direction (+1 or −1) \[N·m\], without ripples; positive if it
+    /// brakes. `None` if one of its parameters is refused.
     ///
-    /// `C_± + V_±·|v| + A·e^{−|v|/v_s}` (or `A·e^{−(v/v_s)²}`).
+    /// `C_± + V_±·|v| + A·e^{−|v|/v_s}`, or `A·e^{−(v/v_s)²}` for the last term.
     pub fn at(&self, speed: f64, direction: f64) -> Option<f64> {
         let forward = direction > 0.0;
         let coulomb = if forward { self.forward } else { self.backward }?;
@@ -134,37 +134,37 @@ impl Friction {
     }
 }
 
-/// `s·A·e^{−|v|/v_s}` or `s·A·e^{−(v/v_s)²}`, s the direction.
+/// Change of friction near rest: `s·A·e^{−|v|/v_s}` or `s·A·e^{−(v/v_s)²}`, with the direction of motion s = ±1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearRestEstimate {
-    /// A.
+    /// A \[N·m\]: friction at rest minus Coulomb friction.
     pub torque: Estimate,
-    /// Friction at rest, C + A.
+    /// Friction at rest, C + A \[N·m\].
     pub at_rest: Estimate,
-    /// v_s.
+    /// v_s \[rad/s\]: speed over which friction changes.
     pub speed: Estimate,
-    /// Which of the two.
+    /// Exponential or Gaussian.
     pub falloff: Falloff,
 }
 
 impl NearRestEstimate {
-    /// Friction at rest where it is surely more than Coulomb friction.
+    /// Static friction C + A, if friction at rest is significantly more than Coulomb friction.
     pub fn static_friction(&self) -> Option<Estimate> {
         (self.torque.value > SIGN_SHOWN * self.torque.std).then_some(self.at_rest)
     }
 }
 
-/// `s·A·cos(k·θ + φ)`, s the direction.
+/// Ripple of friction over the travel: `s·A·cos(k·θ + φ)`, with the direction of motion s = ±1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RippleEstimate {
-    /// A.
+    /// Amplitude A \[N·m\].
     pub torque: Estimate,
-    /// k, radians of ripple per radian of angle (1/m on linear axes).
+    /// k: phase of the ripple per angle \[rad/rad\], or per length on a linear axis \[1/m\].
     pub per_angle: Estimate,
 }
 
 impl RippleEstimate {
-    /// 2π/k: relative deviations of a frequency and its period are the same.
+    /// Period 2π/k \[rad or m\]; its relative standard error is that of k.
     pub fn period(&self) -> Estimate {
         let value = std::f64::consts::TAU / self.per_angle.value;
         Estimate { value, std: value * self.per_angle.std / self.per_angle.value }

@@ -1,4 +1,4 @@
-//! Which number of an arm's description explains best that logs show another arm.
+//! Finds which number of an arm's description best explains that the logs show a different arm.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -18,49 +18,51 @@ const SLOPE: f64 = 1e-4;
 /// A step below which it ends.
 const ENOUGH: f64 = 1e-9;
 
-/// A number of an arm that may be another than its description says.
+/// A quantity of an arm that may differ from its description.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ArmQuantity {
-    /// Length of a span, from 0; of all where `None`.
+    /// Length of one span (counted from 0), or of all spans if `None`.
     Length(Option<usize>),
-    /// Flexural rigidity of a span, or of all.
+    /// Flexural rigidity of one span, or of all.
     Stiffness(Option<usize>),
-    /// Mass at a span's end, or all masses.
+    /// Mass at the end of one span, or all masses.
     Mass(Option<usize>),
     /// The payload, with its rotary inertia.
     Payload,
-    /// The motor's inertia.
+    /// Inertia of the motor.
     MotorInertia,
 }
 
-/// How far one of them explains the difference.
+/// How well a change of one quantity explains the difference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Explanation {
-    /// Which.
+    /// The quantity.
     pub quantity: ArmQuantity,
-    /// What it is, in what the description says, if all else is right.
+    /// True value divided by the value in the description \[1\], assuming that all other quantities are right.
     pub factor: Estimate,
-    /// Root mean square of the figures' relative differences then.
+    /// Root mean square of the relative differences of the parameters that remain after this change \[1\].
     pub left: f64,
     /// Its weighted squares.
     cost: f64,
 }
 
-/// An arm as described beside the one that logs show.
+/// An arm as described, compared with the arm that the logs show.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GeometryCheck {
-    /// Root mean square of the figures' relative differences: J, and frequency and coupling of each mode.
+    /// Root mean square of the relative differences of the parameters: J, and frequency
+    /// and coupling of each mode \[1\].
     pub before: f64,
-    /// Each number by itself, the one that explains most first.
+    /// The change of each quantity alone, the best explanation first.
     pub explanations: Vec<Explanation>,
 }
 
-/// Compares J, ω_k and k_k of the modes found with those of `described`, and lets one number of it at a time be
-/// another: the factor that brings the figures nearest, by their covariance and no better than 0.1 % each.
+/// Compares J, ω_k and k_k of the identified arm with those of the arm `described`. Then one quantity of the
+/// description at a time is multiplied by the factor that brings these parameters closest to the identified ones.
+/// Differences are weighted by their covariance, in which each standard error counts as at least 0.1 %.
 ///
-/// What the modes that were not found carry of the inertia belongs to J. A factor's deviation is stretched where the
-/// number does not explain the difference. `None` where `described` is known by its modes, or has fewer
-/// than were found, or none were.
+/// The inertia that belongs to modes that were not found counts as part of J. The standard error of a factor is
+/// increased if the quantity does not explain the difference. `None` if `described` is known only by its modes or has
+/// fewer modes than were found, or if no modes were found.
 pub fn geometry_check(described: &Arm, found: &OutputError) -> Option<GeometryCheck> {
     let modes = found.arm.modes.len();
     let figures = 1 + 2 * modes;
@@ -92,12 +94,12 @@ pub fn geometry_check(described: &Arm, found: &OutputError) -> Option<GeometryCh
 }
 
 impl GeometryCheck {
-    /// Whether the description is as near as it can be told: nothing to explain.
+    /// Whether the description agrees with the identified arm, so that there is nothing to explain.
     pub fn agrees(&self) -> bool {
         self.before < GEOMETRY_AGREES * GEOMETRY_KNOWN
     }
 
-    /// Those that explain as much as the best does, or nearly.
+    /// The explanations that are as good as the best, or nearly as good.
     pub fn as_good(&self) -> impl Iterator<Item = &Explanation> {
         let best = self.explanations.first().map_or(0.0, |e| e.left.max(GEOMETRY_KNOWN));
         let near = move |e: &&Explanation| e.left <= GEOMETRY_AS_GOOD * best;

@@ -1,27 +1,28 @@
-//! A load of gravity as a method estimates it.
+//! Estimates of gravity of an unbalanced load.
 
 use crate::identify::estimate::Estimate;
 use crate::load::GravityLoad;
 
-/// The torque `g_s·sin θ + g_c·cos θ` of an unbalanced load on the motor, θ the motor's angle as logged
-/// \[N·m, or the command's unit where the torque constant is unknown\]: `m·g·l·sin(θ + φ)`.
+/// Estimate of the gravity of an unbalanced load: the torque `g_s·sin θ + g_c·cos θ = m·g·l·sin(θ + φ)` that the motor
+/// has to supply, at the motor's angle θ as logged
+/// \[N·m, or the unit of the command if the torque constant is unknown\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gravity {
     /// g_s.
     pub sine: Estimate,
     /// g_c.
     pub cosine: Estimate,
-    /// Covariance of both.
+    /// Covariance of g_s and g_c.
     pub covariance: f64,
 }
 
 impl Gravity {
-    /// Of both coefficients and their covariance.
+    /// Builds the estimate from both coefficients and their covariance.
     pub fn new(sine: Estimate, cosine: Estimate, covariance: f64) -> Self {
         Self { sine, cosine, covariance }
     }
 
-    /// m·g·l = √(g_s² + g_c²).
+    /// Largest torque m·g·l = √(g_s² + g_c²).
     pub fn amplitude(&self) -> Estimate {
         let (s, c) = (self.sine, self.cosine);
         let value = s.value.hypot(c.value);
@@ -32,15 +33,16 @@ impl Gravity {
         Estimate { value, std }
     }
 
-    /// Torque per command \[N·m per its unit\] by which this load is one of `mgl_nm`, where it was estimated with
-    /// `assumed` of them (1 where the figures are per unit of command): `K = assumed·m·g·l/√(g_s² + g_c²)`.
+    /// Torque constant \[N·m per unit of command\] that follows if the largest torque of the load is known to be
+    /// `mgl_nm`: `K = assumed·m·g·l/√(g_s² + g_c²)`. `assumed` is the torque constant with which this estimate was made
+    /// (1 if it is per unit of command).
     pub fn torque_constant(&self, mgl_nm: f64, assumed: f64) -> Estimate {
         let amplitude = self.amplitude();
         let value = assumed * mgl_nm / amplitude.value;
         Estimate { value, std: value * amplitude.std / amplitude.value }
     }
 
-    /// φ \[rad\], from −π to π: at θ = −φ the load hangs or stands.
+    /// Phase φ \[rad\], from −π to π: at θ = −φ the load is in its equilibrium, hanging or upright.
     pub fn phase_rad(&self) -> Estimate {
         let (s, c) = (self.sine, self.cosine);
         let square = (c.value * s.std).powi(2) + (s.value * c.std).powi(2)
@@ -50,12 +52,12 @@ impl Gravity {
         Estimate { value: c.value.atan2(s.value), std }
     }
 
-    /// The load without its errors.
+    /// The load without its standard errors.
     pub fn load(&self) -> GravityLoad {
         GravityLoad { sine_nm: self.sine.value, cosine_nm: self.cosine.value }
     }
 
-    /// The same in a unit of which one is `factor` of the present one.
+    /// Converts to another unit: all values are multiplied by `factor`.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         let covariance = self.covariance * factor * factor;

@@ -1,4 +1,4 @@
-//! What identification gives.
+//! The result of an identification.
 
 use crate::identify::drive_estimates::Method;
 use crate::identify::equivalent::Equivalent;
@@ -21,70 +21,72 @@ use crate::identify::responses::response_point::ResponsePoint;
 use crate::identify::separability::Separability;
 use crate::record::Campaign;
 
-/// The beam's figures.
+/// Estimates of the beam.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct BeamEstimates {
-    /// Modes with the motor clamped, ascending.
+    /// Modes with the motor clamped, ascending in frequency.
     pub modes: Vec<ModeEstimate>,
-    /// Torque per angle between motor and beam, Σκ_i = h_{n+1} of (15).
+    /// Coupling between motor and beam, Σκ_i = h_{n+1} of (15) \[N·m/rad\].
     pub coupling: Option<Estimate>,
-    /// κ_i of each tip of the campaign, `None` where its angle is not known; empty where none is.
+    /// κ_i of each tip of the campaign \[N·m/rad\], `None` for a tip that measures no angle; empty if none does.
     pub coupling_by_tip: Vec<Option<Estimate>>,
 }
 
-/// All that a campaign gave.
+/// The complete result of an identification.
 #[derive(Debug, Clone)]
 pub struct Identified {
-    /// The method whose solution friction, inertia and coupling are, whole; `None` where no method has one.
+    /// The method whose complete solution friction, inertia and coupling are; `None` if no method has one.
     pub method: Option<Method>,
     /// Friction of that solution.
     pub friction: Friction,
-    /// Inertia or mass of that solution.
+    /// Inertia \[kg·m²\] or mass \[kg\] of that solution.
     pub inertia: Option<Estimate>,
-    /// Gravity of that solution, where the campaign has it and the data tell it.
+    /// Gravity of that solution, if the campaign has it and the data determine it.
     pub gravity: Option<Gravity>,
-    /// Torque per command by that gravity, where the campaign says what m·g·l is \[N·m per unit of command\].
+    /// Torque constant that follows from gravity, if the campaign gives m·g·l \[N·m per unit of command\].
     pub torque_constant: Option<Estimate>,
-    /// The beam.
+    /// Modes and coupling of the beam.
     pub beam: BeamEstimates,
-    /// The report's method.
+    /// Third-harmonic method of the 1989 report.
     pub third_harmonic: Option<ThirdHarmonic>,
-    /// Rational model of the motor from the response corrected with that friction, as in Section 6.2.2 of the 1989 report.
+    /// Rational model of the motor from the response that the third-harmonic method corrects, as in Section 6.2.2 of
+    /// the 1989 report.
     pub third_harmonic_model: Option<MotorFit>,
-    /// Regression on slip phases.
+    /// Regression in slip phases.
     pub regression: Option<MotorRegression>,
-    /// ‖y − X·q‖/‖y‖ of the regression, also where it is refused; `None` without windows enough.
+    /// Relative residual ‖y − X·q‖/‖y‖ of the regression \[1\], also if its estimates are refused; `None` if there are
+    /// too few windows.
     pub regression_residual: Option<f64>,
-    /// Ordinary least squares of smoothed samples, the baseline; `None` where too few slip.
+    /// Ordinary least squares of smoothed samples, the baseline; `None` if there is too little slipping motion.
     pub least_squares: Option<LeastSquares>,
-    /// Friction against speed, and its law; `None` without a regression.
+    /// Friction against speed, and the friction law; `None` without a regression.
     pub friction_law: Option<FrictionLaw>,
-    /// Steady velocities extrapolated to rest; `None` where no line goes through any and no run was
-    /// made for them.
+    /// Constant-velocity method; `None` if no line can be fitted and no run was made for this method.
     pub constant_velocity: Option<ConstantVelocity>,
-    /// The beam's regression.
+    /// Regression of the beam's equation.
     pub beam_regression: Option<BeamRegression>,
-    /// The runs replayed; `None` where it was not asked for or has nothing to start from.
+    /// Output-error method; `None` if it was not requested or has no arm to start from.
     pub output_error: Option<OutputError>,
-    /// What each run is.
+    /// What each run is, and how it is used.
     pub runs: Vec<RunAnalysis>,
-    /// Responses, ascending in frequency.
+    /// Frequency responses, ascending in frequency.
     pub responses: Vec<ResponsePoint>,
-    /// Rational model of the beam, fitted to its tips' responses.
+    /// Rational model of the beam, fitted to the responses of its tips.
     pub beam_model: Option<BeamFit>,
     /// Rational model of the motor, fitted to the corrected response.
     pub motor_model: Option<MotorFit>,
-    /// Linear models of drive and beam: of the arm where the output error stands, else these fits.
+    /// Linear models of drive and beam: those of the identified arm if the output-error method is accepted, otherwise
+    /// the fits to the responses.
     pub models: LinearModels,
-    /// The equivalent arm of Section 4, where more than one tip's angle is known and the data carry it.
+    /// The equivalent arm of Section 4 of the 1989 report, if several tips measure angles and the data support it.
     pub equivalent: Option<Equivalent>,
-    /// Which of these the logs separate, run by run; `None` without a covariance.
+    /// Which parameters the logs separate, run by run; `None` without a covariance.
     pub separability: Option<Separability>,
-    /// The arm that stands for these figures, to predict other logs with; `None` where they make none.
+    /// The arm of this result, to predict other logs with; `None` if the estimates do not make a complete arm.
     pub arm: Option<FoundArm>,
-    /// Torque per command used; `None`: figures are per unit of command.
+    /// Torque constant that was used; `None` if estimates are per unit of command.
     pub torque_per_command: Option<f64>,
-    /// What the data could not carry.
+    /// Findings: what the logs do not determine, what is wrong with them, and what to know about the estimates.
     pub findings: Vec<Finding>,
 }
 

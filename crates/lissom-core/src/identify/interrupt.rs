@@ -1,10 +1,10 @@
-//! Ends a search before it is done: another thread asks for it, or a time is over.
+//! Ends a search early: another thread requests it, or a time limit is reached.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// Shared by who waits for a result and by the search: all clones are one.
+/// A request to end a search early. The thread that waits and the search share it; all clones are the same request.
 ///
 /// ```
 /// use lissom::identify::Interrupt;
@@ -26,23 +26,23 @@ struct Shared {
 }
 
 impl Interrupt {
-    /// One that asks by itself after a time; results then depend on how fast the machine is.
+    /// A request that is made automatically after a time. Results then depend on the speed of the machine.
     pub fn after(limit: Duration) -> Self {
         Self { until: Instant::now().checked_add(limit), ..Self::default() }
     }
 
-    /// Asks the search to end with the best that it has found so far.
+    /// Requests that the search end with the best result so far.
     pub fn ask(&self) {
         self.shared.asked.store(true, Ordering::Relaxed);
     }
 
-    /// Whether the search is to end.
+    /// Whether the search is requested to end.
     pub fn is_asked(&self) -> bool {
         self.shared.asked.load(Ordering::Relaxed)
             || self.until.is_some_and(|until| Instant::now() >= until)
     }
 
-    /// Evaluations that the search has made so far, for a display of its progress.
+    /// Number of evaluations that the search has made so far, to show progress.
     pub fn evaluations(&self) -> u64 {
         self.shared.evaluations.load(Ordering::Relaxed)
     }

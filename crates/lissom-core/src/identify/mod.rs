@@ -1,4 +1,9 @@
-//! From records to friction, parameters and a verdict.
+//! Identification: from logs to friction, inertia, coupling and modes, each with a standard error.
+//!
+//! [`identify`] does all steps and returns [`Identified`]. The methods can also be called alone on a [`Prepared`]
+//! campaign: [`motor_regression`], [`beam_regression`], [`constant_velocity`], [`least_squares`], [`output_error`],
+//! [`pair_figure`]. [`validate`] compares a result with other logs; [`equivalent`](fn@equivalent) computes the
+//! equivalent arm of Section 4 of the 1989 report. What the logs do not support is refused with a [`Finding`].
 
 mod drive_estimates;
 pub(crate) mod equivalent;

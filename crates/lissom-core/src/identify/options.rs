@@ -1,17 +1,18 @@
-//! What a user may ask of an identification.
+//! Options of an identification.
 
 use crate::identify::interrupt::Interrupt;
 
 /// Harmonics fitted to a periodic run.
 const HARMONICS: usize = 9;
 
-/// How far the output-error method refines the estimates. The limit is one of evaluations, and not of time: a result does not
-/// depend on how fast the machine is. One evaluation is one sample of a log replayed, or its derivative by one parameter.
+/// Effort of the output-error method. It is limited by a number of evaluations instead of a time, so that
+/// results do not depend on the speed of the machine. One evaluation is one replayed sample of a log, or
+/// its derivative by one parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Effort {
-    /// Not at all: the estimates are those of the other methods.
+    /// No output-error method: the estimates are those of the other methods.
     Quick,
-    /// Up to 1.5·10⁸ evaluations: some 10 s on two cores.
+    /// Up to 1.5·10⁸ evaluations: about 10 s on two cores.
     #[default]
     Normal,
     /// Up to 2·10⁹ evaluations.
@@ -19,7 +20,7 @@ pub enum Effort {
 }
 
 impl Effort {
-    /// The most evaluations.
+    /// Largest number of evaluations.
     pub fn most_evaluations(self) -> u64 {
         match self {
             Self::Quick => 0,
@@ -29,20 +30,19 @@ impl Effort {
     }
 }
 
-/// What a user may ask for.
+/// Options of an identification.
 #[derive(Debug, Clone, Default)]
 pub struct Options {
-    /// Lengths of the regression's window to take one of \[s\]; chosen from the data when empty.
+    /// Lengths of the regression's window \[s\], of which one is used; if empty, a length is chosen from the data.
     pub window_s: Vec<f64>,
-    /// Highest harmonic fitted to a periodic run; nine when `None`, and never above the Nyquist
-    /// frequency.
+    /// Highest harmonic that is fitted to a sinusoidal run; nine if `None`, and never above the Nyquist frequency.
     pub harmonics: Option<usize>,
-    /// How far the output-error method goes.
+    /// Effort of the output-error method.
     pub effort: Effort,
-    /// Most evaluations of the output-error method ([`OutputError::evaluations`](crate::identify::OutputError::evaluations)); that of the effort
-    /// when `None`.
+    /// Largest number of evaluations of the output-error method
+    /// ([`OutputError::evaluations`](crate::identify::OutputError::evaluations)); if `None`, that of the effort.
     pub most_evaluations: Option<u64>,
-    /// Ends the output-error method before it is done: the result is the best so far.
+    /// Ends the output-error method early, with the best result so far.
     pub interrupt: Interrupt,
 }
 

@@ -1,4 +1,4 @@
-//! What another payload does to an arm that was identified with one.
+//! Prediction of an identified arm with another payload.
 
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::findings::{Finding, PayloadFinding};
@@ -6,33 +6,34 @@ use crate::identify::methods::output_error::OutputError;
 use crate::identify::responses::correct::Response;
 use crate::replay::ModalArm;
 
-/// An arm with another load at one of its tips, as the runs with the load that it had predict it.
+/// Prediction of an arm with another load at one of its tips, from runs with the original load.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadedArm {
-    /// Inertia about the axis that was put to the tip's point \[kg·m²\].
+    /// Inertia about the axis that was added at the point of the tip \[kg·m²\].
     pub added_kg_m2: f64,
-    /// Modes with the motor clamped, ascending.
+    /// Modes with the motor clamped, ascending in frequency.
     pub modes: Vec<ModeEstimate>,
-    /// The arm.
+    /// Model of the arm with the new load.
     pub arm: ModalArm,
 }
 
 impl LoadedArm {
-    /// What its intervals do not count.
+    /// The finding that says which errors the intervals do not include.
     pub fn caveat(&self) -> Finding {
         Finding::new(PayloadFinding::PayloadHighestMode { modes: self.modes.len() })
     }
 }
 
 impl OutputError {
-    /// The arm with a mass Δm more at the point of tip `tip`, at the distance r from the axis: `added_kg_m2` is
-    /// Δm·r². Deviations are those that the covariance of the arm's figures gives.
+    /// Predicts the arm with an additional mass Δm at the point of tip `tip`, at the distance r from the axis:
+    /// `added_kg_m2` is Δm·r². Standard errors come from the covariance of the arm's parameters.
     ///
-    /// The coupling of each mode, and the tip's share in it, say what force at the tip moves it; that is the same
-    /// as the zeros' invariance, and as exact as the modes are all there are. Modes that the runs do not show
-    /// are not in it: their share of the tip's compliance is missing where a heavy load would bend them.
+    /// The coupling of each mode, and the share of the tip in it, determine how the mode moves under a force at the
+    /// tip. This is equivalent to the invariance of zeros, and exact if the arm has no modes beyond those identified.
+    /// Modes that the runs do not show are missing: their contribution to the compliance of the tip is missing, too, if
+    /// a heavy load bends them.
     ///
-    /// `None` where [`ModalArm::with_load`] is.
+    /// `None` if [`ModalArm::with_load`] gives `None`.
     ///
     /// # Source
     /// `[Feliu1989, Section 3, property 4]`
@@ -56,9 +57,9 @@ impl OutputError {
         all.then_some(LoadedArm { added_kg_m2, modes, arm })
     }
 
-    /// θ_i/θ_m of tip `seen` at some frequencies \[rad/s\] with that load at tip `tip`.
+    /// Predicts θ_i/θ_m of tip `seen` at given frequencies \[rad/s\] with that load at tip `tip`.
     ///
-    /// `None` where [`with_load`](Self::with_load) is, or there is no such tip.
+    /// `None` if [`with_load`](Self::with_load) gives `None`, or if there is no such tip.
     pub fn loaded_tip_response(
         &self,
         (tip, added_kg_m2): (usize, f64),

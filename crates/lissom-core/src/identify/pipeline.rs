@@ -36,11 +36,11 @@ use crate::identify::thresholds::{
 use crate::record::Campaign;
 use crate::replay::ModalArm;
 
-/// Why a campaign cannot be identified at all.
+/// Error of [`identify`]: the campaign cannot be identified at all.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum IdentifyError {
-    /// In every run some channel stands still.
+    /// Every run has a constant channel.
     #[error("every run has a constant channel: {}", counted(constant, *runs))]
     NothingMoves {
         /// Number of runs.
@@ -48,8 +48,8 @@ pub enum IdentifyError {
         /// Channels that are constant somewhere, and in how many runs.
         constant: Vec<(String, usize)>,
     },
-    /// The window asked for is not a positive finite length.
-    #[error("a window of {found_s} s is not positive and finite")]
+    /// The length of the window is not positive and finite.
+    #[error("the length of the window is {found_s} s, but must be positive and finite")]
     Window {
         /// The length given \[s\].
         found_s: f64,
@@ -61,29 +61,28 @@ fn counted(constant: &[(String, usize)], runs: usize) -> String {
     constant.iter().map(count).collect::<Vec<_>>().join(", ")
 }
 
-/// A stage of the work, for a progress display.
+/// A stage of the identification, to show progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
-    /// Periods and harmonics of run `.0` (from 0) of `.1`.
+    /// Periods and harmonics of run `.0` (counted from 0) of `.1` runs.
     Run(usize, usize),
-    /// Regression on slip phases.
+    /// Regression in slip phases.
     Regression,
-    /// The beam's own regression.
+    /// Regression of the beam's equation.
     Beam,
-    /// The runs replayed through the arm.
+    /// Output-error method.
     OutputError,
-    /// Responses and rational models.
+    /// Frequency responses and rational models.
     Responses,
 }
 
 /// Identifies drive and beam from a campaign.
 ///
-/// The runs are prepared once: channels checked, noise measured, harmonics of sinusoidal runs. Each method makes its own
-/// complete estimates of the prepared runs: regression in slip phases, friction law, third harmonic, constant
-/// velocities, least squares, and the output-error method. Frequency responses are corrected for friction, and rational
-/// models are fitted to them. A table then takes one method's whole solution for friction, inertia and coupling, and
-/// refuses what the data do not support.
-/// `progress` is called at the beginning of each stage.
+/// Runs are prepared once: channels are checked, noise is measured, harmonics of sinusoidal runs are computed. Each
+/// method computes its own complete estimates from the prepared runs: regression in slip phases, friction law, third
+/// harmonic, constant velocity, least squares, and output error. Frequency responses are corrected for friction, and
+/// rational models are fitted to them. Then a table chooses one method, whose complete solution gives friction, inertia
+/// and coupling, and refuses what the data do not support. `progress` is called at the beginning of each stage.
 ///
 /// ```
 /// # use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
@@ -104,7 +103,7 @@ pub enum Stage {
 /// `[Feliu1989, Sections 4 (step 6), 5 and 6.2.2]` for the third harmonic, the corrected responses and their models.
 ///
 /// # Errors
-/// [`IdentifyError`] if no run moves, or an option is no valid number. All else is reported by findings.
+/// [`IdentifyError`] if no run moves, or if an option is not valid. Everything else is reported by findings.
 pub fn identify(
     campaign: &Campaign,
     options: &Options,

@@ -1,4 +1,4 @@
-//! What runs say of an arm before they are identified, or made.
+//! Standard errors that runs can give, before they are identified or made.
 
 use nalgebra::DMatrix;
 
@@ -6,17 +6,18 @@ use super::{covariance, without_own};
 use crate::record::Campaign;
 use crate::replay::{Blocks, ModalArm, Parameter, Sampling, SensorNoise, Window, WindowSums, sums};
 
-/// Covariance that the best unbiased estimator of `parameters` has from these runs (the Cramér-Rao
-/// bound), the state at the start of each window and the zero of each tip unknown too.
+/// Covariance of the best unbiased estimator of `parameters` from these runs (the Cramér-Rao bound). The state at the
+/// start of each window and the zero of each tip count as unknown, too.
 ///
 /// ```text
 /// C = (Σ_w H_pp − H_pz·H_zz⁻¹·H_zp)⁻¹,   H = Σ (∂ŷ/∂(p, z))ᵀ·(∂ŷ/∂(p, z))/σ²
 /// ```
 ///
-/// p the parameters, z a window's own unknowns, ŷ what each sensor shows at each sample as the replay
-/// gives it, σ its [deviation](SensorNoise::deviation). `arm` and `windows` may be those that an
-/// [output error](crate::identify::OutputError) has found, or known beforehand. What the runs do not
-/// show at all has an infinite variance.
+/// p are the parameters, z the unknowns of a single window, ŷ the readings of each sensor at each sample as the replay
+/// predicts them, and σ the [standard deviation](SensorNoise::deviation) of their errors. `arm` and `windows` may be
+/// those that the [output-error method](crate::identify::OutputError) has found, or may be known in advance. A
+/// parameter that the runs do not determine has an infinite variance. Rows and columns are in the order of
+/// `parameters`, in SI units.
 ///
 /// # Source
 /// `[Pintelon2012]`, with the derivatives of [`replay`](crate::replay) through stick and slip.
@@ -34,7 +35,8 @@ pub fn expected_covariance(
     covariance(&all.fold(DMatrix::zeros(n, n), |sum, one| sum + one))
 }
 
-/// Information of each window after one, two, … stretches of `samples`.
+/// Fisher information of each window about `parameters` after one, two, … stretches of `samples` samples, without the
+/// unknowns of the window itself.
 pub fn growing_information(
     arm: &ModalArm,
     parameters: &[Parameter],

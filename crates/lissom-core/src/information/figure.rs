@@ -1,9 +1,9 @@
-//! The figures of an arm that a user asks for.
+//! The parameters of an arm for which a user can ask.
 
 use crate::information::thresholds::DAMPING_LEAST;
 use crate::replay::{ModalArm, Parameter};
 
-/// A figure of an arm that a user asks for.
+/// A parameter of an arm for which a user can ask. Modes are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Figure {
     /// Coulomb friction, mean of both directions.
@@ -14,12 +14,12 @@ pub enum Figure {
     Inertia,
     /// Coupling between motor and beam.
     Coupling,
-    /// Frequency of a mode, motor clamped.
+    /// Frequency of a mode with the motor clamped.
     Frequency(usize),
-    /// Damping 2ζω of a mode, of the kinds that it has: against the fixed frame, within the beam, at the
-    /// tips' points.
+    /// Damping 2ζω of a mode: all kinds that it has, against the fixed frame, within the beam,
+    /// and at the points of the tips.
     Damping(usize),
-    /// Offset of friction, half of its difference by direction.
+    /// Offset of friction: half the difference of forward and backward friction.
     Offset,
 }
 
@@ -36,7 +36,7 @@ impl Figure {
         all
     }
 
-    /// What it is called.
+    /// Name in results and messages.
     pub fn name(self) -> String {
         match self {
             Self::Coulomb => "Coulomb friction".to_owned(),
@@ -49,7 +49,7 @@ impl Figure {
         }
     }
 
-    /// Its value in SI.
+    /// Value for an arm, in SI units.
     pub fn value(self, arm: &ModalArm) -> f64 {
         match self {
             Self::Coulomb => arm.coulomb_nm,
@@ -62,8 +62,8 @@ impl Figure {
         }
     }
 
-    /// What its deviation is a share of: its value; of the offset Coulomb friction; of a mode that is
-    /// hardly damped 2ω/1000.
+    /// Reference for relative standard errors, in SI units: the value itself; for the offset, Coulomb friction; for the
+    /// damping of a mode with ζ below 1/1000, 2ω/1000.
     pub fn size(self, arm: &ModalArm) -> f64 {
         match self {
             Self::Offset => arm.coulomb_nm,

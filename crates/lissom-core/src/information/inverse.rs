@@ -1,4 +1,4 @@
-//! Inverses of information matrices, some of whose directions may be unknown.
+//! Inverses of information matrices in which some directions may be unknown.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -10,20 +10,20 @@ const SOUND: f64 = 1e-11;
 /// Pseudo-inverse of an information matrix.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inverse {
-    /// Zero along directions that are unknown.
+    /// The inverse; zero along unknown directions.
     pub matrix: DMatrix<f64>,
-    /// Parameters that take part in such a direction.
+    /// For each parameter, whether it takes part in an unknown direction.
     pub lost: Vec<bool>,
 }
 
-/// Inverse of a symmetric positive matrix, scaled to a diagonal of ones first; directions that it does
-/// not determine are left out.
+/// Inverse of a symmetric positive semidefinite matrix. The matrix is first scaled to a diagonal of ones; directions
+/// that it does not determine are left out.
 pub fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     inverted(matrix).matrix
 }
 
-/// R with `R·Rᵀ` the [`inverse`] of a symmetric positive matrix; a column for each direction, zero where
-/// it is unknown.
+/// A matrix R for which `R·Rᵀ` is the [`inverse`] of a symmetric positive semidefinite matrix. R has one column for
+/// each direction; the column is zero if the direction is unknown.
 pub fn inverse_root(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let (scale, scaled) = scaled(matrix);
     if !scaled.iter().all(|v| v.is_finite()) {
@@ -47,8 +47,8 @@ fn scaled(matrix: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
     (scale, scaled)
 }
 
-/// Inverse of an information matrix; a parameter that takes part in a direction which is unknown has an
-/// infinite variance.
+/// Covariance from an information matrix: its inverse, with an infinite variance for each parameter that takes part in
+/// an unknown direction.
 pub fn covariance(information: &DMatrix<f64>) -> DMatrix<f64> {
     let Inverse { mut matrix, lost } = inverted(information);
     for (i, _) in lost.iter().enumerate().filter(|(_, lost)| **lost) {
@@ -57,7 +57,7 @@ pub fn covariance(information: &DMatrix<f64>) -> DMatrix<f64> {
     matrix
 }
 
-/// The inverse that [`inverse`] gives, and which parameters it lost.
+/// The inverse as [`inverse`] computes it, and the parameters that take part in an unknown direction.
 pub fn inverted(matrix: &DMatrix<f64>) -> Inverse {
     let n = matrix.nrows();
     let (scale, scaled) = scaled(matrix);

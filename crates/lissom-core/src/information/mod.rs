@@ -1,8 +1,8 @@
-//! What logs say of an arm's parameters: Fisher information, its inverse, and what follows for figures.
+//! How precisely logs determine the parameters of an arm: Fisher information, its inverse, and standard errors.
 //!
-//! [`sums`] of a replay hold the products of its derivatives. A window's own unknowns (its initial state,
-//! the tips' zeros) are eliminated from them, what is left is added up over the windows and
-//! [inverted](inverse), and [`propagated`] turns the covariance into the deviation of any figure.
+//! [`sums`] of a replay contain the products of its derivatives. The unknowns that belong to a single window (its
+//! initial state and the zeros of the tips) are eliminated, the results are added over all windows and
+//! [inverted](inverse). [`propagated`] converts the covariance to the standard error of any function of the parameters.
 
 mod expected;
 mod figure;

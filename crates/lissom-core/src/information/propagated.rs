@@ -1,11 +1,11 @@
-//! Deviations of figures from the covariance of the parameters (delta method).
+//! Standard errors of functions of the parameters, from their covariance (delta method).
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::replay::{ModalArm, Parameter};
 
-/// A parameter of an arm moved by `step` to either side, by less where it would not stay positive though
-/// it is by nature; and the step.
+/// Two arms with a parameter changed by `step` in either direction, and the step. The step is smaller if a parameter
+/// that must be positive would otherwise not remain so.
 pub fn beside(arm: &ModalArm, parameter: Parameter, step: f64) -> (f64, [ModalArm; 2]) {
     let value = parameter.of(arm);
     let step = if parameter.is_scale() { step.min(0.5 * value.abs()) } else { step };
@@ -17,8 +17,8 @@ pub fn beside(arm: &ModalArm, parameter: Parameter, step: f64) -> (f64, [ModalAr
     (step, [moved(step), moved(-step)])
 }
 
-/// ∂figure/∂parameter of an arm, by differences over `share` of each parameter's deviation to either
-/// side; zero by a parameter without deviation.
+/// Derivatives ∂figure/∂parameter at an arm, by central differences over `share` of the standard error of each
+/// parameter in either direction; zero for a parameter with zero standard error.
 pub fn slopes(
     arm: &ModalArm,
     parameters: &[Parameter],
@@ -33,7 +33,7 @@ pub fn slopes(
     DVector::from_iterator(parameters.len(), parameters.iter().enumerate().map(slope))
 }
 
-/// √(gᵀ·C·g) of a figure with [`slopes`] g.
+/// Standard error √(gᵀ·C·g) of a function `figure` of the arm, with its [`slopes`] g and the covariance C.
 pub fn propagated(
     arm: &ModalArm,
     parameters: &[Parameter],
@@ -44,7 +44,7 @@ pub fn propagated(
     along(&slopes(arm, parameters, covariance, share, figure), covariance)
 }
 
-/// √(gᵀ·C·g): the deviation of what has the slopes g.
+/// Standard error √(gᵀ·C·g) of a quantity with the slopes g and the covariance C.
 pub fn along(slopes: &DVector<f64>, covariance: &DMatrix<f64>) -> f64 {
     slopes.dot(&(covariance * slopes)).max(0.0).sqrt()
 }

@@ -1,4 +1,4 @@
-//! Normal equations of one window, with its own unknowns eliminated.
+//! Normal equations of one window, with the unknowns of the window eliminated.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -8,22 +8,23 @@ use crate::replay::{Window, WindowSums};
 /// Where the motor's velocity stands among a window's own unknowns.
 const VELOCITY: usize = 1;
 
-/// `(H_pp − H_pz·H_zz⁻¹·H_zp)·δp = g_p − H_pz·H_zz⁻¹·g_z` of parameters p and the window's own z.
+/// Normal equations `(H_pp − H_pz·H_zz⁻¹·H_zp)·δp = g_p − H_pz·H_zz⁻¹·g_z` of the parameters p, with the unknowns z of
+/// one window eliminated.
 #[derive(Debug, Clone)]
 pub struct Reduced {
-    /// H_pp − H_pz·H_zz⁻¹·H_zp.
+    /// Matrix H_pp − H_pz·H_zz⁻¹·H_zp.
     pub normal: DMatrix<f64>,
-    /// g_p − H_pz·H_zz⁻¹·g_z.
+    /// Right side g_p − H_pz·H_zz⁻¹·g_z.
     pub right: DVector<f64>,
-    /// H_zz⁻¹·g_z.
+    /// H_zz⁻¹·g_z: change of z at constant p.
     pub own: DVector<f64>,
-    /// H_zz⁻¹·H_zp.
+    /// H_zz⁻¹·H_zp: change of z by p.
     pub by_shared: DMatrix<f64>,
 }
 
 impl Reduced {
-    /// Of sums whose first `shared` columns are the parameters, with the diagonal of H_zz raised by
-    /// `damping`.
+    /// Builds the equations from sums whose first `shared` columns are the parameters. The diagonal of H_zz is
+    /// increased by the share `damping`.
     pub fn new(sums: &WindowSums, shared: usize, damping: f64) -> Self {
         let size = sums.gram.ncols() - 1;
         let own = size - shared;
@@ -45,7 +46,8 @@ impl Reduced {
     }
 }
 
-/// Normal matrix and right side of the shared parameters, all windows' own unknowns eliminated.
+/// Normal matrix and right side for the shared parameters, summed over all windows, with the
+/// unknowns of each window eliminated.
 pub fn normal_equations(sums: &[WindowSums], shared: usize) -> (DMatrix<f64>, DVector<f64>) {
     let zero = (DMatrix::zeros(shared, shared), DVector::zeros(shared));
     sums.iter()
@@ -53,8 +55,8 @@ pub fn normal_equations(sums: &[WindowSums], shared: usize) -> (DMatrix<f64>, DV
         .fold(zero, |(normal, right), r| (normal + r.normal, right + r.right))
 }
 
-/// `H_pp − H_pz·H_zz⁻¹·H_zp` where the first `shared` rows and columns are p: what a window says of the
-/// parameters. A joint that sticks where it begins has no velocity to find.
+/// Information of one window about the parameters, `H_pp − H_pz·H_zz⁻¹·H_zp`; the first `shared` rows and columns of
+/// `gram` are p. If the joint sticks at the start of the window, its initial velocity is known to be zero.
 pub fn without_own(gram: &DMatrix<f64>, shared: usize, window: &Window) -> DMatrix<f64> {
     let stuck = window.start.get(1) == Some(&0.0);
     let own: Vec<usize> =

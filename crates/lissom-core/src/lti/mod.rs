@@ -1,4 +1,4 @@
-//! Linear models: transfer functions and state space.
+//! Linear time-invariant models: transfer functions and state spaces.
 
 pub(crate) mod first_root;
 mod polynomial;

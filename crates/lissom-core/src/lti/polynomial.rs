@@ -1,6 +1,6 @@
-//! Polynomials in s, coefficients in descending powers.
+//! Polynomials in s, with coefficients in descending powers.
 
-/// Product.
+/// Product of two polynomials, coefficients in descending powers.
 pub fn multiply(a: &[f64], b: &[f64]) -> Vec<f64> {
     if a.is_empty() || b.is_empty() {
         return Vec::new();
@@ -14,7 +14,7 @@ pub fn multiply(a: &[f64], b: &[f64]) -> Vec<f64> {
     out
 }
 
-/// Sum, aligned at the constant term.
+/// Sum of two polynomials, coefficients in descending powers; they are aligned at the constant term.
 pub fn add(a: &[f64], b: &[f64]) -> Vec<f64> {
     let (long, short) = if a.len() >= b.len() { (a, b) } else { (b, a) };
     let mut out = long.to_vec();

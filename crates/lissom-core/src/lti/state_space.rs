@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
-/// `ẋ = A·x + B·u`, `y = C·x + D·u`.
+/// A state space model, `ẋ = A·x + B·u`, `y = C·x + D·u`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StateSpace {
     /// A, n × n.
@@ -23,7 +23,7 @@ pub struct StateSpace {
 }
 
 impl StateSpace {
-    /// `C(jωI − A)⁻¹B + D`, outputs × inputs; `None` exactly on a pole.
+    /// Frequency response `C(jωI − A)⁻¹B + D` at ω \[rad/s\], outputs × inputs; `None` exactly on a pole.
     pub fn response(&self, omega_rad_s: f64) -> Option<DMatrix<Complex64>> {
         let n = self.a.nrows();
         let matrix = DMatrix::from_fn(n, n, |i, j| {

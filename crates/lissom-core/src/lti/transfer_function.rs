@@ -2,24 +2,24 @@
 
 use num_complex::Complex64;
 
-/// `num(s)/den(s)`, coefficients in descending powers of s.
+/// A rational transfer function, `num(s)/den(s)`, with coefficients in descending powers of s \[1/s\].
 #[derive(Debug, Clone, PartialEq)]
 pub struct TransferFunction {
-    /// Numerator.
+    /// Coefficients of the numerator.
     pub num: Vec<f64>,
-    /// Denominator.
+    /// Coefficients of the denominator.
     pub den: Vec<f64>,
 }
 
 impl TransferFunction {
-    /// Value at `s = jω`.
+    /// Frequency response: the value at `s = jω`, ω in rad/s.
     pub fn response(&self, omega_rad_s: f64) -> Complex64 {
         let s = Complex64::new(0.0, omega_rad_s);
         let value = |c: &[f64]| c.iter().fold(Complex64::ZERO, |sum, a| sum * s + a);
         value(&self.num) / value(&self.den)
     }
 
-    /// The same function with a leading denominator coefficient of one.
+    /// Returns the same function with a leading coefficient of one in the denominator.
     #[must_use]
     pub fn monic(&self) -> Self {
         let lead = self.den.first().copied().unwrap_or(1.0);

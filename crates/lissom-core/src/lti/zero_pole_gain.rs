@@ -1,22 +1,22 @@
-//! Transfer functions by their zeros, poles and gain.
+//! Transfer functions in terms of zeros, poles and gain.
 
 use num_complex::Complex64;
 
 use super::TransferFunction;
 
-/// `gain·Π(s − z)/Π(s − p)`.
+/// A transfer function in zero-pole-gain form, `gain·Π(s − z)/Π(s − p)`.
 ///
-/// The form that keeps its meaning at any order: coefficients of a polynomial of degree 100 in s
-/// say nothing about its roots in doubles.
+/// This form stays accurate at any order. Polynomial coefficients do not: at degree 100, coefficients in double
+/// precision no longer determine the roots.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ZeroPoleGain {
     /// Finite zeros \[1/s\].
     pub zeros: Vec<Complex64>,
     /// Poles \[1/s\].
     pub poles: Vec<Complex64>,
-    /// Ratio of the leading coefficients.
+    /// Ratio of the leading coefficients of numerator and denominator.
     pub gain: f64,
-    /// Zeros and poles that were not found: zero but for pathological models.
+    /// Number of zeros and poles that were not found; zero except for extreme models.
     pub missing: usize,
 }
 
@@ -24,18 +24,18 @@ pub struct ZeroPoleGain {
 const RIGHT: f64 = 1e-9;
 
 impl ZeroPoleGain {
-    /// No zero lies to the right of the imaginary axis; pairs on it count as minimum phase, as in
-    /// the report. False where zeros are missing.
+    /// Whether no zero lies to the right of the imaginary axis. Pairs on the axis count as minimum phase, as in the
+    /// 1989 report. False if zeros or poles are missing.
     pub fn minimum_phase(&self) -> bool {
         self.missing == 0 && self.zeros.iter().all(|z| z.re <= RIGHT * z.norm())
     }
 
-    /// Poles less zeros.
+    /// Number of poles minus number of zeros.
     pub fn relative_degree(&self) -> usize {
         self.poles.len().saturating_sub(self.zeros.len())
     }
 
-    /// Value at `s`.
+    /// Value at the complex frequency `s` \[1/s\].
     pub fn value(&self, s: Complex64) -> Complex64 {
         // Zeros and poles by turns: the product stays in range.
         let mut value = Complex64::from(self.gain);
@@ -50,8 +50,8 @@ impl ZeroPoleGain {
         value
     }
 
-    /// As polynomials in s, the denominator monic. `None` where a coefficient leaves the range of
-    /// a double or roots are missing.
+    /// Converts to polynomials in s, with a monic denominator. `None` if a coefficient is too large for a double, or if
+    /// zeros or poles are missing.
     pub fn transfer_function(&self) -> Option<TransferFunction> {
         if self.missing > 0 {
             return None;

@@ -1,4 +1,4 @@
-//! What one more run would say of an arm that logs have shown: motions as the motor would follow them.
+//! Information that one more run would add for an arm that has been identified from logs.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -11,17 +11,17 @@ use crate::record::{Campaign, Channels, Run, TimeBase, TipQuantity};
 use crate::replay::{ModalArm, Parameter, SensorNoise, Window};
 use crate::rig::Reference;
 
-/// Radians of the fastest mode in a step of its integration.
+/// Phase of the fastest mode in one step of the integration \[rad\].
 const STEP_RAD: f64 = 0.25;
-/// Step of differences for a reference's speed, as a share of the sample time.
+/// Step of the finite difference for the speed of a reference, as a share of the sample time.
 const DIFFERENCE: f64 = 1e-3;
 
-/// How far a further run may go.
+/// Limits of a further run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bounds {
     /// Largest torque \[N·m\].
     pub torque_nm: f64,
-    /// Largest angle of the motor from where it begins \[rad\].
+    /// Largest angle of the motor from its start \[rad\].
     pub travel_rad: f64,
     /// Largest deflection of each tip from the motor's line \[rad\].
     pub bend_rad: Vec<f64>,
@@ -29,10 +29,10 @@ pub struct Bounds {
     pub sample_time_s: f64,
 }
 
-/// A run that may be added, and what it would say.
+/// A run that can be added, with its information.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Addition {
-    /// What the motor is asked to do.
+    /// Reference motion of the motor.
     pub motion: PlannedMotion,
     /// Amplitude of the reference \[rad\].
     pub amplitude_rad: f64,
@@ -43,9 +43,8 @@ pub struct Addition {
 }
 
 impl Bounds {
-    /// Those that a campaign kept to: the largest travel of its motor, its current's limit less the
-    /// reserve of [`Wishes`] or the largest command that it used, and [`Wishes`]' bending or what its
-    /// tips bent. `None` of no runs.
+    /// Limits from a campaign: the largest travel of its motor; its current limit less the reserve of [`Wishes`], or its
+    /// largest command; and the bending of [`Wishes`], or the largest deflection of its tips. `None` without runs.
     pub fn of(campaign: &Campaign) -> Option<Self> {
         let channels = &campaign.channels;
         let wishes = Wishes::default();
@@ -74,18 +73,18 @@ impl Bounds {
     }
 }
 
-/// Half of the way from the lowest value to the highest.
+/// Half of the difference between the highest and the lowest value.
 fn half_range(values: impl Iterator<Item = f64>) -> f64 {
     let ends = (f64::INFINITY, f64::NEG_INFINITY);
     let (low, high) = values.fold(ends, |(low, high), v| (low.min(v), high.max(v)));
     if high > low { 0.5 * (high - low) } else { 0.0 }
 }
 
-/// Every motion that a plan would try, each as large as the bounds allow, with the information that the
-/// replay gives of it; none where friction has terms beside Coulomb's and the viscous one.
+/// All motions that a plan would try, each as large as the limits allow, with the information that the replay gives; empty
+/// if friction has more terms than Coulomb and viscous friction.
 ///
-/// The motor is taken to follow its reference: nothing is known of the controller. The torque that this
-/// takes, averaged over each sample, is what the replay is given.
+/// The motor is assumed to follow its reference exactly, because the controller is not known. The replay gets the torque
+/// that this needs, averaged over each sample.
 pub fn additions(
     arm: &ModalArm,
     parameters: &[Parameter],
@@ -100,14 +99,14 @@ pub fn additions(
         travel_rad: bounds.travel_rad,
         command_time_s: bounds.sample_time_s,
     };
-    // What overcomes these is no torque that grows with the amplitude beside one that does not.
+    // The torque against such terms is not a part that grows with the amplitude plus a constant part.
     if !arm.dry_terms.is_empty() {
         return Vec::new();
     }
     if !(bounds.travel_rad > 0.0 && bounds.torque_nm > constant_nm(arm)) {
         return Vec::new();
     }
-    // A sine's triple serves the third harmonic, and one draw of phases says what another would.
+    // The sine at three times the frequency is for the third harmonic only, and one draw of phases is as good as another.
     let first = |group: Vec<PlannedMotion>| group.into_iter().next();
     let motions = groups(&reach, false).into_iter().filter_map(first);
     let once =
@@ -135,12 +134,12 @@ fn load_nm(arm: &ModalArm) -> f64 {
     arm.gravity.map_or(0.0, |load| load.amplitude_nm())
 }
 
-/// Torque that does not grow with the amplitude, at most.
+/// Largest torque that does not grow with the amplitude.
 fn constant_nm(arm: &ModalArm) -> f64 {
     arm.coulomb_nm + arm.offset_nm.abs() + load_nm(arm)
 }
 
-/// A motor that follows a reference of amplitude one, and what that takes.
+/// A motor that follows a reference of amplitude one, with the torque that this needs.
 struct FollowedPlan {
     sample_time_s: f64,
     /// θ and θ̇ at the first sample.
@@ -204,7 +203,7 @@ impl FollowedPlan {
         Some(followed)
     }
 
-    /// The largest amplitude within the bounds.
+    /// The largest amplitude within the limits.
     fn largest(&self, arm: &ModalArm, bounds: &Bounds) -> f64 {
         let torque = self.linear_nm.iter().fold(0.0, |m: f64, t| m.max(t.abs()));
         let left_nm = bounds.torque_nm - constant_nm(arm);
@@ -213,7 +212,7 @@ impl FollowedPlan {
         (left_nm / torque).min(bounds.travel_rad / self.travel).min(bend)
     }
 
-    /// The run as a replay takes it: its command and, under gravity, its angle count.
+    /// The run in the form that the replay needs: only its command and, with gravity, its angle are used.
     fn record(
         &self,
         arm: &ModalArm,
@@ -266,7 +265,7 @@ impl Driven {
     }
 }
 
-/// The modes of the beam on such a motor.
+/// The modes of the beam on a motor that follows a reference.
 struct PlannedBeam<'a> {
     arm: &'a ModalArm,
     points: Option<DMatrix<f64>>,

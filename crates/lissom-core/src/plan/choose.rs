@@ -1,18 +1,18 @@
-//! Which of the runs, and how long: the least time that reaches the wishes.
+//! Chooses the runs and their lengths: the shortest total time that reaches the requested precision.
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::plan::thresholds::GAIN_LEAST;
 
-/// Information that is there without any run: a deviation of 100 times the scale of each parameter, so
-/// that what no run shows has one at all.
+/// Information before any run: a standard error of 100 times the scale of each parameter, so that it stays finite for a
+/// parameter that no run shows.
 const BEFORE: f64 = 1e-4;
-/// Steps at most, and rounds of exchanges.
+/// Largest number of steps.
 const STEPS: usize = 200;
-/// See [`STEPS`].
+/// Largest number of rounds of exchanges.
 const ROUNDS: usize = 20;
 
-/// Something to choose: information and time after one, two, … stretches.
+/// A run that can be chosen: information and time after one, two, … stretches.
 #[derive(Debug, Clone)]
 pub(super) struct Choice {
     pub(super) information: Vec<DMatrix<f64>>,
@@ -21,7 +21,7 @@ pub(super) struct Choice {
     pub(super) pair: bool,
 }
 
-/// What is to be reached: directions in the scaled parameters, and the deviation wanted along each.
+/// The goal: directions in the scaled parameters, and the requested standard error along each.
 #[derive(Debug, Clone)]
 pub(super) struct Goal {
     pub(super) wanted: Vec<(DVector<f64>, f64)>,
@@ -29,11 +29,11 @@ pub(super) struct Goal {
     pub(super) pair: bool,
 }
 
-/// How many stretches of each choice; zero leaves it out.
+/// Number of stretches of each choice; zero leaves it out.
 pub(super) type Chosen = Vec<usize>;
 
 impl Goal {
-    /// Deviation over the wanted one, of each figure.
+    /// Standard error of each parameter relative to the requested one.
     pub(super) fn ratios(&self, information: &DMatrix<f64>) -> Vec<f64> {
         let n = information.nrows();
         let with = information + DMatrix::identity(n, n) * BEFORE;
@@ -49,7 +49,7 @@ impl Goal {
         self.wanted.iter().map(ratio).collect()
     }
 
-    /// Sum of squares of the ratios, those that are reached counted as one.
+    /// Sum of squares of the ratios; ratios below one count as one.
     fn distance(&self, information: &DMatrix<f64>) -> f64 {
         self.ratios(information).iter().map(|r| r.max(1.0).powi(2)).sum()
     }
@@ -59,7 +59,7 @@ impl Goal {
     }
 }
 
-/// What all chosen runs say together.
+/// Information of all chosen runs together.
 pub(super) fn information(choices: &[Choice], chosen: &Chosen, size: usize) -> DMatrix<f64> {
     choices
         .iter()
@@ -73,9 +73,9 @@ pub(super) fn time_s(choices: &[Choice], chosen: &Chosen) -> f64 {
     choices.iter().zip(chosen).filter(|(_, k)| **k > 0).map(|(c, k)| c.time_s[k - 1]).sum()
 }
 
-/// One run or a stretch of one after another, each time what brings the wishes nearest for its time;
-/// then what became needless goes, and what does the same in less time takes its place. At last the same is
-/// tried without one of the chosen runs after another.
+/// Adds one run or stretch at a time, each time the one that comes closest to the goal for its time. Then runs that have
+/// become unnecessary are removed, and runs are exchanged for others that reach the same in less time. Finally the
+/// choice is repeated without each of the chosen runs in turn.
 pub(super) fn choose(choices: &[Choice], goal: &Goal) -> Chosen {
     let size = goal.wanted.first().map_or(0, |(along, _)| along.len());
     let search = MotionSearch { choices, goal, size, barred: None };
@@ -106,14 +106,14 @@ impl MotionSearch<'_> {
         information(self.choices, chosen, self.size)
     }
 
-    /// Whether a choice is allowed beside the wishes: in time, and with its pair.
+    /// Whether a choice meets the conditions other than precision: total time, and a pair of sines.
     fn fits(&self, chosen: &Chosen) -> bool {
         let pairs = self.choices.iter().zip(chosen).any(|(c, k)| c.pair && *k > 0);
         let needs = self.goal.pair && self.choices.iter().any(|c| c.pair);
         time_s(self.choices, chosen) <= self.goal.within_s && (pairs || !needs)
     }
 
-    /// The pair that says the most for its time.
+    /// The pair of sines with the most information for its time.
     fn best_pair(&self) -> Option<usize> {
         let none = self.goal.distance(&DMatrix::zeros(self.size, self.size));
         let worth = |c: &Choice| (none / self.goal.distance(&c.information[0])).ln() / c.time_s[0];
@@ -134,7 +134,7 @@ impl MotionSearch<'_> {
         }
     }
 
-    /// As good without one of the runs, in less time.
+    /// Removes a run if the choice is as good without it and takes less time.
     fn without_one(&self, chosen: &Chosen) -> Option<Chosen> {
         let now = self.goal.distance(&self.information(chosen));
         let time = time_s(self.choices, chosen);
@@ -207,7 +207,7 @@ impl MotionSearch<'_> {
         }
     }
 
-    /// Each chosen run, or its last stretches, against more of any other that takes less time.
+    /// Exchanges each chosen run, or its last stretches, for more of any other run if this takes less time.
     fn exchange(&self, chosen: &mut Chosen) {
         let now = self.goal.distance(&self.information(chosen));
         for i in 0..chosen.len() {

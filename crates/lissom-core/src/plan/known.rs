@@ -1,4 +1,4 @@
-//! A rig as a replay sees it: what is known beforehand of an arm, its channels and their noise.
+//! A rig in the form that the replay needs: the roughly known arm, its channels and their noise.
 
 use std::ops::Range;
 
@@ -13,24 +13,24 @@ use crate::replay::{
 };
 use crate::rig::{Logged, Rig, Sensor};
 
-/// Deviation of a sensor that has neither steps nor noise \[rad\].
+/// Standard deviation that is assumed for a sensor with neither steps nor noise \[rad\].
 const IDEAL_RAD: f64 = 1e-6;
 
-/// An arm that is roughly known, with what its sensors add.
+/// A roughly known arm with its sensors.
 #[derive(Debug, Clone)]
 pub(super) struct KnownRig<'a> {
-    /// As its motor feels it, modes that are too fast turning with the motor.
+    /// The arm; modes that are too fast for the log are assumed to turn with the motor.
     pub(super) arm: ModalArm,
     pub(super) channels: Channels,
-    /// What an identification has to find of the arm.
+    /// Parameters of the arm that the identification has to find.
     pub(super) parameters: Vec<Parameter>,
-    /// Gravity on a rigid joint, two unknowns more.
+    /// Gravity on a rigid joint, with two further unknowns.
     pub(super) gravity: Option<GravityLoad>,
-    /// Motor first, then tips.
+    /// Noise of each sensor, motor first, then tips.
     pub(super) noise: Vec<SensorNoise>,
-    /// Modes that are not followed \[rad/s\].
+    /// Frequencies of the modes that are left out \[rad/s\].
     pub(super) left_out_rad_s: Vec<f64>,
-    /// Whether some sensor has neither steps nor noise.
+    /// Whether a sensor has neither steps nor noise.
     pub(super) ideal_sensor: bool,
     /// Masses whose sensors count.
     tips: Range<usize>,
@@ -84,7 +84,7 @@ impl<'a> KnownRig<'a> {
         })
     }
 
-    /// Every unknown in the order of the information, its value and what one is of it.
+    /// Each unknown in the order of the information, with its value and its scale.
     pub(super) fn unknowns(&self) -> Vec<(PlannedUnknown, f64, f64)> {
         let of_arm = |p: &Parameter| (PlannedUnknown::Arm(*p), p.of(&self.arm), p.size(&self.arm));
         let mut all: Vec<_> = self.parameters.iter().map(of_arm).collect();
@@ -96,13 +96,13 @@ impl<'a> KnownRig<'a> {
         all
     }
 
-    /// Everything whose precision can be asked for.
+    /// All parameters whose precision can be requested.
     pub(super) fn figures(&self) -> Vec<PlannedFigure> {
         let of_arm = Figure::of(&self.arm).into_iter().map(PlannedFigure::Arm);
         of_arm.chain(self.gravity.map(|_| PlannedFigure::Gravity)).collect()
     }
 
-    /// Its value in SI.
+    /// Value of a parameter in SI.
     pub(super) fn value(&self, figure: PlannedFigure) -> f64 {
         match figure {
             PlannedFigure::Arm(figure) => figure.value(&self.arm),
@@ -110,7 +110,7 @@ impl<'a> KnownRig<'a> {
         }
     }
 
-    /// Its derivative by an unknown.
+    /// Derivative of a parameter with respect to an unknown.
     pub(super) fn slope(&self, figure: PlannedFigure, unknown: PlannedUnknown) -> f64 {
         let share = |of: fn(&GravityLoad) -> f64| {
             self.gravity.map_or(0.0, |load| of(&load) / load.amplitude_nm())
@@ -123,7 +123,7 @@ impl<'a> KnownRig<'a> {
         }
     }
 
-    /// A simulated run as the replay takes it: the current that acted, and the true start.
+    /// A simulated run in the form that the replay needs: the current that acted, and the true initial state.
     pub(super) fn record(&self, rig: &Rig, logged: &Logged) -> Option<(Campaign, Window)> {
         let run = &logged.run;
         // What the amplifier's dead zone swallows does not act.
@@ -150,7 +150,8 @@ fn tips(masses: usize, modes: usize) -> Range<usize> {
     }
 }
 
-/// What the output error frees of such an arm, with what it adds where the residual calls for it.
+/// Parameters of such an arm that the output-error method varies, including those that it adds only if the residual
+/// requires them.
 fn parameters(channels: &Channels, arm: &ModalArm) -> Vec<Parameter> {
     let mut free = free_parameters(channels, arm);
     let grounded = arm.modes.iter().enumerate().filter(|(_, m)| m.grounded_per_s > 0.0);
@@ -162,7 +163,7 @@ fn parameters(channels: &Channels, arm: &ModalArm) -> Vec<Parameter> {
 }
 
 impl Precision {
-    /// What is wanted of something that a plan may be asked for.
+    /// Requested precision of a parameter.
     pub(super) fn of_planned(&self, figure: PlannedFigure) -> f64 {
         match figure {
             PlannedFigure::Arm(figure) => self.of(figure),

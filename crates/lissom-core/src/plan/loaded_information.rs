@@ -1,4 +1,4 @@
-//! What a run says of a rigid joint with gravity, which is identified by regression in slip phases.
+//! Information of a run about a rigid joint with gravity, which is identified by regression in slip phases.
 
 use std::f64::consts::PI;
 
@@ -9,14 +9,14 @@ use crate::plan::thresholds::WINDOW_OF_SLIP;
 use crate::record::Run;
 use crate::replay::{ModalArm, Parameter, SensorNoise};
 
-/// Windows that begin within the length of one.
+/// Number of windows that begin within the length of one window.
 const OVERLAP: f64 = 4.0;
 /// Fewest samples of a window.
 const SAMPLES_LEAST: usize = 6;
 /// `w⁵·∫ψ″²` of the window `ψ(t) = 30/w·x²(1 − x)²`, x = t/w.
 const ROUGHNESS: f64 = 720.0;
 
-/// A rigid joint with gravity: what is known of it before the runs are made.
+/// A rigid joint with gravity, as roughly known before the runs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LoadedJoint<'a> {
     pub(super) arm: &'a ModalArm,
@@ -38,7 +38,7 @@ impl LoadedJoint<'_> {
     /// ```
     ///
     /// f are the derivatives of the torque by the unknowns, s the direction of motion, F_o the offset of friction, σ the
-    /// deviation of the motor's sensor and T the sample time; σ_τ is what the sensor's noise adds to the mean of J·θ̈. Each
+    /// standard deviation of the motor's sensor and T the sample time; σ_τ is the error of the mean of J·θ̈ due to σ. Each
     /// window counts once, however many overlap. Angle, speed and acceleration are those of a parabola through it.
     pub(super) fn growing(
         &self,
@@ -71,7 +71,7 @@ impl LoadedJoint<'_> {
         found
     }
 
-    /// Derivatives of the torque in the middle of a window; `None` where the motor does not surely slip one way.
+    /// Derivatives of the torque in the middle of a window; `None` if the direction of slip is not certain.
     fn row(&self, run: &Run, window: std::ops::Range<usize>) -> Option<DVector<f64>> {
         let sample_s = run.sample_time_s();
         let half_s = 0.5 * (window.len() - 1) as f64 * sample_s;
@@ -95,7 +95,7 @@ impl LoadedJoint<'_> {
     }
 }
 
-/// Value, slope and second derivative in the middle of samples, of the parabola with the least squares.
+/// Value, slope and second derivative of the least-squares parabola in the middle of the samples.
 fn parabola(values: &[f64], sample_s: f64) -> Option<[f64; 3]> {
     let half = 0.5 * (values.len() as f64 - 1.0);
     let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());

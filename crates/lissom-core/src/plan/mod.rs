@@ -1,15 +1,15 @@
-//! The runs worth making: from rough numbers of an arm, the campaign that gives the wanted precision in
-//! the least time.
+//! Plans a campaign: from rough parameters of an arm, the runs that give the requested precision in the shortest time.
 //!
-//! Motions are made as large as current, travel, bending and sensors allow by simulating them; what
-//! each of them says of every figure comes from the replay's exact derivatives; of all, those are
-//! chosen that reach the wanted deviations soonest.
+//! Each motion is simulated and made as large as current, travel, bending and sensors allow. The exact derivatives of the
+//! replay give its information on each parameter. Then the motions are chosen that reach the requested standard errors
+//! in the shortest time.
 
 mod addition;
 mod choose;
 mod known;
 mod loaded_information;
 mod note;
+mod plan_text;
 mod planned_figure;
 mod planned_motion;
 mod planner;
@@ -40,42 +40,45 @@ pub use sizing::Unfit;
 pub use table::{ReferenceTable, reference_table};
 pub use wish::{Kinds, Precision, Wishes};
 
-/// Sizes of a motion, as shares of the largest.
+/// Amplitudes of a motion that are tried, as shares of the largest.
 const SHARES: [f64; 2] = [1.0, 0.4];
-/// Time from one run to the next: the arm goes back to its start \[s\].
+/// Time between two runs, in which the arm returns to its start \[s\].
 pub const BETWEEN_S: f64 = 5.0;
-/// Most numbers that one simulation goes through, samples times states: a fraction of a second, as there
-/// are some hundred.
+/// Largest size of one simulation, samples times states: about a hundred simulations are made, each in a fraction of a
+/// second.
 const WORK_MOST: f64 = 2e6;
 
-/// Why there is no plan.
+/// Error of [`plan`].
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// The beam has no modes that can be told apart.
-    #[error("the beam of {masses} masses has no distinct modes to plan for")]
+    /// The modes of the beam cannot be separated.
+    #[error(
+        "the modes of the beam of {masses} masses cannot be separated, so there is nothing to plan for"
+    )]
     Modes {
-        /// Its masses.
+        /// Masses of the beam.
         masses: usize,
     },
-    /// Gravity on an arm with a beam.
-    #[error("gravity is planned for a rigid joint, and this arm has a beam of {masses} masses")]
+    /// Gravity acts on an arm with a beam.
+    #[error(
+        "gravity can be planned for a rigid joint only, but this arm has a beam of {masses} masses"
+    )]
     GravityOnBeam {
-        /// Its masses.
+        /// Masses of the beam.
         masses: usize,
     },
-    /// A wish that makes no sense.
-    #[error("{quantity} = {found} is not positive and finite")]
+    /// A wish is not a positive, finite number.
+    #[error("{quantity} is {found}, but must be positive and finite")]
     Wish {
-        /// Which.
+        /// Name of the wish.
         quantity: &'static str,
-        /// What was found.
+        /// Its value.
         found: f64,
     },
     /// Simulations would take too long.
     #[error(
-        "a run of {record_s:.1} s has {samples:.1e} samples of {states} states: too many to try \
-         dozens of them"
+        "a run of {record_s:.1} s has {samples:.1e} samples of {states} states: too many to try dozens of such runs"
     )]
     TooMuch {
         /// Time of the run \[s\].
@@ -85,10 +88,10 @@ pub enum PlanError {
         /// States of the arm.
         states: usize,
     },
-    /// The arm is far faster than its sampling.
+    /// The arm changes far faster than the sample time.
     #[error(
         "the arm's state changes at up to {rate_per_s:.1e} 1/s, thousands of times within a sample of \
-         {sample_time_s} s: some number is off by orders of magnitude"
+         {sample_time_s} s: a parameter is wrong by orders of magnitude"
     )]
     TooFast {
         /// Bound on the rates of its state matrix \[1/s\].
@@ -96,116 +99,120 @@ pub enum PlanError {
         /// Time between two samples \[s\].
         sample_time_s: f64,
     },
-    /// No motion is of any use.
-    #[error("none of {tried} motions is of use: {}", reasons.join("; "))]
+    /// No motion can be used.
+    #[error("none of {tried} motions can be used: {}", reasons.join("; "))]
     NoMotion {
         /// Motions tried.
         tried: usize,
-        /// How many failed for what.
+        /// Reasons, each with the number of motions.
         reasons: Vec<String>,
     },
     /// The time is too short for any run.
     #[error("no run fits within {within_s} s; the shortest takes {shortest_s:.1} s")]
     NoTime {
-        /// The time given \[s\].
+        /// Time allowed \[s\].
         within_s: f64,
-        /// What is needed at least \[s\].
+        /// Time of the shortest run \[s\].
         shortest_s: f64,
     },
 }
 
-/// A run that is worth making.
+/// A run of a plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlannedRun {
-    /// What the motor is asked to do.
+    /// Reference motion of the motor.
     pub motion: PlannedMotion,
     /// Amplitude of the reference \[rad\].
     pub amplitude_rad: f64,
     /// Time logged \[s\].
     pub record_s: f64,
-    /// Time before, in which the transient goes \[s\].
+    /// Waiting time before the log begins, in which the transient decays \[s\].
     pub waited_s: f64,
     /// Largest current expected \[A\].
     pub peak_current_a: f64,
-    /// Half of the motor's way \[rad\].
+    /// Half of the motor's travel \[rad\].
     pub moved_rad: f64,
-    /// Part of the record in which the joint sticks.
+    /// Share of the record in which the joint sticks.
     pub stuck_share: f64,
-    /// Whether it is made for a pair: a sine or its triple.
+    /// Whether it belongs to a pair of sines at a frequency and three times that frequency.
     pub paired: bool,
-    /// Why it is there: the figure that would be furthest from what is wanted of it without it (without
-    /// both of a pair), and its relative deviation then. `None` where all wishes would come true.
+    /// Reason for the run: the parameter that would miss its requested precision most without it (without both runs of a
+    /// pair), and its relative standard error in this case. `None` if all requested precisions would still be reached.
     pub without: Option<(PlannedFigure, f64)>,
 }
 
 impl PlannedRun {
-    /// Why it is there.
+    /// Reason for the run, in words.
     pub fn in_words(&self) -> String {
         let it = if self.paired { "this pair" } else { "it" };
         match self.without {
             None if self.paired => "for the third-harmonic method".to_owned(),
-            None => "no wish needs it alone".to_owned(),
+            None => "the requested precision does not depend on this run alone".to_owned(),
             Some((figure, std)) if std >= 1.0 => {
-                format!("without {it} {} is not found", figure.name())
+                format!("without {it}, {} cannot be identified", figure.name())
             }
             Some((figure, std)) => {
-                format!("without {it} {} is known to {} only", figure.name(), percent(std))
+                format!(
+                    "without {it}, the standard error of {} would be {}",
+                    figure.name(),
+                    percent(std)
+                )
             }
         }
     }
 }
 
-/// A share with two digits, such as `0.12 %`.
+/// A share in percent with two digits, such as `0.12 %`.
 pub fn percent(share: f64) -> String {
     let size = 100.0 * share;
     let digits = (1.0 - size.abs().log10().floor()).clamp(0.0, 9.0);
     format!("{size:.*} %", digits as usize)
 }
 
-/// What a plan gives of one figure.
+/// Expected precision of one parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expected {
-    /// The figure.
+    /// The parameter.
     pub figure: PlannedFigure,
-    /// Its value as far as it is known \[SI\].
+    /// Its rough value \[SI\].
     pub value: f64,
-    /// Standard deviation expected, relative.
+    /// Expected standard error, relative.
     pub std: f64,
-    /// What was wanted.
+    /// Requested standard error, relative.
     pub wanted: f64,
 }
 
-/// A campaign worth making.
+/// A planned campaign.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     /// Its runs.
     pub runs: Vec<PlannedRun>,
-    /// What it gives.
+    /// Expected precision of each parameter.
     pub expected: Vec<Expected>,
-    /// Every parameter that an identification has to find, its value and standard deviation \[SI\]; an
-    /// infinite one where no run shows it.
+    /// Each unknown of the identification with its value and expected standard error \[SI\], which is infinite if no run
+    /// shows the unknown.
     pub parameters: Vec<(PlannedUnknown, f64, f64)>,
-    /// Time of all runs, with waiting and the way back to the start \[s\].
+    /// Time of all runs, including waiting and the return to the start \[s\].
     pub time_s: f64,
-    /// What a user should know.
+    /// Notes: wishes that are not met, and assumptions.
     pub notes: Vec<PlanNote>,
-    /// Longest that a run waits for its transient \[s\].
+    /// Longest time that a run waits for its transient to decay \[s\].
     pub longest_wait_s: f64,
 }
 
-/// A motion that fits, and what it says.
+/// A motion within the limits, with its information.
 struct Candidate {
     run: PlannedRun,
     speed_rad_s: f64,
-    /// After one, two, … stretches.
+    /// Information after one, two, … stretches.
     information: Vec<DMatrix<f64>>,
 }
 
-/// The campaign that gives the wanted precision in the least time, by simulations of a rig whose numbers
-/// may be rough. `progress` is called with the motions tried and all of them.
+/// Finds the campaign that gives the requested precision in the shortest time, by simulating a rig with rough parameters.
+/// `progress` is called with the number of motions tried and the number of all motions.
 ///
-/// The joint has Coulomb friction alone and the tip is free, whatever the rig's [`Scene`]. Gravity of a rigid joint's
-/// load is counted: motions are simulated with it, and g_s and g_c are two unknowns more.
+/// Friction terms beyond Coulomb and viscous friction and the world at the tip (see [`Scene`]) are left out. Gravity of a
+/// rigid joint's load is included: motions are simulated with it, and g_s and g_c are two further unknowns.
 ///
 /// # Errors
 /// [`PlanError`].
@@ -260,17 +267,17 @@ fn check(wishes: &Wishes) -> Result<(), PlanError> {
     let p = wishes.precision;
     let reserve = 1.0 - wishes.current_reserve;
     for (quantity, found) in [
-        ("the wanted deviation of Coulomb friction", p.coulomb),
-        ("the wanted deviation of viscous friction", p.viscous),
-        ("the wanted deviation of the inertia", p.inertia),
-        ("the wanted deviation of the coupling", p.coupling),
-        ("the wanted deviation of the frequencies", p.frequency),
-        ("the wanted deviation of damping", p.damping),
-        ("the wanted deviation of gravity", p.gravity),
+        ("the requested standard error of Coulomb friction", p.coulomb),
+        ("the requested standard error of viscous friction", p.viscous),
+        ("the requested standard error of inertia", p.inertia),
+        ("the requested standard error of coupling", p.coupling),
+        ("the requested standard error of the frequencies", p.frequency),
+        ("the requested standard error of damping", p.damping),
+        ("the requested standard error of gravity", p.gravity),
         ("the time of all runs", wishes.within_s),
-        ("the travel", wishes.travel_rad),
-        ("the bending", wishes.bend_rad),
-        ("the current not in reserve", reserve),
+        ("the allowed travel", wishes.travel_rad),
+        ("the allowed bending", wishes.bend_rad),
+        ("the share of the current without the reserve", reserve),
     ] {
         if !(found > 0.0 && found.is_finite()) {
             return Err(PlanError::Wish { quantity, found });
@@ -279,7 +286,7 @@ fn check(wishes: &Wishes) -> Result<(), PlanError> {
     Ok(())
 }
 
-/// The longest wait that keeps a simulation short enough.
+/// The longest wait for which a simulation is still short enough.
 fn longest_wait_s(rig: &Rig, wishes: &Wishes, all: &[Group]) -> Result<f64, PlanError> {
     let record = |m: &PlannedMotion| m.stretch_s() * m.stretches() as f64;
     let record_s = all.iter().flatten().map(record).fold(0.0, f64::max);
@@ -334,7 +341,7 @@ fn candidate(
     })
 }
 
-/// Largest speed over some samples: over one, the sensor's steps would be the fastest.
+/// Largest speed, averaged over several samples: over one sample the sensor's steps would dominate.
 fn speed_rad_s(run: &crate::record::Run) -> f64 {
     let reach = (run.len() / 50).clamp(1, 10);
     let moved = run.motor().windows(reach + 1).map(|w| (w[reach] - w[0]).abs());

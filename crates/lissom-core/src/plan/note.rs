@@ -1,4 +1,4 @@
-//! What a user should know of a plan.
+//! Notes of a plan: wishes that are not met, and what the plan does not contain.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -8,47 +8,47 @@ use super::sizing::Unfit;
 use super::{Candidate, Expected, Figure, PlannedFigure, percent};
 use crate::rig::{JointFriction, Rig};
 
-/// Something that a user should know of a plan.
+/// A note of a plan.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum PlanNote {
-    /// A wish that the time does not allow.
+    /// A requested precision that is not reached within the time.
     Unreached {
-        /// What is expected.
+        /// The parameter, with the expected and the requested precision.
         expected: Expected,
-        /// The time given \[s\].
+        /// Time allowed \[s\].
         within_s: f64,
-        /// Time in which more of the same runs would do \[s\].
+        /// Time in which more of the same runs would reach the precision \[s\].
         needed_s: f64,
-        /// Share of the largest torque, of a friction.
+        /// For friction and gravity: its torque relative to the largest torque.
         torque_share: Option<f64>,
     },
-    /// Modes that are too fast for the log, or carry too little to be seen.
+    /// Modes that are not planned for, because they are too fast for the log or act too little on the motor.
     LeftOut {
         /// Their frequencies \[rad/s\].
         omega_rad_s: Vec<f64>,
     },
-    /// A sensor without steps and noise.
+    /// A sensor has neither steps nor noise.
     IdealSensor,
-    /// No sine and its triple fits.
+    /// No pair of sines at a frequency and three times that frequency is in the plan.
     NoPair,
-    /// Steady sines alone on a beam that is damped.
+    /// The plan for a damped beam contains only steady sines.
     SinesAlone,
-    /// Motions of no use.
+    /// Motions that were dropped.
     Unfit {
-        /// Why.
+        /// The reason.
         reason: Unfit,
-        /// How many.
+        /// Number of motions.
         motions: usize,
     },
-    /// Friction that is not Coulomb's, or a world at the tip.
+    /// The rig has further friction terms, or something acts on its tip: the plan does not contain these.
     SceneLeftOut,
-    /// A load with gravity, for which the standard errors of the regression are planned.
+    /// Gravity acts on the load: the expected standard errors are those of the regression.
     GravityByRegression,
 }
 
 impl PlanNote {
-    /// A name for programs.
+    /// Stable name, for programs.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Unreached { .. } => "unreached",
@@ -62,7 +62,7 @@ impl PlanNote {
         }
     }
 
-    /// Whether a wish is not met, or what is expected may not come.
+    /// Whether a wish is not met, or an expected standard error may be too small.
     pub fn is_warning(&self) -> bool {
         matches!(self, Self::Unreached { .. } | Self::NoPair | Self::SinesAlone)
     }
@@ -74,11 +74,15 @@ impl fmt::Display for PlanNote {
             Self::Unreached { expected, within_s, needed_s, torque_share } => {
                 let name = expected.figure.name();
                 if expected.std >= 1.0 {
-                    write!(f, "{name}: not to be found within {within_s} s by any motion tried")?;
+                    write!(
+                        f,
+                        "{name} cannot be identified within {within_s} s by any motion tried"
+                    )?;
                 } else {
                     write!(
                         f,
-                        "{name}: {} at best within {within_s} s, {} was wanted; it would take about {}",
+                        "the standard error of {name} is at best {} within {within_s} s, but {} was requested; that would take \
+                         about {}",
                         percent(expected.std),
                         percent(expected.wanted),
                         duration(*needed_s)
@@ -89,48 +93,50 @@ impl fmt::Display for PlanNote {
                     PlannedFigure::Arm(Figure::Viscous) => " at the highest speed",
                     _ => "",
                 };
-                write!(f, "; it is {} of the largest torque{where_at}", percent(*share))
+                write!(f, "; its torque is {} of the largest torque{where_at}", percent(*share))
             }
             Self::LeftOut { omega_rad_s } => {
                 let all: Vec<String> = omega_rad_s.iter().map(|w| format!("{w:.4}")).collect();
                 write!(
                     f,
-                    "modes taken to turn with the motor, too fast for the log or too light: {} rad/s",
+                    "modes at {} rad/s are too fast for the log, or too light: the plan assumes that they turn with the \
+                     motor",
                     all.join(", ")
                 )
             }
             Self::IdealSensor => write!(
                 f,
-                "a sensor has neither steps nor noise: it is taken to be off by 1e-6 rad; give \
-                 motor_sensor and tip_sensors in [rig]"
+                "a sensor has neither steps nor noise: the plan assumes an error of 1 µrad; give motor_sensor and tip_sensors \
+                 in [rig]"
             ),
             Self::NoPair => write!(
                 f,
-                "no sine with its triple fits: the third-harmonic method will have no figure"
+                "the plan has no sine together with one at three times its frequency: the third-harmonic method will give no \
+                 estimate"
             ),
             Self::SinesAlone => write!(
                 f,
-                "steady sines alone hardly show which kind of damping a mode has: errors may be many \
-                 times the deviations expected; a sweep beside them tells"
+                "steady sines alone hardly show which kind of damping a mode has: errors may be many times the expected \
+                 standard errors; add a sweep"
             ),
             Self::Unfit { reason, motions } => {
-                write!(f, "{motions} motions were dropped: they {reason}")
+                write!(f, "motions dropped because they {reason}: {motions}")
             }
             Self::SceneLeftOut => write!(
                 f,
-                "planned for Coulomb friction alone and a free tip: rest, ripple, bristles and [tip] \
-                 are left out"
+                "the plan assumes Coulomb and viscous friction only, and a free tip: friction near rest, ripple, bristles and \
+                 [tip] are not in it"
             ),
             Self::GravityByRegression => write!(
                 f,
-                "with a load of gravity the expected standard errors are those of the regression, and may be off by a \
-                 factor of up to four; where the output error describes the runs, its own are smaller"
+                "with gravity the expected standard errors are those of the regression, and may be wrong by a factor of up to \
+                 four; if the output-error method describes the runs, its standard errors are smaller"
             ),
         }
     }
 }
 
-/// Time in words.
+/// A time with its unit.
 fn duration(time_s: f64) -> String {
     match time_s {
         t if t < 180.0 => format!("{t:.0} s"),
@@ -140,7 +146,7 @@ fn duration(time_s: f64) -> String {
     }
 }
 
-/// What of the rig is not planned with.
+/// Notes about parts of the rig that the plan does not contain or assumes.
 pub(super) fn of_rig(rig: &Rig, known: &KnownRig<'_>) -> Vec<PlanNote> {
     let mut notes = Vec::new();
     let scene = &rig.scene;
@@ -159,7 +165,7 @@ pub(super) fn of_rig(rig: &Rig, known: &KnownRig<'_>) -> Vec<PlanNote> {
     notes
 }
 
-/// How many sets of motions were of no use, by reason.
+/// Number of dropped sets of motions, by reason.
 pub(super) fn reasons(found: &[Result<Vec<Candidate>, Unfit>]) -> BTreeMap<Unfit, usize> {
     let mut counts = BTreeMap::new();
     for unfit in found.iter().filter_map(|f| f.as_ref().err()) {
@@ -168,7 +174,7 @@ pub(super) fn reasons(found: &[Result<Vec<Candidate>, Unfit>]) -> BTreeMap<Unfit
     counts
 }
 
-/// The same as notes.
+/// Notes about dropped motions.
 pub(super) fn of_unfit(found: &[Result<Vec<Candidate>, Unfit>]) -> Vec<PlanNote> {
     let note = |(reason, motions)| PlanNote::Unfit { reason, motions };
     reasons(found).into_iter().map(note).collect()

@@ -1,20 +1,20 @@
-//! What a plan may be asked to find.
+//! Parameters that a plan can be asked for.
 
 use crate::information::Figure;
 use crate::replay::Parameter;
 
-/// Something whose precision can be asked for.
+/// A parameter whose precision can be requested.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PlannedFigure {
-    /// Of the arm.
+    /// A parameter of the arm.
     Arm(Figure),
     /// m·g·l, the amplitude of gravity.
     Gravity,
 }
 
 impl PlannedFigure {
-    /// What it is called.
+    /// Name in texts.
     pub fn name(self) -> String {
         match self {
             Self::Arm(figure) => figure.name(),
@@ -23,7 +23,7 @@ impl PlannedFigure {
     }
 }
 
-/// Something that an identification has to find.
+/// An unknown of the identification.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PlannedUnknown {
@@ -36,7 +36,7 @@ pub enum PlannedUnknown {
 }
 
 impl PlannedUnknown {
-    /// Its name in results.
+    /// Name in results.
     pub fn name(self) -> String {
         match self {
             Self::Arm(parameter) => parameter.name(),

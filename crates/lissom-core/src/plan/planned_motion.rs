@@ -9,7 +9,7 @@ use crate::plan::thresholds::{
 use crate::replay::ModalArm;
 use crate::rig::{Drive, Experiment, Multisine, Reference, RigError, Settle, Sweep};
 
-/// Sines tried, each with its triple.
+/// Number of sines tried, each with a sine at three times its frequency.
 const SINES: usize = 14;
 /// Seeds of multisines' phases.
 const PHASES: u64 = 3;
@@ -18,36 +18,36 @@ const SWEEPS_S: [f64; 3] = [10.0, 20.0, 40.0];
 /// The band where neither beam nor current says one \[rad/s\].
 const BAND_RAD_S: (f64, f64) = (1.0, 30.0);
 
-/// What the motor is asked to do, but for its size.
+/// Reference motion of the motor, without its amplitude.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PlannedMotion {
     /// A sine of this frequency \[rad/s\].
     Sine {
-        /// ω0.
+        /// Frequency ω0 \[rad/s\].
         omega_rad_s: f64,
     },
     /// Odd multiples of a frequency up to another \[rad/s\].
     Multisine {
-        /// The lowest line.
+        /// Frequency of the lowest line \[rad/s\].
         omega_rad_s: f64,
-        /// No line is higher.
+        /// Upper limit of the lines \[rad/s\].
         to_rad_s: f64,
         /// Seed of the phases.
         phases: u64,
     },
     /// A logarithmic sweep from one frequency to another \[rad/s\].
     Chirp {
-        /// At its start.
+        /// Frequency at its start \[rad/s\].
         from_rad_s: f64,
-        /// At its end.
+        /// Frequency at its end \[rad/s\].
         to_rad_s: f64,
-        /// How long it takes \[s\].
+        /// Duration \[s\].
         sweep_s: f64,
     },
 }
 
 impl PlannedMotion {
-    /// Records come in multiples of this \[s\].
+    /// Length of a stretch; a record is a whole number of stretches \[s\].
     pub fn stretch_s(&self) -> f64 {
         let whole = |omega_rad_s: f64, periods: f64| {
             let period_s = TAU / omega_rad_s;
@@ -68,7 +68,7 @@ impl PlannedMotion {
         }
     }
 
-    /// Most such multiples.
+    /// Largest number of stretches.
     pub(super) fn stretches(&self) -> usize {
         match self {
             Self::Sine { .. } | Self::Multisine { .. } => 4,
@@ -89,7 +89,7 @@ impl PlannedMotion {
     /// The motion as a signal.
     ///
     /// # Errors
-    /// [`RigError`] where the numbers make none.
+    /// [`RigError`] if the numbers are not valid.
     pub fn reference(&self, amplitude_rad: f64) -> Result<Reference, RigError> {
         match *self {
             Self::Sine { omega_rad_s } => Reference::sine(omega_rad_s, amplitude_rad),
@@ -104,11 +104,11 @@ impl PlannedMotion {
         }
     }
 
-    /// The experiment: sines wait for their transient to go, at most `longest_s`; all else begins at
-    /// once.
+    /// The experiment. Sines wait until their transient has decayed, at most `longest_s`; other motions are logged from
+    /// the start.
     ///
     /// # Errors
-    /// [`RigError`] where the numbers make none.
+    /// [`RigError`] if the numbers are not valid.
     pub fn experiment(
         &self,
         amplitude_rad: f64,
@@ -126,10 +126,10 @@ impl PlannedMotion {
     }
 }
 
-/// Motions that are made together or not at all: a sine with its triple, or one alone.
+/// Motions that are chosen together: a sine with one at three times its frequency, or a single motion.
 pub(super) type Group = Vec<PlannedMotion>;
 
-/// What bounds the frequencies worth driving.
+/// Limits of the frequencies that are useful to drive.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reach<'a> {
     pub(super) arm: &'a ModalArm,
@@ -137,13 +137,13 @@ pub(super) struct Reach<'a> {
     pub(super) torque_nm: f64,
     /// Largest torque of gravity \[N·m\].
     pub(super) load_nm: f64,
-    /// Largest angle from where the motor begins \[rad\].
+    /// Largest angle of the motor from its start \[rad\].
     pub(super) travel_rad: f64,
     /// Time between two commands \[s\].
     pub(super) command_time_s: f64,
 }
 
-/// All that a plan may choose from.
+/// All motions that a plan can choose from.
 pub(super) fn groups(reach: &Reach<'_>, sines_alone: bool) -> Vec<Group> {
     let (low, high) = band(reach);
     let mut found: Vec<Group> = steps(low, high, SINES)
@@ -167,8 +167,8 @@ pub(super) fn groups(reach: &Reach<'_>, sines_alone: bool) -> Vec<Group> {
     found
 }
 
-/// A sine with its triple. One whose triple cannot be driven goes alone; one whose triple meets a mode
-/// is none.
+/// A sine with one at three times its frequency. If that cannot be driven, the sine is tried alone; if that is near a
+/// mode, the sine is not tried.
 fn sine(arm: &ModalArm, omega_rad_s: f64, high: f64) -> Option<Group> {
     let triple = exactly(3.0 * omega_rad_s);
     let one = PlannedMotion::Sine { omega_rad_s };
@@ -181,7 +181,7 @@ fn sine(arm: &ModalArm, omega_rad_s: f64, high: f64) -> Option<Group> {
     }
 }
 
-/// Whether a frequency is off every lightly damped mode.
+/// Whether a frequency is away from all lightly damped modes.
 fn is_clear(arm: &ModalArm, omega_rad_s: f64) -> bool {
     let ratios = arm.damping_ratios();
     arm.modes.iter().zip(ratios).all(|(mode, ratio)| {
@@ -215,7 +215,7 @@ fn steps(low: f64, high: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| rounded(low * ratio.powf(k as f64))).collect()
 }
 
-/// To three digits: what a plan says is what was tried.
+/// Rounds to three digits, so that the printed plan is exactly the one that was simulated.
 pub(super) fn rounded(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }

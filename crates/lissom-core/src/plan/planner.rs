@@ -1,4 +1,4 @@
-//! From motions that fit to a plan: what there is to choose from, and what the choice gives.
+//! From motions within the limits to a plan: the choices, the goal, and the expected precision.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,16 +11,16 @@ use super::{
 use crate::information::covariance;
 use crate::rig::Rig;
 
-/// What there is to choose from, and what is to be reached.
+/// The choices and the goal of a plan.
 pub(super) struct Planner<'a> {
     known: &'a KnownRig<'a>,
     rig: &'a Rig,
     wishes: &'a Wishes,
-    /// Motions made together.
+    /// Motions that are chosen together.
     sets: Vec<&'a Vec<Candidate>>,
     pub(super) choices: Vec<Choice>,
     pub(super) goal: Goal,
-    /// What one is of each parameter, in which information is counted.
+    /// Scale of each parameter in the information.
     scale: DVector<f64>,
 }
 
@@ -104,8 +104,8 @@ impl<'a> Planner<'a> {
         Plan { runs, expected, parameters, time_s, notes, longest_wait_s }
     }
 
-    /// The figure that is furthest from what is wanted of it without a part of the information; `None`
-    /// where all wishes would come true.
+    /// The parameter that misses its requested precision most without a part of the information; `None` if all requested
+    /// precisions would still be reached.
     fn without(
         &self,
         total: &DMatrix<f64>,
@@ -118,7 +118,7 @@ impl<'a> Planner<'a> {
         worst.map(|(e, ratio)| (e.figure, ratio * e.wanted))
     }
 
-    /// Wishes that the time does not allow, with what stands in the way.
+    /// Notes about requested precisions that are not reached within the time.
     fn unreached(&self, chosen: &Chosen, expected: &[Expected], time_s: f64) -> Vec<PlanNote> {
         let used = || {
             let sets = self.sets.iter().zip(chosen).filter(|(_, k)| **k > 0);
@@ -147,7 +147,7 @@ impl<'a> Planner<'a> {
     }
 }
 
-/// Information and times of motions that are made together.
+/// Information and times of motions that are chosen together.
 fn choice(set: &[Candidate], scale: &DVector<f64>) -> Choice {
     let stretches = set.iter().map(|c| c.information.len()).min().unwrap_or(0);
     let size = scale.len();
@@ -169,7 +169,7 @@ fn choice(set: &[Candidate], scale: &DVector<f64>) -> Choice {
     }
 }
 
-/// Sines first, then all else, by their lowest frequency.
+/// Sort key: sines first, then multisines, then sweeps, each by its lowest frequency.
 fn order(motion: &PlannedMotion) -> f64 {
     match *motion {
         PlannedMotion::Sine { omega_rad_s } => omega_rad_s,

@@ -14,18 +14,18 @@ const BELOW: f64 = 0.97;
 /// See [`BELOW`].
 const LEAST_STEP: f64 = 0.2;
 
-/// Why a motion is of no use.
+/// Reason why a motion is dropped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Unfit {
-    /// The joint sticks for more than 15 % of the time as large as it may be.
+    /// The joint sticks for more than 15 % of the time, even at the largest amplitude allowed.
     Sticks,
-    /// The motor moves by less than 20 steps of its sensor as large as it may be.
+    /// The motor moves by less than 20 steps of its sensor, even at the largest amplitude allowed.
     TooSmall,
-    /// The transient does not go in the time allowed.
+    /// The transient does not decay within the longest wait.
     Unsettled,
-    /// It cannot be made small enough for current, travel and bending.
+    /// It exceeds the limits of current, travel or bending, even at the smallest amplitude tried.
     TooLarge,
-    /// The rig cannot do it.
+    /// The rig cannot simulate it.
     Impossible,
 }
 
@@ -34,9 +34,9 @@ impl fmt::Display for Unfit {
         f.write_str(match self {
             Self::Sticks => "stick for more than 15 % of the time",
             Self::TooSmall => "move the motor by less than 20 steps of its sensor",
-            Self::Unsettled => "keep a transient for longer than may be waited",
-            Self::TooLarge => "exceed current, travel or bending however small they are",
-            Self::Impossible => "cannot be done by this rig",
+            Self::Unsettled => "have a transient that lasts longer than the longest wait",
+            Self::TooLarge => "exceed the limit of current, travel or bending at any amplitude",
+            Self::Impossible => "are not possible with this rig",
         })
     }
 }

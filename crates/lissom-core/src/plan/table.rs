@@ -1,11 +1,11 @@
-//! A planned run as a table of reference angles, for hardware: eased in and out.
+//! A planned run as a table of reference angles for hardware, with a smooth start and end.
 
 use std::f64::consts::{PI, TAU};
 
 use super::{PlannedMotion, PlannedRun};
 use crate::rig::RigError;
 
-/// Shortest time to ease in or out \[s\].
+/// Shortest time of the smooth start or end \[s\].
 const EASE_S: f64 = 0.5;
 
 /// Reference angles at every sample.
@@ -15,19 +15,19 @@ pub struct ReferenceTable {
     pub time_s: Vec<f64>,
     /// Reference \[rad\].
     pub reference_rad: Vec<f64>,
-    /// 1 where the log counts, 0 before and after.
+    /// 1 for samples that belong to the log, 0 before and after.
     pub log: Vec<f64>,
 }
 
-/// The reference of a run at every `sample_time_s`: it begins and ends at rest, waits for the transient
-/// where the run does, and says which part is to be logged.
+/// The reference of a run, sampled every `sample_time_s`. It begins and ends at rest, contains the wait for the
+/// transient, and marks the part to be logged.
 ///
 /// The envelope is `(1 − cos(π·t/e))/2` over a time e of one period of the lowest frequency, half a
 /// second at least. A periodic motion is logged after it; a sweep is eased within its own beginning, so
 /// that its lowest frequencies are there but smaller.
 ///
 /// # Errors
-/// [`RigError`] where the numbers of the run make no signal.
+/// [`RigError`] if the numbers of the run do not make a signal.
 pub fn reference_table(run: &PlannedRun, sample_time_s: f64) -> Result<ReferenceTable, RigError> {
     let reference = run.motion.reference(run.amplitude_rad)?;
     let (lowest, periodic) = match run.motion {

@@ -1,24 +1,24 @@
-//! What a plan is to reach, and within which bounds.
+//! Requested precision of a plan, and its limits.
 
 use crate::information::Figure;
 use crate::plan::thresholds::DAMPING_WISHED;
 
-/// Wanted standard deviations, relative to the figures.
+/// Requested standard errors, relative to the parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Precision {
-    /// Of Coulomb friction.
+    /// Standard error of Coulomb friction.
     pub coulomb: f64,
-    /// Of viscous friction.
+    /// Standard error of viscous friction.
     pub viscous: f64,
-    /// Of the inertia.
+    /// Standard error of inertia.
     pub inertia: f64,
-    /// Of the coupling.
+    /// Standard error of coupling.
     pub coupling: f64,
-    /// Of each frequency.
+    /// Standard error of each frequency.
     pub frequency: f64,
-    /// Of each mode's damping.
+    /// Standard error of each mode's damping.
     pub damping: f64,
-    /// Of the amplitude of gravity.
+    /// Standard error of the amplitude of gravity.
     pub gravity: f64,
 }
 
@@ -38,7 +38,7 @@ impl Default for Precision {
 }
 
 impl Precision {
-    /// The same for all figures but damping.
+    /// The same precision for all parameters except damping.
     pub fn all(relative: f64) -> Self {
         Self {
             coulomb: relative,
@@ -51,7 +51,7 @@ impl Precision {
         }
     }
 
-    /// What is wanted of a figure.
+    /// Requested precision of a parameter.
     pub fn of(&self, figure: Figure) -> f64 {
         match figure {
             Figure::Coulomb | Figure::Offset => self.coulomb,
@@ -64,33 +64,33 @@ impl Precision {
     }
 }
 
-/// Which runs a plan may hold.
+/// Kinds of runs that a plan may contain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Kinds {
-    /// Sines alone, each with its triple where that can be driven, and at least one that has it.
+    /// Only sines, each with a sine at three times its frequency if the rig can follow it; at least one such pair.
     Sines,
-    /// At least one sine with its triple, which the third-harmonic method needs; else whatever takes
-    /// the least time.
+    /// At least one pair of sines at a frequency and three times that frequency, which the third-harmonic method needs;
+    /// otherwise the runs that take the shortest time.
     #[default]
     WithPair,
-    /// Whatever takes the least time.
+    /// The runs that take the shortest time.
     Any,
 }
 
-/// What a plan is to reach, and within which bounds.
+/// Requested precision of a plan, and its limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wishes {
-    /// Wanted deviations.
+    /// Requested standard errors.
     pub precision: Precision,
-    /// Longest time of all runs together, with what they wait for a transient \[s\].
+    /// Longest time of all runs together, including waiting for transients \[s\].
     pub within_s: f64,
-    /// The motor turns no further than this from where it begins \[rad\].
+    /// Largest angle of the motor from its start \[rad\].
     pub travel_rad: f64,
-    /// A tip bends no further than this from the motor's line \[rad\].
+    /// Largest deflection of a tip from the motor's line \[rad\].
     pub bend_rad: f64,
-    /// Share of the current's limit that is not planned for: the true arm may need it.
+    /// Share of the current limit that is kept in reserve, because the true arm may need it.
     pub current_reserve: f64,
-    /// Which runs.
+    /// Kinds of runs.
     pub kinds: Kinds,
 }
 

@@ -1,6 +1,6 @@
-//! What the channels of a campaign are.
+//! The channels of a campaign: what each one is, and what is known of it.
 
-/// Kind of axis: decides the units of every figure.
+/// Kind of axis; it decides the units of all parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axis {
     /// Angles in rad, torques in N·m, inertia in kg·m².
@@ -9,74 +9,74 @@ pub enum Axis {
     Linear,
 }
 
-/// What the drive's command or measured input is.
+/// Quantity of the drive's command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CommandQuantity {
     /// Motor current \[A\].
     Current,
     /// Motor or drive voltage \[V\].
     Voltage,
-    /// A number of unknown unit (PWM counts, percent): figures are then per unit of command.
+    /// A number of unknown unit (PWM counts, percent). Parameters are then per unit of command.
     Arbitrary,
 }
 
-/// What a logged sample says of the signal between samples.
+/// How a logged signal behaves between its samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hold {
-    /// Commanded and held: sample `k` acts over the whole interval from `t[k]` to `t[k+1]`.
+    /// A value that the controller wrote: sample `k` acts over the whole interval from `t[k]`
+    /// to `t[k+1]` (zero-order hold).
     Sampled,
-    /// Measured at `t[k]`; the signal goes on smoothly between samples.
+    /// A measurement at `t[k]`; the signal is smooth between samples.
     Measured,
 }
 
-/// The drive's input channel and what is known of it.
+/// The command channel of the drive, and what is known of it.
 ///
-/// Torque (or force) on the motor: `τ = k·u − b·θ̇_m` with `u` the logged command, `k` the
-/// [`torque_per_command`](Self::torque_per_command) and `b` the
-/// [`back_emf_viscous`](Self::back_emf_viscous).
+/// The torque (or force) on the motor is `τ = k·u − b·θ̇_m`, with the logged command `u`, the torque constant `k`
+/// ([`torque_per_command`](Self::torque_per_command)) and the damping by back-EMF `b`
+/// ([`back_emf_viscous`](Self::back_emf_viscous)).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Command {
-    /// What it is.
+    /// Quantity of the command.
     pub quantity: CommandQuantity,
-    /// Held command or measurement.
+    /// How the command acts between samples.
     pub hold: Hold,
-    /// Torque constant: N·m/A, N·m/V, N/A or N/V by [`quantity`](Self::quantity) and [`Axis`];
-    /// for a voltage with winding resistance R it is K/R. `None` where it is not known:
-    /// figures are then per unit of command.
+    /// Torque constant \[N·m/A, N·m/V, N/A or N/V, by [`quantity`](Self::quantity) and [`Axis`]\]; for a voltage at a
+    /// winding of resistance R it is K/R. `None` if it is unknown: parameters are then per unit of command.
     pub torque_per_command: Option<f64>,
-    /// Damping by the back-EMF, K·K_e/R \[N·m·s/rad or N·s/m\]; 0 for a current.
+    /// Damping by back-EMF, K·K_e/R \[N·m·s/rad or N·s/m\]; 0 for a current.
     pub back_emf_viscous: f64,
-    /// Magnitude at which the drive saturates, in the command's unit.
+    /// Magnitude at which the drive saturates, in the unit of the command, if it is known.
     pub limit: Option<f64>,
 }
 
 impl Command {
-    /// Torque (or force) of one unit of the command: the torque constant, or 1 where it is not known.
+    /// Torque (or force) per unit of command: the torque constant, or 1 if it is unknown.
     pub fn torque_per_unit(&self) -> f64 {
         self.torque_per_command.unwrap_or(1.0)
     }
 }
 
-/// What a tip sensor measures.
+/// Quantity that a tip sensor measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TipQuantity {
-    /// Angle of the radius to the point, fixed frame: the report's θ_i \[rad\].
+    /// Angle of the radius to the point in the fixed frame \[rad\], θ_i in the 1989 report.
     Angle,
-    /// Angle from the motor's line: θ_i − θ_m \[rad\].
+    /// Angle relative to the motor's line, θ_i − θ_m \[rad\].
     Deflection,
-    /// Second time derivative of θ_i \[rad/s²\] (or of the point's position, linear axes).
+    /// Second time derivative of θ_i \[rad/s²\], or of the point's position on a linear axis \[m/s²\].
     Acceleration,
 }
 
 /// A sensor along the beam.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tip {
-    /// Its name in reports.
+    /// Name in results and messages.
     pub name: String,
-    /// What it measures.
+    /// Quantity that it measures.
     pub quantity: TipQuantity,
-    /// Whether its scale is known. Without one its poles and zeros can still be found, but not
-    /// its gain nor the coupling.
+    /// Whether its scale is known. If it is not, poles and zeros of its response can still be identified, but not the
+    /// gain and the coupling.
     pub calibrated: bool,
 }
 
@@ -85,7 +85,7 @@ pub struct Tip {
 pub struct Channels {
     /// Rotary or linear.
     pub axis: Axis,
-    /// The drive's input.
+    /// The command of the drive.
     pub command: Command,
     /// Sensors along the beam, from base to tip; may be empty.
     pub tips: Vec<Tip>,

@@ -1,4 +1,4 @@
-//! What can be wrong with a record.
+//! Why signals cannot make a run or a campaign.
 
 use thiserror::Error;
 
@@ -10,7 +10,7 @@ pub enum RecordError {
     #[error("the campaign has no runs")]
     NoRuns,
     /// A run has another number of tips than its campaign.
-    #[error("run {run}: {found} tip channels where the campaign has {expected}")]
+    #[error("run {run} has {found} tip channels, but the campaign has {expected}")]
     TipCount {
         /// Name of the run.
         run: String,
@@ -19,14 +19,14 @@ pub enum RecordError {
         /// Tips of the run.
         found: usize,
     },
-    /// Gravity where it cannot act as `g_s·sin θ + g_c·cos θ` on the motor.
+    /// Gravity cannot act as `g_s·sin θ + g_c·cos θ` on the motor.
     #[error("{}", gravity_refused(*.linear))]
     Gravity {
         /// Whether the axis is linear.
         linear: bool,
     },
     /// Two channels of a run differ in length.
-    #[error("run {run}: channel {channel} has {found} samples where the motor has {expected}")]
+    #[error("run {run}: channel {channel} has {found} samples, but the motor has {expected}")]
     Length {
         /// Name of the run.
         run: String,
@@ -37,8 +37,8 @@ pub enum RecordError {
         /// Samples of this channel.
         found: usize,
     },
-    /// Fewer samples than anything can be said from.
-    #[error("run {run}: {found} samples; at least {least} are needed")]
+    /// The run has too few samples.
+    #[error("run {run} has {found} samples, but at least {least} are needed")]
     TooShort {
         /// Name of the run.
         run: String,
@@ -58,7 +58,7 @@ pub enum RecordError {
         sample: usize,
     },
     /// The sample time is not a positive finite number.
-    #[error("run {run}: a sample time of {found_s} s is not positive and finite")]
+    #[error("run {run}: the sample time is {found_s} s, but must be positive and finite")]
     SampleTime {
         /// Name of the run.
         run: String,
@@ -66,7 +66,9 @@ pub enum RecordError {
         found_s: f64,
     },
     /// Time stamps do not increase.
-    #[error("run {run}: time goes from {before_s} s to {after_s} s at sample {sample}")]
+    #[error(
+        "run {run}: time does not increase at sample {sample}: {after_s} s follows {before_s} s"
+    )]
     TimeOrder {
         /// Name of the run.
         run: String,
@@ -77,15 +79,15 @@ pub enum RecordError {
         /// Its stamp \[s\].
         after_s: f64,
     },
-    /// A known m·g·l that is no positive torque.
-    #[error("m·g·l of a load is positive and finite, not {found_nm} N·m")]
+    /// The known m·g·l is not a positive, finite torque.
+    #[error("m·g·l of the load is {found_nm} N·m, but must be positive and finite")]
     Mgl {
         /// The torque given \[N·m\].
         found_nm: f64,
     },
     /// The drive frequency is not a positive finite number below the Nyquist frequency.
     #[error(
-        "run {run}: a drive frequency of {found_rad_s} rad/s is not between 0 and the Nyquist frequency {nyquist_rad_s} rad/s"
+        "run {run}: the drive frequency is {found_rad_s} rad/s, but must be between 0 and the Nyquist frequency, {nyquist_rad_s} rad/s"
     )]
     Omega {
         /// Name of the run.
@@ -99,8 +101,8 @@ pub enum RecordError {
 
 fn gravity_refused(linear: bool) -> &'static str {
     if linear {
-        "gravity on a linear axis is a constant force, which every fit has as its offset"
+        "gravity on a linear axis is a constant force, which is part of the offset of friction"
     } else {
-        "gravity is identified for a rigid joint, and this campaign has tips"
+        "gravity can be identified for a rigid joint only, but this campaign has tips"
     }
 }

@@ -1,5 +1,5 @@
-//! Runs and campaigns in memory: uniformly sampled signals in SI units, with what is known of
-//! each channel (quantity, hold, calibration).
+//! Runs and campaigns in memory: uniformly sampled signals in SI units, with the quantity, hold
+//! and calibration of each channel.
 
 mod channel;
 pub mod clock;
@@ -15,13 +15,13 @@ pub use run::{Run, TimeBase};
 /// Several runs of one machine, all with the same channels.
 #[derive(Debug, Clone)]
 pub struct Campaign {
-    /// What each channel is.
+    /// Description of each channel.
     pub channels: Channels,
-    /// The runs, in the order in which they were given. Sample times may differ between runs.
+    /// The runs, in the order given. Sample times may differ between runs.
     pub runs: Vec<Run>,
-    /// Whether a load with gravity acts on the motor, `g_s·sin θ + g_c·cos θ`, to be identified.
+    /// Whether gravity of an unbalanced load, `g_s·sin θ + g_c·cos θ`, acts on the motor and is to be identified.
     pub gravity: bool,
-    /// Largest torque m·g·l of that load, where it is known \[N·m\]: it gives the torque constant.
+    /// Largest torque m·g·l of that load \[N·m\], if it is known; it determines the torque constant.
     pub mgl_nm: Option<f64>,
 }
 
@@ -32,10 +32,10 @@ impl AsRef<Self> for Campaign {
 }
 
 impl Campaign {
-    /// Checks that every run has the channels it should have.
+    /// Joins runs to a campaign.
     ///
     /// # Errors
-    /// [`RecordError::NoRuns`] without runs, [`RecordError::TipCount`] where a run has another
+    /// [`RecordError::NoRuns`] without runs; [`RecordError::TipCount`] if a run has a different
     /// number of tips than `channels`.
     pub fn new(channels: Channels, runs: Vec<Run>) -> Result<Self, RecordError> {
         if runs.is_empty() {
@@ -53,10 +53,12 @@ impl Campaign {
         Ok(Self { channels, runs, gravity: false, mgl_nm: None })
     }
 
-    /// The same with a load of gravity `g_s·sin θ + g_c·cos θ` on the motor, θ the motor's angle, to be identified.
+    /// Returns this campaign with gravity of an unbalanced load, `g_s·sin θ + g_c·cos θ` on the motor at its angle θ,
+    /// which is to be identified.
     ///
     /// # Errors
-    /// [`RecordError::Gravity`] on linear axes, and with tips: a beam's angles would need a load each.
+    /// [`RecordError::Gravity`] on a linear axis, and with tips, because each point of the
+    /// beam would need a load of its own.
     pub fn with_gravity(mut self) -> Result<Self, RecordError> {
         if self.channels.axis == Axis::Linear || !self.channels.tips.is_empty() {
             return Err(RecordError::Gravity { linear: self.channels.axis == Axis::Linear });
@@ -65,10 +67,10 @@ impl Campaign {
         Ok(self)
     }
 
-    /// The same, that load's largest torque m·g·l being known \[N·m\].
+    /// Returns this campaign with gravity of a load whose largest torque m·g·l is known \[N·m\].
     ///
     /// # Errors
-    /// As [`Self::with_gravity`], and [`RecordError::Mgl`] unless it is positive and finite.
+    /// Those of [`Self::with_gravity`], and [`RecordError::Mgl`] unless the torque is positive and finite.
     pub fn with_known_gravity(self, mgl_nm: f64) -> Result<Self, RecordError> {
         if !(mgl_nm > 0.0 && mgl_nm.is_finite()) {
             return Err(RecordError::Mgl { found_nm: mgl_nm });

@@ -1,6 +1,6 @@
-//! What a reader did to a log.
+//! What was done to a log when it was read.
 
-/// Something done to a log on its way into a [`Run`](super::Run) that its user should know.
+/// A change that was made to a log when it was read into a [`Run`](super::Run), and that its user should know.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Note {
@@ -8,69 +8,71 @@ pub enum Note {
     GapCut {
         /// Number of gaps.
         count: usize,
-        /// Stamp before the longest one \[s\].
+        /// Stamp before the longest gap \[s\].
         at_s: f64,
-        /// Its time without samples \[s\].
+        /// Length of the longest gap \[s\].
         length_s: f64,
     },
-    /// Pieces between two cuts were too short and were left out.
+    /// Parts between two cuts were too short and were left out.
     PieceDropped {
-        /// Number of pieces.
+        /// Number of parts.
         count: usize,
-        /// Stamp of the first sample of the first one \[s\].
+        /// Stamp of the first sample of the first part \[s\].
         at_s: f64,
-        /// Samples of all of them.
+        /// Number of samples of all these parts.
         samples: usize,
     },
-    /// Uneven time stamps agree with the motion, or drift: all channels were interpolated on an even grid.
+    /// Uneven time stamps agree with the motion, or drift: all channels were interpolated at even times.
     Resampled {
-        /// Step of the grid \[s\].
+        /// Sample time after interpolation \[s\].
         step_s: f64,
-        /// The error of angles that their neighbours predict at even times, as a multiple of the error with the clock
-        /// that is used. `None` where the mean step drifts, and samples are at the moving average of the stamps.
+        /// Ratio of two errors of angles that are predicted from their neighbours: the error at even times over the
+        /// error with the clock that is used \[1\]. `None` if the mean step drifts; samples are then at the moving
+        /// average of the stamps.
         agreement: Option<f64>,
-        /// Rms error of the interpolated angle \[rad or m\], without the sensor's noise.
+        /// Error of the interpolated angle \[rad or m, rms\], without the noise of the sensor.
         error: f64,
-        /// That error over the rms of what acceleration moves the angle within a step.
+        /// That error divided by the change of the angle within one step that is due to acceleration (rms) \[1\].
         error_share: f64,
-        /// Standard deviation of the noise of the angle \[rad or m\].
+        /// Standard deviation of the sensor noise of the angle \[rad or m\].
         noise: f64,
     },
     /// Uneven time stamps contradict the motion: the samples were taken evenly.
     SampleCount {
-        /// Their sample time \[s\].
+        /// Sample time \[s\].
         step_s: f64,
-        /// Distance of the stamps' steps from it (rms), as a share of it.
+        /// Scatter of the steps between stamps (rms), as a share of the sample time \[1\].
         jitter_rms_share: f64,
-        /// The error of angles that their neighbours predict at the stamps, as a multiple of the error at even times.
+        /// Ratio of two errors of angles that are predicted from their neighbours: the error at the times of the stamps
+        /// over the error at even times \[1\].
         agreement: f64,
     },
     /// Single rows were lost and have been filled in by interpolation.
     RowsFilled {
         /// Number of rows.
         count: usize,
-        /// Their share of all samples.
+        /// Share of the filled rows in all samples \[1\].
         share: f64,
     },
-    /// Every reading was in the log several times. The first of each was kept.
+    /// Every reading was logged several times. Only the first of each was kept.
     RepeatedReadings {
-        /// Mean number of rows with one reading.
+        /// Mean number of rows per reading.
         per_reading: f64,
-        /// Rows that were removed.
+        /// Number of rows that were removed.
         removed: usize,
     },
-    /// The clock of the log started again.
+    /// The clock of the log started again, once or more often.
     ClockRestart {
-        /// Restarts across which the motion goes on: the clock was continued.
+        /// Number of restarts across which the motion is continuous: the clock was continued.
         joined: usize,
-        /// Restarts at which the log was cut.
+        /// Number of restarts at which the log was cut.
         cut: usize,
         /// Stamp before the first restart \[s\].
         at_s: f64,
     },
-    /// The sample time changes within the log, which was cut there.
+    /// The sample time changes within the log. The log was cut there.
     RateChange {
-        /// Stretches with sample times of their own.
+        /// Number of stretches with different sample times.
         rates: usize,
         /// Stamp of the first change \[s\].
         at_s: f64,
@@ -79,19 +81,19 @@ pub enum Note {
         /// Sample time after the last change \[s\].
         last_s: f64,
     },
-    /// The log has the motor's speed: its angle was integrated, from 0.
+    /// The log contains the motor's speed. It was integrated to an angle that starts at 0.
     SpeedIntegrated,
-    /// Jumps of one turn, as absolute encoders make them, were removed from the angles.
+    /// Jumps by one turn, as absolute encoders make them, were removed from the angles.
     TurnsRemoved {
         /// Number of jumps.
         count: usize,
     },
-    /// The log had too many rows: each sample stands for several of them.
+    /// The log had too many rows. Each sample is now made of several of them.
     Thinned {
-        /// Rows of the log per sample.
+        /// Number of rows of the log per sample.
         factor: usize,
     },
-    /// Samples at the beginning were left out on request.
+    /// Samples at the beginning were left out because it was requested.
     HeadSkipped {
         /// Time left out \[s\].
         seconds: f64,

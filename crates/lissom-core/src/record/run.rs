@@ -5,22 +5,22 @@ use super::{Note, RecordError};
 /// Fewest samples a run may have.
 const LEAST_SAMPLES: usize = 8;
 
-/// How the stamps of a log lie about a uniform grid.
+/// Start and sample time of a run, and how far the stamps of its log were from even.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimeBase {
     /// Time of the first sample \[s\].
     pub start_s: f64,
     /// Sample time \[s\].
     pub sample_time_s: f64,
-    /// Largest distance of a step between stamps from the sample time \[s\]; 0 where the motion shows when the samples
-    /// were taken.
+    /// Largest difference between a step of the stamps and the sample time \[s\]; 0 if the motion shows when the
+    /// samples were taken.
     pub jitter_max_s: f64,
-    /// Root mean square of that distance \[s\].
+    /// Root mean square of that difference \[s\].
     pub jitter_rms_s: f64,
 }
 
 impl TimeBase {
-    /// A perfectly uniform time base.
+    /// A time base without jitter.
     pub fn uniform(start_s: f64, sample_time_s: f64) -> Self {
         Self { start_s, sample_time_s, jitter_max_s: 0.0, jitter_rms_s: 0.0 }
     }
@@ -39,14 +39,13 @@ pub struct Run {
 }
 
 impl Run {
-    /// Takes the channels of one run; all must have one length and hold finite numbers.
+    /// Builds a run from its channels. All must have the same length, at least eight samples, and finite values.
     ///
-    /// `command` in its own unit, `motor` in rad or m, `tips` as their
-    /// [`TipQuantity`](super::TipQuantity) says.
+    /// `command` is in its own unit, `motor` in rad or m; the unit of `tips` follows from their
+    /// [`TipQuantity`](super::TipQuantity).
     ///
     /// # Errors
-    /// [`RecordError::SampleTime`], [`RecordError::TooShort`], [`RecordError::Length`],
-    /// [`RecordError::NotFinite`].
+    /// [`RecordError::SampleTime`], [`RecordError::TooShort`], [`RecordError::Length`] or [`RecordError::NotFinite`].
     pub fn new(
         name: impl Into<String>,
         time: TimeBase,
@@ -89,10 +88,10 @@ impl Run {
         Ok(Self { name, time, command, motor, tips, omega_rad_s: None, notes: Vec::new() })
     }
 
-    /// States the frequency at which the run was driven.
+    /// Sets the frequency at which the run was driven \[rad/s\].
     ///
     /// # Errors
-    /// [`RecordError::Omega`] unless it lies between 0 and the Nyquist frequency.
+    /// [`RecordError::Omega`] unless it is between 0 and the Nyquist frequency.
     pub fn with_omega(mut self, omega_rad_s: f64) -> Result<Self, RecordError> {
         let nyquist_rad_s = std::f64::consts::PI / self.time.sample_time_s;
         if !(omega_rad_s > 0.0 && omega_rad_s < nyquist_rad_s) {
@@ -106,7 +105,7 @@ impl Run {
         Ok(self)
     }
 
-    /// Adds what the reader did to the log and a user should know (a gap cut, rows merged).
+    /// Adds a note about a change that was made to the log, for example that it was cut at a gap.
     #[must_use]
     pub fn with_note(mut self, note: Note) -> Self {
         self.notes.push(note);
@@ -120,11 +119,11 @@ impl Run {
         Self { command, ..self.clone() }
     }
 
-    /// Name, as reports give it.
+    /// Name in results and messages.
     pub fn name(&self) -> &str {
         &self.name
     }
-    /// Time base.
+    /// Start, sample time and jitter.
     pub fn time(&self) -> TimeBase {
         self.time
     }
@@ -140,7 +139,7 @@ impl Run {
     pub fn is_empty(&self) -> bool {
         self.motor.is_empty()
     }
-    /// Logged command.
+    /// Logged command, in its own unit.
     pub fn command(&self) -> &[f64] {
         &self.command
     }
@@ -152,11 +151,11 @@ impl Run {
     pub fn tips(&self) -> &[Vec<f64>] {
         &self.tips
     }
-    /// Stated drive frequency \[rad/s\].
+    /// Frequency at which the run was driven \[rad/s\], if it was given.
     pub fn omega_rad_s(&self) -> Option<f64> {
         self.omega_rad_s
     }
-    /// What the reader did to the log.
+    /// Notes about changes that were made to the log.
     pub fn notes(&self) -> &[Note] {
         &self.notes
     }

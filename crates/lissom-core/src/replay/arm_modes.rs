@@ -1,4 +1,4 @@
-//! A lumped arm in its clamped beam's modes, and from there as its motor feels it.
+//! A lumped arm in the modes of its clamped beam, and the model of it that a replay uses.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use crate::arm::Arm;
 use crate::beam::BeamDynamics;
 use crate::friction::DryTerms;
 
-/// The modes of an arm of point masses, and its states in them.
+/// The modes of an arm of point masses, and its states in modal coordinates.
 #[derive(Debug, Clone)]
 pub struct ArmModes<'a> {
     arm: &'a Arm,
@@ -23,7 +23,7 @@ pub struct ArmModes<'a> {
 }
 
 impl<'a> ArmModes<'a> {
-    /// `None` where the modes of a beam are not distinct; a rigid joint has none.
+    /// Computes the modes; `None` if the modes of the beam are not distinct. A rigid joint has no modes.
     pub fn of(arm: &'a Arm) -> Option<Self> {
         let dynamics = arm.dynamics();
         let n = dynamics.len();
@@ -37,18 +37,18 @@ impl<'a> ArmModes<'a> {
         Some(Self { arm, dynamics, omega_rad_s, stiffness_nm_per_rad, shapes, inverse })
     }
 
-    /// ω of each mode, ascending \[rad/s\].
+    /// Natural frequency ω of each mode with the motor clamped, ascending \[rad/s\].
     pub fn omega_rad_s(&self) -> &[f64] {
         &self.omega_rad_s
     }
 
-    /// k/ω² of a mode \[kg·m²\].
+    /// Inertia k/ω² of a mode \[kg·m²\].
     pub fn inertia_kg_m2(&self, mode: usize) -> f64 {
         self.stiffness_nm_per_rad[mode] / (self.omega_rad_s[mode] * self.omega_rad_s[mode])
     }
 
-    /// The modes `kept` of the arm, all others turning with the motor, the masses `tips` as tips. What
-    /// dampers couple modes by is left out.
+    /// Builds a model with only the modes `kept`; the inertia of all others turns with the motor. The masses `tips` are
+    /// its tips. Coupling of modes by dampers is neglected.
     pub fn cut(&self, kept: &[usize], tips: Range<usize>) -> ModalArm {
         let within = self.damping(self.dynamics.relative.as_ref());
         let grounded = self.damping(self.dynamics.absolute.as_ref());
@@ -96,7 +96,7 @@ impl<'a> ArmModes<'a> {
         })
     }
 
-    /// `[θ, θ̇, ψ_1, ψ̇_1, …]` of the modes `kept` where the arm's state is `[θ, θ̇, q_1.., q̇_1..]`:
+    /// State `[θ, θ̇, ψ_1, ψ̇_1, …]` of the modes `kept`, computed from the arm's state `[θ, θ̇, q_1.., q̇_1..]`:
     /// `q_i − θ = Σ r_ij·(ψ_j − θ)`.
     pub fn state(&self, kept: &[usize], x: &[f64]) -> Vec<f64> {
         let n = self.omega_rad_s.len();
@@ -141,10 +141,10 @@ impl<'a> ArmModes<'a> {
 }
 
 impl ModalArm {
-    /// The modes of an arm of point masses, all masses as tips, in order from the motor.
+    /// Builds the model of an arm of point masses with all its modes; all masses are tips, in order from the motor.
     ///
-    /// `None` for an arm without distinct modes, with more than [`MOST_MODES`], or whose payload turns
-    /// beside dampers at masses.
+    /// `None` for an arm without distinct modes, with more than [`MOST_MODES`] modes, or with both a payload that
+    /// resists turning and dampers at masses.
     pub fn of_arm(arm: &Arm) -> Option<Self> {
         let modes = ArmModes::of(arm)?;
         if modes.omega_rad_s().len() > MOST_MODES { None } else { modes.whole() }

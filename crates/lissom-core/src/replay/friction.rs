@@ -1,4 +1,4 @@
-//! Dry friction as the replayed motor feels it, and over a step on which it is linear in time.
+//! Dry friction on the replayed motor, and its effect over a step in which it is linear in time.
 
 use super::modal_arm::ModalArm;
 use super::parameter::Parameter;

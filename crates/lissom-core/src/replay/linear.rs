@@ -12,10 +12,10 @@ const ROUNDING: f64 = 1e-9;
 type Polynomial = Vec<f64>;
 
 impl ModalArm {
-    /// θ_m per command without dry friction, V the mean of both directions, monic:
-    /// `K·Δ/((J·s² + V·s)·Δ + Σ k_j(1 + d_j·s/ω_j²)·Δ_j)`, with Δ the determinant of the clamped beam's
-    /// equations and Δ_j the same with column j replaced, so that `1 − ψ_j/θ = Δ_j/Δ`. The command's lag is not
-    /// in it.
+    /// Transfer function θ_m per unit of command, without dry friction and with a monic denominator; V is the mean of
+    /// both directions. It is `K·Δ/((J·s² + V·s)·Δ + Σ k_j(1 + d_j·s/ω_j²)·Δ_j)`, where Δ is the determinant of the
+    /// equations of the clamped beam and Δ_j the same with column j replaced, so that `1 − ψ_j/θ = Δ_j/Δ`. It does not
+    /// contain the lag of the command.
     pub fn motor_function(&self, torque_per_command: f64) -> TransferFunction {
         let clamped = self.clamped_equations();
         let shared = determinant(&clamped);
@@ -31,10 +31,11 @@ impl ModalArm {
         TransferFunction { num: multiply(&[torque_per_command], &shared), den }.monic()
     }
 
-    /// θ_i/θ_m of a tip, monic: `1 + Σ r_ij·(ψ_j/θ − 1)`. The tip's lag is not in it.
+    /// Transfer function θ_i/θ_m of a tip, with a monic denominator: `1 + Σ r_ij·(ψ_j/θ − 1)`. It does not contain the
+    /// lag of the tip.
     ///
     /// # Panics
-    /// Where there is no such tip.
+    /// If there is no such tip.
     pub fn tip_function(&self, tip: usize) -> TransferFunction {
         let clamped = self.clamped_equations();
         let shared = determinant(&clamped);
@@ -56,8 +57,9 @@ impl ModalArm {
         TransferFunction { num: num[zeros..].to_vec(), den: shared }.monic()
     }
 
-    /// The same arm as `ẋ = A·x + B·u` with `x = [θ_m, θ̇_m, ψ_1, ψ̇_1, …]`, u the command, y = θ_m and the angle of
-    /// each of the `tips`, by their index and name. `unit` is the angles' (`rad`, `m`).
+    /// State space model `ẋ = A·x + B·u` without dry friction, with `x = [θ_m, θ̇_m, ψ_1, ψ̇_1, …]`. The input u is the
+    /// command; the outputs are θ_m and the angle of each of `tips`, given by index and name. `unit` is the unit of
+    /// angles (`rad` or `m`).
     pub fn state_space(
         &self,
         torque_per_command: f64,

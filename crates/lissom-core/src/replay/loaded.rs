@@ -5,21 +5,21 @@ use nalgebra::{DMatrix, DVector};
 use super::modal_arm::{ModalArm, Oscillator};
 
 impl ModalArm {
-    /// The arm with a point mass more at the point of tip `tip`, whose inertia about the axis is `inertia_kg_m2`:
-    /// Δm·r² for a mass Δm at the distance r from the axis; less than zero for a mass less.
+    /// Returns this arm with an additional point mass at tip `tip`. `inertia_kg_m2` is its inertia about the axis:
+    /// Δm·r² for a mass Δm at the distance r from the axis; negative if mass is removed.
     ///
-    /// The torque T on an oscillator's beam at the tip moves oscillator j by r_ij·T, so that the load adds
-    /// `ΔI·r_i·r_iᵀ` to the oscillators' inertias `diag(k_j/ω_j²)`; the stiffnesses stay. With U the modes
-    /// of both, `UᵀMU = 1` and `UᵀKU = Ω'²`, and `g = Uᵀ·K·1` what the motor drives them by, oscillator j
-    /// has `k'_j = g_j²/ω'_j²` and tip i the share `(r·U)_ij·g_j/ω'_j²` of it. The zeros of θ_tip/θ_m stay
-    /// where they are (property 4): at one of them the tip stands still, and the load exerts no force.
-    /// A damper at the tip's point stays the same damper; what damping couples the new modes by is left out.
+    /// A torque T at the tip acts on oscillator j as r_ij·T. The load therefore adds `ΔI·r_i·r_iᵀ` to the inertias
+    /// `diag(k_j/ω_j²)` of the oscillators; the stiffnesses stay. With the new modes U, `UᵀMU = 1`, `UᵀKU = Ω'²`
+    /// and the drive `g = Uᵀ·K·1` by the motor, oscillator j has `k'_j = g_j²/ω'_j²`, and its share at tip i is
+    /// `(r·U)_ij·g_j/ω'_j²`. The zeros of θ_tip/θ_m stay where they are (property 4): at a zero the tip is at
+    /// rest, and the load exerts no force. A damper at the point of the tip stays the same. Coupling of the new
+    /// modes by damping is neglected.
     ///
-    /// `None` where there is no such tip, where the load takes more than the modes have there, or where the new
-    /// modes are not all driven.
+    /// `None` if there is no such tip, if more inertia is removed than the modes have there, or if the motor does not
+    /// drive all new modes.
     ///
     /// # Source
-    /// `[Feliu1989, Section 3, property 4]` and the coordinates of (17)-(18) in modes.
+    /// `[Feliu1989, Section 3, property 4]`, with the coordinates of (17)-(18) expressed in modes.
     #[must_use]
     pub fn with_load(&self, tip: usize, inertia_kg_m2: f64) -> Option<Self> {
         let n = self.modes.len();

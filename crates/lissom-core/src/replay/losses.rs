@@ -1,4 +1,4 @@
-//! Losses of many errors of one sensor: read from a table where they take long.
+//! Costs of many errors of one sensor, read from a table if computing them would take long.
 
 use super::noise::{Loss, SensorNoise, log_probability};
 

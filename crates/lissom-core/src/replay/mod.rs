@@ -1,8 +1,11 @@
-//! Replays the logged command of a record through an arm, event by event, with exact derivatives
-//! of what its sensors show by every parameter and by the initial state.
+//! Replay: simulates an arm under the logged command of a run, with exact derivatives of the predicted sensor readings
+//! by every parameter and by the initial state.
 //!
-//! Within a phase the arm is linear: whole samples go by matrices, events by Taylor series. Where
-//! the motor comes to rest or reverses, tangents jump (saltation).
+//! While the joint slips or sticks, the arm is linear: whole samples are computed with matrices, events with Taylor
+//! series. Where the motor stops or reverses, the derivatives jump (saltation).
+//!
+//! [`predict`] simulates one window, [`sums`](fn@sums) compares windows with their logs, and [`ModalArm`]
+//! is the model that is simulated.
 
 mod arm_modes;
 mod events;

@@ -1,4 +1,4 @@
-//! The arm that a record is replayed through: motor, dry friction, and the beam as oscillators.
+//! The model that is replayed: motor, dry friction, and the beam as oscillators.
 
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
@@ -7,7 +7,7 @@ use crate::eigenvalues::eigenvalues;
 use crate::friction::DryTerms;
 use crate::load::GravityLoad;
 
-/// Most modes of a replayed arm.
+/// Largest number of modes of a replayed arm.
 pub const MOST_MODES: usize = 4;
 /// Most that an arm's fastest rate may turn in a sample \[rad\]: a simulation takes so many more parts of a sample,
 /// and no real arm is logged so coarsely.
@@ -18,7 +18,7 @@ pub(crate) const TURN_MOST: f64 = 3000.0;
 pub struct Oscillator {
     /// Natural frequency ω with the motor clamped \[rad/s\].
     pub omega_rad_s: f64,
-    /// Stiffness k, its share of the coupling torque per turn of the motor \[N·m/rad\].
+    /// Stiffness k: coupling torque of this mode per angle of the motor, with the masses held \[N·m/rad\].
     pub stiffness_nm_per_rad: f64,
     /// Damping within the beam, d = 2ζω \[1/s\].
     pub within_per_s: f64,
@@ -27,7 +27,7 @@ pub struct Oscillator {
 }
 
 impl Oscillator {
-    /// Inertia k/ω² that turns behind its spring \[kg·m²\].
+    /// Inertia k/ω² of the oscillator \[kg·m²\].
     pub fn inertia_kg_m2(&self) -> f64 {
         self.stiffness_nm_per_rad / (self.omega_rad_s * self.omega_rad_s)
     }
@@ -43,7 +43,7 @@ impl Oscillator {
     }
 }
 
-/// An arm as its motor feels it.
+/// A model of an arm in modal coordinates: the motor with its friction, and the beam as oscillators on it.
 ///
 /// ```text
 /// J·θ̈ = τ − g_s·sin θ_log − g_c·cos θ_log − V_±·θ̇ − F_± − Σ k_j·(θ − ψ_j) + (k_j·d_j/ω_j²)·(θ̇ − ψ̇_j)
@@ -51,13 +51,15 @@ impl Oscillator {
 /// θ_i = θ + Σ r_ij·(ψ_j − θ)
 /// ```
 ///
-/// with θ_log the motor's angle as it was logged, from sample to sample on a line, so that gravity is an input beside the
-/// command τ and the equations stay linear; θ_i read `tip_lags_s` later, and c_i the damping of the point of tip i against the fixed frame, of arms with as many tips as
-/// modes.
+/// θ is the angle of the motor, ψ_j the angle of oscillator j and θ_i the angle of tip i \[rad\]; τ is the torque
+/// of the command \[N·m\]. F_± is dry friction, V_± viscous friction of the present direction. k_j, ω_j, d_j and
+/// a_j are the stiffness, frequency and damping of oscillator j ([`Oscillator`]); c_i is the damping of the point
+/// of tip i against the fixed frame, possible if there are as many tips as modes. θ_log is the logged angle of the
+/// motor, linear between samples, so that gravity is an input like the command and the equations stay linear. θ_i
+/// is read later by `tip_lags_s`.
 ///
-/// Any beam with modes is one, whatever its masses: oscillator j stands for the clamped mode j, and
-/// `r_ij` for the share of it at point i. Σ_j r_ij = 1 where all modes are there. Linear axes: m, N
-/// and kg for rad, N·m and kg·m².
+/// Any beam with modes has this form, for any distribution of its mass: oscillator j is the clamped mode j, and `r_ij`
+/// its share at point i. Σ_j r_ij = 1 if all modes are included. On linear axes m, N and kg replace rad, N·m and kg·m².
 ///
 /// # Source
 /// `[Feliu1989, eqs. (14), (15), (17), (18)]` in modal coordinates.
@@ -67,29 +69,29 @@ pub struct ModalArm {
     pub inertia_kg_m2: f64,
     /// Viscous friction V_+ forward and V_− backward \[N·m·s/rad\].
     pub viscous_nm_s_per_rad: [f64; 2],
-    /// Dry friction's mean of both directions, (F_+ − F_−)/2 \[N·m\].
+    /// Coulomb friction, mean of both directions, (F_+ − F_−)/2 \[N·m\].
     pub coulomb_nm: f64,
-    /// (F_+ + F_−)/2: a constant load, or friction's difference by direction \[N·m\].
+    /// Offset (F_+ + F_−)/2 \[N·m\]: a constant load, or a difference of friction by direction.
     pub offset_nm: f64,
-    /// What dry friction has beyond these, part of F_±.
+    /// Terms of dry friction besides Coulomb friction and offset; part of F_±.
     pub dry_terms: DryTerms,
-    /// The beam's modes.
+    /// Modes of the beam with the motor clamped.
     pub modes: Vec<Oscillator>,
-    /// r_ij of tip i (outer) and mode j.
+    /// r_ij of tip i (outer index) and mode j (inner index) \[1\].
     pub shapes: Vec<Vec<f64>>,
-    /// c_i of each tip's point \[1/s\]; empty where there are not as many tips as modes.
+    /// Damping c_i at the point of each tip \[1/s\]; empty unless there are as many tips as modes.
     pub at_points_per_s: Vec<f64>,
-    /// Gravity's torque, in replays only: the linear responses leave it out.
+    /// Gravity on the motor. It acts in replays only; linear responses do not contain it.
     pub gravity: Option<GravityLoad>,
-    /// The torque acts this much later than it is logged \[s\].
+    /// Lag of the command \[s\]: the torque acts this much later than it is logged.
     pub command_lag_s: f64,
-    /// Each tip shows what its point did this much before \[s\]; empty where all are in time.
+    /// Lag of each tip \[s\]: a reading shows the angle of its point this much earlier; empty if there are no lags.
     pub tip_lags_s: Vec<f64>,
 }
 
 impl ModalArm {
-    /// Natural frequency |s| \[rad/s\] and damping ratio −Re s/|s| of each mode with the motor clamped,
-    /// ascending. Dampers at points couple the oscillators: |s| is not their ω then.
+    /// Natural frequency |s| \[rad/s\] and damping ratio −Re s/|s| of each mode with the motor clamped, ascending. If
+    /// there are dampers at points, they couple the oscillators, and |s| differs from ω.
     pub fn clamped_modes(&self) -> Vec<(f64, f64)> {
         let n = self.modes.len();
         let coupled = self.points_in_modes().and_then(|points| {
@@ -115,7 +117,7 @@ impl ModalArm {
         modes
     }
 
-    /// ζ_j of every oscillator with the motor clamped, to first order in the dampers at points.
+    /// ζ_j of every oscillator with the motor clamped, to first order in the dampers at points \[1\].
     pub fn damping_ratios(&self) -> Vec<f64> {
         let at_points = self.points_in_modes();
         self.modes
@@ -139,18 +141,19 @@ impl ModalArm {
         r.lu().solve(&damped)
     }
 
-    /// Σk_j: torque per turn of the motor with the beam's masses held \[N·m/rad\].
+    /// Coupling Σk_j: torque per angle of the motor with the masses of the beam held \[N·m/rad\].
     pub fn coupling_nm_per_rad(&self) -> f64 {
         self.modes.iter().map(|m| m.stiffness_nm_per_rad).sum()
     }
 
-    /// κ_i of each tip, `C_t = Σκ_i(θ_m − θ_i)`: with as many tips as modes, κ·r = k.
+    /// Coupling κ_i of each tip \[N·m/rad\], `C_t = Σκ_i(θ_m − θ_i)`: κ·r = k. `None` unless
+    /// there are as many tips as modes.
     pub fn coupling_by_tip(&self) -> Option<Vec<f64>> {
         self.by_tip(|mode| mode.stiffness_nm_per_rad)
     }
 
-    /// κ'_i of each tip, what damping within the beam adds: `C_t = Σκ_i(θ_m − θ_i) + κ'_i(θ̇_m − θ̇_i)`, with
-    /// κ'·r = k·d/ω².
+    /// Torque of damping within the beam by tip, κ'_i \[N·m·s/rad\]: `C_t = Σκ_i(θ_m − θ_i) + κ'_i(θ̇_m − θ̇_i)`, where
+    /// `κ'·r = k·d/ω²`. `None` unless there are as many tips as modes.
     pub fn coupling_rate_by_tip(&self) -> Option<Vec<f64>> {
         self.by_tip(|mode| {
             mode.stiffness_nm_per_rad * mode.within_per_s / (mode.omega_rad_s * mode.omega_rad_s)
@@ -168,8 +171,8 @@ impl ModalArm {
         Some(shares.lu().solve(&torque)?.iter().copied().collect())
     }
 
-    /// θ_m per torque without dry friction at ω \[rad/(N·m)\], V the mean of both directions:
-    /// `1/(J·s² + V·s + Σ k_j(1 + d_j·s/ω_j²)·(1 − ψ_j/θ))` at s = jω.
+    /// Frequency response θ_m per torque at ω, without dry friction \[rad/(N·m)\]:
+    /// `1/(J·s² + V·s + Σ k_j(1 + d_j·s/ω_j²)·(1 − ψ_j/θ))` at s = jω. V is the mean of both directions.
     pub fn motor_response(&self, omega_rad_s: f64) -> Complex64 {
         let s = Complex64::new(0.0, omega_rad_s);
         let [forward, backward] = self.viscous_nm_s_per_rad;
@@ -182,10 +185,10 @@ impl ModalArm {
         1.0 / self.modes.iter().zip(follow.iter()).map(pull).fold(rigid, |sum, p| sum + p)
     }
 
-    /// θ_i/θ_m of a tip at ω, `1 + Σ r_ij·(ψ_j/θ − 1)` at s = jω.
+    /// Frequency response θ_i/θ_m of a tip at ω, `1 + Σ r_ij·(ψ_j/θ − 1)` at s = jω \[1\].
     ///
     /// # Panics
-    /// Where there is no such tip.
+    /// If there is no such tip.
     pub fn tip_response(&self, tip: usize, omega_rad_s: f64) -> Complex64 {
         let follow = self.follow(Complex64::new(0.0, omega_rad_s));
         let shown = self.shapes[tip].iter().zip(follow.iter()).map(|(r, psi)| r * (psi - 1.0));
@@ -222,11 +225,11 @@ impl ModalArm {
         viscous + modes + self.at_points_per_s.iter().map(|c| c.abs()).fold(0.0, most)
     }
 
-    /// Modes and shapes of `θ̈_i = −Σ_l K_il·(θ_l − θ_m) − …`, the rows of K by tip, ascending in
-    /// frequency: `(ω_j, r_ij)`. `None` unless all frequencies are real, positive and distinct.
+    /// Modes and shapes of `θ̈_i = −Σ_l K_il·(θ_l − θ_m) − …`, with the rows of K by tip \[1/s²\]: `(ω_j, r_ij)`,
+    /// ascending in frequency. `None` unless all frequencies are real, positive and distinct.
     ///
-    /// Each column of r is an eigenvector of K, so scaled that the rows' sums are one: with the motor
-    /// turned and nothing deflected, all points turn with it (property 2, B = −A·1).
+    /// Each column of r is an eigenvector of K. The columns are scaled so that each row adds up to one: all points turn
+    /// with the motor if nothing is deflected (property 2, B = −A·1).
     pub fn modes_of(stiffness: &DMatrix<f64>) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
         let n = stiffness.nrows();
         let mut squares: Vec<f64> = eigenvalues(stiffness)?

@@ -1,4 +1,4 @@
-//! What a sensor adds: noise, then the steps that it reads in.
+//! Errors of a sensor: noise, and the steps in which it reads.
 
 use statrs::function::erf::{erf, erfc};
 
@@ -8,17 +8,17 @@ const FAR: f64 = 20.0;
 /// known does not vanish from the search.
 const LEAST_CURVATURE: f64 = 0.05;
 
-/// Noise of deviation σ, read in steps of q (zero: no steps).
+/// Errors of a sensor: noise of standard deviation σ, then rounding to steps of q (zero: no steps).
 ///
-/// The probability of a reading `y` where the sensor's true value is `y − e` is
-/// `P(e) = Φ((e + q/2)/σ) − Φ((e − q/2)/σ)`. It is log-concave, so `−ln P` is a convex cost. Unlike
-/// a square it knows that within a step all values are alike: readings that stand still, and steps that
-/// come back alike each period, are counted for what they say.
+/// The probability of a reading `y` is `P(e) = Φ((e + q/2)/σ) − Φ((e − q/2)/σ)` if the true value is `y − e`, with the
+/// normal distribution Φ. P is log-concave, so the cost `−ln P` is convex. Unlike a squared error, it accounts for the
+/// fact that all values within a step give the same reading: constant readings, and steps that repeat each period,
+/// count with the information that they contain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorNoise {
-    /// σ.
+    /// Standard deviation σ of the noise, in the unit of the channel.
     pub sigma: f64,
-    /// q.
+    /// Step q, in the unit of the channel.
     pub step: f64,
 }
 
@@ -39,12 +39,13 @@ impl SensorNoise {
         Self { sigma, step: 0.0 }
     }
 
-    /// Deviation of both together, σ² + q²/12.
+    /// Standard deviation of the error by noise and steps, √(σ² + q²/12).
     pub fn deviation(&self) -> f64 {
         (self.sigma * self.sigma + self.step * self.step / 12.0).sqrt()
     }
 
-    /// −ln of the probability of a reading that is `error` off (of its density, without steps).
+    /// Negative logarithm of the probability of a reading with this `error` (of the probability
+    /// density, if there are no steps).
     pub fn surprise(&self, error: f64) -> f64 {
         if self.step <= 0.0 {
             return 0.5 * (error / self.sigma).powi(2) + self.sigma.ln();

@@ -1,45 +1,46 @@
-//! Parameters of a replayed arm, each by name.
+//! The parameters of a replayed arm.
 
 use super::modal_arm::ModalArm;
 use crate::friction::FrictionNumber;
 use crate::record::Channels;
 
-/// One number of a [`ModalArm`].
+/// A parameter of a [`ModalArm`]. Modes and tips are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Parameter {
-    /// Inertia J.
+    /// Inertia J \[kg·m²\].
     Inertia,
-    /// Viscous friction, both directions alike (or their mean).
+    /// Viscous friction, mean of both directions \[N·m·s/rad\].
     Viscous,
-    /// Half the difference of viscous friction, (V_+ − V_−)/2.
+    /// Half the difference of viscous friction by direction, (V_+ − V_−)/2 \[N·m·s/rad\].
     ViscousDifference,
-    /// ω of a mode.
+    /// Frequency ω of a mode \[rad/s\].
     Frequency(usize),
-    /// Stiffness k of a mode.
+    /// Stiffness k of a mode \[N·m/rad\].
     Stiffness(usize),
-    /// Damping d within the beam, of a mode.
+    /// Damping d within the beam, of a mode \[1/s\].
     DampingWithin(usize),
-    /// Damping a against the fixed frame, of a mode.
+    /// Damping a against the fixed frame, of a mode \[1/s\].
     DampingGrounded(usize),
-    /// Damping c of the point of a tip.
+    /// Damping c at the point of a tip, against the fixed frame \[1/s\].
     DampingAtPoint(usize),
-    /// Mean Coulomb friction.
+    /// Coulomb friction, mean of both directions \[N·m\].
     Coulomb,
-    /// Offset.
+    /// Offset of friction \[N·m\].
     Offset,
-    /// A number of the friction terms beside Coulomb friction and offset.
+    /// A parameter of the friction terms besides Coulomb friction and offset.
     Friction(FrictionNumber),
-    /// g_s of gravity.
+    /// Gravity per sin θ, g_s \[N·m\].
     GravitySine,
-    /// g_c of gravity.
+    /// Gravity per cos θ, g_c \[N·m\].
     GravityCosine,
-    /// Lag of the command.
+    /// Lag of the command \[s\].
     CommandLag,
-    /// Lag of a tip's readings behind the motor's.
+    /// Lag of a tip's readings relative to the motor's \[s\].
     TipLag(usize),
-    /// r of a tip (first) and a mode (second).
+    /// Share r of a tip (first index) and a mode (second index) \[1\].
     Shape(usize, usize),
-    /// The same, with the last mode's r moved the other way: Σr of the tip stays.
+    /// The same share, while the share of the last mode changes by the opposite amount: the sum over the modes of the
+    /// tip stays constant.
     ShapeShare(usize, usize),
 }
 
@@ -80,7 +81,7 @@ impl Parameter {
         }
     }
 
-    /// Whether it is positive by nature and spans decades, so that a search moves its logarithm.
+    /// Whether the parameter is positive and may span decades, so that a search changes its logarithm.
     pub fn is_scale(self) -> bool {
         match self {
             Self::Inertia | Self::Frequency(_) | Self::Stiffness(_) => true,
@@ -89,12 +90,13 @@ impl Parameter {
         }
     }
 
-    /// Whether it is a damper of the beam, of whatever kind.
+    /// Whether the parameter is a damping of the beam, of any kind.
     pub fn is_damper(self) -> bool {
         matches!(self, Self::DampingWithin(_) | Self::DampingGrounded(_) | Self::DampingAtPoint(_))
     }
 
-    /// Its natural size in an arm, in its own unit: its value where that is a measure.
+    /// Typical size for an arm, in the parameter's own unit: its value if it is positive, otherwise
+    /// a size that follows from other parameters.
     pub fn size(self, arm: &ModalArm) -> f64 {
         let positive = |value: f64, or: f64| if value > 0.0 { value } else { or };
         let first = arm.modes.first().map_or(1.0, |m| m.omega_rad_s);
@@ -115,7 +117,7 @@ impl Parameter {
         }
     }
 
-    /// Its name in results, modes and tips counted from one.
+    /// Name in results; modes and tips are counted from 1.
     pub fn name(self) -> String {
         match self {
             Self::Inertia => "inertia".to_owned(),
@@ -137,7 +139,7 @@ impl Parameter {
         }
     }
 
-    /// Its value.
+    /// Value for an arm.
     pub fn of(self, arm: &ModalArm) -> f64 {
         let [forward, backward] = arm.viscous_nm_s_per_rad;
         match self {
@@ -160,7 +162,7 @@ impl Parameter {
         }
     }
 
-    /// Sets it.
+    /// Sets the value in an arm.
     pub fn set(self, arm: &mut ModalArm, value: f64) {
         let change = value - self.of(arm);
         match self {
@@ -196,8 +198,8 @@ impl Parameter {
     }
 }
 
-/// The parameters of an arm that channels can show, with Coulomb friction, one viscous
-/// constant and damping within the beam.
+/// The parameters of an arm that the given channels can determine: Coulomb friction, one viscous constant, and damping
+/// within the beam.
 pub fn free_parameters(channels: &Channels, arm: &ModalArm) -> Vec<Parameter> {
     let mut free =
         vec![Parameter::Inertia, Parameter::Viscous, Parameter::Coulomb, Parameter::Offset];

@@ -1,4 +1,4 @@
-//! A beam of point masses at its tips: what its modes must be like among all that oscillators could be.
+//! A beam of point masses at its tips: the conditions that its modes must satisfy.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -9,44 +9,44 @@ const HIGHER: f64 = 0.1;
 /// Least inertia to begin with, as a share of the mean.
 const LEAST_SHARE: f64 = 0.05;
 
-/// Inertias, frequencies and an orthogonal matrix that stand for a beam whose mass is at its tips.
+/// A beam whose mass is concentrated at its tips, in terms of inertias, frequencies and an orthogonal matrix.
 ///
-/// With I_i = m_i·l_i² at tip i the kinetic energy ½ΣI_i·θ̇_i² is ½Σμ_j·ψ̇_j², μ_j = k_j/ω_j², for any
-/// motion θ_i = Σ_j r_ij·ψ_j (Σ_j r_ij = 1). Hence `rᵀ·diag(I)·r = diag(μ)`: with Q orthogonal,
+/// With I_i = m_i·l_i² at tip i, the kinetic energy `½ΣI_i·θ̇_i²` equals `½Σμ_j·ψ̇_j²`, μ_j = k_j/ω_j², for any motion
+/// `θ_i = Σ_j r_ij·ψ_j` (Σ_j r_ij = 1). Hence `rᵀ·diag(I)·r = diag(μ)`, and with an orthogonal matrix Q
 ///
 /// ```text
 /// s_j = Σ_i Q_ij·√I_i    r_ij = Q_ij·s_j/√I_i    k_j = ω_j²·s_j²
 /// ```
 ///
-/// n(n − 1)/2 numbers less than frequencies, stiffnesses and shapes that know nothing of each other: a
-/// mode that no run drives follows from the others and from how the beam bends below it.
+/// This has n(n − 1)/2 unknowns fewer than independent frequencies, stiffnesses and shapes. A mode that no run excites
+/// follows from the other modes and from the shape of the beam below its frequency.
 ///
 /// # Source
 /// The symmetry of stiffness and mass behind `[Feliu1989, eqs. (10), (17), (18)]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointMasses {
-    /// I_i of each tip \[kg·m²\].
+    /// Inertia I_i of each tip about the axis \[kg·m²\].
     pub inertia_kg_m2: Vec<f64>,
-    /// ω_j, the motor clamped \[rad/s\].
+    /// Frequency ω_j of each mode with the motor clamped \[rad/s\].
     pub omega_rad_s: Vec<f64>,
-    /// Q, tips by modes.
+    /// Orthogonal matrix Q, tips × modes.
     pub rotation: DMatrix<f64>,
 }
 
-/// One of the numbers.
+/// One coordinate of [`PointMasses`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BeamCoordinate {
-    /// ω of a mode.
+    /// Frequency ω of a mode \[rad/s\].
     Frequency(usize),
-    /// I of a tip.
+    /// Inertia I of a tip \[kg·m²\].
     Inertia(usize),
-    /// Turns two columns of Q, the first towards the second \[rad\].
+    /// Rotation of two columns of Q, the first towards the second \[rad\].
     Turn(usize, usize),
 }
 
 impl PointMasses {
-    /// A beam near an arm with as many tips as modes (ascending); `None` for others, and where there is
-    /// none.
+    /// Builds a beam of point masses close to an arm with as many tips as modes (modes ascending); `None` for other
+    /// arms, and if there is no such beam.
     pub fn nearest(arm: &ModalArm) -> Option<Self> {
         let n = arm.modes.len();
         if n < 2 || arm.shapes.len() != n {
@@ -93,12 +93,12 @@ impl PointMasses {
         self.inertia_kg_m2.len()
     }
 
-    /// Never true of one that was made.
+    /// Never true for a beam from [`nearest`](Self::nearest).
     pub fn is_empty(&self) -> bool {
         self.inertia_kg_m2.is_empty()
     }
 
-    /// All numbers, in order.
+    /// All coordinates, in order.
     pub fn coordinates(&self) -> Vec<BeamCoordinate> {
         let n = self.len();
         let turns = (0..n).flat_map(|j| (j + 1..n).map(move |l| BeamCoordinate::Turn(j, l)));
@@ -113,7 +113,7 @@ impl PointMasses {
         self.rotation.transpose() * root
     }
 
-    /// Gives an arm these modes and shapes.
+    /// Sets the modes and shapes of an arm to those of this beam.
     pub fn put_into(&self, arm: &mut ModalArm) {
         let s = self.shares();
         for (j, mode) in arm.modes.iter_mut().enumerate() {
@@ -126,7 +126,7 @@ impl PointMasses {
         }
     }
 
-    /// Adds `change` to one number.
+    /// Adds `change` to one coordinate.
     pub fn shift(&mut self, coordinate: BeamCoordinate, change: f64) {
         match coordinate {
             BeamCoordinate::Frequency(j) => self.omega_rad_s[j] += change,
@@ -144,7 +144,7 @@ impl PointMasses {
         }
     }
 
-    /// Derivatives of ω_j, k_j and r_ij (tips by modes) by one number.
+    /// Derivatives of ω_j, k_j and r_ij (tips × modes) by one coordinate.
     pub fn derivative(&self, by: BeamCoordinate) -> BeamDerivative {
         let n = self.len();
         let s = self.shares();
@@ -177,14 +177,14 @@ impl PointMasses {
     }
 }
 
-/// What a number changes of the modes.
+/// Derivatives of the modes by one coordinate of [`PointMasses`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamDerivative {
-    /// Of ω_j.
+    /// Derivative of ω_j.
     pub omega: DVector<f64>,
-    /// Of k_j.
+    /// Derivative of k_j.
     pub stiffness: DVector<f64>,
-    /// Of r_ij.
+    /// Derivative of r_ij.
     pub shapes: DMatrix<f64>,
 }
 

@@ -1,26 +1,26 @@
-//! What an arm's sensors would show under a logged command.
+//! Prediction of sensor readings under a logged command.
 
 use super::late_tips::LateTips;
 use super::modal_arm::{MOST_MODES, ModalArm};
 use super::sums::{Window, replayers, start};
 use crate::record::Campaign;
 
-/// A window as the arm predicts it.
+/// Predicted readings over one window.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prediction {
-    /// Motor first, then tips: one value a sample, in the channel's own unit. Of a late tip's first readings, whose
-    /// motion was before the window, the log's own.
+    /// Readings of the motor and then of each tip, one per sample, in the unit of the channel. The first readings of a
+    /// tip with a lag belong to motion before the window; they are copied from the log.
     pub channels: Vec<Vec<f64>>,
-    /// Friction's torque against the motor, its mean from each sample to the next \[N·m\]: one value
-    /// less than samples.
+    /// Torque of friction against the motor, its mean from each sample to the next
+    /// \[N·m\]; one value less than samples.
     pub friction_nm: Vec<f64>,
-    /// Time that the joint sticks \[s\].
+    /// Time for which the joint sticks \[s\].
     pub stuck_s: f64,
-    /// State at the last sample.
+    /// State at the last sample, `[θ, θ̇, ψ_1, ψ̇_1, …]`.
     pub end: Vec<f64>,
 }
 
-/// Replays one window; `None` for more than [`MOST_MODES`] modes.
+/// Replays one window without derivatives; `None` for an arm with more than [`MOST_MODES`] modes.
 pub fn predict(arm: &ModalArm, campaign: &Campaign, window: &Window) -> Option<Prediction> {
     match arm.modes.len() {
         0 => predict_of::<2>(arm, campaign, window),

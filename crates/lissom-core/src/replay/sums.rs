@@ -1,4 +1,4 @@
-//! Squares and products of residuals and their derivatives, summed over windows.
+//! Sums of squares and products of residuals and their derivatives, over windows.
 
 use std::ops::RangeInclusive;
 
@@ -17,16 +17,16 @@ use crate::record::{Campaign, Run};
 /// processor.
 const MOST_NUMBERS: usize = 8192;
 
-/// A stretch of a run with its own initial state.
+/// A stretch of a run that is replayed from its own initial state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Window {
-    /// Index of the run.
+    /// Index of the run in its campaign.
     pub run: usize,
-    /// Samples, both ends included.
+    /// Range of samples, both ends included.
     pub samples: RangeInclusive<usize>,
-    /// State `[θ, θ̇, ψ_1, ψ̇_1, …]` at the first of them.
+    /// State `[θ, θ̇, ψ_1, ψ̇_1, …]` at the first sample.
     pub start: Vec<f64>,
-    /// What each tip shows where the model has zero.
+    /// Zero of each tip: its reading where the model's angle is zero, in the unit of the channel.
     pub zeros: Vec<f64>,
 }
 
@@ -35,7 +35,7 @@ impl Window {
     pub fn len(&self) -> usize {
         self.samples.end() + 1 - self.samples.start()
     }
-    /// Never true.
+    /// Never true: a window has samples.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -49,49 +49,50 @@ impl Window {
     }
 }
 
-/// Sums over one window, weighted.
+/// Weighted sums over one window.
 ///
-/// A row is `[∂ŷ/∂p, ∂ŷ/∂(initial state), ∂ŷ/∂(zeros), s/c]·√c`, s the slope and c the curvature of
-/// the channel's cost: without steps, the derivatives and the residual in deviations.
+/// A row is `[∂ŷ/∂p, ∂ŷ/∂(initial state), ∂ŷ/∂(zeros), s/c]·√c`, with the slope s and the curvature c of
+/// the channel's cost. Without sensor steps these are the derivatives and the residual, divided by the
+/// standard deviation of the noise.
 #[derive(Debug, Clone)]
 pub struct WindowSums {
     /// Σ rowᵀ·row.
     pub gram: DMatrix<f64>,
-    /// The same over the samples of each block, where [`Sampling::blocks`] are given.
+    /// The same sum over the samples of each block, if [`Sampling::blocks`] are given.
     pub blocks: Vec<DMatrix<f64>>,
-    /// Σ of squared residuals of each channel, not weighted.
+    /// Sum of squared residuals of each channel, without weights.
     pub squares: Vec<f64>,
-    /// Readings of each channel that count.
+    /// Number of readings of each channel that count.
     pub readings: Vec<usize>,
-    /// Σ of `−2·ln` of the readings' probabilities, relative to the best: squared residuals in
-    /// deviations where sensors have no steps.
+    /// Sum of `−2·ln` of the probabilities of the readings, relative to the most probable readings. If sensors have no
+    /// steps, it is the sum of squared residuals divided by the variance of the noise.
     pub cost: f64,
-    /// Σ of the squared slopes of the channels' costs, in deviations.
+    /// Sum of the squared slopes of the channels' costs, per variance of the noise.
     pub slopes: f64,
-    /// Σ of their curvatures: equal to `slopes` in the mean where the noise is what it is taken for.
+    /// Sum of their curvatures; on average equal to `slopes` if the noise is as assumed.
     pub curvatures: f64,
-    /// Samples summed.
+    /// Number of samples.
     pub samples: usize,
 }
 
-/// What the sums are over.
+/// Weights and selections for the sums.
 #[derive(Debug, Clone, Copy)]
 pub struct Sampling<'a> {
     /// Noise of each channel, motor first, then tips.
     pub noise: &'a [SensorNoise],
-    /// How the samples of each run go into blocks; empty where no sums of theirs are wanted.
+    /// How the samples of each run are grouped to blocks; empty if no sums by block are needed.
     pub blocks: &'a [Blocks],
-    /// Readings of each run and channel that count; `None` where all do.
+    /// For each run and channel, which readings count; `None` if all count.
     pub masks: &'a [Vec<Option<Vec<bool>>>],
 }
 
-/// How the samples of a run are gathered into blocks whose residuals belong together.
+/// How the samples of a run are grouped to blocks whose residuals are correlated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Blocks {
-    /// Samples of a block.
+    /// Number of samples per block.
     pub samples: f64,
-    /// Samples of a period: in a repeated motion a sensor's steps err alike at the same phase of
-    /// every period, and these samples make one block. `None` for motions that do not repeat.
+    /// Number of samples per period. In a periodic motion the steps of a sensor give the same errors at the same phase
+    /// of every period, so these samples belong to the same block. `None` for motions that are not periodic.
     pub period: Option<f64>,
 }
 
@@ -105,11 +106,11 @@ impl Blocks {
     }
 }
 
-/// Replays every window with its derivatives and sums up. Windows are independent and run on all
-/// threads; the order of the result is theirs.
+/// Replays every window with its derivatives, and computes the sums. Windows are independent and are computed on all
+/// threads; results are in the order of the windows.
 ///
 /// # Panics
-/// Never for an arm of at most [`MOST_MODES`] modes whose windows lie within their runs.
+/// Never for an arm of at most [`MOST_MODES`] modes whose windows are within their runs.
 pub fn sums(
     arm: &ModalArm,
     parameters: &[Parameter],
@@ -127,7 +128,7 @@ pub fn sums(
     }
 }
 
-/// Costs of the windows alone, without derivatives: in a fifth of the time.
+/// Costs of the windows, without derivatives; takes a fifth of the time of [`sums`].
 pub fn costs(
     arm: &ModalArm,
     campaign: &Campaign,
@@ -294,8 +295,7 @@ fn sum_up<const D: usize>(
 }
 
 impl WindowSums {
-    /// The same of some of the parameters: those at `kept` of the first `shared`, and all of the
-    /// window's own.
+    /// Sums for fewer parameters: those at the indices `kept` among the first `shared`, and all unknowns of the window.
     #[must_use]
     pub fn of(&self, kept: &[usize], shared: usize) -> Self {
         let columns: Vec<usize> = kept.iter().copied().chain(shared..self.gram.ncols()).collect();

@@ -1,4 +1,4 @@
-//! Derivatives of the state by every unknown of a window, eight unknowns at a time.
+//! Derivatives of the state by all unknowns of a window, eight unknowns at a time.
 
 #![expect(
     clippy::inline_always,

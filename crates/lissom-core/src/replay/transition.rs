@@ -1,4 +1,4 @@
-//! What a whole piece of a sample does where nothing happens in it, as matrices.
+//! Matrices for a whole part of a sample in which there is no event.
 
 use super::lanes::{MatrixPack, Pack};
 use super::series::add;

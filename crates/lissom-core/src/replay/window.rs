@@ -1,4 +1,5 @@
-//! A stretch of a run, replayed: its logged command through the arm, beside its logged angles.
+//! Replay of one stretch of a run: its logged command drives the arm, and the result is
+//! compared with its logged angles.
 
 use std::ops::RangeInclusive;
 

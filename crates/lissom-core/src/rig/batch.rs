@@ -1,4 +1,4 @@
-//! Many experiments that differ by their noise, side by side.
+//! Many experiments at a time that differ only in their noise.
 
 #![expect(
     clippy::inline_always,
@@ -28,7 +28,7 @@ const BLOCK: usize = 64;
 /// Mean, and two of each harmonic: 1 and 3.
 const BASIS: usize = 5;
 
-/// Experiments of one arm in one loop, each with sensor noise of its own inside the loop.
+/// Experiments with one arm in one control loop, each with its own sensor noise inside the loop.
 ///
 /// ```
 /// # use lissom::{arm::Arm, beam::{LumpedBeam, Span}, drive::{Coulomb, Motor}};
@@ -40,9 +40,9 @@ const BASIS: usize = 5;
 ///     arm: &arm, controller: Pd::new(8.0, 0.2)?, limit_a: 4.0, sample_time_s: 0.003, noise_rad: 1e-4,
 ///     omega_rad_s: 3.0, amplitude_rad: 0.5, settle_s: 6.0, record_s: 6.0,
 /// };
-/// let figures = batch.run(0..20)?;
-/// let mean = figures.iter().map(|f| f.coulomb_a).sum::<f64>() / 20.0;
-/// assert!((mean / (0.03 / 0.25) - 1.0).abs() < 0.1); // sticking lowers it by some per cent
+/// let runs = batch.run(0..20)?;
+/// let mean = runs.iter().map(|run| run.coulomb_a).sum::<f64>() / 20.0;
+/// assert!((mean / (0.03 / 0.25) - 1.0).abs() < 0.1); // sticking lowers it by a few percent
 /// # Ok::<(), lissom::rig::RigError>(())
 /// ```
 ///
@@ -52,39 +52,38 @@ const BASIS: usize = 5;
 pub struct Batch<'a> {
     /// The arm.
     pub arm: &'a Arm,
-    /// The loop; a filter of its derivative is not simulated here.
+    /// The controller. Its derivative must not be filtered.
     pub controller: Pd,
-    /// Magnitude at which the current is limited \[A\].
+    /// Largest magnitude of the current \[A\].
     pub limit_a: f64,
     /// Sample time T \[s\].
     pub sample_time_s: f64,
-    /// Standard deviation of the motor sensor's noise, normal and independent from sample to sample
-    /// \[rad\].
+    /// Standard deviation of the noise of the motor's sensor \[rad\]; normal, independent from sample to sample.
     pub noise_rad: f64,
     /// Frequency ω0 of the reference \[rad/s\].
     pub omega_rad_s: f64,
     /// Amplitude of the reference \[rad\].
     pub amplitude_rad: f64,
-    /// Time before the record \[s\].
+    /// Time before the record begins \[s\].
     pub settle_s: f64,
-    /// Time that is recorded, cut to whole periods where it has one \[s\].
+    /// Time that is recorded \[s\]; it is cut to whole periods if it is at least one period.
     pub record_s: f64,
 }
 
-/// What one experiment of a [`Batch`] gave.
+/// Result of one experiment of a [`Batch`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NoisyRun {
-    /// Its noise's seed.
+    /// Seed of its noise.
     pub seed: u64,
-    /// Phasors of the command at ω0 and 3ω0, with its hold \[A\].
+    /// Phasors of the command at ω0 and 3ω0, zero-order hold included \[A\].
     pub current_a: [Complex64; 2],
     /// Phasors of the measured angle at ω0 and 3ω0 \[rad\].
     pub motor_rad: [Complex64; 2],
-    /// Coulomb friction CF/K by the third harmonic (27), the linear part known \[A\].
+    /// Coulomb friction CF/K from the third harmonic (27) \[A\]; the linear part of the arm is known.
     pub coulomb_a: f64,
-    /// How many times the joint came to stick.
+    /// Number of times that the joint began to stick.
     pub sticks: usize,
-    /// Total time spent sticking \[s\].
+    /// Total time for which the joint stuck \[s\].
     pub stuck_s: f64,
 }
 
@@ -101,19 +100,20 @@ struct Plan<'a> {
 }
 
 impl Batch<'_> {
-    /// Runs one experiment for each seed, on all of rayon's threads: command and angle at ω0 and 3ω0,
-    /// and the friction that follows.
+    /// Runs one experiment for each seed, on all threads of rayon, and computes the phasors of command and angle at ω0
+    /// and 3ω0 and the Coulomb friction that follows from them.
     ///
-    /// `c = Re{(i_3 − θ_m3/G(3ω0))/(j·4/(3π)·e^{j3φ})}`, φ the phase of θ_m at ω0, G the motor's
-    /// response without friction. Figures of a seed are the same to the last bit whatever the other
-    /// seeds, the number of threads and the machine's vectors.
+    /// `c = Re{(i_3 − θ_m3/G(3ω0))/(j·4/(3π)·e^{j3φ})}` \[A\], with the phase φ of θ_m at ω0 \[rad\] and the motor's
+    /// response without friction G \[rad/A\]. The results of a seed are the same to the last bit for any other seeds,
+    /// any number of threads and any vector registers.
     ///
     /// # Source
     /// `[Feliu1989, eq. (27)]` with the phase of `docs/src/reference/errata.md`.
     ///
     /// # Errors
-    /// [`RigError::NotPositive`] for times, frequencies and gains that are not,
-    /// [`RigError::NotFinite`] for noise that is none, [`RigError::Unstable`] where a loop runs away.
+    /// [`RigError::NotPositive`] or [`RigError::NotFinite`] for times, frequencies, gains or noise that
+    /// are not; [`RigError::Unsupported`] for a controller with a filtered derivative;
+    /// [`RigError::Unstable`] if a loop is unstable.
     pub fn run(&self, seeds: std::ops::Range<u64>) -> Result<Vec<NoisyRun>, RigError> {
         let plan = Plan::new(self)?;
         let held = HeldArm::new(self.arm, &[self.sample_time_s])?;

@@ -1,4 +1,4 @@
-//! What can be wrong with a rig or an experiment on it.
+//! Why a rig cannot be built, or an experiment cannot be run.
 
 use thiserror::Error;
 
@@ -7,7 +7,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum RigError {
     /// A quantity that must be positive is not.
-    #[error("{quantity} = {found} is not positive and finite")]
+    #[error("{quantity} is {found}, but must be positive and finite")]
     NotPositive {
         /// Which quantity, with its unit.
         quantity: &'static str,
@@ -15,7 +15,7 @@ pub enum RigError {
         found: f64,
     },
     /// A quantity that must not be negative is.
-    #[error("{quantity} = {found} is negative or not finite")]
+    #[error("{quantity} is {found}, but must be finite and not negative")]
     Negative {
         /// Which quantity, with its unit.
         quantity: &'static str,
@@ -23,22 +23,22 @@ pub enum RigError {
         found: f64,
     },
     /// A number that must be finite is not.
-    #[error("{quantity} = {found} is not finite")]
+    #[error("{quantity} is {found}, but must be finite")]
     NotFinite {
         /// Which quantity, with its unit.
         quantity: &'static str,
         /// The number found.
         found: f64,
     },
-    /// A converter with no or too many bits.
-    #[error("a converter of {found} bits; 1 to 32 are possible")]
+    /// The number of bits of a converter is not possible.
+    #[error("a converter has {found} bits, but must have 1 to 32")]
     Bits {
-        /// Bits asked for.
+        /// Requested number of bits.
         found: u32,
     },
-    /// Neither no, one nor as many tip sensors as the beam has masses.
+    /// The number of tip sensors is not zero, one, or the number of masses.
     #[error(
-        "{found} tip sensors on a beam of {masses} masses; give none, one for all, or {masses}"
+        "{found} tip sensors for a beam of {masses} masses; give none, one for all masses, or {masses}"
     )]
     SensorCount {
         /// Sensors given.
@@ -49,17 +49,17 @@ pub enum RigError {
     /// A rig without a controller.
     #[error("the rig has no controller")]
     NoController,
-    /// Masses that the beam does not have.
-    #[error("tips {} to {} of a beam with {masses} masses; tips are counted from 0", found.start, found.end)]
+    /// The beam does not have these masses.
+    #[error("tips {} to {} do not exist: the beam has {masses} masses, counted from 0", found.start, found.end)]
     TipRange {
-        /// The masses asked for.
+        /// Requested masses.
         found: std::ops::Range<usize>,
         /// Masses of the beam.
         masses: usize,
     },
-    /// An arm that changes too fast for its sample time to be simulated.
+    /// The arm changes too fast for a simulation with this sample time.
     #[error(
-        "the arm changes at rates up to {rate_per_s:.1e} 1/s, {steps:.1e} steps in a sample of {sample_time_s} s; {most:.0e} are possible"
+        "the arm changes at rates up to {rate_per_s:.1e} 1/s, which needs {steps:.1e} steps in a sample of {sample_time_s} s; at most {most:.0e} are possible"
     )]
     TooStiff {
         /// Bound on the rates \[1/s\].
@@ -71,9 +71,9 @@ pub enum RigError {
         /// Most steps.
         most: f64,
     },
-    /// Time stamps that may be later than the next row's.
+    /// A time stamp may be later than that of the next row.
     #[error(
-        "time stamps late by up to {most_s} s, and rows every {log_time_s} s: stamps must increase"
+        "time stamps are late by up to {most_s} s, but rows follow every {log_time_s} s: stamps would not increase"
     )]
     LateStamps {
         /// The largest lateness \[s\].
@@ -81,36 +81,38 @@ pub enum RigError {
         /// Time between two rows \[s\].
         log_time_s: f64,
     },
-    /// Friction that wanders too far.
-    #[error("friction wanders by a standard deviation of {found}; {most} at most is possible")]
+    /// Friction wanders too much.
+    #[error(
+        "friction wanders with a standard deviation of {found}, but at most {most} is possible"
+    )]
     Wander {
         /// The relative standard deviation found \[1\].
         found: f64,
         /// The largest \[1\].
         most: f64,
     },
-    /// A gain that the integers of the control computer do not hold.
-    #[error("{quantity} is {found} in integers; they hold {most} at most")]
+    /// A gain is too large for the integers of the control computer.
+    #[error("{quantity} is {found} as an integer, but at most {most} is possible")]
     Gain {
-        /// Which gain.
+        /// Name of the gain.
         quantity: &'static str,
-        /// Its size in integers.
+        /// Its value as an integer.
         found: f64,
-        /// The largest that fits.
+        /// Largest possible value.
         most: f64,
     },
-    /// More bits behind the binary point than an integer has.
-    #[error("a binary point of {found} bits; {most} at most are possible")]
+    /// There are more bits behind the binary point than an integer has.
+    #[error("{found} bits behind the binary point, but at most {most} are possible")]
     BinaryPoint {
-        /// Bits asked for.
+        /// Requested number of bits.
         found: u32,
-        /// The most that there can be.
+        /// Largest possible number.
         most: u32,
     },
-    /// A table without rows.
+    /// The table has no rows.
     #[error("the table has no rows")]
     EmptyTable,
-    /// A table whose columns differ in length.
+    /// The columns of the table differ in length.
     #[error("the table has {times} times and {values} values")]
     TableLength {
         /// Number of times.
@@ -118,8 +120,8 @@ pub enum RigError {
         /// Number of values.
         values: usize,
     },
-    /// A table holds NaN or infinity.
-    #[error("row {row} of the table, {time_s} s and {value}, is not finite")]
+    /// The table contains NaN or infinity.
+    #[error("row {row} of the table is not finite: time {time_s} s, value {value}")]
     TableNotFinite {
         /// The row, from 0.
         row: usize,
@@ -129,7 +131,7 @@ pub enum RigError {
         value: f64,
     },
     /// Times of a table do not increase.
-    #[error("time goes from {before_s} s to {after_s} s at row {row} of the table")]
+    #[error("time does not increase at row {row} of the table: {after_s} s follows {before_s} s")]
     TableOrder {
         /// The later row, from 0.
         row: usize,
@@ -138,31 +140,31 @@ pub enum RigError {
         /// Its time \[s\].
         after_s: f64,
     },
-    /// Integer arithmetic beside a sensor or converter without steps.
+    /// Integer arithmetic with a sensor or converter that has no steps.
     #[error("integer arithmetic needs a `{what}` with steps")]
     NeedsSteps {
-        /// Which.
+        /// Name of the sensor or converter.
         what: &'static str,
     },
-    /// Arms that take over from one another have different numbers of masses.
-    #[error("an arm of {found} masses cannot take over from one of {expected}")]
+    /// Arms that replace one another have different numbers of masses.
+    #[error("an arm of {found} masses cannot replace one of {expected} masses during a run")]
     Masses {
         /// Masses of the first arm.
         expected: usize,
         /// Masses of the other.
         found: usize,
     },
-    /// A start that is not a state of the arm.
-    #[error("a start of {found} numbers; the arm's state has {expected}, all finite")]
+    /// The initial state is not a state of the arm.
+    #[error("the initial state has {found} numbers, but the arm needs {expected}, all finite")]
     State {
         /// Numbers found.
         found: usize,
         /// Numbers that the state has.
         expected: usize,
     },
-    /// The motor left its sensor's range, and the loop ran away without knowing where it was.
+    /// The motor left the range of its sensor, and the loop lost control.
     #[error(
-        "the loop lost the motor, which was at {angle_rad:.3} rad after {time_s:.3} s: its sensor ends at {:.3} and {:.3} rad",
+        "the motor left the range of its sensor, and the loop lost control: it was at {angle_rad:.3} rad after {time_s:.3} s, and its sensor ends at {:.3} and {:.3} rad",
         range_rad.0, range_rad.1
     )]
     BeyondSensor {
@@ -173,50 +175,52 @@ pub enum RigError {
         /// Time from the start \[s\].
         time_s: f64,
     },
-    /// What the rig cannot simulate.
+    /// The rig cannot simulate something.
     #[error("{what} cannot be simulated")]
     Unsupported {
-        /// What.
+        /// What it cannot simulate.
         what: &'static str,
     },
-    /// A tolerance that no solver is asked for.
-    #[error("a tolerance of {found}; {least} to {most} are possible")]
+    /// The tolerance of the solver is not possible.
+    #[error("the tolerance is {found}, but must be from {least} to {most}")]
     Tolerance {
         /// The number found.
         found: f64,
-        /// The finest.
+        /// The smallest possible.
         least: f64,
-        /// The coarsest.
+        /// The largest possible.
         most: f64,
     },
-    /// A motion that is solved step by step got nowhere.
-    #[error("the motion cannot be followed beyond {time_s} s: the step there was {step_s} s")]
+    /// The solver of a motion cannot continue.
+    #[error("the motion cannot be computed beyond {time_s} s: the step was {step_s} s there")]
     NotFollowed {
         /// Time from the motion's start \[s\].
         time_s: f64,
         /// The step that was tried \[s\].
         step_s: f64,
     },
-    /// The state is no number any more.
-    #[error("the motion left the range of numbers {time_s} s after its start")]
+    /// The state is no longer finite.
+    #[error("the motion is no longer finite {time_s} s after its start")]
     Lost {
-        /// When it was noticed \[s\].
+        /// Time at which this was detected \[s\].
         time_s: f64,
     },
-    /// A multisine without lines.
+    /// The multisine has no lines.
     #[error("the multisine has no lines")]
     NoLines,
-    /// A line that an odd multisine cannot have.
-    #[error("line {found} of the multisine: lines are odd, increase and go up to {most}")]
+    /// An odd multisine cannot have this line.
+    #[error(
+        "line {found} of the multisine is not possible: lines must be odd, increase, and be at most {most}"
+    )]
     Line {
         /// The line.
         found: u32,
         /// The highest possible.
         most: u32,
     },
-    /// A reference that the sample time cannot carry.
+    /// The reference has frequencies above the Nyquist frequency.
     #[error(
-        "the reference goes up to {omega_rad_s} rad/s; the Nyquist frequency is {nyquist_rad_s} rad/s"
+        "the reference goes up to {omega_rad_s} rad/s, but the Nyquist frequency is {nyquist_rad_s} rad/s"
     )]
     AboveNyquist {
         /// Highest frequency of the reference \[rad/s\].
@@ -224,45 +228,45 @@ pub enum RigError {
         /// π over the time between two actions of the controller \[rad/s\].
         nyquist_rad_s: f64,
     },
-    /// More samples than a run is let have.
-    #[error("{quantity} takes {samples} samples; {most} at most are simulated")]
+    /// A run has too many samples.
+    #[error("{quantity} takes {samples} samples, but at most {most} are simulated")]
     TooLong {
-        /// What takes them.
+        /// The quantity that needs them.
         quantity: &'static str,
-        /// Samples needed.
+        /// Number of samples needed.
         samples: f64,
-        /// The most that are allowed.
+        /// Largest number allowed.
         most: f64,
     },
-    /// The beam's statics could not be solved for a start from a deflection.
+    /// The static deflection for the initial state is not finite.
     #[error("the deflection under a tip force of {tip_force_n} N is not finite")]
     Deflection {
         /// The force \[N\].
         tip_force_n: f64,
     },
-    /// A controller gave NaN or infinity.
-    #[error("the controller gave {found} A at {time_s} s")]
+    /// The output of the controller is NaN or infinite.
+    #[error("the output of the controller was {found} A at {time_s} s")]
     Controller {
-        /// What it gave \[A\].
+        /// Its output \[A\].
         found: f64,
-        /// When \[s\].
+        /// Time \[s\].
         time_s: f64,
     },
-    /// The loop ran away: the motor left the range in which angles mean anything.
+    /// The loop is unstable: the angle of the motor grew beyond a bound.
     #[error(
         "the loop is unstable: the motor was at {angle_rad} rad after {time_s} s, beyond {bound_rad} rad"
     )]
     Unstable {
         /// Angle reached \[rad\].
         angle_rad: f64,
-        /// The bound that it left \[rad\].
+        /// The bound \[rad\].
         bound_rad: f64,
-        /// Time at which it was noticed, from the start of the loop \[s\].
+        /// Time at which this was detected, from the start of the loop \[s\].
         time_s: f64,
         /// State at that time, `[θ_m, θ̇_m, θ_i.., θ̇_i..]` \[rad, rad/s\].
         state: Vec<f64>,
     },
-    /// The log could not be made into a run.
+    /// The log does not make a valid run.
     #[error(transparent)]
     Record(#[from] crate::record::RecordError),
 }

@@ -1,13 +1,13 @@
-//! What an experiment shows that its log alone does not say.
+//! Findings about a simulated experiment that its log alone does not show.
 
 use std::fmt;
 
-/// Where a sensor is.
+/// Place of a sensor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SensorPlace {
-    /// On the motor.
+    /// At the motor.
     Motor,
-    /// At a mass of the beam, from 0 at the base.
+    /// At a mass of the beam; masses are counted from 0 at the base.
     Tip(usize),
 }
 
@@ -20,52 +20,61 @@ impl fmt::Display for SensorPlace {
     }
 }
 
-/// Something about a simulated run that its user should know.
+/// A finding about a simulated run.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum RigFinding {
-    /// The log began before the transient had gone.
+    /// The log began before the transient had decayed.
     NotSettled {
-        /// What is left of it at most \[rad\]; infinite where nothing bounds it.
+        /// Largest remaining transient \[rad\]; infinite if it cannot be bounded.
         left_rad: f64,
-        /// What was asked for \[rad\].
+        /// Largest transient allowed \[rad\].
         tolerance_rad: f64,
-        /// How long the rig waited \[s\].
+        /// Waiting time before the log \[s\].
         waited_s: f64,
     },
     /// The amplifier or its converter limited the current.
     CurrentLimited {
-        /// Part of the record in which it did \[1\].
+        /// Share of the record with limited current \[1\].
         share: f64,
-        /// The largest current that it gives \[A\].
+        /// Largest current of the amplifier \[A\].
         limit_a: f64,
-        /// The motor's range over the reference's; `None` where the reference has none.
+        /// Range of the motor's angle relative to that of the reference; `None` if the reference is constant.
         reached: Option<f64>,
     },
-    /// The motor stood still throughout the record.
+    /// The motor stood still during the whole record.
     NeverMoved {
-        /// Largest torque of the motor \[N·m\].
+        /// Largest torque of the motor in the record \[N·m\].
         torque_nm: f64,
-        /// The smaller of both directions' Coulomb friction \[N·m\].
+        /// Coulomb friction of the direction that has less \[N·m\].
         coulomb_nm: f64,
     },
-    /// A sensor was taken beyond its range and read the range's end.
+    /// A sensor was beyond its range and read the end of the range.
     SensorRange {
-        /// Which sensor.
+        /// The sensor.
         sensor: SensorPlace,
-        /// Part of the record in which it was \[1\].
+        /// Share of the record beyond the range \[1\].
         share: f64,
-        /// Lowest and highest angle that it reads \[rad\].
+        /// Lowest and highest angle that it can read \[rad\].
         range_rad: (f64, f64),
     },
-    /// The controller acts between two samples of the log: the logged current was not held from one
-    /// to the next.
+    /// The controller acts between two rows of the log, so the logged current was not constant until the next row.
     CurrentBetweenSamples {
-        /// Samples from one action of the controller to the next.
+        /// Number of samples between two actions of the controller.
         control_every: usize,
-        /// Samples from one row of the log to the next.
+        /// Number of samples between two rows of the log.
         log_every: usize,
     },
+}
+
+/// `sample`, `3 samples`.
+fn samples(count: usize) -> String {
+    if count == 1 { "sample".to_owned() } else { format!("{count} samples") }
+}
+
+/// Three digits without an exponent.
+fn plain(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
 }
 
 impl fmt::Display for RigFinding {
@@ -73,11 +82,14 @@ impl fmt::Display for RigFinding {
         match self {
             Self::NotSettled { left_rad, waited_s, .. } if left_rad.is_infinite() => write!(
                 f,
-                "not settled after {waited_s:.1} s: nothing bounds what is left of the transient (no damping, or too few periods)"
+                "the transient had not decayed after {waited_s:.1} s, and its remaining size is not known (no damping, or too \
+                 few periods)"
             ),
             Self::NotSettled { left_rad, tolerance_rad, waited_s } => write!(
                 f,
-                "not settled after {waited_s:.1} s: up to {left_rad:.2e} rad of the transient are left, {tolerance_rad:.2e} rad were asked for"
+                "the transient had not decayed after {waited_s:.1} s: up to {} rad remain, and {} rad were allowed",
+                plain(*left_rad),
+                plain(*tolerance_rad)
             ),
             Self::CurrentLimited { share, limit_a, reached } => {
                 write!(
@@ -86,21 +98,27 @@ impl fmt::Display for RigFinding {
                     100.0 * share
                 )?;
                 reached.map_or(Ok(()), |r| {
-                    write!(f, "; the motor reached {:.1} % of the amplitude asked for", 100.0 * r)
+                    write!(f, "; the motor reached {:.1} % of the requested amplitude", 100.0 * r)
                 })
             }
             Self::NeverMoved { torque_nm, coulomb_nm } => write!(
                 f,
-                "the joint never moved: the largest torque was {torque_nm:.3e} N·m, friction holds {coulomb_nm:.3e} N·m at rest"
+                "the joint never moved: the largest torque was {} N·m, but friction holds up to {} N·m at rest",
+                plain(*torque_nm),
+                plain(*coulomb_nm)
             ),
             Self::SensorRange { sensor, share, range_rad: (low, high) } => write!(
                 f,
-                "the {sensor} sensor was beyond its range of {low:.4} to {high:.4} rad for {:.2} % of the record",
+                "the {sensor} sensor was beyond its range of {low:.4} to {high:.4} rad for {:.2} % of the record: the log has \
+                 the end of the range there",
                 100.0 * share
             ),
             Self::CurrentBetweenSamples { control_every, log_every } => write!(
                 f,
-                "the controller acts every {control_every}. sample and the log holds every {log_every}.: the logged current is not the one held between two rows"
+                "the controller acts every {}, but the log has a row every {}: the logged current was not constant until \
+                 the next row",
+                samples(*control_every),
+                samples(*log_every)
             ),
         }
     }

@@ -1,4 +1,4 @@
-//! The log of a run on its way, and what is counted beside it.
+//! The log of a run while it is recorded, and statistics of the run.
 
 use super::experiment::{Drive, Experiment};
 use super::finding::{RigFinding, SensorPlace};

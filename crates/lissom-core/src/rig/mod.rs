@@ -1,5 +1,9 @@
-//! The virtual laboratory, Sections 5.1 and 6.1: a sampled loop around an arm that sticks and
-//! slips.
+//! The virtual rig (Sections 5.1 and 6.1 of the 1989 report): simulated experiments with an arm that sticks and slips,
+//! in a sampled control loop with real instruments.
+//!
+//! [`Rig`] runs [`Experiment`]s and returns logs. The engines behind the trait [`Motion`] can also be used alone:
+//! [`HeldMotion`] for Coulomb friction and torques that are constant over each sample, [`Hybrid`] for all other dry
+//! friction and for a world at the tip, [`LuGreMotion`] for bristles.
 
 mod batch;
 mod controller;

@@ -1,4 +1,4 @@
-//! A rig made of parts that are given by name.
+//! Builder of a rig: its parts are set one by one, by name.
 
 use std::f64::consts::TAU;
 
@@ -7,8 +7,8 @@ use super::{
 };
 use crate::arm::Arm;
 
-/// A [`Rig`] in the making: see [`Rig::builder`]. Numbers are checked by [`build`](Self::build), which gives the first
-/// error.
+/// Builder of a [`Rig`]: see [`Rig::builder`]. The numbers are checked by [`build`](Self::build),
+/// which returns the first error.
 #[derive(Debug, Clone)]
 pub struct RigBuilder {
     arm: Arm,
@@ -19,8 +19,8 @@ pub struct RigBuilder {
 }
 
 impl Rig {
-    /// A rig whose parts are given by name. What is not given is ideal: sensors without steps and noise, a current
-    /// without limit, no delay, a free tip.
+    /// Starts a builder, which sets the parts of a rig one by one. Parts that are not set are ideal: sensors without
+    /// steps and noise, a current without limit, no delay, nothing at the tip.
     ///
     /// ```
     /// use lissom::prelude::*;
@@ -56,21 +56,21 @@ impl Rig {
 }
 
 impl RigBuilder {
-    /// Sample time of sensors, controller and log \[s\]; it must be given.
+    /// Sets the sample time of sensors, controller and log \[s\]. It is required.
     #[must_use]
     pub fn sample_time_s(mut self, sample_time_s: f64) -> Self {
         self.instruments.sample_time_s = sample_time_s;
         self
     }
 
-    /// The controller of the motor's angle; it must be given.
+    /// Sets the controller of the motor's angle. It is required.
     #[must_use]
     pub fn controller(mut self, controller: impl Into<ControlLaw>) -> Self {
         self.controller = Some(controller.into());
         self
     }
 
-    /// Angles of motor and tips are read in steps of one turn over 2^`bits`, from −π to π.
+    /// Rounds the angles of motor and tips to steps of one turn over 2^`bits`; the range is −π to π.
     #[must_use]
     pub fn encoder_bits(self, bits: u32) -> Self {
         self.with(Quantiser::new(bits, TAU), |instruments, steps| {
@@ -80,7 +80,7 @@ impl RigBuilder {
         })
     }
 
-    /// Angles of motor and tips are read with white Gaussian noise of this standard deviation \[rad\].
+    /// Adds white Gaussian noise to the angles of motor and tips, with this standard deviation \[rad\].
     #[must_use]
     pub fn noise_rad(self, std_rad: f64) -> Self {
         self.with(Noise::new(std_rad), |instruments, noise| {
@@ -90,39 +90,39 @@ impl RigBuilder {
         })
     }
 
-    /// The amplifier's largest current \[A\].
+    /// Limits the current of the amplifier \[A\].
     #[must_use]
     pub fn current_limit_a(self, limit_a: f64) -> Self {
         let limited = self.instruments.amplifier.with_limit(limit_a);
         self.with(limited, |instruments, amplifier| instruments.amplifier = amplifier)
     }
 
-    /// Time from the sensors' instant to the current's acting \[s\].
+    /// Delays the current \[s\]: the time from the instant of the sensors until it acts.
     #[must_use]
     pub fn delay_s(self, delay_s: f64) -> Self {
         self.with(Delay::new(delay_s), |instruments, delay| instruments.delay = Some(delay))
     }
 
-    /// All instruments at once, in place of those given before.
+    /// Sets all instruments at once, in place of those set before.
     #[must_use]
     pub fn instruments(mut self, instruments: Instruments) -> Self {
         self.instruments = instruments;
         self
     }
 
-    /// Another law of friction, gravity, the world at the tip, payloads to come.
+    /// Sets another friction law, gravity, what acts on the tip, and later payloads.
     #[must_use]
     pub fn scene(mut self, scene: Scene) -> Self {
         self.scene = scene;
         self
     }
 
-    /// The rig.
+    /// Builds the rig.
     ///
     /// # Errors
-    /// The first [`RigError`] of the numbers given; [`RigError::NotPositive`] without a sample time,
-    /// [`RigError::NoController`] without a controller, [`RigError::TooStiff`] for an arm that changes too fast for
-    /// the sample time.
+    /// The first [`RigError`] of the numbers given; [`RigError::NotPositive`] without a sample time;
+    /// [`RigError::NoController`] without a controller; [`RigError::TooStiff`] for an arm that
+    /// changes too fast for the sample time.
     pub fn build(self) -> Result<Rig, RigError> {
         if let Some(error) = self.error {
             return Err(error);

@@ -1,4 +1,4 @@
-//! The sampled loop of 5.1 and 6.1: an arm, its instruments and a controller.
+//! The sampled control loop of Sections 5.1 and 6.1: an arm, its instruments and a controller.
 
 use std::ops::Range;
 
@@ -44,29 +44,30 @@ const EXTRA_STREAMS: usize = 3;
 /// Fewest rows of a log.
 const ROWS_LEAST: f64 = 8.0;
 
-/// An arm in its sampled loop.
+/// A virtual rig: an arm, its instruments and a controller in a sampled loop.
 #[derive(Debug, Clone)]
 pub struct Rig {
     /// The arm.
     pub arm: Arm,
-    /// Its joint's friction, where that is not the arm's, and the world at its tip.
+    /// Friction of the joint if it is not the arm's, gravity, and what acts on the tip.
     pub scene: Scene,
-    /// Sensors, amplifier, delay, sample time.
+    /// Sample time, sensors, amplifier and delay.
     pub instruments: Instruments,
-    /// The controller, of no use to experiments with an open drive.
+    /// The controller. It is not used in experiments with an open drive.
     pub controller: ControlLaw,
 }
 
 impl Rig {
-    /// An arm with a free tip and Coulomb friction of its own.
+    /// Builds a rig with the arm's own Coulomb friction and nothing at the tip.
     pub fn new(arm: Arm, instruments: Instruments, controller: ControlLaw) -> Self {
         Self { arm, scene: Scene::default(), instruments, controller }
     }
 
-    /// What its logs hold, of the masses `tips` alone (from 0, base to tip): the current, commanded or measured, and angles.
+    /// The channels of this rig's logs with only the masses `tips` (counted from 0, base to tip): the current,
+    /// commanded or measured, and the angles.
     ///
     /// # Errors
-    /// [`RigError::TipRange`] where the beam has not these masses.
+    /// [`RigError::TipRange`] if the beam does not have these masses.
     pub fn channels(&self, tips: Range<usize>) -> Result<Channels, RigError> {
         let masses = self.arm.beam().len();
         if tips.start > tips.end || tips.end > masses {
@@ -98,11 +99,11 @@ impl Rig {
         }
     }
 
-    /// Checks what the fields allow.
+    /// Checks the values of the fields.
     ///
     /// # Errors
-    /// [`RigError`] where times are not positive, sensors do not fit the beam, or the arm changes too fast for the
-    /// sample time to be simulated.
+    /// [`RigError`] if times are not positive, sensors do not fit the beam, or the arm changes too fast for the sample
+    /// time to be simulated.
     pub fn check(&self) -> Result<(), RigError> {
         self.instruments.check(self.arm.beam().len())?;
         self.scene.check()?;
@@ -110,7 +111,7 @@ impl Rig {
         for arm in std::iter::once(&self.arm).chain(self.scene.later.iter().map(|(_, arm)| arm)) {
             let rate_per_s = arm.rate_bound();
             let steps = rate_per_s * sample_time_s;
-            if !(steps <= STEPS_MOST) {
+            if steps > STEPS_MOST || steps.is_nan() {
                 let most = STEPS_MOST;
                 return Err(RigError::TooStiff { rate_per_s, steps, sample_time_s, most });
             }
@@ -118,9 +119,9 @@ impl Rig {
         Ok(())
     }
 
-    /// Carries out an experiment with the rig's own controller.
+    /// Runs an experiment with the rig's own controller.
     ///
-    /// The same seed gives the same bits; without noisy sensors it has no effect.
+    /// The same seed gives the same log to the last bit. Without noise the seed has no effect.
     ///
     /// ```
     /// # use lissom::{arm::Arm, beam::{LumpedBeam, Span}, drive::{Coulomb, Motor}};
@@ -140,18 +141,18 @@ impl Rig {
     /// `[Feliu1989, Sections 5.1 and 6.1]`
     ///
     /// # Errors
-    /// As [`run_with`](Self::run_with).
+    /// Those of [`run_with`](Self::run_with).
     pub fn run(&self, name: &str, experiment: &Experiment, seed: u64) -> Result<Logged, RigError> {
         self.run_with(&mut self.controller.clone(), name, experiment, seed)
     }
 
-    /// Carries out an experiment with a controller of the user's, in place of the rig's.
+    /// Runs an experiment with a controller of your own, in place of the rig's.
     ///
     /// # Errors
-    /// [`RigError`] where times are not positive, sensors do not fit the beam, the reference is
-    /// beyond the Nyquist frequency or the run too long; [`RigError::Controller`] where the
-    /// controller gives NaN or infinity; [`RigError::Unstable`] where the motor leaves five times
-    /// the amplitude asked for (of no less than 0.1 rad or 10 steps of its sensor).
+    /// [`RigError`] if times are not positive, sensors do not fit the beam, the reference is above the Nyquist
+    /// frequency, or the run is too long; [`RigError::Controller`] if the controller returns NaN or infinity;
+    /// [`RigError::Unstable`] if the motor leaves five times the amplitude of the reference (at least 0.1 rad or 10
+    /// steps of its sensor).
     pub fn run_with<C: Controller + ?Sized>(
         &self,
         controller: &mut C,
@@ -162,10 +163,10 @@ impl Rig {
         self.run_watched(controller, name, experiment, seed, &mut |_| {})
     }
 
-    /// The same; `watch` is shown what is true at each row of the log.
+    /// Runs an experiment with a controller of your own, and calls `watch` with the true values at each row of the log.
     ///
     /// # Errors
-    /// As [`run_with`](Self::run_with).
+    /// Those of [`run_with`](Self::run_with).
     pub fn run_watched<C: Controller + ?Sized>(
         &self,
         controller: &mut C,

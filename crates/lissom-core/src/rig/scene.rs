@@ -1,4 +1,4 @@
-//! What an arm is set in: the joint's friction and gravity, the world at the tip, payloads to come.
+//! The surroundings of an arm: friction and gravity at the joint, forces at the tip, later payloads.
 
 use super::error::finite;
 use super::{FrictionWander, HeldArm, HeldMotion, Hybrid, LuGreMotion, Motion, RigError, TipWorld};
@@ -6,26 +6,26 @@ use crate::arm::Arm;
 use crate::drive::{DryFriction, LuGre};
 use crate::load::GravityLoad;
 
-/// The friction of a joint.
+/// Friction law of the joint.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub enum JointFriction {
-    /// Coulomb friction as the arm has it. Exact.
+    /// The Coulomb friction of the arm. Exact to rounding.
     #[default]
     Arm,
-    /// Dry friction by another law: exact where it is constant in slip, else to 1e-15 a step.
+    /// Another law of dry friction. Exact to rounding if it is constant in slip, otherwise to 1e-15 per step.
     Dry(DryFriction),
-    /// Bristles, in place of the arm's Coulomb friction, solved to a relative tolerance a step.
+    /// LuGre bristles in place of the arm's Coulomb friction, solved to a relative tolerance per step.
     Bristles {
-        /// The law.
+        /// The friction law.
         law: LuGre,
-        /// The tolerance of a step, 1e-12 to 1e-2.
+        /// Tolerance of a step, 1e-12 to 1e-2 \[1\].
         tolerance: f64,
     },
 }
 
-/// What of a rig's physics is not in its [`Arm`]. The default is nothing: Coulomb friction as the
-/// arm has it, a free tip.
+/// The physics of a rig that is not part of its [`Arm`]. By default there is nothing: the arm's own Coulomb friction,
+/// and nothing at the tip.
 ///
 /// ```
 /// use lissom::rig::{Scene, TipWorld};
@@ -38,17 +38,18 @@ pub enum JointFriction {
 /// `[Feliu1989, Sections 2.2, 6.1, 6.2.1]`
 #[derive(Debug, Clone, Default)]
 pub struct Scene {
-    /// The joint's friction.
+    /// Friction law of the joint.
     pub friction: JointFriction,
-    /// How that friction wanders; `None`: it does not. Friction by bristles cannot.
+    /// Random change of that friction over time; `None`: it is constant. Not possible with bristles.
     pub wander: Option<FrictionWander>,
-    /// Constant torque that a load takes of the motor \[N·m\]: a weight on a hoist, a preload.
+    /// Constant torque of a load against the motor \[N·m\], for example a weight on a hoist or a preload; positive if
+    /// the motor has to push forward.
     pub load_nm: f64,
-    /// Gravity of an unbalanced load on the motor \[N·m\], a function of the motor's true angle; `None`: no load.
+    /// Gravity of an unbalanced load on the motor, a function of the motor's true angle; `None`: no load.
     pub gravity: Option<GravityLoad>,
-    /// The world at the tip.
+    /// What acts on the tip.
     pub tip: TipWorld,
-    /// Arms that take over at times \[s\], counted from the start: another payload.
+    /// Arms that replace the first one at given times \[s\] since the start, for example with another payload.
     pub later: Vec<(f64, Arm)>,
 }
 
@@ -56,7 +57,7 @@ impl Scene {
     /// Checks the numbers.
     ///
     /// # Errors
-    /// [`RigError`] as [`TipWorld::check`], [`RigError::NotFinite`] where gravity or the constant load is not finite,
+    /// [`RigError`] of [`TipWorld::check`]; [`RigError::NotFinite`] if gravity or the constant load is not finite;
     /// [`RigError::Unsupported`] for bristles whose friction wanders.
     pub fn check(&self) -> Result<(), RigError> {
         if let Some(load) = self.gravity {
@@ -69,7 +70,7 @@ impl Scene {
         self.tip.check()
     }
 
-    /// Relative tolerance of a step of the motion; `None` where it is exact to rounding.
+    /// Relative tolerance of a step of the motion; `None` if it is exact to rounding.
     pub fn tolerance(&self) -> Option<f64> {
         match &self.friction {
             JointFriction::Dry(law) if !law.is_constant() => Some(Hybrid::BENT),
@@ -79,7 +80,7 @@ impl Scene {
         }
     }
 
-    /// The joint's dry friction as it does not wander; `None` with bristles.
+    /// Dry friction of the joint without its random change; `None` with bristles.
     pub fn dry_friction(&self, arm: &Arm) -> Option<DryFriction> {
         match &self.friction {
             JointFriction::Arm => Some(arm.coulomb.into()),

@@ -1,12 +1,12 @@
-//! How the transient before a log went.
+//! Settling of the transient before a log.
 
-/// How the transient before a log went.
+/// Settling of the transient before a log.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settled {
-    /// Time that passed before the log \[s\].
+    /// Time from the start to the first row of the log \[s\].
     pub waited_s: f64,
-    /// What is left of the transient at most \[rad\]; `None` where that was not judged.
+    /// Bound on the remaining transient \[rad\]; `None` if it was not determined.
     pub left_rad: Option<f64>,
-    /// What was allowed \[rad\]; `None` where that was not judged.
+    /// Tolerance \[rad\]; `None` if the remaining transient was not determined.
     pub tolerance_rad: Option<f64>,
 }

@@ -1,4 +1,4 @@
-//! When a transient has gone: judged from the true state, one period after another.
+//! Decides when a transient has decayed, from the true state, one period after another.
 
 use nalgebra::{DMatrix, DVector};
 

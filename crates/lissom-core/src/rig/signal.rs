@@ -1,12 +1,12 @@
-//! Signals in continuous time whose Taylor coefficients are known: torques and tip loads.
+//! Signals in continuous time with known Taylor coefficients: torques and loads at the tip.
 
 use super::RigError;
 use crate::lti::first_root::ORDER_MOST;
 
-/// `amplitude·sin(ω·t + phase)`.
+/// A sine, `amplitude·sin(ω·t + phase)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Harmonic {
-    /// Amplitude, in the signal's unit.
+    /// Amplitude, in the unit of the signal.
     pub amplitude: f64,
     /// ω \[rad/s\].
     pub omega_rad_s: f64,
@@ -14,7 +14,7 @@ pub struct Harmonic {
     pub phase_rad: f64,
 }
 
-/// A quantity given over time.
+/// A quantity as a function of time, for example a torque \[N·m\] or a force \[N\].
 ///
 /// ```
 /// use lissom::rig::Signal;
@@ -40,29 +40,30 @@ impl Default for Signal {
 }
 
 impl Signal {
-    /// The same at all times.
+    /// A constant signal.
     ///
     /// # Errors
-    /// [`RigError::NotFinite`].
+    /// [`RigError::NotFinite`] if the value is not finite.
     pub fn constant(value: f64) -> Result<Self, RigError> {
         finite("value of a signal", value)?;
         Ok(Self(Kind::Constant(value)))
     }
 
-    /// A table of (time \[s\], value), each value held to the next time; before the first time the
-    /// first value.
+    /// A table of (time \[s\], value). Each value is constant until the next time; before the first time the signal has
+    /// the first value.
     ///
     /// # Errors
-    /// [`RigError`] for an empty table, times that do not increase, numbers that are not finite.
+    /// [`RigError`] for an empty table, times that do not increase, or numbers that are not finite.
     pub fn steps(table: &[(f64, f64)]) -> Result<Self, RigError> {
         check(table)?;
         Ok(Self(Kind::Table(table.iter().map(|&(t, v)| [t, v, 0.0]).collect())))
     }
 
-    /// A table of (time \[s\], value) joined by straight lines; before and after it its ends' values.
+    /// A table of (time \[s\], value), joined by straight lines. Before the first and after the
+    /// last time the signal is constant.
     ///
     /// # Errors
-    /// As [`steps`](Self::steps).
+    /// Those of [`steps`](Self::steps).
     pub fn lines(table: &[(f64, f64)]) -> Result<Self, RigError> {
         check(table)?;
         let slope = |k: usize| match table.get(k + 1) {
@@ -77,7 +78,7 @@ impl Signal {
     /// A sum of sines.
     ///
     /// # Errors
-    /// [`RigError::NotFinite`].
+    /// [`RigError::NotFinite`] if a number is not finite.
     pub fn harmonics(sines: &[Harmonic]) -> Result<Self, RigError> {
         for s in sines {
             finite("amplitude of a sine", s.amplitude)?;
@@ -87,7 +88,7 @@ impl Signal {
         Ok(Self(Kind::Harmonics(sines.to_vec())))
     }
 
-    /// Whether it is zero at all times.
+    /// Whether the signal is zero at all times.
     pub fn is_zero(&self) -> bool {
         match &self.0 {
             Kind::Constant(value) => *value == 0.0,
@@ -96,7 +97,7 @@ impl Signal {
         }
     }
 
-    /// The value at `time_s`.
+    /// Value at `time_s`.
     pub fn at(&self, time_s: f64) -> f64 {
         let mut c = [0.0; ORDER_MOST + 1];
         self.add_taylor(time_s, &mut c);

@@ -3,10 +3,10 @@
 /// Samples from one angle that is computed anew to the next.
 const STRIDE: usize = 64;
 
-/// `sin(φ·k)` and `cos(φ·k)` of samples k, each within a few roundings of the phase's own.
+/// Samples of a sine and a cosine, `sin(φ·k)` and `cos(φ·k)` for integer k, each exact to a few roundings of the phase.
 ///
-/// By `sin(a + b) = sin a·cos b + cos a·sin b` from every 64th sample: several times as fast as one
-/// sine after another, and without the drift of a recursion.
+/// They are computed with `sin(a + b) = sin a·cos b + cos a·sin b` from every 64th sample. This is several times as
+/// fast as one sine after another, and does not drift as a recursion does.
 ///
 /// ```
 /// let sines = lissom::rig::Sines::new(0.009);
@@ -22,13 +22,13 @@ pub struct Sines {
 }
 
 impl Sines {
-    /// With φ = `phase_step_rad` between samples.
+    /// Prepares samples with the phase step φ = `phase_step_rad` \[rad\].
     pub fn new(phase_step_rad: f64) -> Self {
         let near = std::array::from_fn(|k| (phase_step_rad * k as f64).sin_cos());
         Self { phase_step_rad, near }
     }
 
-    /// Samples `from`, `from + 1`, … until one of both is full.
+    /// Computes samples `from`, `from + 1`, … until one of the slices is full.
     pub fn fill(&self, from: usize, sines: &mut [f64], cosines: &mut [f64]) {
         let blocks = sines.chunks_mut(STRIDE).zip(cosines.chunks_mut(STRIDE));
         for (block, (sines, cosines)) in blocks.enumerate() {

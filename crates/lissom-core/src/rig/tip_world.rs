@@ -1,17 +1,18 @@
-//! The world at the tip: the force F_n and the torque T_n of (13)-(15).
+//! What acts on the tip: the force F_n and the torque T_n of (13)-(15).
 
 use super::{RigError, Signal};
 
-/// An elastic wall in the tip's way.
+/// An elastic wall that stops the tip.
 ///
-/// It pushes back with `k·L_n·(θ_n − θ_w)` while the tip is beyond θ_w.
+/// It pushes back with `k·L_n·(θ_n − θ_w)` while the tip is beyond θ_w; L_n is the distance
+/// of the tip from the axis \[m\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wall {
-    /// θ_w, where it stands \[rad\].
+    /// θ_w, angle of the wall \[rad\].
     pub angle_rad: f64,
-    /// k \[N/m\].
+    /// k, stiffness \[N/m\].
     pub stiffness_n_per_m: f64,
-    /// Whether it stops the tip's forward motion; else the backward one.
+    /// Whether the wall stops forward motion of the tip; otherwise it stops backward motion.
     pub ahead: bool,
 }
 
@@ -22,10 +23,10 @@ impl Wall {
     }
 }
 
-/// What acts on the arm's tip.
+/// Forces and torques on the tip of the arm.
 ///
-/// `F_n = F(t) − c·L_n·θ̇_n − F_c·sgn θ̇_n − walls`, with true sticking of the tip where F_c > 0, and
-/// `T_n = T(t)`. The sign is that of (13): a positive force moves the tip forward.
+/// `F_n = F(t) − c·L_n·θ̇_n − F_c·sgn θ̇_n − walls`, with true sticking of the tip if F_c > 0, and `T_n = T(t)`. Signs
+/// are those of (13): a positive force moves the tip forward.
 ///
 /// ```
 /// use lissom::rig::{TipWorld, Wall};
@@ -35,18 +36,18 @@ impl Wall {
 /// ```
 ///
 /// # Source
-/// `[Feliu1989, eqs. (13)-(15)]`; the air table's viscous friction `[Feliu1989, Section 6.2.1]`.
+/// `[Feliu1989, eqs. (13)-(15)]`; for viscous friction of an air table `[Feliu1989, Section 6.2.1]`.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct TipWorld {
-    /// F(t) \[N\].
+    /// External force F(t) \[N\].
     pub force: Signal,
-    /// T(t) \[N·m\].
+    /// External torque T(t) \[N·m\].
     pub torque: Signal,
-    /// c, viscous friction of the tip's motion \[N·s/m\].
+    /// Viscous friction c of the tip \[N·s/m\].
     pub viscous_n_s_per_m: f64,
-    /// F_c, Coulomb friction of the tip's motion \[N\].
+    /// Coulomb friction F_c of the tip \[N\].
     pub coulomb_n: f64,
-    /// Walls in its way.
+    /// Walls that stop the tip.
     pub walls: Vec<Wall>,
 }
 
@@ -54,7 +55,7 @@ impl TipWorld {
     /// Checks the numbers.
     ///
     /// # Errors
-    /// [`RigError`] where a friction is negative, a wall not stiff or a number not finite.
+    /// [`RigError`] if a friction is negative, a wall has no stiffness, or a number is not finite.
     pub fn check(&self) -> Result<(), RigError> {
         let frictions = [
             ("viscous friction at the tip in N*s/m", self.viscous_n_s_per_m),
@@ -79,7 +80,7 @@ impl TipWorld {
         Ok(())
     }
 
-    /// Whether there is nothing.
+    /// Whether nothing acts on the tip.
     pub fn is_empty(&self) -> bool {
         self.force.is_zero()
             && self.torque.is_zero()

@@ -8,12 +8,12 @@ use crate::record::Campaign;
 /// The first run's seed; each further run has the next number.
 const FIRST_SEED: u64 = 1;
 
-/// Logs of several experiments on one rig, and what is known of each.
+/// Logs of several experiments with one rig, and what the simulator knows about each.
 #[derive(Debug, Clone)]
 pub struct VirtualCampaign {
-    /// The logs with their channels, as a user would have them.
+    /// The logs and their channels, as a user would have them.
     pub campaign: Campaign,
-    /// Each run with what is known of it, in the same order.
+    /// Each run with what the simulator knows about it, in the same order.
     pub logged: Vec<Logged>,
 }
 
@@ -23,12 +23,12 @@ impl AsRef<Campaign> for VirtualCampaign {
     }
 }
 
-/// What [`Rig::campaign`] takes: experiments, or what makes them.
+/// An argument of [`Rig::campaign`]: an experiment, or the result of building one.
 pub trait PlannedExperiment {
     /// The experiment.
     ///
     /// # Errors
-    /// What makes it impossible.
+    /// The error of building it.
     fn experiment(self) -> Result<Experiment, RigError>;
 }
 
@@ -45,10 +45,10 @@ impl PlannedExperiment for Result<Experiment, RigError> {
 }
 
 impl Rig {
-    /// Carries out experiments with the rig's own controller, on all cores.
+    /// Runs experiments with the rig's own controller, on all cores.
     ///
-    /// Runs are called `run 1`, `run 2`, ...; the noise of each has a seed of its own, so that the same experiments give
-    /// the same bits.
+    /// Runs are called `run 1`, `run 2` and so on. The noise of each run has its own fixed seed, so that the same
+    /// experiments give the same logs to the last bit.
     ///
     /// ```
     /// use lissom::prelude::*;
@@ -60,7 +60,7 @@ impl Rig {
     /// ```
     ///
     /// # Errors
-    /// As [`run`](Self::run), the first in the order of the experiments; [`RigError::Record`] without an experiment.
+    /// Those of [`run`](Self::run), for the first experiment that fails; [`RigError::Record`] without experiments.
     pub fn campaign<E: PlannedExperiment>(
         &self,
         experiments: impl IntoIterator<Item = E>,
@@ -71,10 +71,10 @@ impl Rig {
         self.collected(logged.into_iter().collect::<Result<_, _>>()?)
     }
 
-    /// Carries out experiments with a controller of the user's, one after another.
+    /// Runs experiments with a controller of your own, one after another.
     ///
     /// # Errors
-    /// As [`campaign`](Self::campaign) and [`run_with`](Self::run_with).
+    /// Those of [`campaign`](Self::campaign) and [`run_with`](Self::run_with).
     pub fn campaign_with<C: Controller + ?Sized, E: PlannedExperiment>(
         &self,
         controller: &mut C,

@@ -1,4 +1,4 @@
-//! Friction that wanders.
+//! Dry friction that changes randomly over time.
 
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -6,11 +6,11 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::RigError;
 use super::error::positive;
 
-/// Dry friction that wanders about its law: all of it is multiplied by `1 + x(t)`, x an Ornstein-Uhlenbeck process of
-/// mean zero, `E[x(t)·x(t + τ)] = s²·e^{−|τ|/T}`.
+/// Dry friction that changes randomly over time: all of it is multiplied by `1 + x(t)`, where x is an
+/// Ornstein-Uhlenbeck process of mean zero with `E[x(t)·x(t + τ)] = s²·e^{−|τ|/T}`.
 ///
-/// It is held over each sample of the sensors, over which it moves by a share of s that is small where T is many samples.
-/// A factor that would be negative is zero: with the largest s that is allowed it takes five standard deviations.
+/// The factor is constant over each sample of the sensors. Its steps are small compared with s if T is many samples. A
+/// negative factor would become zero; with the largest s allowed this takes five standard deviations.
 ///
 /// ```
 /// use lissom::rig::{FrictionWander, Scene};
@@ -19,10 +19,11 @@ use super::error::positive;
 /// # Ok::<(), lissom::rig::RigError>(())
 /// ```
 ///
-/// Where a run waits for its transient to go ([`Settle::Detected`](super::Settle)), it never goes below what the wander moves: wait a fixed time.
+/// With [`Settle::Detected`](super::Settle) the motion never becomes steadier than these changes allow, so use a fixed
+/// time to settle.
 ///
-/// It is the simplest process with a standard deviation and a time; friction of real joints differs by a few percent from stroke
-/// to stroke.
+/// This is the simplest process with a standard deviation and a correlation time. Friction of real joints differs by a
+/// few percent from stroke to stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionWander {
     relative_std: f64,
@@ -33,10 +34,11 @@ impl FrictionWander {
     /// Largest standard deviation \[1\].
     const STD_MOST: f64 = 0.2;
 
-    /// Standard deviation s of the factor \[1\], 0.2 at most, and correlation time T \[s\].
+    /// Builds the process from the standard deviation s of the factor \[1\], at most 0.2,
+    /// and the correlation time T \[s\].
     ///
     /// # Errors
-    /// [`RigError::NotPositive`], [`RigError::Wander`].
+    /// [`RigError::NotPositive`] if a number is not positive and finite; [`RigError::Wander`] if s is above 0.2.
     pub fn new(relative_std: f64, correlation_time_s: f64) -> Result<Self, RigError> {
         positive("standard deviation of wandering friction", relative_std)?;
         positive("correlation time of wandering friction in s", correlation_time_s)?;
@@ -46,12 +48,12 @@ impl FrictionWander {
         Ok(Self { relative_std, correlation_time_s })
     }
 
-    /// s \[1\].
+    /// Standard deviation s of the factor \[1\].
     pub fn relative_std(&self) -> f64 {
         self.relative_std
     }
 
-    /// T \[s\].
+    /// Correlation time T \[s\].
     pub fn correlation_time_s(&self) -> f64 {
         self.correlation_time_s
     }

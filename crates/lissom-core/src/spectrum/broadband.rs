@@ -1,4 +1,4 @@
-//! Responses from records of any shape, by averaged cross-spectra.
+//! Frequency responses from records of any shape, by averaged cross-spectra.
 
 use num_complex::Complex64;
 use rustfft::FftPlanner;
@@ -10,46 +10,46 @@ const BANDS_PER_DECADE: f64 = 60.0;
 /// Share of a record over which each end is tapered.
 const TAPER: f64 = 0.05;
 
-/// Response and coherence in a band of frequencies.
+/// Frequency response and coherence in a band of frequencies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Band {
-    /// Centre, weighted by the input's power \[rad/s\].
+    /// Centre frequency, weighted by the power of the input \[rad/s\].
     pub omega_rad_s: f64,
-    /// Output over input.
+    /// Response: output over input.
     pub response: Complex64,
-    /// Standard deviation of the response, `|H|·√((1 − γ²)/(γ²·m))` for m independent bins.
+    /// Standard error of the response, `|H|·√((1 − γ²)/(γ²·(m − 1)))` for m independent lines.
     pub std: f64,
-    /// Coherence γ², 0 to 1.
+    /// Coherence γ², from 0 to 1.
     pub coherence: f64,
-    /// The input's mean power per bin; of [`broadband`] relative to its strongest band.
+    /// Mean power of the input per line; from [`broadband`], relative to the band with the largest power.
     pub input_power: f64,
-    /// The output's mean power per bin.
+    /// Mean power of the output per line.
     pub output_power: f64,
 }
 
-/// A line of the spectra of an input and an output.
+/// One line of the spectra of an input and an output.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bin {
     /// Frequency \[rad/s\].
     pub omega_rad_s: f64,
-    /// The input's.
+    /// Spectrum of the input.
     pub input: Complex64,
-    /// The output's.
+    /// Spectrum of the output.
     pub output: Complex64,
 }
 
-/// The lines of one record.
+/// The spectral lines of one record.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lines {
-    /// From one line to the next \[rad/s\].
+    /// Distance between lines \[rad/s\].
     pub step_rad_s: f64,
-    /// From the second line up to 0.8 of the Nyquist frequency: above it the samples say little of the
-    /// signal.
+    /// Lines from the second one up to 0.8 of the Nyquist frequency; above that, samples contain little information
+    /// about the signal.
     pub bins: Vec<Bin>,
 }
 
 impl Lines {
-    /// Of as many samples as both have.
+    /// Computes the lines of an input and an output; the longer one is cut to the length of the other.
     pub fn new(input: &[f64], output: &[f64], sample_time_s: f64) -> Self {
         let n = input.len().min(output.len());
         let fft = FftPlanner::new().plan_fft_forward(n);
@@ -65,13 +65,12 @@ impl Lines {
     }
 }
 
-/// H1 estimate `S_yu/S_uu` of the response from `input` to `output` over one or more records with
-/// their sample times, in bands of logarithmic width. Bands beyond those that the input was driven
-/// in (the end of a sweep) hold its transients only, and are left out.
+/// Estimates the frequency response from `input` to `output`, H1 = `S_yu/S_uu`, in bands of logarithmic width. Each
+/// record is (input, output, sample time \[s\]). Bands outside the range in which the input was excited are left out,
+/// because they contain only transients (for example beyond the end of a sweep).
 ///
 /// # Source
-/// Cross-spectral averaging over neighbouring bins and records; Pintelon & Schoukens, *System
-/// Identification: A Frequency Domain Approach*, ch. 2 (`[Pintelon2012]`).
+/// Cross-spectral averaging over neighbouring lines and over records, `[Pintelon2012, ch. 2]`.
 pub fn broadband(records: &[(&[f64], &[f64], f64)]) -> Vec<Band> {
     let lines: Vec<Lines> = records.iter().map(|(u, y, t)| Lines::new(u, y, *t)).collect();
     let mut bands: Vec<Band> = groups(&lines).iter().filter_map(|bins| average(bins)).collect();
@@ -82,7 +81,7 @@ pub fn broadband(records: &[(&[f64], &[f64], f64)]) -> Vec<Band> {
     driven(&bands)
 }
 
-/// The lines of all records by band of logarithmic width, a few at least in each.
+/// Groups the lines of all records to bands of logarithmic width, with at least a few lines each.
 pub fn groups(records: &[Lines]) -> Vec<Vec<Bin>> {
     let mut bins: Vec<Bin> = records.iter().flat_map(|r| r.bins.iter().copied()).collect();
     bins.sort_by(|a, b| a.omega_rad_s.total_cmp(&b.omega_rad_s));
@@ -102,9 +101,9 @@ pub fn groups(records: &[Lines]) -> Vec<Vec<Bin>> {
     groups
 }
 
-/// Mean power per bin that white noise of deviations `stds` adds to the outputs of records of as many
-/// `samples` with their sample times: a record of n samples has n·σ² in each bin, and bins in proportion to
-/// its duration.
+/// Mean power per line that white noise of the standard deviations `stds` adds to the outputs of records with the given
+/// numbers of samples and sample times. A record of n samples has n·σ² in each line, and a number of lines in
+/// proportion to its duration.
 pub fn noise_power(samples: &[usize], sample_time_s: &[f64], stds: &[f64]) -> f64 {
     let (mut power, mut bins) = (0.0, 0.0);
     for ((n, t), std) in samples.iter().zip(sample_time_s).zip(stds) {
@@ -126,7 +125,7 @@ fn driven(bands: &[Band]) -> Vec<Band> {
     bands.get(first..=last).map_or_else(Vec::new, <[Band]>::to_vec)
 }
 
-/// H1 of the lines of one band; `None` where either is silent.
+/// H1 estimate from the lines of one band; `None` if input or output is zero.
 pub fn average(bins: &[Bin]) -> Option<Band> {
     let (mut uu, mut yy, mut omega) = (0.0, 0.0, 0.0);
     let mut yu = Complex64::ZERO;

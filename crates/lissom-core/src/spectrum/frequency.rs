@@ -10,10 +10,13 @@ const REFINED_TO: f64 = 1e-8;
 /// Most steps of the refinement.
 const MOST_STEPS: usize = 60;
 
-/// Frequency of the strongest line of `samples` \[rad/s\].
+/// Finds the frequency of the strongest line of `samples` \[rad/s\].
 ///
-/// The peak of a windowed spectrum, refined by Brent's method on the least-squares residual of
-/// the fundamental. `None` for a constant signal or a line below two periods in the record.
+/// It takes the peak of a windowed spectrum and refines it by Brent's method on the least-squares residual of the
+/// fundamental. `None` for a constant signal, or if the record contains fewer than two periods.
+///
+/// # Source
+/// `[Brent1973]`
 pub fn find_frequency(samples: &[f64], sample_time_s: f64) -> Option<f64> {
     let n = samples.len();
     let mean = samples.iter().sum::<f64>() / n as f64;

@@ -5,48 +5,47 @@ use num_complex::Complex64;
 
 use super::harmonic_fit::{HarmonicFit, Residual};
 
-/// One harmonic of one channel: `x(t) = … + Re{X·e^{jkω0·t}}`, t from the window's first sample.
+/// One harmonic of one channel: `x(t) = … + Re{X·e^{jkω0·t}}`, t from the first sample of the fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Phasor {
-    /// X, in the channel's unit.
+    /// Phasor X, in the unit of the channel.
     pub value: Complex64,
-    /// Standard deviation of X: `√E|X̂ − X|²`, in the channel's unit.
+    /// Standard error of X, `√E|X̂ − X|²`, in the unit of the channel.
     pub std: f64,
 }
 
-/// Harmonics 1..=H of a signal, with its mean, drift and residual.
+/// Harmonics 1 to H of a signal, with its mean, drift and residual.
 #[derive(Debug, Clone)]
 pub struct Harmonics {
     /// Fundamental ω0 \[rad/s\].
     pub omega_rad_s: f64,
-    /// Phasors; entry `k − 1` is harmonic k.
+    /// Phasors; element `k − 1` is harmonic k.
     pub phasors: Vec<Phasor>,
-    /// Mean.
+    /// Mean, in the unit of the channel.
     pub mean: f64,
-    /// Drift over the window: how much the straight line below the harmonics rises.
+    /// Drift: rise of the fitted straight line over the record, in the unit of the channel.
     pub drift: f64,
-    /// Root mean square of what the harmonics leave.
+    /// Root mean square of the residual, in the unit of the channel.
     pub residual_rms: f64,
-    /// Root mean square about the mean.
+    /// Root mean square of the signal about its mean, in the unit of the channel.
     pub signal_rms: f64,
 }
 
 impl Harmonics {
-    /// Phasor of harmonic `k`, from 1; `None` where it was not estimated.
+    /// Phasor of harmonic `k`, counted from 1; `None` if it was not estimated.
     pub fn get(&self, k: usize) -> Option<Phasor> {
         self.phasors.get(k.checked_sub(1)?).copied()
     }
-    /// Share of the signal's power (mean taken out) that the harmonics leave.
+    /// Share of the residual in the power of the signal, without its mean \[1\].
     pub fn unexplained(&self) -> f64 {
         (self.residual_rms / self.signal_rms.max(f64::MIN_POSITIVE)).powi(2)
     }
 }
 
-/// What a zero-order hold of sample time T does to a phasor at ω:
-/// `sin(ωT/2)/(ωT/2)·e^{−jωT/2}`.
+/// Factor of a zero-order hold on a phasor, `sin(ωT/2)/(ωT/2)·e^{−jωT/2}` \[1\].
 ///
-/// A commanded current is held between samples; this factor turns the phasor of its samples into
-/// that of the current which the motor saw. ω in rad/s, T in s, the factor without unit.
+/// A commanded current is constant between samples. This factor converts the phasor of its samples to the phasor of the
+/// current in the motor. ω is in rad/s, the sample time T in s.
 ///
 /// ```
 /// let f = lissom::spectrum::hold_factor(20.0, 0.003);
@@ -54,15 +53,15 @@ impl Harmonics {
 /// ```
 ///
 /// # Source
-/// Fourier transform of a held sample. `[Feliu1989, Section 5.2]` takes the commanded current as
-/// the motor's: see the hold in `docs/src/reference/errata.md`.
+/// Fourier transform of a held sample. `[Feliu1989, Section 5.2]` uses the commanded current as the current of the
+/// motor: see the section on the hold in `docs/src/reference/errata.md`.
 pub fn hold_factor(omega_rad_s: f64, sample_time_s: f64) -> Complex64 {
     let half = 0.5 * omega_rad_s * sample_time_s;
     let gain = if half == 0.0 { 1.0 } else { half.sin() / half };
     Complex64::from_polar(gain, -half)
 }
 
-/// Fits mean, drift and harmonics 1..=`count` of `omega_rad_s` to uniform samples:
+/// Fits mean, drift and harmonics 1 to `count` of `omega_rad_s` to uniform samples:
 /// `x(t) = a + b·t + Σ_k Re{X_k·e^{jkω0·t}}`, t from the first sample.
 ///
 /// ```
@@ -72,13 +71,12 @@ pub fn hold_factor(omega_rad_s: f64, sample_time_s: f64) -> Complex64 {
 /// assert!((first.norm() - 2.0).abs() < 1e-12 && (first.arg() - 0.4).abs() < 1e-12);
 /// ```
 ///
-/// Covariance from the residual e, never below what white noise of its power gives: the larger of
-/// the white `2σ²/N` and of a sandwich over blocks of one period, which sees a residual that is
-/// coloured about the harmonic. Returns `None` where there are too few samples for the unknowns.
+/// Standard errors come from the residual. They are the larger of two: the value `2σ²/N` for white noise with the power
+/// of the residual, and a sandwich estimate over blocks of one period, which accounts for a residual that is coloured
+/// near the harmonic. `None` if there are too few samples for the unknowns.
 ///
 /// # Source
-/// Linear least squares in place of the spectral analysis that `[Feliu1989, Section 5.2]` leaves
-/// open.
+/// Linear least squares; `[Feliu1989, Section 5.2]` does not say which spectral analysis it uses.
 pub fn least_squares(
     samples: &[f64],
     omega_rad_s: f64,

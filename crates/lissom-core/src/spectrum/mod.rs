@@ -1,4 +1,4 @@
-//! From records to phasors and responses, Section 5.2, each with its covariance.
+//! Phasors and frequency responses of records, each with its standard error (Section 5.2 of the 1989 report).
 
 mod broadband;
 mod frequency;

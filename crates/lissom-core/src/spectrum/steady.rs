@@ -1,4 +1,4 @@
-//! The steady part of a sinusoidal run.
+//! The steady part of a run with sinusoidal motion.
 
 use num_complex::Complex64;
 use thiserror::Error;
@@ -15,29 +15,29 @@ const BLOCK_HARMONICS: usize = 3;
 /// Whole periods of a run in steady state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Steady {
-    /// First sample kept.
+    /// Index of the first sample that is kept.
     pub first: usize,
-    /// Samples kept: whole periods to the nearest sample.
+    /// Number of samples that are kept: whole periods, to the nearest sample.
     pub len: usize,
-    /// Periods kept.
+    /// Number of periods that are kept.
     pub periods: usize,
-    /// Periods dropped at the beginning.
+    /// Number of periods that are left out at the beginning.
     pub dropped: usize,
-    /// Change of the motor's fundamental from the first to the second half of what is kept,
-    /// relative to its amplitude.
+    /// Change of the motor's fundamental from the first to the second half of the kept part,
+    /// relative to its amplitude \[1\].
     pub motor_change: f64,
-    /// The same of the command and of each tip; the largest.
+    /// The same for the command and each tip; the largest of these \[1\].
     pub other_change: f64,
-    /// Whether the run had settled: false where even the later half still changes.
+    /// Whether the run has settled; false if even its second half still changes.
     pub settled: bool,
 }
 
-/// Why a run has no steady part.
+/// Error of [`steady_state`].
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SteadyError {
-    /// Too few periods to compare.
-    #[error("{found} whole blocks of periods; at least {least} are needed")]
+    /// There are too few periods to compare.
+    #[error("the run has {found} whole blocks of periods, but at least {least} are needed")]
     TooFewPeriods {
         /// Whole blocks found.
         found: usize,
@@ -46,14 +46,14 @@ pub enum SteadyError {
     },
 }
 
-/// Finds the whole periods of `run` at `omega_rad_s` that are in steady state.
+/// Finds the part of `run` in which its motion at `omega_rad_s` is steady, as whole periods.
 ///
-/// The fundamental's phasor of the motor, the command and each tip is taken period by period (in
-/// blocks of some, where a period has few samples). Blocks at the beginning are dropped until all
-/// channels are within the scatter of the run's later half.
+/// The phasor of the fundamental of motor, command and each tip is computed for each period, or for blocks of a few
+/// periods if a period has few samples. Blocks at the beginning are left out until all channels are within the scatter
+/// of the second half of the run.
 ///
 /// # Errors
-/// [`SteadyError::TooFewPeriods`].
+/// [`SteadyError::TooFewPeriods`] if the run has fewer than three blocks.
 pub fn steady_state(run: &Run, omega_rad_s: f64) -> Result<Steady, SteadyError> {
     let per_period = std::f64::consts::TAU / (omega_rad_s * run.sample_time_s());
     let periods_a_block = (BLOCK_SAMPLES / per_period).ceil().max(1.0);

@@ -160,7 +160,7 @@ fn points_that_cannot_tell_the_modes_apart_are_refused() {
     let file = read("distributed.json");
     let beam = distributed(&cases(&file)[0]);
     let error = beam.truncated(&[0.999_999_999_9, 1.0]).unwrap_err().to_string();
-    assert!(error.contains("cannot be told apart"), "{error}");
+    assert!(error.contains("cannot be separated"), "{error}");
 }
 
 /// The lumped beam of n masses tends to this one, with second order in 1/n.

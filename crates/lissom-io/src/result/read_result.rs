@@ -319,7 +319,11 @@ impl<'a> Listing<'a> {
         }
         let coupling = names.coupling_unit();
         let name = "coupling to the beam";
-        self.keyed(("beam", name, &coupling), &part.beam.coupling, &[COUPLING]);
+        // A rigid axis has none that could be refused.
+        let tips = part.beam.coupling_by_tip.get(names).is_some_and(|tips| !tips.is_empty());
+        if tips || part.beam.coupling.get(names).is_some_and(Option::is_some) {
+            self.keyed(("beam", name, &coupling), &part.beam.coupling, &[COUPLING]);
+        }
         for (k, mode) in part.beam.modes.iter().enumerate() {
             let key = |name: &str| format!("beam.modes[{k}].{name}");
             let name = format!("mode {} frequency", k + 1);

@@ -246,7 +246,8 @@ fn a_written_plan_is_read_as_it_was_made() {
     };
     let text = plan_text(&plan);
     assert!(
-        text.starts_with(PLAN_HEAD) && text.contains("without it inertia is known to 2.0 % only")
+        text.starts_with(PLAN_HEAD)
+            && text.contains("without it, the standard error of inertia would be 2.0 %")
     );
     let read = PlanFile::from_text(Path::new("plan.toml"), &text).unwrap();
     assert_eq!(read.runs.len(), 3);

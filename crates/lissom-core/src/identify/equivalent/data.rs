@@ -1,4 +1,4 @@
-//! Responses of points of a beam, and the equivalent arm that they give.
+//! Responses of points of a beam, and the equivalent arm that follows from them.
 
 use crate::identify::equivalent::equivalent_arm::EquivalentArm;
 use crate::identify::equivalent::refusal::PartOutside;
@@ -8,14 +8,14 @@ use crate::identify::findings::Finding;
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{MotorData, SharedPoles, Spurious};
 
-/// Where the deviations of responses are from.
+/// Origin of the standard errors of responses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Deviations {
     /// Measured.
     Measured,
-    /// Measured, and no less than a share of the response.
+    /// Measured, and at least a share of the response.
     Floored,
-    /// Not known: a share of each response, of one size or both, and what the model leaves says which.
+    /// Unknown: they are a share of each response, a constant, or both; the residual of the model decides which.
     FromResidual,
 }
 
@@ -24,46 +24,47 @@ pub enum Deviations {
 pub struct EquivalentData {
     /// Names of the points.
     pub names: Vec<String>,
-    /// Frequencies \[rad/s\].
+    /// Frequencies of all responses \[rad/s\].
     pub omega_rad_s: Vec<f64>,
-    /// θ_i/θ_m of each point (outer) at each frequency.
+    /// θ_i/θ_m of each point (outer index) at each frequency (inner index) \[1\].
     pub outputs: Vec<Vec<Response>>,
-    /// θ_m per command, friction taken out; `None`: step 5 alone.
+    /// θ_m per command, corrected for friction. Without it only Â and B̂ (step 5) are computed.
     pub motor: Option<MotorData>,
-    /// Where the deviations are from.
+    /// Origin of the standard errors.
     pub deviations: Deviations,
 }
 
-/// An equivalent arm and how far it holds.
+/// An equivalent arm, with the data that show how far it is valid.
 #[derive(Debug, Clone)]
 pub struct Equivalent {
-    /// All poles found.
+    /// All poles that were fitted.
     pub fit: SharedPoles,
-    /// Why each of them is no mode; `None` of those that are.
+    /// For each pole, the reason why it is not a mode; `None` for modes.
     pub spurious: Vec<Option<Spurious>>,
-    /// Those of the arm.
+    /// Indices of the poles that are modes of the arm.
     pub modes: Vec<usize>,
-    /// Its points, places in [`EquivalentData::names`].
+    /// Points of the arm, as indices of [`EquivalentData::names`].
     pub points: Vec<usize>,
-    /// The poles of the arm at its points.
+    /// The fit with only these poles and points.
     pub kept: SharedPoles,
     /// Â and B̂ as fitted.
     pub beam: EquivalentBeam,
-    /// Ĥ, ĥ, J and V too; `None` without a motor's response that holds them.
+    /// Ĥ, ĥ, J and V in addition; `None` if there is no response of the motor that determines them.
     pub arm: Option<EquivalentArm>,
-    /// The form for use as an arm; `None` where a point is no angle.
+    /// The form for use as an arm; `None` if the motion of a point cannot be converted to angles.
     pub strainless: Option<StrainlessForm>,
-    /// Zeros of every point's response, with all modes found and those that poles above the frequencies stand for.
+    /// Zeros of the response of every point, computed with all modes that were found and with the poles above the
+    /// measured frequencies, which stand for higher modes.
     pub zeros: Vec<Vec<ResponseZero>>,
-    /// Names of the points measured.
+    /// Names of the measured points.
     pub names: Vec<String>,
-    /// Imaginary parts that no damping explains, where they stand clear of the noise.
+    /// Imaginary parts that no damping explains, if they are clearly above the noise.
     pub imaginary: Vec<PartOutside>,
-    /// What the model of all poles leaves of the points' responses, as a share of each, rms.
+    /// Residual of the points' responses with all poles, relative to the response, rms \[1\].
     pub relative_residual: f64,
-    /// Where the deviations are from.
+    /// Origin of the standard errors.
     pub deviations: Deviations,
-    /// What to know of it.
+    /// Findings about the arm.
     pub findings: Vec<Finding>,
 }
 

@@ -1,4 +1,5 @@
-//! Deviations of responses that came without: whether their errors are a share of each, of one size, or both.
+//! Standard errors of responses that came without any: whether errors are a share of each
+//! response, a constant, or both.
 
 use crate::identify::equivalent::data::EquivalentData;
 use crate::identify::equivalent::sound::median;

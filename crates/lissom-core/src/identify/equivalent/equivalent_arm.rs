@@ -1,4 +1,4 @@
-//! The coupling torque of the equivalent beam, and the motor that it loads: step 6 of Section 4.
+//! The coupling torque of the equivalent beam, and its motor: step 6 of Section 4 of the 1989 report.
 
 use nalgebra::{DMatrix, DVector, DVectorView};
 use num_complex::Complex64;
@@ -15,53 +15,53 @@ use crate::identify::responses::rational::{
 };
 use crate::lti::StateSpace;
 
-/// (17)-(18) and (14): an arm of as many points as modes, and its motor.
+/// The equivalent arm, (17)-(18) and (14): a beam with as many points as modes, and its motor.
 ///
-/// The units of torque are those of the command's constant: N·m, or the command's own where the constant is
-/// one because it is not known.
+/// Torques are in N·m, or in the unit of the command if the torque constant is unknown (taken as one).
 #[derive(Debug, Clone)]
 pub struct EquivalentArm {
-    /// Â and B̂.
+    /// Â and B̂, with the points and gains behind them.
     pub beam: EquivalentBeam,
-    /// The modes that they are of.
+    /// The modes of the arm.
     pub poles: Vec<Pole>,
-    /// Ĥ \[N·m/rad\].
+    /// Ĥ, coupling torque per angle of each point \[N·m/rad\].
     pub h: Vec<Estimate>,
-    /// ĥ_{n+1} \[N·m/rad\].
+    /// ĥ_{n+1}, coupling torque per angle of the motor \[N·m/rad\].
     pub h_motor: Estimate,
-    /// ζ_w of each mode: what of its damping ratio is within the beam.
+    /// ζ_w of each mode: the part of its damping ratio that acts within the beam \[1\].
     pub damping_within: Vec<f64>,
-    /// c_k of each mode \[N·m/rad\]: without damping within the beam, `C_t/θ_m = Σ c_k·(s² + d_k·s)/(s² + d_k·s + ω_k²)`,
-    /// `d_k = 2ζ_kω_k`.
+    /// c_k, coupling through each mode \[N·m/rad\]: without damping within the beam,
+    /// `C_t/θ_m = Σ c_k·(s² + d_k·s)/(s² + d_k·s + ω_k²)` with `d_k = 2ζ_kω_k`.
     pub coupling: Vec<Estimate>,
-    /// J \[kg·m²\], with what the modes left out carry of the beam's inertia.
+    /// Inertia J \[kg·m²\]. It includes the inertia of the beam that belongs to modes that are left out.
     pub inertia: Estimate,
-    /// V \[N·m·s/rad\], back-EMF included.
+    /// Viscous friction V \[N·m·s/rad\], with the damping by back-EMF.
     pub viscous: Estimate,
-    /// Covariance of the fit's unknowns, in the order of [`SharedPoles::covariance`], then of J, V and c_k.
+    /// Covariance of the unknowns: those of the fit in the order of [`SharedPoles::covariance`], then J, V and c_k.
     pub covariance: DMatrix<f64>,
-    /// By how much the motor comes later than the command \[s\], where its response calls for that.
+    /// Delay of the motor relative to the command \[s\], if its response shows one.
     pub delay_s: Option<Estimate>,
-    /// Coulomb friction left in the motor's response: how many deviations a torque against the motion that does
-    /// not grow with its speed is from zero.
+    /// Coulomb friction that remains in the motor's response: a torque against the motion that does not grow with
+    /// speed, divided by its standard error \[1\].
     pub friction_left: f64,
-    /// Root mean square of what the motor's response leaves, in its deviations: one where the model is as
-    /// good as the data.
+    /// Root mean square of the residual of the motor's response, divided by its standard errors: about one if the model
+    /// is as good as the data.
     pub weighted_rms: f64,
     /// Torque per command used.
     torque_per_command: f64,
 }
 
-/// Steps 5 and 6: from responses of points with shared poles and the motor's response, friction taken out,
-/// the whole arm.
+/// Computes the whole equivalent arm from the responses of points with shared poles and the motor's response corrected
+/// for friction: steps 5 and 6 of Section 4.
 ///
-/// The motor's torque per angle is linear in J, V and c_k once the poles are known (step 6(c)). With R the points'
-/// gains at rest, mode by mode, `Ĥ = −cᵀ·R⁻¹` and `ĥ_{n+1} = Σ c_k`: what step 6(d) comes to in exact
-/// numbers. Deviations are to first order in both covariances, the poles' errors counted in c_k too.
-/// `Ĥ·1 + ĥ` is zero only as far as R·1 is one: see [`EquivalentArm::strainless`].
+/// Once the poles are known, the torque of the motor per angle is linear in J, V and c_k (step 6(c)). With R, the gains
+/// of the points at rest by mode, `Ĥ = −cᵀ·R⁻¹` and `ĥ_{n+1} = Σ c_k`, which is the result of step 6(d) in exact
+/// arithmetic. Standard errors are to first order in both covariances; errors of the poles count in c_k, too. `Ĥ·1 + ĥ`
+/// is zero only as far as R·1 is one: see [`EquivalentArm::strainless`].
 ///
 /// # Errors
-/// As [`equivalent_beam`]; a motor's response with too few frequencies, a value that is none, or no deviation.
+/// Those of [`equivalent_beam`]; [`EquivalentError::MotorTooFew`] if the motor's response has too few frequencies;
+/// [`EquivalentError::MotorResponse`] if one of its values is zero or not finite, or has no standard error.
 ///
 /// # Source
 /// `[Feliu1989, Section 4, step 6, eq. (18)]`
@@ -143,15 +143,15 @@ fn joined(fit: &SharedPoles, coupled: &CouplingFit) -> DMatrix<f64> {
 }
 
 impl EquivalentArm {
-    /// The form for use as an arm, in which turning as one body strains nothing: see
+    /// The form for use as an arm, in which turning as one body does not bend the beam: see
     /// [`EquivalentBeam::strainless`].
     pub fn strainless(&self) -> Option<StrainlessForm> {
         let coupling: Vec<f64> = self.coupling.iter().map(|c| c.value).collect();
         self.beam.strainless(&coupling)
     }
 
-    /// The form for use as a state space, from the command to the motor's angle and those of the points, called
-    /// `names`: in the modes' own coordinates, with their damping where it is above zero. `unit` is that of
+    /// State space model from the command to the angles of motor and points, in modal coordinates. It contains the
+    /// damping of the modes where that is positive. `names` are the names of the points, and `unit` is the unit of
     /// angles, `rad` or `m`.
     pub fn state_space(&self, names: &[&str], unit: &str) -> StateSpace {
         let each = self.poles.iter().zip(&self.coupling);
@@ -167,12 +167,12 @@ impl EquivalentArm {
         modal(motor, self.torque_per_command, &modes, &points, unit)
     }
 
-    /// The same as a beam known by its modes, for an [`Arm`](crate::arm::Arm): damping that came out below zero
-    /// is none.
+    /// Converts to a beam that is known by its modes, for an [`Arm`](crate::arm::Arm). Negative
+    /// estimates of damping become zero.
     ///
     /// # Errors
-    /// [`BeamError`] where a mode's coupling is not above zero, or gains that add up to one at every point cannot
-    /// tell the modes apart.
+    /// [`BeamError`] if the coupling of a mode is not positive, or if the modes look alike at the points once the gains
+    /// of each point add up to one.
     pub fn modal_beam(&self) -> Result<ModalBeam, BeamError> {
         let each = self.poles.iter().zip(&self.coupling).zip(self.beam.completed.column_iter());
         let mode = |((pole, c), gains): ((&Pole, &Estimate), DVectorView<'_, f64>)| KnownMode {
@@ -184,12 +184,12 @@ impl EquivalentArm {
         ModalBeam::new(each.map(mode).collect())
     }
 
-    /// Torque per command used.
+    /// Torque per unit of command that was used \[N·m/A or the like\]; one if it is unknown.
     pub fn torque_per_command(&self) -> f64 {
         self.torque_per_command
     }
 
-    /// θ_m per command at a frequency, the delay in it.
+    /// θ_m per unit of command at a frequency, with the delay.
     pub fn motor_response(&self, omega_rad_s: f64) -> Complex64 {
         let s = Complex64::new(0.0, omega_rad_s);
         let each = self.poles.iter().zip(&self.damping_within).zip(&self.coupling);

@@ -1,53 +1,53 @@
-//! Why points and responses make no equivalent arm.
+//! Errors of the equivalent beam and arm.
 
 use thiserror::Error;
 
-/// Why there is no equivalent beam.
+/// Error of [`equivalent_beam`](fn@super::equivalent_beam) or [`equivalent_arm`](fn@super::equivalent_arm).
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum EquivalentError {
-    /// Each mode needs a point of its own.
-    #[error("{modes} modes and {points} points: step 5 of Section 4 takes as many points as modes")]
+    /// The numbers of points and modes differ.
+    #[error("{modes} modes and {points} points: an equivalent arm needs as many points as modes")]
     PointsAndModes {
         /// Points measured.
         points: usize,
         /// Modes of the fit.
         modes: usize,
     },
-    /// μ of (22) cannot be inverted.
+    /// The points' motions are nearly equal, so that μ of (22) cannot be inverted.
     #[error(
-        "points {first} and {second} move too much alike in these modes (the gains' least singular value is {ratio:.1e} \
-         of the largest): mode {mode} is not told apart"
+        "points {first} and {second} move almost alike in these modes (the smallest singular value of the gains is \
+         {ratio:.1e} of the largest): mode {mode} cannot be separated from the others"
     )]
     TooClose {
-        /// One of the pair that is most alike, from 0.
+        /// Index of one point of the pair that is most alike, from 0.
         first: usize,
-        /// The other.
+        /// Index of the other point.
         second: usize,
-        /// Least singular value of the gains over the largest.
+        /// Smallest singular value of the gains relative to the largest.
         ratio: f64,
-        /// The mode, from 0, that has the largest part in the motion that no point shows: one of the two
-        /// should sit where this mode moves it by another size or sign. A beam of known dimensions says
-        /// where: [`DistributedBeam::best_point`](crate::beam::DistributedBeam::best_point).
+        /// Index, from 0, of the mode with the largest part in the motion that no point shows. One of the two points
+        /// should be where this mode moves it with another amplitude or sign. For a beam of known dimensions,
+        /// [`DistributedBeam::best_point`](crate::beam::DistributedBeam::best_point) finds such a place.
         mode: usize,
     },
-    /// The motor's response does not hold step 6.
+    /// The motor's response has too few frequencies.
     #[error(
-        "{frequencies} frequencies of the motor, {unknowns} unknowns: inertia, viscous friction and coupling \
-         cannot be found"
+        "the motor's response has {frequencies} frequencies for {unknowns} unknowns: inertia, viscous friction and \
+         coupling cannot be identified"
     )]
     MotorTooFew {
         /// Frequencies of its response.
         frequencies: usize,
-        /// J, V and c_k of each mode.
+        /// Number of unknowns: J, V and c_k of each mode.
         unknowns: usize,
     },
-    /// A response of the motor that is no number, is zero, has no deviation, or no frequency.
+    /// A value of the motor's response is zero or not finite, or has no frequency or no standard error.
     #[error(
-        "the motor's response at point {index} needs a finite value, a deviation above zero and a frequency"
+        "point {index} of the motor's response needs a finite value, a frequency, and a standard error above zero"
     )]
     MotorResponse {
-        /// Its place, from 0.
+        /// Index of the value, from 0.
         index: usize,
     },
 }

@@ -1,4 +1,4 @@
-//! What to know of an equivalent arm.
+//! Findings about an equivalent arm.
 
 use crate::identify::equivalent::data::{Deviations, Equivalent, EquivalentData};
 use crate::identify::equivalent::equivalent_arm::EquivalentArm;
@@ -12,7 +12,7 @@ use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::Damping;
 use crate::identify::thresholds::CLEARLY_PRESENT;
 
-/// Largest change, as a share, of a gain for use as an arm.
+/// Largest relative change of a gain in the form for use as an arm.
 fn changed(whole: &Equivalent) -> f64 {
     let each = whole.beam.completed.iter().zip(&whole.beam.gains);
     each.map(|(used, fitted)| (used / fitted - 1.0).abs())
@@ -20,7 +20,7 @@ fn changed(whole: &Equivalent) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// What the arm leaves of the motor's response, as a share of it, root mean square.
+/// Residual of the motor's response relative to the response, root mean square.
 fn left_of_motor(data: &EquivalentData, arm: &EquivalentArm) -> f64 {
     let Some(motor) = &data.motor else { return 0.0 };
     let share = |(w, r): (&f64, &Response)| {
@@ -30,7 +30,7 @@ fn left_of_motor(data: &EquivalentData, arm: &EquivalentArm) -> f64 {
     (shares.sum::<f64>() / motor.response.len().max(1) as f64).sqrt()
 }
 
-/// Whether the arm describes the motor's response.
+/// Adds findings about how well the arm describes the motor's response.
 fn of_motor(
     data: &EquivalentData,
     whole: &Equivalent,
@@ -118,7 +118,7 @@ pub(super) fn findings(
     findings.into_iter().map(Finding::new).collect()
 }
 
-/// What imaginary parts show beside the damping of poles.
+/// Adds findings about imaginary parts that the damping of the poles does not explain.
 fn of_phase(whole: &Equivalent, findings: &mut Vec<FindingKind>) {
     for part in &whole.imaginary {
         let point = part.name.clone();

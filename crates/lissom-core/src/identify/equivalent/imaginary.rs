@@ -1,4 +1,4 @@
-//! Imaginary parts that no damping explains: on the imaginary axis an arm's responses are real but for it.
+//! Imaginary parts that no damping explains: without damping the responses of an arm are real on the imaginary axis.
 
 use num_complex::Complex64;
 

@@ -1,4 +1,5 @@
-//! The lumped arm that behaves as a distributed one, from its points' responses: step 5 of Section 4.
+//! The lumped arm that is equivalent to a distributed one, from the responses of its points (step 5 of
+//! Section 4 of the 1989 report).
 
 use nalgebra::{DMatrix, DVector};
 
@@ -28,16 +29,16 @@ use crate::identify::equivalent::thresholds::POINTS_DEPENDENT;
 use crate::identify::responses::rational::SharedPoles;
 use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT};
 
-/// `Θ̈ = Â·Θ + B̂·θ_m` (17): N_v points of a beam whose responses show N_v modes.
+/// The equivalent beam, `Θ̈ = Â·Θ + B̂·θ_m` (17): as many points of a beam as modes appear in their responses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EquivalentBeam {
     /// Â, points × points \[1/s²\].
     pub a: DMatrix<f64>,
-    /// Deviations of its elements.
+    /// Standard errors of the elements of Â \[1/s²\].
     pub a_std: DMatrix<f64>,
-    /// B̂ \[1/s²\].
+    /// B̂, one element per point \[1/s²\].
     pub b: DVector<f64>,
-    /// Deviations of its elements.
+    /// Standard errors of the elements of B̂ \[1/s²\].
     pub b_std: DVector<f64>,
     /// R: ρ_ik of point i in mode k.
     gains: DMatrix<f64>,
@@ -51,20 +52,21 @@ pub struct EquivalentBeam {
     given_to_last: Vec<bool>,
 }
 
-/// (17)-(18) that turning the arm as one body strains nothing in.
+/// The equivalent arm (17)-(18) in a form in which turning as one body does not bend the beam.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StrainlessForm {
-    /// Â \[1/s²\].
+    /// Â, points × points \[1/s²\].
     pub a: DMatrix<f64>,
-    /// B̂ \[1/s²\], −Â·1.
+    /// B̂ = −Â·1 \[1/s²\].
     pub b: DVector<f64>,
-    /// Ĥ \[N·m/rad\]; zeros where no coupling was given.
+    /// Ĥ \[N·m/rad\]; zero if no coupling was given.
     pub h: DVector<f64>,
-    /// ĥ_{n+1} \[N·m/rad\], −ΣĤ.
+    /// ĥ_{n+1} = −ΣĤ \[N·m/rad\].
     pub h_motor: f64,
-    /// What the gains fitted lack of one at each point.
+    /// One minus the sum of the fitted gains at each point \[1\].
     pub missing: DVector<f64>,
-    /// Whether the data say that a point lacks it, so that its last mode was given all of it.
+    /// For each point, whether its sum of gains differs significantly from one, so that the whole difference was given
+    /// to its last mode.
     pub given_to_last: Vec<bool>,
 }
 
@@ -78,13 +80,13 @@ impl EquivalentBeam {
 
     /// The form for use as an arm, with gains that add up to one at every point.
     ///
-    /// Where modes are left out the gains fitted do not, and (17) as fitted would strain a beam that turns as
-    /// one body, even at rest. What a point's gains lack of one is given to its last mode, as
-    /// [`TruncatedBeam`](crate::beam::TruncatedBeam) does; where it is within three deviations of nothing the
-    /// sum is taken for known, and moves all of the point's gains as their covariance has it.
+    /// If modes are left out, the fitted gains do not add up to one, and (17) as fitted would bend a beam that turns as
+    /// one body, even at rest. The difference is given to the last mode of the point, as in
+    /// [`TruncatedBeam`](crate::beam::TruncatedBeam). If it is within three standard errors of zero, the sum is taken
+    /// as exactly one instead, and all gains of the point are adjusted according to their covariance.
     ///
-    /// `coupling` is c_k of each mode \[N·m/rad\], or nothing where it is not known. `None` where the
-    /// gains cannot be inverted then.
+    /// `coupling` is c_k of each mode \[N·m/rad\], or empty if it is unknown. `None` if the
+    /// adjusted gains cannot be inverted.
     pub fn strainless(&self, coupling: &[f64]) -> Option<StrainlessForm> {
         let inverse = self.completed.clone().try_inverse()?;
         let known = |k: usize, _| coupling.get(k).copied().unwrap_or(0.0);
@@ -116,22 +118,23 @@ fn with_sum_of_one(fit: &SharedPoles, gains: &DMatrix<f64>) -> (DMatrix<f64>, Ve
     (all, given)
 }
 
-/// Â and B̂ of (17) from transfer functions with shared poles.
+/// Computes Â and B̂ of (17) from transfer functions with shared poles.
 ///
-/// With ρ_ik the static gain of point i in mode k, R their matrix and Ω² = diag(ω_k²): the modes move by
-/// `η̈ = Ω²·(θ_m − η)` and the points by Θ = R·η, so that `Â = −R·Ω²·R⁻¹` and `B̂ = R·Ω²·1`. That is what
-/// (21)-(23) come to in exact numbers; polynomials of ω² would lose half of the digits. Deviations are to
-/// first order in the fit's covariance. What the modes left out add to the points' gains at rest is not in
-/// it, so that Â·1 + B̂ is zero only as far as R·1 is one.
+/// ρ_ik is the static gain of point i in mode k, R the matrix of these gains and Ω² = diag(ω_k²). The modes move
+/// according to `η̈ = Ω²·(θ_m − η)` and the points as Θ = R·η, so that `Â = −R·Ω²·R⁻¹` and `B̂ = R·Ω²·1`. This is the
+/// result of (21)-(23) in exact arithmetic; polynomials of ω² would lose half of the digits. Standard errors are to
+/// first order in the covariance of the fit. Modes that are left out do not contribute to the gains at rest, so Â·1 +
+/// B̂ is zero only as far as R·1 is one.
 ///
 /// # Errors
-/// Other than as many points as modes; two points whose gains cannot be told apart.
+/// [`EquivalentError::PointsAndModes`] unless there are as many points as modes; [`EquivalentError::TooClose`] if the
+/// gains of two points are too similar.
 ///
 /// # Source
 /// `[Feliu1989, Section 4, step 5, eqs. (19)-(23)]`
 ///
 /// # Differences from the source
-/// Damping of the poles is left out, as (17) has none.
+/// Damping of the poles is left out, because (17) has none.
 pub fn equivalent_beam(fit: &SharedPoles) -> Result<EquivalentBeam, EquivalentError> {
     let (points, modes) = (fit.static_gains.len(), fit.poles.len());
     if points != modes {

@@ -1,4 +1,4 @@
-//! Responses of a campaign as Section 4 takes them.
+//! The responses of a campaign, in the form that Section 4 needs.
 
 use crate::identify::equivalent::data::{Deviations, EquivalentData};
 use crate::identify::equivalent::refusal::EquivalentRefusal;
@@ -10,11 +10,12 @@ use crate::identify::responses::thresholds::RESPONSE_FLOOR;
 use crate::record::{Campaign, Channels};
 
 impl EquivalentData {
-    /// The responses that `identify` made of a campaign: θ_i/θ_m of its tips that are angles, where all of
-    /// them are known, and the motor's where nothing speaks against it.
+    /// Takes the responses that [`identify`](fn@crate::identify::identify) has computed: θ_i/θ_m of those
+    /// tips that measure angles, at the frequencies where all of them are known, and the motor's response
+    /// where no finding speaks against it.
     ///
     /// # Errors
-    /// [`EquivalentRefusal::NoAngle`] where no tip's angle is known.
+    /// [`EquivalentRefusal::NoAngle`] if no tip measures an angle.
     pub fn of_campaign(
         campaign: &Campaign,
         responses: &[ResponsePoint],

@@ -1,4 +1,4 @@
-//! Numbers that can be computed with.
+//! Checks that numbers can be computed with.
 
 use crate::identify::equivalent::data::EquivalentData;
 use crate::identify::equivalent::refusal::EquivalentRefusal;

@@ -1,4 +1,4 @@
-//! Responses whose phase has the wrong sign: conjugated, they are those of poles damped below zero.
+//! Detects responses whose phase has the wrong sign: their complex conjugates fit poles with positive damping.
 
 use num_complex::Complex64;
 

@@ -1,4 +1,4 @@
-//! Section 4 from measured responses to the arm, judged on the way.
+//! Section 4 from measured responses to the arm, with checks of each step.
 
 use nalgebra::DMatrix;
 
@@ -25,14 +25,14 @@ use crate::identify::thresholds::SIGN_SHOWN;
 /// Pairs of poles looked for, whatever the number of points.
 const POLES_LEAST: usize = 8;
 
-/// Steps 1 to 6 of Section 4.
+/// Computes the equivalent arm: steps 1 to 6 of Section 4 of the 1989 report.
 ///
-/// Poles by evidence, those that are no modes left out; as many points as modes, the ones that tell them
-/// apart best; Â, B̂ (step 5), and with the motor's response Ĥ, ĥ, J and V (step 6). `modes` keeps the
-/// lowest so many.
+/// Poles are fitted as the data require, and those that are not modes are removed. The points that separate the modes
+/// best are kept, as many as there are modes. Then Â and B̂ follow (step 5) and, with the motor's response, Ĥ, ĥ, J and
+/// V (step 6). With `modes` only that many of the lowest modes are kept.
 ///
 /// # Errors
-/// [`EquivalentRefusal`], which says why and what to do.
+/// [`EquivalentRefusal`], with the reason and a hint.
 ///
 /// # Source
 /// `[Feliu1989, Section 4]`

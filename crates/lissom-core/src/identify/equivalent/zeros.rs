@@ -1,4 +1,4 @@
-//! Zeros of the points' responses, with deviations.
+//! Zeros of the points' responses, with standard errors.
 
 use num_complex::Complex64;
 
@@ -13,27 +13,26 @@ const STEPS: usize = 40;
 /// Imaginary part of s², as a share of its size, that eigenvalues of a real root may have by rounding.
 const MEET: f64 = 1e-7;
 
-/// A zero of θ_i/θ_m, damping left out: a root in s².
+/// A zero of θ_i/θ_m without damping: a root in s².
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ResponseZero {
-    /// The root s² \[1/s²\]; of a conjugate pair the one with the positive imaginary part.
+    /// Root s² \[1/s²\]; for a conjugate pair, the one with the positive imaginary part.
     pub square: Complex64,
-    /// a: on the imaginary axis; b: a real pair; c: four.
+    /// Class of the zero: a, on the imaginary axis; b, a real pair; c, a quadruple.
     pub class: RootClass,
-    /// |s| \[rad/s\].
+    /// Magnitude |s| of the zero \[rad/s\].
     pub omega_rad_s: Estimate,
-    /// Whether |s| lies outside the data's frequencies: modes left out may move it anywhere.
+    /// Whether |s| is outside the measured frequencies. Modes that are left out may then move it to any place.
     pub outside: bool,
 }
 
-/// Zeros of output `output`'s response `Σ_k ρ_ik·ω_k²/(s² + ω_k²)`, by their size.
+/// Computes the zeros of the response of output `output`, `Σ_k ρ_ik·ω_k²/(s² + ω_k²)`, ascending in magnitude.
 ///
-/// Those outside the data's frequencies are left out where their deviation is a tenth of them or more.
-/// Roots are eigenvalues, refined by Newton's method.
-/// Deviations are to first order: `dz = −Σ dr_k/(z + ω_k²)/f′ + Σ r_k·dω_k²/(z + ω_k²)²/f′`, f the sum,
-/// z = s², r_k = ρ_ik·ω_k², and `d|s| = Re(dz/z)·|s|/2`. Where
-/// a zero lies off the imaginary axis or outside the frequencies, a tenth of what poles above these move it is counted
-/// too: one of them stands for many modes.
+/// Zeros outside the measured frequencies are left out if their standard error is a tenth of their magnitude or more.
+/// Zeros are eigenvalues, refined by Newton's method. Standard errors are to first order:
+/// `dz = −Σ dr_k/(z + ω_k²)/f′ + Σ r_k·dω_k²/(z + ω_k²)²/f′`, with the sum f, z = s², r_k = ρ_ik·ω_k², and
+/// `d|s| = Re(dz/z)·|s|/2`. For a zero that is off the imaginary axis or outside the measured frequencies, a tenth of
+/// the shift by poles above these frequencies is added, because one such pole stands for many modes.
 ///
 /// # Source
 /// `[Feliu1989, Section 3, property 1; eq. (19)]`

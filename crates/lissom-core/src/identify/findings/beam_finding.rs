@@ -23,13 +23,13 @@ pub enum BeamFinding {
         /// Frequency of the mode with the motor clamped \[rad/s\].
         omega_rad_s: f64,
     },
-    /// A tip gives no angle.
+    /// A tip is not measured as an angle.
     TipWithoutAngle {
         /// Name of the tip.
         tip: String,
-        /// Whether it is an acceleration; else its scale is unknown.
+        /// Whether it measures acceleration; otherwise its scale is unknown.
         acceleration: bool,
-        /// Whether the inertia is that of motor and beam together because no tip gives an angle.
+        /// Whether the inertia is that of motor and beam together, because no tip is measured as an angle.
         inertia_with_beam: bool,
     },
     /// The responses show more modes than there are tips.
@@ -41,21 +41,21 @@ pub enum BeamFinding {
     },
     /// The damping ratio of a mode comes out negative.
     NegativeDamping {
-        /// The mode's number, from one.
+        /// Number of the mode, from 1.
         mode: usize,
-        /// What it would be.
+        /// Its estimate.
         ratio: Estimate,
     },
-    /// The coupling is hardly known, and friction is that of an axis without it.
+    /// The coupling is too uncertain, and friction and inertia come from the equation without it.
     RigidEquation {
-        /// What the coupling would be.
+        /// Estimate of the coupling.
         coupling: Estimate,
         /// Its unit.
         units: EstimateUnits,
-        /// Shares of the torque that the equation leaves with the coupling and without it.
+        /// Residual torque relative to the torque: with the coupling, and without it.
         residual_shares: [f64; 2],
     },
-    /// The only coupling is negative.
+    /// The coupling of the only tip is negative.
     CouplingSign,
 }
 
@@ -67,43 +67,44 @@ impl fmt::Display for BeamFinding {
             ),
             Self::FlexibleWithoutTip { omega_rad_s } => write!(
                 f,
-                "the motor's response looks flexible, with a mode near {} rad/s when the motor is clamped, and no tip is \
-                 measured: the estimates are rough",
+                "the motor's response shows a flexible mode near {} rad/s (motor clamped), but no tip is measured: the \
+                 estimates are rough",
                 significant(*omega_rad_s, 3)
             ),
             Self::TipWithoutAngle { tip, acceleration, inertia_with_beam } => write!(
                 f,
-                "tip {tip} {}: it gives modes, but no coupling by regression{}",
-                if *acceleration { "is an acceleration" } else { "has an unknown scale" },
+                "tip {tip} {}: the regression gets modes from it, but no coupling{}",
+                if *acceleration { "measures acceleration" } else { "has an unknown scale" },
                 if *inertia_with_beam {
-                    "; the inertia is about that of motor and beam together"
+                    ". The inertia is approximately that of motor and beam together"
                 } else {
                     ""
                 }
             ),
             Self::MoreModesThanTips { modes, tips } => write!(
                 f,
-                "the responses show {}, and {} measured: the coupling torque is not a sum over these tips alone. Inertia is \
-                 then too large, by what the missing modes turn, and the coupling too small",
+                "the responses show {}, but only {} measured: the tips do not give the whole coupling torque. The inertia \
+                 includes that of the missing modes and is too large, and the coupling is too small",
                 counted(*modes, "mode", "modes"),
                 counted(*tips, "tip is", "tips are")
             ),
             Self::NegativeDamping { mode, ratio } => write!(
                 f,
-                "the damping ratio of mode {mode} would be {}: a beam does not gain energy, and it is not given",
+                "the damping ratio of mode {mode} would be {}, but a beam cannot gain energy: the ratio is not given",
                 with_error(*ratio)
             ),
             Self::RigidEquation { coupling, units, residual_shares: [with, without] } => write!(
                 f,
-                "the coupling to the beam would be {} {}: friction and inertia are those of the equation without it, which \
-                 leaves {} % of the torque where that with it leaves {} %. Inertia is that of motor and load together",
+                "the coupling to the beam would be {} {}, which is too uncertain: it is not given. Friction and inertia come \
+                 from the equation without it, whose residual is {} % of the torque ({} % with the coupling). The \
+                 inertia is that of motor and load together",
                 with_error(*coupling),
                 units.stiffness(),
                 significant(100.0 * without, 3),
                 significant(100.0 * with, 3)
             ),
             Self::CouplingSign => f.write_str(
-                "the coupling is negative, as if the beam pushed the motor away: the tip's sign looks reversed",
+                "the coupling is negative, as if the beam pushed the motor away: the sign of the tip seems to be reversed",
             ),
         }
     }
@@ -148,14 +149,16 @@ impl Describe for BeamFinding {
             }
             Self::FlexibleWithoutTip { .. } => "measure a tip",
             Self::TipWithoutAngle { .. } => {
-                "measure the angle or the deflection of the tip for the coupling"
+                "measure the angle or the deflection of the tip if you need the coupling"
             }
             Self::MoreModesThanTips { .. } => {
                 "measure as many points as there are modes in the band"
             }
-            Self::NegativeDamping { .. } => "add runs near the mode, where damping shows most",
+            Self::NegativeDamping { .. } => {
+                "add runs near the frequency of the mode, where damping acts most"
+            }
             Self::RigidEquation { .. } => {
-                "add runs near the beam's resonance, where the coupling shows; check the tip's sign and scale"
+                "add runs near the beam's resonance, where the coupling acts most; check the sign and scale of the tip"
             }
             Self::CouplingSign => "give the tip a negative scale in the campaign",
         }

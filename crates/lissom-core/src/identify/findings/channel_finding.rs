@@ -38,92 +38,92 @@ impl fmt::Display for Channel {
 #[strum(serialize_all = "kebab-case")]
 #[non_exhaustive]
 pub enum ChannelFinding {
-    /// A channel is constant.
+    /// The channel is constant.
     DeadChannel {
-        /// Which.
+        /// The channel.
         channel: Channel,
-        /// Its value in this run; `None` where it is constant in every run.
+        /// Its value in this run; `None` if it is constant in every run.
         value: Option<f64>,
-        /// Unit of that value; empty where it has none.
+        /// Unit of that value; empty if it has none.
         unit: &'static str,
     },
     /// A sensor stays at its largest or smallest value.
     ClippedChannel {
-        /// Which.
+        /// The channel.
         channel: Channel,
         /// Share of the run.
         share: f64,
     },
-    /// Single readings far from their neighbours.
+    /// Single readings are far from their neighbours.
     Spike {
-        /// Which.
+        /// The channel.
         channel: Channel,
-        /// The first of these readings.
+        /// Value of the first one.
         value: f64,
         /// Readings before and after it.
         neighbours: Vec<f64>,
         /// Time since the run's first sample \[s\].
         time_s: f64,
-        /// How many there are.
+        /// Number of such readings.
         count: usize,
-        /// Unit of the readings; empty where it is not known.
+        /// Unit of the readings; empty if it is not known.
         unit: &'static str,
     },
-    /// Readings that jump to another level and stay there.
+    /// Readings jump to another level and stay there.
     ReadingJumps {
-        /// Which.
+        /// The channel.
         channel: Channel,
-        /// The first jump.
+        /// Size of the first jump.
         step: f64,
         /// Time since the run's first sample \[s\].
         time_s: f64,
-        /// How many jumps there are.
+        /// Number of jumps.
         count: usize,
         /// Whether the first jump is a number of whole turns.
         whole_turns: bool,
-        /// Unit of the readings; empty where it is not known.
+        /// Unit of the readings; empty if it is not known.
         unit: &'static str,
     },
-    /// An angle given in rad has the steps of an encoder in degrees.
+    /// An angle declared in rad has the steps of an encoder in degrees.
     AngleInDegrees {
-        /// Which.
+        /// The channel.
         channel: Channel,
-        /// Bits of the encoder.
+        /// Resolution of the encoder in bits.
         bits: i32,
     },
-    /// A tip that repeats one value while the motor moves, or a motor that does while the command changes.
+    /// A tip channel repeats one value while the motor moves, or the motor channel does while the command changes.
     FrozenChannel {
-        /// Which.
+        /// The channel.
         channel: Channel,
-        /// The value.
+        /// The repeated value.
         value: f64,
-        /// When it begins, since the run's first sample \[s\].
+        /// Time at which it begins, since the run's first sample \[s\].
         from_s: f64,
-        /// When it ends \[s\].
+        /// Time at which it ends \[s\].
         to_s: f64,
-        /// Unit of the readings; empty where it is not known.
+        /// Unit of the readings; empty if it is not known.
         unit: &'static str,
         /// Whether the run is left out.
         left_out: bool,
     },
-    /// A tip reads something else than the motor where the beam is straight.
+    /// A tip and the motor read different values when the beam is straight.
     TipZero {
-        /// Which.
+        /// The channel.
         channel: Channel,
-        /// Its reading relative to the motor's, the largest of all runs \[rad or m\].
+        /// Reading of the tip minus that of the motor, the largest of all runs \[rad or m\].
         value: f64,
     },
     /// The command is limited.
     Saturation {
         /// Share of the run.
         share: f64,
-        /// Whether the limit is given in the campaign, or taken from the log.
+        /// Whether the limit is given in the campaign; otherwise it is taken from the log.
         limit_given: bool,
     },
 }
 
 impl ChannelFinding {
-    /// Whether other findings may follow from it.
+    /// Whether it may be the cause of other findings.
     pub(super) fn is_wrong_reading(&self) -> bool {
         match self {
             Self::Spike { .. }
@@ -158,8 +158,8 @@ impl fmt::Display for ChannelFinding {
             }
             Self::ClippedChannel { channel, share } => write!(
                 f,
-                "{channel} stays at its largest or smallest value for {:.1} % of the run: the motion beyond it is \
-                 not in the log",
+                "{channel} stays at its largest or smallest value for {:.1} % of the run: the log does not contain the \
+                 motion beyond it, and estimates from this run are affected",
                 100.0 * share
             ),
             Self::Spike { channel, value, neighbours, time_s, count, unit } => {
@@ -192,15 +192,15 @@ impl fmt::Display for ChannelFinding {
             }
             Self::AngleInDegrees { channel, bits } => write!(
                 f,
-                "{channel} is given in rad and has steps of 360/2^{bits}, as an encoder with {bits} bits in degrees \
-                 has. If it is in degrees, estimates are wrong by a factor of 57.3 or its powers"
+                "{channel} is declared in rad, but it has steps of 360/2^{bits}, like an encoder of {bits} bits in degrees. \
+                 If the readings are in degrees, estimates are wrong by a factor of 57.3 or a power of it"
             ),
             Self::FrozenChannel { channel, value, from_s, to_s, unit, left_out } => write!(
                 f,
                 "{channel} is frozen: it reads {} from {from_s:.4} s to {to_s:.4} s after the run's first sample while {}. {}",
                 reading(*value, unit),
                 if *channel == Channel::Motor {
-                    "the command changes (or the axis ran against a stop)"
+                    "the command changes (the axis may also have reached a stop)"
                 } else {
                     "the motor moves"
                 },
@@ -212,13 +212,14 @@ impl fmt::Display for ChannelFinding {
             ),
             Self::TipZero { channel, value } => write!(
                 f,
-                "{channel} reads {} relative to the motor where the beam is straight, by its mean over the motion: that is taken off, \
-                 in each run its own",
+                "{channel} has a zero error: it reads {} relative to the motor when the beam is straight (largest of all \
+                 runs). The error is subtracted in each run",
                 reading(*value, "")
             ),
             Self::Saturation { share, limit_given } => write!(
                 f,
-                "the command {} for {:.1} % of the run: its harmonics are not those of friction alone",
+                "the command {} for {:.1} % of the run: the limit adds harmonics, which the third-harmonic method and the \
+                 corrected response take for friction",
                 if *limit_given { "is at its limit" } else { "stays at its largest value" },
                 100.0 * share
             ),
@@ -267,35 +268,37 @@ impl Describe for ChannelFinding {
     fn hint(&self) -> &'static str {
         match self {
             Self::DeadChannel { channel: Channel::Motor | Channel::Command, .. } => {
-                "check the wiring and which column the campaign names"
+                "check the wiring and the column that is given in the campaign"
             }
             Self::DeadChannel { value: None, .. } => {
-                "check the sensor; without a tip the estimates of a flexible beam's motor are rough"
+                "check the sensor; if the beam is flexible, estimates without a tip are rough"
             }
             Self::DeadChannel { .. } => {
                 "check the sensor; without its readings the beam cannot be identified"
             }
             Self::ClippedChannel { .. } => {
-                "the range of the sensor or the travel of the axis ends there: use a smaller amplitude"
+                "use a smaller amplitude: the range of the sensor or the travel of the axis ends there"
             }
             Self::Spike { .. } => {
-                "a wrong reading or a lost count: replace it by the mean of its neighbours, or leave that part of the \
-                 log out (skip)"
+                "the cause is a wrong reading or a lost count: replace it by the mean of its neighbours, or leave that \
+                 part of the log out (skip)"
             }
             Self::ReadingJumps { whole_turns: true, .. } => {
-                "the sensor wraps around: unwrap the angle over the log before identifying"
+                "the sensor wraps around: unwrap the angle before the identification"
             }
             Self::ReadingJumps { .. } => {
-                "lost counts, a sensor that wraps around, or missing samples: subtract the jump from the samples after \
-                 it, or leave that part of the log out (skip)"
+                "the cause is lost counts, a sensor that wraps around, or missing samples: subtract the jump from the \
+                 samples after it, or leave that part of the log out (skip)"
             }
-            Self::AngleInDegrees { .. } => "give its column unit = \"deg\"",
+            Self::AngleInDegrees { .. } => {
+                "if the readings are in degrees, set unit = \"deg\" for this channel in the campaign"
+            }
             Self::FrozenChannel { .. } => {
-                "a lost connection, or a logger that repeats its last value: leave that part of the log out (skip, or \
-                 cut the log)"
+                "the cause is a lost connection, or a logger that repeats its last value: leave that part of the log out \
+                 (skip, or cut the log)"
             }
             Self::TipZero { .. } => {
-                "nothing; if a load bends the beam one way all the time, its torque is now part of the offset"
+                "nothing to do; if a constant load bends the beam, its torque is now part of the offset"
             }
             Self::Saturation { .. } => {
                 "use a smaller amplitude, or a frequency farther from the resonance"

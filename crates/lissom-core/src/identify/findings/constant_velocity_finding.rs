@@ -31,12 +31,12 @@ impl fmt::Display for SlipDirection {
     }
 }
 
-/// How friction bends over speed.
+/// Curvature of friction over speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Curvature {
-    /// It grows less than in proportion: an extrapolation to zero speed is too high.
+    /// Friction grows less than linearly: the value extrapolated to zero speed is too high.
     Concave,
-    /// It grows more than in proportion: an extrapolation to zero speed is too low.
+    /// Friction grows more than linearly: the value extrapolated to zero speed is too low.
     Convex,
 }
 
@@ -45,24 +45,24 @@ pub enum Curvature {
 #[strum(serialize_all = "kebab-case")]
 #[non_exhaustive]
 pub enum ConstantVelocityFinding {
-    /// A run that turns one way has no part at a constant velocity.
+    /// The motor turns in one direction only, and no part of the run has a constant velocity.
     NoSteadyVelocity,
-    /// Every run turns at constant velocities.
+    /// The motor turns at constant velocities in every run.
     ConstantVelocityOnly {
         /// Whether tips are measured.
         flexible: bool,
     },
     /// Friction is taken from constant velocities.
     ClassicalFigures,
-    /// Friction over speed is curved, and the slowest speeds are used.
+    /// Friction over speed is curved, and Coulomb friction is taken from the slowest speeds.
     SlowestSpeedsTaken,
     /// Friction over speed is curved in one direction.
     ExtrapolationCurved {
-        /// Which direction.
+        /// The direction.
         direction: SlipDirection,
-        /// Which way it bends.
+        /// Sign of the curvature.
         curvature: Curvature,
-        /// What bends the line, in standard errors.
+        /// Size of the curvature, in standard errors.
         standard_errors: f64,
         /// The command extrapolated to zero speed.
         command: f64,
@@ -71,9 +71,9 @@ pub enum ConstantVelocityFinding {
         /// Unit of the command.
         unit: &'static str,
     },
-    /// Points scatter about their line in one direction.
+    /// In one direction the points scatter about their line.
     SpeedsScatter {
-        /// Which direction.
+        /// The direction.
         direction: SlipDirection,
         /// Root mean square of the distances from the line, in standard errors.
         rms_standard_errors: f64,
@@ -82,26 +82,26 @@ pub enum ConstantVelocityFinding {
         /// Unit of the command.
         unit: &'static str,
     },
-    /// There are two speeds in one direction.
+    /// There are only two speeds in one direction.
     TwoSpeeds {
-        /// Which direction.
+        /// The direction.
         direction: SlipDirection,
     },
     /// There is no constant velocity in one direction.
     OneDirection {
-        /// The direction without.
+        /// The direction without a constant velocity.
         direction: SlipDirection,
     },
-    /// There is one speed in one direction.
+    /// There is only one speed in one direction.
     TooFewSpeeds {
-        /// Which direction.
+        /// The direction.
         direction: SlipDirection,
         /// Speeds found.
         speeds: usize,
     },
     /// The speeds are too close together for an extrapolation.
     SpeedsTooClose {
-        /// Which direction.
+        /// The direction.
         direction: SlipDirection,
         /// The command extrapolated to zero speed.
         command: Estimate,
@@ -114,21 +114,20 @@ impl fmt::Display for ConstantVelocityFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoSteadyVelocity => f.write_str(
-                "the motor turns one way throughout, and no part of the run is at a constant velocity: the run gives \
+                "the motor turns in one direction only, and no part of the run has a constant velocity: the run gives \
                  no point of friction over speed",
             ),
             Self::ConstantVelocityOnly { flexible } => write!(
                 f,
-                "every run turns at constant velocities, which show friction only: {} not given",
+                "the motor turns at constant velocities in all runs. These show only friction: {} not given",
                 if *flexible { "inertia, modes and coupling are" } else { "inertia is" }
             ),
             Self::ClassicalFigures => f.write_str(
-                "friction is taken from constant velocities, extrapolated to zero speed: no other method gives it to better than \
-                 20 %",
+                "friction is taken from constant velocities, extrapolated to zero speed, because no other method gives it",
             ),
             Self::SlowestSpeedsTaken => f.write_str(
-                "friction does not grow in proportion to speed: Coulomb friction is taken from the slowest third of \
-                 the speeds, viscous friction from the slope over all speeds",
+                "friction does not grow linearly with speed: Coulomb friction is taken from the slowest third of the \
+                 speeds, viscous friction from the slope over all speeds",
             ),
             Self::ExtrapolationCurved {
                 direction,
@@ -147,34 +146,36 @@ impl fmt::Display for ConstantVelocityFinding {
                 });
                 write!(
                     f,
-                    "{direction}, friction grows {grows} than in proportion to speed ({standard_errors:.1} standard \
-                     errors): the command extrapolated to zero speed, {} {unit}, is too {wrong}{slowest}",
+                    "in the {direction} direction friction grows {grows} than linearly with speed ({standard_errors:.1} \
+                     standard errors): the command extrapolated to zero speed, {} {unit}, is too {wrong}{slowest}",
                     significant(*command, DIGITS)
                 )
             }
             Self::SpeedsScatter { direction, rms_standard_errors, command, unit } => write!(
                 f,
-                "{direction}, the points lie {rms_standard_errors:.1} standard errors (rms) from their line, to both \
-                 sides: the standard error of the command extrapolated to zero speed, {} {unit}, counts this scatter",
+                "in the {direction} direction the points scatter about their line by {rms_standard_errors:.1} standard \
+                 errors (rms): the standard error of the command extrapolated to zero speed, {} {unit}, includes this \
+                 scatter",
                 significant(*command, DIGITS)
             ),
             Self::TwoSpeeds { direction } => write!(
                 f,
-                "{direction}, there are only two speeds: whether friction grows in proportion to speed is not tested"
+                "in the {direction} direction there are only two speeds: they do not show whether friction grows linearly \
+                 with speed"
             ),
             Self::OneDirection { direction } => write!(
                 f,
-                "{direction}, no run turns at a constant velocity: friction is not separated from a constant load"
+                "no run turns {direction} at a constant velocity: friction cannot be separated from a constant load"
             ),
             Self::TooFewSpeeds { direction, speeds } => write!(
                 f,
-                "{direction}, there is only {speeds} speed: a line to zero speed needs two, and a test of the line \
-                 needs three"
+                "in the {direction} direction there is only {speeds} speed, but an extrapolation to zero speed needs two, \
+                 and a test of the line needs three. Constant velocities give no friction"
             ),
             Self::SpeedsTooClose { direction, command, unit } => write!(
                 f,
-                "{direction}, the command extrapolated to zero speed is {} {unit}: its standard error is too large, \
-                 and friction is not given",
+                "in the {direction} direction the command extrapolated to zero speed is {} {unit}: its standard error is \
+                 too large. Constant velocities give no friction",
                 with_error(*command)
             ),
         }
@@ -222,8 +223,8 @@ impl Describe for ConstantVelocityFinding {
     fn hint(&self) -> &'static str {
         match self {
             Self::NoSteadyVelocity => {
-                "hold each speed for seven time constants of the loop or more; where the joint sticks and slips, turn \
-                 faster"
+                "hold each speed for seven time constants of the control loop or more; if the joint sticks and slips, \
+                 turn faster"
             }
             Self::ConstantVelocityOnly { .. } => {
                 "add runs that move back and forth: sines, a sweep, ordinary moves"
@@ -235,17 +236,17 @@ impl Describe for ConstantVelocityFinding {
                 "use these estimates only at the speeds of interest, or identify from moves at those speeds"
             }
             Self::ExtrapolationCurved { .. } => {
-                "add speeds near zero, as slow as the motor still turns evenly, or identify from sines at the speeds \
-                 of interest"
+                "add slower speeds, down to the slowest at which the motor turns evenly, or identify from sines at the \
+                 speeds of interest"
             }
             Self::SpeedsScatter { .. } => {
-                "friction changes with position or temperature: hold each speed over the same whole turns, after a \
-                 warm-up"
+                "friction may change with position or temperature: measure each speed over the same whole turns, after \
+                 a warm-up"
             }
             Self::TwoSpeeds { .. } => "add a third speed, well apart from both",
-            Self::OneDirection { .. } => "run the speeds in both directions",
+            Self::OneDirection { .. } => "measure the speeds in both directions",
             Self::TooFewSpeeds { .. } => {
-                "add speeds well apart, the slowest as slow as the motor still turns evenly"
+                "add speeds that are well apart, down to the slowest at which the motor turns evenly"
             }
             Self::SpeedsTooClose { .. } => "add slower speeds",
         }

@@ -1,10 +1,10 @@
-//! What every kind of finding has: a code, a severity, affected keys, a message and a hint.
+//! The trait of all kinds of findings: code, severity, affected keys, message and hint.
 
 use std::fmt;
 
 use crate::identify::findings::severity::Severity;
 
-/// Implemented once for each area; [`Display`](fmt::Display) is the message.
+/// Texts and severity of a finding, implemented once for each area; [`Display`](fmt::Display) is the message.
 pub(super) trait Describe: fmt::Display {
     /// Stable name, derived from the name of the variant.
     fn code(&self) -> &'static str;

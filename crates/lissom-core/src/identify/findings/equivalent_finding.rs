@@ -19,14 +19,14 @@ use crate::identify::responses::rational::Spurious;
 pub enum EquivalentFinding {
     /// The responses of a campaign make no equivalent arm.
     EquivalentRefused {
-        /// Why.
+        /// The reason.
         refusal: EquivalentRefusal,
     },
-    /// A pole of the fit is no mode of the arm.
+    /// A pole of the fit is not a mode of the arm.
     EquivalentSpuriousPole {
         /// Its frequency \[rad/s\].
         omega_rad_s: f64,
-        /// Why it is none.
+        /// The reason.
         reason: Spurious,
     },
     /// Fewer modes are kept than were found.
@@ -40,30 +40,30 @@ pub enum EquivalentFinding {
     EquivalentPointsLeftOut {
         /// Modes of the arm.
         modes: usize,
-        /// Names of the points that are not in it.
+        /// Names of the points that are left out.
         points: Vec<String>,
     },
     /// A response has an imaginary part that neither damping nor a delay explains.
     EquivalentImaginaryPart {
         /// Name of the point.
         point: String,
-        /// That part relative to the response, median.
+        /// Size of that part relative to the response, median.
         share: f64,
-        /// The same in standard errors, rms; `None` where these are not known.
+        /// The same in standard errors, rms; `None` if these are not known.
         standard_errors: Option<f64>,
     },
-    /// The response of a point is delayed against the motor.
+    /// The response of a point is delayed relative to the motor.
     EquivalentDelay {
         /// Name of the point.
         point: String,
-        /// How much later it comes \[s\].
+        /// The delay; negative if the response comes earlier \[s\].
         delay_s: Estimate,
     },
     /// Residues have terms in s.
     EquivalentTermsInS {
         /// The largest of them relative to its gain.
         largest_share: f64,
-        /// A delay that they may hide \[s\].
+        /// Largest delay that they may hide \[s\].
         hidden_delay_s: f64,
     },
     /// The points' responses differ from the model.
@@ -71,19 +71,19 @@ pub enum EquivalentFinding {
         /// Root mean square of the difference, in standard errors.
         rms_standard_errors: f64,
     },
-    /// Standard errors of the responses are larger than the errors.
+    /// Standard errors of the responses are larger than their errors.
     EquivalentDeviationsLarge {
         /// Root mean square of the difference from the model, in standard errors.
         rms_standard_errors: f64,
     },
-    /// The gains of a point do not add up to one: it is no angle.
+    /// The gains of a point do not add up to one: it is not an angle.
     EquivalentNoAngle {
-        /// What is missing to one.
+        /// Difference between their sum and one.
         missing_gain: f64,
     },
-    /// The last mode is given what gains lack to add up to one.
+    /// The last mode gets the difference between the sum of the gains and one.
     EquivalentCompleted {
-        /// What was missing to one.
+        /// Difference between the sum and one.
         missing_gain: f64,
         /// The largest relative change of a gain.
         change_share: f64,
@@ -101,18 +101,18 @@ impl fmt::Display for EquivalentFinding {
                 "a pole at {omega_rad_s:.4} rad/s {}: it is not a mode of the arm",
                 match reason {
                     Spurious::Outside => "lies outside the measured frequencies",
-                    Spurious::Damped => "has a damping that no mode of a beam has",
+                    Spurious::Damped => "is damped more than any mode of a beam",
                     Spurious::Unfelt =>
-                        "has no gain at any point that is four standard errors from zero",
+                        "has gains less than four standard errors from zero at all points",
                 }
             ),
             Self::EquivalentModesLeftOut { kept, found } => write!(
                 f,
-                "{kept} of {found} modes are kept: the arm holds below the first mode that is left out"
+                "{kept} of {found} modes are kept: the arm is valid below the first mode that is left out"
             ),
             Self::EquivalentPointsLeftOut { modes, points } => write!(
                 f,
-                "the arm has {} and as many points: {} {} not in it; {} used for the poles",
+                "the arm has {} and therefore as many points: {} {} not in it, but {} used for the poles",
                 counted(*modes, "mode", "modes"),
                 points.join(", "),
                 if points.len() == 1 { "is" } else { "are" },
@@ -130,38 +130,39 @@ impl fmt::Display for EquivalentFinding {
             }
             Self::EquivalentDelay { point, delay_s } => write!(
                 f,
-                "the response of {point} comes {} {} than the motor's angle: the delay is removed, and intervals count \
-                 its uncertainty",
+                "the response of {point} comes {} {} than the motor's angle: the delay is removed, and the intervals \
+                 include its uncertainty",
                 milliseconds(*delay_s),
                 later(delay_s.value)
             ),
             Self::EquivalentTermsInS { largest_share, hidden_delay_s } => write!(
                 f,
-                "residues have terms in s, up to {largest_share:.4} of their gains: the beam has internal damping, or \
-                 damping with another shape than its modes. They may hide a delay of up to {:.4} ms, which the \
-                 intervals of the gains count",
+                "the residues have terms in s, up to {largest_share:.4} of their gains: the beam has internal damping, or \
+                 damping with another shape than its modes. These terms may hide a delay of up to {:.4} ms, which \
+                 the intervals of the gains include",
                 1e3 * hidden_delay_s
             ),
             Self::EquivalentMisfit { rms_standard_errors } => write!(
                 f,
                 "the responses of the points differ from the model by {rms_standard_errors:.1} standard errors (rms): \
-                 they contain more than the modes of an arm, or the standard errors are too small. Intervals count it"
+                 they contain more than the modes of an arm, or the standard errors are too small. The intervals include \
+                 the difference"
             ),
             Self::EquivalentDeviationsLarge { rms_standard_errors } => write!(
                 f,
-                "the responses differ from the model by {rms_standard_errors:.2} standard errors (rms) only: the given \
-                 standard errors are too large, and intervals are wider than they need to be"
+                "the responses differ from the model by only {rms_standard_errors:.2} standard errors (rms): the given \
+                 standard errors are too large, and the intervals are wider than they need to be"
             ),
             Self::EquivalentNoAngle { missing_gain } => write!(
                 f,
-                "the gains of a point add up to one except for {missing_gain:.3}: it does not turn with a slowly turning \
-                 motor. The form for use as an arm and the state space are not given"
+                "the sum of the gains of a point differs from one by {missing_gain:.3}: the point does not turn with a motor \
+                 that turns slowly. The form for use as an arm and the state space are not given"
             ),
             Self::EquivalentCompleted { missing_gain, change_share } => write!(
                 f,
-                "the gains of a point add up to one except for {missing_gain:.3}: for use as an arm the last mode gets \
-                 the difference, so that turning as one body strains nothing. This changes a gain by up to {:.0} %, and \
-                 zeros with it",
+                "the sum of the gains of a point differs from one by {missing_gain:.3}: for use as an arm the last mode gets \
+                 the difference, so that an arm that turns as one body is not bent. This changes a gain by up to {:.0} %, \
+                 and the zeros as well",
                 100.0 * change_share
             ),
         }
@@ -197,34 +198,33 @@ impl Describe for EquivalentFinding {
         match self {
             Self::EquivalentRefused { refusal } => refusal.hint(),
             Self::EquivalentSpuriousPole { .. } => {
-                "nothing to do if it describes modes beyond the measured frequencies, or noise"
+                "nothing to do if the pole describes modes beyond the measured frequencies, or noise"
             }
             Self::EquivalentModesLeftOut { .. } => {
                 "use the arm below the first mode that is left out, or keep more modes"
             }
             Self::EquivalentPointsLeftOut { .. } => {
-                "measure at higher frequencies, to see as many modes as points"
+                "measure at higher frequencies, so that there are as many modes as points"
             }
             Self::EquivalentImaginaryPart { .. } => {
-                "check the phase of the channels: filters, sampling, a delay between the two"
+                "check the phase of the channels: filters, sampling, a delay between them"
             }
             Self::EquivalentDelay { .. } => {
                 "sample both channels at the same time and with the same filter, or correct the responses by the delay; \
                  damping within the beam may look like a small delay"
             }
             Self::EquivalentTermsInS { .. } => {
-                "nothing to do: they are in the fit; an identification from logs finds an arm with such damping"
+                "nothing to do: the fit contains these terms; an identification from logs finds an arm with such damping"
             }
             Self::EquivalentMisfit { .. } => {
-                "look at the plot: a misfit at one frequency is a disturbance, a misfit everywhere a wrong standard error"
+                "look at the plot: a misfit at one frequency is a disturbance, a misfit everywhere means wrong standard errors"
             }
             Self::EquivalentDeviationsLarge { .. } => "check the standard errors of the responses",
             Self::EquivalentNoAngle { .. } => {
-                "check for an angle with the wrong sign, or in another unit than the motor's angle"
+                "check whether an angle has the wrong sign, or another unit than the motor's angle"
             }
             Self::EquivalentCompleted { .. } => {
-                "take into account that the last mode's part of the responses has an error of that size; the others \
-                 have not"
+                "the last mode's part of the responses has an error of this size; the parts of the other modes do not"
             }
         }
     }

@@ -16,23 +16,23 @@ use crate::identify::findings::severity::Severity;
 #[strum(serialize_all = "kebab-case")]
 #[non_exhaustive]
 pub enum EquivalentMotorFinding {
-    /// The motor's response differs from the arm's, in standard errors or by its share.
+    /// The motor's response differs from that of the arm.
     EquivalentMotorMisfit {
-        /// Root mean square of the difference in standard errors; `None` where these are not known.
+        /// Root mean square of the difference in standard errors; `None` if these are not known.
         rms_standard_errors: Option<f64>,
         /// The difference relative to the response, rms.
         share: f64,
-        /// The same of the points' responses.
+        /// The same for the responses of the points.
         share_of_points: f64,
     },
-    /// The motor's response is delayed against the command.
+    /// The motor's response is delayed relative to the command.
     EquivalentMotorDelay {
-        /// How much later it comes \[s\].
+        /// The delay; negative if the response comes earlier \[s\].
         delay_s: Estimate,
     },
     /// The motor's response contains Coulomb friction.
     EquivalentMotorFriction {
-        /// How far from zero, in standard errors.
+        /// Size of the friction in standard errors.
         standard_errors: f64,
     },
     /// Parameters of the arm are negative.
@@ -40,9 +40,9 @@ pub enum EquivalentMotorFinding {
         /// Names of the parameters.
         parameters: Vec<String>,
     },
-    /// Inertia, viscous friction and coupling cannot be found.
+    /// Inertia, viscous friction and coupling cannot be identified.
     EquivalentWithoutTorque {
-        /// Why.
+        /// The reason.
         error: EquivalentError,
     },
 }
@@ -53,7 +53,7 @@ impl fmt::Display for EquivalentMotorFinding {
             Self::EquivalentMotorMisfit { rms_standard_errors: Some(errors), .. } => write!(
                 f,
                 "the motor's response differs from the model by {errors:.1} standard errors (rms): it contains friction, \
-                 or modes that are not in the arm. Intervals count it"
+                 or modes that are not in the arm. The intervals include the difference"
             ),
             Self::EquivalentMotorMisfit { rms_standard_errors: None, share, share_of_points } => {
                 write!(
@@ -66,20 +66,20 @@ impl fmt::Display for EquivalentMotorFinding {
             }
             Self::EquivalentMotorDelay { delay_s } => write!(
                 f,
-                "the motor's response comes {} {} than the command: the delay is removed, and intervals count its \
-                 uncertainty",
+                "the motor's response comes {} {} than the command: the delay is removed, and the intervals include \
+                 its uncertainty",
                 milliseconds(*delay_s),
                 later(delay_s.value)
             ),
             Self::EquivalentMotorFriction { standard_errors } => write!(
                 f,
-                "the motor's response contains a torque against the motion that does not grow with speed, as Coulomb \
+                "the motor's response contains a torque against the motion that does not grow with speed, like Coulomb \
                  friction ({standard_errors:.1} standard errors from zero): errors of viscous friction and inertia may \
                  be larger than their intervals"
             ),
             Self::EquivalentImplausible { parameters } => write!(
                 f,
-                "{} {} below zero, which no arm has",
+                "{} {} negative, which is not possible for an arm",
                 parameters.join(", "),
                 if parameters.len() == 1 { "is" } else { "are" }
             ),
@@ -104,11 +104,11 @@ impl Describe for EquivalentMotorFinding {
     fn hint(&self) -> &'static str {
         match self {
             Self::EquivalentMotorMisfit { rms_standard_errors: Some(_), .. } => {
-                "look at the plot of the motor"
+                "look at the plot of the motor's response"
             }
             Self::EquivalentMotorMisfit { .. } => {
-                "look at the plot of the motor; give standard errors (columns that end in _std) to separate noise from \
-                 misfit"
+                "look at the plot of the motor's response; give standard errors (columns that end in _std) to separate \
+                 noise from misfit"
             }
             Self::EquivalentMotorDelay { .. } => {
                 "sample command and angle at the same time and with the same filter, or correct the response by the delay"
@@ -117,7 +117,7 @@ impl Describe for EquivalentMotorFinding {
                 "remove the friction first (an identification from the logs does so), or measure at larger amplitudes"
             }
             Self::EquivalentImplausible { .. } => {
-                "check the motor's response: its sign, the torque constant, and whether friction is removed"
+                "check the motor's response: its sign, the torque constant, and whether friction has been removed"
             }
             Self::EquivalentWithoutTorque { .. } => "give the motor's response at more frequencies",
         }

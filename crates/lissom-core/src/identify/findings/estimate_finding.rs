@@ -1,4 +1,4 @@
-//! The estimates of the result: which are given, and what speaks against them.
+//! Estimates of the result: which are refused or uncertain, and why.
 
 use std::fmt;
 
@@ -11,7 +11,7 @@ use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
 use crate::identify::findings::units::EstimateUnits;
 
-/// A parameter that is refused where the data do not support it.
+/// A parameter that is refused if the data do not support it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JudgedParameter {
     /// Coulomb friction, the mean of both directions.
@@ -52,7 +52,7 @@ impl JudgedParameter {
         }
     }
 
-    /// What shows it.
+    /// Runs that show the parameter better.
     fn hint(self) -> &'static str {
         match self {
             Self::Coulomb => "add slow runs in both directions",
@@ -63,19 +63,19 @@ impl JudgedParameter {
     }
 }
 
-/// What shows that there is dry friction.
+/// Evidence of dry friction.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FrictionSign {
     /// Odd harmonics of the command.
     OddHarmonics {
-        /// The run that shows them.
+        /// Name of the run.
         run: String,
         /// The third harmonic relative to the fundamental.
         third_share: f64,
-        /// Odd harmonics relative to the even ones.
+        /// Size of the odd harmonics relative to the even ones.
         odd_over_even: f64,
     },
-    /// A torque that jumps with the direction of motion.
+    /// A torque that jumps when the direction of motion changes.
     TorqueJump {
         /// Coulomb friction in standard errors.
         standard_errors: f64,
@@ -91,48 +91,48 @@ pub enum OtherMethod {
     ConstantVelocity,
 }
 
-/// The estimates of the result: which are given, and what speaks against them.
+/// Estimates of the result: which are refused or uncertain, and why.
 #[derive(Debug, Clone, PartialEq, IntoStaticStr, VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 #[non_exhaustive]
 pub enum EstimateFinding {
     /// A parameter cannot be separated from another term.
     NotSeparable {
-        /// Which.
+        /// The parameter.
         parameter: JudgedParameter,
     },
-    /// The runs hardly show a parameter.
+    /// The runs contain little information about a parameter.
     PoorExcitation {
-        /// Which.
+        /// The parameter.
         parameter: JudgedParameter,
         /// Its estimate.
         estimate: Estimate,
         /// Unit of the estimate.
         units: EstimateUnits,
-        /// Whether it is refused.
+        /// Whether the estimate is refused.
         refused: bool,
     },
     /// A parameter that must be positive comes out negative.
     NegativeFigure {
-        /// Which.
+        /// The parameter.
         parameter: JudgedParameter,
         /// Its estimate.
         estimate: Estimate,
         /// Unit of the estimate.
         units: EstimateUnits,
     },
-    /// The motor turns one way only: Coulomb friction and a constant load are one number.
+    /// The motor turns in one direction only: Coulomb friction and a constant load cannot be separated.
     FrictionWithLoad {
         /// Whether it turns forward.
         forward: bool,
-        /// Both together, against the motion.
+        /// Sum of both, against the motion.
         sum: Estimate,
         /// Unit of the sum.
         units: EstimateUnits,
     },
     /// Another parameter came out negative.
     OthersDoubtful,
-    /// Inertia and Coulomb friction come out negative together.
+    /// Inertia and Coulomb friction are both negative.
     CommandSign,
     /// The torque constant is unknown.
     PerUnitOfCommand,
@@ -140,7 +140,7 @@ pub enum EstimateFinding {
     CommandNotMeasured,
     /// There is dry friction.
     FrictionVisible {
-        /// What shows it.
+        /// The evidence.
         sign: FrictionSign,
     },
     /// Friction differs by direction, or a constant load acts.
@@ -152,16 +152,16 @@ pub enum EstimateFinding {
         /// Offset relative to Coulomb friction.
         share: f64,
     },
-    /// Another method gives other Coulomb friction.
+    /// Another method gives a different value of Coulomb friction.
     MethodsDisagree {
-        /// Which method.
+        /// The other method.
         method: OtherMethod,
-        /// Its Coulomb friction relative to the estimate, less one.
+        /// Its Coulomb friction relative to the estimate, minus one.
         difference_share: f64,
     },
     /// The arm of the estimates does not predict the torque of its own logs.
     ArmNotGiven {
-        /// Share of the torque that it leaves.
+        /// Residual torque relative to the torque.
         residual_share: f64,
     },
     /// No two runs make a pair for the third-harmonic method.
@@ -178,7 +178,7 @@ impl fmt::Display for EstimateFinding {
             ),
             Self::PoorExcitation { parameter, estimate, refused: false, .. } => write!(
                 f,
-                "these runs hardly show {}: its standard error is {:.0} %",
+                "these runs contain little information about {}: its standard error is {:.0} % of the estimate",
                 parameter.name(),
                 100.0 * estimate.std / estimate.value.abs()
             ),
@@ -186,63 +186,64 @@ impl fmt::Display for EstimateFinding {
                 let (name, unit) = (parameter.name(), parameter.unit(*units));
                 let share = estimate.std / estimate.value.abs();
                 if !share.is_finite() {
-                    return write!(f, "nothing in these runs shows {name}: it is not given");
+                    return write!(f, "these runs contain no information about {name}: it is not given");
                 }
                 write!(
                     f,
-                    "{name} would be {} {unit}, with a standard error of {:.0} %: it is not given",
+                    "{name} would be {} {unit} with a standard error of {:.0} %: it is not given",
                     significant(estimate.value, 4),
                     100.0 * share
                 )
             }
             Self::NegativeFigure { parameter, estimate, units } => write!(
                 f,
-                "{} would be {} {}, and must be positive: the model does not fit, and it is not given",
+                "{} would be {} {}, but it must be positive: the model does not fit these runs, and the estimate is not given",
                 parameter.name(),
                 with_error(*estimate),
                 parameter.unit(*units)
             ),
             Self::OthersDoubtful => f.write_str(
-                "a parameter that must be positive came out negative: the other estimates rest on the same equation and \
-                 may be wrong, too",
+                "a parameter that must be positive is negative: the other estimates come from the same equation and may be \
+                 wrong as well",
             ),
             Self::CommandSign => f.write_str(
-                "inertia and friction come out negative together: the sign of the command is opposite to that of the \
-                 motor, and no estimate is given",
+                "inertia and Coulomb friction are both negative: the command and the motor's angle have opposite signs, and \
+                 no estimate is given",
             ),
             Self::PerUnitOfCommand => f.write_str(
                 "the torque constant is unknown: estimates are per unit of command",
             ),
             Self::CommandNotMeasured => f.write_str(
-                "the input is the command of the drive, not a measurement: dead band, voltage drop and delay of the \
-                 amplifier are counted as those of the joint",
+                "the input is the command of the drive, not a measurement: the estimates include dead band, voltage drop \
+                 and delay of the amplifier as if they were effects of the joint",
             ),
             Self::FrictionVisible { sign: FrictionSign::OddHarmonics { run, third_share, odd_over_even } } => write!(
                 f,
-                "the command has odd harmonics, as dry friction causes them (in {run} the third is {:.1} % of the \
-                 fundamental, even ones are {} times smaller): the raw response is not linear",
+                "the command has odd harmonics, which dry friction causes (in {run} the third harmonic is {:.1} % of the \
+                 fundamental, and the odd harmonics are {} times the even ones): the raw frequency response is not \
+                 that of a linear system",
                 100.0 * third_share,
                 significant(*odd_over_even, 2)
             ),
             Self::FrictionVisible { sign: FrictionSign::TorqueJump { standard_errors } } => write!(
                 f,
-                "the torque jumps with the direction of motion, as dry friction causes it ({} standard errors): the raw \
-                 response is not linear",
+                "the torque jumps when the direction of motion changes, which dry friction causes ({} standard errors): the \
+                 raw frequency response is not that of a linear system",
                 significant(*standard_errors, 2)
             ),
             Self::FrictionWithLoad { forward, sum, units } => write!(
                 f,
-                "the motor turns {} only: Coulomb friction and a constant load cannot be told apart; together they are \
-                 {} {}",
+                "the motor turns {} only: Coulomb friction and a constant load cannot be separated, and only their sum is \
+                 known, {} {}",
                 if *forward { "forward" } else { "backward" },
                 with_error(*sum),
                 units.torque()
             ),
-            // Friction brakes both ways: more than that is a load.
+            // Friction brakes in both directions, so an offset above it is a load.
             Self::Offset { offset, units, share } if share.abs() > 1.0 => write!(
                 f,
-                "a constant load acts, of {} {}: more than Coulomb friction. Friction that differs by direction would \
-                 be counted with it",
+                "a constant load acts: the offset is {} {}, which is more than Coulomb friction. It includes half of any \
+                 difference between forward and backward friction",
                 with_error(*offset),
                 units.torque()
             ),
@@ -253,21 +254,21 @@ impl fmt::Display for EstimateFinding {
             ),
             Self::MethodsDisagree { method, difference_share } => write!(
                 f,
-                "Coulomb friction {} differs by {:+.0} % from the estimate",
+                "Coulomb friction {} differs from the estimate by {:+.0} %: one of the two is wrong",
                 match method {
-                    OtherMethod::ThirdHarmonic => "by the third harmonic",
+                    OtherMethod::ThirdHarmonic => "from the third-harmonic method",
                     OtherMethod::ConstantVelocity => "from constant velocities",
                 },
                 100.0 * difference_share
             ),
             Self::ArmNotGiven { residual_share } => write!(
                 f,
-                "the arm that these estimates make leaves {:.0} % of the torque of its own logs: it is not given",
+                "an arm with these estimates leaves {:.0} % of the torque in its own logs unexplained: the arm is not given, \
+                 and nothing can be predicted with it",
                 100.0 * residual_share
             ),
             Self::NoPairs => f.write_str(
-                "no two runs are at a frequency and at three times that frequency: the third-harmonic method gives \
-                 nothing",
+                "no run has three times the frequency of another run: the third-harmonic method gives no estimate",
             ),
         }
     }
@@ -328,25 +329,26 @@ impl Describe for EstimateFinding {
             | Self::NegativeFigure { parameter, .. } => parameter.hint(),
             Self::FrictionWithLoad { .. } => "add a run that turns the other way",
             Self::OthersDoubtful => {
-                "the equation does not describe these runs: check signs, units and what acts on the axis"
+                "check signs and units, and what else acts on the axis: the equation does not describe these runs"
             }
             Self::CommandSign => "give the command or the motor a negative scale in the campaign",
-            Self::PerUnitOfCommand => "give drive.torque_constant in the campaign",
+            Self::PerUnitOfCommand => "if you know it, give drive.torque_constant in the campaign",
             Self::CommandNotMeasured => "log the motor current where the drive gives it",
             Self::FrictionVisible { .. } => {
                 "do not fit a linear model to the raw response; use the corrected response"
             }
             Self::Offset { .. } => {
-                "a motion log does not separate the two; a log with the load in another orientation does"
+                "to separate friction from a load, add a log with the load in another orientation; motion alone does not \
+                 separate them"
             }
             Self::MethodsDisagree { method: OtherMethod::ThirdHarmonic, .. } => {
-                "check for sticking, coarse sensor steps and saturation: they lower the third harmonic's value"
+                "check for sticking, coarse sensor steps and saturation: they make the third-harmonic value too low"
             }
             Self::MethodsDisagree { method: OtherMethod::ConstantVelocity, .. } => {
-                "check whether friction grows in proportion to speed: if not, the extrapolation to zero speed is wrong"
+                "check whether friction grows linearly with speed: if not, the extrapolation to zero speed is wrong"
             }
             Self::ArmNotGiven { .. } => {
-                "friction and inertia stand for themselves; for a prediction measure as many points as the beam has modes"
+                "friction and inertia can be used on their own; for a prediction measure as many points as the beam has modes"
             }
             Self::NoPairs => "for each frequency ω0 add a run at 3ω0",
         }

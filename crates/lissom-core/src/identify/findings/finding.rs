@@ -1,28 +1,28 @@
-//! A finding: what the data do not allow, or what to know before an estimate is used.
+//! A finding: a statement about the logs or the estimates that the user should read before using an estimate.
 
 use std::fmt;
 
 use crate::identify::findings::finding_kind::FindingKind;
 use crate::identify::findings::severity::Severity;
 
-/// What the data do not allow, or what to know before an estimate is used.
+/// A statement about what the logs cannot show, what is wrong with them, or what to know before an estimate is used.
 ///
 /// Its [`Display`](fmt::Display) is the message.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
     /// What was found, with its numbers.
     pub kind: FindingKind,
-    /// Name of the run that it is about; `None` for the whole campaign.
+    /// Name of the run concerned; `None` if the finding concerns the whole campaign.
     pub run: Option<String>,
 }
 
 impl Finding {
-    /// A finding about the whole campaign.
+    /// Creates a finding about the whole campaign.
     pub fn new(kind: impl Into<FindingKind>) -> Self {
         Self { kind: kind.into(), run: None }
     }
 
-    /// A finding about one run.
+    /// Creates a finding about one run.
     pub fn of_run(run: &str, kind: impl Into<FindingKind>) -> Self {
         Self { kind: kind.into(), run: Some(run.to_owned()) }
     }

@@ -21,7 +21,7 @@ use crate::identify::findings::run_finding::RunFinding;
 use crate::identify::findings::severity::Severity;
 use crate::identify::findings::validation_finding::ValidationFinding;
 
-/// Lists the areas once: the enum, its conversions, its codes.
+/// Declares the enum of all areas, the conversions into it and the list of codes.
 macro_rules! areas {
     ($($(#[$doc:meta])* $area:ident($finding:ident),)*) => {
         /// What was found.
@@ -38,7 +38,7 @@ macro_rules! areas {
         })*
 
         impl FindingKind {
-            /// The codes of all kinds, area by area.
+            /// Codes of all kinds, area by area.
             pub fn codes() -> impl Iterator<Item = &'static str> {
                 [$($finding::VARIANTS),*].into_iter().flatten().copied()
             }
@@ -63,7 +63,7 @@ areas! {
     ConstantVelocity(ConstantVelocityFinding),
     /// Regression in slip phases.
     Regression(RegressionFinding),
-    /// Friction that is not Coulomb friction and one viscous constant.
+    /// Friction with more terms than Coulomb friction and one viscous constant.
     FrictionLaw(FrictionLawFinding),
     /// The output-error method.
     OutputError(OutputErrorFinding),
@@ -71,15 +71,15 @@ areas! {
     Response(ResponseFinding),
     /// Modes and tips.
     Beam(BeamFinding),
-    /// The estimates of the result.
+    /// Estimates of the result: given, uncertain or refused.
     Estimate(EstimateFinding),
     /// An equivalent arm: its points and modes.
     Equivalent(EquivalentFinding),
-    /// An equivalent arm: what the motor's response gives.
+    /// An equivalent arm: inertia, viscous friction and coupling from the motor's response.
     EquivalentMotor(EquivalentMotorFinding),
-    /// Another payload.
+    /// Prediction of the arm with another payload.
     Payload(PayloadFinding),
-    /// Prediction of a log.
+    /// Prediction of a log with an identified arm.
     Validation(ValidationFinding),
 }
 
@@ -104,8 +104,8 @@ impl FindingKind {
         self.describe().hint()
     }
 
-    /// Place among findings of the same severity: what acts on the joint comes before what is worth knowing, and that
-    /// before what concerns responses alone.
+    /// Sort order among findings of the same severity: 0 for effects on the joint or in the log, 2 for findings about
+    /// responses only, 1 for all others.
     pub(crate) fn rank(&self) -> u8 {
         match self {
             Self::Regression(_)
@@ -118,8 +118,8 @@ impl FindingKind {
         }
     }
 
-    /// Whether it is a cause that other findings may follow from: wrong readings, a run unlike the others, what the
-    /// equation lacks, a lag, a mode without a tip, friction that varies.
+    /// Whether it may be the cause of other findings: wrong readings, a run unlike the others, a missing term of the
+    /// equation, a lag, a mode without a tip, friction that varies.
     pub(crate) fn is_cause(&self) -> bool {
         match self {
             Self::Channel(found) => found.is_wrong_reading(),

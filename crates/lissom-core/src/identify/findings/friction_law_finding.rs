@@ -1,4 +1,4 @@
-//! Friction that is not Coulomb friction plus one viscous constant.
+//! Friction with more terms than Coulomb friction plus one viscous constant.
 
 use std::fmt;
 
@@ -15,21 +15,21 @@ use crate::identify::methods::friction_law::LawTerm;
 /// Digits of a term's size.
 const DIGITS: usize = 3;
 
-/// Where a law of friction is from.
+/// The method that gives a friction law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LawSource {
     /// The output-error method.
     OutputError {
-        /// Whether it describes the runs from beginning to end, or parts of them.
+        /// Whether it describes the runs from beginning to end; otherwise only over short windows.
         whole_runs: bool,
-        /// Whether every term is less than a thousandth of Coulomb and viscous friction.
+        /// Whether each term is less than a thousandth of Coulomb and viscous friction.
         negligible: bool,
     },
-    /// The slip phases.
+    /// The regression in slip phases.
     SlipPhases {
-        /// Whether the output-error method describes the runs without this law.
+        /// Whether the output-error method describes the runs without these terms.
         replayed_without: bool,
-        /// How much better it describes the data, where single terms were tested.
+        /// How much better the law describes the data, if single terms were tested.
         better: Option<BetterLaw>,
     },
 }
@@ -37,13 +37,13 @@ pub enum LawSource {
 /// How much better a law describes the data than Coulomb friction and one viscous constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BetterLaw {
-    /// Residual torque with this law relative to that without.
+    /// Residual torque with this law relative to that without it.
     pub residual_ratio: f64,
-    /// Standard errors by which phases left out of the fit are described better, at least.
+    /// Improvement for slip phases that are left out of the fit, in standard errors, at least.
     pub standard_errors: f64,
 }
 
-/// Friction that is not Coulomb friction plus one viscous constant.
+/// Friction with more terms than Coulomb friction plus one viscous constant.
 #[derive(Debug, Clone, PartialEq, IntoStaticStr, VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 #[non_exhaustive]
@@ -52,7 +52,7 @@ pub enum FrictionLawFinding {
     FrictionLaw {
         /// The terms with their amplitudes.
         terms: Vec<(LawTerm, Vec<Estimate>)>,
-        /// Where the law is from.
+        /// The method that gives the law.
         source: LawSource,
         /// Units of the amplitudes.
         units: EstimateUnits,
@@ -65,7 +65,7 @@ fn in_words(terms: &[(LawTerm, Vec<Estimate>)], units: EstimateUnits) -> String 
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// A term of friction with its amplitude; `None` of a term that is not friction.
+/// A term of friction with its amplitude; `None` for a term that is not friction.
 fn term_in_words(
     (term, amplitudes): &(LawTerm, Vec<Estimate>),
     units: EstimateUnits,
@@ -75,28 +75,31 @@ fn term_in_words(
     let size = significant(amplitude.abs(), DIGITS);
     Some(match term {
         LawTerm::ViscousByDirection => {
-            format!("viscous friction differs by ±{size} {} by direction", units.viscous())
+            format!(
+                "viscous friction differs by direction, by ±{size} {} from its mean",
+                units.viscous()
+            )
         }
         LawTerm::AfterTravel { travel } => format!(
-            "it grows over some travel after a reversal (bristles, presliding; the first {} {angle} of every slip phase \
-             are not used)",
+            "it grows over some travel after a reversal (presliding; the first {} {angle} of each slip phase are not \
+             used)",
             significant(*travel, DIGITS)
         ),
         LawTerm::NearRest { speed, .. } => {
             let (way, name) =
                 if amplitude > 0.0 { ("higher", " (Stribeck)") } else { ("lower", "") };
             format!(
-                "near zero speed (below about {} {angle}/s) it is {size} {torque} {way}{name}",
+                "near standstill (below about {} {angle}/s) it is {size} {torque} {way} than Coulomb plus viscous friction{name}",
                 significant(*speed, DIGITS)
             )
         }
         LawTerm::Root => {
             let sign = if amplitude < 0.0 { "falls" } else { "grows" };
-            format!("it {sign} with the root of speed, by {size} {torque}/√({angle}/s)")
+            format!("it {sign} with the square root of speed, by {size} {torque}/√({angle}/s)")
         }
         LawTerm::WithLoad { .. } => {
             let sign = if amplitude < 0.0 { "falls" } else { "grows" };
-            format!("it {sign} with the load of gravity, by {size} of it")
+            format!("it {sign} with the load of gravity, by {size} times its torque")
         }
         LawTerm::Ripple { per_angle } => {
             let squares = amplitudes.iter().take(2).map(|e| e.value * e.value);
@@ -114,7 +117,7 @@ impl fmt::Display for FrictionLawFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self::FrictionLaw { terms, source, units } = self;
         if matches!(source, LawSource::SlipPhases { replayed_without: true, .. }) {
-            f.write_str("in the slip phases alone, ")?;
+            f.write_str("according to the slip phases alone, ")?;
         }
         write!(
             f,
@@ -141,9 +144,9 @@ impl fmt::Display for FrictionLawFinding {
                     )?;
                 }
                 f.write_str(if replayed_without {
-                    "The output-error method describes the runs without it"
+                    "The output-error method describes the runs without these terms"
                 } else {
-                    "The estimates are those of this law"
+                    "The estimates come from the fit with this law"
                 })
             }
         }
@@ -172,7 +175,7 @@ impl Describe for FrictionLawFinding {
     }
 
     fn severity(&self) -> Severity {
-        // The estimates are those of the law. Bristles are none: what they do to inertia is not in it.
+        // The estimates are those of the law. It does not contain the effect of presliding on inertia.
         if self.grows_after_reversals() { Severity::Warning } else { Severity::Info }
     }
 
@@ -187,21 +190,21 @@ impl Describe for FrictionLawFinding {
         let Self::FrictionLaw { source, .. } = self;
         match source {
             LawSource::OutputError { negligible: true, .. } => {
-                "nothing to do: all of it is less than a thousandth of Coulomb and viscous friction"
+                "nothing to do: these terms are less than a thousandth of Coulomb and viscous friction"
             }
             LawSource::SlipPhases { replayed_without: true, .. } => {
                 "nothing to do: the estimates are those of the output-error method"
             }
             LawSource::SlipPhases { .. } if self.grows_after_reversals() => {
-                "Coulomb and viscous friction hold at speed, not near zero speed; inertia and coupling have an error \
-                 because bristles lag where friction changes with speed: use longer and faster moves to reduce it"
+                "Coulomb and viscous friction are valid at speed, not near standstill; inertia and coupling have an error, \
+                 because presliding delays friction when the speed changes: use longer and faster moves to reduce it"
             }
             LawSource::SlipPhases { .. } if self.grows_with_load_alone() => {
-                "Coulomb friction is that without the load of gravity: add μ times its torque"
+                "the estimate of Coulomb friction is that without load: add the factor in the message times the torque of gravity"
             }
             LawSource::OutputError { .. } | LawSource::SlipPhases { .. } => {
-                "Coulomb and viscous friction hold at speed, not near zero speed: use the friction curve at the speed of \
-                 interest; runs at other speeds show whether the law holds there"
+                "Coulomb and viscous friction are valid at speed, not near standstill: use the friction curve at the speed \
+                 of interest; runs at other speeds show whether the law is valid there"
             }
         }
     }

@@ -16,110 +16,110 @@ use crate::record::clock::thresholds::RESAMPLING_ERROR;
 #[strum(serialize_all = "kebab-case")]
 #[non_exhaustive]
 pub enum LogFinding {
-    /// A run has the samples of an earlier one.
+    /// A run has the same samples as an earlier one.
     RepeatedRun {
         /// Name of the earlier run.
         first: String,
     },
-    /// Time stamps that are not evenly spaced.
+    /// Time stamps are not evenly spaced.
     Jitter {
-        /// Root mean square of their distance from the grid, as a share of the sample time.
+        /// Root mean square of their difference from an even grid, as a share of the sample time.
         rms_share: f64,
-        /// The largest distance.
+        /// The largest difference.
         max_share: f64,
     },
     /// The log was cut at gaps in its time stamps.
     Gap {
         /// Number of gaps.
         count: usize,
-        /// Stamp before the longest one \[s\].
+        /// Time stamp before the longest gap \[s\].
         at_s: f64,
-        /// Its time without samples \[s\].
+        /// Length of the longest gap \[s\].
         length_s: f64,
     },
-    /// Pieces between two cuts were too short.
+    /// Pieces between two cuts are too short and are not used.
     PieceDropped {
         /// Number of pieces.
         count: usize,
-        /// Stamp of the first sample of the first one \[s\].
+        /// Time stamp of the first sample of the first piece \[s\].
         at_s: f64,
-        /// Samples of all of them.
+        /// Samples of all these pieces together.
         samples: usize,
     },
-    /// Channels were interpolated on an even grid.
+    /// Channels are interpolated on an even grid.
     Resampled {
         /// Step of the grid \[s\].
         step_s: f64,
-        /// Error of predicted angles at even times, as a multiple of the error with the clock that is used.
+        /// Prediction error of the angle with evenly spaced times, relative to that with the clock that is used.
         agreement: Option<f64>,
         /// Rms error of the interpolated angle \[rad or m\].
         error: f64,
-        /// That error over what acceleration moves the angle within a step.
+        /// That error relative to the displacement by acceleration within one step.
         error_share: f64,
         /// Standard deviation of the noise of the angle \[rad or m\].
         noise: f64,
     },
-    /// Samples were taken evenly, and stamped unevenly.
+    /// Samples were taken at even times, but their time stamps are uneven.
     SampleCount {
         /// Their sample time \[s\].
         step_s: f64,
-        /// Distance of the stamps' steps from it (rms), as a share of it.
+        /// Difference between the steps of the stamps and the sample time (rms), as a share of the sample time.
         jitter_rms_share: f64,
-        /// Error of predicted angles at the stamps, as a multiple of the error at even times.
+        /// Prediction error of the angle with the stamps, relative to that with even times.
         agreement: f64,
     },
-    /// Single rows were lost and have been filled in.
+    /// Single rows are missing and are filled in by interpolation.
     RowsFilled {
         /// Number of rows.
         count: usize,
         /// Their share of all samples.
         share: f64,
     },
-    /// Every reading was in the log several times.
+    /// The log contains each reading several times.
     RepeatedReadings {
         /// Mean number of rows with one reading.
         per_reading: f64,
-        /// Rows that were removed.
+        /// Number of rows that are removed.
         removed: usize,
     },
-    /// The clock of the log started again.
+    /// The clock of the log starts again.
     ClockRestart {
-        /// Restarts across which the motion goes on.
+        /// Number of restarts across which the motion is continuous.
         joined: usize,
-        /// Restarts at which the log was cut.
+        /// Number of restarts at which the log is cut.
         cut: usize,
-        /// Stamp before the first restart \[s\].
+        /// Time stamp before the first restart \[s\].
         at_s: f64,
     },
     /// The sample time changes within the log.
     RateChange {
-        /// Stretches with sample times of their own.
+        /// Number of parts with different sample times.
         rates: usize,
-        /// Stamp of the first change \[s\].
+        /// Time stamp of the first change \[s\].
         at_s: f64,
         /// Sample time before the first change \[s\].
         first_s: f64,
         /// Sample time after the last change \[s\].
         last_s: f64,
     },
-    /// The angle was integrated from the speed.
+    /// The angle is integrated from the speed.
     SpeedIntegrated,
-    /// Jumps of one turn were removed from the angles.
+    /// Jumps of one turn are removed from the angles.
     TurnsRemoved {
         /// Number of jumps.
         count: usize,
     },
     /// The command follows the motor as a position goal does.
     CommandFollowsMotor {
-        /// Correlation of both.
+        /// Correlation of command and angle.
         correlation: f64,
     },
-    /// The log had too many rows.
+    /// The log has too many rows and is thinned.
     Thinned {
         /// Rows of the log for each sample.
         factor: usize,
     },
-    /// Samples at the beginning were left out on request.
+    /// Samples at the beginning are left out, as the campaign asks.
     HeadSkipped {
         /// Time left out \[s\].
         length_s: f64,
@@ -159,7 +159,7 @@ impl fmt::Display for LogFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::RepeatedRun { first } => {
-                write!(f, "all samples are those of {first}: this run is not used")
+                write!(f, "all samples are equal to those of {first}: this run is not used")
             }
             Self::Jitter { rms_share, max_share } => write!(
                 f,
@@ -197,7 +197,7 @@ impl fmt::Display for LogFinding {
             ),
             Self::TurnsRemoved { count } => write!(
                 f,
-                "{} of one turn {} removed from the angles, as an encoder makes them that starts again after each turn",
+                "{} of one turn {} removed from the angles: the encoder starts again after each turn",
                 counted(*count, "jump", "jumps"),
                 if *count == 1 { "is" } else { "are" }
             ),
@@ -207,7 +207,7 @@ impl fmt::Display for LogFinding {
                  servo. If it is one, all estimates are wrong"
             ),
             Self::Thinned { factor } => {
-                write!(f, "the log is thinned: each sample stands for {factor} rows of it")
+                write!(f, "the log has too many rows and is thinned: one sample for every {factor} rows")
             }
             Self::HeadSkipped { length_s } => {
                 write!(f, "the first {length_s} s are left out, as the campaign asks")
@@ -217,27 +217,27 @@ impl fmt::Display for LogFinding {
 }
 
 impl LogFinding {
-    /// What was done about the clock of a log.
+    /// Writes the message of a finding about the clock of a log.
     fn clock_message(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Resampled { step_s, agreement, error, error_share, noise } => {
                 match agreement {
                     Some(ratio) => write!(
                         f,
-                        "time stamps are uneven, and the motion agrees with them (even times predict angles with {} \
-                         times the error)",
+                        "time stamps are uneven, and the motion agrees with them (with even times the prediction error \
+                         of the angle is {} times as large)",
                         significant(*ratio, 2)
                     )?,
                     None => write!(
                         f,
-                        "time stamps are uneven, and their mean step drifts: the samples are taken to be at the moving average \
-                         of the stamps"
+                        "time stamps are uneven, and their mean step drifts: the moving average of the stamps is used \
+                         as the time of the samples"
                     )?,
                 }
                 write!(
                     f,
-                    "; the channels are interpolated on an even grid of {} ms. The interpolation error of the angle (rms) \
-                     is {} % of what acceleration moves it within a step",
+                    "; the channels are interpolated on an even grid of {} ms. The interpolation error of the angle \
+                     (rms) is {} % of the displacement by acceleration within one step",
                     significant(1e3 * step_s, 4),
                     significant(100.0 * error_share, 2)
                 )?;
@@ -248,8 +248,9 @@ impl LogFinding {
             }
             Self::SampleCount { step_s, jitter_rms_share, agreement } => write!(
                 f,
-                "time stamps are uneven by {} % of a step (rms), and the motion contradicts them (they predict angles \
-                 with {} times the error of even times): the samples are counted, with a sample time of {} ms",
+                "time stamps are uneven by {} % of a step (rms), and the motion contradicts them (with the stamps the \
+                 prediction error of the angle is {} times that with even times): the samples are taken as evenly \
+                 spaced, with a sample time of {} ms",
                 significant(100.0 * jitter_rms_share, 2),
                 significant(*agreement, 2),
                 significant(1e3 * step_s, 6)
@@ -262,7 +263,7 @@ impl LogFinding {
             ),
             Self::RepeatedReadings { per_reading, removed } if *per_reading < 1.5 => write!(
                 f,
-                "{} removed, since stamp and values repeat the row before",
+                "{} removed, because time stamp and values repeat the row before",
                 counted(*removed, "row is", "rows are")
             ),
             Self::RepeatedReadings { per_reading, removed } => write!(
@@ -277,14 +278,14 @@ impl LogFinding {
                     counted(joined + cut, "time", "times")
                 )?;
                 match (joined, cut) {
-                    (_, 0) => write!(f, "; the motion goes on, and so does the clock"),
+                    (_, 0) => write!(f, "; the motion is continuous, and the clock is continued"),
                     (0, _) => write!(
                         f,
-                        "; the motion does not go on: the log is cut there into separate runs"
+                        "; the motion is not continuous: the log is cut there into separate runs"
                     ),
                     _ => write!(
                         f,
-                        "; where the motion goes on, so does the clock, and the log is cut {}",
+                        "; where the motion is continuous, the clock is continued, elsewhere the log is cut ({})",
                         counted(*cut, "time", "times")
                     ),
                 }
@@ -297,7 +298,7 @@ impl LogFinding {
             ),
             Self::RateChange { rates, at_s, first_s, last_s } => write!(
                 f,
-                "the sample time changes {} times, first after {at_s:.4} s; it is {} ms at first and {} ms at last: \
+                "the sample time changes {} times, first after {at_s:.4} s, from {} ms at first to {} ms at last: \
                  the log is cut there into {rates} runs",
                 rates - 1,
                 significant(1e3 * first_s, 4),
@@ -364,23 +365,32 @@ impl Describe for LogFinding {
             Self::RepeatedRun { .. } => {
                 "remove it from the campaign: a log that counts twice makes standard errors too small"
             }
-            Self::Jitter { .. } => "log with the clock of the controller",
+            Self::Jitter { .. } => "use the clock of the controller for the time stamps",
             Self::Gap { .. } | Self::PieceDropped { .. } => "log without interruption",
             Self::Resampled { error_share, .. } if *error_share > RESAMPLING_ERROR => {
                 "log faster: the motion changes too much between two samples to be interpolated"
             }
             Self::Resampled { .. } | Self::SampleCount { .. } => {
-                "nothing, if this is how the log was made; the clock of the controller gives even stamps"
+                "nothing to do, if the log was made in this way; the clock of the controller gives even stamps"
             }
-            Self::RowsFilled { .. } => "nothing; with a larger buffer the logger loses no rows",
-            Self::RepeatedReadings { .. } => "nothing; log at the rate of the device",
-            Self::ClockRestart { .. } => "nothing, if the recording was not interrupted there",
-            Self::SpeedIntegrated => "nothing; a log with the angle too shows slow motion better",
-            Self::TurnsRemoved { .. } => "nothing",
+            Self::RowsFilled { .. } => {
+                "nothing to do; with a larger buffer the logger loses no rows"
+            }
+            Self::RepeatedReadings { .. } => "nothing to do; you can log at the rate of the device",
+            Self::ClockRestart { .. } => {
+                "nothing to do, if the recording was not interrupted there"
+            }
+            Self::SpeedIntegrated => {
+                "nothing to do; a log that also has the angle shows slow motion better"
+            }
+            Self::TurnsRemoved { .. } => "nothing to do",
             Self::CommandFollowsMotor { .. } => {
-                "say `quantity = \"goal\"` of the command if it is a goal; nothing if a spring or gravity holds the motor"
+                "if the command is a position goal, give it `quantity = \"goal\"`; nothing to do if a spring or gravity holds \
+                 the motor"
             }
-            Self::RateChange { .. } => "nothing; give separate logs as separate runs",
+            Self::RateChange { .. } => {
+                "nothing to do; you can also give separate logs as separate runs"
+            }
             Self::Thinned { .. } => "log fewer samples, or cut the log into several runs",
             Self::HeadSkipped { .. } => "",
         }

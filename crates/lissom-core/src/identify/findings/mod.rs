@@ -1,6 +1,6 @@
-//! Findings: what the data do not allow, and what to know before an estimate is used.
+//! Findings: what the logs cannot show, what is wrong with them, and what to know before an estimate is used.
 //!
-//! Each kind of finding is a variant that carries its numbers. Its code, severity, affected result keys, message and
+//! Each kind of finding is a variant with its numbers. Its code, severity, affected result keys, message and
 //! hint follow from the variant, and all texts are in this module. Codes are stable; `docs/src/reference/findings.md` explains
 //! each of them.
 

@@ -2,10 +2,10 @@
 
 use crate::identify::estimate::Estimate;
 
-/// Powers of ten of the numbers that are written without one.
+/// Powers of ten for which a number is written without an exponent.
 const PLAIN: std::ops::Range<i32> = -4..6;
 
-/// `digits` significant digits: `0.132`, and `1.32e-7` where a plain number would be too long.
+/// A number with `digits` significant digits: `0.132`, or `1.32e-7` if a plain number would be too long.
 pub(super) fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".to_owned() } else { "unknown".to_owned() };
@@ -18,7 +18,7 @@ pub(super) fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// A plain number without zeros at its end: `0.25` for `0.25000`.
+/// A plain number without trailing zeros: `0.25` for `0.25000`.
 pub(super) fn trimmed(number: &str) -> &str {
     if !number.contains('.') || number.contains('e') {
         return number;
@@ -60,12 +60,12 @@ pub(super) fn counted(number: usize, one: &str, many: &str) -> String {
     if number == 1 { format!("one {one}") } else { format!("{number} {many}") }
 }
 
-/// Which side of the other channel's time a delay is on.
+/// `later` for a positive delay, `earlier` for a negative one.
 pub(super) fn later(delay_s: f64) -> &'static str {
     if delay_s < 0.0 { "earlier" } else { "later" }
 }
 
-/// A time of a delay without its sign, in milliseconds.
+/// The size of a delay in milliseconds, without its sign.
 pub(super) fn milliseconds(delay: Estimate) -> String {
     let in_ms = Estimate { value: 1e3 * delay.value.abs(), std: 1e3 * delay.std };
     format!("{} ms", with_error(in_ms))

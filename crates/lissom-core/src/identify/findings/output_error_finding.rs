@@ -14,14 +14,14 @@ use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
 use crate::replay::Parameter;
 
-/// What a delay of the command looks like.
+/// Probable cause of a delay of the command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LagCause {
-    /// Half a sample later than measured: the command looks held from sample to sample.
+    /// A command declared as measured acts half a sample later: it is probably held between samples.
     LooksHeld,
-    /// Half a sample earlier than held: the command looks measured.
+    /// A command declared as held acts half a sample earlier: it is probably measured.
     LooksMeasured,
-    /// Anything else.
+    /// Any other delay.
     Delay,
 }
 
@@ -32,22 +32,22 @@ pub enum LagCause {
 pub enum OutputErrorFinding {
     /// The command acts at another time than it is logged.
     CommandLag {
-        /// How much later \[s\].
+        /// The delay; negative if it acts earlier \[s\].
         lag_s: Estimate,
-        /// What that looks like.
+        /// Its probable cause.
         cause: LagCause,
     },
-    /// The motion is not simulated from the command over whole runs, because of the noise of the command.
+    /// Noise of the command prevents the simulation of whole runs.
     CommandNoise {
-        /// How far it moves the angle beside the noise of the angle's sensor; `None` where the runs were replayed, and
-        /// depart from the log.
+        /// Motion of the angle due to this noise, relative to the noise of the angle's sensor; `None` if instead most
+        /// of the residual torque is this noise.
         ratio: Option<f64>,
     },
     /// A tip is read at another time than the motor.
     TipLag {
         /// Name of the tip.
         tip: String,
-        /// How much later \[s\].
+        /// The delay; negative if it is read earlier \[s\].
         lag_s: Estimate,
     },
     /// The runs show fewer modes than there are tips.
@@ -61,23 +61,23 @@ pub enum OutputErrorFinding {
     ModesByTheMotor {
         /// Modes found.
         modes: usize,
-        /// The lowest one's frequency with the motor clamped \[rad/s\].
+        /// Frequency of the lowest mode, with the motor clamped \[rad/s\].
         lowest_rad_s: f64,
-        /// Inertia before the springs as a share of all.
+        /// Inertia on the motor's side of the springs, as a share of the total.
         inertia_share: f64,
     },
-    /// The highest mode hardly shows.
+    /// The runs hardly excite the highest mode.
     FaintMode {
         /// Its frequency \[rad/s\].
         omega_rad_s: f64,
         /// Standard error of its stiffness, relative.
         stiffness_std_share: f64,
     },
-    /// Residuals of whole runs are more than the sensors' noise.
+    /// Residuals of whole runs are larger than the noise of the sensors.
     MoreThanNoise {
-        /// The channel where this shows most.
+        /// The channel with the largest share.
         channel: Channel,
-        /// Share of its squared residual that is slower than noise.
+        /// Share of its squared residual that varies more slowly than noise.
         share: f64,
     },
     /// Damping within the beam is not separated from damping against the frame.
@@ -85,9 +85,9 @@ pub enum OutputErrorFinding {
         /// Result keys of the parameters that depend on it, other than damping.
         parameters: Vec<&'static str>,
     },
-    /// A damper comes out negative.
+    /// The estimate of a damper is negative.
     DamperDrives {
-        /// Which.
+        /// The damper.
         damper: Parameter,
         /// Its rate \[1/s\].
         rate_per_s: Estimate,
@@ -96,26 +96,26 @@ pub enum OutputErrorFinding {
     ReplayDeparts {
         /// Length of the longest windows \[s\].
         window_s: f64,
-        /// Length of the first, short windows, and the growth of the residual from these to the longest; `None`
-        /// where the residual does not grow \[s\], \[1\].
+        /// Length of the first, short windows \[s\], and the residual over the longest windows relative to that over the
+        /// first ones \[1\]; `None` if the residual does not grow.
         grown_from: Option<(f64, f64)>,
         /// Residual over the longest windows relative to the sensors' noise.
         noise_ratio: f64,
-        /// Whether its estimates over short windows are used; else the regression's are.
+        /// Whether the estimates over short windows are used; otherwise those of the regression.
         used: bool,
     },
-    /// The output-error method made all evaluations that it may make before it was done.
+    /// The output-error method ended before it had finished.
     BudgetSpent {
         /// Evaluations made.
         evaluations: u64,
         /// Length of the longest windows \[s\].
         window_s: f64,
-        /// Whether its estimates are used; else the regression's are.
+        /// Whether its estimates are used; otherwise those of the regression.
         used: bool,
-        /// Whether somebody asked it to end, or a time was over.
+        /// Whether it was interrupted by the caller or by a time limit; otherwise it had used all evaluations.
         interrupted: bool,
     },
-    /// The runs are described in windows, each from its own initial state.
+    /// The runs are simulated in windows, each from its own initial state.
     MotionsPart {
         /// Length of a window \[s\].
         window_s: f64,
@@ -123,7 +123,7 @@ pub enum OutputErrorFinding {
 }
 
 impl OutputErrorFinding {
-    /// Whether it is a cause that other findings may follow from.
+    /// Whether it may be the cause of other findings.
     pub(crate) fn is_cause(&self) -> bool {
         matches!(self, Self::CommandLag { .. } | Self::TipLag { .. } | Self::ModesByTheMotor { .. })
     }
@@ -139,32 +139,33 @@ impl fmt::Display for OutputErrorFinding {
                 later(lag_s.value)
             ),
             Self::CommandNoise { ratio: None } => f.write_str(
-                "the measured command is too noisy to simulate whole runs from it: most of the residual torque is its \
-                 noise. The estimates do not come from whole runs of the output-error method",
+                "the measured command is too noisy to simulate whole runs from it: most of the residual torque is noise of \
+                 the command. The estimates do not come from simulations of whole runs",
             ),
             Self::CommandNoise { ratio: Some(ratio) } => write!(
                 f,
-                "the measured command is too noisy to simulate the motion from it (its noise, integrated, is {} times that of the \
-                 angle's sensor): the estimates do not come from the output-error method",
+                "the measured command is too noisy to simulate the motion from it (integrated to an angle, its noise is {} \
+                 times that of the angle's sensor): the output-error method is not used",
                 significant(*ratio, 2)
             ),
             Self::TipLag { tip, lag_s } => write!(
                 f,
-                "tip {tip} is read {} {} than the motor: the estimates account for it, the tips' measured frequency \
-                 responses do not",
+                "tip {tip} is read {} {} than the motor: the estimates account for it, but the measured frequency \
+                 responses of the tips do not",
                 milliseconds(*lag_s),
                 later(lag_s.value)
             ),
             Self::ModesMissing { modes, tips } => write!(
                 f,
-                "{tips} tips are measured, and the runs show {} only: inertia and coupling contain what the missing \
-                 modes add",
+                "{tips} tips are measured, but the runs show only {}: inertia and coupling include the effect of the missing \
+                 modes",
                 counted(*modes, "mode", "modes")
             ),
             Self::ModesByTheMotor { modes, lowest_rad_s, inertia_share } => write!(
                 f,
-                "no tip is measured, and the motor's motion shows {}, {} {:.1} Hz with the motor clamped: inertia is that before \
-                 the spring, {:.0} % of all that turns. Modes that hardly act on the motor are counted with it",
+                "no tip is measured, but the motor's motion shows {}, {} {:.1} Hz with the motor clamped: the inertia given is \
+                 that on the motor's side of the spring, {:.0} % of the total. Modes that hardly act on the motor are \
+                 included in it",
                 counted(*modes, "flexible mode", "flexible modes"),
                 if *modes == 1 { "at" } else { "the lowest at" },
                 lowest_rad_s / std::f64::consts::TAU,
@@ -179,18 +180,18 @@ impl fmt::Display for OutputErrorFinding {
             ),
             Self::MoreThanNoise { channel, share } => write!(
                 f,
-                "{:.1} % of the squared residual of {channel} is slower than the noise of its sensor: a small effect is \
-                 missing in the arm, or the highest mode has a wrong frequency. The intervals do not count this",
+                "{:.1} % of the squared residual of {channel} varies more slowly than the noise of its sensor: the arm lacks \
+                 a small effect, or its highest mode has a wrong frequency. The intervals do not include this error",
                 100.0 * share
             ),
             Self::DampingKind { .. } => f.write_str(
                 "these runs do not separate damping within the beam from damping against the frame, and estimates depend \
-                 on it: their standard errors count both cases",
+                 on which of them acts: their standard errors include both cases",
             ),
             Self::DamperDrives { damper, rate_per_s } => write!(
                 f,
-                "{} is {} 1/s: a damper cannot add energy. Viscous friction and damping ratios have an error that makes \
-                 up for it",
+                "{} is {} 1/s, but a damper cannot add energy: viscous friction and damping ratios have errors that \
+                 compensate for it",
                 damper.name(),
                 with_error(*rate_per_s)
             ),
@@ -199,32 +200,32 @@ impl fmt::Display for OutputErrorFinding {
                     Some((first_s, growth)) => write!(
                         f,
                         "over windows of {window_s:.2} s the residual of the motion is {growth:.1} times that over \
-                         {first_s:.2} s: the arm lacks something that moves the axis"
+                         {first_s:.2} s: the arm lacks an effect that moves the axis"
                     )?,
                     None => write!(
                         f,
                         "over windows of {window_s:.2} s the residual of the motion is {noise_ratio:.1} times the \
-                         sensors' noise, and over shorter ones as well: the arm lacks something that moves the axis, or \
+                         sensors' noise, and so it is over shorter ones: the arm lacks an effect that moves the axis, or \
                          the search did not find the arm"
                     )?,
                 }
                 f.write_str(if *used {
-                    ". The estimates are those of the windows that it describes"
+                    ". The estimates come from the longest windows that the arm describes"
                 } else {
-                    ". The estimates are those of the regression"
+                    ". The estimates come from the regression"
                 })
             }
             Self::BudgetSpent { evaluations, window_s, used, interrupted } => write!(
                 f,
-                "the output-error method {} {:.1} million evaluations, at windows of {window_s:.2} s. The estimates are those {}",
-                if *interrupted { "was stopped after" } else { "was not done after" },
+                "the output-error method {} {:.1} million evaluations, at windows of {window_s:.2} s. The estimates are {}",
+                if *interrupted { "was stopped after" } else { "had not finished after" },
                 *evaluations as f64 / 1e6,
-                if *used { "that it had come to" } else { "of the regression" }
+                if *used { "the best ones found so far" } else { "those of the regression" }
             ),
             Self::MotionsPart { window_s } => write!(
                 f,
-                "with friction that changes over the angle or falls with speed, neighbouring motions diverge: the runs \
-                 are described {window_s:.2} s at a time, each time from a new initial state"
+                "friction changes over the angle or falls with speed, so motions from nearly equal initial states diverge: \
+                 the runs are simulated in windows of {window_s:.2} s, each from a new initial state"
             ),
         }
     }
@@ -281,44 +282,47 @@ impl Describe for OutputErrorFinding {
     fn hint(&self) -> &'static str {
         match self {
             Self::CommandNoise { .. } => {
-                "nothing to do: the regression, whose equation has such noise on its right side, gives the estimates"
+                "nothing to do: noise of the command does not disturb the regression, which gives the estimates"
             }
             Self::CommandLag { cause: LagCause::LooksHeld, .. } => {
-                "half a sample: the command looks as if it were held from sample to sample, hold = \"sampled\""
+                "the delay is half a sample, so the command is probably held between samples: set hold = \"sampled\""
             }
             Self::CommandLag { cause: LagCause::LooksMeasured, .. } => {
-                "half a sample: the command looks measured rather than held from sample to sample, hold = \
+                "the delay is half a sample, so the command is probably measured and not held between samples: set hold = \
                  \"measured\""
             }
             Self::CommandLag { cause: LagCause::Delay, .. } => {
-                "check for a delay of the amplifier, or channels that are not sampled together"
+                "check for a delay of the amplifier, or channels that are not sampled at the same time"
             }
             Self::TipLag { .. } => {
-                "check for a delay of a camera or a filter, or channels that are not sampled together"
+                "check for a delay of a camera or a filter, or channels that are not sampled at the same time"
             }
             Self::ModesMissing { .. } => {
-                "add runs above the modes found: a sweep, or sines at several times the highest frequency"
+                "add runs at frequencies above the modes found: a sweep, or sines at several times the highest frequency"
             }
             Self::ModesByTheMotor { .. } => "measure a tip to see how the arm itself moves",
             Self::FaintMode { .. } => {
-                "add a run that excites it, near the frequency that a model of the beam's dimensions gives"
+                "add a run that excites this mode, near the frequency that a model with the beam's dimensions gives"
             }
             Self::MoreThanNoise { .. } => {
                 "add runs near the highest mode, and look at the residual of a validation"
             }
             Self::DampingKind { .. } => {
-                "one steady sine does not separate the two: add a run at another frequency, best a sweep, or log from \
-                 the start of the motion"
+                "add a run at another frequency, best a sweep, or log from the start of the motion: one steady sine does \
+                 not separate the two"
             }
-            Self::DamperDrives { .. } => "add runs near the modes, where damping shows most",
+            Self::DamperDrives { .. } => {
+                "add runs near the frequencies of the modes, where damping acts most"
+            }
             Self::ReplayDeparts { .. } => {
-                "look for other friction than Coulomb and viscous, a load, backlash, or a mode without a tip"
+                "look for friction other than Coulomb and viscous friction, a load, backlash, or a mode without a tip"
             }
             Self::BudgetSpent { .. } => {
-                "allow more evaluations (effort thorough) or more time, or use fewer and shorter runs: ten strokes a run, three to eight runs"
+                "allow more evaluations (effort thorough) or more time, or use fewer and shorter runs: three to eight runs of \
+                 ten strokes each"
             }
             Self::MotionsPart { .. } => {
-                "nothing to do; a prediction from the initial state of a run holds no longer than that"
+                "nothing to do; a prediction from one initial state is valid for about this time only"
             }
         }
     }

@@ -14,7 +14,7 @@ use crate::identify::findings::severity::Severity;
 #[strum(serialize_all = "kebab-case")]
 #[non_exhaustive]
 pub enum PayloadFinding {
-    /// Modes above those found take part in how the beam bends.
+    /// Modes above those found affect how the beam bends under another load.
     PayloadHighestMode {
         /// Modes found.
         modes: usize,
@@ -26,7 +26,8 @@ impl fmt::Display for PayloadFinding {
         let Self::PayloadHighestMode { modes } = self;
         write!(
             f,
-            "modes above the {} found also bend under another load: the interval of the highest mode does not count them",
+            "modes above the {} found affect how the beam bends under another load: the interval of the highest mode does \
+             not include this",
             counted(*modes, "mode", "modes")
         )
     }
@@ -46,7 +47,7 @@ impl Describe for PayloadFinding {
     }
 
     fn hint(&self) -> &'static str {
-        "if the beam has mass along its length, use the modes below the highest one; to know that one, identify one mode \
-         more: add runs near its frequency, or a tip"
+        "if the beam has mass along its length, use only the modes below the highest one; if you need the highest one, \
+         identify one more mode: add runs near its frequency, or a tip"
     }
 }

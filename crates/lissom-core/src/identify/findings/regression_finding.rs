@@ -1,4 +1,4 @@
-//! Regression in slip phases: what the motor's equation does not explain.
+//! Regression in slip phases: quality of the fit, and effects that the motor's equation does not contain.
 
 use std::fmt;
 
@@ -19,74 +19,74 @@ const DIGITS: usize = 3;
 /// Smallest change of an estimate that is reported, in its standard errors.
 const FELT: f64 = 1.0;
 
-/// Regression in slip phases: what the motor's equation does not explain.
+/// Regression in slip phases: quality of the fit, and effects that the motor's equation does not contain.
 #[derive(Debug, Clone, PartialEq, IntoStaticStr, VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 #[non_exhaustive]
 pub enum RegressionFinding {
     /// The regression gives no estimates.
     RegressionRefused {
-        /// Share of the windowed torque that it does not explain; `None` without enough slip phases.
+        /// Residual relative to the windowed torque; `None` if there are too few slip phases.
         residual_share: Option<f64>,
-        /// Whether another finding says why.
+        /// Whether another finding reports the reason.
         explained: bool,
     },
-    /// Too few reversals to show how friction scatters from one stroke to the next.
+    /// There are too few strokes to show how friction varies from one stroke to the next.
     FewPhases {
         /// Slip phases in the fit.
         phases: usize,
-        /// The variation that the standard errors count, as a share of Coulomb friction; `None` where the estimates are
-        /// of a method that counts none.
+        /// The variation that the standard errors include, as a share of Coulomb friction; `None` if the estimates come
+        /// from a method that includes none.
         counted: Option<f64>,
     },
-    /// Gravity can hardly be told from another term.
+    /// Gravity can hardly be separated from another term.
     GravityUnseparated {
-        /// Which.
+        /// The other term.
         with: GravityPartner,
-        /// Correlation of both.
+        /// Correlation of the two estimates.
         correlation: f64,
     },
     /// The load's known m·g·l and the given torque constant contradict each other.
     TorqueConstant {
-        /// Torque per command by gravity \[N·m per unit of command\].
+        /// Torque per command from gravity \[N·m per unit of command\].
         by_gravity: Estimate,
-        /// The one given.
+        /// Torque per command given in the campaign \[N·m per unit of command\].
         given: f64,
         /// Unit of the command.
         units: EstimateUnits,
     },
-    /// The regression leaves much of the torque.
+    /// The regression does not explain a large part of the torque.
     UnexplainedTorque {
-        /// Share of the windowed torque.
+        /// Residual relative to the windowed torque.
         residual_share: f64,
     },
-    /// The torque left may accelerate the motor.
+    /// The inertia may be too small, because the residual torque may accelerate the motor.
     InertiaShort {
-        /// By what share inertia is too small then.
+        /// Error of the inertia in this case, as a share.
         short_by: f64,
     },
     /// All runs are a sine of one frequency.
     OneSine,
     /// The motor's equation lacks a term.
     MissingTerm {
-        /// The term, its coefficient and how well it is known.
+        /// The term, its coefficient and its standard error.
         term: MissingTerm,
         /// Units of the coefficient.
         units: EstimateUnits,
     },
     /// The motor's motion shows a flexible mode, which the estimates account for.
     HiddenMode {
-        /// Which.
+        /// The mode.
         mode: HiddenMode,
     },
     /// Friction, or a load, changes from one slip phase to the next.
     FrictionVaries {
-        /// By how much, the root of its mean square, as a share of Coulomb friction.
+        /// Root mean square of the variation, as a share of Coulomb friction.
         by: f64,
     },
     /// The angle lags behind the command.
     AngleLag {
-        /// By how much, and how.
+        /// Time and kind of the lag.
         lag: AngleLag,
     },
     /// Viscous friction differs by direction.
@@ -95,9 +95,9 @@ pub enum RegressionFinding {
         forward: Estimate,
         /// Viscous friction backward.
         backward: Estimate,
-        /// Share of the torque that one constant leaves.
+        /// Residual torque relative to the torque, with one constant.
         residual_share_of_one: f64,
-        /// Share of the torque that two constants leave.
+        /// Residual torque relative to the torque, with two constants.
         residual_share_of_two: f64,
         /// Offset of friction with two constants.
         offset: Estimate,
@@ -107,7 +107,7 @@ pub enum RegressionFinding {
 }
 
 impl RegressionFinding {
-    /// Whether it is a cause that other findings may follow from.
+    /// Whether it may be the cause of other findings.
     pub(crate) fn is_cause(&self) -> bool {
         matches!(
             self,
@@ -119,7 +119,7 @@ impl RegressionFinding {
     }
 }
 
-/// What the data look like when a term is missing, with its coefficient.
+/// The effect of a missing term, with its coefficient, in words.
 fn looks_like(term: &MissingTerm, units: EstimateUnits) -> String {
     let size = significant(term.value.abs(), DIGITS);
     let grows = if term.value < 0.0 { "falls" } else { "grows" };
@@ -161,7 +161,7 @@ fn looks_like(term: &MissingTerm, units: EstimateUnits) -> String {
     }
 }
 
-/// The estimates that a term changes by more than their standard errors, with their names, result keys and changes.
+/// Names, result keys and relative changes of the estimates that a term changes by more than their standard errors.
 fn moved(moves: &[Moved; 3]) -> Vec<(&'static str, &'static str, f64)> {
     let names = [
         ("inertia", key::INERTIA),
@@ -173,7 +173,7 @@ fn moved(moves: &[Moved; 3]) -> Vec<(&'static str, &'static str, f64)> {
     felt.map(|((name, key), moved)| (name, key, moved.share)).collect()
 }
 
-/// Changes as shares of estimates, in words; `None` where there are none.
+/// Relative changes of estimates, in words; `None` if there are none.
 fn changed(shares: impl Iterator<Item = (&'static str, f64)>) -> Option<String> {
     let parts = shares.map(|(name, share)| {
         let more = if share < 0.0 { "lower" } else { "higher" };
@@ -182,21 +182,21 @@ fn changed(shares: impl Iterator<Item = (&'static str, f64)>) -> Option<String> 
     Some(parts.collect::<Vec<_>>().join(", ")).filter(|text| !text.is_empty())
 }
 
-/// What a missing term changes, in words.
+/// The changes of the estimates by a missing term, in words.
 fn moved_by(term: &MissingTerm) -> String {
     let moved = moved(&term.moves).into_iter();
     match changed(moved.map(|(name, _, share)| (name, share))) {
         None => "with it no estimate changes by more than its standard error".to_owned(),
-        Some(changes) => format!("with it the estimates would be other ones, {changes}"),
+        Some(changes) => format!("with it the estimates would change ({changes})"),
     }
 }
 
-/// What the estimates would be without a mode, in words.
+/// The changes of the estimates if the mode were left out, in words.
 fn without_mode(mode: &HiddenMode) -> String {
     let moved = moved(&mode.moves).into_iter();
     match changed(moved.map(|(name, _, share)| (name, 1.0 / (1.0 + share) - 1.0))) {
         None => "Without the mode no estimate changes by more than its standard error".to_owned(),
-        Some(changes) => format!("Without the mode the estimates would differ: {changes}"),
+        Some(changes) => format!("Without the mode the estimates would change ({changes})"),
     }
 }
 
@@ -204,16 +204,17 @@ fn without_mode(mode: &HiddenMode) -> String {
 fn lags(f: &mut fmt::Formatter<'_>, lag: &AngleLag) -> fmt::Result {
     write!(
         f,
-        "the {} by {} of {} ms ({:.2} samples): with it the residual torque drops to {:.0} %. The estimates count it",
+        "the {} by {} of {} ms ({:.2} samples): with this lag the residual torque drops to {:.0} %. The estimates \
+         account for it",
         if lag.time_s < 0.0 {
-            "command is logged late: it lags behind the angle"
+            "command is logged late and lags behind the angle"
         } else {
             "angle lags behind the command"
         },
         match lag.shape {
             LagShape::Filter => "a first-order filter",
             LagShape::Delay => "a delay",
-            LagShape::Either => "a filter or delay",
+            LagShape::Either => "a filter or a delay",
         },
         significant(1e3 * lag.time_s.abs(), 2),
         lag.samples.abs(),
@@ -234,19 +235,22 @@ impl fmt::Display for RegressionFinding {
             ),
             Self::FewPhases { phases, counted: variation } => write!(
                 f,
-                "{} cannot show how friction scatters from one stroke to the next: {}",
+                "{} cannot show how friction varies from one stroke to the next: {}",
                 counted(*phases, "stroke", "strokes"),
                 variation.map_or_else(
-                    || "standard errors count the scatter within a stroke alone, and may be too small".to_owned(),
+                    || {
+                        "standard errors include only the variation within a stroke, and may be too small"
+                            .to_owned()
+                    },
                     |share| {
                         let percent = 100.0 * share;
-                        format!("standard errors count {percent:.0} % of Coulomb friction for it, as is usual")
+                        format!("standard errors include a usual variation of {percent:.0} % of Coulomb friction")
                     }
                 )
             ),
             Self::GravityUnseparated { with, correlation } => write!(
                 f,
-                "gravity and {} can hardly be told apart in these runs (correlation {correlation:.2})",
+                "these runs hardly separate gravity from {} (correlation {correlation:.2}): both are uncertain",
                 match with {
                     GravityPartner::Inertia => "inertia",
                     GravityPartner::Offset => "a constant load",
@@ -254,8 +258,8 @@ impl fmt::Display for RegressionFinding {
             ),
             Self::TorqueConstant { by_gravity, given, units } => write!(
                 f,
-                "by the load's known m·g·l the torque constant is {} N·m per {}, and {} is given: all figures in N·m follow \
-                 the given one",
+                "the known m·g·l of the load gives a torque constant of {} N·m per {}, but the campaign gives {}: all \
+                 estimates in N·m use the value of the campaign",
                 with_error(*by_gravity),
                 units.command(),
                 significant(*given, DIGITS)
@@ -268,14 +272,14 @@ impl fmt::Display for RegressionFinding {
             ),
             Self::InertiaShort { short_by } => write!(
                 f,
-                "inertia is up to {:.0} % too small if friction wanders: the residual torque then accelerates the motor, as \
-                 the command does",
+                "inertia is up to {:.0} % too small if the residual torque is friction that wanders, because it then \
+                 accelerates the motor as the command does",
                 100.0 * short_by
             ),
             Self::OneSine => f.write_str(
-                "all runs are a sine of one frequency: only the harmonics due to friction then separate motor and \
-                 beam, and systematic errors repeat in every period. Errors of the estimates may be larger than their \
-                 standard errors",
+                "all runs are a sine of one frequency: only the harmonics due to friction separate motor and beam, and \
+                 systematic errors repeat in every period. Errors of the estimates may be larger than their standard \
+                 errors",
             ),
             Self::MissingTerm { term, units } => write!(
                 f,
@@ -288,9 +292,9 @@ impl fmt::Display for RegressionFinding {
             ),
             Self::HiddenMode { mode } => write!(
                 f,
-                "no tip is measured, and the motor's motion shows a flexible mode, at {} Hz with the motor clamped, with a \
-                 damping ratio of {}; {} % of the inertia is before its spring. The estimates account for the \
-                 mode: inertia is that of all that turns. {}",
+                "no tip whose angle is known is measured, but the motor's motion shows a flexible mode at {} Hz (motor \
+                 clamped) with a damping ratio of {}. {} % of the inertia is on the motor's side of the spring. The \
+                 estimates account for the mode, and the inertia given is the total. {}",
                 significant(mode.omega_rad_s.value / std::f64::consts::TAU, DIGITS),
                 significant(mode.damping_ratio.value, 2),
                 significant(100.0 * mode.inertia_share.value, 2),
@@ -298,8 +302,8 @@ impl fmt::Display for RegressionFinding {
             ),
             Self::FrictionVaries { by } => write!(
                 f,
-                "friction, or a load, changes from one slip phase to the next, by {} % of Coulomb friction (rms). The \
-                 estimates are its mean over the logs, and their standard errors count that it changes",
+                "friction, or a load, changes from one slip phase to the next by {} % of Coulomb friction (rms). The \
+                 estimates are means over the logs, and their standard errors include this variation",
                 significant(100.0 * by, 2)
             ),
             Self::AngleLag { lag } => lags(f, lag),
@@ -388,23 +392,26 @@ impl Describe for RegressionFinding {
 
     fn hint(&self) -> &'static str {
         match self {
-            Self::RegressionRefused { explained: true, .. } => "add the missing term first",
+            Self::RegressionRefused { explained: true, .. } => {
+                "first add the missing term that another finding reports"
+            }
             Self::RegressionRefused { .. } => {
                 "use longer moves in both directions at a measured current; measure the tip of a flexible beam; check \
                  columns, units and signs"
             }
             Self::FewPhases { .. } => "log four strokes or more in each direction",
             Self::GravityUnseparated { with: GravityPartner::Inertia, .. } => {
-                "move over a larger angle, or at other frequencies: inertia grows with the square of the frequency, gravity does not"
+                "move over a larger angle, or at other frequencies: the torque of inertia grows with the square of the \
+                 frequency, that of gravity does not"
             }
             Self::GravityUnseparated { with: GravityPartner::Offset, .. } => {
-                "move over a longer arc: over a short one gravity is a constant"
+                "move over a longer arc: over a short one gravity is nearly constant"
             }
             Self::TorqueConstant { .. } => {
-                "check both, and gear_ratio; leave torque_constant out, and the load gives it"
+                "check both values, and gear_ratio; if you leave out torque_constant, the load gives it"
             }
             Self::UnexplainedTorque { .. } => {
-                "look for a delay, a load, other friction, or a flexible mode without a tip; check units and signs"
+                "check units and signs; look for a delay, a load, other friction, or a flexible mode without a tip"
             }
             Self::InertiaShort { .. } => {
                 "accelerate more: faster and larger moves, under control of position or speed"
@@ -419,41 +426,44 @@ impl Describe for RegressionFinding {
                     "look for gravity, a spring, cogging, or a wrong scale of a tip"
                 }
                 MissingKind::Stribeck => {
-                    "Stribeck friction or presliding: one constant and one slope do not describe it"
+                    "the cause may be Stribeck friction or presliding, which one constant and one slope do not describe: use \
+                     the estimates at speed, not near standstill"
                 }
                 MissingKind::BeamDamping => {
                     "use the output-error method: it identifies damping within the beam"
                 }
                 MissingKind::CommandBySign => {
-                    "an amplifier that is stronger one way, or a current sensor with two gains: log the current itself, \
-                     and calibrate it in both directions"
+                    "the cause may be an amplifier that is stronger in one direction, or a current sensor with two gains: log \
+                     the current itself, and calibrate it in both directions"
                 }
                 MissingKind::CoulombDrift => {
-                    "the joint warms up, wears or was lubricated: warm it up first, or identify the runs separately"
+                    "the joint may have warmed up, worn or been lubricated: warm it up first, or identify the runs separately"
                 }
                 MissingKind::ViscousDrift => {
-                    "the joint warms up: warm it up first, or identify the runs separately"
+                    "the joint may have warmed up: warm it up first, or identify the runs separately"
                 }
             },
             Self::HiddenMode { .. } => {
-                "measure the angle behind the flexible part as a tip to see how it moves"
+                "to see how the flexible part moves, measure the angle behind it as a tip"
             }
             Self::FrictionVaries { .. } => {
-                "nothing to do for the estimates; a simulation with constant friction departs from the log by that much. \
-                 Warm the joint up, or log for longer, to see whether it settles"
+                "nothing to do for the estimates; a simulation with constant friction departs from the log by this amount. \
+                 Warm up the joint, or log for longer, to see whether friction settles"
             }
             Self::AngleLag { lag } if lag.is_half_a_sample() => {
                 "half a sample is the difference between a held and a measured command: check `hold`"
             }
             Self::AngleLag { lag } if lag.time_s < 0.0 => {
-                "log the current before it is filtered; figures near reversals may be off by more than their standard errors"
+                "log the current before it is filtered; near reversals friction may differ from the estimates by more than \
+                 their standard errors"
             }
             Self::AngleLag { .. } => {
-                "log the angle before the drive filters it; figures near reversals may be off by more than their standard errors"
+                "log the angle before the drive filters it; near reversals friction may differ from the estimates by more than \
+                 their standard errors"
             }
             Self::ViscousByDirection { .. } => {
-                "the scalar estimate is the mean of both; the offset depends on which law is chosen: look for a brush, \
-                 a screw or a cable"
+                "look for a brush, a screw or a cable as the cause; the single value given is the mean of both, and the \
+                 offset depends on which law is chosen"
             }
         }
     }

@@ -22,20 +22,20 @@ pub enum ResponseFinding {
     },
     /// Bands of the corrected response differ from the regression's model.
     BandsContradicted {
-        /// Bands that do.
+        /// Number of these bands.
         bands: usize,
-        /// Bands in all.
+        /// Number of all bands.
         of: usize,
-        /// Relative difference from which a band counts.
+        /// Relative difference above which a band is flagged.
         limit: f64,
     },
     /// Bands of the corrected response are uncertain.
     BandsUncertain {
-        /// Bands that are.
+        /// Number of these bands.
         bands: usize,
-        /// Bands in all.
+        /// Number of all bands.
         of: usize,
-        /// Relative standard error from which a band counts.
+        /// Relative standard error above which a band is flagged.
         limit: f64,
     },
     /// The motor's rational model does not fit its responses.
@@ -56,14 +56,14 @@ impl fmt::Display for ResponseFinding {
             ),
             Self::BandsContradicted { bands, of, limit } => write!(
                 f,
-                "in {bands} of {of} frequency bands of runs that are no sines the corrected response differs by more than {:.0} % \
-                 from the regression's model: they are flagged",
+                "in {bands} of {of} frequency bands (of runs that are not sines) the corrected response differs from the \
+                 regression's model by more than {:.0} %: these bands are flagged",
                 100.0 * limit
             ),
             Self::BandsUncertain { bands, of, limit } => write!(
                 f,
-                "in {bands} of {of} frequency bands of runs that are no sines the corrected response has a standard error above \
-                 {:.0} %: they are flagged",
+                "in {bands} of {of} frequency bands (of runs that are not sines) the corrected response has a standard error \
+                 above {:.0} %: these bands are flagged",
                 100.0 * limit
             ),
             Self::ModelMisfit { rms_standard_errors } => write!(
@@ -99,7 +99,7 @@ impl Describe for ResponseFinding {
     fn hint(&self) -> &'static str {
         match self {
             Self::CorrectionWeak { .. } => {
-                "use a larger amplitude: the share of the current that overcomes friction gets smaller"
+                "use a larger amplitude: friction then takes a smaller share of the current"
             }
             Self::BandsContradicted { .. } => {
                 "use the response of the model there: these bands are hardly excited, or biased by the control loop"
@@ -109,7 +109,7 @@ impl Describe for ResponseFinding {
             }
             Self::ModelMisfit { .. } => {
                 "look for a delay, a lag, a mode without a tip or damping within the beam, which the model does not have, \
-                 or for responses that are worse than their standard errors say"
+                 or for responses with larger errors than their standard errors"
             }
         }
     }

@@ -14,19 +14,19 @@ use crate::identify::separability::thresholds::LARGE_CHANGE;
 use crate::information::Figure;
 use crate::plan::percent;
 
-/// Parameters named in the message of a run that stands out.
+/// Largest number of parameters listed in the message of a run that stands out.
 const NAMED_MOST: usize = 3;
 
-/// A radian in degrees, and within what share a scale is taken for it.
+/// Degrees per radian, and the relative difference up to which a scale is taken for this ratio.
 const DEGREES: f64 = 360.0 / TAU;
 const DEGREES_WITHIN: f64 = 0.1;
 
 /// A parameter that would change if a run were left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MovedParameter {
-    /// Which.
+    /// The parameter.
     pub parameter: Figure,
-    /// Its change as a share of its value, to first order.
+    /// Its change relative to its value, to first order.
     pub change_share: f64,
     /// The same in standard errors.
     pub change_standard_errors: f64,
@@ -42,36 +42,36 @@ pub enum RunFinding {
         /// Share of the run.
         share: f64,
     },
-    /// The motor sticks at its turning points.
+    /// The joint sticks at its turning points.
     Sticking {
         /// Share of the cycle.
         share: f64,
     },
-    /// The run has too few whole periods of the frequency given.
+    /// The run has too few whole periods of the given frequency.
     TooFewPeriods {
-        /// The frequency given \[rad/s\].
+        /// The given frequency \[rad/s\].
         omega_rad_s: f64,
         /// Blocks of whole periods in the log.
         blocks: usize,
         /// Blocks that a steady state needs.
         blocks_needed: usize,
-        /// Frequency of the motor's motion, where that is another \[rad/s\].
+        /// Frequency of the motor's motion, if it is another one \[rad/s\].
         own_omega_rad_s: Option<f64>,
     },
-    /// The motion is no sinusoid of the frequency given.
+    /// The motion is not a sinusoid of the given frequency.
     NotSinusoidal {
-        /// The frequency given \[rad/s\].
+        /// The given frequency \[rad/s\].
         omega_rad_s: f64,
         /// Share of the motor's power that harmonics do not describe; not finite for a motor at rest.
         unexplained_share: f64,
         /// Amplitude of the higher harmonics relative to the fundamental; not finite for a motor at rest.
         harmonics_share: f64,
-        /// Frequency of the motor's motion, where that is another \[rad/s\].
+        /// Frequency of the motor's motion, if it is another one \[rad/s\].
         own_omega_rad_s: Option<f64>,
     },
-    /// Few periods in steady state.
+    /// Few periods are in steady state.
     FewPeriods {
-        /// How many.
+        /// Number of periods in steady state.
         periods: usize,
     },
     /// The fundamental still changes.
@@ -81,7 +81,7 @@ pub enum RunFinding {
         /// The largest relative change of the other channels' fundamentals.
         other_change: f64,
     },
-    /// A transient at the beginning was left out.
+    /// A transient at the beginning is left out.
     TransientDropped {
         /// Periods left out.
         periods: usize,
@@ -100,9 +100,9 @@ pub enum RunFinding {
     },
     /// The run does not agree with the other runs, and is left out.
     UnlikeOthers {
-        /// Share of its torque by which the others' parameters differ from its own.
+        /// Difference between its torque and the torque from the other runs' parameters, as a share of its torque.
         misfit: f64,
-        /// What is different in it.
+        /// The difference that explains it.
         difference: RunDifference,
         /// Unit of the torque.
         unit: &'static str,
@@ -111,21 +111,21 @@ pub enum RunFinding {
     RunStandsOut {
         /// Root mean square of its residual relative to that of the other runs.
         residual_ratio: f64,
-        /// Parameters that would change without it.
+        /// Parameters that would change if it were left out.
         moved: Vec<MovedParameter>,
         /// Whether the output-error method describes the other runs.
         others_described: bool,
     },
 }
 
-/// "; the motor moves at 4.0000 rad/s (0.6366 Hz)" where that is another frequency than the one given.
+/// "; the motor itself moves at 4.0000 rad/s (0.6366 Hz)" if this is another frequency than the given one.
 fn own(omega_rad_s: Option<f64>) -> String {
     omega_rad_s.map_or_else(String::new, |w| {
         format!("; the motor itself moves at {w:.4} rad/s ({:.4} Hz)", w / TAU)
     })
 }
 
-/// "Coulomb friction by −2.1 %, inertia by more than 20 %".
+/// The changes in words: "Coulomb friction by −2.1 %, inertia by more than 20 %".
 fn changes(moved: &[MovedParameter]) -> String {
     let mut largest: Vec<&MovedParameter> = moved.iter().collect();
     largest
@@ -141,13 +141,13 @@ fn changes(moved: &[MovedParameter]) -> String {
     largest.iter().take(NAMED_MOST).map(change).collect::<Vec<_>>().join(", ")
 }
 
-/// "It looks as if its command had the opposite sign."
+/// The difference in words: "Its command, or its angle, has the opposite sign".
 fn told(difference: RunDifference, unit: &str) -> String {
     let times = |factor: f64| significant(factor, 3);
     match difference {
         RunDifference::Sign => "Its command, or its angle, has the opposite sign".to_owned(),
         RunDifference::CommandScale { factor } => {
-            format!("The same motion takes {} times its command in the others", times(factor))
+            format!("For the same motion the other runs need {} times its command", times(factor))
         }
         RunDifference::AngleScale { factor } if (factor / DEGREES - 1.0).abs() < DEGREES_WITHIN => {
             "Its angle looks as if it were in radians where the others are in degrees".to_owned()
@@ -182,18 +182,22 @@ impl fmt::Display for RunFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::MostlyAtRest { share } => {
-                write!(f, "the motor stands still for {:.0} % of the run", 100.0 * share)
+                write!(
+                    f,
+                    "the motor stands still for {:.0} % of the run: this part gives little information",
+                    100.0 * share
+                )
             }
             Self::Sticking { share } => write!(
                 f,
-                "the motor sticks for about {:.0} % of the cycle: friction is not the square wave that the \
-                 third-harmonic method assumes",
+                "the joint sticks for about {:.0} % of the cycle: friction is not the square wave that the third-harmonic \
+                 method assumes, and the estimate of this method is too low",
                 100.0 * share
             ),
             Self::TooFewPeriods { omega_rad_s, blocks, blocks_needed, own_omega_rad_s } => write!(
                 f,
                 "at the given {omega_rad_s:.4} rad/s the log has {blocks} of the {blocks_needed} blocks of whole periods \
-                 that a steady state needs{}. The run is used as a motion of any shape",
+                 that a steady state needs{}. The run is used as a general motion, not as a sine",
                 own(*own_omega_rad_s)
             ),
             Self::NotSinusoidal { omega_rad_s, harmonics_share, .. }
@@ -202,7 +206,7 @@ impl fmt::Display for RunFinding {
                 write!(
                     f,
                     "the motor does not move at the given {omega_rad_s:.4} rad/s in the periods used: the run is used \
-                     as a motion of any shape"
+                     as a general motion, not as a sine"
                 )
             }
             Self::NotSinusoidal {
@@ -213,7 +217,8 @@ impl fmt::Display for RunFinding {
             } => write!(
                 f,
                 "the motion is not a sinusoid of the given {omega_rad_s:.4} rad/s: {:.0} % of the motor's power is not \
-                 explained, and harmonics have {:.0} % of the fundamental{}. The run is used as a motion of any shape",
+                 explained, and the harmonics are {:.0} % of the fundamental{}. The run is used as a general motion, \
+                 not as a sine",
                 100.0 * unexplained_share,
                 100.0 * harmonics_share,
                 own(*own_omega_rad_s)
@@ -225,8 +230,8 @@ impl fmt::Display for RunFinding {
             ),
             Self::NotPeriodic { motor_change, other_change } => write!(
                 f,
-                "the motion is not periodic yet: within the periods used the fundamental of the motor changes by \
-                 {:.1} %, that of other channels by up to {:.1} %",
+                "the motion is not periodic yet: within the periods used the fundamental of the motor changes by {:.1} %, \
+                 that of other channels by up to {:.1} %. The harmonics and responses of this run are affected",
                 100.0 * motor_change,
                 100.0 * other_change
             ),
@@ -241,16 +246,17 @@ impl fmt::Display for RunFinding {
             Self::HarmonicAboveNyquist { omega_rad_s, nyquist_rad_s } => write!(
                 f,
                 "the third harmonic ({omega_rad_s:.1} rad/s) is not below 0.9 of the Nyquist frequency \
-                 ({nyquist_rad_s:.1} rad/s)"
+                 ({nyquist_rad_s:.1} rad/s): it is not measured"
             ),
             Self::Drift { share } => write!(
                 f,
-                "the motor drifts by {:.0} % of its amplitude over the periods used",
+                "the motor drifts by {:.0} % of its amplitude over the periods used: the offset and the corrected response \
+                 are affected",
                 100.0 * share
             ),
             Self::UnlikeOthers { misfit, difference, unit } => write!(
                 f,
-                "this run is left out: its torque is off by {} from what the parameters of the other runs give. {}",
+                "this run is left out: its torque differs by {} from the torque that the parameters of the other runs give. {}",
                 percent(*misfit),
                 told(*difference, unit)
             ),
@@ -264,7 +270,7 @@ impl fmt::Display for RunFinding {
                 if *others_described {
                     return Ok(());
                 }
-                f.write_str(". No arm was found that describes the runs: this may be the wrong one")
+                f.write_str(". No arm was found that describes the runs, so the fault may be in another run")
             }
         }
     }
@@ -323,7 +329,9 @@ impl Describe for RunFinding {
             }
             Self::Sticking { .. } => "use a larger amplitude or a higher frequency",
             Self::TooFewPeriods { .. } => "log at least six periods in steady state",
-            Self::NotSinusoidal { .. } => "check omega_rad_s",
+            Self::NotSinusoidal { .. } => {
+                "check the frequency that the campaign gives for this run"
+            }
             Self::FewPeriods { .. } => "log ten periods or more",
             Self::NotPeriodic { .. } => {
                 "wait longer before logging; a lightly damped mode needs several times 1/(ζω)"
@@ -333,28 +341,29 @@ impl Describe for RunFinding {
                 "sample faster, or do not use this run as the lower one of a pair"
             }
             Self::Drift { .. } => {
-                "a load or an offset moves the motor away: close the position loop"
+                "close the position loop: a load or an offset moves the motor away"
             }
             Self::UnlikeOthers { difference, .. } => match difference {
                 RunDifference::Sign => {
-                    "check the sign of the command and of the angle in this log; scale = -1 on its channel turns it round"
+                    "check the sign of the command and of the angle in this log; scale = -1 reverses the sign of a channel"
                 }
                 RunDifference::CommandScale { .. } | RunDifference::AngleScale { .. } => {
                     "check the units and the scale of this log's channels"
                 }
                 RunDifference::Inertia { .. } | RunDifference::Load { .. } => {
-                    "if the load was another one on purpose, identify these runs on their own"
+                    "if the load was changed on purpose, identify these runs separately"
                 }
                 RunDifference::Coulomb { .. } | RunDifference::Viscous { .. } => {
-                    "another temperature, a brake, or a rubbing part: repeat the run, or identify it on its own"
+                    "the cause may be another temperature, a brake, or a rubbing part: repeat the run, or identify it \
+                     separately"
                 }
                 RunDifference::Other => {
-                    "look at the log: a loose part, a wrong channel, or a disturbance; repeat the run"
+                    "look at the log for a loose part, a wrong channel, or a disturbance; repeat the run"
                 }
             },
             Self::RunStandsOut { .. } => {
-                "another load or friction in this run, a loose part, or a wrong sensor scale: leave the run out or \
-                 repeat it, then identify again"
+                "check this run for another load or friction, a loose part, or a wrong sensor scale; leave it out or repeat \
+                 it, then identify again"
             }
         }
     }

@@ -12,7 +12,7 @@ pub enum Severity {
 }
 
 impl Severity {
-    /// Its name in texts.
+    /// Name in texts and files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Info => "info",

@@ -9,14 +9,14 @@ use crate::record::{Axis, Channels, CommandQuantity};
 pub struct EstimateUnits {
     /// Rotary or linear.
     pub axis: Axis,
-    /// What the command is.
+    /// Quantity of the command.
     pub command: CommandQuantity,
     /// Whether torque per command is known.
     pub torque_known: bool,
 }
 
 impl EstimateUnits {
-    /// Of these channels.
+    /// Units of the estimates from these channels.
     pub fn new(channels: &Channels) -> Self {
         Self {
             axis: channels.axis,
@@ -25,7 +25,7 @@ impl EstimateUnits {
         }
     }
 
-    /// Of the command.
+    /// Unit of the command.
     pub fn command(self) -> &'static str {
         match self.command {
             CommandQuantity::Current => "A",
@@ -34,7 +34,7 @@ impl EstimateUnits {
         }
     }
 
-    /// Of an angle or a position.
+    /// Unit of an angle or a position.
     pub fn angle(self) -> &'static str {
         match self.axis {
             Axis::Rotary => "rad",
@@ -42,7 +42,7 @@ impl EstimateUnits {
         }
     }
 
-    /// Of a torque or a force.
+    /// Unit of a torque or a force.
     pub fn torque(self) -> &'static str {
         match (self.torque_known, self.axis) {
             (false, _) => self.command(),
@@ -51,17 +51,17 @@ impl EstimateUnits {
         }
     }
 
-    /// Of viscous friction.
+    /// Unit of viscous friction.
     pub fn viscous(self) -> String {
         format!("{}·s/{}", self.torque(), self.angle())
     }
 
-    /// Of coupling, and of a torque that grows with position.
+    /// Unit of coupling, and of a torque that grows with position.
     pub fn stiffness(self) -> String {
         format!("{}/{}", self.torque(), self.angle())
     }
 
-    /// Of the inertia.
+    /// Unit of inertia or mass.
     pub fn inertia(self) -> String {
         match (self.torque_known, self.axis) {
             (true, Axis::Rotary) => "kg·m²".to_owned(),

@@ -1,4 +1,4 @@
-//! Prediction of a log by an identified arm.
+//! Prediction of a log with an identified arm.
 
 use std::fmt;
 
@@ -13,19 +13,19 @@ use crate::identify::findings::units::EstimateUnits;
 use crate::identify::validation::cause::{Cause, CauseKind};
 use crate::identify::validation::moved_mode::{MovedBy, MovedMode};
 
-/// Prediction of a log by an identified arm.
+/// Prediction of a log with an identified arm.
 #[derive(Debug, Clone, PartialEq, IntoStaticStr, VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 #[non_exhaustive]
 pub enum ValidationFinding {
     /// No torque is predicted.
     TorqueNotPredicted {
-        /// Whether the tips give the torque between motor and beam; then no window fits the log.
+        /// Whether the tips give the torque between motor and beam; then the reason is that no window fits into the log.
         coupling_known: bool,
     },
-    /// Sensors and reversals alone leave much of the torque.
+    /// Sensor noise and reversals alone make a large residual torque.
     TorqueHidden {
-        /// Share of the torque that they leave of the arm's own motion.
+        /// Residual torque relative to the torque, for the simulated motion of the arm itself.
         expected_share: f64,
         /// Length of the window \[s\].
         window_s: f64,
@@ -46,7 +46,7 @@ pub enum ValidationFinding {
         residual_share: f64,
         /// The same of the logs of the identification.
         residual_share_of_identification: f64,
-        /// The same expected of this log if the arm is right.
+        /// The same as expected for this log if the arm is right.
         expected_share: f64,
     },
     /// One term explains much of the residual torque.
@@ -56,7 +56,7 @@ pub enum ValidationFinding {
         /// Units of its size.
         units: EstimateUnits,
     },
-    /// From one initial state a whole run is not followed.
+    /// A simulation from one initial state does not follow a whole run.
     MotionDeparts {
         /// The worst channel's fit over whole runs \[%\].
         fit_percent: f64,
@@ -67,26 +67,26 @@ pub enum ValidationFinding {
     },
     /// A mode has another frequency in this log.
     ModeMoved {
-        /// Which mode, and its frequencies.
+        /// The mode and its frequencies.
         moved: MovedMode,
     },
     /// The residual is correlated with the command.
     ResidualFollowsCommand {
-        /// Whose residual.
+        /// Channel of the residual.
         channel: Channel,
-        /// Share of the lags beyond the 95 % band.
+        /// Share of the lags outside the 95 % band.
         share: f64,
     },
     /// The residual is not white.
     ResidualNotWhite {
-        /// Whose residual.
+        /// Channel of the residual.
         channel: Channel,
         /// Its root mean square relative to the sensor's noise.
         noise_ratio: f64,
     },
 }
 
-/// How large a term is, beyond what the arm's own motion looks like, with its unit.
+/// Size of a term with its unit, less the size that the simulated motion of the arm itself shows.
 fn size(cause: &Cause, units: EstimateUnits) -> String {
     let value = cause.value - cause.expected_value;
     let sign = if value < 0.0 { "−" } else { "+" };
@@ -106,25 +106,26 @@ fn size(cause: &Cause, units: EstimateUnits) -> String {
 fn cause_hint(kind: CauseKind) -> &'static str {
     match kind {
         CauseKind::Delay => {
-            "check for a delay of the amplifier, or channels that are not sampled together"
+            "check for a delay of the amplifier, or channels that are not sampled at the same time"
         }
         CauseKind::Inertia => {
             "check for another load than in the logs of the identification, or a wrong torque constant"
         }
         CauseKind::Viscous | CauseKind::ViscousByDirection => {
-            "friction changes with temperature and load, and need not grow in proportion to speed: identify from this \
-             log as well"
+            "identify from this log as well: friction changes with temperature and load, and it may not grow linearly \
+             with speed"
         }
         CauseKind::Coulomb | CauseKind::Offset => {
-            "friction changes with temperature, load and position, and a constant torque is a load or an offset: \
-             identify from this log as well"
+            "identify from this log as well: friction changes with temperature, load and position, and a constant torque \
+             is a load or an offset"
         }
         CauseKind::Position => "check for gravity, a spring, or a wrong scale of a tip",
         CauseKind::Coupling => {
             "check for a stiffer or softer beam than in the logs of the identification, or a wrong scale of a tip"
         }
         CauseKind::NearRest => {
-            "Stribeck friction or presliding, which the law does not have: identify from this log as well"
+            "identify from this log as well: the cause may be Stribeck friction or presliding, which the friction law of \
+             the result does not have"
         }
     }
 }
@@ -133,8 +134,8 @@ impl fmt::Display for ValidationFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::TorqueNotPredicted { coupling_known: true } => f.write_str(
-                "no window fits into the log while the motor moves, all sensors read and the acting command is logged: \
-                 the torque is not predicted",
+                "the log has no window in which the motor moves, all sensors read and the acting command is logged: the \
+                 torque is not predicted",
             ),
             Self::TorqueNotPredicted { coupling_known: false } => f.write_str(
                 "these tips do not give the torque between motor and beam: the torque is not predicted",
@@ -142,17 +143,17 @@ impl fmt::Display for ValidationFinding {
             Self::TorqueHidden { expected_share, window_s } => write!(
                 f,
                 "with a window of {window_s:.4} s, sensor noise and reversals alone make a residual of {:.0} % of the \
-                 torque: smaller errors of the arm do not show",
+                 torque: smaller errors of the arm cannot be seen",
                 100.0 * expected_share
             ),
             Self::PredictionFailed { residual_share } => write!(
                 f,
-                "the residual torque is {:.0} % of the torque: the estimates do not hold for this log",
+                "the residual torque is {:.0} % of the torque: the estimates do not describe this log",
                 100.0 * residual_share
             ),
             Self::PredictionPoor { residual_share } => write!(
                 f,
-                "the residual torque is {:.0} % of the torque: the estimates hold roughly for this log",
+                "the residual torque is {:.0} % of the torque: the estimates describe this log only roughly",
                 100.0 * residual_share
             ),
             Self::PredictionWorse {
@@ -161,23 +162,23 @@ impl fmt::Display for ValidationFinding {
                 expected_share,
             } => write!(
                 f,
-                "the residual torque is {:.2} % of the torque, and {:.2} % in the logs of the identification; if the \
-                 arm were right, it would be {:.2} % here",
+                "the residual torque is {:.2} % of the torque, but {:.2} % in the logs of the identification; if the arm \
+                 were right, it would be {:.2} % in this log",
                 100.0 * residual_share,
                 100.0 * residual_share_of_identification,
                 100.0 * expected_share
             ),
             Self::ResidualTorque { cause, units } => write!(
                 f,
-                "{:.0} % of the squared residual torque looks like {}, {}",
+                "{:.0} % of the squared residual torque is explained by {}, {}",
                 100.0 * cause.share_beyond(),
                 cause.kind.words(),
                 size(cause, *units)
             ),
             Self::MotionDeparts { fit_percent, shorter_s, shorter_fit_percent } => write!(
                 f,
-                "from one initial state the fit of a whole run is only {fit_percent:.1} %; over {shorter_s:.3} s it is \
-                 {shorter_fit_percent:.1} %"
+                "simulated from one initial state, a whole run has a fit of only {fit_percent:.1} %; over {shorter_s:.3} s \
+                 the fit is {shorter_fit_percent:.1} %"
             ),
             Self::ModeMoved { moved } => write!(
                 f,
@@ -196,7 +197,7 @@ impl fmt::Display for ValidationFinding {
             Self::ResidualFollowsCommand { channel, share } => write!(
                 f,
                 "the residual of {channel} is correlated with the command at {:.0} % of the lags (5 % by chance): the \
-                 arm lacks something that the command does",
+                 arm lacks an effect of the command",
                 100.0 * share
             ),
             Self::ResidualNotWhite { channel, noise_ratio } => write!(
@@ -247,31 +248,32 @@ impl Describe for ValidationFinding {
                 "use a longer log or a shorter window; check the unit of its time"
             }
             Self::TorqueNotPredicted { coupling_known: false } => {
-                "measure the angles of as many points as there are modes; the motion is predicted without them"
+                "measure the angles of as many points as there are modes; the motion is predicted in any case"
             }
             Self::TorqueHidden { .. } => "use a longer window, or a slower and larger motion",
             Self::PredictionFailed { .. } | Self::PredictionPoor { .. } => {
                 "look at the shape of the residual, and at the parts of the log where it is largest"
             }
             Self::PredictionWorse { .. } => {
-                "the estimates hold for the motion that they are from: identify from both kinds of motion together"
+                "identify from both kinds of motion together: the estimates are valid for the kind of motion that they were \
+                 identified from"
             }
             Self::ResidualTorque { cause, .. } => cause_hint(cause.kind),
             Self::MotionDeparts { .. } => {
-                "judge the arm by shorter times: without its control loop a motor drifts with any small error"
+                "judge the arm over shorter times: without its control loop a motor drifts with any small error"
             }
             Self::ModeMoved { moved: MovedMode { by: MovedBy::Load, .. } } => {
-                "another load than in the logs of the identification: identify from logs of this arm, or predict the \
-                 arm with its new payload"
+                "check for another load than in the logs of the identification: identify from logs of this arm, or predict \
+                 the arm with its new payload"
             }
             Self::ModeMoved { .. } => {
-                "a stiffer or softer beam than in the logs of the identification: identify from logs of this arm"
+                "check for a stiffer or softer beam than in the logs of the identification: identify from logs of this arm"
             }
             Self::ResidualFollowsCommand { .. } => {
-                "look for a delay, a mode, another inertia or other friction"
+                "look for a delay, a missing mode, another inertia or other friction"
             }
             Self::ResidualNotWhite { .. } => {
-                "look at the residual to see what the arm does not describe"
+                "look at the residual to find what the arm does not describe"
             }
         }
     }

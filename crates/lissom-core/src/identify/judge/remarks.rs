@@ -1,4 +1,4 @@
-//! What the taken estimates do not say by themselves: findings about command, friction, models and methods.
+//! Findings about the command, friction, models and methods, for the estimates that were chosen.
 
 use crate::identify::drive_estimates::Method;
 use crate::identify::findings::{
@@ -15,7 +15,7 @@ use crate::identify::prepare::run_analysis::RunKind;
 use crate::identify::thresholds::PRESENT;
 use crate::record::{CommandQuantity, Hold, TipQuantity};
 
-/// All of them.
+/// Findings about models, methods and tips.
 pub(super) fn remarks(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding> {
     let mut findings = Vec::new();
     model(evidence, &mut findings);
@@ -24,7 +24,7 @@ pub(super) fn remarks(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding> 
     findings
 }
 
-/// About the command, and that there is friction.
+/// Findings about the command and about friction.
 pub(super) fn of_friction(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding> {
     let mut findings = Vec::new();
     command(evidence, &mut findings);
@@ -79,7 +79,7 @@ fn friction(evidence: &Evidence<'_>, chosen: &Chosen, findings: &mut Vec<Finding
     }
 }
 
-/// A rational model that does not fit its own responses, where models are made of it.
+/// Reports a rational model that does not fit its own responses, if the result contains it.
 fn model(evidence: &Evidence<'_>, findings: &mut Vec<Finding>) {
     let of_arm = evidence.replay().is_some();
     if !of_arm
@@ -115,7 +115,7 @@ fn methods(evidence: &Evidence<'_>, chosen: &Chosen, findings: &mut Vec<Finding>
 fn tips(evidence: &Evidence<'_>, chosen: &Chosen, findings: &mut Vec<Finding>) {
     let campaign = evidence.campaign;
     let replayed = chosen.method == Some(Method::OutputError);
-    // Slip phases then turn the beam with the motor.
+    // The equation in slip phases then counts the beam's inertia with that of the motor.
     let rigid = !replayed
         && chosen.drive.inertia.is_some()
         && coupled_tips(campaign).is_empty()

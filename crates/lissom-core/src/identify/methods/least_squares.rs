@@ -1,5 +1,5 @@
-//! Ordinary least squares of the motor's equation: the line of Coulomb and viscous friction that others publish, and the
-//! baseline that the other methods must beat.
+//! Ordinary least squares of the motor's equation: the line of Coulomb and viscous friction that publications usually
+//! give. It is the baseline for the other methods.
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one: half the time")]
 
 use std::sync::Arc;
@@ -20,17 +20,17 @@ use crate::record::{Campaign, Run};
 /// Estimates of the motor's equation by ordinary least squares.
 #[derive(Debug, Clone)]
 pub struct LeastSquares {
-    /// Inertia, Coulomb and viscous friction, offset, couplings where tips show angles, gravity where the campaign has it.
+    /// Inertia, Coulomb and viscous friction, offset; couplings if tips measure angles; gravity if the campaign has it.
     pub estimates: DriveEstimates,
-    /// Least and largest speed in the middle of a window \[rad/s or m/s\].
+    /// Lowest and highest speed in the middle of a window \[rad/s or m/s\].
     pub speed_range: [f64; 2],
     /// Length of the windows \[s\].
     pub window_s: f64,
-    /// Lengths tried.
+    /// Window lengths that were tried.
     pub candidates: Vec<Candidate>,
-    /// Windows used.
+    /// Number of windows used.
     pub rows: usize,
-    /// ‖y − X·q‖/‖y‖: part of the windowed torque that is left.
+    /// Relative residual ‖y − X·q‖/‖y‖ of the windowed torque \[1\].
     pub relative_residual: f64,
     /// Products of all rows, forward and backward.
     products: [Cluster; 2],
@@ -38,20 +38,21 @@ pub struct LeastSquares {
     back_emf_viscous: f64,
 }
 
-/// Fits `τ = J·θ̈ + V·θ̇ + C·sgn θ̇ + O + Σκ_i(θ_m − θ_i) + g_s·sin θ + g_c·cos θ` to all motion, with the same weight
-/// everywhere.
+/// Fits `τ = J·θ̈ + V·θ̇ + C·sgn θ̇ + O + Σκ_i(θ_m − θ_i) + g_s·sin θ + g_c·cos θ` to all motion with equal weights.
 ///
-/// The equation is multiplied by smooth windows and integrated by parts, as in the regression; here windows may hold
-/// reversals: Coulomb friction has the sign that the velocity has at each sample. Used are windows in whose middle the
-/// motor is faster than 5 % of its largest speed, and in which it does not stand. Standard errors take slip phases as independent.
+/// The equation is multiplied by smooth windows and integrated by parts, as in the regression in slip phases. Here
+/// windows may contain reversals, and Coulomb friction has the sign of the velocity at each sample. Windows are used if
+/// the motor is faster than 5 % of its largest speed in their middle, and does not rest within them. Standard errors
+/// assume that slip phases are independent.
 ///
-/// Where friction is no straight line over speed, this is the line that others publish: the range of speeds belongs
-/// to it.
+/// If friction is not a straight line over speed, the result depends on the range of speeds
+/// ([`LeastSquares::speed_range`]).
 ///
-/// The windows have the length given (the regression's, so that both compare), else one chosen from the data as there.
+/// Windows have the length `window_s` \[s\] (that of the regression makes both comparable); without it, a length is
+/// chosen from the data.
 ///
-/// τ is the command times its torque constant \[N·m, N, or the command's unit where the constant is unknown\].
-/// `None` where too little slips.
+/// τ is the command times its torque constant \[N·m, N, or the unit of the command if the constant is unknown\]. `None`
+/// if there is too little slipping motion.
 ///
 /// ```
 /// # use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
@@ -69,7 +70,7 @@ pub struct LeastSquares {
 /// ```
 ///
 /// # Source
-/// `[Feliu1989, eqs. (14), (15)]` is the equation.
+/// `[Feliu1989, eqs. (14), (15)]` for the equation.
 pub fn least_squares(prepared: &Prepared<'_>, window_s: Option<f64>) -> Option<LeastSquares> {
     let campaign = prepared.used();
     let columns = MotorColumns::of(campaign);
@@ -105,8 +106,8 @@ pub fn least_squares(prepared: &Prepared<'_>, window_s: Option<f64>) -> Option<L
 }
 
 impl LeastSquares {
-    /// Part of the windowed torque that other estimates of the same equation leave in these windows, viscous friction
-    /// by direction where they have it. `None` where one of them is missing.
+    /// Relative residual of the windowed torque with other estimates of the same equation, with viscous friction by
+    /// direction if they have it. `None` if one of the estimates is missing.
     pub fn left_by(&self, other: &DriveEstimates) -> Option<f64> {
         let friction = &other.friction;
         let (coulomb, offset) = (friction.coulomb?.value, friction.offset?.value);

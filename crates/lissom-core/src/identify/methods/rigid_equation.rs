@@ -1,4 +1,5 @@
-//! The motor's equation without a beam, where the coupling to the tips is hardly known and spoils the other estimates.
+//! The motor's equation without a beam, for logs in which the coupling to the tips is hardly known and makes the other
+//! estimates worse.
 
 use crate::identify::findings::{BeamFinding, EstimateUnits, Finding};
 use crate::identify::methods::friction_law::{CurveSums, FrictionLaw, friction_law};

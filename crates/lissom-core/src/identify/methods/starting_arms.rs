@@ -1,4 +1,4 @@
-//! The arms that a campaign's output error starts from.
+//! The arms from which the output-error method starts.
 
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::methods::output_error::{

@@ -16,7 +16,7 @@ use crate::identify::prepare::run_phasors::RunPhasors;
 use crate::identify::thresholds::TRIPLE_FREQUENCY;
 use crate::spectrum::Phasor;
 
-/// Friction from one pair of runs, at ω0 and at 3ω0.
+/// Coulomb friction from one pair of runs, at ω0 and at 3ω0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairFigure {
     /// Index of the run at ω0.
@@ -25,36 +25,36 @@ pub struct PairFigure {
     pub triple_run: usize,
     /// ω0 \[rad/s\].
     pub omega_rad_s: f64,
-    /// CF/K in the command's unit; its deviation from the phasors' alone.
+    /// CF/K, in the unit of the command; the standard error counts only that of the phasors.
     pub coulomb_command: Estimate,
-    /// The complex least-squares value of CF/K that (27) and (28) give before CF is taken real.
+    /// Complex least-squares value of CF/K from (27) and (28), before CF is required to be real.
     pub complex_command: Complex64,
-    /// Cost (29) at the minimum.
+    /// Cost (29) at its minimum \[1\].
     pub cost: f64,
-    /// Evaluations the minimiser needed.
+    /// Number of evaluations that the minimisation took.
     pub evaluations: usize,
 }
 
-/// Coulomb friction by the method of the 1989 report.
+/// Result of the third-harmonic method of the 1989 report.
 #[derive(Debug, Clone)]
 pub struct ThirdHarmonic {
-    /// Every pair's figure.
+    /// Result of each pair.
     pub pairs: Vec<PairFigure>,
-    /// Mean of the pairs that no finding flags (of all, where all are flagged).
+    /// Mean CF/K of the pairs without a finding (of all pairs if all have one), in the unit of the command.
     pub coulomb_command: Estimate,
-    /// Standard deviation of one pair about that mean.
+    /// Standard deviation of single pairs about that mean, in the unit of the command.
     pub spread_command: f64,
-    /// Pairs in that mean.
+    /// For each pair, whether it is part of the mean.
     pub used: Vec<bool>,
 }
 
-/// Friction from one pair of runs by (27)-(29); CF/K in the command's unit.
+/// Computes CF/K from one pair of runs by (27)-(29), in the unit of the command.
 ///
-/// With c = CF/K, φ the motor's phase at ω0 and ψ its phase in the run at 3ω0:
-/// `i_3 = g·θ_m3 + j·4c/(3π)·e^{j3φ}` and `i_1(3ω0) = g·θ_m(3ω0) + j·4c/π·e^{jψ}`. For a real c the
-/// second gives g, the first then c′; the cost is `|ln(c′/c)|²`.
+/// With c = CF/K, the motor's phase φ at ω0 and its phase ψ in the run at 3ω0, `i_3 = g·θ_m3 + j·4c/(3π)·e^{j3φ}` and
+/// `i_1(3ω0) = g·θ_m(3ω0) + j·4c/π·e^{jψ}`. For a real c the second equation gives g, and then the first gives c′; the
+/// cost is `|ln(c′/c)|²`.
 ///
-/// Returns `None` where the linear solution is not positive: no friction can be seen.
+/// `None` if the linear solution is not positive, so that no friction can be found.
 ///
 /// ```
 /// # use {lissom::identify::{RunPhasors, pair_figure}, lissom::spectrum::Phasor, num_complex::Complex64};
@@ -63,17 +63,17 @@ pub struct ThirdHarmonic {
 /// let c = 0.132 * 4.0 / std::f64::consts::PI; // fundamental of a square wave of ±0.132 A
 /// let low = RunPhasors { omega_rad_s: 2.0, command_1: p(1.0, 0.0), command_3: p(c / 3.0, quarter + 0.9), motor_1: p(0.5, 0.3), motor_3: zero };
 /// let triple = RunPhasors { omega_rad_s: 6.0, command_1: p(c, quarter), command_3: zero, motor_1: p(0.5, 0.0), motor_3: zero };
-/// let figure = pair_figure(0, 1, &low, &triple).unwrap();
-/// assert!((figure.coulomb_command.value - 0.132).abs() < 1e-12);
+/// let pair = pair_figure(0, 1, &low, &triple).unwrap();
+/// assert!((pair.coulomb_command.value - 0.132).abs() < 1e-12);
 /// ```
 ///
 /// # Source
 /// `[Feliu1989, eqs. (26)-(29)]`
 ///
 /// # Differences from the source
-/// The third harmonic's friction term turns with 3φ (errata of (27)), so that the figure does not
-/// depend on the time origin; the minimum is found by Levenberg-Marquardt from the linear
-/// solution instead of a direct search.
+/// The friction term of the third harmonic has the phase 3φ (errata of (27)), so that the result does not
+/// depend on the time origin. The minimum is found by the Levenberg-Marquardt method from the linear
+/// solution, instead of a direct search.
 pub fn pair_figure(
     run: usize,
     triple_run: usize,
@@ -114,11 +114,11 @@ pub fn pair_figure(
     })
 }
 
-/// Mean of the pairs' figures and the standard deviation of one pair about it.
+/// Computes the mean of the pairs' results, and the standard deviation of single pairs about it.
 ///
-/// The mean's deviation counts the pairs' scatter and the bias that sticking leaves, by
-/// `stuck_share` of each pair's run; the bias is not averaged away. `None` without figures. With a
-/// single pair its own deviation stands in for the scatter.
+/// The standard error of the mean includes the scatter of the pairs and the bias by sticking, from the `stuck_share` of
+/// each pair's run; the bias is not reduced by averaging. `None` without pairs. For a single pair, its own standard
+/// error is used in place of the scatter.
 pub fn mean_figure(
     pairs: &[PairFigure],
     stuck_share: impl Fn(&PairFigure) -> f64,

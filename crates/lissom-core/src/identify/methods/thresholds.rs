@@ -1,21 +1,23 @@
-//! The methods that are one file each.
+//! Thresholds of the methods that consist of one file each.
 
 thresholds! {
     "least squares" {
         /// Samples slower than this share of the largest speed are left out, because friction near
-        /// standstill has another law. Published fits of Coulomb and viscous friction use the same.
+        /// standstill follows another law. Published fits of Coulomb and viscous friction use the
+        /// same share.
         SLOWEST_SAMPLE: f64 = 0.05, "1", Convention;
-        /// The motor stands where it is slower than this share of its largest speed for longer than
-        /// its velocity is smoothed over: friction there is whatever holds.
+        /// The motor stands still if it is slower than this share of its largest speed for longer
+        /// than the smoothing time of its velocity. Friction then has any value up to static
+        /// friction.
         STANDING_SHARE: f64 = 1e-3, "1", Convention;
     }
     "third harmonic" {
-        /// Share by which Coulomb friction comes out low, for each unit of the sticking share of
-        /// the cycle. With 4 % and 8 % it was 2.3 % and 4.9 % low on the simulated arm of the 1989
-        /// report (DESIGN.md).
+        /// Share by which Coulomb friction is too low, per share of the cycle in which the joint
+        /// sticks. On the simulated arm of the 1989 report it was 2.3 % and 4.9 % too low with 4 %
+        /// and 8 % (docs/src/decisions/09-third-harmonic.md).
         STICKING_BIAS: f64 = 0.6, "1", Measured;
-        /// Sticking shares of the cycle below this cannot be measured with a sensor of 12 bits; the
-        /// standard error counts this share at least.
+        /// Smallest share of the cycle with sticking that a 12-bit sensor can show. The standard
+        /// error includes at least this share.
         STICKING_MEASURED: f64 = 0.01, "1", Convention;
     }
 }

@@ -1,4 +1,4 @@
-//! Runs that the others do not describe, left out before anything is made of them.
+//! Runs that the other runs do not describe; they are left out first.
 
 use crate::identify::findings::{EstimateUnits, Finding, RunFinding};
 use crate::identify::methods::regression::thresholds::UNLIKE_RUNS_MOST;

@@ -1,4 +1,4 @@
-//! Mean of a noisy, coloured signal over a stretch, and what it changes by within.
+//! Mean of a noisy signal with correlated errors over a part of a run, and its change within that part.
 
 use std::borrow::Cow;
 use std::f64::consts::PI;

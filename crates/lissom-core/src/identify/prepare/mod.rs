@@ -1,4 +1,4 @@
-//! The runs as the methods use them: checked channels, noise, and what each run is.
+//! The runs as the methods use them: checked channels, measured noise, and the kind of each run.
 
 pub(crate) mod channel_check;
 pub(crate) mod channel_noise;

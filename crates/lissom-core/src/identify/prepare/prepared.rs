@@ -1,4 +1,4 @@
-//! A campaign prepared for the methods: what each run is, and the runs that they use.
+//! A campaign prepared for the methods: the kind of each run, and the runs that are used.
 
 use std::borrow::Cow;
 
@@ -15,9 +15,9 @@ use crate::record::{Campaign, Run, Tip};
 
 /// A campaign prepared once for all methods.
 ///
-/// Runs with a dead channel and repeated runs are left out; a tip that is dead in all runs has no known angle. Runs at
-/// constant velocity are used only if there are no others: they lie outside the speeds that a drive works at, and one
-/// viscous constant need not hold there.
+/// Runs with a dead channel and repeated runs are left out. A tip that is dead in all runs counts as a tip that
+/// measures no angle. Runs at constant velocity are used only if there are no others: their speeds may be outside the
+/// working range of the drive, where one viscous constant need not hold.
 #[derive(Debug, Clone)]
 pub struct Prepared<'a> {
     campaign: &'a Campaign,
@@ -29,8 +29,8 @@ pub struct Prepared<'a> {
 }
 
 impl<'a> Prepared<'a> {
-    /// Checks and analyses every run, some at the same time. `progress` is called with the number of each run before
-    /// it is analysed.
+    /// Checks and analyses every run, several at a time. `progress` is called with the number of
+    /// each run before it is analysed.
     pub fn new(campaign: &'a Campaign, options: &Options, mut progress: impl FnMut(usize)) -> Self {
         let mut findings = Vec::new();
         let mut runs = Vec::with_capacity(campaign.runs.len());
@@ -64,7 +64,7 @@ impl<'a> Prepared<'a> {
         Self { campaign, runs, kept, used, noise, findings }
     }
 
-    /// The same with default options and without a progress display.
+    /// Prepares a campaign with default options and without progress.
     pub fn of(campaign: &'a Campaign) -> Self {
         Self::new(campaign, &Options::default(), |_run| ())
     }
@@ -74,7 +74,7 @@ impl<'a> Prepared<'a> {
         self.campaign
     }
 
-    /// What each run of the campaign is.
+    /// Analysis of each run of the campaign.
     pub fn runs(&self) -> &[RunAnalysis] {
         &self.runs
     }
@@ -102,12 +102,12 @@ impl<'a> Prepared<'a> {
         Self { used: Cow::Owned(used), ..self.clone() }
     }
 
-    /// Which runs of the campaign these are.
+    /// Indices of the used runs in the campaign.
     pub fn kept(&self) -> &[usize] {
         &self.kept
     }
 
-    /// What was found in the runs.
+    /// Findings about the runs.
     pub fn findings(&self) -> &[Finding] {
         &self.findings
     }

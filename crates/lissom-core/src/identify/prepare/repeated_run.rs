@@ -1,4 +1,4 @@
-//! A run that is another once more.
+//! Detects runs that are copies of other runs.
 
 use crate::identify::findings::{Finding, LogFinding};
 use crate::record::{Campaign, Run};

@@ -1,4 +1,4 @@
-//! What one run is and what can be taken from it.
+//! The kind of a run, and how it can be used.
 
 use num_complex::Complex64;
 
@@ -28,28 +28,28 @@ use crate::spectrum::{
     steady_state,
 };
 
-/// What was found in one run.
+/// Analysis of one run.
 #[derive(Debug, Clone)]
 pub struct RunAnalysis {
-    /// Its name.
+    /// Name of the run.
     pub name: String,
-    /// Samples it has.
+    /// Number of samples.
     pub samples: usize,
-    /// Its sample time \[s\].
+    /// Sample time \[s\].
     pub sample_time_s: f64,
-    /// What it is.
+    /// Kind of the run.
     pub kind: RunKind,
-    /// Share of samples at which the command saturates.
+    /// Share of samples at which the command saturates \[1\].
     pub saturated_share: f64,
-    /// Sticking share of the cycle; `None` for runs that are not sinusoidal.
+    /// Sticking share of the cycle \[1\]; `None` for runs that are not sinusoidal.
     pub stuck_share: Option<f64>,
-    /// Whether the regression may use it.
+    /// Whether the regression can use the run.
     pub usable: bool,
-    /// Its stretches at constant velocity; none are looked for in a sinusoid.
+    /// Parts at constant velocity; not searched in sinusoidal runs.
     pub steady: Vec<SteadyPoint>,
 }
 
-/// What a run is.
+/// Kind of a run.
 #[derive(Debug, Clone)]
 pub enum RunKind {
     /// One sinusoid in steady state.
@@ -65,27 +65,27 @@ pub enum RunKind {
 pub struct Sinusoidal {
     /// Drive frequency ω0 \[rad/s\].
     pub omega_rad_s: f64,
-    /// Whether it was given rather than found.
+    /// Whether the frequency was given instead of found from the log.
     pub omega_given: bool,
-    /// What was kept and dropped.
+    /// The steady part of the run.
     pub steady: Steady,
     /// Harmonics of the motor.
     pub motor: Harmonics,
-    /// Harmonics of the command as the motor saw it: hold compensated.
+    /// Harmonics of the command in the motor: the zero-order hold is taken into account.
     pub command: Harmonics,
     /// Harmonics of each tip.
     pub tips: Vec<Harmonics>,
 }
 
 impl RunAnalysis {
-    /// Whether it was made for the classical measurement.
+    /// Whether the run was made for the constant-velocity method.
     pub fn is_constant_velocity(&self) -> bool {
         matches!(self.kind, RunKind::ConstantVelocity)
     }
 }
 
 impl Sinusoidal {
-    /// Phasors as the third-harmonic method wants them; `None` with fewer than three harmonics.
+    /// Phasors for the third-harmonic method; `None` with fewer than three harmonics.
     pub fn phasors(&self) -> Option<RunPhasors> {
         Some(RunPhasors {
             omega_rad_s: self.omega_rad_s,

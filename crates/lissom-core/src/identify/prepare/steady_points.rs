@@ -1,21 +1,21 @@
-//! Stretches of a run at constant velocity: their velocities and mean commands.
+//! Parts of a run at constant velocity: their velocities and mean commands.
 
 use crate::identify::estimate::Estimate;
 use crate::identify::prepare::steady_stretches::stretches;
 use crate::record::{Campaign, Run};
 
-/// A stretch of a run in which the motor turns at a constant velocity.
+/// A part of a run in which the motor turns at a constant velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SteadyPoint {
-    /// Index of its run.
+    /// Index of the run.
     pub run: usize,
-    /// Where it begins, from the run's first sample on \[s\].
+    /// Start of the part, since the first sample of the run \[s\].
     pub start_s: f64,
-    /// Where it ends \[s\].
+    /// End of the part \[s\].
     pub end_s: f64,
     /// Velocity, with its sign \[rad/s or m/s\].
     pub velocity: Estimate,
-    /// Mean command.
+    /// Mean command, in its own unit.
     pub command: Estimate,
 }
 

@@ -1,4 +1,4 @@
-//! Stretches of a run in which the motor turns at one velocity.
+//! Finds parts of a run in which the motor turns at a constant velocity.
 
 use std::collections::VecDeque;
 use std::ops::Range;

@@ -1,99 +1,104 @@
-//! What decides how a run is read, and what is reported of its channels.
+//! Preparation of the runs: how a run is used, and what is reported about its channels.
 
 thresholds! {
     "prepare" {
-        /// A channel moves if it changes by more than this many of its sensor's steps. A smooth
-        /// signal that turns round at its extreme changes by about four within the length of its
-        /// plateau, and is not clipped.
+        /// A channel moves if it changes by more than this many steps of its sensor. A smooth
+        /// signal that turns back at its extreme value changes by about four steps within the
+        /// length of its plateau, and is not clipped.
         MOVED_STEPS: f64 = 16.0, "steps", Convention;
-        /// Steps of its sensor by which a channel must move for its slope to show whether it slows
-        /// down.
+        /// A channel must move by this many steps of its sensor for its slope to show whether it
+        /// slows down.
         SLOWING_SHOWN: f64 = 4.0, "steps", Convention;
-        /// A channel is clipped only if it came to its extreme value with more than this share of
+        /// A channel is clipped only if it reached its extreme value with more than this share of
         /// its largest slope.
         CLIPPED_SLOPE: f64 = 0.3, "1", Convention;
-        /// A channel is clipped only if it was not slowed down before by more than this. A motion
-        /// that comes to rest gives 1/3, one that is cut off gives 1 less half a sample.
+        /// A channel is clipped only if it had not slowed down to less than this share before. A
+        /// motion that comes to rest has 1/3, one that is cut off has one minus half a sample.
         CLIPPED_SLOWED: f64 = 0.65, "1", Convention;
-        /// Share of a run's readings at the end of a sensor's range above which it is reported, and
-        /// the output-error method leaves these readings out.
+        /// Share of a run's readings at the end of a sensor's range above which this is reported,
+        /// and the output-error method leaves these readings out.
         CLIPPED_REPORTED: f64 = 0.002, "1", Convention;
         /// A reading is a spike, or a jump to another level, if its second difference is this many
-        /// times what 95 % of the others stay below, and this many steps of the sensor.
+        /// times the value that 95 % of the others stay below, and this many steps of the sensor.
         SPIKE_SIZE: f64 = 20.0, "1", Convention;
-        /// The second differences of a spike are 1, -2, 1 and those of a jump 1, -1 to this share;
-        /// those of a knock are not.
+        /// The second differences of a spike are 1, -2, 1 and those of a jump 1, -1 to within this
+        /// share; those of a mechanical shock are not.
         SPIKE_SHAPE: f64 = 0.1, "1", Convention;
         /// The first and the last reading are checked for spikes only if the channel has this many
-        /// second differences to compare with.
+        /// second differences for comparison.
         SPIKE_AT_END_LEAST: usize = 20, "samples", Convention;
-        /// Readings lie on the steps of an encoder if they are off them by less than this (rms).
-        /// Readings that have nothing to do with the steps are off by 0.29.
+        /// Readings are on the steps of an encoder if their distance from the steps is less than
+        /// this (rms). Readings that have nothing to do with the steps have 0.29.
         ENCODER_STEPS: f64 = 0.02, "steps", Convention;
-        /// A jump is one of whole turns if it differs from them by less than this.
+        /// A jump is a number of whole turns if it differs from that by less than this.
         WHOLE_TURN: f64 = 0.02, "turns", Convention;
-        /// A tip's sensor that shows one value for fewer samples is not reported as frozen.
+        /// A tip's sensor that repeats one value for fewer samples than this is not reported as
+        /// frozen.
         FROZEN_SAMPLES: usize = 50, "samples", Convention;
-        /// A motor's sensor is frozen if its angle stands still at once after it had moved at this
-        /// share of the speed just before; one that friction stops becomes slow first.
+        /// A motor's sensor is frozen if its angle stops from one sample to the next after it moved
+        /// at this share of the speed just before; a motor that friction stops slows down first.
         FROZEN_AT_ONCE: f64 = 0.7, "1", Convention;
-        /// A motor's sensor is frozen only if it had moved at this share of its largest speed.
+        /// A motor's sensor is frozen only if it moved at this share of its largest speed before.
         FROZEN_AT_SPEED: f64 = 0.04, "1", Convention;
-        /// A tip's sensor is frozen only if it shows one value this many times longer than anywhere
-        /// else in the run.
+        /// A tip's sensor is frozen only if it repeats one value this many times longer than
+        /// anywhere else in the run.
         FROZEN_LONGER: f64 = 10.0, "1", Convention;
         /// A tip's sensor is frozen only if the motor moves by this share of its range in the
         /// meantime, a motor's only if the command changes by this share of its standard deviation.
         FROZEN_TRAVEL: f64 = 0.2, "1", Convention;
         /// A channel has steps if this share of the differences between its readings are whole
-        /// multiples of one number; the rest may be damaged.
+        /// multiples of one number; the rest may be wrong readings.
         STEP_MULTIPLES: f64 = 0.99, "1", Convention;
-        /// A difference between readings is a whole multiple of the step if it is off by less than
-        /// this: readings are often rounded in files.
+        /// A difference between readings is a whole multiple of the step if it differs from it by
+        /// less than this: readings are often rounded in files.
         STEP_WHOLE: f64 = 0.01, "steps", Convention;
-        /// A run is a sine if its harmonics leave at most this share of the motor's power.
+        /// A run is a sine if its harmonics leave at most this share of the motor's power
+        /// unexplained.
         SINE_UNEXPLAINED: f64 = 0.02, "1", Convention;
-        /// A run whose frequency is given is a sine if its harmonics above the first have at most
-        /// this share of the first's amplitude.
+        /// A run whose frequency is given is a sine if its higher harmonics have at most this share
+        /// of the fundamental's amplitude.
         SINE_DISTORTION_GIVEN: f64 = 0.1, "1", Convention;
-        /// A run whose frequency is not given is a sine if its harmonics above the first have at
-        /// most this share of the first's amplitude: trapezoidal moves have 5 to 10 %, and are not
+        /// A run whose frequency is not given is a sine if its higher harmonics have at most this
+        /// share of the fundamental's amplitude: trapezoidal moves have 5 to 10 % and are not
         /// sines.
         SINE_DISTORTION_FOUND: f64 = 0.04, "1", Derived;
-        /// A sine of fewer periods is reported: its standard errors rest on the differences between
-        /// periods.
+        /// A sine with fewer periods is reported: its standard errors are computed from the
+        /// differences between periods.
         FEW_PERIODS: usize = 6, "periods", Convention;
-        /// Share of a cycle in which the joint sticks above which it is reported: the
-        /// third-harmonic method is then about 3 % low (`STICKING_BIAS`).
+        /// Share of a cycle in which the joint sticks above which this is reported: the estimate of
+        /// the third-harmonic method is then about 3 % too low (`STICKING_BIAS`).
         STICKING_REPORTED: f64 = 0.05, "1", Convention;
         /// A motor is at rest if it stays within this many steps of its sensor, or `REST_RANGE`.
         REST_STEPS: f64 = 2.0, "steps", Convention;
         /// A motor is at rest if it stays within this share of its range, or `REST_STEPS`.
         REST_RANGE: f64 = 1e-3, "1", Convention;
-        /// Share of a run at rest above which it is reported.
+        /// Share of a run at rest above which this is reported.
         AT_REST_REPORTED: f64 = 0.3, "1", Convention;
         /// A command looks like a position goal if its correlation with the motor's angle is more
-        /// than this in the runs that are no sines.
+        /// than this in the runs that are not sines.
         FOLLOWS_MOTOR: f64 = 0.99, "1", Convention;
-        /// Time stamps that are off an even grid by more than this share of the sample time (rms)
-        /// are reported.
+        /// Time stamps that differ from an even grid by more than this share of the sample time
+        /// (rms) are reported.
         JITTER_REPORTED: f64 = 0.05, "1", Convention;
-        /// A motor turns one way if it does so in this share of the time in which it moves.
+        /// A motor turns in one direction if it does so for this share of the time in which it
+        /// moves.
         ONE_WAY: f64 = 0.95, "1", Convention;
-        /// A run turns one way only if the motor moves in more than this share of it.
+        /// A run turns in one direction only if the motor moves in more than this share of it.
         ONE_WAY_MOVES: f64 = 0.5, "1", Convention;
         /// Drift of a sine over its run, as a share of its amplitude, above which it is reported.
         DRIFT_REPORTED: f64 = 0.1, "1", Convention;
         /// A drift of fewer steps of the sensor is not reported.
         DRIFT_STEPS: f64 = 3.0, "steps", Convention;
-        /// The zero of a tip is taken off its readings if it is this many standard errors from nothing:
-        /// 19 windows of a run show it, and their errors are no normal ones.
+        /// The zero error of a tip is subtracted from its readings if it is this many standard
+        /// errors from zero: only 19 windows of a run show it, and their errors are not normally
+        /// distributed.
         TIP_ZERO_SHOWN: f64 = 6.0, "standard errors", Convention;
-        /// The zero of a tip is reported if it is more than this share of the beam's deflection (rms).
+        /// The zero error of a tip is reported if it is more than this share of the beam's
+        /// deflection (rms).
         TIP_ZERO_REPORTED: f64 = 1.0, "1", Convention;
-        /// A command is at its limit from this share of it on: logs are rounded.
+        /// A command is at its limit if it has at least this share of it: logs are rounded.
         AT_LIMIT: f64 = 0.999, "1", Convention;
-        /// Share of a run with the command at its limit above which it is reported.
+        /// Share of a run with the command at its limit above which this is reported.
         SATURATION_REPORTED: f64 = 0.001, "1", Convention;
     }
 }

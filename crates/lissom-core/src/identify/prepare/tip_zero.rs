@@ -1,4 +1,4 @@
-//! What a tip's sensor reads where the beam is straight: two encoders seldom have the same zero.
+//! Reading of a tip's sensor when the beam is straight: the zeros of two encoders are seldom equal.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! Responses of runs that are no sines, in bands.
+//! Frequency responses of runs that are not sinusoidal, in bands.
 
 use num_complex::Complex64;
 

@@ -1,4 +1,4 @@
-//! Correction of the motor's response for Coulomb friction, (30).
+//! Correction of the motor's response for Coulomb friction (30).
 
 use std::f64::consts::PI;
 
@@ -10,16 +10,16 @@ use crate::spectrum::{Harmonics, Phasor};
 /// Instants of a period at which the velocity's sign is taken.
 const SAMPLES: usize = 2048;
 
-/// A response with its standard deviation, `√E|Ĝ − G|²`.
+/// A complex response with its standard error, `√E|Ĝ − G|²`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {
-    /// Output per input.
+    /// Response: output per input.
     pub value: Complex64,
-    /// Standard deviation, same unit.
+    /// Standard error, in the same unit.
     pub std: f64,
 }
 
-/// Ratio of two phasors with the deviation that theirs give it, taken as independent.
+/// Ratio of two phasors; its standard error follows from theirs, which are assumed to be independent.
 pub fn ratio(output: Phasor, input: Phasor) -> Response {
     let value = output.value / input.value;
     let relative =
@@ -27,9 +27,10 @@ pub fn ratio(output: Phasor, input: Phasor) -> Response {
     Response { value, std: value.norm() * relative.sqrt() }
 }
 
-/// `G(ω) = θ_m/(i − j·4c/π·e^{j∠θ_m})`, with c = CF/K in the command's unit.
+/// Corrects the motor's response for Coulomb friction, `G(ω) = θ_m/(i − j·4c/π·e^{j∠θ_m})`, with c = CF/K in the unit
+/// of the command.
 ///
-/// G in rad (or m) per command; θ_m and i are phasors at ω. The deviation counts that of both
+/// G is in rad (or m) per unit of command; θ_m and i are phasors at ω. The standard error includes those of both
 /// phasors and of c.
 ///
 /// ```
@@ -42,8 +43,8 @@ pub fn ratio(output: Phasor, input: Phasor) -> Response {
 /// ```
 ///
 /// # Source
-/// `[Feliu1989, eq. (30)]`. It takes friction for a square wave in phase with the velocity: where
-/// the joint sticks for a part of the cycle it is wrong by per cents.
+/// `[Feliu1989, eq. (30)]`. It assumes that friction is a square wave in phase with the velocity. If the joint sticks
+/// for part of the cycle, the result is wrong by a few percent.
 pub fn corrected(motor: Phasor, command: Phasor, coulomb_command: Estimate) -> Response {
     let phase = Complex64::from_polar(1.0, motor.value.arg());
     without(Complex64::I * (4.0 / PI) * phase, motor, command, coulomb_command)

@@ -1,4 +1,4 @@
-//! Friction's torque over a cycle, from the replay: what (30) takes for a square wave.
+//! Torque of friction over a cycle, from the replay, in place of the square wave of (30).
 
 use num_complex::Complex64;
 

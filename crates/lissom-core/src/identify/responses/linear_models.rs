@@ -1,4 +1,4 @@
-//! Drive and beam as linear models, for other tools to go on with.
+//! Linear models of drive and beam, for use in other tools.
 
 use num_complex::Complex64;
 
@@ -11,40 +11,40 @@ use crate::lti::{StateSpace, TransferFunction};
 use crate::record::{Axis, Campaign, Tip, TipQuantity};
 use crate::replay::{ModalArm, Parameter};
 
-/// What linear models are made of.
+/// Origin of linear models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ModelSource {
-    /// The arm that stands for the result, from the output error: damping of every kind that it has.
+    /// The identified arm of the output-error method, with all kinds of damping that it has.
     Arm,
-    /// Fits to the responses, or the regressions' figures: damping of the beam is against the frame.
+    /// Fits to the responses, or estimates of the regressions; damping of the beam acts against the fixed frame.
     #[default]
     Responses,
 }
 
-/// A tip's angle, or what it is, per motor angle.
+/// Transfer function from the motor's angle to what a tip measures.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TipModel {
-    /// θ_i/θ_m of an angle and of a calibrated deflection, s² times that of an acceleration. Of a deflection
-    /// of unknown scale the deflection itself, in its unit.
+    /// θ_i/θ_m for an angle or a calibrated deflection; s² times that for an acceleration. For a deflection of unknown
+    /// scale, the deflection itself in its own unit.
     pub function: TransferFunction,
-    /// The tip is read this much later than the motor \[s\], not part of `function`; `None` where that is not
-    /// looked for.
+    /// Delay of the tip's readings relative to the motor's \[s\], not part of `function`;
+    /// `None` if it is not estimated.
     pub delay_s: Option<f64>,
 }
 
-/// Linear models of drive and beam, friction taken out.
+/// Linear models of drive and beam, without dry friction.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LinearModels {
-    /// What they are made of.
+    /// Origin of the models.
     pub source: ModelSource,
-    /// θ_m per command, monic.
+    /// θ_m per unit of command, with a monic denominator.
     pub motor: Option<TransferFunction>,
-    /// By how much the command acts later than it is logged \[s\], not part of `motor`; `None` where no
-    /// delay is called for.
+    /// Delay of the command \[s\], not part of `motor`; `None` if the data do not show one.
     pub motor_delay: Option<Estimate>,
-    /// One for each tip, in their order; empty where there is no model of the beam.
+    /// One model for each tip, in order; empty if there is no model of the beam.
     pub tips: Vec<TipModel>,
-    /// From the command to the motor and each tip whose angle is known; without delays.
+    /// State space model from the command to the angles of the motor and of each tip that
+    /// measures an angle; without delays.
     pub state_space: Option<StateSpace>,
 }
 
@@ -96,13 +96,13 @@ impl LinearModels {
         }
     }
 
-    /// θ_m per logged command at ω, the delay in it.
+    /// θ_m per unit of logged command at ω, with the delay.
     pub fn motor_response(&self, omega_rad_s: f64) -> Option<Complex64> {
         let delay_s = self.motor_delay.map_or(0.0, |d| d.value);
         Some(delayed(self.motor.as_ref()?, delay_s, omega_rad_s))
     }
 
-    /// A tip as it is read per motor angle at ω, its delay in it; `None` without a model of it.
+    /// Reading of a tip per angle of the motor at ω, with its delay; `None` without a model of the tip.
     pub fn tip_response(&self, tip: usize, omega_rad_s: f64) -> Option<Complex64> {
         let tip = self.tips.get(tip)?;
         Some(delayed(&tip.function, tip.delay_s.unwrap_or(0.0), omega_rad_s))

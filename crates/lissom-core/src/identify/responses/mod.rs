@@ -1,4 +1,4 @@
-//! Frequency responses, corrected for friction, and the models that fit them.
+//! Frequency responses, corrected for friction, and rational models that are fitted to them.
 
 pub(crate) mod bands;
 pub(crate) mod correct;

@@ -1,4 +1,4 @@
-//! State space of the identified drive and beam.
+//! State space model of the identified drive and beam.
 
 use nalgebra::DMatrix;
 

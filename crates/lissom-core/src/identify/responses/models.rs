@@ -1,4 +1,4 @@
-//! The models that figures or responses make.
+//! Linear models from estimates or from fitted responses.
 
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::methods::output_error::OutputError;

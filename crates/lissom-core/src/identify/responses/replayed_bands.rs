@@ -1,4 +1,4 @@
-//! Responses in bands from the replay: what the arm shows, and what the log shows beyond it.
+//! Responses in bands from the replay: the response of the arm, and the residual of the log.
 
 use num_complex::Complex64;
 

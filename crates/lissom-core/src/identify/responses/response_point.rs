@@ -1,4 +1,4 @@
-//! One frequency of the campaign's responses.
+//! Responses of a campaign at one frequency.
 
 use std::f64::consts::PI;
 
@@ -6,26 +6,26 @@ use crate::identify::responses::correct::Response;
 use crate::identify::responses::thresholds::POINT_VOUCHED_FOR;
 use crate::identify::thresholds::NORMAL_95;
 
-/// One frequency of the campaign's responses.
+/// Responses of a campaign at one frequency.
 #[derive(Debug, Clone)]
 pub struct ResponsePoint {
     /// Frequency \[rad/s\].
     pub omega_rad_s: f64,
-    /// Index of the sinusoidal run; `None` for a band of broadband records.
+    /// Index of the sinusoidal run; `None` for a band of other runs.
     pub run: Option<usize>,
-    /// θ_m per command as measured: friction and all.
+    /// θ_m per unit of command as measured, including friction.
     pub motor_raw: Response,
-    /// The same with friction taken out; `None` where friction is unknown.
+    /// θ_m per unit of command, corrected for friction; `None` if friction is unknown.
     pub motor_corrected: Option<Response>,
-    /// Response of each tip to the motor's angle, in the tip's own quantity.
+    /// Response of each tip to the motor's angle, in the quantity that the tip measures.
     pub tips: Vec<Option<Response>>,
-    /// Whether a finding speaks against the corrected point.
+    /// Whether a finding speaks against the corrected response.
     pub flagged: bool,
 }
 
 impl ResponsePoint {
-    /// Whether the corrected point is vouched for: nothing speaks against it, and its 95 % interval is
-    /// within 5 % of it.
+    /// Whether the corrected response is vouched for: no finding speaks against it, and its 95 %
+    /// interval is within 5 % of its value.
     pub fn is_vouched_for(&self) -> bool {
         let known = |r: Response| NORMAL_95 * r.std <= POINT_VOUCHED_FOR * r.value.norm();
         !self.flagged && self.motor_corrected.is_some_and(known)

@@ -1,4 +1,4 @@
-//! The frequency responses of a campaign and the rational models of them.
+//! Computes the frequency responses of a campaign and their rational models.
 
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::Finding;

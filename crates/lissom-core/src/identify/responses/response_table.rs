@@ -1,4 +1,4 @@
-//! The campaign's frequency responses: one point a sinusoidal run, bands of all other runs.
+//! Frequency responses of a campaign: one point for each sinusoidal run, and bands from all other runs.
 
 use rayon::prelude::*;
 

@@ -1,4 +1,4 @@
-//! What the logs separate, in words.
+//! The verdict in words: which parameters the logs separate, and which run to add.
 
 use crate::identify::findings::Finding;
 use crate::identify::separability::direction::{Direction, DirectionPart};
@@ -12,11 +12,11 @@ use crate::plan::{PlannedMotion, percent};
 use crate::record::Axis;
 
 impl Separability {
-    /// The verdict, a sentence or two for each thing to know.
+    /// The verdict in words, one or two sentences for each statement.
     pub fn words(&self, axis: Axis) -> Vec<String> {
         let stands_out = self.finding();
         let line = |f: &Finding| format!("Run {}: {f}.", f.run.as_deref().unwrap_or_default());
-        // What is doubted comes before how well it is known.
+        // Doubts about the model come before the standard errors.
         let mut lines: Vec<String> = self.doubted().into_iter().collect();
         lines.extend(stands_out.iter().map(line));
         lines.extend(self.least_known());
@@ -34,7 +34,8 @@ impl Separability {
             let least = self.figures.iter().max_by(|a, b| a.std.total_cmp(&b.std))?;
             let if_so = if self.doubted_by.is_empty() { "" } else { ", if the model is complete" };
             return Some(format!(
-                "Every parameter is known to 1 % or better{if_so}; least well known is {}, to ± {} (± {} with 95 %).",
+                "All parameters are identified to 1 % or better{if_so}. Least certain: {}, standard error {}, 95 % interval \
+                 ±{}.",
                 least.figure.name(),
                 percent(least.std),
                 percent(NORMAL_95 * least.std)
@@ -42,20 +43,20 @@ impl Separability {
         }
         if worst.std.is_infinite() {
             return Some(format!(
-                "The logs cannot separate some of the parameters: with {} they would be the same.",
+                "These logs cannot separate some parameters: {} would not change the motion.",
                 moved(&worst.parts, CHANGE_SHOWN / worst.parts.first()?.weight)
             ));
         }
-        Some(format!("{}{}", told(worst)?, self.best_known()))
+        Some(format!("{}{}", least_certain(worst)?, self.best_known()))
     }
 
-    /// What speaks against the deviations that all of this is by.
+    /// Findings that speak against the standard errors on which the verdict is based.
     fn doubted(&self) -> Option<String> {
         let codes = self.doubted_by.join(", ");
         (!codes.is_empty() && !self.figures.is_empty()).then(|| {
             format!(
-                "The runs contain more than the model has ({codes}): parameters may be off by more than their standard \
-                 errors, and more runs of the same kind do not change that."
+                "The runs contain effects that the model does not have ({codes}): errors of the parameters may be larger than \
+                 their standard errors, and more runs of the same kind do not change this."
             )
         })
     }
@@ -63,19 +64,19 @@ impl Separability {
     fn best_known(&self) -> String {
         let best = self.figures.iter().min_by(|a, b| a.std.total_cmp(&b.std));
         best.filter(|_| self.figures.len() > 1).map_or_else(String::new, |best| {
-            format!(" Best known is {}, to ± {}.", best.figure.name(), percent(best.std))
+            format!(" Most certain: {}, standard error {}.", best.figure.name(), percent(best.std))
         })
     }
 
-    /// What the leading figure would be if the others were known.
+    /// The standard error of the leading parameter if the other parameters were known.
     fn suffering(&self) -> Option<String> {
         let lead = self.directions.first()?.parts.first()?.figure;
         let known = self.figures.iter().find(|f| f.figure == lead)?;
         let FigureKnown { std, alone, .. } = *known;
         (!self.is_sharp() && std.is_finite() && std > CORRELATED * alone).then(|| {
             format!(
-                "If the other parameters were known, {} would be known to ± {}: what is missing is not more signal but a \
-                 motion that separates them.",
+                "If the other parameters were known, the standard error of {} would be {}: the logs do not lack signal, but a \
+                 motion that separates the parameters.",
                 lead.name(),
                 percent(alone)
             )
@@ -83,21 +84,21 @@ impl Separability {
     }
 }
 
-/// A direction that is known badly.
-fn told(worst: &Direction) -> Option<String> {
+/// The direction with the largest standard error.
+fn least_certain(worst: &Direction) -> Option<String> {
     let first = worst.parts.first()?;
     Some(if worst.parts.len() == 1 {
         let std = worst.std * first.weight;
-        format!("Least well known is {}: ± {}.", first.figure.name(), percent(std))
+        format!("Least certain: {}, standard error {}.", first.figure.name(), percent(std))
     } else {
         format!(
-            "Least well known is one combination: {} (one standard error) would hardly change the logs.",
+            "These logs hardly separate some parameters: {} (one standard error) would hardly change the motion.",
             moved(&worst.parts, worst.std)
         )
     })
 }
 
-/// "viscous friction up by 10 % with Coulomb friction down by 0.8 %".
+/// A combined change in words: "viscous friction up by 10 % together with Coulomb friction down by 0.8 %".
 fn moved(parts: &[DirectionPart], length: f64) -> String {
     let part = |p: &DirectionPart| {
         let change = p.weight * length;
@@ -115,7 +116,7 @@ fn moved(parts: &[DirectionPart], length: f64) -> String {
     }
 }
 
-/// What a run alone tells.
+/// Parameters that depend mainly on one run.
 fn carries(run: &RunShare) -> Option<String> {
     let carried: Vec<&Carried> = run.carries().collect();
     let names = |of: &dyn Fn(&Carried) -> bool| {
@@ -126,9 +127,11 @@ fn carries(run: &RunShare) -> Option<String> {
     let alone = names(&|c| c.growth.is_infinite());
     let mostly = names(&|c| c.growth.is_finite());
     let growth = carried.iter().map(|c| c.growth).filter(|g| g.is_finite()).fold(0.0, f64::max);
-    let alone = alone.map(|names| format!("alone gives {names}"));
+    let alone = alone.map(|names| format!("alone determines {names}"));
     let mostly = mostly.map(|names| {
-        format!("carries {names}: without it standard errors grow up to {growth:.1}-fold")
+        format!(
+            "is the main source of {names} (without it standard errors would be up to {growth:.1} times as large)"
+        )
     });
     let all: Vec<String> = alone.into_iter().chain(mostly).collect();
     (!all.is_empty()).then(|| format!("Run {} {}.", run.run, all.join(" and ")))
@@ -149,7 +152,8 @@ fn worth_adding(run: &RunToAdd, axis: Axis) -> String {
         }
     };
     format!(
-        "Worth adding: {motion} with {} {unit} for {:.0} s: {} from ± {} to about ± {}.",
+        "A run worth adding: {motion} with an amplitude of {} {unit} for {:.0} s. The standard error of {} would drop from \
+         {} to about {}.",
         run.amplitude_rad,
         run.record_s,
         run.figure.name(),

@@ -7,7 +7,7 @@ use crate::record::Run;
 /// What may be wrong or missing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CauseKind {
-    /// The command acts later than the figures have it.
+    /// The command acts later than in the result.
     Delay,
     /// Inertia.
     Inertia,
@@ -91,8 +91,8 @@ impl CauseKind {
             Self::Coulomb => "other Coulomb friction",
             Self::Offset => "a constant torque",
             Self::Position => "a torque that grows with position",
-            Self::NearRest => "friction that changes towards rest",
-            Self::Coupling => "a beam that pushes back otherwise",
+            Self::NearRest => "friction that changes near standstill",
+            Self::Coupling => "another stiffness of the beam",
         }
     }
 }

@@ -1,5 +1,5 @@
-//! What the recipe for torque leaves of an arm that is right: its sensors' steps and noise, and what a
-//! window hides.
+//! Residual torque that a correct arm would have: it comes from the steps and noise of its sensors,
+//! and from averaging in windows.
 
 use rand_distr::{Distribution as _, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;

@@ -1,4 +1,4 @@
-//! A window slid over a log: what of a signal, its rates and a held command lies under it.
+//! A window that slides over a log: means of a signal, of its rates and of a held command.
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
 
 use crate::identify::methods::regression::{Weights, Window};

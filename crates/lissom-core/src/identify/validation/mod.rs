@@ -1,4 +1,4 @@
-//! How well an identified arm predicts logs that it was not found from.
+//! Validation: how well an identified arm predicts logs from which it was not identified.
 
 pub(crate) mod cause;
 mod expected;
@@ -10,6 +10,7 @@ pub(super) mod torque;
 pub(super) mod torque_arm;
 mod torque_rows;
 mod validation_findings;
+mod validation_text;
 pub(super) mod zeros;
 
 pub use cause::{Cause, CauseKind};
@@ -32,12 +33,13 @@ use motion_fit::{FollowedLog, followed, lengths_s};
 use moved_mode::moved_mode;
 use residual::channel_residual;
 
-/// What a user may ask for.
+/// Options of a validation.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ValidationOptions {
-    /// Length of the window that torque is averaged with \[s\]; that of the logs used when `None`.
+    /// Length of the window over which torques are averaged \[s\]; if `None`, that of the
+    /// logs the arm was identified from.
     pub window_s: Option<f64>,
-    /// Time to predict motion over from one initial state \[s\]; several when `None`.
+    /// Time over which motion is predicted from one initial state \[s\]; if `None`, several times are tried.
     pub horizon_s: Option<f64>,
 }
 
@@ -45,21 +47,21 @@ pub struct ValidationOptions {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ValidationError {
-    /// The arm is one of other sensors.
-    #[error("the result has {expected} tips, and the log {found}")]
+    /// The result and the log have different numbers of tips.
+    #[error("the result has {expected} tips, but the log has {found}")]
     Tips {
         /// Tips of the result.
         expected: usize,
         /// Tips of the log.
         found: usize,
     },
-    /// More modes than can be replayed.
-    #[error("the result has {found} modes; at most {MOST_MODES} can be followed")]
+    /// The result has more modes than can be simulated.
+    #[error("the result has {found} modes, but at most {MOST_MODES} can be simulated")]
     Modes {
         /// Modes of the result.
         found: usize,
     },
-    /// Numbers of another scale than the log's.
+    /// The arm changes far faster than the sample time of the log.
     #[error(
         "the result's arm changes its state at up to {rate_per_s:.1e} 1/s, thousands of times within a \
          sample of {sample_time_s} s"
@@ -70,40 +72,40 @@ pub enum ValidationError {
         /// Time between two samples \[s\].
         sample_time_s: f64,
     },
-    /// Numbers under which nothing moves as logged.
+    /// The simulated motion grows without bounds.
     #[error(
         "the motion of the result's arm grows without bounds: it cannot be compared with the log"
     )]
     RunsAway,
     /// Neither torque nor motion could be predicted.
-    #[error("the motor never moves for long enough to predict anything")]
+    #[error("the motor never moves long enough for a prediction")]
     NothingMoves,
 }
 
-/// How well a log was predicted.
+/// Result of a validation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Validation {
-    /// Its torque; `None` where the tips do not give the coupling torque or nothing moves.
+    /// Prediction of torque; `None` if the tips do not determine the coupling torque, or if nothing moves.
     pub torque: Option<TorquePrediction>,
-    /// Its motion, over ever shorter times.
+    /// Predictions of motion over successively shorter times.
     pub horizons: Vec<Horizon>,
-    /// Which of these the residuals are of.
+    /// Index of the prediction in `horizons` to which the residuals belong.
     pub chosen: usize,
-    /// The stretches predicted over that time.
+    /// The predicted parts of runs of that prediction.
     pub stretches: Vec<PredictedStretch>,
-    /// What is left of each channel over that time, motor first, then tips.
+    /// Residual of each channel of that prediction, motor first, then tips.
     pub residuals: Vec<ChannelResidual>,
-    /// A mode that stands elsewhere in this log, where a tip's residual is beyond its sensor's noise and that explains half
-    /// of its square or more.
+    /// A mode with another frequency in this log. It is given if the residual of a tip is above the noise of its
+    /// sensor, and the other frequency removes at least half of the squared residual.
     pub moved_mode: Option<MovedMode>,
-    /// What speaks against the figures.
+    /// Findings against the estimates.
     pub findings: Vec<Finding>,
 }
 
-/// Predicts torque and motion of a campaign that `found` was not found from.
+/// Predicts torque and motion of a campaign from which `found` was not identified, and compares them with the logs.
 ///
 /// # Errors
-/// [`ValidationError`] where the arm does not belong to the campaign's channels or nothing moves.
+/// [`ValidationError`] if the arm does not fit the campaign's channels, if it cannot be simulated, or if nothing moves.
 pub fn validate(
     found: &FoundArm,
     campaign: &Campaign,

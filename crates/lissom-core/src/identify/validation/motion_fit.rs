@@ -1,4 +1,4 @@
-//! Simulation: the logged command through the arm, beside the logged motion.
+//! Simulation under the logged command, compared with the logged motion.
 
 use crate::identify::methods::output_error::{Masks, follow, masks};
 use crate::record::{Campaign, Run};
@@ -11,36 +11,36 @@ const MOST: usize = 5;
 /// Horizons are 1 or 3 times a power of ten: this close to a run's length they say nothing more.
 const APART: f64 = 1.5;
 
-/// The motion predicted over one length of time.
+/// Prediction of motion over one length of time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Horizon {
-    /// Longest stretch predicted from one initial state \[s\].
+    /// Longest time that is predicted from one initial state \[s\].
     pub length_s: f64,
-    /// Whether runs were predicted from end to end.
+    /// Whether runs are predicted from beginning to end.
     pub whole_runs: bool,
-    /// Stretches predicted.
+    /// Number of predicted parts of runs.
     pub windows: usize,
-    /// Motor, then tips.
+    /// Result of each channel: motor, then tips.
     pub channels: Vec<ChannelFit>,
 }
 
-/// How near a channel's prediction is, over readings within its sensor's range.
+/// Accuracy of a channel's prediction, over the readings within the range of its sensor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChannelFit {
-    /// Root mean square of logged minus predicted, in the channel's unit.
+    /// Root mean square of logged minus predicted values, in the unit of the channel.
     pub residual_rms: f64,
-    /// `100·(1 − ‖y − ŷ‖/‖y − ȳ‖)`, ȳ the mean of each run \[%\].
+    /// Fit `100·(1 − ‖y − ŷ‖/‖y − ȳ‖)`, with the mean ȳ of each run \[%\].
     pub fit_percent: f64,
 }
 
-/// A stretch predicted from one initial state.
+/// A part of a run, predicted from one initial state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PredictedStretch {
     /// Index of the run.
     pub run: usize,
-    /// Its first sample.
+    /// Index of its first sample.
     pub first: usize,
-    /// Motor, then tips: one value a sample.
+    /// Predicted readings of motor and then tips, one per sample.
     pub channels: Vec<Vec<f64>>,
 }
 

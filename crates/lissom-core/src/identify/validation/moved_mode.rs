@@ -1,4 +1,5 @@
-//! Whether a mode of the log stands elsewhere: one frequency is moved at a time, and what is left decides.
+//! Tests whether a mode has another frequency in the log: one frequency is changed at a time,
+//! and the residuals are compared.
 
 use crate::identify::found_arm::FoundArm;
 use crate::identify::methods::output_error::{Masks, masks};
@@ -16,27 +17,28 @@ const STEPS: usize = 4;
 /// …or until less than this share of the squared residual goes by it.
 const STILL: f64 = 0.01;
 
-/// What else changes with a mode's frequency.
+/// What changes together with the frequency of a mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MovedBy {
-    /// Nothing: another load, the mode's stiffness as it is.
+    /// Only the frequency: another load; the stiffness of the mode is unchanged.
     Load,
-    /// The mode's stiffness, with its square: a stiffer or softer beam.
+    /// The stiffness of the mode, in proportion to the square of its frequency: a stiffer or softer beam.
     Stiffness,
 }
 
-/// A mode at another frequency, with which the log's motion is described far better.
+/// A mode that has another frequency in the log.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MovedMode {
-    /// Which, from 0.
+    /// Index of the mode, from 0.
     pub mode: usize,
-    /// Whether by another load or by another beam.
+    /// What changes with the frequency: another load, or another stiffness of the beam.
     pub by: MovedBy,
-    /// Its frequency in the result \[rad/s\].
+    /// Frequency in the result \[rad/s\].
     pub omega_rad_s: f64,
-    /// The one that the log looks like \[rad/s\].
+    /// Frequency that describes the log \[rad/s\].
     pub of_log_rad_s: f64,
-    /// Squared residual of all channels beside that of the result's arm, each channel's in units of its own residual.
+    /// Squared residual with this frequency divided by that of the result's arm \[1\]; each channel is weighted with
+    /// its own residual.
     pub residual_ratio: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Whether a residual is white, and whether the command is still in it.
+//! Tests whether a residual is white, and whether it is correlated with the command.
 
 use statrs::distribution::{ChiSquared, ContinuousCDF as _};
 
@@ -16,7 +16,7 @@ const COLOUR: usize = 500;
 /// …and as a share of a stretch.
 const COLOUR_SHARE: usize = 4;
 
-/// What is left of one channel, tested.
+/// Residual of one channel, and its tests.
 ///
 /// ```text
 /// r_k = Σ e_t·e_{t+k}/Σ e_t²                       band ±1.96/√N
@@ -24,45 +24,47 @@ const COLOUR_SHARE: usize = 4;
 /// c_k = Σ e_{t+k}·u_t/√(Σe²·Σu²)                   band ±1.96·√(Σ_j r_j·ρ_j/N), ρ of the command
 /// ```
 ///
+/// e is the residual, u the command, N the number of samples and ρ_j the autocorrelation of the command.
+///
 /// # Source
 /// `[LjungBox1978]` for Q; `[Ljung1999, Section 16.6]` for both tests and the band of c_k.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChannelResidual {
-    /// Samples tested.
+    /// Number of samples N.
     pub samples: usize,
-    /// Root mean square of the residual, in the channel's unit.
+    /// Root mean square of the residual, in the unit of the channel.
     pub rms: f64,
-    /// Step of the sensor; 0 where its samples show none.
+    /// Step of the sensor, in the unit of the channel; 0 if its samples show none.
     pub sensor_step: f64,
-    /// What the sensor adds by itself, its step/√12 at least.
+    /// Noise of the sensor itself, in the unit of the channel; at least its step divided by √12.
     pub sensor_noise: f64,
-    /// r_0 to r_25.
+    /// Autocorrelation r_0 to r_25.
     pub autocorrelation: Vec<f64>,
-    /// Half the width of its 95 % band.
+    /// Half width of its 95 % band.
     pub autocorrelation_band: f64,
-    /// Q.
+    /// Ljung-Box statistic Q.
     pub ljung_box: f64,
-    /// Probability of as large a Q of white noise.
+    /// Probability that white noise gives a Q at least as large.
     pub white_probability: f64,
-    /// c_−25 to c_25; at positive lags the residual comes after the command.
+    /// Cross-correlation c_−25 to c_25 with the command; at positive lags the residual comes after the command.
     pub cross_correlation: Vec<f64>,
-    /// Half the width of its 95 % band.
+    /// Half width of its 95 % band.
     pub cross_correlation_band: f64,
 }
 
 impl ChannelResidual {
-    /// The lags of the cross-correlation.
+    /// Lags of the cross-correlation, in samples.
     pub fn lags(&self) -> Vec<isize> {
         let half = (self.cross_correlation.len() / 2).cast_signed();
         (-half..=half).collect()
     }
 
-    /// Whether more is left than the sensor makes by itself, by half.
+    /// Whether the residual exceeds the noise of the sensor by more than half.
     pub fn is_beyond_noise(&self) -> bool {
         self.rms >= AT_SENSOR_NOISE * self.sensor_noise
     }
 
-    /// Share of the cross-correlation's lags beyond its band.
+    /// Share of the lags at which the cross-correlation is outside its band \[1\].
     pub fn outside(&self) -> f64 {
         let beyond = |c: &&f64| c.abs() > self.cross_correlation_band;
         self.cross_correlation.iter().filter(beyond).count() as f64

@@ -1,5 +1,4 @@
-//! Inverse dynamics: the torque that an arm's figures give for a logged motion, beside the torque
-//! logged.
+//! Inverse dynamics: the torque that an arm's parameters give for a logged motion, compared with the logged torque.
 
 use rayon::prelude::*;
 
@@ -11,30 +10,30 @@ use crate::identify::validation::torque_rows::{
 };
 use crate::record::Campaign;
 
-/// The torque of a log as the figures give it.
+/// Prediction of the torque of a log.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TorquePrediction {
-    /// Length of the window that both sides are averaged with \[s\].
+    /// Length of the window over which both torques are averaged \[s\].
     pub window_s: f64,
-    /// Frequency at which it leaves half the power \[Hz\].
+    /// Frequency at which the window halves the power \[Hz\].
     pub half_power_hz: f64,
-    /// ‖logged − predicted‖/‖logged‖ over all rows that count.
+    /// Relative error ‖logged − predicted‖/‖logged‖ over all windows that count \[1\].
     pub relative_error: f64,
-    /// The same while the motor moves forward, and backward; `None` where it does not.
+    /// The same while the motor moves forward, and backward; `None` if it does not move in that direction.
     pub by_direction: [Option<f64>; 2],
     /// Root mean square of the logged torque \[N·m\].
     pub logged_nm: f64,
-    /// What is left by the same recipe of the arm's own motion, shown by the same sensors: `relative_error`
-    /// of an arm that is right. `None` where its motion could not be followed for long enough.
+    /// Relative error that a correct arm would have with the same sensors, found by applying the same computation to a
+    /// simulated motion \[1\]. `None` if the motion could not be simulated for long enough.
     pub expected_error: Option<f64>,
-    /// Share of the rows that do not count: the motor rests, and what friction is then no figure says,
-    /// or a sensor stands at the end of its range, or a command or tip that acts later is not logged.
+    /// Share of the windows that do not count \[1\]: the motor rests, so that friction is not determined; a sensor is
+    /// at the end of its range; or a command or a tip that acts later is not logged.
     pub rest_share: f64,
-    /// One for each run.
+    /// Torque of each run over time.
     pub runs: Vec<TorqueRun>,
-    /// Each stretch of one direction that is long enough, errors relative to the whole log's torque.
+    /// Error of each part of a run in which the motor moves in one direction, relative to the torque of the whole log.
     pub stretches: Vec<TorqueStretch>,
-    /// What the residual looks like, the largest share first.
+    /// Likely causes of the residual, the largest share first.
     pub causes: Vec<Cause>,
 }
 
@@ -50,33 +49,33 @@ impl TorquePrediction {
     }
 }
 
-/// The torque of one run over time, one row a sample (or one in so many of a long run).
+/// Torque of one run over time, one row per sample (or per several samples of a long run).
 #[derive(Debug, Clone, PartialEq)]
 pub struct TorqueRun {
     /// Index of the run.
     pub run: usize,
-    /// ‖logged − predicted‖/‖logged‖ of this run; `None` where no row counts.
+    /// Relative error ‖logged − predicted‖/‖logged‖ of this run \[1\]; `None` if no window counts.
     pub relative_error: Option<f64>,
-    /// Middle of each window, from the run's first sample \[s\].
+    /// Middle of each window, since the first sample of the run \[s\].
     pub time_s: Vec<f64>,
-    /// Logged torque under it \[N·m\].
+    /// Logged torque, averaged over the window \[N·m\].
     pub logged_nm: Vec<f64>,
-    /// Predicted torque \[N·m\]; not a number where a row does not count.
+    /// Predicted torque, averaged over the window \[N·m\]; NaN if the window does not count.
     pub predicted_nm: Vec<f64>,
 }
 
-/// A stretch in which the motor moves one way.
+/// A part of a run in which the motor moves in one direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TorqueStretch {
     /// Index of the run.
     pub run: usize,
-    /// Begin, from the run's first sample \[s\].
+    /// Start, since the first sample of the run \[s\].
     pub start_s: f64,
-    /// End \[s\].
+    /// End, since the first sample of the run \[s\].
     pub end_s: f64,
     /// Whether the motor moves forward.
     pub forward: bool,
-    /// Residual beside the logged torque of the whole log.
+    /// Residual relative to the logged torque of the whole log \[1\].
     pub relative_error: f64,
 }
 

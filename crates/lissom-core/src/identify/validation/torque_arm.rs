@@ -1,4 +1,4 @@
-//! What of an arm predicts torque.
+//! The parts of an arm that predict torque.
 
 use crate::replay::ModalArm;
 

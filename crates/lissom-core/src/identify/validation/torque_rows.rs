@@ -1,4 +1,4 @@
-//! The windows of a motion, each with the torque that an arm's figures give and the torque logged.
+//! The windows of a motion, each with the torque that an arm's parameters give and the logged torque.
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
 
 use std::borrow::Cow;

@@ -1,4 +1,4 @@
-//! What tips show undeflected, by the log alone.
+//! Readings of tips without deflection, from the log alone.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Whether samples were taken when they were stamped, or evenly: what the angle says.
+//! Decides from the angle whether samples were taken at their time stamps or evenly.
 
 use super::lagrange::left_out;
 use super::thresholds::CLOCK_AGREES;

@@ -1,4 +1,4 @@
-//! How well samples between others are predicted, from samples that are left out.
+//! How precisely samples are predicted from their neighbours, measured on samples that are left out.
 
 use super::lagrange::left_out;
 

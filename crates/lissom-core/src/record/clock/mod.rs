@@ -1,19 +1,18 @@
-//! When the samples of a log were taken.
+//! Determines when the samples of a log were taken.
 //!
-//! Logs come with many clocks: even ones, and stamps that a computer put on late; rows that are lost, repeated, or
-//! taken when a loop had time; clocks that start again, and sample times that change. [`even_parts`] makes runs with
-//! even samples of them. Steps, in this order:
+//! Time stamps of logs come from many kinds of clocks: some are even, others were written late by a computer; rows are
+//! lost, repeated, or written when a control loop had time; a clock starts again, or the sample time changes.
+//! [`even_parts`] converts any log to runs with even samples, in these steps:
 //!
-//! 1. Time goes back: where the motion goes on, the clock is continued; where it does not, the log is cut.
-//! 2. Readings that are repeated, since a device was polled faster than it measured, are removed.
-//! 3. Long stretches with sample times of their own become runs of their own.
-//! 4. Even stamps are used as they are. Single lost rows are filled in by interpolation, and the log is cut at longer
-//!    gaps.
-//! 5. With uneven stamps, each angle is predicted from its neighbours twice: at the times of the stamps and at even
-//!    times. The clock with the smaller errors is used. If it is that of the stamps, all channels are interpolated at
-//!    even times.
+//! 1. If time goes back and the motion is continuous, the clock is continued. If the motion jumps, the log is cut.
+//! 2. Readings that were logged repeatedly, because a device was polled faster than it measures, are removed.
+//! 3. Long stretches with different sample times become separate runs.
+//! 4. Even stamps are used as they are. Single lost rows are filled in by interpolation. At longer gaps the log is cut.
+//! 5. If stamps are uneven, each angle is predicted from its neighbours twice: at the times of the stamps and at even
+//!    times. The clock with the smaller errors is used. If this is the clock of the stamps, all channels are
+//!    interpolated at even times.
 //!
-//! Each step takes a time in proportion to the number of rows.
+//! The cost of each step grows in proportion to the number of rows.
 
 mod agreement;
 mod interpolation_error;
@@ -40,45 +39,45 @@ use tally::Tally;
 
 use super::{Note, TimeBase};
 
-/// A log as runs with even samples.
+/// A log as parts with even samples.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvenLog {
-    /// Its parts that are long enough, in order.
+    /// Parts that are long enough, in order.
     pub parts: Vec<EvenPart>,
-    /// Places at which it was cut.
+    /// Number of places at which the log was cut.
     pub cuts: usize,
-    /// Samples of the longest part, used or not.
+    /// Number of samples of the longest part, including parts that are too short to be used.
     pub longest: usize,
 }
 
-/// Why a log has no clock.
+/// Error of [`even_parts`].
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ClockError {
-    /// A stamp that does not increase, and no restart of the clock.
+    /// A time stamp does not increase, and it is not a restart of the clock.
     #[error("time does not increase at row {row}")]
     NotIncreasing {
         /// The row, from 0.
         row: usize,
     },
-    /// Fewer than two rows are left.
-    #[error("{left} rows are left of {length_s} s")]
+    /// Fewer than two rows remain.
+    #[error("only {left} rows remain of a log of {length_s} s")]
     NothingLeft {
-        /// Rows left.
+        /// Remaining rows.
         left: usize,
         /// Length of the log \[s\].
         length_s: f64,
     },
 }
 
-/// Makes runs with even samples of the rows of a log.
+/// Converts the rows of a log to parts with even samples.
 ///
-/// The first `skip_s` seconds are left out. Where the log is cut, parts of fewer than `least` samples are left out. All
-/// channels must have one length.
+/// The first `skip_s` seconds are left out. If the log is cut, parts with fewer than `least` samples are left out. All
+/// channels must have the same length.
 ///
 /// # Errors
-/// [`ClockError::NotIncreasing`] where time stands still, goes back a little, or rows are out of order;
-/// [`ClockError::NothingLeft`] if fewer than two rows are left.
+/// [`ClockError::NotIncreasing`] if time stands still, goes back a little, or rows are out of order;
+/// [`ClockError::NothingLeft`] if fewer than two rows remain.
 pub fn even_parts(mut log: LogRows, skip_s: f64, least: usize) -> Result<EvenLog, ClockError> {
     let mut tally = Tally::default();
     let restarts = restarts::join(&mut log.stamps_s, &log.motor)

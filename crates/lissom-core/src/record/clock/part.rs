@@ -8,34 +8,34 @@ use crate::record::{Hold, Note, TimeBase};
 /// The channels of a log, row by row.
 #[derive(Debug, Clone)]
 pub struct LogRows {
-    /// Time stamps \[s\] as they are in the log; where it has none, multiples of `sample_time_s`.
+    /// Time stamps as in the log \[s\]; for a log without stamps, multiples of `sample_time_s`.
     pub stamps_s: Vec<f64>,
     /// The sample time \[s\] of a log without stamps.
     pub sample_time_s: Option<f64>,
-    /// Step of the stamps' last decimal \[s\]; 0 where it is unknown.
+    /// Resolution of the stamps: the step of their last decimal \[s\]; 0 if it is unknown.
     pub stamp_step_s: f64,
-    /// The command.
+    /// The command, in its own unit.
     pub command: Vec<f64>,
-    /// Held or measured.
+    /// How the command acts between samples.
     pub hold: Hold,
     /// Motor angle \[rad\] or position \[m\].
     pub motor: Vec<f64>,
-    /// Tip channels.
+    /// Tip channels, each as long as the motor's.
     pub tips: Vec<Vec<f64>>,
 }
 
 /// A part of a log with even samples.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvenPart {
-    /// When the samples were taken.
+    /// Start and sample time, and how far the stamps were from even.
     pub time: TimeBase,
-    /// The command.
+    /// The command, in its own unit.
     pub command: Vec<f64>,
     /// Motor angle \[rad\] or position \[m\].
     pub motor: Vec<f64>,
-    /// Tip channels.
+    /// Tip channels, each as long as the motor's.
     pub tips: Vec<Vec<f64>>,
-    /// What was done to the log; all of it with the first part.
+    /// What was done to the log. The first part has the notes of the whole log.
     pub notes: Vec<Note>,
 }
 

@@ -1,4 +1,4 @@
-//! Logs whose sample time changes on the way.
+//! Logs whose sample time changes part-way.
 
 use super::thresholds::{MOST_RATES, RATE_CHANGES, RATE_STRETCH};
 use super::time_grid::median;

@@ -1,4 +1,4 @@
-//! The derivative of a sampled error, filtered or not.
+//! Derivative of a sampled error, with or without a filter.
 
 /// `gain·(e_k − e_{k−1})/T`, through a first-order filter where there is one; zero at the first
 /// sample.

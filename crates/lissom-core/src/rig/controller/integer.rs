@@ -1,20 +1,20 @@
-//! PD in the short integers of the report's control computer.
+//! PD control in the short integers of the control computer of the 1989 report.
 
 use super::{Controller, Pd, Sensed};
 use crate::rig::error::positive;
 use crate::rig::{Quantiser, RigError};
 
-/// Length of the integers in which products are kept.
+/// Length of the integers that hold products.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Word {
-    /// 16 bits: "short integer".
+    /// 16 bits; "short integer" in the 1989 report.
     Short,
-    /// 32 bits: "integer".
+    /// 32 bits; "integer" in the 1989 report.
     Long,
 }
 
 impl Word {
-    /// Bits.
+    /// Number of bits.
     pub fn bits(self) -> u32 {
         match self {
             Self::Short => 16,
@@ -32,22 +32,21 @@ impl Word {
     }
 }
 
-/// [`Pd`] as an integer computer does it.
+/// [`Pd`] control in integer arithmetic.
 ///
-/// With counts of the A/D converter for angles, of the D/A converter for currents, gains
-/// `P`, `D` that are integers with b bits behind the binary point, and `sat` the saturation of a
-/// word:
+/// Angles are counts of the A/D converter, currents counts of the D/A converter. The gains `P` and `D` are integers
+/// with b bits after the binary point, and `sat` saturates at the range of a word:
 ///
 /// ```text
 /// e_k = sat(r_k − y_k)       d_k = sat(e_k − e_{k−1})
 /// u_k = sat(sat(P·e_k) + sat(D·d_k)) >> b        i_k = u_k counts of the D/A, within its range
 /// ```
 ///
-/// The shift is the arithmetic one of the MC 68000: it cuts off towards −∞.
+/// The shift is the arithmetic shift of the MC 68000: it rounds towards −∞.
 ///
 /// # Source
-/// `[Feliu1989, Section 6.1]`: "real-time computations were done in integer or short integer mode".
-/// The source says no more; saturation in place of wrapping is what such code is written with.
+/// `[Feliu1989, Section 6.1]`: "real-time computations were done in integer or short integer mode". The source gives no
+/// details. Saturation instead of overflow is usual in such code.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IntegerPd {
     input: Quantiser,
@@ -61,15 +60,15 @@ pub struct IntegerPd {
 }
 
 impl IntegerPd {
-    /// The integers nearest to the gains of a [`Pd`] that acts every `period_s`, its filter left
-    /// out.
+    /// Rounds the gains of a [`Pd`] that acts every `period_s` \[s\] to integers. A
+    /// filter of the derivative is ignored.
     ///
-    /// `input` is the A/D converter of the motor's angle \[rad\], `output` the D/A converter \[A\].
-    /// `P = k_p·s·2^b`, `D = k_d/T·s·2^b` with `s` the input's step over the output's.
+    /// `input` is the A/D converter of the motor's angle \[rad\], `output` the D/A converter \[A\]. The gains are
+    /// `P = k_p·s·2^b` and `D = k_d/T·s·2^b`, with s the step of the input over the step of the output.
     ///
     /// # Errors
-    /// [`RigError::NotPositive`] for the period, [`RigError::BinaryPoint`] for more bits than a
-    /// word has, [`RigError::Gain`] where a gain does not fit into the word.
+    /// [`RigError::NotPositive`] for the period; [`RigError::BinaryPoint`] for more bits after the binary point than a
+    /// word has; [`RigError::Gain`] if a gain does not fit into the word.
     pub fn new(
         pd: &Pd,
         period_s: f64,
@@ -103,12 +102,12 @@ impl IntegerPd {
         })
     }
 
-    /// P and D, in D/A counts per A/D count and `2^−b`.
+    /// P and D, in D/A counts per A/D count times `2^b`.
     pub fn gains(&self) -> (i64, i64) {
         (self.proportional, self.derivative)
     }
 
-    /// The D/A count for counts of reference and motor.
+    /// Computes the D/A count from the counts of reference and motor.
     pub fn output_count(&mut self, reference: i64, motor: i64) -> i64 {
         let sat = |value: i64| self.word.saturated(value);
         // Counts of 64 bits may be anything; a difference of two words cannot overflow.

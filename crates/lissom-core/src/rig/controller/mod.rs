@@ -1,4 +1,4 @@
-//! Controllers of the motor's angle, and what a user's own has to do.
+//! Controllers of the motor's angle, and the trait for controllers of your own.
 
 mod derivative;
 mod integer;
@@ -13,25 +13,25 @@ pub use pd::Pd;
 pub use pid::Pid;
 pub use proportional::Proportional;
 
-/// What a controller gets to know at an instant.
+/// What a controller can read at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensed<'a> {
-    /// Time on the reference's clock \[s\]. While the loop waits at the first value of a reference
-    /// that is not periodic, time since it began to.
+    /// Time on the clock of the reference \[s\]. While the loop waits at the first value of a reference that is not
+    /// periodic, time since the wait began.
     pub time_s: f64,
     /// Time from one action of the controller to the next \[s\].
     pub period_s: f64,
-    /// Where the motor should be \[rad\].
+    /// Desired angle of the motor \[rad\].
     pub reference_rad: f64,
-    /// Where its sensor says that it is \[rad\].
+    /// Angle of the motor as its sensor reads it \[rad\].
     pub motor_rad: f64,
-    /// What the sensors of the masses' angles say, from base to tip \[rad\].
+    /// Angles of the masses as their sensors read them, from base to tip \[rad\].
     pub tips_rad: &'a [f64],
-    /// Largest current that the amplifier gives \[A\]; infinite where it has no limit.
+    /// Largest current of the amplifier \[A\]; infinite if it has no limit.
     pub limit_a: f64,
 }
 
-/// A sampled controller: from angles to a demand of current.
+/// A sampled controller: it computes a current from angles.
 ///
 /// ```
 /// # use lissom::rig::{Controller, Sensed};
@@ -44,30 +44,30 @@ pub struct Sensed<'a> {
 /// }
 /// ```
 pub trait Controller {
-    /// The demand of current \[A\]; the amplifier limits it. NaN and infinity end the run.
+    /// Current that the controller asks for \[A\]; the amplifier limits it. NaN and infinity end the run with an error.
     fn current_a(&mut self, now: &Sensed<'_>) -> f64;
 
-    /// Forgets all that came before: a run begins.
+    /// Resets the internal state; called before a run begins.
     fn reset(&mut self);
 
-    /// The slowest time constant that the controller brings into the loop \[s\]. It helps to judge
-    /// when a transient has gone; zero, the default, leaves that to the arm's own decays.
+    /// Slowest time constant of the controller \[s\]. It helps to decide when a transient has decayed. Zero, the
+    /// default, means that the decay rates of the arm decide alone.
     fn memory_s(&self) -> f64 {
         0.0
     }
 }
 
-/// The controllers that come with the rig.
+/// Controllers that are part of the rig.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum ControlLaw {
-    /// P.
+    /// P control.
     Proportional(Proportional),
-    /// PD, as in the report.
+    /// PD control, as in the 1989 report.
     Pd(Pd),
-    /// PID.
+    /// PID control.
     Pid(Pid),
-    /// PD in the integers of the report's computer.
+    /// PD control in the integers of the control computer of the 1989 report.
     IntegerPd(IntegerPd),
 }
 

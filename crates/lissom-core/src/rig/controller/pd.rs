@@ -1,11 +1,12 @@
-//! Proportional-plus-derivative position loop.
+//! PD control of the motor's angle.
 
 use super::derivative::Derivative;
 use super::{Controller, Sensed};
 use crate::rig::RigError;
 use crate::rig::error::not_negative;
 
-/// `i = k_p·e_k + k_d·(e_k − e_{k−1})/T`, e the reference less the sensed motor angle.
+/// PD control, `i = k_p·e_k + k_d·(e_k − e_{k−1})/T`, with the error e = reference − sensed motor angle \[rad\] and the
+/// time T between two actions \[s\].
 ///
 /// ```
 /// # use lissom::rig::{Controller, Pd, Sensed};
@@ -17,7 +18,7 @@ use crate::rig::error::not_negative;
 /// ```
 ///
 /// # Source
-/// `[Feliu1989, Section 5.1]`. The report prints no gains; the filter is not in it.
+/// `[Feliu1989, Section 5.1]`. The 1989 report prints no gains, and its controller has no filter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pd {
     proportional_a_per_rad: f64,
@@ -26,10 +27,10 @@ pub struct Pd {
 }
 
 impl Pd {
-    /// Gains k_p \[A/rad\] and k_d \[A·s/rad\].
+    /// Builds the controller from its gains k_p \[A/rad\] and k_d \[A·s/rad\].
     ///
     /// # Errors
-    /// [`RigError::Negative`].
+    /// [`RigError::Negative`] if a gain is negative or not finite.
     pub fn new(proportional_a_per_rad: f64, derivative_a_s_per_rad: f64) -> Result<Self, RigError> {
         Ok(Self {
             proportional_a_per_rad: not_negative("proportional_a_per_rad", proportional_a_per_rad)?,
@@ -38,25 +39,25 @@ impl Pd {
         })
     }
 
-    /// Puts a first-order filter of time constant τ \[s\] behind the derivative:
+    /// Adds a first-order filter with the time constant τ \[s\] to the derivative:
     /// `d_k = (τ·d_{k−1} + k_d·(e_k − e_{k−1}))/(τ + T)`.
     ///
     /// # Errors
-    /// [`RigError::Negative`].
+    /// [`RigError::Negative`] if the time constant is negative or not finite.
     pub fn with_filter(mut self, filter_s: f64) -> Result<Self, RigError> {
         self.derivative = Derivative::filtered(not_negative("filter_s", filter_s)?);
         Ok(self)
     }
 
-    /// k_p \[A/rad\].
+    /// Proportional gain k_p \[A/rad\].
     pub fn proportional_a_per_rad(&self) -> f64 {
         self.proportional_a_per_rad
     }
-    /// k_d \[A·s/rad\].
+    /// Derivative gain k_d \[A·s/rad\].
     pub fn derivative_a_s_per_rad(&self) -> f64 {
         self.derivative_a_s_per_rad
     }
-    /// τ \[s\].
+    /// Time constant τ of the filter of the derivative \[s\], if there is a filter.
     pub fn filter_s(&self) -> Option<f64> {
         self.derivative.filter_s
     }

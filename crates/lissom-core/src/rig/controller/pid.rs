@@ -1,14 +1,15 @@
-//! Proportional-plus-integral-plus-derivative position loop.
+//! PID control of the motor's angle.
 
 use super::derivative::Derivative;
 use super::{Controller, Pd, Sensed};
 use crate::rig::RigError;
 use crate::rig::error::not_negative;
 
-/// `i = k_p·e_k + I_k + k_d·(e_k − e_{k−1})/T`, `I_k = I_{k−1} + k_i·T·e_k`.
+/// PID control, `i = k_p·e_k + I_k + k_d·(e_k − e_{k−1})/T` with `I_k = I_{k−1} + k_i·T·e_k`, the error e = reference −
+/// sensed motor angle \[rad\] and the time T between two actions \[s\].
 ///
-/// Against windup the integral stands still at instants where the demand is beyond the amplifier's
-/// limit and the error would drive it further out (conditional integration).
+/// Anti-windup by conditional integration: the integral stays constant while the current asked for exceeds the limit of
+/// the amplifier and the error would increase it further.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pid {
     pd: Pd,
@@ -18,10 +19,10 @@ pub struct Pid {
 }
 
 impl Pid {
-    /// A [`Pd`] with its filter, if it has one, and an integral gain k_i \[A/(rad·s)\].
+    /// Adds an integral gain k_i \[A/(rad·s)\] to a [`Pd`], whose filter is kept.
     ///
     /// # Errors
-    /// [`RigError::Negative`].
+    /// [`RigError::Negative`] if the gain is negative or not finite.
     pub fn new(pd: Pd, integral_a_per_rad_s: f64) -> Result<Self, RigError> {
         Ok(Self {
             pd,
@@ -31,7 +32,7 @@ impl Pid {
         })
     }
 
-    /// The integral I \[A\].
+    /// Present value of the integral I \[A\].
     pub fn integral_a(&self) -> f64 {
         self.integral_a
     }

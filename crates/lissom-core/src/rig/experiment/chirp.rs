@@ -1,21 +1,21 @@
-//! A sine whose frequency moves.
+//! A sine whose frequency changes.
 
 use crate::rig::RigError;
 use crate::rig::error::positive;
 
-/// How the frequency of a [`Chirp`] moves.
+/// How the frequency of a [`Chirp`] changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sweep {
-    /// By the same difference each second.
+    /// Linearly in time.
     Linear,
-    /// By the same factor each second.
+    /// Exponentially in time: by the same factor each second.
     Logarithmic,
 }
 
-/// `A·sin φ(t)` with `dφ/dt` from ω_a to ω_b within D; ω_b from then on.
+/// A chirp, `A·sin φ(t)`: the frequency dφ/dt goes from ω_a to ω_b \[rad/s\] within the duration
+/// D \[s\] and then stays at ω_b.
 ///
-/// Linear: `φ = ω_a·t + (ω_b − ω_a)·t²/(2·D)`. Logarithmic, `r = ω_b/ω_a`:
-/// `φ = ω_a·D/ln r·(r^(t/D) − 1)`.
+/// Linear: `φ = ω_a·t + (ω_b − ω_a)·t²/(2·D)`. Logarithmic, with `r = ω_b/ω_a`: `φ = ω_a·D/ln r·(r^(t/D) − 1)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Chirp {
     sweep: Sweep,
@@ -26,11 +26,11 @@ pub struct Chirp {
 }
 
 impl Chirp {
-    /// Frequencies ω_a and ω_b \[rad/s\] (either may be the higher), amplitude \[rad or A\],
-    /// duration D \[s\].
+    /// Builds a chirp from the frequencies ω_a and ω_b \[rad/s\] (either may be the higher), the amplitude \[rad or A\]
+    /// and the duration D \[s\].
     ///
     /// # Errors
-    /// [`RigError::NotPositive`].
+    /// [`RigError::NotPositive`] if one of them is not positive and finite.
     pub fn new(
         sweep: Sweep,
         (from_rad_s, to_rad_s): (f64, f64),
@@ -46,22 +46,22 @@ impl Chirp {
         })
     }
 
-    /// A.
+    /// Amplitude A \[rad or A\].
     pub fn amplitude(&self) -> f64 {
         self.amplitude
     }
 
-    /// How the frequency moves.
+    /// How the frequency changes.
     pub fn sweep(&self) -> Sweep {
         self.sweep
     }
 
-    /// ω_a and ω_b \[rad/s\].
+    /// First and last frequency, ω_a and ω_b \[rad/s\].
     pub fn ends_rad_s(&self) -> (f64, f64) {
         (self.from_rad_s, self.to_rad_s)
     }
 
-    /// D \[s\].
+    /// Duration D \[s\].
     pub fn duration_s(&self) -> f64 {
         self.duration_s
     }
@@ -87,7 +87,7 @@ impl Chirp {
         swept + b * (time_s - t)
     }
 
-    /// Value at a time \[s\].
+    /// Value at a time \[s\], in rad or A.
     pub fn value(&self, time_s: f64) -> f64 {
         self.amplitude * self.phase_rad(time_s).sin()
     }

@@ -1,4 +1,4 @@
-//! Experiments: what the rig is asked to do, from where, and what is logged.
+//! Experiments: the reference, the initial state, the settling and the duration of a log.
 
 mod chirp;
 mod multisine;
@@ -18,17 +18,17 @@ use super::RigError;
 use super::error::{finite, not_negative, positive};
 use crate::arm::Arm;
 
-/// What drives the arm.
+/// The input that drives the arm.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Drive {
-    /// The loop, with a reference for the motor's angle \[rad\].
+    /// The control loop, with a reference for the motor's angle \[rad\].
     Angle(Reference),
-    /// The open drive: a current \[A\]. There is no controller.
+    /// The open drive, with a current \[A\]. There is no controller.
     Current(Reference),
 }
 
 impl Drive {
-    /// The signal.
+    /// The signal of the reference.
     pub fn reference(&self) -> &Reference {
         match self {
             Self::Angle(reference) | Self::Current(reference) => reference,
@@ -36,13 +36,13 @@ impl Drive {
     }
 }
 
-/// Where the arm is when the experiment starts.
+/// State of the arm when the experiment starts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Start {
     /// At rest, straight, at angle zero.
     Rest,
-    /// Let go at rest, the motor at angle zero and the tip pushed aside by a force F_n \[N\]:
-    /// `q − θ_m = −E⁻¹·f·F_n` of [`BeamDynamics`](crate::beam::BeamDynamics).
+    /// At rest, with the motor at angle zero and the tip deflected by a force F_n \[N\], which is released at the
+    /// start: `q − θ_m = −E⁻¹·f·F_n` with the matrices of [`BeamDynamics`](crate::beam::BeamDynamics).
     Deflected {
         /// The force before the release \[N\].
         tip_force_n: f64,
@@ -50,11 +50,11 @@ pub enum Start {
 }
 
 impl Start {
-    /// The state, `[θ_m, θ̇_m, θ_i.., θ̇_i..]`.
+    /// The initial state, `[θ_m, θ̇_m, θ_i.., θ̇_i..]` \[rad, rad/s\].
     ///
     /// # Errors
-    /// [`RigError::NotFinite`] for the force, [`RigError::Unsupported`] for a rigid joint, [`RigError::Deflection`] where the statics cannot be
-    /// solved.
+    /// [`RigError::NotFinite`] for the force, [`RigError::Unsupported`] for a rigid joint, [`RigError::Deflection`] if
+    /// the statics cannot be solved.
     pub fn state(&self, arm: &Arm) -> Result<Vec<f64>, RigError> {
         let mut state = vec![0.0; arm.state_len()];
         if let Self::Deflected { tip_force_n } = *self {
@@ -75,32 +75,32 @@ impl Start {
     }
 }
 
-/// What happens between the start and the log's first sample.
+/// Settling: what happens between the start and the first sample of the log.
 ///
-/// A periodic reference runs meanwhile. Any other is held at its first value and begins with the
-/// log; where that value is zero and the start at rest, there is nothing to wait for.
+/// A periodic reference runs during this time. Any other reference stays at its first value and begins with the log. If
+/// that value is zero and the arm starts at rest, there is no wait.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Settle {
     /// The log begins at once.
     AtOnce,
-    /// A fixed time \[s\].
+    /// The log begins after a fixed time.
     Wait {
         /// The time \[s\].
         wait_s: f64,
     },
-    /// Until the transient has gone: what is left of it is at most `tolerance` times the amplitude,
-    /// or at most a step (or the deviation of the noise) of the coarsest sensor.
+    /// The log begins when the transient has decayed: its remainder is at most `tolerance` times the amplitude, or at
+    /// most one step (or one standard deviation of the noise) of the coarsest sensor.
     Detected {
-        /// What may be left, relative to the larger of the reference's amplitude and the start's
-        /// deflection; for an open drive to what the motor moves by in a period \[1\].
+        /// Largest remainder of the transient \[1\], relative to the amplitude of the reference or the initial
+        /// deflection, whichever is larger; for an open drive, relative to the travel of the motor in one period.
         tolerance: f64,
-        /// The longest time to wait \[s\].
+        /// Longest time to wait \[s\].
         longest_s: f64,
     },
 }
 
 impl Settle {
-    /// Detection to 1e-4 of the amplitude, within 1000 s.
+    /// Wait until the transient is 1e-4 of the amplitude, at most 1000 s.
     pub const DETECTED: Self = Self::Detected { tolerance: 1e-4, longest_s: 1000.0 };
 }
 
@@ -117,30 +117,30 @@ impl Settle {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Experiment {
-    /// What drives the arm.
+    /// The input that drives the arm.
     pub drive: Drive,
-    /// Where it starts.
+    /// Initial state.
     pub start: Start,
-    /// How the transient goes.
+    /// What happens between the start and the first sample of the log.
     pub settle: Settle,
-    /// Time that is logged \[s\].
+    /// Length of the log \[s\].
     pub record_s: f64,
 }
 
 impl Experiment {
-    /// An experiment from rest whose settling is detected.
+    /// An experiment that starts at rest and waits until the transient has decayed ([`Settle::DETECTED`]).
     ///
     /// # Errors
-    /// [`RigError::NotPositive`] for the time.
+    /// [`RigError::NotPositive`] for the length of the log.
     pub fn new(drive: Drive, record_s: f64) -> Result<Self, RigError> {
         let record_s = positive("record_s", record_s)?;
         Ok(Self { drive, start: Start::Rest, settle: Settle::DETECTED, record_s })
     }
 
-    /// The loop follows `A·sin(ω0·t)`: the report's experiment.
+    /// The control loop follows `A·sin(ω0·t)`: the experiment of the 1989 report.
     ///
     /// # Errors
-    /// [`RigError::NotPositive`].
+    /// [`RigError::NotPositive`] if a number is not positive and finite.
     ///
     /// # Source
     /// `[Feliu1989, Section 5.1]`
@@ -148,14 +148,14 @@ impl Experiment {
         Self::new(Drive::Angle(Reference::sine(omega_rad_s, amplitude_rad)?), record_s)
     }
 
-    /// The same with another way to settle.
+    /// Returns this experiment with another settling.
     #[must_use]
     pub fn settling(mut self, settle: Settle) -> Self {
         self.settle = settle;
         self
     }
 
-    /// The same from another start.
+    /// Returns this experiment with another initial state.
     #[must_use]
     pub fn starting(mut self, start: Start) -> Self {
         self.start = start;

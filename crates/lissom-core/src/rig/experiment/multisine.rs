@@ -1,4 +1,4 @@
-//! Odd harmonics with random phases.
+//! A multisine of odd harmonics with random phases.
 
 use std::f64::consts::TAU;
 
@@ -21,11 +21,10 @@ const POINTS_PER_LINE: usize = 32;
 /// Grid points this close to the highest, relatively, are looked at for the peak.
 const NEAR_PEAK: f64 = 0.99;
 
-/// `r(t) = a·Σ_h sin(h·ω0·t + φ_h)` over odd h, with random phases.
+/// A multisine, `r(t) = a·Σ_h sin(h·ω0·t + φ_h)` over odd h, with random phases φ_h.
 ///
-/// All lines have one amplitude, `a = A·√2/(c·√L)` for L lines, so that the peak is A: c is the
-/// crest factor, peak over RMS. Even lines of a response then show what is even in the arm, and
-/// friction that is odd stays on odd lines.
+/// All L lines have the same amplitude `a = A·√2/(c·√L)`, so that the peak is A; c is the crest factor, peak over RMS.
+/// Friction that is odd appears on odd lines. Even lines of a response show nonlinear effects that are even.
 ///
 /// ```
 /// # use lissom::rig::Multisine;
@@ -49,11 +48,12 @@ pub struct Multisine {
 }
 
 impl Multisine {
-    /// Lines at `lines` times ω0 \[rad/s\], peak `amplitude` \[rad or A\], phases from `seed`.
+    /// Builds a multisine with lines at `lines` times ω0 \[rad/s\], the peak `amplitude` \[rad or A\]
+    /// and random phases from `seed`.
     ///
     /// # Errors
-    /// [`RigError::NotPositive`], [`RigError::NoLines`], [`RigError::Line`] for lines that are even,
-    /// do not increase or are beyond 65 535.
+    /// [`RigError::NotPositive`] for ω0 or the peak; [`RigError::NoLines`] without lines; [`RigError::Line`] for lines
+    /// that are even, do not increase, or are above 65 535.
     pub fn new(
         omega_rad_s: f64,
         lines: &[u32],
@@ -82,10 +82,10 @@ impl Multisine {
         Ok(made)
     }
 
-    /// All odd lines up to the frequency `highest_rad_s`.
+    /// Builds a multisine with all odd lines up to the frequency `highest_rad_s`.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// Those of [`new`](Self::new).
     pub fn odd(
         omega_rad_s: f64,
         highest_rad_s: f64,
@@ -100,11 +100,11 @@ impl Multisine {
         Self::new(omega_rad_s, &lines, amplitude, seed)
     }
 
-    /// Moves the phases until the crest factor is at most `goal`, where that can be reached;
-    /// [`crest`](Self::crest) says what was. The peak stays, the lines grow.
+    /// Changes the phases until the crest factor is at most `goal`, if that can be reached; [`crest`](Self::crest)
+    /// gives the crest factor that was reached. The peak stays and the amplitudes of the lines grow.
     ///
     /// # Errors
-    /// [`RigError::NotPositive`].
+    /// [`RigError::NotPositive`] for the goal.
     pub fn with_crest(mut self, goal: f64) -> Result<Self, RigError> {
         positive("crest factor", goal)?;
         let mut best = self.clone();
@@ -143,11 +143,11 @@ impl Multisine {
         Ok(best)
     }
 
-    /// ω0 \[rad/s\].
+    /// Fundamental frequency ω0 \[rad/s\].
     pub fn omega_rad_s(&self) -> f64 {
         self.omega_rad_s
     }
-    /// Peak A.
+    /// Peak A \[rad or A\].
     pub fn amplitude(&self) -> f64 {
         self.amplitude
     }
@@ -155,22 +155,22 @@ impl Multisine {
     pub fn crest(&self) -> f64 {
         self.crest
     }
-    /// The highest line's frequency \[rad/s\].
+    /// Frequency of the highest line \[rad/s\].
     pub fn highest_rad_s(&self) -> f64 {
         f64::from(self.highest) * self.omega_rad_s
     }
-    /// The amplitude a of each line \[rad or A\].
+    /// Amplitude a of each line \[rad or A\].
     pub fn line_amplitude(&self) -> f64 {
         self.phasors.iter().fold(0.0, |m, p| m.max(p.norm()))
     }
 
-    /// Every line h with its phasor `a·e^{jφ_h}`, ascending.
+    /// Number h and phasor `a·e^{jφ_h}` of each line, ascending in h.
     pub fn lines(&self) -> impl Iterator<Item = (u32, Complex64)> + '_ {
         let line = |(m, phasor): (usize, &Complex64)| (2 * m as u32 + 1, *phasor);
         self.phasors.iter().enumerate().map(line).filter(|(_, phasor)| *phasor != Complex64::ZERO)
     }
 
-    /// Value at a time \[s\].
+    /// Value at a time \[s\], in rad or A.
     pub fn value(&self, time_s: f64) -> f64 {
         self.at(self.omega_rad_s * time_s)
     }

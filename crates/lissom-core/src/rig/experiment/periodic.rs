@@ -9,7 +9,7 @@ use crate::rig::error::positive;
 /// rounding, and an edge is not to fall a sample late for it.
 const EDGE: f64 = 1e-9;
 
-/// `A·sin(ω0·t)`.
+/// A sine, `A·sin(ω0·t)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sine {
     omega_rad_s: f64,
@@ -17,10 +17,10 @@ pub struct Sine {
 }
 
 impl Sine {
-    /// Frequency \[rad/s\] and amplitude \[rad or A\].
+    /// Builds a sine from its frequency \[rad/s\] and amplitude \[rad or A\].
     ///
     /// # Errors
-    /// [`RigError::NotPositive`].
+    /// [`RigError::NotPositive`] if one of them is not positive and finite.
     pub fn new(omega_rad_s: f64, amplitude: f64) -> Result<Self, RigError> {
         Ok(Self {
             omega_rad_s: positive("omega_rad_s", omega_rad_s)?,
@@ -28,21 +28,21 @@ impl Sine {
         })
     }
 
-    /// ω0 \[rad/s\].
+    /// Frequency ω0 \[rad/s\].
     pub fn omega_rad_s(&self) -> f64 {
         self.omega_rad_s
     }
-    /// A.
+    /// Amplitude A \[rad or A\].
     pub fn amplitude(&self) -> f64 {
         self.amplitude
     }
-    /// Value at a time \[s\].
+    /// Value at a time \[s\], in rad or A.
     pub fn value(&self, time_s: f64) -> f64 {
         self.amplitude * (self.omega_rad_s * time_s).sin()
     }
 }
 
-/// `+A` for the first half of each period, `−A` for the second.
+/// A square wave: `+A` in the first half of each period, `−A` in the second.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Square {
     omega_rad_s: f64,
@@ -50,10 +50,10 @@ pub struct Square {
 }
 
 impl Square {
-    /// Frequency \[rad/s\] and amplitude \[rad or A\].
+    /// Builds a square wave from its frequency \[rad/s\] and amplitude \[rad or A\].
     ///
     /// # Errors
-    /// [`RigError::NotPositive`].
+    /// [`RigError::NotPositive`] if one of them is not positive and finite.
     pub fn new(omega_rad_s: f64, amplitude: f64) -> Result<Self, RigError> {
         Ok(Self {
             omega_rad_s: positive("omega_rad_s", omega_rad_s)?,
@@ -61,15 +61,15 @@ impl Square {
         })
     }
 
-    /// ω0 \[rad/s\].
+    /// Frequency ω0 \[rad/s\].
     pub fn omega_rad_s(&self) -> f64 {
         self.omega_rad_s
     }
-    /// A.
+    /// Amplitude A \[rad or A\].
     pub fn amplitude(&self) -> f64 {
         self.amplitude
     }
-    /// Value at a time \[s\].
+    /// Value at a time \[s\], in rad or A.
     pub fn value(&self, time_s: f64) -> f64 {
         let phase = (time_s * self.omega_rad_s / TAU + EDGE).rem_euclid(1.0);
         if phase < 0.5 { self.amplitude } else { -self.amplitude }

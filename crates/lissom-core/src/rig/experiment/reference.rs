@@ -1,56 +1,56 @@
-//! Signals over time, whatever they drive.
+//! References: signals over time, for the control loop or for the open drive.
 
 use super::{Chirp, Multisine, Sine, Square, Sweep, Table};
 use crate::rig::RigError;
 use crate::rig::error::finite;
 
-/// A signal over time: an angle \[rad\] for the loop or a current \[A\] for the open drive.
+/// A reference: an angle \[rad\] for the control loop, or a current \[A\] for the open drive, over time.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Reference {
-    /// `A·sin(ω0·t)`.
+    /// A sine, `A·sin(ω0·t)`.
     Sine(Sine),
     /// Odd harmonics with random phases.
     Multisine(Multisine),
-    /// `±A`.
+    /// A square wave, `±A`.
     Square(Square),
     /// A sine whose frequency rises or falls.
     Chirp(Chirp),
-    /// Values at times.
+    /// Values at given times.
     Table(Table),
-    /// Constant velocity, `v·t`: see [`ramp`](Self::ramp).
+    /// A signal that grows at a constant rate, `v·t`: see [`ramp`](Self::ramp).
     Ramp {
-        /// Velocity v \[rad/s\], or A/s.
+        /// Rate v \[rad/s or A/s\].
         rate_per_s: f64,
     },
-    /// A constant: see [`hold`](Self::hold).
+    /// A constant value: see [`hold`](Self::hold).
     Hold {
-        /// The value \[rad\], or A.
+        /// The value \[rad or A\].
         value: f64,
     },
 }
 
 impl Reference {
-    /// `A·sin(ω0·t)`; the amplitude in rad or A.
+    /// A sine, `A·sin(ω0·t)`, from its frequency \[rad/s\] and amplitude \[rad or A\].
     ///
     /// # Errors
-    /// [`RigError::NotPositive`].
+    /// [`RigError::NotPositive`] if one of them is not positive and finite.
     pub fn sine(omega_rad_s: f64, amplitude: f64) -> Result<Self, RigError> {
         Sine::new(omega_rad_s, amplitude).map(Self::Sine)
     }
 
-    /// `+A` for the first half of each period `2π/ω0`, `−A` for the second.
+    /// A square wave: `+A` in the first half of each period `2π/ω0`, `−A` in the second.
     ///
     /// # Errors
-    /// [`RigError::NotPositive`].
+    /// [`RigError::NotPositive`] if a number is not positive and finite.
     pub fn square(omega_rad_s: f64, amplitude: f64) -> Result<Self, RigError> {
         Square::new(omega_rad_s, amplitude).map(Self::Square)
     }
 
-    /// A sine of `amplitude` from one frequency to another \[rad/s\] within `duration_s`.
+    /// A chirp of amplitude `amplitude` \[rad or A\] from one frequency to another \[rad/s\] within `duration_s`.
     ///
     /// # Errors
-    /// [`RigError::NotPositive`].
+    /// [`RigError::NotPositive`] if a number is not positive and finite.
     pub fn chirp(
         sweep: Sweep,
         (from_rad_s, to_rad_s): (f64, f64),
@@ -60,10 +60,10 @@ impl Reference {
         Chirp::new(sweep, (from_rad_s, to_rad_s), amplitude, duration_s).map(Self::Chirp)
     }
 
-    /// Constant velocity, for steady friction against velocity.
+    /// A motion at constant velocity \[rad/s\], to measure friction against velocity.
     ///
     /// # Errors
-    /// [`RigError::NotFinite`].
+    /// [`RigError::NotFinite`] if the rate is not finite.
     ///
     /// # Source
     /// `[Feliu1989, Section 6.2.2, Figure 8]`
@@ -71,15 +71,15 @@ impl Reference {
         Ok(Self::Ramp { rate_per_s: finite("rate_per_s", rate_per_s)? })
     }
 
-    /// A constant, for a release or a rest.
+    /// A constant value \[rad or A\], for a free vibration or a rest.
     ///
     /// # Errors
-    /// [`RigError::NotFinite`].
+    /// [`RigError::NotFinite`] if the value is not finite.
     pub fn hold(value: f64) -> Result<Self, RigError> {
         Ok(Self::Hold { value: finite("value", value)? })
     }
 
-    /// Value at a time \[s\].
+    /// Value at a time \[s\], in rad or A.
     pub fn value(&self, time_s: f64) -> f64 {
         match self {
             Self::Sine(sine) => sine.value(time_s),
@@ -92,7 +92,7 @@ impl Reference {
         }
     }
 
-    /// The period of a periodic one \[s\].
+    /// Period \[s\]; `None` if the signal is not periodic.
     pub fn period_s(&self) -> Option<f64> {
         let omega_rad_s = match self {
             Self::Sine(sine) => sine.omega_rad_s(),
@@ -103,7 +103,8 @@ impl Reference {
         Some(std::f64::consts::TAU / omega_rad_s)
     }
 
-    /// The highest frequency at which it is asked for \[rad/s\]; `None` where it has none.
+    /// Highest frequency of the reference \[rad/s\] (the fundamental frequency of a square wave); `None` for tables,
+    /// ramps and constants.
     pub fn highest_rad_s(&self) -> Option<f64> {
         match self {
             Self::Sine(sine) => Some(sine.omega_rad_s()),
@@ -114,7 +115,7 @@ impl Reference {
         }
     }
 
-    /// Largest magnitude within `duration_s` of its start.
+    /// Largest magnitude within `duration_s` from the start \[rad or A\].
     pub fn amplitude(&self, duration_s: f64) -> f64 {
         match self {
             Self::Sine(sine) => sine.amplitude(),

@@ -1,17 +1,18 @@
-//! A signal given at times.
+//! A signal that is given as a table.
 
 use crate::rig::RigError;
 
-/// What a [`Table`] does between its times.
+/// Value of a [`Table`] between its times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TableHold {
-    /// Keeps the value of the time before.
+    /// The value of the time before (zero-order hold).
     Zero,
-    /// Goes on straight to the next.
+    /// Linear interpolation.
     Linear,
 }
 
-/// Values at increasing times; before the first and after the last their values stand.
+/// A signal given by values at increasing times. Before the first time it has the first value,
+/// after the last time the last value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     time_s: Vec<f64>,
@@ -20,11 +21,11 @@ pub struct Table {
 }
 
 impl Table {
-    /// Times \[s\] and values \[rad or A\].
+    /// Builds a table from times \[s\] and values \[rad or A\].
     ///
     /// # Errors
-    /// [`RigError::TableLength`], [`RigError::EmptyTable`], [`RigError::TableNotFinite`],
-    /// [`RigError::TableOrder`].
+    /// [`RigError::TableLength`] if the columns differ in length; [`RigError::EmptyTable`] without rows;
+    /// [`RigError::TableNotFinite`] for NaN or infinity; [`RigError::TableOrder`] if times do not increase.
     pub fn new(time_s: Vec<f64>, value: Vec<f64>, hold: TableHold) -> Result<Self, RigError> {
         if time_s.len() != value.len() {
             return Err(RigError::TableLength { times: time_s.len(), values: value.len() });
@@ -44,17 +45,17 @@ impl Table {
         Ok(Self { time_s, value, hold })
     }
 
-    /// The last time \[s\].
+    /// Last time \[s\].
     pub fn end_s(&self) -> f64 {
         self.time_s[self.time_s.len() - 1]
     }
 
-    /// Largest magnitude of the values.
+    /// Largest magnitude of the values \[rad or A\].
     pub fn amplitude(&self) -> f64 {
         self.value.iter().fold(0.0, |m, v| m.max(v.abs()))
     }
 
-    /// Value at a time \[s\].
+    /// Value at a time \[s\], in rad or A.
     pub fn value(&self, time_s: f64) -> f64 {
         let next = self.time_s.partition_point(|t| *t <= time_s);
         let Some(before) = next.checked_sub(1) else { return self.value[0] };

@@ -10,12 +10,12 @@ use crate::rig::RigError;
 /// of it than this they save nothing over the event engine, and take long to make.
 const MOST_TURN: f64 = 32.0;
 
-/// An arm made ready for torques that are held: its modes while the motor slips and while it
-/// sticks, and what they do in each duration asked for.
+/// An arm prepared for torques that are constant over each sample: its modes while the motor slips and while it sticks,
+/// and their motion over given durations.
 ///
-/// One serves any number of [`HeldMotion`](super::HeldMotion)s. Where the modes cannot be told
-/// apart (a damper that is nearly critical), or there are more than 150 coordinates, dense matrices
-/// stand in, or the event engine alone where the arm is stiff.
+/// One prepared arm serves any number of [`HeldMotion`](super::HeldMotion)s. If the modes are too close to each other
+/// (for example with a nearly critical damper), or if there are more than 150 coordinates, dense matrices are used
+/// instead, or only the event engine if the arm is stiff.
 #[derive(Debug, Clone)]
 pub struct HeldArm<'a> {
     pub(in crate::rig) arm: &'a Arm,
@@ -77,12 +77,12 @@ fn fill(parts: &mut [ArmPart], blocks: &[ModalBlock], time_s: f64) {
 }
 
 impl<'a> HeldArm<'a> {
-    /// Makes an arm ready for torques held over any of `durations_s`.
+    /// Prepares an arm for torques that are constant over any of `durations_s` \[s\].
     ///
-    /// Other durations are possible later, and slower.
+    /// Other durations are possible later, but slower.
     ///
     /// # Errors
-    /// [`RigError::NotPositive`] for a duration that is not.
+    /// [`RigError::NotPositive`] for a duration that is not positive and finite.
     pub fn new(arm: &'a Arm, durations_s: &[f64]) -> Result<Self, RigError> {
         for &found in durations_s {
             if !(found > 0.0 && found.is_finite()) {
@@ -104,7 +104,7 @@ impl<'a> HeldArm<'a> {
         self.arm
     }
 
-    /// Whether the arm moves by its modes: a sample then costs time in proportion to their number.
+    /// Whether the motion is computed with modes. The cost of a sample is then in proportion to their number.
     pub fn by_modes(&self) -> bool {
         matches!(self.way, Way::Modes(_))
     }

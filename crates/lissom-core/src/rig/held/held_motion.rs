@@ -1,4 +1,4 @@
-//! An arm in motion under torques that are held: whole samples at a stroke, events by search.
+//! Motion of an arm under torques that are constant over each sample: whole samples in one step, events by search.
 
 use std::cell::{OnceCell, RefCell};
 
@@ -9,13 +9,12 @@ use crate::drive::Coulomb;
 use crate::rig::hybrid::events::ROUNDING;
 use crate::rig::{Hybrid, Mode, Motion, RigError};
 
-/// An arm in motion under torques that are held.
+/// Motion of an arm under torques that are constant over each sample.
 ///
-/// While nothing happens, every mode turns by a fixed angle per sample. Whether something happens
-/// is settled by a bound: what is watched (the velocity, or the torque on a stuck joint) departs
-/// from the straight line through its ends by at most `|λ|·|ẏ|·t²/8` or `2·|ẏ|/|λ|` in each mode,
-/// whichever is less, so that stiffness does not enter. Where that does not keep it from zero, the
-/// first crossing is found in the sum of modes itself.
+/// Between events, every mode turns by a fixed angle per sample. A bound decides whether there is an event: the
+/// monitored quantity (the velocity, or the torque on a sticking joint) departs from the straight line through its end
+/// values by at most `|λ|·|ẏ|·t²/8` or `2·|ẏ|/|λ|` in each mode, whichever is less, so that stiff modes do no harm. If
+/// the bound allows a zero, the first zero of the sum of modes is searched.
 ///
 /// ```
 /// # use lissom::{arm::Arm, beam::{LumpedBeam, Span}, drive::{Coulomb, Motor}};
@@ -58,30 +57,30 @@ pub struct HeldMotion<'a> {
     pub(in crate::rig) work: Work,
 }
 
-/// What a motion took.
+/// Operations that a motion has taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub struct Work {
-    /// Durations passed at a stroke.
+    /// Number of durations that were passed in one step.
     pub whole: usize,
-    /// Durations searched for events.
+    /// Number of durations that were searched for events.
     pub searched: usize,
-    /// Times at which modes were evaluated in searches, exponentials each.
+    /// Number of times in searches at which modes were evaluated (exponentials).
     pub evaluations: usize,
-    /// Durations, or rests of them, left to the event engine.
+    /// Number of durations, or parts of them, that were passed to the event engine.
     pub handed_over: usize,
 }
 
 impl<'a> HeldMotion<'a> {
-    /// At rest at angle zero.
+    /// Starts at rest, at angle zero.
     pub fn at_rest(held: &'a HeldArm<'a>) -> Self {
         Self::start(held, vec![0.0; held.arm.state_len()])
     }
 
-    /// In `state`, `[θ_m, θ̇_m, θ_i.., θ̇_i..]`.
+    /// Starts in `state`, `[θ_m, θ̇_m, θ_i.., θ̇_i..]` \[rad, rad/s\].
     ///
     /// # Errors
-    /// [`RigError::State`] where it has another length than the arm's or is not finite.
+    /// [`RigError::State`] if its length differs from that of the arm's state, or if it is not finite.
     pub fn with_state(held: &'a HeldArm<'a>, state: &[f64]) -> Result<Self, RigError> {
         if state.len() != held.arm.state_len() || !state.iter().all(|x| x.is_finite()) {
             return Err(RigError::State { found: state.len(), expected: held.arm.state_len() });
@@ -122,27 +121,27 @@ impl<'a> HeldMotion<'a> {
         motion
     }
 
-    /// What the joint does now.
+    /// Whether the joint sticks, or in which direction it slips.
     pub fn mode(&self) -> Mode {
         if self.held.by_modes() { self.mode } else { self.events.mode }
     }
 
-    /// How many times the joint came to stick.
+    /// Number of times that the joint began to stick.
     pub fn sticks(&self) -> usize {
         if self.held.by_modes() { self.sticks } else { self.events.sticks() }
     }
 
-    /// What the motion took so far.
+    /// Operations that the motion has taken so far.
     pub fn work(&self) -> Work {
         Work { evaluations: self.wave.evaluations, ..self.work }
     }
 
-    /// θ_m \[rad\]: as `state()[0]`, without the other states.
+    /// θ_m \[rad\]: equal to `state()[0]`, without computing the other states.
     pub fn motor_angle_rad(&self) -> f64 {
         if self.held.by_modes() { self.angle } else { self.events.state[0] }
     }
 
-    /// θ̇_m \[rad/s\]: as `state()[1]`, without the other states.
+    /// θ̇_m \[rad/s\]: equal to `state()[1]`, without computing the other states.
     pub fn motor_velocity_rad_s(&self) -> f64 {
         match (self.held.by_modes(), self.mode) {
             (false, _) => self.events.state[1],
@@ -151,8 +150,8 @@ impl<'a> HeldMotion<'a> {
         }
     }
 
-    /// θ_i of coordinate `i`, from 0 at the base \[rad\]: as `state()[2 + i]`, in a time that grows
-    /// with the number of modes and not with its square. `None` where there is no such coordinate.
+    /// θ_i \[rad\] of coordinate `i`, counted from 0 at the base: equal to `state()[2 + i]`, at a cost that grows with
+    /// the number of modes instead of its square. `None` if there is no such coordinate.
     pub fn angle_rad(&self, i: usize) -> Option<f64> {
         let Way::Modes(modes) = &self.held.way else {
             let k = self.held.arm.dynamics().len();

@@ -1,4 +1,4 @@
-//! One sample at a stroke: what the arm does under a constant torque, where no event falls within.
+//! One sample in one step: the motion of an arm under a constant torque, if no event falls into it.
 
 use crate::arm::Arm;
 use crate::drive::Coulomb;
@@ -8,14 +8,13 @@ use crate::rig::Hybrid;
 /// Largest (bound on the state's rate × part of a sample) over which events are ruled out at once.
 const REACH: f64 = 1.0;
 
-/// An arm's motion over one sample time, as matrices.
+/// Motion of an arm over one sample time, as matrices.
 ///
-/// While nothing happens, the state after a sample is `Φ·x + γ·T_net`, slipping or sticking, exact
-/// to rounding. Whether something happens is settled by the ends of the sample: the velocity (or
-/// the torque on a stuck joint) is the cubic through both ends' values and slopes, but for
-/// `T⁴/384·max|v⁗|`, and the fourth derivative is bounded by the arm's rates and state. A cubic
-/// lies within its Bézier points. Where these do not keep clear of zero by the remainder, the
-/// sample is left to [`Hybrid::advance`], which finds the event.
+/// Between events the state after a sample is `Φ·x + γ·T_net`, slipping or sticking, exact to rounding. The end values
+/// of the sample decide whether there is an event: except for a remainder of at most `T⁴/384·max|v⁗|`, the velocity (or
+/// the torque on a sticking joint) is the cubic through the values and slopes at both ends, and the fourth derivative
+/// is bounded by the rates of the arm and its state. A cubic lies within its Bézier points. If these are not farther
+/// from zero than the remainder, the sample is left to [`Hybrid::advance`], which finds the event.
 ///
 /// One step serves any number of [`Hybrid`]s of the same arm.
 #[derive(Debug, Clone)]
@@ -43,7 +42,7 @@ pub struct HeldStep {
 }
 
 impl HeldStep {
-    /// For an arm whose torque is held over `sample_time_s`.
+    /// Builds the step for an arm whose torque is constant over `sample_time_s`.
     pub fn new(arm: &Arm, sample_time_s: f64) -> Self {
         let len = arm.state_len();
         // The size of a state, max(ρ·|q_i − θ_m|, |θ̇_m|, |q̇_i|), grows at no more than 2ρ times
@@ -133,10 +132,10 @@ fn times_of<const N: usize>(rows: &[f64], x: &[f64], out: &mut [f64]) {
 }
 
 impl Hybrid<'_> {
-    /// Moves on by one sample under a constant motor torque \[N·m\]: as
-    /// [`advance`](Self::advance), and many times as fast where nothing happens.
+    /// Advances by one sample under a constant motor torque \[N·m\]. The result is that of [`advance`](Self::advance),
+    /// many times faster if there is no event.
     ///
-    /// `step` must have been made for this very arm.
+    /// `step` must have been built for this arm.
     pub fn advance_held(&mut self, step: &HeldStep, torque_nm: f64) {
         for _ in 0..step.parts {
             let quiet = match self.mode {

@@ -1,4 +1,4 @@
-//! The fast engine: arms under torques that are held over samples, in the modes of each phase.
+//! The fast engine: arms under torques that are constant over each sample, computed with the modes of slip and stick.
 
 mod blocks;
 mod crossing;

@@ -1,4 +1,4 @@
-//! Exact motion of an arm: stick, slip and the events between them.
+//! Exact motion of an arm with dry friction: stick, slip, and the events between them.
 
 pub(super) mod events;
 mod series;
@@ -28,15 +28,15 @@ enum Torque<'s> {
     Over(&'s Signal),
 }
 
-/// An arm in motion.
+/// Motion of an arm, exact to rounding.
 ///
-/// Between events the arm is linear; its state is a Taylor series in time whose terms follow from
-/// one another by the state matrix, summed until they vanish. The velocity is then a polynomial
-/// whose first root is the event. Nothing is smoothed and no tolerance enters but rounding.
+/// Between events the arm is linear. Its state is a Taylor series in time, whose terms follow from each other by the
+/// state matrix and are summed until they vanish. The velocity is then a polynomial, and its first root is the event.
+/// Nothing is smoothed, and there is no tolerance except rounding.
 ///
-/// Friction that bends with speed or position ([`DryFriction`]) or gravity ([`GravityLoad`]) makes the series
-/// nonlinear: its terms still follow from one another, and the step is as long as the last of 24 terms are below
-/// 1e-15 of the state. [`Motion::tolerance`] says so.
+/// Friction that changes with speed or position ([`DryFriction`]) and gravity ([`GravityLoad`]) make the series
+/// nonlinear. Its terms still follow from each other; steps are so short that the last of 24 terms is below 1e-15 of
+/// the state. [`Motion::tolerance`] gives this value.
 ///
 /// ```
 /// # use lissom::{arm::Arm, beam::{LumpedBeam, Span}, drive::{Coulomb, Motor}, rig::Hybrid};
@@ -54,8 +54,8 @@ enum Torque<'s> {
 /// `[Feliu1989, eqs. (13)-(15), Section 5]`.
 ///
 /// # Differences from the source
-/// Section 5 says nothing of θ̇_m = 0: here the joint sticks while the drive torque less the
-/// coupling torque lies between −backward and forward.
+/// The source does not define θ̇_m = 0. Here the joint sticks while the drive torque minus the coupling torque is
+/// between −backward and forward.
 #[derive(Debug, Clone)]
 pub struct Hybrid<'a> {
     pub(in crate::rig) arm: &'a Arm,
@@ -123,13 +123,13 @@ impl<'a> Hybrid<'a> {
     /// Relative error of a step where friction bends or gravity acts: the series' last terms are below it.
     pub(in crate::rig) const BENT: f64 = 1e-15;
 
-    /// An arm at rest at angle zero.
+    /// Starts at rest, at angle zero.
     pub fn at_rest(arm: &'a Arm) -> Self {
         Self::with_state(arm, vec![0.0; arm.state_len()])
     }
 
-    /// An arm in `state`, `[θ_m, θ̇_m, θ_i.., θ̇_i..]`; missing entries are zero, further ones are
-    /// left out.
+    /// Starts in `state`, `[θ_m, θ̇_m, θ_i.., θ̇_i..]` \[rad, rad/s\]; missing values count as
+    /// zero, further values are ignored.
     pub fn with_state(arm: &'a Arm, mut state: Vec<f64>) -> Self {
         let len = arm.state_len();
         state.resize(len, 0.0);
@@ -158,7 +158,7 @@ impl<'a> Hybrid<'a> {
         made
     }
 
-    /// The same joint with another dry friction than the arm's.
+    /// Returns this motion with another dry friction in place of the arm's.
     #[must_use]
     pub fn with_friction(mut self, friction: DryFriction) -> Self {
         self.friction = friction;
@@ -166,7 +166,7 @@ impl<'a> Hybrid<'a> {
         self
     }
 
-    /// The same joint with gravity of an unbalanced load on the motor, a function of the motor's angle.
+    /// Returns this motion with gravity of an unbalanced load on the motor, a function of the motor's angle.
     ///
     /// ```
     /// # use lissom::{arm::Arm, beam::Beam, drive::{Coulomb, Motor}, load::GravityLoad, rig::Hybrid};
@@ -184,10 +184,10 @@ impl<'a> Hybrid<'a> {
         self
     }
 
-    /// The same arm with a world at its tip.
+    /// Returns this motion with forces, friction or walls at the tip.
     ///
     /// # Errors
-    /// [`RigError`] where a friction of it is negative, or the beam is known by its modes and has no tip.
+    /// [`RigError`] if a friction is negative, or if the beam is modal and so has no tip.
     pub fn with_world(mut self, world: TipWorld) -> Result<Self, RigError> {
         world.check()?;
         if self.arm.beam().lumped().is_none() && !world.is_empty() {
@@ -203,13 +203,14 @@ impl<'a> Hybrid<'a> {
         Ok(self)
     }
 
-    /// The same with other arms from the times given on \[s\]: payloads that are taken up or dropped.
+    /// Returns this motion with other arms that replace the first at given times \[s\]: payloads
+    /// that are picked up or released.
     ///
-    /// Angles and velocities go on as they were: a payload is taken up at the tip's own velocity,
-    /// and one that turns in the direction that the massless beam's end has.
+    /// Angles and velocities are continuous. A payload is picked up at the velocity of the tip; if it resists turning,
+    /// it starts with the slope of the end of the massless beam.
     ///
     /// # Errors
-    /// [`RigError`] unless times are positive and increase and all arms have as many masses.
+    /// [`RigError`] unless times are positive and increase, and all arms have the same number of masses.
     pub fn with_changes(mut self, changes: &[(f64, &'a Arm)]) -> Result<Self, RigError> {
         for (row, (time_s, arm)) in changes.iter().enumerate() {
             let before = if row == 0 { 0.0 } else { changes[row - 1].0 };
@@ -225,7 +226,7 @@ impl<'a> Hybrid<'a> {
         Ok(self)
     }
 
-    /// Current state `[θ_m, θ̇_m, θ_i.., θ̇_i..]`.
+    /// Present state `[θ_m, θ̇_m, θ_i.., θ̇_i..]` \[rad, rad/s\].
     pub fn state(&self) -> &[f64] {
         &self.state
     }
@@ -233,29 +234,29 @@ impl<'a> Hybrid<'a> {
     pub fn time_s(&self) -> f64 {
         self.time_s
     }
-    /// What the joint does now.
+    /// Whether the joint sticks, or in which direction it slips.
     pub fn mode(&self) -> Mode {
         self.mode
     }
-    /// How many times the joint came to stick.
+    /// Number of times that the joint began to stick.
     pub fn sticks(&self) -> usize {
         self.sticks
     }
-    /// How many events ended a step so far: of the joint, of a rubbing tip, at walls.
+    /// Number of events so far: of the joint, of a tip with friction, at walls.
     pub fn events(&self) -> usize {
         self.events
     }
-    /// Total time spent sticking \[s\].
+    /// Total time for which the joint stuck \[s\].
     pub fn stuck_s(&self) -> f64 {
         self.stuck_s
     }
 
-    /// Moves on by `duration_s` under a constant motor torque \[N·m\].
+    /// Advances by `duration_s` under a constant motor torque \[N·m\].
     pub fn advance(&mut self, torque_nm: f64, duration_s: f64) {
         self.advance_under(Torque::Held(torque_nm), duration_s, false);
     }
 
-    /// Moves on by `duration_s` under a motor torque \[N·m\] over the motion's own
+    /// Advances by `duration_s` under a motor torque \[N·m\] that is a function of the motion's own
     /// [`time_s`](Self::time_s): a drive in continuous time.
     ///
     /// ```
@@ -274,9 +275,9 @@ impl<'a> Hybrid<'a> {
         self.advance_under(Torque::Over(torque_nm), duration_s, false);
     }
 
-    /// Moves on by at most `duration_s` under a constant motor torque \[N·m\], ending where the joint
-    /// or a rubbing tip sticks, breaks loose or reverses, or the tip meets or leaves a wall; gives
-    /// the time that passed \[s\].
+    /// Advances by at most `duration_s` under a constant motor torque \[N·m\], and ends at the next event: the
+    /// joint or a tip with friction sticks, breaks loose or reverses, or the tip touches or leaves a wall.
+    /// Returns the time that passed \[s\].
     ///
     /// ```
     /// # use lissom::{arm::Arm, beam::{LumpedBeam, Span}, drive::{Coulomb, Motor}, rig::{Hybrid, Mode}};

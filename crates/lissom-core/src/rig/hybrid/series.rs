@@ -1,4 +1,4 @@
-//! Taylor series of an arm's state, and where the tip stands in it.
+//! Taylor series of an arm's state, and the position of the tip in it.
 
 use super::events::{ROUNDING, pushed};
 use super::{Hybrid, Torque};

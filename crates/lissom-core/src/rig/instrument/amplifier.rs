@@ -4,10 +4,11 @@ use super::Quantiser;
 use crate::rig::RigError;
 use crate::rig::error::{not_negative, positive};
 
-/// A current amplifier behind a D/A converter.
+/// A current amplifier after a D/A converter.
 ///
-/// The command is the demand, rounded by the converter and limited; it is what a log holds. The
-/// current follows it but for a dead zone: `i = 0` where `|u| ≤ d`, else `i = u − d·sign u`.
+/// The command is the requested current after rounding by the converter and limiting; logs contain the command. The
+/// current equals the command except for a dead zone: `i = 0` if `|u| ≤ d`, else `i = u − d·sign u`, with the command u
+/// and the width d \[A\].
 ///
 /// ```
 /// # use lissom::rig::Amplifier;
@@ -18,8 +19,8 @@ use crate::rig::error::{not_negative, positive};
 /// ```
 ///
 /// # Source
-/// `[Feliu1989, Section 6.1]`: 4.12 A, 12 bits. The dead zone is the usual one of control
-/// engineering, continuous at its edges; the source has none.
+/// `[Feliu1989, Section 6.1]`: 4.12 A, 12 bits. The source has no dead zone; this one is usual in control engineering
+/// and continuous at its edges.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Amplifier {
     limit_a: Option<f64>,
@@ -28,62 +29,62 @@ pub struct Amplifier {
 }
 
 impl Amplifier {
-    /// One that gives any current.
+    /// An amplifier without limit, converter and dead zone.
     pub fn ideal() -> Self {
         Self::default()
     }
 
-    /// Limits the current's magnitude \[A\].
+    /// Limits the magnitude of the current \[A\].
     ///
     /// # Errors
-    /// [`RigError::NotPositive`].
+    /// [`RigError::NotPositive`] if the limit is not positive and finite.
     pub fn with_limit(mut self, limit_a: f64) -> Result<Self, RigError> {
         self.limit_a = Some(positive("limit_a", limit_a)?);
         Ok(self)
     }
 
-    /// Adds a dead zone of commands up to `dead_band_a` \[A\].
+    /// Adds a dead zone: commands up to `dead_band_a` \[A\] give no current.
     ///
     /// # Errors
-    /// [`RigError::Negative`].
+    /// [`RigError::Negative`] if it is negative or not finite.
     pub fn with_dead_band(mut self, dead_band_a: f64) -> Result<Self, RigError> {
         self.dead_band_a = Some(not_negative("dead_band_a", dead_band_a)?);
         Ok(self)
     }
 
-    /// Puts a D/A converter before it; its range is in A.
+    /// Adds a D/A converter before the amplifier; its range is in A.
     #[must_use]
     pub fn with_converter(mut self, converter: Quantiser) -> Self {
         self.converter = Some(converter);
         self
     }
 
-    /// The limit \[A\].
+    /// Limit of the current \[A\], if there is one.
     pub fn limit_a(&self) -> Option<f64> {
         self.limit_a
     }
-    /// The dead zone \[A\].
+    /// Width of the dead zone \[A\], if there is one.
     pub fn dead_band_a(&self) -> Option<f64> {
         self.dead_band_a
     }
-    /// The D/A converter.
+    /// D/A converter, if there is one.
     pub fn converter(&self) -> Option<Quantiser> {
         self.converter
     }
 
-    /// The largest magnitude that a command has in both directions \[A\]; infinite without a limit.
+    /// Largest magnitude of a command that is possible in both directions \[A\]; infinite without a limit.
     pub fn most_a(&self) -> f64 {
         let limit = self.limit_a.unwrap_or(f64::INFINITY);
         self.converter.map_or(limit, |c| limit.min(c.ends().1))
     }
 
-    /// The command that a demand becomes \[A\].
+    /// Command after rounding and limiting \[A\].
     pub fn command_a(&self, demand_a: f64) -> f64 {
         let converted = self.converter.map_or(demand_a, |c| c.read(demand_a));
         self.limit_a.map_or(converted, |limit| converted.clamp(-limit, limit))
     }
 
-    /// The motor's current under a command \[A\].
+    /// Current of the motor under a command \[A\].
     pub fn current_a(&self, command_a: f64) -> f64 {
         match self.dead_band_a {
             None => command_a,

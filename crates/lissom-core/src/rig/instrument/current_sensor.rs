@@ -4,22 +4,22 @@ use std::collections::VecDeque;
 
 use super::{Noise, Sensor};
 
-/// What a row of a measured current is a reading of.
+/// Time to which a row of a measured current belongs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum CurrentReading {
-    /// The mean over one row's time that is centred at the row's instant: a current between rows as
-    /// [`Hold::Measured`](crate::record::Hold::Measured) has it, neither early nor late.
+    /// Mean over one row time, centred at the time of the row: neither early nor late, as
+    /// [`Hold::Measured`](crate::record::Hold::Measured) assumes.
     #[default]
     Centred,
-    /// The current that flows when the angles are read, just before the controller changes it: half a
-    /// sample of the controller late.
+    /// Current at the instant at which the angles are read, just before the controller changes it: late by half a
+    /// sample of the controller.
     AtInstant,
-    /// The mean over the row's time that ends at the row's instant: half a row late.
+    /// Mean over the row time that ends at the time of the row: late by half a row.
     MeanBefore,
 }
 
-/// A sensor of the current that flows through the motor, behind amplifier and delay.
+/// A sensor of the current that flows through the motor, after amplifier and delay.
 ///
 /// ```
 /// # use lissom::rig::{CurrentReading, CurrentSensor, Instruments, Noise};
@@ -30,9 +30,9 @@ pub enum CurrentReading {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CurrentSensor {
-    /// Noise and rounding, both in A.
+    /// Noise and rounding, in A.
     pub sensor: Sensor,
-    /// What it reads.
+    /// Time to which a row belongs.
     pub reading: CurrentReading,
 }
 

@@ -1,4 +1,4 @@
-//! Time from the sensors' instant to the current's.
+//! Time from the instant of the sensors until the current acts.
 
 use std::collections::VecDeque;
 
@@ -12,20 +12,20 @@ const SAMPLES_MOST: f64 = 1e6;
 /// rounding errors of decimal times.
 const WHOLE: f64 = 1e-9;
 
-/// A constant delay of the command: conversion, computation, communication.
+/// A constant delay of the command, caused by conversion, computation or communication.
 ///
-/// Any real number, also more than a sample: the command of the instant `t_k` acts from `t_k + d`
-/// to `t_{k+1} + d`. Before the first one the current is zero.
+/// It may have any length, also more than a sample: the command of the instant `t_k` acts from `t_k + d` to
+/// `t_{k+1} + d`. Before the first command the current is zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Delay {
     delay_s: f64,
 }
 
 impl Delay {
-    /// A delay \[s\], zero or more.
+    /// Builds a delay \[s\], zero or positive.
     ///
     /// # Errors
-    /// [`RigError::Negative`].
+    /// [`RigError::Negative`] if it is negative or not finite.
     pub fn new(delay_s: f64) -> Result<Self, RigError> {
         Ok(Self { delay_s: not_negative("delay_s", delay_s)? })
     }

@@ -6,25 +6,25 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use crate::rig::RigError;
 use crate::rig::error::positive;
 
-/// Time stamps of a log that are late by a random time, independent from row to row and uniform from zero to
+/// Time stamps of a log that are late by a random time: independent from row to row, and uniform between zero and
 /// [`most_s`](Self::most_s). The samples themselves are taken evenly.
 ///
-/// This is what a program does that reads a device at an even rate and takes the time afterwards.
+/// A program causes such stamps if it reads a device at an even rate and reads the time afterwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LateStamps {
     most_s: f64,
 }
 
 impl LateStamps {
-    /// Stamps late by `most_s` at most \[s\].
+    /// Builds stamps that are late by at most `most_s` \[s\].
     ///
     /// # Errors
-    /// [`RigError::NotPositive`].
+    /// [`RigError::NotPositive`] if it is not positive and finite.
     pub fn new(most_s: f64) -> Result<Self, RigError> {
         Ok(Self { most_s: positive("largest lateness of a time stamp in s", most_s)? })
     }
 
-    /// The largest lateness \[s\].
+    /// Largest lateness \[s\].
     pub fn most_s(&self) -> f64 {
         self.most_s
     }

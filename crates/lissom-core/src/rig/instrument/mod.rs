@@ -1,4 +1,4 @@
-//! The instrument chain of 6.1: sensors, their noise, converters, amplifier, delay.
+//! The instruments of Section 6.1: sensors with noise, converters, amplifier, delay.
 
 mod amplifier;
 mod current_sensor;
@@ -24,10 +24,10 @@ pub use sensor::Sensor;
 use super::RigError;
 use super::error::positive;
 
-/// Everything between the controller and the arm.
+/// The instruments between controller and arm.
 ///
-/// At each sample: sensors → controller → D/A converter and limit → log → delay → dead band →
-/// motor. With a sensor of the current the log has its readings in place of the command.
+/// Signals pass in this order at each sample: sensors → controller → D/A converter and limit → log → delay → dead zone
+/// → motor. With a current sensor, the log contains its readings instead of the command.
 ///
 /// ```
 /// # use lissom::rig::{Amplifier, Instruments, Quantiser, Sensor};
@@ -46,27 +46,28 @@ pub struct Instruments {
     pub sample_time_s: f64,
     /// Sensor of the motor's angle.
     pub motor: Sensor,
-    /// Sensors of the masses' angles: none is ideal ones, one is alike for all, else one for each.
+    /// Sensors of the angles of the masses: an empty list means ideal sensors, one sensor is used for all masses,
+    /// otherwise there is one for each mass.
     pub tips: Vec<Sensor>,
-    /// D/A converter, limit and dead band.
+    /// D/A converter, limit and dead zone.
     pub amplifier: Amplifier,
-    /// Sensor of the motor's current, which the log then has; `None`: the log has the command.
+    /// Sensor of the motor's current, whose readings are then logged; `None`: the command is logged.
     pub current: Option<CurrentSensor>,
-    /// Time stamps of the log that are late; `None`: they are even.
+    /// Late time stamps of the log; `None`: stamps are even.
     pub stamps: Option<LateStamps>,
-    /// Time from the instant of the sensors to the current's acting; `None`: at once.
+    /// Time from the instant of the sensors until the current acts; `None`: no delay.
     pub delay: Option<Delay>,
-    /// The controller acts at one sample in so many, 1 at least.
+    /// The controller acts at every n-th sample, n ≥ 1.
     pub control_every: usize,
-    /// One sample in so many is logged, 1 at least.
+    /// Every n-th sample is logged, n ≥ 1.
     pub log_every: usize,
 }
 
 impl Instruments {
-    /// Perfect instruments at a sample time \[s\]; change what is not.
+    /// Ideal instruments with the given sample time \[s\]; change the fields that are not ideal.
     ///
     /// # Errors
-    /// [`RigError::NotPositive`].
+    /// [`RigError::NotPositive`] if the sample time is not positive and finite.
     pub fn ideal(sample_time_s: f64) -> Result<Self, RigError> {
         Ok(Self {
             sample_time_s: positive("sample_time_s", sample_time_s)?,

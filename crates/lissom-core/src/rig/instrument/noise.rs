@@ -7,22 +7,22 @@ use rand_xoshiro::rand_core::SeedableRng;
 use crate::rig::RigError;
 use crate::rig::error::positive;
 
-/// White Gaussian noise: one independent draw at each sample.
+/// White Gaussian noise: an independent random number at each sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Noise {
     std: f64,
 }
 
 impl Noise {
-    /// Noise of a standard deviation, in the unit of the signal.
+    /// Noise with the given standard deviation, in the unit of the signal.
     ///
     /// # Errors
-    /// [`RigError::NotPositive`].
+    /// [`RigError::NotPositive`] if it is not positive and finite.
     pub fn new(std: f64) -> Result<Self, RigError> {
         Ok(Self { std: positive("standard deviation of noise", std)? })
     }
 
-    /// Its standard deviation \[unit of the signal\].
+    /// Standard deviation, in the unit of the signal.
     pub fn std(&self) -> f64 {
         self.std
     }

@@ -3,10 +3,9 @@
 use crate::rig::RigError;
 use crate::rig::error::positive;
 
-/// A converter between a quantity and counts.
+/// A converter between a value and counts.
 ///
-/// `count = round(value/step)`, held within the ends of the range where there are ends; a value
-/// half-way goes away from zero.
+/// `count = round(value/step)`, limited to the range if there is one; half a step is rounded away from zero.
 ///
 /// ```
 /// # use lissom::rig::Quantiser;
@@ -27,10 +26,10 @@ pub struct Quantiser {
 }
 
 impl Quantiser {
-    /// An A/D or D/A converter of `bits` over `range`, in the unit of the range, centred on zero.
+    /// An A/D or D/A converter with `bits` bits over `range`, in the unit of the range, centred at zero.
     ///
-    /// Steps of `range/2^bits`, counts in two's complement, `−2^(bits−1)` to `2^(bits−1) − 1`:
-    /// beyond these it saturates.
+    /// The step is `range/2^bits`. Counts are in two's complement, from `−2^(bits−1)` to
+    /// `2^(bits−1) − 1`, and saturate there.
     ///
     /// # Errors
     /// [`RigError`] unless the range is positive and there are 1 to 32 bits.
@@ -44,10 +43,10 @@ impl Quantiser {
         Ok(Self { step, least: -half, most: half - 1.0 })
     }
 
-    /// An encoder of so many counts per turn: it counts on from turn to turn and never saturates.
+    /// An encoder with the given number of counts per turn. It counts over many turns and never saturates.
     ///
     /// # Errors
-    /// [`RigError::NotPositive`] without counts.
+    /// [`RigError::NotPositive`] for zero counts.
     pub fn encoder(counts_per_turn: u32) -> Result<Self, RigError> {
         let counts = positive("counts_per_turn", f64::from(counts_per_turn))?;
         Ok(Self {
@@ -57,22 +56,22 @@ impl Quantiser {
         })
     }
 
-    /// The value as the converter gives it.
+    /// Value after rounding and limiting.
     pub fn read(&self, value: f64) -> f64 {
         (value / self.step).round().clamp(self.least, self.most) * self.step
     }
 
-    /// The count; NaN is 0.
+    /// Count of a value; 0 for NaN.
     pub fn count(&self, value: f64) -> i64 {
         (value / self.step).round().clamp(self.least, self.most) as i64
     }
 
-    /// The value of a count, which is held within the ends.
+    /// Value of a count, limited to the range.
     pub fn value(&self, count: i64) -> f64 {
         (count as f64).clamp(self.least, self.most) * self.step
     }
 
-    /// The step \[unit of the range\].
+    /// Step, in the unit of the range.
     pub fn step(&self) -> f64 {
         self.step
     }
@@ -82,7 +81,7 @@ impl Quantiser {
         (self.least * self.step, self.most * self.step)
     }
 
-    /// Whether a value is cut off at an end.
+    /// Whether a value is outside the range.
     pub fn exceeded(&self, value: f64) -> bool {
         let count = (value / self.step).round();
         count < self.least || count > self.most

@@ -1,15 +1,15 @@
-//! A sensor: noise, then rounding.
+//! A sensor: noise is added, then the value is rounded.
 
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Noise, Quantiser};
 
-/// A sensor of an angle, or of a current (A in place of rad).
+/// A sensor of an angle \[rad\], or of a current (A in place of rad).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sensor {
-    /// Noise before rounding \[rad\]; `None`: none.
+    /// Noise before rounding; `None`: no noise.
     pub noise: Option<Noise>,
-    /// Rounding; `None`: none.
+    /// Rounding; `None`: no rounding.
     pub quantiser: Option<Quantiser>,
 }
 
@@ -26,7 +26,7 @@ impl From<Noise> for Sensor {
 }
 
 impl Sensor {
-    /// A sensor that gives the angle itself.
+    /// A sensor without noise and rounding.
     pub const IDEAL: Self = Self { noise: None, quantiser: None };
 
     /// What it gives for an angle, and whether that was cut off at the range's end.
@@ -42,15 +42,15 @@ impl Sensor {
         self.quantiser.map_or((noisy, false), |q| (q.read(noisy), q.exceeded(noisy)))
     }
 
-    /// √(s² + q²/12) of noise with deviation s and steps of q, as if a reading's error were spread evenly
-    /// over a step \[rad\].
+    /// Standard deviation of the error of a reading \[rad\]: √(s² + q²/12), with the standard deviation s of the noise
+    /// and the step q. The rounding error is assumed to be uniform over a step.
     pub fn deviation(&self) -> f64 {
         let step = self.quantiser.map_or(0.0, |q| q.step());
         let noise = self.noise.map_or(0.0, |n| n.std());
         (noise * noise + step * step / 12.0).sqrt()
     }
 
-    /// Its step or the deviation of its noise, whichever is larger \[rad\].
+    /// Step, or standard deviation of the noise, whichever is larger \[rad\].
     pub fn resolution(&self) -> f64 {
         let step = self.quantiser.map_or(0.0, |q| q.step());
         self.noise.map_or(step, |n| n.std().max(step))

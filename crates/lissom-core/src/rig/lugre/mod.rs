@@ -15,14 +15,14 @@ const TOLERANCES: [f64; 2] = [1e-12, 1e-2];
 /// The first step that is tried, as a share of the time in which the motor swings by 1 rad on its bristles.
 const FIRST_STEP: f64 = 0.1;
 
-/// An arm in motion on LuGre bristles.
+/// Motion of an arm on LuGre bristles.
 ///
-/// The equations are those of [`Hybrid`](super::Hybrid) with [`LuGre`]'s torque in place of the
-/// arm's own Coulomb friction, which is left out. Over a step the arm moves by its exact linear solution and
-/// friction by the step that the [`replay`](crate::replay) uses: the deflection follows its steady value exactly over
-/// the travel, and friction acts as a line in time with the mean of a parabola (order 4). Every step is made a
-/// second time as two halves, which are kept; their distance from the whole controls the length of steps to a stated
-/// [tolerance]. Steps are a sample halved any number of times, so that the matrices of the linear part are made once.
+/// The equations are those of [`Hybrid`](super::Hybrid), with the torque of [`LuGre`] in place of the arm's own Coulomb
+/// friction, which is ignored. Over a step the arm moves by its exact linear solution. Friction is computed as in the
+/// [`replay`](crate::replay): the deflection follows its steady value exactly over the travel, and friction acts as a
+/// line in time with the mean of a parabola (order 4). Every step is repeated as two half steps, which are kept; their
+/// difference from the whole step controls the step length to a given [tolerance]. Steps are a sample divided by powers
+/// of two, so that the matrices of the linear part are computed only once.
 ///
 /// [tolerance]: Self::at_rest
 ///
@@ -54,24 +54,24 @@ pub struct LuGreMotion {
 }
 
 impl LuGreMotion {
-    /// An arm at rest at angle zero on straight bristles.
+    /// Starts at rest, at angle zero, with bristles that are not bent.
     ///
-    /// `tolerance` r: a step's estimated error is below `r·(|x| + a)` in every number of the state, a = Fs/σ0
-    /// for angles and √(Fs²/(σ0·J)) for velocities. Errors of steps add up: see
+    /// The estimated error of a step is kept below `r·(|x| + a)` in every element of the state, where r is the
+    /// `tolerance` and a is Fs/σ0 for angles and √(Fs²/(σ0·J)) for velocities. Errors of steps add up: see
     /// [`tolerance`](Motion::tolerance).
     ///
     /// # Errors
-    /// [`RigError::Tolerance`] outside 1e-12 to 1e-2.
+    /// [`RigError::Tolerance`] unless the tolerance is between 1e-12 and 1e-2.
     pub fn at_rest(arm: &Arm, law: LuGre, tolerance: f64) -> Result<Self, RigError> {
         Self::with_state(arm, law, tolerance, &[], 0.0)
     }
 
-    /// An arm in `state`, `[θ_m, θ̇_m, θ_i.., θ̇_i..]`, and its bristles bent by `deflection_rad`;
-    /// missing entries are zero, further ones are left out.
+    /// Starts in `state`, `[θ_m, θ̇_m, θ_i.., θ̇_i..]` \[rad, rad/s\], with the bristles bent by `deflection_rad`;
+    /// missing values count as zero, further values are ignored.
     ///
     /// # Errors
-    /// [`RigError::Tolerance`] outside 1e-12 to 1e-2, [`RigError::NotFollowed`] for a state that is
-    /// not finite.
+    /// [`RigError::Tolerance`] unless the tolerance is between 1e-12 and 1e-2; [`RigError::NotFollowed`] for a state
+    /// that is not finite.
     pub fn with_state(
         arm: &Arm,
         law: LuGre,
@@ -94,15 +94,15 @@ impl LuGreMotion {
         Ok(Self { stepper, now, step_s, time_s: 0.0, held_s: 0.0, steps: 0 })
     }
 
-    /// The same joint with gravity of an unbalanced load on the motor. Gravity is taken for linear in time over a step,
-    /// so that steps are of order 2; the tolerance holds as without it.
+    /// Returns this motion with gravity of an unbalanced load on the motor. Gravity is assumed linear in time over a
+    /// step, so that steps are of order 2; the tolerance is kept all the same.
     #[must_use]
     pub fn with_gravity(mut self, load: GravityLoad) -> Self {
         self.stepper.gravity = Some(load);
         self
     }
 
-    /// Current state `[θ_m, θ̇_m, θ_i.., θ̇_i..]` \[rad, rad/s\].
+    /// Present state `[θ_m, θ̇_m, θ_i.., θ̇_i..]` \[rad, rad/s\].
     pub fn state(&self) -> &[f64] {
         &self.now.x
     }
@@ -117,17 +117,17 @@ impl LuGreMotion {
         self.stepper.law.torque_nm(self.now.x[1], self.now.z)
     }
 
-    /// Steps made so far, those left out that turned out too long.
+    /// Number of steps so far, without those that were too long and were discarded.
     pub fn steps(&self) -> usize {
         self.steps
     }
 
-    /// Moves on by `duration_s` under a constant motor torque \[N·m\].
+    /// Advances by `duration_s` under a constant motor torque \[N·m\].
     ///
     /// # Errors
-    /// [`RigError::NotFollowed`] where steps of any length miss the tolerance, where some millions of them are not
-    /// enough, where doubles do not resolve the bristles' deflection of the angles reached, or where the torque is
-    /// not finite; nothing has moved then.
+    /// [`RigError::NotFollowed`] if no step length keeps the tolerance, if millions of steps are not enough, if the
+    /// deflection of the bristles cannot be resolved in double precision at the angles reached, or if the torque is not
+    /// finite. The state is then unchanged.
     pub fn advance(&mut self, torque_nm: f64, duration_s: f64) -> Result<(), RigError> {
         if duration_s <= 0.0 {
             return Ok(());

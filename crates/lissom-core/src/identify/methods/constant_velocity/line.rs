@@ -1,4 +1,4 @@
-//! A straight line through the points of one direction, extrapolated to rest.
+//! A straight line through the points of one direction, extrapolated to zero speed.
 
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF as _, FisherSnedecor, StudentsT};
@@ -17,55 +17,54 @@ const ROUNDS: usize = 4;
 /// Halvings of the variance that all points share: from all of the command down to 1e-15 of it.
 const HALVINGS: usize = 50;
 
-/// Friction in one direction: `τ = CF + V·|θ̇|`, magnitudes.
+/// Friction in one direction, a straight line `τ = CF + V·|θ̇|` through the points; all values are magnitudes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionLine {
-    /// Coulomb friction: the line extrapolated to rest \[N·m or N\].
+    /// Coulomb friction CF: the line extrapolated to zero speed \[N·m or N\].
     pub coulomb: Estimate,
-    /// Viscous friction: its slope, back-EMF taken out \[N·m·s/rad or N·s/m\].
+    /// Viscous friction V: slope of the line, without the damping by back-EMF \[N·m·s/rad or N·s/m\].
     pub viscous: Estimate,
-    /// Correlation of the two.
+    /// Correlation of the errors of CF and V.
     pub correlation: f64,
-    /// Points on the line.
+    /// Number of points.
     pub points: usize,
-    /// Speeds that differ by 5 % or more.
+    /// Number of speeds that differ by 5 % or more.
     pub speeds: usize,
-    /// Whether a line describes the points.
+    /// Whether a straight line describes the points.
     pub shape: LineShape,
-    /// Coulomb friction from the slowest third of the speeds alone; `None` where these are all
-    /// speeds, or fewer than two.
+    /// Coulomb friction from the slowest third of the speeds alone; `None` if these are all speeds or fewer than two.
     pub slowest: Option<Estimate>,
 }
 
-/// How the points lie about their line.
+/// Shape of the points compared with their line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LineShape {
-    /// Two speeds: nothing speaks for or against a line.
+    /// Only two speeds: the shape cannot be checked.
     Unchecked,
-    /// Within their deviations.
+    /// The points are on the line within their standard errors.
     Straight,
-    /// Friction grows less than in proportion: the extrapolation to rest is too high.
+    /// Friction grows less than in proportion to speed, so the extrapolation to zero speed is too high.
     Concave {
-        /// What bends it, in units of its deviation.
+        /// Curvature divided by its standard error.
         deviations: f64,
     },
-    /// Friction grows more than in proportion, or falls before it grows: the extrapolation to rest
-    /// is too low.
+    /// Friction grows more than in proportion to speed, or falls before it grows, so the
+    /// extrapolation to zero speed is too low.
     Convex {
-        /// What bends it, in units of its deviation.
+        /// Curvature divided by its standard error.
         deviations: f64,
     },
-    /// Farther off than their deviations, to both sides.
+    /// The points are farther from the line than their standard errors allow, on both sides.
     Scattered {
-        /// Root mean square of the distances in units of the deviations.
+        /// Root mean square of the distances, divided by their standard errors.
         rms: f64,
     },
 }
 
 impl FrictionLine {
-    /// The best that the points say of friction at rest: the line's figure where a line describes
-    /// them, that of the slowest third of the speeds where they lie on a curve. Half of what that
-    /// changes counts as a deviation: the curve goes on within the slowest third.
+    /// Best estimate of friction near zero speed: the value of the line if a line describes the points; the value of
+    /// the slowest third of the speeds if the points are on a curve. In that case half of the difference is added to
+    /// the standard error, because the curve continues within the slowest third.
     pub fn near_rest(&self) -> Estimate {
         match (self.shape, self.slowest) {
             (LineShape::Concave { .. } | LineShape::Convex { .. }, Some(slowest)) => {
@@ -77,25 +76,27 @@ impl FrictionLine {
     }
 }
 
-/// Why there is no line.
+/// Reason why one direction gives no friction line.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LineError {
     /// No stretch at a constant velocity in this direction.
     #[error("no stretch at a constant velocity")]
     NoPoints,
-    /// One speed.
-    #[error("{found} speed; at least two are needed")]
+    /// There are too few speeds.
+    #[error("there is only {found} speed, but at least two are needed")]
     TooFewSpeeds {
         /// Speeds found.
         found: usize,
     },
-    /// The speeds are too close together, or too uncertain, for what an extrapolation asks.
-    #[error("the figure extrapolated to rest, {coulomb:.4e}, is uncertain by {std:.1e}")]
+    /// The speeds are too close together, or too uncertain, for an extrapolation.
+    #[error(
+        "the friction extrapolated to zero speed, {coulomb:.4e}, has a standard error of {std:.1e}"
+    )]
     TooClose {
         /// Coulomb friction \[N·m or N\].
         coulomb: f64,
-        /// Its standard deviation.
+        /// Its standard error.
         std: f64,
     },
 }

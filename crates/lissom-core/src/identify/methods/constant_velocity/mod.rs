@@ -1,4 +1,4 @@
-//! The classical measurement: the current that keeps up a steady velocity, extrapolated to rest.
+//! The classical constant-velocity method: the current that keeps a steady velocity, extrapolated to zero speed.
 
 mod findings;
 mod line;
@@ -15,32 +15,32 @@ use findings::findings;
 pub use line::{FrictionLine, LineError, LineShape};
 pub(crate) use steady_friction::{only_constant_velocities, taken};
 
-/// Friction from steady velocities.
+/// Result of the constant-velocity method.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConstantVelocity {
-    /// Coulomb friction, mean of both directions \[N·m or N\]; `None` without both lines.
+    /// Coulomb friction, mean of both directions \[N·m or N\]; `None` unless there is a line for each direction.
     pub coulomb: Option<Estimate>,
-    /// (forward − backward)/2 \[N·m or N\].
+    /// Offset, (forward − backward)/2 \[N·m or N\].
     pub offset: Option<Estimate>,
-    /// Viscous friction, mean of the lines there are \[N·m·s/rad or N·s/m\].
+    /// Viscous friction, mean of the lines \[N·m·s/rad or N·s/m\].
     pub viscous: Option<Estimate>,
-    /// The line through the points at positive velocity.
+    /// Line through the points with positive velocity.
     pub forward: Result<FrictionLine, LineError>,
-    /// The line through the points at negative velocity.
+    /// Line through the points with negative velocity.
     pub backward: Result<FrictionLine, LineError>,
-    /// Every stretch, run by run.
+    /// All parts with constant velocity, run by run.
     pub points: Vec<SteadyPoint>,
 }
 
-/// Finds the stretches at constant velocity and extrapolates the command over them to rest.
+/// Finds the parts of the runs with constant velocity, and extrapolates their mean command to zero speed.
 ///
-/// At a constant velocity nothing is accelerated and `τ = ±CF + V·θ̇`: by direction a straight line
-/// through torque over velocity. τ is the command times its torque constant \[N·m, N, or the
-/// command's unit where the constant is unknown\]. Each point's deviations come from what its
-/// stretch scatters by, coloured as that is; velocities have deviations too and enter through the
-/// slope. Where the points scatter about the line by more than they should, that scatter counts.
+/// At a constant velocity nothing accelerates, and `τ = ±CF + V·θ̇`: a straight line of torque over velocity for each
+/// direction. τ is the command times its torque constant
+/// \[N·m, N, or the unit of the command if the constant is unknown\]. The standard error of each point comes from the
+/// scatter of the signals in its part, with their correlation in time. Errors of the velocity count through the slope.
+/// If the points scatter about the line by more than their standard errors, that scatter counts instead.
 ///
-/// What a line hides is tested for: [`LineShape`].
+/// The shape of the points is tested: see [`LineShape`].
 ///
 /// ```
 /// # use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
@@ -58,7 +58,7 @@ pub struct ConstantVelocity {
 /// ```
 ///
 /// # Source
-/// `[Feliu1989, Section 6.2.2 and Figure 8]`, there without deviations.
+/// `[Feliu1989, Section 6.2.2 and Figure 8]`, without standard errors.
 pub fn constant_velocity(prepared: &Prepared<'_>) -> ConstantVelocity {
     let points = prepared.runs().iter().flat_map(|r| r.steady.iter().copied()).collect();
     ConstantVelocity::of_points(&prepared.campaign().channels, points)
@@ -105,7 +105,7 @@ impl ConstantVelocity {
         Self { coulomb, offset, viscous, forward, backward, points }
     }
 
-    /// Lines with their directions, forward first.
+    /// The fitted lines with the names of their directions, forward first.
     pub fn lines(&self) -> impl Iterator<Item = (&'static str, &FrictionLine)> {
         let named = |name, line| (name, line);
         let (forward, backward) = (self.forward.as_ref().ok(), self.backward.as_ref().ok());

@@ -1,4 +1,4 @@
-//! When steady velocities stand in for friction, and what they cannot give.
+//! When the constant-velocity method can be used for the result, and which parameters it does not give.
 
 use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::estimate::Estimate;
@@ -32,7 +32,7 @@ pub(crate) fn taken(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding> {
 }
 
 impl ConstantVelocity {
-    /// Friction of both lines; viscous friction alone where there is one.
+    /// Friction from both lines; only viscous friction if there is one line.
     pub fn estimates(&self) -> DriveEstimates {
         let viscous_alone = || Friction { viscous: self.viscous, ..Friction::default() };
         let friction = friction_near_rest(self).unwrap_or_else(viscous_alone);

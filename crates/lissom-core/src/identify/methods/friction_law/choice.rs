@@ -1,4 +1,4 @@
-//! The simplest law of friction that the data do not reject.
+//! The choice of the simplest friction law that the data do not reject.
 
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -17,27 +17,27 @@ use crate::identify::methods::regression::{DRY, Fitted, MotorColumns, Solution, 
 use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT, RESIDUAL_FALLS_TO, SIGN_SHOWN};
 use crate::record::{Campaign, Run};
 
-/// A term that was tried, beside others that were in the law already.
+/// A term that was tried for the friction law, in addition to the terms accepted before.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LawCandidate {
-    /// Which.
+    /// The term.
     pub term: LawTerm,
-    /// How many terms the law had before.
+    /// Number of terms that the law had before.
     pub beside: usize,
-    /// Its amplitude; of a ripple that of cosine and sine together.
+    /// Amplitude of the term; for a ripple, that of its cosine and sine together.
     pub amplitude: Estimate,
-    /// What is left with it beside what is left without, as a ratio.
+    /// Residual with the term divided by the residual without it \[1\].
     pub residual_ratio: f64,
-    /// By how many deviations phases that were left out are described better.
+    /// Improvement of the prediction of slip phases that were left out of the fit, divided by its standard error \[1\].
     pub paired: f64,
-    /// The same residual on stretches of a kind (direction, speed, side of the travel) left out
-    /// altogether, as a ratio.
+    /// The same ratio for predictions of whole kinds of motion (by direction, speed, and side of the travel) that were
+    /// left out of the fit \[1\].
     pub stretch_ratio: f64,
-    /// Friction at rest in the direction where it is less, with this term.
+    /// Friction at rest with this term, in the direction that has less.
     pub at_rest: f64,
-    /// Deviation of that.
+    /// Standard error of that friction.
     pub at_rest_std: f64,
-    /// Whether it was taken.
+    /// Whether the term was accepted.
     pub taken: bool,
 }
 

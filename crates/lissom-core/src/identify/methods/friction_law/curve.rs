@@ -1,4 +1,4 @@
-//! Friction against speed without a law: hat functions, forward and backward, beside the linear part.
+//! Friction against speed without a law: hat functions for each direction, in addition to a linear part.
 
 use nalgebra::DMatrix;
 use num_complex::Complex64;
@@ -28,12 +28,12 @@ const MOST_GROUPS: usize = 100;
 pub struct CurvePoint {
     /// +1 forward, −1 backward.
     pub direction: f64,
-    /// |v| \[rad/s or m/s\].
+    /// Speed |v| \[rad/s or m/s\].
     pub speed: f64,
-    /// Torque (force) against the motion: positive where it brakes. A constant load is in it, with
-    /// the sign that it has against this direction; back-EMF is not.
+    /// Torque or force against the motion, positive if it brakes. It includes a constant load, with its sign in this
+    /// direction, but not the damping by back-EMF.
     pub friction: Estimate,
-    /// Windows about this speed.
+    /// Number of windows around this speed.
     pub windows: usize,
 }
 

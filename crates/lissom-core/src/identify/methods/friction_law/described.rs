@@ -1,4 +1,4 @@
-//! How well a law describes other windows than it was found from.
+//! How well a law describes windows from which it was not fitted.
 
 use nalgebra::DVector;
 

@@ -1,4 +1,4 @@
-//! How well a law describes what it was not found from.
+//! How well a law predicts data that were left out of its fit.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -1,4 +1,4 @@
-//! A law of friction as an arm has it.
+//! The terms of a friction law as parameters of an arm.
 
 use crate::identify::methods::friction_law::LawFit;
 use crate::identify::methods::friction_law::law_term::LawTerm;

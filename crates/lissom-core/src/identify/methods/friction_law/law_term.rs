@@ -1,4 +1,4 @@
-//! A term of a friction law: its name, what it does, and how an arm has it.
+//! A term of a friction law: its name, its function, and how it is represented in an arm.
 
 use crate::drive::Falloff;
 use crate::identify::methods::friction_law::thresholds::NEAR_REST_MOST;
@@ -8,37 +8,39 @@ use crate::replay::{DryTerms, NearRest, Ripple};
 /// The speed of a term near rest is found to this share: neighbours tried last are as far apart.
 pub(crate) const NEAR_REST_STEP: f64 = 0.05;
 
-/// A term beside Coulomb friction, one viscous constant and an offset.
+/// A term of a friction law in addition to Coulomb friction, one viscous constant and an offset. s = ±1 is the
+/// direction of motion, v the velocity and θ the angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LawTerm {
-    /// `s·D·v`: viscous friction V + D forward, V − D backward.
+    /// `s·D·v`: viscous friction is V + D forward and V − D backward.
     ViscousByDirection,
-    /// `s·A·e^{−|v|/v_s}` or `s·A·e^{−(v/v_s)²}`: friction at rest is C + A (A > 0: Stribeck).
+    /// `s·A·e^{−|v|/v_s}` or `s·A·e^{−(v/v_s)²}`: friction at rest is C + A (A > 0: Stribeck effect).
     NearRest {
         /// v_s \[rad/s\].
         speed: f64,
-        /// Which of the two.
+        /// Exponential or Gaussian.
         falloff: Falloff,
     },
-    /// No amplitude of its own: friction that has not grown to its level yet, over so much travel since a
-    /// reversal (presliding), is left out.
+    /// Presliding: friction has not reached its level in the first travel after a reversal, and that travel is left
+    /// out. The term has no amplitude.
     AfterTravel {
-        /// That travel \[rad\].
+        /// Travel that is left out \[rad\].
         travel: f64,
     },
     /// `s·A·√|v|`.
     Root,
     /// `s·(A_1·cos kθ + A_2·sin kθ)`.
     Ripple {
-        /// k, radians of ripple per radian of angle (1/m on linear axes).
+        /// k: phase of the ripple per angle \[rad/rad\], or per length on a linear axis \[1/m\].
         per_angle: f64,
     },
-    /// `s·A·|g_s·sin θ + g_c·cos θ|`: friction that grows with the load of gravity, A the coefficient μ of friction.
+    /// `s·A·|g_s·sin θ + g_c·cos θ|`: friction that grows with the torque of gravity; A is a
+    /// coefficient of friction μ \[1\].
     WithLoad {
-        /// The load, as the regression has it.
+        /// The load, as estimated by the regression.
         load: GravityLoad,
     },
-    /// The command acts later than it is logged; its amplitude is that time \[s\].
+    /// The command acts later than it is logged; the amplitude is this time \[s\].
     CommandLag,
 }
 
@@ -87,7 +89,7 @@ impl Column {
     }
 }
 
-/// What a term's scale is in.
+/// Quantity of a term's scale.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ScaleUnit {
     /// A speed \[rad/s\].
@@ -145,7 +147,7 @@ impl LawTerm {
         }
     }
 
-    /// The speed or the angle over which it changes.
+    /// Speed or angle over which the term changes; `None` if it has no scale.
     pub fn scale(self) -> Option<(f64, ScaleUnit)> {
         match self {
             Self::NearRest { speed, .. } => Some((speed, ScaleUnit::Speed)),
@@ -159,7 +161,7 @@ impl LawTerm {
         }
     }
 
-    /// Its name in results.
+    /// Name in results.
     pub fn name(self) -> &'static str {
         match self {
             Self::ViscousByDirection => "viscous-by-direction",

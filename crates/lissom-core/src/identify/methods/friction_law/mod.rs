@@ -1,7 +1,7 @@
-//! Friction against speed: the curve without a law, and the simplest law that the data do not reject.
+//! Friction against speed: as a curve without a law, and as the simplest law that the data do not reject.
 //!
-//! Both are least squares on windows in slip phases, as in the regression, with windows as short as
-//! the sensor allows: what friction does near rest is lost in long ones.
+//! Both are least squares on windows in slip phases, as in the regression. The windows are as short as the sensor
+//! allows, because long windows average out the change of friction near rest.
 
 pub(crate) mod choice;
 mod column_values;
@@ -50,49 +50,50 @@ const LEAST_SAMPLES: f64 = 20.0;
 /// Ratio of one window tried to that before it.
 const LONGER: f64 = std::f64::consts::SQRT_2;
 
-/// What the slip phases say of friction.
+/// Friction against speed, and its law.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrictionLaw {
     /// Length of the windows \[s\].
     pub window_s: f64,
-    /// Slowest and fastest speed of the windows: law and curve are of friction between these \[rad/s\].
+    /// Lowest and highest speed of the windows \[rad/s\]; law and curve are valid between these.
     pub speed_range: [f64; 2],
-    /// Friction against speed without a law, ascending in speed within a direction.
+    /// Friction against speed without a law; for each direction ascending in speed.
     pub curve: Vec<CurvePoint>,
-    /// Every term that was tried, in the order of trying.
+    /// All terms that were tried, in order.
     pub candidates: Vec<LawCandidate>,
-    /// Figures under the law chosen.
+    /// Estimates with the law that was chosen.
     pub chosen: LawFit,
-    /// ‖y − X·q‖/‖y‖ with Coulomb and one viscous constant, with the law chosen, and with the curve.
+    /// Relative residual ‖y − X·q‖/‖y‖ with Coulomb friction and one viscous constant, with the chosen law, and with
+    /// the curve \[1\].
     pub relative_residual: [f64; 3],
 }
 
-/// Figures of the motor's equation under a law of friction
-/// `τ_F = s·(C + Σ A_k·g_k) + O + V·v + s·D·v`, s the direction: (forward, backward) V ± D.
+/// Estimates of the motor's equation with the friction law `τ_F = s·(C + Σ A_k·g_k) + O + V·v + s·D·v`, s = ±1 the
+/// direction of motion. Viscous friction is V + D forward and V − D backward.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LawFit {
-    /// Terms beside C, V and O, with their amplitudes: of a ripple those of cosine and sine and, where the
-    /// travel tells it, k itself, else one.
+    /// Terms in addition to C, V and O, with their amplitudes: for a ripple, those of its cosine and sine and, if the
+    /// travel determines it, k itself; otherwise one.
     pub terms: Vec<(LawTerm, Vec<Estimate>)>,
-    /// Inertia J.
+    /// Inertia J \[kg·m²\] or mass \[kg\].
     pub inertia: Option<Estimate>,
-    /// Mean viscous friction V, back-EMF taken out.
+    /// Viscous friction V, mean of both directions, without the damping by back-EMF.
     pub viscous: Option<Estimate>,
-    /// C.
+    /// Coulomb friction C.
     pub coulomb: Option<Estimate>,
-    /// Friction at rest C + A, of a law with a term near rest.
+    /// Friction at rest C + A, if the law has a term near rest.
     pub at_rest: Option<Estimate>,
-    /// O.
+    /// Offset O.
     pub offset: Option<Estimate>,
-    /// C + O.
+    /// Coulomb friction forward, C + O.
     pub forward: Option<Estimate>,
-    /// C − O.
+    /// Coulomb friction backward, C − O.
     pub backward: Option<Estimate>,
-    /// κ_i of each tip of the campaign, `None` where its angle is not known; empty where none is.
+    /// κ_i of each tip of the campaign \[N·m/rad\], `None` for a tip that measures no angle; empty if none does.
     pub coupling: Vec<Option<Estimate>>,
-    /// Their sum.
+    /// Sum of κ_i over the tips \[N·m/rad\].
     pub total_coupling: Option<Estimate>,
-    /// Gravity, where the campaign has it.
+    /// Gravity, if the campaign has it.
     pub gravity: Option<Gravity>,
 }
 
@@ -129,8 +130,7 @@ impl FrictionLaw {
 }
 
 impl LawFit {
-    /// Friction against the motion at a speed in a direction (+1 or −1), ripple left out: positive
-    /// where it brakes.
+    /// Friction against the motion at a speed in a direction (+1 or −1), without ripples; positive if it brakes.
     pub fn friction(&self, speed: f64, direction: f64) -> Option<f64> {
         let mut sum = self.coulomb?.value + self.viscous?.value * speed;
         sum += direction * self.offset.map_or(0.0, |o| o.value);
@@ -141,7 +141,7 @@ impl LawFit {
         Some(sum)
     }
 
-    /// A term's first amplitude, where it is in the law.
+    /// First amplitude of a term, if the law contains it.
     pub fn term(&self, wanted: impl Fn(&LawTerm) -> bool) -> Option<Estimate> {
         let found = self.terms.iter().find(|(term, _)| wanted(term))?;
         found.1.first().copied()
@@ -154,7 +154,7 @@ impl LawFit {
         surely && self.coulomb.is_some_and(|c| sure(&c) && 0.0 < less && less < c.value)
     }
 
-    /// Whether it is another law of friction than Coulomb and one viscous constant.
+    /// Whether the law has terms in addition to Coulomb friction and one viscous constant.
     pub fn departs(&self) -> bool {
         self.terms.iter().any(|(term, _)| *term != LawTerm::CommandLag)
     }

@@ -1,4 +1,4 @@
-//! The speed or the period of a term that was taken, to where least is left.
+//! Refines the speed or the period of an accepted term to the smallest residual.
 
 use rayon::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Where friction may change over the angle: the periods that stand out of what a law leaves.
+//! Finds periods of the residual over the angle that stand out: candidates for ripple.
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
 
 use std::f64::consts::TAU;

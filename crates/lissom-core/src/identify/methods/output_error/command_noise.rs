@@ -1,4 +1,4 @@
-//! What the noise of a measured command does to a replay.
+//! Effect of the noise of a measured command on a replay.
 
 use rayon::prelude::*;
 

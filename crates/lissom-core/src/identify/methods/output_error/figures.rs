@@ -109,9 +109,10 @@ impl OutputError {
         self.describes_whole_runs() && self.arm.modes.is_empty() && !is_left(&self.left_over)
     }
 
-    /// Whether the arm is accepted: its residual is at most a few times the sensors' noise if whole runs are
-    /// replayed, and about that noise if shorter windows are replayed. Where the regression's equation lacks a term, shorter
-    /// windows are accepted as whole runs are: the regression's estimates would be further off.
+    /// Whether the arm is accepted. If whole runs are replayed, its residual may be at most a few times the
+    /// sensors' noise; if shorter windows are replayed, it must be about that noise. If the regression's
+    /// equation lacks a term, the limit of whole runs also holds for shorter windows, because the regression's
+    /// estimates would be less accurate.
     pub fn stands(&self) -> bool {
         self.beyond_noise < self.accepted_residual && is_sound(&self.arm, &self.covariance)
     }

@@ -18,11 +18,11 @@ const SLOPE_STEP: f64 = 0.5;
 /// How a search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SearchEnd {
-    /// It was done.
+    /// The search ended by itself.
     Done,
-    /// All evaluations that it may make were made.
+    /// The limit of evaluations was reached.
     Evaluations,
-    /// Somebody asked for it, or a time was over.
+    /// The user requested it, or a time limit was reached.
     Interrupted,
 }
 
@@ -50,10 +50,10 @@ pub struct OutputError {
     pub stages: Vec<StageReport>,
     /// All parameters that were tried in addition to those of the simplest law.
     pub extensions: Vec<Extension>,
-    /// Whether the beam is modelled by point masses at its tips.
+    /// Whether the beam is modelled with point masses at its tips.
     pub point_masses: bool,
-    /// Whether windows were lengthened to whole runs, or to the longest over which neighbouring motions do not grow
-    /// apart.
+    /// Whether windows were lengthened to whole runs, or to the longest windows over which
+    /// neighbouring motions do not diverge.
     pub whole_runs: bool,
     /// Evaluations made: samples replayed, and derivatives of these by a parameter.
     pub evaluations: u64,
@@ -116,7 +116,7 @@ impl OutputError {
 /// Input of the output-error method in addition to the logs.
 #[derive(Debug, Clone)]
 pub struct OutputErrorStart {
-    /// Arms to start from, the likelier or simpler first.
+    /// Starting arms; the likelier or simpler ones first.
     pub arms: Vec<ModalArm>,
     /// Frequency of each run that is a sinusoid in steady state \[rad/s\].
     pub omega_rad_s: Vec<Option<f64>>,
@@ -125,10 +125,12 @@ pub struct OutputErrorStart {
     pub first_window_s: Option<f64>,
     /// Most evaluations.
     pub most_evaluations: u64,
-    /// Ends the search with what it has.
+    /// Ends the search early, with the best result so far.
     pub interrupt: Interrupt,
-    /// Whether slip phases show friction that varies from one to the next, and nothing else.
+    /// Whether the regression in slip phases has found friction that varies from one slip phase
+    /// to the next, and nothing else.
     pub friction_varies: bool,
-    /// Terms of friction that slip phases show: speeds and periods to try if the residual is above the noise.
+    /// Friction terms that were found in slip phases. Their speeds and periods are tried if
+    /// the residual is above the noise.
     pub law: Vec<LawTerm>,
 }

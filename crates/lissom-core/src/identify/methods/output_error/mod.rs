@@ -1,5 +1,5 @@
-//! The output-error method: the logged command is replayed through an arm, and the arm's parameters are changed until
-//! the replay shows the logged angles.
+//! The output-error method: it simulates the arm under the logged command, and changes the arm's parameters until the
+//! simulated motion is the logged one.
 
 mod command_noise;
 mod engine;

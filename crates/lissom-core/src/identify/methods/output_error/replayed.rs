@@ -1,5 +1,5 @@
-//! The output-error method: the logged command is replayed through an arm, and the arm's parameters are changed until
-//! the replay shows the logged angles.
+//! The output-error method: it simulates the arm under the logged command, and changes the arm's parameters until the
+//! simulated motion is the logged one.
 
 use crate::identify::methods::output_error::engine::budget::Budget;
 use crate::identify::methods::output_error::engine::{data, noise};
@@ -12,17 +12,18 @@ use crate::identify::methods::output_error::undecided::{KnownParameters, undecid
 use crate::identify::prepare::prepared::Prepared;
 use crate::replay::SensorNoise;
 
-/// Identifies the arm whose replay of the logged command shows the logged angles.
+/// Identifies the arm whose simulated motion under the logged command is the logged motion.
 ///
-/// The search starts from one arm after another, until one describes the runs. If none does, the one that comes
-/// closest is returned. An arm that does not describe short windows is given up there.
+/// The search starts from one arm after another until one describes the runs. If none does, the closest one is
+/// returned. An arm that does not describe short windows is given up at once.
 ///
 /// Each window has its own initial state. Windows are short at first, so that sticking and slipping follow the log.
-/// They become longer until they are whole runs, or until the residual grows because the arm does not describe the
-/// motion. Parameters beyond the simplest law are added if they are significant: a lag, viscous friction by
-/// direction, another kind of damping, friction near standstill, a ripple. At the end the sensors' steps are counted
-/// as steps, and readings that only repeat a step are counted once. If the residual is then above the noise, or the
-/// highest mode is faint, the search is repeated with slower widening and from other frequencies of that mode.
+/// They are lengthened until they are whole runs, or until the residual grows because the arm does not describe the
+/// motion. Parameters in addition to the simplest law are added if they are significant: a lag, viscous friction by
+/// direction, another kind of damping, friction near rest, a ripple. At the end the steps of the sensors are part of
+/// the likelihood, and readings that only repeat a step are counted once. If the residual is then above the noise, or
+/// the highest mode is weak, the search is repeated: windows grow more slowly, and other starting frequencies of that
+/// mode are tried.
 ///
 /// `None` if no window can be cut or no starting arm is within the limits of the search.
 pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option<OutputError> {

@@ -21,26 +21,26 @@ use crate::record::{Campaign, Run, TipQuantity};
 /// Windows in a block that the covariance takes as one.
 const BLOCK: usize = 40;
 
-/// Figures of the beam's equation.
+/// Estimates from the beam's own equation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamRegression {
-    /// Length of the window used for each tip \[s\].
+    /// Length of the window that was used for each tip \[s\].
     pub window_s: Vec<f64>,
-    /// Lengths tried, by tip.
+    /// Window lengths that were tried, by tip.
     pub candidates: Vec<Vec<Candidate>>,
-    /// ‖y − X·q‖/‖y‖, by tip.
+    /// Relative residual ‖y − X·q‖/‖y‖, by tip \[1\].
     pub relative_residual: Vec<f64>,
-    /// Modes with the motor clamped, ascending.
+    /// Modes with the motor clamped, ascending in frequency.
     pub modes: Vec<ModeEstimate>,
-    /// −Â, by tip \[1/s²\].
+    /// −Â, tips × tips \[1/s²\].
     pub stiffness: DMatrix<f64>,
 }
 
-/// Fits `θ̈_i = Σ_j â_ij(θ_j − θ_m) − d_i·θ̇_i − e_i·(θ̇_i − θ̇_m) + const` for each tip, damped against the fixed frame and within the beam, over all runs, sticking or not,
-/// and takes the modes from Â.
+/// Fits `θ̈_i = Σ_j â_ij(θ_j − θ_m) − d_i·θ̇_i − e_i·(θ̇_i − θ̇_m) + const` to each tip over all runs, sticking or not,
+/// and computes the modes from Â. d_i is damping against the fixed frame and e_i damping within the beam \[1/s\].
 ///
-/// As many modes as tips: `None` where a tip is no calibrated angle or deflection, where windows
-/// are too few, or where Â has no set of positive real natural frequencies.
+/// There are as many modes as tips. `None` if a tip is not a calibrated angle or deflection, if there are too few
+/// windows, or if the natural frequencies of Â are not all real and positive.
 ///
 /// ```
 /// # use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity};
@@ -58,7 +58,7 @@ pub struct BeamRegression {
 /// ```
 ///
 /// # Source
-/// `[Feliu1989, eqs. (13), (17)]`, by parts as in the motor's regression; A·1 + B = 0 is built in.
+/// `[Feliu1989, eqs. (13), (17)]`, integrated by parts as in the motor's regression; A·1 + B = 0 is built in.
 pub fn beam_regression(prepared: &Prepared<'_>) -> Option<BeamRegression> {
     let campaign = prepared.used();
     let tips = &campaign.channels.tips;

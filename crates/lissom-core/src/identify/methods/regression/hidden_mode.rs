@@ -1,4 +1,4 @@
-//! A flexible mode that no tip shows, from the motor's equation.
+//! A flexible mode that no tip measures, from the motor's equation.
 
 use nalgebra::{DVector, Matrix3, Vector3};
 
@@ -22,27 +22,28 @@ const USUAL_SHARE: Estimate = Estimate { value: 0.5, std: 0.29 };
 /// Damping ratio if the logs do not identify it.
 const USUAL_DAMPING_RATIO: Estimate = Estimate { value: 0.02, std: 0.02 };
 
-/// A part of the inertia that turns behind a spring, as the motor's motion alone shows it.
+/// A part of the inertia behind a spring, as the motor's motion alone shows it.
 ///
-/// With the inertias J₁ of the motor and J₂ behind a spring k with damper d, J = J₁ + J₂, ω² = k/J₂ and c = d/k,
+/// With the inertias J₁ of the motor and J₂ behind a spring k with damper d, J = J₁ + J₂, ω² = k/J₂ and c = d/k, the
+/// equation of the motor becomes
 ///
-/// `τ + c·τ̇ + τ̈/ω² = (J + c·V)·θ̈ + V·θ̇ + (c·J + V/ω²)·θ⃛ + (J₁/ω²)·θ⁗` and dry friction,
+/// `τ + c·τ̇ + τ̈/ω² = (J + c·V)·θ̈ + V·θ̇ + (c·J + V/ω²)·θ⃛ + (J₁/ω²)·θ⁗` plus dry friction,
 ///
-/// which is constant in a slip phase. All terms are linear in the unknowns, and windows of the regression take their
-/// derivatives.
+/// which is constant in a slip phase. All terms are linear in the unknowns. The derivatives are taken of the windows of
+/// the regression.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HiddenMode {
     /// Frequency ω with the motor clamped \[rad/s\].
     pub omega_rad_s: Estimate,
-    /// Damping ratio c·ω/2.
+    /// Damping ratio c·ω/2 \[1\].
     pub damping_ratio: Estimate,
-    /// Inertia before the spring as a share of all, J₁/J.
+    /// Share of the motor's inertia in the total, J₁/J \[1\].
     pub inertia_share: Estimate,
-    /// Changes of inertia, viscous and Coulomb friction due to the mode.
+    /// Changes of inertia, viscous and Coulomb friction by this mode.
     pub moves: [Moved; 3],
-    /// Residual relative to that of the equation without the mode, in windows of the length `window_s`.
+    /// Residual with the mode divided by the residual without it, in windows of the length `window_s` \[1\].
     pub residual_ratio: f64,
-    /// Length of the windows in which its frequency is known best \[s\].
+    /// Length of the windows in which its frequency is best known \[s\].
     pub window_s: f64,
 }
 

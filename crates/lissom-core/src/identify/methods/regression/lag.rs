@@ -1,4 +1,4 @@
-//! By how much the angle lags behind the command, and whether as a first-order filter or as a delay.
+//! Lag of the angle behind the command, as a first-order filter or as a delay.
 
 use crate::identify::methods::regression::missing::MissingTerm;
 use crate::identify::methods::regression::motor_columns::{DRY, MotorColumns};
@@ -16,27 +16,27 @@ const ROUNDS: usize = 5;
 /// Times that are tried in a step.
 const TRIED: usize = 5;
 
-/// What an angle that is logged late looks like.
+/// Form of a lag of the logged angle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LagShape {
     /// A first-order filter; the time is its time constant.
     Filter,
     /// A delay.
     Delay,
-    /// The logs do not tell which.
+    /// The logs do not distinguish the two.
     Either,
 }
 
-/// A lag of the angle behind the command; less than zero where the command lags behind the angle.
+/// A lag of the angle behind the command; negative if the command lags behind the angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AngleLag {
     /// Time constant or delay \[s\].
     pub time_s: f64,
-    /// The same in samples.
+    /// The same time in samples.
     pub samples: f64,
-    /// Which of them.
+    /// Filter or delay.
     pub shape: LagShape,
-    /// Ratio of the residual with the lag to that without it.
+    /// Residual with the lag divided by the residual without it \[1\].
     pub residual_ratio: f64,
 }
 

@@ -1,4 +1,4 @@
-//! The regression without each run in turn: which run the others do not predict.
+//! The regression without each run in turn: finds a run that the others do not predict.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -1,4 +1,4 @@
-//! What the motor's equation leaves of the torque, and what that looks like.
+//! The residual torque of the motor's equation, and its likely origin.
 
 use nalgebra::DVector;
 
@@ -11,18 +11,19 @@ use crate::identify::methods::regression::thresholds::{
 /// Neighbouring windows overlap: the noise of so many rows is the same.
 const ROWS_ALIKE: f64 = 4.0;
 
-/// What the motor's equation leaves of the squared torque, in its windows.
+/// Composition of the residual torque of the motor's equation. Shares are of its squares, summed over the windows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeftTorque {
-    /// Share that noise of the sensors, a measured command among them, adds in expectation, at most 1.
+    /// Expected share of sensor noise, including that of a measured command \[1\]; at most 1.
     pub by_noise: f64,
-    /// The same by noise of the command alone, which may be more than 1 where a control loop makes a part of it.
+    /// Expected share of the noise of the command alone \[1\]. It may be above 1 if a control
+    /// loop causes a part of that noise.
     pub by_command: f64,
-    /// Share of the rest that is a constant for each slip phase.
+    /// Share of the remainder that is constant within each slip phase \[1\].
     pub between_phases: f64,
-    /// The square of these constants beside what noise adds to it.
+    /// Squares of these constants, relative to the expected contribution of noise \[1\].
     pub between_over_noise: f64,
-    /// The constants' root mean square over the time, as a share of Coulomb friction.
+    /// Root mean square of these constants, weighted with time, as a share of Coulomb friction \[1\].
     pub varies_by: f64,
 }
 
@@ -53,12 +54,12 @@ impl LeftTorque {
         }
     }
 
-    /// Whether it is noise of the sensors for the most part.
+    /// Whether most of the residual is sensor noise.
     pub fn is_noise(&self) -> bool {
         self.by_noise > LEFT_BY_NOISE && !self.is_between_phases()
     }
 
-    /// Whether a good part is friction, or a load, that changes from one slip phase to the next.
+    /// Whether a large part of the residual is friction, or a load, that changes from one slip phase to the next.
     pub fn is_between_phases(&self) -> bool {
         self.between_phases > LEFT_BETWEEN_PHASES
             && self.between_over_noise > BETWEEN_OVER_NOISE

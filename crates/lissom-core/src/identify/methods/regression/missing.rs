@@ -1,4 +1,4 @@
-//! Whether the motor's equation lacks a term: one is added at a time, and the residual decides.
+//! Tests whether the motor's equation lacks a term: terms are added one at a time, and the residuals are compared.
 
 use crate::identify::methods::regression::left_torque::LeftTorque;
 use crate::identify::methods::regression::motor_columns::{
@@ -12,22 +12,22 @@ use crate::identify::methods::regression::thresholds::{
 use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT, RESIDUAL_FALLS_TO};
 use crate::record::{Axis, Campaign, Run};
 
-/// What the equation may lack.
+/// A term that the equation may lack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MissingKind {
-    /// The command acts later: `τ(t − Δ)`, or lags behind by Δ.
+    /// A delay Δ: the command acts later, `τ(t − Δ)`, or lags by Δ.
     Delay,
-    /// A torque that grows with position: gravity, a spring, coarse cogging, a wrongly scaled tip.
+    /// A torque in proportion to position: gravity, a spring, coarse cogging, or a tip sensor with a wrong scale.
     Position,
-    /// Friction that falls with speed: `e^{−|v|/v̄}` of the Stribeck kind, or presliding.
+    /// Friction that falls with speed, `e^{−|v|/v̄}`: the Stribeck effect, or presliding.
     Stribeck,
-    /// Damping within the beam, in proportion to its stiffness: a torque by the rate of what is bent.
+    /// Damping within the beam in proportion to its stiffness: a torque by the rate of bending.
     BeamDamping,
-    /// A torque constant that differs by the command's sign, as of an amplifier that is stronger one way.
+    /// A torque constant that differs by the sign of the command, for example of an amplifier.
     CommandBySign,
-    /// Coulomb friction that changes from the campaign's first sample to its last.
+    /// Coulomb friction that changes from the first sample of the campaign to the last.
     CoulombDrift,
-    /// Viscous friction that does, as of a joint that warms.
+    /// Viscous friction that changes over the campaign, for example of a joint that warms up.
     ViscousDrift,
     /// An unbalanced load: `g_s·sin θ + g_c·cos θ`.
     Gravity,
@@ -78,24 +78,23 @@ impl MissingKind {
     }
 }
 
-/// A term that the data call for.
+/// A term that the data require.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MissingTerm {
-    /// Which.
+    /// The term.
     pub kind: MissingKind,
-    /// Its coefficient: delay \[s\], stiffness \[N·m/rad\], friction at rest beyond the constant
-    /// \[N·m\] (linear axes: N/m, N), time of the beam's damping \[s\]; half of what positive commands give more
-    /// than negative ones, relative; change of Coulomb \[N·m or N\] and viscous friction \[N·m·s/rad or N·s/m\] from
-    /// the campaign's beginning to its end, its runs taken one after the other; m·g·l of gravity \[N·m\].
+    /// Its coefficient: delay \[s\]; stiffness \[N·m/rad or N/m\]; friction at rest beyond the constant \[N·m or N\];
+    /// time of the beam's damping \[s\]; half the relative difference of the torque constant for positive and negative
+    /// commands \[1\]; change of Coulomb friction \[N·m or N\] or viscous friction \[N·m·s/rad or N·s/m\] from the
+    /// beginning of the campaign to its end, with the runs one after the other; m·g·l of gravity \[N·m\].
     pub value: f64,
-    /// By how much it changes the estimates of inertia, viscous and Coulomb friction, as shares of those without it, and
-    /// as shares of their standard errors.
+    /// Changes of the estimates of inertia, viscous and Coulomb friction when the term is added.
     pub moves: [Moved; 3],
-    /// How many deviations from zero.
+    /// Coefficient divided by its standard error \[1\].
     pub deviations: f64,
-    /// Residual beside that of the equation without it, as a ratio.
+    /// Residual with the term divided by the residual without it \[1\].
     pub residual_ratio: f64,
-    /// Length of the windows that show it \[s\].
+    /// Length of the windows in which the term is found \[s\].
     pub window_s: f64,
 }
 
@@ -107,12 +106,12 @@ impl MissingTerm {
     }
 }
 
-/// By how much an estimate changes when a term is added.
+/// Change of an estimate when a term is added.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Moved {
-    /// As a share of the estimate without it.
+    /// Change as a share of the estimate without the term \[1\].
     pub share: f64,
-    /// In standard errors of the estimate without it.
+    /// Change in standard errors of the estimate without the term \[1\].
     pub standard_errors: f64,
 }
 

@@ -1,5 +1,4 @@
-//! Regression on slip phases: inertia, friction and coupling without differentiating a
-//! measurement.
+//! Regression in slip phases: inertia, friction and coupling without differentiating a measured signal.
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one: half the time")]
 
 mod beam;

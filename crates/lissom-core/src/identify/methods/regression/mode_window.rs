@@ -1,4 +1,4 @@
-//! Windows of the motor's equation with a mode that no tip shows.
+//! Windows of the motor's equation with a mode that no tip measures.
 
 use crate::identify::methods::regression::window::{Weights, Window};
 

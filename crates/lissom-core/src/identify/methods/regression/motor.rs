@@ -1,4 +1,4 @@
-//! The motor's equation on slip phases.
+//! The motor's equation in slip phases.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -35,52 +35,53 @@ use crate::record::{Campaign, Channels, Run};
 /// A lag is found in at most this many rounds, each corrected by the delay that the equation lacks in the one before.
 const LAG_ROUNDS: usize = 3;
 
-/// Figures of the motor's equation, in torque (or force) as the command's constant gives it.
+/// Estimates from the motor's equation, in torque (or force) according to the torque constant of the command.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotorRegression {
-    /// Length of the window used \[s\].
+    /// Length of the window that was used \[s\].
     pub window_s: f64,
-    /// Whether that length was given rather than chosen.
+    /// Whether that length was given instead of chosen from the data.
     pub window_given: bool,
-    /// Lengths tried.
+    /// Window lengths that were tried.
     pub candidates: Vec<Candidate>,
-    /// Rows in the fit.
+    /// Number of windows in the fit.
     pub rows: usize,
-    /// Slip phases that hold at least one window.
+    /// Number of slip phases with at least one window.
     pub phases: usize,
-    /// ‖y − X·q‖/‖y‖: part of the windowed torque that the model leaves.
+    /// Relative residual ‖y − X·q‖/‖y‖ of the windowed torque \[1\].
     pub relative_residual: f64,
     /// Inertia J \[kg·m²\] or mass \[kg\].
     pub inertia: Option<Estimate>,
-    /// Viscous friction V \[N·m·s/rad or N·s/m\], back-EMF taken out.
+    /// Viscous friction V, without the damping by back-EMF \[N·m·s/rad or N·s/m\].
     pub viscous: Option<Estimate>,
     /// Coulomb friction, mean of both directions \[N·m or N\].
     pub coulomb: Option<Estimate>,
-    /// (forward − backward)/2 \[N·m or N\].
+    /// Offset, (forward − backward)/2 \[N·m or N\].
     pub offset: Option<Estimate>,
-    /// Friction while moving forward.
+    /// Coulomb friction while moving forward \[N·m or N\].
     pub forward: Option<Estimate>,
-    /// Friction while moving backward.
+    /// Coulomb friction while moving backward, a magnitude \[N·m or N\].
     pub backward: Option<Estimate>,
-    /// Coupling to all tips together, Σκ_i; `None` without tips whose angle is known.
+    /// Coupling to all tips together, Σκ_i \[N·m/rad\]; `None` if no tip measures an angle.
     pub total_coupling: Option<Estimate>,
-    /// Coupling to each tip of the campaign, κ_i = −h_i of (15) \[N·m/rad\]; `None` where its
-    /// angle is not known or it cannot be told from others. Empty where no angle is known.
+    /// Coupling to each tip of the campaign, κ_i = −h_i of (15) \[N·m/rad\]; `None` if the tip measures no angle or
+    /// cannot be separated from others. Empty if no tip measures an angle.
     pub coupling: Vec<Option<Estimate>>,
-    /// Gravity, where the campaign has it.
+    /// Gravity, if the campaign has it.
     pub gravity: Option<Gravity>,
-    /// Viscous friction by direction, where the data reject one constant.
+    /// The fit with viscous friction by direction, if the data reject one constant.
     pub viscous_by_direction: Option<ByDirection>,
-    /// A term that the equation lacks, where the data call for one.
+    /// A term that the equation lacks, if the data require one.
     pub missing: Option<MissingTerm>,
-    /// A flexible mode that no tip measures and that the estimates account for.
+    /// A flexible mode that no tip measures and that the estimates take into account.
     pub mode: Option<HiddenMode>,
-    /// What the equation leaves of the torque.
+    /// Composition of the residual torque.
     pub left: LeftTorque,
-    /// The lag of the angle behind the command that the estimates count.
+    /// Lag of the angle behind the command that the estimates take into account.
     pub lag: Option<AngleLag>,
-    /// By what share inertia is too small if the residual torque is not noise but accelerates the motor, as friction that
-    /// wanders does in an open loop. Given where each run turns one way: no position loop drives these.
+    /// Share by which inertia is underestimated if the residual torque is not noise but a real torque that accelerates
+    /// the motor \[1\], for example friction that varies in an open loop. Given if each run turns in one direction,
+    /// because such runs are not driven by a position loop.
     pub inertia_short_by: Option<f64>,
     /// The same without each run in turn.
     pub(crate) left_out: Vec<RunLeftOut>,
@@ -100,12 +101,12 @@ pub(crate) struct Terms {
     pub(crate) columns: MotorColumns,
 }
 
-/// A term that gravity may be mistaken for.
+/// A term that may be mistaken for gravity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GravityPartner {
-    /// Inertia: in one small sine acceleration and angle are in proportion.
+    /// Inertia: in a single sine of small amplitude, acceleration and angle are in proportion.
     Inertia,
-    /// A constant load: over a short arc gravity is one.
+    /// A constant load: over a short arc, gravity is nearly constant.
     Offset,
 }
 
@@ -140,34 +141,34 @@ impl Terms {
     }
 }
 
-/// The same equation with viscous friction by direction: a fit of its own.
+/// The fit of the same equation with viscous friction by direction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ByDirection {
     /// Length of its windows \[s\].
     pub window_s: f64,
-    /// All that this fit gives.
+    /// All estimates of this fit.
     pub estimates: DriveEstimates,
-    /// ‖y − X·q‖/‖y‖ of this fit.
+    /// Relative residual ‖y − X·q‖/‖y‖ of this fit \[1\].
     pub relative_residual: f64,
-    /// The same with one viscous constant, in the same windows.
+    /// Relative residual with one viscous constant, in the same windows \[1\].
     pub relative_residual_of_one: f64,
     /// J, V, CF, offset, κ_i of the tips, g_s and g_c, and half the difference of viscous friction forward and backward.
     pub(crate) terms: Terms,
 }
 
-/// Fits `τ = J·θ̈ + V·θ̇ + Σκ_i(θ_m − θ_i) + CF·sgn θ̇ + offset + g_s·sin θ + g_c·cos θ` on the slip phases of all runs,
-/// gravity where the campaign has it.
+/// Fits `τ = J·θ̈ + V·θ̇ + Σκ_i(θ_m − θ_i) + CF·sgn θ̇ + offset + g_s·sin θ + g_c·cos θ` to the slip phases of all
+/// runs; the terms of gravity only if the campaign has it.
 ///
-/// The equation is multiplied by `w = sin⁴` windows within each phase and integrated by parts:
-/// `∫w·τ = J∫ẅ·θ − V∫ẇ·θ + Σκ_i∫w(θ_m − θ_i) + (±CF + offset)∫w`. A held command enters by its
-/// exact integral. The covariance takes phases, and runs where there are several, as independent,
-/// and counts how much the figures move with the window's length.
+/// The equation is multiplied by `w = sin⁴` windows within each slip phase and integrated by parts:
+/// `∫w·τ = J∫ẅ·θ − V∫ẇ·θ + Σκ_i∫w(θ_m − θ_i) + (±CF + offset)∫w`. A sampled (held) command is integrated exactly. The
+/// covariance assumes that slip phases are independent, and runs if there are several; it includes the change of the
+/// estimates with the length of the window.
 ///
-/// With lengths in `window_s` one of these is used; without, the length is chosen from the data.
-/// `None` where no phase holds windows enough.
+/// If `options.window_s` contains lengths, one of them is used; otherwise a length is chosen from the data. `None` if
+/// there are too few windows in slip phases.
 ///
-/// τ is the command times its torque constant \[N·m, N, or the command's unit where the constant is
-/// unknown\]; θ_i − θ_m is measured, so that no model of the beam enters.
+/// τ is the command times its torque constant \[N·m, N, or the unit of the command if the constant is unknown\]. θ_i −
+/// θ_m is measured, so no model of the beam is needed.
 ///
 /// ```
 /// # use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
@@ -185,8 +186,8 @@ pub struct ByDirection {
 /// ```
 ///
 /// # Source
-/// `[Feliu1989, eqs. (14), (15)]` is the equation; the way of fitting it is this project's own
-/// (DESIGN.md, "How does the regression work?").
+/// `[Feliu1989, eqs. (14), (15)]` for the equation; the method of fitting is lissom's own
+/// (`docs/src/theory/regression.md`).
 pub fn motor_regression(prepared: &Prepared<'_>, options: &Options) -> Option<MotorRegression> {
     // Many short loops: within the pool none of them has to wake it first.
     rayon::scope(|_| {
@@ -398,8 +399,8 @@ impl MotorRegression {
         }
     }
 
-    /// Relative error with which these figures predict the windowed torque of other records:
-    /// ‖y − X·q‖/‖y‖ on their slip phases, at this fit's window. `None` where no phase holds one.
+    /// Relative error ‖y − X·q‖/‖y‖ with which these estimates predict the windowed torque of other runs \[1\], in
+    /// their slip phases and with the window of this fit. `None` if no slip phase contains a window.
     pub fn prediction_error(&self, prepared: &Prepared<'_>) -> Option<f64> {
         let equation = MotorRows::of(prepared.used(), prepared.noise());
         let values = &self.terms.values;

@@ -1,4 +1,4 @@
-//! What the sensors' noise adds to the products of a row's columns.
+//! Contribution of sensor noise to the products of a row's columns.
 
 use nalgebra::DMatrix;
 

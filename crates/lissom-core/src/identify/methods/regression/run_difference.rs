@@ -1,5 +1,5 @@
-//! How a run differs from the others: the one change of the others' parameters, or of the run's channels, that describes
-//! it.
+//! The difference between one run and the others: the one change of a parameter, or of the run's channels, that
+//! describes the run.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,39 +11,39 @@ use crate::identify::methods::regression::thresholds::{
     DIFFERENCE_EXPLAINS, GROSS_FACTOR, REVERSED_SCALE, SAME_COLUMN,
 };
 
-/// What is different in a run. The factors are relative to the other runs.
+/// A difference between one run and the others. Factors are relative to the other runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RunDifference {
-    /// The sign of the command, or that of the angle.
+    /// The sign of the command or of the angle is reversed.
     Sign,
-    /// The scale of the command.
+    /// The scale of the command differs.
     CommandScale {
-        /// The command of the others for the same motion is so many times this run's.
+        /// Command of the other runs for the same motion, divided by the command of this run.
         factor: f64,
     },
-    /// The scale of the angle.
+    /// The scale of the angle differs.
     AngleScale {
-        /// The angle of the others is so many times this run's.
+        /// Angle of the other runs divided by the angle of this run.
         factor: f64,
     },
-    /// The inertia.
+    /// The inertia differs.
     Inertia {
-        /// That of this run over that of the others.
+        /// Inertia of this run divided by that of the others.
         factor: f64,
     },
-    /// Coulomb friction.
+    /// Coulomb friction differs.
     Coulomb {
-        /// That of this run over that of the others.
+        /// Coulomb friction of this run divided by that of the others.
         factor: f64,
     },
-    /// Viscous friction.
+    /// Viscous friction differs.
     Viscous {
-        /// That of this run over that of the others.
+        /// Viscous friction of this run divided by that of the others.
         factor: f64,
     },
-    /// A constant load.
+    /// A constant load acts in this run.
     Load {
-        /// Its torque \[unit of the regression's torque\].
+        /// Torque of the load \[unit of the regression's torque\].
         torque: f64,
     },
     /// No single change describes the run.

@@ -1,4 +1,4 @@
-//! Choice of the window's length: the one about which the figures are best known.
+//! Choice of the window length at which the estimates are best known.
 
 use std::collections::VecDeque;
 
@@ -22,14 +22,14 @@ const MOST_CANDIDATES: i32 = 40;
 pub struct Candidate {
     /// Length of the window \[s\].
     pub window_s: f64,
-    /// Rows it gave.
+    /// Number of windows (rows).
     pub rows: usize,
-    /// Phases (or blocks) these came from.
+    /// Number of slip phases (or blocks) with windows.
     pub clusters: usize,
-    /// ‖y − X·q‖/‖y‖.
+    /// Relative residual ‖y − X·q‖/‖y‖ \[1\].
     pub relative_residual: f64,
-    /// Root mean square of the figures' relative change from the next shorter to the next longer
-    /// window and of their relative deviations; infinite at the ends of the list.
+    /// Root mean square of two things: the relative changes of the estimates from the next shorter to the next longer
+    /// window, and their relative standard errors \[1\]. Infinite at the ends of the list.
     pub sensitivity: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Modes by what tips and motor show of them at once.
+//! Modes from the responses of tips and motor together.
 
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::storage::Owned;

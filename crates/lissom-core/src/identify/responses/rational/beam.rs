@@ -21,12 +21,12 @@ use crate::lti::{TransferFunction, add, multiply};
 /// Damping ratio with which a new mode starts.
 const START_DAMPING: f64 = 0.02;
 
-/// How a tip's response follows from the modes.
+/// How the response of a tip follows from the modes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TipForm {
     /// Angle: `Σ r_k/(s² + 2ζ_kω_k·s + ω_k²)`, relative degree two.
     Angle,
-    /// Acceleration, or a deflection of unknown scale: `s²` times that.
+    /// Acceleration, or a deflection of unknown scale: `s²` times the form of an angle.
     SecondDerivative,
 }
 
@@ -35,38 +35,38 @@ pub enum TipForm {
 pub struct TipData {
     /// Form of its model.
     pub form: TipForm,
-    /// Response to the motor's angle at each frequency.
+    /// Response of the tip to the motor's angle at each frequency.
     pub response: Vec<Response>,
 }
 
-/// Modes and residues.
+/// Modes and residues of a beam, fitted to the responses of its tips.
 #[derive(Debug, Clone)]
 pub struct BeamFit {
-    /// Poles, ascending.
+    /// Poles, ascending in frequency.
     pub poles: Vec<Pole>,
-    /// Those poles that are modes, with their deviations, ascending: within the data's frequencies
-    /// and lightly damped. Others mend the model's edges.
+    /// The poles that are modes, with standard errors, ascending: those within the measured frequencies and lightly
+    /// damped. Other poles improve the model at the edges of the range.
     pub modes: Vec<ModeEstimate>,
     /// Index into `poles` of each mode.
     pub mode_poles: Vec<usize>,
-    /// `r_ik` of tip i (outer) and mode k.
+    /// Residue r_ik of tip i (outer index) in mode k \[1/s²\].
     pub residues: Vec<Vec<Estimate>>,
-    /// θ_i/θ_m (or the second derivative's) of each tip, monic.
+    /// θ_i/θ_m of each tip (or its second derivative), with a monic denominator.
     pub transfer_functions: Vec<TransferFunction>,
-    /// Root mean square of the weighted residuals: one where the model is as good as the data.
+    /// Root mean square of the residuals divided by their standard errors: about one if
+    /// the model is as good as the data.
     pub weighted_rms: f64,
-    /// Root mean square of the residuals relative to that of the responses.
+    /// Root mean square of the residuals relative to that of the responses \[1\].
     pub relative_residual: f64,
 }
 
-/// Fits the tips' responses with common poles, weighted by their deviations.
+/// Fits the responses of the tips with common poles, weighted with their standard errors.
 ///
-/// Modes are added one at a time: each starts where a scan over frequency lowers the cost most,
-/// all are then refined together by Levenberg-Marquardt; the number is the one with the least
-/// Bayesian information criterion. `None` with fewer than four frequencies.
+/// `θ_i/θ_m = Σ_k r_ik/(s² + 2ζ_kω_k·s + ω_k²)`, with r_ik in 1/s²; times s² for [`TipForm::SecondDerivative`].
 ///
-/// `θ_i/θ_m = Σ_k r_ik/(s² + 2ζ_kω_k·s + ω_k²)`, r_ik in 1/s², times s² for
-/// [`TipForm::SecondDerivative`].
+/// Modes are added one at a time. Each starts at the frequency where it lowers the cost most; then all are refined
+/// together by the Levenberg-Marquardt method. The number of modes is the one with the lowest Bayesian information
+/// criterion. `None` with fewer than four frequencies.
 ///
 /// ```
 /// # use {lissom::identify::{Pole, Response}, num_complex::Complex64};
@@ -83,7 +83,7 @@ pub struct BeamFit {
 /// `[Feliu1989, eqs. (19), (36)]`: common denominator, relative degree of at least two.
 ///
 /// # Differences from the source
-/// Poles may be damped; residues are real, so a damped mode keeps the undamped one's shape.
+/// Poles may be damped. Residues are real, so a damped mode has the shape of the undamped one.
 pub fn fit_beam(omega_rad_s: &[f64], tips: &[TipData]) -> Option<BeamFit> {
     let m = omega_rad_s.len();
     if m < 4 || tips.is_empty() || tips.iter().any(|t| t.response.len() != m) {
@@ -331,7 +331,7 @@ impl BeamFit {
         }
     }
 
-    /// Poles that are modes, ascending.
+    /// The poles that are modes, ascending.
     pub fn modal_poles(&self) -> Vec<Pole> {
         self.mode_poles.iter().map(|&i| self.poles[i]).collect()
     }

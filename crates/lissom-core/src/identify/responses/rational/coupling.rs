@@ -1,4 +1,4 @@
-//! Inertia, viscous friction and coupling by a beam's poles, with what the poles' errors do to them.
+//! Inertia, viscous friction and coupling for given poles of a beam, with the effect of errors of the poles.
 
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;

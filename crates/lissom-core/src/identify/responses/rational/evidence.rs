@@ -1,4 +1,4 @@
-//! How many poles responses ask for, and what else.
+//! Number of poles that responses require, and their kind of damping.
 
 use crate::identify::estimate::Estimate;
 use crate::identify::responses::correct::Response;
@@ -12,11 +12,11 @@ use crate::identify::responses::thresholds::{CRITERION_CALLED_FOR, POLES_IN_VAIN
 /// What is left is rounding below this share of the responses.
 const ROUNDING: f64 = 1e-10;
 
-/// As [`fit_shared_poles`](super::fit_shared_poles), with as many pairs of poles, up to `most`, as the Bayesian
-/// information criterion asks for. None is added to a model that is as good as its data.
+/// Like [`fit_shared_poles`](super::fit_shared_poles), with the number of pole pairs, up to `most`, that has the lowest
+/// Bayesian information criterion. No pair is added to a model that is already as good as its data.
 ///
 /// # Errors
-/// As [`fit_shared_poles`](super::fit_shared_poles), of one pair of poles.
+/// Those of [`fit_shared_poles`](super::fit_shared_poles) with one pair of poles.
 pub fn fit_shared_poles_by_evidence(
     omega_rad_s: &[f64],
     outputs: &[Vec<Response>],

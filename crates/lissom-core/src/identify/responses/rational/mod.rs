@@ -1,4 +1,4 @@
-//! Rational models fitted to responses: beam as (36), motor as (35), any number of modes.
+//! Rational models fitted to responses, with any number of modes: the beam as (36), the motor as (35).
 
 mod at_once;
 mod beam;
@@ -28,17 +28,17 @@ pub use shared_poles_error::SharedPolesError;
 
 use num_complex::Complex64;
 
-/// A pole pair `s² + 2ζω·s + ω²`.
+/// A pair of poles, `s² + 2ζω·s + ω²`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pole {
     /// Undamped natural frequency ω \[rad/s\].
     pub omega_rad_s: f64,
-    /// Damping ratio ζ.
+    /// Damping ratio ζ \[1\].
     pub damping_ratio: f64,
 }
 
 impl Pole {
-    /// `s² + 2ζω·s + ω²` at `s = jω_0`.
+    /// Value of `s² + 2ζω·s + ω²` at `s = jω_0`, with ω_0 = `omega_rad_s`.
     pub fn denominator(&self, omega_rad_s: f64) -> Complex64 {
         let w = self.omega_rad_s;
         Complex64::new(
@@ -47,7 +47,7 @@ impl Pole {
         )
     }
 
-    /// Its coefficients in descending powers.
+    /// Coefficients in descending powers of s.
     pub fn polynomial(&self) -> [f64; 3] {
         let w = self.omega_rad_s;
         [1.0, 2.0 * self.damping_ratio * w, w * w]

@@ -1,4 +1,4 @@
-//! Inertia, viscous friction and coupling from the motor's corrected response.
+//! Inertia, viscous friction and coupling from the corrected response of the motor.
 
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
@@ -21,40 +21,41 @@ const REFINEMENTS: usize = 12;
 pub struct MotorData {
     /// Frequencies \[rad/s\].
     pub omega_rad_s: Vec<f64>,
-    /// θ_m per command at each.
+    /// θ_m per unit of command at each frequency.
     pub response: Vec<Response>,
-    /// Torque per command; one where it is unknown.
+    /// Torque per unit of command; one if it is unknown.
     pub torque_per_command: f64,
 }
 
-/// The motor's equation as its response shows it.
+/// The motor's equation, fitted to its response. Torques are in N·m, or in the unit of the command if the torque
+/// constant is unknown.
 #[derive(Debug, Clone)]
 pub struct MotorFit {
-    /// Inertia J.
+    /// Inertia J \[kg·m²\].
     pub inertia: Estimate,
-    /// Viscous friction V, back-EMF included.
+    /// Viscous friction V, with the damping by back-EMF \[N·m·s/rad\].
     pub viscous: Estimate,
-    /// Coupling c_k through each mode: `C_t/θ_m = Σ c_k(s² + 2ζ_kω_k·s)/(s² + 2ζ_kω_k·s + ω_k²)`.
+    /// Coupling c_k through each mode \[N·m/rad\]: `C_t/θ_m = Σ c_k(s² + 2ζ_kω_k·s)/(s² + 2ζ_kω_k·s + ω_k²)`.
     pub coupling: Vec<Estimate>,
-    /// Poles of the coupling, given or found.
+    /// Poles of the coupling torque, given or fitted.
     pub poles: Vec<Pole>,
     /// Whether the poles were given.
     pub poles_given: bool,
-    /// θ_m per command as (35), monic; without the delay.
+    /// θ_m per unit of command as (35), with a monic denominator, without the delay.
     pub transfer_function: TransferFunction,
-    /// By how much the command acts later than it is said to \[s\], where that was looked for and is there.
+    /// Delay of the command \[s\], if it was searched for and found.
     pub delay_s: Option<Estimate>,
-    /// Root mean square of the weighted residuals; zero for a model made of other figures.
+    /// Root mean square of the residuals divided by their standard errors; zero for a model that
+    /// was built from other estimates.
     pub weighted_rms: f64,
 }
 
-/// Fits `K/G(s) = J·s² + V·s + Σ c_k(s² + 2ζ_kω_k·s)/(s² + 2ζ_kω_k·s + ω_k²)` with weights from
-/// the response's deviations.
+/// Fits `K/G(s) = J·s² + V·s + Σ c_k(s² + 2ζ_kω_k·s)/(s² + 2ζ_kω_k·s + ω_k²)` to the motor's response G, weighted with
+/// its standard errors.
 ///
-/// With `poles` of the beam fit this is linear, step 6(c) of Section 4: the coupling torque has
-/// the beam's poles, and vanishes at zero frequency (ΣH + h = 0). Without poles (no tips) none or
-/// one is found by a scan, as the information criterion says. `None` where the frequencies are
-/// fewer than the unknowns.
+/// With `poles` from the fit of the beam, the problem is linear (step 6(c) of Section 4): the coupling torque has the
+/// poles of the beam and vanishes at zero frequency (ΣH + h = 0). Without poles (no tips), a scan finds none or one, as
+/// the information criterion decides. `None` if there are fewer frequencies than unknowns.
 ///
 /// ```
 /// # use {lissom::identify::{Pole, Response}, num_complex::Complex64};
@@ -84,7 +85,7 @@ pub fn fit_motor(data: &MotorData, poles: Option<&[Pole]>) -> Option<MotorFit> {
 }
 
 impl MotorFit {
-    /// θ_m per command at `omega_rad_s`, the delay in it.
+    /// θ_m per unit of command at `omega_rad_s`, with the delay.
     pub fn response(&self, omega_rad_s: f64) -> Complex64 {
         let delay_s = self.delay_s.map_or(0.0, |d| d.value);
         self.transfer_function.response(omega_rad_s) * Complex64::cis(-omega_rad_s * delay_s)

@@ -4,11 +4,11 @@ use num_complex::Complex64;
 
 use crate::identify::responses::correct::Response;
 
-/// Responses at `omega_rad_s` with what is known of them at the origin taken out: `H/(jω)^zeros`, deviations
-/// with it; a negative number stands for poles.
+/// Removes known zeros or poles at the origin from responses at `omega_rad_s`: `H/(jω)^zeros`, with their standard
+/// errors. A negative number stands for poles.
 ///
-/// What [`fit_shared_poles`](super::fit_shared_poles) takes is an angle per angle. A velocity has one zero at the
-/// origin beside it, an acceleration two; an angle per velocity has one pole.
+/// [`fit_shared_poles`](super::fit_shared_poles) expects the response of an angle to an angle. A velocity in place of
+/// the output angle has one zero at the origin, an acceleration two. An output angle per input velocity has one pole.
 ///
 /// ```
 /// # use {lissom::identify::Response, num_complex::Complex64};

@@ -1,13 +1,14 @@
-//! Which damping the poles of a fit may have.
+//! Kinds of damping that the poles of a fit may have.
 
-/// What the poles may have.
+/// Damping that the poles of a fit may have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Damping {
-    /// None: even powers of s only, as properties 1 and 2 have it.
+    /// No damping: only even powers of s, as in properties 1 and 2.
     None,
-    /// A ratio of each pole's own.
+    /// A damping ratio for each pole.
     Small,
-    /// The same, and a term in s in each residue: damping within the beam, or of a shape of its own.
+    /// A damping ratio for each pole, and a term in s in each residue: damping within the beam, or
+    /// damping with a shape of its own.
     Within,
 }
 

@@ -1,4 +1,4 @@
-//! Maximum likelihood: poles and residues moved together, from where vector fitting has come to.
+//! Maximum likelihood: refines poles and residues together, starting from the result of vector fitting.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use num_complex::Complex64;

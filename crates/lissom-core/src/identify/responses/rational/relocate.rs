@@ -1,4 +1,4 @@
-//! Vector fitting: poles moved to the zeros of a common denominator, without a start near them.
+//! Vector fitting: moves poles to the zeros of a common denominator, without starting values close to them.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -1,4 +1,4 @@
-//! Responses of several outputs to one input, with poles that all of them share.
+//! Responses of several outputs to one input, with poles that are common to all outputs.
 
 use nalgebra::DMatrix;
 use num_complex::Complex64;
@@ -20,55 +20,57 @@ const START_DAMPING: f64 = 0.01;
 const RELOCATIONS: usize = 12;
 const NEAR: f64 = 0.02;
 
-/// Why a pole is no mode of the beam: it mends the model's edges, or stands for noise.
+/// Reason why a pole is not a mode of the beam: it improves the model at the edges of the range, or stands for noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Spurious {
-    /// Outside the data's frequencies.
+    /// It is outside the measured frequencies.
     Outside,
-    /// Its damping ratio is above 0.25, or below zero by more than two deviations.
+    /// Its damping ratio is above 0.25, or more than two standard errors below zero.
     Damped,
-    /// No output has a gain of it four deviations from zero.
+    /// Its gain is within four standard errors of zero in every output.
     Unfelt,
 }
 
-/// Poles that all outputs share, and their residues.
+/// Poles that are common to all outputs, and their residues.
 ///
-/// `H_i(s) = e^(−s·τ_i)·Σ_k (ρ_ik·ω_k² + κ_ik·ω_k·s)/(s² + 2ζ_kω_k·s + ω_k²)`, ρ_ik and κ_ik real: κ_ik is zero but
-/// with [`Damping::Within`], and has `2ζ_kρ_ik` where all damping of a mode is within the beam; τ_i is zero
-/// but where a delay was looked for.
+/// `H_i(s) = e^(−s·τ_i)·Σ_k (ρ_ik·ω_k² + κ_ik·ω_k·s)/(s² + 2ζ_kω_k·s + ω_k²)` with real ρ_ik and κ_ik. κ_ik is zero
+/// except with [`Damping::Within`]; it is `2ζ_kρ_ik` if all damping of a mode is within the beam. τ_i is zero unless a
+/// delay was searched for.
 #[derive(Debug, Clone)]
 pub struct SharedPoles {
-    /// Poles, ascending.
+    /// Poles, ascending in frequency.
     pub poles: Vec<Pole>,
-    /// `ρ_ik`, output i (outer) and pole k, in the response's unit: their sum is the response at rest.
+    /// Static gain ρ_ik of output i (outer index) and pole k, in the unit of the response;
+    /// their sum is the response at rest.
     pub static_gains: Vec<Vec<f64>>,
-    /// `κ_ik` of output i (outer) and pole k, with [`Damping::Within`]; zero otherwise.
+    /// κ_ik of output i (outer index) and pole k with [`Damping::Within`]; zero otherwise.
     pub in_s: Vec<Vec<Estimate>>,
     /// ζ_w of each pole: of its damping ratio what is within the beam, with the room that the responses leave it;
     /// zero and known where they were not asked.
     pub(crate) within: Vec<Estimate>,
-    /// τ_i of each output, where delays were looked for \[s\].
+    /// Delay τ_i of each output \[s\], if delays were searched for.
     pub delays_s: Vec<Option<Estimate>>,
-    /// Covariance of ln ω_k (and ζ_k where damped), pole by pole, then of ρ_ik, output by output: from the
-    /// responses' deviations, stretched where more is left.
+    /// Covariance of ln ω_k (and ζ_k if damped), pole by pole, then of ρ_ik, output by output. It follows from the
+    /// standard errors of the responses, and is increased if the residuals are larger than these.
     pub covariance: DMatrix<f64>,
-    /// Root mean square of the residuals in the responses' deviations, the unknowns counted: one where the
-    /// model is as good as the data.
+    /// Root mean square of the residuals divided by the standard errors of the responses, corrected for the number of
+    /// unknowns: about one if the model is as good as the data.
     pub weighted_rms: f64,
-    /// What the poles were allowed to have.
+    /// Damping that the poles were allowed to have.
     pub damping: Damping,
-    /// The data's frequencies \[rad/s\]: the lowest and the highest.
+    /// Lowest and highest measured frequency \[rad/s\].
     pub range_rad_s: (f64, f64),
     /// Bayesian information criterion.
     pub(super) criterion: f64,
 }
 
-/// Fits `modes` pairs of poles to the responses of outputs (outer) at `omega_rad_s`, each weighted by its
-/// deviation.
+/// Fits `modes` pairs of poles to the responses of several outputs (outer index) at `omega_rad_s`, weighted with their
+/// standard errors.
 ///
-/// No start is needed: poles spread over the data's frequencies are relocated by relaxed vector fitting,
-/// and then refined with the residues by Gauss-Newton, to the most likely ones. Where that leaves more than
-/// the responses' deviations, or frequencies are too few for it, poles are also put in one after another.
+/// No starting values are needed. Poles spread over the measured frequencies are relocated by relaxed vector fitting,
+/// and then refined together with the residues by the Gauss-Newton method to maximum likelihood. If the residuals are
+/// then larger than the standard errors, or there are too few frequencies for vector fitting, poles are also added one
+/// after another.
 ///
 /// ```
 /// # use {lissom::identify::{Pole, Response}, num_complex::Complex64};
@@ -83,14 +85,14 @@ pub struct SharedPoles {
 /// ```
 ///
 /// # Errors
-/// Outputs on different grids, responses without deviation, more unknowns than readings, poles that cannot
-/// be told apart.
+/// [`SharedPolesError`] if outputs have different frequencies, a response has no standard error, there are more
+/// unknowns than values, or the poles cannot be separated.
 ///
 /// # Source
 /// `[Feliu1989, eq. (19)]`, step 4 of Section 4: one denominator for all points.
 ///
 /// # Differences from the source
-/// Poles may be damped; residues are real, so that a damped mode keeps the undamped one's shape.
+/// Poles may be damped. Residues are real, so a damped mode has the shape of the undamped one.
 pub fn fit_shared_poles(
     omega_rad_s: &[f64],
     outputs: &[Vec<Response>],
@@ -281,7 +283,7 @@ impl SharedPoles {
         Estimate { value, std: value * self.deviation(k * self.damping.unknowns()) }
     }
 
-    /// Damping ratio of pole `k`; zero, and known, where none is allowed.
+    /// Damping ratio of pole `k` \[1\]; exactly zero if no damping is allowed.
     pub fn damping_ratio(&self, k: usize) -> Estimate {
         let std = match self.damping {
             Damping::None => 0.0,
@@ -290,15 +292,15 @@ impl SharedPoles {
         Estimate { value: self.poles[k].damping_ratio, std }
     }
 
-    /// `ρ_ik` of output `i` and pole `k`.
+    /// Static gain `ρ_ik` of output `i` and pole `k`.
     pub fn static_gain(&self, i: usize, k: usize) -> Estimate {
         let modes = self.poles.len();
         let at = modes * self.damping.unknowns() + i * modes + k;
         Estimate { value: self.static_gains[i][k], std: self.deviation(at) }
     }
 
-    /// The same fit with these poles and outputs alone, in this order: those left out stay in the figures'
-    /// deviations, and their part of the responses is gone. `None` where a place is none.
+    /// Returns this fit with only the given poles and outputs, in the given order. Those that are left out still count
+    /// in the standard errors, but their part of the responses is removed. `None` if an index does not exist.
     pub fn only(&self, poles: &[usize], outputs: &[usize]) -> Option<Self> {
         let (modes, unknowns) = (self.poles.len(), self.damping.unknowns());
         let there = |places: &[usize], count: usize| places.iter().all(|p| *p < count);
@@ -325,7 +327,7 @@ impl SharedPoles {
         })
     }
 
-    /// Why pole `k` is no mode of the beam; `None` of those that are.
+    /// Reason why pole `k` is not a mode of the beam; `None` for a mode.
     pub fn spurious(&self, k: usize) -> Option<Spurious> {
         let pole = self.poles[k];
         let (low, high) = self.range_rad_s;

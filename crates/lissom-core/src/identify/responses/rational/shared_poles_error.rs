@@ -6,54 +6,56 @@ use thiserror::Error;
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SharedPolesError {
-    /// There is nothing to fit.
-    #[error("no output: give one response at least")]
+    /// There is no response to fit.
+    #[error("there is no response; at least one is needed")]
     NoOutput,
-    /// There is nothing to find.
-    #[error("no poles asked for: one pair at least")]
+    /// No poles are requested.
+    #[error("the number of pole pairs is zero; at least one is needed")]
     NoPoles,
-    /// A frequency that is none.
-    #[error("frequency {index} is {found_rad_s} rad/s: all must be finite and positive")]
+    /// A frequency is not positive and finite.
+    #[error("frequency {index} is {found_rad_s} rad/s, but all must be positive and finite")]
     Frequency {
-        /// Its place, from 0.
+        /// Index of the frequency, from 0.
         index: usize,
-        /// What it is \[rad/s\].
+        /// Its value \[rad/s\].
         found_rad_s: f64,
     },
-    /// An output on another grid.
+    /// An output has another number of values than there are frequencies.
     #[error(
-        "output {output} has {found} responses for {expected} frequencies: all must share one grid"
+        "output {output} has {found} responses, but there are {expected} frequencies: all outputs must have the same frequencies"
     )]
     Grid {
-        /// Its place, from 0.
+        /// Index of the output, from 0.
         output: usize,
-        /// Responses it has.
+        /// Number of its responses.
         found: usize,
-        /// Frequencies there are.
+        /// Number of frequencies.
         expected: usize,
     },
-    /// A response that is no number, or has no deviation.
+    /// A response is not finite, or has no standard error.
     #[error(
-        "output {output}, point {index}: a response needs a finite value and a deviation above zero"
+        "output {output}, frequency {index}: a response needs a finite value, and a standard error above zero"
     )]
     Response {
-        /// The output's place, from 0.
+        /// Index of the output, from 0.
         output: usize,
-        /// The point's, from 0.
+        /// Index of the frequency, from 0.
         index: usize,
     },
-    /// More unknowns than data.
-    #[error("{unknowns} unknowns and {readings} readings: too few frequencies for so many poles")]
+    /// There are more unknowns than data.
+    #[error(
+        "there are too few frequencies for so many poles: {readings} readings for {unknowns} unknowns"
+    )]
     TooFew {
-        /// Numbers to find.
+        /// Number of unknowns.
         unknowns: usize,
-        /// Real numbers to find them from.
+        /// Number of real values measured.
         readings: usize,
     },
-    /// The search ended nowhere.
-    #[error("no {modes} pairs of poles can be told apart: try fewer")]
+    /// The search found no solution.
+    #[error("the responses do not show {modes} separate pairs of poles; try fewer")]
     NotFound {
-        /// Pairs of poles asked for.
+        /// Requested number of pole pairs.
         modes: usize,
     },
 }

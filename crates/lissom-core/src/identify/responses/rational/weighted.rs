@@ -1,5 +1,5 @@
-//! Responses as a fit sees them: each over the deviation of its real and of its imaginary part, 1/√2 of
-//! the response's own, `√E|Ĝ − G|²`.
+//! Responses in the form that a fit uses: real and imaginary part, each divided by its standard error, which is 1/√2 of
+//! that of the response, `√E|Ĝ − G|²`.
 
 use std::f64::consts::SQRT_2;
 

@@ -1,10 +1,10 @@
-//! Numbers as text.
+//! Numbers as people write them: significant digits, and values with their standard errors.
 
 /// The largest count of decimals written.
 const MAX_DECIMALS: i32 = 15;
 
 /// `value` with `decimals` places and a true minus sign.
-pub(crate) fn fixed(value: f64, decimals: i32) -> String {
+pub fn fixed(value: f64, decimals: i32) -> String {
     let places = usize::try_from(decimals.clamp(0, MAX_DECIMALS)).unwrap_or(0);
     let text = format!("{value:.places$}");
     let zero = text.bytes().all(|b| matches!(b, b'-' | b'0' | b'.'));
@@ -12,7 +12,7 @@ pub(crate) fn fixed(value: f64, decimals: i32) -> String {
 }
 
 /// 10 to the power `exponent` in superscript digits.
-pub(crate) fn power_of_ten(exponent: i32) -> String {
+pub fn power_of_ten(exponent: i32) -> String {
     let raise = |c: char| match c {
         '-' => '⁻',
         '1' => '¹',
@@ -24,7 +24,7 @@ pub(crate) fn power_of_ten(exponent: i32) -> String {
 }
 
 /// The decimal exponent of the leading digit, 0 for zero and non-finite numbers.
-pub(crate) fn exponent(value: f64) -> i32 {
+pub fn exponent(value: f64) -> i32 {
     let log = value.abs().log10().floor();
     #[expect(
         clippy::cast_possible_truncation,
@@ -34,7 +34,7 @@ pub(crate) fn exponent(value: f64) -> i32 {
 }
 
 /// `value` in four significant digits, in scientific form if it is very large or small.
-pub(crate) fn plain(value: f64) -> String {
+pub fn plain(value: f64) -> String {
     significant(value, 4)
 }
 
@@ -60,35 +60,56 @@ fn mantissa(value: f64, e: i32) -> f64 {
     value / 10f64.powi(e / 2) / 10f64.powi(e - e / 2)
 }
 
-/// A value and its standard error: the error with two significant digits, the value rounded to the same place.
+/// A value with its standard error: the error with two significant digits, the value rounded to the same place.
 ///
-/// A value that is not finite becomes a dash; a standard error that is not finite and positive is not written.
+/// If both need more than four digits behind the point, the error is written in parentheses and counts units of the last
+/// digit: `0.13201(12)` is 0.13201 ± 0.00012. A value that is not finite becomes a dash. A standard error that is not finite
+/// and positive is not written.
 ///
 /// ```
-/// use lissom_report::with_uncertainty;
-/// assert_eq!(with_uncertainty(0.131_972, 0.001_24), "0.1320 ± 0.0012");
-/// assert_eq!(with_uncertainty(-1.234e-9, 5e-12), "(−1.2340 ± 0.0050)×10⁻⁹");
-/// assert_eq!(with_uncertainty(f64::NAN, 1.0), "—");
+/// use lissom_text::with_uncertainty;
+/// assert_eq!(with_uncertainty(1.2345, 0.0312), "1.234 ± 0.031");
+/// assert_eq!(with_uncertainty(0.131_999_963, 2.8e-8), "0.131999963(28)");
+/// assert_eq!(with_uncertainty(6.247e-4, 1.1e-6), "0.0006247(11)");
 /// ```
 pub fn with_uncertainty(value: f64, std: f64) -> String {
-    match Layout::of(value, std) {
-        Some(layout) => layout.write(&format!("{} ± {}", layout.digits(value), layout.digits(std))),
-        None => plain(value),
+    let Some(layout) = Layout::of(value, std) else { return plain(value) };
+    match layout {
+        Layout::Places(places) if places > MOST_PLACES => {
+            let last = (std * 10f64.powi(places)).round();
+            format!("{}({last:.0})", fixed(value, places))
+        }
+        Layout::Scaled(e, places) => {
+            let [value, std] = [value, std].map(|v| fixed(mantissa(v, e), places));
+            format!("({value} ± {std})×{}", power_of_ten(e))
+        }
+        Layout::Places(_) => format!("{} ± {}", layout.digits(value), layout.digits(std)),
     }
 }
 
 /// An interval written to the same place as [`with_uncertainty`] writes its value.
 pub fn interval([low, high]: [f64; 2], value: f64, std: f64) -> String {
-    match Layout::of(value, std).filter(|_| low.is_finite() && high.is_finite()) {
-        Some(layout) => layout.write(&format!("{} … {}", layout.digits(low), layout.digits(high))),
+    let layout = Layout::of(value, std).filter(|_| low.is_finite() && high.is_finite());
+    match layout {
         None => format!("{} … {}", plain(low), plain(high)),
+        Some(Layout::Scaled(e, places)) => {
+            let [low, high] = [low, high].map(|v| fixed(mantissa(v, e), places));
+            format!("({low} … {high})×{}", power_of_ten(e))
+        }
+        Some(layout) => format!("{} … {}", layout.digits(low), layout.digits(high)),
     }
 }
 
-/// The place to round to and the power of ten to leave out.
-struct Layout {
-    decimals: i32,
-    factor: Option<i32>,
+/// Digits behind the point up to which value and error are written one after the other.
+const MOST_PLACES: i32 = 4;
+
+/// How a value and its standard error are written.
+#[derive(Debug, Clone, Copy)]
+enum Layout {
+    /// With so many places behind the point; before it, where negative.
+    Places(i32),
+    /// Without a power of ten, with so many places.
+    Scaled(i32, i32),
 }
 
 impl Layout {
@@ -100,22 +121,17 @@ impl Layout {
         // The place of the second digit of the standard error after rounding: 0.00996 is written 0.010.
         let place = exponent(std * 1.005_000_001) - 1;
         let e = exponent(value).max(exponent(std));
-        let plain = (-3..6).contains(&e) && place < 1;
-        Some(if plain {
-            Self { decimals: -place, factor: None }
-        } else {
-            Self { decimals: e - place, factor: Some(e) }
-        })
+        Some(if (-6..6).contains(&e) { Self::Places(-place) } else { Self::Scaled(e, e - place) })
     }
 
-    fn digits(&self, value: f64) -> String {
-        fixed(self.factor.map_or(value, |e| mantissa(value, e)), self.decimals)
-    }
-
-    fn write(&self, digits: &str) -> String {
-        match self.factor {
-            Some(e) => format!("({digits})×{}", power_of_ten(e)),
-            None => digits.to_owned(),
+    fn digits(self, value: f64) -> String {
+        match self {
+            Self::Places(places) if places < 0 => {
+                let unit = 10f64.powi(-places);
+                fixed((value / unit).round() * unit, 0)
+            }
+            Self::Places(places) => fixed(value, places),
+            Self::Scaled(e, places) => fixed(mantissa(value, e), places),
         }
     }
 }
@@ -147,10 +163,12 @@ mod tests {
     fn uncertainty_sets_the_place() {
         assert_eq!(with_uncertainty(12.345, 0.0996), "12.35 ± 0.10");
         assert_eq!(with_uncertainty(12.345, 0.0), "12.35");
-        assert_eq!(with_uncertainty(6.247e-4, 1.1e-6), "(6.247 ± 0.011)×10⁻⁴");
-        assert_eq!(interval([6.225e-4, 6.269e-4], 6.247e-4, 1.1e-6), "(6.225 … 6.269)×10⁻⁴");
+        assert_eq!(with_uncertainty(6.247e-4, 1.1e-6), "0.0006247(11)");
+        assert_eq!(interval([6.225e-4, 6.269e-4], 6.247e-4, 1.1e-6), "0.0006225 … 0.0006269");
+        assert_eq!(with_uncertainty(0.13201, 9.96e-5), "0.13201(10)");
+        assert_eq!(with_uncertainty(-6.247e-9, 1.1e-11), "(−6.247 ± 0.011)×10⁻⁹");
         assert_eq!(with_uncertainty(95.11, 12.0), "95 ± 12");
-        assert_eq!(with_uncertainty(951.1, 120.0), "(9.5 ± 1.2)×10²");
+        assert_eq!(with_uncertainty(951.1, 120.0), "950 ± 120");
         assert_eq!(with_uncertainty(0.0, 0.02), "0.000 ± 0.020");
     }
 }

@@ -1,0 +1,18 @@
+//! What `lissom completions` can be asked for.
+
+use clap::Args;
+use clap_complete::Shell;
+
+/// Print what makes a shell complete the subcommands and options of lissom.
+#[derive(Debug, Args)]
+#[command(after_help = HELP)]
+pub(crate) struct CompletionsArgs {
+    /// The shell
+    pub(crate) shell: Shell,
+}
+
+const HELP: &str = "\
+Examples:
+  lissom completions bash > ~/.local/share/bash-completion/completions/lissom
+  lissom completions zsh > ~/.zfunc/_lissom       (a folder of your fpath)
+  lissom completions fish > ~/.config/fish/completions/lissom.fish";

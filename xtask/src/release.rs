@@ -1,0 +1,71 @@
+//! A release: the crates packaged, a static binary with its size and licences.
+
+use std::{env, fs, path::Path, process::Command};
+
+use crate::step::{Failure, ask, cargo, run};
+
+/// The target whose binaries need no library of the system.
+const STATIC_TARGET: &str = "x86_64-unknown-linux-musl";
+
+/// What the workspace publishes, each after what it depends on.
+const CRATES: [&str; 6] =
+    ["lissom-text", "lissom-core", "lissom-report", "lissom-io", "lissom", "lissom-cli"];
+
+/// Builds the crates as they would be published.
+pub(crate) fn package(root: &Path) -> Result<(), Failure> {
+    let mut command = cargo(root, &["package", "--no-verify", "--allow-dirty", "--quiet"]);
+    for name in CRATES {
+        command.args(["--package", name]);
+    }
+    run("cargo package", &mut command)
+}
+
+/// Builds the static binary into `target/release-static`, with the licences of everything in it.
+pub(crate) fn static_binary(root: &Path) -> Result<(), Failure> {
+    let mut command = cargo(root, &["build", "--release", "--package", "lissom-cli", "--target"]);
+    run("static binary", command.arg(STATIC_TARGET).env("CARGO_PROFILE_RELEASE_STRIP", "true"))?;
+    let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), Into::into);
+    let out = target.join("release-static");
+    let failed = |path: &Path| {
+        let path = path.display().to_string();
+        move |source| Failure::File { path, source }
+    };
+    fs::create_dir_all(&out).map_err(failed(&out))?;
+    let built = target.join(STATIC_TARGET).join("release/lissom");
+    let binary = out.join("lissom");
+    fs::copy(&built, &binary).map_err(failed(&built))?;
+
+    let tree = ["tree", "--package", "lissom-cli", "--edges", "normal", "--prefix", "none"];
+    let mut licences = cargo(root, &tree);
+    licences.args(["--format", "{p} {l}", "--target", STATIC_TARGET]);
+    let output = licences
+        .output()
+        .map_err(|source| Failure::Start { command: "cargo tree".to_owned(), source })?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    let mut lines: Vec<String> =
+        text.lines().filter(|l| !l.is_empty()).map(|l| l.replace(" (*)", "")).collect();
+    for line in &mut lines {
+        // A package of the workspace is followed by its folder, which says nothing elsewhere.
+        if let (Some(from), Some(to)) = (line.find(" (/"), line.find(") ")) {
+            line.replace_range(from..=to, "");
+        }
+    }
+    lines.sort();
+    lines.dedup();
+    let listed = out.join("LICENCES.txt");
+    fs::write(&listed, lines.join("\n") + "\n").map_err(failed(&listed))?;
+
+    let (works, said) = ask(Command::new(&binary).arg("--version"))?;
+    if !works {
+        return Err(Failure::Install { tool: "the static binary", said });
+    }
+    let bytes = fs::metadata(&binary).map_err(failed(&binary))?.len();
+    println!(
+        "\n{}: {:.1} MB, {} packages in it",
+        binary.display(),
+        bytes as f64 / 1e6,
+        lines.len()
+    );
+    println!("licences: {}", listed.display());
+    Ok(())
+}
