@@ -1,4 +1,4 @@
-//! `cargo deny`: licences, bans and sources always; advisories where their database can be reached.
+//! `cargo deny`: licences, bans and sources always; advisories if their database can be reached.
 
 use std::path::Path;
 
@@ -16,11 +16,11 @@ pub(crate) fn check(root: &Path) -> Result<(), Failure> {
     let parts = ["deny", "check", "--hide-inclusion-graph", "licenses", "bans", "sources"];
     run("cargo deny: licences, bans, sources", &mut cargo(root, &parts))?;
 
-    // Reaching the database is a step of its own: only then is a failed check the check's word.
-    let (reached, said) = ask(&mut cargo(root, &["deny", "fetch", "db"]))?;
+    // The database is fetched in a separate step, so that a failed check below is not a failed download.
+    let (reached, errors) = ask(&mut cargo(root, &["deny", "fetch", "db"]))?;
     if !reached {
         println!("\n--- cargo deny: advisories NOT CHECKED: their database cannot be reached");
-        if let Some(reason) = said.lines().rfind(|line| !line.trim().is_empty()) {
+        if let Some(reason) = errors.lines().rfind(|line| !line.trim().is_empty()) {
             println!("    {}", reason.trim());
         }
         return Ok(());

@@ -1,6 +1,6 @@
-//! The rig's experiments by other people's simulators: `xtask/external/compare.py` in a virtual
-//! environment of its own under `target`, with the versions that `requirements.txt` pins. Then MuJoCo's own
-//! identification on the same logs as lissom (`sysid.py`).
+//! The experiments of the virtual rig with independent simulators: `xtask/external/compare.py` in a Python
+//! environment under `target`, with the versions that `requirements.txt` pins. Then MuJoCo's own
+//! identification of the same logs (`sysid.py`).
 
 use std::{
     env, fs,
@@ -10,14 +10,14 @@ use std::{
 
 use crate::step::{Failure, ask, cargo, run};
 
-/// A Python of its own, with the versions that `requirements.txt` pins.
+/// A Python environment with the versions that `requirements.txt` pins.
 struct Python {
     program: PathBuf,
     scripts: PathBuf,
 }
 
 impl Python {
-    /// Builds the environment where it is missing.
+    /// Builds the environment if it is missing.
     fn new(root: &Path) -> Result<Self, Failure> {
         let scripts = root.join("xtask/external");
         let environment = folder(root, "external")?.join("venv");
@@ -46,7 +46,7 @@ impl Python {
     }
 }
 
-/// A folder under `target`, made where it is missing.
+/// A folder under `target`, created if it is missing.
 fn folder(root: &Path, name: &str) -> Result<PathBuf, Failure> {
     let folder = root.join("target").join(name);
     fs::create_dir_all(&folder)
@@ -54,38 +54,38 @@ fn folder(root: &Path, name: &str) -> Result<PathBuf, Failure> {
     Ok(folder)
 }
 
-/// Lets lissom write its experiments, compares the others' motions, identifies a campaign that
-/// MuJoCo made, and lets MuJoCo's own identification and lissom identify the same logs.
+/// Lets lissom write its experiments, compares the motions of MuJoCo and scipy with them, identifies a
+/// campaign simulated by MuJoCo, and lets MuJoCo's own identification and lissom identify the same logs.
 pub(crate) fn compare(root: &Path) -> Result<(), Failure> {
     let python = Python::new(root)?;
     let folder = folder(root, "external")?;
     let example = ["run", "--release", "--package", "lissom-core", "--example", "external", "--"];
-    run("lissom's experiments", cargo(root, &example).arg(&folder))?;
+    run("experiments of the virtual rig", cargo(root, &example).arg(&folder))?;
     let mut compare = python.script("compare.py");
-    run("MuJoCo and scipy beside lissom", compare.arg(&folder))?;
+    run("MuJoCo and scipy compared with lissom", compare.arg(&folder))?;
     let campaign = |what: &str| {
         let mut command = python.script("mujoco_campaign.py");
         command.arg(what).arg(&folder);
         command
     };
-    run("a campaign by MuJoCo", &mut campaign("write"))?;
+    run("campaign simulated by MuJoCo", &mut campaign("write"))?;
     for integrator in ["implicitfast", "RK4"] {
         let own = folder.join("mujoco").join(integrator);
         let identify = ["run", "--release", "--package", "lissom-cli", "--", "identify"];
         let mut command = cargo(root, &identify);
         command.arg(own.join("campaign.toml")).arg("--json").arg(own.join("result.json"));
-        run("its identification", &mut command)?;
+        run("identification of that campaign", &mut command)?;
     }
-    run("its figures", &mut campaign("judge"))?;
+    run("its estimates compared with the truth", &mut campaign("judge"))?;
     let build = ["build", "--release", "--package", "lissom-cli"];
-    run("the command", &mut cargo(root, &build))?;
+    run("build of the command", &mut cargo(root, &build))?;
     let mut identify = python.script("sysid.py");
     identify.arg("compare").arg(&folder).arg(command_path(root));
     run("MuJoCo's own identification compared with lissom", &mut identify)
 }
 
-/// How near the comparisons with thresholds come to them: a copy of the sources that records it, 30 simulated campaigns of
-/// a seed, the campaigns of the given files, and the tests. Leaves the table in `target/margins/table.md`.
+/// Measures how near the comparisons come to their thresholds: a copy of the sources records it for 30 simulated campaigns of
+/// a seed, for the campaigns of the given files, and for the tests. Writes the table `target/margins/table.md`.
 pub(crate) fn margins(root: &Path, seed: &str, campaigns: &[String]) -> Result<(), Failure> {
     let python = Python::new(root)?;
     let folder = folder(root, "margins")?;
@@ -95,25 +95,28 @@ pub(crate) fn margins(root: &Path, seed: &str, campaigns: &[String]) -> Result<(
         command.arg(what);
         command
     };
-    run("a copy that records", script("instrument").arg(root).arg(&copy))?;
+    run("copy of the sources that records comparisons", script("instrument").arg(root).arg(&copy))?;
     let mut programs =
         cargo(&copy, &["build", "--release", "-p", "lissom-cli", "-p", "lissom-study"]);
-    run("its programs", programs.arg("--target-dir").arg(&build))?;
-    run("campaigns", script("run").arg(&copy).arg(&build).arg(seed).args(campaigns))?;
+    run("build of the copy", programs.arg("--target-dir").arg(&build))?;
+    run(
+        "identification of campaigns",
+        script("run").arg(&copy).arg(&build).arg(seed).args(campaigns),
+    )?;
     let mut tests =
         cargo(&copy, &["test", "--no-fail-fast", "-p", "lissom-core", "-p", "lissom-cli"]);
     tests.arg("--target-dir").arg(&build).env("LISSOM_MARGINS", copy.join("tests"));
     run("tests", &mut tests)?;
-    run("the table", script("table").arg(&copy).arg(folder.join("table.md")))
+    run("table", script("table").arg(&copy).arg(folder.join("table.md")))
 }
 
-/// Where cargo leaves the command's release build.
+/// The path of the command's release build.
 fn command_path(root: &Path) -> PathBuf {
     let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
     root.join(target).join("release").join(format!("lissom{}", env::consts::EXE_SUFFIX))
 }
 
-/// Random campaigns by a simulator in Python, identified and scored by the study.
+/// Simulates random campaigns in Python; the study identifies them and compares the estimates with the truth.
 pub(crate) fn truth(root: &Path, campaigns: &str) -> Result<(), Failure> {
     let python = Python::new(root)?;
     let folder = folder(root, "truth")?;
@@ -122,7 +125,7 @@ pub(crate) fn truth(root: &Path, campaigns: &str) -> Result<(), Failure> {
         command.args(["--campaigns", campaigns, what]).arg(&folder);
         command
     };
-    run("campaigns to simulate", &mut study("--export"))?;
-    run("their simulation", python.script("truth.py").arg(&folder))?;
-    run("their identification", study("--external").arg("--out").arg(&folder))
+    run("definitions of the campaigns", &mut study("--export"))?;
+    run("simulation", python.script("truth.py").arg(&folder))?;
+    run("identification", study("--external").arg("--out").arg(&folder))
 }

@@ -29,11 +29,11 @@ struct Recipe {
     run: fn(&Context) -> Result<(), Failure>,
 }
 
-/// What may stand behind a recipe's name.
+/// The arguments of a recipe.
 enum Takes {
-    /// These flags, with what each says.
+    /// These flags, each with its description.
     Flags(&'static [(&'static str, &'static str)]),
-    /// Whatever the program takes that it runs; says how to ask for it.
+    /// The arguments of the program that it runs, with a short description.
     Arguments(&'static str),
 }
 
@@ -50,14 +50,14 @@ impl Takes {
 const RECIPES: &[Recipe] = &[
     Recipe {
         name: "test",
-        about: "every test of the workspace, doctests included",
+        about: "run every test of the workspace, doctests included",
         takes: Takes::Flags(&[]),
         run: test,
     },
     Recipe {
         name: "ci",
-        about: "fmt, clippy, rustdoc, cargo deny, book, examples, msrv, package, then `test`",
-        takes: Takes::Flags(&[(SKIP_TESTS, "leave `test` out, where it has just run")]),
+        about: "run fmt, clippy, rustdoc, cargo deny, book, examples, msrv, package, then `test`",
+        takes: Takes::Flags(&[(SKIP_TESTS, "leave `test` out, for example if it has just run")]),
         run: ci,
     },
     Recipe {
@@ -92,32 +92,32 @@ const RECIPES: &[Recipe] = &[
     },
     Recipe {
         name: "schemas",
-        about: "the schemas in docs/ from the types of the files that lissom writes",
+        about: "write the schemas in docs/ from the Rust types of lissom's files",
         takes: Takes::Flags(&[]),
         run: schemas,
     },
     Recipe {
         name: "external",
-        about: "the rig, and identification, compared with MuJoCo and scipy; in a Python of its own; minutes",
+        about: "compare the virtual rig and the identification with MuJoCo and scipy, in a Python environment under target; minutes",
         takes: Takes::Flags(&[]),
         run: external,
     },
     Recipe {
         name: "truth",
-        about: "random campaigns by a simulator in Python, identified; in that Python; minutes",
-        takes: Takes::Arguments("how many; 100 where it is not said"),
+        about: "simulate random campaigns in Python and identify them, in the same environment; minutes",
+        takes: Takes::Arguments("number of campaigns; default 100"),
         run: truth,
     },
     Recipe {
         name: "margins",
-        about: "how near comparisons come to their thresholds; in that Python; half an hour",
-        takes: Takes::Arguments("a seed, then campaign files"),
+        about: "measure how near the comparisons come to their thresholds, in the same environment; half an hour",
+        takes: Takes::Arguments("a seed (default 1), then campaign files"),
         run: margins,
     },
     Recipe {
         name: "study",
-        about: "accuracy over random arms and campaigns; minutes",
-        takes: Takes::Arguments("`cargo xtask study --help` has the rest"),
+        about: "measure the accuracy over random arms and campaigns; minutes",
+        takes: Takes::Arguments("see `cargo xtask study --help`"),
         run: study,
     },
 ];
@@ -169,12 +169,12 @@ fn main() -> ExitCode {
     }
 }
 
-/// Every test with plain `cargo test`, so that a fresh machine needs nothing else, and how many
-/// tests of measured logs were among them.
+/// Runs every test with plain `cargo test`, so that a new machine needs nothing else, and counts the
+/// tests of measured logs among them.
 fn test(context: &Context) -> Result<(), Failure> {
     let log = measured::Log::start(&context.root)?;
     let mut command = cargo(&context.root, &["test", "--workspace", "--no-fail-fast"]);
-    // The schemas in `docs/` beside the types.
+    // Compares the schemas in `docs/` with the types.
     command.args(["--features", "lissom-io/schema"]);
     log.pass_to(&mut command)?;
     let outcome = run("tests and doctests", &mut command);
@@ -182,7 +182,7 @@ fn test(context: &Context) -> Result<(), Failure> {
     outcome
 }
 
-/// The schemas in `docs/`, from the types; a test fails where they differ.
+/// Writes the schemas in `docs/` from the types; a test fails if they differ.
 fn schemas(context: &Context) -> Result<(), Failure> {
     let package = ["run", "--package", "lissom-io", "--features", "schema"];
     let mut command = cargo(&context.root, &package);
@@ -235,7 +235,7 @@ fn static_binary(context: &Context) -> Result<(), Failure> {
     release::static_binary(&context.root)
 }
 
-/// What a change must pass: cheap checks first.
+/// All checks that a change must pass, the fast ones first.
 fn ci(context: &Context) -> Result<(), Failure> {
     let root = &context.root;
     run("fmt", &mut cargo(root, &["fmt", "--all", "--check"]))?;
@@ -253,17 +253,17 @@ fn ci(context: &Context) -> Result<(), Failure> {
     if context.flags.iter().any(|flag| flag == SKIP_TESTS) { Ok(()) } else { test(context) }
 }
 
-/// The rig's experiments by other people's simulators.
+/// Compares the virtual rig with MuJoCo and scipy.
 fn external(context: &Context) -> Result<(), Failure> {
     external::compare(&context.root)
 }
 
-/// The study with logs that lissom's rig did not make.
+/// Runs the study with logs of an independent simulator instead of the virtual rig.
 fn truth(context: &Context) -> Result<(), Failure> {
     external::truth(&context.root, context.flags.first().map_or("100", String::as_str))
 }
 
-/// How near comparisons come to their thresholds.
+/// Measures how near the comparisons come to their thresholds.
 fn margins(context: &Context) -> Result<(), Failure> {
     let (seed, campaigns) = match context.flags.as_slice() {
         [] => ("1", &[][..]),
@@ -272,13 +272,13 @@ fn margins(context: &Context) -> Result<(), Failure> {
     external::margins(&context.root, seed, campaigns)
 }
 
-/// The accuracy study.
+/// Runs the accuracy study.
 fn study(context: &Context) -> Result<(), Failure> {
     let mut command = cargo(&context.root, &["run", "--release", "--package", "lissom-study"]);
     run("study", command.arg("--").args(&context.flags))
 }
 
-/// The workspace's folder: cargo says at run time where this package is.
+/// The workspace's folder, from the package's folder that cargo gives at run time.
 fn root() -> PathBuf {
     let package = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
     package.as_deref().and_then(Path::parent).map_or_else(|| PathBuf::from("."), Path::to_owned)

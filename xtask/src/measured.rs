@@ -1,6 +1,6 @@
-//! Counts the tests of measured logs: those that ran, and those that were skipped for want of data.
+//! Counts the tests of measured logs: those that ran, and those that were skipped because their data were missing.
 //!
-//! A test of measured logs appends one line to the file that `LISSOM_MEASURED_LOG` names:
+//! A test of measured logs appends one line to the file given by `LISSOM_MEASURED_LOG`:
 //! `measured: ran TEST` or `measured: skipped TEST (REASON)`. Cargo hides what a passing test
 //! prints, hence a file.
 
@@ -19,7 +19,7 @@ pub(crate) struct Log {
     path: PathBuf,
 }
 
-/// What the file says.
+/// The tests listed in the file.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Counts {
     ran: BTreeSet<String>,
@@ -36,8 +36,8 @@ impl Log {
         Ok(log)
     }
 
-    /// Tells the tests of a command where the log is. A relative `LISSOM_DATA` means the caller's
-    /// folder, and tests run in their package's: they get it absolute.
+    /// Passes the path of the log to the tests of a command. A relative `LISSOM_DATA` is relative to the
+    /// caller's folder, but tests run in the folder of their package; so they get an absolute path.
     pub(crate) fn pass_to(&self, command: &mut Command) -> Result<(), Failure> {
         let path = absolute(&self.path).map_err(|source| self.failure(source))?;
         command.env("LISSOM_MEASURED_LOG", path);

@@ -10,7 +10,7 @@ use std::{
 /// Why a recipe stopped.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The command ran and said no.
+    /// The command ran and failed.
     Step { title: String, command: String, status: std::process::ExitStatus },
     /// The command could not be started.
     Start { command: String, source: io::Error },
@@ -22,7 +22,7 @@ pub(crate) enum Failure {
     Links { broken: Vec<String> },
     /// An example that is too long.
     Long { path: String, lines: usize, most: usize },
-    /// A file or folder of the recipe's own could not be used.
+    /// A file or folder of the recipe could not be used.
     File { path: String, source: io::Error },
 }
 
@@ -48,14 +48,14 @@ impl fmt::Display for Failure {
     }
 }
 
-/// The cargo that runs this program, in the workspace's folder, reading nothing.
+/// The cargo that runs this program, in the workspace's folder, without input.
 pub(crate) fn cargo(root: &Path, args: &[&str]) -> Command {
     let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(args).current_dir(root).stdin(Stdio::null());
     command
 }
 
-/// Runs one step, its output passed through.
+/// Runs one step and passes its output through.
 pub(crate) fn run(title: &str, command: &mut Command) -> Result<(), Failure> {
     println!("\n--- {title}");
     let start = Instant::now();
@@ -68,14 +68,14 @@ pub(crate) fn run(title: &str, command: &mut Command) -> Result<(), Failure> {
     Err(Failure::Step { title: title.to_owned(), command: shown(command), status })
 }
 
-/// Runs a command in silence: whether it succeeded, and what it said on its standard error.
+/// Runs a command without output; returns whether it succeeded, and the text of its error stream.
 pub(crate) fn ask(command: &mut Command) -> Result<(bool, String), Failure> {
     let output =
         command.output().map_err(|source| Failure::Start { command: shown(command), source })?;
     Ok((output.status.success(), String::from_utf8_lossy(&output.stderr).into_owned()))
 }
 
-/// The command as one would type it.
+/// The command as a user would type it.
 fn shown(command: &Command) -> String {
     let set = command.get_envs().filter_map(|(name, value)| {
         Some(format!("{}='{}'", name.to_string_lossy(), value?.to_string_lossy()))

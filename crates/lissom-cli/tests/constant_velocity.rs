@@ -116,9 +116,9 @@ fn the_table_the_report_and_the_plots_show_it() {
     let output = run(folder.path(), &["--report", "report.html", "--plots", "plots"]);
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(text.contains("2 runs at constant velocities"), "{text}");
-    assert!(text.contains("by lines through 5 points forward and 5 points backward"), "{text}");
+    assert!(text.contains("through 5 points forward and 5 points backward"), "{text}");
     let report = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
-    assert!(report.contains("Friction by constant velocities"));
+    assert!(report.contains("Friction from constant velocities"));
     assert!(report.contains("Stretches at a constant velocity"));
     assert!(!report.contains("Frequency responses"));
     let svg = std::fs::read_to_string(folder.path().join("plots/friction-velocity.svg")).unwrap();

@@ -174,7 +174,7 @@ fn writes_what_it_says() {
     }
     let result: Value = serde_json::from_slice(&whole("result.json")).unwrap();
     assert_eq!(result, demo.output["result"]);
-    let heading = demo.talk.lines().find(|l| l.starts_with("figure")).unwrap();
+    let heading = demo.talk.lines().find(|l| l.starts_with("parameter")).unwrap();
     for column in ["true", "third harmonic", "regression", "error"] {
         assert!(heading.contains(column), "{heading}");
     }

@@ -180,7 +180,7 @@ fn refusals_say_why() {
     // Before any work: the table is not read.
     for pair in [["x.svg", "./x.svg"], ["x-motor.svg", "x.svg"]] {
         let said = refused(at, &["absent.csv", "--json", pair[0], "--plot", pair[1]]);
-        assert!(said.contains("one name for two outputs"), "{said}");
+        assert!(said.contains("is given for two outputs"), "{said}");
     }
     assert!(refused(at, &["absent.csv", "--json", "no/a.json"]).contains("cannot be written"));
     // Where they are not needed, too.
@@ -188,7 +188,7 @@ fn refusals_say_why() {
     let said = refused(at, &["good.csv", "--arm", "absent.toml", "--at", "p1=0.2 m"]);
     assert!(said.contains("absent.toml"), "{said}");
     let said = refused(at, &["good.csv", "--arm", "arm.toml", "--at", "p9=0.2 m"]);
-    assert!(said.contains("--at p9: there is no such point; there are p1, p2, p3"), "{said}");
+    assert!(said.contains("--at p9: there is no such point; the points are p1, p2, p3"), "{said}");
     refused(at, &["good.csv", "--arm", "arm.toml", "--at", "p1=0.2 m", "--at", "p1=0.3 m"]);
 }
 

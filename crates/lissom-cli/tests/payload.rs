@@ -75,7 +75,7 @@ fn another_payload_is_that_of_the_arm_built_with_it() {
     check.holds(&["payloads[].modes[].damping_ratio.ci95", "payloads[].tip[].std"]);
     assert!(fs::read_to_string(at.join("tip.svg")).unwrap().starts_with("<svg"));
     let table = done(at, &with(&["--to", "120 g"]));
-    assert!(table.contains("with 0.12 kg, the motor held:"), "{table}");
+    assert!(table.contains("with 0.12 kg, motor clamped:"), "{table}");
 
     let too_much =
         ["payload", "logs/campaign.toml", "--mass", "9 kg", "--at", "25 cm", "--to", "1 g"];
@@ -103,10 +103,10 @@ fn what_is_wrong_is_said_before_the_work() {
     let said = refused(at, &[&asked[..], &["--plot", "no/where.svg"]].concat());
     assert!(said.contains("no/where.svg: cannot be written"), "{said}");
     let said = refused(at, &[&asked[..], &["--plot", "a.svg", "--json", "a.svg"]].concat());
-    assert!(said.contains("one name for two outputs"), "{said}");
+    assert!(said.contains("is given for two outputs"), "{said}");
     let said = refused(at, &["payload", "run.csv", "--mass", "50 g", "--to", "120 g"]);
     assert!(
-        said.contains("run.csv: is no campaign.toml") && !said.contains("TOML parse"),
+        said.contains("run.csv: is not a campaign.toml") && !said.contains("TOML parse"),
         "{said}"
     );
 }

@@ -150,7 +150,7 @@ fn what_cannot_be_planned_is_one_error() {
     refused(
         folder(&no_loop).path(),
         &["plan", "arm.toml"],
-        "error: arm.toml: [rig] has no controller, and a plan is made for a position loop\n\
+        "error: arm.toml: [rig] has no controller, but a plan needs a position loop\n\
          hint: add controller = { proportional = \"8 A/rad\", derivative = \"0.2 A*s/rad\" } to [rig]",
     );
     let weak = folder(&ARM.replace("4.12 A", "0.1 A"));
@@ -161,7 +161,7 @@ fn what_cannot_be_planned_is_one_error() {
         folder(ARM).path(),
         &["plan", "arm.toml", "--within", "1 s"],
         "error: arm.toml: no run fits within 1 s; the shortest takes 15.0 s\n\
-         hint: allow more with --within",
+         hint: allow more time with --within",
     );
     let fast = folder(&ARM.replace("3 ms", "1 us"));
     let output = lissom(fast.path(), &["plan", "arm.toml"]);
@@ -183,8 +183,8 @@ fn a_file_that_is_no_plan_is_not_written_over() {
     refused(
         folder.path(),
         &["plan", "arm.toml", "--out", "arm.toml"],
-        "error: arm.toml: exists and is no earlier output; it is not written over\n\
-         hint: put the input before `--json FILE`, or remove the file if it is to go",
+        "error: arm.toml: exists and is not an earlier output; it is not overwritten\n\
+         hint: put the input before `--json FILE`, give another name, or delete the file if you do not need it",
     );
 }
 

@@ -157,16 +157,16 @@ fn another_campaign_is_left_alone() {
         .unwrap();
     bench.refused(
         "out",
-        "error: out: holds another campaign; nothing is written over\n\
-         hint: give another --out, or remove the folder if it is to go",
+        "error: out: contains another campaign; nothing is overwritten\n\
+         hint: give another --out, or delete the folder if you do not need it",
     );
     assert_eq!(files(&bench.0.path().join("out")), before);
     fs::create_dir(bench.0.path().join("mine")).unwrap();
     fs::write(bench.0.path().join("mine/run-01.csv"), "precious").unwrap();
     bench.refused(
         "mine",
-        "error: mine: holds run-01.csv, which is of no virtual campaign; nothing is written over\n\
-         hint: give another --out, or remove the folder if it is to go",
+        "error: mine: contains run-01.csv, which is not from a virtual campaign; nothing is overwritten\n\
+         hint: give another --out, or delete the folder if you do not need it",
     );
 }
 
@@ -190,7 +190,7 @@ fn what_cannot_be_simulated_is_said_once() {
     let open = ARM.lines().filter(|l| !l.starts_with("controller")).collect::<Vec<_>>().join("\n");
     Bench::new(&open, PLAN).refused(
         "out",
-        "error: arm.toml: run `run-01` needs a controller, and [rig] has none\n\
+        "error: arm.toml: run `run-01` needs a controller, but [rig] has none\n\
          hint: add controller = { proportional = \"8 A/rad\", derivative = \"0.2 A*s/rad\" } to [rig], \
          or drive = \"current\" to the run",
     );
@@ -319,7 +319,10 @@ fn the_description_beside_the_logs_is_judged() {
     let (low, high) = (ends[0].as_f64().unwrap(), ends[1].as_f64().unwrap());
     assert!(low < 1.0 / 1.05 && 1.0 / 1.05 < high && high < 0.97, "{length}");
     let page = fs::read_to_string(out.join("report.html")).unwrap();
-    assert!(page.contains("The arm as described") && page.contains("Explained best"), "{check}");
+    assert!(
+        page.contains("Comparison with arm.toml") && page.contains("Best explanation"),
+        "{check}"
+    );
 }
 
 /// A rigid joint whose load hangs at −30°.
@@ -400,8 +403,8 @@ fn what_a_load_needs_is_said() {
     let on_beam = ARM.replace("[rig]", "[load]\ngravity_torque = \"2 N*m\"\n[rig]");
     Bench::new(&on_beam, PLAN).refused(
         "out",
-        "error: arm.toml: [load] gives gravity to an arm with a beam; it is simulated for a rigid joint\n\
-         hint: remove [load], or write `rigid = true` in place of the keys of [beam]",
+        "error: arm.toml: [load] gives gravity to an arm with a beam, but gravity is simulated only for a rigid joint\n\
+         hint: remove [load], or write `rigid = true` instead of the other keys of [beam]",
     );
     let wrong = LOADED.replace("\"2 N*m\"", "\"-2 N*m\"");
     Bench::new(&wrong, PLAN).refused(

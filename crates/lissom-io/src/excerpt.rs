@@ -1,9 +1,9 @@
-//! Text from a file as an error shows it.
+//! Text from a file as shown in an error.
 
-/// Characters that an error shows of one text.
+/// Largest number of characters of a text in an error.
 const MOST: usize = 60;
 
-/// The beginning of `text`, on one line and without characters that a terminal would obey.
+/// The beginning of `text` on one line, without control characters of a terminal.
 pub(crate) fn excerpt(text: &str) -> String {
     let plain = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
     let mut shown: String = text.chars().take(MOST).map(plain).collect();

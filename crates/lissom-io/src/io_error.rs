@@ -1,4 +1,4 @@
-//! The crate's error.
+//! The error type of the crate.
 
 use lissom_core::record::RecordError;
 use thiserror::Error;
@@ -14,47 +14,47 @@ use crate::result::result_error::ResultError;
 use crate::units::UnitError;
 use crate::write::WriteError;
 
-/// Anything that can go wrong on the way in or out.
+/// Any error in reading or writing files.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A quantity or unit.
+    /// A quantity or unit is wrong.
     #[error(transparent)]
     Unit(#[from] UnitError),
-    /// A log.
+    /// A log cannot be used.
     #[error(transparent)]
     Log(#[from] LogError),
-    /// `arm.toml` or `campaign.toml` as a file of keys and values.
+    /// A key or value of a TOML file is wrong.
     #[error(transparent)]
     Config(#[from] ConfigError),
-    /// An `arm.toml` that makes no arm.
+    /// An `arm.toml` describes no usable arm.
     #[error(transparent)]
     Arm(#[from] ArmError),
-    /// Experiments that make no sense.
+    /// The experiments of a plan cannot be used.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// A list of frequencies.
+    /// A list of frequencies cannot be used.
     #[error(transparent)]
     Frequencies(#[from] FrequencyError),
-    /// What a campaign says about its signals and drive.
+    /// The signals or the drive of a campaign are wrong.
     #[error(transparent)]
     Campaign(#[from] CampaignError),
-    /// Runs that make no campaign.
+    /// The runs do not form a campaign.
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// Tables of frequency responses.
+    /// Tables of frequency responses cannot be used.
     #[error(transparent)]
     Responses(#[from] ResponseError),
-    /// A result that was read back.
+    /// A result cannot be used.
     #[error(transparent)]
     Result(#[from] ResultError),
-    /// Writing a file.
+    /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
 }
 
 impl Error {
-    /// What to do about it.
+    /// What the user can do.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::Unit(error) => error.hint(),
@@ -67,7 +67,7 @@ impl Error {
             Self::Responses(error) => error.hint(),
             Self::Result(error) => error.hint(),
             Self::Write(error) => error.hint(),
-            // A reader makes no such run: see [`LogError`] and [`CampaignError`].
+            // Readers do not create such runs: see [`LogError`] and [`CampaignError`].
             Self::Record(_) => None,
         }
     }

@@ -2,18 +2,18 @@
 //!
 //! - [`read_campaign`] reads a `campaign.toml` and its logs into a
 //!   [`Campaign`](lissom_core::record::Campaign): see [`campaign`] for the file, [`log`] for the logs.
-//! - [`ArmFile::read`] reads an `arm.toml`: see [`arm_file`]; [`ModelFile`] is what comes of it.
+//! - [`ArmFile::read`] reads an `arm.toml`: see [`arm_file`]; [`ModelFile`] is the model computed from it.
 //! - [`PlanFile::read`] reads a `plan.toml`, the experiments of a virtual campaign: see [`plan`].
 //! - [`read_responses`] reads tables of frequency responses: see [`responses`].
-//! - [`ResultFile`] is what was identified, [`read_arm`] reads the arm in it back, [`read_result`]
-//!   its parameters, [`ComparedFile`] has those of several results, [`ValidationFile`] is how well it predicts another log, [`ThresholdsFile`] the list of thresholds: see [`result`].
-//! - [`PlannedFile`] is a plan for programs, [`RigFile`] what is known of a virtual campaign, [`DemoFile`] and
+//! - [`ResultFile`] is the result of an identification. [`read_arm`] reads its arm, [`read_result`] its parameters.
+//!   [`ComparedFile`] has the parameters of several results, [`ValidationFile`] how well a result predicts another log,
+//!   [`ThresholdsFile`] the list of thresholds: see [`result`].
+//! - [`PlannedFile`] is a plan as JSON, [`RigFile`] describes a virtual campaign, [`DemoFile`] and
 //!   [`FiguresFile`] are estimates compared with known values.
 //! - [`units`] reads quantities such as `"2.184 lbf*in/A"`.
 //! - [`mod@write`] writes files whole or not at all.
 //!
-//! Every error is an [`Error`] that names file, place and value, and most have a
-//! [hint](Error::hint).
+//! Every error is an [`Error`] with file, place and value; most have a [hint](Error::hint).
 
 pub mod arm_file;
 pub mod campaign;

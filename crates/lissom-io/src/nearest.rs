@@ -1,9 +1,9 @@
-//! The valid name that a wrong one probably meant.
+//! The valid name that is most similar to a wrong one.
 
-/// Characters of the longest text that is looked at: the time goes with its length.
+/// Largest number of characters that are compared, because the time grows with the length.
 const LONGEST: usize = 64;
 
-/// The candidate nearest to `wanted`, if one is near enough to be worth naming.
+/// The candidate most similar to `wanted`, if it is similar enough for a hint.
 pub(crate) fn nearest<'a>(
     wanted: &str,
     candidates: impl IntoIterator<Item = &'a str>,

@@ -1,16 +1,16 @@
-//! Files of text that are read whole.
+//! Text files that are read at once.
 
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Largest file that is read whole \[bytes\], far beyond what a person or lissom writes.
+/// Largest file that is read at once \[bytes\], far larger than files that people or lissom write.
 const MOST: u64 = 256 << 20;
 
-/// The text of a file.
+/// Reads the text of a file.
 ///
 /// # Errors
-/// Where it cannot be read, is no UTF-8, or is larger than any such file is: a device may have no end.
+/// If it cannot be read, is not UTF-8, or is too large, as a device without an end is.
 pub fn read_text(path: &Path) -> io::Result<String> {
     let mut text = String::new();
     let read = File::open(path)?.take(MOST + 1).read_to_string(&mut text)?;

@@ -12,24 +12,18 @@ use crate::result::{
 };
 use crate::rig::RigFile;
 
-/// File names of the schemas in `docs/`, and their text.
+/// The schemas in `docs/`: file names and texts.
 pub fn schema_files() -> Vec<(&'static str, String)> {
     vec![
         ("result.schema.json", text::<ResultFile>("result.json of lissom identify")),
         ("model.schema.json", text::<ModelFile>("model.json of lissom model")),
-        (
-            "equivalent.schema.json",
-            text::<EquivalentFile>("What lissom equivalent writes with --json"),
-        ),
-        ("compare.schema.json", text::<ComparedFile>("What lissom compare writes with --json")),
-        ("payload.schema.json", text::<PayloadFile>("What lissom payload writes with --json")),
-        ("planned.schema.json", text::<PlannedFile>("What lissom plan writes with --json")),
+        ("equivalent.schema.json", text::<EquivalentFile>("Output of lissom equivalent --json")),
+        ("compare.schema.json", text::<ComparedFile>("Output of lissom compare --json")),
+        ("payload.schema.json", text::<PayloadFile>("Output of lissom payload --json")),
+        ("planned.schema.json", text::<PlannedFile>("Output of lissom plan --json")),
         ("rig.schema.json", text::<RigFile>("rig.json of lissom rig")),
-        (
-            "thresholds.schema.json",
-            text::<ThresholdsFile>("What lissom thresholds writes with --json"),
-        ),
-        ("validate.schema.json", text::<ValidationFile>("What lissom validate writes with --json")),
+        ("thresholds.schema.json", text::<ThresholdsFile>("Output of lissom thresholds --json")),
+        ("validate.schema.json", text::<ValidationFile>("Output of lissom validate --json")),
     ]
 }
 
@@ -40,7 +34,7 @@ fn text<File: JsonSchema>(title: &str) -> String {
     format!("{:#}\n", schema.to_value())
 }
 
-/// Says of every table that it has no other keys, and of every number only what a reader of the file needs.
+/// Declares that tables have no other keys, and removes details of numbers that a reader of the file does not need.
 #[derive(Debug, Clone)]
 struct ClosedTables;
 
@@ -52,7 +46,7 @@ impl Transform for ClosedTables {
         if table {
             schema.insert("additionalProperties".to_owned(), false.into());
         }
-        // Sizes of Rust's numbers say nothing about a file.
+        // Sizes of number types in Rust are not part of the file format.
         schema.remove("format");
         for key in ["description", "title"] {
             if let Some(Value::String(text)) = schema.get_mut(key) {

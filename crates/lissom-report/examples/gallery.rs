@@ -1,4 +1,4 @@
-//! Draws a page with each kind of figure, and each figure by itself, into the folder named on the command line.
+//! Draws a page with each kind of figure, and each figure as a file, into the folder given on the command line.
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -38,7 +38,7 @@ fn bode() -> BodePlot {
     let measured =
         Series::new("corrected", Role::Corrected, Style::PointsWithBars, sparse.clone(), corrected);
     BodePlot::new("Motor angle per current", "rad/A")
-        .subtitle("34 runs of a stepped sine; bars show one standard deviation")
+        .subtitle("34 runs of a stepped sine; bars show one standard error")
         .frequency_axis(FrequencyAxis::Both)
         .series(Series::new("raw", Role::Raw, Style::Points, sparse, raw))
         .series(measured.with_std(std).with_flags(flags))
@@ -100,7 +100,7 @@ fn stacked() -> StackedPlot {
 }
 
 fn key_figures() -> Vec<KeyFigure> {
-    let figure = |name: &str, value: f64, std: f64, unit: &str| KeyFigure {
+    let estimate = |name: &str, value: f64, std: f64, unit: &str| KeyFigure {
         name: name.into(),
         value: Some(value),
         std: Some(std),
@@ -111,12 +111,12 @@ fn key_figures() -> Vec<KeyFigure> {
     let refused = KeyFigure {
         name: "Viscous friction".into(),
         unit: "N·m·s/rad".into(),
-        note: "This data cannot tell it apart from Coulomb friction.".into(),
+        note: "These data cannot separate it from Coulomb friction.".into(),
         ..KeyFigure::default()
     };
     vec![
-        figure("Coulomb friction", 0.131_97, 4.1e-4, "A"),
-        figure("Motor inertia", 6.247e-4, 1.1e-6, "kg·m²"),
+        estimate("Coulomb friction", 0.131_97, 4.1e-4, "A"),
+        estimate("Motor inertia", 6.247e-4, 1.1e-6, "kg·m²"),
         refused,
     ]
 }
@@ -124,31 +124,35 @@ fn key_figures() -> Vec<KeyFigure> {
 fn findings() -> Vec<Finding> {
     let one_amplitude = "One amplitude cannot separate viscous and Coulomb friction.";
     vec![
-        Finding::new(Severity::Warning, "saturated", "Run 4 saturates for 12 % of the cycle.")
-            .hint("Repeat it with half the amplitude."),
+        Finding::new(
+            Severity::Warning,
+            "saturated",
+            "The current of run 4 is at its limit for 12 percent of the cycle.",
+        )
+        .hint("Repeat it with half the amplitude."),
         Finding::new(Severity::Refusal, "viscous_unresolved", one_amplitude)
             .hint("Add a run at 5 rad/s."),
         Finding::new(
             Severity::Info,
             "held_current",
-            "The current is a command held between samples.",
+            "The current is a command that is held between samples.",
         ),
     ]
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = PathBuf::from(std::env::args().nth(1).ok_or("name a folder")?);
+    let folder = PathBuf::from(std::env::args().nth(1).ok_or("give a folder")?);
     std::fs::create_dir_all(&folder)?;
     let page = Page::new("Friction and dynamics of a flexible arm")
         .summary("Coulomb friction is 0.1320 A (± 0.0004 A). The corrected response fits a model with two modes.")
-        .key_figures("Estimated figures", &key_figures())
+        .key_figures("Estimates", &key_figures())
         .heading("Findings")
         .findings(&findings())
         .heading("Figures")
         .figure(&bode(), "The motor before and after the friction correction, with the fitted model.")
         .figure(&friction(), "Each pair of harmonics gives one estimate.")
         .figure(&run(), "The first seconds of a run.")
-        .figure(&residual(), "What the model leaves.")
+        .figure(&residual(), "The residual of the model.")
         .figure(&stacked(), "Two quantities over one axis.")
         .details("Raw result", "{\n  \"coulomb_a\": 0.13197\n}")
         .footer("Made by lissom.");

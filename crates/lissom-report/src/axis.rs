@@ -1,4 +1,4 @@
-//! Where the ticks of an axis stand and what they say.
+//! Positions and labels of the ticks of an axis.
 
 use crate::scale::Scale;
 use lissom_text::{exponent, fixed, power_of_ten};
@@ -38,11 +38,11 @@ pub(crate) struct Ruler {
 const MAX_TICKS: usize = 40;
 /// The least distance of the data from a snapped end, as a part of their span.
 const SNAP_PAD: f64 = 0.02;
-/// Pixels a decade needs to carry labels at 1, 2 and 5.
+/// Pixels a decade needs for labels at 1, 2 and 5.
 const ROOMY_DECADE: f64 = 130.0;
-/// Pixels a decade needs to carry labels at 1, 2, 3, 5 and 7.
+/// Pixels a decade needs for labels at 1, 2, 3, 5 and 7.
 const WIDE_DECADE: f64 = 420.0;
-/// Pixels a decade needs to carry labels at 1 to 9.
+/// Pixels a decade needs for labels at 1 to 9.
 const VAST_DECADE: f64 = 1100.0;
 /// Pixels a labelled decade needs.
 const NARROW_DECADE: f64 = 44.0;

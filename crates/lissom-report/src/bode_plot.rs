@@ -24,15 +24,15 @@ const MAGNITUDE_HEIGHT: f64 = 250.0;
 const PHASE_HEIGHT: f64 = 210.0;
 const PANEL_GAP: f64 = 16.0;
 const TOP_AXIS_HEIGHT: f64 = 42.0;
-/// The least magnitude range in dB: less would blow rounding errors up.
+/// The least magnitude range in dB: a smaller one would magnify rounding errors.
 const LEAST_DB: f64 = 1.0;
 /// The least phase range in degrees.
 const LEAST_DEGREES: f64 = 10.0;
 
 /// Magnitude and phase of frequency responses.
 ///
-/// Phases are continuous along each series and never 360° apart between series: all follow the densest line, or the longest
-/// series where there is no line. Points with a frequency that is not positive, a response of zero or one that is not finite are
+/// Phases are continuous along each series and never 360° apart between series: all are adjusted to the densest line, or the longest
+/// series if there is no line. Points with a frequency that is not positive, a response of zero or one that is not finite are
 /// left out, and a note below the figure counts them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BodePlot {
@@ -263,12 +263,12 @@ fn decibels(size: f64) -> f64 {
     20.0 * size.log10()
 }
 
-/// The ends in dB of an error bar of one standard deviation; the lower is −∞ where the deviation reaches the magnitude.
+/// The ends in dB of an error bar of one standard error; the lower is −∞ if the standard error reaches the magnitude.
 fn decibel_bar(size: f64, std: f64) -> (f64, f64) {
     (decibels((size - std).max(0.0)), decibels(size + std))
 }
 
-/// Half the angle in degrees under which the circle of one standard deviation appears from the origin; 180° from inside it.
+/// Half the angle in degrees under which the circle of one standard error appears from the origin; 180° from inside it.
 fn degree_bar(size: f64, std: f64) -> f64 {
     if std < size { (std / size).asin().to_degrees() } else { 180.0 }
 }

@@ -25,7 +25,7 @@ pub enum Style {
     Line,
     /// Markers, for measurements.
     Points,
-    /// Markers with one standard deviation to both sides.
+    /// Markers with error bars of one standard error on both sides.
     PointsWithBars,
 }
 
@@ -34,7 +34,7 @@ pub enum Style {
 pub struct Series {
     /// The label in the legend; empty keeps the series out of it.
     pub label: String,
-    /// What it stands for, hence its colour and marker.
+    /// What it shows; it decides colour and marker.
     pub role: Role,
     /// How it is drawn.
     pub style: Style,
@@ -42,14 +42,14 @@ pub struct Series {
     pub omega_rad_s: Vec<f64>,
     /// The response at each frequency.
     pub response: Vec<Complex64>,
-    /// The standard deviation of each response as a distance in the complex plane; a value that is not positive draws no bar.
+    /// The standard error of each response as a distance in the complex plane; a value that is not positive draws no bar.
     pub std: Option<Vec<f64>>,
     /// Points to draw grey and hollow, because something is wrong with them.
     pub flagged: Option<Vec<bool>>,
 }
 
 impl Series {
-    /// A series without deviations or flags.
+    /// A series without error bars or flags.
     pub fn new(
         label: impl Into<String>,
         role: Role,
@@ -60,7 +60,7 @@ impl Series {
         Self { label: label.into(), role, style, omega_rad_s, response, std: None, flagged: None }
     }
 
-    /// Adds standard deviations.
+    /// Adds standard errors.
     #[must_use]
     pub fn with_std(mut self, std: Vec<f64>) -> Self {
         self.std = Some(std);

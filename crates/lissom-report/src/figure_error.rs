@@ -1,4 +1,4 @@
-//! What can go wrong with a figure.
+//! Errors of drawing a figure.
 
 /// Why a figure could not be drawn or rasterised.
 #[derive(Debug, thiserror::Error)]
@@ -39,7 +39,7 @@ pub enum FigureError {
         "a scale of {scale} makes a picture of {width} by {height} pixels; each side must lie between 1 and {limit}"
     )]
     Size {
-        /// The scale asked for.
+        /// The requested scale.
         scale: f32,
         /// Pixels across.
         width: f32,
@@ -51,7 +51,7 @@ pub enum FigureError {
     /// The PNG encoder failed.
     #[error("the picture could not be encoded as PNG")]
     Png {
-        /// What the encoder says.
+        /// The error of the encoder.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
 }

@@ -1,8 +1,8 @@
-//! What every figure can do.
+//! The trait of all figures.
 
 use crate::figure_error::FigureError;
 
-/// Keeps [`Figure`] to this crate, whose SVG carries no ids that could clash on a page.
+/// Keeps [`Figure`] to this crate, whose SVG has no ids that could clash on a page.
 pub trait Sealed {}
 
 /// A figure that can be drawn as SVG or PNG and put on a [`Page`](crate::Page).

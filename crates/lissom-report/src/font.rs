@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use crate::truetype::TrueType;
 
-/// The family every figure is set in.
+/// The font family of every figure.
 pub(crate) const FAMILY: &str = "DejaVu Sans";
 
 static REGULAR: LazyLock<Option<TrueType>> =

@@ -1,4 +1,4 @@
-//! What stands above the axes: title, subtitle and legend, so that none of them covers data.
+//! Title, subtitle and legend. They are above the axes, so that none of them covers data.
 
 use crate::canvas::{Anchor, Canvas, Rect, Stroke, TextStyle};
 use crate::font::Weight;
@@ -16,7 +16,7 @@ const SAMPLE_GAP: f64 = 8.0;
 const ENTRY_GAP: f64 = 24.0;
 const ROW: f64 = 23.0;
 
-/// What a legend shows beside a label.
+/// What a legend shows next to a label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sample {
     Line(Role),
@@ -124,7 +124,7 @@ impl Sample {
     }
 }
 
-/// The line at the foot of a figure that owns up to what it does not show.
+/// The line at the foot of a figure that counts the points it does not show.
 pub(crate) fn skipped_note(skipped: usize) -> Option<String> {
     match skipped {
         0 => None,

@@ -1,14 +1,14 @@
 //! Figures and one self-contained HTML page.
 //!
-//! The crate takes plain plotting structures and knows nothing of how their numbers came about:
+//! The crate draws plain plotting structures and does not depend on the identification:
 //!
 //! - [`BodePlot`]: magnitude and phase over a shared logarithmic frequency axis;
 //! - [`LinePlot`]: one pair of linear or logarithmic axes with points, lines, steps, columns, bands and regions;
 //! - [`StackedPlot`]: line plots one above the other over one horizontal axis;
-//! - [`Page`]: headings, tables, figures and findings as one HTML file that needs nothing from outside.
+//! - [`Page`]: headings, tables, figures and findings as one HTML file that loads nothing else.
 //!
-//! All figures are [`Figure`]s and draw themselves as SVG and as PNG. The PNG is set in the DejaVu Sans that is compiled in,
-//! so a picture looks the same on every machine, whether it has fonts or not.
+//! All plots implement [`Figure`] and draw themselves as SVG and as PNG. The text of the PNG uses the compiled-in font DejaVu
+//! Sans, so that a picture looks the same on every machine, whether it has fonts or not.
 //!
 //! ```
 //! use lissom_report::{Axis, Figure, LinePlot, Page, Role, Trace};

@@ -18,7 +18,7 @@ use crate::trace::{Axis, Band, Region, Trace, TraceStyle};
 const SHEET_WIDTH: f64 = 760.0;
 const RIGHT_MARGIN: f64 = 24.0;
 const HEIGHT: f64 = 300.0;
-/// Between frames that stand one above the other.
+/// Between frames that are one above the other.
 const FRAME_GAP: f64 = 16.0;
 /// The part of the distance between neighbours that a column fills.
 const COLUMN_FILL: f64 = 0.7;
@@ -28,7 +28,7 @@ const MAX_COLUMN: f64 = 44.0;
 /// Traces, bands and regions over one pair of axes.
 ///
 /// Points that are not finite, or not positive on a logarithmic axis, are left out, and a note below the figure counts them;
-/// lines stop there. A band or region that cannot be drawn is left out of figure and legend.
+/// lines stop there. A band or region that cannot be drawn is left out of the figure and of the legend.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LinePlot {
     /// The title.
@@ -115,7 +115,7 @@ impl LinePlot {
         entries
     }
 
-    /// The vertical range: all points, their bars within reason, the bands, and zero where columns stand on it.
+    /// The vertical range: all points, their bars up to a limit, the bands, and zero if columns start there.
     fn y_range(&self, marks: &[Vec<Mark>]) -> Option<(f64, f64)> {
         let columns = self.traces.iter().any(|t| t.style == TraceStyle::Columns)
             && self.y.scale == Scale::Linear;
@@ -148,7 +148,7 @@ impl LinePlot {
             .traces
             .iter()
             .all(|t| matches!(t.style, TraceStyle::Line | TraceStyle::Dashes | TraceStyle::Steps));
-        // Lines may run from edge to edge; markers want room.
+        // Lines may run from edge to edge; markers need a margin.
         let x = if lines && self.x.scale == Scale::Linear {
             Scale::Linear.widened(x, 0.0)
         } else {
@@ -277,7 +277,7 @@ pub(crate) fn sheet(
     let mut canvas = Canvas::default();
     let mut top = header(&mut canvas, (left, right), title, subtitle, &entries);
     for ((k, (plot, (marks, _))), y) in plots.iter().zip(&marks).enumerate().zip(rulers) {
-        // The power of ten stands above the frame.
+        // The power of ten is written above the frame.
         top += if y.factor.is_some() { 18.0 } else { 0.0 };
         let frame = Rect { left, top, width: right - left, height };
         let panel = Panel { frame, x: x.clone(), y };

@@ -1,4 +1,4 @@
-//! One HTML page that needs nothing from outside.
+//! One HTML page that loads nothing else.
 
 use std::fmt::Write as _;
 
@@ -31,7 +31,7 @@ impl Page {
         self
     }
 
-    /// The paragraph that says what was found.
+    /// A paragraph in slightly larger type, for the main results.
     #[must_use]
     pub fn summary(self, text: &str) -> Self {
         self.put(&format!("<p class=\"summary\">{}</p>", escape(text)))
@@ -49,13 +49,13 @@ impl Page {
         self.put(&format!("<p>{}</p>", escape(text)))
     }
 
-    /// The table of estimated figures, each rounded to what its standard deviation supports.
+    /// A table of estimates, each rounded to two digits of its standard error.
     #[must_use]
     pub fn key_figures(self, caption: &str, figures: &[KeyFigure]) -> Self {
         let noted = figures.iter().any(|f| !f.note.is_empty());
         let mut columns = vec![
             ("quantity", Cells::Text),
-            ("value ± std", Cells::Numbers),
+            ("value ± standard error", Cells::Numbers),
             ("95 % interval", Cells::Numbers),
             ("unit", Cells::Text),
         ];
@@ -83,7 +83,7 @@ impl Page {
         self.put(&table_html(table, ""))
     }
 
-    /// A figure with its caption; where it cannot be drawn, the reason stands in its place.
+    /// A figure with its caption; if it cannot be drawn, the page shows the reason instead.
     #[must_use]
     pub fn figure<F: Figure + ?Sized>(self, figure: &F, caption: &str) -> Self {
         let picture = figure.to_svg().unwrap_or_else(|error| {
@@ -132,7 +132,7 @@ impl Page {
         self.put(&html)
     }
 
-    /// Text in a fixed-width font behind a line that opens it.
+    /// Text in a fixed-width font that a click on its heading shows.
     #[must_use]
     pub fn details(self, summary: &str, text: &str) -> Self {
         self.put(&format!(

@@ -5,9 +5,9 @@
 pub enum Severity {
     /// Worth knowing.
     Info,
-    /// A figure is less certain than it looks.
+    /// A result is less certain than its standard error says.
     Warning,
-    /// A figure asked for is not given.
+    /// A requested result is not given.
     Refusal,
 }
 
@@ -21,7 +21,7 @@ impl Severity {
     }
 }
 
-/// Something the reader must know about the data or a figure.
+/// A statement about the data or a result that the reader must know.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
     /// How serious it is.
@@ -59,14 +59,14 @@ impl Finding {
     }
 }
 
-/// An estimated figure for [`Page::key_figures`](crate::Page::key_figures).
+/// An estimated parameter for [`Page::key_figures`](crate::Page::key_figures).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct KeyFigure {
-    /// What it is.
+    /// The name of the parameter.
     pub name: String,
-    /// The estimate; `None` where it is refused.
+    /// The estimate; `None` if it is refused.
     pub value: Option<f64>,
-    /// Its standard deviation.
+    /// Its standard error.
     pub std: Option<f64>,
     /// Its 95 % interval.
     pub ci95: Option<[f64; 2]>,
@@ -88,7 +88,7 @@ pub enum Cells {
 /// A table for [`Page::table`](crate::Page::table).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Table {
-    /// The line above it.
+    /// The caption above it.
     pub caption: String,
     /// Heading and alignment of each column.
     pub columns: Vec<(String, Cells)>,

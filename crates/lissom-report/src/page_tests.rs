@@ -95,9 +95,9 @@ fn figures_findings_and_refusals_read_right() {
     };
     let number = " class=\"n\"";
     for expected in [
-        cell(number, "value ± std", "0.1320 ± 0.0012"),
+        cell(number, "value ± standard error", "0.1320 ± 0.0012"),
         cell(number, "95 % interval", "0.1296 … 0.1344"),
-        cell("", "quantity", "viscous") + &cell(number, "value ± std", "refused"),
+        cell("", "quantity", "viscous") + &cell(number, "value ± standard error", "refused"),
         cell("", "note", "too few runs"),
     ] {
         assert!(html.contains(&expected), "{expected}");

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// What a series stands for; it decides colour, dash and marker.
+/// What a series shows; it decides colour, dash and marker.
 ///
 /// The colours are those of Okabe and Ito, which people with any colour vision tell apart; marker and dash differ too, so
 /// that a print in black and white stays readable.
@@ -14,7 +14,7 @@ pub enum Role {
     Corrected,
     /// A fitted model: black.
     Fitted,
-    /// What is known to be true: green, dashed.
+    /// The true values, where they are known: green, dashed.
     Truth,
     /// Anything else: the colours left over, in turn.
     Other(u8),
@@ -75,11 +75,11 @@ impl Marker {
     }
 }
 
-/// The ground of every figure.
+/// The background of every figure.
 pub(crate) const WHITE: Colour = Colour::rgb(0xff, 0xff, 0xff);
-/// What flagged points are drawn in.
+/// The colour of flagged points.
 pub(crate) const FLAGGED: Colour = Colour::rgb(0x8a, 0x8a, 0x8a);
-/// Lines beyond what was measured, whatever their role.
+/// Lines outside the measured range, whatever their role.
 pub(crate) const DASHES: &[u8] = &[6, 4];
 /// The opacity of bands and regions: grid and data show through.
 pub(crate) const SHADE: f64 = 0.16;

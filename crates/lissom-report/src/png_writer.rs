@@ -24,7 +24,7 @@ pub(crate) fn png(drawing: &Drawing, scale: f32) -> Result<Vec<u8>, FigureError>
     pixmap.encode_png().map_err(|error| FigureError::Png { source: Box::new(error) })
 }
 
-/// A side in whole pixels, where it lies between 1 and [`LIMIT`].
+/// A side in whole pixels, if it lies between 1 and [`LIMIT`].
 fn pixels(side: f32) -> Option<u32> {
     let side = side.round();
     (1.0..=f32::from(LIMIT)).contains(&side).then_some(side as u32)

@@ -49,7 +49,7 @@ impl Scale {
         (self.back(a - pad), self.back(b + pad))
     }
 
-    /// `low..high`, widened about its middle where it is narrower than `least` or practically a point.
+    /// `low..high`, widened about its middle if it is narrower than `least` or practically a point.
     pub(crate) fn widened(self, (low, high): (f64, f64), least: f64) -> (f64, f64) {
         let (a, b) = (self.forward(low), self.forward(high));
         let size = a.abs().max(b.abs());

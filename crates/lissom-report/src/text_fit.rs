@@ -2,7 +2,7 @@
 
 use crate::font::{Weight, font};
 
-/// An advance for characters the font lacks, in units of the font size.
+/// The advance of characters that the font lacks, in units of the font size.
 const UNKNOWN_ADVANCE: f64 = 0.8;
 
 /// The width of `text` at a font size of `size`, in the same unit.
@@ -17,7 +17,7 @@ pub(crate) fn width(text: &str, size: f64, weight: Weight) -> f64 {
     size * text.chars().map(advance).sum::<f64>()
 }
 
-/// `text` cut with an ellipsis where it is wider than `limit`.
+/// `text` cut with an ellipsis if it is wider than `limit`.
 pub(crate) fn shorten(text: &str, size: f64, weight: Weight, limit: f64) -> String {
     if width(text, size, weight) <= limit {
         return text.to_owned();
@@ -36,7 +36,7 @@ pub(crate) fn shorten(text: &str, size: f64, weight: Weight, limit: f64) -> Stri
     }
 }
 
-/// `text` broken at spaces into at most `lines` lines no wider than `limit`; what is left over ends in an ellipsis.
+/// `text` broken at spaces into at most `lines` lines no wider than `limit`; if it is longer, it ends in an ellipsis.
 pub(crate) fn wrap(text: &str, size: f64, weight: Weight, limit: f64, lines: usize) -> Vec<String> {
     let mut broken: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

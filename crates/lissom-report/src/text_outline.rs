@@ -5,7 +5,7 @@ use tiny_skia::{Path, PathBuilder};
 use crate::font::{Weight, font};
 use crate::truetype::{Glyph, GlyphPoint};
 
-/// The box that stands for what a font lacks.
+/// The box for a character that the font lacks.
 const MISSING: Glyph = 0;
 
 /// A line of text as one shape.
@@ -42,7 +42,7 @@ pub(crate) fn outline(text: &str, size: f64, weight: Weight) -> TextOutline {
     TextOutline { width: pen.x, path: pen.path.finish() }
 }
 
-/// `text` with its blanks as SVG shows them, and U+FFFD in place of control characters, as in the SVG.
+/// `text` with its blanks as SVG shows them, and U+FFFD instead of control characters, as in the SVG.
 fn shown(text: &str) -> String {
     let words = text.split([' ', '\t', '\n', '\r']).filter(|word| !word.is_empty());
     let text = words.collect::<Vec<_>>().join(" ");

@@ -35,7 +35,7 @@ impl Axis {
         self
     }
 
-    /// The range asked for, if it is one.
+    /// The given range, if it is valid.
     pub(crate) fn fixed_range(&self) -> Result<Option<(f64, f64)>, FigureError> {
         match self.range {
             Some((low, high))
@@ -61,9 +61,9 @@ pub enum TraceStyle {
     Steps,
     /// Markers.
     Points,
-    /// Markers with one standard deviation to both sides.
+    /// Markers with error bars of one standard error on both sides.
     PointsWithBars,
-    /// Columns from zero (on a logarithmic axis, from the bottom), with one standard deviation where there is one.
+    /// Columns from zero (on a logarithmic axis, from the bottom), with error bars if there are standard errors.
     Columns,
 }
 
@@ -72,7 +72,7 @@ pub enum TraceStyle {
 pub struct Trace {
     /// The label in the legend; empty keeps the trace out of it.
     pub label: String,
-    /// What it stands for, hence its colour and marker.
+    /// What it shows; it decides colour and marker.
     pub role: Role,
     /// How it is drawn.
     pub style: TraceStyle,
@@ -80,14 +80,14 @@ pub struct Trace {
     pub x: Vec<f64>,
     /// The ordinates.
     pub y: Vec<f64>,
-    /// The standard deviation of each ordinate; a value that is not positive draws no bar.
+    /// The standard error of each ordinate; a value that is not positive draws no bar.
     pub std: Option<Vec<f64>>,
     /// Points to draw grey and hollow, because something is wrong with them.
     pub flagged: Option<Vec<bool>>,
 }
 
 impl Trace {
-    /// A trace without deviations or flags.
+    /// A trace without error bars or flags.
     pub fn new(
         label: impl Into<String>,
         role: Role,
@@ -98,7 +98,7 @@ impl Trace {
         Self { label: label.into(), role, style, x, y, std: None, flagged: None }
     }
 
-    /// A line without deviations or flags.
+    /// A line without error bars or flags.
     pub fn line(label: impl Into<String>, role: Role, x: Vec<f64>, y: Vec<f64>) -> Self {
         Self::new(label, role, TraceStyle::Line, x, y)
     }
@@ -171,7 +171,7 @@ impl Trace {
 pub struct Band {
     /// The label in the legend; empty keeps the band out of it.
     pub label: String,
-    /// What it stands for, hence its colour.
+    /// What it shows; it decides the colour.
     pub role: Role,
     /// The value.
     pub middle: f64,
@@ -188,12 +188,12 @@ impl Band {
     }
 }
 
-/// A shaded interval of the horizontal axis, as high as the frame: a part of a time trace that is spoken of.
+/// A shaded interval of the horizontal axis, as high as the frame. It marks a part of a time trace.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
     /// The label in the legend; empty keeps the region out of it.
     pub label: String,
-    /// What it stands for, hence its colour.
+    /// What it shows; it decides the colour.
     pub role: Role,
     /// The left end.
     pub from: f64,

@@ -1,7 +1,7 @@
 //! The parts of a TrueType font that figures need: glyphs of characters, widths, kerning, outlines.
 //!
-//! It reads the compiled-in fonts alone, and a test compares every glyph of both with `skrifa`. Names of tables and fields are
-//! those of the OpenType specification. What a font lacks or has wrong is `None`, an outline without points, or a kerning of zero.
+//! It reads only the compiled-in fonts; a test compares every glyph of both with `skrifa`. Names of tables and fields are
+//! those of the OpenType specification. A part that a font lacks or has wrong is `None`, an outline without points, or a kerning of zero.
 
 /// Composite glyphs are nested no deeper.
 const DEEPEST: u8 = 6;
@@ -71,7 +71,7 @@ impl TrueType {
         })
     }
 
-    /// The glyph of a character, where the font has one.
+    /// The glyph of a character, if the font has one.
     pub(crate) fn glyph(&self, c: char) -> Option<Glyph> {
         let (c, table) = (u16::try_from(u32::from(c)).ok()?, self.characters);
         let twice = u16_at(table, 6)? as usize;
@@ -230,7 +230,7 @@ fn characters(cmap: &'static [u8]) -> Option<&'static [u8]> {
     tables.find(|table| u16_at(table, 0) == Some(4))
 }
 
-/// The pairs of `kern`, where its first subtable is one of horizontal pairs.
+/// The pairs of `kern`, if its first subtable is one of horizontal pairs.
 fn pairs(kern: &'static [u8]) -> Option<&'static [u8]> {
     const HORIZONTAL_FORMAT_0: u16 = 1;
     if u16_at(kern, 0)? != 0 || u16_at(kern, 8)? != HORIZONTAL_FORMAT_0 {

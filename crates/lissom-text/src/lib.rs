@@ -33,12 +33,12 @@ pub fn exponent(value: f64) -> i32 {
     if log.is_finite() { log as i32 } else { 0 }
 }
 
-/// `value` in four significant digits, in scientific form where it is very large or small.
+/// `value` in four significant digits, in scientific form if it is very large or small.
 pub fn plain(value: f64) -> String {
     significant(value, 4)
 }
 
-/// `value` in so many significant digits, in scientific form where it is very large or small.
+/// `value` in `digits` significant digits, in scientific form if it is very large or small.
 pub fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return "—".to_owned();
@@ -60,11 +60,11 @@ fn mantissa(value: f64, e: i32) -> f64 {
     value / 10f64.powi(e / 2) / 10f64.powi(e - e / 2)
 }
 
-/// A value with its standard error: the error in two significant digits, the value to the same place.
+/// A value with its standard error: the error with two significant digits, the value rounded to the same place.
 ///
-/// Where both would have more than four digits behind the point, the error stands in parentheses behind the last digits
-/// that it is of: `0.13201(12)` is 0.13201 ± 0.00012. Values that are not finite become a dash; an error that is not finite
-/// and positive is left out.
+/// If both need more than four digits behind the point, the error is written in parentheses and counts units of the last
+/// digit: `0.13201(12)` is 0.13201 ± 0.00012. A value that is not finite becomes a dash. A standard error that is not finite
+/// and positive is not written.
 ///
 /// ```
 /// use lissom_text::with_uncertainty;
@@ -113,12 +113,12 @@ enum Layout {
 }
 
 impl Layout {
-    /// The layout a value and its standard error call for, if there is one.
+    /// The layout for a value and its standard error, if there is one.
     fn of(value: f64, std: f64) -> Option<Self> {
         if !value.is_finite() || !std.is_finite() || std <= 0.0 {
             return None;
         }
-        // The place of the second digit of the error after rounding: 0.00996 is written 0.010.
+        // The place of the second digit of the standard error after rounding: 0.00996 is written 0.010.
         let place = exponent(std * 1.005_000_001) - 1;
         let e = exponent(value).max(exponent(std));
         Some(if (-6..6).contains(&e) { Self::Places(-place) } else { Self::Scaled(e, e - place) })

@@ -1,4 +1,4 @@
-//! What the user can ask for.
+//! The command line: global options and the list of subcommands.
 
 use clap::{Parser, Subcommand};
 
@@ -16,7 +16,7 @@ use super::rig_args::RigArgs;
 use super::thresholds_args::ThresholdsArgs;
 use super::validate_args::ValidateArgs;
 
-/// Models and identifies flexible arms and drives whose joint has friction.
+/// Model and identify drives with friction, with a rigid load or a flexible arm.
 #[derive(Debug, Parser)]
 #[command(name = "lissom", version = env!("LISSOM_VERSION"), max_term_width = 100, after_help = AFTER_HELP)]
 pub(crate) struct Cli {
@@ -25,39 +25,39 @@ pub(crate) struct Cli {
 }
 
 const AFTER_HELP: &str = "\
-Start with `lissom demo`: it runs the experiment on a virtual arm, writes its logs and their
-campaign.toml, and identifies them. Then describe your own logs in a campaign.toml like that one,
-and an arm's dimensions in an arm.toml for `lissom model`.
+Start with `lissom demo`. `lissom help COMMAND` shows examples of each command.
 
-Exit codes: 0 done; 1 the input cannot be used; 2 wrong usage; 3 done, but the data refuse a
-figure (see the findings), or the time a precision that was wished for.";
+Exit codes: 0 done; 1 the input cannot be used; 2 wrong usage; 3 done, but a requested parameter
+could not be identified (see the findings) or the requested precision does not fit the allowed
+time; 4 stopped by Ctrl-C or a time limit, with the best result so far; 130 stopped by a second
+Ctrl-C without a result.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Identify friction, frequency response and parameters from logs
+    /// Identify friction, inertia, coupling, modes and frequency responses from logs
     Identify(IdentifyArgs),
-    /// Predict a log that was not used, to see how far a result holds
+    /// Check a result: predict a log that was not used for it
     Validate(ValidateArgs),
-    /// Show the parameters of two or more results side by side, with their differences
+    /// Show the parameters of two or more results side by side
     Compare(CompareArgs),
-    /// From logs or frequency responses of points of a beam, the lumped arm that behaves the same
+    /// Find the lumped arm that behaves as a beam does at its measured points
     Equivalent(EquivalentArgs),
-    /// From logs with one payload, modes and the tip's response with others
+    /// Predict an identified arm with other payloads
     Payload(PayloadArgs),
-    /// Turn an arm's dimensions into frequencies, matrices, transfer functions and plots
+    /// Compute frequencies, zeros, matrices and transfer functions from an arm's dimensions
     Model(ModelArgs),
-    /// From rough numbers of an arm, the runs that give a wanted precision in the least time
+    /// Choose the runs that give a wanted precision in the least time
     Plan(PlanArgs),
-    /// Run a campaign of experiments on a virtual arm and write its logs
+    /// Simulate a campaign of experiments and write its logs
     Rig(RigArgs),
-    /// Remake Figures 6, 7 and 8 of the report on a virtual rig
+    /// Simulate the experiments behind Figures 6, 7 and 8 of the 1989 report and draw them
     Figures(FiguresArgs),
-    /// List every number that decides what is accepted, refused, warned of or chosen
+    /// List every number that decides which estimates are given and which findings are reported
     Thresholds(ThresholdsArgs),
     /// Print the completions of a shell
     Completions(CompletionsArgs),
     /// Write the manual pages
     Man(ManArgs),
-    /// Run the report's experiment on a virtual arm and identify it from its logs
+    /// Simulate the experiment of the 1989 report and identify the arm from its logs
     Demo(DemoArgs),
 }

@@ -1,4 +1,4 @@
-//! What `lissom demo` can be asked for.
+//! Arguments of `lissom demo`.
 
 use std::path::PathBuf;
 
@@ -6,14 +6,14 @@ use clap::Args;
 
 use super::stdout_name::STDOUT;
 
-/// The single-mass arm of the report: PD loop, 3 ms, 12 bits, 4.12 A, stepped sines at
-/// frequencies and their triples, two amplitudes.
+/// Simulates the arm with one mass of the 1989 report: PD loop with a sample time of 3 ms, sensors of 12 bits, a current
+/// limit of 4.12 A, sines at frequencies ω0 and 3·ω0 with two amplitudes.
 #[derive(Debug, Args)]
 pub(crate) struct DemoArgs {
-    /// Folder for the logs, the campaign, the result and the plots
+    /// Folder for the logs, campaign.toml, result.json, report.html and the plots
     #[arg(long, value_name = "DIR", default_value = "lissom-demo")]
     pub(crate) out: PathBuf,
-    /// Write truth and result as JSON to FILE, or alone to standard output
+    /// Write true parameters and result as JSON to FILE (without FILE: print only JSON)
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
     pub(crate) json: Option<PathBuf>,
 }

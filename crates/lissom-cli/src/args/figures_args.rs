@@ -1,4 +1,4 @@
-//! What `lissom figures` can be asked for.
+//! Arguments of `lissom figures`.
 
 use std::path::PathBuf;
 
@@ -6,15 +6,15 @@ use clap::Args;
 
 use super::stdout_name::STDOUT;
 
-/// Motor and beam by stepped sines (theory, as measured, corrected, fitted), and friction by steady
-/// velocities beside friction by sines, on a joint whose friction grows less than in proportion with
-/// speed: extrapolated from high speed to rest it comes out too high.
+/// Figures 6 and 7 are the responses of motor and beam (theory, as measured, corrected, fitted). Figure 8 compares friction
+/// from constant velocities with friction from sines. Friction of the simulated joint grows less than in proportion to
+/// speed, so its value extrapolated from high speed to rest is too high.
 #[derive(Debug, Args)]
 pub(crate) struct FiguresArgs {
-    /// Folder for the figures and their logs
+    /// Folder for the plots and the logs
     #[arg(long, value_name = "DIR", default_value = "lissom-figures")]
     pub(crate) out: PathBuf,
-    /// Write the friction figures as JSON to FILE, or alone to standard output
+    /// Write Coulomb friction, printed and estimated, as JSON to FILE (without FILE: print only JSON)
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
     pub(crate) json: Option<PathBuf>,
 }

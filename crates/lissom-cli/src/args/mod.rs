@@ -1,4 +1,4 @@
-//! What the user can ask for: the arguments of each subcommand, and nothing else.
+//! The arguments of each subcommand, and nothing else.
 
 pub(crate) mod command_line;
 pub(crate) mod compare_args;

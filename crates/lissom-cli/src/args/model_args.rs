@@ -1,4 +1,4 @@
-//! What `lissom model` can be asked for.
+//! Arguments of `lissom model`.
 
 use std::path::PathBuf;
 
@@ -7,62 +7,46 @@ use lissom_io::units::{Dimension, parse_quantity};
 
 use super::stdout_name::STDOUT;
 
-/// From a beam's dimensions: natural frequencies, zeros, the report's matrices, transfer functions,
-/// frequency responses. With a [drive] also those of the whole arm, Coulomb friction left out.
+/// Computes natural frequencies, zeros, the matrices of the 1989 report, transfer functions and frequency responses from a
+/// beam's dimensions. With a `[drive]` also those of the whole arm, without Coulomb friction.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct ModelArgs {
-    /// The arm.toml
+    /// The arm.toml, which has the dimensions
     pub(crate) arm: PathBuf,
-    /// Write the model as JSON to FILE, or alone to standard output
+    /// Write the model as JSON to FILE (without FILE: print only JSON)
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
     pub(crate) json: Option<PathBuf>,
-    /// Responses at these frequencies [rad/s]: a range with logarithmic steps, or the first column
-    /// of a file
+    /// Frequencies [rad/s] of responses: a logarithmic range, or a file
     #[arg(long, value_name = "FILE|START:STOP:COUNT", value_parser = omega, allow_hyphen_values = true)]
     pub(crate) omega: Option<Omega>,
-    /// Measure the properties that Section 3 of the report claims (at most 200 point masses)
+    /// Check the properties of Section 3 of the 1989 report
     #[arg(long)]
     pub(crate) properties: bool,
-    /// Other loads at the tip: factors of its mass and rotary inertia, or masses, e.g.
-    /// 0.5x,2x,"0.3 kg". The load is the payload's mass, without one the last mass
+    /// Other loads at the tip: factors or masses, e.g. 0.5x,2x,"0.3 kg"
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = load, allow_hyphen_values = true)]
     pub(crate) payload: Vec<Load>,
-    /// Natural frequencies and zeros to show; those of a distributed beam to find
+    /// Natural frequencies and zeros to show
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = modes)]
     pub(crate) modes: usize,
-    /// Transfer functions and responses of every mass, up to 200, rather than up to 20
+    /// Responses of all masses for up to 200 masses, not 20
     #[arg(long)]
     pub(crate) all: bool,
-    /// Draw Bode plots and mode shapes into DIR as SVG and PNG; with --payload also poles and zeros
-    /// over the load
+    /// Write Bode plots and mode shapes into DIR as SVG and PNG
     #[arg(long, value_name = "DIR")]
     pub(crate) plots: Option<PathBuf>,
 }
 
 const HELP: &str = "\
-An arm.toml:
+Examples:
+  lissom model arm.toml --omega 0.1:100:200 --payload 0.5x,2x,5x
+  lissom model arm.toml --json model.json --plots plots
+An arm.toml of two lines (the page arm.toml in the book explains every key):
+  beam.flexural_rigidity = \"0.02 N*m^2\"
+  beam.spans = [{ length = \"15 cm\", mass = \"55 g\" }, { length = \"15 cm\", mass = \"55 g\" }]
+Zeros: class a is an imaginary pair, b a real pair, c a quadruple; b and c make the inverse unstable.";
 
-  [beam]
-  young_modulus = \"30e6 psi\"            # or flexural_rigidity = \"0.01 N*m^2\"
-  section = { round = \"0.047 in\" }      # or { rectangle = [\"25 mm\", \"1 mm\"] }
-  spans = [{ length = \"6 in\", mass = \"0.121 lb\" }, { length = \"6 in\", mass = \"0.121 lb\" }]
-  [drive]                               # may be absent
-  inertia = \"0.005529 lbf*in*s^2\"
-  torque_constant = \"2.184 lbf*in/A\"
-
-A beam with its mass along it has `density` or `mass_per_length` in [beam], and needs no point
-masses. docs/src/reference/arm.md explains every key, with hub, payload and damping.
-
-  lissom model arm.toml                        what it is, frequencies, zeros, matrices
-  lissom model arm.toml --omega 0.1:100:200    the tip's response
-  lissom model arm.toml --payload 0.5x,2x,5x   what another load does
-  lissom model arm.toml --json model.json      everything for programs (docs/src/reference/schemas/model.schema.json)
-
-Zeros come in classes: a, a pair on the imaginary axis; b, a real pair; c, a quadruple. With b or
-c the tip's response is non-minimum phase: its inverse is unstable.";
-
-/// Frequencies to compute responses at.
+/// Frequencies at which responses are computed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Omega {
     /// Logarithmic steps from the first to the last, both included \[rad/s\].
@@ -74,33 +58,33 @@ pub(crate) enum Omega {
 /// A load at the tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Load {
-    /// As often as the file's.
+    /// The load in the file times this factor.
     Times(f64),
-    /// \[kg\].
+    /// A mass \[kg\].
     Mass(f64),
 }
 
-/// Most frequencies of a range.
+/// Largest number of frequencies in a range.
 const MOST_FREQUENCIES: usize = 1_000_000;
-/// Most frequencies that are shown or sought.
+/// Largest number of natural frequencies that are shown or searched for.
 const MOST_MODES: usize = 1000;
-/// Loads and frequencies are sizes of machines: products of them stay finite.
+/// Allowed range of loads and frequencies, in SI: their products stay finite.
 const SIZE: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
 
 fn omega(text: &str) -> Result<Omega, String> {
     let hint = "hint: give START:STOP:COUNT in rad/s, such as 0.1:100:200, or a file";
     let failed = |reason: String| Err(format!("{reason}\n{hint}"));
     let parts: Vec<&str> = text.split(':').collect();
-    // A drive's letter and a colon begin a path.
+    // A path may begin with a drive letter and a colon.
     let path = parts.len() == 2 && parts[0].len() == 1 && parts[0].parse::<f64>().is_err();
     if parts.len() == 1 && text.trim().parse::<f64>().is_ok() {
-        return failed("one frequency is no range".to_owned());
+        return failed("one frequency is not a range".to_owned());
     }
     if parts.len() == 1 || path {
         return Ok(Omega::File(PathBuf::from(text)));
     }
     let [start, stop, count] = parts[..] else {
-        return failed("a range has three parts".to_owned());
+        return failed("a range must have three parts".to_owned());
     };
     let (start, stop) = match (frequency(start), frequency(stop)) {
         (Ok(start), Ok(stop)) => (start, stop),
@@ -114,12 +98,12 @@ fn omega(text: &str) -> Result<Omega, String> {
             Ok(Omega::Range { start, stop, count })
         }
         _ => failed(format!(
-            "\"{count}\" is no count: it must be a whole number from 2 to {MOST_FREQUENCIES}"
+            "COUNT is \"{count}\", but must be a whole number from 2 to {MOST_FREQUENCIES}"
         )),
     }
 }
 
-/// A number in rad/s, or a frequency with its unit.
+/// Parses a number in rad/s, or a frequency with its unit.
 fn frequency(text: &str) -> Result<f64, String> {
     let number = text.trim().parse::<f64>().ok();
     let value = match number {
@@ -129,16 +113,16 @@ fn frequency(text: &str) -> Result<f64, String> {
     if SIZE.contains(&value) {
         Ok(value)
     } else {
-        Err(format!("\"{text}\" is not positive and finite"))
+        Err(format!("\"{text}\" must be positive and finite"))
     }
 }
 
 fn load(text: &str) -> Result<Load, String> {
-    let hint = "hint: write factors such as 2x and masses such as \"0.3 kg\", with commas between";
+    let hint = "hint: write factors such as 2x or masses such as \"0.3 kg\", separated by commas";
     let text = text.trim();
     let found = match text.strip_suffix(['x', '×']).map(|factor| factor.trim().parse::<f64>()) {
         Some(Ok(factor)) => Ok(Load::Times(factor)),
-        Some(Err(_)) => Err(format!("\"{text}\" is no factor")),
+        Some(Err(_)) => Err(format!("\"{text}\" is not a factor")),
         None => parse_quantity(text, Dimension::MASS).map(Load::Mass).map_err(|e| e.to_string()),
     };
     match found {
@@ -156,7 +140,7 @@ fn modes(text: &str) -> Result<usize, String> {
 }
 
 impl Omega {
-    /// A range's frequencies, ends exact.
+    /// The frequencies of a range in logarithmic steps, with exact ends.
     pub(crate) fn range(start: f64, stop: f64, count: usize) -> Vec<f64> {
         let last = count.max(2) - 1;
         let at = |k: usize| match k {

@@ -1,4 +1,4 @@
-//! What `lissom payload` can be asked for.
+//! Arguments of `lissom payload`.
 
 use std::path::PathBuf;
 
@@ -7,29 +7,29 @@ use lissom_io::units::{Dimension, parse_quantity};
 
 use super::stdout_name::STDOUT;
 
-/// The runs of CAMPAIGN are identified with the payload that they were made with; the arm found is then
-/// predicted with others at the same point.
+/// Identifies the runs of a campaign that were made with one payload, then predicts the arm with other payloads at the same
+/// point.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct PayloadArgs {
-    /// The campaign.toml
+    /// The campaign.toml, which describes the logs
     pub(crate) campaign: PathBuf,
-    /// Payload that the runs were made with, e.g. "55 g"
+    /// Payload in the logged runs, e.g. "55 g"
     #[arg(long, value_name = "MASS", value_parser = mass, allow_hyphen_values = true)]
     pub(crate) mass: f64,
-    /// Payload to predict, e.g. "0.11 kg"; once for each
+    /// Payload to predict, e.g. "0.11 kg"; repeatable
     #[arg(long, value_name = "MASS", value_parser = mass, required = true, allow_hyphen_values = true)]
     pub(crate) to: Vec<f64>,
-    /// Distance of the payload from the axis, e.g. "0.45 m"; not on linear axes
+    /// Distance of the payload from a rotary axis, e.g. "0.45 m"
     #[arg(long, value_name = "LENGTH", value_parser = length, allow_hyphen_values = true)]
     pub(crate) at: Option<f64>,
-    /// Tip that carries it; the last of the campaign when absent
+    /// Tip at which the payload is fixed [default: the last tip]
     #[arg(long, value_name = "NAME")]
     pub(crate) tip: Option<String>,
-    /// Write the prediction as JSON to FILE, or alone to standard output
+    /// Write the prediction as JSON to FILE (without FILE: print only JSON)
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
     pub(crate) json: Option<PathBuf>,
-    /// Draw the tip's responses into FILE.svg or FILE.png
+    /// Draw the tip's responses to FILE.svg or FILE.png
     #[arg(long, value_name = "FILE")]
     pub(crate) plot: Option<PathBuf>,
 }
@@ -53,10 +53,11 @@ fn length(text: &str) -> Result<f64, String> {
 }
 
 const HELP: &str = "\
+Examples:
   lissom payload campaign.toml --mass \"55 g\" --at \"17.8 cm\" --to \"27 g\" --to \"0.11 kg\"
+  lissom payload campaign.toml --mass \"0 g\" --at \"17.8 cm\" --to \"55 g\" --plot tip.svg
 
-The payload is a point mass: its weight is on the beam's line, and it does not turn on its own. Where a tip is
-measured its zeros stay where they are, whatever it carries; its poles move. Modes with the motor held, and the
-tip's response to the motor's angle, come with 95 % intervals. What no run has shown is in none of them: modes
-above those found bend under a heavy load, too.
-docs/src/how-to/payload.md shows how far that goes.";
+The payload is a point mass without rotary inertia. The output has the modes with the motor clamped
+and the tip's response per motor angle, with 95 % intervals. The zeros of the tip's response do not
+depend on the payload. The intervals do not include modes above those found; a heavy payload changes
+these, too.";

@@ -1,4 +1,4 @@
-//! What `lissom plan` can be asked for.
+//! Arguments of `lissom plan`.
 
 use std::path::PathBuf;
 
@@ -9,72 +9,72 @@ use lissom_io::units::{Dimension, parse_quantity};
 use super::positive_time::positive_time;
 use super::stdout_name::STDOUT;
 
-/// Motions are made as large as current, travel, bending and sensors allow by simulating the arm in
-/// its loop; those are chosen that reach the wanted deviations in the least time. Without --out the
-/// plan goes to standard output.
+/// Simulates the arm in its position loop, makes each motion as large as current, travel, bending and sensors allow, and
+/// chooses the motions that reach the wanted standard errors in the least time. Without `--out` the plan goes to standard
+/// output.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct PlanArgs {
-    /// The arm.toml, with [drive] and [rig]: rough numbers will do
+    /// The arm.toml with [drive] and [rig]; rough numbers are enough
     pub(crate) arm: PathBuf,
-    /// Write the plan.toml that `lissom rig` runs to FILE, and show a table
+    /// Write a plan.toml for `lissom rig` to FILE, and show a table
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
-    /// Write each run as a table of reference angles for hardware into DIR
+    /// Write each run into DIR as a table of reference angles for hardware
     #[arg(long, value_name = "DIR")]
     pub(crate) tables: Option<PathBuf>,
-    /// Write the plan as JSON to FILE, or alone to standard output
+    /// Write the plan as JSON to FILE (without FILE: print only JSON)
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
     pub(crate) json: Option<PathBuf>,
-    /// Standard deviation wanted of every figure but damping, e.g. 1%
+    /// Relative standard error of all parameters except damping, e.g. 1%
     #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     precision: Option<f64>,
-    /// The same of Coulomb friction alone [0.5% when absent]
+    /// The same for Coulomb friction [default: 0.5%]
     #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     coulomb: Option<f64>,
-    /// Of viscous friction [2%]
+    /// For viscous friction [default: 2%]
     #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     viscous: Option<f64>,
-    /// Of the inertia [0.5%]
+    /// For inertia [default: 0.5%]
     #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     inertia: Option<f64>,
-    /// Of the coupling between motor and beam [0.5%]
+    /// For the coupling between motor and beam [default: 0.5%]
     #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     coupling: Option<f64>,
-    /// Of the beam's frequencies [0.1%]
+    /// For the natural frequencies [default: 0.1%]
     #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     frequency: Option<f64>,
-    /// Of the modes' damping [5%]: enough to tell which kind it is
+    /// For the damping of modes [default: 5%, which separates its kinds]
     #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     damping: Option<f64>,
-    /// Of the amplitude of gravity [0.5%]
+    /// For the amplitude of gravity [default: 0.5%]
     #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     gravity: Option<f64>,
-    /// Longest time of all runs together, with waiting [30 min]
+    /// Allowed time of all runs with waiting [default: 30 min]
     #[arg(long, value_name = "TIME", value_parser = positive_time, allow_hyphen_values = true)]
     within: Option<f64>,
-    /// The motor turns no further from its start [1 rad, and 0.9 of its sensor's range]
+    /// Largest motor angle [default: 1 rad, or 0.9 of the sensor's range]
     #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true)]
     travel: Option<f64>,
-    /// The tips bend no further from the motor's line [0.5 rad]
+    /// Largest bending of the tips [default: 0.5 rad]
     #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true)]
     bend: Option<f64>,
-    /// Share of the current limit that is kept for an arm that is not as the file says [30%]
+    /// Share of the current limit to keep free, as the arm may differ [default: 30%]
     #[arg(long, value_name = "SHARE", value_parser = reserve, allow_hyphen_values = true)]
     reserve: Option<f64>,
-    /// Which runs
-    #[arg(long, value_enum, default_value_t = Runs::Pair)]
+    /// pair (with a sine and its triple), sines (only), or any
+    #[arg(long, value_enum, default_value_t = Runs::Pair, hide_possible_values = true)]
     runs: Runs,
 }
 
-/// See [`Kinds`].
+/// Kinds of runs to choose from; see [`Kinds`].
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Runs {
-    /// At least one sine with its triple, which the third-harmonic method needs
+    /// At least one sine and another at three times its frequency, for the third-harmonic method
     Pair,
-    /// Sines alone
+    /// Sines only
     Sines,
-    /// Whatever takes the least time
+    /// The kinds that take the least time
     Any,
 }
 
@@ -105,26 +105,26 @@ impl PlanArgs {
     }
 }
 
-/// A share greater than zero and less than one: a bare 1 means 1% to who types it, and 100 % as a number.
+/// Parses a share greater than zero and less than one. A bare 1 is rejected, as it could mean 1 % or 100 %.
 fn share(text: &str) -> Result<f64, String> {
     let hint = "write a share such as 0.5% or 0.005";
     match positive(text, hint)? {
         share if share < 1.0 => Ok(share),
-        _ => Err(format!("it must be less than the whole\nhint: {hint}")),
+        _ => Err(format!("it must be less than 100 %\nhint: {hint}")),
     }
 }
 
-/// A share from zero to less than one.
+/// Parses a share from zero to less than one.
 fn reserve(text: &str) -> Result<f64, String> {
-    let hint = "hint: write a share such as 30% or 0.3, less than the whole";
+    let hint = "hint: write a share such as 30% or 0.3";
     match parse_quantity(text, Dimension::NUMBER) {
         Ok(value) if (0.0..1.0).contains(&value) => Ok(value),
-        Ok(_) => Err(format!("it must be from 0 to less than 1\n{hint}")),
+        Ok(_) => Err(format!("it must be at least 0 % and less than 100 %\n{hint}")),
         Err(error) => Err(format!("{error}\n{hint}")),
     }
 }
 
-/// An angle greater than zero.
+/// Parses an angle greater than zero.
 fn angle(text: &str) -> Result<f64, String> {
     positive(text, "write an angle such as \"1 rad\" or \"40 deg\"")
 }
@@ -138,11 +138,8 @@ fn positive(text: &str, hint: &str) -> Result<f64, String> {
 }
 
 const HELP: &str = "\
-  lissom plan arm.toml --out plan.toml                 the defaults: 0.5 %, viscous 2 %, frequencies 0.1 %
+Examples:
   lissom plan arm.toml --precision 1% --within \"5 min\" --out plan.toml
   lissom rig arm.toml --campaign plan.toml --out virtual
-  lissom identify virtual/campaign.toml
-
-A deviation is a standard deviation, relative to the figure. Where the time does not allow a wish, a
-warning says what it does allow, and the exit code is 3. docs/src/how-to/planning.md explains how a plan is made
-and what it was measured to be worth.";
+If the time is too short for a wanted standard error, a warning gives the one that it allows, and the
+exit code is 3. The runs are then those that come closest.";

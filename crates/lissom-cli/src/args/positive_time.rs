@@ -2,7 +2,7 @@
 
 use lissom_io::units::{Dimension, parse_quantity};
 
-/// A time greater than zero, in seconds.
+/// Parses a time greater than zero; gives seconds.
 pub(crate) fn positive_time(text: &str) -> Result<f64, String> {
     let hint = "hint: write a time with its unit, such as \"0.3 s\"";
     match parse_quantity(text, Dimension::TIME) {

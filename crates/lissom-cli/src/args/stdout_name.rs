@@ -1,4 +1,4 @@
-//! How a file argument names standard output.
+//! The name of standard output as a file argument.
 
 /// The file name that stands for standard output.
 pub(crate) const STDOUT: &str = "-";

@@ -1,4 +1,4 @@
-//! What `lissom thresholds` can be asked for.
+//! Arguments of `lissom thresholds`.
 
 use std::path::PathBuf;
 
@@ -6,11 +6,11 @@ use clap::Args;
 
 use super::stdout_name::STDOUT;
 
-/// Each has a unit and a reason, and says where its value comes from: derived from theory or from
-/// another number, measured on logs or simulated campaigns, or a convention.
+/// Lists each threshold with its unit, its reason and its origin: derived from theory or from another number, measured on
+/// logs or simulated campaigns, or a convention.
 #[derive(Debug, Args)]
 pub(crate) struct ThresholdsArgs {
-    /// Write the list as JSON to FILE, or alone to standard output
+    /// Write the list as JSON to FILE (without FILE: print only JSON)
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
     pub(crate) json: Option<PathBuf>,
 }

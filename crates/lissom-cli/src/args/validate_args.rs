@@ -1,4 +1,4 @@
-//! What `lissom validate` can be asked for.
+//! Arguments of `lissom validate`.
 
 use std::path::PathBuf;
 
@@ -7,42 +7,36 @@ use clap::Args;
 use super::positive_time::positive_time;
 use super::stdout_name::STDOUT;
 
-/// RESULT is what `lissom identify CAMPAIGN --json RESULT` wrote; LOG is a run that is not in CAMPAIGN.
+/// Takes a result of `lissom identify` and a log of the same drive that was not used for this result.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct ValidateArgs {
-    /// The result.json
+    /// The result.json of `lissom identify CAMPAIGN --json result.json`
     pub(crate) result: PathBuf,
-    /// A campaign.toml that describes the log, or with --like the log itself
+    /// A campaign.toml that describes the log; with --like the log itself
     pub(crate) log: PathBuf,
-    /// Read LOG as this campaign.toml reads its own logs
+    /// Read LOG with the columns and units of this campaign.toml
     #[arg(long, value_name = "CAMPAIGN")]
     pub(crate) like: Option<PathBuf>,
-    /// Write what comes of it as JSON to FILE, or alone to standard output
+    /// Write the validation as JSON to FILE (without FILE: print only JSON)
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
     pub(crate) json: Option<PathBuf>,
-    /// Draw torque, motion, residuals and correlations into DIR as SVG and PNG
+    /// Write plots of torque, motion and residuals into DIR as SVG and PNG
     #[arg(long, value_name = "DIR")]
     pub(crate) plots: Option<PathBuf>,
-    /// Length of the window that torque is averaged with, e.g. "20 ms"; that of the logs used when absent
+    /// Averaging window of the torque, e.g. "20 ms" [default: as in RESULT]
     #[arg(long, value_name = "TIME", value_parser = positive_time, allow_hyphen_values = true)]
     pub(crate) window: Option<f64>,
-    /// Predict motion over this time alone, e.g. "0.5 s"; whole runs and shorter ones when absent
+    /// Predict the motion over this time only, e.g. "0.5 s" [default: several]
     #[arg(long, value_name = "TIME", value_parser = positive_time, allow_hyphen_values = true)]
     pub(crate) horizon: Option<f64>,
 }
 
 const HELP: &str = "\
-  lissom identify campaign.toml --json result.json
+Examples:
   lissom validate result.json run-09.csv --like campaign.toml --plots plots
-
-Two predictions and their residuals:
-
-  torque   from the logged motion: what the figures say it takes, beside what was commanded.
-           No figure is better known than this is predicted.
-  motion   from the logged command: the arm simulated, sticking and slipping, from one initial
-           state for each stretch. Over whole runs an open motor drifts; see the shorter ones.
-  left     residuals as large as the sensor's own noise and white: nothing is missing. Beyond
-           that, the terms that the residual looks like say what is: a delay, friction, inertia.
-
-docs/src/how-to/validate.md explains every figure. Exit code 3: the torque is not predicted.";
+  lissom validate result.json other/campaign.toml --json validation.json
+The torque is predicted from the logged motion, the motion from the logged command by simulation.
+A white residual as small as the sensor's noise: nothing is missing. A larger one: the output lists
+the terms that it resembles, such as a delay, friction or inertia. The motion of an open loop drifts
+over whole runs; look at shorter horizons. The exit code is 3 if the torque cannot be predicted.";

@@ -33,7 +33,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     let to_terminal = json.is_none_or(|path| path != Path::new(STDOUT)) && stdout().is_terminal();
     if to_terminal && asked.effort != Effort::Quick {
         let first = first_answer(&args.campaign, &file, asked)?;
-        printer::line("the first answer, which is refined now:");
+        printer::line("first result, before the search (running now):");
         figure_table::figures(names, &first, reference);
         printer::line("");
     }

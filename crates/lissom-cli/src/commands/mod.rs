@@ -1,4 +1,4 @@
-//! One module for each subcommand: it reads what was asked for, calls the library, and hands the outcome to the views.
+//! One module for each subcommand: it reads the inputs, calls the library, and passes the result to the views.
 
 pub(crate) mod compare_command;
 pub(crate) mod completions_command;

@@ -1,4 +1,4 @@
-//! `lissom model ARM`: a beam's dimensions turned into what follows from them.
+//! `lissom model ARM`: the model of an arm, from its dimensions.
 
 use std::path::Path;
 use std::process::ExitCode;

@@ -1,4 +1,4 @@
-//! `lissom payload CAMPAIGN`: the arm identified with one payload, with others.
+//! `lissom payload CAMPAIGN`: an arm that was identified with one payload, predicted with others.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -16,8 +16,9 @@ use crate::tasks::identification::{Asked, identified};
 use crate::views::plot_file::Picture;
 use crate::views::{finding_list, payload_plot, payload_table, printer};
 
-/// Frequencies of the responses, logarithmic, and how far they go beyond the modes either way.
+/// Number of logarithmic steps in the frequencies of the responses.
 const FREQUENCIES: i32 = 400;
+/// Factor by which the responses extend beyond the modes on both sides.
 const PLOTTED_BEYOND: f64 = 3.0;
 
 pub(crate) fn run(args: &PayloadArgs) -> Result<ExitCode, Failure> {
@@ -29,8 +30,8 @@ pub(crate) fn run(args: &PayloadArgs) -> Result<ExitCode, Failure> {
     output_guard::ready(&outputs.collect::<Vec<_>>())?;
     let is_toml = args.campaign.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
     if !is_toml && args.campaign.is_file() {
-        let words = format!("{}: is no campaign.toml", args.campaign.display());
-        let hint = "give the campaign.toml that describes the logs: columns, units, what is known of the drive";
+        let words = format!("{}: is not a campaign.toml", args.campaign.display());
+        let hint = "give the campaign.toml that describes the columns and units of the logs";
         return Err(Failure::Asked(words, hint));
     }
     let file = read_campaign(&args.campaign)?;
@@ -55,7 +56,7 @@ pub(crate) fn run(args: &PayloadArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Where the payload is.
+/// The place of the payload.
 struct PayloadPlace {
     tip: usize,
     distance_m: Option<f64>,
@@ -67,27 +68,27 @@ impl PayloadPlace {
         let names: Vec<&str> = channels.tips.iter().map(|t| t.name.as_str()).collect();
         let Some(last) = names.len().checked_sub(1) else {
             let words = format!("{}: has no tip", args.campaign.display());
-            return refused(words, "a payload is predicted at a point that is measured");
+            return refused(words, "add the tip at which the payload is fixed to [signals]");
         };
         let named = |name: &String| names.iter().position(|n| n == name);
         let Some(tip) = args.tip.as_ref().map_or(Some(last), named) else {
-            let words = format!("--tip is none of the campaign's: {}", names.join(", "));
-            return refused(words, "name one of them");
+            let words = format!("--tip is none of the tips of the campaign: {}", names.join(", "));
+            return refused(words, "give one of these names");
         };
         match (channels.axis, args.at) {
             (Axis::Rotary, None) => refused(
-                "--at does not say how far from the axis the payload is".to_owned(),
-                "give --at LENGTH: its inertia goes with the square of it",
+                "the distance of the payload from the axis is not given".to_owned(),
+                "add --at LENGTH: the payload's inertia is its mass times the square of this distance",
             ),
             (Axis::Linear, Some(_)) => refused(
-                "--at is a distance from an axis, and this one is linear".to_owned(),
-                "leave it out",
+                "--at is a distance from a rotary axis, but this axis is linear".to_owned(),
+                "leave out --at",
             ),
             (_, distance_m) => Ok(Self { tip, distance_m }),
         }
     }
 
-    /// What a mass adds to the inertia at the point.
+    /// What a mass adds to the inertia of the point \[kg·m²\], on a linear axis to its mass \[kg\].
     fn added(&self, mass_kg: f64) -> f64 {
         self.distance_m.map_or(mass_kg, |r| mass_kg * r * r)
     }
@@ -102,14 +103,13 @@ fn predicted(
     let refused = |words: String, hint| Failure::Asked(words, hint);
     let stands = |oe: &&OutputError| oe.stands() && channels.tips[place.tip].calibrated;
     let Some(oe) = id.output_error.as_ref().filter(stands) else {
-        let words =
-            format!("{}: no arm was found that describes the runs", args.campaign.display());
-        return Err(refused(words, "see what `lissom identify` finds in them"));
+        let words = format!("{}: no identified arm describes the runs", args.campaign.display());
+        return Err(refused(words, "run `lissom identify` on this campaign and read its findings"));
     };
     let load = |to_kg: f64| -> Result<LoadedArm, Failure> {
         oe.with_load(place.tip, place.added(to_kg - args.mass)).ok_or_else(|| {
-            let words = format!("{to_kg} kg in place of {} kg cannot be predicted", args.mass);
-            refused(words, "so much cannot be taken off the arm found: check --mass and --at")
+            let words = format!("{to_kg} kg instead of {} kg cannot be predicted", args.mass);
+            refused(words, "check --mass and --at: the identified arm has less inertia at this point than they remove")
         })
     };
     let loaded = args.to.iter().map(|m| load(*m)).collect::<Result<Vec<_>, _>>()?;
@@ -123,8 +123,8 @@ fn predicted(
         let at = (place.tip, loaded.added_kg_m2);
         let tip = oe.loaded_tip_response(at, place.tip, &omega_rad_s).ok_or_else(|| {
             refused(
-                format!("the response with {mass_kg} kg has no deviation"),
-                "the arm found is hardly known there: add runs that drive its modes",
+                format!("the standard error of the response with {mass_kg} kg cannot be computed"),
+                "add runs that excite the modes: the identified arm is too uncertain",
             )
         })?;
         payloads.push(PredictedPayload { mass_kg, loaded, tip });

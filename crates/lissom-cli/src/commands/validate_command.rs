@@ -52,7 +52,7 @@ pub(crate) fn run(args: &ValidateArgs) -> Result<ExitCode, Failure> {
     Ok(if refused { ExitCode::from(REFUSED) } else { ExitCode::SUCCESS })
 }
 
-/// The log: a campaign.toml, or one log read as those of another campaign.
+/// Reads the log: a campaign.toml, or one log with the columns and units of another campaign.
 fn log(args: &ValidateArgs) -> Result<CampaignFile, Failure> {
     match &args.like {
         Some(campaign) => Ok(read_campaign_like(campaign, &args.log)?),

@@ -1,4 +1,4 @@
-//! Options and commands that help with a finding. The library does not name them, so this crate adds them.
+//! Options and commands that help with a finding. The library's own hints name none of them.
 
 use lissom::identify::findings::{
     EquivalentFinding, EquivalentMotorFinding, FindingKind, OutputErrorFinding, RegressionFinding,
@@ -6,7 +6,7 @@ use lissom::identify::findings::{
 };
 use lissom::identify::{EquivalentRefusal, MissingKind, MovedBy};
 
-/// The option or command that helps, in addition to the hint of the finding.
+/// The option or command that helps with a finding, in addition to the finding's own hint.
 pub(crate) fn command_hint(kind: &FindingKind) -> Option<&'static str> {
     match kind {
         FindingKind::Regression(RegressionFinding::OneSine) => Some(WITHOUT_QUICK),
@@ -26,7 +26,7 @@ pub(crate) fn command_hint(kind: &FindingKind) -> Option<&'static str> {
         FindingKind::Validation(
             ValidationFinding::TorqueNotPredicted { coupling_known: true }
             | ValidationFinding::TorqueHidden { .. },
-        ) => Some("--window TIME sets the window"),
+        ) => Some("--window TIME sets the length of the window"),
         FindingKind::Validation(ValidationFinding::ModeMoved { moved }) => (moved.by
             == MovedBy::Load)
             .then_some("`lissom payload CAMPAIGN` predicts the modes with another payload"),
@@ -47,7 +47,7 @@ fn equivalent(found: &EquivalentFinding) -> Option<&'static str> {
     }
 }
 
-/// The option or command that helps if there is no equivalent arm.
+/// The option or command that helps when no equivalent arm is found.
 pub(crate) fn refusal_hint(refusal: &EquivalentRefusal) -> Option<&'static str> {
     match refusal {
         EquivalentRefusal::FewerPoints { .. } => {
@@ -58,7 +58,7 @@ pub(crate) fn refusal_hint(refusal: &EquivalentRefusal) -> Option<&'static str> 
              dimensions",
         ),
         EquivalentRefusal::NoAngle => {
-            Some("`lissom identify CAMPAIGN` gives modes and torques from such signals")
+            Some("`lissom identify CAMPAIGN` finds modes and torques from such signals")
         }
         _ => None,
     }

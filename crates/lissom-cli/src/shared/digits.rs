@@ -1,21 +1,21 @@
-//! Numbers for people.
+//! Numbers as text.
 
 use num_complex::Complex64;
 
-/// Largest and smallest magnitude that is written without a power of ten.
+/// Magnitudes that are written without a power of ten.
 const PLAIN: std::ops::Range<f64> = 1e-3..1e6;
 
-/// `digits` significant digits.
+/// Formats `value` with `digits` significant digits.
 pub(crate) fn shown(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".to_owned() } else { value.to_string() };
     }
     let scientific = format!("{value:.*e}", digits - 1);
-    // What rounding makes of it counts: 9.9999 may be 10.000.
+    // The exponent after rounding: 9.9999 may become 10.000.
     let exponent = scientific.split_once('e').and_then(|(_, e)| e.parse::<isize>().ok());
     match exponent {
         Some(exponent) if PLAIN.contains(&value.abs()) => {
-            // Digits after the point: fewer in front of it, none below zero.
+            // Digits after the point; at least none.
             let after = (digits - 1).saturating_add_signed(-exponent);
             format!("{value:.after$}")
         }
@@ -23,7 +23,7 @@ pub(crate) fn shown(value: f64, digits: usize) -> String {
     }
 }
 
-/// At most `digits` significant digits, without zeros at the end.
+/// Formats `value` with at most `digits` significant digits, without zeros at the end.
 pub(crate) fn trimmed(value: f64, digits: usize) -> String {
     let text = shown(value, digits);
     if !text.contains('.') || text.contains('e') {
@@ -32,7 +32,7 @@ pub(crate) fn trimmed(value: f64, digits: usize) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// A root and its mirror images, in the report's classes.
+/// Formats a root with its mirror images, by the classes of the 1989 report.
 pub(crate) fn roots_of(z: Complex64, digits: usize) -> String {
     let s = z.sqrt();
     match lissom::beam::class(z) {
@@ -44,15 +44,15 @@ pub(crate) fn roots_of(z: Complex64, digits: usize) -> String {
     }
 }
 
-/// A change in per cent, with its sign.
+/// A relative change in percent, with its sign.
 pub(crate) fn change(value: f64, from: f64) -> String {
     signed_percent(value / from - 1.0)
 }
 
-/// A share in per cent, with its sign.
+/// A share in percent, with its sign.
 pub(crate) fn signed_percent(share: f64) -> String {
-    let per_cent = 100.0 * share;
-    if per_cent.abs() < 0.005 { "0 %".to_owned() } else { format!("{per_cent:+.2} %") }
+    let percent = 100.0 * share;
+    if percent.abs() < 0.005 { "0 %".to_owned() } else { format!("{percent:+.2} %") }
 }
 
 #[cfg(test)]

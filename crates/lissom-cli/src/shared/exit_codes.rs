@@ -1,8 +1,8 @@
 //! Exit codes that several subcommands share.
 
-/// The verdict refuses a figure asked for.
+/// Done, but a requested parameter could not be identified, or the torque of a log could not be predicted.
 pub(crate) const REFUSED: u8 = 3;
-/// Stopped by Ctrl-C or a time limit: what is printed and written is the best result so far.
+/// Stopped by Ctrl-C or a time limit; the output is the best result so far.
 pub(crate) const INTERRUPTED: u8 = 4;
-/// Ended by a second Ctrl-C, with nothing written.
+/// Stopped by a second Ctrl-C, without a result.
 pub(crate) const KILLED: i32 = 130;

@@ -1,4 +1,4 @@
-//! Why a command could not be carried out.
+//! Errors of the command, each with a hint.
 
 use std::path::PathBuf;
 
@@ -11,53 +11,53 @@ use thiserror::Error;
 
 use super::command_hint::refusal_hint;
 
-/// A reason that goes to the user with its hint.
+/// Why a command failed.
 #[derive(Debug, Error)]
 pub(crate) enum Failure {
     #[error(transparent)]
     Io(#[from] lissom_io::Error),
     #[error(transparent)]
     Write(#[from] lissom_io::WriteError),
-    /// A file that is no result to compare.
+    /// A file to compare that is not a result.
     #[error(transparent)]
     NoResult(lissom_io::Error),
     #[error("{}: {source}", campaign.display())]
     Identify { campaign: PathBuf, source: IdentifyError },
     #[error("{}: {source}", log.display())]
     Validate { log: PathBuf, source: ValidationError },
-    /// A log without anything that says what its columns are.
-    #[error("{}: is no campaign.toml, and nothing says what its columns are", log.display())]
+    /// A log without a description of its columns.
+    #[error("{}: is not a campaign.toml, and nothing describes its columns", log.display())]
     UndescribedLog { log: PathBuf },
-    /// Responses that make no equivalent arm.
+    /// Responses from which no equivalent arm can be built.
     #[error("{}: {source}", input.display())]
     Equivalent { input: PathBuf, source: Box<EquivalentRefusal>, place: Option<String> },
-    /// What was asked for makes no sense, or cannot be had; and the way out.
+    /// A request that cannot be fulfilled, with a hint.
     #[error("{0}")]
     Asked(String, &'static str),
-    #[error("{}: exists and is no earlier output; it is not written over", file.display())]
+    #[error("{}: exists and is not an earlier output; it is not overwritten", file.display())]
     NotAnOutput { file: PathBuf },
-    #[error("{}: one name for two outputs", file.display())]
+    #[error("{}: is given for two outputs", file.display())]
     SameOutput { file: PathBuf },
-    #[error("{}: is read, and is not written over", file.display())]
+    #[error("{}: is an input; it is not overwritten", file.display())]
     IsInput { file: PathBuf },
-    /// What was asked for is not there for this beam.
+    /// A request that cannot be fulfilled for this arm, with a hint.
     #[error("{}: {reason}", arm.display())]
     Model { arm: PathBuf, reason: String, hint: &'static str },
     #[error(transparent)]
     Rig(#[from] RigError),
-    /// A run of a virtual campaign.
+    /// A run of a virtual campaign cannot be simulated.
     #[error("run `{run}`: {source}")]
     VirtualRun { run: String, source: RigError },
-    /// An experiment that needs what the arm file does not have.
-    #[error("{}: run `{run}` needs a controller, and [rig] has none", arm.display())]
+    /// An experiment that needs a controller, which the arm file does not have.
+    #[error("{}: run `{run}` needs a controller, but [rig] has none", arm.display())]
     NoController { arm: PathBuf, run: String },
-    /// A plan moves the motor by its loop.
-    #[error("{}: [rig] has no controller, and a plan is made for a position loop", arm.display())]
+    /// A plan needs a controller, which the arm file does not have.
+    #[error("{}: [rig] has no controller, but a plan needs a position loop", arm.display())]
     LoopNeeded { arm: PathBuf },
     #[error("{}: {source}", arm.display())]
     Plan { arm: PathBuf, source: PlanError },
-    /// A folder that holds something else.
-    #[error("{}: holds {what}; nothing is written over", folder.display())]
+    /// An output folder with files of something else.
+    #[error("{}: contains {what}; nothing is overwritten", folder.display())]
     OtherCampaign { folder: PathBuf, what: String },
     /// A manual page.
     #[error("{}: {source}", path.display())]
@@ -67,7 +67,7 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// What to do about it.
+    /// What the user can do.
     pub(crate) fn hint(&self) -> Option<String> {
         match self {
             Self::Write(error) => error.hint(),
@@ -76,7 +76,7 @@ impl Failure {
             )) => Some("give files that `lissom identify CAMPAIGN --json FILE` wrote".to_owned()),
             Self::Io(error) | Self::NoResult(error) => error.hint(),
             Self::NotAnOutput { .. } => Some(
-                "put the input before `--json FILE`, or remove the file if it is to go"
+                "put the input before `--json FILE`, give another name, or delete the file if you do not need it"
                     .to_owned(),
             ),
             Self::Model { hint, .. } | Self::Asked(_, hint) => Some((*hint).to_owned()),
@@ -84,22 +84,22 @@ impl Failure {
                 Some(place.clone().unwrap_or_else(|| equivalent_hint(source)))
             }
             Self::UndescribedLog { log } if log.extension().is_some_and(|e| e == "json") => {
-                Some("first the result, then the log: lissom validate result.json campaign.toml".to_owned())
+                Some("give first the result, then the log: lissom validate result.json campaign.toml".to_owned())
             }
             Self::UndescribedLog { .. } => Some(
-                "add --like campaign.toml, the campaign that the result is from, or describe the log in \
-                 a campaign.toml of its own"
+                "add --like campaign.toml with the campaign of the result, or describe the log in its own \
+                 campaign.toml"
                     .to_owned(),
             ),
             Self::Validate { source, .. } => Some(
                 match source {
                     ValidationError::NothingMoves => {
-                        "the log needs a stretch in which the motor moves for a hundred samples"
+                        "give a log in which the motor moves for at least a hundred samples"
                     }
                     ValidationError::TooFast { .. } | ValidationError::RunsAway => {
-                        "take the result as lissom identify wrote it, and check the unit of the log's time"
+                        "use the result as `lissom identify` wrote it, and check the unit of the log's time"
                     }
-                    _ => "describe the log as those that the result is from",
+                    _ => "describe the log with the same signals and units as the logs of the result",
                 }
                 .to_owned(),
             ),
@@ -115,10 +115,10 @@ impl Failure {
             ),
             Self::Plan { source, .. } => Some(plan_hint(source).to_owned()),
             Self::OtherCampaign { .. } => {
-                Some("give another --out, or remove the folder if it is to go".to_owned())
+                Some("give another --out, or delete the folder if you do not need it".to_owned())
             }
             Self::SameOutput { .. } | Self::IsInput { .. } => {
-                Some("give each output its own file".to_owned())
+                Some("give each output a file of its own".to_owned())
             }
             Self::Identify { source: IdentifyError::NothingMoves { .. }, .. } => Some(
                 "check the wiring and which columns the campaign names; a tip without a signal can be \
@@ -140,16 +140,16 @@ fn equivalent_hint(refusal: &EquivalentRefusal) -> String {
 
 fn plan_hint(error: &PlanError) -> &'static str {
     match error {
-        PlanError::NoTime { .. } => "allow more with --within",
+        PlanError::NoTime { .. } => "allow more time with --within",
         PlanError::NoMotion { .. } => {
-            "check the current limit and the sensors in [rig], or allow more with --travel, --bend and \
-             --within"
+            "check the current limit and the sensors in [rig], or allow more motion with --travel and --bend \
+             and more time with --within"
         }
         PlanError::TooMuch { .. } => "give a longer sample_time in [rig], or fewer masses",
         PlanError::TooFast { .. } => {
             "check the units of [drive] inertia and viscous, and of masses, stiffness and damping in [beam]"
         }
-        PlanError::GravityOnBeam { .. } => "remove the load, or plan for a rigid joint",
+        PlanError::GravityOnBeam { .. } => "remove [load], or plan for a rigid joint",
         PlanError::Wish { .. } => "give a number greater than zero",
         _ => "check the masses and stiffnesses in [beam]",
     }
@@ -158,21 +158,23 @@ fn plan_hint(error: &PlanError) -> &'static str {
 fn rig_hint(error: &RigError) -> &'static str {
     match error {
         RigError::Unstable { .. } => {
-            "lower the gains, above all the derivative one, filter it, or sample faster"
+            "lower the gains (first the derivative gain), filter the derivative, or sample faster"
         }
         RigError::BeyondSensor { .. } => {
-            "turn less, or give motor_sensor a larger range, or { counts_per_turn = 4096 }, which has no \
-             ends"
+            "use a smaller motion, give motor_sensor a larger range, or use { counts_per_turn = 4096 }, \
+             which has no limits"
         }
-        RigError::TooLong { .. } => "record less, or log one sample in so many with log_every",
+        RigError::TooLong { .. } => {
+            "record a shorter time, or log only every n-th sample with log_every"
+        }
         RigError::AboveNyquist { .. } => {
-            "ask for lower frequencies, or let the controller act faster"
+            "use lower frequencies, or a shorter sample time of the controller"
         }
-        RigError::SensorCount { .. } => "give one `tip_sensors`, or one for each mass",
+        RigError::SensorCount { .. } => "give `tip_sensors` once, or once for each mass",
         RigError::TooStiff { .. } => {
             "check the units of inertia, viscous, masses, stiffness and damping, or sample faster"
         }
         RigError::Unsupported { .. } => "remove it from the run or from the arm",
-        _ => "check the numbers of the run and of [rig]",
+        _ => "check the numbers of the run and in [rig]",
     }
 }

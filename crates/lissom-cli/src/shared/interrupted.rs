@@ -1,4 +1,4 @@
-//! Ctrl-C: the first ends a search with the best result so far, the second ends the program.
+//! Ctrl-C: the first one stops a search with the best result so far, the second one stops the program.
 
 use std::process;
 use std::sync::OnceLock;
@@ -9,7 +9,7 @@ use super::exit_codes::KILLED;
 
 static SEARCH: OnceLock<Interrupt> = OnceLock::new();
 
-/// Asks `interrupt` when the user presses Ctrl-C. Where the system allows no handler, Ctrl-C ends the program as usual.
+/// Sets `interrupt` when the user presses Ctrl-C. If the system does not allow a handler, Ctrl-C stops the program as usual.
 pub(crate) fn on_ctrl_c(interrupt: &Interrupt) {
     if SEARCH.set(interrupt.clone()).is_err() {
         return;

@@ -1,4 +1,4 @@
-//! Keeps a slip of the fingers (`--json run.csv campaign.toml`) from costing a log.
+//! Checks of output files, so that a mistake such as `--json run.csv campaign.toml` does not destroy a log.
 
 use std::fs::File;
 use std::io::{BufRead as _, BufReader, Read as _};
@@ -8,8 +8,8 @@ use lissom_io::write::Batch;
 
 use super::failure::Failure;
 
-/// Refuses to write over a file that is no earlier output: JSON begins with `{`, a page with `<`.
-/// Also refuses one name for two outputs.
+/// Refuses to overwrite a file that is not an earlier output: JSON begins with `{`, a page with `<`. Also refuses one name
+/// for two outputs.
 pub(crate) fn guard(json: Option<&Path>, report: Option<&Path>) -> Result<(), Failure> {
     if let Some(file) = json.filter(|file| report == Some(*file)) {
         return Err(Failure::SameOutput { file: file.to_owned() });
@@ -22,7 +22,7 @@ pub(crate) fn guard(json: Option<&Path>, report: Option<&Path>) -> Result<(), Fa
     Ok(())
 }
 
-/// Refuses to write over what is read.
+/// Refuses to overwrite an input.
 pub(crate) fn guard_inputs(output: Option<&Path>, inputs: &[&Path]) -> Result<(), Failure> {
     let whole = |path: &Path| path.canonicalize().ok();
     let Some(file) = output.filter(|file| whole(file).is_some()) else { return Ok(()) };
@@ -32,7 +32,7 @@ pub(crate) fn guard_inputs(output: Option<&Path>, inputs: &[&Path]) -> Result<()
     Ok(())
 }
 
-/// Refuses, before any work, one name for two outputs and files that cannot be written.
+/// Refuses one name for two outputs, and files that cannot be written. Called before the work starts.
 pub(crate) fn ready(files: &[&Path]) -> Result<(), Failure> {
     let whole = |path: &Path| -> PathBuf {
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
@@ -50,8 +50,8 @@ pub(crate) fn ready(files: &[&Path]) -> Result<(), Failure> {
     files.iter().try_for_each(|file| Ok(Batch::probe(file)?))
 }
 
-/// Whether `path` is a file with a first character other than `first`, blanks left out. What
-/// cannot be read is left to the writing to refuse.
+/// Whether the first character of the file `path`, without blanks, is another than `first`. A file that cannot be read
+/// fails later, when it is written.
 fn begins_otherwise(path: &Path, first: u8) -> bool {
     if !path.is_file() {
         return false;
@@ -62,10 +62,10 @@ fn begins_otherwise(path: &Path, first: u8) -> bool {
     start.iter().find(|b| !b.is_ascii_whitespace()).is_some_and(|b| *b != first)
 }
 
-/// Refuses to write over a file that does not begin with `head`, which our own of this kind do.
+/// Refuses to overwrite a file that does not begin with `head`, as earlier outputs of this kind do.
 pub(crate) fn guard_headed(path: &Path, head: &str) -> Result<(), Failure> {
     let mut start = String::new();
-    // What cannot be read is left to the writing to refuse.
+    // A file that cannot be read fails later, when it is written.
     let other = path.is_file()
         && File::open(path).is_ok_and(|f| {
             f.take(head.len() as u64).read_to_string(&mut start).is_err() || start != head

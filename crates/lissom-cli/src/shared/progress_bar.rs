@@ -1,4 +1,4 @@
-//! Progress of longer work, on standard error, where that is a terminal.
+//! Progress bars on standard error, if it is a terminal.
 
 use std::thread;
 use std::time::Duration;
@@ -17,14 +17,14 @@ pub(crate) fn bar(length: usize, what: &'static str) -> ProgressBar {
     bar
 }
 
-/// A bar whose time goes on while a step takes long.
+/// A bar whose clock runs during long steps.
 pub(crate) fn stages(length: usize) -> ProgressBar {
     let bar = bar(length, "");
     bar.enable_steady_tick(Duration::from_millis(250));
     bar
 }
 
-/// Progress of an identification: its stages, then the share of the evaluations that the search may make.
+/// Progress of an identification: its stages, then the evaluations of the search.
 pub(crate) struct Stages {
     bar: ProgressBar,
     interrupt: Interrupt,
@@ -32,7 +32,7 @@ pub(crate) struct Stages {
 }
 
 impl Stages {
-    /// A bar of so many stages.
+    /// A bar of `length` stages.
     pub(crate) fn new(length: usize, options: &Options) -> Self {
         let bar = stages(length);
         let (interrupt, most) = (options.interrupt.clone(), options.effort.most_evaluations());
@@ -46,7 +46,7 @@ impl Stages {
             Stage::Run(..) => "periods and harmonics",
             Stage::Regression => "regression",
             Stage::Beam => "beam",
-            Stage::OutputError => "replay through the arm",
+            Stage::OutputError => "output-error method",
             Stage::Responses => "responses and models",
         });
         if stage == Stage::OutputError {
@@ -54,10 +54,10 @@ impl Stages {
         }
     }
 
-    /// The bar is then of evaluations: the search may end before they are made, and not after.
+    /// Changes the bar to evaluations of the search. The search may end before it has used all of them.
     fn show_evaluations(&self) {
         let style = ProgressStyle::with_template(
-            "{msg} [{bar:36}] at most {eta} left (Ctrl-C: take the best so far)",
+            "{msg} [{bar:36}] at most {eta} left (Ctrl-C: stop with the best result so far)",
         );
         if let Ok(style) = style {
             self.bar.set_style(style.progress_chars("=> "));
@@ -74,13 +74,13 @@ impl Stages {
         });
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
     }
 }
 
-/// Steps that identification takes for `runs` runs.
+/// Number of stages of an identification of `runs` runs.
 pub(crate) fn steps(runs: usize) -> usize {
     runs + 4
 }

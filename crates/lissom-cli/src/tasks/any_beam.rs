@@ -1,4 +1,4 @@
-//! A beam of any kind, with its load.
+//! A beam of any kind with its load.
 
 use std::path::Path;
 
@@ -11,10 +11,11 @@ use num_complex::Complex64;
 
 use crate::args::model_args::Load;
 
-/// A lumped beam with more masses has no matrices, transfer functions and state space here: they
-/// cost the square and the cube of n, and no one reads them.
+/// Largest number of masses for which matrices, transfer functions and the state space are computed. Their cost grows with
+/// the square and the cube of the number.
 pub(crate) const MOST_DENSE: usize = 200;
 
+/// A beam with point masses, with mass along it, or known by its modes.
 #[derive(Debug, Clone)]
 pub(crate) enum Beam {
     Lumped(LumpedBeam),
@@ -71,7 +72,7 @@ impl Beam {
         }
     }
 
-    /// Least and largest EI; `None` where there are no spans.
+    /// Smallest and largest EI \[N·m²\]; `None` if there are no spans.
     pub(crate) fn rigidity_n_m2(&self) -> Option<(f64, f64)> {
         let range = |(low, high): (f64, f64), ei: f64| (low.min(ei), high.max(ei));
         let start = (f64::INFINITY, 0.0);
@@ -106,7 +107,7 @@ impl Beam {
         match self {
             Self::Lumped(beam) => beam.damping(),
             Self::Distributed(beam) => beam.damping(),
-            // It is that of each mode, and stands in the table of frequencies.
+            // Each mode has its own damping ratio, which is in the table of frequencies.
             Self::Modal(_) => &Damping::None,
         }
     }
@@ -146,8 +147,8 @@ impl Beam {
         }
     }
 
-    /// Zeros of the tip's response: of a distributed beam those below `omega_rad_s`, of many masses
-    /// the lowest `count`; `None` with many masses and a payload that turns.
+    /// Zeros of the tip's response: for a distributed beam those below `omega_rad_s`, for many masses the lowest `count`.
+    /// `None` for many masses and a payload with rotary inertia or an offset.
     pub(crate) fn tip_zeros(&self, omega_rad_s: f64, count: usize) -> Option<Zeros> {
         match self {
             Self::Lumped(beam) if beam.len() > MOST_DENSE => {
@@ -160,7 +161,7 @@ impl Beam {
         }
     }
 
-    /// The load at the tip: the payload's mass where there is one, else the last mass \[kg\].
+    /// The load at the tip \[kg\]: the payload's mass if there is one, otherwise the last mass.
     pub(crate) fn load_kg(&self) -> f64 {
         let payload = self.payload();
         if payload.mass_kg > 0.0 { payload.mass_kg } else { self.last_mass_kg() }
@@ -174,8 +175,7 @@ impl Beam {
         }
     }
 
-    /// The same beam with another load: a factor multiplies mass and rotary inertia, a mass takes
-    /// the place of the mass alone.
+    /// The same beam with another load. A factor multiplies mass and rotary inertia; a mass replaces the mass only.
     pub(crate) fn with_load(&self, load: Load) -> Result<Self, BeamError> {
         let now = self.load_kg();
         let mass_kg = match load {
@@ -188,7 +188,7 @@ impl Beam {
         };
         let mut payload = self.payload();
         payload.inertia_kg_m2 *= factor;
-        // Nothing at the tip yet: the load is a payload.
+        // If there is no mass at the tip yet, the load is a payload.
         if payload.mass_kg > 0.0 || now == 0.0 {
             payload.mass_kg = mass_kg;
             return match self {

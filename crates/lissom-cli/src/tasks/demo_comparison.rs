@@ -1,4 +1,4 @@
-//! The demo's result beside the truth of its virtual rig.
+//! The result of the demo, compared with the true parameters of its virtual rig.
 
 use lissom::arm::Arm;
 use lissom::identify::{Estimate, Identified, OutputError};
@@ -6,7 +6,7 @@ use lissom::replay::{ModalArm, Parameter};
 use lissom_io::comparison::{ComparedEstimateEntry, ComparisonEntry};
 use lissom_io::{DemoFile, ResultFile};
 
-/// A figure: name, unit, truth, the report's method, regression, output error.
+/// A parameter: name, unit, true value, and estimates by third harmonic, regression and output-error method.
 pub(crate) struct DemoRow {
     pub(crate) name: &'static str,
     pub(crate) unit: &'static str,

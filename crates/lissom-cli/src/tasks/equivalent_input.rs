@@ -1,4 +1,4 @@
-//! Responses from a campaign or from tables.
+//! Input of `lissom equivalent`: responses from a campaign or from tables.
 
 use std::path::Path;
 
@@ -13,21 +13,21 @@ use super::identification::{Asked, identified};
 use crate::args::equivalent_args::EquivalentArgs;
 use crate::shared::failure::Failure;
 
-/// Deviation that responses without one are given, as a share: so small that what the model leaves decides.
+/// Relative standard error of responses without one. It is so small that the residual of the model decides.
 const UNKNOWN: f64 = 1e-6;
-/// A response's deviation is no less than that of this share of their median: one at a zero says no more than
-/// its neighbours.
+/// Magnitude, as a share of the median magnitude, below which the standard error of a response does not fall. Without it a
+/// response near a zero would count more than its neighbours.
 const SMALL: f64 = 1e-2;
 
-/// What the command works on.
+/// The responses, the names of their units, and what is known about the motor.
 pub(crate) struct Input {
     pub(crate) data: EquivalentData,
     pub(crate) names: UnitNames,
-    /// What `identify` made of a campaign: J, V with back-EMF, coupling, natural frequencies.
+    /// Estimates of `identify` from a campaign: inertia, viscous friction with back-EMF, coupling, natural frequencies.
     pub(crate) identified: Option<KnownMotor>,
 }
 
-/// Figures to stand beside those of the equivalent arm.
+/// Estimates to compare with the equivalent arm.
 pub(crate) struct KnownMotor {
     pub(crate) inertia: Option<Estimate>,
     pub(crate) viscous: Option<Estimate>,
@@ -42,12 +42,13 @@ impl Input {
         let is_toml = |p: &Path| p.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
         if args.inputs.iter().any(|p| is_toml(p)) {
             if args.inputs.len() > 1 {
-                let words = "a campaign.toml stands by itself".to_owned();
-                return Err(Failure::Asked(words, "give one campaign, or tables alone"));
+                let words = "a campaign.toml cannot be combined with other inputs".to_owned();
+                return Err(Failure::Asked(words, "give one campaign.toml, or tables only"));
             }
             if args.torque_constant.is_some() {
-                let words = "a campaign has its torque constant itself".to_owned();
-                let hint = "write torque_constant into its [drive]";
+                let words =
+                    "--torque-constant is for tables, but the input is a campaign.toml".to_owned();
+                let hint = "give torque_constant in the [drive] of the campaign.toml";
                 return Err(Failure::Asked(words, hint));
             }
             return Self::campaign(&args.inputs[0], args.quick);
@@ -79,8 +80,8 @@ impl Input {
         let all = || read.points.iter().chain(&read.motor);
         let deviations_known = all().all(|r| r.std.is_some());
         if !deviations_known && all().any(|r| r.std.is_some()) {
-            let words = "some responses have a deviation and some have none".to_owned();
-            let hint = "give each its std column, or none";
+            let words = "some responses have a standard error and some have none".to_owned();
+            let hint = "give a std column for each response, or for none";
             return Err(Failure::Asked(words, hint));
         }
         let (command, constant) = command(read.motor.as_ref(), args.torque_constant.as_deref())?;
@@ -133,7 +134,7 @@ fn with_deviations(measured: &MeasuredResponse) -> Vec<Response> {
     measured.response.iter().enumerate().map(one).collect()
 }
 
-/// What the motor's response is per, and its torque constant.
+/// The quantity of the command that the motor's response is given for, and the torque constant.
 fn command(
     motor: Option<&MeasuredResponse>,
     constant: Option<&str>,
@@ -147,8 +148,8 @@ fn command(
     let Some(text) = constant else {
         return Ok((said.unwrap_or(CommandQuantity::Arbitrary), None));
     };
-    let hint = "give a torque per current or voltage as the response has it, such as \"0.25 N*m/A\", or \"0.25 N*m\" \
-                per unit of another command";
+    let hint = "give torque per ampere or per volt, as the motor's response has it, such as \"0.25 N*m/A\"; for \
+                another command a torque such as \"0.25 N*m\" per unit";
     let wrong = |why: String| Failure::Asked(format!("--torque-constant: {why}"), hint);
     let unit = text.trim_start_matches(|c: char| !c.is_alphabetic() || c == 'e' || c == 'E');
     if unit.trim().is_empty() {
@@ -162,10 +163,14 @@ fn command(
     } else if dimension == Dimension::TORQUE {
         CommandQuantity::Arbitrary
     } else {
-        return Err(wrong(format!("\"{text}\" is no torque per current, voltage or command")));
+        return Err(wrong(format!(
+            "\"{text}\" is not a torque per current, per voltage or per unit of command"
+        )));
     };
     if said.is_some_and(|said| said != per) {
-        return Err(wrong(format!("\"{text}\" is not per what the motor's response is per")));
+        return Err(wrong(format!(
+            "\"{text}\" has another unit of command than the motor's response"
+        )));
     }
     let value = parse_quantity(text, dimension).map_err(|e| wrong(e.to_string()))?;
     if !(value.is_finite() && value > 0.0) {

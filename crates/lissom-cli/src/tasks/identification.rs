@@ -1,4 +1,4 @@
-//! Identification of a campaign: its progress on a terminal, and its end when somebody asks for it.
+//! Identification of a campaign, with a progress bar and an end by Ctrl-C or a time limit.
 
 use std::path::Path;
 use std::time::Duration;
@@ -9,24 +9,24 @@ use lissom_io::CampaignFile;
 use crate::shared::failure::Failure;
 use crate::shared::{interrupted, progress_bar};
 
-/// What is asked of an identification beside the campaign file.
+/// Options of an identification that are not in the campaign file.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Asked {
-    /// Length of the regression's window \[s\].
+    /// Length of the regression's window \[s\]; chosen from the data if absent.
     pub(crate) window_s: Option<f64>,
+    /// Effort of the search.
     pub(crate) effort: Effort,
-    /// Time after which the best result so far is taken \[s\].
+    /// Time after which the search stops with the best result so far \[s\].
     pub(crate) time_limit_s: Option<f64>,
 }
 
-/// Identifies a campaign that was read, with a progress bar. With Ctrl-C, or after the time limit, the result is the best so
-/// far.
+/// Identifies a campaign, with a progress bar. After Ctrl-C or the time limit the result is the best one so far.
 pub(crate) fn identified(
     path: &Path,
     file: &CampaignFile,
     asked: Asked,
 ) -> Result<Identified, Failure> {
-    // A time that is too long to be counted is no limit.
+    // A time that is too long for a `Duration` is no limit.
     let limit = asked.time_limit_s.and_then(|s| Duration::try_from_secs_f64(s).ok());
     let interrupt = limit.map_or_else(Interrupt::default, Interrupt::after);
     interrupted::on_ctrl_c(&interrupt);
@@ -38,7 +38,7 @@ pub(crate) fn identified(
     id.map_err(|source| Failure::Identify { campaign: path.to_owned(), source })
 }
 
-/// The answer of the methods that need no search, which is there at once.
+/// The result of the methods that need no search, which takes a fraction of a second.
 pub(crate) fn first_answer(
     path: &Path,
     file: &CampaignFile,

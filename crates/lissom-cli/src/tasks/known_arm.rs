@@ -1,4 +1,4 @@
-//! Figures known beforehand, to stand beside the identified ones.
+//! Parameters that are known beforehand, to compare with the estimates.
 
 use lissom::arm::Arm;
 use lissom::identify::{GeometryCheck, Identified, geometry_check};
@@ -7,10 +7,10 @@ use lissom_io::{CampaignFile, DriveSpec};
 
 use crate::shared::failure::Failure;
 
-/// What an `arm.toml` or a virtual rig says of the machine.
+/// Known parameters of the machine, from an `arm.toml` or a virtual rig.
 #[derive(Debug, Clone)]
 pub(crate) struct Reference {
-    /// Where it comes from, as plots and tables call it.
+    /// Name in plots and tables.
     pub(crate) label: &'static str,
     /// Friction forward and backward \[N·m\].
     pub(crate) coulomb_nm: (f64, f64),
@@ -20,12 +20,12 @@ pub(crate) struct Reference {
     pub(crate) inertia_kg_m2: f64,
     /// Gravity of an unbalanced load on the motor.
     pub(crate) gravity: Option<GravityLoad>,
-    /// The whole arm, where the beam is known too.
+    /// The whole arm, if the beam is known too.
     pub(crate) arm: Option<Arm>,
 }
 
 impl Reference {
-    /// The truth of a virtual rig.
+    /// The true parameters of a virtual rig.
     pub(crate) fn truth(arm: &Arm) -> Self {
         Self {
             label: "truth",
@@ -37,7 +37,7 @@ impl Reference {
         }
     }
 
-    /// The arm that a campaign names to be compared with, if it names one with a drive.
+    /// The arm.toml that a campaign gives for comparison; `None` if it gives none, or one without a drive.
     pub(crate) fn of(file: &CampaignFile) -> Result<Option<Self>, Failure> {
         let (Some(arm), Some(path)) = (&file.known.arm, &file.known.arm_path) else {
             return Ok(None);
@@ -64,7 +64,7 @@ impl Reference {
     }
 }
 
-/// What the logs say of the arm that a campaign names.
+/// Compares the identified arm with the arm.toml that a campaign gives.
 pub(crate) fn checked(id: &Identified, reference: Option<&Reference>) -> Option<GeometryCheck> {
     let arm = reference?.arm.as_ref()?;
     geometry_check(arm, id.output_error.as_ref().filter(|oe| oe.stands())?)

@@ -1,4 +1,4 @@
-//! The same beam with other loads: poles move, zeros stand.
+//! The same beam with other loads: its poles move, its zeros do not.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use super::any_beam::Beam;
 use crate::args::model_args::Load;
 use crate::shared::failure::Failure;
 
-/// The file's own load first, then those asked for.
+/// Computes poles and zeros for the load in the file and then for each load in `loads`.
 pub(crate) fn study(
     path: &Path,
     beam: &Beam,
@@ -28,13 +28,13 @@ pub(crate) fn study(
     if own == 0.0 && loads.iter().any(|load| matches!(load, Load::Times(_))) {
         return Err(Failure::Model {
             arm: path.to_owned(),
-            reason: "the tip carries no mass that a factor could multiply".to_owned(),
+            reason: "there is no mass at the tip that a factor could multiply".to_owned(),
             hint: "give masses, as in --payload \"0.3 kg\", or add a `payload` to [beam]",
         });
     }
     bar.set_message("payloads");
     let mut cases: Vec<PayloadCase> = Vec::with_capacity(loads.len() + 1);
-    // Zeros of a distributed beam are looked for up to its own frequencies.
+    // Zeros of a distributed beam are searched for up to the highest frequency with its own load.
     let mut highest = 0.0;
     for load in std::iter::once(None).chain(loads.iter().map(Some)) {
         let other = match load {
@@ -65,7 +65,7 @@ pub(crate) fn study(
     Ok(cases)
 }
 
-/// The zero of another load that answers to zero `index` of the file's own: the same place within
+/// The zero with another load that corresponds to zero `index` with the load in the file: the one with the same number in
 /// its class.
 pub(crate) fn counterpart(own: &Zeros, index: usize, other: &Zeros) -> Option<Complex64> {
     let kind = class(*own.z.get(index)?);
@@ -73,7 +73,7 @@ pub(crate) fn counterpart(own: &Zeros, index: usize, other: &Zeros) -> Option<Co
     of_class(other, kind).nth(place)
 }
 
-/// Zeros of one class.
+/// The zeros of one class.
 pub(crate) fn of_class(zeros: &Zeros, kind: RootClass) -> impl Iterator<Item = Complex64> + '_ {
     zeros.z.iter().copied().filter(move |z| class(*z) == kind)
 }

@@ -1,5 +1,4 @@
-//! What the commands work on: inputs that were read, a beam with what is asked of it, and what comes of them. Nothing
-//! here is printed or written.
+//! The computations of the commands, from inputs that were read to results. Nothing here is printed or written.
 
 pub(crate) mod any_beam;
 pub(crate) mod demo_comparison;

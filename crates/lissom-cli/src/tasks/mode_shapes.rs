@@ -1,33 +1,33 @@
-//! Deflected shapes of modes.
+//! Mode shapes.
 
 use lissom::beam::{DistributedBeam, LumpedBeam, Mode};
 
 use super::any_beam::{Beam, MOST_DENSE};
 
-/// A mode's deflection over the distance from the axis.
+/// Deflection of a mode over the distance from the axis.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ModeShape {
-    /// The beam's line.
+    /// The beam: distance and deflection.
     pub(crate) line: Vec<(f64, f64)>,
-    /// Masses; none where they are too many to be told apart.
+    /// The masses; empty if there are too many to draw.
     pub(crate) points: Vec<(f64, f64)>,
 }
 
-/// Points of a shape's line.
+/// Number of points on the line of a shape.
 const LINE: usize = 300;
-/// Most masses that are drawn.
+/// Largest number of masses that are drawn.
 const MOST_POINTS: usize = 40;
 
-/// The shapes of the lowest `count` modes, the largest deflection of each being 1.
+/// The shapes of the lowest `count` modes, scaled to a largest deflection of 1.
 pub(crate) fn shapes(beam: &Beam, count: usize) -> Vec<ModeShape> {
     let mut shapes = match beam {
         Beam::Lumped(beam) => beam.modes(count).iter().map(|m| lumped(beam, m)).collect(),
         Beam::Distributed(beam) => distributed(beam, count),
-        // Points without places have no line.
+        // Points without positions have no line.
         Beam::Modal(_) => Vec::new(),
     };
     for shape in &mut shapes {
-        // Between the masses the line may go further than they do.
+        // Between the masses the deflection may be larger than at the masses.
         let further = |m: f64, (_, y): &(f64, f64)| if y.abs() > m.abs() { *y } else { m };
         let largest = shape.line.iter().fold(0.0, further);
         let all = shape.line.iter_mut().chain(&mut shape.points);
@@ -61,9 +61,9 @@ fn lumped(beam: &LumpedBeam, mode: &Mode) -> ModeShape {
     ModeShape { line, points }
 }
 
-/// The torque of the payload's motion on the tip, per the mode's scale.
+/// Torque of the moving payload on the tip, in the scale of the mode.
 ///
-/// `T = ω²·((I + m·e²)·φ + m·e·y)` with the tip's slope `φ = φ_y + φ_T·T`.
+/// `T = ω²·((I + m·e²)·φ + m·e·y)` with the slope of the tip `φ = φ_y + φ_T·T`.
 fn tip_torque(beam: &LumpedBeam, mode: &Mode) -> Option<f64> {
     let payload = beam.payload();
     if !payload.turns() {
@@ -99,8 +99,8 @@ mod tests {
 
     use super::*;
 
-    /// The slope that the torque gives must be the one that the payload's rotary inertia needs: a
-    /// short, stiff span that carries the inertia as two point masses has the same mode.
+    /// The torque must give the slope that the payload's rotary inertia needs. A short, stiff span with two point masses
+    /// that have this inertia has the same mode.
     #[test]
     fn a_payloads_inertia_bends_the_tip() {
         let span = |length_m, flexural_rigidity_n_m2, mass_kg| Span {

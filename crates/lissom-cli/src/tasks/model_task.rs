@@ -1,4 +1,4 @@
-//! Everything about a beam that is asked for.
+//! The model of an arm, with everything that the options ask for.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -21,23 +21,23 @@ use crate::args::model_args::ModelArgs;
 use crate::shared::digits::shown;
 use crate::shared::failure::Failure;
 
-/// Matrices and polynomials of more masses are for programs.
+/// Largest number of masses for which matrices and polynomials are printed.
 pub(crate) const MOST_SHOWN: usize = 6;
 
-/// Beams with more masses have transfer functions and responses of the tip alone, unless all are
-/// asked for.
+/// Largest number of masses for which transfer functions and responses of all masses are given. With more masses they are
+/// those of the tip, unless `--all` is given.
 const MOST_LISTED: usize = 20;
 
-/// Relative accuracy that a state space should keep.
+/// Relative accuracy that a state space should have.
 const KEPT: f64 = 1e-6;
 
-/// Radians of waves along a beam up to which responses are computed.
+/// Largest phase of the waves along a beam \[rad\] for which responses are computed.
 const WAVES_MOST: f64 = 1e5;
 
-/// Steps that `model` takes beside its frequencies and loads.
+/// Steps of the progress bar, without frequencies and loads.
 pub(crate) const STEPS: usize = 7;
 
-/// A beam, its drive, and what is asked for.
+/// A beam, its drive, and the options.
 pub(crate) struct Task<'a> {
     pub(crate) args: &'a ModelArgs,
     pub(crate) beam: &'a Beam,
@@ -47,7 +47,7 @@ pub(crate) struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// Does it.
+    /// Computes the model.
     pub(crate) fn model(&self) -> Result<Model, Failure> {
         let beam = self.beam;
         self.check_reach(self.omega_rad_s.as_deref().unwrap_or(&[]))?;
@@ -88,8 +88,8 @@ impl Task<'_> {
         }
         if model.tip_zeros.is_none() && beam.kind() == BeamKind::Distributed {
             model.warnings.push(
-                "the zeros of the tip's response cannot be counted: the beam's parts differ by too \
-                 many orders"
+                "the zeros of the tip's response cannot be counted: the parts of the beam differ by too \
+                 many orders of magnitude"
                     .to_owned(),
             );
         }
@@ -125,7 +125,7 @@ impl Task<'_> {
         }
     }
 
-    /// Masses whose transfer functions and responses are given.
+    /// The masses for which transfer functions and responses are given.
     fn listed(&self) -> Vec<usize> {
         let n = self.beam.len();
         let most = if self.args.all { MOST_DENSE } else { MOST_LISTED };
@@ -141,29 +141,30 @@ impl Task<'_> {
         }
         if n > MOST_DENSE {
             model.notes.push(format!(
-                "of beams of more than {MOST_DENSE} masses, matrices, transfer functions and state \
-                 space are left out"
+                "matrices, transfer functions and state space are not given for more than {MOST_DENSE} \
+                 masses"
             ));
             let lowest = self.args.modes;
             model.notes.push(if n > MOST_MASSES {
                 format!(
-                    "of {n} natural frequencies and {} zeros the lowest {lowest} are given \
-                     (--modes), and no mode shapes",
+                    "only the lowest {lowest} of {n} natural frequencies and {} zeros are given (--modes), \
+                     without mode shapes",
                     n - 1
                 )
             } else {
-                format!("the shapes of the lowest {lowest} modes are given (--modes)")
+                format!("only the shapes of the lowest {lowest} modes are given (--modes)")
             });
             if model.tip_zeros.is_none() {
                 model.notes.push(format!(
-                    "with a payload that turns, zeros are sought for at most {MOST_DENSE} masses"
+                    "with a payload that has rotary inertia or an offset, zeros are given for at most {MOST_DENSE} \
+                     masses"
                 ));
             }
             return Ok(());
         }
         if n > MOST_SHOWN {
             model.notes.push(format!(
-                "matrices and polynomials of more than {MOST_SHOWN} masses are in --json alone"
+                "matrices and polynomials of more than {MOST_SHOWN} masses are not printed; --json has them"
             ));
         }
         if let Damping::Modal { ratios } = beam.damping() {
@@ -174,27 +175,27 @@ impl Task<'_> {
         self.linear(&beam.clone().into(), model)
     }
 
-    /// Modes are what is known; there are no matrices of dimensions.
+    /// A beam that is known by its modes has no matrices.
     fn modal(&self, beam: &ModalBeam, model: &mut Model) -> Result<(), Failure> {
         self.step("modes");
         model.modes = Some(beam.modes(usize::MAX));
         model.notes.push(
-            "the beam is known by its modes: it has no lengths and masses, and points go by number; \
-             shapes are in angles"
+            "the beam is known by its modes only: it has no lengths and masses, points have numbers, and \
+             mode shapes are angles"
                 .to_owned(),
         );
         self.linear(&beam.clone().into(), model)
     }
 
-    /// State space and transfer functions.
+    /// Adds state space and transfer functions.
     fn linear(&self, beam: &ArmBeam, model: &mut Model) -> Result<(), Failure> {
         if let Some((motor, coulomb)) = self.drive {
             let arm = Arm::new(beam.clone(), motor, coulomb).map_err(|e| self.failed(e))?;
             let space = arm.state_space();
             if let Some((omega, off)) = lost(&arm, &space) {
                 model.warnings.push(format!(
-                    "stiffnesses differ so much that the state space loses digits: its θ_m/i is off \
-                     by {} of its size at {} rad/s; take the transfer functions",
+                    "the state space is inaccurate, because the stiffnesses differ very much: its θ_m/i has a \
+                     relative error of {} at {} rad/s; use the transfer functions instead",
                     shown(off, 2),
                     shown(omega, 3)
                 ));
@@ -210,8 +211,8 @@ impl Task<'_> {
         let listed = self.listed();
         if listed.len() < beam.len() {
             model.notes.push(format!(
-                "of more than {MOST_LISTED} masses, transfer functions and responses are those of \
-                 the tip alone (--all gives every mass)"
+                "for more than {MOST_LISTED} masses only the transfer functions and responses of the tip \
+                 are given (--all gives every mass)"
             ));
         }
         let motor = self.drive.map(|(motor, _)| (motor, beam.motor_function(&motor)));
@@ -238,8 +239,7 @@ impl Task<'_> {
         model.functions.append(&mut driven);
         for f in model.functions.iter().filter(|f| f.roots.missing > 0) {
             model.warnings.push(format!(
-                "{} roots of {}/{} were not found, or not to ten digits: its polynomials are left \
-                 out",
+                "{} roots of {}/{} were not found to ten digits: its polynomials are not given",
                 f.roots.missing, f.to, f.from
             ));
         }
@@ -247,8 +247,8 @@ impl Task<'_> {
         let large = large.filter(|f| f.roots.transfer_function().is_none()).count();
         if large > 0 {
             model.notes.push(format!(
-                "the polynomials of {large} transfer functions leave the range of a double: take \
-                 zeros, poles and gain"
+                "the polynomials of {large} transfer functions exceed the range of a double: use zeros, \
+                 poles and gain"
             ));
         }
     }
@@ -258,14 +258,14 @@ impl Task<'_> {
         self.step("modes");
         model.modes = Some(beam.modes(self.args.modes, beam.position_m()));
         model.notes.push(
-            "a beam with mass along it has frequencies and zeros without end, and no matrices: \
-             frequencies are the lowest (--modes), zeros those below the highest of them; \
-             `truncated` has its first modes in the form of the matrices"
+            "a beam with mass along it has no matrices, and infinitely many frequencies and zeros: the \
+             lowest frequencies are given (--modes), and the zeros below the highest of them; \
+             `truncated` in --json is a model of its first modes, in the form of the matrices"
                 .to_owned(),
         );
         if !self.beam.is_undamped() {
             model.notes.push(
-                "frequencies, zeros, poles and modes leave damping out; responses do not"
+                "frequencies, zeros, poles and modes are without damping; responses are with damping"
                     .to_owned(),
             );
         }
@@ -288,12 +288,13 @@ impl Task<'_> {
             }
         } else {
             model.notes.push(format!(
-                "no truncated model: it has a mode for each span's end, {MOST_LISTED} at most"
+                "no truncated model: it has one mode for each span, and is given for at most {MOST_LISTED} \
+                 spans"
             ));
         }
     }
 
-    /// Frequencies at which a distributed beam bends in so many waves that a response takes seconds.
+    /// Refuses frequencies at which a distributed beam bends in so many waves that a response takes seconds.
     fn check_reach(&self, omega_rad_s: &[f64]) -> Result<(), Failure> {
         let Beam::Distributed(beam) = self.beam else { return Ok(()) };
         let highest = omega_rad_s.iter().copied().fold(0.0, f64::max);
@@ -305,12 +306,12 @@ impl Task<'_> {
         Err(Failure::Model {
             arm: self.args.arm.clone(),
             reason: format!(
-                "at {} rad/s the beam bends in {} waves; responses are computed up to {} rad/s",
+                "at {} rad/s the beam bends in {} waves; responses are computed only up to {} rad/s",
                 shown(highest, 3),
                 shown(waves / TAU, 3),
                 shown(reached, 3)
             ),
-            hint: "give a lower --omega: far below that, a beam is no longer thin beside its waves",
+            hint: "give a lower --omega: the model of a thin beam fails at much lower frequencies already",
         })
     }
 
@@ -339,28 +340,28 @@ impl Task<'_> {
         let all = r.tips.iter().flatten().chain(&r.coupling).chain(r.motor.iter().flatten());
         if !all.clone().all(|v| v.is_finite()) {
             model.warnings.push(
-                "some responses are not finite: without damping, a frequency on a pole has none"
+                "some responses are not finite: without damping there is no response at a pole"
                     .to_owned(),
             );
         }
         r
     }
 
-    /// Section 3, where it applies.
+    /// Checks the properties of Section 3 of the 1989 report, if the beam has point masses.
     fn properties(&self, model: &mut Model) -> Result<(), Failure> {
         match self.beam {
             Beam::Distributed(_) => model.notes.push(
-                "no --properties: Section 3 is about beams with point masses, and this one has its \
+                "--properties has no effect: Section 3 is about beams with point masses, and this beam has \
                  mass along it"
                     .to_owned(),
             ),
             Beam::Modal(_) => model.notes.push(
-                "no --properties: Section 3 is about beams with point masses, and this one is known by \
-                 its modes"
+                "--properties has no effect: Section 3 is about beams with point masses, and this beam is \
+                 known by its modes"
                     .to_owned(),
             ),
             Beam::Lumped(beam) if beam.len() > MOST_CHECKED => model.notes.push(format!(
-                "no --properties: they are measured for at most {MOST_CHECKED} masses"
+                "--properties has no effect: the properties are checked for at most {MOST_CHECKED} masses"
             )),
             Beam::Lumped(beam) => {
                 model.properties = Some(properties(beam).map_err(|e| self.failed(e))?);
@@ -374,7 +375,7 @@ impl Task<'_> {
     }
 }
 
-/// What may be a slip in a list of damping ratios.
+/// Warns of possible mistakes in a list of damping ratios.
 fn check_ratios(ratios: &[f64], model: &mut Model) {
     let modes = model.natural_frequencies_rad_s.len();
     if ratios.len() > modes {
@@ -382,19 +383,18 @@ fn check_ratios(ratios: &[f64], model: &mut Model) {
     }
     if let Some(ratio) = ratios.iter().find(|r| **r >= 1.0) {
         model.warnings.push(format!(
-            "a damping ratio of {ratio}: such a mode does not oscillate; per cent are written \
-             \"{ratio} %\""
+            "a damping ratio of {ratio}: such a mode does not oscillate; write percent as \"{ratio} %\""
         ));
     }
 }
 
-/// A beam's numbers that cannot be used.
+/// The failure for numbers of a beam that cannot be used.
 pub(crate) fn beam_failure(arm: &Path, source: BeamError) -> Failure {
     lissom_io::Error::from(ArmError::Beam { file: arm.to_owned(), source }).into()
 }
 
-/// Where the state space's θ_m/i is worst beside the exact one, and by how much; `None` where it
-/// keeps [`KEPT`].
+/// The frequency at which θ_m/i of the state space has the largest relative error, and this error; `None` if it is at most
+/// [`KEPT`].
 fn lost(arm: &Arm, space: &StateSpace) -> Option<(f64, f64)> {
     let frequencies = arm.beam().frequencies_rad_s(Base::Clamped, 3);
     let low = [0.001, 0.03, 0.3].map(|part| part * frequencies[0]);
@@ -410,7 +410,7 @@ fn lost(arm: &Arm, space: &StateSpace) -> Option<(f64, f64)> {
         .max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// θ_m/i at s.
+/// The response θ_m/i at s.
 pub(crate) fn motor_response(motor: &Motor, s: Complex64, coupling: Complex64) -> Complex64 {
     motor.torque_constant_nm_per_a() / (motor.impedance(s) + coupling)
 }

@@ -1,4 +1,4 @@
-//! Coulomb friction as Section 6.2.2 of the report prints it, beside what is found here.
+//! Coulomb friction as printed in Section 6.2.2 of the 1989 report, compared with the estimates here.
 
 use lissom::drive::DryFriction;
 use lissom::identify::{Estimate, Identified};
@@ -6,9 +6,10 @@ use lissom::rig::{JointFriction, Rig};
 use lissom_io::FiguresFile;
 use lissom_io::comparison::ComparedCoulombEntry;
 
-/// Printed in 6.2.2: classical forward and backward, spectral \[A\].
+/// Values printed in 6.2.2 \[A\]: classical forward and backward, spectral.
 const PRINTED_A: [f64; 3] = [0.161, 0.152, 0.132];
 
+/// The friction law of the rig's joint.
 pub(crate) fn law(rig: &Rig) -> DryFriction {
     match &rig.scene.friction {
         JointFriction::Dry(law) => law.clone(),
@@ -16,7 +17,7 @@ pub(crate) fn law(rig: &Rig) -> DryFriction {
     }
 }
 
-/// A figure of Section 6.2.2 \[A\].
+/// Coulomb friction by one method \[A\].
 pub(crate) struct CoulombRow {
     pub(crate) name: &'static str,
     pub(crate) printed_a: Option<f64>,

@@ -1,4 +1,4 @@
-//! Results compared with the first of them.
+//! Comparison of results with the first of them.
 
 use std::f64::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
@@ -11,8 +11,8 @@ use lissom_io::{ComparedFile, ParameterList, read_result};
 
 use crate::shared::failure::Failure;
 
-/// Standard errors from which on a difference is called clear. A convention: chance alone gives more than three in 0.3 %
-/// of the parameters that have not changed.
+/// Number of standard errors above which a difference is called clear. A convention: chance alone gives more than three for
+/// 0.3 % of the parameters that have not changed.
 pub(crate) const CLEAR_STANDARD_ERRORS: f64 = 3.0;
 
 /// Reads the results and compares them.
@@ -49,8 +49,8 @@ fn too_few(files: &[PathBuf]) -> Failure {
     Failure::Asked(words, "give two or more: lissom compare before.json after.json")
 }
 
-/// Errors of results of the same logs are not independent.
-const DIFFERENT_LOGS: &str = "give results of different logs: only their errors are independent";
+/// Hint for results from the same logs, whose errors are not independent.
+const DIFFERENT_LOGS: &str = "give results from different logs: only their errors are independent";
 
 fn refuse_repeated(files: &[PathBuf]) -> Result<(), Failure> {
     if files.len() < 2 {
@@ -68,7 +68,7 @@ fn refuse_repeated(files: &[PathBuf]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A result under another name: no two logs give the same estimates to the last digit.
+/// Refuses copies of a result: no two logs give the same estimates to the last digit.
 fn refuse_copies(lists: &[(String, ParameterList)]) -> Result<(), Failure> {
     for (i, (file, list)) in lists.iter().enumerate() {
         let known = list.parameters.iter().any(|p| p.estimate.is_some());
@@ -81,7 +81,7 @@ fn refuse_copies(lists: &[(String, ParameterList)]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Results in other units, or of another kind of axis, are of other quantities.
+/// Refuses results in different units or of different kinds of axes.
 fn refuse_other_units(lists: &[(String, ParameterList)]) -> Result<(), Failure> {
     let names = |list: &ParameterList| (list.names.axis, list.names.torque_unit());
     let Some((_, first)) = lists.first() else { return Ok(()) };
@@ -94,14 +94,14 @@ fn refuse_other_units(lists: &[(String, ParameterList)]) -> Result<(), Failure> 
         .map(|(file, list)| {
             let known = list.torque_per_command.map_or(" (no torque constant)", |_| "");
             let axis = AxisName::of(list.names.axis).text();
-            format!("{file} is of a {axis} axis in {}{known}", list.names.torque_unit())
+            format!("{file} has a {axis} axis and friction in {}{known}", list.names.torque_unit())
         })
         .collect();
     let words = format!("results in different units cannot be compared: {}", units.join(", "));
     let hint = if others().any(|list| list.names.axis != first.names.axis) {
         "compare results of the same axis"
     } else if others().any(|list| list.names.torque_known) {
-        "give `torque_constant` in [drive] of every campaign, or of none, and run `lissom identify` again"
+        "give `torque_constant` in [drive] of every campaign or of none, and run `lissom identify` again"
     } else {
         "log the same command in every campaign, or give `torque_constant` in [drive] of each, and run \
          `lissom identify` again"
@@ -123,7 +123,7 @@ fn same(a: &ListedParameter, b: &ListedParameter) -> bool {
     (&a.key, &a.name) == (&b.key, &b.name)
 }
 
-/// The parameters that any of the results has, each in its place in the order of the tables.
+/// All parameters of the results, in the order of the tables.
 fn parameters(lists: &[(String, ParameterList)]) -> Vec<ComparedParameterEntry> {
     let mut all: Vec<&ListedParameter> = Vec::new();
     for (_, list) in lists {

@@ -1,10 +1,10 @@
-//! The campaign.toml of a virtual rig.
+//! The campaign.toml for logs of a virtual rig.
 
 use lissom::record::{Hold, TipQuantity};
 use lissom::rig::Rig;
 use lissom_io::write::{CampaignPlan, PlannedCommand, PlannedRun};
 
-/// A campaign of this rig's drive and sensors.
+/// Describes a campaign with the drive and sensors of `rig`.
 pub(crate) fn described(
     rig: &Rig,
     title: String,
@@ -12,7 +12,7 @@ pub(crate) fn described(
     runs: Vec<PlannedRun>,
 ) -> CampaignPlan {
     let instruments = &rig.instruments;
-    // The current stands between two rows where the controller acts at rows alone.
+    // The current is constant between two rows if the controller acts only at rows.
     let held = instruments.control_every.is_multiple_of(instruments.log_every);
     let masses = rig.arm.beam().len();
     CampaignPlan {

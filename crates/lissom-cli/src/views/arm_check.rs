@@ -1,11 +1,11 @@
-//! Which number of an arm.toml explains best that the logs show another arm, in words.
+//! Comparison of the identified arm with an arm.toml, in words: which number of the file explains the difference best.
 
 use lissom::identify::{ArmQuantity, Explanation, GeometryCheck};
 use lissom_report::{Cells, Page, Table, interval, with_uncertainty};
 
 use super::printer;
 
-/// Prints it.
+/// Prints the comparison.
 pub(crate) fn print(check: Option<&GeometryCheck>) {
     let Some(check) = check else { return };
     printer::line("");
@@ -14,10 +14,10 @@ pub(crate) fn print(check: Option<&GeometryCheck>) {
     }
 }
 
-/// The same as a section of the report.
+/// Adds the comparison to the HTML page.
 pub(crate) fn section(page: Page, check: Option<&GeometryCheck>) -> Page {
     let Some(check) = check else { return page };
-    let mut page = page.heading("The arm as described");
+    let mut page = page.heading("Comparison with arm.toml");
     for line in lines(check) {
         page = page.paragraph(&sentence(&line));
     }
@@ -25,12 +25,12 @@ pub(crate) fn section(page: Page, check: Option<&GeometryCheck>) -> Page {
         return page;
     }
     let mut table = Table::new(
-        "One number of arm.toml at a time",
+        "Changing one number of arm.toml at a time",
         &[
             ("number", Cells::Text),
-            ("times what the file says", Cells::Numbers),
+            ("times the value in the file", Cells::Numbers),
             ("95 % interval", Cells::Numbers),
-            ("left (rms)", Cells::Numbers),
+            ("remaining difference (rms)", Cells::Numbers),
         ],
     );
     for e in &check.explanations {
@@ -45,7 +45,7 @@ pub(crate) fn section(page: Page, check: Option<&GeometryCheck>) -> Page {
     page.table(&table)
 }
 
-/// With a capital and a full stop.
+/// The line with a capital letter and a full stop.
 fn sentence(line: &str) -> String {
     let mut letters = line.chars();
     let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
@@ -54,15 +54,15 @@ fn sentence(line: &str) -> String {
 
 fn lines(check: &GeometryCheck) -> Vec<String> {
     let before = percent(check.before);
-    let differ = "inertia, frequencies and couplings";
+    let compared = "inertia, frequencies and couplings";
     if check.agrees() {
-        return vec![format!("arm.toml describes this arm: {differ} within {before} (rms)")];
+        return vec![format!("arm.toml agrees with the logs: {compared} within {before} (rms)")];
     }
-    let mut text = vec![format!("{differ} differ from arm.toml by {before} (rms)")];
+    let mut text = vec![format!("{compared} differ from arm.toml by {before} (rms)")];
     let Some(best) = check.explanations.first() else { return text };
     if best.left > 0.5 * check.before {
         text.push(format!(
-            "no single number explains it: with {} {} {} is left",
+            "no single number of arm.toml explains this: if {} is {}, the difference is still {}",
             name(best.quantity),
             factor(best),
             percent(best.left)
@@ -72,8 +72,8 @@ fn lines(check: &GeometryCheck) -> Vec<String> {
     let all: Vec<&Explanation> = check.as_good().collect();
     for (i, explanation) in all.iter().enumerate() {
         text.push(format!(
-            "{} {} {} leaves {}",
-            if i == 0 { "explained best:" } else { "or as well:" },
+            "{} {} is {}; the difference is then {}",
+            if i == 0 { "best explanation:" } else { "equally good:" },
             name(explanation.quantity),
             factor(explanation),
             percent(explanation.left)
@@ -85,7 +85,10 @@ fn lines(check: &GeometryCheck) -> Vec<String> {
 fn factor(e: &Explanation) -> String {
     let f = e.factor;
     let range = interval(f.ci95(), f.value, f.std);
-    format!("{} times what the file says ({range})", with_uncertainty(f.value, f.std))
+    format!(
+        "{} times the value in the file (95 % interval {range})",
+        with_uncertainty(f.value, f.std)
+    )
 }
 
 fn percent(share: f64) -> String {

@@ -8,10 +8,10 @@ use num_complex::Complex64;
 
 use crate::tasks::known_arm::Reference;
 
-/// Points of a model's line.
+/// Number of points on the line of a model.
 const LINE: i32 = 1200;
 
-/// Motor and tips: file name and plot. `reference` adds what is known beforehand.
+/// The plots of motor and tips, each with its file name. `reference` adds a line for a known arm.
 pub(crate) fn bode_plots(
     channels: &Channels,
     names: UnitNames,
@@ -50,10 +50,10 @@ fn motor(names: UnitNames, id: &Identified, reference: Option<&Reference>) -> Bo
         .collect();
     if !sound.is_empty() {
         let flagged = sound.iter().any(|p| p.2);
-        let told = if flagged { "flagged: a finding speaks against the point; " } else { "" };
-        plot = plot.subtitle(format!("{told}bars: one standard deviation"));
+        let note = if flagged { "flagged: a finding affects the point; " } else { "" };
+        plot = plot.subtitle(format!("{note}bars: one standard error"));
         let series = Series::new(
-            "friction taken out",
+            "friction removed",
             Role::Corrected,
             Style::PointsWithBars,
             sound.iter().map(|p| p.0).collect(),
@@ -110,7 +110,7 @@ fn tip_plot(
     let grid = grid(id);
     let response: Option<Vec<Complex64>> =
         grid.iter().map(|w| id.models.tip_response(i, *w)).collect();
-    // A calibrated deflection is modelled as the angle it belongs to.
+    // The model of a calibrated deflection is that of its angle.
     if let Some(response) = response.filter(|_| quantity != TipQuantity::Deflection) {
         let fitted = Series::new("fitted model", Role::Fitted, Style::Line, grid.clone(), response);
         plot = plot.series(fitted);
@@ -124,7 +124,7 @@ fn tip_plot(
     plot
 }
 
-/// Frequencies of a line over the data.
+/// Frequencies of a model's line, over the range of the data.
 fn grid(id: &Identified) -> Vec<f64> {
     let low = id.responses.iter().map(|p| p.omega_rad_s).fold(f64::INFINITY, f64::min);
     let high = id.responses.iter().map(|p| p.omega_rad_s).fold(0.0, f64::max);

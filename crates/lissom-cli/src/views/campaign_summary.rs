@@ -1,4 +1,4 @@
-//! What was read of a campaign, and what was kept of its runs.
+//! Summary of a campaign: what was read, and which parts of the runs are used.
 
 use lissom::identify::{Identified, RunKind};
 use lissom::record::{Campaign, Hold};
@@ -6,10 +6,10 @@ use lissom_io::UnitNames;
 
 use super::printer::{counted, line};
 
-/// The spectrum of a sin⁴ window has its first zero at this over its length.
+/// The spectrum of a sin⁴ window has its first zero at this number divided by the length of the window.
 const FIRST_NULL: f64 = 3.0;
 
-/// What was read.
+/// Prints what was read.
 pub(crate) fn campaign(campaign: &Campaign) {
     let samples: usize = campaign.runs.iter().map(lissom::record::Run::len).sum();
     let (mut shortest, mut longest) = (f64::INFINITY, 0.0_f64);
@@ -23,7 +23,7 @@ pub(crate) fn campaign(campaign: &Campaign) {
         format!("{:.4} ms", 1e3 * longest)
     };
     let hold = match campaign.channels.command.hold {
-        Hold::Sampled => "commanded and held",
+        Hold::Sampled => "held between samples",
         Hold::Measured => "measured",
     };
     line(&format!(
@@ -36,11 +36,11 @@ pub(crate) fn campaign(campaign: &Campaign) {
     ));
 }
 
-/// How far and how fast things go: a wrong unit shows here first.
+/// Prints the ranges of angle, speed and command. A wrong unit is easy to see here.
 pub(crate) fn ranges(names: UnitNames, campaign: &Campaign) {
     let (mut low, mut high, mut speed, mut drive) = (f64::INFINITY, f64::NEG_INFINITY, 0.0, 0.0);
     for run in &campaign.runs {
-        // Speed over some samples: over one, the sensor's steps would be the fastest.
+        // Speed over several samples: over one sample, the sensor's steps would dominate.
         let reach = (run.len() / 50).clamp(1, 10);
         let moved = run.motor().windows(reach + 1).map(|w| (w[reach] - w[0]).abs());
         speed = moved.fold(0.0, f64::max).max(speed * reach as f64 * run.sample_time_s())
@@ -57,7 +57,7 @@ pub(crate) fn ranges(names: UnitNames, campaign: &Campaign) {
     ));
 }
 
-/// What was kept of the runs.
+/// Prints which parts of the runs are used, and the data of the regression.
 pub(crate) fn runs(id: &Identified) {
     let (mut kept, mut dropped, mut general, mut steady) = (0, 0, 0, 0);
     let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
@@ -76,7 +76,7 @@ pub(crate) fn runs(id: &Identified) {
     let sinusoidal = id.runs.len() - general - steady;
     if sinusoidal > 0 {
         line(&format!(
-            "{}, {low:.3} to {high:.3} rad/s: {kept} periods kept, \
+            "{}, {low:.3} to {high:.3} rad/s: {kept} periods used, \
              {dropped} dropped as transients",
             counted(sinusoidal, "sinusoidal run")
         ));
@@ -88,15 +88,17 @@ pub(crate) fn runs(id: &Identified) {
         line(&format!("{} of other motion", counted(general, "run")));
     }
     if let Some(r) = &id.regression {
-        let how = if r.window_given { "given" } else { "chosen for the smallest errors" };
+        let how = if r.window_given { "given" } else { "chosen for the smallest standard errors" };
         line(&format!(
-            "regression: {} (stretches in one direction), {} rows, windows of {:.4} s ({how}), which pass {:.3} Hz; \
-             residual torque {:.2} %",
+            "regression: {} (motion in one direction without a stop), {} rows, residual torque {:.2} %",
             counted(r.phases, "slip phase"),
             r.rows,
-            r.window_s,
-            FIRST_NULL / r.window_s,
             100.0 * r.relative_residual
+        ));
+        line(&format!(
+            "windows of the regression: {:.4} s ({how}), bandwidth {:.3} Hz",
+            r.window_s,
+            FIRST_NULL / r.window_s
         ));
     }
 }

@@ -1,4 +1,4 @@
-//! Results side by side.
+//! The table of `lissom compare`: results side by side.
 
 use std::f64::consts::PI;
 
@@ -14,14 +14,14 @@ use crate::shared::digits::signed_percent;
 
 /// Width of sentences.
 const WIDTH: usize = 100;
-/// What lines after the first of a sentence are indented by.
+/// Indent of the lines after the first one of a sentence.
 const INDENT: &str = "  ";
-/// Relative difference of torque constants up to which they are the same.
+/// Relative difference up to which torque constants count as equal.
 const SAME_CONSTANT: f64 = 1e-5;
-/// What is not there.
+/// Cell of a missing value.
 const DASH: &str = "—";
 
-/// The results, the table of their parameters, and what differs in words.
+/// Prints the names of the results, the table of their parameters, and the differences in words.
 pub(crate) fn comparison(found: &ComparedFile) {
     for (k, result) in found.results.iter().enumerate() {
         line(&format!("{}  {}: {}", letter(k), result.file, method(result)));
@@ -39,14 +39,14 @@ pub(crate) fn comparison(found: &ComparedFile) {
     modes(found);
 }
 
-/// What the table calls a result: A to Z, then by number.
+/// Name of a result in the table: A to Z, then numbers.
 fn letter(k: usize) -> String {
     let letter = u8::try_from(k).ok().filter(|k| *k < 26).map(|k| char::from(b'A' + k));
     letter.map_or_else(|| format!("#{}", k + 1), String::from)
 }
 
 fn sentence(text: &str) {
-    // A line does not begin with the sign of a percentage.
+    // Keeps a number and its percent sign on one line.
     let bound = text.replace(" %", "\0%");
     for (k, part) in wrapped(&bound, WIDTH).iter().enumerate() {
         line(&format!("{}{}", if k == 0 { "" } else { INDENT }, part.replace('\0', " ")));
@@ -88,12 +88,12 @@ fn parameters(found: &ComparedFile) {
     table(&rows);
 }
 
-/// The unit in the table, and its factor: phases are in degrees.
+/// The unit in the table and the factor to it: phases are in degrees.
 fn shown_unit(p: &ComparedParameterEntry) -> (&str, f64) {
     if p.key == PHASE_KEY { ("deg", 180.0 / PI) } else { (&p.unit, 1.0) }
 }
 
-/// A difference in percent, of a phase in degrees, and in standard errors.
+/// A difference in percent (for a phase in degrees), and in standard errors.
 fn changes(
     p: &ComparedParameterEntry,
     difference: Option<&ParameterDifferenceEntry>,
@@ -115,7 +115,7 @@ fn change(p: &ComparedParameterEntry, d: &ParameterDifferenceEntry) -> Option<St
     d.relative.map(signed_percent)
 }
 
-/// A number of standard errors: the first decimal says something of few of them only.
+/// A number of standard errors, with a decimal if there are less than a hundred.
 fn errors(number: f64) -> String {
     match number.abs() {
         ..0.05 => "0.0".to_owned(),
@@ -129,19 +129,19 @@ fn is_marked(p: &ComparedParameterEntry) -> bool {
     p.values.iter().zip(&p.warnings).any(|(value, codes)| value.is_some() && !codes.is_empty())
 }
 
-/// Letters of the results of which a warning affects the value.
+/// Letters of the results in which a warning affects the value.
 fn marks(p: &ComparedParameterEntry) -> String {
     let marked = p.values.iter().zip(&p.warnings).enumerate();
     let marked = marked.filter(|(_, (value, codes))| value.is_some() && !codes.is_empty());
     marked.map(|(k, _)| letter(k)).collect::<Vec<_>>().join(", ")
 }
 
-/// Whether a warning affects the difference of result `k` to the first.
+/// Whether a warning affects the difference between result `k` and the first one.
 fn is_doubtful(p: &ComparedParameterEntry, k: usize) -> bool {
     [0, k].iter().any(|k| p.warnings.get(*k).is_some_and(|codes| !codes.is_empty()))
 }
 
-/// What of result `k` differs clearly from the first.
+/// Prints which parameters of result `k` differ clearly from the first result.
 fn differing(found: &ComparedFile, k: usize) {
     let by = format!(
         "by more than {} standard errors of the difference (s.e.)",
@@ -153,7 +153,7 @@ fn differing(found: &ComparedFile, k: usize) {
         let Some(Some(d)) = p.differences.get(k - 1) else { continue };
         compared += 1;
         let shown = change(p, d);
-        // Coulomb friction in amperes and in newton metres changes alike, unless the torque constants differ.
+        // Coulomb friction in A and in N·m changes by the same percentage unless the torque constants differ.
         let twin = found.parameters.iter().find(|other| other.name == p.name && other.key != p.key);
         let other = twin.and_then(|twin| change(twin, twin.differences.get(k - 1)?.as_ref()?));
         let unit = if other.is_some() && other != shown {
@@ -178,7 +178,7 @@ fn differing(found: &ComparedFile, k: usize) {
     });
 }
 
-/// The warnings that make parameters doubtful.
+/// Prints the warnings that make parameters doubtful.
 fn warnings(found: &ComparedFile) {
     let mut told: Vec<(&str, Vec<usize>)> = Vec::new();
     for p in &found.parameters {
@@ -201,7 +201,7 @@ fn warnings(found: &ComparedFile) {
     });
     sentence(&format!(
         "Parameters marked in the last column are doubtful: a warning affects them, and their standard errors \
-         may be too small. The warnings are {}; see `findings` in the files.",
+         may be too small. The warnings are {}. Read them under `findings` in the files.",
         told.collect::<Vec<_>>().join(", ")
     ));
 }
@@ -220,8 +220,8 @@ fn each(found: &ComparedFile, words: impl Fn(&ComparedResultEntry) -> String) ->
 fn methods(found: &ComparedFile) {
     if differs(found, |r| r.from) {
         sentence(
-            "The methods differ (see above). Part of a difference may be that of the methods: compare results of \
-             the same method if you can.",
+            "The methods differ (see above), which may cause a part of the differences. Compare results of the \
+             same method if you can.",
         );
     }
 }
@@ -230,17 +230,17 @@ fn friction_laws(found: &ComparedFile) {
     if !differs(found, |r| r.friction_terms.clone()) {
         return;
     }
-    // Viscous friction by direction hardly changes what Coulomb friction is.
+    // Viscous friction by direction hardly changes the meaning of Coulomb friction.
     let beyond_viscous = |r: &ComparedResultEntry| {
         let terms = r.friction_terms.iter().filter(|t| **t != LawTermName::ViscousByDirection);
         terms.copied().collect::<Vec<_>>()
     };
     let meaning = if differs(found, beyond_viscous) {
-        "Coulomb friction then means different things: compare `friction.curve` of the files at the speed of \
+        "Coulomb friction then has different meanings. Compare `friction.curve` of the files at the speed of \
          interest."
     } else {
-        "The offset of Coulomb friction then means different things, and one viscous coefficient is compared with \
-         the mean of two: compare `friction.curve` of the files at the speed of interest."
+        "The offset of Coulomb friction then has different meanings, and one viscous coefficient is compared with \
+         the mean of two. Compare `friction.curve` of the files at the speed of interest."
     };
     let laws = each(found, |r| format!("has {}", law(&r.friction_terms)));
     sentence(&format!("The friction laws differ: {laws}. {meaning}"));
@@ -256,8 +256,8 @@ fn torque_constants(found: &ComparedFile) {
         r.torque_per_command.map_or(DASH.to_owned(), |constant| significant(constant, 4))
     });
     sentence(&format!(
-        "The torque constants differ, in SI units {told}: inertia, friction and coupling differ by the same factor. \
-         Where the drive is the same, give the same constant and identify again."
+        "The torque constants differ (in SI units {told}). Inertia, friction and coupling differ by the same factor. \
+         If the drive is the same, give the same constant in both campaigns and identify again."
     ));
 }
 
@@ -294,7 +294,7 @@ fn law(terms: &[LawTermName]) -> String {
         LawTermName::ViscousByDirection => "viscous friction by direction",
         LawTermName::NearRest => "a change near standstill",
         LawTermName::AfterTravel => "growth after reversals",
-        LawTermName::Root => "a term with the root of speed",
+        LawTermName::Root => "a term with the square root of speed",
         LawTermName::WithLoad => "growth with the load",
         LawTermName::Ripple => "a ripple over the travel",
         LawTermName::CommandLag => "a lag of the command",

@@ -1,4 +1,4 @@
-//! The demo's result beside the truth.
+//! The table of the demo: estimates compared with the true parameters.
 
 use std::path::Path;
 
@@ -12,8 +12,8 @@ pub(crate) fn report(out: &Path, campaign: &Campaign, id: &Identified, rows: &[D
     campaign_summary::campaign(campaign);
     campaign_summary::runs(id);
     printer::line("");
-    let head = ["figure", "unit", "true", "third harmonic", "error", "regression", "error"];
-    let head = head.into_iter().chain(["output error", "error"]);
+    let head = ["parameter", "unit", "true", "third harmonic", "error", "regression", "error"];
+    let head = head.into_iter().chain(["output-error", "error"]);
     let mut table = vec![head.map(str::to_owned).collect::<Vec<_>>()];
     for r in rows {
         let mut line = vec![r.name.to_owned(), r.unit.to_owned(), significant(r.truth)];

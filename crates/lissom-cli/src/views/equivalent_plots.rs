@@ -9,9 +9,10 @@ use super::plot_file::Picture;
 use crate::shared::failure::Failure;
 use crate::tasks::equivalent_input::Input;
 
-/// Points of a model's line.
+/// Number of points on the line of a model.
 const LINE: i32 = 1500;
-/// Adds the points' plot, and the motor's where there is one.
+
+/// Adds the plot of the points, and that of the motor if there is one.
 pub(crate) fn add_all(
     batch: &mut Batch,
     picture: &Picture,
@@ -50,7 +51,7 @@ fn points(input: &Input, found: &Equivalent) -> BodePlot {
         None => Role::Other(u8::try_from(i % 100).unwrap_or(0)),
     };
     let mut plot = BodePlot::new("Points of the beam, per motor angle", "")
-        .subtitle(format!("{} poles fitted together; lines: the fit", found.fit.poles.len()))
+        .subtitle(format!("lines: a fit with {} common poles", found.fit.poles.len()))
         .frequency_axis(FrequencyAxis::Both);
     let grid = grid(&data.omega_rad_s);
     for (i, name) in data.names.iter().enumerate() {
@@ -75,7 +76,7 @@ fn motor(input: &Input, found: &Equivalent) -> Option<BodePlot> {
         BodePlot::new(title, unit)
             .frequency_axis(FrequencyAxis::Both)
             .series(measured(
-                "friction taken out",
+                "friction removed",
                 Role::Corrected,
                 &motor.omega_rad_s,
                 &motor.response,

@@ -1,4 +1,4 @@
-//! An equivalent arm for people.
+//! Tables of an equivalent arm.
 
 use lissom::beam::RootClass;
 use lissom::identify::{Deviations, Equivalent, Estimate, ResponseZero, StrainlessForm};
@@ -9,7 +9,7 @@ use super::printer;
 use crate::shared::digits::shown as significant;
 use crate::tasks::equivalent_input::{Input, KnownMotor};
 
-/// Digits of figures that stand without deviation.
+/// Digits of numbers without a standard error.
 const DIGITS: usize = 7;
 
 pub(crate) fn print(input: &Input, found: &Equivalent) {
@@ -30,15 +30,17 @@ pub(crate) fn print(input: &Input, found: &Equivalent) {
     zeros(found);
 }
 
-/// The arm that `identify` gives beside its figures.
+/// Prints the equivalent arm in the output of `identify`.
 pub(crate) fn brief(names: UnitNames, found: &Equivalent) {
     let Some(form) = &found.strainless else { return };
     let modes = printer::counted(found.modes.len(), "mode");
-    printer::line(&format!("\nequivalent arm of {modes}, with intervals by `lissom equivalent`"));
+    printer::line(&format!(
+        "\nequivalent arm with {modes} (`lissom equivalent` gives its 95 % intervals)"
+    ));
     for_use(names, found, form);
 }
 
-/// The same on the report's page.
+/// Adds the equivalent arm to the HTML page.
 pub(crate) fn section(page: Page, names: UnitNames, found: Option<&Equivalent>) -> Page {
     let Some((found, form)) = found.and_then(|e| Some((e, e.strainless.as_ref()?))) else {
         return page;
@@ -52,12 +54,12 @@ pub(crate) fn section(page: Page, names: UnitNames, found: Option<&Equivalent>) 
             _ => (title.as_str(), Cells::Numbers),
         })
         .collect();
-    let caption = "Each line an equation: the sum over its columns, the points' angles in rad";
+    let caption = "Each row is an equation: the sum over its columns, with angles in rad";
     let table = rows[1..].iter().fold(Table::new(caption, &columns), |t, row| t.row(row.clone()));
     page.heading("Equivalent arm")
         .paragraph(&format!(
-            "{} from the responses to the motor's angle, made so that turning as one body strains \
-             nothing; with intervals by lissom equivalent.",
+            "{} from the responses per motor angle. The gains are adjusted such that turning the whole arm \
+             bends nothing. The command lissom equivalent gives the 95 % intervals.",
             printer::counted(found.modes.len(), "mode")
         ))
         .table(&table)
@@ -73,24 +75,24 @@ fn head(input: &Input, found: &Equivalent) {
         data.names.join(", ")
     ));
     let left = if found.deviations == Deviations::FromResidual {
-        "deviations from what is left".to_owned()
+        "standard errors from the residual".to_owned()
     } else {
-        format!("{:.2} of the deviations left", found.fit.weighted_rms)
+        format!("or {:.2} standard errors", found.fit.weighted_rms)
     };
     let poles = printer::counted(found.fit.poles.len(), "pole");
     let modes = printer::counted(found.modes.len(), "mode");
     printer::line(&format!(
-        "{poles} fitted, {modes} kept; {:.3} % of each response left (rms), {left}",
+        "{poles} fitted, {modes} kept; residual {:.3} % of each response (rms), {left}",
         100.0 * found.relative_residual
     ));
 }
 
-fn known(figure: Option<Estimate>) -> String {
-    figure.map_or_else(|| "–".to_owned(), |e| with_uncertainty(e.value, e.std))
+fn known(estimate: Option<Estimate>) -> String {
+    estimate.map_or_else(|| "–".to_owned(), |e| with_uncertainty(e.value, e.std))
 }
 
-fn shown(figure: Estimate) -> String {
-    with_uncertainty(figure.value, figure.std)
+fn shown(estimate: Estimate) -> String {
+    with_uncertainty(estimate.value, estimate.std)
 }
 
 fn modes(input: &Input, found: &Equivalent) {
@@ -115,7 +117,7 @@ fn modes(input: &Input, found: &Equivalent) {
         ];
         row.extend(found.arm.as_ref().map(|arm| shown(arm.coupling[k])));
         row.extend(beside.map(|all| {
-            // The one that is meant, if any: identify may have found fewer.
+            // The mode of `identify` with nearly the same frequency, if any: it may have found fewer.
             let near = |e: &&Estimate| (e.value / omega.value).ln().abs();
             let nearest = all.iter().min_by(|a, b| near(a).total_cmp(&near(b)));
             known(nearest.filter(|e| near(e) < 0.2).copied())
@@ -134,7 +136,7 @@ fn figures(input: &Input, found: &Equivalent) {
         ("viscous friction", arm.viscous, names.viscous_unit(), of(|k| k.viscous)),
         ("coupling, ĥ", arm.h_motor, names.coupling_unit(), of(|k| k.coupling)),
     ];
-    let mut heading = vec!["figure", "value", "unit", "95 % interval"];
+    let mut heading = vec!["parameter", "value", "unit", "95 % interval"];
     if input.identified.is_some() {
         heading.push("identify");
     }
@@ -148,7 +150,7 @@ fn figures(input: &Input, found: &Equivalent) {
     printer::table(&rows);
 }
 
-/// One row an equation, one column a variable.
+/// Heading of a table with one row for each equation and one column for each variable.
 fn heading(found: &Equivalent, title: &str) -> Vec<String> {
     let points = found.points.iter().map(|&i| format!("·θ({})", found.names[i]));
     std::iter::once(title.to_owned()).chain(points).chain(["·θ_m".to_owned()]).collect()
@@ -187,7 +189,7 @@ fn for_use(names: UnitNames, found: &Equivalent, form: &StrainlessForm) {
 
 fn rows_for_use(names: UnitNames, found: &Equivalent, form: &StrainlessForm) -> Vec<Vec<String>> {
     let number = |x: f64| significant(x, DIGITS).replace('-', "−");
-    let mut rows = vec![heading(found, "for use: turning as one body strains nothing")];
+    let mut rows = vec![heading(found, "for use (turning the whole arm bends nothing)")];
     for i in 0..found.points.len() {
         let mut row = vec![equation(found, i)];
         row.extend(form.a.row(i).iter().map(|x| number(*x)));
@@ -227,7 +229,7 @@ fn zeros(found: &Equivalent) {
 }
 
 fn class(zero: &ResponseZero) -> String {
-    let beyond = if zero.outside { ", beyond the frequencies measured" } else { "" };
+    let beyond = if zero.outside { ", outside the measured frequencies" } else { "" };
     let phase = if zero.class == RootClass::Imaginary { "" } else { ", non-minimum phase" };
     format!("{}{phase}{beyond}", zero.class.letter())
 }

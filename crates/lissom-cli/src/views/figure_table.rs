@@ -1,4 +1,4 @@
-//! The figures of a result.
+//! The parameters of a result.
 
 use lissom::identify::{ConstantVelocity, Estimate, Identified, Method};
 use lissom_io::UnitNames;
@@ -7,12 +7,12 @@ use lissom_report::{interval, significant, with_uncertainty};
 use super::printer::{counted, line, table};
 use crate::tasks::known_arm::Reference;
 
-/// Significant digits of figures known beforehand.
+/// Significant digits of parameters that are known beforehand.
 pub(crate) const KNOWN_DIGITS: usize = 6;
 
-/// The figures, each with its 95 % interval and what was known beforehand.
+/// Prints the parameters, each with its 95 % interval and the value that is known beforehand.
 pub(crate) fn figures(names: UnitNames, id: &Identified, reference: Option<&Reference>) {
-    let mut heading = vec!["figure", "value", "unit", "95 % interval"];
+    let mut heading = vec!["parameter", "value", "unit", "95 % interval"];
     heading.extend(reference.map(|r| r.label));
     let mut rows = vec![heading.into_iter().map(str::to_owned).collect::<Vec<_>>()];
     rows.extend(figure_rows(names, id, reference).into_iter().map(|row| {
@@ -29,14 +29,14 @@ pub(crate) fn figures(names: UnitNames, id: &Identified, reference: Option<&Refe
     table(&rows);
 }
 
-/// The line of Coulomb and viscous friction, beside figures that are of another law.
+/// Prints ordinary least squares with Coulomb and viscous friction, if the result has another friction law.
 pub(crate) fn line_of_least_squares(names: UnitNames, id: &Identified) {
     let f = &id.friction;
     let plain = f.near_rest.is_none() && f.viscous_by_direction.is_none();
     let plain = plain && id.method != Some(Method::FrictionLaw);
     let Some(fit) = id.least_squares.as_ref().filter(|_| !plain) else { return };
     let (friction, [slowest, fastest]) = (&fit.estimates.friction, fit.speed_range);
-    let mut rows = vec![["the line", "value", "unit", "95 % interval"].map(str::to_owned)];
+    let mut rows = vec![["least squares", "value", "unit", "95 % interval"].map(str::to_owned)];
     let mut add = |name: &str, figure: Option<Estimate>, unit: String| {
         let Some(e) = figure else { return };
         let within = interval(e.ci95(), e.value, e.std);
@@ -51,7 +51,8 @@ pub(crate) fn line_of_least_squares(names: UnitNames, id: &Identified) {
     line("");
     table(&rows.into_iter().map(Vec::from).collect::<Vec<_>>());
     line(&format!(
-        "least squares of one straight line over speeds from {} to {} {}/s, residual torque {:.2} %",
+        "least squares of all motion with Coulomb friction and one viscous coefficient, at speeds from {} to {} {}/s; \
+         residual torque {:.2} %",
         significant(slowest, 3),
         significant(fastest, 3),
         names.angle(),
@@ -59,7 +60,7 @@ pub(crate) fn line_of_least_squares(names: UnitNames, id: &Identified) {
     ));
 }
 
-/// The speeds that friction's law and its curve are of, where the figures are of such a law.
+/// Prints the speeds for which the friction law and the friction curve hold, if the result has such a law.
 pub(crate) fn speeds_of_law(names: UnitNames, id: &Identified) {
     let Some(law) = id.friction_law.as_ref().filter(|law| law.chosen.departs()) else { return };
     let unit = format!("{}/s", names.angle());
@@ -67,15 +68,18 @@ pub(crate) fn speeds_of_law(names: UnitNames, id: &Identified) {
         format!("{} to {} {unit}", significant(slowest, 3), significant(fastest, 3))
     };
     line("");
-    line(&format!("friction's law is of speeds from {}", range(law.speed_range)));
+    line(&format!("the friction law holds for speeds from {}", range(law.speed_range)));
     let speeds = || law.curve.iter().map(|p| p.speed);
     if let Some(slowest) = speeds().min_by(f64::total_cmp) {
         let fastest = speeds().fold(slowest, f64::max);
-        line(&format!("its curve without a law, in the report, {}", range([slowest, fastest])));
+        line(&format!(
+            "the curve of friction against speed (on the report page) covers {}",
+            range([slowest, fastest])
+        ));
     }
 }
 
-/// What steady velocities give, beside the figures taken.
+/// Prints friction by the method of constant velocities.
 pub(crate) fn constant_velocity(names: UnitNames, id: &Identified) {
     let Some(found) = &id.constant_velocity else { return };
     let mut rows = vec![["constant velocity", "value", "unit", "95 % interval"].map(str::to_owned)];
@@ -90,13 +94,13 @@ pub(crate) fn constant_velocity(names: UnitNames, id: &Identified) {
     table(&rows.into_iter().map(Vec::from).collect::<Vec<_>>());
     let number = |sign: f64| found.points.iter().filter(|p| p.velocity.value * sign > 0.0).count();
     line(&format!(
-        "by lines through {} forward and {} backward",
+        "from straight lines of friction against speed, through {} forward and {} backward",
         counted(number(1.0), "point"),
         counted(number(-1.0), "point")
     ));
 }
 
-/// The figures of steady velocities.
+/// Friction by the method of constant velocities, one row for each parameter.
 pub(crate) fn classical_rows(
     names: UnitNames,
     id: &Identified,
@@ -122,25 +126,25 @@ pub(crate) fn classical_rows(
     ]
 }
 
-/// A figure for people.
+/// A row of a table of parameters.
 pub(crate) struct FigureRow {
-    /// Its name; indented where it belongs to the one above.
+    /// Name of the parameter; indented if it belongs to the row above.
     pub(crate) name: String,
-    /// The figure; `None` where it is refused.
+    /// The estimate; `None` if it is refused.
     pub(crate) figure: Option<Estimate>,
     /// Its unit.
     pub(crate) unit: String,
-    /// What was known beforehand, in the same unit.
+    /// The value that is known beforehand, in the same unit.
     pub(crate) known: Option<f64>,
 }
 
-/// Every figure that the result has.
+/// All parameters of the result.
 pub(crate) fn figure_rows(
     names: UnitNames,
     id: &Identified,
     reference: Option<&Reference>,
 ) -> Vec<FigureRow> {
-    // An arm.toml is in SI and rotary: it says nothing of figures per unit of command.
+    // An arm.toml is rotary and in SI, so it cannot be compared with parameters per unit of command.
     let reference = reference.filter(|_| names.torque_unit() == "N·m");
     let arm = reference.and_then(|r| r.arm.as_ref());
     let f = &id.friction;
@@ -158,7 +162,7 @@ pub(crate) fn figure_rows(
     }
     add("Coulomb friction", f.coulomb, torque(), mean);
     if f.coulomb.is_none() {
-        // One direction alone: its friction with the load that acts on it.
+        // One direction only: friction and a constant load are one number.
         for (name, sum) in [("forward", f.forward), ("backward", f.backward)] {
             if sum.is_some() {
                 add(&format!("  friction plus load, {name}"), sum, torque(), None);
@@ -180,16 +184,17 @@ pub(crate) fn figure_rows(
         if let Some(at_rest) = near.static_friction() {
             add("static friction", Some(at_rest), torque(), None);
         }
-        let (way, size) = if near.torque.value < 0.0 { ("below", -1.0) } else { ("above", 1.0) };
-        let name = format!("  at rest {way} Coulomb friction by");
+        let (change, size) =
+            if near.torque.value < 0.0 { ("lower", -1.0) } else { ("higher", 1.0) };
+        let name = format!("  {change} near standstill by");
         add(&name, Some(near.torque.scaled(size)), torque(), None);
-        add("  falls off over a speed of", Some(near.speed), format!("{}/s", names.angle()), None);
+        add("  over a speed of", Some(near.speed), format!("{}/s", names.angle()), None);
     }
     if f.with_load.is_some() {
-        add("friction per load of gravity, μ", f.with_load, "1".to_owned(), None);
+        add("friction per gravity torque, μ", f.with_load, "1".to_owned(), None);
     }
     for ripple in &f.ripples {
-        add("friction's ripple", Some(ripple.torque), torque(), None);
+        add("friction ripple", Some(ripple.torque), torque(), None);
         add("  period", Some(ripple.period()), names.angle().to_owned(), None);
     }
     let inertia = reference.map(|r| r.inertia_kg_m2);
@@ -203,7 +208,7 @@ pub(crate) fn figure_rows(
         add("  phase φ of m·g·l·sin(θ + φ)", Some(degrees), "deg".to_owned(), phase);
         if let Some(constant) = id.torque_constant {
             let unit = format!("N·m/{}", names.command_unit());
-            add("  torque constant by m·g·l", Some(constant), unit, None);
+            add("  torque constant from m·g·l", Some(constant), unit, None);
         }
     }
     if !id.beam.coupling_by_tip.is_empty() || id.beam.coupling.is_some() {

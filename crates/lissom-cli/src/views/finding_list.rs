@@ -5,10 +5,10 @@ use lissom::identify::Finding;
 use super::printer::line;
 use crate::shared::command_hint::command_hint;
 
-/// Findings of one kind that are shown one by one.
+/// Largest number of findings of one kind that are shown one by one.
 const SHOWN: usize = 3;
 
-/// The findings as they stand, those of one kind together.
+/// Prints the findings in their order, those of one kind together.
 pub(crate) fn findings(findings: &[Finding]) {
     if findings.is_empty() {
         line("\nno findings");
@@ -30,7 +30,7 @@ pub(crate) fn findings(findings: &[Finding]) {
         }
         if same.len() > SHOWN {
             line(&format!(
-                "    … and {} more runs (all in the JSON and the report)",
+                "    … and {} more (all are in the JSON file and on the report page)",
                 same.len() - SHOWN
             ));
         }

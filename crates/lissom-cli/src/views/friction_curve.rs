@@ -1,16 +1,16 @@
-//! Friction against speed: the curve without a law, and the law found, in a plot and a table.
+//! Friction against speed: plot of the curve without a law and of the friction law, and table of the terms tried.
 
 use lissom::identify::{FrictionLaw, Identified, LawTerm, NORMAL_95, OutputError, ScaleUnit};
 use lissom_io::UnitNames;
 use lissom_report::{Axis, Cells, LinePlot, Role, Table, Trace, significant};
 
-/// Points of the law's line.
+/// Number of points on the line of the law.
 const LINE: i32 = 200;
 /// Directions, with their signs and colours.
 const DIRECTIONS: [(&str, f64, Role); 2] =
     [("forward", 1.0, Role::Corrected), ("backward", -1.0, Role::Other(0))];
 
-/// Both directions as magnitudes over speed, beside the law of the figures given; `None` without a curve.
+/// Plot of both directions as magnitudes over speed, with the friction law of the result; `None` without a curve.
 pub(crate) fn plot(names: UnitNames, id: &Identified) -> Option<LinePlot> {
     let law = id.friction_law.as_ref().filter(|law| !law.curve.is_empty())?;
     let mut plot = LinePlot::new(
@@ -18,7 +18,7 @@ pub(crate) fn plot(names: UnitNames, id: &Identified) -> Option<LinePlot> {
         Axis::linear(format!("speed ({}/s)", names.angle())),
         Axis::linear(format!("friction against the motion ({})", names.torque_unit())),
     )
-    .subtitle("points: without a law, bars: their 95 % interval; line: the law found");
+    .subtitle("points: without a friction law; bars: 95 % interval; lines: the friction law");
     let replayed = id.output_error.as_ref().is_some_and(OutputError::stands);
     let found = |speed: f64, sign: f64| {
         if replayed { id.friction.at(speed, sign) } else { law.chosen.friction(speed, sign) }
@@ -39,18 +39,18 @@ pub(crate) fn plot(names: UnitNames, id: &Identified) -> Option<LinePlot> {
     Some(plot)
 }
 
-/// Every term that was tried, with the figures of the test.
+/// Table of all terms that were tried, with the numbers of the tests.
 pub(crate) fn table(names: UnitNames, law: &FrictionLaw) -> Table {
     let mut table = Table::new(
-        "Terms tried beside Coulomb friction, one viscous constant and an offset",
+        "Terms tried in addition to Coulomb friction, one viscous coefficient and an offset",
         &[
             ("term", Cells::Text),
-            ("beside", Cells::Numbers),
+            ("terms before", Cells::Numbers),
             ("amplitude", Cells::Numbers),
-            ("deviation", Cells::Numbers),
-            ("residual, ratio", Cells::Numbers),
-            ("phases left out, deviations", Cells::Numbers),
-            ("stretches left out, ratio", Cells::Numbers),
+            ("standard error", Cells::Numbers),
+            ("residual ratio", Cells::Numbers),
+            ("gain in left-out slip phases (standard errors)", Cells::Numbers),
+            ("residual ratio in left-out stretches", Cells::Numbers),
             ("", Cells::Text),
         ],
     );
@@ -63,13 +63,13 @@ pub(crate) fn table(names: UnitNames, law: &FrictionLaw) -> Table {
             format!("{:.3}", c.residual_ratio),
             format!("{:.1}", c.paired),
             format!("{:.3}", c.stretch_ratio),
-            (if c.taken { "taken" } else { "" }).to_owned(),
+            (if c.taken { "accepted" } else { "" }).to_owned(),
         ]);
     }
     table
 }
 
-/// A term by its name and its scale.
+/// Name of a term with its scale.
 fn term(names: UnitNames, term: LawTerm) -> String {
     let (name, angle) = (term.name(), names.angle());
     match term.scale() {

@@ -1,4 +1,4 @@
-//! The friction of a virtual rig, drawn over what was found of it.
+//! The true friction of a virtual rig, drawn over its estimates.
 
 use lissom::identify::Identified;
 use lissom::rig::Rig;
@@ -6,14 +6,15 @@ use lissom_report::{LinePlot, Role, Trace};
 
 use crate::tasks::printed_coulomb::law;
 
-/// Fastest velocity of the curve in Figure 8 \[rad/s\], and its points.
+/// Fastest velocity of the curve in Figure 8 \[rad/s\].
 const FASTEST_RAD_S: f64 = 40.0;
+/// Number of points on the curve.
 const POINTS: u32 = 400;
 
-/// Figure 8 with the joint's own friction and the spectral figure.
+/// Adds the true friction of the joint and the spectral estimate to Figure 8.
 pub(crate) fn with_truth(mut plot: LinePlot, rig: &Rig, id: &Identified) -> LinePlot {
     let (motor, beam, law) = (&rig.arm.motor, rig.arm.beam(), law(rig));
-    // Turning steadily, the masses' dampers against the fixed frame take their part.
+    // At a constant velocity the dampers of the masses against the fixed frame act as viscous friction.
     let dampers = beam.spans().iter().zip(beam.position_m());
     let drag: f64 = dampers.map(|(s, at)| s.damping_n_s_per_m * at * at).sum();
     let viscous = motor.viscous_nm_s_per_rad() + drag;
@@ -38,6 +39,6 @@ pub(crate) fn with_truth(mut plot: LinePlot, rig: &Rig, id: &Identified) -> Line
             vec![spectral.std],
         ));
     }
-    "Friction by steady velocities, and by sines".clone_into(&mut plot.title);
+    "Friction from constant velocities and from sines".clone_into(&mut plot.title);
     plot
 }

@@ -1,4 +1,4 @@
-//! The same beam with other loads: poles move, zeros stand.
+//! Table of the same beam with other loads: its poles move, its zeros do not.
 
 use lissom_io::model::PayloadCase;
 
@@ -10,10 +10,10 @@ use crate::tasks::model_task::Task;
 
 /// Significant digits of frequencies and zeros.
 const DIGITS: usize = 5;
-/// Poles and zeros in a row of the table.
+/// Largest numbers of poles and of zeros in a row of the table.
 const IN_A_ROW: usize = 2;
 
-/// Poles and zeros for each load, with their change.
+/// Prints poles and zeros for each load, with their change.
 pub(crate) fn payloads(task: &Task<'_>, cases: &[PayloadCase]) {
     let first = &cases[0];
     let zeros = if first.zero_shift.is_some() { first.zeros.z.len().min(IN_A_ROW) } else { 0 };
@@ -54,28 +54,31 @@ pub(crate) fn payloads(task: &Task<'_>, cases: &[PayloadCase]) {
     }
 }
 
-/// Zeros further apart than this, relatively, have moved: beyond rounding.
+/// Relative distance above which zeros have moved; below it the difference is rounding.
 const MOVED: f64 = 1e-9;
 
-/// What became of the zeros, in one sentence.
+/// What the loads do to the zeros, in one sentence.
 fn verdict(beam: &Beam, cases: &[PayloadCase]) -> Option<String> {
     let others = cases.get(1..)?;
     if others.is_empty() || cases[0].zero_shift.is_none() {
         return None;
     }
     if cases[0].zeros.z.is_empty() && others.iter().all(|c| c.zeros.z.is_empty()) {
-        return Some("the tip's response has no zeros that a load could move".to_owned());
+        return Some("the tip's response has no zeros".to_owned());
     }
     let largest = others.iter().map(|c| c.zero_shift).try_fold(0.0, |m: f64, s| Some(m.max(s?)));
     Some(match largest {
         Some(shift) if shift <= MOVED => format!(
-            "the zeros stand (largest relative change of s² {}): at a zero the tip's mass does \
-             not move, so that its size says nothing",
+            "the zeros do not move (largest relative change of s² {}): at a zero the tip's mass is at \
+             rest, so its size has no effect",
             shown(shift, 2)
         ),
         _ if beam.payload().turns() => "the zeros move: the load has rotary inertia or an offset, \
-             and at a zero the tip stands still but turns"
+             and at a zero the tip does not move but turns"
             .to_owned(),
-        _ => "the zeros move, though the load is a point mass: do not trust them".to_owned(),
+        _ => {
+            "the zeros move although the load is a point mass: they are inaccurate, do not use them"
+                .to_owned()
+        }
     })
 }

@@ -1,4 +1,4 @@
-//! What a person reads: text in the terminal through one printer, plots, the HTML page.
+//! Output for people: text in the terminal, plots, and the HTML page.
 
 pub(crate) mod arm_check;
 pub(crate) mod bode_plots;

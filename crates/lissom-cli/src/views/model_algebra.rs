@@ -8,7 +8,7 @@ use crate::shared::digits::shown;
 
 /// Significant digits.
 const DIGITS: usize = 6;
-/// Longest line.
+/// Length of the longest line.
 const WIDE: usize = 100;
 
 pub(crate) fn print(model: &Model) {
@@ -44,7 +44,7 @@ fn print_matrices(m: &BeamMatrices) {
     printer::table(&rows);
 }
 
-/// `θ_1/θ_m = (…) / (…)`, on two lines where it is long.
+/// `θ_1/θ_m = (…) / (…)`, on two lines if it is long.
 fn lines(f: &Function) -> Vec<String> {
     let name = |end: &str| match end.strip_prefix("theta_") {
         Some(mass) => format!("θ_{mass}"),

@@ -1,4 +1,4 @@
-//! Bode plots, mode shapes, and poles and zeros over the load.
+//! Plots of a model: Bode plots, mode shapes, and poles and zeros over the load.
 
 use std::path::Path;
 
@@ -17,18 +17,18 @@ use crate::tasks::load_study::of_class;
 use crate::tasks::mode_shapes::{ModeShape, shapes};
 use crate::tasks::model_task::{Task, motor_response};
 
-/// Points of a response's line.
+/// Number of points on the line of a response.
 const LINE: usize = 1200;
-/// Masses times points: more take too long.
+/// Largest product of masses and points; more would take too long.
 const WORK: usize = 20_000_000;
-/// Modes that the frequency axis reaches over.
+/// Number of modes that the frequency axis covers.
 const MODES_REACHED: usize = 6;
-/// Without damping the line is drawn this far from the imaginary axis, relatively.
+/// Relative distance from the imaginary axis at which a response without damping is drawn.
 const ASIDE: f64 = 1e-4;
-/// Modes, and poles and zeros, that are drawn.
+/// Number of modes, poles and zeros that are drawn.
 const DRAWN: usize = 4;
 
-/// Adds every plot to what is to be written.
+/// Adds every plot to the files to write.
 pub(crate) fn add_all(
     batch: &mut Batch,
     folder: &Path,
@@ -51,7 +51,7 @@ pub(crate) fn add_all(
     Ok(())
 }
 
-/// Frequencies of the lines: those asked for set the ends, resonances are met.
+/// Frequencies of the lines, between the ends of the frequencies asked for, with points at the resonances.
 fn grid(task: &Task<'_>, model: &Model) -> Vec<f64> {
     let clamped = &model.natural_frequencies_rad_s;
     let reached = clamped.len().min(MODES_REACHED);
@@ -100,14 +100,14 @@ fn bode(task: &Task<'_>, model: &Model) -> (BodePlot, Option<BodePlot>) {
         let series = Series::new("", Role::Corrected, Style::Line, grid.clone(), values);
         let plot = BodePlot::new(title, unit).series(series);
         if aside > 0.0 {
-            plot.subtitle("the beam has no damping: drawn at s = (0.0001 + j)ω, which bounds peaks")
+            plot.subtitle("the beam has no damping: drawn at s = (0.0001 + j)ω, to limit the peaks")
         } else {
             plot
         }
     };
     let tip = plot(format!("Tip: angle θ_{} per motor angle", model.len()), "", tip);
     let motor = task.drive.is_some().then(|| {
-        plot("Motor: angle per current, Coulomb friction left out".to_owned(), "rad/A", motor)
+        plot("Motor: angle per current, without Coulomb friction".to_owned(), "rad/A", motor)
     });
     (tip, motor)
 }
@@ -117,7 +117,7 @@ fn modes(shapes: Vec<ModeShape>, model: &Model) -> LinePlot {
     let mut plot = LinePlot::new(
         "Modes with the motor clamped",
         Axis::linear("distance from the motor's axis (m)"),
-        Axis::linear("deflection, largest 1"),
+        Axis::linear("deflection (largest: 1)"),
     );
     for (k, shape) in shapes.into_iter().enumerate() {
         let role = Role::Other(u8::try_from(k).unwrap_or(0));
@@ -133,7 +133,7 @@ fn modes(shapes: Vec<ModeShape>, model: &Model) -> LinePlot {
     plot
 }
 
-/// |s| of the first poles and zeros over the load.
+/// Plot of |s| of the first poles and zeros over the load.
 fn payload(cases: &[PayloadCase]) -> LinePlot {
     let mut order: Vec<&PayloadCase> = cases.iter().collect();
     order.sort_by(|a, b| a.tip_mass_kg.total_cmp(&b.tip_mass_kg));

@@ -46,14 +46,14 @@ pub(crate) fn print(task: &Task<'_>, model: &Model) {
     model.notes.iter().for_each(|n| line(&format!("note: {n}")));
 }
 
-/// What the beam is.
+/// Prints what the beam is.
 fn what(task: &Task<'_>, model: &Model) {
     let metres = |v: f64| format!("{} m", shown(v, DIGITS));
     let points = model.mass_kg.iter().filter(|m| **m > 0.0).count();
     let heavy = model.mass_kg.iter().sum::<f64>();
     line(&match model.kind {
         BeamKind::Modal => {
-            format!("a beam known by {}, at as many points", counted(model.len(), "mode"))
+            format!("a beam given by {}, at as many points", counted(model.len(), "mode"))
         }
         BeamKind::Lumped => format!(
             "{} on {} of massless beam, {} kg in all",
@@ -85,7 +85,7 @@ fn what(task: &Task<'_>, model: &Model) {
         line(&format!("EI {rigidity} N·m²"));
     }
     if model.hub_radius_m > 0.0 {
-        line(&format!("it begins {} from the axis", metres(model.hub_radius_m)));
+        line(&format!("the beam begins {} from the axis", metres(model.hub_radius_m)));
     }
     let p = &model.payload;
     let mut parts = Vec::new();
@@ -117,7 +117,7 @@ fn what(task: &Task<'_>, model: &Model) {
     line(&format!("inertia about the axis {} kg·m²", shown(model.inertia_kg_m2, DIGITS)));
 }
 
-/// Natural frequencies, at most as many as asked for.
+/// Prints the natural frequencies, at most as many as asked for.
 fn frequencies(task: &Task<'_>, model: &Model) {
     let clamped = &model.natural_frequencies_rad_s;
     let coupled = model.coupled_frequencies_rad_s.as_deref();
@@ -151,8 +151,8 @@ fn more(left: usize) {
     }
 }
 
-/// Damping ratio of each mode, from the poles of the tip's response; `None` where nothing damps
-/// the beam or a mode does not oscillate.
+/// Damping ratio of each mode, from the poles of the tip's response; `None` if the beam has no damping or a mode does not
+/// oscillate.
 fn ratios(model: &Model) -> Option<Vec<f64>> {
     let poles = &model.functions.iter().find(|f| f.from == "motor" && !f.lowest)?.roots.poles;
     if poles.iter().all(|p| p.re == 0.0) {
@@ -164,10 +164,10 @@ fn ratios(model: &Model) -> Option<Vec<f64>> {
     (ratios.len() == model.natural_frequencies_rad_s.len()).then_some(ratios)
 }
 
-/// Zeros of the tip's response, their classes, and what that means.
+/// Prints the zeros of the tip's response, their classes, and whether it is minimum phase.
 fn zeros(model: &Model, found: &Zeros, most: usize) {
     let tip = format!("θ_{}/θ_m", model.len());
-    // One of a conjugate pair stands for both.
+    // One of a conjugate pair represents both.
     let once: Vec<&Complex64> =
         found.z.iter().filter(|z| class(**z) != RootClass::Quadruple || z.im > 0.0).collect();
     let below = match model.kind {
@@ -190,7 +190,7 @@ fn zeros(model: &Model, found: &Zeros, most: usize) {
             .map(|z| vec![format!("  {}", roots_of(**z, DIGITS)), class(**z).letter().to_string()]),
     );
     printer::table(&rows);
-    // Of very many masses only the lowest are sought.
+    // For very many masses only the lowest zeros are searched for.
     let all = if model.len() > MOST_MASSES { model.len() - 1 } else { once.len() };
     more(all - once.len().min(most));
     let count = |wanted: RootClass| once.iter().filter(|z| class(***z) == wanted).count();
@@ -211,7 +211,7 @@ fn zeros(model: &Model, found: &Zeros, most: usize) {
     });
 }
 
-/// The tip's response and the motor's.
+/// Prints the responses of tip and motor.
 fn responses(r: &Responses) {
     let Some((tip, mass)) = r.tips.last().zip(r.masses.last()) else { return };
     let mut heading = vec!["omega [rad/s]".to_owned(), "[Hz]".to_owned()];
@@ -241,7 +241,7 @@ fn degrees(v: Complex64) -> f64 {
     if phase <= -180.0 { 180.0 } else { phase }
 }
 
-/// Section 3: what holds, and why the rest does not.
+/// Prints which properties of Section 3 of the 1989 report hold, and why the others do not.
 fn properties(all: &[Property]) {
     let heading = ["Section 3", "", "measured", "bound"].map(str::to_owned);
     let mut rows = vec![heading.to_vec()];

@@ -1,4 +1,4 @@
-//! The tip's responses with each payload.
+//! Plot of the tip's response with each payload.
 
 use lissom::identify::Response;
 use lissom_io::{PayloadPrediction, PredictedPayload};
@@ -7,7 +7,7 @@ use lissom_report::{BodePlot, FrequencyAxis, Role, Series, Style};
 use super::payload_table::DIGITS;
 use crate::shared::digits::trimmed;
 
-/// One line for each payload.
+/// The Bode plot, with one line for each payload.
 pub(crate) fn tip(found: &PayloadPrediction) -> BodePlot {
     let title = format!("{}, per motor angle", found.tip);
     let plot = BodePlot::new(title, "")

@@ -1,4 +1,4 @@
-//! A prediction with other payloads.
+//! Table of a prediction with other payloads.
 
 use lissom_io::PayloadPrediction;
 use lissom_report::{interval, with_uncertainty};
@@ -6,7 +6,7 @@ use lissom_report::{interval, with_uncertainty};
 use super::printer;
 use crate::shared::digits::trimmed;
 
-/// Most digits of a mass.
+/// Largest number of digits of a mass.
 pub(crate) const DIGITS: usize = 6;
 
 pub(crate) fn table(found: &PayloadPrediction) {
@@ -18,7 +18,7 @@ pub(crate) fn table(found: &PayloadPrediction) {
     ));
     for payload in &found.payloads {
         let mass = trimmed(payload.mass_kg, DIGITS);
-        printer::line(&format!("\nwith {mass} kg, the motor held:"));
+        printer::line(&format!("\nwith {mass} kg, motor clamped:"));
         printer::line("                          value             95 % interval");
         for (k, mode) in payload.loaded.modes.iter().enumerate() {
             let (f, ratio) = (mode.natural_frequency_rad_s, mode.damping_ratio);

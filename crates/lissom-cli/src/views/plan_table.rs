@@ -1,4 +1,4 @@
-//! A plan for people.
+//! Table of a plan.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use lissom::plan::{BETWEEN_S, Plan, PlannedMotion, PlannedRun, percent};
 use super::printer;
 
 pub(crate) fn report(arm: &Path, plan: &Plan, out: &Path) {
-    let head = ["run", "rad/s", "amplitude", "periods", "logged", "waits", "current", "sticks"];
+    let head = ["run", "rad/s", "amplitude", "periods", "logged", "waiting", "current", "sticking"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     rows.extend(plan.runs.iter().map(row));
     printer::table(&rows);
@@ -15,15 +15,15 @@ pub(crate) fn report(arm: &Path, plan: &Plan, out: &Path) {
         printer::line(&format!("  {}: {}", kind(run), run.in_words()));
     }
     printer::line(&format!(
-        "\n{} in {:.0} s, {BETWEEN_S} s between runs counted",
+        "\n{} in {:.0} s, including {BETWEEN_S} s before each run",
         printer::counted(plan.runs.len(), "run"),
         plan.time_s
     ));
     printer::line("");
-    let head = ["figure", "expected", "wanted"];
+    let head = ["standard error of", "expected", "wanted"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     rows.extend(plan.expected.iter().map(|e| {
-        let got = if e.std < 1.0 { percent(e.std) } else { "not found".to_owned() };
+        let got = if e.std < 1.0 { percent(e.std) } else { "not identified".to_owned() };
         vec![e.figure.name(), got, percent(e.wanted)]
     }));
     printer::table(&rows);

@@ -10,7 +10,7 @@ use crate::shared::failure::Failure;
 /// Scale of the PNG.
 const PNG_SCALE: f32 = 2.0;
 
-/// Adds one plot to what is to be written, as SVG and PNG.
+/// Adds one plot to the files to write, as SVG and PNG.
 pub(crate) fn add(
     batch: &mut Batch,
     folder: &Path,
@@ -22,36 +22,36 @@ pub(crate) fn add(
     Ok(())
 }
 
-/// A file to draw into, of a kind that can be drawn.
+/// The file of a plot, SVG or PNG.
 pub(crate) struct Picture {
     path: PathBuf,
     png: bool,
 }
 
 impl Picture {
-    /// By the ending of its name, .svg or .png.
+    /// The format follows from the ending of the name, .svg or .png.
     pub(crate) fn of(path: &Path) -> Result<Self, Failure> {
         let is = |kind: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(kind));
         if !is("png") && !is("svg") {
             let words = format!("{}: is neither .svg nor .png", path.display());
-            return Err(Failure::Asked(words, "end the plot's name in .svg or .png"));
+            return Err(Failure::Asked(words, "give the plot a name that ends in .svg or .png"));
         }
         Ok(Self { path: path.to_owned(), png: is("png") })
     }
 
-    /// Where it goes.
+    /// The path of the file.
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The file beside it of the same kind, for something else.
+    /// Another file in the same folder with the same format, `NAME-what.svg` or `.png`.
     pub(crate) fn beside(&self, what: &str) -> Self {
         let stem = self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let kind = if self.png { "png" } else { "svg" };
         Self { path: self.path.with_file_name(format!("{stem}-{what}.{kind}")), png: self.png }
     }
 
-    /// Adds a plot to the files to be written.
+    /// Adds a plot to the files to write.
     pub(crate) fn draw(&self, batch: &mut Batch, plot: &BodePlot) -> Result<(), Failure> {
         let file = if self.png { plot.to_png(PNG_SCALE)? } else { plot.to_svg()?.into_bytes() };
         batch.file(&self.path, &file)?;

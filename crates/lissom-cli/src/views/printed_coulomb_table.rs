@@ -1,4 +1,4 @@
-//! Coulomb friction as printed in the report, beside what is found here.
+//! Table of Coulomb friction: printed in the 1989 report, and estimated here.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use super::printer;
 use crate::tasks::printed_coulomb::CoulombRow;
 
 pub(crate) fn report(out: &Path, rows: &[CoulombRow]) {
-    let head = ["Coulomb friction [A]", "printed in 6.2.2", "here", "deviation"];
+    let head = ["Coulomb friction [A]", "printed in 6.2.2", "here", "standard error"];
     let mut table = vec![head.map(str::to_owned).to_vec()];
     for r in rows {
         let printed = r.printed_a.map_or_else(String::new, |v| format!("{v:.3}"));

@@ -1,4 +1,4 @@
-//! The one place that prints: results to standard output, talk to standard error.
+//! All printing of the command: results to standard output, errors and remarks to standard error.
 #![expect(clippy::print_stderr, reason = "the command's printer")]
 
 use std::io::{ErrorKind, Write as _};
@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::shared::failure::Failure;
 
-/// An error with the way out.
+/// Prints an error and its hint.
 pub(crate) fn failure(failure: &Failure) {
     eprintln!("error: {failure}");
     if let Some(hint) = failure.hint() {
@@ -17,7 +17,7 @@ pub(crate) fn failure(failure: &Failure) {
     }
 }
 
-/// A line of the result. A reader that goes away (`| head`) ends the command without a word.
+/// Prints a line of the result. If the reader closes the pipe (as `head` does), the command ends without a message.
 pub(crate) fn line(text: &str) {
     if let Err(error) = writeln!(std::io::stdout().lock(), "{text}") {
         if error.kind() != ErrorKind::BrokenPipe {
@@ -27,18 +27,18 @@ pub(crate) fn line(text: &str) {
     }
 }
 
-/// A remark on the way, which is no part of the result.
+/// Prints a remark that is not part of the result.
 pub(crate) fn note(text: &str) {
     eprintln!("{text}");
 }
 
-/// JSON, alone on standard output: the text that a file would have.
+/// Prints JSON to standard output, the same text as in a file.
 pub(crate) fn json(value: &impl Serialize) -> Result<(), Failure> {
     line(write::json_text(Path::new("standard output"), value)?.trim_end());
     Ok(())
 }
 
-/// A table with its columns aligned, the first to the left, the others to the right.
+/// Prints a table with its first column aligned to the left, the others to the right.
 pub(crate) fn table(rows: &[Vec<String>]) {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |c: usize| {
@@ -59,12 +59,12 @@ pub(crate) fn table(rows: &[Vec<String>]) {
     }
 }
 
-/// "1 run", "2 runs".
+/// A number with its noun, as in "1 run" and "2 runs".
 pub(crate) fn counted(number: usize, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }
 
-/// Lines of at most `width` characters; a longer word has one of its own.
+/// Wraps a text into lines of at most `width` characters; a longer word gets its own line.
 pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

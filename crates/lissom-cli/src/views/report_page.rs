@@ -1,4 +1,4 @@
-//! The report: one self-contained HTML page.
+//! The report page: one self-contained HTML file.
 
 use lissom::identify::{Finding, GeometryCheck, Identified, RunKind, Severity};
 use lissom::record::Campaign;
@@ -29,16 +29,15 @@ pub(crate) fn page(
     let refusals = id.findings.iter().filter(|f| f.severity() == Severity::Refusal).count();
     let warnings = id.findings.iter().filter(|f| f.severity() == Severity::Warning).count();
     let summary = format!(
-        "{}; {}, {}. Figures are estimates with one \
-         standard deviation and a 95 % interval; what the data could not carry stands under \
-         Findings.",
+        "{}; {}, {}. Each parameter is given with its standard error and its 95 % interval. The section \
+         Findings lists what the data could not determine.",
         counted(id.runs.len(), "run"),
         counted(warnings, "warning"),
         counted(refusals, "refusal")
     );
     let mut page = Page::new(title)
         .summary(&summary)
-        .heading("Figures")
+        .heading("Parameters")
         .key_figures("Drive and beam", &key_figures(names, id, reference));
     page = separability_section::section(page, names, id);
     let bode = bode_plots::bode_plots(&campaign.channels, names, id, reference);
@@ -48,39 +47,40 @@ pub(crate) fn page(
     for (_, plot) in &bode {
         page = page.figure(
             plot,
-            "Points: runs or bands. Line: the model, fitted to them or made of the figures.",
+            "Points: runs, or frequency bands. Line: the model, fitted to the points or computed from the \
+             parameters.",
         );
     }
     if let Some(plot) = pairs(names, id) {
         page = page.heading("Third harmonic").figure(
             &plot,
-            "Coulomb friction from each pair of runs at a frequency and its triple.",
+            "Coulomb friction from each pair of runs, at a frequency and at three times this frequency.",
         );
         page = page.table(&pair_table(names, id));
     }
     if let Some(table) = windows(id) {
         page = page
-            .heading("Regression on slip phases")
+            .heading("Regression in slip phases")
             .paragraph(
-                "The window's length is the one about which the figures are best known: \
-                 sensitivity is their relative change from the next shorter to the next longer \
-                 window and their relative deviation, together.",
+                "The window with the smallest sensitivity is chosen. Sensitivity combines the relative \
+                 change of the parameters from the next shorter to the next longer window with their \
+                 relative standard errors.",
             )
             .table(&table);
     }
     if let Some(plot) = friction_curve::plot(names, id) {
         page = page.heading("Friction against speed").figure(
             &plot,
-            "Friction at a few speeds, fitted together with the linear part on slip phases, no law \
-             assumed; speeds that no phase holds are not drawn. A constant load is in it.",
+            "Friction at a few speeds, fitted in slip phases together with the linear terms, without a \
+             friction law. Speeds without a slip phase are not drawn. A constant load is included.",
         );
     }
     if let Some(law) = &id.friction_law {
         page = page
             .paragraph(
-                "A term is taken where it describes slip phases left out better by more than three \
-                 deviations, kinds of stretches left out better as well, leaves at most 0.9 of the \
-                 residual, and friction at rest stays positive.",
+                "A term is accepted if it describes left-out slip phases better by more than three \
+                 standard errors, describes left-out stretches of one kind better as well, reduces the \
+                 residual to 0.9 or less, and friction at rest stays positive.",
             )
             .table(&friction_curve::table(names, law));
     }
@@ -89,10 +89,10 @@ pub(crate) fn page(
             .heading("Constant velocity")
             .figure(
                 &plot,
-                "The command that keeps up a velocity, both directions as magnitudes. Solid: the \
-                 lines through the points; dashed: extrapolated to rest.",
+                "The command that maintains a velocity, both directions as magnitudes. Solid: straight \
+                 lines through the points. Dashed: extrapolated to zero speed.",
             )
-            .key_figures("By constant velocities", &classical_figures(names, id))
+            .key_figures("Friction from constant velocities", &classical_figures(names, id))
             .table(&points(names, id));
     }
     page = equivalent_table::section(page, names, id.equivalent.as_ref());
@@ -136,7 +136,7 @@ fn classical_figures(names: UnitNames, id: &Identified) -> Vec<KeyFigure> {
     rows.unwrap_or_default().into_iter().map(|row| key_figure(row, String::new())).collect()
 }
 
-/// Every stretch at a constant velocity.
+/// Table of all stretches at a constant velocity.
 fn points(names: UnitNames, id: &Identified) -> Table {
     let velocity = format!("velocity ({}/s)", names.angle());
     let command = format!("{} ({})", names.command_name(), names.command_unit());
@@ -148,7 +148,7 @@ fn points(names: UnitNames, id: &Identified) -> Table {
             ("to (s)", Cells::Numbers),
             (&velocity, Cells::Numbers),
             (&command, Cells::Numbers),
-            ("deviation", Cells::Numbers),
+            ("standard error", Cells::Numbers),
         ],
     );
     for p in id.constant_velocity.iter().flat_map(|c| &c.points) {
@@ -191,13 +191,13 @@ fn pair_table(names: UnitNames, id: &Identified) -> Table {
     let unit = names.command_unit();
     let coulomb = format!("Coulomb friction ({unit})");
     let mut table = Table::new(
-        "Every pair: its figure and the cost (29) at its minimum",
+        "Estimate from each pair, and the minimum of the cost (29)",
         &[
-            ("run", Cells::Text),
-            ("triple", Cells::Text),
+            ("run at ω0", Cells::Text),
+            ("run at 3·ω0", Cells::Text),
             ("ω0 (rad/s)", Cells::Numbers),
             (&coulomb, Cells::Numbers),
-            ("deviation", Cells::Numbers),
+            ("standard error", Cells::Numbers),
             ("cost", Cells::Numbers),
             ("", Cells::Text),
         ],
@@ -235,7 +235,7 @@ fn windows(id: &Identified) -> Option<Table> {
             ("window (s)", Cells::Numbers),
             ("rows", Cells::Numbers),
             ("slip phases", Cells::Numbers),
-            ("torque left (%)", Cells::Numbers),
+            ("residual torque (%)", Cells::Numbers),
             ("sensitivity (%)", Cells::Numbers),
             ("", Cells::Text),
         ],
@@ -253,7 +253,7 @@ fn windows(id: &Identified) -> Option<Table> {
             c.clusters.to_string(),
             format!("{:.2}", 100.0 * c.relative_residual),
             sensitivity,
-            (if chosen { "taken" } else { "" }).to_owned(),
+            (if chosen { "chosen" } else { "" }).to_owned(),
         ]);
     }
     Some(table)
@@ -261,12 +261,12 @@ fn windows(id: &Identified) -> Option<Table> {
 
 fn runs(id: &Identified) -> Table {
     let mut table = Table::new(
-        "What each run is",
+        "Motion of each run",
         &[
             ("run", Cells::Text),
             ("ω0 (rad/s)", Cells::Numbers),
-            ("periods kept", Cells::Numbers),
-            ("dropped", Cells::Numbers),
+            ("periods used", Cells::Numbers),
+            ("periods dropped", Cells::Numbers),
             ("sticking (%)", Cells::Numbers),
             ("saturated (%)", Cells::Numbers),
         ],

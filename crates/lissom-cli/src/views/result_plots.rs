@@ -1,4 +1,4 @@
-//! Every plot of a result, as files.
+//! The plots of a result, as files.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use super::velocity_friction::friction_plot;
 use crate::shared::failure::Failure;
 use crate::tasks::known_arm::Reference;
 
-/// Adds every plot to what is to be written, as SVG and PNG.
+/// Adds every plot to the files to write, as SVG and PNG.
 pub(crate) fn add_all(
     batch: &mut Batch,
     folder: &Path,

@@ -1,4 +1,4 @@
-//! A virtual campaign.
+//! Table of a virtual campaign.
 
 use std::path::Path;
 
@@ -9,12 +9,12 @@ use lissom_io::{ArmFile, PlanFile, RigRunEntry};
 
 use super::printer;
 
-/// Findings of one kind that are shown.
+/// Largest number of findings of one kind that are shown.
 const WARNED: usize = 3;
-/// Frequencies of a lumped beam that are compared.
+/// Number of natural frequencies of a lumped beam that are compared.
 const SHOWN: usize = 3;
 
-/// What lumping did to a beam with mass along it.
+/// How point masses change the frequencies of a beam with mass along it; `None` for other beams.
 pub(crate) fn lumped(file: &ArmFile, path: &Path, rig: &Rig) -> Option<String> {
     let beam = file.distributed_beam(path).ok()?;
     let exact = beam.frequencies_rad_s(Base::Clamped, SHOWN);
@@ -22,15 +22,15 @@ pub(crate) fn lumped(file: &ArmFile, path: &Path, rig: &Rig) -> Option<String> {
     let errors = found.iter().zip(&exact).map(|(a, b)| format!("{:+.2} %", 100.0 * (a / b - 1.0)));
     let errors: Vec<String> = errors.collect();
     Some(format!(
-        "the beam is lumped, masses: {}; its first frequencies are off by {}; `masses` in [rig] \
-         changes that",
+        "the beam is simulated with {} point masses: its lowest frequencies are off by {}; use more `masses` \
+         in [rig] for a smaller error",
         rig.arm.beam().len(),
         errors.join(", ")
     ))
 }
 
 pub(crate) fn report(plan: &PlanFile, entries: &[RigRunEntry], campaign: &Path) {
-    let head = ["run", "samples", "settled after", "left [rad]", "stuck"];
+    let head = ["run", "samples", "settled after", "transient [rad]", "sticking"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     for (run, entry) in plan.runs.iter().zip(entries) {
         rows.push(vec![
@@ -47,7 +47,7 @@ pub(crate) fn report(plan: &PlanFile, entries: &[RigRunEntry], campaign: &Path) 
     printer::line(&format!("identify it with: lissom identify {}", campaign.display()));
 }
 
-/// The findings, those of one kind together.
+/// Prints the findings, those of one kind together.
 fn warn(plan: &PlanFile, entries: &[RigRunEntry]) {
     let mut kinds: Vec<(RigFindingName, Vec<String>)> = Vec::new();
     for (run, entry) in plan.runs.iter().zip(entries) {

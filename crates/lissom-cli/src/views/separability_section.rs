@@ -1,4 +1,4 @@
-//! What the logs separate, in words and on the report's page.
+//! The verdict: which parameters the logs identify, in words and on the report page.
 
 use lissom::identify::{Identified, Separability};
 use lissom::plan::percent;
@@ -8,22 +8,22 @@ use lissom_report::{Cells, Page, Table};
 
 use super::printer::line;
 
-/// What the logs separate, in words.
+/// Prints the verdict in words.
 pub(crate) fn print(axis: Axis, id: &Identified) {
     let words = id.separability.as_ref().map_or(Vec::new(), |found| found.words(axis));
     if words.is_empty() {
         return;
     }
-    line("\nverdict");
+    line("\nverdict: what the logs identify");
     for text in words {
         line(&format!("  {text}"));
     }
 }
 
-/// The words, the figures beside each other, and what each run carries.
+/// Adds the verdict to the page: the words, the standard errors, and the contribution of each run.
 pub(crate) fn section(page: Page, names: UnitNames, id: &Identified) -> Page {
     let Some(found) = &id.separability else { return page };
-    let mut page = page.heading("What the logs separate");
+    let mut page = page.heading("Verdict: what the logs identify");
     for words in found.words(names.axis) {
         page = page.paragraph(&words);
     }
@@ -35,16 +35,16 @@ pub(crate) fn section(page: Page, names: UnitNames, id: &Identified) -> Page {
 
 fn figures(found: &Separability) -> Table {
     let title = if found.condition.is_finite() {
-        format!("Each figure beside the others (condition {:.0})", found.condition)
+        format!("Relative standard errors (condition number {:.0})", found.condition)
     } else {
-        "Each figure beside the others".to_owned()
+        "Relative standard errors".to_owned()
     };
     let mut table = Table::new(
         &title,
         &[
-            ("figure", Cells::Text),
-            ("deviation", Cells::Numbers),
-            ("if the others were known", Cells::Numbers),
+            ("parameter", Cells::Text),
+            ("standard error", Cells::Numbers),
+            ("if the other parameters were known", Cells::Numbers),
         ],
     );
     for known in &found.figures {
@@ -55,12 +55,12 @@ fn figures(found: &Separability) -> Table {
 
 fn runs(found: &Separability) -> Table {
     let mut table = Table::new(
-        "What each run carries: deviations grow by so much without it",
+        "Contribution of each run: by which factor a standard error grows without the run",
         &[
             ("run", Cells::Text),
-            ("residual beside the others", Cells::Numbers),
-            ("most", Cells::Text),
-            ("growth", Cells::Numbers),
+            ("residual relative to the other runs", Cells::Numbers),
+            ("parameter with the largest factor", Cells::Text),
+            ("factor", Cells::Numbers),
         ],
     );
     for run in &found.runs {
@@ -76,9 +76,9 @@ fn runs(found: &Separability) -> Table {
 }
 
 fn share(std: f64) -> String {
-    if std.is_finite() { percent(std) } else { "not told".to_owned() }
+    if std.is_finite() { percent(std) } else { "not identified".to_owned() }
 }
 
 fn growth(factor: f64) -> String {
-    if factor.is_finite() { format!("{factor:.1}") } else { "only there".to_owned() }
+    if factor.is_finite() { format!("{factor:.1}") } else { "only from this run".to_owned() }
 }

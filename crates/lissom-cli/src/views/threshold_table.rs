@@ -9,10 +9,10 @@ use crate::shared::digits::trimmed;
 const DIGITS: usize = 7;
 /// Width of the lines.
 const WIDTH: usize = 96;
-/// What reasons are indented by.
+/// Indent of the reasons.
 const INDENT: &str = "      ";
 
-/// Every threshold with its value, unit and basis, its reason below; those of a method together.
+/// Prints every threshold with its value, unit and origin, and its reason below, grouped by method.
 pub(crate) fn thresholds() {
     let all: Vec<&Threshold> = lissom::thresholds().collect();
     for (place, of_method) in all.chunk_by(|a, b| a.method == b.method).enumerate() {

@@ -11,7 +11,7 @@ use lissom_report::{Axis, Band, LinePlot, Role, Trace, TraceStyle};
 use super::plot_file::add;
 use crate::shared::failure::Failure;
 
-/// Adds torque, motion, residuals and correlations, of the run that is predicted worst.
+/// Adds plots of torque, motion, residuals and correlations for the run with the largest residual.
 pub(crate) fn add_all(
     batch: &mut Batch,
     folder: &Path,
@@ -53,7 +53,7 @@ fn torque(names: UnitNames, name: &str, run: &TorqueRun) -> LinePlot {
     let (what, label) = torque_axis(names);
     let time = run.time_s.clone();
     LinePlot::new(format!("{what}, {name}"), Axis::linear("time (s)"), Axis::linear(label))
-        .subtitle("both under the same window; nothing is predicted while the motor rests")
+        .subtitle("both averaged with the same window; no prediction while the motor rests")
         .trace(Trace::line("logged", Role::Raw, time.clone(), run.logged_nm.clone()))
         .trace(predicted(time, run.predicted_nm.clone()))
 }
@@ -80,7 +80,7 @@ fn torque_axis(names: UnitNames) -> (&'static str, String) {
     (title, format!("{axis} ({unit})"))
 }
 
-/// Dashed, so that what it covers shows; gaps are where nothing is predicted.
+/// A dashed trace, so that the trace below it stays visible. It has gaps where nothing is predicted.
 fn predicted(time: Vec<f64>, values: Vec<f64>) -> Trace {
     Trace::new("predicted", Role::Fitted, TraceStyle::Dashes, time, values)
 }
@@ -103,7 +103,7 @@ fn samples(run: &lissom::record::Run, channel: usize) -> &[f64] {
     }
 }
 
-/// The motion, and what is left of it.
+/// Plots of the motion and of its residual.
 fn motion(
     campaign: &Campaign,
     validation: &Validation,
@@ -113,7 +113,10 @@ fn motion(
     let stretches: &[PredictedStretch] = &validation.stretches;
     let over = match validation.horizons.get(validation.chosen) {
         Some(h) if !h.whole_runs => {
-            format!("predicted {:.3} s at a time, each time from a state of its own", h.length_s)
+            format!(
+                "predicted over {:.3} s at a time, each time from a new initial state",
+                h.length_s
+            )
         }
         _ => "predicted from one initial state".to_owned(),
     };
@@ -150,7 +153,7 @@ fn autocorrelation(name: &str, r: &ChannelResidual) -> LinePlot {
     let lags = (0..r.autocorrelation.len()).map(|k| k as f64).collect();
     let band = r.autocorrelation_band;
     LinePlot::new(
-        format!("{name}: autocorrelation of what is left"),
+        format!("{name}: autocorrelation of the residual"),
         Axis::linear("lag (samples)"),
         Axis::linear("autocorrelation"),
     )
@@ -168,7 +171,7 @@ fn cross_correlation(name: &str, r: &ChannelResidual) -> LinePlot {
     let lags = r.lags().into_iter().map(|lag| lag as f64).collect();
     let band = r.cross_correlation_band;
     LinePlot::new(
-        format!("{name}: what is left beside the command"),
+        format!("{name}: cross-correlation of residual and command"),
         Axis::linear("lag of the residual behind the command (samples)"),
         Axis::linear("cross-correlation"),
     )

@@ -1,11 +1,11 @@
-//! Friction by constant velocities, as a plot.
+//! Plot of friction from constant velocities.
 
 use lissom::identify::{Identified, LineShape};
 use lissom::record::Channels;
 use lissom_io::UnitNames;
 use lissom_report::{Axis, LinePlot, Role, Trace, TraceStyle, with_uncertainty};
 
-/// Command over velocity, both directions as magnitudes, with their lines extrapolated to rest.
+/// Plot of command over velocity, both directions as magnitudes, with straight lines extrapolated to zero speed.
 pub(crate) fn friction_plot(
     channels: &Channels,
     names: UnitNames,
@@ -15,11 +15,11 @@ pub(crate) fn friction_plot(
     let constant = id.torque_per_command.unwrap_or(1.0);
     let unit = names.command_unit();
     let mut plot = LinePlot::new(
-        "Friction by constant velocities",
+        "Friction from constant velocities",
         Axis::linear(format!("velocity, magnitude ({}/s)", names.angle())),
         Axis::linear(format!("{}, magnitude ({unit})", names.command_name())),
     )
-    .subtitle("bars: one standard deviation");
+    .subtitle("bars: one standard error");
     let directions = [
         ("forward", 1.0, Role::Corrected, &found.forward),
         ("backward", -1.0, Role::Other(0), &found.backward),
@@ -55,7 +55,7 @@ pub(crate) fn friction_plot(
     plot.traces.extend(lines);
     if !bent.is_empty() {
         plot = plot.trace(Trace::points_with_bars(
-            "at rest, by the slowest third",
+            "at rest, from the slowest third",
             Role::Fitted,
             vec![0.0; bent.len()],
             bent.iter().map(|e| e.value).collect(),

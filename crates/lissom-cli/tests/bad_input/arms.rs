@@ -86,11 +86,11 @@ fn options_of_model() {
     let usage = "\n\nFor more information, try '--help'.";
     let hint = "hint: give START:STOP:COUNT in rad/s, such as 0.1:100:200, or a file";
     for (value, fault) in [
-        ("1:2", "a range has three parts"),
-        ("0:1:5", "\"0\" is not positive and finite"),
+        ("1:2", "a range must have three parts"),
+        ("0:1:5", "\"0\" must be positive and finite"),
         ("2:1:5", "STOP must be greater than START"),
-        ("1:2:0", "\"0\" is no count: it must be a whole number from 2 to 1000000"),
-        ("5", "one frequency is no range"),
+        ("1:2:0", "COUNT is \"0\", but must be a whole number from 2 to 1000000"),
+        ("5", "one frequency is not a range"),
     ] {
         bench.lissom_refuses(
             "model",
@@ -121,8 +121,8 @@ fn options_of_model() {
         "model",
         &["arm.toml", "--json", "arm.toml"],
         1,
-        "error: arm.toml: exists and is no earlier output; it is not written over\n\
-         hint: put the input before `--json FILE`, or remove the file if it is to go",
+        "error: arm.toml: exists and is not an earlier output; it is not overwritten\n\
+         hint: put the input before `--json FILE`, give another name, or delete the file if you do not need it",
     );
 }
 
@@ -158,6 +158,6 @@ fn ratios_stand_beside_dampers() {
         "error: arm.toml: damping ratios by mode and dampers at masses are both given: no mode would \
          keep its ratio\n\
          hint: leave out the `damping` of the spans, or write damping = { mass_proportional = \
-         \"...\", stiffness_proportional = \"...\" } in place of ratios",
+         \"...\", stiffness_proportional = \"...\" } instead of ratios",
     );
 }

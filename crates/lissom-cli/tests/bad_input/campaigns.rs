@@ -18,7 +18,7 @@ fn the_campaign_is_a_folder() {
         &["."],
         1,
         "error: .: cannot be read: Is a directory (os error 21)\n\
-         hint: name the file in it",
+         hint: give a file in this folder",
     );
 }
 
@@ -34,7 +34,7 @@ fn the_campaign_is_no_toml() {
 fn the_campaign_is_no_text() {
     Bench::new().file("campaign.toml", b"\xff\xfe[\0s\0").refuses(
         "error: campaign.toml: cannot be read: stream did not contain valid UTF-8\n\
-         hint: the file is text in UTF-8: save it so",
+         hint: save the file as text in UTF-8",
     );
 }
 
@@ -50,8 +50,8 @@ fn the_campaign_is_a_log() {
 fn the_unit_is_unknown() {
     Bench::replacing("unit = \"A\"", "unit = \"amp\"").refuses(
         "error: campaign.toml, line 3: `signals.current.unit`: \"amp\": there is no unit `amp`\n\
-         hint: write units as in \"mA\", \"deg\" or \"lbf*in/A\": products with *, quotients \
-         with /",
+         hint: write units as in \"mA\", \"deg\" or \"lbf*in/A\", with * for products and / for \
+         quotients",
     );
     Bench::replacing("unit = \"rad\" }\ntips", "unit = \"Rad\" }\ntips").refuses(
         "error: campaign.toml, line 4: `signals.motor.unit`: \"Rad\": there is no unit `Rad`\n\
@@ -64,7 +64,7 @@ fn the_unit_has_the_wrong_dimension() {
     Bench::replacing("unit = \"A\"", "unit = \"V\"").refuses(
         "error: campaign.toml, line 3: `signals.current.unit`: \"V\" is a voltage \
          [kg*m^2*s^-3*A^-1], where a current [A] is expected\n\
-         hint: a drive that logs its voltage has `voltage = …` in place of `current`, and `voltage_limit`",
+         hint: for a logged voltage write `voltage = …` instead of `current`, and `voltage_limit`",
     );
     Bench::replacing("unit = \"s\"", "unit = \"mm\"").refuses(
         "error: campaign.toml, line 2: `signals.time.unit`: \"mm\" is a length [m], where a \
@@ -118,8 +118,8 @@ fn a_quantity_is_no_quantity() {
 fn hold_is_missing_or_misspelt() {
     Bench::replacing(", hold = \"measured\"", "").refuses(
         "error: campaign.toml, line 3: `signals.current` has no `hold`\n\
-         hint: \"sampled\" for a command that is held between samples, \"measured\" for a \
-         measurement",
+         hint: write hold = \"sampled\" for a command that is held between samples, hold = \
+         \"measured\" for a measurement",
     );
     Bench::replacing("\"measured\"", "\"mesured\"").refuses(
         "error: campaign.toml, line 3: `signals.current.hold` is \"mesured\", but must be \
@@ -136,12 +136,12 @@ fn hold_is_missing_or_misspelt() {
 #[test]
 fn a_key_is_unknown() {
     Bench::replacing("torque_constant", "torque_konstant").refuses(
-        "error: campaign.toml, line 8: `drive.torque_konstant` is not a key that is known here\n\
+        "error: campaign.toml, line 8: `drive.torque_konstant` is not a known key\n\
          hint: did you mean `torque_constant`?",
     );
     Bench::adding("velocity = 3\n").refuses(
-        "error: campaign.toml, line 12: `runs[1].velocity` is not a key that is known here\n\
-         hint: the keys here are `file`, `name`, `omega_rad_s`, `frequency`, `skip`",
+        "error: campaign.toml, line 12: `runs[1].velocity` is not a known key\n\
+         hint: the known keys are `file`, `name`, `omega_rad_s`, `frequency`, `skip`",
     );
 }
 
@@ -175,7 +175,7 @@ fn a_voltage_needs_the_resistance() {
     let voltage = CAMPAIGN.replace("current =", "voltage =").replace("\"A\"", "\"V\"");
     Bench::new().file("campaign.toml", &voltage).refuses(
         "error: campaign.toml, line 8: `drive.torque_constant`: a torque constant per ampere \
-         needs `resistance` where the command is a voltage\n\
+         needs `resistance` if the command is a voltage\n\
          hint: give `resistance` and `back_emf`, or the torque constant per volt, as in \"0.15 \
          N*m/V\"",
     );
@@ -183,9 +183,9 @@ fn a_voltage_needs_the_resistance() {
     let resistance = voltage.replace(constant, &format!("{constant}\nresistance = \"2 ohm\""));
     Bench::new().file("campaign.toml", resistance).refuses(
         "error: campaign.toml, line 8: `drive.torque_constant`: a torque constant per ampere \
-         needs `back_emf` where the command is a voltage\n\
-         hint: of a DC motor it equals the torque constant in SI, as in \"0.0107 V*s/rad\"; 0 \
-         leaves its damping in the viscous figure",
+         needs `back_emf` if the command is a voltage\n\
+         hint: for a DC motor `back_emf` equals the torque constant in SI, as in \"0.0107 \
+         V*s/rad\"; with 0 its damping is part of viscous friction",
     );
 }
 
@@ -194,14 +194,14 @@ fn the_drive_frequency_is_above_nyquist() {
     Bench::adding("omega_rad_s = 700\n").refuses(
         "error: campaign.toml, line 12: `runs[1].omega_rad_s` is 700.0000 rad/s, but must be \
          below 628.3185 rad/s, the Nyquist frequency of run.csv\n\
-         hint: `omega_rad_s` is in rad/s, and `frequency = \"5 Hz\"` takes a unit; check the \
-         unit of the time stamps too",
+         hint: `omega_rad_s` is in rad/s; `frequency = \"5 Hz\"` has a unit; check also the \
+         unit of the time stamps",
     );
     Bench::adding("frequency = \"101 Hz\"\n").refuses(
         "error: campaign.toml, line 12: `runs[1].frequency` is 634.6017 rad/s, but must be \
          below 628.3185 rad/s, the Nyquist frequency of run.csv\n\
-         hint: `omega_rad_s` is in rad/s, and `frequency = \"5 Hz\"` takes a unit; check the \
-         unit of the time stamps too",
+         hint: `omega_rad_s` is in rad/s; `frequency = \"5 Hz\"` has a unit; check also the \
+         unit of the time stamps",
     );
     Bench::adding("omega_rad_s = 0\n").refuses(
         "error: campaign.toml, line 12: `runs[1].omega_rad_s` is 0, but must be greater than \
@@ -211,7 +211,7 @@ fn the_drive_frequency_is_above_nyquist() {
     Bench::adding("omega_rad_s = \"4 rad/s\"\n").refuses(
         "error: campaign.toml, line 12: `runs[1].omega_rad_s` is \"4 rad/s\", where a number \
          is expected\n\
-         hint: write it without unit and quotes",
+         hint: write the number without unit and quotes",
     );
 }
 

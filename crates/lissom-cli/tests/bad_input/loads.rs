@@ -22,23 +22,23 @@ fn gravity_of_the_wrong_kind() {
     refused(
         &with("gravity = 9.81"),
         "error: campaign.toml, line 13: `load.gravity` is 9.81, where true or false is expected\n\
-         hint: write it without quotes",
+         hint: write true or false without quotes",
     );
     refused(
         &with("gravity = \"yes\""),
         "error: campaign.toml, line 13: `load.gravity` is \"yes\", where true or false is expected\n\
-         hint: write it without quotes",
+         hint: write true or false without quotes",
     );
     refused(
         &(CAMPAIGN.to_owned() + "\n[load]\ngravity = true\n"),
-        "error: campaign.toml, line 14: `load.gravity`: gravity is identified for a rigid joint, and this campaign has tips\n\
-         hint: remove it, or the tips",
+        "error: campaign.toml, line 14: `load.gravity`: gravity is identified only for a rigid joint, but this campaign has tips\n\
+         hint: remove `gravity`, or the tips",
     );
     let linear = with("gravity = true").replace("unit = \"rad\"", "unit = \"mm\"");
     refused(
         &linear.replace("0.25 N*m/A", "0.25 N/A"),
         "error: campaign.toml, line 13: `load.gravity`: gravity on a linear axis is a constant force\n\
-         hint: remove it: the offset of friction, which every result has, is this force",
+         hint: remove it: every result has this force as the offset of friction",
     );
 }
 
@@ -47,8 +47,8 @@ fn a_load_of_the_wrong_size() {
     let with = |load: &str| rigid() + "\n[load]\n" + load;
     refused(
         &with("mgl = \"2 N*m\""),
-        "error: campaign.toml, line 13: `load.mgl` says nothing without `gravity = true`\n\
-         hint: add gravity = true, or remove it",
+        "error: campaign.toml, line 13: `load.mgl` has no effect without `gravity = true`\n\
+         hint: add gravity = true, or remove `mgl`",
     );
     refused(
         &with("gravity = true\nmgl = \"2 kg\""),
@@ -63,8 +63,8 @@ fn a_load_of_the_wrong_size() {
     );
     refused(
         &with("mass = \"2 kg\""),
-        "error: campaign.toml, line 13: `load.mass` is not a key that is known here\n\
-         hint: the keys here are `gravity`, `mgl`",
+        "error: campaign.toml, line 13: `load.mass` is not a known key\n\
+         hint: the known keys are `gravity`, `mgl`",
     );
 }
 
@@ -89,19 +89,19 @@ fn a_speed_that_contradicts_the_angle() {
     assert!(agrees.status.code().is_some_and(|code| code != 1), "{agrees:?}");
     with_speed(-1.0).refuses(
         "error: run.csv: the speed contradicts the motor's angle: it is -1.000 times the angle's rate (correlation -1.00)\n\
-         hint: its sign is reversed: add scale = -1 to one of both",
+         hint: the sign of one of them is reversed: add scale = -1 to it",
     );
     with_speed(9.549_3).refuses(
         "error: run.csv: the speed contradicts the motor's angle: it is 9.548 times the angle's rate (correlation 1.00)\n\
-         hint: its numbers are in rpm: give unit = \"rpm\", or check the angle's unit",
+         hint: the speed seems to be in rpm: give unit = \"rpm\", or check the unit of the angle",
     );
     let motor = "motor = { column = \"m\", unit = \"rad\" }";
     let two = "motor = { column = \"m\", unit = \"rad/s\", quantity = \"speed\" }\n\
                speed = { column = \"p\", unit = \"rad/s\" }";
     refused(
         &rigid().replace(motor, two),
-        "error: campaign.toml, line 5: `signals.speed`: the motor's channel is its speed already\n\
-         hint: remove it, or give the angle as motor",
+        "error: campaign.toml, line 5: `signals.speed`: the motor's channel is a speed already\n\
+         hint: remove `speed`, or give the angle as `motor`",
     );
     let speed = "speed = { column = \"p\", unit = \"rad\" }";
     refused(

@@ -6,7 +6,7 @@ use crate::bench::{Bench, Row, csv, good, motion};
 fn the_log_is_missing() {
     Bench::replacing("run.csv", "run-1.csv").refuses(
         "error: run-1.csv: cannot be opened: No such file or directory (os error 2)\n\
-         hint: a run's file is looked for in the folder of its campaign.toml",
+         hint: check the name: a path starts from the folder of campaign.toml",
     );
 }
 
@@ -16,7 +16,7 @@ fn the_log_is_a_folder() {
     std::fs::create_dir(bench.path().join("logs")).unwrap();
     bench.refuses(
         "error: logs: cannot be opened: is a directory\n\
-         hint: `file` names one log; give each log of a folder a [[runs]] of its own",
+         hint: give one log as `file`, and a [[runs]] for each log of the folder",
     );
 }
 
@@ -25,7 +25,7 @@ fn a_column_is_missing() {
     Bench::replacing("column = \"m\"", "column = \"motor\"").refuses(
         "error: run.csv: there is no column \"motor\"; the columns are \"t\", \"i\", \"m\", \
          \"p\"\n\
-         hint: give one of these names as it stands in the log, or the column's number from 1",
+         hint: give one of these names exactly, or the column's number from 1",
     );
     Bench::replacing("column = \"m\"", "column = \"M\"").refuses(
         "error: run.csv: there is no column \"M\"; the columns are \"t\", \"i\", \"m\", \"p\"\n\
@@ -38,7 +38,7 @@ fn a_column_is_missing() {
     Bench::replacing("column = \"m\"", "column = 0").refuses(
         "error: campaign.toml, line 4: `signals.motor.column` is 0, but must be a whole number \
          from 1 to 100000\n\
-         hint: columns go by name in quotes or by number from 1",
+         hint: give the column's name in quotes, or its number from 1",
     );
     let headless = csv(&good()).lines().skip(1).collect::<Vec<_>>().join("\n");
     Bench::log(headless).refuses(
@@ -97,23 +97,23 @@ fn the_log_has_too_few_rows() {
 fn a_cell_is_no_number() {
     Bench::row(100, "0.490000,NaN,0.1,0.1").refuses(
         "error: run.csv: row 100, column \"i\": \"NaN\" is not a finite number\n\
-         hint: repair the row or cut the log there: nothing is filled in silently",
+         hint: repair the row, or cut the log there: missing values are not filled in",
     );
     Bench::row(100, "0.490000,0.1,0.1,-inf").refuses(
         "error: run.csv: row 100, column \"p\": \"-inf\" is not a finite number\n\
-         hint: repair the row or cut the log there: nothing is filled in silently",
+         hint: repair the row, or cut the log there: missing values are not filled in",
     );
     Bench::row(100, "0.490000,0.1,---,0.1").refuses(
         "error: run.csv: row 100, column \"m\": \"---\" is not a number\n\
-         hint: repair the row or cut the log there: nothing is filled in silently",
+         hint: repair the row, or cut the log there: missing values are not filled in",
     );
     Bench::row(100, "now,0.1,0.1,0.1").refuses(
         "error: run.csv: row 100, column \"t\": \"now\" is not a number\n\
-         hint: repair the row or cut the log there: nothing is filled in silently",
+         hint: repair the row, or cut the log there: missing values are not filled in",
     );
     Bench::row(100, "0.490000,1e999,0.1,0.1").refuses(
         "error: run.csv: row 100, column \"i\": \"1e999\" is not a finite number\n\
-         hint: repair the row or cut the log there: nothing is filled in silently",
+         hint: repair the row, or cut the log there: missing values are not filled in",
     );
 }
 
@@ -121,11 +121,11 @@ fn a_cell_is_no_number() {
 fn a_cell_is_missing() {
     Bench::row(100, "0.490000,0.1,,0.1").refuses(
         "error: run.csv: row 100, column \"m\": the cell is missing\n\
-         hint: repair the row or cut the log there: nothing is filled in silently",
+         hint: repair the row, or cut the log there: missing values are not filled in",
     );
     Bench::row(100, "0.490000,0.1,0.1").refuses(
         "error: run.csv: row 100, column \"p\": the cell is missing\n\
-         hint: repair the row or cut the log there: nothing is filled in silently",
+         hint: repair the row, or cut the log there: missing values are not filled in",
     );
 }
 
@@ -136,12 +136,12 @@ fn the_tip_is_longer_or_shorter_than_the_motor() {
     let longer = format!("{log}20.000000,,,0.1\n20.005000,,,0.1\n");
     Bench::log(longer).refuses(
         "error: run.csv: row 4002, column \"i\": the cell is missing\n\
-         hint: repair the row or cut the log there: nothing is filled in silently",
+         hint: repair the row, or cut the log there: missing values are not filled in",
     );
     let shorter = format!("{log}20.000000,0.1,0.1\n20.005000,0.1,0.1\n");
     Bench::log(shorter).refuses(
         "error: run.csv: row 4002, column \"p\": the cell is missing\n\
-         hint: repair the row or cut the log there: nothing is filled in silently",
+         hint: repair the row, or cut the log there: missing values are not filled in",
     );
 }
 
@@ -149,17 +149,17 @@ fn the_tip_is_longer_or_shorter_than_the_motor() {
 fn time_does_not_increase() {
     Bench::row(100, "0.484000,0.1,0.1,0.1").refuses(
         "error: run.csv: row 100, column \"t\": time goes back from 0.485 to 0.484\n\
-         hint: cut the log there and give the two parts as two runs",
+         hint: cut the log there, and give both parts as separate runs",
     );
     Bench::row(100, "0.485000,0.1,0.1,0.1").refuses(
         "error: run.csv: row 100, column \"t\": time stands still at 0.485\n\
-         hint: export the stamps with more digits, or give `sample_time` in place of `time` if \
+         hint: export the stamps with more digits, or give `sample_time` instead of `time` if \
          the sampling is regular",
     );
     let still: Vec<Row> = good().into_iter().map(|[_, i, m, p]| [0.0, i, m, p]).collect();
     Bench::log(csv(&still)).refuses(
         "error: run.csv: row 3, column \"t\": time stands still at 0\n\
-         hint: export the stamps with more digits, or give `sample_time` in place of `time` if \
+         hint: export the stamps with more digits, or give `sample_time` instead of `time` if \
          the sampling is regular",
     );
 }
@@ -169,10 +169,10 @@ fn gaps_leave_no_piece() {
     let pieces: Vec<Row> =
         good().into_iter().enumerate().filter(|(k, _)| k % 40 < 20).map(|(_, row)| row).collect();
     Bench::log(csv(&pieces)).refuses(
-        "error: run.csv: gaps in the time stamps (99) leave no piece of 50 samples; the \
-         longest has 20\n\
-         hint: log without interruption; where the stamps are too coarse for the sampling, \
-         give `sample_time` in place of `time`",
+        "error: run.csv: the log is cut at gaps in the time stamps (99), and no piece has 50 \
+         samples; the longest has 20\n\
+         hint: log without interruption; if the stamps are too coarse for the sampling, \
+         give `sample_time` instead of `time`",
     );
 }
 
@@ -212,12 +212,12 @@ fn a_number_is_too_large_in_its_unit() {
     }
     let text = crate::bench::CAMPAIGN.replace("unit = \"A\"", "unit = \"A\", scale = 1e6");
     Bench::log(csv(&rows)).file("campaign.toml", text).refuses(
-        "error: run.csv: channel command: sample 1 is beyond 1e100 in SI\n\
+        "error: run.csv: channel command: sample 1 is larger than 1e100 in SI units\n\
          hint: check the log at that sample, and `unit`, `scale` and `offset` of the channel",
     );
     let late: Vec<Row> = good().into_iter().map(|[t, i, m, p]| [t * 1e200, i, m, p]).collect();
     Bench::log(csv(&late)).refuses(
-        "error: run.csv: channel time: sample 2 is beyond 1e100 in SI\n\
+        "error: run.csv: channel time: sample 2 is larger than 1e100 in SI units\n\
          hint: check the log at that sample, and `unit`, `scale` and `offset` of the channel",
     );
 }

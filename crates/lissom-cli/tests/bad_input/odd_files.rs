@@ -7,11 +7,11 @@ fn the_log_is_binary() {
     let noise = |k: u32| (k.wrapping_mul(2_654_435_761) >> 24) as u8;
     Bench::log((0..4000).map(noise).collect::<Vec<u8>>()).refuses(
         "error: run.csv: row 1 is not text\n\
-         hint: logs are text: comma, semicolon, tab or blank separated; export the file as CSV",
+         hint: a log is text with commas, semicolons, tabs or blanks between the numbers: export the file as CSV",
     );
     Bench::log(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR").refuses(
         "error: run.csv: row 2 is not text\n\
-         hint: logs are text: comma, semicolon, tab or blank separated; export the file as CSV",
+         hint: a log is text with commas, semicolons, tabs or blanks between the numbers: export the file as CSV",
     );
 }
 
@@ -30,7 +30,7 @@ fn a_row_is_endless() {
     let row: Vec<String> = (0..1_000_000).map(|k| k.to_string()).collect();
     Bench::log(row.join(",")).refuses(
         "error: run.csv: row 1 is longer than 1048576 bytes\n\
-         hint: logs have one sample a row: check the line ends, or export fewer columns",
+         hint: a log has one sample in each row: check the line ends, or export fewer columns",
     );
 }
 
@@ -40,7 +40,7 @@ fn a_header_is_not_obeyed_by_the_terminal() {
     Bench::log(csv(&good()).replace("t,i,m,p", &header)).refuses(
         "error: run.csv: there is no column \"m\"; the columns are \"t\", \"i\", \
          \"�2J�2J�2J�2J�2J�2J�2J�2J�2J�2J�2J�2J�2J�2J�2J�2J�2J�2J�2J�2J…\", \"p\"\n\
-         hint: give one of these names as it stands in the log, or the column's number from 1",
+         hint: give one of these names exactly, or the column's number from 1",
     );
 }
 
@@ -50,23 +50,23 @@ fn a_unit_is_endless() {
     Bench::replacing("unit = \"A\"", &unit).refuses(
         "error: campaign.toml, line 3: `signals.current.unit`: \
          \"A*A*A*A*A*A*A*A*A*A*A*A*A*A*A*A*A*A*A*A*A*A*A*A*A*A*A*A*A*A*…\" is not a unit: it \
-         breaks off\n\
-         hint: write products with * and quotients with /, as in \"N*m^2\"",
+         ends too early\n\
+         hint: write * for products and / for quotients, as in \"N*m^2\"",
     );
     let unit = format!("unit = \"{}\"", "A".repeat(1_000_000));
     Bench::replacing("unit = \"A\"", &unit).refuses(
         "error: campaign.toml, line 3: `signals.current.unit`: \
          \"AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA…\": there is no unit \
          `AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA…`\n\
-         hint: write units as in \"mA\", \"deg\" or \"lbf*in/A\": products with *, quotients \
-         with /",
+         hint: write units as in \"mA\", \"deg\" or \"lbf*in/A\", with * for products and / for \
+         quotients",
     );
     let unit = format!("unit = \"{}A\"", "(".repeat(1_000_000));
     Bench::replacing("unit = \"A\"", &unit).refuses(
         "error: campaign.toml, line 3: `signals.current.unit`: \
          \"((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((…\" is not a unit: \
          unexpected `(`\n\
-         hint: write products with * and quotients with /, as in \"N*m^2\"",
+         hint: write * for products and / for quotients, as in \"N*m^2\"",
     );
 }
 

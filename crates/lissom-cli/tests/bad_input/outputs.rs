@@ -36,13 +36,13 @@ fn an_output_is_a_folder_or_below_a_file() {
         &["campaign.toml", "--json", "out.json", "--plots", "run.csv"],
         1,
         "error: run.csv: cannot be written: File exists (os error 17)\n\
-             hint: a file of that name stands where a folder is needed",
+             hint: give another path: a file has the name of the folder",
     );
     bench.refuses_with(
         &["campaign.toml", "--json", "run.csv/out.json"],
         1,
         "error: run.csv/out.json: cannot be written: Not a directory (os error 20)\n\
-             hint: a file of that name stands where a folder is needed",
+             hint: give another path: a file has the name of the folder",
     );
 }
 
@@ -52,13 +52,13 @@ fn an_output_would_cost_a_log() {
     bench.refuses_with(
         &["--json", "run.csv", "campaign.toml"],
         1,
-        "error: run.csv: exists and is no earlier output; it is not written over\n\
-         hint: put the input before `--json FILE`, or remove the file if it is to go",
+        "error: run.csv: exists and is not an earlier output; it is not overwritten\n\
+         hint: put the input before `--json FILE`, give another name, or delete the file if you do not need it",
     );
     bench.refuses_with(
         &["campaign.toml", "--json", "out", "--report", "out"],
         1,
-        "error: out: one name for two outputs\nhint: give each output its own file",
+        "error: out: is given for two outputs\nhint: give each output a file of its own",
     );
 }
 

@@ -28,19 +28,21 @@ fn a_file_is_no_result() {
     refuses(
         &bench,
         &["a.json", "campaign.toml"],
-        &format!("error: campaign.toml: is no JSON: expected value at line 1 column 2\n{hint}"),
+        &format!("error: campaign.toml: is not JSON: expected value at line 1 column 2\n{hint}"),
     );
     refuses(
         &bench,
         &["a.json", "cut.json"],
         &format!(
-            "error: cut.json: is no JSON: EOF while parsing a value at line 1 column 10\n{hint}"
+            "error: cut.json: is not JSON: EOF while parsing a value at line 1 column 10\n{hint}"
         ),
     );
     refuses(
         &bench,
         &["model.json", "a.json"],
-        &format!("error: model.json: is no result of `lissom identify`: it has no `axis`\n{hint}"),
+        &format!(
+            "error: model.json: is not a result of `lissom identify`: it has no `axis`\n{hint}"
+        ),
     );
     refuses(
         &bench,
@@ -52,7 +54,7 @@ fn a_file_is_no_result() {
         &["a.json", "old.json"],
         "error: old.json: `friction` cannot be read: `coulomb_a`: invalid type: integer `1`, expected \
          struct EstimateEntry\n\
-         hint: write it anew with `lissom identify CAMPAIGN --json FILE`",
+         hint: write it again with `lissom identify CAMPAIGN --json FILE`",
     );
 }
 
@@ -66,7 +68,7 @@ fn there_is_nothing_to_compare_with() {
         "error: a.json: is the only result given\n\
          hint: give two or more: lissom compare before.json after.json",
     );
-    let hint = "hint: give results of different logs: only their errors are independent";
+    let hint = "hint: give results from different logs: only their errors are independent";
     refuses(&bench, &["a.json", "./a.json"], &format!("error: ./a.json: is given twice\n{hint}"));
     refuses(
         &bench,
@@ -87,24 +89,24 @@ fn results_are_in_different_units() {
     refuses(
         &bench,
         &["a.json", "nm.json"],
-        "error: results in different units cannot be compared: a.json is of a rotary axis in A (no torque \
-         constant), nm.json is of a rotary axis in N·m\n\
-         hint: give `torque_constant` in [drive] of every campaign, or of none, and run `lissom identify` \
+        "error: results in different units cannot be compared: a.json has a rotary axis and friction in A \
+         (no torque constant), nm.json has a rotary axis and friction in N·m\n\
+         hint: give `torque_constant` in [drive] of every campaign or of none, and run `lissom identify` \
          again",
     );
     refuses(
         &bench,
         &["a.json", "v.json"],
-        "error: results in different units cannot be compared: a.json is of a rotary axis in A (no torque \
-         constant), v.json is of a rotary axis in V (no torque constant)\n\
+        "error: results in different units cannot be compared: a.json has a rotary axis and friction in A \
+         (no torque constant), v.json has a rotary axis and friction in V (no torque constant)\n\
          hint: log the same command in every campaign, or give `torque_constant` in [drive] of each, and run \
          `lissom identify` again",
     );
     refuses(
         &bench,
         &["nm.json", "n.json"],
-        "error: results in different units cannot be compared: nm.json is of a rotary axis in N·m, n.json is \
-         of a linear axis in N\n\
+        "error: results in different units cannot be compared: nm.json has a rotary axis and friction in N·m, \
+         n.json has a linear axis and friction in N\n\
          hint: compare results of the same axis",
     );
 }
@@ -119,12 +121,12 @@ fn a_comparison_would_cost_a_result() {
     refuses(
         &bench,
         &["a.json", "b.json", "--json", "a.json"],
-        "error: a.json: is read, and is not written over\nhint: give each output its own file",
+        "error: a.json: is an input; it is not overwritten\nhint: give each output a file of its own",
     );
     refuses(
         &bench,
         &["--json", "c.json", "a.json", "b.json"],
-        "error: c.json: exists and is no earlier output; it is not written over\n\
-         hint: put the input before `--json FILE`, or remove the file if it is to go",
+        "error: c.json: exists and is not an earlier output; it is not overwritten\n\
+         hint: put the input before `--json FILE`, give another name, or delete the file if you do not need it",
     );
 }

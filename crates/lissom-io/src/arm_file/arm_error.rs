@@ -1,4 +1,4 @@
-//! Why an `arm.toml` makes no arm or rig.
+//! Errors of an `arm.toml`.
 
 use std::path::{Path, PathBuf};
 
@@ -7,32 +7,32 @@ use lissom_core::drive::DriveError;
 use lissom_core::rig::RigError;
 use thiserror::Error;
 
-/// Why an `arm.toml` makes no arm or rig.
+/// Why an `arm.toml` describes no usable arm or rig.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ArmError {
-    /// A table that the task needs is absent.
-    #[error("{}: the table [{table}] is needed and absent", file.display())]
+    /// A required table is missing.
+    #[error("{}: the table [{table}] is missing", file.display())]
     MissingTable {
         /// The file.
         file: PathBuf,
-        /// Its missing table.
+        /// The missing table.
         table: &'static str,
     },
-    /// A beam with mass along its length, where one of point masses is needed.
+    /// A beam with mass along its length, where a beam with point masses is needed.
     #[error("{}: the beam has mass along its length; here it must have point masses", file.display())]
     Distributed {
         /// The file.
         file: PathBuf,
     },
-    /// A beam of point masses, where one with mass along its length is needed.
+    /// A beam with point masses, where a beam with mass along its length is needed.
     #[error("{}: the beam has point masses; here it must have mass along its length", file.display())]
     Lumped {
         /// The file.
         file: PathBuf,
     },
-    /// A beam known by its modes, where one of spans is needed.
-    #[error("{}: the beam is known by its modes; here it must have spans", file.display())]
+    /// A beam given by its modes, where a beam with spans is needed.
+    #[error("{}: the beam is given by its modes; here it must have spans", file.display())]
     Modal {
         /// The file.
         file: PathBuf,
@@ -44,12 +44,12 @@ pub enum ArmError {
         file: PathBuf,
     },
     /// Gravity on an arm with a beam.
-    #[error("{}: [load] gives gravity to an arm with a beam; it is simulated for a rigid joint", file.display())]
+    #[error("{}: [load] gives gravity to an arm with a beam, but gravity is simulated only for a rigid joint", file.display())]
     LoadOnBeam {
         /// The file.
         file: PathBuf,
     },
-    /// The beam's numbers.
+    /// Numbers of the beam that cannot be used.
     #[error("{}: {source}", file.display())]
     Beam {
         /// The file.
@@ -57,7 +57,7 @@ pub enum ArmError {
         /// What is wrong.
         source: BeamError,
     },
-    /// The drive's numbers.
+    /// Numbers of the drive that cannot be used.
     #[error("{}: {source}", file.display())]
     Drive {
         /// The file.
@@ -65,7 +65,7 @@ pub enum ArmError {
         /// What is wrong.
         source: DriveError,
     },
-    /// The rig's numbers.
+    /// Numbers of the rig that cannot be used.
     #[error("{}: {source}", file.display())]
     Rig {
         /// The file.
@@ -76,30 +76,30 @@ pub enum ArmError {
 }
 
 impl ArmError {
-    /// What to do about it.
+    /// What the user can do.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::MissingTable { table, .. } => Some(format!("add the table [{table}]")),
             Self::Distributed { .. } => Some(
-                "give each span a `mass` in place of `density` or `mass_per_length`; more spans \
-                 come closer to the heavy beam"
+                "give each span a `mass` instead of `density` or `mass_per_length`; with more spans \
+                 the point masses come closer to a beam with mass along it"
                     .to_owned(),
             ),
             Self::Lumped { .. } => {
                 Some("add `mass_per_length`, or `density` and `section`, to [beam]".to_owned())
             }
-            Self::Modal { .. } => Some("give `spans` in place of `modes` in [beam]".to_owned()),
+            Self::Modal { .. } => Some("give `spans` instead of `modes` in [beam]".to_owned()),
             Self::Rigid { .. } => {
-                Some("give `spans` or `modes` in place of `rigid` in [beam]".to_owned())
+                Some("give `spans` or `modes` instead of `rigid` in [beam]".to_owned())
             }
             Self::LoadOnBeam { .. } => Some(
-                "remove [load], or write `rigid = true` in place of the keys of [beam]".to_owned(),
+                "remove [load], or write `rigid = true` instead of the other keys of [beam]".to_owned(),
             ),
             Self::Beam { source: BeamError::ModesAndPoints { .. }, .. } => {
-                Some("give every mode one gain for each point, and as many modes as points".to_owned())
+                Some("give each mode one gain for each point, and as many modes as points".to_owned())
             }
             Self::Beam { source: BeamError::GainsSum { .. }, .. } => Some(
-                "give what a point's gains lack of one to the highest mode: it stands for those left out"
+                "make the gains of each point add up to one: the highest mode takes what is missing"
                     .to_owned(),
             ),
             Self::Beam { source: BeamError::NoTip, .. } => {
@@ -110,16 +110,16 @@ impl ArmError {
             }
             Self::Beam { source: BeamError::ModalDistributed, .. } => Some(
                 "write damping = { mass_proportional = \"...\", stiffness_proportional = \"...\" }, or \
-                 describe the beam by point masses"
+                 give the beam point masses"
                     .to_owned(),
             ),
             Self::Beam { source: BeamError::ModalWithDampers, .. } => Some(
                 "leave out the `damping` of the spans, or write damping = { mass_proportional = \
-                 \"...\", stiffness_proportional = \"...\" } in place of ratios"
+                 \"...\", stiffness_proportional = \"...\" } instead of ratios"
                     .to_owned(),
             ),
             Self::Rig { source: RigError::Unsupported { .. }, .. } => {
-                Some("use fewer spans, or `masses` in [rig] for a beam with mass along it".to_owned())
+                Some("use fewer spans, or set `masses` in [rig] for a beam with mass along it".to_owned())
             }
             Self::Beam { .. } | Self::Drive { .. } | Self::Rig { .. } => {
                 Some("check the numbers and their units".to_owned())

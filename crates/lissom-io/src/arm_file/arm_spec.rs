@@ -1,4 +1,4 @@
-//! What an `arm.toml` says.
+//! The contents of an `arm.toml`.
 
 use lissom_core::beam::KnownMode;
 
@@ -8,20 +8,20 @@ use super::load_spec::LoadSpec;
 use super::rig_spec::RigSpec;
 use super::tip_spec::TipSpec;
 
-/// What an `arm.toml` says, in SI.
+/// The contents of an `arm.toml`, in SI units.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ArmFile {
-    /// The beam, by its spans.
+    /// The beam, given by its spans.
     pub beam: Option<BeamSpec>,
-    /// The beam, by its modes, in place of that.
+    /// The beam, given by its modes instead.
     pub modes: Option<Vec<KnownMode>>,
-    /// Whether the joint is rigid: no beam, in place of both.
+    /// Whether the joint is rigid, so that there is no beam.
     pub rigid: bool,
     /// The motor.
     pub drive: Option<DriveSpec>,
     /// An unbalanced load on a rigid joint.
     pub load: Option<LoadSpec>,
-    /// The world at the tip.
+    /// What acts on the tip.
     pub tip: Option<TipSpec>,
     /// Sampling, limits, sensors and controller.
     pub rig: Option<RigSpec>,

@@ -6,15 +6,15 @@ use super::material::{MATERIAL_KEYS, Material};
 use crate::config::{ConfigError, ConfigPlace, Rule, Table, Value};
 use crate::units::Dimension;
 
-/// Most times that one span is repeated.
+/// Largest `count` of a span.
 const MOST_REPEATED: i64 = 1_000_000;
-/// Most spans of a beam.
+/// Largest number of spans of a beam.
 const MOST_SPANS: usize = 2_000_000;
 
 /// A beam from base to tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamSpec {
-    /// Spans from base to tip, at least one; one with a `count` stands here as often.
+    /// Spans from base to tip, at least one; a span with a `count` is repeated.
     pub spans: Vec<SpanSpec>,
     /// Distance of the clamp from the motor's axis \[m\].
     pub hub_radius_m: f64,
@@ -22,7 +22,7 @@ pub struct BeamSpec {
     pub tip_inertia_kg_m2: Option<f64>,
     /// The table `payload`.
     pub payload: Option<Payload>,
-    /// Damping beside that of each mass.
+    /// Damping in addition to the dampers at masses.
     pub damping: Damping,
 }
 
@@ -41,19 +41,19 @@ pub struct SpanSpec {
     pub damping_n_s_per_m: f64,
 }
 
-/// Where a beam's mass is.
+/// Where the mass of a beam is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BeamKind {
-    /// At points; the spans between them are massless.
+    /// At points, with massless spans between them.
     Lumped,
-    /// Along its length, and at points where the file names masses.
+    /// Along its length, and at the points for which the file gives masses.
     Distributed,
-    /// Not said: the beam is known by its modes.
+    /// Unknown: the beam is given by its modes.
     Modal,
 }
 
 impl BeamSpec {
-    /// Where its mass is.
+    /// Where the mass of the beam is.
     pub fn kind(&self) -> BeamKind {
         match self.spans.first().and_then(|s| s.mass_per_length_kg_per_m) {
             Some(_) => BeamKind::Distributed,
@@ -61,7 +61,7 @@ impl BeamSpec {
         }
     }
 
-    /// What the tip carries beside the last mass, that mass' own rotary inertia included.
+    /// The payload at the tip, with the rotary inertia of the last mass.
     pub fn tip(&self) -> Payload {
         let mut tip = self.payload.unwrap_or_default();
         tip.inertia_kg_m2 += self.tip_inertia_kg_m2.unwrap_or(0.0);
@@ -135,7 +135,7 @@ impl<'a> Entry<'a> {
         })
     }
 
-    /// The mass at its end: none has to be there where the beam itself is heavy.
+    /// The mass at the end of the span; optional if the beam has mass along its length.
     fn mass_kg(&self) -> Result<f64, ConfigError> {
         match (self.mass_per_length_kg_per_m, self.table.get("mass")) {
             (None, _) => self.table.need("mass")?.positive(Dimension::MASS),
@@ -145,7 +145,7 @@ impl<'a> Entry<'a> {
     }
 }
 
-/// Every span, those that are repeated as often as they are.
+/// All spans, repeated by their `count`.
 fn spans(
     list: &Value<'_>,
     entries: &[Entry<'_>],
@@ -186,7 +186,7 @@ fn spans(
 enum PointDamping {
     /// \[N·s/m\].
     PerVelocity(f64),
-    /// The report's ν \[N·s/rad\].
+    /// ν of the 1989 report \[N·s/rad\].
     PerRate(f64),
 }
 
@@ -200,7 +200,7 @@ impl PointDamping {
         Ok(if index == 0 { Self::PerVelocity(size) } else { Self::PerRate(size) })
     }
 
-    /// N·s/m at distance L: with F = −ν dθ/dt and θ = ŷ/L it is ν/L (Section 6.2).
+    /// Damping \[N·s/m\] at distance L: with F = −ν dθ/dt and θ = ŷ/L it is ν/L (Section 6.2).
     fn at(self, distance_m: f64) -> f64 {
         match self {
             Self::PerVelocity(size) => size,
@@ -215,7 +215,7 @@ fn tip(table: &Table<'_>) -> Result<Payload, ConfigError> {
     payload(table)
 }
 
-/// A payload's own keys.
+/// Reads the keys of a payload.
 pub(super) fn payload(table: &Table<'_>) -> Result<Payload, ConfigError> {
     let not_negative =
         |key, dimension| table.get(key).map(|v| v.not_negative(dimension)).transpose();

@@ -1,4 +1,4 @@
-//! From an `arm.toml` to an arm.
+//! Builds an arm from an `arm.toml`.
 
 use std::path::Path;
 
@@ -11,10 +11,10 @@ use super::arm_spec::ArmFile;
 use super::beam_spec::{BeamKind, BeamSpec, SpanSpec};
 
 impl ArmFile {
-    /// The arm that the file describes; `path` names the file in errors.
+    /// Builds the arm that the file describes; `path` is the file's name in errors.
     ///
     /// # Errors
-    /// [`ArmError`] where `[beam]` or `[drive]` is absent or its numbers make no arm.
+    /// [`ArmError`] if `[beam]` or `[drive]` is missing or its numbers cannot be used.
     pub fn arm(&self, path: &Path) -> Result<Arm, ArmError> {
         let beam: Beam = if self.rigid {
             Beam::Rigid
@@ -28,10 +28,10 @@ impl ArmFile {
             .map_err(|source| ArmError::Beam { file: path.to_owned(), source })
     }
 
-    /// The drive that the file describes, if it does; `path` names the file in errors.
+    /// Builds the drive, if the file describes one; `path` is the file's name in errors.
     ///
     /// # Errors
-    /// [`ArmError::Drive`] where its numbers make no drive.
+    /// [`ArmError::Drive`] if its numbers cannot be used.
     pub fn motor(&self, path: &Path) -> Result<Option<(Motor, Coulomb)>, ArmError> {
         let Some(d) = &self.drive else { return Ok(None) };
         let failed = |source| ArmError::Drive { file: path.to_owned(), source };
@@ -40,10 +40,10 @@ impl ArmFile {
         Ok(Some((motor.map_err(failed)?, coulomb.map_err(failed)?)))
     }
 
-    /// How the table `[beam]` describes the beam; `path` names the file in errors.
+    /// Tells how the table `[beam]` describes the beam; `path` is the file's name in errors.
     ///
     /// # Errors
-    /// [`ArmError::MissingTable`] where it is absent, [`ArmError::Rigid`] where it says that there is no beam.
+    /// [`ArmError::MissingTable`] if the table is missing, [`ArmError::Rigid`] if the joint is rigid.
     pub fn beam_kind(&self, path: &Path) -> Result<BeamKind, ArmError> {
         if self.rigid {
             return Err(ArmError::Rigid { file: path.to_owned() });
@@ -55,10 +55,10 @@ impl ArmFile {
         }
     }
 
-    /// The beam by its spans; `path` names the file in errors.
+    /// The beam, given by its spans; `path` is the file's name in errors.
     ///
     /// # Errors
-    /// [`ArmError::MissingTable`] where `[beam]` is absent, [`ArmError::Modal`] where it has modes.
+    /// [`ArmError::MissingTable`] if `[beam]` is missing, [`ArmError::Modal`] if it has modes.
     pub fn beam(&self, path: &Path) -> Result<&BeamSpec, ArmError> {
         match self.beam_kind(path)? {
             BeamKind::Modal => Err(ArmError::Modal { file: path.to_owned() }),
@@ -66,20 +66,19 @@ impl ArmFile {
         }
     }
 
-    /// The beam by its modes; `path` names the file in errors.
+    /// Builds the beam that is given by its modes; `path` is the file's name in errors.
     ///
     /// # Errors
-    /// [`ArmError`] where `[beam]` has none, or their numbers make no beam.
+    /// [`ArmError`] if `[beam]` has no modes or their numbers cannot be used.
     pub fn modal_beam(&self, path: &Path) -> Result<ModalBeam, ArmError> {
         let modes = self.modes.clone().ok_or_else(|| absent(path, "beam"))?;
         ModalBeam::new(modes).map_err(|source| ArmError::Beam { file: path.to_owned(), source })
     }
 
-    /// The beam of point masses that the file describes; `path` names the file in errors.
+    /// Builds the beam with point masses that the file describes; `path` is the file's name in errors.
     ///
     /// # Errors
-    /// [`ArmError`] where `[beam]` is absent, has modes or mass along its length, or its numbers make no
-    /// beam.
+    /// [`ArmError`] if `[beam]` is missing, has modes or mass along its length, or its numbers cannot be used.
     pub fn lumped_beam(&self, path: &Path) -> Result<LumpedBeam, ArmError> {
         let beam = self.beam(path)?;
         if beam.kind() == BeamKind::Distributed {
@@ -102,10 +101,10 @@ impl ArmFile {
             .map_err(|source| ArmError::Beam { file: path.to_owned(), source })
     }
 
-    /// The beam with mass along it that the file describes; `path` names the file in errors.
+    /// Builds the beam with mass along it that the file describes; `path` is the file's name in errors.
     ///
     /// # Errors
-    /// [`ArmError`] where `[beam]` is absent, has point masses alone or its numbers make no beam.
+    /// [`ArmError`] if `[beam]` is missing, has only point masses, or its numbers cannot be used.
     pub fn distributed_beam(&self, path: &Path) -> Result<DistributedBeam, ArmError> {
         let beam = self.beam(path)?;
         let piece = |s: &SpanSpec| {

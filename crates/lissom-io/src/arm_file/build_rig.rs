@@ -1,4 +1,4 @@
-//! From an `arm.toml` to a rig: instruments, controller and the arm's scene.
+//! Builds a rig from an `arm.toml`: instruments, controller and the arm's scene.
 
 use std::path::Path;
 
@@ -15,19 +15,18 @@ use super::beam_spec::BeamKind;
 use super::rig_spec::{ControllerSpec, RigSpec, SensorSpec, SensorSteps};
 use super::tip_spec::{SignalSpec, TipSpec};
 
-/// Beyond this modes are no gain and a run takes hours.
+/// Largest number of simulated masses. More masses add nothing useful, and a run takes hours.
 const COORDINATES_MOST: usize = 150;
-/// Point masses that stand for a distributed beam where the file does not say.
+/// Number of point masses for a beam with mass along it, if the file does not give one.
 const MASSES: usize = 10;
 
 impl ArmFile {
-    /// The arm in its loop and its scene; sensors of the tips are those of the motor where the file
-    /// gives none.
+    /// Builds the arm with its loop and its scene. Without sensors of the tips, these are as the motor's.
     ///
-    /// A beam with mass along it is lumped into the `masses` of `[rig]`, ten where it does not say.
+    /// A beam with mass along it is lumped into the `masses` of `[rig]`, or into ten.
     ///
     /// # Errors
-    /// As [`arm`](Self::arm), and where `[rig]` is absent.
+    /// As [`arm`](Self::arm), and if `[rig]` is missing.
     pub fn rig(&self, path: &Path) -> Result<Rig, ArmError> {
         let spec = self.rig.as_ref().ok_or_else(|| absent(path, "rig"))?;
         let arm = self.simulated_arm(path)?;
@@ -39,7 +38,7 @@ impl ArmFile {
         let instruments = instruments(spec).map_err(failed)?;
         let controller = match &spec.controller {
             Some(controller) => law(controller, &instruments).map_err(failed)?,
-            // Of no use, and needed by no open drive.
+            // A zero controller for an open drive, which does not use it.
             None => Pd::new(0.0, 0.0).map_err(failed)?.into(),
         };
         let mut rig = Rig::new(arm, instruments, controller);
@@ -52,7 +51,7 @@ impl ArmFile {
         self.rig.as_ref().is_some_and(|rig| rig.controller.is_some())
     }
 
-    /// The arm as point masses: as it is, or lumped as [`rig`](Self::rig) does it.
+    /// Builds the arm with point masses; a beam with mass along it is lumped as in [`rig`](Self::rig).
     ///
     /// # Errors
     /// As [`arm`](Self::arm).

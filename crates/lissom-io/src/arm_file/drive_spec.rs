@@ -17,7 +17,7 @@ pub struct DriveSpec {
     pub coulomb_forward_nm: f64,
     /// Coulomb friction in backward motion, a magnitude \[N·m\].
     pub coulomb_backward_nm: f64,
-    /// What friction has beyond constants.
+    /// Friction that is not constant.
     pub friction: FrictionSpec,
 }
 

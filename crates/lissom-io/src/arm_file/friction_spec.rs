@@ -1,4 +1,4 @@
-//! What the table `[drive]` says of friction beyond constants, and the joint made of it.
+//! Friction in the table `[drive]` that is not constant.
 
 use lissom_core::drive::{Coulomb, DriveError, DryFriction, Falloff, LuGre};
 use lissom_core::rig::JointFriction;
@@ -6,12 +6,12 @@ use lissom_core::rig::JointFriction;
 use crate::config::{ConfigError, Rule, Table, Value};
 use crate::units::Dimension;
 
-/// What a joint's friction has beyond one Coulomb constant a direction and one viscous constant.
+/// Friction of a joint in addition to Coulomb friction by direction and one viscous coefficient.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionSpec {
-    /// What viscous friction is more forward than in the mean, and less backward \[N·m·s/rad\].
+    /// Half the difference of forward and backward viscous friction \[N·m·s/rad\].
     pub viscous_apart_nm_s_per_rad: f64,
-    /// Friction at rest where it is another.
+    /// Friction at rest, if it differs from Coulomb friction.
     pub rest: Option<RestSpec>,
     /// Friction that changes over the turn.
     pub ripple: Option<RippleSpec>,
@@ -19,7 +19,7 @@ pub struct FrictionSpec {
     pub bristles: Option<BristlesSpec>,
 }
 
-/// Bristles below Coulomb friction, and how exactly they are solved.
+/// Bristles of the LuGre model, and the tolerance of their solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BristlesSpec {
     /// σ0 \[N·m/rad\].
@@ -30,26 +30,26 @@ pub struct BristlesSpec {
     pub tolerance: f64,
 }
 
-/// Tolerance of bristles where the file does not say.
+/// Tolerance of bristles, if the file does not give one.
 const TOLERANCE: f64 = 1e-8;
 
 /// Friction at rest, and the speed over which it passes into Coulomb friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RestSpec {
-    /// What holds against forward motion \[N·m\].
+    /// Largest torque that friction holds against forward motion \[N·m\].
     pub forward_nm: f64,
-    /// What holds against backward motion \[N·m\].
+    /// Largest torque that friction holds against backward motion \[N·m\].
     pub backward_nm: f64,
     /// v_s \[rad/s\].
     pub velocity_rad_s: f64,
-    /// How it falls off.
+    /// How friction changes over this speed.
     pub falloff: Falloff,
 }
 
 /// Friction that changes over the turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RippleSpec {
-    /// Largest change over the mean Coulomb friction \[1\].
+    /// Largest change divided by the mean Coulomb friction \[1\].
     pub share: f64,
     /// Periods in a turn.
     pub per_turn: f64,
@@ -58,7 +58,7 @@ pub struct RippleSpec {
 }
 
 impl FrictionSpec {
-    /// Its keys in `[drive]`.
+    /// The keys of this friction in `[drive]`.
     pub(super) const KEYS: [&'static str; 3] = ["rest", "ripple", "bristles"];
 
     pub(super) fn read(
@@ -78,14 +78,14 @@ impl FrictionSpec {
         })
     }
 
-    /// The joint's friction, `sliding` at speed.
+    /// Builds the friction of the joint; `sliding` is Coulomb friction at speed.
     pub(super) fn joint(&self, sliding: Coulomb) -> Result<JointFriction, DriveError> {
         if let Some(bristles) = &self.bristles {
             let rest = match &self.rest {
                 Some(rest) => Coulomb::by_direction(rest.forward_nm, rest.backward_nm)?,
                 None => sliding,
             };
-            // Without another friction at rest its speed is of no use.
+            // Without `rest` the speed has no effect.
             let velocity = self.rest.map_or(1.0, |rest| rest.velocity_rad_s);
             let (stiffness, damping) =
                 (bristles.stiffness_nm_per_rad, bristles.damping_nm_s_per_rad);
@@ -105,7 +105,7 @@ impl FrictionSpec {
     }
 }
 
-/// One value for both directions, or for each.
+/// Reads one value for both directions, or one for each.
 pub(super) fn by_direction(
     value: &Value<'_>,
     read: impl Fn(&Value<'_>) -> Result<f64, ConfigError>,
@@ -162,13 +162,13 @@ fn bristles(table: &Table<'_>) -> Result<BristlesSpec, ConfigError> {
     })
 }
 
-/// Bristles need Coulomb friction, and the law's fall from rest is Gaussian.
+/// Checks that bristles have Coulomb friction, and a Gaussian falloff from rest.
 fn bristles_fit(drive: &Table<'_>, bristles: &Value<'_>) -> Result<(), ConfigError> {
     if drive.get("coulomb").is_none() {
         return Err(ConfigError::Needs { place: bristles.place(), key: "drive.coulomb" });
     }
     if let Some(sides) = drive.get("viscous").filter(|v| v.as_table().is_some()) {
-        return Err(sides.kind("one figure for both directions (beside `bristles`)"));
+        return Err(sides.kind("one number for both directions (with `bristles`)"));
     }
     let falloff = drive.get("rest").and_then(|v| v.as_table()).and_then(|t| t.get("falloff"));
     match falloff {

@@ -5,7 +5,7 @@ use lissom_core::load::GravityLoad;
 use crate::config::{ConfigError, Table};
 use crate::units::Dimension;
 
-/// An unbalanced load, whose gravity takes the torque `m·g·l·sin(θ + φ)` of the motor, θ the motor's angle.
+/// An unbalanced load. Its gravity needs the torque `m·g·l·sin(θ + φ)` of the motor, with θ the motor's angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadSpec {
     /// m·g·l: the largest torque \[N·m\].

@@ -1,15 +1,15 @@
-//! What a beam or a span is made of: stiffness and mass along its length.
+//! Material of a beam or a span: stiffness and mass along its length.
 
 use std::f64::consts::PI;
 
 use crate::config::{ConfigError, Table, Value};
 use crate::units::Dimension;
 
-/// Keys that a beam and each of its spans may have.
+/// Keys of the material, of a beam and of each span.
 pub(super) const MATERIAL_KEYS: [&str; 5] =
     ["flexural_rigidity", "young_modulus", "section", "density", "mass_per_length"];
 
-/// What a table says of EI and of the mass along the beam.
+/// Stiffness and mass along the beam, as given in one table.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Material<'a> {
     /// EI \[N·m²\].
@@ -32,7 +32,7 @@ struct Section {
 /// Mass along the beam.
 #[derive(Debug, Clone)]
 enum Mass<'a> {
-    /// ρ \[kg/m³\], and where it stands.
+    /// ρ \[kg/m³\], and its place in the file.
     Density(f64, Value<'a>),
     /// ρA \[kg/m\].
     PerLength(f64),
@@ -57,8 +57,8 @@ impl<'a> Material<'a> {
         })
     }
 
-    /// This span's material, with the beam's where it says nothing. A span with its own
-    /// `flexural_rigidity` has another section than the beam's.
+    /// The material of this span; keys that it does not have are taken from the beam. A span with its own
+    /// `flexural_rigidity` does not use the section of the beam.
     pub(super) fn or(self, common: &Self) -> Self {
         let mass = self.mass.or_else(|| common.mass.clone());
         if self.rigidity.is_some() {
@@ -91,7 +91,7 @@ impl<'a> Material<'a> {
         }
     }
 
-    /// ρA \[kg/m\]; `None` where nothing gives a mass along the beam.
+    /// ρA \[kg/m\]; `None` if the file gives no mass along the beam.
     pub(super) fn mass_per_length(&self) -> Result<Option<f64>, ConfigError> {
         match &self.mass {
             None => Ok(None),
@@ -104,7 +104,7 @@ impl<'a> Material<'a> {
     }
 }
 
-/// A = πd²/4, I = πd⁴/64 of a round section; wt, wt³/12 of a rectangle bent across t.
+/// Reads a section: A = πd²/4 and I = πd⁴/64 if it is round, A = wt and I = wt³/12 of a rectangle bent across t.
 fn section(value: &Value<'_>) -> Result<Section, ConfigError> {
     let table = value.table()?;
     table.only(&["round", "rectangle"])?;

@@ -20,12 +20,12 @@
 //! viscous = "0.003 N*s/m"
 //! ```
 //!
-//! A bare number is in SI; for `damping` of a span in N·s/m, for `coulomb` in N·m.
+//! A number without unit is in SI; for `damping` of a span in N·s/m, for `coulomb` in N·m.
 //!
 //! Each span may have its own `young_modulus`, `section` or `flexural_rigidity`, `damping` at the
-//! mass at its end (N·s/m, or N·s/rad as the report's ν) and `count`, which repeats it. The last
-//! may have `inertia`. The beam may begin at a hub's rim, carry a payload, be damped as a whole,
-//! and have its mass along its length:
+//! mass at its end (N·s/m, or N·s/rad as ν of the 1989 report) and `count`, which repeats it. The last
+//! may have `inertia`. The beam may begin at the rim of a hub, have a payload, damping of the whole beam,
+//! and mass along its length:
 //!
 //! ```toml
 //! [beam]
@@ -39,14 +39,14 @@
 //!                                           # or { ratio = 0.01 }, { ratios = [0.01, 0.02] }
 //! ```
 //!
-//! A beam whose dimensions nobody knows may be given by its modes, as many as points:
+//! A beam with unknown dimensions may be given by its modes, as many as points:
 //!
 //! ```toml
 //! [beam]
 //! modes = [{ frequency = "6.8 Hz", damping_ratio = 0.004, coupling = "0.5 N*m", gains = [1] }]
 //! ```
 //!
-//! A joint that carries a rigid load has no beam. Gravity of an unbalanced load takes the torque
+//! A joint with a rigid load has no beam. Gravity of an unbalanced load needs the torque
 //! `gravity_torque·sin(θ + phase)` of its motor:
 //!
 //! ```toml
@@ -57,7 +57,7 @@
 //! phase = "30 deg"                          # the load hangs at θ = −30°; absent: 0
 //! ```
 //!
-//! Every key is in `docs/src/reference/arm.md`.
+//! `docs/src/reference/arm.md` explains every key.
 
 pub(crate) mod arm_error;
 mod arm_spec;

@@ -1,4 +1,4 @@
-//! The table `[beam]` of a beam that is known by its modes.
+//! The table `[beam]` of a beam that is given by its modes.
 
 use lissom_core::beam::KnownMode;
 

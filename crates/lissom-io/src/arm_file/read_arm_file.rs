@@ -1,4 +1,4 @@
-//! From the text of an `arm.toml` to what it says.
+//! Reads an `arm.toml`.
 
 use std::path::Path;
 
@@ -11,12 +11,12 @@ impl ArmFile {
     /// Reads an `arm.toml`.
     ///
     /// # Errors
-    /// [`Error::Config`].
+    /// [`Error::Config`] if a key or value is wrong.
     pub fn read(path: &Path) -> Result<Self, Error> {
         Ok(Self::from_source(&Source::read(path)?)?)
     }
 
-    /// Reads the text of an `arm.toml`; `path` stands in errors.
+    /// Reads the text of an `arm.toml`; `path` is the file's name in errors.
     ///
     /// ```
     /// let text = "[rig]\nsample_time = \"3 ms\"";
@@ -26,7 +26,7 @@ impl ArmFile {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Config`].
+    /// [`Error::Config`] if a key or value is wrong.
     pub fn from_text(path: &Path, text: &str) -> Result<Self, Error> {
         Ok(Self::from_source(&Source::new(path, text.to_owned()))?)
     }
@@ -54,11 +54,11 @@ impl ArmFile {
     }
 }
 
-/// Whether `[beam]` says that there is none.
+/// Whether `[beam]` has `rigid = true`.
 fn rigid(table: &Table<'_>) -> Result<bool, ConfigError> {
     let Some(value) = table.get("rigid") else { return Ok(false) };
     if !value.truth()? {
-        return Err(value.kind("true, or `spans` or `modes` in its place"));
+        return Err(value.kind("true (or `spans` or `modes` instead)"));
     }
     table.only(&["rigid"])?;
     Ok(true)

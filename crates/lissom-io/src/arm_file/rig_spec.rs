@@ -5,37 +5,37 @@ use lissom_core::rig::Word;
 use crate::config::{ConfigError, Rule, Table, Value};
 use crate::units::Dimension;
 
-/// A sampled control rig.
+/// A test rig with a sampled controller.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigSpec {
     /// Sample time \[s\].
     pub sample_time_s: f64,
-    /// The controller acts at one sample in so many.
+    /// The controller acts at every n-th sample.
     pub control_every: usize,
-    /// One sample in so many is logged.
+    /// Every n-th sample is logged.
     pub log_every: usize,
     /// Magnitude at which the current saturates \[A\].
     pub current_limit_a: Option<f64>,
-    /// Demands up to this give no current \[A\].
+    /// Dead band: demands up to this magnitude give no current \[A\].
     pub dead_band_a: Option<f64>,
     /// The D/A converter of the current.
     pub current_converter: Option<ConverterSpec>,
-    /// Time from the sensors' instant to the current's acting \[s\].
+    /// Time from the reading of the sensors to the change of the current \[s\].
     pub delay_s: Option<f64>,
     /// The motor's angle sensor.
     pub motor_sensor: Option<SensorSpec>,
-    /// The sensors of the masses' angles; `None`: as the motor's.
+    /// The sensors of the angles of the masses; `None`: the same as the motor's.
     pub tip_sensors: Option<Vec<SensorSpec>>,
     /// The motor's position controller.
     pub controller: Option<ControllerSpec>,
-    /// Point masses that stand for a beam with mass along it.
+    /// Number of point masses for a beam with mass along it.
     pub masses: Option<usize>,
 }
 
-/// A converter of equal steps.
+/// A D/A converter with equal steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ConverterSpec {
-    /// Bits.
+    /// Number of bits.
     pub bits: u32,
     /// From the lowest to the highest value \[A\].
     pub range_a: f64,
@@ -44,27 +44,27 @@ pub struct ConverterSpec {
 /// A sensor of an angle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SensorSpec {
-    /// Its steps; `None`: none.
+    /// Its resolution; `None` without steps.
     pub steps: Option<SensorSteps>,
-    /// Standard deviation of its noise \[rad\]; `None`: none.
+    /// Standard deviation of its noise \[rad\]; `None` without noise.
     pub noise_rad: Option<f64>,
 }
 
-/// Steps of a sensor.
+/// Resolution of a sensor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SensorSteps {
-    /// A converter.
+    /// An A/D converter.
     Bits {
         /// Bits of a reading.
         bits: u32,
-        /// Angle over which all readings occur once \[rad\].
+        /// Range of angle over which each reading occurs once \[rad\].
         range_rad: f64,
     },
-    /// An encoder's counts in a turn.
+    /// Counts of an encoder per turn.
     CountsPerTurn(u32),
 }
 
-/// A controller from angle to current.
+/// A position controller, from angle to current.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ControllerSpec {
     /// Proportional gain \[A/rad\].
@@ -73,24 +73,24 @@ pub struct ControllerSpec {
     pub derivative_a_s_per_rad: f64,
     /// Integral gain \[A/(rad·s)\].
     pub integral_a_per_rad_s: Option<f64>,
-    /// Time constant of the derivative's filter \[s\].
+    /// Time constant of the filter of the derivative \[s\].
     pub filter_s: Option<f64>,
-    /// Integer arithmetic.
+    /// Integer arithmetic of the control computer, if it has any.
     pub integers: Option<IntegerSpec>,
 }
 
-/// The integers of a control computer.
+/// Integer arithmetic of a control computer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct IntegerSpec {
-    /// Their length.
+    /// Length of the integers.
     pub word: Word,
-    /// Bits of the gains behind the binary point.
+    /// Bits of the gains after the binary point.
     pub binary_point: u32,
 }
 
-/// Most samples between two actions or rows.
+/// Largest number of samples between two actions or rows.
 const EVERY_MOST: i64 = 1_000_000;
-/// Most point masses that stand for a distributed beam.
+/// Largest number of point masses for a beam with mass along it.
 const MASSES_MOST: i64 = 150;
 
 pub(super) fn rig(table: &Table<'_>) -> Result<RigSpec, ConfigError> {

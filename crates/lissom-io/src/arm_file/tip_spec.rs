@@ -1,4 +1,4 @@
-//! The table `[tip]`: what acts on the arm's tip, and payloads to come.
+//! The table `[tip]`: what acts on the arm's tip, and changes of the payload.
 
 use lissom_core::beam::Payload;
 use lissom_core::rig::Wall;
@@ -7,12 +7,12 @@ use super::beam_spec::payload;
 use crate::config::{ConfigError, Table, Value};
 use crate::units::Dimension;
 
-/// The world at the tip.
+/// What acts on the tip.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TipSpec {
-    /// F(t) \[N\].
+    /// Force F(t) \[N\].
     pub force: Option<SignalSpec>,
-    /// T(t) \[N·m\].
+    /// Torque T(t) \[N·m\].
     pub torque: Option<SignalSpec>,
     /// Viscous friction \[N·s/m\].
     pub viscous_n_s_per_m: f64,
@@ -20,14 +20,14 @@ pub struct TipSpec {
     pub coulomb_n: f64,
     /// Walls.
     pub walls: Vec<Wall>,
-    /// Times \[s\] from the start of a run on at which the tip carries another payload.
+    /// Times \[s\] from the start of a run at which the payload changes, with the new payload.
     pub payloads: Vec<(f64, Payload)>,
 }
 
-/// A quantity over time, counted from the start of a run.
+/// A quantity over the time from the start of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SignalSpec {
-    /// Always the same.
+    /// A constant.
     Constant(f64),
     /// `offset + amplitude·sin(ω·t + phase)`.
     Sine {
@@ -44,7 +44,7 @@ pub enum SignalSpec {
     Table {
         /// The rows.
         rows: Vec<(f64, f64)>,
-        /// Whether straight lines join them; else each value is held.
+        /// Whether values are interpolated by straight lines; otherwise each value is held.
         lines: bool,
     },
 }
@@ -82,7 +82,7 @@ fn wall(table: &Table<'_>) -> Result<Wall, ConfigError> {
 fn change(table: &Table<'_>) -> Result<(f64, Payload), ConfigError> {
     table.only(&["at", "mass", "inertia", "offset"])?;
     let at = table.need("at")?.positive(Dimension::TIME)?;
-    // None of them: the tip is left without payload.
+    // Without any of these keys the payload is removed.
     let bare = ["mass", "inertia", "offset"].iter().all(|key| table.get(key).is_none());
     Ok((at, if bare { Payload::default() } else { payload(table)? }))
 }
@@ -117,7 +117,7 @@ fn signal(value: &Value<'_>, dimension: Dimension) -> Result<SignalSpec, ConfigE
     Ok(SignalSpec::Table { rows: times.into_iter().zip(values).collect(), lines: hold == Some(1) })
 }
 
-/// A frequency: `frequency`, with a unit such as Hz or rad/s, or `omega_rad_s`.
+/// Reads a frequency: `frequency` with a unit such as Hz or rad/s, or `omega_rad_s`.
 pub(crate) fn omega(table: &Table<'_>) -> Result<f64, ConfigError> {
     match table.one_of(&["frequency", "omega_rad_s"])? {
         Some((0, value)) => value.positive(Dimension::RATE),

@@ -31,8 +31,8 @@ fn a_command_in_torque_needs_no_constant() {
     assert_eq!(command(&force).torque_per_command, Some(1.0));
     fails(
         &commanded("unit = \"N*m\"", "torque_constant = \"1 N*m\""),
-        "campaign.toml, line 7: `drive.torque_constant` says nothing where the command is a torque",
-        Some("remove it, or describe the channel it belongs to"),
+        "campaign.toml, line 7: `drive.torque_constant` does not apply if the command is a torque",
+        Some("remove it, or describe the channel that it belongs to"),
     );
     fails(
         &commanded("unit = \"N*m\"", "limit = \"2 A\""),
@@ -101,20 +101,20 @@ fn goals_that_are_none() {
     );
     fails(
         &PLAIN.replace("torque_constant = \"0.25 N*m/A\"", "position_gain = 12"),
-        "campaign.toml, line 7: `drive.position_gain` says nothing where the command is a current",
-        Some("remove it, or describe the channel it belongs to"),
+        "campaign.toml, line 7: `drive.position_gain` does not apply if the command is a current",
+        Some("remove it, or describe the channel that it belongs to"),
     );
     fails(
         &PLAIN.replace("hold =", "quantity = \"goal\", hold ="),
-        "campaign.toml, line 4: `signals.current.quantity` is not a key that is known here",
-        Some("the keys here are `column`, `unit`, `scale`, `offset`, `hold`"),
+        "campaign.toml, line 4: `signals.current.quantity` is not a known key",
+        Some("the known keys are `column`, `unit`, `scale`, `offset`, `hold`"),
     );
     let speed = commanded("unit = \"deg\", quantity = \"goal\"", "")
         .replace("unit = \"rad\"", "unit = \"rpm\", quantity = \"speed\"");
     fails(
         &speed,
         "campaign.toml, line 4: `signals.command`: a position goal needs the motor's position, but the log has its speed",
-        Some("give the column of the motor's angle, or the motor current in place of the goal"),
+        Some("give the column of the motor's angle, or the motor current instead of the goal"),
     );
 }
 

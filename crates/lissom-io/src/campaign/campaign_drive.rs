@@ -12,7 +12,7 @@ use crate::config::{ConfigError, Table, Value};
 use crate::io_error::Error;
 use crate::units::Dimension;
 
-/// The command channel and what is known of the drive, and the sign of the command: −1 where the torque constant is
+/// Reads the command channel, the constants of the drive, and the sign of the command: −1 if the torque constant is
 /// negative.
 pub(super) fn drive(
     table: Option<&Table<'_>>,
@@ -99,7 +99,7 @@ pub(super) fn drive(
 
 /// A gear between the motor, whose constants are given, and the joint, whose angle is logged.
 ///
-/// Torque at the joint is ratio·efficiency times the motor's, the motor's speed ratio times the joint's.
+/// Torque at the joint is ratio·efficiency times the motor's torque; the motor's speed is ratio times the joint's speed.
 struct Gear {
     ratio: f64,
     efficiency: f64,
@@ -123,7 +123,7 @@ fn gear(table: &Table<'_>) -> Result<Gear, Error> {
     Ok(Gear { ratio, efficiency })
 }
 
-/// The constant in SI, and whether it is per ampere.
+/// Reads the constant in SI, and whether it is per ampere.
 fn torque_constant(
     value: &Value<'_>,
     axis: Axis,

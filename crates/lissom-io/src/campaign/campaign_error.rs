@@ -1,4 +1,4 @@
-//! What can be wrong with a campaign beyond its keys.
+//! Errors of a campaign whose keys are valid.
 
 use thiserror::Error;
 
@@ -12,45 +12,45 @@ pub enum CampaignError {
     /// The motor's unit is neither an angle nor a length.
     #[error("{place}: the motor is measured in {found}, which is neither an angle nor a length")]
     MotorUnit {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
-        /// Dimension found.
+        /// The dimension found.
         found: Dimension,
     },
-    /// The motor's unit is one of speed, and its quantity is not.
+    /// The motor's unit is a unit of speed, but its quantity is not a speed.
     #[error("{place}: \"{unit}\" is a unit of speed, but the motor's `quantity` is not \"speed\"")]
     SpeedUnit {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
-        /// Unit found.
+        /// The unit found.
         unit: String,
     },
-    /// The motor's quantity is a speed, and its unit is not.
+    /// The motor's quantity is a speed, but its unit is not a unit of speed.
     #[error("{place}: \"{unit}\" is not a unit of speed, but the motor's `quantity` is \"speed\"")]
     NotASpeed {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
-        /// Unit found.
+        /// The unit found.
         unit: String,
     },
-    /// A command's unit is neither of current, voltage or torque nor `1`.
+    /// A command's unit is not a unit of current, voltage or torque, and not `1`.
     #[error(
         "{place}: the command is measured in {found}, which is neither a current, a voltage nor {effort}"
     )]
     CommandUnit {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
-        /// Dimension found.
+        /// The dimension found.
         found: Dimension,
         /// A torque, or a force on a linear axis.
         effort: &'static str,
     },
-    /// A position goal in another unit than a position.
+    /// A position goal whose unit is not a unit of position.
     #[error("{place}: a position goal is {position}, and \"{unit}\" is not a unit of {position}")]
     GoalUnit {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
-        /// Unit found.
+        /// The unit found.
         unit: String,
         /// An angle, or a length on a linear axis.
         position: &'static str,
@@ -58,35 +58,31 @@ pub enum CampaignError {
     /// A position goal without the motor's position.
     #[error("{place}: a position goal needs the motor's position, but the log has its speed")]
     GoalWithSpeed {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
     },
     /// A torque constant per current for a voltage channel, without the winding's resistance.
-    #[error(
-        "{place}: a torque constant per ampere needs `resistance` where the command is a voltage"
-    )]
+    #[error("{place}: a torque constant per ampere needs `resistance` if the command is a voltage")]
     NoResistance {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
     },
     /// A torque constant per current for a voltage channel, without the back-EMF constant.
-    #[error(
-        "{place}: a torque constant per ampere needs `back_emf` where the command is a voltage"
-    )]
+    #[error("{place}: a torque constant per ampere needs `back_emf` if the command is a voltage")]
     NoBackEmf {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
     },
     /// A bare number that could be per ampere or per volt.
     #[error("{place}: a torque constant without a unit could be per ampere or per volt")]
     TorqueConstantUnit {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
     },
-    /// A drive key that says nothing about this kind of command.
-    #[error("{place} says nothing where the command is {command}")]
+    /// A key of the drive that does not apply to this kind of command.
+    #[error("{place} does not apply if the command is {command}")]
     NotForCommand {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
         /// The kind of command.
         command: &'static str,
@@ -94,77 +90,77 @@ pub enum CampaignError {
     /// A length measured at a tip of a rotary axis, without its distance from the joint.
     #[error("{place}: {found} at a tip of a rotary axis needs `radius`")]
     NoRadius {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
-        /// Dimension found.
+        /// The dimension found.
         found: Dimension,
     },
-    /// A radius where the reading is an angle already, or on a linear axis.
-    #[error("{place}: a radius means nothing for this tip")]
+    /// A radius for a tip that is measured as an angle, or on a linear axis.
+    #[error("{place}: a radius does not apply to this tip")]
     NeedlessRadius {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
     },
-    /// A run driven at or above the Nyquist frequency of its log.
+    /// A run with a drive frequency at or above the Nyquist frequency of its log.
     #[error(
         "{place} is {found_rad_s:.4} rad/s, but must be below {nyquist_rad_s:.4} rad/s, the Nyquist frequency of {log}"
     )]
     AboveNyquist {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
         /// The drive frequency given \[rad/s\].
         found_rad_s: f64,
         /// The log.
         log: String,
-        /// π over its sample time \[rad/s\].
+        /// π divided by its sample time \[rad/s\].
         nyquist_rad_s: f64,
     },
     /// Gravity on a linear axis.
     #[error("{place}: gravity on a linear axis is a constant force")]
     GravityOnLinearAxis {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
     },
-    /// A speed beside a motor that is a speed.
-    #[error("{place}: the motor's channel is its speed already")]
+    /// A speed in addition to a motor channel that is a speed.
+    #[error("{place}: the motor's channel is a speed already")]
     TwoSpeeds {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
     },
-    /// A load's m·g·l where its gravity is not asked for.
-    #[error("{place} says nothing without `gravity = true`")]
+    /// m·g·l of a load without `gravity = true`.
+    #[error("{place} has no effect without `gravity = true`")]
     MglAlone {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
     },
     /// Gravity on an arm with tips.
-    #[error("{place}: gravity is identified for a rigid joint, and this campaign has tips")]
+    #[error("{place}: gravity is identified only for a rigid joint, but this campaign has tips")]
     GravityWithTips {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
     },
-    /// A gear beside no torque constant.
-    #[error("{place} says nothing without `torque_constant`")]
+    /// A gear without a torque constant.
+    #[error("{place} has no effect without `torque_constant`")]
     GearAlone {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
     },
     /// A camera on a linear axis.
-    #[error("{place}: a camera's x and y give an angle, and the motor is measured in metres")]
+    #[error("{place}: x and y of a camera give an angle, but the motor is measured in metres")]
     CameraOnLinear {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
     },
-    /// A camera's quantity is not an angle.
-    #[error("{place}: a camera's x and y give the angle of the radius to the point, nothing else")]
+    /// A camera whose quantity is not an angle.
+    #[error("{place}: x and y of a camera can only give the angle of the radius to the point")]
     CameraQuantity {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
     },
 }
 
 impl CampaignError {
-    /// What to do about it.
+    /// What the user can do.
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
             Self::MotorUnit { .. } => {
@@ -183,31 +179,31 @@ impl CampaignError {
                 "give \"rad\" or \"deg\" for a rotary axis, \"m\" or \"mm\" for a linear one; counts: unit = \"rad\" with scale = rad per count"
             }
             Self::GoalWithSpeed { .. } => {
-                "give the column of the motor's angle, or the motor current in place of the goal"
+                "give the column of the motor's angle, or the motor current instead of the goal"
             }
             Self::NoResistance { .. } => {
                 "give `resistance` and `back_emf`, or the torque constant per volt, as in \"0.15 N*m/V\""
             }
             Self::NoBackEmf { .. } => {
-                "of a DC motor it equals the torque constant in SI, as in \"0.0107 V*s/rad\"; 0 leaves its damping in the viscous figure"
+                "for a DC motor `back_emf` equals the torque constant in SI, as in \"0.0107 V*s/rad\"; with 0 its damping is part of viscous friction"
             }
             Self::TorqueConstantUnit { .. } => "give it a unit: N*m/A or N*m/V, N/A or N/V",
-            Self::NotForCommand { .. } => "remove it, or describe the channel it belongs to",
+            Self::NotForCommand { .. } => "remove it, or describe the channel that it belongs to",
             Self::NoRadius { .. } => {
                 "give the distance of the sensor from the joint, as in radius = \"0.45 m\""
             }
-            Self::NeedlessRadius { .. } => "remove it",
+            Self::NeedlessRadius { .. } => "remove `radius`",
             Self::AboveNyquist { .. } => {
-                "`omega_rad_s` is in rad/s, and `frequency = \"5 Hz\"` takes a unit; check the unit of the time stamps too"
+                "`omega_rad_s` is in rad/s; `frequency = \"5 Hz\"` has a unit; check also the unit of the time stamps"
             }
             Self::GravityOnLinearAxis { .. } => {
-                "remove it: the offset of friction, which every result has, is this force"
+                "remove it: every result has this force as the offset of friction"
             }
-            Self::GravityWithTips { .. } => "remove it, or the tips",
-            Self::TwoSpeeds { .. } => "remove it, or give the angle as motor",
-            Self::MglAlone { .. } => "add gravity = true, or remove it",
+            Self::GravityWithTips { .. } => "remove `gravity`, or the tips",
+            Self::TwoSpeeds { .. } => "remove `speed`, or give the angle as `motor`",
+            Self::MglAlone { .. } => "add gravity = true, or remove `mgl`",
             Self::GearAlone { .. } => {
-                "give the motor's own torque constant beside it, or remove it: without a constant, estimates are per unit of command"
+                "add the torque constant of the motor, or remove this key: without a constant, estimates are per unit of command"
             }
             Self::CameraOnLinear { .. } => "give one column with a unit of length",
             Self::CameraQuantity { .. } => "remove `quantity`",

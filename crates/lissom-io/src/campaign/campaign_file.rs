@@ -1,4 +1,4 @@
-//! What a `campaign.toml` says, and limits on reading it.
+//! The contents of a `campaign.toml`, and limits for reading it.
 
 use std::path::PathBuf;
 
@@ -6,14 +6,14 @@ use lissom_core::record::Campaign;
 
 use crate::arm_file::ArmFile;
 
-/// A campaign with what its file says beyond its runs.
+/// A campaign, with the other contents of its file.
 #[derive(Debug, Clone)]
 pub struct CampaignFile {
     /// The runs and their channels.
     pub campaign: Campaign,
-    /// What is known of the drive.
+    /// Known constants of the drive.
     pub known: DriveConstants,
-    /// How it wants to be analysed.
+    /// Options of the analysis.
     pub analysis: AnalysisOptions,
 }
 
@@ -26,7 +26,7 @@ impl AsRef<Campaign> for CampaignFile {
 /// Constants of the table `[drive]`, in SI.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DriveConstants {
-    /// As it was given: per ampere, per volt or per unit of command (N·m or N each).
+    /// Torque constant as given: in N·m or N per ampere, per volt or per unit of command.
     pub torque_constant: Option<f64>,
     /// Resistance of the winding \[Ω\].
     pub resistance_ohm: Option<f64>,
@@ -34,25 +34,25 @@ pub struct DriveConstants {
     pub back_emf: Option<f64>,
     /// The arm to compare with.
     pub arm: Option<ArmFile>,
-    /// The file it stands in.
+    /// The file of this arm.
     pub arm_path: Option<PathBuf>,
 }
 
-/// The table `[analysis]`: wishes for the analysis. Its `skip` is carried out on reading.
+/// The table `[analysis]`: options of the analysis. Its `skip` is applied when logs are read.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct AnalysisOptions {
-    /// Lengths of the regression's windows \[s\]; empty where they are left to the data.
+    /// Lengths of the regression's windows \[s\]; empty if they are chosen from the data.
     pub window_s: Vec<f64>,
     /// Highest harmonic of a periodic run.
     pub harmonics: Option<usize>,
 }
 
-/// Limits on reading.
+/// Limits for reading.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ReadOptions {
-    /// Most rows kept of a log, see [`LogOptions::max_rows`](crate::log::LogOptions::max_rows).
+    /// Largest number of rows kept of a log, see [`LogOptions::max_rows`](crate::log::LogOptions::max_rows).
     pub max_rows: usize,
-    /// Fewest samples of a piece between gaps.
+    /// Smallest number of samples of a piece between gaps.
     pub least_piece: usize,
 }
 

@@ -1,4 +1,4 @@
-//! The table `[load]`: what acts on the motor beside friction.
+//! The table `[load]`: loads on the motor other than friction.
 
 use lissom_core::record::Axis;
 
@@ -8,14 +8,14 @@ use crate::config::Table;
 use crate::io_error::Error;
 use crate::units::Dimension;
 
-/// Whether gravity is to be identified, and the load's m·g·l where it is known \[N·m\].
+/// Whether gravity is to be identified, and the load's m·g·l \[N·m\] if it is known.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct CampaignLoad {
     pub(super) gravity: bool,
     pub(super) mgl_nm: Option<f64>,
 }
 
-/// What the table says.
+/// Reads the table.
 pub(super) fn load(table: &Table<'_>, signals: &Signals) -> Result<CampaignLoad, Error> {
     table.only(&["gravity", "mgl"])?;
     let mgl = table.get("mgl");

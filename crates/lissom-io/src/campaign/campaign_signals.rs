@@ -8,22 +8,22 @@ use crate::io_error::Error;
 use crate::log::ColumnRef;
 use crate::units::{Dimension, UnitError};
 
-/// Where every channel comes from.
+/// The source of each channel.
 pub(super) struct Signals {
     pub(super) time: TimeSource,
     pub(super) decimal_comma: bool,
     pub(super) axis: Axis,
     pub(super) command: CommandSource,
     pub(super) motor: Reading,
-    /// The motor's channel is its speed.
+    /// Whether the motor's channel is its speed.
     pub(super) motor_speed: bool,
-    /// The motor's speed beside its angle.
+    /// The motor's speed, in addition to its angle.
     pub(super) speed: Option<Reading>,
     pub(super) tips: Vec<(Tip, TipSource)>,
 }
 
 pub(super) enum TimeSource {
-    /// Stamps, and their unit [s].
+    /// Time stamps, and their unit [s].
     Stamps(ColumnRef, f64),
     /// A sample time [s].
     Steps(f64),
@@ -35,14 +35,14 @@ pub(super) struct CommandSource {
     pub(super) hold: Hold,
 }
 
-/// What a command is. The library knows torques and goals as commands of a unit of their own.
+/// Kind of a command. For the library, torques and goals are commands of their own unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum CommandKind {
     Current,
     Voltage,
     /// A torque [N·m], or a force [N] on a linear axis.
     Effort,
-    /// A position that a servo is to reach.
+    /// A position goal of a servo.
     Goal,
     Unknown,
 }
@@ -56,7 +56,7 @@ impl CommandKind {
         }
     }
 
-    /// In messages.
+    /// The kind in words, for messages.
     pub(super) fn name(self, axis: Axis) -> &'static str {
         match (self, axis) {
             (Self::Current, _) => "a current",
@@ -69,7 +69,7 @@ impl CommandKind {
     }
 }
 
-/// A column and the way from its numbers to SI: gain·raw + offset.
+/// A column, and the conversion of its numbers to SI: gain·raw + offset.
 pub(super) struct Reading {
     pub(super) column: ColumnRef,
     pub(super) gain: f64,
@@ -155,7 +155,7 @@ fn scale(table: &Table<'_>) -> Result<f64, ConfigError> {
     }
 }
 
-/// A column in a unit whose size in SI is known.
+/// Reads a column whose unit has the size `unit_size` in SI.
 fn reading(table: &Table<'_>, unit_size: f64) -> Result<Reading, ConfigError> {
     let offset = table.get("offset").map(|v| v.number()).transpose()?;
     Ok(Reading {
@@ -209,7 +209,7 @@ fn command(table: &Table<'_>, key: usize, axis: Axis) -> Result<CommandSource, E
     Ok(CommandSource { reading: reading(table, size)?, kind, hold })
 }
 
-/// What the motor's channel is called.
+/// What the motor's channel measures.
 fn position(axis: Axis) -> &'static str {
     match axis {
         Axis::Rotary => "an angle",
@@ -217,7 +217,7 @@ fn position(axis: Axis) -> &'static str {
     }
 }
 
-/// The axis, the motor's reading, and whether it is a speed.
+/// Reads the axis, the motor's column, and whether it is a speed.
 fn motor(table: &Table<'_>) -> Result<(Axis, Reading, bool), Error> {
     table.only(&["column", "unit", "scale", "offset", "quantity"])?;
     let quantity = table.get("quantity").map(|v| v.choice(&["angle", "speed"])).transpose()?;
@@ -245,7 +245,7 @@ fn motor(table: &Table<'_>) -> Result<(Axis, Reading, bool), Error> {
     Ok((axis, reading(table, size)?, speed))
 }
 
-/// The motor's speed beside its angle.
+/// Reads the motor's speed, in addition to its angle.
 fn speed(value: &Value<'_>, axis: Axis, motor_speed: bool) -> Result<Reading, Error> {
     let table = value.table()?;
     if motor_speed {
@@ -279,7 +279,7 @@ fn tip(table: &Table<'_>, axis: Axis, default_name: String) -> Result<(Tip, TipS
     let (size, found) = unit.any_unit()?;
     let calibrated = unit.text()?.trim() != "1";
     let acceleration = quantity == TipQuantity::Acceleration;
-    // The dimension that needs nothing more, and for a rotary axis the one that needs a radius.
+    // The dimension that needs no radius, and for a rotary axis the one that needs a radius.
     let (direct, by_radius) = match (axis, acceleration) {
         (Axis::Rotary, false) => (Dimension::NUMBER, Some(Dimension::LENGTH)),
         (Axis::Rotary, true) => (Dimension::ANGULAR_ACCELERATION, Some(Dimension::ACCELERATION)),

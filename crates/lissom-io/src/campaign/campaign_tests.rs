@@ -243,19 +243,19 @@ pub(super) fn fails(campaign: &str, message: &str, hint: Option<&str>) {
 fn wrong_keys_and_units() {
     fails(
         &PLAIN.replace("hold", "holds"),
-        "campaign.toml, line 4: `signals.current.holds` is not a key that is known here",
+        "campaign.toml, line 4: `signals.current.holds` is not a known key",
         Some("did you mean `hold`?"),
     );
     fails(
         &PLAIN.replace("motor =", "moter ="),
-        "campaign.toml, line 5: `signals.moter` is not a key that is known here",
+        "campaign.toml, line 5: `signals.moter` is not a known key",
         Some("did you mean `motor`?"),
     );
     fails(
         &PLAIN.replace(", hold = \"sampled\"", ""),
         "campaign.toml, line 4: `signals.current` has no `hold`",
         Some(
-            "\"sampled\" for a command that is held between samples, \"measured\" for a measurement",
+            "write hold = \"sampled\" for a command that is held between samples, hold = \"measured\" for a measurement",
         ),
     );
     fails(
@@ -266,9 +266,7 @@ fn wrong_keys_and_units() {
     fails(
         &PLAIN.replace("unit = \"A\"", "unit = \"V\""),
         "campaign.toml, line 4: `signals.current.unit`: \"V\" is a voltage [kg*m^2*s^-3*A^-1], where a current [A] is expected",
-        Some(
-            "a drive that logs its voltage has `voltage = …` in place of `current`, and `voltage_limit`",
-        ),
+        Some("for a logged voltage write `voltage = …` instead of `current`, and `voltage_limit`"),
     );
     fails(
         &PLAIN.replace("N*m/A", "N*m/V"),
@@ -338,16 +336,16 @@ fn drives_that_do_not_fit_their_command() {
         "campaign.toml, line 7: `drive.torque_constant`: a torque constant per ampere needs";
     fails(
         &voltage("torque_constant = \"0.5 N*m/A\""),
-        &format!("{winding} `resistance` where the command is a voltage"),
+        &format!("{winding} `resistance` if the command is a voltage"),
         Some(
             "give `resistance` and `back_emf`, or the torque constant per volt, as in \"0.15 N*m/V\"",
         ),
     );
     fails(
         &voltage("torque_constant = \"0.5 N*m/A\"\nresistance = 2"),
-        &format!("{winding} `back_emf` where the command is a voltage"),
+        &format!("{winding} `back_emf` if the command is a voltage"),
         Some(
-            "of a DC motor it equals the torque constant in SI, as in \"0.0107 V*s/rad\"; 0 leaves its damping in the viscous figure",
+            "for a DC motor `back_emf` equals the torque constant in SI, as in \"0.0107 V*s/rad\"; with 0 its damping is part of viscous friction",
         ),
     );
     fails(
@@ -357,8 +355,8 @@ fn drives_that_do_not_fit_their_command() {
     );
     fails(
         &voltage("current_limit = 2"),
-        "campaign.toml, line 7: `drive.current_limit` says nothing where the command is a voltage",
-        Some("remove it, or describe the channel it belongs to"),
+        "campaign.toml, line 7: `drive.current_limit` does not apply if the command is a voltage",
+        Some("remove it, or describe the channel that it belongs to"),
     );
 }
 
@@ -372,7 +370,7 @@ fn tips_that_do_not_fit_the_axis() {
     );
     fails(
         &with("column = \"x\", unit = \"rad\", radius = 1"),
-        "campaign.toml, line 6: `signals.tips[1].radius`: a radius means nothing for this tip",
+        "campaign.toml, line 6: `signals.tips[1].radius`: a radius does not apply to this tip",
         Some("remove it"),
     );
     fails(
@@ -382,12 +380,12 @@ fn tips_that_do_not_fit_the_axis() {
     );
     fails(
         &with("x = \"x\", y = \"y\", quantity = \"deflection\""),
-        "campaign.toml, line 6: `signals.tips[1]`: a camera's x and y give the angle of the radius to the point, nothing else",
+        "campaign.toml, line 6: `signals.tips[1]`: x and y of a camera can only give the angle of the radius to the point",
         Some("remove `quantity`"),
     );
     fails(
         &with("x = \"x\"").replace("unit = \"rad\"", "unit = \"m\"").replace("N*m/A", "N/A"),
-        "campaign.toml, line 6: `signals.tips[1]`: a camera's x and y give an angle, and the motor is measured in metres",
+        "campaign.toml, line 6: `signals.tips[1]`: x and y of a camera give an angle, but the motor is measured in metres",
         Some("give one column with a unit of length"),
     );
 }
@@ -398,14 +396,14 @@ fn logs_that_do_not_fit_their_campaign() {
         PLAIN,
         &[],
         "a.csv: cannot be opened: No such file or directory (os error 2)",
-        Some("a run's file is looked for in the folder of its campaign.toml"),
+        Some("check the name: a path starts from the folder of campaign.toml"),
     );
     fails_on(
         PLAIN,
         &[("a.csv", &log((0..40).chain(100..130)))],
-        "a.csv: gaps in the time stamps (1) leave no piece of 50 samples; the longest has 40",
+        "a.csv: the log is cut at gaps in the time stamps (1), and no piece has 50 samples; the longest has 40",
         Some(
-            "log without interruption; where the stamps are too coarse for the sampling, give `sample_time` in place of `time`",
+            "log without interruption; if the stamps are too coarse for the sampling, give `sample_time` instead of `time`",
         ),
     );
     fails_on(
@@ -423,13 +421,13 @@ fn logs_that_do_not_fit_their_campaign() {
         &format!("{PLAIN}frequency = \"500 Hz\"\n"),
         "campaign.toml, line 10: `runs[1].frequency` is 3141.5927 rad/s, but must be below 3141.5927 rad/s, the Nyquist frequency of a.csv",
         Some(
-            "`omega_rad_s` is in rad/s, and `frequency = \"5 Hz\"` takes a unit; check the unit of the time stamps too",
+            "`omega_rad_s` is in rad/s; `frequency = \"5 Hz\"` has a unit; check also the unit of the time stamps",
         ),
     );
     fails(
         &PLAIN.replace("column = \"x\"", "column = \"z\""),
         "a.csv: there is no column \"z\"; the columns are \"t\", \"u\", \"x\", \"y\"",
-        Some("give one of these names as it stands in the log, or the column's number from 1"),
+        Some("give one of these names exactly, or the column's number from 1"),
     );
 }
 

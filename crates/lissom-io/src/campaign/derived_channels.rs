@@ -1,8 +1,8 @@
-//! Channels that follow from others: an angle from a speed, a difference from a goal.
+//! Channels that are computed from others: an angle from a speed, a difference from a goal.
 
 use lissom_core::record::Hold;
 
-/// The angle from 0 on, by the trapezoidal rule.
+/// Integrates a speed to an angle that starts at 0, by the trapezoidal rule.
 pub(super) fn integrated(speed: &[f64], sample_time_s: f64) -> Vec<f64> {
     let mut angle = 0.0;
     let mut before = speed.first().copied().unwrap_or(0.0);
@@ -14,9 +14,9 @@ pub(super) fn integrated(speed: &[f64], sample_time_s: f64) -> Vec<f64> {
     speed.iter().map(next).collect()
 }
 
-/// The difference of a goal and the angle, on which a servo acts.
+/// The difference of goal and angle, which is the input of a servo.
 ///
-/// A goal that is held acts with the mean angle of the step, since the servo goes on measuring.
+/// A held goal is compared with the mean angle of the step, because the servo continues to measure.
 pub(super) fn goal_difference(goal: &[f64], angle: &[f64], hold: Hold) -> Vec<f64> {
     let last = angle.len().saturating_sub(1);
     let acting = |k: usize| match hold {

@@ -1,4 +1,4 @@
-//! From logs to runs.
+//! Reads logs into runs.
 
 use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
@@ -24,7 +24,7 @@ use crate::log::{self, ColumnRef, Log, LogColumn, LogError, LogOptions, TimeBack
 /// Largest magnitude of a sample in SI.
 const LARGEST: f64 = MAGNITUDE.1;
 
-/// Reads every run, some at the same time. An error is that of the first run that has one.
+/// Reads all runs, several at the same time. The error is that of the first run with an error.
 pub(super) fn load(
     folder: &Path,
     signals: &Signals,
@@ -36,7 +36,7 @@ pub(super) fn load(
     let mut named: HashMap<&str, usize> = HashMap::new();
     for spec in specs {
         let times = named.entry(&spec.name).and_modify(|n| *n += 1).or_insert(1);
-        // Findings and results tell runs apart by name.
+        // Findings and results identify runs by name.
         names.push(if *times == 1 {
             spec.name.clone()
         } else {
@@ -122,7 +122,7 @@ fn load_run(
     Ok(runs)
 }
 
-/// Refuses samples that overflow in their unit or in what is made of them.
+/// Refuses samples that are too large.
 fn in_range(
     command: &[f64],
     motor: &[f64],
@@ -149,7 +149,7 @@ fn channel_in_range(channel: &str, samples: &[f64], file: &str) -> Result<(), Lo
     }
 }
 
-/// What is wrong with a run, as a flaw of its log.
+/// Turns an error of a run into an error of its log.
 fn of_log(error: RecordError, file: &str) -> Error {
     let file = file.to_owned();
     match error {
@@ -161,7 +161,7 @@ fn of_log(error: RecordError, file: &str) -> Error {
     }
 }
 
-/// The columns to read: command, motor, those of the tips in turn, and a speed beside the angle.
+/// The columns to read: command, motor, the columns of each tip, and the speed if it is logged in addition.
 fn columns(signals: &Signals) -> Vec<LogColumn> {
     let measured = |column: &ColumnRef| LogColumn { column: column.clone(), hold: Hold::Measured };
     let command = &signals.command;
@@ -177,7 +177,7 @@ fn columns(signals: &Signals) -> Vec<LogColumn> {
     columns
 }
 
-/// The log as runs with even samples.
+/// Turns a log into runs with even samples.
 fn even_parts(
     log: Log,
     signals: &Signals,
@@ -270,7 +270,7 @@ fn remove_turns(
     turns
 }
 
-/// Command, motor and tips in SI.
+/// Converts command, motor and tips to SI.
 fn channels(columns: Vec<Vec<f64>>, signals: &Signals) -> (Vec<f64>, Vec<f64>, Vec<Vec<f64>>) {
     let mut columns = columns.into_iter();
     let mut next = || columns.next().unwrap_or_default();
@@ -296,7 +296,7 @@ fn in_si(mut column: Vec<f64>, reading: &Reading) -> Vec<f64> {
     column
 }
 
-/// Angle of the radius from the origin to a point, continued across ±π.
+/// Angle of the radius from the origin to a point, unwrapped at ±π.
 fn camera_angle(x: &[f64], y: &[f64], origin: [f64; 2], scale: f64) -> Vec<f64> {
     let mut turns = 0.0;
     let mut last: Option<f64> = None;

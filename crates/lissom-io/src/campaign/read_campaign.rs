@@ -1,4 +1,4 @@
-//! From a `campaign.toml` and its logs to a campaign.
+//! Reads a `campaign.toml` and its logs.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use crate::config::{ConfigError, Source, Table};
 use crate::io_error::Error;
 use crate::units::Dimension;
 
-/// Reads a `campaign.toml` and the logs it names.
+/// Reads a `campaign.toml` and its logs.
 ///
 /// # Errors
 /// [`Error::Config`] and [`Error::Campaign`] for the file itself and its `arm.toml`,
@@ -21,7 +21,7 @@ pub fn read_campaign(path: &Path) -> Result<CampaignFile, Error> {
     read_campaign_with(path, &ReadOptions::default())
 }
 
-/// Reads a `campaign.toml` and the logs it names, within limits.
+/// Reads a `campaign.toml` and its logs, with other limits.
 ///
 /// # Errors
 /// As [`read_campaign`].
@@ -29,8 +29,7 @@ pub fn read_campaign_with(path: &Path, options: &ReadOptions) -> Result<Campaign
     read(path, None, options)
 }
 
-/// Reads `log` as the logs of the campaign at `path` are read, and none of these. The head that its
-/// `[analysis]` skips is skipped.
+/// Reads only `log`, with the columns and units of the campaign at `path`. The `skip` in its `[analysis]` applies too.
 ///
 /// # Errors
 /// As [`read_campaign`].

@@ -9,13 +9,13 @@ use crate::units::Dimension;
 pub(super) struct RunSpec {
     pub(super) file: PathBuf,
     pub(super) name: String,
-    /// With its place in the campaign.
+    /// The drive frequency \[rad/s\], with its place in the campaign.
     pub(super) omega_rad_s: Option<(f64, ConfigPlace)>,
     pub(super) skip_s: f64,
 }
 
 impl RunSpec {
-    /// A log by itself.
+    /// The run of a single log.
     pub(super) fn of_log(log: &Path, skip_s: Option<f64>) -> Self {
         let name = log.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
         Self { file: log.to_owned(), name, omega_rad_s: None, skip_s: skip_s.unwrap_or(0.0) }

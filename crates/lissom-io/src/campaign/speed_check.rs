@@ -1,23 +1,23 @@
-//! A logged speed against the logged angle: whether it is the angle's rate.
+//! Comparison of a logged speed with the rate of the logged angle.
 
-/// Rows from one angle to the next, tried in turn: few where the motion is fast, many where the encoder is coarse.
+/// Numbers of rows between compared angles, tried in turn: few suit fast motion, many a coarse encoder.
 const STRIDES: [usize; 5] = [1, 4, 16, 64, 256];
-/// A speed whose integral correlates with the angle's change by less is of something else.
+/// Correlation of the speed's integral with the change of the angle below which the speed is another signal.
 const CORRELATION: f64 = 0.9;
-/// A speed that differs by more than this share from the angle's rate is in another unit, or of another shaft.
+/// Relative difference to the angle's rate above which the speed has another unit or is that of another shaft.
 const SHARE: f64 = 0.1;
 
 /// How a speed contradicts an angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Contradiction {
-    /// The speed over the angle's rate, by least squares.
+    /// Speed divided by the angle's rate, by least squares.
     pub(super) ratio: f64,
     /// Correlation of both.
     pub(super) correlation: f64,
 }
 
-/// Compares the integral of the speed from row to row with the change of the angle; `None` where they agree, or where
-/// nothing moves.
+/// Compares the integral of the speed from row to row with the change of the angle; `None` if they agree, or if nothing
+/// moves.
 pub(super) fn contradiction(
     stamps_s: &[f64],
     angle: &[f64],
@@ -33,7 +33,7 @@ fn compare(stamps_s: &[f64], angle: &[f64], speed: &[f64], stride: usize) -> Opt
     let rows = stamps_s.len().min(angle.len()).min(speed.len());
     let mut integral = vec![0.0; rows];
     for k in 1..rows {
-        // A clock that goes back begins anew: nothing passes there.
+        // A clock that goes back starts again: no time passes there.
         let step_s = (stamps_s[k] - stamps_s[k - 1]).max(0.0);
         integral[k] = integral[k - 1] + step_s * f64::midpoint(speed[k - 1], speed[k]);
     }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// What is left of a jump without its turn may be this many times the largest other step.
+/// A jump without its turn may be at most this many times the largest other step.
 const LIKE_OTHER_STEPS: f64 = 1.5;
 
 /// Removes jumps of one turn from an angle in rad, and counts them.

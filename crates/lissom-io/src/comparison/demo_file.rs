@@ -26,11 +26,11 @@ pub struct ComparisonEntry {
     /// Its value in the simulated arm.
     #[serde(rename = "true")]
     pub truth: f64,
-    /// Estimate of the third-harmonic method; null where it has none.
+    /// Estimate of the third-harmonic method; null if it has none.
     pub third_harmonic: Option<ComparedEstimateEntry>,
-    /// Estimate of the regression; null where it has none.
+    /// Estimate of the regression; null if it has none.
     pub regression: Option<ComparedEstimateEntry>,
-    /// Estimate of the output-error method; null where it has none.
+    /// Estimate of the output-error method; null if it has none.
     pub output_error: Option<ComparedEstimateEntry>,
 }
 

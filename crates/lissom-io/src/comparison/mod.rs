@@ -1,4 +1,4 @@
-//! Estimates compared with known values: what `lissom demo` and `lissom figures` write with `--json`.
+//! Estimates compared with known values, as written by `lissom demo --json` and `lissom figures --json`.
 
 mod demo_file;
 mod figures_file;

@@ -1,4 +1,4 @@
-//! What can be wrong with a file of keys and values.
+//! Errors of a file with keys and values.
 
 use std::fmt;
 use std::io;
@@ -16,7 +16,7 @@ pub struct ConfigPlace {
     pub file: String,
     /// The line, from 1.
     pub line: usize,
-    /// The key with the tables around it; empty for the whole file.
+    /// The key with its tables; empty for the whole file.
     pub key: String,
 }
 
@@ -30,7 +30,7 @@ impl fmt::Display for ConfigPlace {
     }
 }
 
-/// What a number must be.
+/// Rule for a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Rule {
@@ -78,10 +78,10 @@ pub enum ConfigError {
     Read {
         /// The file.
         file: String,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
-    /// It is not TOML.
+    /// The file is not TOML.
     #[error("{file}, line {line}, column {column}: {message}")]
     Syntax {
         /// The file.
@@ -90,20 +90,20 @@ pub enum ConfigError {
         line: usize,
         /// The character in the line, from 1.
         column: usize,
-        /// What the TOML reader says.
+        /// Message of the TOML reader.
         message: String,
     },
-    /// A key that means nothing here.
-    #[error("{place} is not a key that is known here")]
+    /// An unknown key.
+    #[error("{place} is not a known key")]
     UnknownKey {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
-        /// The keys that are.
+        /// The known keys.
         known: Vec<&'static str>,
-        /// The one that was probably meant.
+        /// The key that was probably meant.
         nearest: Option<String>,
     },
-    /// A key that must be there.
+    /// A missing key.
     #[error("{place} has no `{key}`")]
     MissingKey {
         /// The table.
@@ -111,7 +111,7 @@ pub enum ConfigError {
         /// The key.
         key: &'static str,
     },
-    /// None of several keys of which one must be there.
+    /// None of several keys, of which one is required.
     #[error("{place} has none of `{}`", keys.join("`, `"))]
     NoneOf {
         /// The table.
@@ -129,7 +129,7 @@ pub enum ConfigError {
         /// The other.
         second: &'static str,
     },
-    /// A value that means nothing without another key.
+    /// A value that has no effect without another key.
     #[error("{place} needs `{key}`")]
     Needs {
         /// The value.
@@ -137,78 +137,78 @@ pub enum ConfigError {
         /// The key.
         key: &'static str,
     },
-    /// Periods of what has none.
-    #[error("{place} is for what repeats itself")]
+    /// A number of periods for a motion that is not periodic.
+    #[error("{place} is allowed only for periodic motions")]
     NoPeriod {
         /// The value.
         place: ConfigPlace,
     },
-    /// A span without mass along it in a beam that has spans with one.
+    /// A span without mass along its length, in a beam with other spans that have it.
     #[error("{place} has no mass along its length, but `{other}` has")]
     NoMassAlong {
         /// The span.
         place: ConfigPlace,
-        /// A span that has one.
+        /// A span that has mass along its length.
         other: String,
     },
-    /// A list that stands for too many entries.
-    #[error("{place} stands for {found} entries, but {most} is the most")]
+    /// A list with too many entries.
+    #[error("{place} has {found} entries with repetitions, but at most {most} are allowed")]
     TooMany {
         /// The list.
         place: ConfigPlace,
-        /// Its entries, each as often as it is repeated.
+        /// The number of entries, with repetitions.
         found: usize,
-        /// The most there may be.
+        /// The largest number allowed.
         most: usize,
     },
-    /// A key that only the last entry of a list may have.
-    #[error("{place} may stand in the last entry alone")]
+    /// A key that is allowed only in the last entry of a list.
+    #[error("{place} is allowed only in the last entry")]
     LastOnly {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
     },
-    /// A value of another kind.
+    /// A value of a wrong kind.
     #[error("{place} is {found}, where {expected} is expected")]
     Kind {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
-        /// What is expected.
+        /// The kind expected.
         expected: &'static str,
-        /// What stands there.
+        /// The value found.
         found: String,
     },
     /// A quantity or unit that cannot be read.
     #[error("{place}: {source}")]
     Unit {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
-        /// What is wrong with it.
+        /// The cause.
         source: Box<UnitError>,
     },
     /// A number outside its range.
     #[error("{place} is {found}, but must be {rule}")]
     Range {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
-        /// The value as it stands in the file.
+        /// The value as written in the file.
         found: String,
-        /// What it must be.
+        /// The rule for it.
         rule: Rule,
     },
-    /// A word that is none of the choices.
+    /// A word that is not one of the choices.
     #[error("{place} is \"{}\", but must be \"{}\"", excerpt(found), choices.join("\" or \""))]
     Choice {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
         /// The word.
         found: String,
         /// The choices.
         choices: Vec<&'static str>,
     },
-    /// A list with nothing in it.
+    /// An empty list.
     #[error("{place} is an empty list")]
     EmptyList {
-        /// Where.
+        /// Place of the value.
         place: ConfigPlace,
     },
 }
@@ -216,13 +216,13 @@ pub enum ConfigError {
 fn read_hint(source: &io::Error) -> &'static str {
     match source.kind() {
         io::ErrorKind::NotFound => "check the path; `lissom demo` writes an example",
-        io::ErrorKind::InvalidData => "the file is text in UTF-8: save it so",
-        io::ErrorKind::IsADirectory => "name the file in it",
-        _ => "check that it is a file that you may read",
+        io::ErrorKind::InvalidData => "save the file as text in UTF-8",
+        io::ErrorKind::IsADirectory => "give a file in this folder",
+        _ => "check that it is a file and that you may read it",
     }
 }
 
-/// How the table of this key may be written.
+/// An example of the table of this key.
 fn table_example(key: &str) -> &'static str {
     match key.rsplit('.').next() {
         Some("payload") => "{ mass = \"0.2 kg\", inertia = \"1e-4 kg*m^2\" }",
@@ -242,17 +242,17 @@ impl ConfigError {
         }
     }
 
-    /// What to do about it.
+    /// What the user can do.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::UnknownKey {
                 nearest: Some(key), ..
             } => Some(format!("did you mean `{key}`?")),
             Self::UnknownKey { known, .. } => {
-                Some(format!("the keys here are `{}`", known.join("`, `")))
+                Some(format!("the known keys are `{}`", known.join("`, `")))
             }
             Self::MissingKey { key: "hold", .. } => Some(
-                "\"sampled\" for a command that is held between samples, \"measured\" for a measurement"
+                "write hold = \"sampled\" for a command that is held between samples, hold = \"measured\" for a measurement"
                     .to_owned(),
             ),
             Self::MissingKey { key: "runs", .. } | Self::EmptyList { .. } => {
@@ -280,7 +280,7 @@ impl ConfigError {
             Self::Range { place, rule: Rule::WholeBetween(..), .. }
                 if place.key.ends_with(".column") =>
             {
-                Some("columns go by name in quotes or by number from 1".to_owned())
+                Some("give the column's name in quotes, or its number from 1".to_owned())
             }
             Self::Range { rule: Rule::WholeBetween(..), .. } => {
                 Some("give a whole number within these limits".to_owned())
@@ -297,11 +297,11 @@ impl ConfigError {
                 Some("the file is TOML: `key = value` lines below [table] lines".to_owned())
             }
             Self::Kind { expected: "a number", .. } => {
-                Some("write it without unit and quotes".to_owned())
+                Some("write the number without unit and quotes".to_owned())
             }
             Self::Kind { expected: "text in quotes", .. } => Some("put it in quotes".to_owned()),
             Self::Kind { expected: "true or false", .. } => {
-                Some("write it without quotes".to_owned())
+                Some("write true or false without quotes".to_owned())
             }
             Self::Kind { expected: "a table", place, .. } => {
                 Some(format!("write it as in {}", table_example(&place.key)))
@@ -317,17 +317,17 @@ impl ConfigError {
                 Some(format!("add `{key}`"))
             }
             Self::Needs { .. } => Some(
-                "the area comes from `section`, beside `young_modulus`; or write `mass_per_length` \
-                 in place of `density`"
+                "give `section` and `young_modulus`, from which the area follows, or write \
+                 `mass_per_length` instead of `density`"
                     .to_owned(),
             ),
             Self::NoMassAlong { .. } => Some(
-                "give every span a mass along its length (`mass_per_length`, or `density` with \
+                "give all spans a mass along their length (`mass_per_length`, or `density` with \
                  `section`), or none of them"
                     .to_owned(),
             ),
-            Self::TooMany { .. } => Some("lower a `count`".to_owned()),
-            Self::LastOnly { .. } => Some("move it there, or leave it out".to_owned()),
+            Self::TooMany { .. } => Some("use a smaller `count`".to_owned()),
+            Self::LastOnly { .. } => Some("move it to the last entry, or remove it".to_owned()),
         }
     }
 }

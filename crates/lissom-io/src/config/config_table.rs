@@ -1,4 +1,4 @@
-//! Tables and values, each with the place where it stands.
+//! Tables and values, each with its place in the file.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use crate::nearest::nearest;
 use crate::read_text::read_text;
 use crate::units::{Dimension, UnitError, parse_any_unit, parse_quantity, parse_unit};
 
-/// Smallest and largest magnitude of a number in SI: no machine has another, and products and
+/// Smallest and largest magnitude of a number in SI. It is far beyond the numbers of any machine, and products and
 /// quotients of such numbers stay finite.
 pub(crate) const MAGNITUDE: (f64, f64) = (1e-100, 1e100);
 
@@ -79,7 +79,7 @@ impl Source {
     }
 }
 
-/// A table and where it stands.
+/// A table and its place in the file.
 #[derive(Debug, Clone)]
 pub(crate) struct Table<'a> {
     source: &'a Source,
@@ -122,7 +122,7 @@ impl<'a> Table<'a> {
         self.get(key).ok_or_else(|| ConfigError::MissingKey { place: self.place(), key })
     }
 
-    /// The one of `keys` that is there, with its index; an error if there are two.
+    /// The one of `keys` that the table has, with its index; an error if it has two.
     pub(crate) fn one_of(
         &self,
         keys: &[&'static str],
@@ -144,7 +144,7 @@ impl<'a> Table<'a> {
     }
 }
 
-/// A value and where it stands.
+/// A value and its place in the file.
 #[derive(Debug, Clone)]
 pub(crate) struct Value<'a> {
     source: &'a Source,
@@ -174,7 +174,7 @@ impl<'a> Value<'a> {
         }
     }
 
-    /// The values of an array, or the value itself.
+    /// The values of an array, or the single value.
     pub(crate) fn one_or_list(&self) -> Vec<Value<'a>> {
         match self.content {
             DeValue::Array(items) => self.items(items),
@@ -237,7 +237,7 @@ impl<'a> Value<'a> {
         }
     }
 
-    /// Text with a unit, or a number in SI.
+    /// Reads text with a unit, or a number in SI.
     pub(crate) fn quantity(&self, expected: Dimension) -> Result<f64, ConfigError> {
         let value = match self.as_text() {
             Some(text) => parse_quantity(text, expected).map_err(|source| self.unit_error(source)),
@@ -255,8 +255,8 @@ impl<'a> Value<'a> {
         }
     }
 
-    /// Text with a unit of one of several dimensions, or a number in SI of the first. Gives the
-    /// index of the dimension too.
+    /// Reads text with a unit of one of several dimensions, or a number in SI of the first dimension. Also gives the
+    /// index of the dimension.
     pub(crate) fn quantity_of(&self, expected: &[Dimension]) -> Result<(usize, f64), ConfigError> {
         let mut first = None;
         for (index, &dimension) in expected.iter().enumerate() {
@@ -317,7 +317,7 @@ impl<'a> Value<'a> {
         ConfigError::Kind { place: self.place(), expected, found: self.shown() }
     }
 
-    /// The value as an error shows it.
+    /// The value as shown in an error.
     fn shown(&self) -> String {
         match self.content {
             DeValue::String(text) => format!("\"{}\"", excerpt(text)),

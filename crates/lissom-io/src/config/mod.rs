@@ -1,7 +1,7 @@
 //! Files of keys and values (TOML), read so that every error names file, line and key.
 //!
-//! The values are walked by hand: a derived reader loses the place of a value that may be text
-//! or a number, and with it the line that an error should name.
+//! The values are read by hand: a derived reader loses the place of a value that may be text or a number, and so
+//! the line number for an error.
 
 mod config_error;
 mod config_table;

@@ -1,4 +1,4 @@
-//! Columns of a log: which are asked for, how they are read, what they hold.
+//! Columns of a log: which to read, how to read them, and their values.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use lissom_core::record::Hold;
 /// A column of a log.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ColumnRef {
-    /// By its name in the header, trimmed and exact.
+    /// By its name in the header; it must match exactly, without blanks around it.
     Name(String),
     /// By its number, from 1.
     Number(usize),
@@ -25,7 +25,7 @@ impl fmt::Display for ColumnRef {
 /// A column to read, and how to thin it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LogColumn {
-    /// Which one.
+    /// The column.
     pub column: ColumnRef,
     /// Thinning takes the mean of a held signal and every n-th sample of a measured one.
     pub hold: Hold,
@@ -34,9 +34,9 @@ pub struct LogColumn {
 /// How to read a log.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LogOptions {
-    /// Most rows kept; a longer log is thinned by 2, 4, 8, ... while it is read. At least 4.
+    /// Largest number of rows kept; a longer log is thinned by 2, 4, 8, ... while it is read. At least 4.
     pub max_rows: usize,
-    /// Numbers have a decimal comma; cells are then separated by semicolons, tabs or blanks.
+    /// Whether numbers have a decimal comma; cells are then separated by semicolons, tabs or blanks.
     pub decimal_comma: bool,
 }
 
@@ -49,26 +49,26 @@ impl Default for LogOptions {
 /// The columns of a log, in its own units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Log {
-    /// Time stamps, increasing but for `time_back`; absent where none were asked for.
+    /// Time stamps, increasing except at `time_back`; absent if they were not asked for.
     pub time: Option<Vec<f64>>,
     /// The columns asked for, in that order.
     pub columns: Vec<Vec<f64>>,
     /// Rows of the file per sample; 1 unless the log was thinned.
     pub factor: usize,
-    /// Step of the stamps' last decimal; 0 where it is unknown.
+    /// Size of the last decimal of the stamps; 0 if it is unknown.
     pub time_step: f64,
-    /// Where time goes back: empty with thinned logs, in which it is an error.
+    /// Places at which time goes back; empty for thinned logs, in which this is an error.
     pub time_back: Vec<TimeBack>,
-    /// Rows that were passed over, since they repeat the stamp and all columns of the row above.
+    /// Number of rows that were skipped, because they repeat the stamp and all columns of the row above.
     pub repeated: usize,
 }
 
-/// A stamp before the one above it.
+/// A stamp that is earlier than the one above it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimeBack {
     /// Sample of the later row, from 0.
     pub sample: usize,
-    /// The later row, as a line of the file from 1.
+    /// Line of the later row in the file, from 1.
     pub row: usize,
     /// Stamp of the row before.
     pub before: f64,

@@ -1,4 +1,4 @@
-//! What can be wrong with a log.
+//! Errors of a log.
 
 use std::f64::consts::TAU;
 use std::io;
@@ -17,20 +17,20 @@ pub enum LogError {
     Open {
         /// The file.
         file: String,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
-    /// Reading broke off.
+    /// Reading failed.
     #[error("{file}: reading failed at row {row}: {source}")]
     Read {
         /// The file.
         file: String,
-        /// Row reached.
+        /// The row reached.
         row: usize,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
-    /// Control characters: not a text file.
+    /// Control characters, so it is not a text file.
     #[error("{file}: row {row} is not text")]
     NotText {
         /// The file.
@@ -38,35 +38,35 @@ pub enum LogError {
         /// The row.
         row: usize,
     },
-    /// The byte order mark of UTF-16 or UTF-32.
+    /// A byte order mark of UTF-16 or UTF-32.
     #[error("{file}: the text is in UTF-16 or UTF-32")]
     Utf16 {
         /// The file.
         file: String,
     },
-    /// A row without end.
+    /// A row that is too long.
     #[error("{file}: row {row} is longer than {most} bytes")]
     LongRow {
         /// The file.
         file: String,
         /// The row.
         row: usize,
-        /// Bytes it may have.
+        /// Largest number of bytes of a row.
         most: u64,
     },
-    /// Nothing but blank lines.
+    /// A log with blank lines only.
     #[error("{file}: the log is empty")]
     Empty {
         /// The file.
         file: String,
     },
-    /// A header and no rows.
+    /// A header without rows.
     #[error("{file}: the log has a header and no rows of numbers")]
     HeaderOnly {
         /// The file.
         file: String,
     },
-    /// One row of numbers.
+    /// A log with only one row of numbers.
     #[error("{file}: the log has one row of numbers only, row {row}")]
     OneRow {
         /// The file.
@@ -74,7 +74,7 @@ pub enum LogError {
         /// The row.
         row: usize,
     },
-    /// No column has the name.
+    /// No column has this name.
     #[error(
         "{file}: there is no column \"{}\"; the columns are {}",
         excerpt(column),
@@ -83,44 +83,44 @@ pub enum LogError {
     NoColumn {
         /// The file.
         file: String,
-        /// Name wanted.
+        /// The name wanted.
         column: String,
-        /// Names there are.
+        /// The names of the columns.
         names: Vec<String>,
-        /// The one that was probably meant.
+        /// The name that was probably meant.
         nearest: Option<String>,
     },
-    /// A column by name from a log without names.
+    /// A column by its name, in a log without names.
     #[error("{file}: there is no column \"{}\": the log has no header", excerpt(column))]
     NoHeader {
         /// The file.
         file: String,
-        /// Name wanted.
+        /// The name wanted.
         column: String,
         /// Number of columns.
         columns: usize,
     },
-    /// Several columns have the name.
+    /// Several columns have this name.
     #[error("{file}: {} columns are called \"{}\"", numbers.len(), excerpt(column))]
     Ambiguous {
         /// The file.
         file: String,
-        /// Name wanted.
+        /// The name wanted.
         column: String,
         /// Their numbers.
         numbers: Vec<usize>,
     },
-    /// No column has the number.
+    /// No column has this number.
     #[error("{file}: there is no column {number}; the log has {columns}")]
     ColumnNumber {
         /// The file.
         file: String,
-        /// Number wanted, from 1.
+        /// The number wanted, from 1.
         number: usize,
         /// Number of columns.
         columns: usize,
     },
-    /// A cell that is no number.
+    /// A cell that is not a number.
     #[error(
         "{file}: row {row}, column {}: \"{}\" is not a number",
         excerpt(column),
@@ -133,7 +133,7 @@ pub enum LogError {
         row: usize,
         /// The column.
         column: String,
-        /// What stands there.
+        /// The text of the cell.
         found: String,
     },
     /// A cell that is NaN or infinite.
@@ -149,7 +149,7 @@ pub enum LogError {
         row: usize,
         /// The column.
         column: String,
-        /// What stands there.
+        /// The text of the cell.
         found: String,
     },
     /// An empty cell, or a row that ends before it.
@@ -164,7 +164,7 @@ pub enum LogError {
     },
     /// More cells than there are columns.
     #[error(
-        "{file}: row {row}, column {column}: \"{}\" stands beyond the {columns} columns of the log",
+        "{file}: row {row}, column {column}: \"{}\" is beyond the {columns} columns of the log",
         excerpt(found)
     )]
     ExtraCell {
@@ -174,12 +174,12 @@ pub enum LogError {
         row: usize,
         /// The column, from 1.
         column: usize,
-        /// What stands there.
+        /// The text of the cell.
         found: String,
-        /// Columns of the header, or of the first row where there is none.
+        /// Number of columns of the header, or of the first row if there is no header.
         columns: usize,
     },
-    /// A stamp before the one above it. Stamps as they stand in the file.
+    /// A stamp that is earlier than the one above it. Stamps are given as in the file.
     #[error(
         "{file}: row {row}, column {}: time goes back from {before} to {after}",
         excerpt(column)
@@ -196,7 +196,7 @@ pub enum LogError {
         /// Stamp of this row.
         after: f64,
     },
-    /// Two rows with one stamp.
+    /// Two rows with the same stamp.
     #[error("{file}: row {row}, column {}: time stands still at {stamp}", excerpt(column))]
     TimeStill {
         /// The file.
@@ -208,21 +208,21 @@ pub enum LogError {
         /// The stamp.
         stamp: f64,
     },
-    /// Gaps leave no piece that is long enough.
+    /// No piece between gaps is long enough.
     #[error(
-        "{file}: gaps in the time stamps ({gaps}) leave no piece of {least} samples; the longest has {longest}"
+        "{file}: the log is cut at gaps in the time stamps ({gaps}), and no piece has {least} samples; the longest has {longest}"
     )]
     AllPiecesShort {
         /// The file.
         file: String,
         /// Number of gaps.
         gaps: usize,
-        /// Samples a piece must have.
+        /// Smallest number of samples of a piece.
         least: usize,
         /// Samples of the longest piece.
         longest: usize,
     },
-    /// Fewer samples than anything can be said from.
+    /// Too few samples.
     #[error("{file}: {found} samples; at least {least} are needed")]
     FewSamples {
         /// The file.
@@ -232,8 +232,11 @@ pub enum LogError {
         /// Samples needed.
         least: usize,
     },
-    /// Numbers that are too large in their unit.
-    #[error("{file}: channel {}: sample {sample} is beyond {largest:e} in SI", excerpt(channel))]
+    /// A sample that is too large in its unit.
+    #[error(
+        "{file}: channel {}: sample {sample} is larger than {largest:e} in SI units",
+        excerpt(channel)
+    )]
     OutOfRange {
         /// The file.
         file: String,
@@ -241,10 +244,10 @@ pub enum LogError {
         channel: String,
         /// The sample, from 1.
         sample: usize,
-        /// Largest magnitude there may be.
+        /// Largest magnitude allowed.
         largest: f64,
     },
-    /// Stamps that give no sample time.
+    /// Stamps that do not give a valid sample time.
     #[error("{file}: the time stamps give a sample time of {found_s} s")]
     SampleTime {
         /// The file.
@@ -252,7 +255,7 @@ pub enum LogError {
         /// The sample time \[s\].
         found_s: f64,
     },
-    /// The head that is to be skipped leaves nothing.
+    /// Skipping the beginning leaves no samples.
     #[error("{file}: skipping {skip_s} s leaves {left} rows of a log of {length_s} s")]
     AllSkipped {
         /// The file.
@@ -261,17 +264,17 @@ pub enum LogError {
         skip_s: f64,
         /// Length of the log \[s\].
         length_s: f64,
-        /// Rows left.
+        /// Rows that remain.
         left: usize,
     },
-    /// A speed that is not the angle's rate.
+    /// A speed that is not the rate of the angle.
     #[error(
         "{file}: the speed contradicts the motor's angle: it is {ratio:.3} times the angle's rate (correlation {correlation:.2})"
     )]
     Speed {
         /// The file.
         file: String,
-        /// Speed over the angle's rate, by least squares.
+        /// Speed divided by the angle's rate, by least squares.
         ratio: f64,
         /// Correlation of both.
         correlation: f64,
@@ -279,40 +282,40 @@ pub enum LogError {
 }
 
 impl LogError {
-    /// Time that goes back, and is no restart of the clock.
+    /// The error for time that goes back without a restart of the clock.
     pub(crate) fn time_back(file: &str, column: &str, found: &TimeBack) -> Self {
         let (file, column) = (file.to_owned(), column.to_owned());
         let TimeBack { row, before, after, .. } = *found;
         Self::TimeBack { file, row, column, before, after }
     }
 
-    /// What to do about it.
+    /// What the user can do.
     pub fn hint(&self) -> Option<String> {
         Some(match self {
             Self::Open { source, .. } if source.kind() == io::ErrorKind::NotFound => {
-                "a run's file is looked for in the folder of its campaign.toml".to_owned()
+                "check the name: a path starts from the folder of campaign.toml".to_owned()
             }
             Self::Open { source, .. } | Self::Read { source, .. }
                 if source.kind() == io::ErrorKind::IsADirectory =>
             {
-                "`file` names one log; give each log of a folder a [[runs]] of its own".to_owned()
+                "give one log as `file`, and a [[runs]] for each log of the folder".to_owned()
             }
             Self::Open { .. } | Self::Read { .. } => {
-                "check that it is a file that you may read".to_owned()
+                "check that it is a file and that you may read it".to_owned()
             }
             Self::Utf16 { .. } => "save the log as UTF-8".to_owned(),
             Self::LongRow { .. } => {
-                "logs have one sample a row: check the line ends, or export fewer columns".to_owned()
+                "a log has one sample in each row: check the line ends, or export fewer columns".to_owned()
             }
             Self::NotText { .. } => {
-                "logs are text: comma, semicolon, tab or blank separated; export the file as CSV".to_owned()
+                "a log is text with commas, semicolons, tabs or blanks between the numbers: export the file as CSV".to_owned()
             }
             Self::Empty { .. } | Self::HeaderOnly { .. } | Self::OneRow { .. } => {
                 "check that the recording ran and that this is the right file".to_owned()
             }
             Self::NoColumn { nearest: Some(name), .. } => format!("did you mean \"{}\"?", excerpt(name)),
             Self::NoColumn { .. } => {
-                "give one of these names as it stands in the log, or the column's number from 1".to_owned()
+                "give one of these names exactly, or the column's number from 1".to_owned()
             }
             Self::NoHeader { columns, .. } => {
                 format!("give the column's number, 1 to {columns}, as in `column = 1`")
@@ -324,19 +327,19 @@ impl LogError {
             }
             Self::ColumnNumber { .. } => "columns are counted from 1".to_owned(),
             Self::NotANumber { found, .. } if found.contains(',') => {
-                "where the decimal sign is a comma, say `decimal = \",\"` in [signals]".to_owned()
+                "if the numbers have a decimal comma, add `decimal = \",\"` to [signals]".to_owned()
             }
             Self::ExtraCell { .. } => {
-                "name every column in the header; where the decimal sign is a comma, say `decimal = \",\"` in [signals]".to_owned()
+                "name every column in the header; if the numbers have a decimal comma, add `decimal = \",\"` to [signals]".to_owned()
             }
             Self::NotANumber { .. } | Self::NotFinite { .. } | Self::MissingCell { .. } => {
-                "repair the row or cut the log there: nothing is filled in silently".to_owned()
+                "repair the row, or cut the log there: missing values are not filled in".to_owned()
             }
             Self::TimeBack { .. } => {
-                "cut the log there and give the two parts as two runs".to_owned()
+                "cut the log there, and give both parts as separate runs".to_owned()
             }
             Self::TimeStill { .. } => {
-                "export the stamps with more digits, or give `sample_time` in place of `time` if the sampling is regular".to_owned()
+                "export the stamps with more digits, or give `sample_time` instead of `time` if the sampling is regular".to_owned()
             }
             Self::FewSamples { .. } => "record longer, or leave the run out".to_owned(),
             Self::OutOfRange { .. } => {
@@ -344,7 +347,7 @@ impl LogError {
             }
             Self::SampleTime { .. } => "check the unit and scale of the time stamps".to_owned(),
             Self::AllPiecesShort { .. } => {
-                "log without interruption; where the stamps are too coarse for the sampling, give `sample_time` in place of `time`".to_owned()
+                "log without interruption; if the stamps are too coarse for the sampling, give `sample_time` instead of `time`".to_owned()
             }
             Self::AllSkipped { .. } => "give a smaller `skip`".to_owned(),
             Self::Speed { ratio, correlation, .. } => of_speed(*ratio, *correlation).to_owned(),
@@ -352,25 +355,31 @@ impl LogError {
     }
 }
 
-/// The way out for a speed that is `ratio` times the angle's rate.
+/// Hint for a speed that is `ratio` times the angle's rate.
 fn of_speed(ratio: f64, correlation: f64) -> &'static str {
     let factors = [
-        (-1.0, "its sign is reversed: add scale = -1 to one of both"),
-        (9.549, "its numbers are in rpm: give unit = \"rpm\", or check the angle's unit"),
-        (0.10472, "its numbers are in rad/s: give unit = \"rad/s\", or check the angle's unit"),
-        (57.296, "speed and angle mix deg and rad: check both units"),
-        (0.017_453, "speed and angle mix deg and rad: check both units"),
-        (TAU, "speed and angle mix turns and rad: check both units"),
-        (1.0 / TAU, "speed and angle mix turns and rad: check both units"),
+        (-1.0, "the sign of one of them is reversed: add scale = -1 to it"),
+        (
+            9.549,
+            "the speed seems to be in rpm: give unit = \"rpm\", or check the unit of the angle",
+        ),
+        (
+            0.10472,
+            "the speed seems to be in rad/s: give unit = \"rad/s\", or check the unit of the angle",
+        ),
+        (57.296, "one of them seems to be in deg, the other in rad: check both units"),
+        (0.017_453, "one of them seems to be in deg, the other in rad: check both units"),
+        (TAU, "one of them seems to be in turns, the other in rad: check both units"),
+        (1.0 / TAU, "one of them seems to be in turns, the other in rad: check both units"),
     ];
     let near = |(factor, _): &&(f64, &str)| (ratio / factor - 1.0).abs() < 0.05;
     match factors.iter().find(near) {
         Some((_, hint)) if correlation.abs() > 0.9 => hint,
-        _ => "check columns, units and signs of both, and whether a gear lies between them",
+        _ => "check columns, units and signs of both, and whether there is a gear between them",
     }
 }
 
-/// Most names that an error lists.
+/// Largest number of names in an error.
 const MOST_NAMES: usize = 40;
 
 fn listed(names: &[String]) -> String {

@@ -1,4 +1,4 @@
-//! How a log's cells are separated and what its columns are called.
+//! Separators of cells and names of columns in a log.
 
 use std::collections::VecDeque;
 
@@ -6,7 +6,7 @@ use super::log_columns::ColumnRef;
 use super::log_error::LogError;
 use crate::nearest::nearest;
 
-/// What separates cells.
+/// Separator of cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Delimiter {
     Char(char),
@@ -16,8 +16,8 @@ pub(crate) enum Delimiter {
 impl Delimiter {
     const ALL: [Self; 4] = [Self::Char('\t'), Self::Char(';'), Self::Char(','), Self::Blanks];
 
-    /// The delimiter of a row: tab before semicolon before comma before blanks. A comma that is
-    /// the decimal sign separates nothing.
+    /// The delimiter of a row: a tab if there is one, otherwise a semicolon, a comma, or blanks. A decimal comma does not
+    /// separate cells.
     pub(crate) fn of(row: &str, decimal_comma: bool) -> Self {
         let row = row.trim_matches(' ');
         Self::ALL
@@ -27,7 +27,7 @@ impl Delimiter {
             .unwrap_or(Self::Blanks)
     }
 
-    /// The cells of a row, trimmed and without quotes. A delimiter at the end opens no cell.
+    /// The cells of a row, without blanks around them and without quotes. A delimiter at the end does not start a cell.
     pub(crate) fn split(self, row: &str) -> Cells<'_> {
         let rest = match self {
             Self::Char('\t') => row.trim_start_matches(' ').trim_end(),
@@ -80,7 +80,7 @@ impl<'a> Iterator for Cells<'a> {
     }
 }
 
-/// A quote that is never closed stays: the cell is no number.
+/// A quote that is never closed is kept, so that the cell is not a number.
 fn unquoted(cell: &str) -> &str {
     let inner = cell.strip_prefix('"').and_then(|inner| inner.split_once('"'));
     inner.map_or(cell, |(inner, _)| inner.trim())
@@ -97,24 +97,24 @@ pub(crate) fn number(cell: &str, decimal_comma: bool) -> Option<f64> {
     plain_decimal(cell.as_bytes()).or_else(|| cell.parse().ok())
 }
 
-/// A cell that is a [`PlainDecimal`] and nothing else.
+/// Parses a cell that is exactly a [`PlainDecimal`].
 fn plain_decimal(cell: &[u8]) -> Option<f64> {
     PlainDecimal::leading(cell).filter(|found| found.length == cell.len()).map(|found| found.value)
 }
 
-/// A number of digits and at most one point, where one division of two exact numbers gives the nearest one.
+/// A number with digits and at most one point, so that one division of two exact numbers gives the nearest value.
 pub(super) struct PlainDecimal {
     pub(super) value: f64,
     /// Digits after the point.
     pub(super) decimals: usize,
-    /// Characters that it takes.
+    /// Number of its characters.
     pub(super) length: usize,
 }
 
 impl PlainDecimal {
-    /// The number with which a text begins.
+    /// The number at the beginning of a text.
     pub(super) fn leading(text: &[u8]) -> Option<Self> {
-        /// So many digits are below 2^53.
+        /// Numbers with this many digits are below 2^53.
         const MOST_DIGITS: usize = 15;
         let negative = text.first() == Some(&b'-');
         let unsigned = &text[usize::from(negative)..];
@@ -149,7 +149,7 @@ const TENS: [f64; 23] = [
     1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
 ];
 
-/// Whether most cells of the row are no numbers.
+/// Whether most cells of the row are not numbers.
 pub(crate) fn is_header(row: &str, delimiter: Delimiter, decimal_comma: bool) -> bool {
     let (mut words, mut numbers) = (0_usize, 0_usize);
     for cell in delimiter.split(row).filter(|cell| !cell.is_empty()) {
@@ -162,7 +162,7 @@ pub(crate) fn is_header(row: &str, delimiter: Delimiter, decimal_comma: bool) ->
     words > numbers
 }
 
-/// Whether a row has words and no number: below the names it holds units.
+/// Whether a row has words and no number, as a row of units below the names.
 pub(super) fn is_words(row: &str, delimiter: Delimiter, decimal_comma: bool) -> bool {
     let mut cells = delimiter.split(row).filter(|cell| !cell.is_empty()).peekable();
     cells.peek().is_some() && cells.all(|cell| number(cell, decimal_comma).is_none())
@@ -174,7 +174,7 @@ pub(crate) fn comment(line: &str) -> Option<&str> {
     line.starts_with(['#', '%']).then(|| line.trim_start_matches(['#', '%']))
 }
 
-/// Names from the comment lines before the data: see the module's documentation.
+/// Names from the comment lines before the data, see the module's documentation.
 pub(super) fn names_from_comments(
     comments: &VecDeque<String>,
     delimiter: Delimiter,
@@ -182,7 +182,7 @@ pub(super) fn names_from_comments(
 ) -> Vec<String> {
     let split = |line: &str, d: Delimiter| d.split(line).map(str::to_owned).collect::<Vec<_>>();
     for line in comments.iter().rev() {
-        // Names between commas may stand above columns between blanks, so blanks are tried last.
+        // Names may be separated by commas and the columns by blanks, so blanks are tried last.
         let own_first = Some(delimiter).filter(|&d| d != Delimiter::Blanks);
         let own_first = own_first.into_iter().chain(Delimiter::ALL);
         for names in own_first.map(|d| split(line, d)) {

@@ -98,7 +98,7 @@ fn fails(result: Result<Log, LogError>, message: &str, hint: Option<&str>) {
 }
 
 const REPAIR: Option<&str> =
-    Some("repair the row or cut the log there: nothing is filled in silently");
+    Some("repair the row, or cut the log there: missing values are not filled in");
 const CHECK: Option<&str> = Some("check that the recording ran and that this is the right file");
 
 #[test]
@@ -136,19 +136,19 @@ fn bad_cells_are_named_with_row_and_column() {
     fails(
         read("t;x\n0;1\n1;1,5\n", "t", "x"),
         "a.csv: row 3, column \"x\": \"1,5\" is not a number",
-        Some("where the decimal sign is a comma, say `decimal = \",\"` in [signals]"),
+        Some("if the numbers have a decimal comma, add `decimal = \",\"` to [signals]"),
     );
     let named = Some(
-        "name every column in the header; where the decimal sign is a comma, say `decimal = \",\"` in [signals]",
+        "name every column in the header; if the numbers have a decimal comma, add `decimal = \",\"` to [signals]",
     );
     fails(
         read("t,x\n0,1\n1,1,5\n", "t", "x"),
-        "a.csv: row 3, column 3: \"5\" stands beyond the 2 columns of the log",
+        "a.csv: row 3, column 3: \"5\" is beyond the 2 columns of the log",
         named,
     );
     fails(
         read_with("0 1\n1 1 7\n", None, &[ColumnRef::Number(2)], &LogOptions::default()),
-        "a.csv: row 2, column 3: \"7\" stands beyond the 2 columns of the log",
+        "a.csv: row 2, column 3: \"7\" is beyond the 2 columns of the log",
         named,
     );
     assert!(read("t,x\n0,1,\n1,2,,\n", "t", "x").is_ok());
@@ -181,7 +181,7 @@ fn missing_columns_list_those_there_are() {
     fails(
         read(text, "theta_m", "current"),
         "a.csv: there is no column \"current\"; the columns are \"time\", \"theta_m\", \"time\"",
-        Some("give one of these names as it stands in the log, or the column's number from 1"),
+        Some("give one of these names exactly, or the column's number from 1"),
     );
     fails(
         read(text, "time", "theta_m"),
@@ -203,7 +203,7 @@ fn missing_columns_list_those_there_are() {
 #[test]
 fn time_that_stands_still_is_refused_and_time_that_goes_back_is_noted() {
     let still = Some(
-        "export the stamps with more digits, or give `sample_time` in place of `time` if the sampling is regular",
+        "export the stamps with more digits, or give `sample_time` instead of `time` if the sampling is regular",
     );
     fails(
         read("t,x\n0,1\n1,1\n1,2\n", "t", "x"),
@@ -217,7 +217,7 @@ fn time_that_stands_still_is_refused_and_time_that_goes_back_is_noted() {
     fails(
         read_with(text, Some(&named("t")), &[named("x")], &options),
         "a.csv: row 4, column \"t\": time goes back from 1 to 0",
-        Some("cut the log there and give the two parts as two runs"),
+        Some("cut the log there, and give both parts as separate runs"),
     );
 }
 
@@ -230,15 +230,16 @@ fn repeated_rows_are_passed_over() {
 
 #[test]
 fn files_that_are_no_text_are_refused() {
-    let hint =
-        Some("logs are text: comma, semicolon, tab or blank separated; export the file as CSV");
+    let hint = Some(
+        "a log is text with commas, semicolons, tabs or blanks between the numbers: export the file as CSV",
+    );
     let options = LogOptions::default();
     fails(read_with(b"MAT\0\0", None, &[], &options), "a.csv: row 1 is not text", hint);
     let endless = vec![b'1'; 3 << 20];
     fails(
         read_with(endless, None, &[], &options),
         "a.csv: row 1 is longer than 1048576 bytes",
-        Some("logs have one sample a row: check the line ends, or export fewer columns"),
+        Some("a log has one sample in each row: check the line ends, or export fewer columns"),
     );
     fails(
         read_with(b"\xff\xfet\0,\0x\0", None, &[], &options),
@@ -258,7 +259,7 @@ fn a_missing_file_is_named() {
     fails(
         result,
         "no/such.csv: cannot be opened: No such file or directory (os error 2)",
-        Some("a run's file is looked for in the folder of its campaign.toml"),
+        Some("check the name: a path starts from the folder of campaign.toml"),
     );
 }
 
@@ -309,7 +310,7 @@ fn a_broken_reader_is_reported_with_its_row() {
     fails(
         result,
         "a.csv: reading failed at row 3: the disk is gone",
-        Some("check that it is a file that you may read"),
+        Some("check that it is a file and that you may read it"),
     );
 }
 

@@ -13,20 +13,20 @@ use super::log_error::LogError;
 use super::log_layout::{self, Delimiter, PlainDecimal};
 use super::thinner::Thinner;
 
-/// Longest row in bytes.
+/// Largest length of a row in bytes.
 const LONGEST_ROW: u64 = 1 << 20;
-/// Comment lines before the data in which names are looked for.
+/// Number of comment lines before the data in which names are searched for.
 const LAST_COMMENTS: usize = 50;
-/// Longest of them in bytes.
+/// Largest length of such a line in characters.
 const LONGEST_COMMENT: usize = 1 << 16;
 
-/// Most places at which time may go back.
+/// Largest number of places at which time may go back.
 const MOST_TIME_BACK: usize = 1 << 16;
 
-/// Reads the columns of a log file, and its time stamps where `time` names them.
+/// Reads the columns of a log file, and its time stamps if `time` is given.
 ///
 /// # Errors
-/// Any [`LogError`] but those about pieces and skipping.
+/// Any [`LogError`] except those about pieces and skipping.
 pub fn read_log(
     path: &Path,
     time: Option<&ColumnRef>,
@@ -43,15 +43,15 @@ pub fn read_log(
     }
 }
 
-/// Folders can be opened too.
+/// Refuses folders, which can be opened too.
 fn only_file(file: File) -> std::io::Result<File> {
     if file.metadata()?.is_dir() { Err(ErrorKind::IsADirectory.into()) } else { Ok(file) }
 }
 
-/// Reads the columns of a log from any reader; `name` stands in errors.
+/// Reads the columns of a log from any reader; `name` is used in errors.
 ///
 /// # Errors
-/// Any [`LogError`] but those about opening, pieces and skipping.
+/// Any [`LogError`] except those about opening, pieces and skipping.
 pub fn read_log_from(
     reader: impl BufRead,
     name: &str,
@@ -64,7 +64,7 @@ pub fn read_log_from(
         return Err(LogError::Empty { file: name.to_owned() });
     };
     let refs: Vec<&ColumnRef> = time.into_iter().chain(columns.iter().map(|c| &c.column)).collect();
-    // Where all columns are told by number, words above them may be a title.
+    // If all columns are given by number, the words above them may be a title.
     let by_name = refs.iter().any(|column| matches!(column, ColumnRef::Name(_)));
     let wanted = refs
         .iter()
@@ -112,7 +112,7 @@ struct LogRows<'a, R> {
 }
 
 impl<R: BufRead> LogRows<'_, R> {
-    /// The next line and its number from 1.
+    /// The next line, and its number from 1.
     fn next(&mut self) -> Result<Option<(usize, Cow<'_, str>)>, LogError> {
         match self.advance()? {
             None => Ok(None),
@@ -145,7 +145,7 @@ impl<R: BufRead> LogRows<'_, R> {
         if row == 1 && (bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF")) {
             return Err(LogError::Utf16 { file: file() });
         }
-        // Without an early end: many bytes are looked at together.
+        // Without an early exit, so that many bytes are compared at once.
         if bytes.iter().fold(false, |any, byte| any | is_control(*byte)) {
             return Err(LogError::NotText { file: file(), row });
         }
@@ -163,18 +163,18 @@ impl<R: BufRead> LogRows<'_, R> {
     }
 }
 
-/// A byte that stands in no text.
+/// Whether a byte does not occur in text.
 fn is_control(byte: u8) -> bool {
     byte.is_ascii_control() && !matches!(byte, b'\t' | b'\r' | b'\n' | b'\x0C')
 }
 
-/// What stands before the second row of numbers.
+/// The text before the second row of numbers.
 struct Head {
     delimiter: Delimiter,
     names: Vec<String>,
-    /// Cells of the first row of numbers, or names of a header without rows.
+    /// Number of cells in the first row of numbers, or of names in a header without rows.
     columns: usize,
-    /// Names of a header, else cells of that row: names in a comment need not be all.
+    /// Number of names in a header row, otherwise of cells in that row, because a comment may name only some columns.
     most: usize,
     /// First row of numbers.
     first: Option<String>,
@@ -237,7 +237,7 @@ struct Body<'a> {
     decimal_comma: bool,
     /// Number of columns.
     columns: usize,
-    /// Columns wanted, as errors name them; time first where it is wanted.
+    /// Names of the columns wanted, for errors; time is first if it is wanted.
     labels: Vec<String>,
     /// Their indices.
     wanted: Vec<usize>,
@@ -247,7 +247,7 @@ struct Body<'a> {
     last: Vec<f64>,
     time_back: Vec<TimeBack>,
     repeated: usize,
-    /// Most decimals of a stamp; none once a stamp had an exponent.
+    /// Largest number of decimals of a stamp; `None` after a stamp with an exponent.
     decimals: Option<usize>,
     thinner: Thinner,
     count: usize,
@@ -259,7 +259,7 @@ impl Body<'_> {
         let mut found = 0;
         for (index, cell) in self.delimiter.split(line).enumerate() {
             if index >= self.columns && !cell.is_empty() {
-                // The cells before it may stand under the wrong names.
+                // The cells before it may be below the wrong names.
                 let (file, column, found) = (self.file.to_owned(), index + 1, cell.to_owned());
                 return Err(LogError::ExtraCell {
                     file,
@@ -286,8 +286,7 @@ impl Body<'_> {
         self.push(row)
     }
 
-    /// The same of a row that is nothing but plain decimals, as most are, in one pass; otherwise nothing is taken and
-    /// it is `false`.
+    /// Takes a row of plain decimals, as most rows are, in one pass. Returns `false` without taking anything for other rows.
     fn take_plain(&mut self, line: &[u8], row: usize) -> Result<bool, LogError> {
         let Delimiter::Char(delimiter) = self.delimiter else { return Ok(false) };
         let line = line.strip_suffix(b"\n").unwrap_or(line);
@@ -398,7 +397,7 @@ impl Body<'_> {
             return Err(LogError::OneRow { file: self.file.to_owned(), row: first_row });
         }
         if self.thinner.factor() > 1 {
-            // A thinned sample may be of both sides.
+            // A thinned sample may have rows of both sides.
             self.no_time_back()?;
         }
         let (mut columns, factor) = self.thinner.finish();

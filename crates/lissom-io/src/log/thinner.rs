@@ -1,20 +1,19 @@
-//! Rows in bounded memory.
+//! Thinning of rows, for bounded memory.
 
 use lissom_core::record::Hold;
 
-/// Columns that halve themselves in place when they are full.
+/// Columns that are halved in place when they are full.
 ///
-/// A sample stands for `factor` rows. The mean of a held command over these rows is exactly the
-/// command of one hold as long as they last; a measured channel keeps the first of them. Rows at
-/// the end that fill no sample are left out.
+/// A sample represents `factor` rows. A held command gets the mean over these rows, which has the same effect as the rows; a
+/// measured channel keeps the value of the first row. Rows at the end that do not fill a sample are left out.
 pub(super) struct Thinner {
     holds: Vec<Hold>,
     columns: Vec<Vec<f64>>,
     most: usize,
     factor: usize,
-    /// Rows that the sample under way stands for so far.
+    /// Number of rows in the current sample so far.
     pending: usize,
-    /// First value or sum of each column over these rows.
+    /// First value, or sum, of each column over these rows.
     partial: Vec<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! What `lissom model` finds out about a beam.
+//! The model of a beam, as computed by `lissom model`.
 
 use lissom_core::beam::{BeamMatrices, Mode, Payload, Property, TruncatedBeam, Zeros};
 use lissom_core::lti::{StateSpace, ZeroPoleGain};
@@ -6,10 +6,10 @@ use lissom_core::lti::{StateSpace, ZeroPoleGain};
 use super::model_responses::Responses;
 use crate::arm_file::BeamKind;
 
-/// Everything that `lissom model` finds out about a beam.
+/// The model of a beam, as computed by `lissom model`.
 #[derive(Debug, Clone)]
 pub struct Model {
-    /// Where its mass is.
+    /// Where the mass of the beam is.
     pub kind: BeamKind,
     /// Point masses, base to tip \[kg\]; without the payload.
     pub mass_kg: Vec<f64>,
@@ -19,71 +19,71 @@ pub struct Model {
     pub mass_along_kg: f64,
     /// Distance of the clamp from the motor's axis \[m\].
     pub hub_radius_m: f64,
-    /// What the tip carries beside the last mass.
+    /// Payload at the tip, in addition to the last mass.
     pub payload: Payload,
-    /// Inertia about the motor's axis as one body \[kg·m²\].
+    /// Inertia of the whole beam about the motor's axis, as a rigid body \[kg·m²\].
     pub inertia_kg_m2: f64,
     /// The matrices of (10), (13) and (15).
     pub matrices: Option<BeamMatrices>,
-    /// Natural frequencies with the motor clamped, ascending, damping left out \[rad/s\].
+    /// Natural frequencies with the motor clamped, ascending, without damping \[rad/s\].
     pub natural_frequencies_rad_s: Vec<f64>,
     /// The same with the rotor free to turn; `None` without a drive.
     pub coupled_frequencies_rad_s: Option<Vec<f64>>,
     /// Modes with the motor clamped.
     pub modes: Option<Vec<Mode>>,
-    /// Zeros of the tip's response, damping left out.
+    /// Zeros of the tip's response, without damping.
     pub tip_zeros: Option<Zeros>,
     /// Transfer functions.
     pub functions: Vec<Function>,
-    /// The arm with its drive.
+    /// State space of the arm with its drive.
     pub state_space: Option<StateSpace>,
-    /// A distributed beam by its first modes.
+    /// A model of the first modes of a distributed beam.
     pub truncated: Option<TruncatedBeam>,
     /// Responses at the frequencies asked for.
     pub response: Option<Responses>,
     /// The same beam with other loads.
     pub payload_study: Option<Vec<PayloadCase>>,
-    /// Section 3, measured.
+    /// Properties of Section 3 of the 1989 report, checked.
     pub properties: Option<Vec<Property>>,
-    /// What is left out, and why.
+    /// What is not given, and why.
     pub notes: Vec<String>,
-    /// What the numbers cannot be trusted for.
+    /// What is not reliable.
     pub warnings: Vec<String>,
 }
 
-/// A transfer function and what it leads from and to.
+/// A transfer function, with its input and output.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Function {
-    /// `motor` or `current`.
+    /// Input: `motor` or `current`.
     pub from: &'static str,
-    /// `theta_1` …, `motor` or `coupling_torque`.
+    /// Output: `theta_1` …, `motor` or `coupling_torque`.
     pub to: String,
     /// Its zeros, poles and gain.
     pub roots: ZeroPoleGain,
-    /// It has roots without end: these are the lowest, and neither gain nor polynomials exist.
+    /// Whether it has infinitely many roots, of which these are the lowest; then it has no gain and no polynomials.
     pub lowest: bool,
 }
 
 /// A beam with another load at its tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PayloadCase {
-    /// The load: the payload's mass where there is one, else the last mass \[kg\].
+    /// The load \[kg\]: the payload's mass if there is one, otherwise the last mass.
     pub tip_mass_kg: f64,
     /// Rotary inertia of the payload \[kg·m²\].
     pub inertia_kg_m2: f64,
-    /// Load over that of the file; `None` where the file has none.
+    /// Load relative to the load in the file; `None` if the file has none.
     pub factor: Option<f64>,
     /// Natural frequencies, motor clamped \[rad/s\].
     pub natural_frequencies_rad_s: Vec<f64>,
     /// Zeros of the tip's response.
     pub zeros: Zeros,
-    /// Largest relative distance of a zero z = s² from that of the file's beam; `None` where their
-    /// numbers differ.
+    /// Largest relative distance of a zero z = s² from that with the load in the file; `None` if the numbers of zeros
+    /// differ.
     pub zero_shift: Option<f64>,
 }
 
 impl Model {
-    /// Number of masses, of pieces of a distributed beam, or of points of one known by its modes.
+    /// Number of masses, of spans of a distributed beam, or of points of a beam given by its modes.
     pub fn len(&self) -> usize {
         match self.kind {
             BeamKind::Modal => self.natural_frequencies_rad_s.len(),
@@ -91,7 +91,7 @@ impl Model {
         }
     }
 
-    /// Never true of a beam.
+    /// Always false: a beam has at least one mass or point.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

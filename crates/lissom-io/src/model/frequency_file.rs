@@ -1,4 +1,4 @@
-//! Frequencies from a file: one number a row, or the first column of delimited text.
+//! Frequencies from a file: one number in each row, or the first column of delimited text.
 
 use std::fs::File;
 use std::io::{self, BufRead as _, BufReader, Read as _};
@@ -8,12 +8,12 @@ use thiserror::Error;
 
 use crate::excerpt::excerpt;
 
-/// Most frequencies of a file.
+/// Largest number of frequencies in a file.
 const MOST: usize = 1_000_000;
-/// Bytes of the longest row that is read: the first cell is all that counts.
+/// Bytes that are read of a row; only the first cell is used.
 const LONGEST: u64 = 1 << 16;
 
-/// Why a file is no list of frequencies.
+/// Why a file is not a list of frequencies.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FrequencyError {
@@ -22,7 +22,7 @@ pub enum FrequencyError {
     Read {
         /// The file.
         file: String,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
     /// A row does not begin with a number.
@@ -35,7 +35,7 @@ pub enum FrequencyError {
         /// Its first cell.
         found: String,
     },
-    /// A number that is no frequency.
+    /// A number that is not positive and finite.
     #[error("{file}, line {line}: {found} is not positive and finite")]
     NotPositive {
         /// The file.
@@ -45,24 +45,24 @@ pub enum FrequencyError {
         /// The number.
         found: f64,
     },
-    /// No number at all.
+    /// A file without frequencies.
     #[error("{file}: there is no frequency in it")]
     Empty {
         /// The file.
         file: String,
     },
-    /// More than anyone can want.
+    /// Too many frequencies.
     #[error("{file}: it has more than {most} frequencies")]
     TooMany {
         /// The file.
         file: String,
-        /// The most that are read.
+        /// The largest number allowed.
         most: usize,
     },
 }
 
 impl FrequencyError {
-    /// What to do about it.
+    /// What the user can do.
     pub fn hint(&self) -> Option<String> {
         Some(
             match self {
@@ -71,21 +71,21 @@ impl FrequencyError {
                 }
                 Self::NotPositive { .. } => "frequencies are in rad/s and greater than zero",
                 Self::NotANumber { .. } | Self::Empty { .. } => {
-                    "write one frequency in rad/s a line, or put them into the first column"
+                    "write one frequency in rad/s in each line, or put them into the first column"
                 }
-                Self::TooMany { .. } => "give fewer",
+                Self::TooMany { .. } => "give fewer frequencies",
             }
             .to_owned(),
         )
     }
 }
 
-/// Frequencies \[rad/s\] in the order of the file.
+/// Reads frequencies \[rad/s\] in the order of the file.
 ///
-/// Empty rows and those that begin with `#` or `%` are passed over, and a first row of names.
+/// Empty rows, rows that begin with `#` or `%`, and a first row of names are skipped.
 ///
 /// # Errors
-/// [`FrequencyError`].
+/// [`FrequencyError`] if the file is not a list of frequencies.
 pub fn read_frequencies(path: &Path) -> Result<Vec<f64>, FrequencyError> {
     let name = || path.display().to_string();
     let failed = |source| FrequencyError::Read { file: name(), source };

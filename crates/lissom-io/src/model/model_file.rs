@@ -1,4 +1,4 @@
-//! `model.json` as a type: filled from a model, written and read.
+//! The type of `model.json`: filled from a model, written and read.
 
 use lissom_core::beam::{Mode, Payload, Property, RootClass, TruncatedBeam, Zeros, class};
 use num_complex::Complex64;
@@ -9,31 +9,32 @@ use super::model_responses::Responses;
 use super::state_space_entry::{StateSpaceEntry, matrix_rows};
 use crate::arm_file::BeamKind;
 
-/// A beam, and the arm it makes with its drive. SI units and rad/s; numbers of equations are those of the report. A key
-/// is null where the model has no such thing or is too large for it; a sentence in notes then says why. Frequencies,
-/// modes and tip_zeros leave damping out; transfer functions of point masses, state space and responses have it.
+/// The model of a beam, and of the arm with its drive. SI units and rad/s; equation numbers are those of the 1989 report.
+/// A key is null if it does not apply to the model or the model is too large for it; notes then gives the reason.
+/// Frequencies, modes and tip_zeros are without damping; transfer functions of point masses, state space and responses
+/// are with damping.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ModelFile {
-    /// Version that wrote the file.
+    /// Version of lissom that wrote the file.
     pub lissom: String,
     /// Where the beam's mass is.
     pub kind: BeamKindName,
-    /// Number of masses, of spans of a distributed beam, or of points of one known by its modes.
+    /// Number of masses, of spans of a distributed beam, or of points of a beam given by its modes.
     pub n: usize,
-    /// From clamp to tip; null of a beam known by its modes.
+    /// Length from clamp to tip; null for a beam given by its modes.
     pub length_m: Option<f64>,
-    /// From the motor's axis to the clamp; null of a beam known by its modes.
+    /// Distance from the motor's axis to the clamp; null for a beam given by its modes.
     pub hub_radius_m: Option<f64>,
-    /// Point masses, base to tip, without the payload.
+    /// Point masses from base to tip, without the payload.
     pub mass_kg: Vec<f64>,
-    /// Mass along the beam; 0 for a lumped one.
+    /// Mass along the beam; 0 for a lumped beam.
     pub mass_along_kg: f64,
-    /// Distance of each mass, or span's end, from the motor's axis.
+    /// Distance of each mass, or of the end of each span, from the motor's axis.
     pub position_m: Vec<f64>,
-    /// What the tip carries; null of a beam known by its modes.
+    /// Payload at the tip; null for a beam given by its modes.
     pub payload: Option<TipPayloadEntry>,
-    /// Beam, masses and payload about the motor's axis as one body.
+    /// Inertia of beam, masses and payload about the motor's axis, as a rigid body.
     pub inertia_kg_m2: f64,
     /// EI*A of (13), N/m, rows.
     pub ei_a: Option<Vec<Vec<f64>>>,
@@ -51,33 +52,33 @@ pub struct ModelFile {
     pub h_motor: Option<f64>,
     /// h_{n+2} of (15): torque on the motor per torque at the tip.
     pub h_torque: Option<f64>,
-    /// Motor clamped, ascending.
+    /// Natural frequencies with the motor clamped, ascending.
     pub natural_frequencies_rad_s: Vec<f64>,
-    /// Rotor free, without its friction; null without a drive.
+    /// Natural frequencies with the rotor free and without friction; null without a drive.
     pub coupled_frequencies_rad_s: Option<Vec<f64>>,
-    /// Motor clamped.
+    /// Modes with the motor clamped.
     pub modes: Option<Vec<ModeShapeEntry>>,
-    /// Zeros of the tip's response to the motor, ascending in size.
+    /// Zeros of the tip's response per motor angle, in ascending magnitude.
     pub tip_zeros: Option<Vec<ZeroEntry>>,
     /// Transfer functions.
     pub transfer_functions: Vec<FunctionEntry>,
-    /// The arm with its drive, Coulomb friction left out.
+    /// State space of the arm with its drive, without Coulomb friction.
     pub state_space: Option<StateSpaceEntry>,
-    /// A distributed beam by its first modes, in the form (17)-(18).
+    /// A model of the first modes of a distributed beam, in the form (17)-(18).
     pub truncated: Option<TruncatedEntry>,
     /// Responses at the frequencies asked for.
     pub frequency_response: Option<ResponsesEntry>,
-    /// The same beam with other loads; the file's own load first.
+    /// The same beam with other loads; the load in the file is first.
     pub payload_study: Option<Vec<PayloadCaseEntry>>,
-    /// The properties of Section 3, measured.
+    /// The properties of Section 3 of the 1989 report, checked.
     pub properties: Option<Vec<PropertyEntry>>,
-    /// What is left out, and why.
+    /// What is not given, and why.
     pub notes: Vec<String>,
-    /// What the numbers cannot be trusted for.
+    /// What is not reliable.
     pub warnings: Vec<String>,
 }
 
-/// Where a beam's mass is.
+/// Where the mass of a beam is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -86,19 +87,19 @@ pub enum BeamKindName {
     Lumped,
     /// Mass along the beam.
     Distributed,
-    /// The beam is known by its modes.
+    /// Unknown: the beam is given by its modes.
     Modal,
 }
 
-/// What the tip carries.
+/// Payload at the tip.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TipPayloadEntry {
     /// Its mass.
     pub mass_kg: f64,
-    /// About its own centre.
+    /// Rotary inertia about its own centre of mass.
     pub inertia_kg_m2: f64,
-    /// Of its centre from the tip, along the beam's tangent, outward.
+    /// Distance of its centre of mass from the tip, along the tangent of the beam, positive outward.
     pub offset_m: f64,
 }
 
@@ -106,17 +107,17 @@ pub struct TipPayloadEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ModeShapeEntry {
-    /// Its frequency.
+    /// Its natural frequency.
     pub natural_frequency_rad_s: f64,
-    /// Deflection at each position, the largest being 1.
+    /// Deflection at each position, scaled to a largest value of 1.
     pub shape: Vec<f64>,
-    /// The mode's share in each angle per motor angle: theta_i/theta_m = sum of share/(1 + s^2/omega^2).
+    /// Share of the mode in each angle per motor angle: theta_i/theta_m = sum of share/(1 + s^2/omega^2).
     pub share: Vec<f64>,
-    /// What the mode adds to the inertia that the motor feels at rest.
+    /// Inertia that the mode adds to the motor at low frequency.
     pub inertia_kg_m2: f64,
 }
 
-/// A complex number; null where a part is not finite.
+/// A complex number; a part that is not finite is null.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ComplexEntry {
@@ -130,13 +131,13 @@ pub struct ComplexEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ZeroEntry {
-    /// 1/s^2; the zeros are both roots of it.
+    /// The square of the zeros in 1/s^2: the zeros are both of its square roots.
     pub s_squared: ComplexEntry,
     /// Their class.
     pub class: RootClassName,
 }
 
-/// Class of a root by Section 3; b and c are non-minimum phase.
+/// Class of a root as in Section 3 of the 1989 report; b and c are non-minimum phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -145,7 +146,7 @@ pub enum RootClassName {
     A,
     /// A real pair.
     B,
-    /// Half a quadruple.
+    /// Half of a quadruple.
     C,
 }
 
@@ -153,34 +154,34 @@ pub enum RootClassName {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FunctionEntry {
-    /// motor (its angle, rad) or current (A).
+    /// Input: motor (its angle, rad) or current (A).
     pub from: String,
-    /// theta_1 ... (rad), motor (rad), coupling_torque (N*m).
+    /// Output: theta_1 ... (rad), motor (rad), or coupling_torque (N*m).
     pub to: String,
-    /// Numerator, descending powers of s; null where a distributed beam has no polynomial or it leaves the range of a
-    /// double.
+    /// Numerator, descending powers of s; null if a distributed beam has no polynomial or a coefficient exceeds the range
+    /// of a double.
     pub num: Option<Vec<f64>>,
-    /// Denominator.
+    /// Denominator, descending powers of s.
     pub den: Option<Vec<f64>>,
-    /// 1/s; of a distributed beam those below its highest frequency.
+    /// Zeros in 1/s; for a distributed beam those below its highest frequency.
     pub zeros: Vec<ComplexEntry>,
-    /// 1/s; of a distributed beam the lowest.
+    /// Poles in 1/s; for a distributed beam the lowest.
     pub poles: Vec<ComplexEntry>,
-    /// Product of (s - zero) over product of (s - pole), times this.
+    /// Gain: factor of the product of (s - zero) divided by the product of (s - pole).
     pub gain: Option<f64>,
-    /// No zero right of the imaginary axis; null where not all are known and none of those known is.
+    /// Whether no zero is right of the imaginary axis; null if some zeros are unknown and no known zero is there.
     pub minimum_phase: Option<bool>,
-    /// Roots that were not found; a warning names them.
+    /// Number of roots that were not found; a warning reports them.
     pub missing: usize,
 }
 
-/// A distributed beam by its first modes.
+/// A model of the first modes of a distributed beam.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TruncatedEntry {
-    /// Points whose angles are its outputs.
+    /// Distances from the axis of the points whose angles are its outputs.
     pub points_m: Vec<f64>,
-    /// Its frequencies.
+    /// Its natural frequencies.
     pub natural_frequencies_rad_s: Vec<f64>,
     /// A-hat of (17), 1/s^2.
     pub a: Vec<Vec<f64>>,
@@ -190,7 +191,7 @@ pub struct TruncatedEntry {
     pub h: Vec<f64>,
     /// h-hat of (18), N*m/rad.
     pub h_motor: f64,
-    /// Inertia of the modes left out, to be added to the motor's.
+    /// Inertia of the omitted modes, to be added to that of the motor.
     pub residual_inertia_kg_m2: f64,
 }
 
@@ -200,13 +201,13 @@ pub struct TruncatedEntry {
 pub struct ResponsesEntry {
     /// Frequencies.
     pub omega_rad_s: Vec<f64>,
-    /// What each list of tips is: theta_1 ...
+    /// Output of each list in tips: theta_1 ...
     pub to: Vec<String>,
-    /// Angle per motor angle, one list a mass.
+    /// Angle per motor angle, one list for each mass.
     pub tips: Vec<Vec<ComplexEntry>>,
     /// Coupling torque per motor angle.
     pub coupling_nm_per_rad: Vec<ComplexEntry>,
-    /// Motor angle per current, Coulomb friction left out.
+    /// Motor angle per current, without Coulomb friction.
     pub motor_rad_per_a: Option<Vec<ComplexEntry>>,
 }
 
@@ -214,40 +215,40 @@ pub struct ResponsesEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PayloadCaseEntry {
-    /// The payload's mass where there is one, else the last mass.
+    /// The load: the payload's mass if there is one, otherwise the last mass.
     pub tip_mass_kg: f64,
-    /// Rotary inertia of the payload; a factor multiplies it, a mass leaves it.
+    /// Rotary inertia of the payload; a load given as a factor multiplies it, one given as a mass does not change it.
     pub payload_inertia_kg_m2: f64,
-    /// Load relative to that of the file.
+    /// Load relative to the load in the file.
     pub factor: Option<f64>,
-    /// Motor clamped.
+    /// Natural frequencies with the motor clamped.
     pub natural_frequencies_rad_s: Vec<f64>,
-    /// Of the tip's response.
+    /// Zeros of the tip's response.
     pub zeros: Vec<ZeroEntry>,
-    /// Largest relative change of s^2 from the file's own; null where their numbers differ.
+    /// Largest relative change of s^2 from the zeros with the load in the file; null if the numbers of zeros differ.
     pub zero_shift: Option<f64>,
 }
 
-/// A property that Section 3 claims.
+/// A property claimed in Section 3 of the 1989 report.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PropertyEntry {
-    /// Short name.
+    /// Short name of the property.
     pub name: String,
-    /// What the report claims.
+    /// What the 1989 report claims.
     pub statement: String,
-    /// What was measured.
+    /// The number that was computed.
     pub measured: f64,
-    /// It holds up to here.
+    /// The largest number for which the property holds.
     pub bound: f64,
-    /// Whether it holds.
+    /// Whether the property holds.
     pub holds: bool,
-    /// How it was measured.
+    /// How the number was computed.
     pub note: String,
 }
 
 impl ModelFile {
-    /// What `lissom model` writes.
+    /// The content that `lissom model` writes.
     pub fn of(model: &Model) -> Self {
         let m = model.matrices.as_ref();
         let dimensions = model.kind != BeamKind::Modal;
@@ -290,7 +291,7 @@ impl ModelFile {
     }
 }
 
-/// The entries of a list, where there is one.
+/// The entries of a list, if there is one.
 fn each<T, E>(list: Option<&[T]>, entry: impl Fn(&T) -> E) -> Option<Vec<E>> {
     list.map(|list| list.iter().map(entry).collect())
 }
@@ -360,7 +361,7 @@ impl FunctionEntry {
             zeros: ComplexEntry::list(&f.roots.zeros),
             poles: ComplexEntry::list(&f.roots.poles),
             gain: Some(f.roots.gain).filter(|_| !f.lowest),
-            // With zeros not looked for, only one that is found can tell.
+            // If some zeros were not searched for, only a zero that is found right of the axis decides.
             minimum_phase: Some(f.roots.minimum_phase()).filter(|m| !(f.lowest && *m)),
             missing: f.roots.missing,
         }

@@ -7,9 +7,9 @@ use num_complex::Complex64;
 pub struct Responses {
     /// Frequencies \[rad/s\].
     pub omega_rad_s: Vec<f64>,
-    /// Which masses, from 0 at the base.
+    /// The masses, counted from 0 at the base.
     pub masses: Vec<usize>,
-    /// θ_i/θ_m of each of those \[1\].
+    /// θ_i/θ_m of each of these masses \[1\].
     pub tips: Vec<Vec<Complex64>>,
     /// C_t/θ_m \[N·m/rad\].
     pub coupling: Vec<Complex64>,

@@ -4,16 +4,16 @@
 //! seed = 1                                  # of noise and random phases; 1 when absent
 //! settle = "detected"                       # or a time, "none", { tolerance, longest }
 //! [[runs]]
-//! sine = { frequency = ["0.2 Hz", "0.6 Hz"], amplitude = ["0.5 rad", "1 rad"] }  # each with each
+//! sine = { frequency = ["0.2 Hz", "0.6 Hz"], amplitude = ["0.5 rad", "1 rad"] }  # all combinations
 //! periods = 12                              # or record = "60 s"
 //! [[runs]]
 //! multisine = { frequency = "0.1 Hz", to = "5 Hz", amplitude = "0.5 rad", crest = 1.7 }
 //! [[runs]]
-//! release = "0.05 N"                        # the tip let go
+//! release = "0.05 N"                        # the tip is released
 //! record = "60 s"
 //! ```
 //!
-//! Every key is in `docs/src/reference/plan.md`.
+//! `docs/src/reference/plan.md` explains every key.
 
 pub(crate) mod plan_error;
 mod plan_experiment;

@@ -1,32 +1,32 @@
-//! What can be wrong with a plan beside its keys.
+//! Errors of a plan whose keys are valid.
 
 use lissom_core::rig::RigError;
 use thiserror::Error;
 
 use crate::config::ConfigPlace;
 
-/// Why a plan cannot be carried out.
+/// Why a plan cannot be simulated.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// An experiment that makes no sense.
+    /// An experiment that cannot be simulated.
     #[error("{place}: {source}")]
     Experiment {
-        /// Its key.
+        /// Place of the experiment.
         place: ConfigPlace,
-        /// What is wrong with it.
+        /// The cause.
         source: RigError,
     },
-    /// Two runs of one name.
-    #[error("{place}: two runs are named `{name}`")]
+    /// Two runs with the same name.
+    #[error("{place}: two runs have the name `{name}`")]
     SameName {
         /// The list of runs.
         place: ConfigPlace,
         /// The name.
         name: String,
     },
-    /// A name that makes no file name.
-    #[error("{place}: `{name}` is no name for a log")]
+    /// A name that is not a valid file name.
+    #[error("{place}: `{name}` is not a valid name for a log")]
     Name {
         /// The list of runs.
         place: ConfigPlace,
@@ -36,14 +36,14 @@ pub enum PlanError {
 }
 
 impl PlanError {
-    /// What to do about it.
+    /// What the user can do.
     pub fn hint(&self) -> Option<String> {
         Some(match self {
             Self::Experiment { source: RigError::AboveNyquist { .. }, .. } => {
-                "ask for lower frequencies, or sample faster".to_owned()
+                "use lower frequencies, or sample faster".to_owned()
             }
             Self::Experiment { source: RigError::NoLines | RigError::Line { .. }, .. } => {
-                "a multisine has odd lines only: `to` must be at least `frequency`".to_owned()
+                "give a `to` of at least `frequency`: a multisine has odd multiples of `frequency` up to `to`".to_owned()
             }
             Self::Experiment { .. } => "check the numbers and their units".to_owned(),
             Self::SameName { .. } => "give each run its own `name`, or none".to_owned(),

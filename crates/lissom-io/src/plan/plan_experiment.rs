@@ -22,18 +22,18 @@ use crate::units::Dimension;
 pub(super) struct Planned {
     pub(super) experiment: Experiment,
     pub(super) omega_rad_s: Option<f64>,
-    /// Whether the entry stands for this run alone.
+    /// Whether the entry gives only this run.
     pub(super) alone: bool,
 }
 
-/// Most runs of a plan.
+/// Largest number of runs of a plan.
 pub(super) const RUNS_MOST: usize = 10_000;
 /// The kinds of experiment.
 const KINDS: [&str; 7] = ["sine", "multisine", "square", "chirp", "table", "velocity", "release"];
-/// Where the highest frequency of a multisine has no `to`: that many lines.
+/// Number of lines of a multisine without `to`.
 const LINES: f64 = 20.0;
 
-/// All runs that an entry stands for.
+/// Reads all runs of an entry.
 pub(super) fn read(
     table: &Table<'_>,
     common: Settle,
@@ -47,7 +47,7 @@ pub(super) fn read(
         return Err(ConfigError::NoneOf { place: table.place(), keys }.into());
     };
     let drive = table.get("drive").map(|v| v.choice(&["angle", "current"])).transpose()?;
-    // A release leaves the motor to itself unless it says otherwise.
+    // A release has no position control, unless `drive` asks for it.
     let current = drive.map_or(KINDS[kind] == "release", |choice| choice == 1);
     if current && KINDS[kind] == "velocity" {
         let place = table.place();
@@ -76,7 +76,7 @@ pub(super) fn read(
         let experiment =
             Experiment::new(drive, record_s).map_err(|e| experiment_error(&value, e))?;
         let experiment = experiment.starting(start).settling(match KINDS[kind] {
-            // It begins where it is let go.
+            // The log begins when the tip is released.
             "release" => Settle::AtOnce,
             _ => settle,
         });
@@ -93,7 +93,7 @@ fn made<T>(value: &Value<'_>, outcome: Result<T, RigError>) -> Result<T, Error> 
     outcome.map_err(|source| experiment_error(value, source))
 }
 
-/// Every frequency with every amplitude.
+/// Combines every frequency with every amplitude.
 fn sines(
     value: &Value<'_>,
     unit: Dimension,
@@ -165,7 +165,7 @@ fn velocities(value: &Value<'_>) -> Result<Vec<Reference>, Error> {
     rates.into_iter().map(|rate| made(value, Reference::ramp(rate))).collect()
 }
 
-/// A table of times and values in a file beside the plan.
+/// Reads a table of times and values from a file; its path starts from the folder of the plan.
 fn rows(value: &Value<'_>, folder: &Path) -> Result<Reference, Error> {
     let table = value.table()?;
     table.only(&["file", "time", "time_unit", "value", "unit", "hold"])?;
@@ -183,7 +183,7 @@ fn rows(value: &Value<'_>, folder: &Path) -> Result<Reference, Error> {
     let log = read_log(&path, Some(&time), &columns, &LogOptions::default())?;
     let (seconds, size) = (scale("time_unit")?, scale("unit")?);
     let times = log.time.unwrap_or_default();
-    // The table begins with the run.
+    // The table begins at the start of the run.
     let first = times.first().copied().unwrap_or(0.0);
     let times = times.iter().map(|t| seconds * (t - first)).collect();
     let values = log.columns.into_iter().next().unwrap_or_default();
@@ -215,13 +215,13 @@ fn record(table: &Table<'_>) -> Result<f64, Error> {
     Ok(table.need("record")?.positive(Dimension::TIME)?)
 }
 
-/// The time that is logged: `record`, or whole `periods`, of both the longer.
+/// The logged time: `record` or whole `periods`, whichever is longer.
 fn record_of(table: &Table<'_>, reference: &Reference) -> Result<f64, Error> {
     let least = table.get("record").map(|v| v.positive(Dimension::TIME)).transpose()?;
     let Some(periods) = table.get("periods") else {
         return match (least, reference) {
             (Some(least), _) => Ok(least),
-            // A table says itself how long it is.
+            // A table has a length of its own.
             (None, Reference::Table(rows)) if rows.end_s() > 0.0 => Ok(rows.end_s()),
             (None, reference) if reference.period_s().is_some() => {
                 let keys = vec!["periods", "record"];

@@ -1,13 +1,13 @@
-//! What a `plan.toml` says.
+//! The contents of a `plan.toml`.
 
 use lissom_core::rig::Experiment;
 
 /// A virtual campaign.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanFile {
-    /// What it is for; may be empty.
+    /// Title of the campaign; may be empty.
     pub title: String,
-    /// Seed of the sensors' noise.
+    /// Seed of the sensor noise.
     pub seed: u64,
     /// The runs in order.
     pub runs: Vec<PlanRun>,
@@ -16,12 +16,12 @@ pub struct PlanFile {
 /// One run of a virtual campaign.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanRun {
-    /// Name of its log without the ending.
+    /// Name of the log, without its extension.
     pub name: String,
-    /// What is done.
+    /// The experiment.
     pub experiment: Experiment,
     /// Frequency of a sine \[rad/s\].
     pub omega_rad_s: Option<f64>,
-    /// Seed of its noise.
+    /// Seed of the sensor noise of this run.
     pub seed: u64,
 }

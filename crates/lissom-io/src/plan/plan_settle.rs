@@ -5,7 +5,7 @@ use lissom_core::rig::Settle;
 use crate::config::{ConfigError, Table, Value};
 use crate::units::Dimension;
 
-/// How the transient before a log goes.
+/// Reads how long a run waits for the transient to decay before its log begins.
 pub(super) fn settle(value: &Value<'_>) -> Result<Settle, ConfigError> {
     if let Some(table) = value.as_table() {
         return detected(&table);

@@ -111,7 +111,7 @@ fn refuses_what_makes_no_experiment() {
     );
     refused(
         "[[runs]]\nvelocity = 1\nperiods = 3",
-        "plan.toml, line 3: `runs[1].periods` is for what repeats itself",
+        "plan.toml, line 3: `runs[1].periods` is allowed only for periodic motions",
     );
     refused(
         "[[runs]]\nmultisine = { frequency = \"5 Hz\", to = \"1 Hz\", amplitude = 1 }\nperiods = 1",
@@ -119,10 +119,10 @@ fn refuses_what_makes_no_experiment() {
     );
     refused(
         "[[runs]]\nname = \"../x\"\nvelocity = 1\nrecord = 1",
-        "plan.toml, line 1: `runs`: `../x` is no name for a log",
+        "plan.toml, line 1: `runs`: `../x` is not a valid name for a log",
     );
     let twice = "[[runs]]\nname = \"a\"\nvelocity = 1\nrecord = 1\n";
-    refused(&twice.repeat(2), "plan.toml, line 1: `runs`: two runs are named `a`");
+    refused(&twice.repeat(2), "plan.toml, line 1: `runs`: two runs have the name `a`");
     let missing = "[[runs]]\ntable = { file = \"none.csv\" }";
     assert!(read(missing).unwrap_err().to_string().contains("none.csv"));
     assert!(PlanFile::read(Path::new("nowhere/plan.toml")).is_err());

@@ -1,4 +1,4 @@
-//! From a `plan.toml` to its runs.
+//! Reads a `plan.toml`.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -13,15 +13,15 @@ use crate::config::{ConfigError, Source, Table};
 use crate::io_error::Error;
 
 impl PlanFile {
-    /// Reads a `plan.toml` and the tables that it names.
+    /// Reads a `plan.toml` and its tables.
     ///
     /// # Errors
-    /// [`Error::Config`], [`Error::Plan`], [`Error::Log`] for a table.
+    /// [`Error::Config`] or [`Error::Plan`] for the file, [`Error::Log`] for a table.
     pub fn read(path: &Path) -> Result<Self, Error> {
         Self::from_source(&Source::read(path)?)
     }
 
-    /// Reads the text of a `plan.toml`; `path` stands in errors, and tables start from its folder.
+    /// Reads the text of a `plan.toml`; `path` is the file's name in errors, and paths of tables start from its folder.
     ///
     /// ```
     /// let text = "[[runs]]\nsine = { frequency = \"1 Hz\", amplitude = \"0.5 rad\" }\nperiods = 9";
@@ -85,7 +85,7 @@ impl PlanFile {
     }
 }
 
-/// Checks that names are file names, each once.
+/// Checks that the names of runs are file names, and that each occurs once.
 fn names(root: &Table<'_>, runs: &[PlanRun]) -> Result<(), PlanError> {
     let place = || root.get("runs").map_or_else(|| root.place(), |v| v.place());
     let mut seen = HashSet::new();
@@ -96,7 +96,7 @@ fn names(root: &Table<'_>, runs: &[PlanRun]) -> Result<(), PlanError> {
         if !begins || !name.chars().all(fits) || name.len() > 100 {
             return Err(PlanError::Name { place: place(), name });
         }
-        // Some file systems do not tell capitals from small letters.
+        // Some file systems do not distinguish upper and lower case.
         if !seen.insert(name.to_lowercase()) {
             return Err(PlanError::SameName { place: place(), name });
         }

@@ -3,15 +3,15 @@
 use lissom_core::plan::PlanNote;
 use serde::{Deserialize, Serialize};
 
-/// A note of a plan: what its user should know.
+/// A note of a plan: something that its user should know.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlanNoteEntry {
-    /// What the note is about; docs/src/how-to/planning.md has them all.
+    /// What the note is about; the page about planning in the book lists all codes.
     pub code: PlanNoteName,
     /// How much it matters.
     pub severity: NoteSeverityName,
-    /// The same in words, with numbers.
+    /// The note in words, with numbers.
     pub message: String,
 }
 
@@ -22,21 +22,21 @@ pub struct PlanNoteEntry {
 pub enum PlanNoteName {
     /// A wanted precision that cannot be reached within the allowed time.
     Unreached,
-    /// Modes that the plan takes to turn with the motor: too fast for the log, or too light.
+    /// Modes that the plan treats as rigid, because they are too fast for the log or too light.
     ModesLeftOut,
     /// A sensor has neither steps nor noise; an error of 1e-6 rad is assumed.
     IdealSensor,
     /// No sine fits together with a sine at three times its frequency, which the third-harmonic method needs.
     NoPair,
-    /// Steady sines alone on a damped beam: errors may be many times the expected standard errors.
+    /// Only steady sines on a damped beam: errors may be many times the expected standard errors.
     SinesAlone,
     /// Motions that were tried and dropped.
     MotionsOfNoUse,
-    /// The arm has friction or a load at the tip that a plan does not count.
+    /// The arm has friction or a load at the tip that the plan does not include.
     SceneLeftOut,
     /// Expected standard errors of a load with gravity are those of the regression, and may be off by a factor of up to four.
     GravityByRegression,
-    /// A note that has no code of its own.
+    /// A note without a code of its own.
     Other,
 }
 
@@ -45,7 +45,7 @@ pub enum PlanNoteName {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum NoteSeverityName {
-    /// A wanted precision is not reached, or what is expected may not be reached.
+    /// A wanted precision is not reached, or the expected precision may not be reached.
     Warning,
     /// Worth knowing.
     Info,

@@ -1,4 +1,4 @@
-//! The runs of a plan and what they are expected to give, as a type: filled from a plan, written and read.
+//! The runs of a plan and their expected precision as a type: filled from a plan, written and read.
 
 use lissom_core::plan::{
     Expected, Plan, PlannedFigure, PlannedMotion, PlannedRun, PlannedUnknown, Wishes,
@@ -8,33 +8,33 @@ use serde::{Deserialize, Serialize};
 use super::plan_note_entry::PlanNoteEntry;
 use crate::result::{MotionKindName, finite};
 
-/// The runs worth making and what they are expected to give. SI units and rad/s; std is an expected standard error.
+/// The runs of a plan and their expected precision. SI units and rad/s; std is an expected standard error.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlannedFile {
-    /// Version that wrote the file.
+    /// Version of lissom that wrote the file.
     pub lissom: String,
-    /// Time of all runs, with waiting and 5 s from one to the next.
+    /// Time of all runs, including waiting and 5 s before each run.
     pub time_s: f64,
-    /// Time that was allowed.
+    /// Allowed time of all runs.
     pub within_s: f64,
-    /// Longest that a run waits for its transient to decay.
+    /// Longest time that a run waits for its transient to decay.
     pub longest_wait_s: f64,
     /// The runs in the order of the plan.toml.
     pub runs: Vec<PlannedRunEntry>,
-    /// What the runs give together, one entry for each parameter whose precision can be asked for.
+    /// Expected precision from all runs, one entry for each parameter whose precision can be chosen.
     pub expected: Vec<ExpectedEntry>,
-    /// Every parameter that an identification has to find.
+    /// All parameters that an identification has to find.
     pub parameters: Vec<PlannedParameterEntry>,
-    /// What a user should know.
+    /// Notes for the user.
     pub notes: Vec<PlanNoteEntry>,
 }
 
-/// A run that is worth making.
+/// A run of a plan.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlannedRunEntry {
-    /// What the motor is asked to do.
+    /// Kind of motion.
     pub kind: MotionKindName,
     /// Frequency of a sine, lowest line of a multisine, start of a chirp.
     pub from_rad_s: f64,
@@ -50,7 +50,7 @@ pub struct PlannedRunEntry {
     pub record_s: f64,
     /// Time before the log, in which the transient decays.
     pub waited_s: f64,
-    /// Largest current expected.
+    /// Largest expected current.
     pub peak_current_a: f64,
     /// Half of the range that the motor's angle covers.
     pub moved_rad: f64,
@@ -58,8 +58,8 @@ pub struct PlannedRunEntry {
     pub stuck_share: f64,
     /// Whether the run is one of a pair: a sine, or the sine at three times its frequency.
     pub paired: bool,
-    /// What would be lost without the run (without both runs of a pair); null where every wanted precision would be
-    /// reached without it.
+    /// What would be lost without the run (without both runs of a pair); null if every wanted precision would be reached
+    /// without it.
     pub without: Option<WithoutRunEntry>,
 }
 
@@ -69,11 +69,11 @@ pub struct PlannedRunEntry {
 pub struct WithoutRunEntry {
     /// Name of the parameter.
     pub figure: String,
-    /// Its relative standard error then; null where nothing bounds it.
+    /// Its relative standard error without the run; null if it is unbounded.
     pub relative_std: Option<f64>,
 }
 
-/// What all runs together give of one parameter.
+/// Expected precision of one parameter from all runs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ExpectedEntry {
@@ -81,9 +81,9 @@ pub struct ExpectedEntry {
     pub figure: String,
     /// Its value, computed from the arm.toml: N*m, N*m*s/rad, kg*m^2, N*m/rad, rad/s; damping 2*zeta*omega in 1/s.
     pub value: f64,
-    /// Relative standard error expected; null where nothing bounds it.
+    /// Expected relative standard error; null if it is unbounded.
     pub relative_std: Option<f64>,
-    /// Relative standard error wanted.
+    /// Wanted relative standard error.
     pub wanted: f64,
 }
 
@@ -95,12 +95,12 @@ pub struct PlannedParameterEntry {
     pub name: String,
     /// Its value, computed from the arm.toml.
     pub value: f64,
-    /// Standard error expected, in the unit of the value; null where no run shows the parameter.
+    /// Expected standard error, in the unit of the value; null if no run shows the parameter.
     pub std: Option<f64>,
 }
 
 impl PlannedFile {
-    /// What `lissom plan` writes.
+    /// The content that `lissom plan` writes.
     pub fn of(wishes: &Wishes, plan: &Plan) -> Self {
         Self {
             lissom: env!("CARGO_PKG_VERSION").to_owned(),

@@ -1,9 +1,9 @@
-//! Tables of frequency responses: delimited text with a header, one file or several on one grid.
+//! Tables of frequency responses: delimited text with a header, in one or several files with the same frequencies.
 //!
-//! What a column is, its name says; `docs/src/how-to/equivalent.md` has the rules. One column is the frequency, with its
-//! unit (`omega_rad_s`, `frequency_hz`, `f [Hz]`). A response is two columns, `re` and `im`, or a magnitude (`db`,
-//! or `mag`) and a phase (`deg`, or `phase [rad]`); `std` may stand beside them. What is left of a name is
-//! the output's: `tip_re` and `tip_im` are of `tip`; where nothing is left it is the file's.
+//! The name of a column tells what it is; `docs/src/how-to/equivalent.md` has the rules. One column is the frequency, with
+//! its unit (`omega_rad_s`, `frequency_hz`, `f [Hz]`). A response is two columns, `re` and `im`, or a magnitude (`db` or
+//! `mag`) and a phase (`deg`, or `phase [rad]`); a column `std` may be added. The rest of the name is the name of the
+//! output: `tip_re` and `tip_im` are for `tip`. Without a rest, the output has the name of the file.
 
 mod read_responses;
 mod response_columns;

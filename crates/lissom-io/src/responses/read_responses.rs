@@ -11,33 +11,33 @@ use super::response_error::{Positive, ResponseError};
 use crate::log::{Delimiter, comment, is_header, number};
 use crate::units::Dimension;
 
-/// Bytes of the largest table.
+/// Largest size of a table in bytes.
 const MOST: u64 = 1 << 28;
-/// Frequencies of two tables are the same to this share.
+/// Relative difference up to which frequencies of two tables are the same.
 const SAME: f64 = 1e-6;
-/// A deviation is a slip that is below this share of its response…
+/// A standard error is a mistake if it is below this share of its response and below [`SMALLER`].
 const TINY: f64 = 1e-9;
-/// …and of the median of all.
+/// The share of the median of all standard errors below which one is a mistake, see [`TINY`].
 const SMALLER: f64 = 1e-6;
-/// The name of the motor's response.
+/// Name of the motor's response.
 const MOTOR: &str = "motor";
 
-/// One response.
+/// One frequency response.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredResponse {
-    /// The output's name: `motor`, or that of a point.
+    /// Name of the output: `motor`, or the name of a point.
     pub name: String,
     /// Output per input at each frequency, in SI.
     pub response: Vec<Complex64>,
-    /// Deviations `√E|Ĝ − G|²`, where the table has them.
+    /// Standard errors `√E|Ĝ − G|²`, if the table has them.
     pub std: Option<Vec<f64>>,
-    /// What its unit is of, where the header says it.
+    /// Dimension of the response, if the header gives a unit.
     pub dimension: Option<Dimension>,
 }
 
 impl MeasuredResponse {
-    /// Zeros at the origin that it has beside an angle's response, by its unit: a velocity per angle (1/s) one,
-    /// an acceleration (1/s²) two. `None` of any other unit.
+    /// Number of zeros at the origin in addition to those of an angle, from the unit: one for a velocity per angle (1/s),
+    /// two for an acceleration (1/s²). `None` for any other unit.
     pub fn zeros_at_origin(&self) -> Option<i32> {
         let per = |s: i32| Dimension::new(0, 0, -s, 0);
         let dimension = self.dimension.unwrap_or(Dimension::NUMBER);
@@ -45,18 +45,18 @@ impl MeasuredResponse {
     }
 }
 
-/// Responses on one grid of frequencies.
+/// Frequency responses at the same frequencies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrequencyResponses {
     /// Frequencies, ascending \[rad/s\].
     pub omega_rad_s: Vec<f64>,
     /// θ_i/θ_m of points of the beam.
     pub points: Vec<MeasuredResponse>,
-    /// θ_m per command, the response called `motor`.
+    /// θ_m per command: the response with the name `motor`.
     pub motor: Option<MeasuredResponse>,
 }
 
-/// Reads tables of frequency responses on one grid.
+/// Reads tables of frequency responses at the same frequencies.
 ///
 /// # Errors
 /// [`ResponseError`], with file, row and column.
@@ -93,7 +93,7 @@ pub fn read_responses<P: AsRef<Path>>(files: &[P]) -> Result<FrequencyResponses,
         return Err(kind(
             &file,
             point,
-            "a point's is an angle, velocity or acceleration per angle",
+            "the response of a point must be an angle, velocity or acceleration per angle",
         ));
     }
     let per =
@@ -101,7 +101,11 @@ pub fn read_responses<P: AsRef<Path>>(files: &[P]) -> Result<FrequencyResponses,
     if let Some(odd) =
         motor.iter().find(|r| !number(r) && !per.iter().any(|d| Some(*d) == r.dimension))
     {
-        return Err(kind(&file, odd, "the motor's is an angle per current, voltage or command"));
+        return Err(kind(
+            &file,
+            odd,
+            "the response of the motor must be an angle per current, voltage or command",
+        ));
     }
     if points.is_empty() {
         return Err(ResponseError::NoPoint { file });
@@ -121,7 +125,7 @@ fn kind(file: &str, response: &MeasuredResponse, expected: &'static str) -> Resp
 
 struct Table {
     omega_rad_s: Vec<f64>,
-    /// Line of each row.
+    /// Line number of each row.
     rows: Vec<usize>,
     responses: Vec<MeasuredResponse>,
 }
@@ -171,7 +175,7 @@ fn text(path: &Path) -> Result<String, ResponseError> {
     })
 }
 
-/// Whether text has two bytes a character: by its mark, or by zeros in every other place.
+/// Whether text has two bytes for each character: it has a byte order mark, or every second byte is zero.
 fn wide(bytes: &[u8]) -> bool {
     let marked = bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]);
     let zeros = |odd: usize| bytes.iter().skip(odd).step_by(2).filter(|b| **b == 0).count();
@@ -193,7 +197,7 @@ fn read_table(path: &Path) -> Result<Table, ResponseError> {
     let header = header.filter(|line| is_header(line, Delimiter::of(line, false), false));
     let Some(header) = header else { return Err(ResponseError::NoHeader { file }) };
     let delimiter = Delimiter::of(header, false);
-    // Between semicolons a comma can only be the decimal sign.
+    // If cells are separated by semicolons, a comma can only be the decimal sign.
     let decimal_comma = delimiter == Delimiter::Char(';');
     let names: Vec<String> = delimiter.split(header).map(str::to_owned).collect();
     let columns = Columns::of(&file, &names)?;
@@ -244,7 +248,7 @@ fn read_table(path: &Path) -> Result<Table, ResponseError> {
     Ok(table)
 }
 
-/// The columns of one output.
+/// The columns of an output.
 struct Output<'a> {
     name: String,
     first: &'a PartColumn,

@@ -1,4 +1,4 @@
-//! What the columns of a table are, from their names.
+//! The meaning of the columns of a table, from their names.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,7 +6,7 @@ use super::response_error::ResponseError;
 use crate::nearest::nearest;
 use crate::units::{Dimension, parse_any_unit, parse_unit};
 
-/// Part of a response that a column holds.
+/// The part of a response in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum ComplexPart {
     Real,
@@ -25,7 +25,7 @@ impl ComplexPart {
             Self::Magnitude => "magnitude",
             Self::Decibel => "magnitude in dB",
             Self::Phase => "phase",
-            Self::Deviation => "deviation",
+            Self::Deviation => "standard error",
         }
     }
 }
@@ -34,25 +34,25 @@ impl ComplexPart {
 #[derive(Debug, Clone)]
 pub(super) struct PartColumn {
     pub(super) index: usize,
-    /// The output's name; empty where the column's says none.
+    /// Name of the output; empty if the column's name has none.
     pub(super) output: String,
     pub(super) part: ComplexPart,
-    /// By which its numbers are multiplied.
+    /// Factor from its numbers to SI.
     pub(super) factor: f64,
-    /// Of the response, where a unit says it.
+    /// Dimension of the response, if there is a unit.
     pub(super) dimension: Option<Dimension>,
 }
 
-/// The columns of a table; those that are neither are passed over.
+/// The columns of a table; columns that are neither a frequency nor part of a response are skipped.
 #[derive(Debug)]
 pub(super) struct Columns {
     pub(super) frequency: usize,
-    /// rad/s of one unit of the frequency.
+    /// Factor from the unit of the frequency to rad/s.
     pub(super) rad_s: f64,
     pub(super) parts: Vec<PartColumn>,
 }
 
-/// Words that a frequency's name consists of.
+/// Words of a frequency's name.
 const FREQUENCY: [&str; 6] = ["omega", "ω", "w", "frequency", "freq", "f"];
 
 impl Columns {
@@ -83,10 +83,10 @@ impl Columns {
     }
 }
 
-/// A column's name in its words and unit.
+/// The name of a column, split into words and unit.
 struct Split {
     words: Vec<String>,
-    /// In brackets.
+    /// The unit in brackets.
     unit: Option<String>,
 }
 
@@ -109,7 +109,7 @@ impl Split {
         self.words.iter().map(|w| w.to_lowercase()).collect()
     }
 
-    /// The unit of a frequency, empty where it has none; `None` where it is no frequency.
+    /// The unit of a frequency, empty if it has none; `None` if the column is not a frequency.
     fn frequency(&self) -> Option<String> {
         let words = self.lower();
         let (first, rest) = words.split_first()?;
@@ -125,23 +125,23 @@ impl Split {
                     rest.iter().map(String::as_str).filter(|w| *w != "per").collect();
                 Some(per.join("/"))
             }
-            // A response that is called so.
+            // A response with such a name.
             (Some(_), _) => None,
         }
     }
 
-    /// The output's name and the part of its response: the last words say which.
+    /// The name of the output, and the part of its response, which the last words give.
     fn part(&self) -> Option<(String, ComplexPart)> {
         let lower = self.lower();
         let mut count = lower.len();
         let mut part = None;
-        // `phase_deg`, `mag_db`: the unit may be a word too.
+        // The unit may be a word, too, as in `phase_deg` and `mag_db`.
         while let Some(found) = count.checked_sub(1).and_then(|i| part_of(&lower[i])) {
             part = Some(match (part, found) {
                 (Some(ComplexPart::Decibel), ComplexPart::Magnitude) => ComplexPart::Decibel,
                 (Some(ComplexPart::Phase) | None, ComplexPart::Phase) => ComplexPart::Phase,
                 (None, found) => found,
-                // Of another output's name.
+                // A word of the output's name.
                 (Some(_), _) => break,
             });
             count -= 1;
@@ -152,7 +152,7 @@ impl Split {
                 Some((self.words[..count].join("_"), ComplexPart::Decibel))
             }
             Some(part) => Some((self.words[..count].join("_"), part)),
-            // `tip [dB]`, `tip [deg]`.
+            // A unit may be enough, as in `tip [dB]` and `tip [deg]`.
             None if decibel => Some((self.words.join("_"), ComplexPart::Decibel)),
             None => {
                 let degrees = self.unit.as_deref().is_some_and(|u| u == "deg" || u == "°");
@@ -161,7 +161,7 @@ impl Split {
         }
     }
 
-    /// Whether a word says that a phase is in degrees, or in radians.
+    /// The unit of a phase, degrees or radians, if a word gives it.
     fn phase_unit(&self) -> Option<String> {
         let word = |w: &String| matches!(w.as_str(), "deg" | "degree" | "degrees" | "rad");
         self.unit.clone().or_else(|| self.lower().into_iter().rev().find(word))
@@ -180,7 +180,7 @@ fn part_of(word: &str) -> Option<ComplexPart> {
     })
 }
 
-/// rad/s of one unit of a frequency.
+/// The factor from a unit of frequency to rad/s.
 fn rate(file: &str, column: &str, unit: &str) -> Result<f64, ResponseError> {
     let (file, column) = (file.to_owned(), column.to_owned());
     match unit.to_lowercase().as_str() {
@@ -196,7 +196,7 @@ fn rate(file: &str, column: &str, unit: &str) -> Result<f64, ResponseError> {
     }
 }
 
-/// What a part's numbers are multiplied by, and of which dimension the response is.
+/// The factor of a part's numbers to SI, and the dimension of the response.
 fn factor(
     file: &str,
     column: &str,

@@ -1,4 +1,4 @@
-//! What can be wrong with a table of responses.
+//! Errors of a table of responses.
 
 use std::io;
 
@@ -6,12 +6,12 @@ use thiserror::Error;
 
 use crate::excerpt::excerpt;
 
-/// What must be greater than zero.
+/// A quantity that must be greater than zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Positive {
     /// A frequency.
     Frequency,
-    /// A deviation.
+    /// A standard error.
     Deviation,
     /// A magnitude.
     Magnitude,
@@ -26,17 +26,17 @@ pub enum ResponseError {
     Read {
         /// The file.
         file: String,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
-    /// Not a text file.
-    #[error("{file}: is no text")]
+    /// The file is not text.
+    #[error("{file}: is not a text file")]
     NotText {
         /// The file.
         file: String,
     },
     /// Text in another encoding than UTF-8.
-    #[error("{file}: is text in {encoding}, and not in UTF-8 (line {row})")]
+    #[error("{file}: is encoded in {encoding}, not in UTF-8 (line {row})")]
     Encoding {
         /// The file.
         file: String,
@@ -45,28 +45,28 @@ pub enum ResponseError {
         /// The first line that shows it.
         row: usize,
     },
-    /// A size that no table has.
-    #[error("{file}: has {most} bytes or more")]
+    /// A file that is too large for a table.
+    #[error("{file}: is too large, it has {most} bytes or more")]
     TooLarge {
         /// The file.
         file: String,
-        /// Bytes that a table may have.
+        /// Largest size of a table in bytes.
         most: u64,
     },
-    /// No row of names.
-    #[error("{file}: there is no header that names the columns")]
+    /// There is no row of names.
+    #[error("{file}: there is no header with the names of the columns")]
     NoHeader {
         /// The file.
         file: String,
     },
-    /// No column of frequencies.
+    /// There is no column of frequencies.
     #[error("{file}: no column is a frequency; the columns are {}", listed(names))]
     NoFrequency {
         /// The file.
         file: String,
-        /// Names there are.
+        /// The names of the columns.
         names: Vec<String>,
-        /// The one that was probably meant.
+        /// The name that was probably meant.
         nearest: Option<String>,
     },
     /// Two columns of frequencies.
@@ -74,13 +74,13 @@ pub enum ResponseError {
     TwoFrequencies {
         /// The file.
         file: String,
-        /// One.
+        /// The first one.
         first: String,
-        /// The other.
+        /// The second one.
         second: String,
     },
-    /// A column whose unit must be said.
-    #[error("{file}, column {}: the header says no unit", excerpt(column))]
+    /// A column without a unit, which needs one.
+    #[error("{file}, column {}: the header gives no unit", excerpt(column))]
     NoUnit {
         /// The file.
         file: String,
@@ -88,7 +88,11 @@ pub enum ResponseError {
         column: String,
     },
     /// A unit that is unknown, or of the wrong kind.
-    #[error("{file}, column {}: \"{}\" is no unit for it", excerpt(column), excerpt(unit))]
+    #[error(
+        "{file}, column {}: \"{}\" is not a valid unit for this column",
+        excerpt(column),
+        excerpt(unit)
+    )]
     Unit {
         /// The file.
         file: String,
@@ -97,47 +101,47 @@ pub enum ResponseError {
         /// The unit.
         unit: String,
     },
-    /// No columns of a response.
+    /// There are no columns of a response.
     #[error("{file}: no column is part of a response; the columns are {}", listed(names))]
     NoResponse {
         /// The file.
         file: String,
-        /// Names there are.
+        /// The names of the columns.
         names: Vec<String>,
     },
-    /// One half of a response.
-    #[error("{file}: {} has the {has} and no {missing}", excerpt(output))]
+    /// Only one part of a response.
+    #[error("{file}: {} has the {has} but no {missing}", excerpt(output))]
     Half {
         /// The file.
         file: String,
         /// The output.
         output: String,
-        /// What there is.
+        /// The part that the table has.
         has: &'static str,
-        /// What there should be.
+        /// The missing part.
         missing: &'static str,
     },
-    /// Columns that say the same.
+    /// Two columns with the same part of a response.
     #[error("{file}: {} has its {part} twice", excerpt(output))]
     Twice {
         /// The file.
         file: String,
         /// The output.
         output: String,
-        /// What there is twice.
+        /// The part that the table has twice.
         part: &'static str,
     },
-    /// Two outputs of one name.
-    #[error("{file}: there is a response called {} already, in {other}", excerpt(output))]
+    /// Two outputs with the same name.
+    #[error("{file}: there is already a response {} in {other}", excerpt(output))]
     SameName {
         /// The file.
         file: String,
         /// The output.
         output: String,
-        /// The file that has it.
+        /// The other file with this output.
         other: String,
     },
-    /// Numbers that say a response is of no kind.
+    /// A response with a wrong dimension.
     #[error("{file}: {} is in {dimension}: {expected}", excerpt(output))]
     Kind {
         /// The file.
@@ -146,10 +150,10 @@ pub enum ResponseError {
         output: String,
         /// Its dimension.
         dimension: String,
-        /// What it should be.
+        /// The dimension that it must have.
         expected: &'static str,
     },
-    /// A cell that is no number, or none that is finite.
+    /// A cell that is not a finite number.
     #[error(
         "{file}: row {row}, column {}: \"{}\" is not a finite number",
         excerpt(column),
@@ -162,7 +166,7 @@ pub enum ResponseError {
         row: usize,
         /// The column.
         column: String,
-        /// What stands there.
+        /// The text of the cell.
         found: String,
     },
     /// A row that is too short, or an empty cell.
@@ -177,7 +181,7 @@ pub enum ResponseError {
     },
     /// More cells than the header has names.
     #[error(
-        "{file}: row {row}, column {column}: \"{}\" stands beyond the {names} columns of the header",
+        "{file}: row {row}, column {column}: \"{}\" is beyond the {names} columns of the header",
         excerpt(found)
     )]
     ExtraCell {
@@ -187,12 +191,12 @@ pub enum ResponseError {
         row: usize,
         /// The column, from 1.
         column: usize,
-        /// What stands there.
+        /// The text of the cell.
         found: String,
-        /// Columns that the header names.
+        /// Number of columns in the header.
         names: usize,
     },
-    /// A frequency, deviation or magnitude that is none.
+    /// A frequency, standard error or magnitude that is not greater than zero.
     #[error("{file}: row {row}, column {}: {found} must be greater than zero", excerpt(column))]
     NotPositive {
         /// The file.
@@ -203,10 +207,10 @@ pub enum ResponseError {
         column: String,
         /// The number.
         found: f64,
-        /// What it is.
+        /// The kind of quantity.
         what: Positive,
     },
-    /// A response of nothing.
+    /// A response of zero.
     #[error("{file}: row {row}: the response of {} is zero", excerpt(output))]
     ZeroResponse {
         /// The file.
@@ -216,7 +220,7 @@ pub enum ResponseError {
         /// The output.
         output: String,
     },
-    /// A magnitude beyond all numbers.
+    /// A magnitude that is too large for a number.
     #[error(
         "{file}: row {row}, column {}: the response is too large for a number",
         excerpt(column)
@@ -229,9 +233,9 @@ pub enum ResponseError {
         /// The column.
         column: String,
     },
-    /// A deviation beside which all others count nothing.
+    /// A standard error that is so small that all other values would have no effect.
     #[error(
-        "{file}: row {row}, column {}: a deviation of {found:e}, where the others are about {others:.1e}",
+        "{file}: row {row}, column {}: the standard error is {found:e}, but the others are about {others:.1e}",
         excerpt(column)
     )]
     TinyDeviation {
@@ -243,11 +247,11 @@ pub enum ResponseError {
         column: String,
         /// The number.
         found: f64,
-        /// Median of all in the column.
+        /// Median of the column.
         others: f64,
     },
-    /// Frequencies that do not rise.
-    #[error("{file}: row {row}, column {}: {after} follows {before}", excerpt(column))]
+    /// Frequencies that are not ascending.
+    #[error("{file}: row {row}, column {}: {after} comes after {before}", excerpt(column))]
     NotAscending {
         /// The file.
         file: String,
@@ -266,9 +270,9 @@ pub enum ResponseError {
         /// The file.
         file: String,
     },
-    /// Another grid of frequencies.
+    /// Other frequencies than in another file.
     #[error(
-        "{file}: row {row}: {found_rad_s} rad/s, where {other} has {expected_rad_s} rad/s: all responses must \
+        "{file}: row {row}: {found_rad_s} rad/s, but {other} has {expected_rad_s} rad/s: all responses must \
          share their frequencies"
     )]
     Grid {
@@ -278,27 +282,27 @@ pub enum ResponseError {
         row: usize,
         /// Its frequency \[rad/s\].
         found_rad_s: f64,
-        /// The file that has others.
+        /// The other file.
         other: String,
-        /// Its frequency there \[rad/s\].
+        /// Its frequency in the other file \[rad/s\].
         expected_rad_s: f64,
     },
-    /// More or fewer frequencies than another.
+    /// Another number of frequencies than in another file.
     #[error(
-        "{file}: {found} frequencies, where {other} has {expected}: all responses must share their frequencies"
+        "{file}: {found} frequencies, but {other} has {expected}: all responses must share their frequencies"
     )]
     GridLength {
         /// The file.
         file: String,
-        /// Frequencies it has.
+        /// The number of its frequencies.
         found: usize,
-        /// The file that has another number.
+        /// The other file.
         other: String,
-        /// How many.
+        /// The number of frequencies in the other file.
         expected: usize,
     },
-    /// The motor's response and no other.
-    #[error("{file}: there is the motor's response and none of a point")]
+    /// The motor's response only.
+    #[error("{file}: there is only the response of the motor, and none of a point")]
     NoPoint {
         /// The file.
         file: String,
@@ -306,7 +310,7 @@ pub enum ResponseError {
 }
 
 impl ResponseError {
-    /// What to do about it.
+    /// What the user can do.
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
             Self::Read { .. } => "give a campaign.toml, or tables of frequency responses",
@@ -317,59 +321,63 @@ impl ResponseError {
                     "save it as \"CSV UTF-8\", or: iconv -f {name} -t UTF-8 FILE > NEW"
                 ));
             }
-            Self::TooLarge { .. } => "give a table with one row a frequency",
+            Self::TooLarge { .. } => "give a table with one row for each frequency",
             Self::NoHeader { .. } => {
                 "begin with a row of names, such as omega_rad_s,tip_re,tip_im or frequency_hz,tip_db,tip_deg"
             }
             Self::NoFrequency { nearest: Some(found), .. } => {
-                return Some(format!("was \"{found}\" meant? Call it omega_rad_s or frequency_hz"));
+                return Some(format!(
+                    "if the frequency is \"{found}\", rename it to omega_rad_s or frequency_hz"
+                ));
             }
-            Self::NoFrequency { .. } => "call the column omega_rad_s or frequency_hz, or f [Hz]",
-            Self::TwoFrequencies { .. } => "keep one of them",
+            Self::NoFrequency { .. } => {
+                "give the column of frequencies the name omega_rad_s, frequency_hz or f [Hz]"
+            }
+            Self::TwoFrequencies { .. } => "remove one of them",
             Self::NoUnit { .. } | Self::Unit { .. } => {
-                "a frequency is in rad/s or Hz (omega_rad_s, frequency_hz, f [Hz]), a phase in deg or rad \
-                 (tip_deg, tip_phase [rad]), a magnitude in dB or none (tip_db, tip_mag); the motor's response \
-                 may have one such as motor_re [rad/A]"
+                "give a frequency in rad/s or Hz (omega_rad_s, frequency_hz, f [Hz]), a phase in deg or rad \
+                 (tip_deg, tip_phase [rad]), a magnitude in dB or without unit (tip_db, tip_mag); the motor's \
+                 response may have a unit such as motor_re [rad/A]"
             }
             Self::NoResponse { .. } | Self::Half { .. } => {
-                "a response is two columns: tip_re and tip_im, or tip_db (tip_mag) and tip_deg"
+                "give two columns for each response: tip_re and tip_im, or tip_db (or tip_mag) and tip_deg"
             }
             Self::Twice { .. } | Self::SameName { .. } => {
-                "each response needs a name of its own: tip_re, tip_im, elbow_re, elbow_im, or a file of its own"
+                "give each response its own name, as in tip_re, tip_im, elbow_re, elbow_im, or its own file"
             }
             Self::Kind { .. } => {
-                "a point's response is an angle per angle of the motor; the motor's, called motor, an angle per \
-                 current, voltage or command"
+                "give the response of a point as angle per motor angle, and the response of the motor, with the \
+                 name motor, as angle per current, voltage or command"
             }
             Self::NotANumber { .. } | Self::MissingCell { .. } | Self::ZeroResponse { .. } => {
-                "leave the row out where nothing was measured"
+                "leave out rows without a measurement"
             }
             Self::ExtraCell { .. } => {
-                "one cell for each name in the header; numbers with decimal commas need semicolons between them"
+                "give one cell for each name in the header; separate numbers with decimal commas by semicolons"
             }
             Self::NotPositive { what: Positive::Frequency, .. } => {
-                "leave the row out: a response at rest has no place among frequencies"
+                "leave out rows with a frequency of zero or less"
             }
             Self::NotPositive { what: Positive::Deviation, .. } => {
-                "give each response the deviation that it has; where none is known leave the column out, and what \
-                 the model leaves says how large errors are"
+                "give each value its standard error; if it is unknown, leave out the column, and the standard \
+                 errors are estimated from the residual of the model"
             }
             Self::NotPositive { what: Positive::Magnitude, .. } => {
-                "a magnitude in dB is called so: tip_db; one below zero with its sign is a real part; leave the row \
-                 out where nothing was measured"
+                "give a magnitude in dB the name tip_db; a number with a sign is a real part, tip_re; leave out rows \
+                 without a measurement"
             }
             Self::TooLargeResponse { .. } => {
-                "check the unit: a magnitude that is not in dB is called tip_mag"
+                "check the unit: a magnitude that is not in dB has the name tip_mag"
             }
             Self::TinyDeviation { .. } => {
-                "correct the cell: with it the fit would heed no other frequency"
+                "correct the cell: otherwise the fit would ignore all other frequencies"
             }
-            Self::NotAscending { .. } => "sort the rows by frequency, one row each",
-            Self::NoRows { .. } => "below the header, one row for each frequency",
+            Self::NotAscending { .. } => "sort the rows by frequency, with one row for each",
+            Self::NoRows { .. } => "add one row for each frequency below the header",
             Self::Grid { .. } | Self::GridLength { .. } => {
                 "measure all points at the same frequencies, or keep those that are in all files"
             }
-            Self::NoPoint { .. } => "add the response of a point of the beam to the motor's angle",
+            Self::NoPoint { .. } => "add the response of a point of the beam per motor angle",
         };
         Some(hint.to_owned())
     }

@@ -68,39 +68,45 @@ fn errors_name_file_row_and_column() {
         assert!(!said.contains('\n') && error.hint().is_some());
     };
     let one = |text: &str, end: &str| fails(&[("a.csv", text)], end);
-    one("", "a.csv: there is no header that names the columns");
-    one("1,2,3\n", "a.csv: there is no header that names the columns");
+    one("", "a.csv: there is no header with the names of the columns");
+    one("1,2,3\n", "a.csv: there is no header with the names of the columns");
     one("tip_re,tip_im\n1,2\n", "no column is a frequency; the columns are tip_re, tip_im");
-    one("omega,re,im\n1,2,3\n", "column omega: the header says no unit");
-    one("omega_furlong,re,im\n1,2,3\n", "column omega_furlong: \"furlong\" is no unit for it");
-    one("f_hz,mag,phase\n1,2,3\n", "column phase: the header says no unit");
-    one("f_hz,re [zorg],im\n1,2,3\n", "column re [zorg]: \"zorg\" is no unit for it");
+    one("omega,re,im\n1,2,3\n", "column omega: the header gives no unit");
+    one(
+        "omega_furlong,re,im\n1,2,3\n",
+        "column omega_furlong: \"furlong\" is not a valid unit for this column",
+    );
+    one("f_hz,mag,phase\n1,2,3\n", "column phase: the header gives no unit");
+    one(
+        "f_hz,re [zorg],im\n1,2,3\n",
+        "column re [zorg]: \"zorg\" is not a valid unit for this column",
+    );
     one("f_hz,omega_rad_s,re,im\n", "columns f_hz and omega_rad_s are both frequencies");
     one(
         "f_hz,coherence\n1,2\n",
         "no column is part of a response; the columns are f_hz, coherence",
     );
-    one("f_hz,tip_re\n1,2\n", "tip has the real part and no imaginary part");
-    one("f_hz,tip_db,tip_re\n1,2,3\n", "tip has the real part and no imaginary part");
+    one("f_hz,tip_re\n1,2\n", "tip has the real part but no imaginary part");
+    one("f_hz,tip_db,tip_re\n1,2,3\n", "tip has the real part but no imaginary part");
     one("f_hz,re,im,re\n1,2,3,4\n", "a has its real part twice");
     one("f_hz,re,im\n", "a.csv: the table has no rows of numbers");
     one("f_hz,re,im\n1,2,x\n", "row 2, column im: \"x\" is not a finite number");
     one("f_hz,re,im\n1,2,inf\n", "row 2, column im: \"inf\" is not a finite number");
     one("f_hz,re,im\n1,2\n", "row 2, column im: the cell is missing");
     one("f_hz,re,im\n1,2,3\n\n0,2,3\n", "row 4, column f_hz: 0 must be greater than zero");
-    one(
-        "f_hz,re,im\n1,2,3,4\n",
-        "row 2, column 4: \"4\" stands beyond the 3 columns of the header",
-    );
+    one("f_hz,re,im\n1,2,3,4\n", "row 2, column 4: \"4\" is beyond the 3 columns of the header");
     one("f_hz,re,im\n1,0,0\n", "row 2: the response of a is zero");
     one("f_hz,db,deg\n1,9999,0\n", "row 2, column db: the response is too large for a number");
     one("f_hz,mag,deg\n1,-1,0\n", "row 2, column mag: -1 must be greater than zero");
     one("f_hz,re,im,std\n1,2,3,0\n", "row 2, column std: 0 must be greater than zero");
-    one("f_hz,re,im\n2,2,3\n1,2,3\n", "row 3, column f_hz: 1 follows 2");
-    one("f_hz,motor_re,motor_im\n1,2,3\n", "there is the motor's response and none of a point");
+    one("f_hz,re,im\n2,2,3\n1,2,3\n", "row 3, column f_hz: 1 comes after 2");
+    one(
+        "f_hz,motor_re,motor_im\n1,2,3\n",
+        "there is only the response of the motor, and none of a point",
+    );
     one(
         "f_hz,tip_re [rad/A],tip_im [rad/A]\n1,2,3\n",
-        "a point's is an angle, velocity or acceleration per angle",
+        "the response of a point must be an angle, velocity or acceleration per angle",
     );
     let b = ("b.csv", "f_hz,re,im\n1,2,3\n2,2,3\n");
     fails(&[b, ("c.csv", "f_hz,re,im\n1,2,3\n")], "all responses must share their frequencies");
@@ -110,8 +116,10 @@ fn errors_name_file_row_and_column() {
     );
     let twice = "f_hz,b_re,b_im\n1,2,3\n2,2,3\n";
     let error = read(&[b, ("c.csv", twice)]).unwrap_err().to_string();
-    assert!(error.contains("there is a response called b already"), "{error}");
-    assert!(read(&[("a.bin", "\u{0}\u{1}")]).unwrap_err().to_string().contains("is no text"));
+    assert!(error.contains("there is already a response b"), "{error}");
+    assert!(
+        read(&[("a.bin", "\u{0}\u{1}")]).unwrap_err().to_string().contains("is not a text file")
+    );
     let nothing: [&str; 0] = [];
     assert!(read_responses(&nothing).is_err() && read_responses(&["/nowhere.csv"]).is_err());
     assert!(read_responses(&[std::env::temp_dir()]).is_err());
@@ -120,8 +128,8 @@ fn errors_name_file_row_and_column() {
 #[test]
 fn hints_fit_what_is_wrong() {
     let hint = |text: &str| read(&[("a.csv", text)]).unwrap_err().hint().unwrap();
-    assert!(hint("f_hz,re,im\n0,2,3\n").contains("at rest"));
-    assert!(hint("f_hz,re,im,std\n1,2,3,0\n").contains("leave the column out"));
+    assert!(hint("f_hz,re,im\n0,2,3\n").contains("zero or less"));
+    assert!(hint("f_hz,re,im,std\n1,2,3,0\n").contains("leave out the column"));
     assert!(hint("f_hz,mag,deg\n1,-3,0\n").contains("tip_db"));
     assert!(hint("f_hz,re,im\n0,5,1,2\n").contains("semicolons"));
     // An empty cell at the end of rows is none too many.
@@ -130,7 +138,7 @@ fn hints_fit_what_is_wrong() {
     let said = said.unwrap_err().to_string();
     assert!(
         said.ends_with(
-            "row 3, column std: a deviation of 1e-300, where the others are about 1.0e-1"
+            "row 3, column std: the standard error is 1e-300, but the others are about 1.0e-1"
         ),
         "{said}"
     );

@@ -1,4 +1,4 @@
-//! The arm of a result, in JSON: written from the arm found, and read back to it.
+//! The arm of a result in JSON, written and read.
 
 use lissom_core::identify::{FoundArm, TorqueUsed};
 use lissom_core::load::GravityLoad;
@@ -15,49 +15,49 @@ use super::unit_keys::{
 };
 use super::unit_names::UnitNames;
 
-/// The arm of a result. Torques are in N*m or N where the torque constant is known, else in the command's unit.
+/// The arm of a result. Torques are in N*m or N if the torque constant is known, otherwise in the unit of the command.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ArmEntry {
-    /// Method that it is from.
+    /// The method that estimated it.
     pub from: ArmSourceName,
     /// Inertia or mass.
     #[serde(flatten)]
     pub inertia: Number<InertiaKey>,
-    /// Viscous friction forward, the back-EMF's damping in it.
+    /// Viscous friction forward, including the damping by back-EMF.
     #[serde(flatten)]
     pub viscous_forward: Number<ViscousForwardKey>,
-    /// Viscous friction backward, the back-EMF's damping in it.
+    /// Viscous friction backward, including the damping by back-EMF.
     #[serde(flatten)]
     pub viscous_backward: Number<ViscousBackwardKey>,
-    /// Mean of both directions.
+    /// Coulomb friction, mean of both directions.
     #[serde(flatten)]
     pub coulomb: Number<CoulombKey>,
     /// (forward - backward)/2.
     #[serde(flatten)]
     pub offset: Number<OffsetKey>,
-    /// Its further friction.
+    /// Further terms of friction.
     #[serde(flatten)]
     pub terms: ArmTermsEntry,
-    /// Gravity on its motor; null without.
+    /// Gravity on its motor; null if there is none.
     #[serde(default)]
     pub gravity: Option<ArmGravityEntry>,
-    /// The command acts this much later than it is logged.
+    /// Time by which the command acts later than it is logged.
     pub command_lag_s: f64,
     /// Modes with the motor clamped, as oscillators on the motor.
     pub modes: Vec<OscillatorEntry>,
-    /// Torque on the motor per deflection of each tip, where the logs show it and no mode: the arm has no modes then and
-    /// predicts torque alone. Absent otherwise.
+    /// Torque on the motor per deflection of each tip, if the logs show it but no mode. The arm then has no modes and
+    /// predicts only the torque. Absent otherwise.
     #[serde(flatten)]
     pub coupling_by_tip: WithUnit<CouplingByTipKey, Vec<f64>>,
     /// The tips.
     pub tips: Vec<ArmTipEntry>,
-    /// Damping of each tip's point against the fixed frame; empty unless there are as many tips as modes.
+    /// Damping of the point of each tip against the fixed frame; empty unless there are as many tips as modes.
     pub damping_at_points_per_s: Vec<f64>,
-    /// |logged - predicted|/|logged| of the torque of the logs used, as lissom validate gives it; null where the tips
-    /// do not give the coupling torque.
+    /// |logged - predicted|/|logged| of the torque in the logs used, as in lissom validate; null if the tips do not give
+    /// the coupling torque.
     pub torque_error: Option<f64>,
-    /// Length of the window that both sides were averaged with.
+    /// Length of the window with which both torques were averaged.
     pub torque_window_s: Option<f64>,
 }
 
@@ -65,10 +65,10 @@ pub struct ArmEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ArmGravityEntry {
-    /// g_s.
+    /// Coefficient g_s.
     #[serde(flatten)]
     pub sine: Number<SineKey>,
-    /// g_c.
+    /// Coefficient g_c.
     #[serde(flatten)]
     pub cosine: Number<CosineKey>,
 }
@@ -82,9 +82,9 @@ pub struct OscillatorEntry {
     /// Torque on the motor per deflection of the mode.
     #[serde(flatten)]
     pub stiffness: Number<StiffnessKey>,
-    /// 2*zeta*omega of damping within the beam.
+    /// Damping within the beam, 2*zeta*omega.
     pub damping_within_per_s: f64,
-    /// 2*zeta*omega of damping against the fixed frame.
+    /// Damping against the fixed frame, 2*zeta*omega.
     pub damping_grounded_per_s: f64,
 }
 
@@ -96,9 +96,9 @@ pub struct ArmTipEntry {
     pub name: String,
     /// What it measures.
     pub quantity: TipQuantityName,
-    /// Share of each mode's deflection that the tip sees.
+    /// Share of the deflection of each mode at the tip.
     pub shape: Vec<f64>,
-    /// The tip shows what its point did this much before the motor shows what it did then.
+    /// Time by which the tip is read later than the motor.
     pub lag_s: f64,
 }
 
@@ -137,7 +137,7 @@ impl ArmEntry {
         }
     }
 
-    /// The arm that the entry says; keys have the units of `names`.
+    /// The arm of this entry; its keys have the units of `names`.
     pub(crate) fn found(&self, names: UnitNames) -> Result<FoundArm, WrongKey> {
         let number = Numbers { names, at: "arm" };
         let modes = self.modes.iter().map(|m| m.oscillator(names));
@@ -178,7 +178,7 @@ impl ArmEntry {
             at_points_per_s: self.damping_at_points_per_s.clone(),
             gravity: gravity.transpose()?,
             command_lag_s: number.sane("command_lag_s", self.command_lag_s)?,
-            // Empty where all tips are in time.
+            // Empty if no tip has a delay.
             tip_lags_s: if lags.iter().all(|lag| *lag == 0.0) { Vec::new() } else { lags },
             modes,
         };

@@ -1,15 +1,15 @@
-//! Numbers of an arm as they are read back: of a known unit, and none that no machine has.
+//! Checks of the numbers of an arm that is read: known units and plausible sizes.
 
 use super::unit_keys::{Quantity, WithUnit};
 use super::unit_names::UnitNames;
 
-/// No machine has a larger number in SI.
+/// Largest plausible number in SI.
 const LARGEST: f64 = 1e12;
 
 /// A number under a key with its unit.
 pub(super) type Number<Q> = WithUnit<Q, f64>;
 
-/// A key of an arm that is missing, or not what it should be.
+/// A key of an arm that is missing or has a wrong value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct WrongKey {
     /// The key, dotted.
@@ -18,7 +18,7 @@ pub(crate) struct WrongKey {
     pub(crate) expected: &'static str,
 }
 
-/// Takes numbers out of a table of an arm.
+/// Reads numbers from a table of an arm.
 pub(super) struct Numbers {
     pub(super) names: UnitNames,
     pub(super) at: &'static str,
@@ -35,7 +35,7 @@ impl Numbers {
 
     pub(super) fn sane(&self, key: &str, value: f64) -> Result<f64, WrongKey> {
         if value.abs() > LARGEST {
-            return Err(self.wrong(key, "a number that a machine may have"));
+            return Err(self.wrong(key, "a number of plausible size"));
         }
         Ok(value)
     }

@@ -1,4 +1,4 @@
-//! Axis, direction and quantities by their names in JSON.
+//! Names of axes, directions and quantities in JSON.
 
 use lissom_core::drive::Falloff;
 use lissom_core::identify::{ArmSource, Method};
@@ -10,9 +10,9 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum AxisName {
-    /// It turns: angles in rad.
+    /// A rotary axis, with angles in rad.
     Rotary,
-    /// It moves along a line: positions in m.
+    /// A linear axis, with positions in m.
     Linear,
 }
 
@@ -25,7 +25,7 @@ impl AxisName {
         }
     }
 
-    /// The name as JSON has it.
+    /// The name as in JSON.
     pub fn text(self) -> &'static str {
         match self {
             Self::Rotary => "rotary",
@@ -57,7 +57,7 @@ impl TipQuantityName {
         }
     }
 
-    /// The name as JSON has it.
+    /// The name as in JSON.
     pub(crate) fn text(self) -> &'static str {
         match self {
             Self::Angle => "angle",
@@ -79,13 +79,13 @@ pub enum DirectionName {
 }
 
 impl DirectionName {
-    /// Forward where `forward`.
+    /// Forward if `forward` is true, otherwise backward.
     pub(crate) fn of(forward: bool) -> Self {
         if forward { Self::Forward } else { Self::Backward }
     }
 }
 
-/// How friction near rest falls off with speed.
+/// How friction near rest changes with speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -114,7 +114,7 @@ impl FalloffName {
     }
 }
 
-/// Method that estimates are from.
+/// The method that gave the estimates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -148,9 +148,9 @@ impl ArmSourceName {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum MethodName {
-    /// Replay of the logged command through an arm whose parameters are moved.
+    /// The output-error method: simulation of the arm under the logged command, with parameters adapted to the log.
     OutputError,
-    /// Regression in slip phases under the friction law that the data call for.
+    /// Regression in slip phases with the friction law that the data support.
     FrictionLaw,
     /// Regression in slip phases with viscous friction by direction.
     RegressionByDirection,
@@ -167,7 +167,7 @@ pub enum MethodName {
 }
 
 impl MethodName {
-    /// The name of a method; `None` of one that the file has no name for.
+    /// The name of a method; `None` if the file has no name for it.
     pub(crate) fn of(method: Method) -> Option<Self> {
         Some(match method {
             Method::OutputError => Self::OutputError,

@@ -1,4 +1,4 @@
-//! Steady velocities extrapolated to rest, in JSON.
+//! Friction from constant velocities in JSON.
 
 use lissom_core::identify::{ConstantVelocity, FrictionLine, LineShape, RunAnalysis, SteadyPoint};
 use serde::{Deserialize, Serialize};
@@ -12,70 +12,70 @@ use super::unit_keys::{
 };
 use super::unit_names::UnitNames;
 
-/// Steady velocities, extrapolated to rest.
+/// Friction from constant velocities, extrapolated to zero speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ConstantVelocityEntry {
-    /// Mean of both directions.
+    /// Coulomb friction, mean of both directions.
     #[serde(flatten)]
     pub coulomb: Refusable<CoulombKey>,
-    /// While moving forward.
+    /// Coulomb friction while moving forward.
     #[serde(flatten)]
     pub forward: Refusable<ForwardKey>,
-    /// While moving backward.
+    /// Coulomb friction while moving backward.
     #[serde(flatten)]
     pub backward: Refusable<BackwardKey>,
     /// (forward - backward)/2.
     #[serde(flatten)]
     pub offset: Refusable<OffsetKey>,
-    /// Mean of the lines.
+    /// Viscous friction, mean of both directions.
     #[serde(flatten)]
     pub viscous: Refusable<ViscousKey>,
-    /// By direction, where there is one.
+    /// The straight line for each direction that has one.
     pub lines: Vec<FrictionLineEntry>,
     /// Stretches at a constant velocity.
     pub points: Vec<SteadyPointEntry>,
 }
 
-/// A line of friction over speed.
+/// A straight line of friction over speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FrictionLineEntry {
     /// Direction of motion.
     pub direction: DirectionName,
-    /// The line extrapolated to rest.
+    /// The line extrapolated to zero speed.
     #[serde(flatten)]
     pub coulomb: Refusable<CoulombKey>,
-    /// Its slope, back-EMF taken out.
+    /// Its slope, without back-EMF.
     #[serde(flatten)]
     pub viscous: Estimated<ViscousKey>,
-    /// Correlation of the two.
+    /// Correlation of both estimates.
     pub correlation: f64,
-    /// Stretches.
+    /// Number of stretches.
     pub points: usize,
-    /// Different speeds.
+    /// Number of different speeds.
     pub speeds: usize,
-    /// Whether a line describes them.
+    /// Whether a straight line describes them.
     pub shape: LineShapeName,
-    /// Size of the quadratic term, or of the scatter (rms), in standard errors; null where a line holds.
+    /// Size of the quadratic term, or of the scatter (rms), in standard errors; null if a straight line describes them.
     pub deviations: Option<f64>,
-    /// The extrapolation from the slowest third of the speeds.
+    /// The value extrapolated from the slowest third of the speeds.
     #[serde(flatten)]
     pub slowest: Refusable<SlowestKey>,
 }
 
-/// Whether a line describes friction over speed.
+/// Whether a straight line describes friction over speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum LineShapeName {
-    /// Too few speeds to tell.
+    /// There are too few speeds for a test.
     Unchecked,
-    /// It does.
+    /// A straight line describes it.
     Straight,
-    /// Friction grows less at high speeds.
+    /// Friction grows less than in proportion at high speeds.
     Concave,
-    /// Friction grows more at high speeds.
+    /// Friction grows more than in proportion at high speeds.
     Convex,
     /// The points scatter beyond their standard errors.
     Scattered,
@@ -102,7 +102,7 @@ pub struct SteadyPointEntry {
 }
 
 impl ConstantVelocityEntry {
-    /// The lines and what they give; `constant` is torque per command.
+    /// The lines and their friction; `constant` is torque per command.
     pub(crate) fn of(
         names: UnitNames,
         constant: f64,

@@ -1,4 +1,4 @@
-//! The equivalent arm in JSON, in `result.json` and by itself.
+//! The equivalent arm in JSON, in `result.json` and in a file of its own.
 
 use lissom_core::Matrix;
 use lissom_core::identify::{
@@ -15,21 +15,21 @@ use super::unit_keys::{
 use super::unit_names::UnitNames;
 use crate::model::{RootClassName, StateSpaceEntry, matrix_rows};
 
-/// SI units. The suffix of a key is its unit, as in result.schema.json. Rows and columns are the arm's points, in the
-/// order of `points`. An estimate carries its standard error and its 95 % interval, from the covariance of the fit to
-/// first order.
+/// SI units. The suffix of a key is its unit, as in result.schema.json. Rows and columns are the points of the arm, in the
+/// order of `points`. An estimate has its standard error and its 95 % interval, from the covariance of the fit to first
+/// order.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EquivalentFile {
-    /// Version that wrote the file.
+    /// Version of lissom that wrote the file.
     pub lissom: String,
     /// The arm.
     pub equivalent: EquivalentEntry,
-    /// What the data do not allow.
+    /// Findings about the data.
     pub findings: Vec<FindingEntry>,
 }
 
-/// The lumped arm that behaves as the beam measured.
+/// The lumped arm that behaves as the measured beam does.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EquivalentEntry {
@@ -37,30 +37,30 @@ pub struct EquivalentEntry {
     pub points: Vec<String>,
     /// Modes with the motor clamped, ascending.
     pub modes: Vec<EquivalentModeEntry>,
-    /// Poles fitted that are no modes: they correct the model's edges, or stand for noise.
+    /// Fitted poles that are not modes: they correct the model at its limits, or follow noise.
     pub spurious_poles: Vec<SpuriousPoleEntry>,
     /// (17) as fitted.
     pub beam: EquivalentBeamEntry,
-    /// (18) and (14) as fitted; null without a motor's response that holds them.
+    /// (18) and (14) as fitted; null without a usable response of the motor.
     pub torque: Option<EquivalentTorqueEntry>,
-    /// (17)-(18) for use as an arm; null where a point is no angle (finding equivalent-no-angle).
+    /// (17)-(18) for use as an arm; null if a point is not an angle (finding equivalent-no-angle).
     pub strainless: Option<StrainlessEntry>,
-    /// The form for use, from the command to the motor's angle and those of the points: in the modes' own coordinates,
-    /// with their damping where it is above zero; null without a motor's response, and where a point is no angle
-    /// (finding equivalent-no-angle).
+    /// The form for use, from the command to the angles of motor and points, in coordinates of the modes, with their
+    /// damping if it is above zero; null without a motor's response, and if a point is not an angle (finding
+    /// equivalent-no-angle).
     pub state_space: Option<StateSpaceEntry>,
-    /// Of every point measured, with the modes of the arm.
+    /// Zeros of every measured point, with the modes of the arm.
     pub zeros: Vec<PointZerosEntry>,
-    /// Lowest frequency measured.
+    /// Lowest measured frequency.
     pub lowest_rad_s: f64,
-    /// Highest frequency measured.
+    /// Highest measured frequency.
     pub highest_rad_s: f64,
-    /// Residual of the points' responses relative to their standard errors: one where the model is as good as the
-    /// data; null where these are not known.
+    /// Residual of the responses of the points relative to their standard errors: one if the model is as good as the data;
+    /// null if these are unknown.
     pub weighted_rms: Option<f64>,
     /// Residual relative to each response, rms.
     pub relative_residual: f64,
-    /// Where the standard errors of the responses are from.
+    /// Origin of the standard errors of the responses.
     pub deviations: DeviationsName,
 }
 
@@ -72,14 +72,14 @@ pub struct EquivalentModeEntry {
     pub natural_frequency_rad_s: EstimateEntry,
     /// Damping ratio of the fit; (17) has none.
     pub damping_ratio: EstimateEntry,
-    /// The mode's part of each point's angle per motor angle at rest.
+    /// Share of the mode in the angle of each point per motor angle at frequency zero.
     pub static_gains: Vec<EstimateEntry>,
     /// c_k of C_t/theta_m = sum of c_k*s^2/(s^2 + omega_k^2).
     #[serde(flatten)]
     pub coupling: Refusable<CouplingKey>,
 }
 
-/// A pole that is no mode.
+/// A pole that is not a mode.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SpuriousPoleEntry {
@@ -87,24 +87,24 @@ pub struct SpuriousPoleEntry {
     pub natural_frequency_rad_s: f64,
     /// Its damping ratio.
     pub damping_ratio: f64,
-    /// Why it is no mode.
+    /// Why it is not a mode.
     pub why: SpuriousName,
 }
 
-/// Why a pole is no mode.
+/// Why a pole is not a mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum SpuriousName {
-    /// Outside the frequencies measured.
+    /// It is outside the measured frequencies.
     Outside,
-    /// Damped by more than 0.25 or negatively.
+    /// Its damping ratio is above 0.25 or negative.
     Damped,
-    /// No point shows it by four standard errors.
+    /// No point shows it with four standard errors or more.
     Unfelt,
 }
 
-/// (17): second derivatives of the points' angles from these and the motor's.
+/// (17): second derivatives of the angles of the points, from these angles and the motor's.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EquivalentBeamEntry {
@@ -124,19 +124,19 @@ pub struct EquivalentTorqueEntry {
     /// h_{n+1} of (18), the sum of the modes' couplings.
     #[serde(flatten)]
     pub h_motor: Estimated<MotorTorqueKey>,
-    /// J, with what the modes left out carry.
+    /// J, including the inertia of the omitted modes.
     #[serde(flatten)]
     pub inertia: Estimated<InertiaKey>,
-    /// V, back-EMF included.
+    /// V, including back-EMF.
     #[serde(flatten)]
     pub viscous: Estimated<ViscousKey>,
-    /// By how much the motor comes later than the command; null where its response does not call for that.
+    /// Delay of the motor after the command; null if its response does not show one.
     pub delay_s: Option<EstimateEntry>,
-    /// Residual of the motor's response relative to its standard errors; null where these are not known.
+    /// Residual of the motor's response relative to its standard errors; null if these are unknown.
     pub weighted_rms: Option<f64>,
 }
 
-/// (17)-(18) for use as an arm: turning as one body strains nothing, A*1 + B = 0 and H*1 + h = 0.
+/// (17)-(18) for use as an arm: turning the whole arm bends nothing, A*1 + B = 0 and H*1 + h = 0.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StrainlessEntry {
@@ -150,9 +150,9 @@ pub struct StrainlessEntry {
     /// h_{n+1} of (18); null without a motor's response.
     #[serde(flatten)]
     pub h_motor: WithUnit<MotorTorqueKey, Option<f64>>,
-    /// What each point's gains, as fitted, lack of one.
+    /// One minus the sum of the fitted gains of each point.
     pub missing: Vec<f64>,
-    /// Whether the data say that a point lacks it: its last mode is then given all of it, otherwise all its modes by
+    /// Whether `missing` is significant for a point. Its last mode then gets all of it; otherwise all its modes share it by
     /// their standard errors.
     pub given_to_last_mode: Vec<bool>,
 }
@@ -179,25 +179,25 @@ pub struct ResponseZeroEntry {
     pub im_rad_s: f64,
     /// Its magnitude.
     pub magnitude_rad_s: EstimateEntry,
-    /// Beyond the frequencies measured: modes left out may move it anywhere.
+    /// Whether it is outside the measured frequencies, so that omitted modes may change it.
     pub outside: bool,
 }
 
-/// Where standard errors of responses are from.
+/// Origin of the standard errors of responses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum DeviationsName {
     /// They are measured.
     Measured,
-    /// Measured, but no less than 0.2 % of the response (campaigns).
+    /// They are measured, but at least 0.2 % of the response (campaigns).
     Floored,
-    /// Not known, and taken from the residual.
+    /// They are unknown, and estimated from the residual.
     FromResidual,
 }
 
 impl EquivalentFile {
-    /// What `lissom equivalent` writes.
+    /// The content that `lissom equivalent` writes.
     pub fn of(names: UnitNames, found: &Equivalent) -> Self {
         Self {
             lissom: env!("CARGO_PKG_VERSION").to_owned(),
@@ -208,7 +208,7 @@ impl EquivalentFile {
 }
 
 impl EquivalentEntry {
-    /// The arm alone.
+    /// The entry of an equivalent arm.
     pub fn of(names: UnitNames, found: &Equivalent) -> Self {
         let point = |i: usize| found.names[i].as_str();
         let known = found.deviations != Deviations::FromResidual;

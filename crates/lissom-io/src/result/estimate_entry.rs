@@ -3,7 +3,7 @@
 use lissom_core::identify::{Estimate, ModeEstimate};
 use serde::{Deserialize, Serialize};
 
-/// An estimate with its standard error and its 95 % interval; null where a finding refuses it.
+/// An estimate with its standard error and its 95 % interval; null if a finding refuses it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EstimateEntry {
@@ -38,7 +38,7 @@ impl EstimateEntry {
 pub struct BeamModeEntry {
     /// Natural frequency without damping.
     pub natural_frequency_rad_s: EstimateEntry,
-    /// Damping ratio; `null` where it would be negative.
+    /// Damping ratio; `null` if it would be negative.
     pub damping_ratio: Option<EstimateEntry>,
 }
 
@@ -57,7 +57,7 @@ impl BeamModeEntry {
     }
 }
 
-/// A number that JSON can hold: what is infinite or not a number is null.
+/// A number for JSON; an infinite or undefined number becomes null.
 pub(crate) fn finite(value: f64) -> Option<f64> {
     Some(value).filter(|v| v.is_finite())
 }

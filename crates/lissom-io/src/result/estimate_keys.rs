@@ -1,4 +1,4 @@
-//! Estimates under keys that carry their unit.
+//! Estimates under keys with their unit.
 
 use super::estimate_entry::EstimateEntry;
 use super::unit_keys::WithUnit;

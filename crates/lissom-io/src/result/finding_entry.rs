@@ -3,17 +3,17 @@
 use lissom_core::identify::{Finding, Severity};
 use serde::{Deserialize, Serialize};
 
-/// A finding: what the data do not allow, or what to know about an estimate.
+/// A finding: what the data do not determine, or what to know about an estimate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FindingEntry {
-    /// Stable name; docs/src/reference/findings.md has them all.
+    /// Stable name; the page Findings in the book lists all codes.
     pub code: String,
     /// How much it matters.
     pub severity: SeverityName,
-    /// Name of the run that it is about; null for all runs together.
+    /// Name of the run that it is about; null if it is about all runs.
     pub run: Option<String>,
-    /// Keys that it affects, without the suffix of their unit.
+    /// Keys of the affected estimates, without the suffix of their unit.
     pub affects: Vec<String>,
     /// What was found.
     pub message: String,

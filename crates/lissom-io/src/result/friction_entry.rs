@@ -1,4 +1,4 @@
-//! Friction as it was identified, in JSON.
+//! Identified friction in JSON.
 
 use lissom_core::identify::{CurvePoint, Friction, Identified};
 use serde::{Deserialize, Serialize};
@@ -17,13 +17,13 @@ use super::unit_names::UnitNames;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CoulombEntry {
-    /// Mean of both directions.
+    /// Coulomb friction, mean of both directions.
     #[serde(flatten)]
     pub coulomb: Refusable<CoulombKey>,
-    /// While moving forward.
+    /// Coulomb friction while moving forward.
     #[serde(flatten)]
     pub forward: Refusable<ForwardKey>,
-    /// While moving backward.
+    /// Coulomb friction while moving backward.
     #[serde(flatten)]
     pub backward: Refusable<BackwardKey>,
     /// (forward - backward)/2.
@@ -31,27 +31,27 @@ pub struct CoulombEntry {
     pub offset: Refusable<OffsetKey>,
 }
 
-/// Friction by the best method that the data allow.
+/// Friction, from the best method that the data allow.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FrictionEntry {
     /// Coulomb friction.
     #[serde(flatten)]
     pub coulomb: CoulombEntry,
-    /// Viscous friction, back-EMF taken out where its constant is given.
+    /// Viscous friction, without back-EMF if its constant is given.
     #[serde(flatten)]
     pub viscous: Refusable<ViscousKey>,
-    /// Viscous friction forward; absent unless the data reject one constant.
+    /// Viscous friction forward; absent unless the data reject one value for both directions.
     #[serde(flatten)]
     pub viscous_forward: Estimated<ViscousForwardKey>,
-    /// Viscous friction backward; absent unless the data reject one constant.
+    /// Viscous friction backward; absent unless the data reject one value for both directions.
     #[serde(flatten)]
     pub viscous_backward: Estimated<ViscousBackwardKey>,
-    /// Its further terms.
+    /// Further terms of friction.
     #[serde(flatten)]
     pub terms: FrictionTermsEntry,
-    /// Friction against speed without a law, ascending in speed, forward then backward; speeds that no slip phase
-    /// holds are not there.
+    /// Friction against speed without a law, ascending in speed, forward then backward; only speeds at which slip phases
+    /// have data.
     pub curve: Vec<CurvePointEntry>,
 }
 
@@ -67,12 +67,12 @@ pub struct CurvePointEntry {
     /// Friction against the motion.
     #[serde(flatten)]
     pub friction: Refusable<FrictionKey>,
-    /// Windows about this speed.
+    /// Number of windows around this speed.
     pub windows: usize,
 }
 
 impl CoulombEntry {
-    /// The Coulomb part of friction; `constant` is torque per command.
+    /// The entry of Coulomb friction; `constant` is torque per command.
     pub(crate) fn of(names: UnitNames, constant: f64, f: &Friction) -> Self {
         Self {
             coulomb: WithUnit::torque(names, constant, f.coulomb),
@@ -84,7 +84,7 @@ impl CoulombEntry {
 }
 
 impl FrictionEntry {
-    /// Friction of a result; `constant` is torque per command.
+    /// The entry of a result's friction; `constant` is torque per command.
     pub(crate) fn of(names: UnitNames, constant: f64, id: &Identified) -> Self {
         let f = &id.friction;
         let (forward, backward) = f.viscous_by_direction.unzip();

@@ -13,43 +13,43 @@ use super::unit_keys::{
 };
 use super::unit_names::UnitNames;
 
-/// Friction's law by evidence, on short windows in slip phases.
+/// The friction law that the data support, on short windows in slip phases.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FrictionLawEntry {
     /// Length of the windows.
     pub window_s: f64,
-    /// Slowest and fastest speed of the windows; law and curve are of friction between these.
+    /// Slowest and fastest speed of the windows; law and curve hold between these.
     #[serde(flatten)]
     pub speed_range: WithUnit<SpeedRangeKey, [f64; 2]>,
-    /// Part of the windowed torque that is left.
+    /// Residuals of the windowed torque, as shares.
     pub relative_residual: LawResidualEntry,
-    /// Estimates under the law chosen.
+    /// Estimates with the chosen law.
     pub chosen: ChosenLawEntry,
-    /// Every term tried, in the order of trying.
+    /// All terms that were tried, in this order.
     pub candidates: Vec<LawCandidateEntry>,
 }
 
-/// Part of the windowed torque that laws leave.
+/// Residual of the windowed torque as a share, for several laws.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LawResidualEntry {
-    /// By Coulomb and one viscous constant.
+    /// With Coulomb friction and one viscous coefficient.
     pub simplest: f64,
-    /// By the law chosen.
+    /// With the chosen law.
     pub chosen: f64,
-    /// By the friction curve.
+    /// With the friction curve.
     pub curve: f64,
 }
 
-/// Estimates under the law chosen.
+/// Estimates with the chosen law.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ChosenLawEntry {
     /// Coulomb friction.
     #[serde(flatten)]
     pub coulomb: Refusable<CoulombKey>,
-    /// Its offset.
+    /// Offset.
     #[serde(flatten)]
     pub offset: Refusable<OffsetKey>,
     /// Viscous friction.
@@ -58,23 +58,23 @@ pub struct ChosenLawEntry {
     /// Inertia or mass.
     #[serde(flatten)]
     pub inertia: Refusable<InertiaKey>,
-    /// Coupling.
+    /// Coupling between motor and beam.
     #[serde(flatten)]
     pub coupling: Refusable<CouplingKey>,
     /// Gravity; null unless the campaign asks for it.
     pub gravity: Option<GravityEntry>,
-    /// Its further terms.
+    /// Further terms of friction.
     pub terms: Vec<ChosenTermEntry>,
 }
 
-/// A term of the law chosen.
+/// A term of the chosen law.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ChosenTermEntry {
-    /// Which.
+    /// The term.
     #[serde(flatten)]
     pub term: LawTermEntry,
-    /// Its amplitude, of a ripple cosine and sine; empty where it has none.
+    /// Its amplitude, for a ripple of cosine and sine; empty if it has none.
     #[serde(flatten)]
     pub amplitude: WithUnit<LawAmplitudeKey, Vec<EstimateEntry>>,
 }
@@ -83,29 +83,29 @@ pub struct ChosenTermEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LawCandidateEntry {
-    /// Which.
+    /// The term.
     #[serde(flatten)]
     pub term: LawTermEntry,
-    /// Terms that the law had before.
+    /// Number of terms that the law had before.
     pub beside_terms: usize,
-    /// Its amplitude, of a ripple that of cosine and sine together.
+    /// Its amplitude, for a ripple that of cosine and sine together.
     #[serde(flatten)]
     pub amplitude: Estimated<LawAmplitudeKey>,
-    /// Residual with it relative to the residual without it.
+    /// Residual with the term relative to the residual without it.
     pub residual_ratio: f64,
-    /// Standard errors by which slip phases left out are described better.
+    /// Improvement in slip phases that were left out of the fit, in standard errors.
     pub paired_deviations: f64,
-    /// The residual on kinds of stretches (direction, speed, side of the travel) left out, as a ratio.
+    /// The same ratio in stretches of one kind (direction, speed, side of the travel) that were left out of the fit.
     pub stretch_ratio: f64,
-    /// Friction at rest with it, in the direction where it is less.
+    /// Friction at rest with the term, in the direction in which it is smaller.
     #[serde(flatten)]
     pub at_rest: Estimated<AtRestKey>,
-    /// Whether it was taken.
+    /// Whether the term was accepted.
     pub taken: bool,
 }
 
 impl FrictionLawEntry {
-    /// The choice of a law; `constant` is torque per command.
+    /// The entry of the choice of a law; `constant` is torque per command.
     pub(crate) fn of(names: UnitNames, constant: f64, law: &FrictionLaw) -> Self {
         let [simplest, chosen, curve] = law.relative_residual;
         Self {
@@ -122,7 +122,7 @@ impl ChosenLawEntry {
     fn of(names: UnitNames, constant: f64, fit: &LawFit) -> Self {
         let term = |(term, amplitudes): &(LawTerm, Vec<Estimate>)| ChosenTermEntry {
             term: LawTermEntry::of(names, *term),
-            // A ripple's period stands beside it.
+            // The period of a ripple has a key of its own.
             amplitude: WithUnit::under(
                 amplitude_key(names, *term),
                 EstimateEntry::list(amplitudes.iter().take(2)),

@@ -1,4 +1,4 @@
-//! Friction's terms beside Coulomb and viscous friction, in JSON: as estimates, as terms of a law, and of an arm.
+//! Terms of friction other than Coulomb and viscous friction, in JSON: estimates, terms of a law, and terms of an arm.
 
 use std::f64::consts::TAU;
 
@@ -15,46 +15,46 @@ use super::unit_keys::{
 };
 use super::unit_names::UnitNames;
 
-/// Shortest period of a ripple, in radians or metres: a replay follows each wave.
+/// Shortest period of a ripple, in radians or metres, because a simulation follows each wave.
 const SHORTEST: f64 = 1e-6;
 
-/// What friction has beyond Coulomb and viscous friction.
+/// Terms of friction in addition to Coulomb and viscous friction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FrictionTermsEntry {
-    /// What friction has near rest beyond Coulomb friction; absent unless the data call for it.
+    /// Friction near rest in addition to Coulomb friction; absent unless the data show it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub near_rest: Option<NearRestEntry>,
-    /// mu of s*mu*|load of gravity|, friction that grows with the load; absent unless the data show it.
+    /// mu of the term s*mu*|gravity torque|: friction that grows with the load; absent unless the data show it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with_load: Option<EstimateEntry>,
-    /// Waves of friction over the travel, s*A*cos(2*pi*x/period + phase); absent unless the data show them.
+    /// Ripples of friction over the travel x, s*A*cos(2*pi*x/period + phase), s the direction; absent unless the data show them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ripples: Vec<RippleEntry>,
 }
 
-/// s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), s the direction.
+/// Friction near rest: s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), s the direction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NearRestEntry {
-    /// A.
+    /// Amplitude A.
     #[serde(flatten)]
     pub amplitude: Refusable<AmplitudeKey>,
-    /// Static friction, Coulomb friction and A together; null unless A is surely above zero.
+    /// Static friction, the sum of Coulomb friction and A; null unless A is significantly above zero.
     #[serde(flatten)]
     pub static_friction: Refusable<StaticKey>,
-    /// v_s.
+    /// Speed v_s.
     #[serde(flatten)]
     pub speed: Estimated<SpeedKey>,
-    /// Which of the two.
+    /// Which of the two forms.
     pub falloff: FalloffName,
 }
 
-/// A wave of friction over the travel.
+/// A ripple of friction over the travel.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RippleEntry {
-    /// A.
+    /// Amplitude A.
     #[serde(flatten)]
     pub amplitude: Refusable<AmplitudeKey>,
     /// Its period.
@@ -62,31 +62,31 @@ pub struct RippleEntry {
     pub period: Estimated<PeriodKey>,
 }
 
-/// What an arm's friction has beyond Coulomb and viscous friction.
+/// Terms of an arm's friction in addition to Coulomb and viscous friction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ArmTermsEntry {
     /// Friction near rest.
     pub near_rest: Option<ArmNearRestEntry>,
-    /// Friction over the travel.
+    /// Ripples of friction over the travel.
     pub ripples: Vec<ArmRippleEntry>,
 }
 
-/// s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), s the direction: friction at rest is A more than Coulomb friction.
+/// Friction near rest: s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), s the direction. Friction at rest is Coulomb friction plus A.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ArmNearRestEntry {
-    /// A.
+    /// Amplitude A.
     #[serde(flatten)]
     pub amplitude: Number<AmplitudeKey>,
-    /// v_s.
+    /// Speed v_s.
     #[serde(flatten)]
     pub speed: Number<SpeedKey>,
-    /// Which of the two.
+    /// Which of the two forms.
     pub falloff: FalloffName,
 }
 
-/// s*(cosine*cos(k*x) + sine*sin(k*x)) over the travel x, k = 2*pi/period.
+/// A ripple of friction: s*(cosine*cos(k*x) + sine*sin(k*x)) over the travel x, k = 2*pi/period, s the direction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ArmRippleEntry {
@@ -105,18 +105,18 @@ pub struct ArmRippleEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LawTermEntry {
-    /// Which.
+    /// Name of the term.
     pub term: LawTermName,
-    /// How it falls off with speed; of `near-rest` alone.
+    /// How it changes with speed; only for `near-rest`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub falloff: Option<FalloffName>,
-    /// v_s; of `near-rest` alone.
+    /// Speed v_s; only for `near-rest`.
     #[serde(flatten)]
     pub speed: WithUnit<SpeedKey, f64>,
-    /// Its period; of `ripple` alone.
+    /// Its period; only for `ripple`.
     #[serde(flatten)]
     pub period: WithUnit<PeriodKey, f64>,
-    /// Travel after a reversal that is left out; of `after-travel` alone.
+    /// Travel after a reversal that is left out; only for `after-travel`.
     #[serde(flatten)]
     pub travel: WithUnit<TravelKey, f64>,
 }
@@ -126,24 +126,24 @@ pub struct LawTermEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum LawTermName {
-    /// s*D*v, s the direction.
+    /// Viscous friction by direction: s*D*v, s the direction.
     ViscousByDirection,
-    /// s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), by falloff.
+    /// Friction near rest: s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), by falloff.
     NearRest,
-    /// No amplitude: the first travel after reversals is left out.
+    /// Friction grows after reversals: the first travel after each reversal is left out; no amplitude.
     AfterTravel,
-    /// s*A*sqrt|v|.
+    /// Square root of the speed: s*A*sqrt|v|.
     Root,
-    /// s*A*|load of gravity|.
+    /// Growth with the load: s*A*|gravity torque|.
     WithLoad,
-    /// s*(A1*cos(k*x) + A2*sin(k*x)) over the travel x.
+    /// A ripple: s*(A1*cos(k*x) + A2*sin(k*x)) over the travel x.
     Ripple,
-    /// Time by which the command acts later.
+    /// A lag of the command: time by which the command acts later than it is logged.
     CommandLag,
 }
 
 impl FrictionTermsEntry {
-    /// The terms that were estimated; `constant` is torque per command.
+    /// The entry of the estimated terms; `constant` is torque per command.
     pub(super) fn of(names: UnitNames, constant: f64, f: &Friction) -> Self {
         Self {
             near_rest: f.near_rest.map(|near| NearRestEntry::of(names, constant, near)),
@@ -276,7 +276,7 @@ impl LawTermName {
     }
 }
 
-/// `amplitude` with the unit of the term.
+/// The key `amplitude` with the unit of the term.
 pub(super) fn amplitude_key(names: UnitNames, term: LawTerm) -> String {
     match term {
         LawTerm::ViscousByDirection => names.viscous_key("amplitude"),

@@ -1,37 +1,37 @@
-//! An arm as described compared with the one that logs show, in JSON.
+//! Comparison of the identified arm with an arm.toml, in JSON.
 
 use lissom_core::identify::{ArmQuantity, Explanation, GeometryCheck};
 use serde::{Deserialize, Serialize};
 
 use super::estimate_entry::EstimateEntry;
 
-/// The arm.toml that the campaign names compared with the arm found.
+/// Comparison of the identified arm with the arm.toml that the campaign gives.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct GeometryEntry {
-    /// Whether nothing is to be explained.
+    /// Whether both arms agree, so that nothing has to be explained.
     pub agrees: bool,
     /// Root mean square of the relative differences of inertia, and frequency and coupling of each mode.
     pub difference_rms: f64,
-    /// One number of the description at a time, the one that explains most first.
+    /// Numbers of the arm.toml, each changed alone; the one that explains most is first.
     pub explanations: Vec<ExplanationEntry>,
 }
 
-/// A number of the description that may be wrong.
+/// A number of the arm.toml that may be wrong.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ExplanationEntry {
-    /// Which.
+    /// The quantity.
     pub quantity: ArmQuantityName,
-    /// Its span, from 1; null where all spans together, or no span, are meant.
+    /// Its span, from 1; null for all spans together, or for a quantity that belongs to no span.
     pub span: Option<usize>,
-    /// What it is relative to the description, if all else is right.
+    /// Its value relative to the arm.toml, if all other numbers are correct.
     pub factor: EstimateEntry,
-    /// The root mean square of the differences then.
+    /// Root mean square of the differences with this value.
     pub left_rms: f64,
 }
 
-/// A number of an arm's description.
+/// A quantity of an arm.toml.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -49,7 +49,7 @@ pub enum ArmQuantityName {
 }
 
 impl GeometryEntry {
-    /// The check, and every number that was let go.
+    /// The entry of a comparison, with every number that was changed.
     pub(crate) fn of(check: &GeometryCheck) -> Self {
         Self {
             agrees: check.agrees(),

@@ -1,4 +1,4 @@
-//! A load of gravity, in JSON.
+//! Gravity of a load in JSON.
 
 use lissom_core::identify::{Estimate, Gravity};
 use serde::{Deserialize, Serialize};
@@ -12,18 +12,18 @@ use super::unit_names::UnitNames;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct GravityEntry {
-    /// g_s.
+    /// Coefficient g_s.
     #[serde(flatten)]
     pub sine: WithUnit<SineKey, EstimateEntry>,
-    /// g_c.
+    /// Coefficient g_c.
     #[serde(flatten)]
     pub cosine: WithUnit<CosineKey, EstimateEntry>,
-    /// m*g*l, the root of the sum of both squares.
+    /// Amplitude m*g*l, the root of the sum of both squares.
     #[serde(flatten)]
     pub amplitude: WithUnit<AmplitudeKey, EstimateEntry>,
-    /// The torque is m*g*l*sin(q + phase).
+    /// Phase of the torque m*g*l*sin(q + phase).
     pub phase_rad: EstimateEntry,
-    /// Torque per command by the load's m*g*l; null unless the campaign says what it is.
+    /// Torque constant from m*g*l of the load; null unless the campaign gives m*g*l.
     #[serde(flatten)]
     pub torque_constant: Refusable<TorqueConstantKey>,
 }

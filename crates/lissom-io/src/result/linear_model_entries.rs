@@ -28,7 +28,7 @@ impl TransferFunctionEntry {
     }
 }
 
-/// Complex values as parallel lists; null where a point has none.
+/// Complex values as parallel lists; null for a point without a value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SeriesEntry {
@@ -49,27 +49,27 @@ impl SeriesEntry {
     }
 }
 
-/// Frequency responses, one point a frequency.
+/// Frequency responses, one point for each frequency.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FrequencyResponseEntry {
     /// Frequencies.
     pub omega_rad_s: Vec<f64>,
-    /// Name of the sinusoidal run; null for a band of broadband records.
+    /// Name of the sinusoidal run; null for a band of broadband motion.
     pub run: Vec<Option<String>>,
-    /// Whether a finding speaks against the corrected point.
+    /// Whether a finding affects the corrected point.
     pub flagged: Vec<bool>,
-    /// Whether nothing speaks against the corrected point and its 95 % interval is within 5 % of it.
+    /// Whether no finding affects the corrected point and its 95 % interval is within 5 % of it.
     pub vouched_for: Vec<bool>,
     /// Motor angle (or position) per command as measured.
     pub motor_raw: SeriesEntry,
-    /// The same with friction taken out; null where that is unknown.
+    /// The same with friction removed; null if friction is unknown.
     pub motor_corrected: SeriesEntry,
-    /// Response of each tip to the motor's angle, in the tip's own quantity.
+    /// Response of each tip per motor angle, in the quantity of the tip.
     pub tips: Vec<TipResponseEntry>,
 }
 
-/// Response of a tip to the motor's angle.
+/// Response of a tip per motor angle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TipResponseEntry {
@@ -108,31 +108,31 @@ impl FrequencyResponseEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LinearModelEntries {
-    /// What they are made of.
+    /// Origin of the models.
     pub from: ModelSourceName,
-    /// Motor angle per command, friction taken out; without `motor_delay_s`.
+    /// Motor angle per command, without friction and without `motor_delay_s`.
     pub motor: Option<TransferFunctionEntry>,
-    /// By how much the command acts later than it is logged; null where no delay is called for.
+    /// Time by which the command acts later than it is logged; null if the data show no delay.
     pub motor_delay_s: Option<EstimateEntry>,
-    /// Tip per motor angle: the angle of a calibrated deflection, the acceleration of an acceleration, the deflection
-    /// itself of one of unknown scale.
+    /// Tip per motor angle: the angle for a calibrated deflection, the acceleration for an acceleration, the deflection for
+    /// a deflection of unknown scale.
     pub tips: Vec<TipModelEntry>,
-    /// From the command to the motor and each tip that is an angle.
+    /// State space from the command to the motor and each tip that is an angle.
     pub state_space: Option<StateSpaceEntry>,
 }
 
-/// What linear models are made of.
+/// Origin of linear models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ModelSourceName {
     /// The arm under `arm`.
     Arm,
-    /// Fits to the responses, or the estimates of the regressions with the beam's damping against the frame.
+    /// Fits to the responses, or the estimates of the regressions, with damping of the beam against the frame.
     Responses,
 }
 
-/// A tip's response to the motor's angle as a transfer function.
+/// Response of a tip per motor angle as a transfer function.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TipModelEntry {
@@ -142,8 +142,8 @@ pub struct TipModelEntry {
     pub num: Vec<f64>,
     /// Denominator, descending powers of s.
     pub den: Vec<f64>,
-    /// The tip is read this much later than the motor, not part of `num` and `den`; null where that is not looked
-    /// for.
+    /// Time by which the tip is read later than the motor, which is not part of `num` and `den`; null if it was not
+    /// searched for.
     pub delay_s: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! What each method found, in JSON.
+//! Estimates of each method in JSON.
 
 use lissom_core::identify::{
     BeamRegression, ByDirection, Candidate, DriveEstimates, Estimate, Friction, HiddenMode,
@@ -21,7 +21,7 @@ use super::unit_keys::{
 };
 use super::unit_names::UnitNames;
 
-/// What each method found; null where it was not asked for or the data do not allow it.
+/// Estimates of each method; null if the method was not used or the data do not allow it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MethodEntries {
@@ -29,13 +29,13 @@ pub struct MethodEntries {
     pub third_harmonic: Option<ThirdHarmonicEntry>,
     /// The output-error method.
     pub output_error: Option<OutputErrorEntry>,
-    /// Regression on slip phases.
+    /// Regression in slip phases.
     pub regression: Option<RegressionEntry>,
-    /// Ordinary least squares of all motion: the line that others publish, and the baseline.
+    /// Ordinary least squares of all motion: the method of many publications, and a baseline for the others.
     pub least_squares: Option<LeastSquaresEntry>,
-    /// The friction law by evidence.
+    /// The friction law that the data support.
     pub friction_law: Option<FrictionLawEntry>,
-    /// Steady velocities, extrapolated to rest.
+    /// Friction from constant velocities, extrapolated to zero speed.
     pub constant_velocity: Option<ConstantVelocityEntry>,
 }
 
@@ -43,34 +43,34 @@ pub struct MethodEntries {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ThirdHarmonicEntry {
-    /// Mean of the pairs in use.
+    /// Mean of the pairs that are used.
     #[serde(flatten)]
     pub coulomb: Refusable<CoulombKey>,
-    /// Standard deviation of one pair about that mean.
+    /// Standard deviation of one pair around the mean.
     #[serde(flatten)]
     pub spread: WithUnit<SpreadKey, f64>,
     /// Every pair of sines.
     pub pairs: Vec<SinePairEntry>,
-    /// Model (35) of the response corrected with this mean.
+    /// Model (35) of the response that is corrected with this mean.
     pub fit: Option<MotorFitEntry>,
 }
 
-/// A sine and one of three times its frequency.
+/// A sine and another at three times its frequency.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SinePairEntry {
     /// Lower frequency of the pair.
     pub omega_rad_s: f64,
-    /// Run at that frequency.
+    /// Run at this frequency.
     pub run: String,
-    /// Run at three times that frequency.
+    /// Run at three times this frequency.
     pub triple_run: String,
     /// Coulomb friction from this pair.
     #[serde(flatten)]
     pub coulomb: Estimated<CoulombKey>,
     /// Cost (29) at its minimum.
     pub cost: f64,
-    /// Whether it is in the mean.
+    /// Whether the mean includes it.
     pub used: bool,
 }
 
@@ -81,7 +81,7 @@ pub struct MotorFitEntry {
     /// Inertia or mass.
     #[serde(flatten)]
     pub inertia: Estimated<InertiaKey>,
-    /// Viscous friction, back-EMF included.
+    /// Viscous friction, including back-EMF.
     #[serde(flatten)]
     pub viscous: Estimated<ViscousKey>,
     /// Coupling through each mode.
@@ -93,7 +93,7 @@ pub struct MotorFitEntry {
     pub weighted_rms: f64,
 }
 
-/// Estimates of the regression on slip phases.
+/// Estimates of the regression in slip phases.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RegressionEntry {
@@ -111,27 +111,27 @@ pub struct RegressionEntry {
     pub coupling_by_tip: WithUnit<CouplingByTipKey, Vec<Option<EstimateEntry>>>,
     /// Gravity; null unless the campaign asks for it.
     pub gravity: Option<GravityEntry>,
-    /// One viscous constant for each direction; null where one was enough.
+    /// Fit with one viscous coefficient for each direction; null if one for both is sufficient.
     pub viscous_by_direction: Option<ViscousByDirectionEntry>,
-    /// A flexible mode that no tip measures and that the estimates account for; null if there is none.
+    /// A flexible mode without a tip, which the estimates account for; null if there is none.
     pub hidden_mode: Option<HiddenModeEntry>,
     /// Length of the window used.
     pub window_s: f64,
-    /// Whether it was given rather than chosen.
+    /// Whether this length was given and not chosen.
     pub window_given: bool,
-    /// Rows of the regression.
+    /// Number of rows of the regression.
     pub rows: usize,
-    /// Slip phases used.
+    /// Number of slip phases.
     pub phases: usize,
-    /// Part of the windowed torque that the equation leaves.
+    /// Residual of the equation as a share of the windowed torque.
     pub relative_residual: f64,
-    /// Windows tried.
+    /// Window lengths that were tried.
     pub candidates: Vec<WindowEntry>,
-    /// The beam's own equation on windows.
+    /// Regression of the beam's equation.
     pub beam: Option<BeamRegressionEntry>,
 }
 
-/// A part of the inertia behind a spring, from the motor's motion.
+/// A flexible mode without a tip: part of the inertia is behind a spring, as the motor's motion shows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct HiddenModeEntry {
@@ -139,11 +139,11 @@ pub struct HiddenModeEntry {
     pub natural_frequency_rad_s: EstimateEntry,
     /// Damping ratio with the motor clamped.
     pub damping_ratio: EstimateEntry,
-    /// Inertia before the spring as a share of all that turns.
+    /// Inertia before the spring as a share of the whole inertia.
     pub inertia_share: EstimateEntry,
     /// Residual relative to that of the equation without the mode.
     pub residual_ratio: f64,
-    /// Length of the windows in which its frequency is known best.
+    /// Length of the windows with the smallest standard error of its frequency.
     pub window_s: f64,
 }
 
@@ -159,7 +159,7 @@ impl HiddenModeEntry {
     }
 }
 
-/// The same equation with one viscous coefficient for each direction: a fit of its own.
+/// A separate fit of the same equation with one viscous coefficient for each direction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ViscousByDirectionEntry {
@@ -178,11 +178,11 @@ pub struct ViscousByDirectionEntry {
     /// Coupling by tip of this fit.
     #[serde(flatten)]
     pub coupling_by_tip: WithUnit<CouplingByTipKey, Vec<Option<EstimateEntry>>>,
-    /// Part of the windowed torque that the equation then leaves.
+    /// Residual of this equation as a share of the windowed torque.
     pub relative_residual: f64,
 }
 
-/// Ordinary least squares of all motion faster than 5 % of the largest speed: the line that others publish, and the baseline.
+/// Ordinary least squares of all motion faster than 5 % of the largest speed: the method of many publications, and a baseline for the others.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LeastSquaresEntry {
@@ -200,30 +200,30 @@ pub struct LeastSquaresEntry {
     pub coupling_by_tip: WithUnit<CouplingByTipKey, Vec<Option<EstimateEntry>>>,
     /// Gravity; null unless the campaign asks for it.
     pub gravity: Option<GravityEntry>,
-    /// Least and largest speed in the middle of a window.
+    /// Smallest and largest speed in the middle of a window.
     #[serde(flatten)]
     pub speed_range: WithUnit<SpeedRangeKey, [f64; 2]>,
     /// Length of the windows.
     pub window_s: f64,
-    /// Windows used.
+    /// Number of windows.
     pub rows: usize,
-    /// Part of the windowed torque that is left.
+    /// Residual as a share of the windowed torque.
     pub relative_residual: f64,
 }
 
-/// A window tried.
+/// A window length that was tried.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WindowEntry {
     /// Its length.
     pub window_s: f64,
-    /// Rows of the regression.
+    /// Number of rows of the regression.
     pub rows: usize,
-    /// Slip phases used.
+    /// Number of slip phases.
     pub phases: usize,
-    /// Part of the windowed torque that the equation leaves.
+    /// Residual of the equation as a share of the windowed torque.
     pub relative_residual: f64,
-    /// RMS relative change of the estimates from the next shorter to the next longer window; null at the ends.
+    /// Relative change of the estimates from the next shorter to the next longer window, rms; null at the ends.
     pub sensitivity: Option<f64>,
 }
 
@@ -235,12 +235,12 @@ pub struct BeamRegressionEntry {
     pub modes: Vec<BeamModeEntry>,
     /// Length of the window, by tip.
     pub window_s: Vec<f64>,
-    /// Part of the acceleration that is left, by tip.
+    /// Residual as a share of the acceleration, by tip.
     pub relative_residual: Vec<f64>,
 }
 
 impl MethodEntries {
-    /// What each method found; `constant` is torque per command.
+    /// The entries of all methods; `constant` is torque per command.
     pub(crate) fn of(
         names: UnitNames,
         constant: f64,

@@ -1,9 +1,9 @@
-//! `result.json`: what identification found, with stable keys that carry their units; and the files that are made
-//! from results: those of `lissom compare`, `equivalent`, `payload` and `validate`.
+//! `result.json`: the result of an identification, with stable keys that contain their units; and the files of
+//! `lissom compare`, `equivalent`, `payload` and `validate`.
 //!
 //! Each file is a type that is written and read ([`ResultFile`], [`EquivalentFile`], [`PayloadFile`],
-//! [`ValidationFile`], [`ComparedFile`]); the schemas in `docs/` are generated from these types. An estimate is `{value, std, ci95}`,
-//! or `null` where it is refused; a finding then says why.
+//! [`ValidationFile`], [`ComparedFile`]); the schemas in `docs/` are generated from these types. An estimate is
+//! `{value, std, ci95}`, or `null` if it is refused; a finding then gives the reason.
 
 mod arm_entry;
 mod arm_numbers;

@@ -1,4 +1,4 @@
-//! What the output-error method found, in JSON.
+//! Estimates of the output-error method in JSON.
 
 use lissom_core::identify::{Extension, OutputError, StageReport, Stop};
 use lissom_core::record::Channels;
@@ -24,22 +24,22 @@ pub struct OutputErrorEntry {
     /// Inertia or mass.
     #[serde(flatten)]
     pub inertia: Refusable<InertiaKey>,
-    /// Coupling.
+    /// Coupling between motor and beam.
     #[serde(flatten)]
     pub coupling: Refusable<CouplingKey>,
     /// Modes with the motor clamped.
     pub modes: Vec<BeamModeEntry>,
-    /// By how much the command acts later than it is logged; null where the residual does not call for a lag.
+    /// Time by which the command acts later than it is logged; null if the residual shows no lag.
     pub command_lag_s: Option<EstimateEntry>,
-    /// By how much later each tip is read than the motor; null where the residual does not call for a lag.
+    /// Time by which each tip is read later than the motor; null if the residual shows no lag.
     pub tip_lags_s: Vec<Option<EstimateEntry>>,
-    /// Whether the arm describes whole runs, or windows of them as long as neighbouring motions stay together.
+    /// Whether the arm describes whole runs, or windows over which neighbouring motions stay together.
     pub whole_runs: bool,
-    /// Samples replayed, and derivatives of these by a parameter.
+    /// Number of simulated samples and of their derivatives with respect to a parameter.
     pub evaluations: u64,
-    /// Every length of windows, in order.
+    /// The search on each window length, in order.
     pub stages: Vec<StageEntry>,
-    /// Further parameters that were tried: what one step with each promises.
+    /// Further parameters that were tried, each with the expected effect of one step.
     pub tried: Vec<ExtensionEntry>,
 }
 
@@ -47,19 +47,19 @@ pub struct OutputErrorEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StageEntry {
-    /// Longest window.
+    /// Length of the longest window.
     pub window_s: f64,
     /// Number of windows.
     pub windows: usize,
-    /// Sum of squared residuals in standard deviations after each step tried.
+    /// Sum of squared residuals, in units of the noise's standard deviation, after each step tried.
     pub cost: Vec<f64>,
-    /// Steps that were taken.
+    /// Number of accepted steps.
     pub steps_taken: usize,
-    /// Why it ended.
+    /// Why the search ended.
     pub stop: StopName,
-    /// Noise that each channel was taken to have, motor first, then tips.
+    /// Assumed standard deviation of the noise of each channel, motor first, then tips.
     pub noise_sigma: Vec<f64>,
-    /// Step that each sensor was taken to read in; 0 where it counts as noise.
+    /// Assumed step of each sensor; 0 if the step is treated as noise.
     pub noise_step: Vec<f64>,
     /// Standard deviation of the residual of each channel.
     pub residual_std: Vec<f64>,
@@ -70,17 +70,17 @@ pub struct StageEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum StopName {
-    /// It converged.
+    /// The search converged.
     Converged,
     /// No step lowers the cost.
     NoStepHelps,
-    /// All steps allowed were used.
+    /// All allowed steps were used.
     StepsUsedUp,
-    /// All evaluations allowed were used.
+    /// All allowed evaluations were used.
     BudgetSpent,
 }
 
-/// A parameter that was tried.
+/// A further parameter that was tried.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ExtensionEntry {
@@ -90,14 +90,14 @@ pub struct ExtensionEntry {
     pub value: f64,
     /// Standard error of the value.
     pub std: f64,
-    /// Share of the cost that it takes away.
+    /// Share by which it reduces the cost.
     pub share_of_cost: f64,
-    /// Whether it was added.
+    /// Whether the parameter was added.
     pub added: bool,
 }
 
 impl OutputErrorEntry {
-    /// What the output-error method found; `constant` is torque per command.
+    /// The entry of the output-error method; `constant` is torque per command.
     pub(crate) fn of(
         names: UnitNames,
         constant: f64,

@@ -1,4 +1,4 @@
-//! Another payload's prediction in JSON.
+//! Prediction of an arm with other payloads in JSON.
 
 use lissom_core::identify::{Finding, LoadedArm, Response};
 use serde::{Deserialize, Serialize};
@@ -6,20 +6,20 @@ use serde::{Deserialize, Serialize};
 use super::estimate_entry::BeamModeEntry;
 use super::finding_entry::FindingEntry;
 
-/// What was predicted from a campaign with one payload.
+/// A prediction with other payloads, from a campaign with one payload.
 #[derive(Debug, Clone)]
 pub struct PayloadPrediction {
-    /// Tip that carries it.
+    /// Name of the tip at which the payload is fixed.
     pub tip: String,
-    /// Distance of its point from the axis \[m\]; `None` of linear axes.
+    /// Distance of this point from the axis \[m\]; `None` for linear axes.
     pub distance_m: Option<f64>,
-    /// Payload that the campaign's runs were made with \[kg\].
+    /// Payload in the runs of the campaign \[kg\].
     pub mass_kg: f64,
     /// Frequencies of the responses \[rad/s\].
     pub omega_rad_s: Vec<f64>,
-    /// What was asked for, in its order.
+    /// The payloads asked for, in their order.
     pub payloads: Vec<PredictedPayload>,
-    /// What the identification found.
+    /// Findings of the identification.
     pub findings: Vec<Finding>,
 }
 
@@ -30,21 +30,21 @@ pub struct PredictedPayload {
     pub mass_kg: f64,
     /// The arm with it.
     pub loaded: LoadedArm,
-    /// θ_i/θ_m of that tip.
+    /// Response θ_i/θ_m of this tip.
     pub tip: Vec<Response>,
 }
 
-/// An arm identified with one payload, predicted with others. SI and rad/s throughout.
+/// An arm that was identified with one payload and predicted with others. SI units and rad/s.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PayloadFile {
-    /// Version that wrote the file.
+    /// Version of lissom that wrote the file.
     pub lissom: String,
-    /// Name of the tip that carries the payload.
+    /// Name of the tip at which the payload is fixed.
     pub tip: String,
-    /// Distance of its point from the axis; null on linear axes.
+    /// Distance of this point from the axis; null for linear axes.
     pub distance_m: Option<f64>,
-    /// Payload that the campaign's runs were made with.
+    /// Payload in the runs of the campaign.
     pub mass_kg: f64,
     /// Frequencies of the responses.
     pub omega_rad_s: Vec<f64>,
@@ -58,11 +58,11 @@ pub struct PayloadFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PayloadEntry {
-    /// Mass predicted for.
+    /// Mass of the predicted payload.
     pub mass_kg: f64,
     /// Modes with the motor clamped, ascending.
     pub modes: Vec<BeamModeEntry>,
-    /// Response of that tip to the motor's angle, at each frequency.
+    /// Response of the tip per motor angle, at each frequency.
     pub tip: Vec<ResponseEntry>,
 }
 
@@ -79,7 +79,7 @@ pub struct ResponseEntry {
 }
 
 impl PayloadFile {
-    /// What `lissom payload` writes.
+    /// The content that `lissom payload` writes.
     pub fn of(found: &PayloadPrediction) -> Self {
         Self {
             lissom: env!("CARGO_PKG_VERSION").to_owned(),

@@ -1,4 +1,4 @@
-//! From a `result.json` to the arm in it.
+//! Reads the arm of a `result.json`.
 
 use std::path::Path;
 
@@ -14,10 +14,10 @@ use super::unit_names::UnitNames;
 use crate::io_error::Error;
 use crate::read_text::read_text;
 
-/// Relative difference of torque constants beyond which they are two: six digits may be written of one.
+/// Relative difference above which torque constants differ; one constant may be written with six digits.
 const SAME: f64 = 1e-5;
 
-/// What a prediction needs of a [`ResultFile`](super::ResultFile).
+/// The part of a [`ResultFile`](super::ResultFile) that a prediction needs.
 #[derive(Debug, Deserialize)]
 struct PredictingPart {
     axis: AxisName,
@@ -25,10 +25,10 @@ struct PredictingPart {
     arm: Option<ArmEntry>,
 }
 
-/// Reads the arm of a result, to predict logs of these channels.
+/// Reads the arm of a result, to predict logs with these channels.
 ///
 /// # Errors
-/// [`Error::Result`] where the file is no result, has no arm, or belongs to another drive.
+/// [`Error::Result`] if the file is not a result, has no arm, or belongs to another drive.
 pub fn read_arm(path: &Path, channels: &Channels) -> Result<FoundArm, Error> {
     let file = path.display().to_string();
     let text =
@@ -59,7 +59,7 @@ fn arm_of(file: &str, text: &str, channels: &Channels) -> Result<FoundArm, Resul
     })
 }
 
-/// A result of another axis, command or torque constant is in other units.
+/// Checks axis, command and torque constant: if they differ, the result has other units.
 fn same_drive(
     part: &PredictingPart,
     channels: &Channels,
@@ -82,7 +82,7 @@ fn same_drive(
     Err(ResultError::OtherDrive {
         file: file(),
         of_result: format!("a {} axis {}", part.axis.text(), said(part.torque_per_command)),
-        of_log: format!("of a {} one {}", axis.text(), said(constant)),
+        of_log: format!("has a {} axis {}", axis.text(), said(constant)),
     })
 }
 

@@ -1,4 +1,4 @@
-//! From a `result.json` to its parameters, one by one.
+//! Reads the parameters of a `result.json`.
 
 use std::path::Path;
 
@@ -34,11 +34,11 @@ const MODES: &str = "beam.modes";
 pub struct ParameterList {
     /// Its units.
     pub names: UnitNames,
-    /// The method whose solution friction, inertia and coupling are.
+    /// The method that gave friction, inertia and coupling.
     pub from: Option<MethodName>,
-    /// Torque constant used, N·m or N per unit of command; `None` where it is unknown.
+    /// Torque constant used, N·m or N per unit of command; `None` if it is unknown.
     pub torque_per_command: Option<f64>,
-    /// Terms of the friction law beside Coulomb friction and one viscous coefficient.
+    /// Terms of the friction law in addition to Coulomb friction and one viscous coefficient.
     pub friction_terms: Vec<LawTermName>,
     /// Number of the beam's modes.
     pub modes: usize,
@@ -49,20 +49,20 @@ pub struct ParameterList {
 /// A parameter of a result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ListedParameter {
-    /// Its key in `result.json`, dotted, with its unit.
+    /// Its key in `result.json`, with dots and the suffix of its unit.
     pub key: String,
     /// Its name in words.
     pub name: String,
-    /// Its unit as people write it.
+    /// Its unit in words.
     pub unit: String,
-    /// The estimate; `None` where it is refused.
+    /// The estimate; `None` if it is refused.
     pub estimate: Option<EstimateEntry>,
     /// Codes of the warnings that affect it.
     pub warnings: Vec<String>,
 }
 
-/// What a list of parameters needs of a [`ResultFile`](super::ResultFile): results of other versions can be read as
-/// long as this part is the same.
+/// The part of a [`ResultFile`](super::ResultFile) that a list of parameters needs. Results of other versions can be read
+/// as long as this part is the same.
 #[derive(Debug, Deserialize)]
 struct ParameterPart {
     axis: AxisName,
@@ -98,7 +98,7 @@ struct ChosenLawPart {
 /// Reads the parameters of a result.
 ///
 /// # Errors
-/// [`Error::Result`] where the file cannot be read or is no result.
+/// [`Error::Result`] if the file cannot be read or is not a result.
 pub fn read_result(path: &Path) -> Result<ParameterList, Error> {
     let file = path.display().to_string();
     let text =
@@ -124,13 +124,13 @@ fn list_of(file: &str, text: &str) -> Result<ParameterList, ResultError> {
     part.list().ok_or_else(|| ResultError::Key {
         file: file(),
         key: "friction.coulomb_…".to_owned(),
-        expected: "there with the units of an axis",
+        expected: "given with the units of an axis",
     })
 }
 
 impl ParameterList {
-    /// The parameters of a result, one by one; `None` where its keys have the units of no axis, which no result has
-    /// that [`ResultFile::of`] made.
+    /// The parameters of a result. `None` if its keys do not have the units of an axis, which results from
+    /// [`ResultFile::of`] always have.
     pub fn of(result: &ResultFile) -> Option<Self> {
         let law = result.methods.friction_law.as_ref();
         let law = law.map(|law| FrictionLawPart {
@@ -171,7 +171,7 @@ impl ParameterPart {
         all.copied().find(|names| self.friction.coulomb.coulomb.has_keys_of(*names))
     }
 
-    /// Terms of the law that the friction is of.
+    /// Terms of the friction law of the result.
     fn friction_terms(&self) -> Vec<LawTermName> {
         let f = &self.friction;
         let mut terms = Vec::new();
@@ -182,13 +182,13 @@ impl ParameterPart {
         let law = self.methods.friction_law.as_ref();
         let law = law.filter(|_| self.from == Some(MethodName::FrictionLaw));
         let chosen = law.map_or(&[][..], |law| &law.chosen.terms).iter().map(|t| t.term.term);
-        // The other terms have estimates of their own above.
+        // The other terms have their own estimates above.
         terms.extend(chosen.filter(|t| matches!(t, LawTermName::AfterTravel | LawTermName::Root)));
         terms
     }
 }
 
-/// Parameters in the making.
+/// A list of parameters that is being built.
 struct Listing<'a> {
     names: UnitNames,
     part: &'a ParameterPart,
@@ -204,7 +204,7 @@ impl<'a> Listing<'a> {
         listing.parameters
     }
 
-    /// A parameter that findings with one of the keys `affected` affect.
+    /// Adds a parameter; findings with one of the keys `affected` affect it.
     fn add(
         &mut self,
         (key, name, unit): (String, &str, &str),
@@ -228,7 +228,7 @@ impl<'a> Listing<'a> {
         });
     }
 
-    /// A parameter of a table of the result, where the table has its key.
+    /// Adds a parameter of a table of the result, if the table has its key.
     fn keyed<Q: Quantity>(
         &mut self,
         (table, name, unit): (&str, &str, &str),
@@ -240,7 +240,7 @@ impl<'a> Listing<'a> {
         }
     }
 
-    /// The same of a value that is never refused.
+    /// The same for a value that is never refused.
     fn estimated<Q: Quantity>(
         &mut self,
         (table, name, unit): (&str, &str, &str),
@@ -263,7 +263,7 @@ impl<'a> Listing<'a> {
             self.add(id, estimate.as_ref(), &[COULOMB]);
         }
         self.keyed(("friction", "Coulomb friction", torque), &c.coulomb, &[COULOMB]);
-        // One direction alone: its friction with the load that acts on it.
+        // One direction only: friction and a constant load are one number.
         let alone = c.coulomb.get(names).is_none_or(Option::is_none);
         let [forward, backward] = if alone {
             ["friction with the load forward", "friction with the load backward"]
@@ -314,7 +314,7 @@ impl<'a> Listing<'a> {
             let id = (PHASE_KEY.to_owned(), "gravity m·g·l phase", "rad");
             self.add(id, Some(&gravity.phase_rad), &[GRAVITY]);
             let unit = format!("N·m/{}", names.command_unit());
-            let name = "torque constant by m·g·l";
+            let name = "torque constant from m·g·l";
             self.keyed(("gravity", name, &unit), &gravity.torque_constant, &[GRAVITY]);
         }
         let coupling = names.coupling_unit();
@@ -336,5 +336,5 @@ impl<'a> Listing<'a> {
     }
 }
 
-/// Key of the load's phase: the one parameter that is an angle with its turns.
+/// Key of the phase of the load. It is the only parameter that is an angle, known up to whole turns.
 pub const PHASE_KEY: &str = "gravity.phase_rad";

@@ -1,10 +1,10 @@
-//! Why a file gives no arm to predict with.
+//! Errors of a result that is read.
 
 use std::io;
 
 use thiserror::Error;
 
-/// Why a file gives no arm to predict with.
+/// Why a result, or the arm in it, cannot be used.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ResultError {
@@ -13,63 +13,63 @@ pub enum ResultError {
     Read {
         /// The file.
         file: String,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
-    /// The file is no JSON.
-    #[error("{file}: is no JSON: {source}")]
+    /// The file is not JSON.
+    #[error("{file}: is not JSON: {source}")]
     Json {
         /// The file.
         file: String,
-        /// What the reader says.
+        /// Message of the reader.
         source: serde_json::Error,
     },
-    /// JSON, but no result of `lissom identify`.
-    #[error("{file}: is no result of `lissom identify`: it has no `{key}`")]
+    /// JSON that is not a result of `lissom identify`.
+    #[error("{file}: is not a result of `lissom identify`: it has no `{key}`")]
     NoResult {
         /// The file.
         file: String,
-        /// The key that is not there.
+        /// The missing key.
         key: &'static str,
     },
-    /// The verdict left no arm.
-    #[error("{file}: its figures make no arm to predict with: `arm` is null")]
+    /// The result has no arm.
+    #[error("{file}: the result has no arm to predict with: `arm` is null")]
     NoArm {
         /// The file.
         file: String,
     },
-    /// A key that is missing, or not what it should be.
+    /// A key that is missing or has a wrong value.
     #[error("{file}: `{key}` is not {expected}")]
     Key {
         /// The file.
         file: String,
-        /// The key, dotted.
+        /// The key, with dots.
         key: String,
-        /// What it should be.
+        /// What it must be.
         expected: &'static str,
     },
-    /// A value of another type than the file should have there.
+    /// A value of a wrong type.
     #[error("{file}: `{key}` cannot be read: {source}")]
     Value {
         /// The file.
         file: String,
-        /// The key, dotted, or the table that it is in.
+        /// The key with dots, or its table.
         key: String,
         /// What was found and what is expected.
         source: serde_json::Error,
     },
-    /// The log is of another kind of axis or command, or with another torque constant.
-    #[error("{file}: it is from {of_result}, and the log is {of_log}")]
+    /// The log has another kind of axis or command, or another torque constant.
+    #[error("{file}: the result has {of_result}, but the log {of_log}")]
     OtherDrive {
         /// The file.
         file: String,
-        /// What the result says.
+        /// Axis and torque constant of the result.
         of_result: String,
-        /// What the log says.
+        /// Axis and torque constant of the log.
         of_log: String,
     },
-    /// The log's tips are not those of the result.
-    #[error("{file}: its tips are {of_result}, and those of the log {of_log}")]
+    /// The tips of the log are not those of the result.
+    #[error("{file}: the result has these tips: {of_result}; but the log has: {of_log}")]
     OtherTips {
         /// The file.
         file: String,
@@ -81,21 +81,21 @@ pub enum ResultError {
 }
 
 impl ResultError {
-    /// What to do about it.
+    /// What the user can do.
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
             Self::Read { .. } | Self::Json { .. } | Self::NoResult { .. } => {
-                "RESULT comes first: the file that `lissom identify CAMPAIGN --json FILE` writes"
+                "give first the result: the file that `lissom identify CAMPAIGN --json FILE` writes"
             }
             Self::NoArm { .. } => {
-                "see its findings: a refused figure, tips without an angle, or no method that gives a \
-                 whole arm"
+                "read its findings: a parameter is refused, tips have no angle, or no method gives a whole \
+                 arm"
             }
             Self::Key { .. } | Self::Value { .. } => {
-                "write it anew with `lissom identify CAMPAIGN --json FILE`"
+                "write it again with `lissom identify CAMPAIGN --json FILE`"
             }
             Self::OtherDrive { .. } | Self::OtherTips { .. } => {
-                "describe the log as those that the result is from: the same [signals] and [drive]"
+                "describe the log as the logs of the result, with the same [signals] and [drive]"
             }
         };
         Some(hint.to_owned())

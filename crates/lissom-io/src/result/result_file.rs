@@ -1,4 +1,4 @@
-//! `result.json` as a type: filled from what was identified, written and read.
+//! The type of `result.json`: filled from an identification, written and read.
 
 use lissom_core::identify::{GeometryCheck, Identified, RunAnalysis, RunKind};
 use lissom_core::record::Channels;
@@ -19,49 +19,48 @@ use super::separability_entry::SeparabilityEntry;
 use super::unit_keys::{CouplingByTipKey, CouplingKey, InertiaKey, WithUnit};
 use super::unit_names::UnitNames;
 
-/// SI units and rad/s. The suffix of a key is its unit: a (A), v (V), command (unit of the command, where that is
-/// unknown), nm (N*m), n (N). Keys in N*m or N are there where the torque constant is known; otherwise estimates
-/// are per unit of command. Linear axes have m, N and kg in place of rad, N*m and kg*m^2. An estimate is null where
-/// a finding refuses it.
+/// SI units and rad/s. The suffix of a key is its unit: a (A), v (V), command (the unit of the command, if it is unknown),
+/// nm (N*m), n (N). Keys in N*m or N exist if the torque constant is known; otherwise estimates are per unit of command.
+/// Linear axes have m, N and kg instead of rad, N*m and kg*m^2. An estimate is null if a finding refuses it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ResultFile {
-    /// Version that wrote the file.
+    /// Version of lissom that wrote the file.
     pub lissom: String,
     /// Kind of axis.
     pub axis: AxisName,
-    /// Torque constant used, N*m or N per unit of command; null where it is unknown.
+    /// Torque constant used, N*m or N per unit of command; null if it is unknown.
     pub torque_per_command: Option<f64>,
-    /// The method whose solution friction, inertia and coupling are, all of them together; null where none has one.
+    /// The method that gave friction, inertia and coupling, all of them together; null if none has a solution.
     pub from: Option<MethodName>,
-    /// Friction of that solution.
+    /// Friction from this method.
     pub friction: FrictionEntry,
     /// The drive.
     pub drive: DriveEntry,
-    /// Gravity of an unbalanced load; null unless the campaign asks for it and the data tell it.
+    /// Gravity of an unbalanced load; null unless the campaign asks for it and the data determine it.
     pub gravity: Option<GravityEntry>,
     /// The beam.
     pub beam: BeamEntry,
-    /// What the logs separate; null without a covariance.
+    /// Which parameters the logs identify; null without a covariance.
     pub verdict: Option<SeparabilityEntry>,
-    /// The arm that these estimates make, to predict other logs with (lissom validate); null where inertia or Coulomb
-    /// friction is refused, or no method gives a whole arm.
+    /// The arm with these estimates, with which lissom validate predicts other logs; null if inertia or Coulomb friction is
+    /// refused, or no method gives a whole arm.
     pub arm: Option<ArmEntry>,
-    /// What each method found.
+    /// Estimates of each method.
     pub methods: MethodEntries,
     /// Frequency responses.
     pub frequency_response: FrequencyResponseEntry,
     /// Linear models of drive and beam.
     pub models: LinearModelEntries,
-    /// The arm.toml that the campaign names compared with the arm found; null where it names none with beam and drive,
-    /// or the output error is rejected.
+    /// Comparison of the identified arm with the arm.toml that the campaign gives; null if it gives none with beam and
+    /// drive, or the solution of the output-error method is rejected.
     pub geometry: Option<GeometryEntry>,
-    /// The equivalent arm of Section 4 where more than one tip's angle is known; null where there is none, and a
-    /// finding equivalent-refused may say why.
+    /// The equivalent arm of Section 4 of the 1989 report, if the angles of two or more tips are known; null if there is
+    /// none, and a finding equivalent-refused may give the reason.
     pub equivalent: Option<EquivalentEntry>,
-    /// What each run is.
+    /// Motion and use of each run.
     pub runs: Vec<RunEntry>,
-    /// What the data do not allow, and what to know about the estimates.
+    /// What the data do not determine, and what to know about the estimates.
     pub findings: Vec<FindingEntry>,
 }
 
@@ -78,29 +77,29 @@ pub struct DriveEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct BeamEntry {
-    /// Poles of tip angle over motor angle, motor clamped, ascending.
+    /// Modes with the motor clamped (poles of tip angle per motor angle), ascending.
     pub modes: Vec<BeamModeEntry>,
     /// Torque per angle between motor and beam.
     #[serde(flatten)]
     pub coupling: Refusable<CouplingKey>,
-    /// The same for each tip.
+    /// Coupling for each tip.
     #[serde(flatten)]
     pub coupling_by_tip: WithUnit<CouplingByTipKey, Vec<Option<EstimateEntry>>>,
 }
 
-/// What a run is.
+/// A run of the campaign.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RunEntry {
     /// Its name.
     pub name: String,
-    /// Samples that it has.
+    /// Number of its samples.
     pub samples: usize,
     /// Its sample time.
     pub sample_time_s: f64,
     /// Its motion.
     pub kind: RunKindName,
-    /// Share of the samples at which the command saturates.
+    /// Share of the samples with a saturated command.
     pub saturated_share: f64,
     /// Whether the regression uses it.
     pub usable: bool,
@@ -116,30 +115,30 @@ pub struct RunEntry {
 pub enum RunKindName {
     /// One sinusoid in steady state.
     Sinusoidal,
-    /// Constant velocities for most of the time in motion.
+    /// Constant velocities for most of the time of motion.
     ConstantVelocity,
     /// Any other motion.
     General,
 }
 
-/// Values that only a sinusoidal run has.
+/// Values of a sinusoidal run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SinusoidEntry {
     /// Its frequency.
     pub omega_rad_s: f64,
-    /// Whether the frequency was given rather than found.
+    /// Whether the frequency was given and not found.
     pub omega_given: bool,
-    /// Periods kept.
+    /// Number of periods used.
     pub periods: usize,
-    /// Periods left out at its start.
+    /// Number of periods left out at the start.
     pub dropped_periods: usize,
     /// Share of the cycle in which the joint sticks.
     pub stuck_share: Option<f64>,
 }
 
 impl ResultFile {
-    /// What was identified; with what the logs say of an arm's description, where there is one.
+    /// The content for an identification, with the comparison with an arm.toml if there is one.
     pub fn of(channels: &Channels, id: &Identified, described: Option<&GeometryCheck>) -> Self {
         let names = UnitNames::new(channels);
         let constant = id.torque_per_command.unwrap_or(1.0);

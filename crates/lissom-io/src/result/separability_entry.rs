@@ -1,4 +1,4 @@
-//! What the logs separate, in JSON.
+//! The verdict in JSON: which parameters the logs identify.
 
 use lissom_core::identify::{Direction, RunShare, RunToAdd, Separability};
 use lissom_core::plan::PlannedMotion;
@@ -10,93 +10,93 @@ use super::estimate_entry::finite;
 use super::unit_keys::{MotionKey, WithUnit};
 use super::unit_names::UnitNames;
 
-/// What the logs separate. Standard errors are relative: to the parameter's value, to Coulomb friction for the
-/// offset, to a damping ratio of 0.001 at least for damping.
+/// Which parameters the logs identify. Standard errors are relative to the value of the parameter, for the offset to
+/// Coulomb friction, and for damping to a damping ratio of at least 0.001.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SeparabilityEntry {
-    /// The same in plain words.
+    /// The verdict in words.
     pub words: Vec<String>,
-    /// The method whose covariance it is.
+    /// The method that gave the covariance.
     pub source: ArmSourceName,
-    /// Condition of the correlation matrix; null where some parameters cannot be told apart.
+    /// Condition number of the correlation matrix; null if some parameters cannot be separated.
     pub condition: Option<f64>,
-    /// Every parameter.
+    /// All parameters.
     pub figures: Vec<KnownFigureEntry>,
-    /// Principal directions of the covariance, least known first.
+    /// Principal directions of the covariance, the least certain first.
     pub directions: Vec<PrincipalDirectionEntry>,
-    /// What each run carries; of an output error on two runs or more.
+    /// Contribution of each run; only from the output-error method with two or more runs.
     pub runs: Vec<RunShareEntry>,
-    /// The further run that says most about the parameter that is known least.
+    /// The additional run that reduces the standard error of the least certain parameter most.
     pub run_to_add: Option<RunToAddEntry>,
-    /// Codes of the findings that say that there is more in the runs than the arm has: standard errors do not count
-    /// it.
+    /// Codes of findings that report effects in the runs that the arm does not have. Standard errors do not include these
+    /// effects.
     pub doubted_by: Vec<String>,
 }
 
-/// How well a parameter is known.
+/// The certainty of a parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct KnownFigureEntry {
-    /// Its name.
+    /// Name of the parameter.
     pub figure: String,
-    /// Its relative standard error; null where the logs do not tell it from others.
+    /// Its relative standard error; null if the logs do not separate it from other parameters.
     pub relative_std: Option<f64>,
-    /// The same if all others were known.
+    /// Its relative standard error if all other parameters were known.
     pub relative_std_if_others_known: Option<f64>,
 }
 
-/// A principal direction.
+/// A principal direction of the covariance.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PrincipalDirectionEntry {
-    /// Relative standard error along it; null where the logs do not show it at all.
+    /// Relative standard error along this direction; null if the logs do not show it at all.
     pub relative_std: Option<f64>,
-    /// Parameters that take part, those that move most first.
+    /// Parameters of the direction, those with the largest weight first.
     pub parts: Vec<DirectionPartEntry>,
 }
 
-/// A parameter's part in a principal direction.
+/// A parameter in a principal direction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DirectionPartEntry {
-    /// Its name.
+    /// Name of the parameter.
     pub figure: String,
-    /// Its share of a change of length one.
+    /// Its component of the direction, as a vector of length one.
     pub weight: f64,
     /// Share of the parameter's variance along this direction.
     pub share_of_variance: f64,
 }
 
-/// What a run carries.
+/// Contribution of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RunShareEntry {
     /// Name of the run.
     pub name: String,
-    /// Its residual over that of the others, with the estimates that these give without it.
+    /// Its residual relative to that of the other runs, with the estimates from these other runs.
     pub residual_beside_others: Option<f64>,
-    /// Whether it is the one that fits the others least, and does not fit.
+    /// Whether it differs most from the other runs, by so much that it is reported.
     pub stands_out: bool,
-    /// What it does for each parameter.
+    /// Effect of the run on each parameter.
     pub figures: Vec<CarriedFigureEntry>,
 }
 
-/// What a run does for a parameter.
+/// Effect of a run on a parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CarriedFigureEntry {
     /// Name of the parameter.
     pub figure: String,
-    /// Standard error without the run over that with it; null where the others do not show it.
+    /// Standard error without the run divided by that with it; null if the other runs do not show the parameter.
     pub std_growth_without: Option<f64>,
-    /// By how much the estimate would move without the run.
+    /// Relative change of the estimate without the run.
     pub relative_change_without: Option<f64>,
-    /// The same in standard errors.
+    /// The same change in standard errors.
     pub deviations: Option<f64>,
 }
 
-/// A run worth adding.
+/// A run to add.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RunToAddEntry {
@@ -109,17 +109,17 @@ pub struct RunToAddEntry {
     /// Amplitude of the motor's motion.
     #[serde(flatten)]
     pub amplitude: WithUnit<MotionKey, f64>,
-    /// Time logged.
+    /// Logged time.
     pub record_s: f64,
-    /// The parameter that it says most about.
+    /// The parameter whose standard error it reduces most.
     pub figure: String,
     /// Relative standard error of this parameter now.
     pub relative_std_now: Option<f64>,
-    /// Relative standard error of this parameter then.
+    /// Relative standard error of this parameter with the run.
     pub relative_std_then: Option<f64>,
 }
 
-/// A motion that a run asks for.
+/// Kind of motion of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -133,7 +133,7 @@ pub enum MotionKindName {
 }
 
 impl SeparabilityEntry {
-    /// What the logs of an axis separate.
+    /// The entry of a verdict.
     pub(crate) fn of(axis: Axis, names: UnitNames, found: &Separability) -> Self {
         let known = found.figures.iter().map(|known| KnownFigureEntry {
             figure: known.figure.name(),

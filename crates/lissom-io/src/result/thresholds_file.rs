@@ -3,11 +3,11 @@
 use lissom_core::{Basis, Threshold, ThresholdValue};
 use serde::{Deserialize, Serialize};
 
-/// Every number that decides what is accepted, refused, warned of or chosen.
+/// Every number that decides which estimates are given and which findings are reported.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ThresholdsFile {
-    /// Version that wrote the file.
+    /// Version of lissom that wrote the file.
     pub lissom: String,
     /// The thresholds, those of one method together.
     pub thresholds: Vec<ThresholdEntry>,
@@ -25,13 +25,13 @@ pub struct ThresholdEntry {
     pub values: Vec<f64>,
     /// Unit of the values; "1" for shares and ratios.
     pub unit: String,
-    /// Where the value comes from.
+    /// Origin of the value.
     pub basis: BasisName,
-    /// What it is, and why it has this value.
+    /// Meaning of the threshold, and the reason for its value.
     pub reason: String,
 }
 
-/// Where a threshold's value comes from.
+/// Origin of a threshold's value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]

@@ -1,7 +1,7 @@
-//! Quantities whose JSON key carries their unit, such as `viscous_nm_s_per_rad`.
+//! Quantities whose JSON key contains the unit, such as `viscous_nm_s_per_rad`.
 //!
-//! The unit depends on the campaign, so the key is not a field's name: a [`WithUnit`] holds it beside the
-//! value and is flattened into the table that it belongs to. [`UnitNames`] makes every key.
+//! The unit depends on the campaign, so the key cannot be the name of a field: a [`WithUnit`] has the key and the value, and
+//! is flattened into the table that it belongs to. [`UnitNames`] builds every key.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -14,9 +14,9 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use super::estimate_entry::EstimateEntry;
 use super::unit_names::UnitNames;
 
-/// A quantity whose key carries its unit.
+/// A quantity whose key contains its unit.
 pub trait Quantity {
-    /// What the quantity is.
+    /// Description of the quantity.
     const DESCRIPTION: &'static str;
     /// The keys that it may have in a campaign with these units.
     fn keys(names: UnitNames) -> Vec<String>;
@@ -25,9 +25,9 @@ pub trait Quantity {
 /// The unit of a quantity.
 #[derive(Debug, Clone, Copy)]
 enum Unit {
-    /// Torque or force, or the command's.
+    /// Unit of torque or force, or of the command.
     Torque,
-    /// The command's.
+    /// Unit of the command.
     Command,
     /// Torque per unit of command.
     TorqueConstant,
@@ -41,7 +41,7 @@ enum Unit {
     Angle,
     /// Speed.
     Speed,
-    /// That of a term of the friction law.
+    /// Unit of a term of the friction law.
     LawTerm,
 }
 
@@ -117,13 +117,13 @@ quantities! {
     StaticKey = "static" in Torque;
     /// Torque per command.
     TorqueConstantKey = "torque_constant" in TorqueConstant;
-    /// Amplitude of a term of the friction law, in the term's own unit; of a ripple cosine and sine.
+    /// Amplitude of a term of the friction law, in the unit of the term; for a ripple those of cosine and sine.
     LawAmplitudeKey = "amplitude" in LawTerm;
     /// Amplitude of the motor's angle or position.
     MotionKey = "amplitude" in Angle;
     /// Magnitude of a speed; v_s of friction near rest.
     SpeedKey = "speed" in Speed;
-    /// Least and largest speed.
+    /// Smallest and largest speed.
     SpeedRangeKey = "speed_range" in Speed;
     /// Velocity with its sign.
     VelocityKey = "velocity" in Speed;
@@ -137,13 +137,13 @@ quantities! {
     CosineKey = "cosine" in Torque;
     /// Amplitude of the sine over the travel.
     SineKey = "sine" in Torque;
-    /// Friction against the motion, positive where it brakes; a constant load is in it.
+    /// Friction against the motion, positive if it brakes; it includes a constant load.
     FrictionKey = "friction" in Torque;
-    /// Friction at rest with the term, in the direction where it is less.
+    /// Friction at rest with the term, in the direction in which it is smaller.
     AtRestKey = "at_rest" in Torque;
-    /// Coulomb friction from the slowest third of the speeds; null where these are all.
+    /// Coulomb friction from the slowest third of the speeds; null if these are all speeds.
     SlowestKey = "slowest" in Torque;
-    /// Standard deviation of the Coulomb friction of one pair about the mean.
+    /// Standard deviation of the Coulomb friction of one pair around the mean.
     SpreadKey = "spread" in Command;
     /// Mean command.
     MeanCommandKey = "command" in Command;
@@ -155,8 +155,8 @@ quantities! {
     LoggedRmsKey = "logged_rms" in Torque;
 }
 
-/// Values of one quantity under keys that carry their units: none where the table has no such key, two where a
-/// torque is given in the command's unit too.
+/// Values of one quantity under keys with their units: none if the table has no such key, two if a torque is also given in
+/// the unit of the command.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WithUnit<Q, T> {
     entries: Vec<(String, T)>,
@@ -169,7 +169,7 @@ impl<Q: Quantity, T> WithUnit<Q, T> {
         Self { entries: Vec::new(), quantity: PhantomData }
     }
 
-    /// One value under the key of the last unit: of torques that of torque.
+    /// One value under the key of the last unit; for torques the unit of torque.
     pub(crate) fn new(names: UnitNames, value: T) -> Self {
         let key = Q::keys(names).pop();
         Self { entries: key.map(|key| (key, value)).into_iter().collect(), quantity: PhantomData }
@@ -180,17 +180,17 @@ impl<Q: Quantity, T> WithUnit<Q, T> {
         value.map_or_else(Self::absent, |value| Self::new(names, value))
     }
 
-    /// One value under one of the quantity's keys.
+    /// One value under one of the keys of the quantity.
     pub(crate) fn under(key: String, value: T) -> Self {
         Self { entries: vec![(key, value)], quantity: PhantomData }
     }
 
-    /// The value and its key in a campaign with these units; of torques that in the unit of torque.
+    /// The value in a campaign with these units; for torques that in the unit of torque.
     pub fn get(&self, names: UnitNames) -> Option<&T> {
         self.keyed(names).map(|(_, value)| value)
     }
 
-    /// The value and its key in a campaign with these units; of torques that in the unit of torque.
+    /// The value in a campaign with these units; for torques that in the unit of torque.
     pub(crate) fn keyed(&self, names: UnitNames) -> Option<(&str, &T)> {
         self.under_key(&Q::keys(names).pop()?)
     }
@@ -200,12 +200,12 @@ impl<Q: Quantity, T> WithUnit<Q, T> {
         self.under_key(Q::keys(names).first()?)
     }
 
-    /// The first of its values, whatever its unit.
+    /// The first of its values, in any unit.
     pub(crate) fn any(&self) -> Option<&T> {
         self.entries.first().map(|entry| &entry.1)
     }
 
-    /// Whether its keys are those of a campaign with these units, all of them and no others.
+    /// Whether its keys are exactly those of a campaign with these units.
     pub(crate) fn has_keys_of(&self, names: UnitNames) -> bool {
         let keys = Q::keys(names);
         keys.len() == self.entries.len() && keys.iter().all(|key| self.under_key(key).is_some())
@@ -216,14 +216,14 @@ impl<Q: Quantity, T> WithUnit<Q, T> {
         found.map(|(key, value)| (key.as_str(), value))
     }
 
-    /// Whether some campaign has the quantity under this key.
+    /// Whether the quantity has this key in some campaign.
     fn has_key(key: &str) -> bool {
         UnitNames::ALL.iter().any(|names| Q::keys(*names).iter().any(|own| own == key))
     }
 }
 
 impl<Q: Quantity> WithUnit<Q, Option<EstimateEntry>> {
-    /// A torque in the command's unit and, where the torque constant is known, in its own.
+    /// A torque in the unit of the command and, if the torque constant is known, in the unit of torque.
     pub(crate) fn torque(names: UnitNames, constant: f64, value: Option<Estimate>) -> Self {
         let of_command = value.map(|e| e.scaled(1.0 / constant));
         let values = [of_command, value].map(|e| e.map(EstimateEntry::of));
@@ -247,7 +247,7 @@ impl<'de, Q: Quantity, T: Deserialize<'de>> Deserialize<'de> for WithUnit<Q, T> 
     }
 }
 
-/// Takes the quantity's own keys out of those of a table.
+/// Reads the keys of a quantity from those of a table.
 struct OwnKeys<Q, T>(PhantomData<(Q, T)>);
 
 impl<'de, Q: Quantity, T: Deserialize<'de>> Visitor<'de> for OwnKeys<Q, T> {
@@ -262,7 +262,7 @@ impl<'de, Q: Quantity, T: Deserialize<'de>> Visitor<'de> for OwnKeys<Q, T> {
         while let Some(key) = map.next_key::<String>()? {
             if WithUnit::<Q, T>::has_key(&key) {
                 let value = map.next_value();
-                // A flattened table has no place for the key in an error.
+                // Errors of a flattened table do not contain the key.
                 let value = value.map_err(|e| A::Error::custom(format!("`{key}`: {e}")))?;
                 found.entries.push((key, value));
             } else {
@@ -299,7 +299,7 @@ fn key_pattern<Q: Quantity>() -> String {
             keys.push(key);
         }
     }
-    // The words that all of them begin with are written once.
+    // The common beginning of all keys is written once.
     let first = keys.first().map_or("", String::as_str);
     let mut ends = first.match_indices('_').map(|(at, _)| &first[..=at]);
     let shared = ends.rfind(|start| keys.iter().all(|key| key.starts_with(start)));

@@ -1,11 +1,11 @@
-//! Names of figures with their units.
+//! Names of keys and units of a campaign.
 
 use lissom_core::record::{Axis, Channels, CommandQuantity};
 
-/// Suffixes of a campaign's result keys.
+/// Units of a campaign, with the suffixes of keys and the names of units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct UnitNames {
-    /// Whether torque (or force) is known, or figures are per unit of command.
+    /// Whether torque (or force) is known; otherwise estimates are per unit of command.
     pub torque_known: bool,
     /// Rotary or linear.
     pub axis: Axis,
@@ -34,7 +34,7 @@ impl UnitNames {
         ]
     };
 
-    /// The names that go with these channels.
+    /// The units of these channels.
     pub fn new(channels: &Channels) -> Self {
         Self {
             torque_known: channels.command.torque_per_command.is_some(),
@@ -51,7 +51,7 @@ impl UnitNames {
             CommandQuantity::Arbitrary => "command",
         }
     }
-    /// Suffix of a torque or force; the command's where the torque constant is unknown.
+    /// Suffix of a torque or force; that of the command if the torque constant is unknown.
     pub fn torque(&self) -> &'static str {
         match (self.torque_known, self.axis) {
             (false, _) => self.command(),
@@ -83,12 +83,12 @@ impl UnitNames {
         format!("{name}_{}_per_{}", self.torque(), self.angle())
     }
 
-    /// Key of friction that grows with the root of the speed.
+    /// Key of friction that grows with the square root of the speed.
     pub fn root_key(&self, name: &str) -> String {
         format!("{name}_{}_per_root_{}_per_s", self.torque(), self.angle())
     }
 
-    /// Unit of the command as people write it.
+    /// Unit of the command in words.
     pub fn command_unit(&self) -> &'static str {
         match self.command {
             CommandQuantity::Current => "A",
@@ -96,7 +96,7 @@ impl UnitNames {
             CommandQuantity::Arbitrary => "command",
         }
     }
-    /// Unit of a torque or force as people write it.
+    /// Unit of a torque or force in words.
     pub fn torque_unit(&self) -> &'static str {
         match (self.torque_known, self.axis) {
             (false, _) => self.command_unit(),
@@ -104,7 +104,7 @@ impl UnitNames {
             (true, Axis::Linear) => "N",
         }
     }
-    /// What the motor's sensor measures, by the axis.
+    /// What the motor's sensor measures: angle or position.
     pub fn motion(&self) -> &'static str {
         match self.axis {
             Axis::Rotary => "angle",
@@ -119,14 +119,14 @@ impl UnitNames {
             CommandQuantity::Arbitrary => "command",
         }
     }
-    /// Inertia or mass, by the axis.
+    /// Inertia of a rotary axis or mass of a linear axis, in words.
     pub fn inertia_name(&self) -> &'static str {
         match self.axis {
             Axis::Rotary => "inertia",
             Axis::Linear => "mass",
         }
     }
-    /// Unit of inertia or mass as people write it.
+    /// Unit of inertia or mass in words.
     pub fn inertia_unit(&self) -> String {
         match (self.torque_known, self.axis) {
             (true, Axis::Rotary) => "kg·m²".to_owned(),
@@ -134,11 +134,11 @@ impl UnitNames {
             (false, _) => format!("{}·s²/{}", self.command_unit(), self.angle()),
         }
     }
-    /// Unit of viscous friction as people write it.
+    /// Unit of viscous friction in words.
     pub fn viscous_unit(&self) -> String {
         format!("{}·s/{}", self.torque_unit(), self.angle())
     }
-    /// Unit of coupling as people write it.
+    /// Unit of coupling in words.
     pub fn coupling_unit(&self) -> String {
         format!("{}/{}", self.torque_unit(), self.angle())
     }

@@ -1,4 +1,4 @@
-//! How well a result predicts a log that it is not from, in JSON.
+//! How well a result predicts another log, in JSON.
 
 use lissom_core::identify::{
     Cause, CauseKind, ChannelResidual, FoundArm, Horizon, MovedBy, MovedMode, TorquePrediction,
@@ -13,56 +13,56 @@ use super::finding_entry::FindingEntry;
 use super::unit_keys::{LoggedRmsKey, WithUnit};
 use super::unit_names::UnitNames;
 
-/// SI units. The suffix of a key is its unit, as in result.schema.json. A share is a part of one.
+/// SI units. The suffix of a key is its unit, as in result.schema.json. Shares are from 0 to 1.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ValidationFile {
-    /// Version that wrote the file.
+    /// Version of lissom that wrote the file.
     pub lissom: String,
     /// Kind of axis.
     pub axis: AxisName,
     /// The arm of the result.
     pub arm: ArmEntry,
-    /// Torque (or force) that the estimates predict from the logged motion, compared with the one logged; null where
-    /// the tips do not give the coupling torque.
+    /// Torque (or force) that the estimates predict from the logged motion, compared with the logged one; null if the tips
+    /// do not give the coupling torque.
     pub torque: Option<TorqueEntry>,
     /// Motion that the estimates predict from the logged command.
     pub motion: MotionEntry,
-    /// Measured minus predicted motion of each channel, each stretch about its mean.
+    /// Residuals of each channel: measured minus predicted motion, minus the mean of each stretch.
     pub residuals: Vec<ChannelResidualEntry>,
-    /// What speaks against the estimates.
+    /// Findings about the estimates.
     pub findings: Vec<FindingEntry>,
 }
 
-/// The torque predicted compared with the one logged.
+/// The predicted torque compared with the logged one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TorqueEntry {
-    /// |logged - predicted|/|logged|, root sums of squares over all rows that count.
+    /// |logged - predicted|/|logged|, with root sums of squares over all rows used.
     pub relative_error: f64,
-    /// The same of the logs that the result is from.
+    /// The same for the logs of the result.
     pub relative_error_of_logs_used: Option<f64>,
-    /// What the same recipe leaves of the arm's own motion, shown by the same sensors; null where it could not be
-    /// followed for a window.
+    /// The error that is expected if the arm is correct: that of the same computation with a simulation of the arm and its
+    /// sensors; null if the simulation does not follow the log for the length of a window.
     pub relative_error_expected: Option<f64>,
-    /// While the motor moves forward.
+    /// The same while the motor moves forward.
     pub relative_error_forward: Option<f64>,
-    /// While it moves backward.
+    /// The same while the motor moves backward.
     pub relative_error_backward: Option<f64>,
     /// Root mean square of the logged torque.
     #[serde(flatten)]
     pub logged_rms: WithUnit<LoggedRmsKey, f64>,
-    /// Length of the sin^4 window that both sides are averaged with.
+    /// Length of the sin^4 window with which both torques are averaged.
     pub window_s: f64,
-    /// Frequency at which it leaves half the power.
+    /// Frequency at which the window passes half of the power.
     pub half_power_hz: f64,
-    /// Share of the time in which the motor rests or a sensor is at the end of its range, which does not count.
+    /// Share of the time in which the motor rests or a sensor is at a limit of its range, and which is not used.
     pub rest_share: f64,
-    /// By run.
+    /// The torque of each run.
     pub runs: Vec<TorqueRunEntry>,
-    /// Each stretch in which the motor moves one way for three windows or more.
+    /// Each stretch in which the motor moves in one direction for three windows or longer.
     pub stretches: Vec<StretchEntry>,
-    /// What the residual looks like, the largest share first.
+    /// Terms that the residual resembles, the one with the largest share first.
     pub residual_terms: Vec<ResidualTermEntry>,
 }
 
@@ -72,7 +72,7 @@ pub struct TorqueEntry {
 pub struct TorqueRunEntry {
     /// Its name.
     pub run: String,
-    /// Relative to its own torque.
+    /// Error relative to the torque of the run.
     pub relative_error: Option<f64>,
 }
 
@@ -88,27 +88,27 @@ pub struct StretchEntry {
     pub end_s: f64,
     /// Direction of motion.
     pub direction: DirectionName,
-    /// Root mean square of the residual relative to that of the whole log's torque.
+    /// Root mean square of the residual relative to that of the torque of the whole log.
     pub relative_error: f64,
 }
 
-/// A term that the residual looks like.
+/// A term that the residual resembles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ResidualTermEntry {
-    /// Which.
+    /// The term.
     pub term: CauseName,
-    /// Its coefficient in SI units (s; the parameter's own unit), to be added to the estimate; of coupling relative to
-    /// it.
+    /// Its coefficient in SI units (s, or the unit of the parameter), to be added to the estimate; for the coupling relative
+    /// to its estimate.
     pub value: f64,
-    /// Share of the squared residual that it takes away by itself.
+    /// Share of the squared residual that the term alone explains.
     pub share: f64,
-    /// What the same recipe makes of the motion of the arm itself, in the unit of value; 0 where that could not be
-    /// followed.
+    /// The coefficient from the same computation with a simulation of the arm, in the unit of value; 0 if the simulation
+    /// does not follow the log.
     pub expected_value: f64,
 }
 
-/// A term that a residual may look like.
+/// A term that a residual may resemble.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
@@ -137,12 +137,12 @@ pub enum CauseName {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MotionEntry {
-    /// Over ever shorter times from one initial state each.
+    /// Predictions over shorter and shorter times, each from its own initial state.
     pub horizons: Vec<HorizonEntry>,
-    /// Index of the horizon that the residuals are of: the longest over which all channels fit 90 %, else the shortest.
+    /// Index of the horizon of the residuals: the longest one over which all channels fit 90 %, otherwise the shortest.
     pub chosen: Option<usize>,
-    /// The mode whose frequency, moved, explains most of the residual; null where it does not take away half of the
-    /// squared residual by a move of 0.3 % or more, or no tip's residual is beyond its sensor's noise.
+    /// The mode for which another frequency explains most of the residual; null if a change of 0.3 % or more does not remove
+    /// half of the squared residual, or if no tip has a residual above the noise of its sensor.
     pub moved_mode: Option<MovedModeEntry>,
 }
 
@@ -150,11 +150,11 @@ pub struct MotionEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct HorizonEntry {
-    /// The length.
+    /// Length of the horizon.
     pub length_s: f64,
-    /// Whether these are whole runs.
+    /// Whether whole runs are predicted.
     pub whole_runs: bool,
-    /// Stretches predicted.
+    /// Number of predicted stretches.
     pub windows: usize,
     /// How well each channel is predicted.
     pub channels: Vec<ChannelFitEntry>,
@@ -195,30 +195,30 @@ pub enum ChannelUnitName {
     Unknown,
 }
 
-/// A mode that is elsewhere in the log.
+/// A mode that has another frequency in the log.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MovedModeEntry {
-    /// Which, from 1.
+    /// Number of the mode, from 1.
     pub mode: usize,
-    /// What moves it.
+    /// Cause of the change.
     pub by: MovedByName,
     /// Its frequency in the result.
     pub natural_frequency_rad_s: f64,
-    /// The frequency that the log looks like.
+    /// Its frequency that fits the log best.
     pub of_log_rad_s: f64,
     /// Squared residual of all channels relative to that of the result's arm.
     pub residual_ratio: f64,
 }
 
-/// What moves a mode.
+/// Cause of a change of a mode's frequency.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum MovedByName {
-    /// The mode's stiffness stays as it is.
+    /// A load: the stiffness of the mode stays the same.
     Load,
-    /// The stiffness changes with the square of the frequency.
+    /// The stiffness: it changes with the square of the frequency.
     Stiffness,
 }
 
@@ -230,34 +230,34 @@ pub struct ChannelResidualEntry {
     pub channel: String,
     /// Its unit.
     pub unit: ChannelUnitName,
-    /// Samples tested.
+    /// Number of samples tested.
     pub samples: usize,
     /// Root mean square.
     pub rms: f64,
-    /// Step of the sensor, 0 where none is seen; by itself it makes a residual of step/sqrt(12).
+    /// Step of the sensor; 0 if no step is visible. The step alone gives a residual of step/sqrt(12).
     pub sensor_step: f64,
-    /// Standard deviation that the sensor adds by itself, steps included.
+    /// Standard deviation of the sensor's noise, including its steps.
     pub sensor_noise: f64,
     /// Autocorrelation, lags 0 to 25.
     pub autocorrelation: Vec<f64>,
-    /// Half the 95 % band of white noise.
+    /// Half of the 95 % band of white noise.
     pub autocorrelation_band: f64,
     /// Ljung-Box statistic of lags 1 to 25.
     pub ljung_box: f64,
-    /// Probability of as large a statistic of white noise.
+    /// Probability that white noise has a statistic at least as large.
     pub white_probability: f64,
     /// Lags of the residual behind the command, in samples.
     pub lags: Vec<isize>,
     /// Correlation with the command at these lags.
     pub cross_correlation: Vec<f64>,
-    /// Half the 95 % band if residual and command are independent.
+    /// Half of the 95 % band for independent residual and command.
     pub cross_correlation_band: f64,
-    /// Share of these lags beyond the band.
+    /// Share of these lags outside the band.
     pub outside_share: f64,
 }
 
 impl ValidationFile {
-    /// What `lissom validate` writes.
+    /// The content that `lissom validate` writes.
     pub fn of(campaign: &Campaign, found: &FoundArm, v: &Validation) -> Self {
         let channels = &campaign.channels;
         let names = UnitNames::new(channels);
@@ -397,7 +397,7 @@ impl ChannelUnitName {
         }
     }
 
-    /// The unit as people write it.
+    /// The unit in words.
     fn text(self) -> &'static str {
         match self {
             Self::Angle => "rad",
@@ -409,7 +409,7 @@ impl ChannelUnitName {
     }
 }
 
-/// Name and unit of a channel, the motor first, then tips.
+/// Name and unit of a channel; channel 0 is the motor, then tips follow.
 pub fn channel_name_unit(channels: &Channels, channel: usize) -> (&str, &'static str) {
     let tip = channel.checked_sub(1).map(|i| &channels.tips[i]);
     let name = tip.map_or("motor", |tip| &tip.name);

@@ -1,4 +1,4 @@
-//! `rig.json`: what is known of a virtual campaign in addition to its logs.
+//! `rig.json`: what is known about a virtual campaign in addition to its logs.
 //!
 //! Its schema is `docs/src/reference/schemas/rig.schema.json`, generated from [`RigFile`].
 

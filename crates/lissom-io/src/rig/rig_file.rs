@@ -1,4 +1,4 @@
-//! `rig.json` as a type: filled from a virtual arm and its runs, written and read.
+//! The type of `rig.json`: filled from a virtual arm and its runs, written and read.
 
 use lissom_core::beam::Base;
 use lissom_core::rig::{JointFriction, Rig};
@@ -7,18 +7,18 @@ use serde::{Deserialize, Serialize};
 use super::rig_run_entry::RigRunEntry;
 use crate::plan::PlanFile;
 
-/// What is known of a virtual campaign in addition to its logs. SI units and rad/s.
+/// What is known about a virtual campaign in addition to its logs. SI units and rad/s.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RigFile {
-    /// Version that wrote the file.
+    /// Version of lissom that wrote the file.
     pub lissom: String,
     /// Title of the plan.
     pub title: String,
     /// Seed of the plan, a whole number up to 2^63.
     pub seed: String,
-    /// Relative tolerance of a step of the simulation where friction is not constant during slip; null where the motion
-    /// is exact to rounding.
+    /// Relative tolerance of a step of the simulation if friction is not constant during slip; null if the motion is exact
+    /// to rounding.
     pub tolerance: Option<f64>,
     /// Number of point masses that were simulated; a beam with mass along it is simulated as point masses too.
     pub masses: usize,
@@ -50,7 +50,7 @@ pub struct RigTruthEntry {
     pub rest_forward_nm: f64,
     /// Largest torque that friction holds at rest at angle zero, backward, a magnitude.
     pub rest_backward_nm: f64,
-    /// Gravity of an unbalanced load on the motor; null without.
+    /// Gravity of an unbalanced load on the motor; null if there is none.
     pub gravity: Option<RigGravityEntry>,
     /// h_{n+1} of (15): torque per motor angle with all masses held.
     pub coupling_nm_per_rad: f64,
@@ -58,18 +58,18 @@ pub struct RigTruthEntry {
     pub natural_frequencies_rad_s: Vec<f64>,
 }
 
-/// The torque `sine·sin θ + cosine·cos θ` that gravity takes of the motor, θ the motor's angle.
+/// The torque `sine·sin θ + cosine·cos θ` that gravity needs of the motor, θ the motor's angle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RigGravityEntry {
-    /// g_s: torque per sin θ.
+    /// Coefficient g_s of sin θ.
     pub sine_nm: f64,
-    /// g_c: torque per cos θ.
+    /// Coefficient g_c of cos θ.
     pub cosine_nm: f64,
 }
 
 impl RigFile {
-    /// What `lissom rig` writes of these runs, without a fingerprint.
+    /// The content that `lissom rig` writes for these runs, without a fingerprint.
     pub fn of(rig: &Rig, plan: &PlanFile, runs: Vec<RigRunEntry>) -> Self {
         Self {
             lissom: env!("CARGO_PKG_VERSION").to_owned(),

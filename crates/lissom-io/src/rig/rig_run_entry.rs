@@ -18,17 +18,17 @@ pub struct RigRunEntry {
     pub sample_time_s: f64,
     /// Frequency of a sine; null for other motions.
     pub omega_rad_s: Option<f64>,
-    /// Seed of the sensors' noise, a whole number.
+    /// Seed of the sensor noise, a whole number.
     pub seed: String,
     /// Time before the log, in which the transient decays.
     pub waited_s: f64,
-    /// Bound on the transient that is left when the log begins; null where it was not checked or nothing bounds it.
+    /// Upper bound of the remaining transient when the log begins; null if it was not checked or has no bound.
     pub transient_left_rad: Option<f64>,
-    /// The transient that was allowed; null where it was not checked.
+    /// The allowed transient; null if it was not checked.
     pub transient_allowed_rad: Option<f64>,
-    /// Share of the record in which the joint stuck, 0 to 1.
+    /// Share of the record in which the joint sticks, 0 to 1.
     pub stuck_share: f64,
-    /// What the log alone does not say.
+    /// Findings about the simulated run.
     pub findings: Vec<RigFindingEntry>,
 }
 
@@ -36,9 +36,9 @@ pub struct RigRunEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RigFindingEntry {
-    /// What the finding is about; docs/src/reference/plan.md has them all.
+    /// What the finding is about; the page plan.toml in the book lists all codes.
     pub code: RigFindingName,
-    /// The same in words, with numbers.
+    /// The finding in words, with numbers.
     pub message: String,
 }
 
@@ -53,11 +53,11 @@ pub enum RigFindingName {
     CurrentLimited,
     /// Friction held the joint throughout the record.
     NeverMoved,
-    /// A sensor was taken beyond its range.
+    /// An angle exceeded the range of its sensor.
     SensorRange,
-    /// The controller acts between two rows of the log.
+    /// The controller also acts between two rows of the log.
     CurrentBetweenSamples,
-    /// A finding that has no code of its own.
+    /// A finding without a code of its own.
     Other,
 }
 

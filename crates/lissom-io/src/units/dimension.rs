@@ -76,7 +76,7 @@ impl Dimension {
         Self { kg, m, s, a }
     }
 
-    /// What a quantity of this dimension is called, and how one may be written.
+    /// Name of a quantity of this dimension, and an example.
     fn known(self) -> Option<(&'static str, &'static str)> {
         Some(match self {
             Self::NUMBER => ("a plain number or angle", "360 deg"),
@@ -112,7 +112,7 @@ impl Dimension {
         })
     }
 
-    /// How a quantity of this dimension may be written.
+    /// An example of a quantity of this dimension.
     pub fn example(self) -> Option<&'static str> {
         self.known().map(|(_, example)| example)
     }

@@ -4,10 +4,10 @@
 //! A unit expression is a product of unit names with `*`, `·` and `/` (from left to right),
 //! powers (`^2`, `^-1`, `²`, `³`) and parentheses; `1` is the unit of a plain number. SI units
 //! take SI prefixes (`mA`, `GPa`, `µm`). Angles are plain numbers: `rad` is 1, `deg` π/180,
-//! `rev` and `turn` 2π. Every rate in this project is an angular one, so `Hz` is 2π rad/s and
+//! `rev` and `turn` 2π. All rates in this project are angular, so `Hz` is 2π rad/s and
 //! `rpm` 2π/60 rad/s. `lb` and `oz` are masses, `lbf` and `ozf` the forces.
 //!
-//! No crate reads compound units from text and checks their dimension, hence this parser.
+//! This parser exists because no crate reads compound units from text and checks their dimension.
 
 mod dimension;
 mod parse_quantity;

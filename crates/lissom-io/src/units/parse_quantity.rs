@@ -1,4 +1,4 @@
-//! From text to a quantity in SI.
+//! Parses quantities and units to SI.
 
 use super::dimension::Dimension;
 use super::unit_error::UnitError;
@@ -14,7 +14,7 @@ use super::unit_expression::Parser;
 /// ```
 ///
 /// # Errors
-/// Any [`UnitError`]: no number, an unknown unit, another dimension than `expected`.
+/// Any [`UnitError`]: no number, an unknown unit, or another dimension than `expected`.
 pub fn parse_quantity(text: &str, expected: Dimension) -> Result<f64, UnitError> {
     let trimmed = text.trim();
     let length = number_length(trimmed);
@@ -33,7 +33,7 @@ pub fn parse_quantity(text: &str, expected: Dimension) -> Result<f64, UnitError>
     if value.is_finite() { Ok(value) } else { Err(UnitError::OutOfRange { text: text.to_owned() }) }
 }
 
-/// Reads a unit alone and gives its size in SI.
+/// Reads a unit and gives its size in SI.
 ///
 /// ```
 /// use lissom_io::units::{Dimension, parse_unit};
@@ -42,15 +42,15 @@ pub fn parse_quantity(text: &str, expected: Dimension) -> Result<f64, UnitError>
 /// ```
 ///
 /// # Errors
-/// Any [`UnitError`]: an unknown unit, another dimension than `expected`.
+/// Any [`UnitError`]: an unknown unit, or another dimension than `expected`.
 pub fn parse_unit(text: &str, expected: Dimension) -> Result<f64, UnitError> {
     factor(text, text.trim(), expected)
 }
 
-/// Reads a unit of any dimension: its size in SI and its dimension.
+/// Reads a unit of any dimension and gives its size in SI and its dimension.
 ///
 /// # Errors
-/// Any [`UnitError`] but [`UnitError::Dimension`].
+/// Any [`UnitError`] except [`UnitError::Dimension`].
 pub fn parse_any_unit(text: &str) -> Result<(f64, Dimension), UnitError> {
     let unit = Parser::new(text, text.trim()).parse()?;
     if unit.factor.is_finite() && unit.factor > 0.0 {
@@ -69,7 +69,7 @@ fn factor(text: &str, unit: &str, expected: Dimension) -> Result<f64, UnitError>
     }
 }
 
-/// Bytes of the decimal number that `text` begins with.
+/// Length in bytes of the decimal number at the beginning of `text`.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digits = |from: usize| bytes[from..].iter().take_while(|b| b.is_ascii_digit()).count();

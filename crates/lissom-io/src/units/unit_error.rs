@@ -1,15 +1,15 @@
-//! What can be wrong with a quantity.
+//! Errors of quantities and units.
 
 use thiserror::Error;
 
 use super::dimension::Dimension;
 use crate::excerpt::excerpt;
 
-/// Why a text is not the quantity or unit that is wanted.
+/// Why a text is not a valid quantity or unit.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum UnitError {
-    /// It does not begin with a number.
+    /// The text does not begin with a number.
     #[error("\"{}\" does not begin with a number", excerpt(text))]
     NoNumber {
         /// The whole text.
@@ -20,25 +20,25 @@ pub enum UnitError {
     NoUnit {
         /// The whole text.
         text: String,
-        /// Dimension wanted.
+        /// The dimension expected.
         expected: Dimension,
     },
-    /// A name that is no unit.
+    /// A name that is not a unit.
     #[error("\"{}\": there is no unit `{}`", excerpt(text), excerpt(unit))]
     Unknown {
         /// The whole text.
         text: String,
         /// The name.
         unit: String,
-        /// The unit whose name is nearest.
+        /// The unit with the most similar name.
         nearest: Option<String>,
     },
-    /// The expression breaks off or holds a character that does not belong there.
-    #[error("\"{}\" is not a unit: {}", excerpt(text), found.map_or("it breaks off".to_owned(), |c| format!("unexpected `{c}`")))]
+    /// The expression ends too early or has a wrong character.
+    #[error("\"{}\" is not a unit: {}", excerpt(text), found.map_or("it ends too early".to_owned(), |c| format!("unexpected `{c}`")))]
     Syntax {
         /// The whole text.
         text: String,
-        /// The character, or none at the end.
+        /// The character; `None` at the end of the text.
         found: Option<char>,
     },
     /// An exponent that is too large.
@@ -46,7 +46,7 @@ pub enum UnitError {
     Power {
         /// The whole text.
         text: String,
-        /// The largest there may be.
+        /// The largest exponent allowed.
         largest: i32,
     },
     /// A unit of another dimension.
@@ -56,10 +56,10 @@ pub enum UnitError {
         text: String,
         /// Its dimension.
         found: Dimension,
-        /// Dimension wanted.
+        /// The dimension expected.
         expected: Dimension,
     },
-    /// Too large or too small for a number.
+    /// A number that is too large or too small.
     #[error("\"{}\" is out of range", excerpt(text))]
     OutOfRange {
         /// The whole text.
@@ -68,7 +68,7 @@ pub enum UnitError {
 }
 
 impl UnitError {
-    /// What to do about it.
+    /// What the user can do.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::NoNumber { .. } => Some("write a number and a unit, such as \"7 in\"".to_owned()),
@@ -77,10 +77,10 @@ impl UnitError {
                 .map(|e| format!("write it as in \"{e}\"; in a file, a number without quotes is SI")),
             Self::Unknown { nearest, .. } => Some(match nearest {
                 Some(name) => format!("did you mean `{name}`?"),
-                None => "write units as in \"mA\", \"deg\" or \"lbf*in/A\": products with *, quotients with /".to_owned(),
+                None => "write units as in \"mA\", \"deg\" or \"lbf*in/A\", with * for products and / for quotients".to_owned(),
             }),
             Self::Syntax { .. } => {
-                Some("write products with * and quotients with /, as in \"N*m^2\"".to_owned())
+                Some("write * for products and / for quotients, as in \"N*m^2\"".to_owned())
             }
             Self::Dimension { found, expected, .. } => Some(dimension_hint(*found, *expected)),
             Self::Power { .. } => Some("check the exponent of the unit".to_owned()),
@@ -90,7 +90,7 @@ impl UnitError {
         }
     }
 
-    /// The same error in a longer text.
+    /// The same error with the longer text that contains the unit.
     pub(super) fn within(mut self, whole: &str) -> Self {
         match &mut self {
             Self::NoNumber { text }
@@ -105,14 +105,14 @@ impl UnitError {
     }
 }
 
-/// A mass where a force belongs is the usual slip, and a voltage where a current does.
+/// Hint for a wrong dimension. Usual mistakes are a mass instead of a force, and a voltage instead of a current.
 fn dimension_hint(found: Dimension, expected: Dimension) -> String {
     match (found, expected) {
         (Dimension::VOLTAGE, Dimension::CURRENT) => {
-            return "a drive that logs its voltage has `voltage = …` in place of `current`, and `voltage_limit`".into();
+            return "for a logged voltage write `voltage = …` instead of `current`, and `voltage_limit`".into();
         }
         (Dimension::CURRENT, Dimension::VOLTAGE) => {
-            return "a drive that logs its current has `current = …` in place of `voltage`, and `current_limit`".into();
+            return "for a logged current write `current = …` instead of `voltage`, and `current_limit`".into();
         }
         _ => {}
     }
@@ -123,7 +123,7 @@ fn dimension_hint(found: Dimension, expected: Dimension) -> String {
         return "`lbf`, `ozf` and `kgf` are forces; the masses are `lb`, `oz` and `kg`".into();
     }
     expected.example().map_or_else(
-        || "check the unit against the quantity it stands for".to_owned(),
+        || "check the unit of this quantity".to_owned(),
         |example| format!("write it as in \"{example}\""),
     )
 }

@@ -18,7 +18,7 @@ pub(super) struct Parser<'a> {
 }
 
 impl<'a> Parser<'a> {
-    /// Reads `unit`, which stands somewhere in `text`.
+    /// Reads `unit`, which is a part of `text`.
     pub(super) fn new(text: &'a str, unit: &'a str) -> Self {
         Self { text, rest: unit.char_indices().peekable(), unit }
     }

@@ -1,4 +1,4 @@
-//! The units there are.
+//! The table of units.
 
 use std::f64::consts::{PI, TAU};
 
@@ -80,7 +80,7 @@ const PREFIXES: &[(&str, f64)] = &[
     ("G", 1e9),
 ];
 
-/// The unit of this name.
+/// Finds the unit of this name.
 pub(super) fn find(name: &str) -> Option<Unit> {
     let in_list = |list: &[(&str, f64, Dimension)], wanted: &str| {
         list.iter()
@@ -100,8 +100,8 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
     PLAIN.iter().chain(PREFIXED).map(|(name, ..)| *name)
 }
 
-/// The unit, with its prefix, that is called `wanted` but for upper and lower case: `mA` for "ma". The one with the
-/// fewest letters changed; `M`, which is `m` but for its case, counts as two more.
+/// The unit with its prefix that equals `wanted` except for upper and lower case: `mA` for "ma". If there are several, the one
+/// with the fewest changed letters; the prefix `M` counts as two changes more, because it may be confused with `m`.
 pub(super) fn of_other_case(wanted: &str) -> Option<String> {
     let prefixed = PREFIXED.iter().flat_map(|(name, ..)| {
         PREFIXES.iter().map(move |(prefix, _)| (*prefix, format!("{prefix}{name}")))

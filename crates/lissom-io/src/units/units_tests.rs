@@ -91,7 +91,7 @@ fn errors_say_what_was_found_and_wanted() {
         Dimension::LENGTH,
         "\"7 furlong\": there is no unit `furlong`",
         Some(
-            "write units as in \"mA\", \"deg\" or \"lbf*in/A\": products with *, quotients with /",
+            "write units as in \"mA\", \"deg\" or \"lbf*in/A\", with * for products and / for quotients",
         ),
     );
     fails(
@@ -121,13 +121,13 @@ fn errors_say_what_was_found_and_wanted() {
         "7 N-m",
         Dimension::TORQUE,
         "\"7 N-m\" is not a unit: unexpected `-`",
-        Some("write products with * and quotients with /, as in \"N*m^2\""),
+        Some("write * for products and / for quotients, as in \"N*m^2\""),
     );
     fails(
         "7 N*",
         Dimension::TORQUE,
-        "\"7 N*\" is not a unit: it breaks off",
-        Some("write products with * and quotients with /, as in \"N*m^2\""),
+        "\"7 N*\" is not a unit: it ends too early",
+        Some("write * for products and / for quotients, as in \"N*m^2\""),
     );
     fails(
         "7 m^12",

@@ -1,19 +1,19 @@
-//! Writing an `arm.toml` of a beam that is known by its modes.
+//! Writes an `arm.toml` of a beam that is given by its modes.
 
 use std::fmt::{self, Write as _};
 
 use lissom_core::beam::ModalBeam;
 use lissom_core::drive::{Coulomb, Motor};
 
-/// What a written arm begins with.
+/// First line of a written arm.
 pub const ARM_HEAD: &str = "# Written by `lissom equivalent`";
 
-/// What an `arm.toml` says of an equivalent arm.
+/// An equivalent arm for an `arm.toml`.
 #[derive(Debug, Clone, Copy)]
 pub struct WrittenArm<'a> {
     /// Its motor.
     pub motor: Motor,
-    /// Coulomb friction, where it is known.
+    /// Coulomb friction, if it is known.
     pub coulomb: Option<Coulomb>,
     /// Its beam.
     pub beam: &'a ModalBeam,
@@ -21,7 +21,7 @@ pub struct WrittenArm<'a> {
     pub points: &'a [&'a str],
 }
 
-/// The text of an `arm.toml` that [`ArmFile`](crate::ArmFile) reads, every number with all of its digits.
+/// The text of an `arm.toml` that [`ArmFile`](crate::ArmFile) reads, with all digits of every number.
 pub fn arm_text(arm: &WrittenArm<'_>) -> String {
     let mut text = String::new();
     // Writing to a string does not fail.
@@ -30,11 +30,11 @@ pub fn arm_text(arm: &WrittenArm<'_>) -> String {
 }
 
 fn put(text: &mut String, arm: &WrittenArm<'_>) -> fmt::Result {
-    writeln!(text, "{ARM_HEAD}: the arm of Section 4, by its modes.")?;
+    writeln!(text, "{ARM_HEAD}: the equivalent arm, given by its modes.")?;
     writeln!(text, "[beam]")?;
     let points: Vec<String> =
         arm.points.iter().map(|name| name.escape_default().to_string()).collect();
-    writeln!(text, "# gains are of the points {}", points.join(", "))?;
+    writeln!(text, "# gains are for the points {}", points.join(", "))?;
     writeln!(text, "modes = [")?;
     for mode in arm.beam.known_modes() {
         let gains: Vec<String> = mode.gains.iter().map(|g| format!("{g:?}")).collect();
@@ -58,6 +58,6 @@ fn put(text: &mut String, arm: &WrittenArm<'_>) -> fmt::Result {
             coulomb.forward(),
             coulomb.backward()
         ),
-        None => writeln!(text, "# coulomb = \"0.03 N*m\"  # responses do not tell it"),
+        None => writeln!(text, "# coulomb = \"0.03 N*m\"  # responses do not determine it"),
     }
 }

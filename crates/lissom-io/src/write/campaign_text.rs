@@ -1,4 +1,4 @@
-//! Writing a `campaign.toml`.
+//! Writes a `campaign.toml`.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -8,14 +8,14 @@ use lissom_core::record::{Hold, TipQuantity};
 use super::write_error::WriteError;
 use super::write_whole::write_text;
 
-/// What a written campaign says: signals in SI, time stamps in seconds.
+/// The contents of a written campaign, with signals in SI and time stamps in seconds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CampaignPlan {
     /// Comment at the top; may be empty.
     pub title: String,
     /// Name of the column of time stamps.
     pub time_column: String,
-    /// The drive's input.
+    /// The command channel.
     pub command: PlannedCommand,
     /// Name of the motor's column \[rad\].
     pub motor_column: String,
@@ -38,7 +38,7 @@ pub struct CampaignPlan {
 pub struct PlannedCommand {
     /// Name of its column \[A\].
     pub column: String,
-    /// Held command or measurement.
+    /// Whether the command is held between samples or measured.
     pub hold: Hold,
 }
 
@@ -51,7 +51,7 @@ pub struct PlannedRun {
     pub omega_rad_s: Option<f64>,
 }
 
-/// Writes a `campaign.toml`, whole or not at all.
+/// Writes a `campaign.toml`, completely or not at all.
 ///
 /// # Errors
 /// As [`write_whole`](super::write_whole).

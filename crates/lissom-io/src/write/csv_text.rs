@@ -1,4 +1,4 @@
-//! Logs as comma separated text.
+//! Writes logs as comma-separated text.
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -7,13 +7,13 @@ use std::path::Path;
 use super::write_error::WriteError;
 use super::write_whole::write_whole;
 
-/// Numbers below this are written with an exponent: shorter than the zeros.
+/// Numbers below this are written with an exponent, which is shorter than zeros.
 const SMALL: f64 = 1e-4;
 /// Numbers from here on are written with an exponent.
 const LARGE: f64 = 1e15;
 
-/// Writes columns as comma separated text with a header, whole or not at all. Numbers have as
-/// many digits as it takes to read back the same number.
+/// Writes columns as comma-separated text with a header, completely or not at all. Numbers have as many digits as are needed
+/// to read the same number again.
 ///
 /// # Errors
 /// [`WriteError::Ragged`] for columns of different length, and as [`write_whole`].
@@ -29,7 +29,7 @@ pub fn write_csv(path: &Path, columns: &[(&str, &[f64])]) -> Result<(), WriteErr
 pub fn csv_text(columns: &[(&str, &[f64])]) -> Result<String, WriteError> {
     check(columns)?;
     let mut bytes = Vec::new();
-    // Writing to memory does not fail, and what is written is text.
+    // Writing to memory does not fail, and the bytes are text.
     let _ = put(&mut bytes, columns);
     Ok(String::from_utf8(bytes).unwrap_or_default())
 }

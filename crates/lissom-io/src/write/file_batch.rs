@@ -1,4 +1,4 @@
-//! Several files that appear together or not at all.
+//! Writes several files together or not at all.
 
 use std::fs::File;
 use std::io::Write;
@@ -9,16 +9,16 @@ use super::write_whole::{
     Destination, create_folder, destination, fill_and_sync, fill_stream, part_beside,
 };
 
-/// Files that are written beside their places and take their names when all of them are complete.
+/// Files that are written under temporary names and get their names when all of them are complete.
 ///
-/// A batch that is dropped leaves nothing behind, not even the folders it made.
+/// A batch that is dropped leaves nothing behind, not even the folders that it created.
 #[derive(Debug, Default)]
 pub struct Batch {
-    /// Complete files and the names they are to take.
+    /// Complete files, and the names that they will get.
     parts: Vec<(PathBuf, PathBuf)>,
-    /// What goes into devices and pipes.
+    /// Contents for devices and pipes.
     streams: Vec<(PathBuf, Vec<u8>)>,
-    /// Folders made, outer ones first.
+    /// Created folders, outer ones first.
     folders: Vec<PathBuf>,
 }
 
@@ -28,10 +28,10 @@ impl Batch {
         Self::default()
     }
 
-    /// Makes a folder, and those above it, where they do not exist.
+    /// Creates a folder, and the folders above it, if they do not exist.
     ///
     /// # Errors
-    /// [`WriteError::File`] where one cannot be made.
+    /// [`WriteError::File`] if one cannot be created.
     pub fn folder(&mut self, path: &Path) -> Result<(), WriteError> {
         let absent: Vec<PathBuf> = path
             .ancestors()
@@ -42,7 +42,7 @@ impl Batch {
         create_folder(path)
     }
 
-    /// Whether a file may be written at `path`: before work that would be lost otherwise. Leaves nothing.
+    /// Checks whether a file can be written at `path`, before work that would be lost otherwise. Leaves nothing behind.
     ///
     /// # Errors
     /// As [`Batch::file`].
@@ -50,11 +50,11 @@ impl Batch {
         Self::new().file(path, b"")
     }
 
-    /// Writes a file that has not its name yet.
+    /// Writes a file, which gets its name later.
     ///
     /// # Errors
-    /// [`WriteError::File`] where the folder does not exist, cannot be written or is full, and
-    /// where a folder has the file's name.
+    /// [`WriteError::File`] if the folder does not exist, cannot be written or is full, or if a folder has the name of the
+    /// file.
     pub fn file(&mut self, path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
         let failed = |source| WriteError::File { file: path.display().to_string(), source };
         let path = match destination(path).map_err(failed)? {
@@ -72,7 +72,7 @@ impl Batch {
     /// Gives every file its name.
     ///
     /// # Errors
-    /// [`WriteError::File`] where a name cannot be given; files that have theirs keep it.
+    /// [`WriteError::File`] if a name cannot be given; files that have their names keep them.
     pub fn commit(mut self) -> Result<(), WriteError> {
         while let Some((part, path)) = self.parts.first() {
             std::fs::rename(part, path)
@@ -90,7 +90,7 @@ impl Batch {
 
 impl Drop for Batch {
     fn drop(&mut self) {
-        // What cannot be removed stays: the reason to report is the one before.
+        // Files that cannot be removed stay: the earlier error is the one to report.
         for (part, _) in &self.parts {
             let _ = std::fs::remove_file(part);
         }

@@ -1,4 +1,4 @@
-//! Writing a `plan.toml`.
+//! Writes a `plan.toml`.
 
 use std::fmt::{self, Write as _};
 use std::path::Path;
@@ -8,10 +8,10 @@ use lissom_core::plan::{Plan, PlannedMotion, PlannedRun, percent};
 use super::write_error::WriteError;
 use super::write_whole::write_text;
 
-/// What a written plan begins with.
+/// First words of a written plan.
 pub const PLAN_HEAD: &str = "# Planned by `lissom plan`";
 
-/// Writes a `plan.toml`, whole or not at all.
+/// Writes a `plan.toml`, completely or not at all.
 ///
 /// # Errors
 /// As [`write_whole`](super::write_whole).
@@ -19,8 +19,8 @@ pub fn write_plan(path: &Path, plan: &Plan) -> Result<(), WriteError> {
     write_text(path, &plan_text(plan))
 }
 
-/// The text of a `plan.toml` that [`PlanFile`](crate::PlanFile) reads, with comments that say why each
-/// run is there and what the whole gives.
+/// The text of a `plan.toml` that [`PlanFile`](crate::PlanFile) reads. Its comments give the purpose of each run and the
+/// expected standard errors.
 pub fn plan_text(plan: &Plan) -> String {
     let mut text = String::new();
     // Writing to a string does not fail.
@@ -32,7 +32,7 @@ fn put(text: &mut String, plan: &Plan) -> fmt::Result {
     let waited: f64 = plan.runs.iter().map(|r| r.waited_s).sum();
     writeln!(
         text,
-        "{PLAN_HEAD}: runs: {}, {:.0} s in all, {waited:.0} s of them for transients to go.",
+        "{PLAN_HEAD}: runs: {}, {:.0} s in total, of which {waited:.0} s are waiting for transients to decay.",
         plan.runs.len(),
         plan.time_s
     )?;
@@ -42,7 +42,7 @@ fn put(text: &mut String, plan: &Plan) -> fmt::Result {
         why(text, run)?;
         entry(text, run)?;
     }
-    writeln!(text, "\n# Standard deviations expected:")?;
+    writeln!(text, "\n# Expected relative standard errors:")?;
     for e in &plan.expected {
         writeln!(
             text,
@@ -61,7 +61,7 @@ fn put(text: &mut String, plan: &Plan) -> fmt::Result {
 fn why(text: &mut String, run: &PlannedRun) -> fmt::Result {
     writeln!(
         text,
-        "# up to {:.2} A, the motor moves by ±{:.3} rad and sticks for {:.1} % of the time",
+        "# up to {:.2} A; the motor moves by ±{:.3} rad; the joint sticks for {:.1} % of the time",
         run.peak_current_a,
         run.moved_rad,
         100.0 * run.stuck_share

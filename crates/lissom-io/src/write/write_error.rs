@@ -1,10 +1,10 @@
-//! What can go wrong in writing.
+//! Errors in writing files.
 
 use std::io;
 
 use thiserror::Error;
 
-/// Why a file was not written. It then has its former content or does not exist.
+/// Why a file was not written. The file then has its former content or does not exist.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WriteError {
@@ -13,7 +13,7 @@ pub enum WriteError {
     File {
         /// The file.
         file: String,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
     /// A value that JSON cannot hold.
@@ -21,25 +21,25 @@ pub enum WriteError {
     Json {
         /// The file.
         file: String,
-        /// Why.
+        /// The cause.
         source: serde_json::Error,
     },
     /// Columns of different length.
-    #[error("column \"{column}\" has {found} rows where \"{first}\" has {expected}")]
+    #[error("column \"{column}\" has {found} rows, but \"{first}\" has {expected}")]
     Ragged {
         /// Name of the column.
         column: String,
-        /// Its rows.
+        /// Number of its rows.
         found: usize,
         /// Name of the first column.
         first: String,
-        /// Rows of the first column.
+        /// Number of rows of the first column.
         expected: usize,
     },
 }
 
 impl WriteError {
-    /// What to do about it.
+    /// What the user can do.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::File { source, .. } if source.kind() == io::ErrorKind::NotFound => {
@@ -48,13 +48,13 @@ impl WriteError {
             Self::File { source, .. } => Some(
                 match source.kind() {
                     io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
-                        "choose a folder that you may write to"
+                        "choose a folder to which you may write"
                     }
                     io::ErrorKind::IsADirectory => "give a file name, not a folder",
                     io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists => {
-                        "a file of that name stands where a folder is needed"
+                        "give another path: a file has the name of the folder"
                     }
-                    io::ErrorKind::StorageFull => "make room on the disk",
+                    io::ErrorKind::StorageFull => "free some space on the disk",
                     _ => "check the path",
                 }
                 .to_owned(),

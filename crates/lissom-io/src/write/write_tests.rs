@@ -103,7 +103,7 @@ fn numbers_are_short_and_exact() {
     let text = csv_text(&[("t, s", &[0.0, 0.1, 1e-9]), ("x", &[-1.5, 1e300, 0.25])]).unwrap();
     assert_eq!(text, "\"t, s\",x\n0,-1.5\n0.1,1e300\n1e-9,0.25\n");
     let error = csv_text(&[("t", &[0.0]), ("x", &[])]).unwrap_err();
-    assert_eq!(error.to_string(), "column \"x\" has 0 rows where \"t\" has 1");
+    assert_eq!(error.to_string(), "column \"x\" has 0 rows, but \"t\" has 1");
     assert_eq!(csv_text(&[]).unwrap(), "\n");
 }
 

@@ -1,4 +1,4 @@
-//! Writing one file whole or not at all.
+//! Writes one file completely or not at all.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Write};
@@ -7,12 +7,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::write_error::WriteError;
 
-/// Writes a file whole or not at all: into a new file beside it, which then takes its name. On an
-/// error the file keeps its former content, or stays absent.
+/// Writes a file completely or not at all: into a new file in the same folder, which then gets its name. On an error the file
+/// keeps its former content, or does not exist.
 ///
 /// # Errors
-/// [`WriteError::File`] where the folder does not exist, cannot be written or is full, and where
-/// `fill` fails.
+/// [`WriteError::File`] if the folder does not exist, cannot be written or is full, or if `fill` fails.
 pub fn write_whole(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -25,16 +24,16 @@ pub fn write_whole(
     let (part, file) = part_beside(&path).map_err(failed)?;
     let written = fill_and_sync(file, fill).and_then(|()| std::fs::rename(&part, &path));
     if written.is_err() {
-        // The first error is the one to report.
+        // Only the first error is reported.
         let _ = std::fs::remove_file(&part);
     }
     written.map_err(failed)
 }
 
-/// Makes a folder, and those above it, where they do not exist.
+/// Creates a folder, and the folders above it, if they do not exist.
 ///
 /// # Errors
-/// [`WriteError::File`] where one cannot be made.
+/// [`WriteError::File`] if one cannot be created.
 pub fn create_folder(path: &Path) -> Result<(), WriteError> {
     std::fs::create_dir_all(path)
         .map_err(|source| WriteError::File { file: path.display().to_string(), source })
@@ -43,7 +42,7 @@ pub fn create_folder(path: &Path) -> Result<(), WriteError> {
 /// Removes a file.
 ///
 /// # Errors
-/// [`WriteError::File`] where it cannot be removed.
+/// [`WriteError::File`] if it cannot be removed.
 pub fn remove(path: &Path) -> Result<(), WriteError> {
     std::fs::remove_file(path)
         .map_err(|source| WriteError::File { file: path.display().to_string(), source })
@@ -109,16 +108,16 @@ pub(super) fn fill_stream(
     out.flush()
 }
 
-/// Names of parts that are tried.
+/// Largest number of temporary names that are tried.
 const PARTS_MOST: usize = 10_000;
 
-/// A new file in the folder of `path`.
+/// Creates a new file in the folder of `path`.
 pub(super) fn part_beside(path: &Path) -> io::Result<(PathBuf, File)> {
     static COUNT: AtomicUsize = AtomicUsize::new(0);
     let Some(name) = path.file_name() else {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"));
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "the path has no file name"));
     };
-    // A process of this number that was killed may have left one of the name.
+    // A killed process with the same number may have left a file with this name.
     for _ in 0..PARTS_MOST {
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
         let mut part_name = std::ffi::OsString::from(".");

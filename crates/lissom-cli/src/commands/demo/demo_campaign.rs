@@ -1,4 +1,4 @@
-//! The demo's campaign: stepped sines at frequencies and their triples, two amplitudes.
+//! The campaign of the demo: sines at frequencies ω0 and 3·ω0, with two amplitudes.
 
 use std::path::Path;
 
@@ -9,18 +9,18 @@ use lissom_io::write::{self, CampaignPlan, PlannedCommand, PlannedRun};
 use crate::shared::failure::Failure;
 use crate::shared::progress_bar;
 
-/// Frequencies ω0 \[rad/s\]; each is also driven at 3ω0. They keep off the beam's resonance at
-/// 6.6 rad/s and off its third, where a mode with a decay of 33 s rings.
+/// Frequencies ω0 \[rad/s\]; each has another run at 3·ω0. None is close to the beam's resonance at 6.6 rad/s or to a third
+/// of it, where the mode rings for a long time (its decay time is 33 s).
 const OMEGA_RAD_S: [f64; 9] = [1.0, 1.3, 1.7, 3.1, 3.9, 5.1, 7.8, 9.3, 10.0];
 /// Amplitudes \[rad\].
 const AMPLITUDE_RAD: [f64; 2] = [0.5, 1.0];
-/// The loop runs this long before the log begins: nine decays of the beam \[s\].
+/// Time for which the loop runs before the log begins: nine decay times of the beam \[s\].
 const SETTLE_S: f64 = 300.0;
-/// Periods logged…
+/// Logged periods of a run.
 const PERIODS: f64 = 12.0;
-/// …and no less than this time \[s\].
+/// Shortest logged time of a run \[s\].
 const LEAST_S: f64 = 12.0;
-/// The demo's sensors have no noise: any number will do.
+/// Seed of the sensor noise. The sensors of the demo have no noise, so any number will do.
 const SEED: u64 = 0;
 
 /// Runs the campaign and writes its logs and `campaign.toml` into `out`.
@@ -44,7 +44,7 @@ pub(crate) fn write_logs(rig: &Rig, out: &Path) -> Result<(), Failure> {
     }
     bar.finish_and_clear();
     let plan = CampaignPlan {
-        title: "Stepped sines at frequencies and their triples, on a virtual rig.".to_owned(),
+        title: "Sines at frequencies w0 and 3*w0, simulated.".to_owned(),
         time_column: "t".to_owned(),
         command: PlannedCommand { column: "i".to_owned(), hold: Hold::Sampled },
         motor_column: "theta_m".to_owned(),

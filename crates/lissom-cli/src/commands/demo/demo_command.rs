@@ -1,4 +1,4 @@
-//! `lissom demo`: the report's experiment on a virtual rig, identified from its logs alone.
+//! `lissom demo`: the experiment of the 1989 report on a virtual rig, identified from its logs only.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -16,7 +16,7 @@ use crate::tasks::identification::{Asked, identified};
 use crate::tasks::known_arm::Reference;
 use crate::views::{demo_table, printer, report_page, result_plots};
 
-/// The arm, as a user would describe it.
+/// The arm.toml of the demo.
 const ARM: &str = include_str!("arm.toml");
 
 pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {

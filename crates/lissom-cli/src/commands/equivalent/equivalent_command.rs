@@ -1,4 +1,4 @@
-//! `lissom equivalent CAMPAIGN|FRF...`: Section 4 from measured responses.
+//! `lissom equivalent CAMPAIGN|FRF...`: the equivalent arm of Section 4 of the 1989 report, from measured responses.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -66,20 +66,20 @@ pub(crate) fn run(args: &EquivalentArgs) -> Result<ExitCode, Failure> {
 fn beam(path: &Path) -> Result<DistributedBeam, Failure> {
     let file = ArmFile::read(path)?;
     if file.beam_kind(path).map_err(lissom_io::Error::from)? == BeamKind::Lumped {
-        let reason =
-            "has point masses, and a place is looked for along a beam with mass".to_owned();
+        let reason = "has point masses, but a place can only be found on a beam with mass along it"
+            .to_owned();
         let hint = "give density or mass_per_length in [beam]";
         return Err(Failure::Model { arm: path.to_owned(), reason, hint });
     }
     Ok(file.distributed_beam(path).map_err(lissom_io::Error::from)?)
 }
 
-/// Refuses places of points that are none, or two of one.
+/// Refuses `--at` for unknown points, or twice for one point.
 fn known(args: &EquivalentArgs, names: &[String]) -> Result<(), Failure> {
     for (i, (name, _)) in args.at.iter().enumerate() {
         if !names.contains(name) {
             let words =
-                format!("--at {name}: there is no such point; there are {}", names.join(", "));
+                format!("--at {name}: there is no such point; the points are {}", names.join(", "));
             return Err(Failure::Asked(words, "give --at NAME=LENGTH once for each point"));
         }
         if args.at[..i].iter().any(|(other, _)| other == name) {
@@ -90,7 +90,7 @@ fn known(args: &EquivalentArgs, names: &[String]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Where one of two points that move alike should sit, on a beam of known dimensions.
+/// A better place for one of two points that move alike, on a beam of known dimensions.
 fn better_place(
     args: &EquivalentArgs,
     beam: Option<&DistributedBeam>,
@@ -105,7 +105,7 @@ fn better_place(
     let mut points_m = Vec::new();
     for name in names {
         let Some((_, place)) = args.at.iter().find(|(n, _)| n == name) else {
-            let words = format!("--at does not say where {name} sits");
+            let words = format!("--at does not give the place of {name}");
             return Err(Failure::Asked(words, "give --at NAME=LENGTH once for each point"));
         };
         points_m.push(*place);
@@ -123,7 +123,7 @@ fn better_place(
     }
     Ok(best.map(|(moved, found)| {
         format!(
-            "put {} at {:.4} m in place of {:.4} m: the gains' least singular value is then {:.3} in place of {:.1e}",
+            "put {} at {:.4} m instead of {:.4} m: the smallest singular value of the gains is then {:.3} instead of {:.1e}",
             names[moved], found.position_m, points_m[moved], found.least, found.least_now
         )
     }))

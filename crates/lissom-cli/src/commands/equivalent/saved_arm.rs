@@ -1,4 +1,4 @@
-//! The arm.toml of an equivalent arm.
+//! An equivalent arm as an arm.toml.
 
 use std::path::Path;
 
@@ -10,29 +10,29 @@ use lissom_io::write::{self, WrittenArm};
 use crate::shared::failure::Failure;
 use crate::tasks::equivalent_input::Input;
 
-/// The text, or why there is no arm to write.
+/// The text of the arm.toml, or why there is no arm to write.
 pub(crate) fn text(
     input_file: &Path,
     input: &Input,
     found: &Equivalent,
 ) -> Result<String, Failure> {
     let failed = |reason: String, hint| {
-        let reason = format!("no arm to save: {reason}");
+        let reason = format!("the arm cannot be saved: {reason}");
         Failure::Model { arm: input_file.to_owned(), reason, hint }
     };
     let Some(arm) = &found.arm else {
         let hint = "add the motor's response to the tables";
-        return Err(failed("the motor's response is not there, or does not hold it".into(), hint));
+        return Err(failed("it has no torque without a usable response of the motor".into(), hint));
     };
     if !input.names.torque_known || input.names.command != CommandQuantity::Current {
-        let hint = "the rig is driven by a current in A: give its --torque-constant \"... N*m/A\"";
-        return Err(failed("its torques are not known per current".into(), hint));
+        let hint = "give the torque per ampere, as in --torque-constant \"0.25 N*m/A\"";
+        return Err(failed("the torque per current is unknown".into(), hint));
     }
     if found.strainless.is_none() {
         let hint = "give each point's response as an angle";
-        return Err(failed("a point does not turn with the motor".into(), hint));
+        return Err(failed("a point does not follow the motor at low frequency".into(), hint));
     }
-    let hint = "keep fewer modes with --modes, or measure longer where this one resonates";
+    let hint = "keep fewer modes with --modes, or measure longer near the resonance of this mode";
     let beam = arm.modal_beam().map_err(|e| failed(e.to_string(), hint))?;
     let (inertia, viscous) = (arm.inertia.value, arm.viscous.value.max(0.0));
     let motor = Motor::new(inertia, viscous, arm.torque_per_command())

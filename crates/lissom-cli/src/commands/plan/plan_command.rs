@@ -1,4 +1,4 @@
-//! `lissom plan`: the runs worth making.
+//! `lissom plan`: the runs that give a wanted precision.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -15,7 +15,7 @@ use crate::shared::failure::Failure;
 use crate::shared::{output_guard, progress_bar};
 use crate::views::{plan_table, printer};
 
-/// Done, but a wish cannot be met.
+/// Done, but a wanted precision does not fit into the allowed time.
 const UNREACHED: u8 = 3;
 
 pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
@@ -44,7 +44,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     batch.commit()?;
     match (to_stdout, &args.out) {
         (true, _) => printer::json(&value)?,
-        // The plan itself, which says in comments what the table would.
+        // The plan.toml, whose comments have the contents of the table.
         (false, None) => printer::line(write::plan_text(&made).trim_end()),
         (false, Some(path)) => plan_table::report(&args.arm, &made, path),
     }
@@ -53,7 +53,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
 }
 
 fn planned(arm: &Path, rig: &Rig, wishes: &Wishes) -> Result<Plan, Failure> {
-    let bar = progress_bar::bar(0, "motions tried");
+    let bar = progress_bar::bar(0, "simulating motions");
     bar.enable_steady_tick(std::time::Duration::from_millis(250));
     let made = plan(rig, wishes, |done, all| {
         bar.set_length(all as u64);
@@ -63,7 +63,7 @@ fn planned(arm: &Path, rig: &Rig, wishes: &Wishes) -> Result<Plan, Failure> {
     made.map_err(|source| Failure::Plan { arm: arm.to_owned(), source })
 }
 
-/// Refuses to write over what is no earlier plan.
+/// Refuses to overwrite a file that is not an earlier plan.
 fn guard(out: Option<&Path>, json: Option<&Path>) -> Result<(), Failure> {
     let Some(out) = out else { return Ok(()) };
     if json == Some(out) {

@@ -1,4 +1,4 @@
-//! A plan for a drive of one's own: reference angles of each run, and the campaign.toml that its logs want.
+//! A plan for real hardware: a table of reference angles for each run, and a campaign.toml for the logs.
 
 use std::path::Path;
 
@@ -11,13 +11,13 @@ use crate::shared::output_guard;
 use crate::tasks::rig_campaign::described;
 use crate::views::printer;
 
-/// What a table of references begins with.
+/// First line of a table of reference angles.
 const TABLE_HEAD: &str = "t,theta_ref,log";
 
-/// A table of reference angles for each run, and a campaign.toml for the logs that come of them where there is none.
+/// Writes a table of reference angles for each run, and a campaign.toml for the logs unless there is one.
 pub(crate) fn write(folder: &Path, rig: &Rig, made: &Plan) -> Result<(), Failure> {
     write::create_folder(folder)?;
-    // Those of an earlier plan with more runs would be taken for this one's.
+    // Tables of an earlier plan with more runs could be mistaken for tables of this plan.
     for left in (made.runs.len()..).map(|index| folder.join(table_name(index))) {
         if !left.is_file() || output_guard::guard_headed(&left, TABLE_HEAD).is_err() {
             break;
@@ -32,9 +32,9 @@ pub(crate) fn write(folder: &Path, rig: &Rig, made: &Plan) -> Result<(), Failure
     }
     let place = folder.join("campaign.toml");
     if place.exists() {
-        // Columns and units may be those of the drive by now.
+        // The user may have changed its columns and units.
         printer::note(&format!(
-            "{} is left as it is; runs planned: {}",
+            "{} exists and is left as it is; planned runs: {}",
             place.display(),
             made.runs.len()
         ));
@@ -46,8 +46,8 @@ pub(crate) fn write(folder: &Path, rig: &Rig, made: &Plan) -> Result<(), Failure
 
 fn campaign(rig: &Rig, made: &Plan) -> CampaignPlan {
     let title = format!(
-        "For the logs of a plan: log-01.csv is what the drive logs while the column `log` of {} is 1, and so on.\n\
-         Columns, units and hold are a virtual drive's: write those of yours (docs/src/reference/campaign.md).",
+        "For the logs of a plan. log-01.csv is the log of the drive while the column `log` of {} is 1, and so on.\n\
+         Replace columns, units and hold by those of your drive (see the page campaign.toml in the book).",
         table_name(0)
     );
     let run = |(index, run): (usize, &lissom::plan::PlannedRun)| PlannedRun {

@@ -1,4 +1,4 @@
-//! `lissom figures`: Figures 6, 7 and 8 of the report on a virtual rig.
+//! `lissom figures`: Figures 6, 7 and 8 of the 1989 report, from simulated logs.
 
 use std::path::Path;
 use std::process::ExitCode;

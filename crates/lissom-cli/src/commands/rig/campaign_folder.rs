@@ -1,8 +1,7 @@
-//! The folder of a virtual campaign: what is done stays done.
+//! The folder of a virtual campaign, so that an interrupted campaign can continue.
 //!
-//! A run's facts are written before its log, the log takes its name when it is whole, and
-//! `campaign.toml` and `rig.json` come last. So whatever is there is whole, and an interrupted
-//! campaign goes on with the logs that are missing.
+//! The entry of a run is written before its log. A log gets its name when it is complete. `campaign.toml` and `rig.json` are
+//! written last. So every file in the folder is complete, and an interrupted campaign continues with the missing logs.
 
 use std::fmt::{self, Write as _};
 use std::path::{Path, PathBuf};
@@ -16,29 +15,30 @@ use serde::{Deserialize, Serialize};
 
 use crate::shared::failure::Failure;
 
-/// Where a campaign under way keeps its facts.
+/// Folder for the entries of runs of an unfinished campaign.
 const PARTS: &str = "rig-parts";
-/// What says whose campaign it is.
+/// File that identifies the campaign of a folder.
 const INPUT: &str = "input.json";
+/// File of a finished campaign.
 pub(crate) const DONE: &str = "rig.json";
-/// Age from which a part of a file is nobody's any more.
+/// Age above which a partly written file belongs to no running process.
 const LEFT_OVER: Duration = Duration::from_secs(30);
 
 pub(crate) struct Folder {
     path: PathBuf,
     fingerprint: String,
-    /// What a campaign that was finished left in `rig.json`.
+    /// `rig.json` of a finished campaign.
     finished: Option<RigFile>,
 }
 
-/// Which campaign a folder belongs to: what `input.json` holds, and a key of `rig.json`.
+/// Which campaign a folder belongs to: the content of `input.json`, and a key of `rig.json`.
 #[derive(Debug, Serialize, Deserialize)]
 struct CampaignInput {
     fingerprint: Option<String>,
 }
 
 impl Folder {
-    /// Makes the folder, or takes up the campaign in it where that is the same.
+    /// Creates the folder, or continues the campaign in it if it is the same one.
     pub(crate) fn open(path: &Path, rig: &Rig, plan: &PlanFile) -> Result<Self, Failure> {
         let folder = Self {
             path: path.to_owned(),
@@ -52,7 +52,7 @@ impl Folder {
             |found: &CampaignInput| found.fingerprint.as_deref() == Some(&folder.fingerprint);
         match read_json(&folder.path(DONE)).or_else(|| read_json(&parts)) {
             Some(found) if same(&found) => {}
-            // One that failed before its first log.
+            // A campaign that failed before its first log.
             Some(_) if !folder.path(DONE).exists() && !folder.has_logs() => {
                 let _ = std::fs::remove_dir_all(folder.path(PARTS));
             }
@@ -61,7 +61,7 @@ impl Folder {
                 let own = plan.runs.iter().map(|run| format!("{}.csv", run.name));
                 let fixed = ["campaign.toml", "arm.toml", "plan.toml", DONE].map(str::to_owned);
                 if let Some(file) = own.chain(fixed).find(|file| folder.path(file).exists()) {
-                    return Err(other(&format!("{file}, which is of no virtual campaign")));
+                    return Err(other(&format!("{file}, which is not from a virtual campaign")));
                 }
             }
         }
@@ -82,22 +82,22 @@ impl Folder {
         entries.flatten().any(|entry| csv(entry.file_name()))
     }
 
-    /// The entry of a run whose log is there and whole.
+    /// The entry of a run whose log exists and is complete.
     pub(crate) fn done(&self, name: &str) -> Option<RigRunEntry> {
         let log = format!("{name}.csv");
         let own = |entry: &RigRunEntry| entry.file == log;
         let entry = read_json(&self.part(name)).filter(own).or_else(|| {
-            // A campaign that was finished has them together.
+            // A finished campaign has all entries in one file.
             self.finished.as_ref()?.runs.iter().find(|run| own(run)).cloned()
         })?;
-        // A header, and a row for each sample, all of them ended.
+        // A header and a row for each sample, each with its line end.
         let text = std::fs::read_to_string(self.path(&log)).ok()?;
         let rows = text.lines().count();
         let whole = entry.samples.checked_add(1)? == rows && text.ends_with('\n');
         whole.then_some(entry)
     }
 
-    /// Keeps a run.
+    /// Writes the entry and the log of a run.
     pub(crate) fn store(
         &self,
         name: &str,
@@ -109,17 +109,17 @@ impl Folder {
         Ok(())
     }
 
-    /// Writes what is known of the whole and clears up.
+    /// Writes `rig.json` and removes temporary files.
     pub(crate) fn finish(&self, whole: &RigFile) -> Result<(), Failure> {
         let whole = RigFile { fingerprint: Some(self.fingerprint.clone()), ..whole.clone() };
         write::write_json(&self.path(DONE), &whole)?;
-        // What is left there does no harm.
+        // Files that remain there do no harm.
         let _ = std::fs::remove_dir_all(self.path(PARTS));
         self.clear_up();
         Ok(())
     }
 
-    /// Removes what processes that were killed left of logs; younger ones may be another's at work.
+    /// Removes partly written logs of killed processes. Recent ones may belong to a running process.
     fn clear_up(&self) {
         let Ok(entries) = std::fs::read_dir(&self.path) else { return };
         for entry in entries.flatten() {
@@ -143,10 +143,10 @@ fn read_json<File: DeserializeOwned>(path: &Path) -> Option<File> {
     serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()
 }
 
-/// A number for all that the logs depend on.
+/// A hash of everything that the logs depend on.
 fn fingerprint(rig: &Rig, plan: &PlanFile) -> String {
     let mut hash = Fnv(0xcbf2_9ce4_8422_2325);
-    // Writing to a number does not fail. Every figure shows in the debug form to the last bit.
+    // Writing to a hash does not fail. The debug form has every number to the last bit.
     let _ = write!(hash, "{} {rig:?} {plan:?}", env!("CARGO_PKG_VERSION"));
     format!("{:016x}", hash.0)
 }

@@ -1,4 +1,4 @@
-//! A campaign of experiments on a virtual arm, or the rest of one.
+//! Simulation of a campaign, or of the rest of an interrupted one.
 
 use std::path::Path;
 
@@ -15,11 +15,11 @@ use crate::views::printer;
 
 pub(crate) const CAMPAIGN: &str = "campaign.toml";
 
-/// The texts that a campaign is made from, as they were when it began.
+/// The texts of the input files, as they were when the campaign began.
 pub(crate) struct Inputs {
-    /// Of the arm.toml.
+    /// Text of the arm.toml.
     pub(crate) arm: String,
-    /// Of the plan.toml.
+    /// Text of the plan.toml.
     pub(crate) plan: String,
 }
 
@@ -35,7 +35,7 @@ impl Inputs {
     }
 }
 
-/// Carries out a campaign, or the rest of it; gives what `rig.json` holds.
+/// Simulates a campaign, or the rest of an interrupted one; gives the content of `rig.json`.
 pub(crate) fn campaign(
     rig: &Rig,
     plan: &PlanFile,
@@ -52,7 +52,7 @@ pub(crate) fn campaign(
     Ok(whole)
 }
 
-/// Makes every log that is not there yet; gives the entries of all runs, in order.
+/// Simulates every missing log; gives the entries of all runs, in order.
 fn carry_out(
     rig: &Rig,
     plan: &PlanFile,
@@ -63,7 +63,7 @@ fn carry_out(
         plan.runs.iter().map(|run| folder.done(&run.name)).collect();
     let there = done.iter().flatten().count();
     if there > 0 {
-        printer::note(&format!("{there} of {} logs are there already", plan.runs.len()));
+        printer::note(&format!("{there} of {} logs exist already", plan.runs.len()));
     }
     let bar = progress_bar::bar(plan.runs.len(), "virtual campaign");
     bar.enable_steady_tick(std::time::Duration::from_millis(250));
@@ -77,13 +77,13 @@ fn carry_out(
     };
     let all = || plan.runs.par_iter().zip(done.clone()).map(one).collect::<Vec<_>>();
     let threads = jobs.map_or(0, usize::from);
-    // Where no threads can be had, this one does it alone.
+    // If no thread pool can be built, this thread does the work alone.
     let made = match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
         Ok(pool) => pool.install(all),
         Err(_) => plan.runs.iter().zip(done.clone()).map(one).collect(),
     };
     bar.finish_and_clear();
-    // The first failure in the order of the plan, whichever came first in time.
+    // The first failure in the order of the plan, not in time.
     made.into_iter().collect()
 }
 
@@ -99,7 +99,7 @@ fn simulate(rig: &Rig, run: &PlanRun, folder: &Folder) -> Result<RigRunEntry, Fa
     Ok(entry)
 }
 
-/// Time, current, motor and every mass.
+/// The columns of a log: time, current, motor and every mass.
 fn columns(logged: &Logged) -> Vec<(String, Vec<f64>)> {
     let run = &logged.run;
     let time = (0..run.len()).map(|k| k as f64 * run.sample_time_s()).collect();

@@ -185,13 +185,13 @@ fn wrong_values_are_named_with_line_and_key() {
 fn wrong_keys_are_named_with_the_nearest() {
     fails(
         &ARM.replace("viscous", "viscos"),
-        "arm.toml, line 8: `drive.viscos` is not a key that is known here",
+        "arm.toml, line 8: `drive.viscos` is not a known key",
         Some("did you mean `viscous`?"),
     );
     fails(
         &ARM.replace("[rig]", "[camera]"),
-        "arm.toml, line 11: `camera` is not a key that is known here",
-        Some("the keys here are `beam`, `drive`, `load`, `tip`, `rig`"),
+        "arm.toml, line 11: `camera` is not a known key",
+        Some("the known keys are `beam`, `drive`, `load`, `tip`, `rig`"),
     );
     fails(
         &ARM.replace("sample_time", "current_limit").replacen(
@@ -219,8 +219,8 @@ fn wrong_keys_are_named_with_the_nearest() {
     );
     fails(
         "[beam]\nflexural_rigidity = 1\nspans = [{ length = 1, mass = 1, inertia = 1 }, { length = 1, mass = 1 }]\n",
-        "arm.toml, line 3: `beam.spans[1].inertia` may stand in the last entry alone",
-        Some("move it there, or leave it out"),
+        "arm.toml, line 3: `beam.spans[1].inertia` is allowed only in the last entry",
+        Some("move it to the last entry, or remove it"),
     );
     fails(
         "[beam]\nflexural_rigidity = 1\nspans = []\n",

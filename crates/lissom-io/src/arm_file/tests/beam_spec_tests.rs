@@ -127,8 +127,8 @@ fn a_rig_needs_point_masses() {
     );
     assert_eq!(
         error.hint().unwrap(),
-        "give each span a `mass` in place of `density` or `mass_per_length`; more spans come \
-         closer to the heavy beam"
+        "give each span a `mass` instead of `density` or `mass_per_length`; with more spans \
+         the point masses come closer to a beam with mass along it"
     );
 }
 
@@ -179,7 +179,7 @@ fn wrong_hubs_and_payloads_are_named() {
         ),
         (
             "payload = { mass = 1, ofset = 2 }",
-            "arm.toml, line 4: `beam.payload.ofset` is not a key that is known here",
+            "arm.toml, line 4: `beam.payload.ofset` is not a known key",
             Some("did you mean `offset`?"),
         ),
         (
@@ -252,8 +252,8 @@ fn wrong_counts_are_named() {
     let million = "{ length = 1, mass = 1, count = 1_000_000 }";
     fails(
         &spans(&[million; 3].join(", ")),
-        "arm.toml, line 3: `beam.spans` stands for 3000000 entries, but 2000000 is the most",
-        Some("lower a `count`"),
+        "arm.toml, line 3: `beam.spans` has 3000000 entries with repetitions, but at most 2000000 are allowed",
+        Some("use a smaller `count`"),
     );
 }
 
@@ -271,7 +271,7 @@ fn mass_is_either_at_points_or_along_the_beam() {
         "[beam]\nflexural_rigidity = 2\nspans = [{ length = 1, mass_per_length = 1 },\n{ length = 1, mass = 1 }]\n",
         "arm.toml, line 4: `beam.spans[2]` has no mass along its length, but `beam.spans[1]` has",
         Some(
-            "give every span a mass along its length (`mass_per_length`, or `density` with \
+            "give all spans a mass along their length (`mass_per_length`, or `density` with \
              `section`), or none of them",
         ),
     );
@@ -279,8 +279,8 @@ fn mass_is_either_at_points_or_along_the_beam() {
         "[beam]\nflexural_rigidity = 2\ndensity = 7850\nspans = [{ length = 1 }]\n",
         "arm.toml, line 3: `beam.density` needs `section`",
         Some(
-            "the area comes from `section`, beside `young_modulus`; or write `mass_per_length` \
-             in place of `density`",
+            "give `section` and `young_modulus`, from which the area follows, or write \
+             `mass_per_length` instead of `density`",
         ),
     );
     fails(
@@ -298,14 +298,14 @@ fn mass_is_either_at_points_or_along_the_beam() {
         "arm.toml, line 3: `beam.spans[1].mass_per_length`: \"7850 kg/m^3\" is a density [kg*m^-3], where a mass per length [kg*m^-1] is expected",
         Some("write it as in \"0.03 kg/m\""),
     );
-    // A span of another stiffness has another section, which nothing tells.
+    // A span of another stiffness has another section, which is unknown.
     fails(
         "[beam]\nyoung_modulus = 2\nsection = { round = 1 }\ndensity = 7850\n\
          spans = [{ length = 1 }, { length = 1, flexural_rigidity = 3 }]\n",
         "arm.toml, line 4: `beam.density` needs `section`",
         Some(
-            "the area comes from `section`, beside `young_modulus`; or write `mass_per_length` \
-             in place of `density`",
+            "give `section` and `young_modulus`, from which the area follows, or write \
+             `mass_per_length` instead of `density`",
         ),
     );
 }

@@ -43,7 +43,7 @@ fn a_rigid_joint_is_no_beam() {
         assert!(matches!(error, ArmError::Rigid { .. }), "{error}");
         assert_eq!(
             error.hint().as_deref(),
-            Some("give `spans` or `modes` in place of `rigid` in [beam]")
+            Some("give `spans` or `modes` instead of `rigid` in [beam]")
         );
     }
     let tip = read(&with("[tip]\nviscous = 0.003")).unwrap().rig(path).unwrap_err();
@@ -101,10 +101,10 @@ fn gravity_on_a_beam_is_refused() {
     let error = read(&text).unwrap().rig(Path::new("arm.toml")).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "arm.toml: [load] gives gravity to an arm with a beam; it is simulated for a rigid joint"
+        "arm.toml: [load] gives gravity to an arm with a beam, but gravity is simulated only for a rigid joint"
     );
     assert_eq!(
         error.hint().as_deref(),
-        Some("remove [load], or write `rigid = true` in place of the keys of [beam]")
+        Some("remove [load], or write `rigid = true` instead of the other keys of [beam]")
     );
 }

@@ -59,8 +59,8 @@ fn wrong_modes_are_named() {
     );
     fails(
         "[beam]\nmodes = [{ frequency = 1, coupling = 1, gains = [1] }]\nhub_radius = 1\n",
-        "arm.toml, line 3: `beam.hub_radius` is not a key that is known here",
-        Some("the keys here are `modes`"),
+        "arm.toml, line 3: `beam.hub_radius` is not a known key",
+        Some("the known keys are `modes`"),
     );
     let strained = read(&beam("{ frequency = 1, coupling = 1, gains = [0.9] }")).unwrap();
     let error = strained.arm(Path::new("arm.toml")).unwrap_err();
