@@ -21,7 +21,10 @@ pub(crate) fn build(root: &Path) -> Result<(), Failure> {
     for page in ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "docs/README.md"] {
         broken.extend(broken_in_markdown(root, page)?);
     }
-    println!("\n--- links: {}", if broken.is_empty() { "all are valid" } else { "some are broken" });
+    println!(
+        "\n--- links: {}",
+        if broken.is_empty() { "all are valid" } else { "some are broken" }
+    );
     if broken.is_empty() { Ok(()) } else { Err(Failure::Links { broken }) }
 }
 

@@ -84,8 +84,9 @@ pub(crate) fn compare(root: &Path) -> Result<(), Failure> {
     run("MuJoCo's own identification compared with lissom", &mut identify)
 }
 
-/// Measures how near the comparisons come to their thresholds: a copy of the sources records it for 30 simulated campaigns of
-/// a seed, for the campaigns of the given files, and for the tests. Writes the table `target/margins/table.md`.
+/// Measures how near the comparisons come to their thresholds: a copy of the sources records it for 30 simulated
+/// campaigns of a seed, for the campaigns of the given files, and for the tests. Writes the table
+/// `target/margins/table.md`.
 pub(crate) fn margins(root: &Path, seed: &str, campaigns: &[String]) -> Result<(), Failure> {
     let python = Python::new(root)?;
     let folder = folder(root, "margins")?;
@@ -99,7 +100,10 @@ pub(crate) fn margins(root: &Path, seed: &str, campaigns: &[String]) -> Result<(
     let mut programs =
         cargo(&copy, &["build", "--release", "-p", "lissom-cli", "-p", "lissom-study"]);
     run("build of the copy", programs.arg("--target-dir").arg(&build))?;
-    run("identification of campaigns", script("run").arg(&copy).arg(&build).arg(seed).args(campaigns))?;
+    run(
+        "identification of campaigns",
+        script("run").arg(&copy).arg(&build).arg(seed).args(campaigns),
+    )?;
     let mut tests =
         cargo(&copy, &["test", "--no-fail-fast", "-p", "lissom-core", "-p", "lissom-cli"]);
     tests.arg("--target-dir").arg(&build).env("LISSOM_MARGINS", copy.join("tests"));

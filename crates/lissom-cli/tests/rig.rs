@@ -319,7 +319,10 @@ fn the_description_beside_the_logs_is_judged() {
     let (low, high) = (ends[0].as_f64().unwrap(), ends[1].as_f64().unwrap());
     assert!(low < 1.0 / 1.05 && 1.0 / 1.05 < high && high < 0.97, "{length}");
     let page = fs::read_to_string(out.join("report.html")).unwrap();
-    assert!(page.contains("Comparison with arm.toml") && page.contains("Best explanation"), "{check}");
+    assert!(
+        page.contains("Comparison with arm.toml") && page.contains("Best explanation"),
+        "{check}"
+    );
 }
 
 /// A rigid joint whose load hangs at −30°.

@@ -17,18 +17,12 @@ pub fn schema_files() -> Vec<(&'static str, String)> {
     vec![
         ("result.schema.json", text::<ResultFile>("result.json of lissom identify")),
         ("model.schema.json", text::<ModelFile>("model.json of lissom model")),
-        (
-            "equivalent.schema.json",
-            text::<EquivalentFile>("Output of lissom equivalent --json"),
-        ),
+        ("equivalent.schema.json", text::<EquivalentFile>("Output of lissom equivalent --json")),
         ("compare.schema.json", text::<ComparedFile>("Output of lissom compare --json")),
         ("payload.schema.json", text::<PayloadFile>("Output of lissom payload --json")),
         ("planned.schema.json", text::<PlannedFile>("Output of lissom plan --json")),
         ("rig.schema.json", text::<RigFile>("rig.json of lissom rig")),
-        (
-            "thresholds.schema.json",
-            text::<ThresholdsFile>("Output of lissom thresholds --json"),
-        ),
+        ("thresholds.schema.json", text::<ThresholdsFile>("Output of lissom thresholds --json")),
         ("validate.schema.json", text::<ValidationFile>("Output of lissom validate --json")),
     ]
 }

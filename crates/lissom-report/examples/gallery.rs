@@ -124,8 +124,12 @@ fn key_figures() -> Vec<KeyFigure> {
 fn findings() -> Vec<Finding> {
     let one_amplitude = "One amplitude cannot separate viscous and Coulomb friction.";
     vec![
-        Finding::new(Severity::Warning, "saturated", "The current of run 4 is at its limit for 12 percent of the cycle.")
-            .hint("Repeat it with half the amplitude."),
+        Finding::new(
+            Severity::Warning,
+            "saturated",
+            "The current of run 4 is at its limit for 12 percent of the cycle.",
+        )
+        .hint("Repeat it with half the amplitude."),
         Finding::new(Severity::Refusal, "viscous_unresolved", one_amplitude)
             .hint("Add a run at 5 rad/s."),
         Finding::new(

@@ -32,7 +32,9 @@ struct Fact {
 pub fn export(campaign: &Campaign, seed: u64, folder: &Path) -> Result<(), ExternalError> {
     let rig = &campaign.definition.rig;
     let (arm, instruments) = (&rig.arm, &rig.instruments);
-    let ControlLaw::Pd(pd) = &rig.controller else { return Err("only PD loops can be exported".into()) };
+    let ControlLaw::Pd(pd) = &rig.controller else {
+        return Err("only PD loops can be exported".into());
+    };
     let spans = arm.beam().spans().iter().map(|s| {
         json!({
             "length_m": s.length_m,

@@ -90,9 +90,12 @@ fn run(args: &Args) -> Result<(), Failure> {
     if let Some(index) = args.only {
         let law = match args.law {
             Laws::One(law) => law,
-            Laws::Wrong => return Err("--only needs one law: give --law a name other than wrong".into()),
+            Laws::Wrong => {
+                return Err("--only needs one law: give --law a name other than wrong".into());
+            }
         };
-        let drawn = draw_campaign(args.seed, index, law).ok_or("every draw of this campaign was rejected")?;
+        let drawn = draw_campaign(args.seed, index, law)
+            .ok_or("every draw of this campaign was rejected")?;
         let campaign = match &args.external {
             Some(folder) => simulated(drawn, folder)?,
             None => drawn,

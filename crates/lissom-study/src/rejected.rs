@@ -66,7 +66,9 @@ pub enum Rejected {
 impl fmt::Display for Rejected {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::FastMode => f.write_str("the highest mode has fewer than six samples in a period"),
+            Self::FastMode => {
+                f.write_str("the highest mode has fewer than six samples in a period")
+            }
             Self::NoLoop => f.write_str(
                 "no loop is stable with a margin and insensitive enough to the encoder's steps",
             ),

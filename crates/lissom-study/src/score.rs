@@ -394,7 +394,10 @@ mod tests {
         assert!(coulomb(1.06, 0.01, false).silently_wrong());
         assert!(!coulomb(1.04, 0.01, false).silently_wrong());
         assert!(!coulomb(1.06, 0.01, true).silently_wrong());
-        assert!(coulomb(1.0001, 0.0, false).silently_wrong(), "a standard error of zero counts as given");
+        assert!(
+            coulomb(1.0001, 0.0, false).silently_wrong(),
+            "a standard error of zero counts as given"
+        );
         assert!(coulomb(1.0, f64::NAN, false).silently_wrong());
         let refused = FigureScore { estimate: None, ..coulomb(0.0, 0.0, false) };
         assert!(!refused.silently_wrong() && refused.covers().is_none());

@@ -26,9 +26,15 @@ pub fn describe(campaign: &Campaign, seed: u64, quick: bool) -> String {
             lines.push(String::new());
             lines.push(figures(&scored));
             if let Some(bound) = bound {
-                lines.push(format!("residual of the true arm, in standard deviations of the sensors: {:.4?}", bound.left));
+                lines.push(format!(
+                    "residual of the true arm, in standard deviations of the sensors: {:.4?}",
+                    bound.left
+                ));
             }
-            lines.push(format!("modes found that the arm does not have: {}\n", scored.surplus_modes));
+            lines.push(format!(
+                "modes found that the arm does not have: {}\n",
+                scored.surplus_modes
+            ));
             lines.push(points(&scored));
             if let Some(replayed) = &id.output_error {
                 lines.push(stages(replayed, campaign));

@@ -97,8 +97,8 @@ fn circles_of_vouched_responses_hold() {
     assert!(!points.iter().any(|p| p.silently_wrong()));
 }
 
-/// Another law of friction is reported, and inertia, coupling and frequencies stay correct. An encoder of ten bits almost
-/// hides the ripple of campaign 16, and this ripple drives motions apart as that of campaign 19 does.
+/// Another law of friction is reported, and inertia, coupling and frequencies stay correct. An encoder of ten bits
+/// almost hides the ripple of campaign 16, and this ripple drives motions apart as that of campaign 19 does.
 #[test]
 fn wrong_laws_are_reported_and_spare_the_linear_part() {
     let stribeck = [(Law::Stribeck, 7)];

@@ -62,9 +62,9 @@ fn mantissa(value: f64, e: i32) -> f64 {
 
 /// A value with its standard error: the error with two significant digits, the value rounded to the same place.
 ///
-/// If both need more than four digits behind the point, the error is written in parentheses and counts units of the last
-/// digit: `0.13201(12)` is 0.13201 ± 0.00012. A value that is not finite becomes a dash. A standard error that is not finite
-/// and positive is not written.
+/// If both need more than four digits behind the point, the error is written in parentheses and counts units of the
+/// last digit: `0.13201(12)` is 0.13201 ± 0.00012. A value that is not finite becomes a dash. A standard error that is
+/// not finite and positive is not written.
 ///
 /// ```
 /// use lissom_text::with_uncertainty;

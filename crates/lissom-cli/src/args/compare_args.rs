@@ -6,7 +6,8 @@ use clap::Args;
 
 use super::stdout_name::STDOUT;
 
-/// Compares two or more results with the first of them, for example before and after maintenance or with another payload.
+/// Compares two or more results with the first of them, for example before and after maintenance or with another
+/// payload.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct CompareArgs {

@@ -6,8 +6,8 @@ use clap::Args;
 
 use super::stdout_name::STDOUT;
 
-/// Simulates the arm with one mass of the 1989 report: PD loop with a sample time of 3 ms, sensors of 12 bits, a current
-/// limit of 4.12 A, sines at frequencies ω0 and 3·ω0 with two amplitudes.
+/// Simulates the arm with one mass of the 1989 report: PD loop with a sample time of 3 ms, sensors of 12 bits, a
+/// current limit of 4.12 A, sines at frequencies ω0 and 3·ω0 with two amplitudes.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct DemoArgs {

@@ -43,7 +43,8 @@ pub(crate) struct EquivalentArgs {
 /// Parses a name and a length \[m\].
 fn place(text: &str) -> Result<(String, f64), String> {
     let hint = "hint: write a point's name and its distance from the axis, such as tip=\"0.45 m\"";
-    let (name, length) = text.split_once('=').ok_or_else(|| format!("\"{text}\" has no =\n{hint}"))?;
+    let (name, length) =
+        text.split_once('=').ok_or_else(|| format!("\"{text}\" has no =\n{hint}"))?;
     match parse_quantity(length, Dimension::LENGTH) {
         Ok(length_m) if length_m > 0.0 => Ok((name.trim().to_owned(), length_m)),
         Ok(_) => Err(format!("it must be greater than zero\n{hint}")),

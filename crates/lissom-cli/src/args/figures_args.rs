@@ -6,9 +6,9 @@ use clap::Args;
 
 use super::stdout_name::STDOUT;
 
-/// Figures 6 and 7 are the responses of motor and beam (theory, as measured, corrected, fitted). Figure 8 compares friction
-/// from constant velocities with friction from sines. Friction of the simulated joint grows less than in proportion to
-/// speed, so its value extrapolated from high speed to rest is too high.
+/// Figures 6 and 7 are the responses of motor and beam (theory, as measured, corrected, fitted). Figure 8 compares
+/// friction from constant velocities with friction from sines. Friction of the simulated joint grows less than in
+/// proportion to speed, so its value extrapolated from high speed to rest is too high.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct FiguresArgs {

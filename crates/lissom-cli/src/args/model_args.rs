@@ -7,8 +7,8 @@ use lissom_io::units::{Dimension, parse_quantity};
 
 use super::stdout_name::STDOUT;
 
-/// Computes natural frequencies, zeros, the matrices of the 1989 report, transfer functions and frequency responses from a
-/// beam's dimensions. With a `[drive]` also those of the whole arm, without Coulomb friction.
+/// Computes natural frequencies, zeros, the matrices of the 1989 report, transfer functions and frequency responses
+/// from a beam's dimensions. With a `[drive]` also those of the whole arm, without Coulomb friction.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct ModelArgs {

@@ -9,9 +9,9 @@ use lissom_io::units::{Dimension, parse_quantity};
 use super::positive_time::positive_time;
 use super::stdout_name::STDOUT;
 
-/// Simulates the arm in its position loop, makes each motion as large as current, travel, bending and sensors allow, and
-/// chooses the motions that reach the wanted standard errors in the least time. Without `--out` the plan goes to standard
-/// output.
+/// Simulates the arm in its position loop, makes each motion as large as current, travel, bending and sensors allow,
+/// and chooses the motions that reach the wanted standard errors in the least time. Without `--out` the plan goes to
+/// standard output.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct PlanArgs {

@@ -6,8 +6,8 @@ use clap::Args;
 
 use super::stdout_name::STDOUT;
 
-/// Lists each threshold with its unit, its reason and its origin: derived from theory or from another number, measured on
-/// logs or simulated campaigns, or a convention.
+/// Lists each threshold with its unit, its reason and its origin: derived from theory or from another number, measured
+/// on logs or simulated campaigns, or a convention.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct ThresholdsArgs {

@@ -103,8 +103,7 @@ fn predicted(
     let refused = |words: String, hint| Failure::Asked(words, hint);
     let stands = |oe: &&OutputError| oe.stands() && channels.tips[place.tip].calibrated;
     let Some(oe) = id.output_error.as_ref().filter(stands) else {
-        let words =
-            format!("{}: no identified arm describes the runs", args.campaign.display());
+        let words = format!("{}: no identified arm describes the runs", args.campaign.display());
         return Err(refused(words, "run `lissom identify` on this campaign and read its findings"));
     };
     let load = |to_kg: f64| -> Result<LoadedArm, Failure> {

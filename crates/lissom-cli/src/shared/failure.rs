@@ -164,7 +164,9 @@ fn rig_hint(error: &RigError) -> &'static str {
             "use a smaller motion, give motor_sensor a larger range, or use { counts_per_turn = 4096 }, \
              which has no limits"
         }
-        RigError::TooLong { .. } => "record a shorter time, or log only every n-th sample with log_every",
+        RigError::TooLong { .. } => {
+            "record a shorter time, or log only every n-th sample with log_every"
+        }
         RigError::AboveNyquist { .. } => {
             "use lower frequencies, or a shorter sample time of the controller"
         }

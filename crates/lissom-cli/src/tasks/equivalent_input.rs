@@ -15,8 +15,8 @@ use crate::shared::failure::Failure;
 
 /// Relative standard error of responses without one. It is so small that the residual of the model decides.
 const UNKNOWN: f64 = 1e-6;
-/// Magnitude, as a share of the median magnitude, below which the standard error of a response does not fall. Without it a
-/// response near a zero would count more than its neighbours.
+/// Magnitude, as a share of the median magnitude, below which the standard error of a response does not fall. Without
+/// it a response near a zero would count more than its neighbours.
 const SMALL: f64 = 1e-2;
 
 /// The responses, the names of their units, and what is known about the motor.
@@ -46,7 +46,8 @@ impl Input {
                 return Err(Failure::Asked(words, "give one campaign.toml, or tables only"));
             }
             if args.torque_constant.is_some() {
-                let words = "--torque-constant is for tables, but the input is a campaign.toml".to_owned();
+                let words =
+                    "--torque-constant is for tables, but the input is a campaign.toml".to_owned();
                 let hint = "give torque_constant in the [drive] of the campaign.toml";
                 return Err(Failure::Asked(words, hint));
             }
@@ -162,10 +163,14 @@ fn command(
     } else if dimension == Dimension::TORQUE {
         CommandQuantity::Arbitrary
     } else {
-        return Err(wrong(format!("\"{text}\" is not a torque per current, per voltage or per unit of command")));
+        return Err(wrong(format!(
+            "\"{text}\" is not a torque per current, per voltage or per unit of command"
+        )));
     };
     if said.is_some_and(|said| said != per) {
-        return Err(wrong(format!("\"{text}\" has another unit of command than the motor's response")));
+        return Err(wrong(format!(
+            "\"{text}\" has another unit of command than the motor's response"
+        )));
     }
     let value = parse_quantity(text, dimension).map_err(|e| wrong(e.to_string()))?;
     if !(value.is_finite() && value > 0.0) {

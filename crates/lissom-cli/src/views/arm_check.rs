@@ -85,7 +85,10 @@ fn lines(check: &GeometryCheck) -> Vec<String> {
 fn factor(e: &Explanation) -> String {
     let f = e.factor;
     let range = interval(f.ci95(), f.value, f.std);
-    format!("{} times the value in the file (95 % interval {range})", with_uncertainty(f.value, f.std))
+    format!(
+        "{} times the value in the file (95 % interval {range})",
+        with_uncertainty(f.value, f.std)
+    )
 }
 
 fn percent(share: f64) -> String {

@@ -34,7 +34,9 @@ pub(crate) fn print(input: &Input, found: &Equivalent) {
 pub(crate) fn brief(names: UnitNames, found: &Equivalent) {
     let Some(form) = &found.strainless else { return };
     let modes = printer::counted(found.modes.len(), "mode");
-    printer::line(&format!("\nequivalent arm with {modes} (`lissom equivalent` gives its 95 % intervals)"));
+    printer::line(&format!(
+        "\nequivalent arm with {modes} (`lissom equivalent` gives its 95 % intervals)"
+    ));
     for_use(names, found, form);
 }
 

@@ -76,6 +76,9 @@ fn verdict(beam: &Beam, cases: &[PayloadCase]) -> Option<String> {
         _ if beam.payload().turns() => "the zeros move: the load has rotary inertia or an offset, \
              and at a zero the tip does not move but turns"
             .to_owned(),
-        _ => "the zeros move although the load is a point mass: they are inaccurate, do not use them".to_owned(),
+        _ => {
+            "the zeros move although the load is a point mass: they are inaccurate, do not use them"
+                .to_owned()
+        }
     })
 }

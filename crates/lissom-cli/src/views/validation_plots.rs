@@ -113,7 +113,10 @@ fn motion(
     let stretches: &[PredictedStretch] = &validation.stretches;
     let over = match validation.horizons.get(validation.chosen) {
         Some(h) if !h.whole_runs => {
-            format!("predicted over {:.3} s at a time, each time from a new initial state", h.length_s)
+            format!(
+                "predicted over {:.3} s at a time, each time from a new initial state",
+                h.length_s
+            )
         }
         _ => "predicted from one initial state".to_owned(),
     };

@@ -140,7 +140,9 @@ fn motion(campaign: &Campaign, validation: &Validation) {
     if validation.horizons.is_empty() {
         return;
     }
-    printer::line("\nmotion predicted from the logged command, one initial state for each stretch:");
+    printer::line(
+        "\nmotion predicted from the logged command, one initial state for each stretch:",
+    );
     let mut heading = vec!["horizon".to_owned(), "stretches".to_owned()];
     let channels = &campaign.channels;
     for c in 0..=channels.tips.len() {

@@ -40,7 +40,9 @@ fn a_file_is_no_result() {
     refuses(
         &bench,
         &["model.json", "a.json"],
-        &format!("error: model.json: is not a result of `lissom identify`: it has no `axis`\n{hint}"),
+        &format!(
+            "error: model.json: is not a result of `lissom identify`: it has no `axis`\n{hint}"
+        ),
     );
     refuses(
         &bench,

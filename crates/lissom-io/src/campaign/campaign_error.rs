@@ -62,17 +62,13 @@ pub enum CampaignError {
         place: ConfigPlace,
     },
     /// A torque constant per current for a voltage channel, without the winding's resistance.
-    #[error(
-        "{place}: a torque constant per ampere needs `resistance` if the command is a voltage"
-    )]
+    #[error("{place}: a torque constant per ampere needs `resistance` if the command is a voltage")]
     NoResistance {
         /// Place of the value.
         place: ConfigPlace,
     },
     /// A torque constant per current for a voltage channel, without the back-EMF constant.
-    #[error(
-        "{place}: a torque constant per ampere needs `back_emf` if the command is a voltage"
-    )]
+    #[error("{place}: a torque constant per ampere needs `back_emf` if the command is a voltage")]
     NoBackEmf {
         /// Place of the value.
         place: ConfigPlace,

@@ -266,9 +266,7 @@ fn wrong_keys_and_units() {
     fails(
         &PLAIN.replace("unit = \"A\"", "unit = \"V\""),
         "campaign.toml, line 4: `signals.current.unit`: \"V\" is a voltage [kg*m^2*s^-3*A^-1], where a current [A] is expected",
-        Some(
-            "for a logged voltage write `voltage = …` instead of `current`, and `voltage_limit`",
-        ),
+        Some("for a logged voltage write `voltage = …` instead of `current`, and `voltage_limit`"),
     );
     fails(
         &PLAIN.replace("N*m/A", "N*m/V"),

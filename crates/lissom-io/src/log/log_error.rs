@@ -233,7 +233,10 @@ pub enum LogError {
         least: usize,
     },
     /// A sample that is too large in its unit.
-    #[error("{file}: channel {}: sample {sample} is larger than {largest:e} in SI units", excerpt(channel))]
+    #[error(
+        "{file}: channel {}: sample {sample} is larger than {largest:e} in SI units",
+        excerpt(channel)
+    )]
     OutOfRange {
         /// The file.
         file: String,
@@ -356,8 +359,14 @@ impl LogError {
 fn of_speed(ratio: f64, correlation: f64) -> &'static str {
     let factors = [
         (-1.0, "the sign of one of them is reversed: add scale = -1 to it"),
-        (9.549, "the speed seems to be in rpm: give unit = \"rpm\", or check the unit of the angle"),
-        (0.10472, "the speed seems to be in rad/s: give unit = \"rad/s\", or check the unit of the angle"),
+        (
+            9.549,
+            "the speed seems to be in rpm: give unit = \"rpm\", or check the unit of the angle",
+        ),
+        (
+            0.10472,
+            "the speed seems to be in rad/s: give unit = \"rad/s\", or check the unit of the angle",
+        ),
         (57.296, "one of them seems to be in deg, the other in rad: check both units"),
         (0.017_453, "one of them seems to be in deg, the other in rad: check both units"),
         (TAU, "one of them seems to be in turns, the other in rad: check both units"),

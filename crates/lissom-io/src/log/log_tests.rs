@@ -230,8 +230,9 @@ fn repeated_rows_are_passed_over() {
 
 #[test]
 fn files_that_are_no_text_are_refused() {
-    let hint =
-        Some("a log is text with commas, semicolons, tabs or blanks between the numbers: export the file as CSV");
+    let hint = Some(
+        "a log is text with commas, semicolons, tabs or blanks between the numbers: export the file as CSV",
+    );
     let options = LogOptions::default();
     fails(read_with(b"MAT\0\0", None, &[], &options), "a.csv: row 1 is not text", hint);
     let endless = vec![b'1'; 3 << 20];

@@ -36,8 +36,8 @@ pub struct MeasuredResponse {
 }
 
 impl MeasuredResponse {
-    /// Number of zeros at the origin in addition to those of an angle, from the unit: one for a velocity per angle (1/s),
-    /// two for an acceleration (1/s²). `None` for any other unit.
+    /// Number of zeros at the origin in addition to those of an angle, from the unit: one for a velocity per angle
+    /// (1/s), two for an acceleration (1/s²). `None` for any other unit.
     pub fn zeros_at_origin(&self) -> Option<i32> {
         let per = |s: i32| Dimension::new(0, 0, -s, 0);
         let dimension = self.dimension.unwrap_or(Dimension::NUMBER);
@@ -101,7 +101,11 @@ pub fn read_responses<P: AsRef<Path>>(files: &[P]) -> Result<FrequencyResponses,
     if let Some(odd) =
         motor.iter().find(|r| !number(r) && !per.iter().any(|d| Some(*d) == r.dimension))
     {
-        return Err(kind(&file, odd, "the response of the motor must be an angle per current, voltage or command"));
+        return Err(kind(
+            &file,
+            odd,
+            "the response of the motor must be an angle per current, voltage or command",
+        ));
     }
     if points.is_empty() {
         return Err(ResponseError::NoPoint { file });

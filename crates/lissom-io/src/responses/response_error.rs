@@ -88,7 +88,11 @@ pub enum ResponseError {
         column: String,
     },
     /// A unit that is unknown, or of the wrong kind.
-    #[error("{file}, column {}: \"{}\" is not a valid unit for this column", excerpt(column), excerpt(unit))]
+    #[error(
+        "{file}, column {}: \"{}\" is not a valid unit for this column",
+        excerpt(column),
+        excerpt(unit)
+    )]
     Unit {
         /// The file.
         file: String,
@@ -322,9 +326,13 @@ impl ResponseError {
                 "begin with a row of names, such as omega_rad_s,tip_re,tip_im or frequency_hz,tip_db,tip_deg"
             }
             Self::NoFrequency { nearest: Some(found), .. } => {
-                return Some(format!("if the frequency is \"{found}\", rename it to omega_rad_s or frequency_hz"));
+                return Some(format!(
+                    "if the frequency is \"{found}\", rename it to omega_rad_s or frequency_hz"
+                ));
             }
-            Self::NoFrequency { .. } => "give the column of frequencies the name omega_rad_s, frequency_hz or f [Hz]",
+            Self::NoFrequency { .. } => {
+                "give the column of frequencies the name omega_rad_s, frequency_hz or f [Hz]"
+            }
             Self::TwoFrequencies { .. } => "remove one of them",
             Self::NoUnit { .. } | Self::Unit { .. } => {
                 "give a frequency in rad/s or Hz (omega_rad_s, frequency_hz, f [Hz]), a phase in deg or rad \

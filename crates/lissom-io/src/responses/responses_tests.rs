@@ -72,9 +72,15 @@ fn errors_name_file_row_and_column() {
     one("1,2,3\n", "a.csv: there is no header with the names of the columns");
     one("tip_re,tip_im\n1,2\n", "no column is a frequency; the columns are tip_re, tip_im");
     one("omega,re,im\n1,2,3\n", "column omega: the header gives no unit");
-    one("omega_furlong,re,im\n1,2,3\n", "column omega_furlong: \"furlong\" is not a valid unit for this column");
+    one(
+        "omega_furlong,re,im\n1,2,3\n",
+        "column omega_furlong: \"furlong\" is not a valid unit for this column",
+    );
     one("f_hz,mag,phase\n1,2,3\n", "column phase: the header gives no unit");
-    one("f_hz,re [zorg],im\n1,2,3\n", "column re [zorg]: \"zorg\" is not a valid unit for this column");
+    one(
+        "f_hz,re [zorg],im\n1,2,3\n",
+        "column re [zorg]: \"zorg\" is not a valid unit for this column",
+    );
     one("f_hz,omega_rad_s,re,im\n", "columns f_hz and omega_rad_s are both frequencies");
     one(
         "f_hz,coherence\n1,2\n",
@@ -88,16 +94,16 @@ fn errors_name_file_row_and_column() {
     one("f_hz,re,im\n1,2,inf\n", "row 2, column im: \"inf\" is not a finite number");
     one("f_hz,re,im\n1,2\n", "row 2, column im: the cell is missing");
     one("f_hz,re,im\n1,2,3\n\n0,2,3\n", "row 4, column f_hz: 0 must be greater than zero");
-    one(
-        "f_hz,re,im\n1,2,3,4\n",
-        "row 2, column 4: \"4\" is beyond the 3 columns of the header",
-    );
+    one("f_hz,re,im\n1,2,3,4\n", "row 2, column 4: \"4\" is beyond the 3 columns of the header");
     one("f_hz,re,im\n1,0,0\n", "row 2: the response of a is zero");
     one("f_hz,db,deg\n1,9999,0\n", "row 2, column db: the response is too large for a number");
     one("f_hz,mag,deg\n1,-1,0\n", "row 2, column mag: -1 must be greater than zero");
     one("f_hz,re,im,std\n1,2,3,0\n", "row 2, column std: 0 must be greater than zero");
     one("f_hz,re,im\n2,2,3\n1,2,3\n", "row 3, column f_hz: 1 comes after 2");
-    one("f_hz,motor_re,motor_im\n1,2,3\n", "there is only the response of the motor, and none of a point");
+    one(
+        "f_hz,motor_re,motor_im\n1,2,3\n",
+        "there is only the response of the motor, and none of a point",
+    );
     one(
         "f_hz,tip_re [rad/A],tip_im [rad/A]\n1,2,3\n",
         "the response of a point must be an angle, velocity or acceleration per angle",
@@ -111,7 +117,9 @@ fn errors_name_file_row_and_column() {
     let twice = "f_hz,b_re,b_im\n1,2,3\n2,2,3\n";
     let error = read(&[b, ("c.csv", twice)]).unwrap_err().to_string();
     assert!(error.contains("there is already a response b"), "{error}");
-    assert!(read(&[("a.bin", "\u{0}\u{1}")]).unwrap_err().to_string().contains("is not a text file"));
+    assert!(
+        read(&[("a.bin", "\u{0}\u{1}")]).unwrap_err().to_string().contains("is not a text file")
+    );
     let nothing: [&str; 0] = [];
     assert!(read_responses(&nothing).is_err() && read_responses(&["/nowhere.csv"]).is_err());
     assert!(read_responses(&[std::env::temp_dir()]).is_err());

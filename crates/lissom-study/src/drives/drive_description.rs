@@ -48,7 +48,10 @@ pub fn describe_drive(campaign: &DriveCampaign, quick: bool) -> String {
             lines.extend(scored.parameters.iter().map(parameter));
             if let Some(line) = &id.least_squares {
                 let f = &line.estimates.friction;
-                lines.push(format!("least squares: coulomb {:?}, viscous {:?}", f.coulomb, f.viscous));
+                lines.push(format!(
+                    "least squares: coulomb {:?}, viscous {:?}",
+                    f.coulomb, f.viscous
+                ));
             }
             lines.push(format!("friction: {:#?}", id.friction));
             lines.push(format!("residual of the regression: {:?}", id.regression_residual));

@@ -136,7 +136,8 @@ impl Real<'_> {
             }));
         }
         for line in [true, false] {
-            let label = if line { "friction from least squares" } else { "friction from the table" };
+            let label =
+                if line { "friction from least squares" } else { "friction from the table" };
             rows.push(self.row(label.to_owned(), |(_, p)| {
                 let friction = [DriveParameter::Coulomb, DriveParameter::Viscous];
                 friction.contains(&p.parameter) && p.from_line == line
@@ -153,7 +154,7 @@ fn real(all: &[Scored<'_>]) -> Vec<String> {
     let aside = Real { every, vouched: &ParameterScore::vouched_but_for_law };
     let goals = format!(
         "## Goals\n\nOf the parameters whose bound is below 5 %, 80 % are given without a warning. Of these, 99 % are within \
-         five standard errors, and the 95 % intervals of 90 to 99 % contain the truth. The columns after the bound count \
+         five standard errors, and 90 to 99 % of the 95 % intervals contain the truth. The columns after the bound count \
          only parameters whose bound is below 5 %.\n\n{}",
         strict.kinds()
     );
@@ -162,7 +163,10 @@ fn real(all: &[Scored<'_>]) -> Vec<String> {
          friction law with further terms. Here it does not count as a warning.\n\n{}",
         aside.kinds()
     );
-    let effects = format!("## By effect\n\n`friction-law` does not count as a warning.\n\n{}", aside.effects());
+    let effects = format!(
+        "## By effect\n\n`friction-law` does not count as a warning.\n\n{}",
+        aside.effects()
+    );
     vec![goals, law, effects, blockers(&counted)]
 }
 
@@ -200,7 +204,10 @@ fn blockers(counted: &[One<'_>]) -> String {
     header.extend(DriveParameter::ALL.map(|p| p.to_string()));
     header.push("as the only one".to_owned());
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    format!("## Warnings and refusals of parameters whose bound is below 5 %\n\n{}", table(&header, &rows))
+    format!(
+        "## Warnings and refusals of parameters whose bound is below 5 %\n\n{}",
+        table(&header, &rows)
+    )
 }
 
 fn causes(all: &[Scored<'_>]) -> Vec<String> {

@@ -148,10 +148,10 @@ impl DriveScore {
 
 /// Compares a result with the truth of its campaign.
 ///
-/// Friction is taken from the result's table, unless the friction law has terms besides Coulomb and one viscous constant.
-/// The Coulomb friction of such a law is defined differently: for concave friction as the limit above the driven speeds,
-/// with the root of speed as the value at rest, with ripple as the friction without the ripple. It is not comparable with a
-/// straight line. For this case the result has Coulomb and viscous friction by least squares
+/// Friction is taken from the result's table, unless the friction law has terms besides Coulomb and one viscous
+/// constant. The Coulomb friction of such a law is defined differently: for concave friction as the limit above the
+/// driven speeds, with the root of speed as the value at rest, with ripple as the friction without the ripple. It is
+/// not comparable with a straight line. For this case the result has Coulomb and viscous friction by least squares
 /// (`methods.least_squares`; the command prints them below the table), and these are compared with the same of the true
 /// friction. If the output-error method has ripple as a term, they are not given: then the table is compared with the
 /// least-squares line of the true friction without ripple.

@@ -8,12 +8,12 @@ use super::drive_campaign::{DriveCampaign, TrueRow};
 /// [`least_squares`](lissom::identify::least_squares).
 const SLOWEST: f64 = 0.05;
 
-/// Coulomb and viscous friction by ordinary least squares of the true friction torque on `sgn θ̇` and `θ̇`, over all samples
-/// of all runs that are faster than 5 % of the largest speed.
+/// Coulomb and viscous friction by ordinary least squares of the true friction torque on `sgn θ̇` and `θ̇`, over all
+/// samples of all runs that are faster than 5 % of the largest speed.
 ///
-/// With this definition friction of real logs can be compared, since their law is not known. Loads are not friction and are
-/// left out; ripple is averaged over the angles of the runs. If there is only Coulomb and viscous friction, the line is the
-/// law.
+/// With this definition friction of real logs can be compared, since their law is not known. Loads are not friction and
+/// are left out; ripple is averaged over the angles of the runs. If there is only Coulomb and viscous friction, the
+/// line is the law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionLine {
     /// \[N·m\].

@@ -13,13 +13,13 @@ const NOISE_LEAST: f64 = 1e-6;
 
 /// Cramér-Rao bounds of the parameters of the torque equation, with wander of friction as noise.
 ///
-/// `τ = J·θ̈ + V·θ̇ + C·sgn θ̇ + O [+ g_s·sin θ + g_c·cos θ] + w`, over the rows in which the joint slips; the motion is
-/// known. The noise w is the noise of the measured current, white from row to row, and wander: a first-order autoregressive
-/// process times the dry friction at the row. A scalar Kalman filter whitens all columns, run by run.
+/// `τ = J·θ̈ + V·θ̇ + C·sgn θ̇ + O [+ g_s·sin θ + g_c·cos θ] + w`, over the rows in which the joint slips; the motion
+/// is known. The noise w is the noise of the measured current, white from row to row, and wander: a first-order
+/// autoregressive process times the dry friction at the row. A scalar Kalman filter whitens all columns, run by run.
 ///
-/// Noise and steps of the angle are neglected: in the smooth windows of a regression their error is smaller than that of the
-/// noise of a measured current or of a wander of one percent.
-/// The law has only Coulomb and viscous friction; with an unseen mode θ̈ is that of the motor.
+/// Noise and steps of the angle are neglected: in the smooth windows of a regression their error is smaller than that
+/// of the noise of a measured current or of a wander of one percent. The law has only Coulomb and viscous friction;
+/// with an unseen mode θ̈ is that of the motor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TorqueBound {
     std: Vec<(DriveParameter, f64)>,

@@ -30,7 +30,8 @@ pub fn report(study: &Study, found: &Independent) -> String {
         + "\n"
 }
 
-/// Compares the motion of the other simulator with that of the rig, and with the replay of the logs through the true arm.
+/// Compares the motion of the other simulator with that of the rig, and with the replay of the logs through the true
+/// arm.
 fn agreement(found: &Independent) -> String {
     let all: Vec<f64> = drawn(&found.outcome).iter().flat_map(|s| s.left.iter().copied()).collect();
     let at = |share| quantile(&all, share).map_or_else(|| "–".to_owned(), |v| format!("{v:.3}"));

@@ -89,12 +89,7 @@ fn time(outcome: &Outcome) -> String {
     let seconds = |of: fn(&Scored) -> f64| all.iter().map(|s| of(s)).collect::<Vec<f64>>();
     let shown = |values: &[f64]| {
         let at = |share| quantile(values, share).map_or_else(|| "–".to_owned(), significant);
-        format!(
-            "median {} s, 95th percentile {} s, largest {} s",
-            at(0.5),
-            at(0.95),
-            at(1.0)
-        )
+        format!("median {} s, 95th percentile {} s, largest {} s", at(0.5), at(0.95), at(1.0))
     };
     let samples = median(&seconds(|s| s.samples as f64))
         .map_or_else(|| "–".to_owned(), |v| format!("{v:.0}"));

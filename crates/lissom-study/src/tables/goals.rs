@@ -128,7 +128,9 @@ fn limit(all: &[&Score], goals: &mut Vec<Goal>) {
             goals.push((asked, shown, Some(found.is_some_and(|v| v <= BEYOND_BOUND))));
         };
         goal(
-            format!("95 % interval of {name} at most {BEYOND_BOUND} times as wide as the bound's, median"),
+            format!(
+                "95 % interval of {name} at most {BEYOND_BOUND} times as wide as the bound's, median"
+            ),
             median(&super::limit::widths(&found)),
         );
         goal(
@@ -190,7 +192,8 @@ fn law(law: Law, all: &[&Score], goals: &mut Vec<Goal>) {
         };
         linear.iter().all(good)
     });
-    let asked = format!("{law}: inertia, coupling and first frequency within 3 % in 95 % of the cases");
+    let asked =
+        format!("{law}: inertia, coupling and first frequency within 3 % in 95 % of the cases");
     goals.push((asked, sound.to_string(), Some(sound.value() >= CAMPAIGNS)));
     if !law.is_described() {
         let asked = format!("{law}: reported in 90 % of the campaigns");

@@ -94,9 +94,11 @@ fn groups() -> Vec<Group> {
         let belongs = move |s: &Scored| s.coulomb_share >= low && s.coulomb_share < high;
         add(format!("CF {:.0}-{:.0} %", 100.0 * low, 100.0 * high), Box::new(belongs));
     }
-    for (name, least, most) in
-        [("no noise", 0.0, 0.0), ("noise up to 0.3 steps", 1e-9, 0.3), ("noise up to 1 step", 0.3, 1.0)]
-    {
+    for (name, least, most) in [
+        ("no noise", 0.0, 0.0),
+        ("noise up to 0.3 steps", 1e-9, 0.3),
+        ("noise up to 1 step", 0.3, 1.0),
+    ] {
         let belongs = move |s: &Scored| {
             let noise = s.stratum.noise_steps.unwrap_or(0.0);
             noise >= least && noise <= most

@@ -74,7 +74,12 @@ fn circles(points: &[&PointScore], outcome: &Outcome) -> String {
     };
     let all: Vec<&Score> = scores(outcome).into_iter().map(|(_, score)| score).collect();
     let wrong = silently_wrong(&all);
-    let header = ["points", "vouched for", "95 % circles that contain the truth", "\\|error\\| / standard error, median"];
+    let header = [
+        "points",
+        "vouched for",
+        "95 % circles that contain the truth",
+        "\\|error\\| / standard error, median",
+    ];
     format!(
         "The standard error of a point is that of the complex value, √E|Ĝ − G|². If the error is circular, the 95 % interval \
          is a circle with a radius of √(−ln 0.05) = {CIRCLE_95:.2} standard errors, and the median of |error| / standard error \

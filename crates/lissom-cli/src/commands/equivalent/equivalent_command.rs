@@ -66,8 +66,8 @@ pub(crate) fn run(args: &EquivalentArgs) -> Result<ExitCode, Failure> {
 fn beam(path: &Path) -> Result<DistributedBeam, Failure> {
     let file = ArmFile::read(path)?;
     if file.beam_kind(path).map_err(lissom_io::Error::from)? == BeamKind::Lumped {
-        let reason =
-            "has point masses, but a place can only be found on a beam with mass along it".to_owned();
+        let reason = "has point masses, but a place can only be found on a beam with mass along it"
+            .to_owned();
         let hint = "give density or mass_per_length in [beam]";
         return Err(Failure::Model { arm: path.to_owned(), reason, hint });
     }
