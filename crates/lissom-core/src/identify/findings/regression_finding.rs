@@ -222,6 +222,23 @@ fn lags(f: &mut fmt::Formatter<'_>, lag: &AngleLag) -> fmt::Result {
     )
 }
 
+fn few_phases(f: &mut fmt::Formatter<'_>, phases: usize, variation: Option<f64>) -> fmt::Result {
+    let strokes = counted(phases, "stroke", "strokes");
+    write!(f, "{strokes} cannot show how friction varies from one stroke to the next: ")?;
+    match variation {
+        None => f.write_str(
+            "standard errors include only the variation within a stroke, and may be too small",
+        ),
+        Some(share) => {
+            let percent = 100.0 * share;
+            write!(
+                f,
+                "standard errors include a usual variation of {percent:.0} % of Coulomb friction"
+            )
+        }
+    }
+}
+
 impl fmt::Display for RegressionFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -233,21 +250,7 @@ impl fmt::Display for RegressionFinding {
             Self::RegressionRefused { residual_share: None, .. } => f.write_str(
                 "too few slip phases are long enough for a window: the regression gives no estimates",
             ),
-            Self::FewPhases { phases, counted: variation } => write!(
-                f,
-                "{} cannot show how friction varies from one stroke to the next: {}",
-                counted(*phases, "stroke", "strokes"),
-                variation.map_or_else(
-                    || {
-                        "standard errors include only the variation within a stroke, and may be too small"
-                            .to_owned()
-                    },
-                    |share| {
-                        let percent = 100.0 * share;
-                        format!("standard errors include a usual variation of {percent:.0} % of Coulomb friction")
-                    }
-                )
-            ),
+            Self::FewPhases { phases, counted } => few_phases(f, *phases, *counted),
             Self::GravityUnseparated { with, correlation } => write!(
                 f,
                 "these runs hardly separate gravity from {} (correlation {correlation:.2}): both are uncertain",

@@ -141,7 +141,7 @@ thresholds! {
     }
     "output error: further parameters" {
         /// Damping ratio from which on a mode does not oscillate. An arm without the mode is then
-        /// tried.
+        /// tried. If no tip is measured, an arm with such a mode is rejected.
         CRITICAL_DAMPING: f64 = 1.0, "1", Derived;
         /// Initial frequencies of a mode above all others, as multiples of the highest frequency;
         /// they are tried in turn.

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use crate::identify::methods::output_error::thresholds::{
-    RESIDUAL_AT_NOISE, RESIDUAL_FAR_ABOVE_NOISE, SLOW_RESIDUAL,
+    CRITICAL_DAMPING, RESIDUAL_AT_NOISE, RESIDUAL_FAR_ABOVE_NOISE, SLOW_RESIDUAL,
 };
 use crate::replay::ModalArm;
 
@@ -26,5 +26,7 @@ pub(crate) fn accepted_residual(whole_runs: bool) -> f64 {
 /// Whether an arm is possible, and its standard errors are known.
 pub(crate) fn is_sound(arm: &ModalArm, covariance: &DMatrix<f64>) -> bool {
     let finite = covariance.diagonal().iter().all(|v| v.is_finite() && *v > 0.0);
-    finite && arm.inertia_kg_m2 > 0.0
+    // What only the motor shows is a mode if it oscillates: an overdamped one is a lag of something else.
+    let seen = |ratio: f64| !arm.shapes.is_empty() || ratio < CRITICAL_DAMPING;
+    finite && arm.inertia_kg_m2 > 0.0 && arm.damping_ratios().into_iter().all(seen)
 }
