@@ -1,4 +1,4 @@
-//! The book: built by mdBook, every link of its pages checked.
+//! Builds the book with mdBook and checks every link of its pages.
 
 use std::{
     collections::{HashMap, HashSet},
@@ -21,11 +21,14 @@ pub(crate) fn build(root: &Path) -> Result<(), Failure> {
     for page in ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "docs/README.md"] {
         broken.extend(broken_in_markdown(root, page)?);
     }
-    println!("\n--- links: {}", if broken.is_empty() { "all lead somewhere" } else { "broken" });
+    println!(
+        "\n--- links: {}",
+        if broken.is_empty() { "all are valid" } else { "some are broken" }
+    );
     if broken.is_empty() { Ok(()) } else { Err(Failure::Links { broken }) }
 }
 
-/// mdBook of [`MDBOOK`]: the one on the path, or one of the workspace's own.
+/// mdBook of version [`MDBOOK`]: the one on the path, or one installed under `target`.
 fn installed(root: &Path) -> Result<PathBuf, Failure> {
     let tools = root.join("target/tools");
     let own = tools.join("bin/mdbook");
@@ -42,11 +45,11 @@ fn installed(root: &Path) -> Result<PathBuf, Failure> {
     let mut install = cargo(root, &arguments);
     install.arg(MDBOOK).arg("--root").arg(&tools).env("CARGO_PROFILE_DEV_DEBUG", "0");
     install.env_remove("CARGO_TARGET_DIR");
-    let (done, said) = ask(&mut install)?;
-    if done { Ok(own) } else { Err(Failure::Install { tool: "mdbook", said }) }
+    let (done, output) = ask(&mut install)?;
+    if done { Ok(own) } else { Err(Failure::Install { tool: "mdbook", output }) }
 }
 
-/// Links of the built pages that lead nowhere: to no file, or to no heading.
+/// Broken links of the built pages: those without a file, or without a heading.
 fn broken_in_html(book: &Path) -> Result<Vec<String>, Failure> {
     let mut pages = Vec::new();
     collect(book, &mut pages)?;
@@ -60,7 +63,7 @@ fn broken_in_html(book: &Path) -> Result<Vec<String>, Failure> {
     }
     let mut broken = Vec::new();
     for (path, text) in &texts {
-        // The page of all pages repeats them, with links of their own places.
+        // The page that joins all pages repeats links that are relative to the single pages.
         if path.ends_with("print.html") || path.ends_with("404.html") || path.ends_with("toc.html")
         {
             continue;
@@ -88,7 +91,7 @@ fn broken_in_html(book: &Path) -> Result<Vec<String>, Failure> {
     Ok(broken)
 }
 
-/// Relative links of a page outside the book that lead to no file.
+/// Relative links of a page outside the book for which there is no file.
 fn broken_in_markdown(root: &Path, page: &str) -> Result<Vec<String>, Failure> {
     let path = root.join(page);
     let text = read(&path)?;

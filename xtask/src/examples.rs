@@ -4,10 +4,10 @@ use std::{fs, path::Path};
 
 use crate::step::{Failure, cargo, run};
 
-/// Most lines of an example: one that is longer is no longer read.
+/// Largest number of lines of an example; longer ones are hard to read.
 const MOST_LINES: usize = 60;
 
-/// Runs each, with what it prints passed through.
+/// Runs each example and passes its output through.
 pub(crate) fn run_all(root: &Path) -> Result<(), Failure> {
     let folder = root.join("crates/lissom/examples");
     let failed = |source| Failure::File { path: folder.display().to_string(), source };

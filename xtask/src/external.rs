@@ -84,8 +84,9 @@ pub(crate) fn compare(root: &Path) -> Result<(), Failure> {
     run("MuJoCo's own identification compared with lissom", &mut identify)
 }
 
-/// Measures how near the comparisons come to their thresholds: a copy of the sources records it for 30 simulated campaigns of
-/// a seed, for the campaigns of the given files, and for the tests. Writes the table `target/margins/table.md`.
+/// Measures how near the comparisons come to their thresholds: a copy of the sources records it for 30 simulated
+/// campaigns of a seed, for the campaigns of the given files, and for the tests. Writes the table
+/// `target/margins/table.md`.
 pub(crate) fn margins(root: &Path, seed: &str, campaigns: &[String]) -> Result<(), Failure> {
     let python = Python::new(root)?;
     let folder = folder(root, "margins")?;

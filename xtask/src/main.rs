@@ -62,31 +62,31 @@ const RECIPES: &[Recipe] = &[
     },
     Recipe {
         name: "book",
-        about: "docs/book from docs/src, and every link checked",
+        about: "build docs/book from docs/src and check every link",
         takes: Takes::Flags(&[]),
         run: book,
     },
     Recipe {
         name: "examples",
-        about: "the library's examples, each run",
+        about: "run each example of the library",
         takes: Takes::Flags(&[]),
         run: examples,
     },
     Recipe {
         name: "msrv",
-        about: "the workspace checked with the oldest Rust that it supports",
+        about: "check the workspace with the oldest supported Rust",
         takes: Takes::Flags(&[]),
         run: msrv,
     },
     Recipe {
         name: "package",
-        about: "the crates as they would be published",
+        about: "package the crates as for publishing",
         takes: Takes::Flags(&[]),
         run: package,
     },
     Recipe {
         name: "static",
-        about: "a static Linux binary in target/release-static, its size and licences",
+        about: "build a static Linux binary in target/release-static; show its size, list its licences",
         takes: Takes::Flags(&[]),
         run: static_binary,
     },
@@ -189,17 +189,17 @@ fn schemas(context: &Context) -> Result<(), Failure> {
     run("schemas", command.args(["--example", "schemas"]))
 }
 
-/// The book and its links.
+/// Builds the book and checks its links.
 fn book(context: &Context) -> Result<(), Failure> {
     book::build(&context.root)
 }
 
-/// The library's examples.
+/// Runs the library's examples.
 fn examples(context: &Context) -> Result<(), Failure> {
     examples::run_all(&context.root)
 }
 
-/// `cargo check` by the Rust of `rust-version` in Cargo.toml, which rustup gets where it is missing.
+/// Runs `cargo check` with the Rust of `rust-version` in Cargo.toml, which rustup installs if it is missing.
 fn msrv(context: &Context) -> Result<(), Failure> {
     let version = env!("CARGO_PKG_RUST_VERSION");
     let install = ["toolchain", "install", version, "--profile", "minimal", "--no-self-update"];
@@ -225,12 +225,12 @@ fn msrv(context: &Context) -> Result<(), Failure> {
     )
 }
 
-/// The crates, packaged.
+/// Packages the crates.
 fn package(context: &Context) -> Result<(), Failure> {
     release::package(&context.root)
 }
 
-/// The static binary.
+/// Builds the static binary.
 fn static_binary(context: &Context) -> Result<(), Failure> {
     release::static_binary(&context.root)
 }

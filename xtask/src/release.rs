@@ -1,17 +1,17 @@
-//! A release: the crates packaged, a static binary with its size and licences.
+//! Parts of a release: the packaged crates, and a static binary with its licences.
 
 use std::{env, fs, path::Path, process::Command};
 
 use crate::step::{Failure, ask, cargo, run};
 
-/// The target whose binaries need no library of the system.
+/// The target whose binaries need no system library.
 const STATIC_TARGET: &str = "x86_64-unknown-linux-musl";
 
-/// What the workspace publishes, each after what it depends on.
+/// The published crates, each after those that it depends on.
 const CRATES: [&str; 6] =
     ["lissom-text", "lissom-core", "lissom-report", "lissom-io", "lissom", "lissom-cli"];
 
-/// Builds the crates as they would be published.
+/// Packages the crates as for publishing.
 pub(crate) fn package(root: &Path) -> Result<(), Failure> {
     let mut command = cargo(root, &["package", "--no-verify", "--allow-dirty", "--quiet"]);
     for name in CRATES {
@@ -20,7 +20,7 @@ pub(crate) fn package(root: &Path) -> Result<(), Failure> {
     run("cargo package", &mut command)
 }
 
-/// Builds the static binary into `target/release-static`, with the licences of everything in it.
+/// Builds the static binary into `target/release-static` and lists the licences of all packages in it.
 pub(crate) fn static_binary(root: &Path) -> Result<(), Failure> {
     let mut command = cargo(root, &["build", "--release", "--package", "lissom-cli", "--target"]);
     run("static binary", command.arg(STATIC_TARGET).env("CARGO_PROFILE_RELEASE_STRIP", "true"))?;
@@ -45,7 +45,7 @@ pub(crate) fn static_binary(root: &Path) -> Result<(), Failure> {
     let mut lines: Vec<String> =
         text.lines().filter(|l| !l.is_empty()).map(|l| l.replace(" (*)", "")).collect();
     for line in &mut lines {
-        // A package of the workspace is followed by its folder, which says nothing elsewhere.
+        // Removes the folder after a package of the workspace.
         if let (Some(from), Some(to)) = (line.find(" (/"), line.find(") ")) {
             line.replace_range(from..=to, "");
         }
@@ -55,9 +55,9 @@ pub(crate) fn static_binary(root: &Path) -> Result<(), Failure> {
     let listed = out.join("LICENCES.txt");
     fs::write(&listed, lines.join("\n") + "\n").map_err(failed(&listed))?;
 
-    let (works, said) = ask(Command::new(&binary).arg("--version"))?;
+    let (works, output) = ask(Command::new(&binary).arg("--version"))?;
     if !works {
-        return Err(Failure::Install { tool: "the static binary", said });
+        return Err(Failure::Install { tool: "the static binary", output });
     }
     let bytes = fs::metadata(&binary).map_err(failed(&binary))?.len();
     println!(

@@ -17,8 +17,8 @@ pub(crate) enum Failure {
     /// A tool is missing; `install` gets it.
     Missing { tool: &'static str, install: &'static str },
     /// A tool could not be installed, or does not work.
-    Install { tool: &'static str, said: String },
-    /// Links of documents that lead nowhere.
+    Install { tool: &'static str, output: String },
+    /// Broken links of documents.
     Links { broken: Vec<String> },
     /// An example that is too long.
     Long { path: String, lines: usize, most: usize },
@@ -36,12 +36,12 @@ impl fmt::Display for Failure {
             Self::Missing { tool, install } => {
                 write!(f, "{tool} is not installed\n  hint: {install}")
             }
-            Self::Install { tool, said } => write!(f, "{tool} does not work: {}", said.trim()),
+            Self::Install { tool, output } => write!(f, "{tool} does not work: {}", output.trim()),
             Self::Links { broken } => {
-                write!(f, "links that lead nowhere:\n  {}", broken.join("\n  "))
+                write!(f, "broken links:\n  {}", broken.join("\n  "))
             }
             Self::Long { path, lines, most } => {
-                write!(f, "{path} has {lines} lines; examples have {most} at most")
+                write!(f, "{path} has {lines} lines; an example may have at most {most}")
             }
             Self::File { path, source } => write!(f, "cannot use {path}: {source}"),
         }

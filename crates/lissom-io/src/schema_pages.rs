@@ -66,7 +66,7 @@ fn table(page: &mut String, object: &Value) {
     }
 }
 
-/// The values that an enumeration has, with what they mean.
+/// The values of an enumeration, each with its meaning.
 fn choices(object: &Value) -> Vec<(String, &str)> {
     let mut values = Vec::new();
     for one in object["oneOf"].as_array().into_iter().flatten() {
@@ -79,7 +79,7 @@ fn choices(object: &Value) -> Vec<(String, &str)> {
     values
 }
 
-/// The type of a value, with a link where it has a table of its own.
+/// The type of a value, with a link if the type has its own table.
 fn kind(value: &Value) -> String {
     if let Some(name) = value["$ref"].as_str().and_then(|r| r.rsplit('/').next()) {
         let heading = heading(name);

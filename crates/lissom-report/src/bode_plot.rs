@@ -31,9 +31,9 @@ const LEAST_DEGREES: f64 = 10.0;
 
 /// Magnitude and phase of frequency responses.
 ///
-/// Phases are continuous along each series and never 360° apart between series: all are adjusted to the densest line, or the longest
-/// series if there is no line. Points with a frequency that is not positive, a response of zero or one that is not finite are
-/// left out, and a note below the figure counts them.
+/// Phases are continuous along each series and never 360° apart between series: all are adjusted to the densest line,
+/// or the longest series if there is no line. Points with a frequency that is not positive, a response of zero or one
+/// that is not finite are left out, and a note below the figure counts them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BodePlot {
     /// The title.

@@ -42,7 +42,8 @@ pub struct Series {
     pub omega_rad_s: Vec<f64>,
     /// The response at each frequency.
     pub response: Vec<Complex64>,
-    /// The standard error of each response as a distance in the complex plane; a value that is not positive draws no bar.
+    /// The standard error of each response as a distance in the complex plane; a value that is not positive draws no
+    /// bar.
     pub std: Option<Vec<f64>>,
     /// Points to draw grey and hollow, because something is wrong with them.
     pub flagged: Option<Vec<bool>>,

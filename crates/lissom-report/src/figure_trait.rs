@@ -13,8 +13,8 @@ pub trait Figure: Sealed {
     ///
     /// # Errors
     ///
-    /// [`FigureError::Length`] when the vectors of a series differ in length, [`FigureError::NothingToDraw`] when no point
-    /// is drawable, [`FigureError::Range`] when an axis is given a range it cannot have.
+    /// [`FigureError::Length`] when the vectors of a series differ in length, [`FigureError::NothingToDraw`] when no
+    /// point is drawable, [`FigureError::Range`] when an axis is given a range it cannot have.
     fn to_svg(&self) -> Result<String, FigureError>;
 
     /// Draws the figure on white, `scale` pixels to one SVG unit, and returns the bytes of a PNG file.
@@ -23,7 +23,7 @@ pub trait Figure: Sealed {
     ///
     /// # Errors
     ///
-    /// Those of [`to_svg`](Self::to_svg), [`FigureError::Size`] when the picture would have no pixel or a side of more than
-    /// 16384, [`FigureError::Png`] when the encoder fails.
+    /// Those of [`to_svg`](Self::to_svg), [`FigureError::Size`] when the picture would have no pixel or a side of more
+    /// than 16384, [`FigureError::Png`] when the encoder fails.
     fn to_png(&self, scale: f32) -> Result<Vec<u8>, FigureError>;
 }

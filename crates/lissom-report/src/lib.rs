@@ -7,8 +7,8 @@
 //! - [`StackedPlot`]: line plots one above the other over one horizontal axis;
 //! - [`Page`]: headings, tables, figures and findings as one HTML file that loads nothing else.
 //!
-//! All plots implement [`Figure`] and draw themselves as SVG and as PNG. The text of the PNG uses the compiled-in font DejaVu
-//! Sans, so that a picture looks the same on every machine, whether it has fonts or not.
+//! All plots implement [`Figure`] and draw themselves as SVG and as PNG. The text of the PNG uses the compiled-in font
+//! DejaVu Sans, so that a picture looks the same on every machine, whether it has fonts or not.
 //!
 //! ```
 //! use lissom_report::{Axis, Figure, LinePlot, Page, Role, Trace};

@@ -27,8 +27,8 @@ const MAX_COLUMN: f64 = 44.0;
 
 /// Traces, bands and regions over one pair of axes.
 ///
-/// Points that are not finite, or not positive on a logarithmic axis, are left out, and a note below the figure counts them;
-/// lines stop there. A band or region that cannot be drawn is left out of the figure and of the legend.
+/// Points that are not finite, or not positive on a logarithmic axis, are left out, and a note below the figure counts
+/// them; lines stop there. A band or region that cannot be drawn is left out of the figure and of the legend.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LinePlot {
     /// The title.

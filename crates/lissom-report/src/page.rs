@@ -11,8 +11,8 @@ const STYLE: &str = include_str!("page.css");
 
 /// Builds the page; its parts appear in the order they are added.
 ///
-/// The page loads nothing: style and figures are inline, there is no script, and a content security policy forbids requests.
-/// All text is escaped.
+/// The page loads nothing: style and figures are inline, there is no script, and a content security policy forbids
+/// requests. All text is escaped.
 #[derive(Clone, Debug)]
 pub struct Page {
     title: String,

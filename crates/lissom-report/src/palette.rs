@@ -4,8 +4,8 @@ use std::fmt;
 
 /// What a series shows; it decides colour, dash and marker.
 ///
-/// The colours are those of Okabe and Ito, which people with any colour vision tell apart; marker and dash differ too, so
-/// that a print in black and white stays readable.
+/// The colours are those of Okabe and Ito, which people with any colour vision tell apart; marker and dash differ too,
+/// so that a print in black and white stays readable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Role {
     /// As measured: vermilion squares.

@@ -1,7 +1,8 @@
 //! The parts of a TrueType font that figures need: glyphs of characters, widths, kerning, outlines.
 //!
-//! It reads only the compiled-in fonts; a test compares every glyph of both with `skrifa`. Names of tables and fields are
-//! those of the OpenType specification. A part that a font lacks or has wrong is `None`, an outline without points, or a kerning of zero.
+//! It reads only the compiled-in fonts; a test compares every glyph of both with `skrifa`. Names of tables and fields
+//! are those of the OpenType specification. A part that a font lacks or has wrong is `None`, an outline without points,
+//! or a kerning of zero.
 
 /// Composite glyphs are nested no deeper.
 const DEEPEST: u8 = 6;

@@ -1,4 +1,4 @@
-//! Random arms about the sizes of real rigs.
+//! Random arms with sizes similar to those of real rigs.
 
 use lissom::Error;
 use lissom::beam::{Damping, LumpedBeam, Roots, Span};
@@ -9,19 +9,19 @@ use crate::draw::Draw;
 
 /// First frequency, motor clamped \[rad/s\].
 const FIRST_RAD_S: (f64, f64) = (3.0, 40.0);
-/// Inertia of the beam about the axis over the motor's. The report's rig has 2.8.
+/// Inertia of the beam about the axis relative to that of the motor. The rig of the 1989 report has 2.8.
 const INERTIA_RATIO: (f64, f64) = (0.3, 6.0);
-/// Mass of the beam \[kg\]. The report's rigs have 0.05 and 0.11.
+/// Mass of the beam \[kg\]. The rigs of the 1989 report have 0.05 and 0.11.
 const MASS_KG: (f64, f64) = (0.02, 0.3);
-/// V/J, the rate at which the motor alone would run down \[1/s\]. The report's rig has 2.2.
+/// V/J, the rate at which the motor alone would run down \[1/s\]. The rig of the 1989 report has 2.2.
 const RUN_DOWN_PER_S: (f64, f64) = (0.3, 10.0);
-/// Torque constant \[N·m/A\]. The report's rig has 0.25.
+/// Torque constant \[N·m/A\]. The rig of the 1989 report has 0.25.
 const TORQUE_CONSTANT: (f64, f64) = (0.05, 1.0);
-/// Length of the beam \[m\]. The report's rigs have 0.18 and 0.30.
+/// Length of the beam \[m\]. The rigs of the 1989 report have 0.18 and 0.30.
 const LENGTH_M: (f64, f64) = (0.15, 0.6);
 
-/// A beam and a motor; `beam_damping`: its damping acts on the deflection, mode by mode, in place
-/// of on the masses against the fixed frame.
+/// A beam and a motor. With `beam_damping` the modes are damped within the beam, otherwise by dampers
+/// between the masses and the fixed frame.
 pub(crate) fn random_arm(
     draw: &mut Draw,
     masses: usize,
@@ -43,7 +43,7 @@ pub(crate) fn random_arm(
         let beam = LumpedBeam::new(&spans)?;
         return Ok((beam.with_damping(Damping::Modal { ratios: vec![damping_ratio] })?, motor));
     }
-    // c_i = 2ζω·m_i would damp the first mode by ζ; dampers are not alike on a real arm.
+    // c_i = 2ζω·m_i would damp the first mode by ζ; the dampers of a real arm differ from each other.
     for span in &mut spans {
         span.damping_n_s_per_m = 2.0 * damping_ratio * first * span.mass_kg * draw.decade(0.5, 2.0);
     }
@@ -54,8 +54,8 @@ pub(crate) fn random_arm(
     Ok((LumpedBeam::new(&spans)?, motor))
 }
 
-/// Spans that differ among themselves, as long and as heavy together as a real beam; their stiffness
-/// is relative.
+/// Spans that differ from each other; their total length and mass are those of a real beam, their
+/// stiffness is relative.
 fn random_spans(draw: &mut Draw, masses: usize) -> Vec<Span> {
     let (length, mass) = (draw.decade(LENGTH_M.0, LENGTH_M.1), draw.decade(MASS_KG.0, MASS_KG.1));
     let mut spans: Vec<Span> = (0..masses)
@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn arms_have_the_damping_and_the_sizes_asked_for() {
+    fn arms_have_the_requested_damping_and_sizes() {
         for index in 0..60 {
             let mut draw = Draw::of(5, index);
             let masses = 1 + index % 3;
@@ -98,7 +98,7 @@ mod tests {
             assert_eq!(modes.len(), masses);
             let (first, ratio) = modes[0];
             assert!((FIRST_RAD_S.0 * 0.99..FIRST_RAD_S.1 * 1.01).contains(&first), "{first}");
-            // Dampers that differ couple the modes a little.
+            // Unequal dampers couple the modes a little.
             assert!((ratio / 0.03 - 1.0).abs() < 0.01, "{ratio}");
             let inertia = beam.inertia_kg_m2() / motor.inertia_kg_m2();
             assert!((INERTIA_RATIO.0..INERTIA_RATIO.1).contains(&inertia), "{inertia}");

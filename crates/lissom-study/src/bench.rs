@@ -1,4 +1,4 @@
-//! A drawn arm in its loop, and what an engineer knows of it beforehand.
+//! A random arm in its loop, with the numbers that an engineer knows before the experiments.
 
 use std::f64::consts::PI;
 
@@ -15,24 +15,24 @@ use crate::position_loop::{Gains, Task, random_loop};
 use crate::rejected::Rejected;
 use crate::stratum::Stratum;
 
-/// Radians per sample of the beam's last mode, at most: six samples a period.
+/// Largest frequency of the beam's highest mode in radians per sample: six samples in a period.
 const LAST_MODE: f64 = 1.0;
 /// Amplitude that the drive's torque allows at [`RATED`] times the first frequency \[rad\].
 const RATED_RAD: (f64, f64) = (0.08, 0.5);
 /// See [`RATED_RAD`].
 const RATED: f64 = 1.5;
-/// That amplitude in steps of the motor's encoder, at least.
+/// The smallest value of that amplitude, in steps of the motor's encoder.
 const RATED_STEPS: f64 = 25.0;
 /// Largest amplitude of the motor \[rad\].
 const MOST_RAD: (f64, f64) = (0.6, 1.5);
-/// The amplifier's limit over the peak torque planned.
+/// The limit of the amplifier relative to the planned peak torque.
 const HEADROOM: f64 = 2.0;
 
-/// Everything about the rig that stays from run to run.
+/// The properties of the rig that are the same in all runs.
 pub(crate) struct Bench {
     pub(crate) rig: Rig,
     pub(crate) gains: Gains,
-    /// Peak torque planned \[N·m\].
+    /// Planned peak torque \[N·m\].
     pub(crate) peak_nm: f64,
     /// Friction at speed \[N·m\].
     pub(crate) coulomb_nm: f64,
@@ -77,7 +77,7 @@ impl Bench {
         Ok(Self { rig, gains, peak_nm, coulomb_nm, most_rad, step_rad, modes_rad_s })
     }
 
-    /// Highest frequency that anything is driven at: half the Nyquist frequency \[rad/s\].
+    /// Highest frequency of any reference: half the Nyquist frequency \[rad/s\].
     pub(crate) fn fastest_rad_s(&self) -> f64 {
         0.5 * PI / self.rig.instruments.sample_time_s
     }
@@ -99,8 +99,8 @@ impl Bench {
         (z * c / (z + c)).norm()
     }
 
-    /// Amplitude of the reference that moves the motor by `amplitude`, friction counted by its
-    /// fundamental: `|A + (Z·A + j·4CF/π)/C|` \[rad\].
+    /// Amplitude of the reference that moves the motor by `amplitude`, with the fundamental of
+    /// friction: `|A + (Z·A + j·4CF/π)/C|` \[rad\].
     pub(crate) fn reference_rad(&self, omega: f64, amplitude: f64) -> f64 {
         let friction = Complex64::new(0.0, 4.0 / PI * self.coulomb_nm);
         let torque = self.impedance(omega) * amplitude + friction;
@@ -113,7 +113,7 @@ impl Bench {
         2.0 * dead_rad / (1.0 - (0.1 * PI).cos())
     }
 
-    /// How far the beam bends per angle of the motor: the largest |θ_i/θ_m − 1|.
+    /// The bending of the beam per angle of the motor: the largest |θ_i/θ_m − 1|.
     pub(crate) fn bend(&self, omega: f64) -> f64 {
         let tips = self.rig.arm.tip_response(omega);
         tips.iter().fold(0.0_f64, |most, tip| most.max((tip - 1.0).norm()))

@@ -1,4 +1,4 @@
-//! The least deviations that any unbiased estimator can have on a campaign.
+//! The smallest standard errors that any unbiased estimator can have on a campaign.
 
 use lissom::information::{Inverse, inverted, propagated, without_own};
 use lissom::replay::{
@@ -10,32 +10,32 @@ use crate::campaign::Campaign;
 use crate::figure::Figure;
 use crate::law::Law;
 
-/// Step of a derived figure's differences, as a share of a parameter's bound.
+/// Step of the finite differences of a derived parameter, relative to the bound of a parameter.
 const DIFFERENCE: f64 = 1e-3;
 
-/// Cramér-Rao bounds of a campaign's figures.
+/// Cramér-Rao bounds of the parameters of a campaign.
 ///
-/// The logged command is replayed through the true arm, whole runs at a time, with exact derivatives
-/// of what every sensor shows by the unknowns: J, V, CF, offset, frequency, stiffness and damping of
-/// each mode, the tips' shares in the modes; the initial state of each run and each tip's zero. The
+/// The logged command is replayed through the true arm over whole runs, with exact derivatives of all
+/// readings by the unknowns: J, V, CF, offset; frequency, stiffness and damping of each mode; the
+/// shares of the tips in the modes; the initial state of each run and the zero of each tip. The
 /// inverse of `Σ gᵀ·g/σ²` over all readings is the bound of their covariance.
 ///
-/// Of a sensor with noise of deviation s and a step q it is taken that σ² = s² + q²/12, as if steps
-/// were independent Gaussian noise. Readings in steps with little noise hold more than that.
+/// A sensor with noise of standard deviation s and steps q has σ² = s² + q²/12, as if the steps were
+/// independent Gaussian noise. Readings in steps with little noise contain more information.
 ///
 /// # Source
 /// `[Kay1993, Sections 3.7, 3.8]`
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bound {
-    /// Deviations of the figures.
+    /// The bounds of the parameters.
     figures: Vec<(Figure, f64)>,
-    /// What is left of each channel's readings, over σ: one where the replay is the motion.
+    /// Residual of each channel divided by σ: 1 if the replay is the true motion.
     pub left: Vec<f64>,
 }
 
 impl Bound {
-    /// The bound of a campaign; `None` where the joint is not the one that is replayed, or the
-    /// readings leave a direction open.
+    /// The bound of a campaign; `None` if the joint has another friction law than the replay, or if
+    /// the readings do not determine all unknowns.
     pub fn of(campaign: &Campaign) -> Option<Self> {
         let rig = &campaign.definition.rig;
         if !matches!(campaign.law, Law::None | Law::Direction | Law::BeamDamping) {
@@ -74,13 +74,13 @@ impl Bound {
         Some(Self { figures: figures(&arm, &parameters, &covariance), left })
     }
 
-    /// The least deviation of a figure, in its own unit.
+    /// The smallest standard error of a parameter, in its unit.
     pub fn std(&self, figure: Figure) -> Option<f64> {
         self.figures.iter().find(|(f, _)| *f == figure).map(|(_, std)| *std)
     }
 }
 
-/// What an estimator that knows the kind of damping has to find.
+/// The unknowns of an estimator that knows the kind of damping.
 fn unknowns(arm: &ModalArm, law: Law) -> Vec<Parameter> {
     let modes = arm.modes.len();
     let mut all =
@@ -97,7 +97,7 @@ fn unknowns(arm: &ModalArm, law: Law) -> Vec<Parameter> {
     all
 }
 
-/// Root mean square of what is left of a channel \[rad\].
+/// Root mean square of the residual of a channel \[rad\].
 fn left(sums: &[WindowSums], channel: usize) -> f64 {
     let squares: f64 = sums.iter().map(|s| s.squares[channel]).sum();
     let readings: usize = sums.iter().map(|s| s.readings[channel]).sum();
@@ -145,9 +145,9 @@ mod tests {
         campaign
     }
 
-    /// What the true arm leaves of the logs is the sensors' noise and steps, and nothing else: 2 % are
-    /// five deviations of the root mean square of 30 000 independent readings. Without noise those of
-    /// a sine are not: steps err alike in each of its periods.
+    /// The residual of the true arm is only noise and steps of the sensors. 2 % are five standard
+    /// deviations of the root mean square of 30 000 independent readings. Without noise the readings of
+    /// a sine are not independent: the errors of the steps repeat in each period.
     #[test]
     fn the_true_arm_leaves_the_noise() {
         for masses in 1..=3 {
@@ -160,7 +160,7 @@ mod tests {
         }
     }
 
-    /// The information of one run from differences of predictions, by all unknowns at once.
+    /// The information of one run from finite differences of predictions, for all unknowns together.
     #[test]
     fn the_bound_is_that_of_differences() {
         let mut one = campaign(1);

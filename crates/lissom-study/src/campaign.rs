@@ -12,9 +12,9 @@ use crate::rejected::{Dropped, Rejected};
 use crate::stratum::{COULOMB_SHARE, Kind, Stratum};
 use crate::trial::tried;
 
-/// Draws of one stratum before another takes its place.
+/// Largest number of draws with one stratum.
 const DRAWS_MOST: usize = 50;
-/// Strata of one campaign before it is given up.
+/// Largest number of strata for one campaign.
 const STRATA_MOST: usize = 50;
 
 /// Everything that a simulator needs to make the logs.
@@ -37,7 +37,7 @@ pub struct PlannedRun {
     pub seed: u64,
 }
 
-/// What the rig knows of a run and its log does not say.
+/// Facts about a run that its log does not contain.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunFacts {
     /// Share of the record in which the joint stuck \[1\].
@@ -55,26 +55,26 @@ pub struct RunFacts {
 pub struct Campaign {
     /// Its place in the study.
     pub index: usize,
-    /// What was asked of it.
+    /// Its drawn properties.
     pub stratum: Stratum,
-    /// What it departs from lissom's equations in.
+    /// How its arm differs from lissom's equations.
     pub law: Law,
-    /// How to make it again.
+    /// The definition from which it was simulated.
     pub definition: Definition,
     /// The logs.
     pub logs: lissom::record::Campaign,
-    /// What the rig knows of each run.
+    /// Facts about each run that its log does not contain.
     pub facts: Vec<RunFacts>,
     /// Runs that were given up.
     pub dropped: Vec<Dropped>,
     /// Draws that were rejected before this one.
     pub rejected: Vec<Rejected>,
-    /// Strata that all draws failed for.
+    /// Strata for which all draws failed.
     pub given_up: Vec<Stratum>,
 }
 
 impl Campaign {
-    /// CF over the largest torque of all runs.
+    /// CF relative to the largest torque of all runs.
     pub fn coulomb_share(&self) -> f64 {
         let motor = &self.definition.rig.arm.motor;
         let peak_a = self.facts.iter().map(|f| f.peak_a).fold(0.0, f64::max);
@@ -92,7 +92,7 @@ pub(crate) fn sliding(rig: &Rig) -> f64 {
     0.5 * (rig.arm.coulomb.forward() + rig.arm.coulomb.backward())
 }
 
-/// Campaign `index` of the study with `seed`; `None` where all of 2500 draws were rejected.
+/// Campaign `index` of the study with `seed`; `None` if all 2500 draws were rejected.
 pub fn draw_campaign(seed: u64, index: usize, law: Law) -> Option<Campaign> {
     let mut draw = Draw::of(seed, index);
     let (mut rejected, mut given_up) = (Vec::new(), Vec::new());
@@ -155,7 +155,7 @@ fn drawn(draw: &mut Draw, stratum: Stratum, law: Law, index: usize) -> Result<Ca
     }
 }
 
-/// Fewer sound runs are no campaign.
+/// Smallest number of good runs in a campaign.
 fn runs_least(kind: Kind) -> usize {
     match kind {
         Kind::Sines | Kind::Mixed => 4,
@@ -165,7 +165,7 @@ fn runs_least(kind: Kind) -> usize {
 
 fn commonest(dropped: &[Dropped]) -> Dropped {
     let count = |why: &&Dropped| dropped.iter().filter(|d| d == why).count();
-    // A campaign without runs had ideas, and each was dropped for a reason.
+    // A campaign without runs had planned runs, and each of them was dropped for a reason.
     dropped.iter().max_by_key(count).copied().unwrap_or(Dropped::Impossible)
 }
 

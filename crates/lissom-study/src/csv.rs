@@ -1,14 +1,15 @@
-//! A row for each campaign, for other programs.
+//! The results as comma separated text, one row for each campaign.
 
 use crate::figure::Figure;
+use crate::law::Law;
 use crate::score::FigureScore;
 use crate::study::{Scored, Study};
 
-/// Columns before the figures.
+/// Columns before the parameters.
 const HEAD: &str = "law,seed,index,masses,runs_kind,runs,motor_bits,tip_bits,sample_time_s,noise_steps,\
                     damping_ratio,coulomb_share,stuck_share,samples,identification_s,findings";
 
-/// Every figure that a campaign may have, with the name of its columns.
+/// Every parameter that a campaign may have, with the name of its columns.
 const FIGURES: [(&str, Figure); 12] = [
     ("coulomb_nm", Figure::Coulomb),
     ("coulomb_forward_nm", Figure::Forward),
@@ -24,7 +25,7 @@ const FIGURES: [(&str, Figure); 12] = [
     ("damping_ratio_3", Figure::Damping(2)),
 ];
 
-/// The campaigns of all studies as comma separated text, with a header; refused figures are empty.
+/// The campaigns of all studies as comma separated text, with a header; refused estimates are empty.
 pub fn rows(studies: &[(Study, Vec<Option<Scored>>)]) -> String {
     let mut header = HEAD.to_owned();
     for (name, _) in FIGURES {
@@ -47,7 +48,7 @@ fn row(study: &Study, scored: &Scored) -> String {
     codes.sort_unstable();
     codes.dedup();
     let mut cells = vec![
-        study.law.to_string(),
+        law_cell(study.law),
         study.seed.to_string(),
         scored.index.to_string(),
         stratum.masses.to_string(),
@@ -68,6 +69,14 @@ fn row(study: &Study, scored: &Scored) -> String {
         cells.extend(figure_cells(score.and_then(|s| s.of(figure))));
     }
     cells.join(",")
+}
+
+/// The name of a law in the column `law`.
+fn law_cell(law: Law) -> String {
+    match law {
+        Law::None => "true Coulomb".to_owned(),
+        other => other.to_string(),
+    }
 }
 
 fn figure_cells(figure: Option<&FigureScore>) -> [String; 5] {

@@ -4,8 +4,8 @@ use rand_distr::{Distribution, StandardUniform};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-/// The stream of one campaign: a function of the study's seed and the campaign's index alone, so
-/// that neither the number of threads nor the other campaigns matter.
+/// The random numbers of one campaign. They depend only on the seed of the study and the index of the
+/// campaign, not on the number of threads or on other campaigns.
 #[derive(Debug, Clone)]
 pub(crate) struct Draw(Xoshiro256PlusPlus);
 
@@ -19,7 +19,7 @@ impl Draw {
         StandardUniform.sample(&mut self.0)
     }
 
-    /// A seed for something of its own.
+    /// A seed for another generator.
     pub(crate) fn seed(&mut self) -> u64 {
         StandardUniform.sample(&mut self.0)
     }
@@ -28,12 +28,12 @@ impl Draw {
         low + (high - low) * self.unit()
     }
 
-    /// Uniform in the logarithm.
+    /// Uniform on a logarithmic scale.
     pub(crate) fn decade(&mut self, low: f64, high: f64) -> f64 {
         self.uniform(low.ln(), high.ln()).exp()
     }
 
-    /// One of `low..=high`, each as likely.
+    /// One of `low..=high`, all equally likely.
     pub(crate) fn whole(&mut self, low: u32, high: u32) -> u32 {
         let count = f64::from(high - low + 1);
         low + ((self.unit() * count) as u32).min(high - low)
@@ -44,7 +44,7 @@ impl Draw {
     }
 }
 
-/// A seed whose neighbours give unlike bits (the finaliser of SplitMix64), so that campaign 3 of seed
+/// Mixes the bits of a seed so that neighbours differ (the finaliser of SplitMix64): campaign 3 of seed
 /// 1 is not campaign 2 of seed 0.
 fn mixed(seed: u64) -> u64 {
     let mut z = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);

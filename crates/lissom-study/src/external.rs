@@ -1,8 +1,8 @@
-//! Campaigns for another simulator, and what it makes of them.
+//! Exchange of campaigns with another simulator.
 //!
-//! [`export`] writes what a campaign is: dimensions, constants, loop, references. The other program
-//! draws noise of its own and leaves `NNNN/campaign.toml`, its logs and `facts.json`; [`simulated`]
-//! reads them as a user's.
+//! [`export`] writes the definition of a campaign: dimensions, constants, loop, references. The other
+//! program draws its own noise and writes `NNNN/campaign.toml`, its logs and `facts.json`;
+//! [`simulated`] reads them as logs of a user.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,10 +15,10 @@ use serde_json::{Value, json};
 
 use crate::campaign::{Campaign, PlannedRun, RunFacts, peak};
 
-/// Why a campaign cannot be handed over or taken back.
+/// The reason why a campaign cannot be written or read.
 pub type ExternalError = Box<dyn std::error::Error + Send + Sync>;
 
-/// What a log does not say.
+/// Facts about a run that its log does not contain.
 #[derive(Debug, Deserialize)]
 struct Fact {
     start: Vec<f64>,
@@ -28,11 +28,13 @@ struct Fact {
 /// Writes `NNNN.json` of a campaign of seed `seed` into `folder`.
 ///
 /// # Errors
-/// Where the folder cannot be written, or the campaign has something that the format has no word for.
+/// If the folder cannot be written, or the campaign has a part that the format cannot describe.
 pub fn export(campaign: &Campaign, seed: u64, folder: &Path) -> Result<(), ExternalError> {
     let rig = &campaign.definition.rig;
     let (arm, instruments) = (&rig.arm, &rig.instruments);
-    let ControlLaw::Pd(pd) = &rig.controller else { return Err("only PD loops are known".into()) };
+    let ControlLaw::Pd(pd) = &rig.controller else {
+        return Err("only PD loops can be exported".into());
+    };
     let spans = arm.beam().spans().iter().map(|s| {
         json!({
             "length_m": s.length_m,
@@ -100,24 +102,24 @@ fn reference(run: &PlannedRun) -> Result<Value, ExternalError> {
             "duration_s": chirp.duration_s(),
             "amplitude_rad": chirp.amplitude(),
         })),
-        other => Err(format!("{}: no word for {other:?}", run.name).into()),
+        other => Err(format!("{}: this motion cannot be exported: {other:?}", run.name).into()),
     }
 }
 
-/// A campaign with the logs that another simulator made of it in `folder`.
+/// A campaign with the logs that another simulator wrote to `folder`.
 ///
 /// # Errors
-/// Where they cannot be read or are not as many as were asked for.
+/// If they cannot be read, or their number is not that of the planned runs.
 pub fn simulated(mut campaign: Campaign, folder: &Path) -> Result<Campaign, ExternalError> {
     let own: PathBuf = folder.join(format!("{:04}", campaign.index));
     campaign.logs = read_campaign(&own.join("campaign.toml"))?.campaign;
     let facts: Vec<Fact> = serde_json::from_slice(&fs::read(own.join("facts.json"))?)?;
     let (asked, found) = (campaign.facts.len(), campaign.logs.runs.len());
     if (asked, asked) != (found, facts.len()) {
-        return Err(format!("{}: {found} runs of {asked}", own.display()).into());
+        return Err(format!("{}: it has {found} of the {asked} planned runs", own.display()).into());
     }
     let both = facts.into_iter().zip(&campaign.facts).zip(&campaign.logs.runs);
-    // Other noise may bring a sample to the amplifier's limit: the log has the current that acted.
+    // Other noise may make the amplifier saturate: the log contains the current that acted.
     let taken = both.map(|((fact, before), run)| RunFacts {
         stuck_share: fact.stuck_share,
         waited_s: before.waited_s,
@@ -134,7 +136,7 @@ mod tests {
     use crate::campaign::draw_campaign;
     use crate::law::Law;
 
-    /// The reference of every kind of run, made again from what is exported.
+    /// The exported numbers give the reference of every kind of run again.
     #[test]
     fn exported_references_are_those_of_the_runs() {
         let number = |v: &Value| v.as_f64().unwrap();
@@ -168,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn logs_that_are_missing_are_named() {
+    fn missing_logs_are_an_error_with_their_path() {
         let campaign = draw_campaign(1, 0, Law::None).unwrap();
         let error = simulated(campaign, Path::new("no-such-folder")).unwrap_err();
         assert!(error.to_string().contains("no-such-folder"), "{error}");

@@ -1,10 +1,10 @@
-//! What identification estimates, by name.
+//! The estimated parameters, by name.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// A figure that identification gives.
+/// A parameter that identification estimates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Figure {
     /// Coulomb friction.
@@ -26,7 +26,7 @@ pub enum Figure {
 }
 
 impl Figure {
-    /// How findings name it.
+    /// Its key in the list of results that a finding affects.
     pub(crate) fn key(self) -> &'static str {
         match self {
             Self::Coulomb | Self::Forward | Self::Backward => "friction.coulomb",
@@ -37,7 +37,7 @@ impl Figure {
         }
     }
 
-    /// Relative error that the project's goals allow, where they name one.
+    /// Relative error that the goals of the project allow, if there is a goal.
     pub fn bar(self) -> Option<f64> {
         match self {
             Self::Coulomb | Self::Forward | Self::Backward | Self::Inertia | Self::Coupling => {

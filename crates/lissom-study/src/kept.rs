@@ -1,4 +1,4 @@
-//! Campaigns on disk as they come, so that a study that is stopped goes on where it was.
+//! Writes campaigns to a file as they are identified, so that a stopped study can be continued.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufReader, Seek, Write};
@@ -10,19 +10,19 @@ use serde::{Deserialize, Serialize};
 use crate::law::Law;
 use crate::study::{Scored, Study};
 
-/// Why campaigns cannot be kept.
+/// The reason why campaigns cannot be written or read.
 pub type KeptError = Box<dyn std::error::Error + Send + Sync>;
 
-/// A file of identified campaigns of any study: CBOR values one after the other, which hold numbers
-/// that are none (JSON does not).
+/// A file of identified campaigns of any study: a sequence of CBOR values. CBOR can store NaN, JSON
+/// cannot.
 #[derive(Debug)]
 pub struct Kept {
     file: Mutex<File>,
     found: Vec<Record>,
 }
 
-/// One campaign and what made it. The code that did is not among it: who resumes a study after a
-/// change of the estimators mixes two.
+/// One campaign and its study. The version of the code is not stored: a study that is resumed after a
+/// change of the estimators mixes results of both.
 #[derive(Debug, Serialize, Deserialize)]
 struct Record {
     law: Law,
@@ -36,16 +36,16 @@ impl Kept {
     /// An empty file at `path`.
     ///
     /// # Errors
-    /// Where it cannot be made.
+    /// If it cannot be created.
     pub fn create(path: &Path) -> Result<Self, KeptError> {
         Ok(Self { file: Mutex::new(File::create(path)?), found: Vec::new() })
     }
 
-    /// The file at `path` with what it holds, or an empty one; a last value that a stop cut short is
-    /// dropped.
+    /// The file at `path` with its campaigns, or an empty one. If the last value is incomplete, it is
+    /// removed.
     ///
     /// # Errors
-    /// Where it cannot be read or written, or is no such file.
+    /// If it cannot be read or written, or is not a file of campaigns.
     pub fn resume(path: &Path) -> Result<Self, KeptError> {
         let mut file =
             OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)?;
@@ -61,7 +61,7 @@ impl Kept {
                 Err(error) => {
                     let path = path.display();
                     return Err(format!(
-                        "{path}, byte {sound}: {error}; without --resume it is made anew"
+                        "{path}, byte {sound}: {error}. The file is not from a study. Without --resume it is replaced"
                     )
                     .into());
                 }
@@ -74,7 +74,7 @@ impl Kept {
         Ok(Self { file: Mutex::new(file), found })
     }
 
-    /// A campaign of this study, if the file was resumed with it; the inner `None`: all draws failed.
+    /// A campaign of this study, if the resumed file has it; the inner `None` means that all draws failed.
     pub fn known(&self, study: &Study, index: usize) -> Option<Option<Scored>> {
         let same = |r: &&Record| {
             (r.law, r.seed, r.quick, r.index) == (study.law, study.seed, study.quick, index)
@@ -82,10 +82,10 @@ impl Kept {
         self.found.iter().find(same).map(|r| r.scored.clone())
     }
 
-    /// Puts a campaign at the file's end.
+    /// Appends a campaign to the file.
     ///
     /// # Errors
-    /// Where it cannot be written.
+    /// If it cannot be written.
     pub fn keep(
         &self,
         study: &Study,

@@ -1,4 +1,4 @@
-//! The joint's friction, as the study's laws have it.
+//! The friction laws of the study.
 
 use std::fmt;
 
@@ -8,24 +8,24 @@ use serde::{Deserialize, Serialize};
 
 use crate::draw::Draw;
 
-/// What the truth departs from lissom's own equations in.
+/// How the simulated arm differs from the equations that lissom fits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum, Serialize, Deserialize)]
 pub enum Law {
-    /// Nothing: one Coulomb constant, dampers at the masses.
+    /// Not at all: one Coulomb constant, dampers at the masses.
     None,
-    /// Friction at rest above that at speed.
+    /// Friction at rest is higher than at speed.
     Stribeck,
     /// Coulomb friction that differs by direction.
     Direction,
     /// Viscous friction that differs by direction.
     ViscousDirection,
-    /// Friction that changes over the turn.
+    /// Friction that changes with the angle.
     Ripple,
-    /// Viscous friction that grows less than in proportion.
+    /// Friction that grows less than in proportion to speed.
     Sublinear,
-    /// Bristles, with friction at rest above that at speed.
+    /// Bristles, with friction at rest higher than at speed.
     Lugre,
-    /// Coulomb friction, but the beam is damped within itself.
+    /// Coulomb friction, and a beam that is damped within itself.
     BeamDamping,
 }
 
@@ -36,12 +36,12 @@ impl Law {
         value.map_or_else(String::new, |v| v.get_name().to_owned())
     }
 
-    /// Whether lissom's simplest equations have it: an alarm about the law is then a false one.
+    /// Whether lissom's simplest equations describe it; an alarm about the law is then false.
     pub fn is_described(self) -> bool {
         matches!(self, Self::None | Self::BeamDamping)
     }
 
-    /// All wrong ones.
+    /// All laws except [`Self::None`].
     pub fn wrong() -> Vec<Self> {
         vec![
             Self::Stribeck,
@@ -58,7 +58,7 @@ impl Law {
 impl fmt::Display for Law {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::None => "true Coulomb",
+            Self::None => "Coulomb",
             Self::Stribeck => "Stribeck",
             Self::Direction => "by direction",
             Self::ViscousDirection => "viscous by direction",
@@ -70,13 +70,13 @@ impl fmt::Display for Law {
     }
 }
 
-/// Relative tolerance of a step of the bristles: errors of 300 samples add up to some 15 times as much, far
-/// below what an identified arm tells apart.
+/// Relative tolerance of a step of the bristles. Errors of 300 samples add up to about 15 times as much, which is far
+/// below the errors of an identified arm.
 const BRISTLE_TOLERANCE: f64 = 1e-8;
 
-/// The joint of a law: the arm's own Coulomb friction and what stands in its place.
+/// The joint of a law: Coulomb friction of the arm, and the friction that is simulated instead of it.
 ///
-/// `coulomb_nm` is the friction at speed, `speed_rad_s` one that the campaign works at.
+/// `coulomb_nm` is the friction at speed, `speed_rad_s` a speed at which the campaign works.
 pub(crate) fn joint(
     law: Law,
     draw: &mut Draw,

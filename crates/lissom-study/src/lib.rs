@@ -1,10 +1,10 @@
-//! The accuracy study: random arms and campaigns, simulated, identified, scored against truth.
+//! The accuracy study: random arms and campaigns are simulated, identified, and compared with the truth.
 //!
-//! [`draw_campaign`] makes a campaign from a seed and an index, as an engineer would who tries each
-//! run and repeats what saturates or sticks; [`Truth`] is what identification should find;
-//! [`Score`] compares; [`study`] does all of it for many campaigns side by side, and [`report`]
-//! turns the scores into tables. The generator knows nothing of the estimators, and the scores use
-//! nothing but what [`lissom::identify::Identified`] gives.
+//! [`draw_campaign`] makes a campaign from a seed and an index, as an engineer would: each run is
+//! tried, and repeated if it saturates or sticks. [`Truth`] has the true parameters; [`Score`]
+//! compares; [`study`] does all of this for many campaigns in parallel, and [`report`] makes tables
+//! of the scores. The generator does not depend on the estimators, and the scores use only
+//! [`lissom::identify::Identified`].
 
 mod arm;
 mod bench;

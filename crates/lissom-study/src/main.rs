@@ -1,4 +1,4 @@
-//! `cargo xtask study`: the accuracy study from the command line.
+//! The program behind `cargo xtask study`.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for a terminal")]
 
 use std::fs;
@@ -13,51 +13,52 @@ use lissom_study::{
     report, rows, simulated, study, write_logs,
 };
 
-/// Accuracy of identification over random arms and campaigns.
+/// Measure the accuracy of identification over random arms and campaigns.
 #[derive(Debug, Parser)]
 struct Args {
-    /// Campaigns of each law.
+    /// Number of campaigns of each law
     #[arg(long, default_value_t = 1000)]
     campaigns: usize,
-    /// Seed of all draws.
+    /// Seed of all random draws
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Folder for the tables and a row for each campaign.
+    /// Folder for the tables (.md) and a row for each campaign (.csv)
     #[arg(long, default_value = "target/study")]
     out: PathBuf,
-    /// Threads; all cores when 0.
+    /// Number of threads; 0: one for each core
     #[arg(long, default_value_t = 0)]
     jobs: usize,
-    /// The truth, or `wrong`: so many campaigns of true Coulomb friction and of each wrong law.
+    /// Law of the simulated friction: none (Coulomb), stribeck, direction, viscous-direction, ripple, sublinear, lugre,
+    /// beam-damping; or wrong (each of them)
     #[arg(long, default_value = "none", value_parser = laws)]
     law: Laws,
-    /// Write what the campaigns are to this folder, for another simulator, and do no more.
+    /// Only write the definitions of the campaigns to this folder, for another simulator
     #[arg(long, conflicts_with_all = ["only", "external"])]
     export: Option<PathBuf>,
-    /// Identify the logs that another simulator left in this folder.
+    /// Identify the logs that another simulator wrote to this folder
     #[arg(long)]
     external: Option<PathBuf>,
-    /// Drives with what real logs have, in place of arms: `real`, most effects at once, or `causes`, one at a time.
+    /// Drives instead of arms: with most effects of real logs at once, or with one of them at a time
     #[arg(long, conflicts_with_all = ["law", "export", "external", "resume"])]
     drives: Option<DriveStudy>,
-    /// Write the logs of the drives to this folder, each as a campaign with its truth, and do no more.
+    /// Only write the logs of the drives to this folder, each with campaign.toml and truth.json
     #[arg(long, requires = "drives")]
     logs: Option<PathBuf>,
-    /// Go on with a study that was stopped: take the campaigns that it left in the folder.
+    /// Continue a study that was stopped, with the campaigns that it has identified already
     #[arg(long, conflicts_with_all = ["only", "export", "external"])]
     resume: bool,
-    /// Leave the output error out: regression, law of friction and third harmonic alone.
+    /// Identify without the output-error method, as `lissom identify --quick`
     #[arg(long)]
     quick: bool,
-    /// Run this campaign alone and print everything about it.
+    /// Identify only the campaign with this index and print all details
     #[arg(long)]
     only: Option<usize>,
 }
 
-/// What a terminal is told.
+/// An error, printed on the terminal.
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-/// One law, or all.
+/// One law, or all of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Laws {
     One(Law),
@@ -89,9 +90,12 @@ fn run(args: &Args) -> Result<(), Failure> {
     if let Some(index) = args.only {
         let law = match args.law {
             Laws::One(law) => law,
-            Laws::Wrong => return Err("--only needs one law".into()),
+            Laws::Wrong => {
+                return Err("--only needs one law: give --law a name other than wrong".into());
+            }
         };
-        let drawn = draw_campaign(args.seed, index, law).ok_or("every draw was rejected")?;
+        let drawn = draw_campaign(args.seed, index, law)
+            .ok_or("every draw of this campaign was rejected")?;
         let campaign = match &args.external {
             Some(folder) => simulated(drawn, folder)?,
             None => drawn,
@@ -143,7 +147,7 @@ fn drives(args: &Args, study: DriveStudy) -> Result<(), Failure> {
     }
     if let Some(index) = args.only {
         let campaign = DriveCampaign::draw(study, plan.seed, index);
-        let campaign = campaign.ok_or("every draw was given up")?;
+        let campaign = campaign.ok_or("every draw of this campaign was rejected")?;
         print!("{}", describe_drive(&campaign, args.quick));
         return Ok(());
     }
@@ -160,14 +164,14 @@ fn written(args: &Args, name: &str, text: &str, rows: &str) -> Result<(), Failur
     fs::create_dir_all(&args.out)?;
     fs::write(args.out.join(format!("{name}.md")), text)?;
     fs::write(args.out.join(format!("{name}.csv")), rows)?;
-    eprintln!("{name}.md and {name}.csv are in {}", args.out.display());
+    eprintln!("wrote {name}.md and {name}.csv to {}", args.out.display());
     Ok(())
 }
 
-/// The study of true Coulomb friction, which another simulator can make as well.
+/// The study of Coulomb friction, the only one for which there is another simulator.
 fn external_plan(args: &Args) -> Result<Study, Failure> {
     if args.law != Laws::One(Law::None) {
-        return Err("another simulator makes campaigns of true Coulomb friction only".into());
+        return Err("--export and --external need Coulomb friction: leave out --law".into());
     }
     Ok(Study { campaigns: args.campaigns, seed: args.seed, law: Law::None, quick: args.quick })
 }

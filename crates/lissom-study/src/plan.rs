@@ -1,4 +1,4 @@
-//! The runs that an engineer would try on an arm.
+//! Plans the runs that an engineer would try on an arm.
 
 use std::f64::consts::TAU;
 
@@ -8,34 +8,34 @@ use crate::bench::Bench;
 use crate::draw::Draw;
 use crate::stratum::Kind;
 
-/// Lowest frequency of all \[rad/s\]: six periods in [`LONGEST_S`].
+/// Lowest frequency of all runs \[rad/s\]: six periods in [`LONGEST_S`].
 const LOWEST_RAD_S: f64 = 1.0;
 /// Length of a run \[s\].
 const SHORTEST_S: f64 = 10.0;
 /// See [`SHORTEST_S`].
 const LONGEST_S: f64 = 40.0;
-/// Periods of a sine where the time allows.
+/// Number of periods of a sine, if the time allows.
 const PERIODS: f64 = 12.0;
-/// Sines keep off the clamped modes by this share of their frequency, with their triples.
+/// Smallest relative distance of a sine, and of three times its frequency, from the clamped modes.
 const KEEP_OFF: f64 = 0.06;
-/// Lines of a multisine likewise.
+/// The same for the lines of a multisine.
 const NEAR_LINE: f64 = 0.1;
-/// A slow chirp ends or begins this share beside a clamped mode.
+/// Relative distance from a clamped mode at which a slow chirp begins or ends.
 const BESIDE: f64 = 0.15;
-/// A chirp across a mode lasts this long: slower, the mode has time to grow \[s\].
+/// Duration of a chirp across a mode: in a slower one the mode has time to grow \[s\].
 const ACROSS_S: (f64, f64) = (10.0, 16.0);
-/// Share of the torque left beside friction that a run is planned for.
+/// Share of the torque that a run may use, after friction is subtracted.
 const PLANNED: f64 = 0.85;
-/// A beam is not bent further than this \[rad\].
+/// Largest bending of a beam \[rad\].
 const BEND_RAD: f64 = 0.6;
-/// Peak of a sum of sines over its RMS.
+/// Peak of a sum of sines relative to its rms value.
 const CREST: f64 = 2.5;
-/// Lines of a multisine, at most.
+/// Largest number of lines of a multisine.
 const LINES: usize = 24;
 /// Longest wait for a transient \[s\].
 const PATIENCE_S: f64 = 120.0;
 
-/// A run but for its amplitude.
+/// A run without its amplitude.
 #[derive(Debug, Clone)]
 pub(crate) enum MotionShape {
     Sine { omega_rad_s: f64, record_s: f64 },
@@ -47,7 +47,7 @@ pub(crate) enum MotionShape {
 #[derive(Debug, Clone)]
 pub(crate) struct Idea {
     pub(crate) shape: MotionShape,
-    /// Amplitude of the reference to begin with \[rad\].
+    /// First amplitude of the reference \[rad\].
     pub(crate) reference_rad: f64,
 }
 
@@ -85,7 +85,7 @@ impl MotionShape {
     }
 }
 
-/// Ten runs at most.
+/// At most ten runs.
 pub(crate) fn ideas(draw: &mut Draw, bench: &Bench, kind: Kind) -> Vec<Idea> {
     let further = bench.modes_rad_s.len() - 1;
     let first = bench.modes_rad_s[0];
@@ -127,19 +127,19 @@ pub(crate) fn ideas(draw: &mut Draw, bench: &Bench, kind: Kind) -> Vec<Idea> {
     ideas
 }
 
-/// A chirp about the second mode and each further one.
+/// A chirp around the second mode and each further one.
 fn further_chirps(draw: &mut Draw, bench: &Bench) -> Vec<Idea> {
     let bands = mode_bands(bench).into_iter().zip(&bench.modes_rad_s[1..]);
     bands.map(|(band, mode)| chirp(draw, bench, band, *mode)).collect()
 }
 
-/// Bands about the second mode and further ones.
+/// Bands around the second mode and further ones.
 fn mode_bands(bench: &Bench) -> Vec<(f64, f64)> {
     let band = |mode: &f64| (0.75 * mode, (1.3 * mode).min(bench.fastest_rad_s()));
     bench.modes_rad_s[1..].iter().map(band).collect()
 }
 
-/// Pairs of sines at ω0 and 3ω0, ω0 spread about the first mode.
+/// Pairs of sines at ω0 and 3ω0, with ω0 spread around the first mode.
 fn stepped(draw: &mut Draw, bench: &Bench, low: f64, pairs: usize, ideas: &mut Vec<Idea>) {
     let high = (1.3 * bench.modes_rad_s[0]).min(bench.fastest_rad_s() / 3.0);
     for pair in 0..pairs {
@@ -147,7 +147,7 @@ fn stepped(draw: &mut Draw, bench: &Bench, low: f64, pairs: usize, ideas: &mut V
             let share = (pair as f64 + draw.uniform(0.1, 0.9)) / pairs as f64;
             low * (high / low).powf(share)
         };
-        // Where no draw is clear of the modes the last one is taken: nobody promised better.
+        // If no draw is far enough from the modes, the last one is used.
         let mut omega = at(draw);
         for _ in 0..20 {
             if is_clear(bench, omega, KEEP_OFF) && is_clear(bench, 3.0 * omega, KEEP_OFF) {
@@ -160,13 +160,13 @@ fn stepped(draw: &mut Draw, bench: &Bench, low: f64, pairs: usize, ideas: &mut V
     }
 }
 
-/// Whether a frequency is further than a share of it from every clamped mode.
+/// Whether a frequency has a relative distance of more than `share` from every clamped mode.
 fn is_clear(bench: &Bench, omega_rad_s: f64, share: f64) -> bool {
     bench.modes_rad_s.iter().all(|mode| (omega_rad_s / mode - 1.0).abs() > share)
 }
 
-/// A sine of as many whole periods as fit, as large as torque, travel and beam allow, or up to a
-/// half smaller.
+/// A sine with as many whole periods as fit. Its amplitude is 0.5 to 1 times the largest that torque,
+/// travel and beam allow.
 fn sine(draw: &mut Draw, bench: &Bench, omega_rad_s: f64) -> Option<Idea> {
     if omega_rad_s > bench.fastest_rad_s() {
         return None;
@@ -183,8 +183,8 @@ fn sine(draw: &mut Draw, bench: &Bench, omega_rad_s: f64) -> Option<Idea> {
     Some(Idea { shape: MotionShape::Sine { omega_rad_s, record_s }, reference_rad })
 }
 
-/// Three periods of odd lines between two frequencies, evenly spread over their logarithm, none near
-/// a clamped mode, where a small line bends the beam far.
+/// Three periods of a multisine with odd lines between two frequencies, evenly spread on a logarithmic
+/// scale. No line is near a clamped mode, where a small line bends the beam far.
 fn multisine(draw: &mut Draw, bench: &Bench, (low, high): (f64, f64)) -> Option<Idea> {
     let period_s = draw.uniform(5.0, LONGEST_S / 3.0);
     let omega_rad_s = TAU / period_s;

@@ -1,4 +1,4 @@
-//! A position loop that suits its arm.
+//! Chooses a position loop for an arm.
 
 use lissom::Matrix;
 use lissom::arm::Arm;
@@ -7,24 +7,24 @@ use num_complex::Complex64;
 
 use crate::draw::Draw;
 
-/// Radians per sample that the loop's frequency √(k_p·K/J) may have at most.
+/// Largest frequency √(k_p·K/J) of the loop in radians per sample.
 const FASTEST: f64 = 0.35;
-/// The torque that a jump of the motor's reading makes, at most, over the peak torque.
+/// Largest torque that a jump of the motor's reading causes, relative to the peak torque.
 const CHATTER: f64 = 0.4;
-/// Angle that the loop needs to overcome friction, CF/(K·k_p), over the largest amplitude, at most.
-/// In slow motion the joint then sticks for a share s of `2·CF/(K·k_p) = A·(1 − cos πs)`: 6 % at the
-/// lower of both, 18 % at the upper.
+/// Largest angle that the loop needs to overcome friction, CF/(K·k_p), relative to the largest amplitude.
+/// In slow motion the joint then sticks for a share s of the cycle, with
+/// `2·CF/(K·k_p) = A·(1 − cos πs)`: 6 % at the lower value, 18 % at the upper.
 const DEAD: (f64, f64) = (0.01, 0.08);
-/// Filters to choose from, in 1/ω_c: none where an encoder is fine enough.
+/// Time constants of the filter in 1/ω_c; none if the encoder is fine enough.
 const FILTERS: [f64; 3] = [0.0, 0.2, 0.5];
-/// Gains may be so many times larger before the loop is unstable (6 dB).
+/// Gain margin: the loop is stable with gains this many times larger (6 dB).
 const GAIN_MARGIN: f64 = 2.0;
 /// Loops are slowed by this factor until they fit…
 const SLOWER: f64 = 0.8;
-/// …but stay so many times above the beam's first frequency.
+/// …but stay at least this many times above the beam's first frequency.
 const SLOWEST: f64 = 1.2;
 
-/// Gains of a PD loop and the filter behind its derivative.
+/// Gains of a PD loop and the filter of its derivative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Gains {
     /// \[A/rad\].
@@ -36,7 +36,7 @@ pub(crate) struct Gains {
 }
 
 impl Gains {
-    /// What a loop of frequency ω_c and damping ζ_c on the motor's inertia needs.
+    /// The gains of a loop with frequency ω_c and damping ζ_c on the inertia of the motor.
     fn of(arm: &Arm, omega_c: f64, zeta_c: f64, filter_s: f64) -> Self {
         let stiffness =
             arm.motor.inertia_kg_m2() * omega_c * omega_c / arm.motor.torque_constant_nm_per_a();
@@ -48,36 +48,36 @@ impl Gains {
         if self.filter_s > 0.0 { pd.with_filter(self.filter_s) } else { Ok(pd) }
     }
 
-    /// Current per angle at `omega`, sampling left out \[A/rad\].
+    /// Current per angle at `omega`, without the effect of sampling \[A/rad\].
     pub(crate) fn response(&self, omega: f64) -> Complex64 {
         let s = Complex64::new(0.0, omega);
         self.proportional + self.derivative * s / (1.0 + self.filter_s * s)
     }
 
-    /// Current that a jump of the motor's reading makes \[A\].
+    /// Current that a jump of the motor's reading causes \[A\].
     fn jump_a(&self, jump_rad: f64, sample_time_s: f64) -> f64 {
         jump_rad * (self.proportional + self.derivative / (sample_time_s + self.filter_s))
     }
 }
 
-/// What a loop has to suit.
+/// The requirements on a loop.
 pub(crate) struct Task {
     /// The beam's first frequency \[rad/s\].
     pub(crate) first_rad_s: f64,
-    /// Peak torque planned \[N·m\].
+    /// Planned peak torque \[N·m\].
     pub(crate) peak_nm: f64,
     /// Coulomb friction \[N·m\].
     pub(crate) coulomb_nm: f64,
     /// Largest amplitude \[rad\].
     pub(crate) most_rad: f64,
-    /// Change of the motor's reading from sample to sample by its sensor alone \[rad\].
+    /// Change of the motor's reading between two samples that its sensor alone causes \[rad\].
     pub(crate) jump_rad: f64,
     /// T \[s\].
     pub(crate) sample_time_s: f64,
 }
 
-/// A loop some times faster than the beam's first mode that is stiff enough for the friction, stable
-/// with a margin, and not shaken by the encoder. `None` where there is none.
+/// A loop several times faster than the beam's first mode. It is stiff enough for the friction, stable
+/// with a margin, and insensitive to the encoder's steps. `None` if there is none.
 pub(crate) fn random_loop(draw: &mut Draw, arm: &Arm, task: &Task) -> Option<Gains> {
     let zeta_c = draw.uniform(0.6, 1.0);
     let filtered = draw.chance(0.5);
@@ -86,7 +86,7 @@ pub(crate) fn random_loop(draw: &mut Draw, arm: &Arm, task: &Task) -> Option<Gai
     let meant = (task.first_rad_s * draw.decade(4.0, 10.0)).max(slowest);
     let mut omega_c = meant.min(FASTEST / task.sample_time_s);
     while omega_c >= slowest {
-        // A filter where it is the house's habit, or where the encoder asks for one.
+        // Some loops always have a filter, others only if the encoder requires one.
         for filter_s in FILTERS.map(|f| f / omega_c) {
             let gains = Gains::of(arm, omega_c, zeta_c, filter_s);
             let jump_a = gains.jump_a(task.jump_rad, task.sample_time_s);
@@ -115,7 +115,7 @@ pub(crate) fn is_stable(arm: &Arm, gains: &Gains, sample_time_s: f64) -> bool {
     })
 }
 
-/// State over one sample under a held current: `x⁺ = Φ·x + Γ·i`.
+/// State after one sample with constant current: `x⁺ = Φ·x + Γ·i`.
 fn held(arm: &Arm, sample_time_s: f64) -> (Matrix, Matrix) {
     let space = arm.state_space();
     let len = space.a.nrows();
@@ -169,7 +169,7 @@ mod tests {
             .unwrap()
     }
 
-    /// The limit of stability by eigenvalues is that of the simulated loop.
+    /// The stability limit from eigenvalues is that of the simulated loop.
     #[test]
     fn the_rig_agrees_on_what_is_stable() {
         let (arm, sample) = (arm(), 0.003);

@@ -1,4 +1,4 @@
-//! Why runs and draws are given up.
+//! Reasons why runs and draws are given up.
 
 use std::fmt;
 
@@ -7,64 +7,72 @@ use lissom::drive::DriveError;
 use lissom::rig::RigError;
 use serde::{Deserialize, Serialize};
 
-/// Why a run was given up.
+/// The reason why a run was given up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Dropped {
-    /// The loop ran away.
+    /// The loop is unstable.
     Unstable,
-    /// The joint sticks for more than 15 % however large the run may be.
+    /// The joint sticks for more than 15 % at every allowed amplitude.
     Sticks,
     /// The motor moves by less than 20 steps of its encoder.
     TooSmall,
-    /// The amplifier limits it, and smaller the joint sticks or the encoder is too coarse.
+    /// The amplifier saturates; with a smaller amplitude the joint sticks or the encoder is too coarse.
     Current,
-    /// The beam bends too far, and smaller the joint sticks or the encoder is too coarse.
+    /// The beam bends too far; with a smaller amplitude the joint sticks or the encoder is too coarse.
     Bend,
-    /// The rig cannot do it.
+    /// The rig cannot make the run.
     Impossible,
 }
 
 impl fmt::Display for Dropped {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Unstable => "the loop ran away",
-            Self::Sticks => "sticks for more than 15 % at any amplitude allowed",
-            Self::TooSmall => "less than 20 steps of the motor's encoder",
-            Self::Current => "the amplifier limits it, and smaller it sticks or is too coarse",
-            Self::Bend => "the beam bends too far, and smaller it sticks or is too coarse",
-            Self::Impossible => "the rig cannot do it",
+            Self::Unstable => "the loop is unstable",
+            Self::Sticks => "the joint sticks for more than 15 % at every allowed amplitude",
+            Self::TooSmall => "the motor moves by less than 20 steps of its encoder",
+            Self::Current => {
+                "the amplifier saturates; with a smaller amplitude the joint sticks or the encoder is too coarse"
+            }
+            Self::Bend => {
+                "the beam bends too far; with a smaller amplitude the joint sticks or the encoder is too coarse"
+            }
+            Self::Impossible => "the rig cannot make the run",
         })
     }
 }
 
 impl Dropped {
-    /// Whether a smaller run is tried next.
+    /// Whether the run is tried with a smaller amplitude next.
     pub(crate) fn is_too_large(self) -> bool {
         matches!(self, Self::Current | Self::Bend)
     }
 }
 
-/// Why a draw was rejected.
+/// The reason why a draw was rejected.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Rejected {
-    /// The beam's last mode has fewer than six samples a period.
+    /// The highest mode of the beam has fewer than six samples in a period.
     FastMode,
-    /// No loop is stable with a margin and quiet enough for the encoder.
+    /// No loop is stable with a margin and insensitive enough to the encoder's steps.
     NoLoop,
-    /// Too few runs were sound; the commonest reason of those given up.
+    /// Too few runs were good; with the most frequent reason of the others.
     FewRuns(Dropped),
     /// Friction is below 5 % or above 60 % of the peak torque that was reached.
     CoulombShare,
-    /// The numbers cannot make a rig.
+    /// The numbers do not make a valid rig.
     Impossible(String),
 }
 
 impl fmt::Display for Rejected {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::FastMode => f.write_str("last mode has fewer than six samples a period"),
-            Self::NoLoop => f.write_str("no loop is stable with a margin and quiet enough"),
-            Self::FewRuns(why) => write!(f, "too few sound runs: {why}"),
+            Self::FastMode => {
+                f.write_str("the highest mode has fewer than six samples in a period")
+            }
+            Self::NoLoop => f.write_str(
+                "no loop is stable with a margin and insensitive enough to the encoder's steps",
+            ),
+            Self::FewRuns(why) => write!(f, "too few good runs: {why}"),
             Self::CoulombShare => {
                 f.write_str("friction below 5 % or above 60 % of the peak torque")
             }

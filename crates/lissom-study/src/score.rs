@@ -1,4 +1,4 @@
-//! Figures against truth.
+//! Compares estimates with the truth.
 
 use lissom::identify::findings::{
     BeamFinding, ChannelFinding, EstimateFinding, Finding, FindingKind, FrictionLawFinding,
@@ -13,26 +13,26 @@ use crate::figure::Figure;
 use crate::statistics::NORMAL_95;
 use crate::truth::Truth;
 
-/// Deviations beyond which a figure without a finding is silently wrong.
+/// Error, in standard errors, above which an estimate without a warning is silently wrong.
 const SILENT: f64 = 5.0;
 
-/// Radius of a response's 95 % circle in its deviations √E|Ĝ − G|²: √(−ln 0.05). It is that of a circular
+/// Radius of a response's 95 % circle in standard errors √E|Ĝ − G|²: √(−ln 0.05), for a circular
 /// normal error.
 pub(crate) const CIRCLE_95: f64 = 1.730_818_382_6;
 
-/// One figure of one campaign.
+/// One parameter of one campaign.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FigureScore {
-    /// Which.
+    /// The parameter.
     pub figure: Figure,
-    /// Its truth.
+    /// Its true value.
     pub truth: f64,
-    /// What was given; `None`: refused.
+    /// The estimate; `None`: refused.
     #[serde(with = "estimate")]
     pub estimate: Option<Estimate>,
-    /// Whether a warning or refusal names it.
+    /// Whether a warning or refusal affects it.
     pub warned: bool,
-    /// The least deviation that an unbiased estimator can have; `None` where it is not known.
+    /// The smallest standard error of an unbiased estimator; `None` if it is not known.
     pub bound: Option<f64>,
 }
 
@@ -42,23 +42,23 @@ impl FigureScore {
         self.estimate.map(|e| e.value / self.truth - 1.0)
     }
 
-    /// Distance from the truth in deviations; infinite where none is claimed.
+    /// Signed error in standard errors; infinite if the standard error is zero.
     pub fn deviations(&self) -> Option<f64> {
         self.estimate.map(|e| (e.value - self.truth) / e.std)
     }
 
-    /// Width of its 95 % interval over that of the bound.
+    /// Width of its 95 % interval divided by that of the bound.
     pub fn width_over_bound(&self) -> Option<f64> {
         let [low, high] = self.estimate?.ci95();
         Some((high - low) / (2.0 * NORMAL_95 * self.bound?))
     }
 
-    /// Signed error over the bound.
+    /// Signed error divided by the bound.
     pub fn error_over_bound(&self) -> Option<f64> {
         Some((self.estimate?.value - self.truth) / self.bound?)
     }
 
-    /// Whether the 95 % interval holds the truth.
+    /// Whether the 95 % interval contains the true value.
     pub fn covers(&self) -> Option<bool> {
         self.estimate.map(|e| {
             let [low, high] = e.ci95();
@@ -66,9 +66,9 @@ impl FigureScore {
         })
     }
 
-    /// Off by more than five deviations, and nothing says so.
+    /// More than five standard errors off, without a warning.
     pub fn silently_wrong(&self) -> bool {
-        // NaN deviations are as wrong as large ones.
+        // NaN counts as wrong, as a large error does.
         !self.warned && self.deviations().is_some_and(|d| d.is_nan() || d.abs() > SILENT)
     }
 
@@ -83,34 +83,34 @@ impl FigureScore {
 pub struct PointScore {
     /// Frequency \[rad/s\].
     pub omega_rad_s: f64,
-    /// Whether it is a sinusoidal run's, not a band's.
+    /// Whether it is of a sinusoidal run; otherwise it is of a band.
     pub sinusoidal: bool,
-    /// As measured.
+    /// Error as measured.
     pub raw: f64,
-    /// By (30) with the third harmonic's friction.
+    /// Error of (30) with the friction that the third harmonic gives.
     pub third_harmonic: Option<f64>,
-    /// As given.
+    /// Error of the corrected response.
     pub corrected: Option<f64>,
-    /// The same in its deviations.
+    /// The same in standard errors.
     pub deviations: Option<f64>,
-    /// Whether it is vouched for: nothing speaks against it, and its 95 % interval is within 5 %.
+    /// Whether it is vouched for: no finding speaks against it, and its 95 % interval is within 5 %.
     pub vouched: bool,
 }
 
 impl PointScore {
-    /// Whether the 95 % circle around the corrected point holds the truth.
+    /// Whether the 95 % circle around the corrected point contains the truth.
     pub fn covers(&self) -> Option<bool> {
         self.deviations.map(|d| d <= CIRCLE_95)
     }
 
-    /// Vouched for, and off by more than five deviations.
+    /// Vouched for, and more than five standard errors off.
     pub fn silently_wrong(&self) -> bool {
-        // NaN deviations are as wrong as large ones.
+        // NaN counts as wrong, as a large error does.
         self.vouched && self.deviations.is_some_and(|d| d.is_nan() || d > SILENT)
     }
 
-    /// Whether the corrected point is at least so many times nearer to the truth than (30); `None` without (30).
-    /// A point that is not corrected is not nearer.
+    /// Whether the error of the corrected point is at least `times` smaller than that of (30); `None` without (30).
+    /// A point that is not corrected counts as not nearer.
     pub fn nearer(&self, times: f64) -> Option<bool> {
         let third = self.third_harmonic?;
         Some(self.corrected.is_some_and(|c| c < third && times * c <= third))
@@ -122,48 +122,48 @@ impl PointScore {
 pub struct CurveScore {
     /// Relative error.
     pub error: f64,
-    /// The same in its deviations.
+    /// The same in standard errors.
     pub deviations: f64,
 }
 
 impl CurveScore {
-    /// Whether the 95 % band holds the truth.
+    /// Whether the 95 % band contains the true value.
     pub fn covers(&self) -> bool {
         self.deviations.abs() <= NORMAL_95
     }
 }
 
-/// A finding, as far as it counts here.
+/// The parts of a finding that are used here.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FindingScore {
     /// Its code.
     pub code: String,
-    /// Whether it says that the equation of motion does not hold.
+    /// Whether it reports that the equation of motion is wrong.
     pub law_alarm: bool,
 }
 
 /// All scores of one campaign.
 #[derive(Debug, Default, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Score {
-    /// Figures, two of each mode at the end.
+    /// Parameters, two of each mode at the end.
     pub figures: Vec<FigureScore>,
     /// Points of the motor's response.
     pub points: Vec<PointScore>,
     /// Points of the friction curve.
     pub curve: Vec<CurveScore>,
-    /// What was said beside the figures.
+    /// The findings.
     pub findings: Vec<FindingScore>,
-    /// Modes given beyond those that there are.
+    /// Number of modes found that the arm does not have.
     pub surplus_modes: usize,
 }
 
 impl Score {
-    /// The score of one figure.
+    /// The score of one parameter.
     pub fn of(&self, figure: Figure) -> Option<&FigureScore> {
         self.figures.iter().find(|f| f.figure == figure)
     }
 
-    /// With the bounds of its figures.
+    /// Adds the bounds of the parameters.
     #[must_use]
     pub fn with_bound(mut self, bound: Option<&Bound>) -> Self {
         for figure in &mut self.figures {
@@ -172,15 +172,15 @@ impl Score {
         self
     }
 
-    /// The codes of the findings that say that the equation of motion does not hold: warnings and
-    /// refusals about the campaign that name friction, inertia or coupling and are not about its
-    /// data; and `offset`, which says that friction differs by direction.
+    /// The codes of the findings that report a wrong equation of motion: warnings and refusals about
+    /// the whole campaign that affect friction, inertia or coupling and are not about its data; and
+    /// `offset`, which reports that friction differs by direction.
     pub fn law_alarms(&self) -> Vec<&str> {
         self.findings.iter().filter(|f| f.law_alarm).map(|f| f.code.as_str()).collect()
     }
 }
 
-/// Scores what was found against the truth.
+/// Compares a result with the truth.
 pub fn score(truth: &Truth, id: &Identified) -> Score {
     let named = |figure: Figure| {
         let speaks =
@@ -222,11 +222,11 @@ impl FindingScore {
     }
 }
 
-/// Whether a finding says that the equation of motion does not hold.
+/// Whether a finding reports that the equation of motion is wrong.
 fn is_law_alarm(finding: &Finding) -> bool {
     let says = match &finding.kind {
         FindingKind::Estimate(EstimateFinding::Offset { .. }) => true,
-        // It warns of nothing where the estimates are those of the law.
+        // No alarm if the estimates are those of the law.
         FindingKind::FrictionLaw(FrictionLawFinding::FrictionLaw { source, .. }) => !matches!(
             source,
             LawSource::OutputError { negligible: true, .. }
@@ -241,7 +241,7 @@ fn is_law_alarm(finding: &Finding) -> bool {
     warns && about_equation(finding) && !about_data(&finding.kind)
 }
 
-/// Whether a finding about the whole campaign names what the motor's equation of motion gives.
+/// Whether a finding about the whole campaign affects a parameter of the motor's equation of motion.
 fn about_equation(finding: &Finding) -> bool {
     let affects = finding.affects();
     let named = |figure: Figure| affects.contains(&figure.key());
@@ -249,7 +249,7 @@ fn about_equation(finding: &Finding) -> bool {
     finding.run.is_none() && figures.into_iter().any(named)
 }
 
-/// Whether a finding is about what the runs show, not about the equation that they should follow.
+/// Whether a finding is about the information in the runs, not about the equation of motion.
 fn about_data(kind: &FindingKind) -> bool {
     match kind {
         FindingKind::Channel(found) => matches!(found, ChannelFinding::DeadChannel { .. }),
@@ -272,7 +272,7 @@ fn about_data(kind: &FindingKind) -> bool {
     }
 }
 
-/// The mode found for each true one: in order where there are as many, else the nearest left.
+/// The mode found for each true one: in order if there are as many, otherwise the nearest of the remaining ones.
 fn matched(truth: &[(f64, f64)], found: &[ModeEstimate]) -> Vec<Option<ModeEstimate>> {
     if truth.len() == found.len() {
         return found.iter().copied().map(Some).collect();
@@ -332,7 +332,7 @@ fn curve(truth: &Truth, id: &Identified) -> Vec<CurveScore> {
         .collect()
 }
 
-/// An estimate as its value and deviation: the library's own type is not made for files.
+/// Serialises an estimate as value and standard error; the library's type has no serialisation.
 mod estimate {
     use lissom::identify::Estimate;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -375,11 +375,11 @@ mod tests {
 
     #[test]
     fn modes_meet_their_truths() {
-        // As many: in order, also where one is far off.
+        // As many: in order, even if one is far off.
         assert_eq!(omegas(&[5.0, 30.0], &[4.0, 5.0]), [Some(4.0), Some(5.0)]);
-        // Fewer: the nearest; the rest is refused.
+        // Fewer: the nearest; the others are refused.
         assert_eq!(omegas(&[5.0, 30.0], &[31.0]), [None, Some(31.0)]);
-        // More: the surplus is left over.
+        // More: the surplus is not used.
         assert_eq!(omegas(&[5.0], &[2.0, 5.1, 9.0]), [Some(5.1)]);
         assert_eq!(omegas(&[5.0, 30.0], &[]), [None, None]);
     }
@@ -390,18 +390,21 @@ mod tests {
     }
 
     #[test]
-    fn silence_is_far_off_without_a_word() {
+    fn silently_wrong_is_far_off_without_a_warning() {
         assert!(coulomb(1.06, 0.01, false).silently_wrong());
         assert!(!coulomb(1.04, 0.01, false).silently_wrong());
         assert!(!coulomb(1.06, 0.01, true).silently_wrong());
-        assert!(coulomb(1.0001, 0.0, false).silently_wrong(), "a deviation of zero is a claim");
+        assert!(
+            coulomb(1.0001, 0.0, false).silently_wrong(),
+            "a standard error of zero counts as given"
+        );
         assert!(coulomb(1.0, f64::NAN, false).silently_wrong());
         let refused = FigureScore { estimate: None, ..coulomb(0.0, 0.0, false) };
         assert!(!refused.silently_wrong() && refused.covers().is_none());
     }
 
     #[test]
-    fn intervals_cover_what_lies_within() {
+    fn intervals_contain_the_values_within() {
         assert_eq!(coulomb(1.019, 0.01, false).covers(), Some(true));
         assert_eq!(coulomb(1.021, 0.01, false).covers(), Some(false));
         assert!((coulomb(1.02, 0.01, false).error().unwrap() - 0.02).abs() < 1e-12);

@@ -1,4 +1,4 @@
-//! Everything about one campaign, for who looks for a mistake.
+//! All details of one campaign, to look for the cause of an error.
 
 use std::fmt::Write;
 use std::time::Instant;
@@ -26,9 +26,15 @@ pub fn describe(campaign: &Campaign, seed: u64, quick: bool) -> String {
             lines.push(String::new());
             lines.push(figures(&scored));
             if let Some(bound) = bound {
-                lines.push(format!("left by the true arm, in deviations: {:.4?}", bound.left));
+                lines.push(format!(
+                    "residual of the true arm, in standard deviations of the sensors: {:.4?}",
+                    bound.left
+                ));
             }
-            lines.push(format!("modes beyond those that there are: {}\n", scored.surplus_modes));
+            lines.push(format!(
+                "modes found that the arm does not have: {}\n",
+                scored.surplus_modes
+            ));
             lines.push(points(&scored));
             if let Some(replayed) = &id.output_error {
                 lines.push(stages(replayed, campaign));
@@ -58,7 +64,7 @@ fn candidates(of: &str, tried: &[Candidate]) -> String {
     let line = |c: &Candidate| {
         let Candidate { window_s, rows, clusters, relative_residual, sensitivity } = c;
         format!(
-            "{of} {window_s:7.3} s {rows:6} rows {clusters:5} phases {relative_residual:9.2e} left, {sensitivity:9.2e}"
+            "{of} {window_s:7.3} s {rows:6} rows {clusters:5} phases, residual {relative_residual:9.2e}, sensitivity {sensitivity:9.2e}"
         )
     };
     tried.iter().map(line).collect::<Vec<_>>().join("\n")
@@ -70,14 +76,14 @@ fn conditions(campaign: &Campaign, seed: u64) -> Vec<String> {
     let mut lines = vec![
         format!("campaign {} of seed {seed}, {}", campaign.index, campaign.law),
         format!("{:?}", campaign.stratum),
-        format!("{} draws rejected before it: {:?}", campaign.rejected.len(), campaign.rejected),
+        format!("{} draws rejected before: {:?}", campaign.rejected.len(), campaign.rejected),
         format!("{:?}", arm.motor),
         format!("{:?}, {:?}", arm.coulomb, rig.scene.friction),
     ];
     lines.extend(arm.beam().spans().iter().map(|span| format!("{span:?}")));
     lines.push(format!("{:?}", rig.controller));
     lines.push(format!(
-        "limit {:.4} A, CF {:.1} % of the peak torque",
+        "current limit {:.4} A, CF {:.1} % of the peak torque",
         rig.instruments.amplifier.most_a(),
         100.0 * campaign.coulomb_share()
     ));
@@ -101,7 +107,7 @@ fn conditions(campaign: &Campaign, seed: u64) -> Vec<String> {
 fn figures(scored: &Score) -> String {
     let mut text = format!(
         "{:18} {:>13} {:>13} {:>13} {:>13} {:>10} {:>10}\n",
-        "figure", "true", "given", "deviation", "bound", "error", "deviations"
+        "parameter", "true", "estimate", "std. error", "bound", "error", "std. errors"
     );
     for f in &scored.figures {
         let _ = writeln!(text, "{}", figure(f));
@@ -109,20 +115,20 @@ fn figures(scored: &Score) -> String {
     text
 }
 
-/// The choice of friction's law, term by term, and the curve.
+/// The choice of the friction law, term by term, and the friction curve.
 fn friction(law: &FrictionLaw) -> String {
     let [simplest, chosen, curve] = law.relative_residual.map(|r| 100.0 * r);
     let mut text = format!(
-        "friction's law: windows of {:.4} s; {simplest:.3} % left by the simplest, {chosen:.3} % by \
-         the chosen, {curve:.3} % by the curve\n",
+        "friction law: windows of {:.4} s; residual {simplest:.3} % with the simplest law, {chosen:.3} % with \
+         the chosen law, {curve:.3} % with the curve\n",
         law.window_s
     );
     for c in &law.candidates {
         let _ = writeln!(
             text,
-            "{} beside {}: {:?} {:+.4e} ± {:.1e}, ratio {:.4}, paired {:+.2}, stretches {:.4}, at \
+            "{} in addition to {}: {:?} {:+.4e} ± {:.1e}, ratio {:.4}, paired {:+.2}, stretches {:.4}, at \
              rest {:+.3e}",
-            if c.taken { "taken  " } else { "refused" },
+            if c.taken { "accepted" } else { "rejected" },
             c.beside,
             c.term,
             c.amplitude.value,
@@ -167,7 +173,7 @@ fn figure(f: &FigureScore) -> String {
     )
 }
 
-/// The output error's way, a line a stage, and the arm that it should have come to.
+/// The stages of the output-error method, a line for each, and the true arm.
 fn stages(found: &OutputError, campaign: &Campaign) -> String {
     let mut text = String::new();
     for s in &found.stages {
@@ -186,10 +192,10 @@ fn stages(found: &OutputError, campaign: &Campaign) -> String {
     }
     for e in &found.extensions {
         let (name, z) = (e.parameter.name(), e.value / e.std);
-        let done = if e.added { "added" } else { "refused" };
+        let done = if e.added { "added" } else { "rejected" };
         let _ = writeln!(
             text,
-            "{done} {name}: {:.4e}, {z:+.1} deviations, share {:.1e}",
+            "{done} {name}: {:.4e}, {z:+.1} standard errors, share {:.1e}",
             e.value, e.share
         );
     }
@@ -202,7 +208,7 @@ fn stages(found: &OutputError, campaign: &Campaign) -> String {
     let truth = truth.as_ref().map_or_else(String::new, arm_line);
     let _ = writeln!(
         text,
-        "whole runs {}, {:.2} times the noise, left over {:.4?}, point masses {}\ntrue {truth}",
+        "whole runs {}, residual {:.2} times the noise, by channel {:.4?}, point masses {}\ntrue {truth}",
         found.whole_runs, found.beyond_noise, found.left_over, found.point_masses
     );
     text
@@ -226,7 +232,7 @@ fn arm_line(arm: &ModalArm) -> String {
 fn points(scored: &Score) -> String {
     let mut text = format!(
         "{:>10} {:>5} {:>10} {:>10} {:>10} {:>10}\n",
-        "rad/s", "kind", "raw", "(30)", "corrected", "deviations"
+        "rad/s", "kind", "raw", "(30)", "corrected", "std. errors"
     );
     for p in &scored.points {
         let percent = |v: Option<f64>| {

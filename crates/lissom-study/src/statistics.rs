@@ -4,7 +4,7 @@ use std::fmt;
 
 pub(crate) use lissom::identify::NORMAL_95;
 
-/// The quantile `share` of the values, between two of them in proportion; `None` of none.
+/// The quantile `share` of the values, interpolated linearly; `None` without values.
 pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -15,32 +15,32 @@ pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
     Some(if above.is_infinite() { above } else { below + (above - below) * at.fract() })
 }
 
-/// The middle of the values.
+/// The median of the values.
 pub fn median(values: &[f64]) -> Option<f64> {
     quantile(values, 0.5)
 }
 
-/// So many of so many.
+/// A number of hits out of a number of cases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Share {
-    /// Those that are.
+    /// The hits.
     pub hits: usize,
-    /// All.
+    /// All cases.
     pub of: usize,
 }
 
 impl Share {
-    /// Counts the values for which `is` holds.
+    /// Counts the values for which `is` is true.
     pub fn count<T>(values: &[T], is: impl Fn(&T) -> bool) -> Self {
         Self { hits: values.iter().filter(|v| is(v)).count(), of: values.len() }
     }
 
-    /// The share; NaN of none.
+    /// The share; NaN without cases.
     pub fn value(&self) -> f64 {
         self.hits as f64 / self.of as f64
     }
 
-    /// Wilson's 95 % interval for the probability behind it.
+    /// Wilson's 95 % interval of the probability of a hit.
     pub fn band(&self) -> (f64, f64) {
         let (n, p, z2) = (self.of as f64, self.value(), NORMAL_95 * NORMAL_95);
         let middle = (p + 0.5 * z2 / n) / (1.0 + z2 / n);
@@ -49,7 +49,7 @@ impl Share {
     }
 }
 
-/// `93.1 % (91.0-94.8)`, or a dash of none.
+/// `93.1 % (91.0-94.8)`, or a dash without cases.
 impl fmt::Display for Share {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.of == 0 {
@@ -75,9 +75,9 @@ mod tests {
         assert_eq!(median(&[f64::INFINITY, f64::INFINITY]), Some(f64::INFINITY));
     }
 
-    /// Wilson's interval for 19 of 20 from his formula, worked out by hand: 0.764 to 0.991.
+    /// Wilson's interval for 19 of 20 from his formula, computed by hand: 0.764 to 0.991.
     #[test]
-    fn a_share_knows_how_sure_it_is() {
+    fn a_share_has_an_interval() {
         let (low, high) = Share { hits: 19, of: 20 }.band();
         assert!((low - 0.7639).abs() < 1e-3 && (high - 0.9911).abs() < 1e-3, "{low} {high}");
         assert_eq!(Share { hits: 0, of: 0 }.to_string(), "–");

@@ -1,4 +1,4 @@
-//! What of a campaign is drawn once and kept however often the rest is drawn again.
+//! The part of a campaign that is kept while the rest is drawn again.
 
 use std::fmt;
 
@@ -8,13 +8,13 @@ use crate::draw::Draw;
 
 /// Share of friction in the campaign's peak torque, CF/τ_max \[1\].
 pub(crate) const COULOMB_SHARE: (f64, f64) = (0.05, 0.60);
-/// The same as planned: sensors and repeated runs make peaks beyond it.
+/// The same share when planned: sensors and repeated runs lead to higher peaks.
 const PLANNED_SHARE: (f64, f64) = (0.05, 0.80);
 
-/// What kind of runs a campaign has.
+/// The kind of runs of a campaign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Kind {
-    /// Stepped sines, at frequencies and their triples.
+    /// Stepped sines, at frequencies and three times these.
     Sines,
     /// Odd multisines.
     Multisines,
@@ -25,7 +25,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [Self; 4] = [Self::Sines, Self::Multisines, Self::Chirps, Self::Mixed];
 }
 
@@ -40,10 +40,10 @@ impl fmt::Display for Kind {
     }
 }
 
-/// What is asked of a campaign.
+/// The properties that a campaign must have.
 ///
-/// Draws outside the envelope are drawn again with the same stratum, so that a corner where draws
-/// fail often (much friction, coarse encoders) is not thinned out.
+/// A draw outside the ranges is repeated with the same stratum, so that properties with which draws
+/// fail often (much friction, coarse encoders) do not become rare.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Stratum {
     /// Masses n, 1 to 3.
@@ -56,7 +56,7 @@ pub struct Stratum {
     pub tip_bits: u32,
     /// Sample time \[s\], 1 to 4 ms.
     pub sample_time_s: f64,
-    /// CF over the peak torque planned; what comes out is lower by a third.
+    /// CF over the planned peak torque; the share of the logs is lower by about a third.
     pub coulomb_share: f64,
     /// Noise of every sensor before rounding, in its steps; `None`: none.
     pub noise_steps: Option<f64>,
@@ -83,8 +83,8 @@ impl Stratum {
         std::f64::consts::TAU / f64::from(1_u32 << self.motor_bits)
     }
 
-    /// By how much the motor's reading may change from one sample to the next though it stands
-    /// still: a step, and four deviations of its noise \[rad\].
+    /// The largest change of the motor's reading between two samples while it rests: one step, and four
+    /// standard deviations of its noise \[rad\].
     pub(crate) fn motor_jump_rad(&self) -> f64 {
         (1.0 + 4.0 * self.noise_steps.unwrap_or(0.0)) * self.motor_step_rad()
     }

@@ -1,4 +1,4 @@
-//! Many campaigns, side by side.
+//! Simulates and identifies many campaigns in parallel.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -18,31 +18,31 @@ use crate::statistics::Share;
 use crate::stratum::Stratum;
 use crate::truth::Truth;
 
-/// What a study is.
+/// The settings of a study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Study {
     /// Campaigns, from index 0 on.
     pub campaigns: usize,
     /// Seed of all draws.
     pub seed: u64,
-    /// Truth of all campaigns.
+    /// Friction law of all campaigns.
     pub law: Law,
-    /// Leaves the output error out.
+    /// Identifies without the output-error method.
     pub quick: bool,
 }
 
-/// A campaign that has been identified; its logs are gone.
+/// A campaign after its identification, without its logs.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Scored {
     /// Its place in the study.
     pub index: usize,
-    /// What was asked of it.
+    /// Its drawn properties.
     pub stratum: Stratum,
-    /// CF over the largest torque reached.
+    /// CF relative to the largest torque of the logs.
     pub coulomb_share: f64,
     /// The largest share of a run in which the joint stuck.
     pub stuck_share: f64,
-    /// What the rig knows of each run.
+    /// Facts about each run that its log does not contain.
     pub runs: Vec<RunFacts>,
     /// Samples of all runs.
     pub samples: usize,
@@ -50,33 +50,33 @@ pub struct Scored {
     pub dropped: Vec<Dropped>,
     /// Draws rejected before this one.
     pub rejected: Vec<Rejected>,
-    /// Strata that all draws failed for.
+    /// Strata for which all draws failed.
     pub given_up: Vec<Stratum>,
-    /// Figures against truth, or why nothing was identified at all.
+    /// Estimates compared with the truth, or the error of the identification.
     pub score: Result<Score, String>,
-    /// What the true arm leaves of each channel, in its sensor's deviations: see [`Bound::left`].
+    /// Residual of the true arm for each channel, in standard deviations of its sensor: see [`Bound::left`].
     pub left: Vec<f64>,
-    /// Time of the simulation, repeated runs included.
+    /// Time of the simulation, with repeated runs.
     pub simulation: Duration,
     /// Time of the identification.
     pub identification: Duration,
 }
 
-/// Identifies a campaign as a user would, with no options but perhaps `--quick`.
+/// Identifies a campaign as a user would, with default options or with `--quick`.
 ///
 /// # Errors
-/// [`IdentifyError`] where nothing can be said at all.
+/// [`IdentifyError`] if nothing can be identified.
 pub fn identified(campaign: &Campaign, quick: bool) -> Result<Identified, IdentifyError> {
     let effort = if quick { Effort::Quick } else { Effort::Normal };
     let options = Options { effort, ..Options::default() };
     identify(&campaign.logs, &options, |_| {})
 }
 
-/// Runs the study on rayon's current threads, but for the campaigns that `known` has; `done` is
-/// called with each one that is made. `None`: a campaign whose draws were all rejected.
+/// Runs the study on rayon's current threads, except for the campaigns that `known` returns. `done` is
+/// called with each new one. `None`: a campaign for which all draws were rejected.
 ///
 /// # Errors
-/// Those of `done`, which end the study.
+/// An error of `done` ends the study and is returned.
 pub fn study<E: Send>(
     study: &Study,
     known: impl Fn(usize) -> Option<Option<Scored>> + Sync,
@@ -92,26 +92,26 @@ pub fn study<E: Send>(
         done(index, scored.as_ref())?;
         Ok(scored)
     };
-    // One after the other: what a stopped study leaves is its first campaigns.
+    // In order, so that a stopped study has its first campaigns.
     let numbered = (0..study.campaigns).par_bridge().map(|index| Ok((index, one(index)?)));
     let mut all = numbered.collect::<Result<Vec<_>, E>>()?;
     all.sort_by_key(|(index, _)| *index);
     Ok(all.into_iter().map(|(_, scored)| scored).collect())
 }
 
-/// Campaigns of a study as another simulator made them.
+/// Campaigns of a study that another simulator made.
 #[derive(Debug, Clone)]
 pub struct Independent {
-    /// Every campaign, identified and scored.
+    /// Every campaign, identified and compared with the truth.
     pub outcome: Vec<Option<Scored>>,
-    /// Readings that are the rig's, of campaigns whose sensors have steps and no noise.
+    /// Share of readings that are the same as those of the rig, for campaigns whose sensors have steps but no noise.
     pub alike: Share,
 }
 
-/// The study with the logs that another simulator left in `folder`.
+/// Runs the study with the logs that another simulator wrote to `folder`.
 ///
 /// # Errors
-/// Where they cannot be read.
+/// If they cannot be read.
 pub fn independent(
     study: &Study,
     folder: &Path,
@@ -136,7 +136,7 @@ pub fn independent(
     Ok(Independent { outcome, alike })
 }
 
-/// Readings in which two logs of a campaign are within a thousandth of the finest step.
+/// Share of readings of two logs of a campaign that differ by less than a thousandth of the finest step.
 fn alike(one: &Campaign, other: &Campaign) -> Share {
     let bits = one.stratum.motor_bits.max(one.stratum.tip_bits);
     let near = 1e-3 * std::f64::consts::TAU / f64::from(1_u32 << bits);
@@ -154,7 +154,7 @@ fn alike(one: &Campaign, other: &Campaign) -> Share {
 }
 
 impl Scored {
-    /// Identifies a campaign whose simulation took so long.
+    /// Identifies a campaign; `simulation` is the time of its simulation.
     pub fn of(campaign: Campaign, simulation: Duration, quick: bool) -> Self {
         let start = Instant::now();
         let found = identified(&campaign, quick);

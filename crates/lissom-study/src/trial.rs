@@ -1,4 +1,4 @@
-//! One run, tried until it is sound: what an engineer does who looks at each log.
+//! Tries one run until it is good, as an engineer who looks at each log.
 
 use lissom::record::Run;
 use lissom::rig::{Experiment, Logged, RigError, RigFinding};
@@ -7,22 +7,22 @@ use crate::bench::Bench;
 use crate::plan::Idea;
 use crate::rejected::Dropped;
 
-/// Share of a run in which the joint may stick.
+/// Largest share of a run in which the joint sticks.
 pub(crate) const STUCK_MOST: f64 = 0.15;
-/// Amplitude of the motor in steps of its encoder, at least.
+/// Smallest amplitude of the motor in steps of its encoder.
 const STEPS_LEAST: f64 = 20.0;
-/// Bend of the beam from which on a run is repeated smaller \[rad\].
+/// Bending of the beam above which a run is repeated with a smaller amplitude \[rad\].
 const BEND_RAD: f64 = 0.8;
-/// Amplitude of the motor over the largest meant, from which on it is not enlarged.
+/// Amplitude of the motor, relative to the largest intended, above which a run is not enlarged.
 const TRAVEL: f64 = 1.2;
-/// A run that is too small is repeated so many times larger…
+/// Factor of the amplitude for a run that is too small.
 const LARGER: f64 = 1.35;
-/// …one that is too large so many times smaller…
+/// Factor of the amplitude for a run that is too large.
 const SMALLER: f64 = 0.75;
-/// …and this often.
+/// Largest number of tries.
 const TRIES: usize = 8;
 
-/// Tries a run at falling or growing amplitudes; gives the log and the experiment that made it.
+/// Tries a run with falling or growing amplitudes; returns the log and its experiment.
 pub(crate) fn tried(
     bench: &Bench,
     idea: &Idea,
@@ -30,7 +30,7 @@ pub(crate) fn tried(
     seed: u64,
 ) -> Result<(Logged, Experiment), Dropped> {
     let mut amplitude = idea.reference_rad;
-    // What was wrong first: a run is only ever enlarged, or only ever reduced.
+    // The first reason: a run is only enlarged or only reduced, never both.
     let mut first: Option<Dropped> = None;
     for _ in 0..TRIES {
         let experiment = idea.shape.experiment(amplitude).map_err(|_| Dropped::Impossible)?;
@@ -52,7 +52,7 @@ pub(crate) fn tried(
     Err(first.unwrap_or(Dropped::Impossible))
 }
 
-/// What is wrong with a run, if anything.
+/// The reason why a run is not good, if there is one.
 fn wrong(bench: &Bench, logged: &Logged) -> Option<Dropped> {
     let limited = |f: &RigFinding| matches!(f, RigFinding::CurrentLimited { .. });
     if logged.findings.iter().any(limited) {
@@ -68,14 +68,14 @@ fn wrong(bench: &Bench, logged: &Logged) -> Option<Dropped> {
     }
 }
 
-/// Half of the way from the lowest to the highest value.
+/// Half of the difference between the highest and the lowest value.
 fn half_range(values: &[f64]) -> f64 {
     let (low, high) =
         values.iter().fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(*v), high.max(*v)));
     0.5 * (high - low)
 }
 
-/// Largest angle between a tip and the motor's line \[rad\].
+/// Largest angle between a tip and the motor \[rad\].
 fn bend(run: &Run) -> f64 {
     let against = |tip: &Vec<f64>| {
         tip.iter().zip(run.motor()).fold(0.0_f64, |most, (t, m)| most.max((t - m).abs()))

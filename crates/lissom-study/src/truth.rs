@@ -1,4 +1,4 @@
-//! What identification should find.
+//! The true parameters of a simulated campaign.
 
 use lissom::arm::Arm;
 use num_complex::Complex64;
@@ -6,10 +6,10 @@ use num_complex::Complex64;
 use crate::arm::clamped_modes;
 use crate::campaign::Campaign;
 
-/// The figures of the simulated arm.
+/// The parameters of the simulated arm.
 #[derive(Debug, Clone)]
 pub struct Truth {
-    /// Friction at speed, mean of both directions \[N·m\]; of a wrong law what comes nearest.
+    /// Friction at speed, mean of both directions \[N·m\]; with another law the nearest equivalent.
     pub coulomb_nm: f64,
     /// The same forward and backward \[N·m\].
     pub coulomb_by_direction_nm: [f64; 2],

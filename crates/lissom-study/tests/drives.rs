@@ -1,4 +1,4 @@
-//! The studies of drives in short: what they draw, and what is found where nothing is hard.
+//! Short studies of drives: the drawn campaigns, and the results of easy ones.
 
 use std::fs;
 use std::time::Duration;
@@ -15,7 +15,8 @@ fn plan(study: DriveStudy, campaigns: usize) -> DriveStudyPlan {
     DriveStudyPlan { study, campaigns, seed: SEED, quick: true }
 }
 
-/// The friction of a drive without effects is the law, and its inertia, Coulomb and viscous friction are found to a thousandth.
+/// For a drive without effects the least-squares line is the law; inertia, Coulomb and viscous friction are found to
+/// 0.1 %.
 #[test]
 fn a_clean_drive_is_identified() {
     for index in [0, 6] {
@@ -35,7 +36,7 @@ fn a_clean_drive_is_identified() {
     }
 }
 
-/// Causes take turns, and each campaign has its own alone.
+/// Causes take turns, and each campaign has only its own.
 #[test]
 fn every_cause_has_its_turn() {
     for index in 0..12 {
@@ -55,7 +56,7 @@ fn every_cause_has_its_turn() {
     }
 }
 
-/// More noise and more wander leave less to know.
+/// More noise and more wander make the bounds larger.
 #[test]
 fn bounds_grow_with_noise_and_wander() {
     let campaign = (0..20)
@@ -92,7 +93,7 @@ fn written_logs_are_read_back() {
     assert_eq!(read.runs.len(), campaign.logs.runs.len());
     assert!(read.gravity);
     for (a, b) in read.runs.iter().zip(&campaign.logs.runs) {
-        // The decimals of the file's stamps say how exact they are.
+        // The decimals of the stamps in the file limit how exact they are.
         assert!((a.sample_time_s() / b.sample_time_s() - 1.0).abs() < 1e-6);
         assert_eq!(a.len(), b.len());
     }

@@ -1,7 +1,7 @@
-//! The study in short: what holds today, with margins that chance does not use up.
+//! A short study: results that must hold, with margins that are larger than chance.
 //!
-//! The bounds are five to ten times what these campaigns give; an estimator that breaks is off by
-//! more. `cargo xtask study` has the full figures.
+//! The limits are five to ten times the errors of these campaigns; a broken estimator is off by
+//! more. `cargo xtask study` makes the full tables.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use std::convert::Infallible;
@@ -38,7 +38,7 @@ fn scores() -> Vec<&'static Score> {
     short().iter().map(|s| s.score.as_ref().unwrap()).collect()
 }
 
-/// Relative errors of a figure where it is given.
+/// Relative errors of a parameter, of the campaigns that give an estimate.
 fn errors(figure: Figure) -> Vec<f64> {
     let error = |s: &&Score| s.of(figure).and_then(FigureScore::error).map(f64::abs);
     scores().iter().filter_map(error).collect()
@@ -53,7 +53,7 @@ fn holds(figure: Figure, median_most: f64, most: f64) {
 }
 
 #[test]
-fn figures_are_as_close_as_they_were() {
+fn estimates_are_as_close_as_they_were() {
     holds(Figure::Coulomb, 1e-5, 5e-5);
     holds(Figure::Inertia, 5e-5, 2e-4);
     holds(Figure::Viscous, 1e-4, 4e-4);
@@ -61,9 +61,9 @@ fn figures_are_as_close_as_they_were() {
     holds(Figure::Frequency(0), 1e-5, 5e-5);
 }
 
-/// Of some thirty figures two are expected beyond two deviations.
+/// Of about thirty estimates two are expected more than two standard errors off.
 #[test]
-fn deviations_are_those_of_the_errors() {
+fn standard_errors_are_those_of_the_errors() {
     let each = || scores().into_iter().flat_map(|s| &s.figures).filter_map(FigureScore::deviations);
     let beyond = |z: f64| each().filter(|d| d.abs() > z).count();
     assert!(each().count() > 30);
@@ -83,7 +83,7 @@ fn corrected_responses_are_as_close_as_they_were() {
     assert!(sines.iter().all(|p| p.nearer(1.0) != Some(false)), "{sines:?}");
 }
 
-/// Circles of 95 % that hold less often are too small; those of bands are known to be too large.
+/// Circles of 95 % that contain the truth less often are too small; those of bands are known to be too large.
 #[test]
 fn circles_of_vouched_responses_hold() {
     let points: Vec<_> =
@@ -97,10 +97,10 @@ fn circles_of_vouched_responses_hold() {
     assert!(!points.iter().any(|p| p.silently_wrong()));
 }
 
-/// Another law of friction is reported, and leaves inertia, coupling and frequencies as they are. The ripple of campaign 16
-/// is all but hidden by an encoder of ten bits, and it drives motions apart as that of 19 does.
+/// Another law of friction is reported, and inertia, coupling and frequencies stay correct. An encoder of ten bits
+/// almost hides the ripple of campaign 16, and this ripple drives motions apart as that of campaign 19 does.
 #[test]
-fn wrong_laws_are_said_and_spare_the_linear_part() {
+fn wrong_laws_are_reported_and_spare_the_linear_part() {
     let stribeck = [(Law::Stribeck, 7)];
     let ripple = [16, 19].map(|index| (Law::Ripple, index));
     for (law, index) in stribeck.into_iter().chain(ripple).chain([(Law::Direction, 18)]) {
@@ -120,8 +120,8 @@ fn wrong_laws_are_said_and_spare_the_linear_part() {
     }
 }
 
-/// An encoder of 11 bits all but hides the Stribeck friction of campaign 12: a mode goes to a wrong frequency for it, and
-/// what is wrong comes with a warning.
+/// An encoder of 11 bits almost hides the Stribeck friction of campaign 12. It gives a mode a wrong frequency, and a
+/// warning affects every wrong estimate.
 #[test]
 fn a_law_that_the_noise_hides_is_not_silently_wrong() {
     let campaign = draw_campaign(3, 12, Law::Stribeck).unwrap();
@@ -132,7 +132,7 @@ fn a_law_that_the_noise_hides_is_not_silently_wrong() {
     assert!(wrong.is_empty(), "{wrong:?}");
 }
 
-/// Loops without friction and with ideal sensors show the response that points are scored against.
+/// Loops without friction and with ideal sensors have the response that points are compared with.
 #[test]
 fn the_true_response_is_that_of_a_loop_without_friction() {
     let sines = |index: &usize| {
@@ -160,9 +160,9 @@ fn the_true_response_is_that_of_a_loop_without_friction() {
     }
 }
 
-/// The generator keeps to its envelope and reaches all of its kinds.
+/// The generator stays within its ranges and makes all kinds of runs.
 #[test]
-fn campaigns_are_what_was_asked_for() {
+fn campaigns_are_within_the_ranges() {
     for scored in short() {
         assert!((0.05..=0.60).contains(&scored.coulomb_share));
         assert!(scored.stuck_share <= 0.15);
@@ -184,14 +184,14 @@ fn threads_change_nothing() {
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let alone = one.install(|| made(&plan));
     for (alone, together) in alone.iter().flatten().zip(short()) {
-        // Debug text tells every bit, NaN as well.
+        // Debug text shows every bit, NaN as well.
         assert_eq!(format!("{:?}", alone.score), format!("{:?}", together.score));
     }
 }
 
-/// A study that was stopped in the middle of a campaign goes on with those before it.
+/// A study that was stopped in the middle of a campaign continues after the complete ones.
 #[test]
-fn a_stopped_study_leaves_its_campaigns() {
+fn a_stopped_study_keeps_its_campaigns() {
     let plan = Study { campaigns: 3, seed: SEED, law: Law::None, quick: false };
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("accuracy.cbor");
@@ -234,7 +234,7 @@ fn tables_and_rows_hold_every_campaign() {
     let text = report(&studies);
     for section in [
         "## Goals",
-        "## Figures",
+        "## Parameters",
         "## Statistical limit",
         "## Frequency response",
         "## By campaign",
@@ -244,9 +244,9 @@ fn tables_and_rows_hold_every_campaign() {
         assert!(text.contains(section), "{section}");
     }
     for row in [
-        "| campaigns with a figure silently wrong: 1 of 1000 |",
-        "| campaigns with a vouched-for point of the response silently wrong: 1 of 1000 |",
-        "| points | vouched for | 95 % circles that hold |",
+        "| campaigns with a silently wrong parameter: at most 1 of 1000 |",
+        "| campaigns with a silently wrong vouched-for point of the response: at most 1 of 1000 |",
+        "| points | vouched for | 95 % circles that contain the truth |",
         "| sinusoidal points | with (30) | nearer than (30) | ten times nearer |",
     ] {
         assert!(text.contains(row), "{row}");
@@ -259,9 +259,9 @@ fn tables_and_rows_hold_every_campaign() {
     assert!(table.lines().all(|line| columns(line) == header));
 }
 
-/// Nothing is asked of how many campaigns of a wrong law are silently wrong.
+/// There is no goal for the number of silently wrong campaigns of a wrong law.
 #[test]
-fn pages_of_wrong_laws_say_how_many_are_silently_wrong() {
+fn pages_of_wrong_laws_count_the_silently_wrong() {
     let of = |law| {
         let plan = Study { campaigns: CAMPAIGNS, seed: SEED, law, quick: false };
         (plan, short().iter().cloned().map(Some).collect())
@@ -269,7 +269,7 @@ fn pages_of_wrong_laws_say_how_many_are_silently_wrong() {
     let text = report(&[of(Law::None), of(Law::Stribeck)]);
     for law in [Law::None, Law::Stribeck] {
         let row =
-            format!("| {law}: campaigns with a figure silently wrong | 0.0 % (0.0-39.0) | – |");
+            format!("| {law}: campaigns with a silently wrong parameter | 0.0 % (0.0-39.0) | – |");
         assert!(text.contains(&row), "{text}");
     }
 }

@@ -1,4 +1,4 @@
-//! Numbers as people write them: significant digits, and values with their standard errors.
+//! Numbers as text: with significant digits, or with their standard errors.
 
 /// The largest count of decimals written.
 const MAX_DECIMALS: i32 = 15;
@@ -62,9 +62,9 @@ fn mantissa(value: f64, e: i32) -> f64 {
 
 /// A value with its standard error: the error with two significant digits, the value rounded to the same place.
 ///
-/// If both need more than four digits behind the point, the error is written in parentheses and counts units of the last
-/// digit: `0.13201(12)` is 0.13201 ± 0.00012. A value that is not finite becomes a dash. A standard error that is not finite
-/// and positive is not written.
+/// If both need more than four digits behind the point, the error is written in parentheses and counts units of the
+/// last digit: `0.13201(12)` is 0.13201 ± 0.00012. A value that is not finite becomes a dash. A standard error that is
+/// not finite and positive is not written.
 ///
 /// ```
 /// use lissom_text::with_uncertainty;
@@ -100,15 +100,15 @@ pub fn interval([low, high]: [f64; 2], value: f64, std: f64) -> String {
     }
 }
 
-/// Digits behind the point up to which value and error are written one after the other.
+/// Largest number of digits behind the point for which value and standard error are written as `a ± b`.
 const MOST_PLACES: i32 = 4;
 
 /// How a value and its standard error are written.
 #[derive(Debug, Clone, Copy)]
 enum Layout {
-    /// With so many places behind the point; before it, where negative.
+    /// With this many places behind the point; if negative, rounded before the point.
     Places(i32),
-    /// Without a power of ten, with so many places.
+    /// Divided by a power of ten, with this many places.
     Scaled(i32, i32),
 }
 

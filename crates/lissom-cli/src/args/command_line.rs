@@ -54,9 +54,9 @@ pub(crate) enum Command {
     Figures(FiguresArgs),
     /// List every number that decides which estimates are given and which findings are reported
     Thresholds(ThresholdsArgs),
-    /// Print the completions of a shell
+    /// Print a script that lets a shell complete commands of lissom
     Completions(CompletionsArgs),
-    /// Write the manual pages
+    /// Write manual pages for `man`
     Man(ManArgs),
     /// Simulate the experiment of the 1989 report and identify the arm from its logs
     Demo(DemoArgs),

@@ -6,14 +6,15 @@ use clap::Args;
 
 use super::stdout_name::STDOUT;
 
-/// Compares two or more results with the first of them, for example before and after maintenance or with another payload.
+/// Compares two or more results with the first of them, for example before and after maintenance or with another
+/// payload.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct CompareArgs {
     /// Two or more files that `lissom identify CAMPAIGN --json RESULT` wrote
     #[arg(required = true, value_name = "RESULT")]
     pub(crate) results: Vec<PathBuf>,
-    /// Write the comparison as JSON to FILE (without FILE: print only JSON); put it last
+    /// Write JSON to FILE (without FILE: print only JSON); put it last
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
     pub(crate) json: Option<PathBuf>,
 }

@@ -1,13 +1,13 @@
-//! What `lissom completions` can be asked for.
+//! Arguments of `lissom completions`.
 
 use clap::Args;
 use clap_complete::Shell;
 
-/// Print what makes a shell complete the subcommands and options of lissom.
+/// Prints a script with which a shell completes the subcommands and options of lissom.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct CompletionsArgs {
-    /// The shell
+    /// The shell that completes commands of lissom
     pub(crate) shell: Shell,
 }
 

@@ -17,7 +17,7 @@ pub(crate) struct EquivalentArgs {
     /// Write the arm as JSON to FILE (without FILE: print only JSON)
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
     pub(crate) json: Option<PathBuf>,
-    /// Draw data and fit to FILE.svg or FILE.png, the motor's to FILE-motor
+    /// Draw data and fit to FILE (.svg, .png), the motor to FILE-motor
     #[arg(long, value_name = "FILE")]
     pub(crate) plot: Option<PathBuf>,
     /// Write the arm as an arm.toml for `lissom model` and `lissom rig`

@@ -1,10 +1,10 @@
-//! What `lissom man` can be asked for.
+//! Arguments of `lissom man`.
 
 use std::path::PathBuf;
 
 use clap::Args;
 
-/// Write the manual pages: lissom.1 and one for each subcommand.
+/// Writes the manual pages: lissom.1 and one for each subcommand.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct ManArgs {

@@ -7,23 +7,23 @@ use lissom_io::units::{Dimension, parse_quantity};
 
 use super::stdout_name::STDOUT;
 
-/// Computes natural frequencies, zeros, the matrices of the 1989 report, transfer functions and frequency responses from a
-/// beam's dimensions. With a `[drive]` also those of the whole arm, without Coulomb friction.
+/// Computes natural frequencies, zeros, the matrices of the 1989 report, transfer functions and frequency responses
+/// from a beam's dimensions. With a `[drive]` also those of the whole arm, without Coulomb friction.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct ModelArgs {
     /// The arm.toml, which has the dimensions
     pub(crate) arm: PathBuf,
-    /// Write the model as JSON to FILE (without FILE: print only JSON)
+    /// Write JSON to FILE (without FILE: print only JSON)
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
     pub(crate) json: Option<PathBuf>,
-    /// Frequencies [rad/s] of responses: a logarithmic range, or a file
+    /// Frequencies of responses: logarithmic range [rad/s] or file
     #[arg(long, value_name = "FILE|START:STOP:COUNT", value_parser = omega, allow_hyphen_values = true)]
     pub(crate) omega: Option<Omega>,
     /// Check the properties of Section 3 of the 1989 report
     #[arg(long)]
     pub(crate) properties: bool,
-    /// Other loads at the tip: factors or masses, e.g. 0.5x,2x,"0.3 kg"
+    /// Other loads at the tip: factors or masses, as in 2x,"0.3 kg"
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = load, allow_hyphen_values = true)]
     pub(crate) payload: Vec<Load>,
     /// Natural frequencies and zeros to show
@@ -44,7 +44,7 @@ Examples:
 An arm.toml of two lines (the page arm.toml in the book explains every key):
   beam.flexural_rigidity = \"0.02 N*m^2\"
   beam.spans = [{ length = \"15 cm\", mass = \"55 g\" }, { length = \"15 cm\", mass = \"55 g\" }]
-Zeros: class a is an imaginary pair, b a real pair, c a quadruple; b and c make the inverse unstable.";
+Classes of zeros: a imaginary pair, b real pair, c quadruple. With b or c the inverse is unstable.";
 
 /// Frequencies at which responses are computed.
 #[derive(Debug, Clone, PartialEq)]

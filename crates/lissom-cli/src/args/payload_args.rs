@@ -7,8 +7,8 @@ use lissom_io::units::{Dimension, parse_quantity};
 
 use super::stdout_name::STDOUT;
 
-/// Identifies the runs of a campaign that were made with one payload, then predicts the arm with other payloads at the same
-/// point.
+/// Identifies the runs of a campaign that were made with one payload, then predicts the arm with other payloads at the
+/// same point.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct PayloadArgs {

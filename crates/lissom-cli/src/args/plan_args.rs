@@ -9,9 +9,9 @@ use lissom_io::units::{Dimension, parse_quantity};
 use super::positive_time::positive_time;
 use super::stdout_name::STDOUT;
 
-/// Simulates the arm in its position loop, makes each motion as large as current, travel, bending and sensors allow, and
-/// chooses the motions that reach the wanted standard errors in the least time. Without `--out` the plan goes to standard
-/// output.
+/// Simulates the arm in its position loop, makes each motion as large as current, travel, bending and sensors allow,
+/// and chooses the motions that reach the wanted standard errors in the least time. Without `--out` the plan goes to
+/// standard output.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct PlanArgs {
@@ -59,7 +59,7 @@ pub(crate) struct PlanArgs {
     /// Largest bending of the tips [default: 0.5 rad]
     #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true)]
     bend: Option<f64>,
-    /// Share of the current limit to keep free, as the arm may differ [default: 30%]
+    /// Share of the current limit that is not used [default: 30%]
     #[arg(long, value_name = "SHARE", value_parser = reserve, allow_hyphen_values = true)]
     reserve: Option<f64>,
     /// pair (with a sine and its triple), sines (only), or any
@@ -141,5 +141,5 @@ const HELP: &str = "\
 Examples:
   lissom plan arm.toml --precision 1% --within \"5 min\" --out plan.toml
   lissom rig arm.toml --campaign plan.toml --out virtual
-If the time is too short for a wanted standard error, a warning gives the one that it allows, and the
-exit code is 3. The runs are then those that come closest.";
+If the time is too short for a wanted standard error, a warning gives the one that it allows, and
+the exit code is 3. The runs are then those that come closest.";

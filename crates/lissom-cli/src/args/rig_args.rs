@@ -16,7 +16,7 @@ pub(crate) struct RigArgs {
     /// The plan.toml, which lists the experiments
     #[arg(long, value_name = "PLAN")]
     pub(crate) campaign: PathBuf,
-    /// Folder for the logs, campaign.toml and rig.json
+    /// Folder for logs, campaign.toml, rig.json; an interrupted campaign continues
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
     /// Runs at the same time [default: one for each processor]
@@ -28,7 +28,8 @@ pub(crate) struct RigArgs {
 }
 
 const HELP: &str = "\
-Example: lissom rig arm.toml --campaign plan.toml --out virtual
+Example:
+  lissom rig arm.toml --campaign plan.toml --out virtual
 A plan.toml with four sines (each frequency with each amplitude) and a multisine:
   [[runs]]
   sine = { frequency = [\"0.2 Hz\", \"0.6 Hz\"], amplitude = [\"0.5 rad\", \"1 rad\"] }
@@ -36,5 +37,4 @@ A plan.toml with four sines (each frequency with each amplitude) and a multisine
   [[runs]]
   multisine = { frequency = \"0.1 Hz\", to = \"5 Hz\", amplitude = \"0.5 rad\" }
   periods = 4
-Other motions: velocity, square, chirp, table, release. `lissom demo` writes an arm.toml with [rig];
-the pages arm.toml and plan.toml in the book explain every key. An interrupted campaign continues.";
+Other motions: velocity, square, chirp, table, release. The book explains every key of both files.";

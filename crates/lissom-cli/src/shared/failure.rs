@@ -59,7 +59,7 @@ pub(crate) enum Failure {
     /// An output folder with files of something else.
     #[error("{}: contains {what}; nothing is overwritten", folder.display())]
     OtherCampaign { folder: PathBuf, what: String },
-    /// A manual page.
+    /// A manual page that cannot be made.
     #[error("{}: {source}", path.display())]
     Page { path: PathBuf, source: std::io::Error },
     #[error("the plot could not be drawn: {0}")]

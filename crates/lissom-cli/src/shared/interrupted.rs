@@ -9,7 +9,8 @@ use super::exit_codes::KILLED;
 
 static SEARCH: OnceLock<Interrupt> = OnceLock::new();
 
-/// Sets `interrupt` when the user presses Ctrl-C. If the system does not allow a handler, Ctrl-C stops the program as usual.
+/// Sets `interrupt` when the user presses Ctrl-C. If the system does not allow a handler, Ctrl-C stops the program as
+/// usual.
 pub(crate) fn on_ctrl_c(interrupt: &Interrupt) {
     if SEARCH.set(interrupt.clone()).is_err() {
         return;

@@ -1,5 +1,5 @@
-//! Modules that all other layers may use: errors, checks of output files, progress bars, numbers as text, and the options
-//! that help with a finding.
+//! Modules that all other layers may use: errors, checks of output files, progress bars, numbers as text, and the
+//! options that help with a finding.
 
 pub(crate) mod command_hint;
 pub(crate) mod digits;

@@ -8,8 +8,8 @@ use lissom_io::write::Batch;
 
 use super::failure::Failure;
 
-/// Refuses to overwrite a file that is not an earlier output: JSON begins with `{`, a page with `<`. Also refuses one name
-/// for two outputs.
+/// Refuses to overwrite a file that is not an earlier output: JSON begins with `{`, a page with `<`. Also refuses one
+/// name for two outputs.
 pub(crate) fn guard(json: Option<&Path>, report: Option<&Path>) -> Result<(), Failure> {
     if let Some(file) = json.filter(|file| report == Some(*file)) {
         return Err(Failure::SameOutput { file: file.to_owned() });

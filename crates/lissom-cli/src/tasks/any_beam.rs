@@ -11,8 +11,8 @@ use num_complex::Complex64;
 
 use crate::args::model_args::Load;
 
-/// Largest number of masses for which matrices, transfer functions and the state space are computed. Their cost grows with
-/// the square and the cube of the number.
+/// Largest number of masses for which matrices, transfer functions and the state space are computed. Their cost grows
+/// with the square and the cube of the number.
 pub(crate) const MOST_DENSE: usize = 200;
 
 /// A beam with point masses, with mass along it, or known by its modes.
@@ -147,8 +147,8 @@ impl Beam {
         }
     }
 
-    /// Zeros of the tip's response: for a distributed beam those below `omega_rad_s`, for many masses the lowest `count`.
-    /// `None` for many masses and a payload with rotary inertia or an offset.
+    /// Zeros of the tip's response: for a distributed beam those below `omega_rad_s`, for many masses the lowest
+    /// `count`. `None` for many masses and a payload with rotary inertia or an offset.
     pub(crate) fn tip_zeros(&self, omega_rad_s: f64, count: usize) -> Option<Zeros> {
         match self {
             Self::Lumped(beam) if beam.len() > MOST_DENSE => {

@@ -15,8 +15,8 @@ use crate::shared::failure::Failure;
 
 /// Relative standard error of responses without one. It is so small that the residual of the model decides.
 const UNKNOWN: f64 = 1e-6;
-/// Magnitude, as a share of the median magnitude, below which the standard error of a response does not fall. Without it a
-/// response near a zero would count more than its neighbours.
+/// Magnitude, as a share of the median magnitude, below which the standard error of a response does not fall. Without
+/// it a response near a zero would count more than its neighbours.
 const SMALL: f64 = 1e-2;
 
 /// The responses, the names of their units, and what is known about the motor.

@@ -65,8 +65,8 @@ pub(crate) fn study(
     Ok(cases)
 }
 
-/// The zero with another load that corresponds to zero `index` with the load in the file: the one with the same number in
-/// its class.
+/// The zero with another load that corresponds to zero `index` with the load in the file: the one with the same number
+/// in its class.
 pub(crate) fn counterpart(own: &Zeros, index: usize, other: &Zeros) -> Option<Complex64> {
     let kind = class(*own.z.get(index)?);
     let place = own.z[..index].iter().filter(|z| class(**z) == kind).count();

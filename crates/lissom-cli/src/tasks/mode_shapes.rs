@@ -99,8 +99,8 @@ mod tests {
 
     use super::*;
 
-    /// The torque must give the slope that the payload's rotary inertia needs. A short, stiff span with two point masses
-    /// that have this inertia has the same mode.
+    /// The torque must give the slope that the payload's rotary inertia needs. A short, stiff span with two point
+    /// masses that have this inertia has the same mode.
     #[test]
     fn a_payloads_inertia_bends_the_tip() {
         let span = |length_m, flexural_rigidity_n_m2, mass_kg| Span {

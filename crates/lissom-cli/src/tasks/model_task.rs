@@ -24,8 +24,8 @@ use crate::shared::failure::Failure;
 /// Largest number of masses for which matrices and polynomials are printed.
 pub(crate) const MOST_SHOWN: usize = 6;
 
-/// Largest number of masses for which transfer functions and responses of all masses are given. With more masses they are
-/// those of the tip, unless `--all` is given.
+/// Largest number of masses for which transfer functions and responses of all masses are given. With more masses they
+/// are those of the tip, unless `--all` is given.
 const MOST_LISTED: usize = 20;
 
 /// Relative accuracy that a state space should have.
@@ -393,8 +393,8 @@ pub(crate) fn beam_failure(arm: &Path, source: BeamError) -> Failure {
     lissom_io::Error::from(ArmError::Beam { file: arm.to_owned(), source }).into()
 }
 
-/// The frequency at which θ_m/i of the state space has the largest relative error, and this error; `None` if it is at most
-/// [`KEPT`].
+/// The frequency at which θ_m/i of the state space has the largest relative error, and this error; `None` if it is at
+/// most [`KEPT`].
 fn lost(arm: &Arm, space: &StateSpace) -> Option<(f64, f64)> {
     let frequencies = arm.beam().frequencies_rad_s(Base::Clamped, 3);
     let low = [0.001, 0.03, 0.3].map(|part| part * frequencies[0]);

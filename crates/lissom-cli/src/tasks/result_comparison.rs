@@ -11,8 +11,8 @@ use lissom_io::{ComparedFile, ParameterList, read_result};
 
 use crate::shared::failure::Failure;
 
-/// Number of standard errors above which a difference is called clear. A convention: chance alone gives more than three for
-/// 0.3 % of the parameters that have not changed.
+/// Number of standard errors above which a difference is called clear. A convention: chance alone gives more than three
+/// for 0.3 % of the parameters that have not changed.
 pub(crate) const CLEAR_STANDARD_ERRORS: f64 = 3.0;
 
 /// Reads the results and compares them.

@@ -151,8 +151,8 @@ fn more(left: usize) {
     }
 }
 
-/// Damping ratio of each mode, from the poles of the tip's response; `None` if the beam has no damping or a mode does not
-/// oscillate.
+/// Damping ratio of each mode, from the poles of the tip's response; `None` if the beam has no damping or a mode does
+/// not oscillate.
 fn ratios(model: &Model) -> Option<Vec<f64>> {
     let poles = &model.functions.iter().find(|f| f.from == "motor" && !f.lowest)?.roots.poles;
     if poles.iter().all(|p| p.re == 0.0) {

@@ -35,10 +35,10 @@ pub(crate) fn page(
         counted(warnings, "warning"),
         counted(refusals, "refusal")
     );
-    let mut page = Page::new(title)
-        .summary(&summary)
-        .heading("Parameters")
-        .key_figures("Drive and beam", &key_figures(names, id, reference));
+    let mut page = Page::new(title).summary(&summary).heading("Parameters").key_figures(
+        "Drive and beam; 0.1320(12) means 0.1320 ± 0.0012",
+        &key_figures(names, id, reference),
+    );
     page = separability_section::section(page, names, id);
     let bode = bode_plots::bode_plots(&campaign.channels, names, id, reference);
     if !bode.is_empty() {

@@ -1,6 +1,6 @@
-//! Every command in README.md and in the book runs, page by page from top to bottom, each page in an empty folder of its
-//! own, and prints what the page shows. docs/README.md has the rules; with `LISSOM_DOCUMENTS=overwrite` the pages take
-//! over what is printed now.
+//! Every command in README.md and in the book runs, page by page from top to bottom, each page in an empty folder of
+//! its own, and prints what the page shows. docs/README.md has the rules; with `LISSOM_DOCUMENTS=overwrite` the pages
+//! take over what is printed now.
 #![expect(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
 
 mod output;

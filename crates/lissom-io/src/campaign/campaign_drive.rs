@@ -99,7 +99,8 @@ pub(super) fn drive(
 
 /// A gear between the motor, whose constants are given, and the joint, whose angle is logged.
 ///
-/// Torque at the joint is ratio·efficiency times the motor's torque; the motor's speed is ratio times the joint's speed.
+/// Torque at the joint is ratio·efficiency times the motor's torque; the motor's speed is ratio times the joint's
+/// speed.
 struct Gear {
     ratio: f64,
     efficiency: f64,

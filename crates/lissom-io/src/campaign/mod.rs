@@ -28,16 +28,16 @@
 //! **Columns** are given by name, or by number from 1. A reading is `(scale·raw + offset)` in `unit`;
 //! `scale` is 1 and `offset` 0 when absent.
 //!
-//! **The input of the drive** is `current`, `voltage` or `command`. The unit of `command` may be a unit of
-//! current, of voltage, of torque (force on a linear axis), or `"1"` for a command of unknown unit. With `quantity = "goal"`
-//! it is the position goal of a servo: the input is then the goal minus the angle, and `[drive] position_gain` the torque
-//! per radian. `hold` is `"sampled"` (held between samples) or `"measured"`. For a voltage the torque constant is per volt,
-//! or per ampere with `resistance` and `back_emf`; a `back_emf` with a constant per volt adds its damping.
-//! `limit` is the limit of any command; `current_limit` and `voltage_limit` are the same for a current and a voltage.
+//! **The input of the drive** is `current`, `voltage` or `command`. The unit of `command` may be a unit of current, of
+//! voltage, of torque (force on a linear axis), or `"1"` for a command of unknown unit. With `quantity = "goal"` it is
+//! the position goal of a servo: the input is then the goal minus the angle, and `[drive] position_gain` the torque per
+//! radian. `hold` is `"sampled"` (held between samples) or `"measured"`. For a voltage the torque constant is per volt,
+//! or per ampere with `resistance` and `back_emf`; a `back_emf` with a constant per volt adds its damping. `limit` is
+//! the limit of any command; `current_limit` and `voltage_limit` are the same for a current and a voltage.
 //!
 //! **The axis** is rotary if the motor's unit is an angle, linear if it is a length. With `quantity = "speed"` and a
-//! unit of speed, the angle is integrated from 0. A `speed` in addition to an angle is compared with it and not used. Jumps
-//! of one turn of an absolute encoder are removed.
+//! unit of speed, the angle is integrated from 0. A `speed` in addition to an angle is compared with it and not used.
+//! Jumps of one turn of an absolute encoder are removed.
 //!
 //! **Tips** have a `quantity`: `"angle"` (of the radius to the point; when absent), `"deflection"`
 //! (from the motor's line) or `"acceleration"`. A length or acceleration in metres on a rotary

@@ -16,8 +16,8 @@ pub(crate) enum Delimiter {
 impl Delimiter {
     const ALL: [Self; 4] = [Self::Char('\t'), Self::Char(';'), Self::Char(','), Self::Blanks];
 
-    /// The delimiter of a row: a tab if there is one, otherwise a semicolon, a comma, or blanks. A decimal comma does not
-    /// separate cells.
+    /// The delimiter of a row: a tab if there is one, otherwise a semicolon, a comma, or blanks. A decimal comma does
+    /// not separate cells.
     pub(crate) fn of(row: &str, decimal_comma: bool) -> Self {
         let row = row.trim_matches(' ');
         Self::ALL

@@ -1,18 +1,18 @@
 //! Delimited text logs.
 //!
-//! A log is text with one sample in each row. Cells are separated by commas, semicolons or tabs, or by blanks if there are
-//! none of these. Names are in a header row, or in a comment line (`#` or `%`) before the data. Of several comment lines the
-//! last one with as many names as columns is used, otherwise the last one with at least half as many. Names belong to
-//! columns by position. A column is selected by its exact name, without blanks around it, or by its number from 1. A row of
-//! words below a header row is taken as units and skipped. Blank lines, comment lines between the data, CRLF, a byte order
-//! mark and a delimiter at the end of a row are allowed.
+//! A log is text with one sample in each row. Cells are separated by commas, semicolons or tabs, or by blanks if there
+//! are none of these. Names are in a header row, or in a comment line (`#` or `%`) before the data. Of several comment
+//! lines the last one with as many names as columns is used, otherwise the last one with at least half as many. Names
+//! belong to columns by position. A column is selected by its exact name, without blanks around it, or by its number
+//! from 1. A row of words below a header row is taken as units and skipped. Blank lines, comment lines between the
+//! data, CRLF, a byte order mark and a delimiter at the end of a row are allowed.
 //!
-//! Only the selected columns are read as numbers. Memory is bounded: a log with more rows than [`LogOptions::max_rows`] is
-//! thinned while it is read, a held command by its mean, a measured channel by leaving out samples, without a filter. Rows
-//! are counted for this, not time: a missing row shifts the later ones, which is seen as jitter.
+//! Only the selected columns are read as numbers. Memory is bounded: a log with more rows than [`LogOptions::max_rows`]
+//! is thinned while it is read, a held command by its mean, a measured channel by leaving out samples, without a
+//! filter. Rows are counted for this, not time: a missing row shifts the later ones, which is seen as jitter.
 //!
-//! A row with the same stamp and the same values as the row above is skipped. Time that goes back is reported with the log
-//! ([`Log::time_back`]). Two rows with the same stamp and different values are an error.
+//! A row with the same stamp and the same values as the row above is skipped. Time that goes back is reported with the
+//! log ([`Log::time_back`]). Two rows with the same stamp and different values are an error.
 
 mod log_columns;
 mod log_error;

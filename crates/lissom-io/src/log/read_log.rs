@@ -286,7 +286,8 @@ impl Body<'_> {
         self.push(row)
     }
 
-    /// Takes a row of plain decimals, as most rows are, in one pass. Returns `false` without taking anything for other rows.
+    /// Takes a row of plain decimals, as most rows are, in one pass. Returns `false` without taking anything for other
+    /// rows.
     fn take_plain(&mut self, line: &[u8], row: usize) -> Result<bool, LogError> {
         let Delimiter::Char(delimiter) = self.delimiter else { return Ok(false) };
         let line = line.strip_suffix(b"\n").unwrap_or(line);

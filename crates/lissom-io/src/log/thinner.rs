@@ -4,8 +4,8 @@ use lissom_core::record::Hold;
 
 /// Columns that are halved in place when they are full.
 ///
-/// A sample represents `factor` rows. A held command gets the mean over these rows, which has the same effect as the rows; a
-/// measured channel keeps the value of the first row. Rows at the end that do not fill a sample are left out.
+/// A sample represents `factor` rows. A held command gets the mean over these rows, which has the same effect as the
+/// rows; a measured channel keeps the value of the first row. Rows at the end that do not fill a sample are left out.
 pub(super) struct Thinner {
     holds: Vec<Hold>,
     columns: Vec<Vec<f64>>,

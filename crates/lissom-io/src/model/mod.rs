@@ -1,7 +1,7 @@
 //! `model.json`: the model of a beam, and of the arm with its drive, as numbers for programs.
 //!
-//! Its schema is `docs/src/reference/schemas/model.schema.json`, generated from [`ModelFile`]. A key is `null` if it does
-//! not apply to the model or the model is too large for it; `notes` then gives the reason.
+//! Its schema is `docs/src/reference/schemas/model.schema.json`, generated from [`ModelFile`]. A key is `null` if it
+//! does not apply to the model or the model is too large for it; `notes` then gives the reason.
 
 mod beam_model;
 pub(crate) mod frequency_file;

@@ -9,10 +9,10 @@ use super::model_responses::Responses;
 use super::state_space_entry::{StateSpaceEntry, matrix_rows};
 use crate::arm_file::BeamKind;
 
-/// The model of a beam, and of the arm with its drive. SI units and rad/s; equation numbers are those of the 1989 report.
-/// A key is null if it does not apply to the model or the model is too large for it; notes then gives the reason.
-/// Frequencies, modes and tip_zeros are without damping; transfer functions of point masses, state space and responses
-/// are with damping.
+/// The model of a beam, and of the arm with its drive. SI units and rad/s; equation numbers are those of the 1989
+/// report. A key is null if it does not apply to the model or the model is too large for it; notes then gives the
+/// reason. Frequencies, modes and tip_zeros are without damping; transfer functions of point masses, state space and
+/// responses are with damping.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ModelFile {
@@ -158,8 +158,8 @@ pub struct FunctionEntry {
     pub from: String,
     /// Output: theta_1 ... (rad), motor (rad), or coupling_torque (N*m).
     pub to: String,
-    /// Numerator, descending powers of s; null if a distributed beam has no polynomial or a coefficient exceeds the range
-    /// of a double.
+    /// Numerator, descending powers of s; null if a distributed beam has no polynomial or a coefficient exceeds the
+    /// range of a double.
     pub num: Option<Vec<f64>>,
     /// Denominator, descending powers of s.
     pub den: Option<Vec<f64>>,

@@ -1,7 +1,7 @@
 //! A plan as JSON, as written by `lissom plan --json`.
 //!
-//! Its schema is `docs/src/reference/schemas/planned.schema.json`, generated from [`PlannedFile`]. The `plan.toml` of the
-//! same runs is written by [`plan_text`](crate::write::plan_text) and read by [`PlanFile`](crate::PlanFile).
+//! Its schema is `docs/src/reference/schemas/planned.schema.json`, generated from [`PlannedFile`]. The `plan.toml` of
+//! the same runs is written by [`plan_text`](crate::write::plan_text) and read by [`PlanFile`](crate::PlanFile).
 
 mod plan_note_entry;
 mod planned_file;

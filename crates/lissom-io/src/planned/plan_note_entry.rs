@@ -34,7 +34,8 @@ pub enum PlanNoteName {
     MotionsOfNoUse,
     /// The arm has friction or a load at the tip that the plan does not include.
     SceneLeftOut,
-    /// Expected standard errors of a load with gravity are those of the regression, and may be off by a factor of up to four.
+    /// Expected standard errors of a load with gravity are those of the regression, and may be off by a factor of up to
+    /// four.
     GravityByRegression,
     /// A note without a code of its own.
     Other,

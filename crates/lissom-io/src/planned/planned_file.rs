@@ -58,8 +58,8 @@ pub struct PlannedRunEntry {
     pub stuck_share: f64,
     /// Whether the run is one of a pair: a sine, or the sine at three times its frequency.
     pub paired: bool,
-    /// What would be lost without the run (without both runs of a pair); null if every wanted precision would be reached
-    /// without it.
+    /// What would be lost without the run (without both runs of a pair); null if every wanted precision would be
+    /// reached without it.
     pub without: Option<WithoutRunEntry>,
 }
 

@@ -36,8 +36,8 @@ pub struct MeasuredResponse {
 }
 
 impl MeasuredResponse {
-    /// Number of zeros at the origin in addition to those of an angle, from the unit: one for a velocity per angle (1/s),
-    /// two for an acceleration (1/s²). `None` for any other unit.
+    /// Number of zeros at the origin in addition to those of an angle, from the unit: one for a velocity per angle
+    /// (1/s), two for an acceleration (1/s²). `None` for any other unit.
     pub fn zeros_at_origin(&self) -> Option<i32> {
         let per = |s: i32| Dimension::new(0, 0, -s, 0);
         let dimension = self.dimension.unwrap_or(Dimension::NUMBER);

@@ -65,8 +65,8 @@ pub struct ParameterDifferenceEntry {
     pub value: f64,
     /// Its standard error, the root of the sum of both squares, because the results are from different logs.
     pub std: f64,
-    /// The difference relative to the magnitude of the first value; null for a phase, and if the 95 % interval of the first
-    /// value contains zero.
+    /// The difference relative to the magnitude of the first value; null for a phase, and if the 95 % interval of the
+    /// first value contains zero.
     pub relative: Option<f64>,
     /// The difference divided by its standard error; null if that is zero.
     pub standard_errors: Option<f64>,

@@ -15,9 +15,9 @@ use super::unit_keys::{
 use super::unit_names::UnitNames;
 use crate::model::{RootClassName, StateSpaceEntry, matrix_rows};
 
-/// SI units. The suffix of a key is its unit, as in result.schema.json. Rows and columns are the points of the arm, in the
-/// order of `points`. An estimate has its standard error and its 95 % interval, from the covariance of the fit to first
-/// order.
+/// SI units. The suffix of a key is its unit, as in result.schema.json. Rows and columns are the points of the arm, in
+/// the order of `points`. An estimate has its standard error and its 95 % interval, from the covariance of the fit to
+/// first order.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EquivalentFile {
@@ -55,8 +55,8 @@ pub struct EquivalentEntry {
     pub lowest_rad_s: f64,
     /// Highest measured frequency.
     pub highest_rad_s: f64,
-    /// Residual of the responses of the points relative to their standard errors: one if the model is as good as the data;
-    /// null if these are unknown.
+    /// Residual of the responses of the points relative to their standard errors: one if the model is as good as the
+    /// data; null if these are unknown.
     pub weighted_rms: Option<f64>,
     /// Residual relative to each response, rms.
     pub relative_residual: f64,
@@ -152,8 +152,8 @@ pub struct StrainlessEntry {
     pub h_motor: WithUnit<MotorTorqueKey, Option<f64>>,
     /// One minus the sum of the fitted gains of each point.
     pub missing: Vec<f64>,
-    /// Whether `missing` is significant for a point. Its last mode then gets all of it; otherwise all its modes share it by
-    /// their standard errors.
+    /// Whether `missing` is significant for a point. Its last mode then gets all of it; otherwise all its modes share
+    /// it by their standard errors.
     pub given_to_last_mode: Vec<bool>,
 }
 

@@ -50,8 +50,8 @@ pub struct FrictionEntry {
     /// Further terms of friction.
     #[serde(flatten)]
     pub terms: FrictionTermsEntry,
-    /// Friction against speed without a law, ascending in speed, forward then backward; only speeds at which slip phases
-    /// have data.
+    /// Friction against speed without a law, ascending in speed, forward then backward; only speeds at which slip
+    /// phases have data.
     pub curve: Vec<CurvePointEntry>,
 }
 

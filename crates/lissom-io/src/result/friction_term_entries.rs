@@ -28,7 +28,8 @@ pub struct FrictionTermsEntry {
     /// mu of the term s*mu*|gravity torque|: friction that grows with the load; absent unless the data show it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with_load: Option<EstimateEntry>,
-    /// Ripples of friction over the travel x, s*A*cos(2*pi*x/period + phase), s the direction; absent unless the data show them.
+    /// Ripples of friction over the travel x, s*A*cos(2*pi*x/period + phase), s the direction; absent unless the data
+    /// show them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ripples: Vec<RippleEntry>,
 }
@@ -72,7 +73,8 @@ pub struct ArmTermsEntry {
     pub ripples: Vec<ArmRippleEntry>,
 }
 
-/// Friction near rest: s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), s the direction. Friction at rest is Coulomb friction plus A.
+/// Friction near rest: s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), s the direction. Friction at rest is Coulomb friction
+/// plus A.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ArmNearRestEntry {

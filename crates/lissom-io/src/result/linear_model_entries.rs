@@ -114,8 +114,8 @@ pub struct LinearModelEntries {
     pub motor: Option<TransferFunctionEntry>,
     /// Time by which the command acts later than it is logged; null if the data show no delay.
     pub motor_delay_s: Option<EstimateEntry>,
-    /// Tip per motor angle: the angle for a calibrated deflection, the acceleration for an acceleration, the deflection for
-    /// a deflection of unknown scale.
+    /// Tip per motor angle: the angle for a calibrated deflection, the acceleration for an acceleration, the deflection
+    /// for a deflection of unknown scale.
     pub tips: Vec<TipModelEntry>,
     /// State space from the command to the motor and each tip that is an angle.
     pub state_space: Option<StateSpaceEntry>,

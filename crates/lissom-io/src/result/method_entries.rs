@@ -182,7 +182,8 @@ pub struct ViscousByDirectionEntry {
     pub relative_residual: f64,
 }
 
-/// Ordinary least squares of all motion faster than 5 % of the largest speed: the method of many publications, and a baseline for the others.
+/// Ordinary least squares of all motion faster than 5 % of the largest speed: the method of many publications, and a
+/// baseline for the others.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LeastSquaresEntry {

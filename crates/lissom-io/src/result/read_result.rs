@@ -61,8 +61,8 @@ pub struct ListedParameter {
     pub warnings: Vec<String>,
 }
 
-/// The part of a [`ResultFile`](super::ResultFile) that a list of parameters needs. Results of other versions can be read
-/// as long as this part is the same.
+/// The part of a [`ResultFile`](super::ResultFile) that a list of parameters needs. Results of other versions can be
+/// read as long as this part is the same.
 #[derive(Debug, Deserialize)]
 struct ParameterPart {
     axis: AxisName,

@@ -19,9 +19,10 @@ use super::separability_entry::SeparabilityEntry;
 use super::unit_keys::{CouplingByTipKey, CouplingKey, InertiaKey, WithUnit};
 use super::unit_names::UnitNames;
 
-/// SI units and rad/s. The suffix of a key is its unit: a (A), v (V), command (the unit of the command, if it is unknown),
-/// nm (N*m), n (N). Keys in N*m or N exist if the torque constant is known; otherwise estimates are per unit of command.
-/// Linear axes have m, N and kg instead of rad, N*m and kg*m^2. An estimate is null if a finding refuses it.
+/// SI units and rad/s. The suffix of a key is its unit: a (A), v (V), command (the unit of the command, if it is
+/// unknown), nm (N*m), n (N). Keys in N*m or N exist if the torque constant is known; otherwise estimates are per unit
+/// of command. Linear axes have m, N and kg instead of rad, N*m and kg*m^2. An estimate is null if a finding refuses
+/// it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ResultFile {
@@ -43,8 +44,8 @@ pub struct ResultFile {
     pub beam: BeamEntry,
     /// Which parameters the logs identify; null without a covariance.
     pub verdict: Option<SeparabilityEntry>,
-    /// The arm with these estimates, with which lissom validate predicts other logs; null if inertia or Coulomb friction is
-    /// refused, or no method gives a whole arm.
+    /// The arm with these estimates, with which lissom validate predicts other logs; null if inertia or Coulomb
+    /// friction is refused, or no method gives a whole arm.
     pub arm: Option<ArmEntry>,
     /// Estimates of each method.
     pub methods: MethodEntries,
@@ -55,8 +56,8 @@ pub struct ResultFile {
     /// Comparison of the identified arm with the arm.toml that the campaign gives; null if it gives none with beam and
     /// drive, or the solution of the output-error method is rejected.
     pub geometry: Option<GeometryEntry>,
-    /// The equivalent arm of Section 4 of the 1989 report, if the angles of two or more tips are known; null if there is
-    /// none, and a finding equivalent-refused may give the reason.
+    /// The equivalent arm of Section 4 of the 1989 report, if the angles of two or more tips are known; null if there
+    /// is none, and a finding equivalent-refused may give the reason.
     pub equivalent: Option<EquivalentEntry>,
     /// Motion and use of each run.
     pub runs: Vec<RunEntry>,

@@ -29,8 +29,8 @@ pub struct SeparabilityEntry {
     pub runs: Vec<RunShareEntry>,
     /// The additional run that reduces the standard error of the least certain parameter most.
     pub run_to_add: Option<RunToAddEntry>,
-    /// Codes of findings that report effects in the runs that the arm does not have. Standard errors do not include these
-    /// effects.
+    /// Codes of findings that report effects in the runs that the arm does not have. Standard errors do not include
+    /// these effects.
     pub doubted_by: Vec<String>,
 }
 

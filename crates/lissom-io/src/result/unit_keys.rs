@@ -1,7 +1,7 @@
 //! Quantities whose JSON key contains the unit, such as `viscous_nm_s_per_rad`.
 //!
-//! The unit depends on the campaign, so the key cannot be the name of a field: a [`WithUnit`] has the key and the value, and
-//! is flattened into the table that it belongs to. [`UnitNames`] builds every key.
+//! The unit depends on the campaign, so the key cannot be the name of a field: a [`WithUnit`] has the key and the
+//! value, and is flattened into the table that it belongs to. [`UnitNames`] builds every key.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -155,8 +155,8 @@ quantities! {
     LoggedRmsKey = "logged_rms" in Torque;
 }
 
-/// Values of one quantity under keys with their units: none if the table has no such key, two if a torque is also given in
-/// the unit of the command.
+/// Values of one quantity under keys with their units: none if the table has no such key, two if a torque is also given
+/// in the unit of the command.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WithUnit<Q, T> {
     entries: Vec<(String, T)>,

@@ -23,8 +23,8 @@ pub struct ValidationFile {
     pub axis: AxisName,
     /// The arm of the result.
     pub arm: ArmEntry,
-    /// Torque (or force) that the estimates predict from the logged motion, compared with the logged one; null if the tips
-    /// do not give the coupling torque.
+    /// Torque (or force) that the estimates predict from the logged motion, compared with the logged one; null if the
+    /// tips do not give the coupling torque.
     pub torque: Option<TorqueEntry>,
     /// Motion that the estimates predict from the logged command.
     pub motion: MotionEntry,
@@ -42,8 +42,8 @@ pub struct TorqueEntry {
     pub relative_error: f64,
     /// The same for the logs of the result.
     pub relative_error_of_logs_used: Option<f64>,
-    /// The error that is expected if the arm is correct: that of the same computation with a simulation of the arm and its
-    /// sensors; null if the simulation does not follow the log for the length of a window.
+    /// The error that is expected if the arm is correct: that of the same computation with a simulation of the arm and
+    /// its sensors; null if the simulation does not follow the log for the length of a window.
     pub relative_error_expected: Option<f64>,
     /// The same while the motor moves forward.
     pub relative_error_forward: Option<f64>,
@@ -98,13 +98,13 @@ pub struct StretchEntry {
 pub struct ResidualTermEntry {
     /// The term.
     pub term: CauseName,
-    /// Its coefficient in SI units (s, or the unit of the parameter), to be added to the estimate; for the coupling relative
-    /// to its estimate.
+    /// Its coefficient in SI units (s, or the unit of the parameter), to be added to the estimate; for the coupling
+    /// relative to its estimate.
     pub value: f64,
     /// Share of the squared residual that the term alone explains.
     pub share: f64,
-    /// The coefficient from the same computation with a simulation of the arm, in the unit of value; 0 if the simulation
-    /// does not follow the log.
+    /// The coefficient from the same computation with a simulation of the arm, in the unit of value; 0 if the
+    /// simulation does not follow the log.
     pub expected_value: f64,
 }
 
@@ -141,8 +141,8 @@ pub struct MotionEntry {
     pub horizons: Vec<HorizonEntry>,
     /// Index of the horizon of the residuals: the longest one over which all channels fit 90 %, otherwise the shortest.
     pub chosen: Option<usize>,
-    /// The mode for which another frequency explains most of the residual; null if a change of 0.3 % or more does not remove
-    /// half of the squared residual, or if no tip has a residual above the noise of its sensor.
+    /// The mode for which another frequency explains most of the residual; null if a change of 0.3 % or more does not
+    /// remove half of the squared residual, or if no tip has a residual above the noise of its sensor.
     pub moved_mode: Option<MovedModeEntry>,
 }
 

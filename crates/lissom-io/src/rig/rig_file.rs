@@ -17,8 +17,8 @@ pub struct RigFile {
     pub title: String,
     /// Seed of the plan, a whole number up to 2^63.
     pub seed: String,
-    /// Relative tolerance of a step of the simulation if friction is not constant during slip; null if the motion is exact
-    /// to rounding.
+    /// Relative tolerance of a step of the simulation if friction is not constant during slip; null if the motion is
+    /// exact to rounding.
     pub tolerance: Option<f64>,
     /// Number of point masses that were simulated; a beam with mass along it is simulated as point masses too.
     pub masses: usize,

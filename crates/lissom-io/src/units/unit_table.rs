@@ -100,8 +100,9 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
     PLAIN.iter().chain(PREFIXED).map(|(name, ..)| *name)
 }
 
-/// The unit with its prefix that equals `wanted` except for upper and lower case: `mA` for "ma". If there are several, the one
-/// with the fewest changed letters; the prefix `M` counts as two changes more, because it may be confused with `m`.
+/// The unit with its prefix that equals `wanted` except for upper and lower case: `mA` for "ma". If there are several,
+/// the one with the fewest changed letters; the prefix `M` counts as two changes more, because it may be confused with
+/// `m`.
 pub(super) fn of_other_case(wanted: &str) -> Option<String> {
     let prefixed = PREFIXED.iter().flat_map(|(name, ..)| {
         PREFIXES.iter().map(move |(prefix, _)| (*prefix, format!("{prefix}{name}")))

@@ -12,8 +12,8 @@ const SMALL: f64 = 1e-4;
 /// Numbers from here on are written with an exponent.
 const LARGE: f64 = 1e15;
 
-/// Writes columns as comma-separated text with a header, completely or not at all. Numbers have as many digits as are needed
-/// to read the same number again.
+/// Writes columns as comma-separated text with a header, completely or not at all. Numbers have as many digits as are
+/// needed to read the same number again.
 ///
 /// # Errors
 /// [`WriteError::Ragged`] for columns of different length, and as [`write_whole`].

@@ -53,8 +53,8 @@ impl Batch {
     /// Writes a file, which gets its name later.
     ///
     /// # Errors
-    /// [`WriteError::File`] if the folder does not exist, cannot be written or is full, or if a folder has the name of the
-    /// file.
+    /// [`WriteError::File`] if the folder does not exist, cannot be written or is full, or if a folder has the name of
+    /// the file.
     pub fn file(&mut self, path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
         let failed = |source| WriteError::File { file: path.display().to_string(), source };
         let path = match destination(path).map_err(failed)? {

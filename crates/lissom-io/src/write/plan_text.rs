@@ -19,8 +19,8 @@ pub fn write_plan(path: &Path, plan: &Plan) -> Result<(), WriteError> {
     write_text(path, &plan_text(plan))
 }
 
-/// The text of a `plan.toml` that [`PlanFile`](crate::PlanFile) reads. Its comments give the purpose of each run and the
-/// expected standard errors.
+/// The text of a `plan.toml` that [`PlanFile`](crate::PlanFile) reads. Its comments give the purpose of each run and
+/// the expected standard errors.
 pub fn plan_text(plan: &Plan) -> String {
     let mut text = String::new();
     // Writing to a string does not fail.

@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::write_error::WriteError;
 
-/// Writes a file completely or not at all: into a new file in the same folder, which then gets its name. On an error the file
-/// keeps its former content, or does not exist.
+/// Writes a file completely or not at all: into a new file in the same folder, which then gets its name. On an error
+/// the file keeps its former content, or does not exist.
 ///
 /// # Errors
 /// [`WriteError::File`] if the folder does not exist, cannot be written or is full, or if `fill` fails.

@@ -1,4 +1,4 @@
-//! A drawn drive, its loop and its logs.
+//! A random drive, its loop and its logs.
 
 use lissom::arm::Arm;
 use lissom::beam::{Beam, BeamError, Damping, LumpedBeam, Span};
@@ -17,9 +17,9 @@ use super::planned_motion::{MotionKind, PlannedMotion, motions};
 use crate::draw::Draw;
 use crate::position_loop::{Gains, is_stable};
 
-/// Draws of a campaign before it is given up.
+/// Largest number of draws of a campaign.
 const DRAWS_MOST: usize = 200;
-/// Inertia of all that turns \[kg·m²\].
+/// Inertia of all rotating parts \[kg·m²\].
 const INERTIA_KG_M2: (f64, f64) = (1e-5, 1.0);
 /// Torque constant \[N·m/A\].
 const TORQUE_CONSTANT: (f64, f64) = (0.05, 2.0);
@@ -27,27 +27,27 @@ const TORQUE_CONSTANT: (f64, f64) = (0.05, 2.0);
 const SHARES: (f64, f64) = (0.1, 1.0);
 /// Frequency of the loop over that of the motion.
 const LOOP_RATIO: (f64, f64) = (8.0, 30.0);
-/// Radians of the loop's frequency per sample of the controller, at most.
+/// Largest frequency of the loop, in radians per sample of the controller.
 const FASTEST: f64 = 0.25;
-/// Angle that the loop needs to overcome dry friction and load, over the travel, at most.
+/// Largest angle that the loop needs to overcome dry friction and load, relative to the travel.
 const DEAD_SHARE: f64 = 0.05;
-/// Torque that one step of the encoder makes, over the peak torque, at most.
+/// Largest torque that one step of the encoder causes, relative to the peak torque.
 const CHATTER: f64 = 0.1;
-/// Filters of the loop's derivative to choose from, in 1/ω_c.
+/// Time constants for the filter of the loop's derivative, in 1/ω_c.
 const FILTERS: [f64; 4] = [0.0, 0.1, 0.25, 0.5];
-/// Travel in steps of the encoder, at least.
+/// Smallest travel in steps of the encoder.
 const STEPS_LEAST: f64 = 500.0;
-/// Share of a run in which the joint may stick.
+/// Largest share of a run in which the joint sticks.
 const STUCK_MOST: f64 = 0.6;
-/// Moves of all runs together, at least, unless they are meant to be few.
+/// Smallest number of moves in all runs, unless few strokes are drawn.
 const MOVES_LEAST: usize = 16;
-/// Part of a log with fewer rows is left out, as a reader of files does.
+/// A part of a log with fewer rows is left out, as in the reader of files.
 const LEAST_ROWS: usize = 50;
 
-/// What a drive is, in numbers.
+/// The numbers of a drive.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct DriveNumbers {
-    /// All that turns, taken as rigid \[kg·m²\].
+    /// Inertia of all rotating parts, as if they were rigid \[kg·m²\].
     pub inertia_kg_m2: f64,
     /// Viscous friction \[N·m·s/rad\].
     pub viscous_nm_s_per_rad: f64,
@@ -55,17 +55,17 @@ pub struct DriveNumbers {
     pub coulomb_nm: f64,
     /// \[N·m/A\].
     pub torque_constant_nm_per_a: f64,
-    /// Peak torque of inertia and friction that the motion was planned with \[N·m\].
+    /// Planned peak torque of inertia and friction \[N·m\].
     pub peak_nm: f64,
-    /// Peak speed planned \[rad/s\].
+    /// Planned peak speed \[rad/s\].
     pub peak_speed_rad_s: f64,
-    /// Peak acceleration planned \[rad/s²\].
+    /// Planned peak acceleration \[rad/s²\].
     pub peak_acceleration_rad_s2: f64,
     /// Constant load \[N·m\].
     pub load_nm: f64,
     /// Largest torque of gravity \[N·m\].
     pub gravity_nm: f64,
-    /// Bits of the encoder over a turn.
+    /// Bits of the encoder per turn.
     pub encoder_bits: u32,
     /// Time between rows \[s\].
     pub row_s: f64,
@@ -75,48 +75,48 @@ pub struct DriveNumbers {
     pub mode_rad_s: Option<f64>,
 }
 
-/// What is true at a row of a log.
+/// The true state at a row of a log.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct TrueRow {
     pub(crate) angle_rad: f64,
     pub(crate) speed_rad_s: f64,
-    /// What multiplies the dry friction.
+    /// The factor of the dry friction.
     pub(crate) factor: f64,
 }
 
 /// A campaign of a drive as it was simulated.
 #[derive(Debug, Clone)]
 pub struct DriveCampaign {
-    /// Which study it belongs to.
+    /// Its study.
     pub study: DriveStudy,
     /// The study's seed.
     pub seed: u64,
     /// Its place in the study.
     pub index: usize,
-    /// What it has beyond the simplest equation.
+    /// The effects that the simplest equation does not have.
     pub effects: Effects,
-    /// What the drive is.
+    /// The numbers of the drive.
     pub numbers: DriveNumbers,
-    /// What kind of motion its runs are.
+    /// The kind of motion of its runs.
     pub motion: MotionKind,
-    /// The logs, as a reader of files makes them.
+    /// The logs, as the reader of files returns them.
     pub logs: Campaign,
-    /// The logs as they would be written: time stamps \[s\] and rows.
+    /// The logs as they are written to files: time stamps \[s\] and rows.
     pub(crate) raw: Vec<(Vec<f64>, Run)>,
-    /// The dry friction as it does not wander.
+    /// The dry friction without wander.
     pub(crate) dry: DryFriction,
     /// The same without ripple.
     pub(crate) dry_without_ripple: DryFriction,
-    /// What is true at each row, run by run.
+    /// The true state at each row, run by run.
     pub(crate) truth: Vec<Vec<TrueRow>>,
     /// Share of each run in which the joint stuck.
     pub stuck_share: Vec<f64>,
-    /// Draws that were given up before it, with the reason.
+    /// Reasons of the draws that were rejected before.
     pub rejected: Vec<String>,
 }
 
 impl DriveCampaign {
-    /// Campaign `index` of a study; `None` where all draws were given up.
+    /// Campaign `index` of a study; `None` if all draws were rejected.
     pub fn draw(study: DriveStudy, seed: u64, index: usize) -> Option<Self> {
         let mut draw = Draw::of(seed, index);
         let effects = Effects::draw(&mut draw, study, index);
@@ -141,10 +141,10 @@ impl DriveCampaign {
     }
 }
 
-/// Why a draw was given up.
+/// The reason why a draw was rejected.
 #[derive(Debug, thiserror::Error)]
 enum Unfit {
-    #[error("no position loop fits")]
+    #[error("no position loop is suitable")]
     NoLoop,
     #[error("the travel is less than {STEPS_LEAST} steps of the encoder")]
     Coarse,
@@ -170,8 +170,8 @@ fn drawn(
     effects: Effects,
 ) -> Result<DriveCampaign, Unfit> {
     let row_s = 0.25e-3 * f64::from(draw.whole(2, 16));
-    // Points of the reference at every sample of the controller: slower ones would make a ripple of the current that
-    // keeps step with the rows.
+    // The reference has a point at every sample of the controller. With fewer points the current would have a ripple
+    // that is synchronous with the rows.
     let step_s = row_s / samples_per_row(&effects) as f64;
     let planned = motions(draw, effects.few_strokes, row_s, step_s);
     let moves: usize = planned.iter().map(PlannedMotion::moves).sum();
@@ -229,7 +229,7 @@ fn drawn(
     })
 }
 
-/// What the campaign file says of the channels: a wrong hold is the user's mistake.
+/// The channels as the campaign file declares them; a wrong hold is a mistake of the user.
 fn channels(rig: &Rig, effects: &Effects) -> Result<lissom::record::Channels, RigError> {
     let mut channels = rig.channels(0..0)?;
     match effects.lag {
@@ -240,7 +240,7 @@ fn channels(rig: &Rig, effects: &Effects) -> Result<lissom::record::Channels, Ri
     Ok(channels)
 }
 
-/// A log's time stamps and its run without the mass that no channel shows.
+/// The time stamps of a log and its run, without the mass that no channel measures.
 fn without_tips(logged: Logged) -> Result<(Vec<f64>, Run), RecordError> {
     let Logged { run, stamps_s, .. } = logged;
     let time = run.time();
@@ -251,7 +251,7 @@ fn without_tips(logged: Logged) -> Result<(Vec<f64>, Run), RecordError> {
     Ok((stamps, run))
 }
 
-/// The runs that a reader of files makes of a log.
+/// The runs that the reader of files makes of a log.
 fn read(stamps: &[f64], run: &Run, hold: Hold, late: bool) -> Result<Vec<Run>, Unfit> {
     if !late {
         return Ok(vec![run.clone()]);
@@ -366,7 +366,7 @@ fn friction(
     Ok(dry)
 }
 
-/// The joint; with an unseen mode the motor has the part of the inertia that the mass has not.
+/// The joint; with an unseen mode the inertia is divided between motor and mass.
 fn arm(
     effects: &Effects,
     (inertia, viscous, constant): (f64, f64, f64),
@@ -388,7 +388,7 @@ fn arm(
         mass_kg,
         damping_n_s_per_m: 0.0,
     };
-    // Damped within itself: dampers against the frame would be viscous friction of the joint.
+    // The damping is within the beam: dampers against the frame would be viscous friction of the joint.
     let damping = Damping::Modal { ratios: vec![mode.damping_ratio] };
     let beam = LumpedBeam::new(&[span])?.with_damping(damping)?;
     let motor = Motor::new(of_motor, viscous, constant)?;
@@ -447,11 +447,11 @@ fn scene(
     })
 }
 
-/// What a position loop has to suit.
+/// The requirements on a position loop.
 struct Needs {
     inertia: f64,
     motion_rad_s: f64,
-    /// Slower it does not overcome friction and load.
+    /// The smallest frequency with which the loop overcomes friction and load.
     least_rad_s: f64,
     encoder_rad: f64,
     peak_nm: f64,
@@ -460,7 +460,7 @@ struct Needs {
 }
 
 impl Needs {
-    /// Gains and the loop's frequency; `None` where none fits.
+    /// Gains and frequency of the loop; `None` if none is suitable.
     fn gains(&self, draw: &mut Draw, arm: &Arm) -> Option<(Gains, f64)> {
         let zeta = draw.uniform(0.6, 1.0);
         let ratio = draw.decade(LOOP_RATIO.0, LOOP_RATIO.1);

@@ -1,4 +1,4 @@
-//! Everything about one drive, for who looks for a mistake.
+//! All details of one drive, to look for the cause of an error.
 
 use super::drive_campaign::DriveCampaign;
 use super::drive_score::{ParameterScore, score_drive};
@@ -14,7 +14,7 @@ pub fn describe_drive(campaign: &DriveCampaign, quick: bool) -> String {
         ),
         format!("{:#?}", campaign.effects),
         format!("{:#?}", campaign.numbers),
-        format!("{} draws given up before it: {:?}", campaign.rejected.len(), campaign.rejected),
+        format!("{} draws rejected before: {:?}", campaign.rejected.len(), campaign.rejected),
     ];
     for ((stamps, run), stuck) in campaign.raw.iter().zip(&campaign.stuck_share) {
         let (from, to) =
@@ -38,8 +38,8 @@ pub fn describe_drive(campaign: &DriveCampaign, quick: bool) -> String {
                 "{:10} {:>13} {:>13} {:>13} {:>11} {:>11} {:>9} {:>10}",
                 "parameter",
                 "true",
-                "as it fell",
-                "given",
+                "in these runs",
+                "estimate",
                 "std. error",
                 "bound",
                 "error",
@@ -48,7 +48,10 @@ pub fn describe_drive(campaign: &DriveCampaign, quick: bool) -> String {
             lines.extend(scored.parameters.iter().map(parameter));
             if let Some(line) = &id.least_squares {
                 let f = &line.estimates.friction;
-                lines.push(format!("line: coulomb {:?}, viscous {:?}", f.coulomb, f.viscous));
+                lines.push(format!(
+                    "least squares: coulomb {:?}, viscous {:?}",
+                    f.coulomb, f.viscous
+                ));
             }
             lines.push(format!("friction: {:#?}", id.friction));
             lines.push(format!("residual of the regression: {:?}", id.regression_residual));
@@ -74,7 +77,7 @@ fn parameter(p: &ParameterScore) -> String {
         e.std,
         100.0 * p.error().unwrap_or(f64::NAN),
         p.deviations().unwrap_or(f64::NAN),
-        if p.from_line { "(line) " } else { "" },
+        if p.from_line { "(least squares) " } else { "" },
         p.warned_by.join(" ")
     )
 }

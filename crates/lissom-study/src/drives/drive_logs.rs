@@ -1,4 +1,4 @@
-//! A drive's logs as files, so that the command can be tried on them.
+//! Writes the logs of a drive to files, to use the command on them.
 
 use std::path::Path;
 
@@ -12,13 +12,13 @@ use super::friction_line::{FrictionLine, LineOf};
 use super::torque_bound::TorqueBound;
 use crate::drives::DriveParameter;
 
-/// Why logs cannot be written.
+/// The reason why logs cannot be written.
 pub type LogsError = Box<dyn std::error::Error + Send + Sync>;
 
 /// Writes `STUDY-SEED-INDEX/` into `folder`: a log for each run, `campaign.toml` and `truth.json`.
 ///
 /// # Errors
-/// Where the folder cannot be written.
+/// If the folder cannot be written.
 pub fn write_logs(campaign: &DriveCampaign, folder: &Path) -> Result<(), LogsError> {
     let DriveCampaign { study, seed, index, .. } = campaign;
     let own = folder.join(format!("{study}-{seed}-{index:04}"));

@@ -1,15 +1,15 @@
-//! What is asked of a drive.
+//! The parameters of a drive.
 
 use std::fmt;
 
 /// A parameter of a drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DriveParameter {
-    /// Coulomb friction of the line.
+    /// Coulomb friction, by least squares.
     Coulomb,
-    /// Viscous friction of the line.
+    /// Viscous friction, by least squares.
     Viscous,
-    /// All that turns.
+    /// Inertia of all rotating parts.
     Inertia,
     /// Largest torque of gravity.
     Gravity,
@@ -18,11 +18,11 @@ pub enum DriveParameter {
 }
 
 impl DriveParameter {
-    /// All of them.
+    /// All parameters.
     pub const ALL: [Self; 5] =
         [Self::Coulomb, Self::Viscous, Self::Inertia, Self::Gravity, Self::Load];
 
-    /// How findings name it.
+    /// Its key in the list of results that a finding affects.
     pub(crate) fn key(self) -> &'static str {
         match self {
             Self::Coulomb => "friction.coulomb",

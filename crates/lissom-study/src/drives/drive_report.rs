@@ -1,4 +1,4 @@
-//! A study of drives as markdown.
+//! The results of a study of drives as markdown.
 
 use std::collections::BTreeMap;
 
@@ -9,9 +9,9 @@ use super::effects::{Cause, DriveStudy, Effects, Input};
 use crate::statistics::{Share, median};
 use crate::tables::table;
 
-/// Largest share of the bound in a parameter that counts \[1\].
+/// Largest bound of a parameter that is counted, relative to its value \[1\].
 const BOUND_MOST: f64 = 0.05;
-/// Parameters in the list of the worst.
+/// Length of the list of silently wrong parameters.
 const WORST: usize = 40;
 
 /// A campaign and its score.
@@ -27,8 +27,8 @@ pub fn drive_report(plan: &DriveStudyPlan, outcomes: &[Option<DriveOutcome>]) ->
         drawn.iter().filter_map(|o| Some((*o, o.score.as_ref().ok()?))).collect();
     let failed = drawn.iter().filter_map(|o| Some((o.index, o.score.as_ref().err()?)));
     let mut sections = vec![format!(
-        "# Drives: `{}`\n\n{} campaigns of seed {}, `cargo xtask study --drives {} --campaigns {} --seed {}{}`. {} could not be \
-         drawn, {} draws were given up. Simulation {:.0} s, identification {:.0} s.",
+        "# Drives: `{}`\n\n{} campaigns of seed {}: `cargo xtask study --drives {} --campaigns {} --seed {}{}`. {} campaigns could \
+         not be drawn, {} draws were rejected. Simulation {:.0} s, identification {:.0} s.",
         plan.study,
         drawn.len(),
         plan.seed,
@@ -57,7 +57,7 @@ fn parameters<'a>(all: &[Scored<'a>]) -> Vec<One<'a>> {
     all.iter().flat_map(|(o, s)| s.parameters.iter().map(move |p| (*o, p))).collect()
 }
 
-/// Whether a parameter can be known to 5 %.
+/// Whether the logs can determine a parameter to 5 %.
 fn counts(p: &ParameterScore) -> bool {
     p.bound_share().is_some_and(|share| share < BOUND_MOST)
 }
@@ -72,14 +72,14 @@ const HEADER: [&str; 10] = [
     "bound below 5 %",
     "given without a warning",
     "within 5 standard errors",
-    "95 % intervals that cover",
-    "the same, wander as it fell",
-    "median of |error|",
-    "median of standard error over bound",
+    "95 % intervals that contain the truth",
+    "the same, with the wander of the runs",
+    "\\|error\\|, median",
+    "standard error / bound, median",
     "refused",
 ];
 
-/// The parameters of a study, and which count as given without a warning.
+/// The parameters of a study, and the condition for "given without a warning".
 struct Real<'a> {
     every: Vec<One<'a>>,
     vouched: Is<'a>,
@@ -136,7 +136,8 @@ impl Real<'_> {
             }));
         }
         for line in [true, false] {
-            let label = if line { "from the line" } else { "from the table" };
+            let label =
+                if line { "friction from least squares" } else { "friction from the table" };
             rows.push(self.row(label.to_owned(), |(_, p)| {
                 let friction = [DriveParameter::Coulomb, DriveParameter::Viscous];
                 friction.contains(&p.parameter) && p.from_line == line
@@ -152,20 +153,24 @@ fn real(all: &[Scored<'_>]) -> Vec<String> {
     let strict = Real { every: every.clone(), vouched: &ParameterScore::vouched };
     let aside = Real { every, vouched: &ParameterScore::vouched_but_for_law };
     let goals = format!(
-        "## Goals\n\nAsked of parameters whose bound is below 5 %: 80 % given without a warning; of these 99 % within five standard \
-         errors, and 90 to 99 % covered by their 95 % intervals.\n\n{}",
+        "## Goals\n\nOf the parameters whose bound is below 5 %, 80 % are given without a warning. Of these, 99 % are within \
+         five standard errors, and 90 to 99 % of the 95 % intervals contain the truth. The columns after the bound count \
+         only parameters whose bound is below 5 %.\n\n{}",
         strict.kinds()
     );
     let law = format!(
-        "## The same, `friction-law` aside\n\nThat finding warns of Coulomb and viscous friction wherever the result has a law with \
-         further terms. Here it is no warning.\n\n{}",
+        "## The same without `friction-law`\n\nThis finding warns about Coulomb and viscous friction whenever the result has a \
+         friction law with further terms. Here it does not count as a warning.\n\n{}",
         aside.kinds()
     );
-    let effects = format!("## By effect\n\n`friction-law` aside.\n\n{}", aside.effects());
+    let effects = format!(
+        "## By effect\n\n`friction-law` does not count as a warning.\n\n{}",
+        aside.effects()
+    );
     vec![goals, law, effects, blockers(&counted)]
 }
 
-/// Which findings keep a parameter that counts from being given without a warning.
+/// The findings that affect the counted parameters.
 fn blockers(counted: &[One<'_>]) -> String {
     let mut by_code: BTreeMap<&str, BTreeMap<String, usize>> = BTreeMap::new();
     let mut alone: BTreeMap<&str, usize> = BTreeMap::new();
@@ -197,9 +202,12 @@ fn blockers(counted: &[One<'_>]) -> String {
         .collect();
     let mut header = vec!["finding".to_owned()];
     header.extend(DriveParameter::ALL.map(|p| p.to_string()));
-    header.push("alone".to_owned());
+    header.push("as the only one".to_owned());
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    format!("## What speaks against parameters that count\n\n{}", table(&header, &rows))
+    format!(
+        "## Warnings and refusals of parameters whose bound is below 5 %\n\n{}",
+        table(&header, &rows)
+    )
 }
 
 fn causes(all: &[Scored<'_>]) -> Vec<String> {
@@ -263,8 +271,8 @@ fn causes(all: &[Scored<'_>]) -> Vec<String> {
         "without a warning",
         "parameters refused",
         "given without a warning",
-        "median of |error| in standard errors",
-        "95 % intervals that cover",
+        "\\|error\\| / standard error, median",
+        "95 % intervals that contain the truth",
         "campaigns silently wrong",
         "coulomb",
         "viscous",
@@ -278,10 +286,10 @@ fn causes(all: &[Scored<'_>]) -> Vec<String> {
             table(&header, &rows)
         ),
         format!(
-            "## The first finding\n\nThat at the top of the list: causes come before what follows from them.\n\n{confusion}"
+            "## The first finding\n\nThe finding at the top of the list: causes come before their consequences.\n\n{confusion}"
         ),
-        format!("## Warnings and refusals\n\nCampaigns that have them at all.\n\n{any}"),
-        format!("## Information\n\nCampaigns that have them at all.\n\n{infos}"),
+        format!("## Warnings and refusals\n\nNumber of campaigns with each of them.\n\n{any}"),
+        format!("## Information\n\nNumber of campaigns with each of them.\n\n{infos}"),
     ]
 }
 
@@ -326,7 +334,7 @@ fn worst(all: &[Scored<'_>]) -> String {
                 format!("{:+.1}", p.deviations().unwrap_or(f64::NAN)),
                 format!("{:+.2} %", 100.0 * p.error().unwrap_or(f64::NAN)),
                 p.bound_share().map_or_else(String::new, |b| format!("{:.3} %", 100.0 * b)),
-                if p.from_line { "line".to_owned() } else { method.to_owned() },
+                if p.from_line { "least squares".to_owned() } else { method.to_owned() },
                 p.warned_by.join(" "),
                 o.cause.map_or_else(String::new, |c| c.to_string()),
                 o.effects.names().join(" "),
@@ -347,7 +355,7 @@ fn worst(all: &[Scored<'_>]) -> String {
         "motion",
     ];
     format!(
-        "## Silently wrong\n\n{} parameters more than five standard errors off without a warning, or with `friction-law` alone.\n\n{}",
+        "## Silently wrong\n\n{} parameters are more than five standard errors off without a warning, or with no warning but `friction-law`.\n\n{}",
         wrong.len(),
         table(&header, &rows)
     )

@@ -1,4 +1,4 @@
-//! A row for each drive, for other programs.
+//! The results as comma separated text, one row for each drive.
 
 use super::drive_parameter::DriveParameter;
 use super::drive_score::{FoundCode, ParameterScore};
@@ -11,7 +11,7 @@ const HEAD: &str = "study,seed,index,cause,effects,magnitude,motion,runs,rows,ro
                     constant_load,mode_inertia_ratio,mode_rad_s,mode_over_loop,late_stamps,lag_rows,dry_share,viscous_share,\
                     stuck_share,rejected,simulation_s,identification_s,method,first,findings";
 
-/// The campaigns of a study as comma separated text, with a header; what is not there is empty.
+/// The campaigns of a study as comma separated text, with a header; missing values are empty.
 pub fn drive_rows(plan: &DriveStudyPlan, outcomes: &[Option<DriveOutcome>]) -> String {
     let mut header = HEAD.to_owned();
     for parameter in DriveParameter::ALL {
@@ -24,7 +24,7 @@ pub fn drive_rows(plan: &DriveStudyPlan, outcomes: &[Option<DriveOutcome>]) -> S
     lines.join("\n") + "\n"
 }
 
-/// The size of a campaign's one cause.
+/// The size of the cause of a campaign.
 fn magnitude(outcome: &DriveOutcome) -> Option<f64> {
     use super::effects::Cause;
     let (effects, numbers) = (&outcome.effects, &outcome.numbers);
@@ -45,7 +45,7 @@ fn noise_share(input: Input) -> Option<f64> {
     }
 }
 
-/// By how many rows the angle follows the current later than the campaign says.
+/// The delay of the angle after the current in rows, relative to the declared one.
 fn lag_rows(lag: Option<Lag>) -> Option<f64> {
     Some(match lag? {
         Lag::Delay { rows } => rows,

@@ -1,4 +1,4 @@
-//! A drive's result against truth.
+//! Compares the result of a drive with the truth.
 
 use lissom::identify::findings::{
     Finding, FindingKind, FrictionLawFinding, RegressionFinding, Severity,
@@ -10,9 +10,9 @@ use super::drive_parameter::DriveParameter;
 use super::friction_line::{FrictionLine, LineOf};
 use super::torque_bound::TorqueBound;
 
-/// Standard errors beyond which a parameter is wrong.
+/// Error, in standard errors, above which a parameter is wrong.
 pub(crate) const WRONG: f64 = 5.0;
-/// Loads below this share of Coulomb friction are not scored: nobody would look for them.
+/// Loads below this share of Coulomb friction are not compared, because they are negligible.
 const LOAD_LEAST: f64 = 0.05;
 /// The finding that friction has a law with further terms.
 pub(crate) const FRICTION_LAW: &str = "friction-law";
@@ -20,24 +20,24 @@ pub(crate) const FRICTION_LAW: &str = "friction-law";
 /// One parameter of one campaign.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ParameterScore {
-    /// Which.
+    /// The parameter.
     pub parameter: DriveParameter,
-    /// Its truth.
+    /// Its true value.
     pub truth: f64,
-    /// The same with the wander as it fell in the runs.
+    /// The same with the wander of friction in these runs.
     pub truth_as_fell: f64,
-    /// What was given; `None`: refused.
+    /// The estimate; `None`: refused.
     pub estimate: Option<Estimate>,
-    /// Codes of the warnings and refusals that name it.
+    /// Codes of the warnings and refusals that affect it.
     pub warned_by: Vec<&'static str>,
-    /// The least standard deviation that it can have; `None` where the motion leaves it open.
+    /// The smallest possible standard error; `None` if the motion does not determine the parameter.
     pub bound: Option<f64>,
-    /// Whether it was taken from the line of least squares and not from the result's table.
+    /// Whether it was taken from the least-squares friction and not from the result's table.
     pub from_line: bool,
 }
 
 impl ParameterScore {
-    /// The bound over the truth \[1\].
+    /// The bound relative to the true value \[1\].
     pub fn bound_share(&self) -> Option<f64> {
         self.bound.map(|bound| bound / self.truth.abs())
     }
@@ -47,12 +47,12 @@ impl ParameterScore {
         self.estimate.is_some() && self.warned_by.is_empty()
     }
 
-    /// The same, `friction-law` left aside: it says that friction has a law with further terms.
+    /// The same, but `friction-law` does not count as a warning: it reports that the friction law has further terms.
     pub fn vouched_but_for_law(&self) -> bool {
         self.estimate.is_some() && self.warned_by.iter().all(|code| *code == FRICTION_LAW)
     }
 
-    /// Its standard error over the bound.
+    /// Its standard error divided by the bound.
     pub fn over_bound(&self) -> Option<f64> {
         Some(self.estimate?.std / self.bound?)
     }
@@ -73,7 +73,7 @@ impl ParameterScore {
         self.estimate.map(|e| (e.value - self.truth) / self.truth.abs())
     }
 
-    /// Whether the 95 % interval has the truth.
+    /// Whether the 95 % interval contains the true value.
     pub fn covers(&self) -> Option<bool> {
         self.estimate.map(|e| {
             let [low, high] = e.ci95();
@@ -81,7 +81,7 @@ impl ParameterScore {
         })
     }
 
-    /// Whether the 95 % interval has the truth with the wander as it fell.
+    /// Whether the 95 % interval contains the true value with the wander of friction in these runs.
     pub fn covers_as_fell(&self) -> Option<bool> {
         self.estimate.map(|e| {
             let [low, high] = e.ci95();
@@ -95,16 +95,16 @@ impl ParameterScore {
     }
 }
 
-/// A finding, as far as it counts here.
+/// The parts of a finding that are used here.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FoundCode {
     /// Its code.
     pub code: &'static str,
     /// Its severity.
     pub severity: Severity,
-    /// What tells two findings of one code apart: the term that is missing, the law's terms; empty for others.
+    /// The difference between findings with the same code: the missing term, or the terms of the law; empty for others.
     pub detail: String,
-    /// What it says.
+    /// Its message.
     pub message: String,
 }
 
@@ -130,12 +130,12 @@ pub struct DriveScore {
     pub parameters: Vec<ParameterScore>,
     /// All findings, in the result's order.
     pub findings: Vec<FoundCode>,
-    /// The method whose table the result has.
+    /// The method that gave the parameters.
     pub method: Option<&'static str>,
 }
 
 impl DriveScore {
-    /// The finding that a user reads first: causes come before what follows from them.
+    /// The finding that a user reads first: causes come before their consequences.
     pub fn first(&self) -> Option<&FoundCode> {
         self.findings.first()
     }
@@ -148,15 +148,16 @@ impl DriveScore {
 
 /// Compares a result with the truth of its campaign.
 ///
-/// Friction is that of the result's table, unless its law has terms beyond Coulomb and one viscous constant. The table's Coulomb
-/// friction is then that of the law: far from rest and beyond the speeds driven for concave friction, at rest with
-/// the root of speed, beside the ripple where the line averages it. It is no parameter of a line. The result itself
-/// gives the line of its logs for this case (`methods.least_squares`; the command prints it under the table), and that is compared with
-/// the true line. Where the output-error method has ripple as a term, the line is not given: the table is compared with
-/// the line of the friction without ripple.
+/// Friction is taken from the result's table, unless the friction law has terms besides Coulomb and one viscous
+/// constant. The Coulomb friction of such a law is defined differently: for concave friction as the limit above the
+/// driven speeds, with the root of speed as the value at rest, with ripple as the friction without the ripple. It is
+/// not comparable with a straight line. For this case the result has Coulomb and viscous friction by least squares
+/// (`methods.least_squares`; the command prints them below the table), and these are compared with the same of the true
+/// friction. If the output-error method has ripple as a term, they are not given: then the table is compared with the
+/// least-squares line of the true friction without ripple.
 ///
-/// Inertia is that of all that turns. Where the result has a mode that it found in the motor's motion
-/// (`modes-by-the-motor`), its inertia is the motor's own, and is compared with that.
+/// Inertia is that of all rotating parts. If the result has a mode that was found in the motion of the motor
+/// (`modes-by-the-motor`), its inertia is that of the motor alone, and is compared with that.
 pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
     let bound = TorqueBound::of(campaign);
     let from_line = gives_the_line(id);
@@ -218,14 +219,14 @@ pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
     }
 }
 
-/// Whether the command prints the line of least squares under the table.
+/// Whether the command prints least-squares friction below the table.
 fn gives_the_line(id: &Identified) -> bool {
     let f = &id.friction;
     let departs = f.near_rest.is_some() || f.viscous_by_direction.is_some();
     departs || id.method == Some(Method::FrictionLaw)
 }
 
-/// What tells findings of one code apart.
+/// The difference between findings with the same code.
 fn detail(kind: &FindingKind) -> String {
     // The name of a variant, without its numbers.
     let name = |text: String| text.split([' ', '{', '(']).next().unwrap_or_default().to_owned();

@@ -1,4 +1,4 @@
-//! Many drives, side by side.
+//! Simulates and identifies many drives in parallel.
 
 use std::time::{Duration, Instant};
 
@@ -10,31 +10,31 @@ use super::drive_score::{DriveScore, score_drive};
 use super::effects::{Cause, DriveStudy, Effects};
 use super::planned_motion::MotionKind;
 
-/// What a study of drives is.
+/// The settings of a study of drives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DriveStudyPlan {
-    /// What is drawn.
+    /// The kind of study.
     pub study: DriveStudy,
     /// Campaigns, from index 0 on.
     pub campaigns: usize,
     /// Seed of all draws.
     pub seed: u64,
-    /// Leaves the output-error method out.
+    /// Identifies without the output-error method.
     pub quick: bool,
 }
 
-/// A campaign that has been identified; its logs are gone.
+/// A campaign after its identification, without its logs.
 #[derive(Debug, Clone)]
 pub struct DriveOutcome {
     /// Its place in the study.
     pub index: usize,
     /// Its cause, in a study of causes.
     pub cause: Option<Cause>,
-    /// What it has beyond the simplest equation.
+    /// The effects that the simplest equation does not have.
     pub effects: Effects,
-    /// What the drive is.
+    /// The numbers of the drive.
     pub numbers: DriveNumbers,
-    /// What kind of motion its runs are.
+    /// The kind of motion of its runs.
     pub motion: MotionKind,
     /// Runs.
     pub runs: usize,
@@ -42,11 +42,11 @@ pub struct DriveOutcome {
     pub rows: usize,
     /// The largest share of a run in which the joint stuck.
     pub stuck_share: f64,
-    /// Draws given up before it.
+    /// Reasons of the draws that were rejected before.
     pub rejected: Vec<String>,
-    /// Parameters against truth, or why nothing was identified at all.
+    /// Parameters compared with the truth, or the error of the identification.
     pub score: Result<DriveScore, String>,
-    /// Time of the simulation, draws given up included.
+    /// Time of the simulation, with rejected draws.
     pub simulation: Duration,
     /// Time of the identification.
     pub identification: Duration,
@@ -55,7 +55,7 @@ pub struct DriveOutcome {
 /// Identifies a drive's campaign as a user would.
 ///
 /// # Errors
-/// [`IdentifyError`] where nothing can be said at all.
+/// [`IdentifyError`] if nothing can be identified.
 pub(super) fn identified_drive(
     campaign: &DriveCampaign,
     quick: bool,
@@ -64,7 +64,7 @@ pub(super) fn identified_drive(
     identify(&campaign.logs, &Options { effort, ..Options::default() }, |_| {})
 }
 
-/// Runs the study on rayon's current threads; `done` is called after each campaign. `None`: all draws were given up.
+/// Runs the study on rayon's current threads; `done` is called after each campaign. `None`: all draws were rejected.
 pub fn drive_study(plan: &DriveStudyPlan, done: impl Fn() + Sync) -> Vec<Option<DriveOutcome>> {
     let one = |index| {
         let start = Instant::now();
@@ -79,7 +79,7 @@ pub fn drive_study(plan: &DriveStudyPlan, done: impl Fn() + Sync) -> Vec<Option<
 }
 
 impl DriveOutcome {
-    /// Identifies a campaign whose simulation took so long.
+    /// Identifies a campaign; `simulation` is the time of its simulation.
     pub fn of(campaign: &DriveCampaign, simulation: Duration, quick: bool) -> Self {
         let start = Instant::now();
         let found = identified_drive(campaign, quick);

@@ -1,4 +1,4 @@
-//! What a simulated drive has that the simplest equation of motion has not.
+//! Effects of a simulated drive that the simplest equation of motion does not have.
 
 use std::fmt;
 
@@ -6,13 +6,13 @@ use serde::Serialize;
 
 use crate::draw::Draw;
 
-/// What is drawn.
+/// The kind of study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DriveStudy {
-    /// Every campaign has most of the effects that real logs have.
+    /// Every campaign has most of the effects of real logs
     Real,
-    /// Every campaign has one cause, or none: they take turns.
+    /// Every campaign has one effect or none, in turn
     Causes,
 }
 
@@ -25,26 +25,26 @@ impl fmt::Display for DriveStudy {
     }
 }
 
-/// The one thing that is wrong in a campaign of [`DriveStudy::Causes`].
+/// The only effect in a campaign of [`DriveStudy::Causes`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cause {
-    /// Nothing.
+    /// No effect.
     Clean,
     /// Noise of the measured current.
     InputNoise,
     /// Dry friction that wanders.
     Wander,
-    /// A mode that no channel shows.
+    /// A mode that no channel measures.
     UnseenMode,
     /// Gravity that the campaign does not declare, or a constant load.
     Load,
-    /// Time between the logged current and the angle.
+    /// A time shift between the logged current and the angle.
     Lag,
 }
 
 impl Cause {
-    /// All of them, in the order in which campaigns take turns.
+    /// All causes, in the order of the campaigns.
     pub const ALL: [Self; 6] =
         [Self::Clean, Self::InputNoise, Self::Wander, Self::UnseenMode, Self::Load, Self::Lag];
 
@@ -67,11 +67,11 @@ impl fmt::Display for Cause {
     }
 }
 
-/// How the log has the current.
+/// The current in the log.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Input {
-    /// The command, held from row to row.
+    /// The command, constant from row to row.
     Held,
     /// A measurement of the current.
     Measured {
@@ -116,13 +116,13 @@ pub struct GearRipple {
 pub struct Gravity {
     /// Largest torque over the planned peak torque of the motion \[1\].
     pub share: f64,
-    /// It hangs at minus this angle \[rad\].
+    /// The load hangs down at minus this angle \[rad\].
     pub phase_rad: f64,
-    /// Whether the campaign says that there is gravity.
+    /// Whether the campaign declares gravity.
     pub declared: bool,
 }
 
-/// A mass on a flexible span, which no channel shows.
+/// A mass on a flexible span that no channel measures.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct UnseenMode {
     /// Inertia of the mass over that of the motor \[1\].
@@ -133,16 +133,16 @@ pub struct UnseenMode {
     pub damping_ratio: f64,
 }
 
-/// Time between command and angle.
+/// A time shift between command and angle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Lag {
-    /// A held command acts so many rows after its row.
+    /// A held command acts this many rows after its row.
     Delay {
         /// Rows.
         rows: f64,
     },
-    /// A measured current is the mean over the row's time before it: half a row late.
+    /// A measured current is the mean over the time of one row before it: half a row late.
     MeanBefore,
     /// A measured current is declared as held.
     MeasuredAsHeld,
@@ -150,10 +150,10 @@ pub enum Lag {
     HeldAsMeasured,
 }
 
-/// All effects of a campaign; those that are `None` are not there.
+/// All effects of a campaign; `None`: the campaign does not have this effect.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Effects {
-    /// How the log has the current.
+    /// The current in the log.
     pub input: Input,
     /// Wandering friction.
     pub wander: Option<Wander>,
@@ -195,7 +195,7 @@ impl Effects {
         }
     }
 
-    /// Those of campaign `index`.
+    /// The effects of campaign `index`.
     pub(crate) fn draw(draw: &mut Draw, study: DriveStudy, index: usize) -> Self {
         match study {
             DriveStudy::Real => Self::real(draw),
@@ -288,7 +288,7 @@ impl Effects {
         all.into_iter().filter(|(_, there)| *there).map(|(name, _)| name).collect()
     }
 
-    /// Every name that [`names`](Self::names) may give.
+    /// All names of [`names`](Self::names).
     pub const NAMES: [&'static str; 11] = [
         "input-noise",
         "wander",

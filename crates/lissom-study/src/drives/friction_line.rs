@@ -1,4 +1,4 @@
-//! The line of Coulomb and viscous friction that a campaign has.
+//! Coulomb and viscous friction of a campaign by least squares of its true friction.
 
 use lissom::drive::DryFriction;
 
@@ -8,11 +8,12 @@ use super::drive_campaign::{DriveCampaign, TrueRow};
 /// [`least_squares`](lissom::identify::least_squares).
 const SLOWEST: f64 = 0.05;
 
-/// Coulomb and viscous friction by ordinary least squares of the true friction torque on `sgn θ̇` and `θ̇`, over all samples
-/// of all runs that are faster than 5 % of the largest speed.
+/// Coulomb and viscous friction by ordinary least squares of the true friction torque on `sgn θ̇` and `θ̇`, over all
+/// samples of all runs that are faster than 5 % of the largest speed.
 ///
-/// It is the definition by which friction of real logs is compared, since nobody knows their law. Loads are no
-/// friction and are left out; ripple is averaged as it falls. For Coulomb and viscous friction alone the line is the law.
+/// With this definition friction of real logs can be compared, since their law is not known. Loads are not friction and
+/// are left out; ripple is averaged over the angles of the runs. If there is only Coulomb and viscous friction, the
+/// line is the law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionLine {
     /// \[N·m\].
@@ -21,23 +22,23 @@ pub struct FrictionLine {
     pub viscous_nm_s_per_rad: f64,
 }
 
-/// What of the friction a line is fitted to.
+/// The parts of friction to which a line is fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LineOf {
-    /// With gear ripple as it falls. Without it is the line of a result that has the ripple as a term of its own.
+    /// With gear ripple. The line without it is that of a result that has the ripple as a separate term.
     pub ripple: bool,
-    /// With the wander as it fell in these runs. Without it is the value about which repeated campaigns scatter: intervals and
-    /// the bound count wander as noise, so that this is what they are about.
+    /// With the wander of friction in these runs. The value without it is that about which repeated campaigns scatter.
+    /// Intervals and the bound treat wander as noise, so they are for this value.
     pub wander: bool,
 }
 
 impl LineOf {
-    /// What a result without terms beyond the line should give.
+    /// The line that a result without further terms should give.
     pub const LAW: Self = Self { ripple: true, wander: false };
 }
 
 impl FrictionLine {
-    /// The line of a campaign.
+    /// Fits the line of a campaign.
     pub fn of(campaign: &DriveCampaign, of: LineOf) -> Self {
         let law = if of.ripple { &campaign.dry } else { &campaign.dry_without_ripple };
         let rows = || campaign.truth.iter().flatten();

@@ -1,8 +1,9 @@
-//! Drives with what real logs have: noisy measured currents, friction that wanders and is no straight line, loads, ripple,
-//! late time stamps, few strokes, modes that are not measured.
+//! Drives with the effects of real logs: noisy measured currents, friction that wanders and is not linear in speed,
+//! loads, ripple, late time stamps, few strokes, modes that are not measured.
 //!
-//! [`DriveCampaign`] is drawn and simulated; [`FrictionLine`] is the friction that the result should give; [`TorqueBound`]
-//! is how well it can be known; [`DriveScore`] compares; [`drive_study`] does it for many campaigns.
+//! [`DriveCampaign`] is drawn and simulated. [`FrictionLine`] is the friction that the result should give.
+//! [`TorqueBound`] has the smallest possible standard errors. [`DriveScore`] compares; [`drive_study`] does this for
+//! many campaigns.
 
 mod drive_campaign;
 mod drive_description;

@@ -1,4 +1,4 @@
-//! The references of a drive's runs.
+//! The reference motions of a drive.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,7 +9,7 @@ use crate::draw::Draw;
 
 /// Length of a run \[s\].
 const RUN_S: (f64, f64) = (10.0, 40.0);
-/// Rows of all runs together, at most.
+/// Largest number of rows of all runs together.
 const ROWS_MOST: f64 = 80_000.0;
 /// Frequency about which a run moves \[Hz\].
 const PACE_HZ: (f64, f64) = (0.1, 1.5);
@@ -19,14 +19,14 @@ const TRAVEL_RAD: (f64, f64) = (0.3, 8.0);
 const STROKE_RAD_S: (f64, f64) = (1.0, 30.0);
 /// A move is faster than this share of the peak speed.
 const MOVES: f64 = 0.1;
-/// Share of the accelerations and speeds beyond which is not planned for.
+/// Share of the largest accelerations and speeds that the plan ignores.
 const BEYOND: f64 = 0.01;
 
-/// What kind of motion the runs are.
+/// The kind of motion of the runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MotionKind {
-    /// A sum of some sines.
+    /// A sum of several sines.
     Multisine,
     /// From point to point, with rests between.
     PointToPoint,
@@ -101,7 +101,7 @@ impl PlannedMotion {
         [&speeds, &accelerations].map(|values| peak(values).unwrap_or(0.0))
     }
 
-    /// Stretches in which it moves one way.
+    /// Number of stretches in one direction.
     pub(crate) fn moves(&self) -> usize {
         let least = MOVES * self.peaks()[0];
         let way = |v: &f64| (v.abs() > least).then_some(*v > 0.0);
@@ -146,7 +146,7 @@ fn point_to_point(
     let mut angle = vec![0.0];
     while angle.len() < points {
         let from = angle[angle.len() - 1];
-        // Far enough from where it is.
+        // Far enough from the present point.
         let to = loop {
             let to = draw.uniform(-size, size);
             if (to - from).abs() > 0.3 * size {

@@ -1,4 +1,4 @@
-//! How well a drive's parameters can be known.
+//! The smallest possible standard errors of a drive's parameters.
 
 use lissom::information::{Inverse, inverted};
 use nalgebra::{DMatrix, DVector};
@@ -8,25 +8,25 @@ use super::drive_parameter::DriveParameter;
 use super::effects::Input;
 use super::friction_line::braking_nm;
 
-/// Noise of the torque over the planned peak torque where there is none, so that sums stay finite.
+/// Noise of the torque relative to the planned peak torque if there is none, so that sums stay finite.
 const NOISE_LEAST: f64 = 1e-6;
 
-/// Cramér-Rao bounds of the line's parameters, with wander in the model.
+/// Cramér-Rao bounds of the parameters of the torque equation, with wander of friction as noise.
 ///
-/// `τ = J·θ̈ + V·θ̇ + C·sgn θ̇ + O [+ g_s·sin θ + g_c·cos θ] + w`, where the motion is known and slips. The noise w is that of
-/// the measured current, white from row to row, and wander: a first-order autoregressive process times the dry friction at
-/// the row in its direction. A scalar Kalman filter whitens all columns, run by run.
+/// `τ = J·θ̈ + V·θ̇ + C·sgn θ̇ + O [+ g_s·sin θ + g_c·cos θ] + w`, over the rows in which the joint slips; the motion
+/// is known. The noise w is the noise of the measured current, white from row to row, and wander: a first-order
+/// autoregressive process times the dry friction at the row. A scalar Kalman filter whitens all columns, run by run.
 ///
-/// Noise and steps of the angle are left out: in the smooth windows of a regression they make less error than the noise of a
-/// measured current or a wander of a percent.
-/// The law has no terms beyond the line; with an unseen mode θ̈ is the motor's.
+/// Noise and steps of the angle are neglected: in the smooth windows of a regression their error is smaller than that
+/// of the noise of a measured current or of a wander of one percent. The law has only Coulomb and viscous friction;
+/// with an unseen mode θ̈ is that of the motor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TorqueBound {
     std: Vec<(DriveParameter, f64)>,
 }
 
 impl TorqueBound {
-    /// The bound of a campaign; `None` where its motion leaves a direction open, or the torque has no noise.
+    /// The bound of a campaign; `None` if its motion does not determine all parameters, or the torque has no noise.
     pub fn of(campaign: &DriveCampaign) -> Option<Self> {
         if noise_share(campaign) == 0.0 && campaign.effects.wander.is_none() {
             return None;
@@ -59,7 +59,7 @@ impl TorqueBound {
         Some(Self { std: all })
     }
 
-    /// The least standard deviation of a parameter, in its own unit.
+    /// The smallest standard deviation of an estimate, in the unit of its parameter.
     pub fn std(&self, parameter: DriveParameter) -> Option<f64> {
         self.std.iter().find(|(p, _)| *p == parameter).map(|(_, std)| *std)
     }
@@ -86,7 +86,7 @@ fn add_run(
         (keep, w.relative_std.powi(2) * (1.0 - keep * keep))
     });
     let size = information.nrows();
-    // What each column alone would have the wander be, and the variance of the wander.
+    // The prediction of the wander by each column, and the variance of the wander.
     let mut wander = DVector::zeros(size);
     let mut variance = campaign.effects.wander.map_or(0.0, |w| w.relative_std.powi(2));
     for k in 1..rows.len().saturating_sub(1) {

@@ -1,4 +1,4 @@
-//! The friction curve against the truth.
+//! The friction curve compared with the truth.
 
 use super::markdown::{percent, significant, table};
 use super::{Outcome, scores};
@@ -25,13 +25,14 @@ pub(super) fn section(outcome: &Outcome) -> String {
         "points",
         "median error",
         "95th percentile",
-        "95 % bands that hold",
-        "deviations, median size",
+        "95 % bands that contain the truth",
+        "\\|error\\| / standard error, median",
         "largest",
     ];
     format!(
-        "## Friction curve\n\nFriction against speed by the slip phases, no law assumed, against CF + V·|v|, forward and \
-         backward. Points of one campaign err together, so that the brackets are too narrow.\n\n{}",
+        "## Friction curve\n\nFriction against speed from slip phases (stretches of time in which the joint moves in one \
+         direction without stopping), without an assumed law, compared with CF + V·|v| forward and backward. Points of one \
+         campaign have correlated errors, so the intervals in parentheses are too narrow.\n\n{}",
         table(&header, &[row])
     )
 }

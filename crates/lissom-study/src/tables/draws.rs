@@ -1,4 +1,4 @@
-//! What was drawn, and what was not taken.
+//! The draws: ranges of the accepted campaigns, and reasons for rejected ones.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -32,16 +32,17 @@ pub(super) fn section(outcome: &Outcome) -> String {
         ),
     ];
     format!(
-        "## Draws\n\nA draw outside the envelope is made again with the same n, bits, kind of runs, sample time, noise, damping \
-         and planned share of friction, 50 times; then these are drawn anew too.\n\n{}\n\n{}\n\n{}\n\n{}",
-        table(&["of the campaigns taken", "least", "5 %", "median", "95 %", "most"], &ranges),
-        table(&["draws rejected", "number"], &counted(rejected)),
+        "## Draws\n\nIf a draw does not fit the ranges above, it is repeated up to 50 times with the same number of masses, \
+         bits, kind of runs, sample time, noise, damping and planned share of friction. Then these are drawn anew, too.\n\n\
+         {}\n\n{}\n\n{}\n\n{}",
+        table(&["of the accepted campaigns", "least", "5 %", "median", "95 %", "most"], &ranges),
+        table(&["rejected draws", "number"], &counted(rejected)),
         given_up_table(&all, &given_up),
-        table(&["runs left out of the campaigns taken", "number"], &counted(dropped)),
+        table(&["runs left out of the accepted campaigns", "number"], &counted(dropped)),
     )
 }
 
-/// Which corners of the envelope fail: strata taken and given up by the motor's bits.
+/// The numbers of accepted campaigns and of strata that were given up, by the bits of the motor's encoder.
 fn given_up_table(all: &[&Scored], given_up: &[Stratum]) -> String {
     let row = |(low, high): (u32, u32)| {
         let within = |s: &Stratum| (low..=high).contains(&s.motor_bits);

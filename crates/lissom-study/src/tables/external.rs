@@ -1,4 +1,4 @@
-//! Campaigns of another simulator.
+//! The page about campaigns of another simulator.
 
 use super::figures::errors;
 use super::{drawn, limit, scores, worst};
@@ -14,8 +14,8 @@ pub fn report(study: &Study, found: &Independent) -> String {
     [
         include_str!("external.md").trim_end().replace("COUNT", &study.campaigns.to_string()),
         format!(
-            "## Random arms\n\nSeed {}, {} campaigns identified. Campaigns with a figure silently wrong: {silent}. \
-             {}\n\nEvery figure given:",
+            "## Random arms\n\nSeed {}, {} campaigns identified. Campaigns with a silently wrong parameter: {silent}. \
+             {}\n\n[Accuracy on random arms](accuracy.md) explains the columns. All estimates:",
             study.seed,
             all.len(),
             agreement(found),
@@ -30,13 +30,15 @@ pub fn report(study: &Study, found: &Independent) -> String {
         + "\n"
 }
 
-/// How near the rig and the true arm's replay are to the other simulator's motion.
+/// Compares the motion of the other simulator with that of the rig, and with the replay of the logs through the true
+/// arm.
 fn agreement(found: &Independent) -> String {
     let all: Vec<f64> = drawn(&found.outcome).iter().flat_map(|s| s.left.iter().copied()).collect();
     let at = |share| quantile(&all, share).map_or_else(|| "–".to_owned(), |v| format!("{v:.3}"));
     format!(
-        "{} of {} readings without noise are the rig's. The true arm's replay of the logs leaves {} of a sensor's deviation \
-         √(s² + q²/12) in median, {} to {} of the channels.",
+        "Without noise, {} of {} readings are the same as those of lissom's rig. The residual that the true arm's replay of \
+         the logs leaves, divided by the sensor's standard deviation √(s² + q²/12), is {} in the median, and {} to {} over \
+         all channels.",
         found.alike.hits,
         found.alike.of,
         at(0.5),

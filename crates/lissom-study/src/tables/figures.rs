@@ -1,4 +1,4 @@
-//! The figures over all campaigns.
+//! The estimates of all campaigns.
 
 use super::markdown::{percent, significant, table};
 use super::{Outcome, drawn, scores};
@@ -7,7 +7,7 @@ use crate::score::{FigureScore, Score};
 use crate::statistics::{Share, median, quantile};
 use crate::study::{Scored, Study};
 
-/// Rows of the tables: what they are called and which figures they hold.
+/// Rows of the tables: their names and the parameters that they contain.
 pub(super) const ROWS: [(&str, &[Figure]); 9] = [
     ("Coulomb friction", &[Figure::Coulomb]),
     ("Coulomb friction by direction", &[Figure::Forward, Figure::Backward]),
@@ -27,20 +27,20 @@ pub(super) fn section(study: &Study, outcome: &Outcome) -> String {
     let silent = Share { hits: silent.count(), of: all.len() };
     [
         format!(
-            "## Figures\n\nSeed {}, {} campaigns identified, {lost} of which nothing could be said. \
-             Campaigns with a figure silently wrong: {silent}.\n\nEvery figure given:",
+            "## Parameters\n\nSeed {}, {} campaigns identified; {lost} campaigns gave no result. \
+             Campaigns with a silently wrong parameter: {silent}.\n\nAll estimates:",
             study.seed,
             all.len(),
         ),
         errors(&all, |f| f.estimate.is_some()),
-        "Figures that no warning names:".to_owned(),
+        "Estimates that no warning affects:".to_owned(),
         errors(&all, FigureScore::vouched),
         time(outcome),
     ]
     .join("\n\n")
 }
 
-/// Errors, coverage and refusals of the figures that are `taken`.
+/// Errors, coverage and refusals of the estimates that are `taken`.
 pub(super) fn errors(all: &[(&Scored, &Score)], taken: impl Fn(&FigureScore) -> bool) -> String {
     let row = |(name, figures): &(&str, &[Figure])| {
         let of: Vec<&FigureScore> =
@@ -70,15 +70,15 @@ pub(super) fn errors(all: &[(&Scored, &Score)], taken: impl Fn(&FigureScore) -> 
         ]
     };
     let header = [
-        "figure",
+        "parameter",
         "given",
         "refused",
         "warned",
         "median error",
         "95th percentile",
-        "within the bar",
-        "95 % intervals that hold",
-        "deviations, median size",
+        "within the limit",
+        "95 % intervals that contain the truth",
+        "\\|error\\| / standard error, median",
         "silently wrong",
     ];
     table(&header, &ROWS.iter().map(row).collect::<Vec<_>>())
@@ -89,18 +89,13 @@ fn time(outcome: &Outcome) -> String {
     let seconds = |of: fn(&Scored) -> f64| all.iter().map(|s| of(s)).collect::<Vec<f64>>();
     let shown = |values: &[f64]| {
         let at = |share| quantile(values, share).map_or_else(|| "–".to_owned(), significant);
-        format!(
-            "{} s in median, {} s at the 95th percentile, {} s at most",
-            at(0.5),
-            at(0.95),
-            at(1.0)
-        )
+        format!("median {} s, 95th percentile {} s, largest {} s", at(0.5), at(0.95), at(1.0))
     };
     let samples = median(&seconds(|s| s.samples as f64))
         .map_or_else(|| "–".to_owned(), |v| format!("{v:.0}"));
     format!(
-        "Honest deviations have a median size of 0.67.\n\nTime of one identification (median of {samples} samples, \
-         the cores shared with other campaigns): {}. Simulation, repeated runs included: {}.",
+        "If standard errors are right, the median of |error| / standard error is 0.67.\n\nTime of one identification \
+         (median of {samples} samples, other campaigns on the same cores): {}. Simulation, with repeated runs: {}.",
         shown(&seconds(|s| s.identification.as_secs_f64())),
         shown(&seconds(|s| s.simulation.as_secs_f64())),
     )

@@ -1,4 +1,4 @@
-//! What the project asks of its estimators, beside what they do.
+//! The goals of the project for its estimators, compared with the results.
 
 use super::markdown::{percent, significant, table};
 use super::responses::{CLOSER, silently_wrong};
@@ -9,22 +9,22 @@ use crate::score::{FigureScore, PointScore, Score};
 use crate::statistics::{Share, median, quantile};
 use crate::study::Study;
 
-/// Least share of the campaigns in which a figure is to be within its bar.
+/// Smallest share of the campaigns in which a parameter must be within its limit.
 const CAMPAIGNS: f64 = 0.95;
-/// What nominal 95 % intervals are to cover.
+/// Allowed share of nominal 95 % intervals that contain the truth.
 const COVERAGE: (f64, f64) = (0.93, 0.97);
-/// Largest width of intervals, and largest variance, over the Cramér-Rao bound's.
+/// Largest allowed width of intervals, and largest variance, relative to those of the Cramér-Rao bound.
 const BEYOND_BOUND: f64 = 1.5;
-/// Largest share of campaigns with a figure silently wrong.
+/// Largest allowed share of campaigns with a silently wrong parameter.
 const SILENT: f64 = 1e-3;
-/// Largest error of a corrected response, in median and anywhere.
+/// Largest allowed error of a corrected response: the median, and the largest.
 const RESPONSE: (f64, f64) = (0.01, 0.05);
-/// Error of the linear part under a wrong law.
+/// Largest allowed error of the linear parameters under a wrong law.
 const LINEAR: f64 = 0.03;
-/// Least share of wrong laws flagged, largest share of false alarms.
+/// Smallest share of wrong laws that are reported, largest share of false alarms.
 const FLAGGED: (f64, f64) = (0.9, 0.05);
 
-/// The largest median error of a figure.
+/// The largest allowed median error of a parameter.
 fn median_bar(figure: Figure) -> Option<f64> {
     match figure {
         Figure::Coulomb => Some(1e-3),
@@ -33,7 +33,7 @@ fn median_bar(figure: Figure) -> Option<f64> {
     }
 }
 
-/// One line: what is asked, what is done, whether that is enough; `None` where nothing is asked.
+/// One line: the goal, the result, and whether the goal is met; `None` if the line has no goal.
 type Goal = (String, String, Option<bool>);
 
 pub(super) fn section(studies: &[(Study, Outcome)]) -> String {
@@ -49,7 +49,7 @@ pub(super) fn section(studies: &[(Study, Outcome)]) -> String {
         }
         law(study.law, &all, &mut goals);
         if studies.len() > 1 || study.law != Law::None {
-            let asked = format!("{}: campaigns with a figure silently wrong", study.law);
+            let asked = format!("{}: campaigns with a silently wrong parameter", study.law);
             goals.push((asked, silent(&all).to_string(), None));
         }
     }
@@ -61,12 +61,12 @@ pub(super) fn section(studies: &[(Study, Outcome)]) -> String {
         })
         .collect();
     format!(
-        "## Goals\n\nA figure refused is not within its bar.\n\n{}",
-        table(&["asked", "found", "met"], &rows)
+        "## Goals\n\nA refused estimate counts as outside its limit.\n\n{}",
+        table(&["goal", "result", "met"], &rows)
     )
 }
 
-/// All scores of a figure; of frequencies those of every mode.
+/// All scores of a parameter; for frequencies those of every mode.
 fn of(all: &[&Score], figure: Figure) -> Vec<FigureScore> {
     let same = |f: &&FigureScore| match figure {
         Figure::Frequency(_) => matches!(f.figure, Figure::Frequency(_)),
@@ -87,19 +87,19 @@ fn figures(all: &[&Score], goals: &mut Vec<Goal>) {
         [Figure::Coulomb, Figure::Inertia, Figure::Coupling, Figure::Frequency(0), Figure::Viscous];
     for figure in every {
         let (mut found, name) = (of(all, figure), name(figure));
-        let only = if figure == Figure::Viscous { " where no warning names it" } else { "" };
+        let only = if figure == Figure::Viscous { " without a warning" } else { "" };
         if figure == Figure::Viscous {
             found.retain(FigureScore::vouched);
         }
         let errors: Vec<f64> = found.iter().filter_map(FigureScore::error).map(f64::abs).collect();
         if let Some(bar) = figure.bar() {
             let within = Share::count(&found, |f| f.error().is_some_and(|e| e.abs() <= bar));
-            let asked = format!("{name} within {} in 95 %{only}", percent(Some(bar)));
+            let asked = format!("{name} within {} in 95 % of the cases{only}", percent(Some(bar)));
             goals.push((asked, within.to_string(), Some(within.value() >= CAMPAIGNS)));
         }
         if let Some(bar) = median_bar(figure) {
             let middle = median(&errors);
-            let asked = format!("{name}, median error {}", percent(Some(bar)));
+            let asked = format!("{name}: median error at most {}", percent(Some(bar)));
             goals.push((asked, percent(middle), Some(middle.is_some_and(|m| m <= bar))));
         }
     }
@@ -111,13 +111,13 @@ fn coverage(all: &[&Score], goals: &mut Vec<Goal>) {
     for figure in every {
         let covered: Vec<bool> = of(all, figure).iter().filter_map(FigureScore::covers).collect();
         let share = Share::count(&covered, |c| *c);
-        let asked = format!("95 % intervals of {} hold in 93 to 97 %", name(figure));
+        let asked = format!("95 % intervals of {} contain the truth in 93 to 97 %", name(figure));
         let met = (COVERAGE.0..=COVERAGE.1).contains(&share.value());
         goals.push((asked, share.to_string(), Some(met)));
     }
 }
 
-/// Intervals and variances beside the Cramér-Rao bound.
+/// Intervals and variances compared with the Cramér-Rao bound.
 fn limit(all: &[&Score], goals: &mut Vec<Goal>) {
     let every =
         [Figure::Coulomb, Figure::Inertia, Figure::Coupling, Figure::Viscous, Figure::Frequency(0)];
@@ -128,11 +128,13 @@ fn limit(all: &[&Score], goals: &mut Vec<Goal>) {
             goals.push((asked, shown, Some(found.is_some_and(|v| v <= BEYOND_BOUND))));
         };
         goal(
-            format!("intervals of {name} at most {BEYOND_BOUND} times the bound's, in median"),
+            format!(
+                "95 % interval of {name} at most {BEYOND_BOUND} times as wide as the bound's, median"
+            ),
             median(&super::limit::widths(&found)),
         );
         goal(
-            format!("variance of {name} at most {BEYOND_BOUND} times the bound's"),
+            format!("variance of {name} at most {BEYOND_BOUND} times that of the bound"),
             super::limit::variance(&found),
         );
     }
@@ -147,14 +149,14 @@ fn responses(all: &[&Score], goals: &mut Vec<Goal>) {
         let errors: Vec<f64> = points.iter().filter_map(|p| p.corrected).collect();
         let (middle, worst) = (median(&errors), quantile(&errors, 1.0));
         let asked = |what: &str, bar| {
-            format!("corrected response of {name}, {what} {}", percent(Some(bar)))
+            format!("corrected response of {name}: {what} error at most {}", percent(Some(bar)))
         };
         goals.push((asked("median", least), percent(middle), Some(met(middle, least))));
-        goals.push((asked("worst", most), percent(worst), Some(met(worst, most))));
+        goals.push((asked("largest", most), percent(worst), Some(met(worst, most))));
         let closer: Vec<f64> =
             points.iter().filter_map(|p| Some(p.third_harmonic? / p.corrected?)).collect();
         if let Some(times) = median(&closer) {
-            let asked = format!("{CLOSER} times closer than (30), in median");
+            let asked = format!("error {CLOSER} times smaller than that of (30), median");
             goals.push((asked, significant(times), Some(times >= CLOSER)));
         }
     }
@@ -162,14 +164,14 @@ fn responses(all: &[&Score], goals: &mut Vec<Goal>) {
 
 fn silence(all: &[&Score], goals: &mut Vec<Goal>) {
     let mut goal = |what: &str, wrong: Share| {
-        let asked = format!("campaigns with {what} silently wrong: 1 of 1000");
+        let asked = format!("campaigns with a silently wrong {what}: at most 1 of 1000");
         goals.push((asked, wrong.to_string(), Some(wrong.value() <= SILENT)));
     };
-    goal("a figure", silent(all));
-    goal("a vouched-for point of the response", silently_wrong(all));
+    goal("parameter", silent(all));
+    goal("vouched-for point of the response", silently_wrong(all));
 }
 
-/// Campaigns with a figure silently wrong.
+/// Campaigns with a silently wrong parameter.
 fn silent(all: &[&Score]) -> Share {
     Share::count(all, |s| s.figures.iter().any(FigureScore::silently_wrong))
 }
@@ -177,7 +179,7 @@ fn silent(all: &[&Score]) -> Share {
 fn law(law: Law, all: &[&Score], goals: &mut Vec<Goal>) {
     let flagged = Share::count(all, |s| !s.law_alarms().is_empty());
     if law.is_described() {
-        let asked = format!("{law}: false alarms about the law in at most 5 %");
+        let asked = format!("{law}: false alarms about the friction law in at most 5 %");
         goals.push((asked, flagged.to_string(), Some(flagged.value() <= FLAGGED.1)));
     }
     if law == Law::None {
@@ -190,10 +192,11 @@ fn law(law: Law, all: &[&Score], goals: &mut Vec<Goal>) {
         };
         linear.iter().all(good)
     });
-    let asked = format!("{law}: linear part within 3 % in 95 %");
+    let asked =
+        format!("{law}: inertia, coupling and first frequency within 3 % in 95 % of the cases");
     goals.push((asked, sound.to_string(), Some(sound.value() >= CAMPAIGNS)));
     if !law.is_described() {
-        let asked = format!("{law}: flagged in 90 %");
+        let asked = format!("{law}: reported in 90 % of the campaigns");
         goals.push((asked, flagged.to_string(), Some(flagged.value() >= FLAGGED.0)));
     }
 }

@@ -1,4 +1,4 @@
-//! The same figures for parts of the campaigns.
+//! The same results for parts of the campaigns.
 
 use super::markdown::{percent, table};
 use super::{Outcome, scores};
@@ -8,7 +8,7 @@ use crate::statistics::{Share, median, quantile};
 use crate::stratum::Kind;
 use crate::study::Scored;
 
-/// A part of the campaigns: its name and what belongs to it.
+/// A part of the campaigns: its name and the condition for belonging to it.
 type Group = (String, Box<dyn Fn(&Scored) -> bool>);
 
 const FIGURES: [Figure; 5] =
@@ -30,14 +30,15 @@ pub(super) fn section(outcome: &Outcome) -> String {
     let header_held = ["campaigns", "Coulomb", "inertia", "coupling", "viscous", "frequency 1"];
     let held: Vec<Vec<String>> = (1..=3).map(|masses| held(masses, &all)).collect();
     format!(
-        "## By campaign\n\nMedian error / 95th percentile (share refused) of every figure given. Sticking is \
-         the largest share of a run; CF is over the peak torque.\n\n{}\n\n95 % intervals that hold:\n\n{}",
+        "## By campaign\n\nMedian error / 95th percentile (share refused) of all estimates. *Sticking* is the largest share \
+         of a run; CF is relative to the peak torque; T is the sample time.\n\n{}\n\n95 % intervals that contain the \
+         truth:\n\n{}",
         table(&header, &rows),
         table(&header_held, &held)
     )
 }
 
-/// Shares of the intervals that hold.
+/// Shares of the intervals that contain the truth.
 fn held(masses: usize, all: &[(&Scored, &Score)]) -> Vec<String> {
     let mut cells = vec![format!("n = {masses}")];
     for figure in FIGURES {
@@ -93,9 +94,11 @@ fn groups() -> Vec<Group> {
         let belongs = move |s: &Scored| s.coulomb_share >= low && s.coulomb_share < high;
         add(format!("CF {:.0}-{:.0} %", 100.0 * low, 100.0 * high), Box::new(belongs));
     }
-    for (name, least, most) in
-        [("no noise", 0.0, 0.0), ("noise to 0.3 steps", 1e-9, 0.3), ("noise to 1 step", 0.3, 1.0)]
-    {
+    for (name, least, most) in [
+        ("no noise", 0.0, 0.0),
+        ("noise up to 0.3 steps", 1e-9, 0.3),
+        ("noise up to 1 step", 0.3, 1.0),
+    ] {
         let belongs = move |s: &Scored| {
             let noise = s.stratum.noise_steps.unwrap_or(0.0);
             noise >= least && noise <= most

@@ -1,4 +1,4 @@
-//! Truths that lissom's equations do not describe.
+//! Campaigns of arms whose friction or damping follows another law.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::study::Study;
 
 pub(super) fn section(studies: &[(Study, Outcome)]) -> String {
     let rows: Vec<Vec<String>> = studies.iter().map(row).collect();
-    let header = ["truth", "campaigns", "inertia", "coupling", "frequency 1", "Coulomb", "flagged"];
+    let header = ["law", "campaigns", "inertia", "coupling", "frequency 1", "Coulomb", "reported"];
     let mut codes: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     for (at, (_, outcome)) in studies.iter().enumerate() {
         let all: Vec<Vec<&str>> = scores(outcome).iter().map(|(_, s)| s.law_alarms()).collect();
@@ -29,14 +29,14 @@ pub(super) fn section(studies: &[(Study, Outcome)]) -> String {
     let code_header: Vec<&str> =
         std::iter::once("finding").chain(names.iter().map(String::as_str)).collect();
     format!(
-        "{}\n\n{}\n\nWhat flagged them, in shares of the campaigns:\n\n{}",
+        "{}\n\n{}\n\nWhich findings reported it, in shares of the campaigns:\n\n{}",
         include_str!("laws.md").trim_end().replace("{command}", &command(studies)),
         table(&header, &rows),
         table(&code_header, &code_rows)
     )
 }
 
-/// What makes the page.
+/// The command that makes the page.
 fn command(studies: &[(Study, Outcome)]) -> String {
     let law = match studies {
         [(only, _)] => only.law.option(),

@@ -1,4 +1,4 @@
-//! Errors and intervals beside the Cramér-Rao bound.
+//! Errors and intervals compared with the Cramér-Rao bound.
 
 use super::figures::ROWS;
 use super::markdown::{percent, significant, table};
@@ -12,13 +12,13 @@ const MEDIAN_SQUARE: f64 = 0.454_936;
 pub(super) fn section(outcome: &Outcome) -> String {
     let all: Vec<&Score> = scores(outcome).into_iter().map(|(_, score)| score).collect();
     let header = [
-        "figure",
-        "with a bound",
+        "parameter",
+        "estimates with a bound",
         "bound, median",
-        "interval over bound, median",
+        "interval / bound, median",
         "95th percentile",
-        "variance over bound², from the median",
-        "rms error over bound, nearest 95 %",
+        "variance / bound²",
+        "rms error / bound, smallest 95 %",
     ];
     let rows: Vec<Vec<String>> = ROWS
         .iter()
@@ -46,19 +46,19 @@ fn row(name: &str, of: &[FigureScore]) -> Vec<String> {
     ]
 }
 
-/// Widths of the intervals over those of the bounds.
+/// Widths of the intervals divided by those of the bounds.
 pub(super) fn widths(of: &[FigureScore]) -> Vec<f64> {
     of.iter().filter_map(FigureScore::width_over_bound).collect()
 }
 
-/// Variance over the bound's square, from the median of the squared errors.
+/// Variance divided by the square of the bound, from the median of the squared errors.
 pub(super) fn variance(of: &[FigureScore]) -> Option<f64> {
     let squares: Vec<f64> =
         of.iter().filter_map(FigureScore::error_over_bound).map(|e| e * e).collect();
     Some(median(&squares)? / MEDIAN_SQUARE)
 }
 
-/// Root mean square of the errors over the bound, the largest twentieth left out.
+/// Root mean square of the errors divided by the bound, without the largest 5 %.
 fn trimmed(of: &[FigureScore]) -> Option<f64> {
     let mut squares: Vec<f64> =
         of.iter().filter_map(FigureScore::error_over_bound).map(|e| e * e).collect();
@@ -75,9 +75,9 @@ mod tests {
     use super::*;
     use crate::figure::Figure;
 
-    /// Errors at the quantiles of a normal distribution of 1.2 bounds.
+    /// Errors at the quantiles of a normal distribution with a standard deviation of 1.2 bounds.
     #[test]
-    fn a_deviation_of_1_2_bounds_is_a_variance_of_1_44() {
+    fn an_error_of_1_2_bounds_is_a_variance_of_1_44() {
         let quantiles = [-1.281_552, -0.674_490, 0.0, 0.674_490, 1.281_552];
         let of: Vec<FigureScore> = quantiles
             .iter()

@@ -8,7 +8,7 @@ pub(crate) fn table(header: &[&str], rows: &[Vec<String>]) -> String {
     lines.join("\n")
 }
 
-/// A share or error in per cent to two significant digits; a dash where there is none.
+/// A share or error in percent with two significant digits; a dash if there is none.
 pub(super) fn percent(value: Option<f64>) -> String {
     value.map_or_else(|| "–".to_owned(), |v| format!("{} %", significant(100.0 * v)))
 }

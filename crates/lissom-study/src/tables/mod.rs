@@ -1,4 +1,4 @@
-//! The study's results as markdown.
+//! The results of the study as markdown.
 
 mod curve;
 mod draws;
@@ -22,8 +22,7 @@ use crate::study::{Scored, Study};
 /// Outcome of one study.
 type Outcome = Vec<Option<Scored>>;
 
-/// The page of studies that were made: of true Coulomb friction alone everything about it, else what
-/// wrong laws do.
+/// The page of studies. A single study of Coulomb friction gets all tables; otherwise the page compares the laws.
 pub fn report(studies: &[(Study, Outcome)]) -> String {
     let sections = match studies {
         [(study, outcome)] if study.law == Law::None => vec![
@@ -52,7 +51,7 @@ fn scores(outcome: &Outcome) -> Vec<(&Scored, &Score)> {
     drawn(outcome).into_iter().filter_map(|one| Some((one, one.score.as_ref().ok()?))).collect()
 }
 
-/// What is drawn, and the command that makes the page.
+/// The beginning of the page: what is drawn, and the command that makes the page.
 fn preamble(study: &Study) -> String {
     include_str!("preamble.md")
         .trim_end()

@@ -1,4 +1,4 @@
-//! The motor's response, corrected for friction, against the truth.
+//! The frequency response of the motor, corrected for friction, compared with the truth.
 
 use super::markdown::{percent, significant, table};
 use super::{Outcome, scores};
@@ -7,7 +7,7 @@ use crate::statistics::{Share, median, quantile};
 
 /// Kinds of points, and whether they are of sines.
 const KINDS: [(&str, bool); 2] = [("sinusoidal runs", true), ("bands of other runs", false)];
-/// So many times nearer than (30) the corrected points are asked to be.
+/// How many times smaller the error of the corrected points must be than that of (30).
 pub(super) const CLOSER: f64 = 10.0;
 
 pub(super) fn section(outcome: &Outcome) -> String {
@@ -27,11 +27,11 @@ pub(super) fn section(outcome: &Outcome) -> String {
         "raw, median",
         "corrected, median",
         "95th percentile",
-        "worst",
+        "largest",
         "(30), median",
-        "times closer than (30), median",
+        "error of (30) / error, median",
         "within 5 %",
-        "off by more than 5 deviations",
+        "more than 5 standard errors off",
     ];
     let by_campaign = scores(outcome).into_iter().filter_map(|(_, score)| {
         let of = |p: &PointScore| p.corrected.filter(|_| p.vouched);
@@ -42,22 +42,23 @@ pub(super) fn section(outcome: &Outcome) -> String {
     let median_good = Share::count(&middle, |e| *e <= 0.01);
     let worst_good = Share::count(&worst, |e| *e <= 0.05);
     format!(
-        "## Frequency response\n\nθ_m/i against the exact response of the arm without Coulomb friction, \
-         |Ĝ − G|/|G|. Corrected figures are of the points that are vouched for: nothing speaks against \
-         them, and their 95 % interval is within 5 %. (30) is the report's correction with the third harmonic's friction, of the same points where it exists.\n\n\
-         {}\n\nPer campaign: median at most 1 % in {median_good}, worst at most 5 % in {worst_good}.\n\n{}\n\n{}",
+        "## Frequency response\n\nError |Ĝ − G|/|G| of θ_m/i against the exact response of the arm without Coulomb \
+         friction. Columns from *raw* on are for points that are *vouched for*: no finding speaks against them, and their \
+         95 % interval is within 5 %. (30) is the correction of the 1989 report, with the friction that the third harmonic \
+         gives, at the same points where it exists.\n\n\
+         {}\n\nPer campaign: median error at most 1 % in {median_good}, largest error at most 5 % in {worst_good}.\n\n{}\n\n{}",
         table(&header, &rows),
         circles(&points, outcome),
-        beside_thirty(&points)
+        compared_with_thirty(&points)
     )
 }
 
-/// Campaigns in which a point that is vouched for is off by more than five of its deviations.
+/// Campaigns in which a vouched-for point is more than five of its standard errors off.
 pub(super) fn silently_wrong(all: &[&Score]) -> Share {
     Share::count(all, |s| s.points.iter().any(PointScore::silently_wrong))
 }
 
-/// How errors are to deviations.
+/// Compares the errors of points with their standard errors.
 fn circles(points: &[&PointScore], outcome: &Outcome) -> String {
     let row = |(name, sinusoidal): &(&str, bool)| {
         let of = |p: &&&PointScore| p.vouched && p.sinusoidal == *sinusoidal;
@@ -73,20 +74,25 @@ fn circles(points: &[&PointScore], outcome: &Outcome) -> String {
     };
     let all: Vec<&Score> = scores(outcome).into_iter().map(|(_, score)| score).collect();
     let wrong = silently_wrong(&all);
-    let header = ["points", "vouched for", "95 % circles that hold", "deviations, median size"];
+    let header = [
+        "points",
+        "vouched for",
+        "95 % circles that contain the truth",
+        "\\|error\\| / standard error, median",
+    ];
     format!(
-        "A point's deviation is √E|Ĝ − G|², that of the complex value: where the error is circular, its 95 % interval is the \
-         circle of √(−ln 0.05) = {CIRCLE_95:.2} deviations, and honest deviations have a median size of √(ln 2) = 0.83. \
-         Points of one campaign err together, so that the brackets are too narrow.\n\n{}\n\n\
-         Campaigns with a vouched-for point off by more than 5 of its deviations: {} of {}, {wrong}.",
+        "The standard error of a point is that of the complex value, √E|Ĝ − G|². If the error is circular, the 95 % interval \
+         is a circle with a radius of √(−ln 0.05) = {CIRCLE_95:.2} standard errors, and the median of |error| / standard error \
+         is √(ln 2) = 0.83. Points of one campaign have correlated errors, so the intervals in parentheses are too \
+         narrow.\n\n{}\n\nCampaigns with a vouched-for point more than 5 standard errors off: {} of {}, {wrong}.",
         table(&header, &KINDS.iter().map(row).collect::<Vec<_>>()),
         wrong.hits,
         wrong.of
     )
 }
 
-/// Whether the corrected points are nearer to the truth than (30).
-fn beside_thirty(points: &[&PointScore]) -> String {
+/// Compares the corrected points with those of (30).
+fn compared_with_thirty(points: &[&PointScore]) -> String {
     let row = |(name, only_vouched): (&str, bool)| {
         let of: Vec<&&PointScore> =
             points.iter().filter(|p| p.sinusoidal && (p.vouched || !only_vouched)).collect();
@@ -112,11 +118,12 @@ fn beside_thirty(points: &[&PointScore]) -> String {
         "nearer than (30)",
         "ten times nearer",
         "not nearer",
-        "of these within their 95 % circle",
+        "of these, within their 95 % circle",
     ];
     format!(
-        "Sinusoidal points where (30) exists; one that is not corrected is not nearer. Where the error of (30) is below the \
-         noise, the nearer of the two is a matter of chance: the corrected point is within its circle then.\n\n{}",
+        "The next table compares with (30), at points of sines where (30) exists. A point that is not corrected counts as not \
+         nearer. If the error of (30) is below the noise, chance decides which of the two is nearer; the corrected point is \
+         then within its circle.\n\n{}",
         table(&header, &[row(("all", false)), row(("vouched for", true))])
     )
 }

@@ -1,4 +1,4 @@
-//! Campaigns to look at.
+//! The campaigns with the largest errors.
 
 use super::markdown::{percent, significant, table};
 use super::{Outcome, scores};
@@ -38,16 +38,24 @@ pub(super) fn section(outcome: &Outcome) -> String {
         "T",
         "CF",
         "stuck",
-        "figure",
+        "parameter",
         "error",
-        "deviations",
+        "error in standard errors",
         "warned",
     ];
+    let silent = if silent.is_empty() {
+        "No estimate is silently wrong.".to_owned()
+    } else {
+        let table = table(&header, &silent);
+        format!(
+            "The silently wrong estimates, at most {SHOWN}, the one with the most standard errors first:\n\n{table}"
+        )
+    };
     format!(
-        "## Worst campaigns\n\nThe {SHOWN} whose worst figure is furthest beyond its bar:\n\n{}\n\nThe {SHOWN} figures \
-         that are silently wrong by most deviations:\n\n{}",
-        table(&header, &worst),
-        table(&header, &silent)
+        "## Worst campaigns\n\nThe {SHOWN} campaigns in which an error is largest compared with the limit of its parameter. \
+         n is the number of masses, noise is in encoder steps, *stuck* is the largest share of a run in which the joint \
+         sticks.\n\n{}\n\n{silent}",
+        table(&header, &worst)
     )
 }
 

@@ -9,8 +9,8 @@ use lissom_io::write::{self, CampaignPlan, PlannedCommand, PlannedRun};
 use crate::shared::failure::Failure;
 use crate::shared::progress_bar;
 
-/// Frequencies ω0 \[rad/s\]; each has another run at 3·ω0. None is close to the beam's resonance at 6.6 rad/s or to a third
-/// of it, where the mode rings for a long time (its decay time is 33 s).
+/// Frequencies ω0 \[rad/s\]; each has another run at 3·ω0. None is close to the beam's resonance at 6.6 rad/s or to a
+/// third of it, where the mode rings for a long time (its decay time is 33 s).
 const OMEGA_RAD_S: [f64; 9] = [1.0, 1.3, 1.7, 3.1, 3.9, 5.1, 7.8, 9.3, 10.0];
 /// Amplitudes \[rad\].
 const AMPLITUDE_RAD: [f64; 2] = [0.5, 1.0];

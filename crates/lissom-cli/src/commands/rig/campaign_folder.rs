@@ -1,7 +1,8 @@
 //! The folder of a virtual campaign, so that an interrupted campaign can continue.
 //!
-//! The entry of a run is written before its log. A log gets its name when it is complete. `campaign.toml` and `rig.json` are
-//! written last. So every file in the folder is complete, and an interrupted campaign continues with the missing logs.
+//! The entry of a run is written before its log. A log gets its name when it is complete. `campaign.toml` and
+//! `rig.json` are written last. So every file in the folder is complete, and an interrupted campaign continues with the
+//! missing logs.
 
 use std::fmt::{self, Write as _};
 use std::path::{Path, PathBuf};
