@@ -72,23 +72,6 @@ fn rational(f: &Value, s: Complex64) -> Complex64 {
 }
 
 #[test]
-fn the_readmes_block_is_what_is_printed() {
-    let readme = include_str!("../../../README.md");
-    let block = |marker: &str| {
-        let rest = &readme[readme.find(marker).unwrap()..];
-        let mut parts = rest.split("```");
-        parts.next();
-        let text = parts.next().unwrap();
-        text[text.find('\n').unwrap() + 1..].to_owned()
-    };
-    let arm = block("<!-- arm.toml of the model below -->");
-    assert_eq!(
-        table(&arm, &["--payload", "0.5x,2x,5x"]),
-        block("<!-- printed by: cargo run --release -- model arm.toml --payload 0.5x,2x,5x -->")
-    );
-}
-
-#[test]
 fn the_reports_two_mass_arm() {
     let model = json(TWO_MASSES, &[]);
     let [first, second] = numbers(&model["natural_frequencies_rad_s"])[..] else { panic!() };

@@ -48,7 +48,7 @@ pub fn significant(value: f64, digits: usize) -> String {
     // The exponent after rounding: 9999.9 has five digits before the point once it has four in all.
     let (mantissa, e) = rounded.split_once('e').unwrap_or((&rounded, "0"));
     let e: i32 = e.parse().unwrap_or(0);
-    if (-3..6).contains(&e) {
+    if (-6..6).contains(&e) {
         return fixed(value, i32::try_from(places).unwrap_or(0) - e);
     }
     format!("{}×{}", mantissa.replace('-', "−"), power_of_ten(e))
@@ -62,18 +62,22 @@ fn mantissa(value: f64, e: i32) -> f64 {
 
 /// A value with its standard error: the error with two significant digits, the value rounded to the same place.
 ///
-/// If both need more than four digits behind the point, the error is written in parentheses and counts units of the
+/// An error below 10⁻⁵ of the value is written in percent, after six digits of the value. If both need more than four digits behind the point, the error is written in parentheses and counts units of the
 /// last digit: `0.13201(12)` is 0.13201 ± 0.00012. A value that is not finite becomes a dash. A standard error that is
 /// not finite and positive is not written.
 ///
 /// ```
 /// use lissom_text::with_uncertainty;
 /// assert_eq!(with_uncertainty(1.2345, 0.0312), "1.234 ± 0.031");
-/// assert_eq!(with_uncertainty(0.131_999_963, 2.8e-8), "0.131999963(28)");
+/// assert_eq!(with_uncertainty(0.131_999_963, 2.8e-8), "0.132000 ± 0.000021 %");
 /// assert_eq!(with_uncertainty(6.247e-4, 1.1e-6), "0.0006247(11)");
 /// ```
 pub fn with_uncertainty(value: f64, std: f64) -> String {
     let Some(layout) = Layout::of(value, std) else { return plain(value) };
+    if is_sharp(value, std) {
+        let percent = significant(100.0 * std / value.abs(), 2);
+        return format!("{} ± {percent} %", significant(value, SHARP_DIGITS));
+    }
     match layout {
         Layout::Places(places) if places > MOST_PLACES => {
             let last = (std * 10f64.powi(places)).round();
@@ -90,6 +94,9 @@ pub fn with_uncertainty(value: f64, std: f64) -> String {
 /// An interval written to the same place as [`with_uncertainty`] writes its value.
 pub fn interval([low, high]: [f64; 2], value: f64, std: f64) -> String {
     let layout = Layout::of(value, std).filter(|_| low.is_finite() && high.is_finite());
+    if layout.is_some() && is_sharp(value, std) {
+        return format!("± {} %", significant(50.0 * (high - low) / value.abs(), 2));
+    }
     match layout {
         None => format!("{} … {}", plain(low), plain(high)),
         Some(Layout::Scaled(e, places)) => {
@@ -98,6 +105,15 @@ pub fn interval([low, high]: [f64; 2], value: f64, std: f64) -> String {
         }
         Some(layout) => format!("{} … {}", layout.digits(low), layout.digits(high)),
     }
+}
+
+/// Relative standard error below which a value has more digits than people read.
+const SHARP: f64 = 1e-5;
+/// Significant digits of such a value.
+const SHARP_DIGITS: usize = 6;
+
+fn is_sharp(value: f64, std: f64) -> bool {
+    std < SHARP * value.abs()
 }
 
 /// Largest number of digits behind the point for which value and standard error are written as `a ± b`.

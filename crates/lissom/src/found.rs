@@ -98,6 +98,9 @@ impl Serialize for Found {
 impl fmt::Display for Found {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let list = ParameterList::of(&self.file()).ok_or(fmt::Error)?;
+        if let Some(method) = self.identified.method {
+            writeln!(f, "estimates by {}", method.words())?;
+        }
         parameter_text::table(f, &list)?;
         if let Some(separability) = &self.identified.separability {
             for words in separability.words(self.channels.axis) {

@@ -27,10 +27,14 @@ pub(crate) struct Cli {
 const AFTER_HELP: &str = "\
 Start with `lissom demo`. `lissom help COMMAND` shows examples of each command.
 
-Exit codes: 0 done; 1 the input cannot be used; 2 wrong usage; 3 done, but a requested parameter
-could not be identified (see the findings) or the requested precision does not fit the allowed
-time; 4 stopped by Ctrl-C or a time limit, with the best result so far; 130 stopped by a second
-Ctrl-C without a result.";
+Exit codes:
+  0    done
+  1    the input cannot be used
+  2    wrong usage
+  3    done, but a parameter could not be identified (see the findings), or the wanted precision
+       does not fit into the allowed time
+  4    stopped by Ctrl-C or a time limit, with the best result so far
+  130  stopped by a second Ctrl-C, without a result";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {

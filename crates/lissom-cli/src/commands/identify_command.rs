@@ -57,7 +57,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     if json.is_some() && json_file.is_none() {
         printer::json(&result)?;
     } else {
-        campaign_summary::campaign(&file.campaign);
+        campaign_summary::campaign(names, &file.campaign);
         campaign_summary::ranges(names, &file.campaign);
         campaign_summary::runs(&id);
         printer::line("");

@@ -39,7 +39,7 @@ pub(crate) fn run(args: &ValidateArgs) -> Result<ExitCode, Failure> {
     if json.is_some() && json_file.is_none() {
         printer::json(&result)?;
     } else {
-        campaign_summary::campaign(campaign);
+        campaign_summary::campaign(UnitNames::new(&campaign.channels), campaign);
         validation_table::validation(
             UnitNames::new(&campaign.channels),
             campaign,

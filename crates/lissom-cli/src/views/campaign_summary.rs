@@ -5,12 +5,18 @@ use lissom::record::{Campaign, Hold};
 use lissom_io::UnitNames;
 
 use super::printer::{counted, line};
+use crate::shared::digits::trimmed;
+
+/// Significant digits of sample times.
+const TIMES: usize = 5;
+/// Significant digits of ranges.
+const RANGES: usize = 3;
 
 /// The spectrum of a sin⁴ window has its first zero at this number divided by the length of the window.
 const FIRST_NULL: f64 = 3.0;
 
 /// Prints what was read.
-pub(crate) fn campaign(campaign: &Campaign) {
+pub(crate) fn campaign(names: UnitNames, campaign: &Campaign) {
     let samples: usize = campaign.runs.iter().map(lissom::record::Run::len).sum();
     let (mut shortest, mut longest) = (f64::INFINITY, 0.0_f64);
     for run in &campaign.runs {
@@ -18,17 +24,18 @@ pub(crate) fn campaign(campaign: &Campaign) {
         longest = longest.max(run.sample_time_s());
     }
     let sampling = if longest - shortest > 1e-6 * longest {
-        format!("{:.4} to {:.4} ms", 1e3 * shortest, 1e3 * longest)
+        format!("{} to {} ms", trimmed(1e3 * shortest, TIMES), trimmed(1e3 * longest, TIMES))
     } else {
-        format!("{:.4} ms", 1e3 * longest)
+        format!("{} ms", trimmed(1e3 * longest, TIMES))
     };
     let hold = match campaign.channels.command.hold {
-        Hold::Sampled => "held between samples",
+        Hold::Sampled => "commanded, constant between samples",
         Hold::Measured => "measured",
     };
     line(&format!(
-        "{}, {samples} samples every {sampling}, command {hold}, {}",
+        "{}, {samples} samples every {sampling}, {} {hold}, {}",
         counted(campaign.runs.len(), "run"),
+        names.command_name(),
         match campaign.channels.tips.len() {
             0 => "no tip".to_owned(),
             tips => counted(tips, "tip"),
@@ -52,8 +59,12 @@ pub(crate) fn ranges(names: UnitNames, campaign: &Campaign) {
     }
     let (angle, unit) = (names.angle(), names.command_unit());
     line(&format!(
-        "motor from {low:.3} to {high:.3} {angle}, up to {speed:.3} {angle}/s; {} up to {drive:.3} {unit}",
-        names.command_name()
+        "motor from {} to {} {angle}, up to {} {angle}/s; {} up to {} {unit}",
+        trimmed(low, RANGES).replace('-', "−"),
+        trimmed(high, RANGES).replace('-', "−"),
+        trimmed(speed, RANGES),
+        names.command_name(),
+        trimmed(drive, RANGES)
     ));
 }
 
@@ -75,30 +86,33 @@ pub(crate) fn runs(id: &Identified) {
     }
     let sinusoidal = id.runs.len() - general - steady;
     if sinusoidal > 0 {
+        let (low, high) = (trimmed(low, RANGES), trimmed(high, RANGES));
+        let band = if low == high { format!("at {low}") } else { format!("from {low} to {high}") };
+        let transients =
+            if dropped > 0 { format!(", {dropped} left out as transients") } else { String::new() };
         line(&format!(
-            "{}, {low:.3} to {high:.3} rad/s: {kept} periods used, \
-             {dropped} dropped as transients",
-            counted(sinusoidal, "sinusoidal run")
+            "{} {band} rad/s: {kept} whole periods used{transients}",
+            counted(sinusoidal, "sine run")
         ));
     }
     if steady > 0 {
         line(&format!("{} at constant velocities", counted(steady, "run")));
     }
     if general > 0 {
-        line(&format!("{} of other motion", counted(general, "run")));
+        let are = if general == 1 { "that is not a sine" } else { "that are not sines" };
+        line(&format!("{} {are}", counted(general, "run")));
     }
     if let Some(r) = &id.regression {
-        let how = if r.window_given { "given" } else { "chosen for the smallest standard errors" };
+        let how = if r.window_given { "given" } else { "chosen from the data" };
         line(&format!(
-            "regression: {} (motion in one direction without a stop), {} rows, residual torque {:.2} %",
+            "regression: {} (motion in one direction without a stop), residual torque {:.2} % of its rms value",
             counted(r.phases, "slip phase"),
-            r.rows,
             100.0 * r.relative_residual
         ));
         line(&format!(
-            "windows of the regression: {:.4} s ({how}), bandwidth {:.3} Hz",
-            r.window_s,
-            FIRST_NULL / r.window_s
+            "regression: windows of {} s ({how}), which pass frequencies up to {} Hz",
+            trimmed(r.window_s, RANGES),
+            trimmed(FIRST_NULL / r.window_s, RANGES)
         ));
     }
 }

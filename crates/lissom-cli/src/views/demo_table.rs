@@ -3,13 +3,15 @@
 use std::path::Path;
 
 use lissom::identify::Identified;
+use lissom::plan::percent;
 use lissom::record::Campaign;
+use lissom_io::UnitNames;
 
 use super::{campaign_summary, finding_list, printer, separability_section};
 use crate::tasks::demo_comparison::DemoRow;
 
 pub(crate) fn report(out: &Path, campaign: &Campaign, id: &Identified, rows: &[DemoRow]) {
-    campaign_summary::campaign(campaign);
+    campaign_summary::campaign(UnitNames::new(&campaign.channels), campaign);
     campaign_summary::runs(id);
     printer::line("");
     let head = ["parameter", "unit", "true", "third harmonic", "error", "regression", "error"];
@@ -17,11 +19,13 @@ pub(crate) fn report(out: &Path, campaign: &Campaign, id: &Identified, rows: &[D
     let mut table = vec![head.map(str::to_owned).collect::<Vec<_>>()];
     for r in rows {
         let mut line = vec![r.name.to_owned(), r.unit.to_owned(), significant(r.truth)];
-        for (e, digits) in [(r.third, 2), (r.regression, 2), (r.output_error, 4)] {
+        for e in [r.third, r.regression, r.output_error] {
             match e {
                 Some(e) => {
                     line.push(significant(e.value));
-                    line.push(format!("{:+.digits$} %", 100.0 * (e.value / r.truth - 1.0)));
+                    let error = e.value / r.truth - 1.0;
+                    let sign = if error < 0.0 { "−" } else { "+" };
+                    line.push(format!("{sign}{}", percent(error.abs())));
                 }
                 None => line.extend(["refused".to_owned(), String::new()]),
             }

@@ -12,6 +12,9 @@ pub(crate) const KNOWN_DIGITS: usize = 6;
 
 /// Prints the parameters, each with its 95 % interval and the value that is known beforehand.
 pub(crate) fn figures(names: UnitNames, id: &Identified, reference: Option<&Reference>) {
+    if let Some(method) = id.method {
+        line(&format!("estimates by {}", method.words()));
+    }
     let mut heading = vec!["parameter", "value", "unit", "95 % interval"];
     heading.extend(reference.map(|r| r.label));
     let mut rows = vec![heading.into_iter().map(str::to_owned).collect::<Vec<_>>()];
@@ -27,7 +30,17 @@ pub(crate) fn figures(names: UnitNames, id: &Identified, reference: Option<&Refe
         [row.name, value, row.unit, within].into_iter().chain(known).collect()
     }));
     table(&rows);
+    if names.torque_known {
+        let per_command = names.torque_unit();
+        line(&format!(
+            "Values with {per_command} or {} contain any error of the torque constant; the standard errors do not.",
+            if per_command == "N" { "kg" } else { "kg·m²" }
+        ));
+    }
 }
+
+/// An offset within this many of its standard errors is zero: both directions then have the same friction.
+const SAME_BY_DIRECTION: f64 = 2.0;
 
 /// Prints ordinary least squares with Coulomb and viscous friction, if the result has another friction law.
 pub(crate) fn line_of_least_squares(names: UnitNames, id: &Identified) {
@@ -159,8 +172,10 @@ pub(crate) fn figure_rows(
         let in_command = f.coulomb.map(|e| e.scaled(1.0 / constant));
         let unit = names.command_unit().to_owned();
         add("Coulomb friction", in_command, unit, mean.map(|m| m / constant));
+        add("  as a torque", f.coulomb, torque(), mean);
+    } else {
+        add("Coulomb friction", f.coulomb, torque(), mean);
     }
-    add("Coulomb friction", f.coulomb, torque(), mean);
     if f.coulomb.is_none() {
         // One direction only: friction and a constant load are one number.
         for (name, sum) in [("forward", f.forward), ("backward", f.backward)] {
@@ -169,10 +184,13 @@ pub(crate) fn figure_rows(
             }
         }
     } else if f.forward.is_some() {
-        add("  forward", f.forward, torque(), reference.map(|r| r.coulomb_nm.0));
-        add("  backward", f.backward, torque(), reference.map(|r| r.coulomb_nm.1));
+        let same = f.offset.is_some_and(|o| o.value.abs() < SAME_BY_DIRECTION * o.std);
+        if !same || reference.is_some() {
+            add("  forward", f.forward, torque(), reference.map(|r| r.coulomb_nm.0));
+            add("  backward", f.backward, torque(), reference.map(|r| r.coulomb_nm.1));
+        }
         let offset = reference.map(|r| 0.5 * (r.coulomb_nm.0 - r.coulomb_nm.1));
-        add("  offset", f.offset, torque(), offset);
+        add("  offset, (forward − backward)/2", f.offset, torque(), offset);
     }
     let viscous = reference.map(|r| r.viscous_nm_s_per_rad);
     add("viscous friction", f.viscous, names.viscous_unit(), viscous);
@@ -222,8 +240,8 @@ pub(crate) fn figure_rows(
         let known = natural.get(k).copied();
         add(&name, Some(frequency), "rad/s".to_owned(), known);
         let hertz = |v: f64| v / std::f64::consts::TAU;
-        add("", Some(frequency.scaled(hertz(1.0))), "Hz".to_owned(), known.map(hertz));
-        add("  damping ratio", mode.given_damping_ratio(), "1".to_owned(), None);
+        add("  in Hz", Some(frequency.scaled(hertz(1.0))), "Hz".to_owned(), known.map(hertz));
+        add("  damping ratio", mode.given_damping_ratio(), "–".to_owned(), None);
     }
     rows
 }

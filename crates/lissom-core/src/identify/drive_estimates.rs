@@ -43,6 +43,28 @@ impl Method {
     }
 }
 
+impl Method {
+    /// Its name in texts.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::OutputError => {
+                "the output-error method: the motion simulated from the logged command is fitted to the log"
+            }
+            Self::FrictionLaw => {
+                "regression in slip phases, with the friction law that the data support"
+            }
+            Self::RegressionByDirection => {
+                "regression in slip phases, with viscous friction by direction"
+            }
+            Self::Regression => "regression in slip phases",
+            Self::LeastSquares => "ordinary least squares",
+            Self::FrequencyResponse => "a fit to the corrected frequency response",
+            Self::ThirdHarmonic => "the third-harmonic method",
+            Self::ConstantVelocity => "the method of constant velocities",
+        }
+    }
+}
+
 /// Friction, inertia and coupling from one fit.
 ///
 /// These estimates belong together: they describe the logs only as a whole, and their standard errors are those of that

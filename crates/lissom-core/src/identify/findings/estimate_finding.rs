@@ -168,6 +168,14 @@ pub enum EstimateFinding {
     NoPairs,
 }
 
+/// A large ratio whose digits say nothing.
+const MANY: f64 = 1000.0;
+
+/// A ratio in two digits; a large one as "more than 1000".
+fn about(ratio: f64) -> String {
+    if ratio > MANY { format!("more than {MANY}") } else { significant(ratio, 2) }
+}
+
 impl fmt::Display for EstimateFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -219,17 +227,17 @@ impl fmt::Display for EstimateFinding {
             ),
             Self::FrictionVisible { sign: FrictionSign::OddHarmonics { run, third_share, odd_over_even } } => write!(
                 f,
-                "the command has odd harmonics, which dry friction causes (in {run} the third harmonic is {:.1} % of the \
+                "the command has odd harmonics, which Coulomb friction causes (in {run} the third harmonic is {} % of the \
                  fundamental, and the odd harmonics are {} times the even ones): the raw frequency response is not \
                  that of a linear system",
-                100.0 * third_share,
-                significant(*odd_over_even, 2)
+                significant(100.0 * third_share, 2),
+                about(*odd_over_even)
             ),
             Self::FrictionVisible { sign: FrictionSign::TorqueJump { standard_errors } } => write!(
                 f,
-                "the torque jumps when the direction of motion changes, which dry friction causes ({} standard errors): the \
-                 raw frequency response is not that of a linear system",
-                significant(*standard_errors, 2)
+                "the torque jumps when the direction of motion changes, which Coulomb friction causes ({} standard errors): \
+                 the raw frequency response is not that of a linear system",
+                about(*standard_errors)
             ),
             Self::FrictionWithLoad { forward, sum, units } => write!(
                 f,
@@ -335,7 +343,8 @@ impl Describe for EstimateFinding {
             Self::PerUnitOfCommand => "if you know it, give drive.torque_constant in the campaign",
             Self::CommandNotMeasured => "log the motor current where the drive gives it",
             Self::FrictionVisible { .. } => {
-                "do not fit a linear model to the raw response; use the corrected response"
+                "do not fit a linear model to the raw response; use the corrected response where it is not flagged, or the \
+                 linear models of the result"
             }
             Self::Offset { .. } => {
                 "to separate friction from a load, add a log with the load in another orientation; motion alone does not \
@@ -350,7 +359,9 @@ impl Describe for EstimateFinding {
             Self::ArmNotGiven { .. } => {
                 "friction and inertia can be used on their own; for a prediction measure as many points as the beam has modes"
             }
-            Self::NoPairs => "for each frequency ω0 add a run at 3ω0",
+            Self::NoPairs => {
+                "needed for the third-harmonic method only: for each frequency ω0 add a run at 3ω0"
+            }
         }
     }
 }

@@ -57,7 +57,7 @@ impl fmt::Display for ResponseFinding {
             Self::BandsContradicted { bands, of, limit } => write!(
                 f,
                 "in {bands} of {of} frequency bands (of runs that are not sines) the corrected response differs from the \
-                 regression's model by more than {:.0} %: these bands are flagged",
+                 regression's model by more than {:.0} %: these bands are flagged. The parameters are not affected",
                 100.0 * limit
             ),
             Self::BandsUncertain { bands, of, limit } => write!(
@@ -102,10 +102,10 @@ impl Describe for ResponseFinding {
                 "use a larger amplitude: friction then takes a smaller share of the current"
             }
             Self::BandsContradicted { .. } => {
-                "use the response of the model there: these bands are hardly excited, or biased by the control loop"
+                "use the response of the linear models in these bands: the runs hardly excite them, or feedback biases them"
             }
             Self::BandsUncertain { .. } => {
-                "use the response of the model there, or add a run that excites these bands"
+                "use the response of the linear models in these bands, or add a run that excites them"
             }
             Self::ModelMisfit { .. } => {
                 "look for a delay, a lag, a mode without a tip or damping within the beam, which the model does not have, \

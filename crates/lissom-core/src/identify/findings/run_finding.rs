@@ -190,8 +190,8 @@ impl fmt::Display for RunFinding {
             }
             Self::Sticking { share } => write!(
                 f,
-                "the joint sticks for about {:.0} % of the cycle: friction is not the square wave that the third-harmonic \
-                 method assumes, and the estimate of this method is too low",
+                "the joint sticks for about {:.0} % of the cycle: the estimate of the third-harmonic method is too low, \
+                 because it assumes friction without sticking. Other methods are not affected",
                 100.0 * share
             ),
             Self::TooFewPeriods { omega_rad_s, blocks, blocks_needed, own_omega_rad_s } => write!(
@@ -284,10 +284,10 @@ impl Describe for RunFinding {
     fn severity(&self) -> Severity {
         match self {
             Self::MostlyAtRest { .. }
+            | Self::Sticking { .. }
             | Self::TransientDropped { .. }
             | Self::HarmonicAboveNyquist { .. } => Severity::Info,
-            Self::Sticking { .. }
-            | Self::TooFewPeriods { .. }
+            Self::TooFewPeriods { .. }
             | Self::NotSinusoidal { .. }
             | Self::FewPeriods { .. }
             | Self::NotPeriodic { .. }
@@ -327,7 +327,9 @@ impl Describe for RunFinding {
             Self::MostlyAtRest { .. } => {
                 "use a motion without pauses (sines, a sweep): it gives more information in less time"
             }
-            Self::Sticking { .. } => "use a larger amplitude or a higher frequency",
+            Self::Sticking { .. } => {
+                "needed for the third-harmonic method only: a larger amplitude or a higher frequency"
+            }
             Self::TooFewPeriods { .. } => "log at least six periods in steady state",
             Self::NotSinusoidal { .. } => {
                 "check the frequency that the campaign gives for this run"

@@ -33,8 +33,10 @@ impl Separability {
         if self.is_sharp() {
             let least = self.figures.iter().max_by(|a, b| a.std.total_cmp(&b.std))?;
             let if_so = if self.doubted_by.is_empty() { "" } else { ", if the model is complete" };
+            let offset = self.figures.iter().any(|f| f.figure == Figure::Offset);
+            let of_what = if offset { " (the offset in percent of Coulomb friction)" } else { "" };
             return Some(format!(
-                "All parameters are identified to 1 % or better{if_so}. Least certain: {}, standard error {}, 95 % interval \
+                "All parameters have a standard error of 1 % or less{of_what}{if_so}. Least certain: {}, standard error {}, 95 % interval \
                  ±{}.",
                 least.figure.name(),
                 percent(least.std),
