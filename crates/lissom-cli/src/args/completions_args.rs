@@ -7,7 +7,8 @@ use clap_complete::Shell;
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct CompletionsArgs {
-    /// The shell that completes commands of lissom
+    /// bash, elvish, fish, powershell or zsh
+    #[arg(hide_possible_values = true)]
     pub(crate) shell: Shell,
 }
 
