@@ -405,7 +405,7 @@ fn what_cannot_be_run_is_refused() {
     let long = |e: Experiment| rig.run("long", &e, 0).err().unwrap().to_string();
     assert_eq!(
         long(Experiment::sine(1.0, 1.0, 3e6).unwrap()),
-        "record_s takes 1000000000 samples; 100000000 at most are simulated"
+        "record_s takes 1000000000 samples, but at most 100000000 are simulated"
     );
     assert!(long(wait(sine(), 3e6)).starts_with("wait_s takes 1000000000 samples"));
     let forever = Settle::Detected { tolerance: 1e-4, longest_s: 3e6 };

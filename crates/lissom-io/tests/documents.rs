@@ -38,7 +38,9 @@ fn read_as_campaign(block: &str) {
     for line in block.lines() {
         if let Some(file) = line.strip_prefix("file = \"").and_then(|rest| rest.split('"').next()) {
             let text = if comma { log("\t").replace('.', ",") } else { log(",") };
-            std::fs::write(folder.path().join(file), text).unwrap();
+            let path = folder.path().join(file);
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, text).unwrap();
         }
     }
     let path = folder.path().join("campaign.toml");

@@ -38,7 +38,7 @@ fn runs_of_different_sampling_are_used_together() {
     let output = bench.identify(&["campaign.toml"]);
     assert_eq!(
         text(&output.stdout).lines().next().unwrap(),
-        "2 runs, 9000 samples every 5.0000 to 8.0000 ms, command measured, 1 tip"
+        "2 runs, 9000 samples every 5 to 8 ms, current measured, 1 tip"
     );
 }
 
@@ -236,8 +236,8 @@ fn sticking_is_measured() {
     assert_eq!(
         Bench::log(csv(&sticking())).findings("sticking"),
         [
-            "run.csv: the joint sticks for about 9 % of the cycle: friction is not the square wave that the third-harmonic \
-          method assumes, and the estimate of this method is too low"
+            "run.csv: the joint sticks for about 9 % of the cycle: the estimate of the third-harmonic method is too low, \
+             because it assumes friction without sticking. Other methods are not affected"
         ]
     );
 }

@@ -98,21 +98,19 @@ fn of(found: &ModalArm) -> Arm {
     };
     let beam = ModalBeam::new([[1.0, 0.0], [0.0, 1.0]].into_iter().enumerate().map(mode).collect());
     let motor = Motor::new(found.inertia_kg_m2, found.viscous_nm_s_per_rad[0], 1.0).unwrap();
-    let coulomb = Coulomb::by_direction(
-        found.coulomb_nm + found.offset_nm,
-        found.coulomb_nm - found.offset_nm,
-    )
-    .unwrap();
+    // The offset, larger than Coulomb friction here, is the rig's constant load.
+    let coulomb = Coulomb::symmetric(found.coulomb_nm).unwrap();
     Arm::new(beam.unwrap(), motor, coulomb).unwrap()
 }
 
 /// What the loop commands, from rest, of an arm whose command acts `lag_s` late.
-fn commanded(arm: Arm, lag_s: f64, reference_counts: &[f64]) -> [f64; 4] {
+fn commanded(found: &ModalArm, lag_s: f64, reference_counts: &[f64]) -> [f64; 4] {
     let mut instruments = Instruments::ideal(SAMPLE_S).unwrap();
     instruments.motor.quantiser = Some(Quantiser::encoder(COUNTS).unwrap());
     instruments.amplifier = Amplifier::ideal().with_limit(LIMIT).unwrap();
     instruments.delay = Some(Delay::new(lag_s).unwrap());
-    let rig = Rig::new(arm, instruments, Proportional::new(1.0).unwrap().into());
+    let mut rig = Rig::new(of(found), instruments, Proportional::new(1.0).unwrap().into());
+    rig.scene.load_nm = found.offset_nm;
     let amplitude_rad = 50.0 * TAU / f64::from(COUNTS);
     let experiment = Experiment::sine(TAU * HERTZ, amplitude_rad, 4.0).unwrap();
     let at_once = experiment.settling(Settle::AtOnce);
@@ -141,9 +139,9 @@ fn odd_harmonics_are_predicted_from_sweeps() {
     let id = identify(&file.campaign, &Options::default(), |_| {}).unwrap();
     let found = &id.output_error.as_ref().unwrap().arm;
     let reference = &fixed(&data, 1)[0][..PERIOD];
-    let predicted = commanded(of(found), found.command_lag_s, reference);
+    let predicted = commanded(found, found.command_lag_s, reference);
     let free = ModalArm { coulomb_nm: 0.0, offset_nm: 0.0, ..found.clone() };
-    let without_friction = commanded(of(&free), found.command_lag_s, reference);
+    let without_friction = commanded(&free, found.command_lag_s, reference);
     for run in [1, 2] {
         let measured = odd(&fixed(&data, run)[1][SETTLED..]);
         let off = |a: f64, b: f64| (a / b - 1.0).abs();

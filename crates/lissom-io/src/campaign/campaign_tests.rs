@@ -371,7 +371,7 @@ fn tips_that_do_not_fit_the_axis() {
     fails(
         &with("column = \"x\", unit = \"rad\", radius = 1"),
         "campaign.toml, line 6: `signals.tips[1].radius`: a radius does not apply to this tip",
-        Some("remove it"),
+        Some("remove `radius`"),
     );
     fails(
         &with("column = \"x\", unit = \"rad\", quantity = \"acceleration\""),

@@ -8,7 +8,7 @@ use nalgebra::{Matrix2x1, U1, U2, Vector1, Vector2};
 use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
-use crate::identify::findings::{FindingKind, RunFinding, Severity, result_key as key};
+use crate::identify::findings::{Severity, result_key as key};
 use crate::identify::methods::thresholds::{STICKING_BIAS, STICKING_MEASURED};
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_analysis::RunKind;
@@ -185,12 +185,11 @@ pub(crate) fn third_harmonic(prepared: &Prepared<'_>) -> Option<ThirdHarmonic> {
             RunKind::ConstantVelocity | RunKind::General => None,
         })
         .collect();
-    // Sticking lowers every pair's figure, and counts in the mean's deviation.
+    // Sticking, which is no warning, is in the standard error of the mean.
     let flagged = |i: usize| {
         findings.iter().any(|f| {
             f.run.as_deref() == Some(&runs[i].name)
                 && f.severity() >= Severity::Warning
-                && !matches!(f.kind, FindingKind::Run(RunFinding::Sticking { .. }))
                 && f.affects().contains(&key::THIRD_HARMONIC)
         })
     };

@@ -49,7 +49,7 @@ fn a_rigid_joint_is_no_beam() {
     let tip = read(&with("[tip]\nviscous = 0.003")).unwrap().rig(path).unwrap_err();
     assert_eq!(
         tip.to_string(),
-        "arm.toml: a rigid joint or a beam known by its modes has no tip that something could act on"
+        "arm.toml: a rigid joint or a beam given by its modes has no tip on which something could act"
     );
 }
 
