@@ -1,5 +1,29 @@
 //! Numbers as text: with significant digits, or with their standard errors.
 
+/// Between two columns of a table.
+const GAP: &str = "  ";
+
+/// The lines of a table: its first column aligned to the left, the others to the right.
+///
+/// ```
+/// let rows = [vec!["inertia".to_owned(), "2.0".to_owned()], vec!["V".to_owned(), "10".to_owned()]];
+/// assert_eq!(lissom_text::table_lines(&rows), ["inertia  2.0", "V         10"]);
+/// ```
+pub fn table_lines(rows: &[Vec<String>]) -> Vec<String> {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |c: usize| {
+        rows.iter().filter_map(|r| r.get(c)).map(|s| s.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let line = |row: &Vec<String>| {
+        let cells = row.iter().zip(&widths).enumerate().map(|(c, (cell, &width))| {
+            if c == 0 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
+        });
+        cells.collect::<Vec<_>>().join(GAP).trim_end().to_owned()
+    };
+    rows.iter().map(line).collect()
+}
+
 /// The largest count of decimals written.
 const MAX_DECIMALS: i32 = 15;
 

@@ -8,7 +8,7 @@ use thiserror::Error;
 /// use lissom::prelude::*;
 /// fn inertia_of(log: &std::path::Path) -> Result<Option<Estimate>, lissom::Error> {
 ///     let logs = read_campaign(log)?;
-///     Ok(Identify::new(&logs).run()?.inertia())
+///     Ok(Identify::of_file(&logs).run()?.inertia())
 /// }
 /// let error = inertia_of("no/campaign.toml".as_ref()).unwrap_err();
 /// assert!(error.to_string().starts_with("no/campaign.toml"));
@@ -44,6 +44,29 @@ macro_rules! from_core {
         }
     )+};
 }
+
+macro_rules! from_file {
+    ($($source:ty),+ $(,)?) => {$(
+        impl From<$source> for Error {
+            fn from(error: $source) -> Self {
+                Self::File(error.into())
+            }
+        }
+    )+};
+}
+
+from_file!(
+    lissom_io::ArmError,
+    lissom_io::CampaignError,
+    lissom_io::ConfigError,
+    lissom_io::FrequencyError,
+    lissom_io::LogError,
+    lissom_io::PlanError,
+    lissom_io::ResponseError,
+    lissom_io::ResultError,
+    lissom_io::UnitError,
+    lissom_io::WriteError,
+);
 
 from_core!(
     lissom_core::Error,

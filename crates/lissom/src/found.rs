@@ -108,7 +108,8 @@ impl fmt::Display for Found {
             }
         }
         for finding in self.findings() {
-            write!(f, "\n{} [{}]: {finding}", finding.severity().name(), finding.code())?;
+            let run = finding.run.as_ref().map_or(String::new(), |run| format!(" {run}:"));
+            write!(f, "\n{} [{}]{run} {finding}", finding.severity().name(), finding.code())?;
         }
         Ok(())
     }

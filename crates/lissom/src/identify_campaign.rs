@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use lissom_core::identify::{Effort, IdentifyError, Interrupt, Options, Stage, identify};
 use lissom_core::record::Campaign;
+use lissom_io::CampaignFile;
 
 use crate::found::Found;
 
@@ -22,17 +23,24 @@ use crate::found::Found;
 pub struct Identify<'c> {
     campaign: &'c Campaign,
     options: Options,
+    limit: Option<Duration>,
     progress: Box<dyn FnMut(Stage) + 'c>,
 }
 
 impl<'c> Identify<'c> {
-    /// Starts the identification of a [`Campaign`], of a campaign that was read from files, or of a simulated one.
+    /// Starts the identification of a [`Campaign`] or of a simulated one.
     pub fn new(campaign: &'c impl AsRef<Campaign>) -> Self {
         Self {
             campaign: campaign.as_ref(),
             options: Options::default(),
+            limit: None,
             progress: Box::new(|_| ()),
         }
+    }
+
+    /// Starts the identification of a campaign that was read from files, with the options of its table `[analysis]`.
+    pub fn of_file(file: &'c CampaignFile) -> Self {
+        Self::new(&file.campaign).options(file.options())
     }
 
     /// Sets the effort of the output-error method. [`Effort::Quick`] leaves that method out
@@ -55,8 +63,9 @@ impl<'c> Identify<'c> {
     }
 
     /// Limits the time: the search then ends with its best result so far, which depends on the speed of the machine.
-    pub fn time_limit(self, limit: Duration) -> Self {
-        self.interrupt(Interrupt::after(limit))
+    pub fn time_limit(mut self, limit: Duration) -> Self {
+        self.limit = Some(limit);
+        self
     }
 
     /// Ends the search with its best result so far when another thread requests it.
@@ -76,7 +85,10 @@ impl<'c> Identify<'c> {
     /// # Errors
     /// [`IdentifyError`] if no run moves, or if an option is not valid.
     pub fn run(self) -> Result<Found, IdentifyError> {
-        let Self { campaign, options, progress } = self;
+        let Self { campaign, mut options, limit, progress } = self;
+        if let Some(limit) = limit {
+            options.interrupt = options.interrupt.or_after(limit);
+        }
         let identified = identify(campaign, &options, progress)?;
         Ok(Found::new(campaign, identified))
     }

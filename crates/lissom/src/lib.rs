@@ -39,7 +39,7 @@
 //! |---|---|---|
 //! | dimensions of an arm | [`arm::Arm::builder`], [`beam`] | frequencies, modes, zeros, matrices, transfer functions |
 //! | an idea for an experiment | [`rig::Rig::builder`] | logs of a joint that sticks and slips like a real one |
-//! | logs | [`io::read_campaign`], [`Identify`] | friction, inertia, coupling, modes, each with a standard error, and findings |
+//! | logs | [`io::read_campaign`], [`Identify::of_file`] | friction, inertia, coupling, modes, each with a standard error, and findings |
 //! | approximate parameters and little time | [`plan`] | the runs that give a wanted precision |
 //! | a result and another log | [`Found::validate`] | how well the result predicts that log |
 //!

@@ -29,8 +29,8 @@ pub(crate) fn figure() -> Drawn {
     let mode = rig.arm.beam().natural_frequencies_rad_s()[0];
     let mut plot = LinePlot::new(
         "Inertia and coupling: regions of 95 % confidence",
-        Axis::linear("inertia, deviation from the true value (%)"),
-        Axis::linear("coupling, deviation (%)"),
+        Axis::linear("inertia, difference from the true value (%)"),
+        Axis::linear("coupling, difference (%)"),
     )
     .subtitle(format!("Sines of {AMPLITUDE_RAD} rad, {RECORD_S} s in all, sensor noise {NOISE_RAD} rad; the beam's mode is at {mode:.2} rad/s"));
     let campaigns: [(&str, Role, &[f64]); 3] = [

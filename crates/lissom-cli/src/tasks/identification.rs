@@ -50,7 +50,7 @@ pub(crate) fn first_answer(
 }
 
 fn options(file: &CampaignFile, asked: Asked, interrupt: Interrupt) -> Options {
-    let window_s = asked.window_s.map_or_else(|| file.analysis.window_s.clone(), |w| vec![w]);
-    let harmonics = file.analysis.harmonics;
-    Options { window_s, harmonics, effort: asked.effort, most_evaluations: None, interrupt }
+    let of_file = file.options();
+    let window_s = asked.window_s.map_or(of_file.window_s, |w| vec![w]);
+    Options { window_s, effort: asked.effort, interrupt, ..of_file }
 }

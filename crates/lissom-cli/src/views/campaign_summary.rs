@@ -105,7 +105,7 @@ pub(crate) fn runs(id: &Identified) {
     if let Some(r) = &id.regression {
         let how = if r.window_given { "given" } else { "chosen from the data" };
         line(&format!(
-            "regression: {} (motion in one direction without a stop), residual torque {:.2} % of its rms value",
+            "regression: {} (motion in one direction without a stop), residual torque {:.2} % of the rms torque",
             counted(r.phases, "slip phase"),
             100.0 * r.relative_residual
         ));

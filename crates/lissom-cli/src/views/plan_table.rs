@@ -12,7 +12,7 @@ pub(crate) fn report(arm: &Path, plan: &Plan, out: &Path) {
     rows.extend(plan.runs.iter().map(row));
     printer::table(&rows);
     for run in &plan.runs {
-        printer::line(&format!("  {}: {}", kind(run), run.in_words()));
+        printer::line(&format!("  {}: {}", run.motion, run.in_words()));
     }
     printer::line(&format!(
         "\n{} in {:.0} s, including {BETWEEN_S} s before each run",
@@ -37,16 +37,6 @@ pub(crate) fn report(arm: &Path, plan: &Plan, out: &Path) {
         arm.display(),
         out.display()
     ));
-}
-
-fn kind(run: &PlannedRun) -> String {
-    match run.motion {
-        PlannedMotion::Sine { omega_rad_s } => format!("sine at {omega_rad_s} rad/s"),
-        PlannedMotion::Multisine { omega_rad_s, .. } => {
-            format!("multisine from {omega_rad_s} rad/s")
-        }
-        PlannedMotion::Chirp { from_rad_s, .. } => format!("chirp from {from_rad_s} rad/s"),
-    }
 }
 
 fn row(run: &PlannedRun) -> Vec<String> {

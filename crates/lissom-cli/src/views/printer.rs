@@ -40,22 +40,8 @@ pub(crate) fn json(value: &impl Serialize) -> Result<(), Failure> {
 
 /// Prints a table with its first column aligned to the left, the others to the right.
 pub(crate) fn table(rows: &[Vec<String>]) {
-    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |c: usize| {
-        rows.iter().filter_map(|r| r.get(c)).map(|s| s.chars().count()).max().unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..columns).map(width).collect();
-    for row in rows {
-        let mut text = String::new();
-        for (c, cell) in row.iter().enumerate() {
-            let pad = " ".repeat(widths[c] - cell.chars().count());
-            let (before, after) = if c == 0 { ("", pad.as_str()) } else { (pad.as_str(), "") };
-            text.push_str(if c == 0 { "" } else { "  " });
-            text.push_str(before);
-            text.push_str(cell);
-            text.push_str(after);
-        }
-        line(text.trim_end());
+    for text in lissom_text::table_lines(rows) {
+        line(&text);
     }
 }
 

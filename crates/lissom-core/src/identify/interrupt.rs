@@ -31,6 +31,12 @@ impl Interrupt {
         Self { until: Instant::now().checked_add(limit), ..Self::default() }
     }
 
+    /// The same request, made automatically after a time too.
+    #[must_use]
+    pub fn or_after(&self, limit: Duration) -> Self {
+        Self { shared: Arc::clone(&self.shared), until: Instant::now().checked_add(limit) }
+    }
+
     /// Requests that the search end with the best result so far.
     pub fn ask(&self) {
         self.shared.asked.store(true, Ordering::Relaxed);

@@ -2,24 +2,16 @@
 
 use std::fmt;
 
-use super::{Plan, PlannedMotion, percent};
+use super::{Plan, percent};
 
 /// One line for each run with its reason, then the expected precision and the notes.
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{} runs in {:.0} s", self.runs.len(), self.time_s)?;
+        let runs = if self.runs.len() == 1 { "run" } else { "runs" };
+        writeln!(f, "{} {runs} in {:.0} s", self.runs.len(), self.time_s)?;
         for run in &self.runs {
-            let motion = match run.motion {
-                PlannedMotion::Sine { omega_rad_s } => format!("sine of {omega_rad_s} rad/s"),
-                PlannedMotion::Multisine { omega_rad_s, to_rad_s, .. } => {
-                    format!("multisine of {omega_rad_s} to {to_rad_s} rad/s")
-                }
-                PlannedMotion::Chirp { from_rad_s, to_rad_s, .. } => {
-                    format!("chirp from {from_rad_s} to {to_rad_s} rad/s")
-                }
-            };
             let (amplitude, record) = (run.amplitude_rad, run.record_s);
-            writeln!(f, "  {motion}, {amplitude} rad, {record:.1} s: {}", run.in_words())?;
+            writeln!(f, "  {}, {amplitude} rad, {record:.1} s: {}", run.motion, run.in_words())?;
         }
         write!(f, "expected standard errors:")?;
         for e in &self.expected {

@@ -1,6 +1,7 @@
 //! The motions that a plan chooses from.
 
 use std::f64::consts::{PI, TAU};
+use std::fmt;
 
 use crate::plan::thresholds::{
     HIGHEST_LINE, KEEP_OFF, KEEP_OFF_WIDTHS, LIGHTLY_DAMPED, MULTISINE_PERIODS, NYQUIST_SHARE,
@@ -223,6 +224,21 @@ pub(super) fn rounded(value: f64) -> f64 {
 /// A multiple of such a number without the tail of its binary digits.
 fn exactly(value: f64) -> f64 {
     format!("{value:.6e}").parse().unwrap_or(value)
+}
+
+/// `sine at 2 rad/s`, `chirp from 1 to 20 rad/s`.
+impl fmt::Display for PlannedMotion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Sine { omega_rad_s } => write!(f, "sine at {omega_rad_s} rad/s"),
+            Self::Multisine { omega_rad_s, to_rad_s, .. } => {
+                write!(f, "multisine from {omega_rad_s} to {to_rad_s} rad/s")
+            }
+            Self::Chirp { from_rad_s, to_rad_s, .. } => {
+                write!(f, "chirp from {from_rad_s} to {to_rad_s} rad/s")
+            }
+        }
+    }
 }
 
 #[cfg(test)]

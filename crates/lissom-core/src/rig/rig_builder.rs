@@ -2,9 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{
-    Amplifier, ControlLaw, Delay, Instruments, Noise, Quantiser, Rig, RigError, Scene, Sensor,
-};
+use super::{ControlLaw, Delay, Instruments, Noise, Quantiser, Rig, RigError, Scene, Sensor};
 use crate::arm::Arm;
 
 /// Builder of a [`Rig`]: see [`Rig::builder`]. The numbers are checked by [`build`](Self::build),
@@ -38,17 +36,8 @@ impl Rig {
         RigBuilder {
             arm,
             scene: Scene::default(),
-            instruments: Instruments {
-                sample_time_s: 0.0,
-                motor: Sensor::IDEAL,
-                tips: Vec::new(),
-                amplifier: Amplifier::ideal(),
-                current: None,
-                stamps: None,
-                delay: None,
-                control_every: 1,
-                log_every: 1,
-            },
+            // Refused by `build` unless a sample time is given.
+            instruments: Instruments::unchecked(0.0),
             controller: None,
             error: None,
         }
@@ -75,8 +64,7 @@ impl RigBuilder {
     pub fn encoder_bits(self, bits: u32) -> Self {
         self.with(Quantiser::new(bits, TAU), |instruments, steps| {
             instruments.motor.quantiser = Some(steps);
-            let first = instruments.tips.first().copied().unwrap_or(Sensor::IDEAL);
-            instruments.tips = vec![Sensor { quantiser: Some(steps), ..first }];
+            instruments.tips = vec![Sensor { quantiser: Some(steps), ..instruments.tip(0) }];
         })
     }
 
@@ -85,8 +73,7 @@ impl RigBuilder {
     pub fn noise_rad(self, std_rad: f64) -> Self {
         self.with(Noise::new(std_rad), |instruments, noise| {
             instruments.motor.noise = Some(noise);
-            let first = instruments.tips.first().copied().unwrap_or(Sensor::IDEAL);
-            instruments.tips = vec![Sensor { noise: Some(noise), ..first }];
+            instruments.tips = vec![Sensor { noise: Some(noise), ..instruments.tip(0) }];
         })
     }
 

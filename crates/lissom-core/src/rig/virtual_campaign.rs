@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::{Controller, Experiment, Logged, Rig, RigError};
 use crate::record::Campaign;
 
-/// The first run's seed; each further run has the next number.
+/// Seed of the first run of [`Rig::campaign`]; each further run has the next number.
 const FIRST_SEED: u64 = 1;
 
 /// Logs of several experiments with one rig, and what the simulator knows about each.
@@ -65,7 +65,20 @@ impl Rig {
         &self,
         experiments: impl IntoIterator<Item = E>,
     ) -> Result<VirtualCampaign, RigError> {
-        let runs: Vec<(String, u64, Experiment)> = numbered(experiments)?;
+        self.campaign_from_seed(FIRST_SEED, experiments)
+    }
+
+    /// As [`campaign`](Self::campaign), the seeds of the noise beginning with `seed`: give another one for logs that are
+    /// independent of those of [`campaign`](Self::campaign), as for a validation.
+    ///
+    /// # Errors
+    /// As [`campaign`](Self::campaign).
+    pub fn campaign_from_seed<E: PlannedExperiment>(
+        &self,
+        seed: u64,
+        experiments: impl IntoIterator<Item = E>,
+    ) -> Result<VirtualCampaign, RigError> {
+        let runs: Vec<(String, u64, Experiment)> = numbered(seed, experiments)?;
         let logged: Vec<_> =
             runs.par_iter().map(|(name, seed, e)| self.run(name, e, *seed)).collect();
         self.collected(logged.into_iter().collect::<Result<_, _>>()?)
@@ -80,7 +93,7 @@ impl Rig {
         controller: &mut C,
         experiments: impl IntoIterator<Item = E>,
     ) -> Result<VirtualCampaign, RigError> {
-        let runs: Vec<(String, u64, Experiment)> = numbered(experiments)?;
+        let runs: Vec<(String, u64, Experiment)> = numbered(FIRST_SEED, experiments)?;
         let one =
             |(name, seed, e): &(String, u64, Experiment)| self.run_with(controller, name, e, *seed);
         let logged = runs.iter().map(one).collect::<Result<_, _>>()?;
@@ -99,8 +112,11 @@ impl Rig {
 }
 
 fn numbered<E: PlannedExperiment>(
+    first_seed: u64,
     experiments: impl IntoIterator<Item = E>,
 ) -> Result<Vec<(String, u64, Experiment)>, RigError> {
-    let one = |(number, e): (u64, E)| Ok((format!("run {number}"), number, e.experiment()?));
-    (FIRST_SEED..).zip(experiments).map(one).collect()
+    let one = |(number, e): (u64, E)| {
+        Ok((format!("run {}", number + 1), first_seed.wrapping_add(number), e.experiment()?))
+    };
+    (0..).zip(experiments).map(one).collect()
 }

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use lissom_core::identify::Options;
 use lissom_core::record::Campaign;
 
 use crate::arm_file::ArmFile;
@@ -17,9 +18,14 @@ pub struct CampaignFile {
     pub analysis: AnalysisOptions,
 }
 
-impl AsRef<Campaign> for CampaignFile {
-    fn as_ref(&self) -> &Campaign {
-        &self.campaign
+impl CampaignFile {
+    /// The options of its table `[analysis]`, the others by default.
+    pub fn options(&self) -> Options {
+        Options {
+            window_s: self.analysis.window_s.clone(),
+            harmonics: self.analysis.harmonics,
+            ..Options::default()
+        }
     }
 }
 

@@ -315,7 +315,10 @@ impl<'a> Listing<'a> {
             self.add(id, Some(&gravity.phase_rad), &[GRAVITY]);
             let unit = format!("N·m/{}", names.command_unit());
             let name = "torque constant from m·g·l";
-            self.keyed(("gravity", name, &unit), &gravity.torque_constant, &[GRAVITY]);
+            // Without a known m·g·l it was not asked for.
+            if gravity.torque_constant.get(names).is_some_and(Option::is_some) {
+                self.keyed(("gravity", name, &unit), &gravity.torque_constant, &[GRAVITY]);
+            }
         }
         let coupling = names.coupling_unit();
         let name = "coupling to the beam";

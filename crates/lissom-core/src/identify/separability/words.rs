@@ -8,7 +8,7 @@ use crate::identify::separability::thresholds::{CHANGE_SHOWN, CORRELATED};
 use crate::identify::separability::{FigureKnown, Separability};
 use crate::identify::thresholds::NORMAL_95;
 use crate::information::Figure;
-use crate::plan::{PlannedMotion, percent};
+use crate::plan::percent;
 use crate::record::Axis;
 
 impl Separability {
@@ -144,18 +144,10 @@ fn worth_adding(run: &RunToAdd, axis: Axis) -> String {
         Axis::Rotary => "rad",
         Axis::Linear => "m",
     };
-    let motion = match run.motion {
-        PlannedMotion::Sine { omega_rad_s } => format!("a sine at {omega_rad_s} rad/s"),
-        PlannedMotion::Multisine { omega_rad_s, to_rad_s, .. } => {
-            format!("a multisine from {omega_rad_s} to {to_rad_s} rad/s")
-        }
-        PlannedMotion::Chirp { from_rad_s, to_rad_s, .. } => {
-            format!("a sweep from {from_rad_s} to {to_rad_s} rad/s")
-        }
-    };
     format!(
-        "A run worth adding: {motion} with an amplitude of {} {unit} for {:.0} s. The standard error of {} would drop from \
+        "A run worth adding: a {} with an amplitude of {} {unit} for {:.0} s. The standard error of {} would drop from \
          {} to about {}.",
+        run.motion,
         run.amplitude_rad,
         run.record_s,
         run.figure.name(),

@@ -69,8 +69,13 @@ impl Instruments {
     /// # Errors
     /// [`RigError::NotPositive`] if the sample time is not positive and finite.
     pub fn ideal(sample_time_s: f64) -> Result<Self, RigError> {
-        Ok(Self {
-            sample_time_s: positive("sample_time_s", sample_time_s)?,
+        Ok(Self::unchecked(positive("sample_time_s", sample_time_s)?))
+    }
+
+    /// The same, whatever the sample time.
+    pub(super) fn unchecked(sample_time_s: f64) -> Self {
+        Self {
+            sample_time_s,
             motor: Sensor::IDEAL,
             tips: Vec::new(),
             amplifier: Amplifier::ideal(),
@@ -79,7 +84,7 @@ impl Instruments {
             delay: None,
             control_every: 1,
             log_every: 1,
-        })
+        }
     }
 
     /// The sensor of mass `mass`.
