@@ -79,15 +79,16 @@ fn every_shell_has_completions_of_every_subcommand() {
 
 #[test]
 fn every_subcommand_has_a_manual_page() {
-    let folder = tempfile::tempdir().unwrap();
-    let (code, ..) = lissom(&["man", folder.path().to_str().unwrap()]);
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path().join("man1"); // made where it is missing
+    let (code, ..) = lissom(&["man", folder.to_str().unwrap()]);
     assert_eq!(code, Some(0));
     for subcommand in SUBCOMMANDS {
-        let page = folder.path().join(format!("lissom-{subcommand}.1"));
+        let page = folder.join(format!("lissom-{subcommand}.1"));
         let text = std::fs::read_to_string(&page).unwrap();
         assert!(text.contains(".SH SYNOPSIS"), "{}", page.display());
     }
-    assert!(folder.path().join("lissom.1").exists());
+    assert!(folder.join("lissom.1").exists());
 }
 
 #[test]

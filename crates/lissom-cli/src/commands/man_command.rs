@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use clap::CommandFactory as _;
 use clap_mangen::Man;
-use lissom_io::write::Batch;
+use lissom_io::write::{self, Batch};
 
 use crate::args::command_line::Cli;
 use crate::args::man_args::ManArgs;
@@ -13,6 +13,7 @@ use crate::shared::failure::Failure;
 pub(crate) fn run(args: &ManArgs) -> Result<ExitCode, Failure> {
     let mut command = Cli::command();
     command.build();
+    write::create_folder(&args.folder)?;
     let mut batch = Batch::new();
     let subcommands = command.get_subcommands().filter(|s| s.get_name() != "help");
     for described in std::iter::once(&command).chain(subcommands) {
