@@ -13,7 +13,7 @@ use lissom::record::{
 };
 use lissom::rig::{
     Amplifier, Drive, Experiment, Instruments, Multisine, Pd, Quantiser, Reference, Rig, Sensor,
-    Settle, Sweep,
+    Settle,
 };
 use num_complex::Complex64;
 
@@ -39,17 +39,21 @@ fn arm() -> Arm {
     Arm::new(beam, motor, Coulomb::symmetric(0.05).unwrap()).unwrap()
 }
 
-fn rig() -> Rig {
+fn rig(limit_a: f64) -> Rig {
     let sensor = Sensor::from(Quantiser::new(13, TAU).unwrap());
     let mut instruments = Instruments::ideal(0.002).unwrap();
     instruments.motor = sensor;
     instruments.tips = vec![sensor];
-    instruments.amplifier = Amplifier::ideal().with_limit(8.0).unwrap();
+    instruments.amplifier = Amplifier::ideal().with_limit(limit_a).unwrap();
     Rig::new(arm(), instruments, Pd::new(8.0, 0.15).unwrap().into())
 }
 
 fn identified(experiments: &[Experiment]) -> Identified {
-    let rig = rig();
+    identified_within(8.0, experiments)
+}
+
+fn identified_within(limit_a: f64, experiments: &[Experiment]) -> Identified {
+    let rig = rig(limit_a);
     let run = |(k, e): (usize, &Experiment)| rig.run(&format!("run {k}"), e, 0).unwrap().run;
     let runs: Vec<Run> = experiments.iter().enumerate().map(run).collect();
     let command = Command {
@@ -109,14 +113,21 @@ fn bands_of_multisines() {
     bands_hold(&identified(&[experiment(1), experiment(2)]), 20);
 }
 
+fn sweep(from: f64, to: f64, amplitude: f64) -> Experiment {
+    Experiment::chirp((from, to), amplitude, 20.0).unwrap().settling(Settle::AtOnce)
+}
+
 #[test]
 fn bands_of_sweeps_from_rest() {
-    let experiment = |from: f64, to: f64, amplitude: f64| {
-        let sweep = Reference::chirp(Sweep::Logarithmic, (from, to), amplitude, 20.0).unwrap();
-        let drive = Drive::Angle(sweep);
-        Experiment::new(drive, 20.0).unwrap().settling(Settle::AtOnce)
-    };
-    let sweeps =
-        [experiment(2.0, 20.0, 0.5), experiment(20.0, 2.0, 0.4), experiment(15.0, 60.0, 0.3)];
+    let sweeps = [sweep(2.0, 20.0, 0.5), sweep(20.0, 2.0, 0.4), sweep(15.0, 60.0, 0.3)];
     bands_hold(&identified(&sweeps), 30);
+}
+
+/// One run with a warning about its corrected response is in every band.
+#[test]
+fn bands_of_a_run_at_the_limit_are_flagged() {
+    let found = identified_within(1.0, &[sweep(2.0, 20.0, 0.2), sweep(15.0, 60.0, 0.6)]);
+    assert!(found.findings.iter().any(|f| f.code() == "saturation"), "{:?}", found.findings);
+    assert!(found.responses.iter().any(|p| p.motor_corrected.is_some()));
+    assert!(found.responses.iter().all(|p| !p.is_vouched_for()));
 }

@@ -58,9 +58,9 @@ pub use responses::{
     FrequencyResponses, MeasuredResponse, Positive, ResponseError, read_responses,
 };
 pub use result::{
-    ComparedFile, EquivalentFile, ParameterList, PayloadFile, PayloadPrediction, PredictedPayload,
-    ResultError, ResultFile, ThresholdsFile, UnitNames, ValidationFile, channel_name_unit,
-    read_arm, read_result,
+    ComparedFile, EquivalentFile, ListedParameter, ParameterList, PayloadFile, PayloadPrediction,
+    PredictedPayload, ResultError, ResultFile, ThresholdsFile, UnitNames, ValidationFile,
+    channel_name_unit, read_arm, read_result,
 };
 pub use rig::{RigFile, RigRunEntry};
 #[cfg(feature = "schema")]

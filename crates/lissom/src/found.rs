@@ -7,7 +7,7 @@ use lissom_core::identify::{
     ValidationOptions, validate,
 };
 use lissom_core::record::{Campaign, Channels};
-use lissom_io::{ParameterList, ResultFile};
+use lissom_io::{ListedParameter, ParameterList, ResultFile};
 use serde::{Serialize, Serializer};
 
 use crate::parameter_text;
@@ -81,6 +81,11 @@ impl Found {
     ) -> Result<Option<Validation>, ValidationError> {
         let options = ValidationOptions::default();
         self.arm().map(|arm| validate(arm, other.as_ref(), &options)).transpose()
+    }
+
+    /// The parameters as the tables list them: key, name, unit, estimate, and the codes of the warnings that affect each.
+    pub fn parameters(&self) -> Vec<ListedParameter> {
+        ParameterList::of(&self.file()).map_or_else(Vec::new, |list| list.parameters)
     }
 
     /// The content of `result.json`.

@@ -30,6 +30,8 @@ pub enum PlanNote {
     },
     /// A sensor has neither steps nor noise.
     IdealSensor,
+    /// The log contains a measured current, whose noise the plan does not include.
+    CurrentNoise,
     /// No pair of sines at a frequency and three times that frequency is in the plan.
     NoPair,
     /// The plan for a damped beam contains only steady sines.
@@ -54,6 +56,7 @@ impl PlanNote {
             Self::Unreached { .. } => "unreached",
             Self::LeftOut { .. } => "modes-left-out",
             Self::IdealSensor => "ideal-sensor",
+            Self::CurrentNoise => "current-noise",
             Self::NoPair => "no-pair",
             Self::SinesAlone => "sines-alone",
             Self::Unfit { .. } => "motions-of-no-use",
@@ -64,7 +67,10 @@ impl PlanNote {
 
     /// Whether a wish is not met, or an expected standard error may be too small.
     pub fn is_warning(&self) -> bool {
-        matches!(self, Self::Unreached { .. } | Self::NoPair | Self::SinesAlone)
+        matches!(
+            self,
+            Self::Unreached { .. } | Self::CurrentNoise | Self::NoPair | Self::SinesAlone
+        )
     }
 }
 
@@ -108,6 +114,11 @@ impl fmt::Display for PlanNote {
                 f,
                 "a sensor has neither steps nor noise: the plan assumes an error of 1 µrad; give motor_sensor and tip_sensors \
                  in [rig]"
+            ),
+            Self::CurrentNoise => write!(
+                f,
+                "the noise of the measured current is not in the plan: where it dominates, errors may be many times the \
+                 expected standard errors"
             ),
             Self::NoPair => write!(
                 f,
@@ -155,6 +166,9 @@ pub(super) fn of_rig(rig: &Rig, known: &KnownRig<'_>) -> Vec<PlanNote> {
     }
     if known.gravity.is_some() {
         notes.push(PlanNote::GravityByRegression);
+    }
+    if rig.instruments.current.is_some_and(|current| current.sensor.deviation() > 0.0) {
+        notes.push(PlanNote::CurrentNoise);
     }
     if known.ideal_sensor {
         notes.push(PlanNote::IdealSensor);

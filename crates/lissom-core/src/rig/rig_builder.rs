@@ -2,8 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use super::{ControlLaw, Delay, Instruments, Noise, Quantiser, Rig, RigError, Scene, Sensor};
+use super::{
+    ControlLaw, Delay, Instruments, JointFriction, Noise, Quantiser, Rig, RigError, Scene, Sensor,
+};
 use crate::arm::Arm;
+use crate::load::GravityLoad;
 
 /// Builder of a [`Rig`]: see [`Rig::builder`]. The numbers are checked by [`build`](Self::build),
 /// which returns the first error.
@@ -59,13 +62,18 @@ impl RigBuilder {
         self
     }
 
-    /// Rounds the angles of motor and tips to steps of one turn over 2^`bits`; the range is −π to π.
+    /// Rounds the angles of motor and tips to steps of one turn over 2^`bits`, as an A/D converter does whose range is
+    /// −π to π: readings end there. For an encoder that counts over many turns use
+    /// [`encoder_counts`](Self::encoder_counts).
     #[must_use]
     pub fn encoder_bits(self, bits: u32) -> Self {
-        self.with(Quantiser::new(bits, TAU), |instruments, steps| {
-            instruments.motor.quantiser = Some(steps);
-            instruments.tips = vec![Sensor { quantiser: Some(steps), ..instruments.tip(0) }];
-        })
+        self.with_steps(Quantiser::new(bits, TAU))
+    }
+
+    /// Rounds the angles of motor and tips to this number of counts per turn, over any number of turns.
+    #[must_use]
+    pub fn encoder_counts(self, counts_per_turn: u32) -> Self {
+        self.with_steps(Quantiser::encoder(counts_per_turn))
     }
 
     /// Adds white Gaussian noise to the angles of motor and tips, with this standard deviation \[rad\].
@@ -90,6 +98,14 @@ impl RigBuilder {
         self.with(Delay::new(delay_s), |instruments, delay| instruments.delay = Some(delay))
     }
 
+    /// Logs the measured current in place of the command, with white Gaussian noise of this standard deviation \[A\]. A
+    /// row contains the mean current of one row time, centred at the time of the row
+    /// ([`CurrentReading::Centred`](super::CurrentReading::Centred)).
+    #[must_use]
+    pub fn current_noise_a(self, std_a: f64) -> Self {
+        self.with(Noise::new(std_a), |instruments, noise| instruments.current = Some(noise.into()))
+    }
+
     /// Sets all instruments at once, in place of those set before.
     #[must_use]
     pub fn instruments(mut self, instruments: Instruments) -> Self {
@@ -97,7 +113,36 @@ impl RigBuilder {
         self
     }
 
-    /// Sets another friction law, gravity, what acts on the tip, and later payloads.
+    /// Sets another friction law than the Coulomb friction of the arm.
+    ///
+    /// ```
+    /// use lissom::prelude::*;
+    /// # let arm = Arm::builder().motor(Motor::builder().inertia_kg_m2(2e-3)).build()?;
+    /// let sliding = DryFriction::from(Coulomb::symmetric(0.02)?); // N·m
+    /// let stribeck = sliding.with_rest(Coulomb::symmetric(0.03)?, 0.3, Falloff::Gaussian)?; // N·m, rad/s
+    /// let rig = Rig::builder(arm)
+    ///     .sample_time_s(1e-3)
+    ///     .encoder_counts(20_000)
+    ///     .friction(stribeck)
+    ///     .gravity(GravityLoad::of_amplitude(0.1, 0.0)) // m·g·l in N·m, hanging at θ = 0
+    ///     .controller(Pd::new(8.0, 0.25)?)
+    ///     .build()?;
+    /// # Ok::<(), lissom::Error>(())
+    /// ```
+    #[must_use]
+    pub fn friction(mut self, friction: impl Into<JointFriction>) -> Self {
+        self.scene.friction = friction.into();
+        self
+    }
+
+    /// Sets gravity of an unbalanced load on the motor.
+    #[must_use]
+    pub fn gravity(mut self, load: GravityLoad) -> Self {
+        self.scene.gravity = Some(load);
+        self
+    }
+
+    /// Sets all of it at once: friction law, gravity, what acts on the tip, and later payloads.
     #[must_use]
     pub fn scene(mut self, scene: Scene) -> Self {
         self.scene = scene;
@@ -119,6 +164,13 @@ impl RigBuilder {
             Rig { arm: self.arm, scene: self.scene, instruments: self.instruments, controller };
         rig.check()?;
         Ok(rig)
+    }
+
+    fn with_steps(self, steps: Result<Quantiser, RigError>) -> Self {
+        self.with(steps, |instruments, steps| {
+            instruments.motor.quantiser = Some(steps);
+            instruments.tips = vec![Sensor { quantiser: Some(steps), ..instruments.tip(0) }];
+        })
     }
 
     fn with<T>(mut self, made: Result<T, RigError>, set: impl FnOnce(&mut Instruments, T)) -> Self {

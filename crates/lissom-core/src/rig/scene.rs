@@ -24,6 +24,12 @@ pub enum JointFriction {
     },
 }
 
+impl From<DryFriction> for JointFriction {
+    fn from(law: DryFriction) -> Self {
+        Self::Dry(law)
+    }
+}
+
 /// The physics of a rig that is not part of its [`Arm`]. By default there is nothing: the arm's own Coulomb friction,
 /// and nothing at the tip.
 ///

@@ -26,6 +26,8 @@ pub enum PlanNoteName {
     ModesLeftOut,
     /// A sensor has neither steps nor noise; an error of 1e-6 rad is assumed.
     IdealSensor,
+    /// The noise of the measured current is not in the plan: errors may be many times the expected standard errors.
+    CurrentNoise,
     /// No sine fits together with a sine at three times its frequency, which the third-harmonic method needs.
     NoPair,
     /// Only steady sines on a damped beam: errors may be many times the expected standard errors.
@@ -69,6 +71,7 @@ impl PlanNoteName {
             PlanNote::Unreached { .. } => Self::Unreached,
             PlanNote::LeftOut { .. } => Self::ModesLeftOut,
             PlanNote::IdealSensor => Self::IdealSensor,
+            PlanNote::CurrentNoise => Self::CurrentNoise,
             PlanNote::NoPair => Self::NoPair,
             PlanNote::SinesAlone => Self::SinesAlone,
             PlanNote::Unfit { .. } => Self::MotionsOfNoUse,
@@ -93,6 +96,7 @@ mod tests {
             PlanNote::Unreached { expected, within_s: 60.0, needed_s: 600.0, torque_share: None },
             PlanNote::LeftOut { omega_rad_s: vec![100.0] },
             PlanNote::IdealSensor,
+            PlanNote::CurrentNoise,
             PlanNote::NoPair,
             PlanNote::SinesAlone,
             PlanNote::Unfit { reason: Unfit::Impossible, motions: 3 },

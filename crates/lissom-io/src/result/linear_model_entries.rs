@@ -59,7 +59,8 @@ pub struct FrequencyResponseEntry {
     pub run: Vec<Option<String>>,
     /// Whether a finding affects the corrected point.
     pub flagged: Vec<bool>,
-    /// Whether no finding affects the corrected point and its 95 % interval is within 5 % of it.
+    /// Whether no finding affects the corrected point, the waveform of friction is known from the output-error method,
+    /// and the 95 % interval is within 5 % of the point.
     pub vouched_for: Vec<bool>,
     /// Motor angle (or position) per command as measured.
     pub motor_raw: SeriesEntry,

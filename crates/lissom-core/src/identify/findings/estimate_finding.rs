@@ -16,6 +16,8 @@ use crate::identify::findings::units::EstimateUnits;
 pub enum JudgedParameter {
     /// Coulomb friction, the mean of both directions.
     Coulomb,
+    /// Offset of friction, and with it Coulomb friction by direction.
+    Offset,
     /// Viscous friction.
     Viscous,
     /// Inertia or mass.
@@ -28,6 +30,7 @@ impl JudgedParameter {
     fn name(self) -> &'static str {
         match self {
             Self::Coulomb => "Coulomb friction",
+            Self::Offset => "the offset of friction (friction by direction)",
             Self::Viscous => "viscous friction",
             Self::Inertia => "inertia",
             Self::Coupling => "coupling",
@@ -36,7 +39,7 @@ impl JudgedParameter {
 
     fn unit(self, units: EstimateUnits) -> String {
         match self {
-            Self::Coulomb => units.torque().to_owned(),
+            Self::Coulomb | Self::Offset => units.torque().to_owned(),
             Self::Viscous => units.viscous(),
             Self::Inertia => units.inertia(),
             Self::Coupling => units.stiffness(),
@@ -46,6 +49,7 @@ impl JudgedParameter {
     fn keys(self) -> Vec<&'static str> {
         match self {
             Self::Coulomb => vec![key::COULOMB],
+            Self::Offset => vec![key::OFFSET],
             Self::Viscous => vec![key::VISCOUS],
             Self::Inertia => vec![key::INERTIA],
             Self::Coupling => vec![key::COUPLING],
@@ -56,6 +60,7 @@ impl JudgedParameter {
     fn hint(self) -> &'static str {
         match self {
             Self::Coulomb => "add slow runs in both directions",
+            Self::Offset => "add motion in both directions, over a long arc if gravity acts",
             Self::Viscous => "add runs at higher speed and larger amplitude",
             Self::Inertia => "add runs with more acceleration: faster sines, larger amplitude",
             Self::Coupling => "add runs near the beam's resonance",

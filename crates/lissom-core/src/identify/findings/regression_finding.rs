@@ -373,6 +373,7 @@ impl Describe for RegressionFinding {
                 let mut keys: Vec<_> =
                     moved(&term.moves).into_iter().map(|(_, key, _)| key).collect();
                 keys.extend([key::OFFSET, key::COUPLING]);
+                keys.extend((term.kind == MissingKind::BeamDamping).then_some(key::MODES));
                 keys
             }
             Self::FrictionVaries { .. } => vec![key::COULOMB, key::VISCOUS],
@@ -383,7 +384,7 @@ impl Describe for RegressionFinding {
                 vec![key::INERTIA, key::GRAVITY]
             }
             Self::GravityUnseparated { with: GravityPartner::Offset, .. } => {
-                vec![key::OFFSET, key::GRAVITY]
+                vec![key::COULOMB, key::OFFSET, key::GRAVITY]
             }
             Self::InertiaShort { .. } => vec![key::INERTIA],
             Self::OneSine => {

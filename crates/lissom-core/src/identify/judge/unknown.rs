@@ -11,14 +11,17 @@ pub(super) fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -
     let regression = evidence.methods.regression.is_some();
     let Chosen { drive, beam, .. } = chosen;
     let units = EstimateUnits::new(&evidence.campaign.channels);
-    // The logs do not separate Coulomb friction: they show it in one direction at most.
+    // The logs do not separate Coulomb friction: they show it in one direction at most, and then as one number
+    // with a constant load.
     let one_direction = drive.friction.coulomb.is_none();
-    let one_direction_told =
-        one_direction && drive.friction.forward.is_some() != drive.friction.backward.is_some();
+    let told = |e: &Estimate| one_direction && e.std < UNCERTAIN_ERROR * e.value.abs();
+    let forward = drive.friction.forward.filter(told);
+    let backward = drive.friction.backward.filter(told);
+    let sum = forward.xor(backward);
     let mut look = |parameter: JudgedParameter, figure: &mut Option<Estimate>| {
         let Some(estimate) = *figure else {
             // Without a regression one refusal of all of it is enough.
-            if regression && !(one_direction_told && parameter == JudgedParameter::Coulomb) {
+            if regression && !(sum.is_some() && parameter == JudgedParameter::Coulomb) {
                 findings.push(EstimateFinding::NotSeparable { parameter });
             }
             return;
@@ -44,14 +47,14 @@ pub(super) fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -
         findings.push(EstimateFinding::OthersDoubtful);
     }
     let friction = &mut drive.friction;
+    if regression && friction.coulomb.is_some() && friction.offset.is_none() {
+        findings.push(EstimateFinding::NotSeparable { parameter: JudgedParameter::Offset });
+    }
     if friction.coulomb.is_none() {
         friction.offset = None;
-        // One direction alone tells Coulomb friction and a constant load as one number.
-        for one in [&mut friction.forward, &mut friction.backward] {
-            *one = one.filter(|e| one_direction && e.std < UNCERTAIN_ERROR * e.value.abs());
-        }
-        let forward = friction.forward.is_some();
-        if let Some(sum) = friction.forward.xor(friction.backward) {
+        (friction.forward, friction.backward) = (forward, backward);
+        if let Some(sum) = sum {
+            let forward = forward.is_some();
             findings.push(EstimateFinding::FrictionWithLoad { forward, sum, units });
         }
     }

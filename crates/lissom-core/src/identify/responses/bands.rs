@@ -80,6 +80,7 @@ pub(crate) fn bands(
                     })
                     .collect(),
                 flagged: motor_corrected.is_none(),
+                square_wave: replayed.is_none(),
             }
         })
         .collect()

@@ -21,14 +21,17 @@ pub struct ResponsePoint {
     pub tips: Vec<Option<Response>>,
     /// Whether a finding speaks against the corrected response.
     pub flagged: bool,
+    /// Whether the correction takes friction for a square wave, because no arm was found that gives its waveform: the
+    /// standard error then leaves out what that assumption does.
+    pub square_wave: bool,
 }
 
 impl ResponsePoint {
-    /// Whether the corrected response is vouched for: no finding speaks against it, and its 95 %
-    /// interval is within 5 % of its value.
+    /// Whether the corrected response is vouched for: no finding speaks against it, the waveform of friction is known,
+    /// and its 95 % interval is within 5 % of its value.
     pub fn is_vouched_for(&self) -> bool {
         let known = |r: Response| NORMAL_95 * r.std <= POINT_VOUCHED_FOR * r.value.norm();
-        !self.flagged && self.motor_corrected.is_some_and(known)
+        !self.flagged && !self.square_wave && self.motor_corrected.is_some_and(known)
     }
 }
 

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::{Finding, ResponseFinding, Severity, result_key as key};
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
-use crate::identify::responses::bands::bands;
+use crate::identify::responses::bands::{bands, general};
 use crate::identify::responses::correct::{Response, corrected_by_harmonics, ratio};
 use crate::identify::responses::rational::TipForm;
 use crate::identify::responses::replayed_bands::ReplayedBands;
@@ -40,7 +40,12 @@ pub(crate) fn response_table(
             sinusoidal(index, run, coulomb_command, of_replay, findings)
         })
         .collect();
-    points.extend(bands(campaign, runs, coulomb_command, replayed.bands.as_ref()));
+    let mut of_bands = bands(campaign, runs, coulomb_command, replayed.bands.as_ref());
+    // Every band is of all these runs: what is wrong in one of them is in each.
+    if general(runs).iter().any(|&i| spoken_against(&runs[i], findings)) {
+        of_bands.iter_mut().for_each(|band| band.flagged = true);
+    }
+    points.extend(of_bands);
     points.sort_by(|a, b| a.omega_rad_s.total_cmp(&b.omega_rad_s));
     points
 }
@@ -54,11 +59,6 @@ fn sinusoidal(
 ) -> Option<ResponsePoint> {
     let RunKind::Sinusoidal(s) = &run.kind else { return None };
     let (motor, command) = (s.motor.get(1)?, s.command.get(1)?);
-    let spoken_against = findings.iter().any(|f| {
-        f.run.as_deref() == Some(&run.name)
-            && f.severity() >= Severity::Warning
-            && f.affects().contains(&key::CORRECTED_RESPONSE)
-    });
     let square = |c: Estimate| {
         let stuck = run.stuck_share.unwrap_or(0.0).max(STUCK_LEAST);
         let c = Estimate { std: c.std.hypot(sticking_error(stuck) * c.value), ..c };
@@ -71,7 +71,18 @@ fn sinusoidal(
         motor_raw: ratio(motor, command),
         motor_corrected,
         tips: s.tips.iter().map(|t| tip_response(t.get(1)?, motor)).collect(),
-        flagged: spoken_against || motor_corrected.is_none_or(|r| weak(&r).is_some()),
+        flagged: spoken_against(run, findings)
+            || motor_corrected.is_none_or(|r| weak(&r).is_some()),
+        square_wave: replayed.is_none(),
+    })
+}
+
+/// Whether a warning of this run is about its corrected response.
+fn spoken_against(run: &RunAnalysis, findings: &[Finding]) -> bool {
+    findings.iter().any(|f| {
+        f.run.as_deref() == Some(&run.name)
+            && f.severity() >= Severity::Warning
+            && f.affects().contains(&key::CORRECTED_RESPONSE)
     })
 }
 

@@ -26,7 +26,8 @@ thresholds! {
         /// relative standard error is above this.
         POINT_UNCERTAIN: f64 = 0.5, "1", Convention;
         /// A corrected point is marked `vouched_for` in the result if half its 95 % interval is
-        /// within this share of it and no finding speaks against it.
+        /// within this share of it, no finding speaks against it, and the output-error method gave
+        /// the waveform of friction.
         POINT_VOUCHED_FOR: f64 = 0.05, "1", Convention;
         /// Smallest share of the cycle with sticking that is included in the error of a corrected
         /// point: a smaller share cannot be measured, and equation (30) of the 1989 report has an

@@ -148,6 +148,62 @@ impl Experiment {
         Self::new(Drive::Angle(Reference::sine(omega_rad_s, amplitude_rad)?), record_s)
     }
 
+    /// The control loop follows a reference \[rad\]: a [`Reference`], or a [`Multisine`], [`Table`], [`Chirp`],
+    /// [`Square`] or [`Sine`].
+    ///
+    /// ```
+    /// # use lissom::rig::{Experiment, Multisine, Table, TableHold};
+    /// let lines = Multisine::new(0.5, &[1, 3, 5, 7, 9], 0.4, 7)?; // rad/s, lines, rad, seed
+    /// let excited = Experiment::angle(lines, 60.0)?;
+    /// let corners = Table::new(vec![0.0, 1.0, 2.0], vec![0.0, 0.5, 0.0], TableHold::Linear)?; // s, rad
+    /// let moved = Experiment::angle(corners, 3.0)?;
+    /// # Ok::<(), lissom::rig::RigError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`RigError::NotPositive`] for the length of the log.
+    pub fn angle(reference: impl Into<Reference>, record_s: f64) -> Result<Self, RigError> {
+        Self::new(Drive::Angle(reference.into()), record_s)
+    }
+
+    /// The open drive gets a current \[A\] over time, without a controller.
+    ///
+    /// # Errors
+    /// [`RigError::NotPositive`] for the length of the log.
+    pub fn current(reference: impl Into<Reference>, record_s: f64) -> Result<Self, RigError> {
+        Self::new(Drive::Current(reference.into()), record_s)
+    }
+
+    /// The control loop follows a sine whose frequency goes exponentially from one frequency to another \[rad/s\]
+    /// during the log (a sweep).
+    ///
+    /// ```
+    /// # use lissom::rig::Experiment;
+    /// let sweep = Experiment::chirp((1.0, 60.0), 0.2, 30.0)?; // rad/s, rad, s
+    /// # Ok::<(), lissom::rig::RigError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`RigError::NotPositive`] if a number is not positive and finite.
+    pub fn chirp(
+        from_to_rad_s: (f64, f64),
+        amplitude_rad: f64,
+        record_s: f64,
+    ) -> Result<Self, RigError> {
+        Self::angle(
+            Chirp::new(Sweep::Logarithmic, from_to_rad_s, amplitude_rad, record_s)?,
+            record_s,
+        )
+    }
+
+    /// The control loop follows a square wave: `+A` in the first half of each period `2π/ω0`, `−A` in the second.
+    ///
+    /// # Errors
+    /// [`RigError::NotPositive`] if a number is not positive and finite.
+    pub fn square(omega_rad_s: f64, amplitude_rad: f64, record_s: f64) -> Result<Self, RigError> {
+        Self::angle(Square::new(omega_rad_s, amplitude_rad)?, record_s)
+    }
+
     /// Returns this experiment with another settling.
     #[must_use]
     pub fn settling(mut self, settle: Settle) -> Self {

@@ -128,3 +128,33 @@ impl Reference {
         }
     }
 }
+
+impl From<Sine> for Reference {
+    fn from(signal: Sine) -> Self {
+        Self::Sine(signal)
+    }
+}
+
+impl From<Multisine> for Reference {
+    fn from(signal: Multisine) -> Self {
+        Self::Multisine(signal)
+    }
+}
+
+impl From<Square> for Reference {
+    fn from(signal: Square) -> Self {
+        Self::Square(signal)
+    }
+}
+
+impl From<Chirp> for Reference {
+    fn from(signal: Chirp) -> Self {
+        Self::Chirp(signal)
+    }
+}
+
+impl From<Table> for Reference {
+    fn from(signal: Table) -> Self {
+        Self::Table(signal)
+    }
+}
