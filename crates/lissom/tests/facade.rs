@@ -85,3 +85,34 @@ fn errors_of_files_become_the_one_error() {
     }
     assert!(write().unwrap_err().hint().is_some());
 }
+
+#[test]
+fn what_is_not_given_is_said_not_to_be_given() {
+    let motor = Arm::builder().motor(Motor::builder()).build().unwrap_err();
+    assert_eq!(motor.to_string(), "inertia_kg_m2 is not given");
+    let arm = || Arm::builder().motor(Motor::builder().inertia_kg_m2(2e-3)).build().unwrap();
+    let pd = || Pd::new(8.0, 0.25).unwrap();
+    let no_time = Rig::builder(arm()).controller(pd()).build().unwrap_err();
+    assert_eq!(no_time.to_string(), "the rig has no sample time");
+    let no_controller = Rig::builder(arm()).sample_time_s(1e-3).build().unwrap_err();
+    assert_eq!(no_controller.to_string(), "the rig has no controller");
+}
+
+#[test]
+fn a_chirp_and_a_measured_current_by_name() {
+    let arm = Arm::builder().motor(Motor::builder().inertia_kg_m2(2e-3)).coulomb_nm(0.02);
+    let rig = Rig::builder(arm.build().unwrap())
+        .sample_time_s(1e-3)
+        .encoder_counts(65_536)
+        .current_noise_a(1e-3)
+        .controller(Pd::new(8.0, 0.25).unwrap())
+        .build()
+        .unwrap();
+    let logs = rig.campaign([Experiment::chirp((2.0, 40.0), 0.5, 10.0).unwrap()]).unwrap();
+    let found = Identify::new(&logs).effort(Effort::Quick).run().unwrap();
+    let coulomb = found.coulomb().unwrap();
+    assert!((coulomb.value - 0.02).abs() < 5.0 * coulomb.std && coulomb.std < 2e-3, "{found}");
+    let listed = found.parameters();
+    let inertia = listed.iter().find(|p| p.key.starts_with("drive.inertia")).unwrap();
+    assert!(inertia.estimate.is_some());
+}

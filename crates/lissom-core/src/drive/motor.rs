@@ -61,7 +61,7 @@ impl Motor {
     /// Starts a builder, which sets the quantities of a motor by name.
     pub fn builder() -> MotorBuilder {
         MotorBuilder {
-            inertia_kg_m2: 0.0,
+            inertia_kg_m2: None,
             viscous_nm_s_per_rad: 0.0,
             torque_constant_nm_per_a: 1.0,
         }
@@ -91,7 +91,7 @@ impl Motor {
 /// Builder of a [`Motor`]: see [`Motor::builder`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotorBuilder {
-    inertia_kg_m2: f64,
+    inertia_kg_m2: Option<f64>,
     viscous_nm_s_per_rad: f64,
     torque_constant_nm_per_a: f64,
 }
@@ -99,6 +99,7 @@ pub struct MotorBuilder {
 impl From<Motor> for MotorBuilder {
     fn from(motor: Motor) -> Self {
         let Motor { inertia_kg_m2, viscous_nm_s_per_rad, torque_constant_nm_per_a } = motor;
+        let inertia_kg_m2 = Some(inertia_kg_m2);
         Self { inertia_kg_m2, viscous_nm_s_per_rad, torque_constant_nm_per_a }
     }
 }
@@ -107,7 +108,7 @@ impl MotorBuilder {
     /// Sets the inertia J of the motor's side \[kg·m²\]. It is required.
     #[must_use]
     pub fn inertia_kg_m2(mut self, inertia_kg_m2: f64) -> Self {
-        self.inertia_kg_m2 = inertia_kg_m2;
+        self.inertia_kg_m2 = Some(inertia_kg_m2);
         self
     }
 
@@ -128,8 +129,10 @@ impl MotorBuilder {
     /// Builds the motor.
     ///
     /// # Errors
-    /// As [`Motor::new`].
+    /// [`DriveError::NotGiven`] without an inertia, otherwise as [`Motor::new`].
     pub fn build(self) -> Result<Motor, DriveError> {
-        Motor::new(self.inertia_kg_m2, self.viscous_nm_s_per_rad, self.torque_constant_nm_per_a)
+        let quantity = "inertia_kg_m2";
+        let inertia_kg_m2 = self.inertia_kg_m2.ok_or(DriveError::NotGiven { quantity })?;
+        Motor::new(inertia_kg_m2, self.viscous_nm_s_per_rad, self.torque_constant_nm_per_a)
     }
 }

@@ -6,6 +6,12 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum DriveError {
+    /// A quantity that is required is not given.
+    #[error("{quantity} is not given")]
+    NotGiven {
+        /// Name of the quantity.
+        quantity: &'static str,
+    },
     /// A quantity that must be positive is not.
     #[error("{quantity} is {found}, but must be positive and finite")]
     NotPositive {

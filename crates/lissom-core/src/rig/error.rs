@@ -49,6 +49,9 @@ pub enum RigError {
     /// A rig without a controller.
     #[error("the rig has no controller")]
     NoController,
+    /// A rig without a sample time.
+    #[error("the rig has no sample time")]
+    NoSampleTime,
     /// The beam does not have these masses.
     #[error("tips {} to {} do not exist: the beam has {masses} masses, counted from 0", found.start, found.end)]
     TipRange {

@@ -39,8 +39,8 @@ impl Rig {
         RigBuilder {
             arm,
             scene: Scene::default(),
-            // Refused by `build` unless a sample time is given.
-            instruments: Instruments::unchecked(0.0),
+            // `build` refuses that no sample time is given.
+            instruments: Instruments::unchecked(f64::NAN),
             controller: None,
             error: None,
         }
@@ -152,12 +152,15 @@ impl RigBuilder {
     /// Builds the rig.
     ///
     /// # Errors
-    /// The first [`RigError`] of the numbers given; [`RigError::NotPositive`] without a sample time;
+    /// The first [`RigError`] of the numbers given; [`RigError::NoSampleTime`] without a sample time;
     /// [`RigError::NoController`] without a controller; [`RigError::TooStiff`] for an arm that
     /// changes too fast for the sample time.
     pub fn build(self) -> Result<Rig, RigError> {
         if let Some(error) = self.error {
             return Err(error);
+        }
+        if self.instruments.sample_time_s.is_nan() {
+            return Err(RigError::NoSampleTime);
         }
         let controller = self.controller.ok_or(RigError::NoController)?;
         let rig =

@@ -15,7 +15,7 @@ impl Separability {
     /// The verdict in words, one or two sentences for each statement.
     pub fn words(&self, axis: Axis) -> Vec<String> {
         let stands_out = self.finding();
-        let line = |f: &Finding| format!("Run {}: {f}.", f.run.as_deref().unwrap_or_default());
+        let line = |f: &Finding| format!("{}: {f}.", named(f.run.as_deref().unwrap_or_default()));
         // Doubts about the model come before the standard errors.
         let mut lines: Vec<String> = self.doubted().into_iter().collect();
         lines.extend(stands_out.iter().map(line));
@@ -35,8 +35,10 @@ impl Separability {
             let if_so = if self.doubted_by.is_empty() { "" } else { ", if the model is complete" };
             let offset = self.figures.iter().any(|f| f.figure == Figure::Offset);
             let of_what = if offset { " (the offset in percent of Coulomb friction)" } else { "" };
+            let modes = self.figures.iter().any(|f| matches!(f.figure, Figure::Frequency(_)));
+            let all = if modes { "All parameters" } else { "All parameters of friction and drive" };
             return Some(format!(
-                "All parameters have a standard error of 1 % or less{of_what}{if_so}. Least certain: {}, standard error {}, 95 % interval \
+                "{all} have a standard error of 1 % or less{of_what}{if_so}. Least certain: {}, standard error {}, 95 % interval \
                  ±{}.",
                 least.figure.name(),
                 percent(least.std),
@@ -136,7 +138,15 @@ fn carries(run: &RunShare) -> Option<String> {
         )
     });
     let all: Vec<String> = alone.into_iter().chain(mostly).collect();
-    (!all.is_empty()).then(|| format!("Run {} {}.", run.run, all.join(" and ")))
+    (!all.is_empty()).then(|| format!("{} {}.", named(&run.run), all.join(" and ")))
+}
+
+/// The name of a run at the beginning of a sentence.
+fn named(run: &str) -> String {
+    match run.strip_prefix("run ") {
+        Some(rest) => format!("Run {rest}"),
+        None => format!("Run {run}"),
+    }
 }
 
 fn worth_adding(run: &RunToAdd, axis: Axis) -> String {
