@@ -64,4 +64,5 @@ pub(crate) fn refusal_hint(refusal: &EquivalentRefusal) -> Option<&'static str> 
     }
 }
 
-const WITHOUT_QUICK: &str = "leave out --quick";
+const WITHOUT_QUICK: &str =
+    "this method is used unless --quick is given or the command is too noisy for it";

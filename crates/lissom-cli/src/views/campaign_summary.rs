@@ -1,6 +1,6 @@
 //! Summary of a campaign: what was read, and which parts of the runs are used.
 
-use lissom::identify::{Identified, RunKind};
+use lissom::identify::{Identified, Method, MotorRegression, RunKind};
 use lissom::record::{Campaign, Hold};
 use lissom_io::UnitNames;
 
@@ -107,12 +107,21 @@ pub(crate) fn runs(id: &Identified) {
         line(&format!(
             "regression: {} (motion in one direction without a stop), residual torque {:.2} % of the rms torque",
             counted(r.phases, "slip phase"),
-            100.0 * r.relative_residual
+            100.0 * residual(id, r)
         ));
         line(&format!(
             "regression: windows of {} s ({how}), which pass frequencies up to {} Hz",
             trimmed(r.window_s, RANGES),
             trimmed(FIRST_NULL / r.window_s, RANGES)
         ));
+    }
+}
+
+/// Relative residual of the regression whose estimates are given: that with the friction law where one was chosen.
+fn residual(id: &Identified, r: &MotorRegression) -> f64 {
+    match (id.method, &id.friction_law, &r.viscous_by_direction) {
+        (Some(Method::FrictionLaw), Some(law), _) => law.relative_residual[1],
+        (Some(Method::RegressionByDirection), _, Some(split)) => split.relative_residual,
+        _ => r.relative_residual,
     }
 }

@@ -168,13 +168,16 @@ pub(crate) fn figure_rows(
         rows.push(FigureRow { name: name.to_owned(), figure, unit, known });
     };
     let mean = reference.map(|r| 0.5 * (r.coulomb_nm.0 + r.coulomb_nm.1));
+    // With another friction near standstill, this is the part that does not depend on speed.
+    let coulomb =
+        if f.near_rest.is_some() { "Coulomb friction, at speed" } else { "Coulomb friction" };
     if names.torque_known {
         let in_command = f.coulomb.map(|e| e.scaled(1.0 / constant));
         let unit = names.command_unit().to_owned();
-        add("Coulomb friction", in_command, unit, mean.map(|m| m / constant));
+        add(coulomb, in_command, unit, mean.map(|m| m / constant));
         add("  as a torque", f.coulomb, torque(), mean);
     } else {
-        add("Coulomb friction", f.coulomb, torque(), mean);
+        add(coulomb, f.coulomb, torque(), mean);
     }
     if f.coulomb.is_none() {
         // One direction only: friction and a constant load are one number.

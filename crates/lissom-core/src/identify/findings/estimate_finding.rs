@@ -330,7 +330,7 @@ impl Describe for EstimateFinding {
             Self::MethodsDisagree { method: OtherMethod::ConstantVelocity, .. } => {
                 vec![key::COULOMB, key::CONSTANT_VELOCITY]
             }
-            Self::ArmNotGiven { .. } => vec![key::ARM],
+            Self::ArmNotGiven { .. } => vec![key::ARM, key::COUPLING],
             Self::NoPairs => vec![key::THIRD_HARMONIC],
         }
     }

@@ -427,7 +427,8 @@ impl Describe for RegressionFinding {
                 }
                 MissingKind::Gravity => "add [load] gravity = true to the campaign",
                 MissingKind::Position => {
-                    "look for gravity, a spring, cogging, or a wrong scale of a tip"
+                    "look for gravity, a spring, cogging, a wrong scale of a tip, or a position loop between the logged command \
+                     and the motor"
                 }
                 MissingKind::Stribeck => {
                     "the cause may be Stribeck friction or presliding, which one constant and one slope do not describe: use \

@@ -45,7 +45,7 @@ pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> C
     findings.extend(remarks::of_friction(evidence, &chosen));
     findings.extend(friction_law::finding(evidence, &chosen));
     if !alone {
-        findings.splice(0..0, regression::reversed_tip(evidence));
+        findings.splice(0..0, regression::reversed_tip(&chosen));
         findings.extend(regression::findings(evidence, &chosen));
     }
     findings.extend(remarks::remarks(evidence, &chosen));

@@ -43,7 +43,9 @@ pub(crate) fn response_table(
     let mut of_bands = bands(campaign, runs, coulomb_command, replayed.bands.as_ref());
     // Every band is of all these runs: what is wrong in one of them is in each.
     if general(runs).iter().any(|&i| spoken_against(&runs[i], findings)) {
-        of_bands.iter_mut().for_each(|band| band.flagged = true);
+        for band in &mut of_bands {
+            band.flagged = true;
+        }
     }
     points.extend(of_bands);
     points.sort_by(|a, b| a.omega_rad_s.total_cmp(&b.omega_rad_s));

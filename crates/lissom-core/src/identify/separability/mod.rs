@@ -160,6 +160,7 @@ fn of_regression(methods: &Methods, chosen: &Chosen) -> Judged {
         Some(Method::RegressionByDirection) => {
             regression.and_then(|r| r.viscous_by_direction.as_ref()).map(|split| &split.terms)
         }
+        Some(Method::FrictionLaw) => methods.friction_law.as_ref().map(|law| &law.chosen.joint),
         _ => None,
     };
     terms.map_or_else(Judged::none, |terms| Judged::of_regression(terms, &chosen.drive))

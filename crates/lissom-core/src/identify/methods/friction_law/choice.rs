@@ -13,7 +13,7 @@ use crate::identify::methods::friction_law::thresholds::{
     AFTER_TRAVEL_FALLS_TO, LAG_FALLS_TO, LAG_KNOWN, TERMS_MOST,
 };
 use crate::identify::methods::friction_law::{LawFit, ripple};
-use crate::identify::methods::regression::{DRY, Fitted, MotorColumns, Solution, Term};
+use crate::identify::methods::regression::{DRY, Fitted, MotorColumns, Solution, Term, Terms};
 use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT, RESIDUAL_FALLS_TO, SIGN_SHOWN};
 use crate::record::{Campaign, Run};
 
@@ -349,6 +349,7 @@ impl<'a> LawSearch<'a> {
             coupling: found.coupling_by_tip,
             total_coupling: found.coupling,
             gravity: found.gravity,
+            joint: Terms::of(&fitted),
         }
     }
 

@@ -36,7 +36,7 @@ use crate::identify::methods::friction_law::thresholds::{
     TRAVEL_AFTER_REVERSAL,
 };
 use crate::identify::methods::output_error::OutputError;
-use crate::identify::methods::regression::{MissingKind, MotorRegression};
+use crate::identify::methods::regression::{MissingKind, MotorRegression, Terms};
 use crate::identify::prepare::channel_noise::{ChannelNoise, channel_noise};
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::thresholds::{RESIDUAL_FALLS_TO, SIGN_SHOWN};
@@ -95,6 +95,8 @@ pub struct LawFit {
     pub total_coupling: Option<Estimate>,
     /// Gravity, if the campaign has it.
     pub gravity: Option<Gravity>,
+    /// The terms of the motor's equation, followed by the amplitudes of the law.
+    pub(crate) joint: Terms,
 }
 
 impl FrictionLaw {

@@ -165,7 +165,9 @@ pub(super) fn missing_term(
         });
         let residual_ratio = solution.relative_residual / without.relative_residual;
         let shows = residual_ratio < RESIDUAL_FALLS_TO;
-        let told = !solution.inseparable[known..].iter().any(|lost| *lost);
+        // No beam gains energy as it bends.
+        let possible = kind != MissingKind::BeamDamping || value > 0.0;
+        let told = possible && !solution.inseparable[known..].iter().any(|lost| *lost);
         let by_itself = kind.is_exact() || kind == MissingKind::Delay;
         let called_for = told
             && value.abs() > CLEARLY_PRESENT * std

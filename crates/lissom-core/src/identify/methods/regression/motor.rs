@@ -111,6 +111,17 @@ pub enum GravityPartner {
 }
 
 impl Terms {
+    /// Those of a solution.
+    pub(crate) fn of(fitted: &Fitted<'_>) -> Self {
+        let s = fitted.solution;
+        Self {
+            values: s.value.iter().copied().collect(),
+            covariance: s.covariance.clone(),
+            lost: s.lost.clone(),
+            columns: fitted.columns.clone(),
+        }
+    }
+
     /// The terms that gravity can hardly be told from, with their correlation: about the mean angle it is a slope, which
     /// inertia may stand for, and a constant. Gravity that is known to [`GRAVITY_KNOWN`] of `amplitude` gives no pair.
     pub(crate) fn pairs_with_gravity(
@@ -335,7 +346,7 @@ fn on_slip_phases(
         inertia_short_by,
         left_out,
         beside_others,
-        terms: terms_of(&one),
+        terms: Terms::of(&one),
         candidates: found.candidates,
     })
 }
@@ -458,7 +469,7 @@ fn by_direction(
         estimates: fitted.estimates(channels),
         relative_residual: two.relative_residual,
         relative_residual_of_one: one.relative_residual,
-        terms: terms_of(&fitted),
+        terms: Terms::of(&fitted),
     })
 }
 
@@ -475,14 +486,4 @@ fn changes_by_delay(clusters: &[Cluster], terms: &[Term], columns: &MotorColumns
     let last = terms.len();
     let std = solution.covariance[(last, last)].max(f64::MIN_POSITIVE).sqrt();
     (0..last).map(|i| solution.covariance[(i, last)] / std / WINDOW_SYSTEMATIC).collect()
-}
-
-fn terms_of(fitted: &Fitted<'_>) -> Terms {
-    let s = fitted.solution;
-    Terms {
-        values: s.value.iter().copied().collect(),
-        covariance: s.covariance.clone(),
-        lost: s.lost.clone(),
-        columns: fitted.columns.clone(),
-    }
 }

@@ -145,11 +145,11 @@ fn differs_by_direction(split: &ByDirection, units: EstimateUnits) -> Option<Fin
     }))
 }
 
-/// A tip whose sign looks reversed.
-pub(crate) fn reversed_tip(evidence: &Evidence<'_>) -> Option<Finding> {
-    let r = evidence.methods.regression.as_ref()?;
-    let negative = r.coupling.iter().flatten().any(Estimate::is_negative);
-    let alone = r.coupling.iter().flatten().count() == 1;
+/// A tip whose sign looks reversed, by the solution that is given.
+pub(crate) fn reversed_tip(chosen: &Chosen) -> Option<Finding> {
+    let coupling = || chosen.solution.coupling_by_tip.iter().flatten();
+    let negative = coupling().any(Estimate::is_negative);
+    let alone = coupling().count() == 1;
     (negative && alone).then(|| Finding::new(BeamFinding::CouplingSign))
 }
 
