@@ -2,7 +2,7 @@
 
 pub use crate::arm::Arm;
 pub use crate::beam::{Damping, DistributedBeam, LumpedBeam, Payload, Piece, Span};
-pub use crate::drive::{Coulomb, DryFriction, Motor};
+pub use crate::drive::{Coulomb, DryFriction, Falloff, Motor};
 pub use crate::identify::{Effort, Estimate, Finding, Interrupt, Severity, Stage};
 pub use crate::io::read_campaign;
 pub use crate::load::GravityLoad;

@@ -211,7 +211,12 @@ impl<'a> Listing<'a> {
         estimate: Option<&EstimateEntry>,
         affected: &[&str],
     ) {
-        let is_warning = |f: &&FindingEntry| f.severity == SeverityName::Warning;
+        // A refusal of something else may affect what is given.
+        let is_warning = |f: &&FindingEntry| match f.severity {
+            SeverityName::Warning => true,
+            SeverityName::Refusal => estimate.is_some(),
+            SeverityName::Info => false,
+        };
         let affects = |f: &&FindingEntry| f.affects.iter().any(|k| affected.contains(&k.as_str()));
         let mut warnings: Vec<String> = Vec::new();
         for finding in self.part.findings.iter().filter(is_warning).filter(affects) {

@@ -130,7 +130,9 @@ impl Describe for BeamFinding {
 
     fn affects(&self) -> Vec<&'static str> {
         match self {
-            Self::ModesNotFound | Self::NegativeDamping { .. } => vec![key::MODES],
+            // The split of inertia between motor and beam rests on what moves the tips.
+            Self::ModesNotFound => vec![key::MODES, key::COUPLING, key::INERTIA],
+            Self::NegativeDamping { .. } => vec![key::MODES],
             Self::FlexibleWithoutTip { .. } => vec![key::INERTIA, key::VISCOUS, key::COULOMB],
             Self::RigidEquation { .. } | Self::TipWithoutAngle { inertia_with_beam: false, .. } => {
                 vec![key::COUPLING]

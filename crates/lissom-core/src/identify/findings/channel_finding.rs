@@ -119,6 +119,8 @@ pub enum ChannelFinding {
         share: f64,
         /// Whether the limit is given in the campaign; otherwise it is taken from the log.
         limit_given: bool,
+        /// Whether the command is measured: without a known limit, the sensor may end there.
+        measured: bool,
     },
 }
 
@@ -216,7 +218,13 @@ impl fmt::Display for ChannelFinding {
                  runs). The error is subtracted in each run",
                 reading(*value, "")
             ),
-            Self::Saturation { share, limit_given } => write!(
+            Self::Saturation { share, limit_given: false, measured: true } => write!(
+                f,
+                "the measured command stays at its largest value for {:.1} % of the run: if the sensor ends there and the \
+                 drive does not, torque is missing and all estimates are wrong",
+                100.0 * share
+            ),
+            Self::Saturation { share, limit_given, .. } => write!(
                 f,
                 "the command {} for {:.1} % of the run: the limit adds harmonics, which the third-harmonic method and the \
                  corrected response take for friction",
@@ -261,6 +269,16 @@ impl Describe for ChannelFinding {
                 key::MODES,
                 key::TIP_RESPONSES,
             ],
+            Self::Saturation { limit_given: false, measured: true, .. } => vec![
+                key::COULOMB,
+                key::OFFSET,
+                key::VISCOUS,
+                key::INERTIA,
+                key::GRAVITY,
+                key::COUPLING,
+                key::THIRD_HARMONIC,
+                key::CORRECTED_RESPONSE,
+            ],
             Self::Saturation { .. } => vec![key::THIRD_HARMONIC, key::CORRECTED_RESPONSE],
         }
     }
@@ -299,6 +317,10 @@ impl Describe for ChannelFinding {
             }
             Self::TipZero { .. } => {
                 "nothing to do; if a constant load bends the beam, its torque is now part of the offset"
+            }
+            Self::Saturation { limit_given: false, measured: true, .. } => {
+                "if the amplifier is limited there, state it as `limit` in [drive]; if the sensor is, use a smaller amplitude \
+                 or a larger range"
             }
             Self::Saturation { .. } => {
                 "use a smaller amplitude, or a frequency farther from the resonance"

@@ -31,6 +31,8 @@ pub enum LawSource {
         replayed_without: bool,
         /// How much better the law describes the data, if single terms were tested.
         better: Option<BetterLaw>,
+        /// Residual torque with the law relative to the torque, if that is much and not noise \[1\].
+        left_over: Option<f64>,
     },
 }
 
@@ -134,7 +136,7 @@ impl fmt::Display for FrictionLawFinding {
                     "the runs over short windows only"
                 }
             ),
-            LawSource::SlipPhases { replayed_without, better } => {
+            LawSource::SlipPhases { replayed_without, better, left_over } => {
                 if let Some(BetterLaw { residual_ratio, standard_errors }) = better {
                     write!(
                         f,
@@ -147,7 +149,14 @@ impl fmt::Display for FrictionLawFinding {
                     "The output-error method describes the runs without these terms"
                 } else {
                     "The estimates come from the fit with this law"
-                })
+                })?;
+                let Some(share) = left_over.filter(|_| !replayed_without) else { return Ok(()) };
+                write!(
+                    f,
+                    ". It leaves {:.0} % of the torque unexplained, more than noise: the terms of friction may stand for \
+                     another effect",
+                    100.0 * share
+                )
             }
         }
     }
@@ -160,6 +169,12 @@ impl FrictionLawFinding {
             matches!(term, LawTerm::WithLoad { .. } | LawTerm::CommandLag)
         };
         terms.iter().all(alone)
+    }
+
+    /// Whether the law, from which the estimates come, leaves much of the torque.
+    fn leaves_much(&self) -> bool {
+        let Self::FrictionLaw { source, .. } = self;
+        matches!(source, LawSource::SlipPhases { replayed_without: false, left_over: Some(_), .. })
     }
 
     fn grows_after_reversals(&self) -> bool {
@@ -176,7 +191,8 @@ impl Describe for FrictionLawFinding {
 
     fn severity(&self) -> Severity {
         // The estimates are those of the law. It does not contain the effect of presliding on inertia.
-        if self.grows_after_reversals() { Severity::Warning } else { Severity::Info }
+        let doubtful = self.grows_after_reversals() || self.leaves_much();
+        if doubtful { Severity::Warning } else { Severity::Info }
     }
 
     fn affects(&self) -> Vec<&'static str> {
@@ -198,6 +214,9 @@ impl Describe for FrictionLawFinding {
             LawSource::SlipPhases { .. } if self.grows_after_reversals() => {
                 "Coulomb and viscous friction are valid at speed, not near standstill; inertia and coupling have an error, \
                  because presliding delays friction when the speed changes: use longer and faster moves to reduce it"
+            }
+            LawSource::SlipPhases { .. } if self.leaves_much() => {
+                "look for a flexible part, a load or a wrong channel; compare with the line of least squares"
             }
             LawSource::SlipPhases { .. } if self.grows_with_load_alone() => {
                 "the estimate of Coulomb friction is that without load: add the factor in the message times the torque of gravity"

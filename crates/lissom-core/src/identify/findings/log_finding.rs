@@ -28,6 +28,13 @@ pub enum LogFinding {
         /// The largest difference.
         max_share: f64,
     },
+    /// The sample time of a run is far from that of the other runs.
+    SampleTimeUnlike {
+        /// Sample time of the run \[s\].
+        sample_time_s: f64,
+        /// Median of all runs \[s\].
+        median_s: f64,
+    },
     /// The log was cut at gaps in its time stamps.
     Gap {
         /// Number of gaps.
@@ -161,6 +168,12 @@ impl fmt::Display for LogFinding {
             Self::RepeatedRun { first } => {
                 write!(f, "all samples are equal to those of {first}: this run is not used")
             }
+            Self::SampleTimeUnlike { sample_time_s, median_s } => write!(
+                f,
+                "the sample time of this run is {} s, that of the runs in general {} s: its time stamps may be in another unit",
+                significant(*sample_time_s, 3),
+                significant(*median_s, 3)
+            ),
             Self::Jitter { rms_share, max_share } => write!(
                 f,
                 "time stamps differ from an even grid by {:.1} % of the sample time (rms; at most {:.0} %): samples \
@@ -316,9 +329,10 @@ impl Describe for LogFinding {
 
     fn severity(&self) -> Severity {
         match self {
-            Self::RepeatedRun { .. } | Self::Jitter { .. } | Self::CommandFollowsMotor { .. } => {
-                Severity::Warning
-            }
+            Self::RepeatedRun { .. }
+            | Self::SampleTimeUnlike { .. }
+            | Self::Jitter { .. }
+            | Self::CommandFollowsMotor { .. } => Severity::Warning,
             Self::Resampled { error_share, .. } if *error_share > RESAMPLING_ERROR => {
                 Severity::Warning
             }
@@ -340,6 +354,10 @@ impl Describe for LogFinding {
     fn affects(&self) -> Vec<&'static str> {
         match self {
             Self::RepeatedRun { .. } => vec![key::RAW_RESPONSE],
+            Self::SampleTimeUnlike { .. } => {
+                let joint = [key::COULOMB, key::VISCOUS, key::INERTIA, key::GRAVITY];
+                [&joint[..], &[key::COUPLING, key::MODES]].concat()
+            }
             Self::Jitter { .. } => vec![key::INERTIA, key::VISCOUS, key::RAW_RESPONSE],
             Self::CommandFollowsMotor { .. } => vec![key::INERTIA, key::VISCOUS, key::COULOMB],
             Self::Resampled { error_share, .. } if *error_share > RESAMPLING_ERROR => {
@@ -364,6 +382,9 @@ impl Describe for LogFinding {
         match self {
             Self::RepeatedRun { .. } => {
                 "remove it from the campaign: a log that counts twice makes standard errors too small"
+            }
+            Self::SampleTimeUnlike { .. } => {
+                "check the unit of time in this log; give a log with another unit in a campaign of its own"
             }
             Self::Jitter { .. } => "use the clock of the controller for the time stamps",
             Self::Gap { .. } | Self::PieceDropped { .. } => "log without interruption",

@@ -263,7 +263,8 @@ impl Describe for OutputErrorFinding {
             | Self::MoreThanNoise { .. }
             | Self::BudgetSpent { .. }
             | Self::ReplayDeparts { .. } => {
-                vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES]
+                let beam = [key::COUPLING, key::MODES];
+                [&[key::COULOMB, key::VISCOUS, key::INERTIA, key::GRAVITY][..], &beam].concat()
             }
             Self::ModesByTheMotor { .. } | Self::FaintMode { .. } => {
                 vec![key::COUPLING, key::MODES]

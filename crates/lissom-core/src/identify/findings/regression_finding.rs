@@ -363,7 +363,8 @@ impl Describe for RegressionFinding {
             | Self::TorqueConstant { .. }
             | Self::UnexplainedTorque { .. }
             | Self::AngleLag { .. } => {
-                vec![key::COULOMB, key::OFFSET, key::VISCOUS, key::INERTIA, key::COUPLING]
+                let joint = [key::COULOMB, key::OFFSET, key::VISCOUS, key::INERTIA];
+                [&joint[..], &[key::GRAVITY, key::COUPLING]].concat()
             }
             // A load may be most of the torque: it moves all.
             Self::MissingTerm { term, .. } if term.kind == MissingKind::Gravity => {
@@ -372,7 +373,7 @@ impl Describe for RegressionFinding {
             Self::MissingTerm { term, .. } => {
                 let mut keys: Vec<_> =
                     moved(&term.moves).into_iter().map(|(_, key, _)| key).collect();
-                keys.extend([key::OFFSET, key::COUPLING]);
+                keys.extend([key::OFFSET, key::GRAVITY, key::COUPLING]);
                 keys.extend((term.kind == MissingKind::BeamDamping).then_some(key::MODES));
                 keys
             }

@@ -18,8 +18,8 @@ use crate::identify::prepare::sensor_check::tip_unit;
 use crate::identify::prepare::steady_points::{SteadyPoint, steady_points, steady_share};
 use crate::identify::prepare::thresholds::{
     AT_LIMIT, AT_REST_REPORTED, DRIFT_REPORTED, DRIFT_STEPS, FEW_PERIODS, JITTER_REPORTED, ONE_WAY,
-    ONE_WAY_MOVES, SATURATION_REPORTED, SINE_DISTORTION_FOUND, SINE_DISTORTION_GIVEN,
-    SINE_UNEXPLAINED, STICKING_REPORTED,
+    ONE_WAY_MOVES, SAMPLE_TIMES_UNLIKE, SATURATION_REPORTED, SINE_DISTORTION_FOUND,
+    SINE_DISTORTION_GIVEN, SINE_UNEXPLAINED, STICKING_REPORTED,
 };
 use crate::identify::thresholds::SAME_FREQUENCY;
 use crate::record::{Campaign, Hold, Run};
@@ -110,6 +110,7 @@ pub(crate) fn analyse(
     at_rest(run, findings);
     let saturated_share = saturation(campaign, run, findings);
     time_base(run, findings);
+    findings.extend(unlike_sample_time(campaign, run));
     let mut analysis = RunAnalysis {
         name: run.name().to_owned(),
         samples: run.len(),
@@ -213,10 +214,21 @@ fn saturation(campaign: &Campaign, run: &Run, findings: &mut Vec<Finding>) -> f6
         None => (clipped_share(run.command()), false),
     };
     if share > SATURATION_REPORTED {
-        let found = ChannelFinding::Saturation { share, limit_given };
+        let measured = campaign.channels.command.hold == Hold::Measured;
+        let found = ChannelFinding::Saturation { share, limit_given, measured };
         findings.push(Finding::of_run(run.name(), found));
     }
     share
+}
+
+/// A sample time that is a large multiple of that of the runs in general, or a small part.
+fn unlike_sample_time(campaign: &Campaign, run: &Run) -> Option<Finding> {
+    let mut times: Vec<f64> = campaign.runs.iter().map(Run::sample_time_s).collect();
+    times.sort_by(f64::total_cmp);
+    let (sample_time_s, median_s) = (run.sample_time_s(), times[(times.len() - 1) / 2]);
+    let ratio = sample_time_s / median_s;
+    let found = LogFinding::SampleTimeUnlike { sample_time_s, median_s };
+    (ratio.max(ratio.recip()) > SAMPLE_TIMES_UNLIKE).then(|| Finding::of_run(run.name(), found))
 }
 
 fn time_base(run: &Run, findings: &mut Vec<Finding>) {

@@ -2,6 +2,9 @@
 
 thresholds! {
     "prepare" {
+        /// A run is reported if its sample time differs from that of the runs in general by more
+        /// than this factor: milliseconds or minutes taken for seconds differ by 1000 or 60.
+        SAMPLE_TIMES_UNLIKE: f64 = 50.0, "1", Convention;
         /// A channel moves if it changes by more than this many steps of its sensor. A smooth
         /// signal that turns back at its extreme value changes by about four steps within the
         /// length of its plateau, and is not clipped.

@@ -4,7 +4,10 @@ use crate::identify::estimate::Estimate;
 use crate::identify::findings::{BetterLaw, EstimateUnits, Finding, FrictionLawFinding, LawSource};
 use crate::identify::judge::{Chosen, Evidence};
 use crate::identify::methods::friction_law::law_term::LawTerm;
+use crate::identify::methods::friction_law::thresholds::LAW_LEAVES_MUCH;
 use crate::identify::methods::output_error::OutputError;
+use crate::identify::methods::regression::MotorRegression;
+use crate::identify::methods::regression::thresholds::NOISE_ALONE;
 
 /// The law of friction that the data call for: that of the replay where it describes the runs.
 pub(crate) fn finding(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<Finding> {
@@ -26,7 +29,11 @@ pub(crate) fn finding(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<Findin
     let law = evidence.methods.friction_law.as_ref().filter(|law| law.chosen.departs())?;
     let taken = law.candidates.iter().filter(|c| c.taken && c.term != LawTerm::CommandLag);
     let paired = taken.map(|c| c.paired).fold(f64::INFINITY, f64::min);
+    let of_noise = |r: &MotorRegression| r.left.by_noise > NOISE_ALONE;
+    let of_noise = evidence.methods.regression.as_ref().is_some_and(of_noise);
+    let left_over = law.relative_residual[1];
     let source = LawSource::SlipPhases {
+        left_over: (left_over > LAW_LEAVES_MUCH && !of_noise).then_some(left_over),
         // The replay describes whole runs with the simplest law, and its estimates are taken.
         replayed_without: replay.is_some(),
         better: paired.is_finite().then(|| BetterLaw {

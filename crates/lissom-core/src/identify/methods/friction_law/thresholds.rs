@@ -21,6 +21,9 @@ thresholds! {
         /// fastest speed: the logs do not show the end of a slower change, and Coulomb friction
         /// would be undetermined.
         NEAR_REST_MOST: f64 = 0.5, "1", Convention;
+        /// A friction law that leaves more than this share of the torque unexplained, and not by
+        /// noise, may stand for another effect: it is reported as a warning.
+        LAW_LEAVES_MUCH: f64 = 0.05, "1", Convention;
         /// As `RESIDUAL_FALLS_TO`, for friction near standstill if the travel after reversals is
         /// left out: the two appear together, and most of the residual is then noise.
         AFTER_TRAVEL_FALLS_TO: f64 = 0.95, "1", Convention;

@@ -181,7 +181,7 @@ fn widen(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
 fn go_on(fitting: &Fitting<'_>, mut fit: ArmFit, mut report: Report) -> Attempt {
     make(widen, fitting, &mut fit, &mut report);
     make(modes::grow, fitting, &mut fit, &mut report);
-    make(modes::drop_overdamped, fitting, &mut fit, &mut report);
+    make(modes::drop_impossible, fitting, &mut fit, &mut report);
     make(settle, fitting, &mut fit, &mut report);
     let without_repeats = fitting.count_steps(&mut fit, &mut report);
     let left = left_over(fitting.campaign, &fit, fitting.masks);

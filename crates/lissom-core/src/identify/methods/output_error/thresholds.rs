@@ -165,6 +165,9 @@ thresholds! {
         /// Number of times that a first mode of a rigid axis is tried, over windows of different
         /// lengths.
         FIRST_MODE_TRIES: usize = 2, "1", Convention;
+        /// A mode that no tip shows must make this many oscillations in a run: a slower one stands
+        /// for a load or for friction that changes.
+        FIRST_MODE_OSCILLATIONS: f64 = 3.0, "1", Convention;
         /// Largest initial phase of the first mode of a rigid axis in one sample.
         FIRST_MODE_TURN_MOST: f64 = 1.5, "rad", Convention;
         /// The first mode of a rigid axis must reduce the squared residual beyond the noise to this

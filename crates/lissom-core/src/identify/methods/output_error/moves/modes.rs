@@ -5,10 +5,11 @@ use crate::identify::methods::output_error::engine::covariance::deviation;
 use crate::identify::methods::output_error::model::fit::{ArmFit, Report};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::thresholds::{
-    CRITICAL_DAMPING, FIRST_MODE_EXCESS_LEFT, FIRST_MODE_INERTIA_LEAST, FIRST_MODE_SEARCHES,
-    FIRST_MODE_SHARES, FIRST_MODE_STEP, FIRST_MODE_TRIES, FIRST_MODE_TURN_MOST, MODE_FAINT,
-    MODE_RETUNED, MODE_RETUNED_CLOSELY, NEW_MODE_DAMPING, NEW_MODE_FREQUENCIES, NEW_MODE_SHARE,
-    NEW_MODE_TURN, PROBE_STEPS, REPETITIONS_MOST, RESIDUAL_ABOVE_NOISE,
+    CRITICAL_DAMPING, FIRST_MODE_EXCESS_LEFT, FIRST_MODE_INERTIA_LEAST, FIRST_MODE_OSCILLATIONS,
+    FIRST_MODE_SEARCHES, FIRST_MODE_SHARES, FIRST_MODE_STEP, FIRST_MODE_TRIES,
+    FIRST_MODE_TURN_MOST, MODE_FAINT, MODE_RETUNED, MODE_RETUNED_CLOSELY, NEW_MODE_DAMPING,
+    NEW_MODE_FREQUENCIES, NEW_MODE_SHARE, NEW_MODE_TURN, PROBE_STEPS, REPETITIONS_MOST,
+    RESIDUAL_ABOVE_NOISE,
 };
 use crate::identify::thresholds::{MODE_DAMPING_LEAST, RESIDUAL_FALLS_TO};
 use crate::record::Run;
@@ -110,8 +111,18 @@ fn begin_undeflected(fit: &mut ArmFit) {
     }
 }
 
-/// Takes out overdamped modes: they do not oscillate, and no beam has them. A rigid axis that started with a mode has one.
-pub(crate) fn drop_overdamped(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
+/// Takes out what is not a mode: overdamped ones, which do not oscillate and which no beam has (a rigid axis that started with
+/// a mode has one), and, without tips, one that makes hardly an oscillation in a run.
+pub(crate) fn drop_impossible(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
+    let slowest_rad_s = FIRST_MODE_OSCILLATIONS * std::f64::consts::TAU / fitting.longest_s();
+    let slow = |fit: &ArmFit| {
+        let arm = &fit.body.arm;
+        let slow = |mode: &Oscillator| mode.omega_rad_s < slowest_rad_s;
+        arm.modes.iter().position(slow).filter(|_| arm.shapes.is_empty())
+    };
+    if let Some(mode) = slow(fit) {
+        *fit = refitted(fitting, without_mode(fit, mode), report);
+    }
     let overdamped = |fit: &ArmFit| {
         fit.body.arm.damping_ratios().iter().position(|ratio| *ratio >= CRITICAL_DAMPING)
     };

@@ -1,0 +1,69 @@
+//! Formats, recognised by the first bytes of a file.
+
+/// Format of a log file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Format {
+    /// Delimited text.
+    Text,
+    /// Text with one row for each signal.
+    TextByRow,
+    /// Export of TwinCAT Scope.
+    TwinCat,
+    /// Trace of CODESYS.
+    Codesys,
+    /// JSON: arrays, records, or a record on each line.
+    Json,
+}
+
+impl Format {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Text => "delimited text",
+            Self::TextByRow => "text with one row for each signal",
+            Self::TwinCat => "TwinCAT Scope export",
+            Self::Codesys => "CODESYS trace",
+            Self::Json => "JSON",
+        }
+    }
+}
+
+/// A format that is recognised and not read, with the way out.
+pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
+    /// First bytes, name, way out.
+    const KNOWN: [(&[u8], &str, &str); 15] = [
+        (b"%PDF", "a PDF document", NO_TABLE),
+        (b"\x89PNG", "a picture", NO_TABLE),
+        (b"\xFF\xD8\xFF", "a picture", NO_TABLE),
+        (b"\x89HDF\r\n\x1a\n", "an HDF5 file (MATLAB v7.3 files are such files)", AS_CSV),
+        (b"MATLAB 5.0 MAT-file", "a MATLAB file", MATLAB),
+        (b"\x93NUMPY", "a NumPy array", NUMPY),
+        (b"PK\x03\x04", "a ZIP archive (xlsx and npz files are such archives)", ARCHIVE),
+        (b"WPILOG", "a WPILib log", "export it as CSV with AdvantageScope"),
+        (b"\x89MCAP0\r\n", "an MCAP file", AS_CSV),
+        (b"PAR1", "a Parquet file", "in Python: pandas.read_parquet(FILE).to_csv(\"log.csv\")"),
+        (
+            b"TDSm",
+            "a TDMS file",
+            "in Python: nptdms.TdmsFile(FILE).as_dataframe().to_csv(\"log.csv\")",
+        ),
+        (b"SQLite format 3\0", "an SQLite database (ROS 2 bags .db3 are such)", BAG),
+        (
+            b"#ROSBAG V2.0",
+            "a ROS 1 bag",
+            "export the topics as CSV: rostopic echo -b FILE -p TOPIC > log.csv",
+        ),
+        (b"\xD0\xCF\x11\xE0", "an old Excel or Office file", "save it as CSV"),
+        (b"\x80", "a Python pickle", PICKLE),
+    ];
+    const NO_TABLE: &str = "give the table of numbers as text";
+    const AS_CSV: &str = "export the channels as CSV";
+    const MATLAB: &str = "in MATLAB: writetable(struct2table(S), \"log.csv\")";
+    const NUMPY: &str = "in Python: numpy.savetxt(\"log.csv\", numpy.load(FILE), delimiter=\",\")";
+    const ARCHIVE: &str = "unpack it, or save the table as CSV";
+    const BAG: &str = "convert the bag to MCAP or export the topics as CSV";
+    const PICKLE: &str = "pickles can run programs and are never loaded; in Python: \
+                          pandas.DataFrame(DATA).to_csv(\"log.csv\")";
+    KNOWN.into_iter().find(|(first, ..)| bytes.starts_with(first)).map(|(_, name, way)| (name, way))
+}

@@ -1,0 +1,25 @@
+//! Reads log files of other programs.
+//!
+//! [`read`] recognises a format by the content of the file, not by its name, and returns all its channels as
+//! [`LogData`]: names, units as the file states them, values, and the clock of each channel.
+//!
+//! | format | what is read |
+//! |---|---|
+//! | delimited text | preambles of any length, header, row of units, time stamps, blank cells, one row per signal |
+//! | TwinCAT Scope, CODESYS trace | each channel with its own clock |
+//! | JSON | arrays, records, lines |
+//!
+//! Text may be UTF-8, UTF-16 or Windows-1252; `.gz` and `.zst` are expanded.
+
+mod bytes;
+mod format;
+mod format_error;
+mod json;
+mod log_data;
+mod read;
+mod text;
+
+pub use format::Format;
+pub use format_error::FormatError;
+pub use log_data::{Channel, Clock, LogData};
+pub use read::{read, read_bytes};

@@ -1,0 +1,55 @@
+//! What a log file contains.
+
+use crate::format::Format;
+
+/// The content of a log file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LogData {
+    /// The format of the file.
+    pub format: Format,
+    /// Its channels, in the order of the file.
+    pub channels: Vec<Channel>,
+    /// Whether the numbers have a decimal comma.
+    pub decimal_comma: bool,
+    /// What was left out or changed while the file was read, in words.
+    pub notes: Vec<String>,
+}
+
+/// A channel of a log file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Channel {
+    /// Its name, with the path inside the file; empty if the file has no names.
+    pub name: String,
+    /// Its unit, as the file states it.
+    pub unit: Option<String>,
+    /// Its values; NaN where the file has none.
+    pub values: Vec<f64>,
+    /// The clock of its values.
+    pub clock: Clock,
+    /// The first cell that is not a number: its row, counted from 1 as an editor does (0 if the format has no rows), and
+    /// its text.
+    pub not_a_number: Option<(usize, String)>,
+}
+
+/// When the values of a [`Channel`] were measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Clock {
+    /// The file does not say: any channel of the same length may contain the time.
+    Unstated,
+    /// The values of another channel, by its index, are the time stamps.
+    Channel(usize),
+    /// Evenly spaced.
+    Even {
+        /// Time of the first value \[s\].
+        start_s: f64,
+        /// Time between two values \[s\].
+        step_s: f64,
+    },
+}
+
+impl Channel {
+    /// A channel of numbers, without a unit, on an unstated clock.
+    pub(crate) fn of(name: impl Into<String>, values: Vec<f64>) -> Self {
+        Self { name: name.into(), unit: None, values, clock: Clock::Unstated, not_a_number: None }
+    }
+}

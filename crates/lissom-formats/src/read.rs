@@ -1,0 +1,38 @@
+//! Reads a file of any format.
+
+use std::path::Path;
+
+use crate::format::foreign;
+use crate::format_error::FormatError;
+use crate::log_data::LogData;
+use crate::{bytes, json, text};
+
+/// Reads all channels of a log file.
+///
+/// # Errors
+/// [`FormatError`] if the file cannot be read, is of a format that is not read, or has no table of numbers.
+pub fn read(path: &Path) -> Result<LogData, FormatError> {
+    of_expanded(&bytes::of_file(path)?)
+}
+
+/// Reads all channels of a log file that is in memory.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_bytes(bytes: Vec<u8>) -> Result<LogData, FormatError> {
+    of_expanded(&bytes::expanded(bytes)?)
+}
+
+fn of_expanded(bytes: &[u8]) -> Result<LogData, FormatError> {
+    if let Some((what, way_out)) = foreign(bytes) {
+        return Err(FormatError::Foreign { what, way_out });
+    }
+    let text = text::decoded(bytes)?;
+    let first = text.trim_start().chars().next();
+    if matches!(first, Some('{' | '['))
+        && let Some(found) = json::read(&text)?
+    {
+        return Ok(found);
+    }
+    text::read(&text)
+}

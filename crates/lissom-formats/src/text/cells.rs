@@ -1,0 +1,106 @@
+//! Cells of a row, and what they contain.
+
+use super::stamps;
+
+/// What separates the cells of a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Separator {
+    Char(char),
+    Blanks,
+}
+
+impl Separator {
+    pub(crate) const ALL: [Self; 4] =
+        [Self::Char('\t'), Self::Char(';'), Self::Char(','), Self::Blanks];
+
+    /// The cells of a row, without blanks and quotes around them. Separators in quotes do not count.
+    pub(crate) fn cells(self, row: &str) -> impl Iterator<Item = &str> {
+        let mut rest = Some(row.trim_matches(|c| c == ' ' || c == '\r'));
+        if self == Self::Blanks {
+            rest = Some(row.trim());
+        }
+        std::iter::from_fn(move || {
+            let row = rest?;
+            let mut quoted = false;
+            let ends = |c: char| {
+                quoted ^= c == '"';
+                !quoted
+                    && match self {
+                        Self::Char(separator) => c == separator,
+                        Self::Blanks => c.is_whitespace(),
+                    }
+            };
+            let end = row.find(ends);
+            let cell = &row[..end.unwrap_or(row.len())];
+            rest = end.map(|at| match self {
+                Self::Char(separator) => &row[at + separator.len_utf8()..],
+                Self::Blanks => row[at..].trim_start(),
+            });
+            Some(cell.trim().trim_matches('"').trim())
+        })
+    }
+}
+
+/// What a cell contains.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Cell {
+    Blank,
+    Number(f64),
+    /// A date or a time of day, in seconds.
+    Stamp(f64),
+    Words,
+}
+
+impl Cell {
+    /// Reads a cell. A number may be in square brackets, as NumPy and ROS print arrays of one.
+    pub(crate) fn of(cell: &str, decimal_comma: bool) -> Self {
+        if cell.is_empty() {
+            return Self::Blank;
+        }
+        let inner =
+            cell.strip_prefix('[').and_then(|c| c.strip_suffix(']')).map_or(cell, str::trim);
+        if let Ok(value) = inner.parse::<f64>() {
+            return Self::Number(value);
+        }
+        if decimal_comma
+            && let Some((whole, decimals)) = inner.split_once(',')
+            && !decimals.contains([',', '.'])
+            && let Ok(value) = format!("{whole}.{decimals}").parse::<f64>()
+        {
+            return Self::Number(value);
+        }
+        match inner {
+            "true" | "True" | "TRUE" => Self::Number(1.0),
+            "false" | "False" | "FALSE" => Self::Number(0.0),
+            "NA" | "N/A" | "null" | "None" | "-" | "<NA>" => Self::Blank,
+            _ => stamps::seconds(inner).map_or(Self::Words, Self::Stamp),
+        }
+    }
+
+    pub(crate) fn is_value(self) -> bool {
+        matches!(self, Self::Number(_) | Self::Stamp(_))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_of_rows() {
+        let of = |s: Separator, row| s.cells(row).collect::<Vec<_>>();
+        assert_eq!(of(Separator::Char(','), "1, \"a, b\" ,,3"), ["1", "a, b", "", "3"]);
+        assert_eq!(of(Separator::Char('\t'), "1\t\t3\t"), ["1", "", "3", ""]);
+        assert_eq!(of(Separator::Blanks, "  1   2\t3 "), ["1", "2", "3"]);
+    }
+
+    #[test]
+    fn contents_of_cells() {
+        assert_eq!(Cell::of("1,5", true), Cell::Number(1.5));
+        assert_eq!(Cell::of("1,5", false), Cell::Words);
+        assert_eq!(Cell::of("[0.25]", false), Cell::Number(0.25));
+        assert_eq!(Cell::of("00:00:01.5", false), Cell::Stamp(1.5));
+        assert_eq!(Cell::of("", false), Cell::Blank);
+        assert!(matches!(Cell::of("NaN", false), Cell::Number(v) if v.is_nan()));
+    }
+}

@@ -1,0 +1,53 @@
+//! From bytes to text.
+
+use std::borrow::Cow;
+
+use encoding_rs::{Encoding, UTF_16BE, UTF_16LE, WINDOWS_1252};
+
+use crate::format_error::FormatError;
+
+/// Bytes that are looked at for UTF-16 without a byte order mark, and for bytes that no text has.
+const LOOKED_AT: usize = 4096;
+
+/// Decodes UTF-8, UTF-16 (with or without a byte order mark) and, if it is neither, Windows-1252.
+pub(crate) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, FormatError> {
+    let first = &bytes[..bytes.len().min(LOOKED_AT)];
+    if let Some((encoding, mark)) = Encoding::for_bom(bytes) {
+        return Ok(encoding.decode_without_bom_handling(&bytes[mark..]).0);
+    }
+    let zeros = |from: usize| first.iter().skip(from).step_by(2).filter(|b| **b == 0).count();
+    let most = first.len() / 3;
+    if first.len() > 3 && zeros(1) > most {
+        return Ok(UTF_16LE.decode_without_bom_handling(bytes).0);
+    }
+    if first.len() > 3 && zeros(0) > most {
+        return Ok(UTF_16BE.decode_without_bom_handling(bytes).0);
+    }
+    let control = |b: &u8| b.is_ascii_control() && !matches!(b, b'\t' | b'\r' | b'\n' | b'\x0C');
+    if let Some(at) = bytes.iter().position(control) {
+        let row = bytes[..at].split(|b| *b == b'\n').count();
+        return Err(FormatError::content(format!("row {row}"), "this is not text"));
+    }
+    Ok(match std::str::from_utf8(bytes) {
+        Ok(text) => text.into(),
+        Err(_) => WINDOWS_1252.decode_without_bom_handling(bytes).0,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn encodings() {
+        let text = "Winkel [°],1";
+        let little: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+        let big: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
+        let with_mark = [&b"\xFF\xFE"[..], &little].concat();
+        let latin = b"Winkel [\xB0],1".to_vec();
+        for bytes in [text.as_bytes().to_vec(), little, big, with_mark, latin] {
+            assert_eq!(decoded(&bytes).unwrap(), text, "{bytes:?}");
+        }
+        assert!(decoded(b"a,b\n1,\x001\n2,3\n4,5\n6,7\n").is_err());
+    }
+}

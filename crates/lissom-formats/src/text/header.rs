@@ -1,0 +1,95 @@
+//! Names and units above a table.
+
+use super::cells::{Cell, Separator};
+
+/// Units that stand alone in a row below the names.
+const UNITS: [&str; 40] = [
+    "s", "sec", "ms", "us", "µs", "ns", "a", "ma", "v", "mv", "rad", "mrad", "deg", "°", "grad",
+    "rad/s", "deg/s", "°/s", "rpm", "1/min", "nm", "n*m", "n·m", "mnm", "n", "m", "mm", "m/s",
+    "mm/s", "hz", "khz", "-", "1", "%", "w", "°c", "counts", "inc", "rev", "turns",
+];
+
+/// Names of the columns, and their units.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Header {
+    pub(crate) names: Vec<String>,
+    pub(crate) units: Vec<Option<String>>,
+    /// Line of the names, from 0.
+    pub(crate) line: Option<usize>,
+}
+
+impl Header {
+    /// The header above line `first` of a table with `width` columns.
+    pub(crate) fn above(lines: &[&str], first: usize, width: usize, separator: Separator) -> Self {
+        let above = (0..first).rev().filter(|k| !lines[*k].trim().is_empty()).take(2);
+        let rows: Vec<(usize, Vec<&str>)> =
+            above.map(|k| (k, separator.cells(unmarked(lines[k])).collect())).collect();
+        let full = |cells: &[&str]| {
+            let filled = cells.iter().filter(|c| !c.is_empty()).count();
+            let words = cells.iter().all(|c| !matches!(Cell::of(c, false), Cell::Number(_)));
+            words && 2 * filled >= width && cells.len() >= width
+        };
+        let names = |at: usize, units: Option<&[&str]>| {
+            let (line, cells) = &rows[at];
+            let names = cells[..width].iter().map(|c| (*c).to_owned()).collect::<Vec<String>>();
+            let stated = |k: usize| units.and_then(|u| u.get(k)).filter(|u| !u.is_empty());
+            let unit = |(k, name): (usize, &String)| {
+                stated(k).map(|u| bare(u).to_owned()).or_else(|| in_brackets(name))
+            };
+            Self { units: names.iter().enumerate().map(unit).collect(), names, line: Some(*line) }
+        };
+        match &rows[..] {
+            [(_, units), (_, above)] if is_units(units) && full(above) => names(1, Some(units)),
+            [(_, cells), ..] if full(cells) => names(0, None),
+            // Without a separator at their ends, words fit where cells are separated by blanks.
+            _ => Self::default(),
+        }
+    }
+}
+
+/// A line without the mark of a comment.
+fn unmarked(line: &str) -> &str {
+    line.trim_start_matches(['#', '%', ' '])
+}
+
+fn is_units(cells: &[&str]) -> bool {
+    let mut filled = cells.iter().filter(|c| !c.is_empty()).peekable();
+    filled.peek().is_some()
+        && filled.all(|c| UNITS.contains(&bare(c).to_lowercase().as_str()) || *c != bare(c))
+}
+
+/// A unit without brackets around it.
+fn bare(unit: &str) -> &str {
+    let inner = |open: char, close: char| unit.strip_prefix(open)?.strip_suffix(close);
+    inner('[', ']').or_else(|| inner('(', ')')).unwrap_or(unit).trim()
+}
+
+/// The unit in brackets at the end of a name: `current [A]`, `angle (deg)`.
+pub(crate) fn in_brackets(name: &str) -> Option<String> {
+    let name = name.trim_end();
+    let open = match name.chars().last()? {
+        ']' => '[',
+        ')' => '(',
+        _ => return None,
+    };
+    let at = name.rfind(open)?;
+    let unit = name[at + 1..name.len() - 1].trim();
+    let word = unit.chars().next().is_some_and(|c| c.is_alphabetic() || "°%µ1".contains(c));
+    (at > 0 && word).then(|| unit.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_units() {
+        let lines = ["made by x", "t,i [A],q", "s,A,rad", "0,1,2"];
+        let header = Header::above(&lines, 3, 3, Separator::Char(','));
+        assert_eq!(header.names, ["t", "i [A]", "q"]);
+        assert_eq!(header.units, [Some("s".to_owned()), Some("A".into()), Some("rad".into())]);
+        let alone = Header::above(&["t [s];q (deg)", "0;1"], 1, 2, Separator::Char(';'));
+        assert_eq!(alone.units, [Some("s".to_owned()), Some("deg".into())]);
+        assert!(Header::above(&["a title"], 1, 3, Separator::Blanks).names.is_empty());
+    }
+}

@@ -1,0 +1,46 @@
+//! Exports of TwinCAT Scope: for each signal a column of times and a column of values.
+//!
+//! Above the numbers are rows of pairs, `Name⇥iq⇥Name⇥pos`, one pair for each signal.
+
+use super::cells::Separator;
+use super::table::{Column, Table};
+use crate::format::Format;
+use crate::log_data::{Channel, Clock, LogData};
+
+/// Reads a table if it is such an export.
+pub(crate) fn read(table: &Table<'_>) -> Option<LogData> {
+    if table.separator != Separator::Char('\t') || !table.width.is_multiple_of(2) {
+        return None;
+    }
+    let above = &table.lines[..table.first];
+    let pairs = |key: &str| {
+        let row = above.iter().rev().find(|line| line.split('\t').next() == Some(key))?;
+        let cells: Vec<&str> = row.split('\t').map(str::trim).collect();
+        Some(cells.chunks(2).map(|pair| pair.get(1).copied().unwrap_or("")).collect::<Vec<_>>())
+    };
+    let names = pairs("Name").filter(|names| names.len() >= table.width / 2)?;
+    pairs("SampleTime[ms]").or_else(|| pairs("Data-Type"))?;
+    let units = pairs("Unit").unwrap_or_default();
+    let count = table.end - table.first;
+    let mut columns: Vec<Column> = (0..table.width).map(|_| Column::new(count)).collect();
+    for row in table.first..table.end {
+        let mut cells = table.separator.cells(table.lines[row]);
+        for column in &mut columns {
+            column.take(cells.next().unwrap_or(""), table.decimal_comma, row + 1);
+        }
+    }
+    let channel = |(k, column): (usize, Column)| {
+        let name = names[k / 2];
+        if k % 2 == 0 {
+            return column.channel(format!("{name}/time"), Some("ms".to_owned()));
+        }
+        let unit = units.get(k / 2).filter(|u| !u.is_empty()).map(|u| (*u).to_owned());
+        Channel { clock: Clock::Channel(k - 1), ..column.channel(name.to_owned(), unit) }
+    };
+    Some(LogData {
+        format: Format::TwinCat,
+        channels: columns.into_iter().enumerate().map(channel).collect(),
+        decimal_comma: table.decimal_comma,
+        notes: Vec::new(),
+    })
+}
