@@ -67,3 +67,10 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
                           pandas.DataFrame(DATA).to_csv(\"log.csv\")";
     KNOWN.into_iter().find(|(first, ..)| bytes.starts_with(first)).map(|(_, name, way)| (name, way))
 }
+
+/// Whether the first bytes of a file show that it is not a plain table: compressed, a trace of CODESYS, or a format that is
+/// recognised and not read.
+pub fn is_no_plain_table(first: &[u8]) -> bool {
+    let begins = [&b"\x1f\x8b"[..], b"\x28\xb5\x2f\xfd", b"[key]"];
+    begins.iter().any(|begin| first.starts_with(begin)) || foreign(first).is_some()
+}

@@ -38,6 +38,18 @@ pub enum FormatError {
     /// No table of numbers was found.
     #[error("there is no table of numbers in the file")]
     NoTable,
+    /// Bytes that no text has.
+    #[error("row {row} is not text")]
+    NotText {
+        /// The row, from 1.
+        row: usize,
+    },
+    /// JSON with an error.
+    #[error("this is not valid JSON: {reason}")]
+    Json {
+        /// What is wrong, with line and column.
+        reason: String,
+    },
     /// Damaged or unexpected content.
     #[error("{place}: {reason}")]
     Content {
@@ -56,6 +68,8 @@ impl FormatError {
             Self::TooLarge { .. } => "split the log, or leave out channels",
             Self::Damaged { .. } => "copy the file again",
             Self::Foreign { way_out, .. } => way_out,
+            Self::NotText { .. } => "export the log as CSV",
+            Self::Json { .. } => "export the log again: the file may be cut off",
             Self::NoTable => "a log has one row for each sample and one column for each channel",
             Self::Content { .. } => "export the log again, or as CSV with a header",
         }

@@ -28,7 +28,7 @@ pub(crate) fn read(text: &str) -> Result<Option<LogData>, FormatError> {
                 // A bracket alone may begin a text that is no JSON.
                 let looks = text.trim_start().starts_with('{') || records.len() > 1;
                 return if looks {
-                    Err(FormatError::content(format!("line {}", error.line()), error.to_string()))
+                    Err(FormatError::Json { reason: error.to_string() })
                 } else {
                     Ok(None)
                 };

@@ -19,7 +19,7 @@ mod log_data;
 mod read;
 mod text;
 
-pub use format::Format;
+pub use format::{Format, is_no_plain_table};
 pub use format_error::FormatError;
 pub use log_data::{Channel, Clock, LogData};
 pub use read::{read, read_bytes};

@@ -118,8 +118,8 @@ fn saturation_is_seen_with_and_without_a_known_limit() {
     assert_eq!(
         bench.findings("saturation"),
         [
-            "run.csv: the command stays at its largest value for 50.2 % of the run: the limit adds harmonics, which the \
-          third-harmonic method and the corrected response take for friction"
+            "run.csv: the measured command stays at its largest value for 50.2 % of the run: if the sensor ends there and \
+             the drive does not, torque is missing and all estimates are wrong"
         ]
     );
     assert_eq!(

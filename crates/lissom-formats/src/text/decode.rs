@@ -26,7 +26,7 @@ pub(crate) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, FormatError> {
     let control = |b: &u8| b.is_ascii_control() && !matches!(b, b'\t' | b'\r' | b'\n' | b'\x0C');
     if let Some(at) = bytes.iter().position(control) {
         let row = bytes[..at].split(|b| *b == b'\n').count();
-        return Err(FormatError::content(format!("row {row}"), "this is not text"));
+        return Err(FormatError::NotText { row });
     }
     Ok(match std::str::from_utf8(bytes) {
         Ok(text) => text.into(),

@@ -112,8 +112,11 @@ impl Table<'_> {
     /// Its channels.
     pub(crate) fn read(&self) -> Result<LogData, FormatError> {
         let rows = (self.first..self.end).filter(|k| !skipped(self.lines[*k])).count();
-        if rows <= FEW_ROWS && self.width >= MANY_COLUMNS && self.width > 4 * rows {
+        if (2..=FEW_ROWS).contains(&rows) && self.width >= MANY_COLUMNS && self.width > 4 * rows {
             return Ok(self.by_rows());
+        }
+        if rows < 2 {
+            return Err(FormatError::NoTable);
         }
         let mut notes = Vec::new();
         let mut end = self.end;

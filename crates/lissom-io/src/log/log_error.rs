@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::io;
 
+use lissom_formats::FormatError;
 use thiserror::Error;
 
 use super::log_columns::TimeBack;
@@ -41,6 +42,32 @@ pub enum LogError {
     /// A byte order mark of UTF-16 or UTF-32.
     #[error("{file}: the text is in UTF-16 or UTF-32")]
     Utf16 {
+        /// The file.
+        file: String,
+    },
+    /// A format that is recognised and not read.
+    #[error("{file}: this is {what}, not a table that can be read")]
+    Foreign {
+        /// The file.
+        file: String,
+        /// What it is.
+        what: &'static str,
+        /// The way out.
+        way_out: &'static str,
+    },
+    /// A file of another format that cannot be read.
+    #[error("{file}: {source}")]
+    Format {
+        /// The file.
+        file: String,
+        /// The cause.
+        source: FormatError,
+    },
+    /// Channels with different stamps that cannot be brought onto one clock.
+    #[error(
+        "{file}: the channels have different time stamps, and cannot be brought onto one clock"
+    )]
+    NoCommonTime {
         /// The file.
         file: String,
     },
@@ -289,6 +316,24 @@ impl LogError {
         Self::TimeBack { file, row, column, before, after }
     }
 
+    /// Whether the file may be of another format than plain text with a header.
+    pub(super) fn may_be_another_format(&self) -> bool {
+        matches!(
+            self,
+            Self::NotText { .. }
+                | Self::Utf16 { .. }
+                | Self::LongRow { .. }
+                | Self::HeaderOnly { .. }
+                | Self::NoColumn { .. }
+                | Self::NoHeader { .. }
+                | Self::ColumnNumber { .. }
+                | Self::NotANumber { .. }
+                | Self::NotFinite { .. }
+                | Self::MissingCell { .. }
+                | Self::ExtraCell { .. }
+        )
+    }
+
     /// What the user can do.
     pub fn hint(&self) -> Option<String> {
         Some(match self {
@@ -302,6 +347,11 @@ impl LogError {
             }
             Self::Open { .. } | Self::Read { .. } => {
                 "check that it is a file and that you may read it".to_owned()
+            }
+            Self::Foreign { way_out, .. } => (*way_out).to_owned(),
+            Self::Format { source, .. } => source.hint().to_owned(),
+            Self::NoCommonTime { .. } => {
+                "choose channels that were recorded at the same time; single missing values are not filled in".to_owned()
             }
             Self::Utf16 { .. } => "save the log as UTF-8".to_owned(),
             Self::LongRow { .. } => {

@@ -11,6 +11,9 @@
 //! is thinned while it is read, a held command by its mean, a measured channel by leaving out samples, without a
 //! filter. Rows are counted for this, not time: a missing row shifts the later ones, which is seen as jitter.
 //!
+//! A file that is not such a text is read by `lissom_formats`: text with a preamble, in UTF-16 or compressed, exports of
+//! controllers, JSON. Channels with different stamps are then interpolated at the stamps of one of them.
+//!
 //! A row with the same stamp and the same values as the row above is skipped. Time that goes back is reported with the
 //! log ([`Log::time_back`]). Two rows with the same stamp and different values are an error.
 
@@ -19,6 +22,10 @@ mod log_error;
 mod log_layout;
 #[cfg(test)]
 mod log_tests;
+mod one_clock;
+mod other_format;
+#[cfg(test)]
+mod other_format_tests;
 mod read_log;
 mod thinner;
 

@@ -11,6 +11,7 @@ use lissom_core::record::Hold;
 use super::log_columns::{ColumnRef, Log, LogColumn, LogOptions, TimeBack};
 use super::log_error::LogError;
 use super::log_layout::{self, Delimiter, PlainDecimal};
+use super::other_format;
 use super::thinner::Thinner;
 
 /// Largest length of a row in bytes.
@@ -19,6 +20,9 @@ const LONGEST_ROW: u64 = 1 << 20;
 const LAST_COMMENTS: usize = 50;
 /// Largest length of such a line in characters.
 const LONGEST_COMMENT: usize = 1 << 16;
+
+/// A log with at most so many rows may have a row for each signal in place of a column.
+const FEW_ROWS: usize = 20;
 
 /// Largest number of places at which time may go back.
 const MOST_TIME_BACK: usize = 1 << 16;
@@ -36,8 +40,24 @@ pub fn read_log(
     let name = path.display().to_string();
     match File::open(path).and_then(only_file) {
         Ok(file) => {
-            let reader = BufReader::with_capacity(1 << 16, file);
-            read_log_from(reader, &name, time, columns, options)
+            let mut reader = BufReader::with_capacity(1 << 16, file);
+            let begins = reader
+                .fill_buf()
+                .map_err(|source| LogError::Open { file: name.clone(), source })?;
+            if lissom_formats::is_no_plain_table(begins) {
+                let no_text = LogError::NotText { file: name, row: 1 };
+                return other_format::read(path, time, columns, options, no_text);
+            }
+            match read_log_from(reader, &name, time, columns, options) {
+                Err(error) if error.may_be_another_format() => {
+                    other_format::read(path, time, columns, options, error)
+                }
+                Ok(log) if log.columns.first().is_some_and(|c| c.len() <= FEW_ROWS) => {
+                    // Or one row for each signal.
+                    Ok(other_format::by_row(path, time, columns, options).unwrap_or(log))
+                }
+                found => found,
+            }
         }
         Err(source) => Err(LogError::Open { file: name, source }),
     }
@@ -231,7 +251,7 @@ impl Head {
 }
 
 /// The rows of numbers.
-struct Body<'a> {
+pub(super) struct Body<'a> {
     file: &'a str,
     delimiter: Delimiter,
     decimal_comma: bool,
@@ -253,7 +273,40 @@ struct Body<'a> {
     count: usize,
 }
 
-impl Body<'_> {
+impl<'a> Body<'a> {
+    /// A log of columns of the same length, which were read from another format; time is first if there is one.
+    pub(super) fn of_columns(
+        file: &'a str,
+        labels: Vec<String>,
+        has_time: bool,
+        holds: Vec<Hold>,
+        options: &LogOptions,
+        columns: &[Vec<f64>],
+    ) -> Result<Log, LogError> {
+        let mut body = Body {
+            file,
+            delimiter: Delimiter::Blanks,
+            decimal_comma: false,
+            columns: columns.len(),
+            labels,
+            wanted: Vec::new(),
+            has_time,
+            values: Vec::new(),
+            last: Vec::new(),
+            time_back: Vec::new(),
+            repeated: 0,
+            decimals: None,
+            thinner: Thinner::new(holds, options.max_rows),
+            count: 0,
+        };
+        for row in 0..columns.first().map_or(0, Vec::len) {
+            body.values.clear();
+            body.values.extend(columns.iter().map(|column| column[row]));
+            body.push(row + 1)?;
+        }
+        body.finish(1)
+    }
+
     fn take(&mut self, line: &str, row: usize) -> Result<(), LogError> {
         self.values.fill(f64::NAN);
         let mut found = 0;

@@ -1,0 +1,178 @@
+//! Logs that are not plain text with a header: read by `lissom_formats`, and brought onto one clock.
+
+use std::path::Path;
+
+use lissom_core::record::Hold;
+use lissom_formats::{Channel, Clock, Format, FormatError, LogData};
+
+use super::log_columns::{ColumnRef, Log, LogColumn, LogOptions};
+use super::log_error::LogError;
+use super::one_clock::{Series, on_one_clock};
+use super::read_log::Body;
+use crate::nearest::nearest;
+
+/// Reads a log that the reader of plain text could not read, with the error `first`. That error is returned if the file
+/// is plain text after all.
+pub(super) fn read(
+    path: &Path,
+    time: Option<&ColumnRef>,
+    columns: &[LogColumn],
+    options: &LogOptions,
+    first: LogError,
+) -> Result<Log, LogError> {
+    let file = path.display().to_string();
+    let data = match lissom_formats::read(path) {
+        Ok(data) => data,
+        Err(FormatError::Foreign { what, way_out }) => {
+            return Err(LogError::Foreign { file, what, way_out });
+        }
+        Err(
+            source @ (FormatError::Damaged { .. }
+            | FormatError::TooLarge { .. }
+            | FormatError::Json { .. }),
+        ) => return Err(LogError::Format { file, source }),
+        Err(_) => return Err(first),
+    };
+    of_data(&file, &data, time, columns, options, first)
+}
+
+/// Reads a log with a row for each signal; `None` if it is another one.
+pub(super) fn by_row(
+    path: &Path,
+    time: Option<&ColumnRef>,
+    columns: &[LogColumn],
+    options: &LogOptions,
+) -> Option<Log> {
+    let file = path.display().to_string();
+    let data = lissom_formats::read(path).ok().filter(|d| d.format == Format::TextByRow)?;
+    let unused = LogError::Empty { file: file.clone() };
+    of_data(&file, &data, time, columns, options, unused).ok()
+}
+
+/// The columns asked for. Of plain text the error is `first`.
+fn of_data(
+    file: &str,
+    data: &LogData,
+    time: Option<&ColumnRef>,
+    columns: &[LogColumn],
+    options: &LogOptions,
+    first: LogError,
+) -> Result<Log, LogError> {
+    let named = !matches!(data.format, Format::Text);
+    let wanted: Vec<&ColumnRef> =
+        time.into_iter().chain(columns.iter().map(|c| &c.column)).collect();
+    let places =
+        wanted.iter().map(|column| place(file, column, data)).collect::<Result<Vec<_>, _>>();
+    let places = match places {
+        Ok(places) => places,
+        Err(error) => return Err(if named { error } else { first }),
+    };
+    for (place, column) in places.iter().zip(&wanted) {
+        if let Some((row, found)) = &data.channels[*place].not_a_number {
+            let (file, row, column) = (file.to_owned(), *row, column.to_string());
+            return Err(LogError::NotANumber { file, row, column, found: found.clone() });
+        }
+    }
+    let holds: Vec<Hold> = columns.iter().map(|c| c.hold).collect();
+    let (stamps, signals) = places.split_at(usize::from(time.is_some()));
+    let Some(rows) = rows(data, stamps.first().copied(), signals, &holds) else {
+        let file = file.to_owned();
+        return Err(if named { LogError::NoCommonTime { file } } else { first });
+    };
+    let labels = wanted.iter().map(ToString::to_string).collect();
+    let holds = time.map(|_| Hold::Measured).into_iter().chain(holds).collect();
+    Body::of_columns(file, labels, time.is_some(), holds, options, &rows)
+}
+
+/// The index of the channel asked for: by its name, by the end of its path, or by its number.
+fn place(file: &str, wanted: &ColumnRef, data: &LogData) -> Result<usize, LogError> {
+    let file = || file.to_owned();
+    let name = match wanted {
+        ColumnRef::Number(number) if (1..=data.channels.len()).contains(number) => {
+            return Ok(number - 1);
+        }
+        ColumnRef::Number(number) => {
+            let columns = data.channels.len();
+            return Err(LogError::ColumnNumber { file: file(), number: *number, columns });
+        }
+        ColumnRef::Name(name) => bare(name),
+    };
+    let of = |is: &dyn Fn(&str) -> bool| {
+        let channels = data.channels.iter().enumerate();
+        channels.filter(|(_, c)| is(bare(&c.name))).map(|(k, _)| k).collect::<Vec<_>>()
+    };
+    let mut found = of(&|channel| channel == name);
+    if found.is_empty() {
+        found = of(&|channel| channel.rsplit('/').next() == Some(name));
+    }
+    let names = || data.channels.iter().map(|c| c.name.clone()).collect::<Vec<_>>();
+    match found[..] {
+        [index] => Ok(index),
+        [] => {
+            let nearest = nearest(name, data.channels.iter().map(|c| c.name.as_str()));
+            Err(LogError::NoColumn {
+                file: file(),
+                column: name.to_owned(),
+                names: names(),
+                nearest,
+            })
+        }
+        _ => {
+            let numbers = found.iter().map(|index| index + 1).collect();
+            Err(LogError::Ambiguous { file: file(), column: name.to_owned(), numbers })
+        }
+    }
+}
+
+/// A name without the mark of a comment before it.
+fn bare(name: &str) -> &str {
+    name.trim().trim_start_matches(['#', '%', ' '])
+}
+
+/// The columns with the same rows, time first if it is asked for; `None` if they cannot be brought onto one clock.
+fn rows(
+    data: &LogData,
+    time: Option<usize>,
+    places: &[usize],
+    holds: &[Hold],
+) -> Option<Vec<Vec<f64>>> {
+    let channel = |k: usize| &data.channels[k];
+    let Some(time) = time else {
+        return leading_cut(places.iter().map(|k| channel(*k).values.clone()).collect());
+    };
+    let stamps = |c: &Channel| -> Option<Vec<f64>> {
+        match c.clock {
+            Clock::Channel(k) => Some(channel(k).values.clone()),
+            Clock::Unstated => Some(channel(time).values.clone()),
+            Clock::Even { .. } => None,
+        }
+        .filter(|stamps| stamps.len() == c.values.len())
+    };
+    let series: Vec<(Vec<f64>, &[f64])> = places
+        .iter()
+        .map(|k| Some((stamps(channel(*k))?, &channel(*k).values[..])))
+        .collect::<Option<_>>()?;
+    let same = series.iter().all(|(stamps, _)| *stamps == series[0].0);
+    if same {
+        let mut all = vec![series[0].0.clone()];
+        all.extend(series.iter().map(|(_, values)| values.to_vec()));
+        if let Some(rows) = leading_cut(all) {
+            return Some(rows);
+        }
+    }
+    let series: Vec<Series> =
+        series.into_iter().zip(holds).map(|((t, v), hold)| Series::of(&t, v, *hold)).collect();
+    on_one_clock(&series)
+}
+
+/// Cuts the leading rows in which a value is missing; `None` if values are missing later.
+fn leading_cut(columns: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
+    let rows = columns.first()?.len();
+    if columns.iter().any(|c| c.len() != rows) {
+        return None;
+    }
+    let missing = |column: &Vec<f64>| column.iter().take_while(|v| v.is_nan()).count();
+    let first = columns.iter().map(missing).max()?;
+    let cut: Vec<Vec<f64>> = columns.into_iter().map(|c| c[first..].to_vec()).collect();
+    cut.iter().flatten().all(|v| v.is_finite()).then_some(cut)
+}
