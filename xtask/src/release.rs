@@ -8,8 +8,15 @@ use crate::step::{Failure, ask, cargo, run};
 const STATIC_TARGET: &str = "x86_64-unknown-linux-musl";
 
 /// The published crates, each after those that it depends on.
-const CRATES: [&str; 6] =
-    ["lissom-text", "lissom-core", "lissom-report", "lissom-io", "lissom", "lissom-cli"];
+const CRATES: [&str; 7] = [
+    "lissom-text",
+    "lissom-core",
+    "lissom-formats",
+    "lissom-report",
+    "lissom-io",
+    "lissom",
+    "lissom-cli",
+];
 
 /// Packages the crates as for publishing.
 pub(crate) fn package(root: &Path) -> Result<(), Failure> {

@@ -17,6 +17,7 @@
 //! A row with the same stamp and the same values as the row above is skipped. Time that goes back is reported with the
 //! log ([`Log::time_back`]). Two rows with the same stamp and different values are an error.
 
+mod log_body;
 mod log_columns;
 mod log_error;
 mod log_layout;
@@ -26,10 +27,12 @@ mod one_clock;
 mod other_format;
 #[cfg(test)]
 mod other_format_tests;
+mod plain_log;
 mod read_log;
 mod thinner;
 
 pub use log_columns::{ColumnRef, Log, LogColumn, LogOptions, TimeBack};
 pub use log_error::LogError;
 pub(crate) use log_layout::{Delimiter, comment, is_header, number};
-pub use read_log::{read_log, read_log_from};
+pub use plain_log::read_log_from;
+pub use read_log::read_log;

@@ -5,10 +5,10 @@ use std::path::Path;
 use lissom_core::record::Hold;
 use lissom_formats::{Channel, Clock, Format, FormatError, LogData};
 
+use super::log_body::Body;
 use super::log_columns::{ColumnRef, Log, LogColumn, LogOptions};
 use super::log_error::LogError;
 use super::one_clock::{Series, on_one_clock};
-use super::read_log::Body;
 use crate::nearest::nearest;
 
 /// Reads a log that the reader of plain text could not read, with the error `first`. That error is returned if the file
