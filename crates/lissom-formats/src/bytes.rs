@@ -12,6 +12,11 @@ use crate::format_error::FormatError;
 /// Largest number of bytes, after expansion.
 const MOST_BYTES: u64 = 2 << 30;
 
+/// First bytes of gzip and of zstd.
+pub(crate) const GZIP: &[u8] = b"\x1f\x8b";
+/// See [`GZIP`].
+pub(crate) const ZSTD: &[u8] = b"\x28\xb5\x2f\xfd";
+
 /// Reads a file and expands `.gz` and `.zst`, recognised by content.
 pub(crate) fn of_file(path: &Path) -> Result<Vec<u8>, FormatError> {
     let file = File::open(path)?;
@@ -28,10 +33,10 @@ pub(crate) fn of_file(path: &Path) -> Result<Vec<u8>, FormatError> {
 /// Expands compressed bytes; others are returned as they are.
 pub(crate) fn expanded(bytes: Vec<u8>) -> Result<Vec<u8>, FormatError> {
     let damaged = |reason: String| FormatError::Damaged { reason };
-    if bytes.starts_with(b"\x1f\x8b") {
+    if bytes.starts_with(GZIP) {
         return read_compressed(MultiGzDecoder::new(&bytes[..]));
     }
-    if bytes.starts_with(b"\x28\xb5\x2f\xfd") {
+    if bytes.starts_with(ZSTD) {
         let decoder = StreamingDecoder::new(&bytes[..]).map_err(|e| damaged(e.to_string()))?;
         return read_compressed(decoder);
     }

@@ -1,5 +1,7 @@
 //! Formats, recognised by the first bytes of a file.
 
+use crate::bytes::{GZIP, ZSTD};
+
 /// Format of a log file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
@@ -71,6 +73,6 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
 /// Whether the first bytes of a file show that it is not a plain table: compressed, a trace of CODESYS, or a format that is
 /// recognised and not read.
 pub fn is_no_plain_table(first: &[u8]) -> bool {
-    let begins = [&b"\x1f\x8b"[..], b"\x28\xb5\x2f\xfd", b"[key]"];
+    let begins = [GZIP, ZSTD, b"[key]"];
     begins.iter().any(|begin| first.starts_with(begin)) || foreign(first).is_some()
 }

@@ -34,26 +34,21 @@ pub(crate) struct Table<'a> {
 pub(crate) fn find(text: &str) -> Option<Table<'_>> {
     let lines: Vec<&str> = text.lines().collect();
     let ends_in_a_row = !text.ends_with(['\n', '\r']);
-    let mut best: Option<((bool, usize), Table<'_>)> = None;
-    for separator in Separator::ALL {
-        for decimal_comma in [false, true] {
-            if decimal_comma && separator == Separator::Char(',') {
-                continue;
-            }
-            let Some((first, end, width)) = block(&lines, separator, decimal_comma) else {
-                continue;
-            };
-            let rows = end - first;
-            let rank = (rows >= LONG || width >= MANY_COLUMNS, width.min(2) * rows);
-            if best.as_ref().is_none_or(|(most, _)| rank > *most) {
-                let lines = lines.clone();
-                let found =
-                    Table { lines, separator, decimal_comma, first, end, width, ends_in_a_row };
-                best = Some((rank, found));
-            }
+    let separators = Separator::ALL.into_iter().flat_map(|s| [(s, false), (s, true)]);
+    let candidates = separators.filter(|found| *found != (Separator::Char(','), true));
+    let mut best = None;
+    let mut most = (false, 0);
+    for (separator, decimal_comma) in candidates {
+        let Some((first, end, width)) = block(&lines, separator, decimal_comma) else { continue };
+        let rows = end - first;
+        let rank = (rows >= LONG || width >= MANY_COLUMNS, width.min(2) * rows);
+        if rank > most {
+            most = rank;
+            best = Some((separator, decimal_comma, first, end, width));
         }
     }
-    best.map(|(_, table)| table)
+    let (separator, decimal_comma, first, end, width) = best?;
+    Some(Table { lines, separator, decimal_comma, first, end, width, ends_in_a_row })
 }
 
 /// First line, end and width of the first long block of rows of numbers, else of the longest.
@@ -138,7 +133,7 @@ impl Table<'_> {
             let above = header.line.unwrap_or(self.first);
             notes.push(format!("{above} lines above the table are left out"));
         }
-        let channels = self.columns(&header, rows, end);
+        let channels = self.columns(&header, end);
         Ok(LogData { format: Format::Text, channels, decimal_comma: self.decimal_comma, notes })
     }
 
@@ -146,7 +141,9 @@ impl Table<'_> {
         self.separator.cells(self.lines[line]).count()
     }
 
-    fn columns(&self, header: &Header, rows: usize, end: usize) -> Vec<Channel> {
+    /// The columns of the rows before `end`.
+    pub(crate) fn columns(&self, header: &Header, end: usize) -> Vec<Channel> {
+        let rows = end - self.first;
         let mut columns: Vec<Column> = (0..self.width).map(|_| Column::new(rows)).collect();
         for row in self.first..end {
             if skipped(self.lines[row]) {

@@ -3,7 +3,8 @@
 //! Above the numbers are rows of pairs, `Name⇥iq⇥Name⇥pos`, one pair for each signal.
 
 use super::cells::Separator;
-use super::table::{Column, Table};
+use super::header::Header;
+use super::table::Table;
 use crate::format::Format;
 use crate::log_data::{Channel, Clock, LogData};
 
@@ -21,22 +22,15 @@ pub(crate) fn read(table: &Table<'_>) -> Option<LogData> {
     let names = pairs("Name").filter(|names| names.len() >= table.width / 2)?;
     pairs("SampleTime[ms]").or_else(|| pairs("Data-Type"))?;
     let units = pairs("Unit").unwrap_or_default();
-    let count = table.end - table.first;
-    let mut columns: Vec<Column> = (0..table.width).map(|_| Column::new(count)).collect();
-    for row in table.first..table.end {
-        let mut cells = table.separator.cells(table.lines[row]);
-        for column in &mut columns {
-            column.take(cells.next().unwrap_or(""), table.decimal_comma, row + 1);
-        }
-    }
-    let channel = |(k, column): (usize, Column)| {
+    let channel = |(k, column): (usize, Channel)| {
         let name = names[k / 2];
         if k % 2 == 0 {
-            return column.channel(format!("{name}/time"), Some("ms".to_owned()));
+            return Channel { name: format!("{name}/time"), unit: Some("ms".to_owned()), ..column };
         }
         let unit = units.get(k / 2).filter(|u| !u.is_empty()).map(|u| (*u).to_owned());
-        Channel { clock: Clock::Channel(k - 1), ..column.channel(name.to_owned(), unit) }
+        Channel { name: name.to_owned(), unit, clock: Clock::Channel(k - 1), ..column }
     };
+    let columns = table.columns(&Header::default(), table.end);
     Some(LogData {
         format: Format::TwinCat,
         channels: columns.into_iter().enumerate().map(channel).collect(),
